@@ -1,0 +1,31 @@
+//! The head ellipsoid E of the paper (section 3.1) and the ellipsoids similar to it.
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+/// An ellipsoid whose axes are those of head space: E(p) = |(p - center) / half_axes|^2 - 1.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ellipsoid {
+    /// Centre (head space, cm).
+    pub center: Vec3,
+    /// Half axes along x, y and z (cm).
+    pub half_axes: Vec3,
+}
+
+impl Ellipsoid {
+    /// E(p): negative inside, 0 on the surface, positive outside.
+    pub fn value(&self, p: Vec3) -> f32 {
+        ((p - self.center) / self.half_axes).length_squared() - 1.0
+    }
+
+    /// D(p) = grad E(p), the outward normal direction, not of unit length.
+    pub fn gradient(&self, p: Vec3) -> Vec3 {
+        2.0 * (p - self.center) / (self.half_axes * self.half_axes)
+    }
+
+    /// The similar ellipsoid about the same centre: C of the paper, for a `factor` above 1.
+    pub fn scaled(&self, factor: f32) -> Self {
+        Self { center: self.center, half_axes: self.half_axes * factor }
+    }
+}

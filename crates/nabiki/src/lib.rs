@@ -1,0 +1,21 @@
+//! Hair in the wind, after K. Anjyo, Y. Usami and T. Kurihara, "A computer animation method for hair dynamics
+//! description" (Trans. IPSJ, 1993).
+//!
+//! # Spaces and units
+//!
+//! *Head space*: right-handed, y up, the face looks along +x, so +z is the character's right-hand side; the origin
+//! lies within the skull (the centre of the head ellipsoid unless said otherwise). Lengths are centimetres, angles
+//! radians, time is counted in frames. Forces are directions with a strength, not newtons: only their product with
+//! the gain c_i of equation (8) moves hair.
+
+#![forbid(unsafe_code)]
+
+pub mod ellipsoid;
+pub mod error;
+pub mod mesh;
+pub mod strands;
+
+pub use ellipsoid::Ellipsoid;
+pub use error::SettingError;
+pub use mesh::Mesh;
+pub use strands::Strands;
