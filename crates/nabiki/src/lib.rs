@@ -12,10 +12,12 @@
 
 pub mod ellipsoid;
 pub mod error;
+pub mod hair;
 pub mod mesh;
 pub mod strands;
 
 pub use ellipsoid::Ellipsoid;
 pub use error::SettingError;
+pub use hair::Hair;
 pub use mesh::Mesh;
 pub use strands::Strands;

@@ -20,6 +20,17 @@ impl Strands {
         Self { starts, points: Vec::with_capacity(points) }
     }
 
+    /// Takes over arrays read elsewhere: strand `s` owns `points[starts[s]..starts[s + 1]]`.
+    ///
+    /// # Panics
+    /// If `starts` does not begin with 0, falls anywhere, or does not end with the number of points.
+    pub fn from_parts(starts: Vec<u32>, points: Vec<Vec3>) -> Self {
+        assert!(starts.first() == Some(&0), "starts must begin with 0");
+        assert!(starts.is_sorted(), "starts must not fall");
+        assert!(starts.last().map(|&n| n as usize) == Some(points.len()), "starts must end with the point count");
+        Self { starts, points }
+    }
+
     /// Appends one strand, root first.
     ///
     /// # Panics

@@ -1,0 +1,237 @@
+//! Hair as tools exchange it: strands with whatever else a file says about them.
+
+use std::collections::BTreeMap;
+
+use glam::{Affine3A, Vec3};
+
+use crate::Strands;
+
+/// Strands and what a file carries beside their points.
+///
+/// Readers give it in the file's own unit and axes; [`transformed`](Self::transformed) takes it to head space.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Hair {
+    /// The polylines, root first.
+    pub strands: Strands,
+    /// What is known beside the points.
+    pub attributes: Attributes,
+}
+
+/// What a groom carries beside its points; `None` where the source said nothing.
+///
+/// Arrays *by strand* have one entry for each strand, arrays *by point* one for each of [`Strands::points`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Attributes {
+    /// Lasting number of a strand in its source, by strand.
+    pub id: Option<Vec<i64>>,
+    /// Texture coordinates of the root on the skin, by strand.
+    pub root_uv: Option<Vec<[f32; 2]>>,
+    /// Clump or group number, by strand.
+    pub group: Option<Vec<i32>>,
+    /// Names of groups, where the source names them.
+    pub group_names: BTreeMap<i32, String>,
+    /// Whether the strand guides others rather than being drawn, by strand.
+    pub guide: Option<Vec<bool>>,
+    /// Diameter, by point (same unit as the points).
+    pub width: Option<Vec<f32>>,
+    /// Linear RGB, by point.
+    pub color: Option<Vec<[f32; 3]>>,
+    /// 0 opaque .. 1 invisible, by point.
+    pub transparency: Option<Vec<f32>>,
+    /// Texture coordinates, by point.
+    pub point_uv: Option<Vec<[f32; 2]>>,
+    /// TressFX's w: 0 where a point is held by the skin, 1 where it is free, by point.
+    pub freedom: Option<Vec<f32>>,
+    /// Values that hold wherever no array says otherwise.
+    pub constant: Constants,
+}
+
+/// Values for all points of a groom at once; an array of [`Attributes`] goes before them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Constants {
+    /// Diameter (same unit as the points).
+    pub width: Option<f32>,
+    /// Linear RGB.
+    pub color: Option<[f32; 3]>,
+    /// 0 opaque .. 1 invisible.
+    pub transparency: Option<f32>,
+}
+
+/// What [`Hair::without_degenerate`] took away.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Degenerate {
+    /// Points that lay on the point before them and were joined with it.
+    pub joined_points: usize,
+    /// Strands dropped because no segment was left.
+    pub dropped_strands: usize,
+}
+
+/// An attribute array whose length is not that of the strands or points it should describe.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("attribute {name}: {found} values where the hair has {expected}")]
+pub struct LengthError {
+    /// Name of the field of [`Attributes`].
+    pub name: &'static str,
+    /// Entries found.
+    pub found: usize,
+    /// Strands or points of the hair.
+    pub expected: usize,
+}
+
+impl From<Strands> for Hair {
+    fn from(strands: Strands) -> Self {
+        Self { strands, attributes: Attributes::default() }
+    }
+}
+
+impl Hair {
+    /// Refuses attribute arrays whose lengths are not those of the strands or points.
+    pub fn check_lengths(&self) -> Result<(), LengthError> {
+        fn check<T>(name: &'static str, values: &Option<Vec<T>>, expected: usize) -> Result<(), LengthError> {
+            match values {
+                Some(v) if v.len() != expected => Err(LengthError { name, found: v.len(), expected }),
+                _ => Ok(()),
+            }
+        }
+        let (strands, points, a) = (self.strands.len(), self.strands.points().len(), &self.attributes);
+        check("id", &a.id, strands)?;
+        check("root_uv", &a.root_uv, strands)?;
+        check("group", &a.group, strands)?;
+        check("guide", &a.guide, strands)?;
+        check("width", &a.width, points)?;
+        check("color", &a.color, points)?;
+        check("transparency", &a.transparency, points)?;
+        check("point_uv", &a.point_uv, points)?;
+        check("freedom", &a.freedom, points)
+    }
+
+    /// The strands named by `indices`, in that order, with their attributes.
+    pub fn select(&self, indices: &[usize]) -> Self {
+        let points: Vec<usize> = indices.iter().flat_map(|&s| self.strands.range(s)).collect();
+        Self { strands: self.strands.select(indices), attributes: self.attributes.gather(indices, &points) }
+    }
+
+    /// Joins each point with the one kept before it where they are `tolerance` or less apart (same unit as the
+    /// points), drops the strands left without a segment, and counts both. The root always stays.
+    pub fn without_degenerate(self, tolerance: f32) -> (Self, Degenerate) {
+        let mut kept_strands = Vec::with_capacity(self.strands.len());
+        let mut kept_points = Vec::with_capacity(self.strands.points().len());
+        let mut strands = Strands::with_capacity(self.strands.len(), self.strands.points().len());
+        let mut found = Degenerate::default();
+        for s in 0..self.strands.len() {
+            let (range, first) = (self.strands.range(s), kept_points.len());
+            let mut last: Option<Vec3> = None;
+            for p in range.clone() {
+                let point = self.strands.points()[p];
+                if last.is_none_or(|last| point.distance(last) > tolerance) {
+                    kept_points.push(p);
+                    last = Some(point);
+                }
+            }
+            if kept_points.len() - first < 2 {
+                kept_points.truncate(first);
+                found.dropped_strands += 1;
+            } else {
+                found.joined_points += range.len() - (kept_points.len() - first);
+                kept_strands.push(s);
+                strands.push(kept_points[first..].iter().map(|&p| self.strands.points()[p]));
+            }
+        }
+        if found == Degenerate::default() {
+            return (self, found);
+        }
+        let attributes = self.attributes.gather(&kept_strands, &kept_points);
+        (Self { strands, attributes }, found)
+    }
+
+    /// The hair in another space: points mapped by `target_from_source`, widths multiplied by its scale
+    /// (the cube root of its determinant).
+    pub fn transformed(mut self, target_from_source: &Affine3A) -> Self {
+        let scale = target_from_source.matrix3.determinant().abs().cbrt();
+        for p in self.strands.points_mut() {
+            *p = target_from_source.transform_point3(*p);
+        }
+        for width in self.attributes.width.iter_mut().flatten() {
+            *width *= scale;
+        }
+        if let Some(width) = &mut self.attributes.constant.width {
+            *width *= scale;
+        }
+        self
+    }
+}
+
+impl Attributes {
+    /// The attributes of the strands and points named, in that order.
+    fn gather(&self, strands: &[usize], points: &[usize]) -> Self {
+        fn pick<T: Copy>(values: &Option<Vec<T>>, indices: &[usize]) -> Option<Vec<T>> {
+            values.as_ref().map(|v| indices.iter().map(|&i| v[i]).collect())
+        }
+        Self {
+            id: pick(&self.id, strands),
+            root_uv: pick(&self.root_uv, strands),
+            group: pick(&self.group, strands),
+            group_names: self.group_names.clone(),
+            guide: pick(&self.guide, strands),
+            width: pick(&self.width, points),
+            color: pick(&self.color, points),
+            transparency: pick(&self.transparency, points),
+            point_uv: pick(&self.point_uv, points),
+            freedom: pick(&self.freedom, points),
+            constant: self.constant,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three strands: one sound, one with a point met twice, one without any extent.
+    fn mixed() -> Hair {
+        let mut strands = Strands::default();
+        strands.push([Vec3::ZERO, Vec3::X, 2.0 * Vec3::X]);
+        strands.push([Vec3::ZERO, Vec3::ZERO, Vec3::Y]);
+        strands.push([Vec3::Z, Vec3::Z]);
+        let attributes = Attributes {
+            id: Some(vec![10, 11, 12]),
+            width: Some((0..8).map(|i| i as f32).collect()),
+            ..Attributes::default()
+        };
+        Hair { strands, attributes }
+    }
+
+    #[test]
+    fn degenerate_points_and_strands_are_dropped_with_their_attributes_and_counted() {
+        let (hair, found) = mixed().without_degenerate(0.0);
+        assert_eq!(found, Degenerate { joined_points: 1, dropped_strands: 1 });
+        assert_eq!(hair.strands.starts(), [0, 3, 5]);
+        assert_eq!(hair.strands.strand(1), [Vec3::ZERO, Vec3::Y]);
+        assert_eq!(hair.attributes.id, Some(vec![10, 11]));
+        assert_eq!(hair.attributes.width, Some(vec![0.0, 1.0, 2.0, 3.0, 5.0]));
+    }
+
+    #[test]
+    fn selected_strands_keep_their_attributes() {
+        let chosen = mixed().select(&[2, 0]);
+        assert_eq!(chosen.attributes.id, Some(vec![12, 10]));
+        assert_eq!(chosen.attributes.width, Some(vec![6.0, 7.0, 0.0, 1.0, 2.0]));
+        assert_eq!(chosen.check_lengths(), Ok(()));
+    }
+
+    #[test]
+    fn an_attribute_of_the_wrong_length_is_named() {
+        let mut hair = mixed();
+        hair.attributes.width = Some(vec![0.1; 7]);
+        let error = hair.check_lengths().unwrap_err();
+        assert_eq!(error.to_string(), "attribute width: 7 values where the hair has 8");
+    }
+
+    #[test]
+    fn widths_scale_with_the_points() {
+        let hair = mixed().transformed(&Affine3A::from_scale(Vec3::splat(100.0)));
+        assert_eq!(hair.strands.strand(0)[1], Vec3::new(100.0, 0.0, 0.0));
+        let error = (hair.attributes.width.unwrap()[3] - 300.0).abs();
+        assert!(error <= 300.0 * 4.0 * f32::EPSILON, "a cube root and two products, each within an ulp: {error}");
+    }
+}
