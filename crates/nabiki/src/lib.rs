@@ -10,14 +10,19 @@
 
 #![forbid(unsafe_code)]
 
+pub mod distance;
 pub mod ellipsoid;
 pub mod error;
 pub mod hair;
+pub mod head;
 pub mod mesh;
+pub mod pores;
 pub mod strands;
+pub mod subset;
 
 pub use ellipsoid::Ellipsoid;
 pub use error::SettingError;
 pub use hair::Hair;
+pub use head::Head;
 pub use mesh::Mesh;
 pub use strands::Strands;

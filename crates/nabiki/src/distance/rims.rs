@@ -1,0 +1,62 @@
+//! Closing the open rims of a mesh, so that it has an inside.
+
+use std::collections::HashMap;
+
+use glam::Vec3;
+
+use crate::Mesh;
+
+/// The mesh with doubled vertices joined (those at the very same place, as texture seams leave them) and a fan of
+/// triangles from the middle of each open rim.
+pub(super) fn closed(mesh: &Mesh) -> Mesh {
+    let mut first_at: HashMap<[u32; 3], u32> = HashMap::with_capacity(mesh.positions.len());
+    let joined: Vec<u32> = mesh
+        .positions
+        .iter()
+        .enumerate()
+        // Adding 0 turns -0 into +0, which lies at the same place.
+        .map(|(v, p)| *first_at.entry((*p + 0.0).to_array().map(f32::to_bits)).or_insert(v as u32))
+        .collect();
+    let mut closed = Mesh {
+        positions: mesh.positions.clone(),
+        triangles: (mesh.triangles.iter().map(|t| t.map(|v| joined[v as usize])))
+            .filter(|[a, b, c]| a != b && b != c && c != a)
+            .collect(),
+    };
+
+    let mut balance: HashMap<(u32, u32), i32> = HashMap::with_capacity(closed.triangles.len() * 2);
+    for &[a, b, c] in &closed.triangles {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let (key, sign) = if from < to { ((from, to), 1) } else { ((to, from), -1) };
+            *balance.entry(key).or_default() += sign;
+        }
+    }
+    let mut open: Vec<(u32, u32)> = balance
+        .into_iter()
+        .filter(|&(_, count)| count != 0)
+        .map(|((a, b), count)| if count > 0 { (b, a) } else { (a, b) })
+        .collect();
+    open.sort_unstable();
+    while let Some((start, mut at)) = open.pop() {
+        let mut rim = vec![start];
+        while at != start {
+            rim.push(at);
+            let next = open.partition_point(|&(from, _)| from < at);
+            match open.get(next) {
+                Some(&(from, to)) if from == at => {
+                    open.remove(next);
+                    at = to;
+                }
+                // The rim of a badly joined mesh may end nowhere: then the last fan triangle closes it.
+                _ => break,
+            }
+        }
+        let middle = rim.iter().map(|&v| closed.positions[v as usize]).sum::<Vec3>() / rim.len() as f32;
+        let hub = closed.positions.len() as u32;
+        closed.positions.push(middle);
+        for (i, &v) in rim.iter().enumerate() {
+            closed.triangles.push([v, rim[(i + 1) % rim.len()], hub]);
+        }
+    }
+    closed
+}

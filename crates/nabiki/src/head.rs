@@ -1,0 +1,109 @@
+//! The head: its mesh, the head ellipsoid E, and how far a point is from the skin (the paper, section 3.1).
+
+mod bust;
+mod fit;
+
+use glam::Vec3;
+
+use crate::distance::SkinDistance;
+use crate::{Ellipsoid, Mesh, SettingError};
+
+/// A head (and what of neck and shoulders comes with it) in head space, cm.
+#[derive(Clone, Debug)]
+pub struct Head {
+    /// Its surface, which may be open where the neck or the arms are cut off.
+    pub mesh: Mesh,
+    /// E: lies on the part of the head where hair grows, not on the face.
+    pub ellipsoid: Ellipsoid,
+    skin: SkinDistance,
+}
+
+impl Head {
+    /// The project's own bust, made in code: head, neck and shoulders of a calm adult, eyes closed, no hair.
+    pub fn builtin() -> Self {
+        Self::assemble(bust::mesh(), bust::ELLIPSOID)
+    }
+
+    /// Any head from its mesh, face toward +x. Without an `ellipsoid`, E is fitted to the skull above the ears and
+    /// behind the face, whatever the size of the head and where the origin lies.
+    ///
+    /// # Errors
+    /// If there are no triangles, an index names no vertex, a coordinate is not finite, E is not an ellipsoid, or
+    /// nothing like a skull is found at the top of the mesh.
+    pub fn from_mesh(mesh: Mesh, ellipsoid: Option<Ellipsoid>) -> Result<Self, SettingError> {
+        check_mesh(&mesh)?;
+        let ellipsoid = match ellipsoid {
+            Some(given) => given,
+            None => fit::scalp(&mesh)?,
+        };
+        check_ellipsoid(&ellipsoid)?;
+        Ok(Self::assemble(mesh, ellipsoid))
+    }
+
+    fn assemble(mesh: Mesh, ellipsoid: Ellipsoid) -> Self {
+        let low = mesh.positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+        let high = mesh.positions.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+        // Hair is met near the skin; of a whole body only what is within its reach is sampled.
+        let spacing = ellipsoid.half_axes.min_element() / 32.0;
+        let reach = 4.0 * ellipsoid.half_axes.max_element();
+        let margin = 0.6 * ellipsoid.half_axes.max_element();
+        let low = (low - margin).max(ellipsoid.center - reach);
+        let high = (high + margin).min(ellipsoid.center + reach);
+        let skin = SkinDistance::new(&mesh, low, high, spacing);
+        Self { mesh, ellipsoid, skin }
+    }
+
+    /// Signed distance from `p` to the skin (cm), negative inside. Open rims of the mesh count as closed.
+    pub fn distance(&self, p: Vec3) -> f32 {
+        self.skin.at(p)
+    }
+
+    /// Whether `p` lies inside the skin.
+    pub fn contains(&self, p: Vec3) -> bool {
+        self.skin.at(p) < 0.0
+    }
+
+    /// The unit direction in which the distance to the skin grows fastest at `p`: on the skin, its outward normal.
+    pub fn outward(&self, p: Vec3) -> Vec3 {
+        self.skin.gradient(p).try_normalize().unwrap_or_else(|| self.ellipsoid.gradient(p).normalize_or(Vec3::Y))
+    }
+
+    /// The point of the skin that `p` meets on its way along the steepest descent of the distance, and the normal
+    /// there. Exact from near the skin; from the middle of the head it is one of several.
+    pub fn on_skin(&self, p: Vec3) -> (Vec3, Vec3) {
+        let mut q = p;
+        for _ in 0..4 {
+            q -= self.distance(q) * self.outward(q);
+        }
+        (q, self.outward(q))
+    }
+}
+
+fn check_mesh(mesh: &Mesh) -> Result<(), SettingError> {
+    if mesh.triangles.is_empty() {
+        return Err(SettingError::new("head.mesh", "no triangles", "must have a surface"));
+    }
+    if let Some(v) = mesh.triangles.iter().flatten().find(|v| **v as usize >= mesh.positions.len()) {
+        let remedy = format!("must name one of the {} vertices, counted from 0", mesh.positions.len());
+        return Err(SettingError::new("head.mesh", format!("index {v}"), remedy));
+    }
+    if let Some(v) = mesh.positions.iter().position(|p| !p.is_finite()) {
+        let value = format!("vertex {v} at {}", mesh.positions[v]);
+        return Err(SettingError::new("head.mesh", value, "must have finite coordinates"));
+    }
+    Ok(())
+}
+
+fn check_ellipsoid(ellipsoid: &Ellipsoid) -> Result<(), SettingError> {
+    if !ellipsoid.center.is_finite() {
+        return Err(SettingError::new("head.ellipsoid.center", ellipsoid.center, "must have finite coordinates"));
+    }
+    let h = ellipsoid.half_axes;
+    if !(h.is_finite() && h.min_element() > 0.0) {
+        return Err(SettingError::new("head.ellipsoid.half_axes", h, "must be finite numbers above 0"));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;
