@@ -17,6 +17,14 @@ pub mod hair;
 pub mod head;
 pub mod mesh;
 pub mod pores;
+pub mod disturbance;
+pub mod dynamics;
+pub mod ellipsoid;
+pub mod error;
+pub mod hair;
+pub mod field;
+pub mod mesh;
+pub mod pseudo_force;
 pub mod strands;
 pub mod subset;
 

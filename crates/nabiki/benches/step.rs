@@ -1,0 +1,145 @@
+//! What a step costs, against what the machine can do: `cargo bench -p nabiki --bench step`.
+//!
+//! Each size is measured in turn with two rooflines of the same machine and run: a loop that only reads and writes
+//! the bytes of the step (states read and written, points written), and a loop that only takes its sines and
+//! cosines. All three use the same threads and blocks. The figures are medians over the rounds, in ns a segment and
+//! frame.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use glam::Vec3;
+use nabiki::dynamics::{Dynamics, Motion, Simulation, Stepper};
+use nabiki::field::{Field, Keyframe};
+use nabiki::pseudo_force::PseudoForce;
+use nabiki::{Ellipsoid, Strands};
+use rayon::prelude::*;
+
+const ROUNDS: usize = 15;
+
+fn main() {
+    println!("threads: {}", rayon::current_num_threads());
+    println!(
+        "{:>10} {:>9} {:>12} {:>12} {:>12} {:>7}",
+        "strands", "segments", "step", "bytes only", "sines only", "ratio"
+    );
+    for (strands, segments, frames) in [(300, 20, 4000), (20_000, 20, 60), (200_000, 20, 8)] {
+        let mut simulation = Simulation::new(&hair(strands, segments), &gust()).expect("settings in range");
+        let mut bytes = Bytes::new(strands, segments);
+        let per_segment = 1e9 / (strands * segments * frames) as f64;
+        let mut times = [const { Vec::new() }; 3];
+        for _ in 0..ROUNDS {
+            times[0].push(time(frames, || simulation.step_frame_under(Vec3::new(-100.0, 0.0, 0.0))));
+            times[1].push(time(frames, || bytes.pass()));
+            times[2].push(time(frames, || bytes.sines()));
+        }
+        let [step, bytes, sines] = times.map(|t| median(t) * per_segment);
+        let ratio = step / bytes.max(sines);
+        println!("{strands:>10} {segments:>9} {step:>9.2} ns {bytes:>9.2} ns {sines:>9.2} ns {ratio:>7.2}");
+    }
+}
+
+fn time(frames: usize, mut frame: impl FnMut()) -> f64 {
+    let start = Instant::now();
+    for _ in 0..frames {
+        frame();
+    }
+    start.elapsed().as_secs_f64()
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// Table 1 of the paper.
+fn gust() -> Dynamics {
+    Dynamics {
+        motion: Motion::default(),
+        segment_length: 1.0,
+        pseudo_force: PseudoForce::default(),
+        ellipsoid: Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::new(9.5, 11.0, 8.0) },
+        shell: 1.25,
+        field: Field::new(&[Keyframe { through: 100, vector: Vec3::new(-100.0, 0.0, 0.0) }]).expect("one keyframe"),
+        disturbance: None,
+    }
+}
+
+/// Arcs from an ellipsoid over a spiral of roots.
+fn hair(strands: usize, segments: usize) -> Strands {
+    let mut hair = Strands::with_capacity(strands, strands * (segments + 1));
+    for s in 0..strands {
+        let y = 1.0 - (s as f32 + 0.5) / strands as f32;
+        let azimuth = s as f32 * 2.399_963;
+        let out = Vec3::new((1.0 - y * y).sqrt() * azimuth.sin(), y, (1.0 - y * y).sqrt() * azimuth.cos());
+        let mut p = out * Vec3::new(9.5, 11.0, 8.0);
+        let points = (0..=segments).map(|i| {
+            let point = p;
+            p += (out + Vec3::NEG_Y * (0.2 * i as f32)).normalize();
+            point
+        });
+        hair.push(points);
+    }
+    hair
+}
+
+/// The bytes of a step without its work: 16 read and written, 12 written, for each segment.
+struct Bytes {
+    states: Vec<[[f32; 16]; 4]>,
+    points: Vec<f32>,
+    segments: usize,
+}
+
+impl Bytes {
+    fn new(strands: usize, segments: usize) -> Self {
+        let rows = strands.div_ceil(16) * segments;
+        Self { states: vec![[[1e-3; 16]; 4]; rows], points: vec![0.0; rows * 48], segments }
+    }
+
+    fn blocks(&mut self) -> impl IndexedParallelIterator<Item = (&mut [[[f32; 16]; 4]], &mut [f32])> {
+        let rows = 8 * self.segments;
+        self.states.par_chunks_mut(rows).zip(self.points.par_chunks_mut(rows * 48))
+    }
+
+    fn pass(&mut self) {
+        self.blocks().for_each(|(states, points)| {
+            for (row, out) in states.iter_mut().zip(points.as_chunks_mut::<48>().0) {
+                for quantity in row.iter_mut() {
+                    quantity.iter_mut().for_each(|v| *v = -*v);
+                }
+                out[..16].copy_from_slice(&row[0]);
+                out[16..32].copy_from_slice(&row[1]);
+                out[32..].copy_from_slice(&row[2]);
+            }
+        });
+    }
+
+    /// Eight sines and cosines a segment, of data that stays in the nearest cache.
+    fn sines(&mut self) {
+        self.blocks().for_each(|(states, _)| {
+            pulp::Arch::new().dispatch(|| {
+                let mut angles = states[0];
+                for _ in 0..states.len() {
+                    for quantity in &mut angles {
+                        for v in quantity {
+                            let (sin, cos) = sin_cos(*v);
+                            *v = sin + cos;
+                        }
+                    }
+                }
+                black_box(angles);
+            });
+        });
+    }
+}
+
+/// The polynomials of the step, without the care for quadrants.
+#[inline(always)]
+fn sin_cos(x: f32) -> (f32, f32) {
+    let turns = x.mul_add(std::f32::consts::FRAC_2_PI, 12_582_912.0) - 12_582_912.0;
+    let r = turns.mul_add(-std::f32::consts::FRAC_PI_2, x);
+    let r2 = r * r;
+    let sin = (r * r2).mul_add(r2.mul_add(-0.000_195, 0.008_33).mul_add(r2, -0.166_7), r);
+    let cos = (r2 * r2).mul_add(r2.mul_add(2.44e-5, -0.001_39).mul_add(r2, 0.041_7), r2.mul_add(-0.5, 1.0));
+    (sin, cos)
+}

@@ -1,0 +1,126 @@
+//! The motion of hair: projective equations (1), (2), their gains (6), (8) and two steppers of (7).
+//!
+//! [`Reference`] is the specification: scalar, f64, to be read beside the paper. [`Simulation`] is its fast twin:
+//! f32, sixteen strands to a block, all cores. Both take the same [`Dynamics`] and give the same frames.
+
+mod angles;
+mod block;
+mod gain;
+mod kernel;
+mod reference;
+mod simulation;
+mod trigonometry;
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+use crate::disturbance::Disturbance;
+use crate::ellipsoid::Ellipsoid;
+use crate::error::{SettingError, check_positive};
+use crate::field::Field;
+use crate::pseudo_force::{Gamma, PseudoForce};
+use crate::strands::Strands;
+
+pub use gain::{gain, largest_gain, period};
+pub use reference::Reference;
+pub use simulation::{Simulation, VectorWidth};
+
+/// The settings of the motion; the default is Table 1 of the paper.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Motion {
+    /// Frames after the rest frame 0 (N_f).
+    pub frames: u32,
+    /// Delta t of equation (7), above 0 (its unit is the step's own: a frame is one step).
+    pub time_step: f32,
+    /// lambda of equation (6), above 0 (mass per cm, in the units of the force).
+    pub linear_density: f32,
+    /// Hair shorter than this (cm) has the inertia of hair this long: it is held by its longer neighbours.
+    /// 0, the paper's way, gives every strand the inertia of its own length, and short hair very fast swings.
+    pub friction_length: f32,
+}
+
+impl Default for Motion {
+    fn default() -> Self {
+        Self { frames: 100, time_step: 0.1, linear_density: 0.05, friction_length: 0.0 }
+    }
+}
+
+impl Motion {
+    /// Refuses no frames, and steps and densities that are not above 0.
+    pub fn check(&self) -> Result<(), SettingError> {
+        if self.frames == 0 {
+            return Err(SettingError::new("motion.frames", 0, "must be at least 1"));
+        }
+        check_positive("motion.time_step", self.time_step)?;
+        check_positive("motion.linear_density", self.linear_density)?;
+        if !(self.friction_length >= 0.0 && self.friction_length.is_finite()) {
+            let remedy = "must be a finite length of at least 0 cm";
+            return Err(SettingError::new("motion.friction_length", self.friction_length, remedy));
+        }
+        Ok(())
+    }
+}
+
+/// All that moves hair, checked when a stepper is built.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dynamics {
+    /// Step and inertia.
+    pub motion: Motion,
+    /// The segment length d that the paper's k and i are counted in (cm), above 0: a strand of length L is k = L/d
+    /// segments long, whatever number of segments it is stored in.
+    pub segment_length: f32,
+    /// Where and by how much the force is weakened before the head.
+    pub pseudo_force: PseudoForce,
+    /// The head ellipsoid E (head space, cm).
+    pub ellipsoid: Ellipsoid,
+    /// C is E scaled by this, above 1.
+    pub shell: f32,
+    /// The force at every frame.
+    pub field: Field,
+    /// Disturbance of the segments, if any.
+    pub disturbance: Option<Disturbance>,
+}
+
+impl Dynamics {
+    /// Refuses settings out of range; whether they are stable depends on the strands too, see
+    /// [`Simulation::new`].
+    pub fn check(&self) -> Result<(), SettingError> {
+        self.motion.check()?;
+        check_positive("hair.segment_length", self.segment_length)?;
+        self.pseudo_force.check()?;
+        if !(self.shell > 1.0 && self.shell.is_finite()) {
+            let remedy = "must be a finite number above 1: C encloses the head ellipsoid";
+            return Err(SettingError::new("head.shell", self.shell, remedy));
+        }
+        if !(self.ellipsoid.center.is_finite() && self.ellipsoid.half_axes.is_finite()) {
+            return Err(SettingError::new("head.ellipsoid", self.ellipsoid.center, "must be finite numbers"));
+        }
+        if self.ellipsoid.half_axes.min_element() <= 0.0 {
+            let remedy = "each must be above 0 cm";
+            return Err(SettingError::new("head.ellipsoid.half_axes", self.ellipsoid.half_axes, remedy));
+        }
+        self.disturbance.as_ref().map_or(Ok(()), Disturbance::check)
+    }
+
+    fn gamma(&self) -> Gamma {
+        Gamma { ellipsoid: self.ellipsoid, shell: self.shell, alpha: self.pseudo_force.alpha }
+    }
+}
+
+/// Hair that moves a frame at a time: the two twins, behind one interface.
+pub trait Stepper {
+    /// Advances from frame n to n + 1 under F(n + 1) of the field.
+    fn step_frame(&mut self);
+
+    /// Advances from frame n to n + 1 under `force_in_head` instead of the field's.
+    ///
+    /// The scheme is stable while c_i |F| < 4, which is checked for the field only; see [`largest_gain`].
+    fn step_frame_under(&mut self, force_in_head: Vec3);
+
+    /// The frame that [`strands`](Self::strands) shows; 0 at rest.
+    fn frame(&self) -> u32;
+
+    /// The hair at this frame (head space, cm).
+    fn strands(&self) -> &Strands;
+}

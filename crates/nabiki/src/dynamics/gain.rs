@@ -1,0 +1,116 @@
+//! Inertia and gain: equations (3), (6), (8), for segments of any length.
+//!
+//! The paper's strand has k segments of one length d. With its own length L = k d and the distance of segment i's
+//! end from the root, s = i d, equation (8) reads c_i = 3 s dt^2 d / (2 lambda L^4): it knows nothing of the number
+//! of segments but d, the lever. Imported hair keeps that d, `hair.segment_length`, as the unit in which k = L/d
+//! and i = s/d are counted, however finely its strands are cut. So 16 and 32 points of one strand move alike.
+
+use super::Dynamics;
+use crate::error::SettingError;
+use crate::strands::Strands;
+
+/// c_i of equation (8) (rad per unit of force and frame), for a segment that ends `position` = i reference segments
+/// from the root of a strand `count` = k of them long. Both may be fractions.
+pub fn gain(dynamics: &Dynamics, position: f64, count: f64) -> f64 {
+    let (dt, lambda) = (f64::from(dynamics.motion.time_step), f64::from(dynamics.motion.linear_density));
+    let d = f64::from(dynamics.segment_length);
+    let k = count.max(f64::from(dynamics.motion.friction_length) / d);
+    3.0 * position * d * dt.powi(2) / (2.0 * lambda * k.powi(4) * d.powi(3))
+}
+
+/// Frames of one small swing about a constant force, cos(2 pi / T) = 1 - c |F| / 2: exact for the scheme (7).
+///
+/// NaN where the scheme is unstable, c |F| >= 4; infinite without force.
+pub fn period(gain_times_force: f64) -> f64 {
+    if gain_times_force >= 4.0 {
+        return f64::NAN;
+    }
+    // 2 asin(sqrt(x) / 2) is acos(1 - x / 2) without its cancellation at small x.
+    std::f64::consts::PI / (gain_times_force.sqrt() / 2.0).asin()
+}
+
+/// What moves one segment: lengths in cm, gains in rad per unit of force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SegmentShape {
+    pub length: f64,
+    /// c_i.
+    pub gain: f64,
+    /// eps_i c_i.
+    pub gain_in_gamma: f64,
+    /// Distance of the segment's end from the root as a part of the strand's length, 0..1.
+    pub along: f64,
+}
+
+/// Lengths and gains of every segment of one strand, root first.
+///
+/// # Errors
+/// Strands without a segment, with coordinates that are no numbers, or with a segment of no length.
+pub(super) fn segment_shapes(
+    dynamics: &Dynamics,
+    strand: &[glam::Vec3],
+    s: usize,
+) -> Result<Vec<SegmentShape>, SettingError> {
+    let thing = || format!("hair strand {s}");
+    if strand.len() < 2 {
+        return Err(SettingError::new(thing(), format!("{} points", strand.len()), "needs at least 2 points"));
+    }
+    if let Some(p) = strand.iter().find(|p| !p.is_finite()) {
+        return Err(SettingError::new(thing(), p, "every coordinate must be a finite number"));
+    }
+    let lengths: Vec<f64> = strand.windows(2).map(|w| w[0].as_dvec3().distance(w[1].as_dvec3())).collect();
+    if let Some(i) = lengths.iter().position(|&length| length as f32 <= 0.0) {
+        let remedy = "remove the doubled point: a segment needs a direction";
+        return Err(SettingError::new(thing(), format!("segment {} of length 0", i + 1), remedy));
+    }
+    let d = f64::from(dynamics.segment_length);
+    let total: f64 = lengths.iter().sum();
+    let mut end = 0.0;
+    let shapes = lengths.iter().map(|&length| {
+        end += length;
+        let gain = gain(dynamics, end / d, total / d);
+        let eps = f64::from(dynamics.pseudo_force.coefficient(end / d));
+        SegmentShape { length, gain, gain_in_gamma: eps * gain, along: end / total }
+    });
+    Ok(shapes.collect())
+}
+
+/// The largest gain c_i of all strands: a force is stable while it times |F| stays below 4.
+///
+/// # Errors
+/// As [`Simulation::new`](super::Simulation::new), but for the stability of the field.
+pub fn largest_gain(strands: &Strands, dynamics: &Dynamics) -> Result<f64, SettingError> {
+    Ok(worst_segment(strands, dynamics)?.0)
+}
+
+/// The largest gain, and the strand it belongs to. The gain grows along a strand, so its tip decides.
+fn worst_segment(strands: &Strands, dynamics: &Dynamics) -> Result<(f64, usize), SettingError> {
+    let mut worst = (0.0, 0);
+    for (s, strand) in strands.iter().enumerate() {
+        let tip = segment_shapes(dynamics, strand, s)?.last().map_or(0.0, |shape| shape.gain);
+        if tip > worst.0 {
+            worst = (tip, s);
+        }
+    }
+    Ok(worst)
+}
+
+/// Refuses fields under which the scheme (7) is unstable: c_i |F| must stay below 4.
+pub(super) fn check_stability(strands: &Strands, dynamics: &Dynamics) -> Result<(), SettingError> {
+    let (c, s) = worst_segment(strands, dynamics)?;
+    for (j, key) in dynamics.field.keyframes().iter().enumerate() {
+        let force = f64::from(key.vector.length());
+        if c * force < 4.0 {
+            continue;
+        }
+        let length: f32 = strands.strand(s).windows(2).map(|w| w[0].distance(w[1])).sum();
+        let largest = 4.0 / c;
+        let remedy = format!(
+            "unstable: c_i |F| = {:.3} at the tip of strand {s} ({length:.2} cm long), and must stay below 4; \
+             keep |F| below {largest:.4}, make motion.time_step smaller, or set motion.friction_length so that \
+             short hair is held by its neighbours",
+            c * force
+        );
+        return Err(SettingError::new(format!("force[{j}].vector"), key.vector, remedy));
+    }
+    Ok(())
+}

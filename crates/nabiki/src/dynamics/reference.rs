@@ -1,0 +1,165 @@
+//! The specification: projective equations one segment at a time, in f64, as the paper writes them.
+
+use glam::{DVec3, Vec3};
+
+use super::angles::{POLE_REST, POLE_SINE, azimuth, from_direction, to_direction};
+use super::gain::{SegmentShape, check_stability, segment_shapes};
+use super::{Dynamics, Stepper};
+use crate::error::SettingError;
+use crate::pseudo_force::Gamma;
+use crate::strands::Strands;
+
+/// The f64 scalar stepper, twin of [`Simulation`](super::Simulation).
+pub struct Reference {
+    dynamics: Dynamics,
+    gamma: Gamma,
+    segments: Vec<Segment>,
+    ids: Vec<u32>,
+    frame: u32,
+    positions: Vec<DVec3>,
+    strands: Strands,
+}
+
+/// One segment s_i: its angles at frame n, and what moves it.
+struct Segment {
+    shape: SegmentShape,
+    theta: f64,
+    phi: f64,
+    /// theta^n - theta^(n-1) (rad).
+    theta_increment: f64,
+    /// phi^n - phi^(n-1) (rad).
+    phi_increment: f64,
+}
+
+impl Segment {
+    /// Equation (7) for theta and for phi. `gain`: c_i or eps_i c_i; `force`: F(n+1) in head space.
+    fn advance(&mut self, gain: f64, force: DVec3) {
+        let at_rest_on_the_pole = self.theta.sin().abs() < POLE_SINE && self.theta_increment.abs() < POLE_REST;
+        if at_rest_on_the_pole && let Some(azimuth) = azimuth(force) {
+            self.phi = azimuth;
+        }
+        let ((sin_theta, cos_theta), (sin_phi, cos_phi)) = (self.theta.sin_cos(), self.phi.sin_cos());
+        let v_theta = DVec3::new(cos_theta * sin_phi, -sin_theta, cos_theta * cos_phi);
+        // v_i V_phi over u_i: the lever |s*| / 2 = d sin(theta) / 2, so that gain needs no second form.
+        let v_phi = sin_theta * DVec3::new(cos_phi, 0.0, -sin_phi);
+        self.theta_increment += gain * force.dot(v_theta);
+        self.phi_increment += gain * force.dot(v_phi);
+        self.theta += self.theta_increment;
+        self.phi += self.phi_increment;
+    }
+
+    fn vector(&self) -> DVec3 {
+        self.shape.length * to_direction(self.theta, self.phi)
+    }
+}
+
+impl Reference {
+    /// Hair at rest in the given shape, at frame 0. See [`Simulation::new`](super::Simulation::new).
+    ///
+    /// # Errors
+    /// As [`Simulation::new`](super::Simulation::new).
+    pub fn new(strands: &Strands, dynamics: &Dynamics) -> Result<Self, SettingError> {
+        let ids: Vec<u32> = (0..strands.len() as u32).collect();
+        Self::with_ids(strands, &ids, dynamics)
+    }
+
+    /// As [`new`](Self::new), for strands that are some of a larger set: `ids` are their numbers in it.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    ///
+    /// # Panics
+    /// If there are not as many ids as strands.
+    pub fn with_ids(strands: &Strands, ids: &[u32], dynamics: &Dynamics) -> Result<Self, SettingError> {
+        assert_eq!(ids.len(), strands.len(), "one id for each strand");
+        dynamics.check()?;
+        check_stability(strands, dynamics)?;
+        let mut segments = Vec::with_capacity(strands.segment_count());
+        for (s, strand) in strands.iter().enumerate() {
+            for (shape, w) in segment_shapes(dynamics, strand, s)?.into_iter().zip(strand.windows(2)) {
+                let (theta, phi) = from_direction(w[1].as_dvec3() - w[0].as_dvec3());
+                segments.push(Segment { shape, theta, phi, theta_increment: 0.0, phi_increment: 0.0 });
+            }
+        }
+        let mut reference = Self {
+            dynamics: dynamics.clone(),
+            gamma: dynamics.gamma(),
+            segments,
+            ids: ids.to_vec(),
+            frame: 0,
+            positions: strands.points().iter().map(|p| p.as_dvec3()).collect(),
+            strands: strands.clone(),
+        };
+        reference.place();
+        Ok(reference)
+    }
+
+    /// The points of all strands in f64, as [`Strands::points`] orders them (head space, cm).
+    pub fn positions(&self) -> &[DVec3] {
+        &self.positions
+    }
+
+    /// Solves i = 1 .. k for every strand; p_i at frame n decides whether eps_i holds.
+    fn advance(&mut self, force: Vec3) {
+        for s in 0..self.strands.len() {
+            let points = self.strands.range(s);
+            for (i, segment) in self.segments[points.start - s..points.end - s - 1].iter_mut().enumerate() {
+                let end = self.positions[points.start + i + 1];
+                let weakened = self.gamma.contains(end, force);
+                let gain = if weakened { segment.shape.gain_in_gamma } else { segment.shape.gain };
+                segment.advance(gain, force.as_dvec3());
+            }
+        }
+    }
+
+    fn disturb(&mut self) {
+        let Some(disturbance) = &self.dynamics.disturbance else { return };
+        if !disturbance.falls_on(self.frame) {
+            return;
+        }
+        for (s, &id) in self.ids.iter().enumerate() {
+            let [theta, phi] = disturbance.turn(id, self.frame).map(f64::from);
+            let points = self.strands.range(s);
+            for segment in &mut self.segments[points.start - s..points.end - s - 1] {
+                segment.theta += theta * segment.shape.along;
+                segment.phi += phi * segment.shape.along;
+            }
+        }
+    }
+
+    /// Puts the strands together from their roots outward.
+    fn place(&mut self) {
+        for s in 0..self.strands.len() {
+            let points = self.strands.range(s);
+            let mut p = self.positions[points.start];
+            for (i, segment) in self.segments[points.start - s..points.end - s - 1].iter().enumerate() {
+                p += segment.vector();
+                self.positions[points.start + i + 1] = p;
+            }
+        }
+        for (point, p) in self.strands.points_mut().iter_mut().zip(&self.positions) {
+            *point = p.as_vec3();
+        }
+    }
+}
+
+impl Stepper for Reference {
+    fn step_frame(&mut self) {
+        self.step_frame_under(self.dynamics.field.at(self.frame + 1));
+    }
+
+    fn step_frame_under(&mut self, force_in_head: Vec3) {
+        self.advance(force_in_head);
+        self.frame += 1;
+        self.disturb();
+        self.place();
+    }
+
+    fn frame(&self) -> u32 {
+        self.frame
+    }
+
+    fn strands(&self) -> &Strands {
+        &self.strands
+    }
+}
