@@ -90,15 +90,11 @@ impl Block {
     /// Moves the block by one frame and writes its points.
     #[inline(always)]
     pub fn step(&self, states: &mut [SegmentState], table: &ShapeTable, wind: &Wind, points: &mut [Vec3]) {
-        let mut before = self.roots;
+        let before = self.roots;
         match &self.shapes {
-            Shapes::Shared(range) => self.walk(states, &table.shared[range.clone()], points, |state, shape, after| {
-                step_segment(state, shape, wind, &mut before, after);
-            }),
+            Shapes::Shared(range) => self.walk(states, &table.shared[range.clone()], points, Step { wind, before }),
             Shapes::EachLane(range) => {
-                self.walk(states, &table.each_lane[range.clone()], points, |state, shape, after| {
-                    step_segment(state, shape, wind, &mut before, after);
-                });
+                self.walk(states, &table.each_lane[range.clone()], points, Step { wind, before });
             }
         }
     }
@@ -107,24 +103,14 @@ impl Block {
     #[inline(always)]
     pub fn place(&self, states: &mut [SegmentState], table: &ShapeTable, points: &mut [Vec3]) {
         match &self.shapes {
-            Shapes::Shared(range) => {
-                self.walk(states, &table.shared[range.clone()], points, |s, shape, p| place_segment(s, shape, p));
-            }
-            Shapes::EachLane(range) => {
-                self.walk(states, &table.each_lane[range.clone()], points, |s, shape, p| place_segment(s, shape, p));
-            }
+            Shapes::Shared(range) => self.walk(states, &table.shared[range.clone()], points, Place),
+            Shapes::EachLane(range) => self.walk(states, &table.each_lane[range.clone()], points, Place),
         }
     }
 
-    /// Goes from the roots to the tips; `segment` takes the points p_(i-1) of the new frame to p_i.
+    /// Goes from the roots to the tips.
     #[inline(always)]
-    fn walk<S: ShapeRow>(
-        &self,
-        states: &mut [SegmentState],
-        shapes: &[S],
-        points: &mut [Vec3],
-        mut segment: impl FnMut(&mut SegmentState, &S, &mut PointRow),
-    ) {
+    fn walk<S: ShapeRow>(&self, states: &mut [SegmentState], shapes: &[S], points: &mut [Vec3], mut pass: impl Pass) {
         let mut after = self.roots;
         let mut rows = [[Row::default(); 3]; ROWS];
         rows[0] = after;
@@ -135,7 +121,7 @@ impl Block {
                 written += ROWS;
                 filled = 0;
             }
-            segment(state, shape, &mut after);
+            pass.segment(state, shape, &mut after);
             rows[filled] = after;
             filled += 1;
         }
@@ -154,5 +140,34 @@ impl Block {
                 *point = Vec3::new(row[0].0[lane], row[1].0[lane], row[2].0[lane]);
             }
         }
+    }
+}
+
+/// What is done to each segment on the way to the tips: takes the points p_(i-1) of the new frame to p_i.
+///
+/// A trait where a closure would do: only a named function can be forced into its caller, and so be compiled for
+/// the vectors chosen there.
+trait Pass {
+    fn segment<S: ShapeRow>(&mut self, state: &mut SegmentState, shape: &S, after: &mut PointRow);
+}
+
+struct Step<'a> {
+    wind: &'a Wind,
+    before: PointRow,
+}
+
+impl Pass for Step<'_> {
+    #[inline(always)]
+    fn segment<S: ShapeRow>(&mut self, state: &mut SegmentState, shape: &S, after: &mut PointRow) {
+        step_segment(state, shape, self.wind, &mut self.before, after);
+    }
+}
+
+struct Place;
+
+impl Pass for Place {
+    #[inline(always)]
+    fn segment<S: ShapeRow>(&mut self, state: &mut SegmentState, shape: &S, after: &mut PointRow) {
+        place_segment(state, shape, after);
     }
 }
