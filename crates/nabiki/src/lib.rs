@@ -11,19 +11,15 @@
 #![forbid(unsafe_code)]
 
 pub mod distance;
-pub mod ellipsoid;
-pub mod error;
-pub mod hair;
-pub mod head;
-pub mod mesh;
-pub mod pores;
 pub mod disturbance;
 pub mod dynamics;
 pub mod ellipsoid;
 pub mod error;
 pub mod field;
 pub mod hair;
+pub mod head;
 pub mod mesh;
+pub mod pores;
 pub mod pseudo_force;
 pub mod strands;
 pub mod subset;
