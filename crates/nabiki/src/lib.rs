@@ -16,6 +16,7 @@ pub mod dynamics;
 pub mod ellipsoid;
 pub mod error;
 pub mod field;
+pub mod groom;
 pub mod hair;
 pub mod head;
 pub mod mesh;
