@@ -1,0 +1,334 @@
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::fs;
+
+use proptest::prelude::*;
+
+use super::*;
+
+fn shared(name: &str) -> Option<PathBuf> {
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/motion")).join(name);
+    if path.exists() {
+        Some(path)
+    } else {
+        eprintln!("SKIPPED: {} is not there", path.display());
+        None
+    }
+}
+
+/// A source whose world is already the scene's.
+fn straight(file: PathBuf, unit_cm: Option<f64>) -> MotionSource {
+    MotionSource { file, unit_cm, up: Some(Axis::PlusY), facing: Some(Axis::PlusX), ..MotionSource::default() }
+}
+
+fn written(name: &str, bytes: &[u8]) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    fs::write(&path, bytes).unwrap();
+    (folder, path)
+}
+
+/// Largest turn between neighbouring frames (degrees a second).
+fn fastest_turn(motion: &HeadMotion) -> f64 {
+    let turns = motion.poses.windows(2).map(|w| f64::from(w[0].rotation.angle_between(w[1].rotation)));
+    turns.fold(0.0, f64::max).to_degrees() * motion.frame_rate
+}
+
+#[test]
+fn the_head_of_a_bvh_is_where_its_table_of_poses_has_it() {
+    let (Some(bvh), Some(csv)) = (shared("cmu_12_01_walk.bvh"), shared("head_tracks/cmu_12_01_walk.csv")) else {
+        return;
+    };
+    // The skeleton's inch is 0.45 units; the table leaves out the T-pose of frame 0.
+    let joint = MotionSource { skip: 1, ..straight(bvh, Some(2.54 / 0.45)) };
+    let (joint, table) = (read(&joint, 120.0).unwrap(), read(&straight(csv, None), 120.0).unwrap());
+    assert_eq!(table.poses.len(), 523);
+    assert_eq!(joint.poses.len(), 523);
+    for (a, b) in joint.poses.iter().zip(&table.poses) {
+        // Rounding: position 5e-5 cm, time 1e-6 s at 160 cm/s, quaternion components 5e-8, f32 near 200 cm 8e-6 cm.
+        assert!(a.position_cm.distance(b.position_cm) < 3e-4, "{a:?} {b:?}");
+        assert!(1.0 - a.rotation.dot(b.rotation).abs() < 4.0 * f32::EPSILON, "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn every_table_of_poses_converts_to_24_frames_and_says_so() {
+    for (name, samples, frames) in
+        [("cmu_12_01_walk", 523, 105), ("cmu_02_03_run", 173, 35), ("jolt_walk", 85, 68), ("jolt_sprint", 49, 39)]
+    {
+        let Some(path) = shared(&format!("head_tracks/{name}.csv")) else { return };
+        let motion = read(&straight(path, None), 24.0).unwrap();
+        assert_eq!(motion.poses.len(), frames, "{name}");
+        assert!(motion.report.contains(&format!("{samples} samples")), "{}", motion.report);
+        assert!(motion.report.contains(&format!("{frames} frames at 24 Hz")), "{}", motion.report);
+    }
+}
+
+#[test]
+fn a_z_up_file_stands_upright_and_faces_x() {
+    let Some(path) = shared("makehuman_walk1.bvh") else { return };
+    let source =
+        MotionSource { unit_cm: Some(10.0), up: Some(Axis::PlusZ), facing: Some(Axis::MinusY), ..straight(path, None) };
+    let motion = read(&source, 24.0).unwrap();
+    assert_eq!(motion.poses.len(), 14);
+    for pose in &motion.poses {
+        // An adult's head base lies 1.4 to 1.8 m above the feet, and walking turns it little.
+        assert!((120.0..190.0).contains(&pose.position_cm.y), "{pose:?}");
+        assert!((pose.rotation * Vec3::Y).y > 0.9 && (pose.rotation * Vec3::X).x > 0.9, "{pose:?}");
+    }
+}
+
+#[test]
+fn clips_turn_the_head_as_fast_as_is_known_of_them() {
+    let Some(path) = shared("kaykit_rogue.glb") else { return };
+    // Largest turn rates of the node "head", measured from the same file with another program (degrees a second).
+    for (clip, known) in [("2H_Melee_Attack_Spin", 912.0), ("Jump_Full_Short", 310.0), ("Running_A", 31.0)] {
+        let source =
+            MotionSource { file: path.clone(), node: "head".into(), clip: clip.into(), ..MotionSource::default() };
+        let found = fastest_turn(&read(&source, 30.0).unwrap());
+        // The rate of the known figures is not: one frame's turn is averaged over a longer or shorter time.
+        assert!((found / known - 1.0).abs() < 0.1, "{clip}: {found} deg/s, known {known}");
+    }
+    let Some(fox) = shared("fox.glb") else { return };
+    let source = MotionSource { file: fox, node: "b_Head_05".into(), clip: "Run".into(), ..MotionSource::default() };
+    let error = read(&MotionSource { clip: String::new(), ..source.clone() }, 24.0).unwrap_err().to_string();
+    assert!(error.contains("Survey, Walk, Run"), "{error}");
+    assert_eq!(read(&source, 24.0).unwrap().poses.len(), 28, "1.158 s and its first frame");
+}
+
+fn bvh(channels: &str, row: &str) -> String {
+    format!(
+        "HIERARCHY\nROOT Hips\n{{\nOFFSET 0 10 0\nCHANNELS 6 Zposition Xposition Yposition Xrotation Yrotation \
+         Zrotation\nJOINT Head\n{{\nOFFSET 0 5 0\nCHANNELS 3 {channels}\nEnd Site\n{{\nOFFSET 0 1 0\n}}\n}}\n}}\n\
+         MOTION\nFrames: 1\nFrame Time: 0.04\n{row}\n"
+    )
+}
+
+#[test]
+fn channels_count_in_the_order_in_which_they_stand() {
+    for (channels, first, second) in
+        [("Zrotation Xrotation Yrotation", DVec3::Z, DVec3::X), ("Xrotation Zrotation Yrotation", DVec3::X, DVec3::Z)]
+    {
+        let track = bvh::track(&bvh(channels, "3 1 2 0 0 90 90 90 0"), "head").unwrap();
+        let hips = DQuat::from_rotation_z(FRAC_PI_2);
+        let head = DQuat::from_axis_angle(first, FRAC_PI_2) * DQuat::from_axis_angle(second, FRAC_PI_2);
+        let sample = track.samples[0];
+        assert!((sample.position - (DVec3::new(1.0, 12.0, 3.0) + hips * DVec3::new(0.0, 5.0, 0.0))).length() < 1e-12);
+        assert!((sample.rotation.dot(hips * head).abs() - 1.0).abs() < 1e-12, "{channels}: {sample:?}");
+    }
+}
+
+/// A track sampled at uneven times from a head that accelerates evenly and turns at a constant rate.
+fn thrown() -> Track {
+    let times: Vec<f64> = [0.0, 0.03, 0.1, 0.11, 0.2, 0.28, 0.3, 0.41].map(|t| t + 7.0).to_vec();
+    let samples = times.iter().map(|&t| Sample { position: flight(t - 7.0), rotation: spin(t - 7.0) }).collect();
+    Track { times, samples, unit_cm: Some(1.0), ..Track::default() }
+}
+
+fn flight(t: f64) -> DVec3 {
+    DVec3::new(3.0, 40.0, -1.0) * t + DVec3::new(0.0, -490.0, 100.0) * t * t
+}
+
+fn spin(t: f64) -> DQuat {
+    DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), TAU * t)
+}
+
+#[test]
+fn uniform_acceleration_and_a_constant_turn_survive_resampling() {
+    let motion = thrown().head_motion(&straight("thrown".into(), None), 60.0).unwrap();
+    assert_eq!(motion.poses.len(), 25);
+    for (n, pose) in motion.poses.iter().enumerate() {
+        let t = n as f64 / 60.0;
+        // f32 near 70 cm, and the rounding of times near 7 s.
+        assert!(pose.position_cm.as_dvec3().distance(flight(t)) < 1e-5, "{n}");
+        assert!(1.0 - pose.rotation.as_dquat().dot(spin(t)).abs() < 1e-6, "{n}");
+    }
+}
+
+#[test]
+fn a_start_at_the_origin_faces_x_and_changes_no_motion() {
+    let as_it_is = straight("thrown".into(), None);
+    let moved = MotionSource { start_at_origin: true, ..as_it_is.clone() };
+    let (a, b) = (thrown().head_motion(&as_it_is, 24.0).unwrap(), thrown().head_motion(&moved, 24.0).unwrap());
+    assert_eq!(b.poses[0].position_cm, Vec3::ZERO);
+    assert!((b.poses[0].rotation * Vec3::X).z.abs() < 1e-6);
+    for (wa, wb) in a.poses.windows(2).zip(b.poses.windows(2)) {
+        // What the hair feels: the step of the head, seen from the head.
+        let step = |w: &[Pose]| w[0].rotation.inverse() * (w[1].position_cm - w[0].position_cm);
+        assert!(step(wa).distance(step(wb)) < 1e-4, "f32 near 70 cm, twice");
+    }
+}
+
+#[test]
+fn what_a_file_cannot_say_is_asked_for() {
+    let (_folder, path) = written("walk.bvh", bvh("Zrotation Xrotation Yrotation", "0 0 0 0 0 0 0 0 0").as_bytes());
+    let bare = MotionSource { file: path.clone(), ..MotionSource::default() };
+    let error = |source: &MotionSource| read(source, 24.0).unwrap_err().to_string();
+    assert!(error(&bare).contains("unit_cm is not in the file"), "{}", error(&bare));
+    let wrong = MotionSource { facing: Some(Axis::MinusY), ..straight(path.clone(), Some(1.0)) };
+    assert!(error(&wrong).contains("normal to each other"), "{}", error(&wrong));
+    let unknown = MotionSource { node: "Haed".into(), ..straight(path, Some(1.0)) };
+    assert!(error(&unknown).contains("node can be Hips, Head"), "{}", error(&unknown));
+}
+
+/// A .glb whose node Head hangs below Body (moved up 1 m) and has one channel: `keys` values over times 0, 1, 2.
+fn glb(interpolation: &str, path: &str, values: &[f32]) -> Vec<u8> {
+    let width = if path == "rotation" { 4 } else { 3 };
+    let numbers = [0.0, 1.0, 2.0].iter().chain(values).flat_map(|x: &f32| x.to_le_bytes());
+    let mut binary: Vec<u8> = numbers.collect();
+    while !binary.len().is_multiple_of(4) {
+        binary.push(0);
+    }
+    let mut json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],
+        "nodes":[{{"name":"Body","children":[1],"translation":[0,1,0]}},{{"name":"Head"               }}],
+        "buffers":[{{"byteLength":{all}}}],
+        "bufferViews":[{{"buffer":0,"byteLength":12}},{{"buffer":0,"byteOffset":12,"byteLength":{rest}}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"SCALAR","min":[0],"max":[2]}},
+        {{"bufferView":1,"componentType":5126,"count":{count},"type":"VEC{width}"}}],
+        "animations":[{{"name":"Nod","samplers":[{{"input":0,"output":1,"interpolation":"{interpolation}"}}],
+        "channels":[{{"sampler":0,"target":{{"node":1,"path":"{path}"}}}}]}}]}}"#,
+        all = binary.len(),
+        rest = binary.len() - 12,
+        count = values.len() / width,
+    )
+    .into_bytes();
+    while !json.len().is_multiple_of(4) {
+        json.push(b' ');
+    }
+    let mut file = b"glTF".to_vec();
+    for x in [2, (28 + json.len() + binary.len()) as u32, json.len() as u32, 0x4E4F_534A] {
+        file.extend(x.to_le_bytes());
+    }
+    file.extend(&json);
+    file.extend((binary.len() as u32).to_le_bytes());
+    file.extend(0x004E_4942u32.to_le_bytes());
+    file.extend(&binary);
+    file
+}
+
+fn clip_motion(bytes: &[u8], frame_rate: f64) -> Result<HeadMotion, MotionError> {
+    let (_folder, path) = written("nod.glb", bytes);
+    read(
+        &MotionSource { facing: Some(Axis::PlusX), ..MotionSource { file: path, ..MotionSource::default() } },
+        frame_rate,
+    )
+}
+
+#[test]
+fn step_linear_and_cubicspline_follow_their_definitions() {
+    let x = |motion: HeadMotion| motion.poses.iter().map(|p| p.position_cm.x).collect::<Vec<_>>();
+    let keys = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    let step = clip_motion(&glb("STEP", "translation", &keys), 2.0).unwrap();
+    assert!(step.poses.iter().all(|p| (p.position_cm.y - 100.0).abs() < 1e-4), "the body carries the head");
+    assert_eq!(x(step), [0.0, 0.0, 100.0, 100.0, 0.0]);
+    assert_eq!(x(clip_motion(&glb("LINEAR", "translation", &keys), 2.0).unwrap()), [0.0, 50.0, 100.0, 50.0, 0.0]);
+    // x = t^2 as a spline: value t^2, both tangents 2 t.
+    let spline: Vec<f32> =
+        [0.0f32, 1.0, 2.0].iter().flat_map(|t| [2.0 * t, 0.0, 0.0, t * t, 0.0, 0.0, 2.0 * t, 0.0, 0.0]).collect();
+    for (n, x) in x(clip_motion(&glb("CUBICSPLINE", "translation", &spline), 8.0).unwrap()).iter().enumerate() {
+        let t = n as f32 / 8.0;
+        assert!((x - 100.0 * t * t).abs() < 1e-3, "{n}: {x}");
+    }
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    let turn = [0.0, 0.0, 0.0, 1.0, 0.0, half, 0.0, half, 0.0, 1.0, 0.0, 0.0];
+    let turned = clip_motion(&glb("LINEAR", "rotation", &turn), 4.0).unwrap();
+    for (n, pose) in turned.poses.iter().enumerate() {
+        let expected = Quat::from_rotation_y(std::f32::consts::FRAC_PI_2 * n as f32 / 4.0);
+        assert!(1.0 - pose.rotation.dot(expected).abs() < 1e-6, "{n}: {pose:?}");
+    }
+}
+
+/// Reads `bytes` as each kind of motion; only a panic, or never coming back, is wrong.
+fn read_whatever(bytes: &[u8]) {
+    let text = String::from_utf8_lossy(bytes);
+    let source = straight("fuzz".into(), Some(1.0));
+    for track in [bvh::track(&text, "Head"), csv::track(&text)].into_iter().flatten() {
+        let _ = track.head_motion(&source, 24.0);
+    }
+    let _ = clip_motion(bytes, 24.0);
+}
+
+#[test]
+fn cases_found_by_fuzzing_stay_errors() {
+    let sound = bvh("Zrotation Xrotation Yrotation", "0 0 0 0 0 0 0 0 0");
+    let table = "t_s,px_m,py_m,pz_m,qx,qy,qz,qw\n";
+    let text = |from: &str, to: &str| {
+        assert!(sound.contains(from), "{from}");
+        sound.replace(from, to)
+    };
+    for broken in [
+        text("Frames: 1", "Frames: 99999999999999999999"),
+        text("Frames: 1", "Frames: 0"),
+        text("Frames: 1", "Frames: -3"),
+        text("Frames: 1", "Frames: 2"),
+        text("Time: 0.04", "Time: 0"),
+        text("Time: 0.04", "Time: NaN"),
+        text("CHANNELS 3", "CHANNELS 1e18"),
+        text("CHANNELS 3 Zrotation Xrotation Yrotation", "CHANNELS 3 Zrotation Wrotation Yrotation"),
+        text("OFFSET 0 5 0", "OFFSET 0 inf 0"),
+        text("End Site", "End Site End Site"),
+        "HIERARCHY MOTION Frames: 99999999999 Frame Time: 1".to_owned(),
+        "HIERARCHY ROOT Head { OFFSET 0 0 0 } MOTION Frames: 99999999999 Frame Time: 1".to_owned(),
+        "HIERARCHY } MOTION".to_owned(),
+        "HIERARCHY ".to_owned() + &"ROOT Head { ".repeat(100_000),
+        String::new(),
+    ] {
+        let (_folder, path) = written("broken.bvh", broken.as_bytes());
+        assert!(read(&straight(path, Some(1.0)), 24.0).is_err(), "{broken:.60}");
+    }
+    for rows in [
+        "",
+        "0,0,0,0,0,0,0,1\n0,0,0,0,0,0,0,1\n",
+        "0,0,0,0,0,0,0,2\n",
+        "0,0,nan,0,0,0,0,1\n",
+        "0,1,2\n",
+        "0,0,0,0,0,0,0,1\n1e300,0,0,0,0,0,0,1\n",
+    ] {
+        let (_folder, path) = written("broken.csv", (table.to_owned() + rows).as_bytes());
+        assert!(read(&straight(path, None), 24.0).is_err(), "{rows}");
+    }
+    let keys = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    let clip = glb("STEP", "translation", &keys);
+    for (from, to) in [
+        (r#""count":3,"type":"VEC3""#, r#""count":9,"type":"VEC3""#),
+        (r#""byteLength":12}"#, r#""byteLength":99}"#),
+        (r#""path":"translation""#, r#""path":"tran lation""#),
+        (r#""Head"               }"#, r#""Head","children":[0]}"#),
+        (r#""componentType":5126,"count":3,"type":"SCALAR""#, r#""componentType":5125,"count":3,"type":"SCALAR""#),
+    ] {
+        assert_eq!(from.len(), to.len(), "or the lengths in the file would be what is wrong");
+        let at = clip.windows(from.len()).position(|w| w == from.as_bytes()).expect(from);
+        let mut broken = clip.clone();
+        broken.splice(at..at + from.len(), to.bytes());
+        assert!(clip_motion(&broken, 24.0).is_err(), "{to}");
+    }
+    let mut endless = glb("STEP", "translation", &keys);
+    let second_time = endless.len() - 4 * 9 - 4;
+    endless[second_time..second_time + 4].copy_from_slice(&f32::MAX.to_le_bytes());
+    assert!(clip_motion(&endless, 24.0).is_err(), "a clip of 1e38 s");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn damaged_motion_is_an_error_and_no_panic(
+        kind in 0..3usize,
+        cut in 0.0..1.0f64,
+        hits in prop::collection::vec((0.0..1.0f64, any::<u8>()), 0..6),
+    ) {
+        let mut bytes = match kind {
+            0 => bvh("Zrotation Xrotation Yrotation", "1 2 3 4 5 6 7 8 9").into_bytes(),
+            1 => b"t_s,px_m,py_m,pz_m,qx,qy,qz,qw\n0,1,2,3,0,0,0,1\n0.5,1,2,3,0,0,0,1\n".to_vec(),
+            _ => glb("CUBICSPLINE", "translation", &[0.5; 27]),
+        };
+        for (place, value) in hits {
+            let at = (place * bytes.len() as f64) as usize;
+            bytes[at] = value;
+        }
+        if cut > 0.5 {
+            bytes.truncate((2.0 * (cut - 0.5) * bytes.len() as f64) as usize);
+        }
+        read_whatever(&bytes);
+    }
+}
