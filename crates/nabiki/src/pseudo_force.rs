@@ -48,11 +48,10 @@ impl PseudoForce {
         Ok(())
     }
 
-    /// eps_i of the segment that ends `position` reference segments from the root (i itself, for segments as
-    /// long as the reference).
+    /// eps_i for a `position` along the strand that is i itself for the paper's segments, and between their
+    /// numbers for finer ones: that of the nearest number.
     pub fn coefficient(&self, position: f64) -> f32 {
-        // Rounding must not push the end of segment i, at i (1 + 1e-7), into the next one.
-        let i = (position - 1e-4).ceil().max(1.0) as usize;
+        let i = position.round().max(1.0) as usize;
         self.coefficients[(i - 1).min(self.coefficients.len() - 1)]
     }
 }

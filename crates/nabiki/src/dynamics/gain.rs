@@ -1,16 +1,18 @@
 //! Inertia and gain: equations (3), (6), (8), for segments of any length.
 //!
-//! The paper's strand has k segments of one length d. With its own length L = k d and the distance of segment i's
-//! end from the root, s = i d, equation (8) reads c_i = 3 s dt^2 d / (2 lambda L^4): it knows nothing of the number
-//! of segments but d, the lever. Imported hair keeps that d, `hair.segment_length`, as the unit in which k = L/d
-//! and i = s/d are counted, however finely its strands are cut. So 16 and 32 points of one strand move alike.
+//! The paper's strand has k segments of one length d. With its own length L = k d, equation (8) reads
+//! c_i = 3 (i d) d dt^2 / (2 lambda L^4): it knows nothing of the number of segments but through d, the lever, and
+//! i, the place. Imported hair keeps that d, `hair.segment_length`, as the unit in which both are counted, however
+//! finely its strands are cut: k = L / d, and i = m / d + 1/2 for a segment whose middle is m away from the root,
+//! which is i itself for segments as long as d. So 16 and 32 points of one strand move alike, up to the square of
+//! the segment's length.
 
 use super::Dynamics;
 use crate::error::SettingError;
 use crate::strands::Strands;
 
-/// c_i of equation (8) (rad per unit of force and frame), for a segment that ends `position` = i reference segments
-/// from the root of a strand `count` = k of them long. Both may be fractions.
+/// c_i of equation (8) (rad per unit of force and frame), for the segment at `position` = i of a strand `count` = k
+/// reference segments long. Both may be fractions, see the top of this file.
 pub fn gain(dynamics: &Dynamics, position: f64, count: f64) -> f64 {
     let (dt, lambda) = (f64::from(dynamics.motion.time_step), f64::from(dynamics.motion.linear_density));
     let d = f64::from(dynamics.segment_length);
@@ -66,9 +68,10 @@ pub(super) fn segment_shapes(
     let total: f64 = lengths.iter().sum();
     let mut end = 0.0;
     let shapes = lengths.iter().map(|&length| {
+        let position = (end + length / 2.0) / d + 0.5;
         end += length;
-        let gain = gain(dynamics, end / d, total / d);
-        let eps = f64::from(dynamics.pseudo_force.coefficient(end / d));
+        let gain = gain(dynamics, position, total / d);
+        let eps = f64::from(dynamics.pseudo_force.coefficient(position));
         SegmentShape { length, gain, gain_in_gamma: eps * gain, along: end / total }
     });
     Ok(shapes.collect())
