@@ -76,7 +76,7 @@ fn a_turned_scene_gives_the_turned_result() {
     let dynamics = gust();
     let turned = Dynamics { field: field(&[(50, [0.0, 0.0, 100.0]), (100, [0.0, -150.0, 15.0])]), ..gust() };
     let hair = hair(200, 18);
-    let straight = positions(Reference::new(&hair, &dynamics).unwrap(), 30);
+    let straight = positions(Reference::new(&hair, &dynamics).unwrap(), 100);
     let result = positions(Reference::new(&map(&hair, quarter_turn), &turned).unwrap(), 100);
     let expected: Vec<DVec3> = straight.iter().map(|p| DVec3::new(p.z, p.y, -p.x)).collect();
     // f64 rounding, 1e-16 a step, grows at most like e^(n sqrt(c |F|)) = e^9 where a segment stands against the wind.
