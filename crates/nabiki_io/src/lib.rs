@@ -2,4 +2,18 @@
 
 #![forbid(unsafe_code)]
 
+mod atomic;
+mod bytes;
+pub mod error;
+mod finite;
+pub mod hair;
+pub mod hair_file;
+pub mod mesh;
 pub mod motion;
+mod names;
+pub mod obj_lines;
+pub mod placement;
+pub mod tfx;
+
+pub use error::{Error, Result};
+pub use placement::Placement;

@@ -1,0 +1,73 @@
+//! One-line errors that name file, thing, value and way out.
+
+use std::{
+    fmt, io,
+    path::{Path, PathBuf},
+};
+
+/// What went wrong with a file; its text is one line: `hair.tfx: points: ...`, `gust.toml:12: motion.time_step: ...`.
+#[derive(Debug)]
+pub struct Error {
+    /// The file, once known: parsers that see only bytes leave it to their callers.
+    pub file: Option<PathBuf>,
+    /// Line in a text file, counted from 1.
+    pub line: Option<usize>,
+    /// Thing, value and way out.
+    pub what: String,
+    source: Option<io::Error>,
+}
+
+/// What this crate's functions return.
+pub type Result<T, E = Error> = std::result::Result<T, E>;
+
+impl Error {
+    /// A refusal of content.
+    pub fn new(what: impl Into<String>) -> Self {
+        // Messages of other crates may span lines; ours never do.
+        let what = what.into().split_whitespace().collect::<Vec<_>>().join(" ");
+        Self { file: None, line: None, what, source: None }
+    }
+
+    /// Names the file, unless a deeper caller has done so.
+    pub fn in_file(mut self, file: &Path) -> Self {
+        self.file.get_or_insert_with(|| file.to_owned());
+        self
+    }
+
+    /// Names the line (from 1).
+    pub fn at_line(mut self, line: Option<usize>) -> Self {
+        self.line = line;
+        self
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(file) = &self.file {
+            write!(f, "{}:", file.display())?;
+            if let Some(line) = self.line {
+                write!(f, "{line}:")?;
+            }
+            write!(f, " ")?;
+        }
+        f.write_str(&self.what)
+    }
+}
+
+impl std::error::Error for Error {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        self.source.as_ref().map(|e| e as _)
+    }
+}
+
+impl From<io::Error> for Error {
+    fn from(source: io::Error) -> Self {
+        Self { source: Some(io::Error::from(source.kind())), ..Self::new(source.to_string()) }
+    }
+}
+
+impl From<nabiki::SettingError> for Error {
+    fn from(refused: nabiki::SettingError) -> Self {
+        Self::new(refused.to_string())
+    }
+}

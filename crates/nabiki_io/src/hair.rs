@@ -1,0 +1,157 @@
+//! Hair files of any format, told apart by their name's ending.
+
+use std::{fs, path::Path};
+
+use nabiki::{Hair, SettingError, error::check_range, hair::Degenerate};
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    atomic,
+    bytes::Bytes,
+    error::{Error, Result},
+    hair_file, obj_lines,
+    placement::Placement,
+    tfx,
+};
+
+/// The formats of still hair read here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Format {
+    /// Cem Yuksel's .hair.
+    #[serde(rename = "hair")]
+    Hair,
+    /// TressFX .tfx, version 3 or 4; written as 4.
+    #[serde(rename = "tfx")]
+    Tfx,
+    /// Polylines of a Wavefront .obj; read only.
+    #[serde(rename = "obj")]
+    ObjLines,
+}
+
+impl Format {
+    /// The format that a file's name stands for.
+    pub fn of(path: &Path) -> Result<Self> {
+        match extension(path).as_str() {
+            "hair" => Ok(Self::Hair),
+            "tfx" => Ok(Self::Tfx),
+            "obj" => Ok(Self::ObjLines),
+            other => {
+                Err(Error::new(format!("ending \"{other}\" is not a hair format: .hair, .tfx or .obj")).in_file(path))
+            }
+        }
+    }
+}
+
+/// A name's ending in lower case, without the dot.
+pub(crate) fn extension(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
+}
+
+/// What an import gave, before and after cleaning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct ImportReport {
+    /// Strands in the file.
+    pub strands_in_file: usize,
+    /// Points in the file.
+    pub points_in_file: usize,
+    /// Points joined and strands dropped because nothing was left of them.
+    pub degenerate: Degenerate,
+    /// Strands dropped because they are shorter than [`Cleaning::drop_shorter_than`].
+    pub dropped_short: usize,
+}
+
+/// What of imported hair is not worth moving.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Cleaning {
+    /// Neighbouring points of a strand this close are joined (cm, default 0.001).
+    pub join_within: f32,
+    /// Strands shorter than this are dropped (cm, default 0: none).
+    pub drop_shorter_than: f32,
+}
+
+impl Default for Cleaning {
+    fn default() -> Self {
+        Self { join_within: 0.001, drop_shorter_than: 0.0 }
+    }
+}
+
+impl Cleaning {
+    /// Refuses negative and infinite lengths.
+    pub fn check(&self) -> Result<(), SettingError> {
+        check_range("hair.join_within", self.join_within, 0.0, f32::MAX)?;
+        check_range("hair.drop_shorter_than", self.drop_shorter_than, 0.0, f32::MAX)
+    }
+}
+
+/// Reads a file as it is: its own unit and axes, every strand.
+pub fn read(path: &Path) -> Result<Hair> {
+    let named = |e: Error| e.in_file(path);
+    match Format::of(path)? {
+        Format::Hair => hair_file::from_source(&mut Bytes::open(path)?).map_err(named),
+        Format::Tfx => tfx::from_source(&mut Bytes::open(path)?).map_err(named),
+        Format::ObjLines => {
+            let bytes = fs::read(path).map_err(|e| Error::from(e).in_file(path))?;
+            obj_lines::from_bytes(&bytes).map_err(named)
+        }
+    }
+}
+
+/// Reads a file into head space, without its degenerate parts, which are counted.
+pub fn import(path: &Path, placement: &Placement, cleaning: &Cleaning) -> Result<(Hair, ImportReport)> {
+    let named = |e: Error| e.in_file(path);
+    placement.check("hair").map_err(|e| Error::from(e).in_file(path))?;
+    cleaning.check().map_err(|e| Error::from(e).in_file(path))?;
+    place_and_clean(read(path)?, placement, cleaning).map_err(named)
+}
+
+/// The same for hair already read, by this crate or another.
+pub fn place_and_clean(hair: Hair, placement: &Placement, cleaning: &Cleaning) -> Result<(Hair, ImportReport)> {
+    let (strands_in_file, points_in_file) = (hair.strands.len(), hair.strands.points().len());
+    let placed = hair.transformed(&placement.head_from_file());
+    if let Some(p) = placed.strands.points().iter().position(|p| !p.is_finite()) {
+        return Err(Error::new(format!("point {p} leaves the range of f32 when converted to cm: check hair.unit")));
+    }
+    let (mut hair, degenerate) = placed.without_degenerate(cleaning.join_within);
+    let long_enough: Vec<usize> = match cleaning.drop_shorter_than {
+        0.0 => (0..hair.strands.len()).collect(),
+        least => (0..hair.strands.len()).filter(|&s| length(hair.strands.strand(s)) >= least).collect(),
+    };
+    let dropped_short = hair.strands.len() - long_enough.len();
+    if dropped_short > 0 {
+        hair = hair.select(&long_enough);
+    }
+    if hair.strands.is_empty() {
+        return Err(Error::new(format!(
+            "none of {strands_in_file} strands is left: {} have no extent, {dropped_short} are shorter than {} cm; \
+             check hair.unit, hair.join_within and hair.drop_shorter_than",
+            degenerate.dropped_strands, cleaning.drop_shorter_than
+        )));
+    }
+    Ok((hair, ImportReport { strands_in_file, points_in_file, degenerate, dropped_short }))
+}
+
+/// Arc length of a strand (unit of its points).
+pub(crate) fn length(strand: &[glam::Vec3]) -> f32 {
+    strand.windows(2).map(|w| w[0].distance(w[1])).sum()
+}
+
+/// What the format of `path` cannot hold of `hair`, a phrase each.
+pub fn losses(path: &Path, hair: &Hair) -> Result<Vec<String>> {
+    match Format::of(path)? {
+        Format::Hair => Ok(hair_file::losses(hair)),
+        Format::Tfx => Ok(tfx::losses(hair)),
+        Format::ObjLines => Err(Error::new("hair is not written as .obj: write .hair or .tfx").in_file(path)),
+    }
+}
+
+/// Writes `hair` in the unit and axes it has, and says what the format could not hold. The file appears when whole.
+pub fn write(path: &Path, hair: &Hair) -> Result<Vec<String>> {
+    hair.check_lengths().map_err(|e| Error::new(e.to_string()).in_file(path))?;
+    let lost = losses(path, hair)?;
+    atomic::write(path, |out| match Format::of(path)? {
+        Format::Tfx => tfx::to_writer(hair, out),
+        _ => hair_file::to_writer(hair, "Written by Nabiki", out),
+    })?;
+    Ok(lost)
+}

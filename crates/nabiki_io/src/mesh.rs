@@ -1,0 +1,168 @@
+//! Triangle meshes of heads: .obj, .glb and .gltf, told apart by their name's ending.
+
+mod glb;
+mod obj;
+
+use std::{collections::HashMap, fs, path::Path};
+
+use nabiki::Mesh;
+use serde::Serialize;
+
+use crate::{
+    error::{Error, Result},
+    hair::extension,
+    names::nearest,
+    placement::Placement,
+};
+
+/// What a mesh import gave, before and after cleaning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct MeshReport {
+    /// Vertices of the chosen groups as the file has them.
+    pub vertices_in_file: usize,
+    /// Vertices joined because they share their place with another (seams of UVs and normals).
+    pub joined_vertices: usize,
+    /// Triangles dropped because two of their corners coincide.
+    pub dropped_triangles: usize,
+}
+
+/// Reads the triangles of a mesh file in its own unit and axes. `groups`: names of .obj groups or objects, or of
+/// glTF nodes or meshes, to keep; all when empty. Larger polygons become fans, node transforms are applied.
+pub fn read(path: &Path, groups: &[String]) -> Result<Mesh> {
+    let named = |e: Error| e.in_file(path);
+    let bytes = || fs::read(path).map_err(|e| Error::from(e).in_file(path));
+    match extension(path).as_str() {
+        "obj" => obj::from_bytes(&bytes()?, groups).map_err(named),
+        "glb" | "gltf" => glb::from_bytes(&bytes()?, path.parent(), groups).map_err(named),
+        other => Err(named(Error::new(format!("ending \"{other}\" is not a mesh format: .obj, .glb or .gltf")))),
+    }
+}
+
+/// The same from memory; `extension`: `obj`, `glb` or `gltf`. Buffers in files of their own are refused.
+pub fn from_bytes(bytes: &[u8], extension: &str, groups: &[String]) -> Result<Mesh> {
+    if extension == "obj" { obj::from_bytes(bytes, groups) } else { glb::from_bytes(bytes, None, groups) }
+}
+
+/// Reads a mesh into head space, joins vertices at the same place and drops triangles without area.
+pub fn import(path: &Path, placement: &Placement, groups: &[String]) -> Result<(Mesh, MeshReport)> {
+    placement.check("head").map_err(|e| Error::from(e).in_file(path))?;
+    place_and_weld(read(path, groups)?, placement).map_err(|e| e.in_file(path))
+}
+
+/// The same for a mesh already read, by this crate or another.
+pub fn place_and_weld(mesh: Mesh, placement: &Placement) -> Result<(Mesh, MeshReport)> {
+    let vertices_in_file = mesh.positions.len();
+    let triangles_in_file = mesh.triangles.len();
+    let mut welded = weld(mesh);
+    let head_from_file = placement.head_from_file();
+    for (v, p) in welded.positions.iter_mut().enumerate() {
+        *p = head_from_file.transform_point3(*p);
+        if !p.is_finite() {
+            return Err(Error::new(format!(
+                "vertex {v} leaves the range of f32 when converted to cm: check head.unit"
+            )));
+        }
+    }
+    let report = MeshReport {
+        vertices_in_file,
+        joined_vertices: vertices_in_file - welded.positions.len(),
+        dropped_triangles: triangles_in_file - welded.triangles.len(),
+    };
+    if welded.triangles.is_empty() {
+        return Err(Error::new("holds no triangle with an area"));
+    }
+    Ok((welded, report))
+}
+
+/// Joins vertices at the very same place (the first of them stays) and drops triangles with coinciding corners.
+fn weld(mesh: Mesh) -> Mesh {
+    let mut numbers: HashMap<[u32; 3], u32> = HashMap::with_capacity(mesh.positions.len());
+    let mut positions = Vec::new();
+    let number: Vec<u32> = mesh
+        .positions
+        .iter()
+        .map(|&p| {
+            // Adding 0 turns -0 into 0.
+            let place = (p + 0.0).to_array().map(f32::to_bits);
+            *numbers.entry(place).or_insert_with(|| {
+                positions.push(p);
+                positions.len() as u32 - 1
+            })
+        })
+        .collect();
+    let renumbered = mesh.triangles.iter().map(|t| t.map(|v| number[v as usize]));
+    let triangles = renumbered.filter(|[a, b, c]| a != b && b != c && c != a).collect();
+    Mesh { positions, triangles }
+}
+
+/// Refuses what cannot be a mesh: NaN, infinities, no triangle. The readers have checked the indices.
+fn check(mesh: Mesh) -> Result<Mesh> {
+    if let Some(v) = mesh.positions.iter().position(|p| !p.is_finite()) {
+        let p = mesh.positions[v];
+        let place = format!("({}, {}, {})", p.x, p.y, p.z);
+        return Err(Error::new(format!("vertex {v}: {place} is not a place: coordinates must be finite")));
+    }
+    if mesh.triangles.is_empty() {
+        return Err(Error::new("holds no triangles"));
+    }
+    Ok(mesh)
+}
+
+/// Refuses a wanted group that the file has not.
+fn check_groups(wanted: &[String], known: &[&str]) -> Result<()> {
+    for group in wanted {
+        if !known.contains(&group.as_str()) {
+            let hint = match nearest(group, known.iter().copied()) {
+                Some(near) => format!("did you mean \"{near}\"?"),
+                None => match known {
+                    [] => "it has no named groups".to_owned(),
+                    [first, ..] => format!("it has {} groups, the first \"{first}\"", known.len()),
+                },
+            };
+            return Err(Error::new(format!("group \"{group}\" is not in the file; {hint}")));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TWO_GROUPS: &str = "\
+        v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n\
+        g body\nf 1 2 3 4\ng helper\nf 1 2 5\n";
+
+    #[test]
+    fn quads_become_triangles_and_groups_are_chosen() {
+        let all = from_bytes(TWO_GROUPS.as_bytes(), "obj", &[]).unwrap();
+        assert_eq!(all.triangles.len(), 3);
+        let body = from_bytes(TWO_GROUPS.as_bytes(), "obj", &["body".to_owned()]).unwrap();
+        assert_eq!(body.triangles.len(), 2);
+        assert_eq!(body.positions.len(), 4, "vertices of other groups are not carried along");
+    }
+
+    #[test]
+    fn an_unknown_group_is_refused_with_the_nearest() {
+        let error = from_bytes(TWO_GROUPS.as_bytes(), "obj", &["bdoy".to_owned()]).unwrap_err();
+        assert_eq!(error.to_string(), "group \"bdoy\" is not in the file; did you mean \"body\"?");
+    }
+
+    #[test]
+    fn seams_are_joined_and_slivers_dropped_and_both_counted() {
+        let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\nf 4 6 5\nf 1 4 2\n";
+        let mesh = from_bytes(text.as_bytes(), "obj", &[]).unwrap();
+        let (mesh, report) = place_and_weld(mesh, &Placement::default()).unwrap();
+        assert_eq!(report, MeshReport { vertices_in_file: 6, joined_vertices: 2, dropped_triangles: 1 });
+        assert_eq!((mesh.positions.len(), mesh.triangles.len()), (4, 2));
+    }
+
+    #[test]
+    fn what_cannot_be_a_mesh_is_refused() {
+        let refused = |text: &str| from_bytes(text.as_bytes(), "obj", &[]).unwrap_err().to_string();
+        assert_eq!(refused("v 0 0 0\n"), "holds no triangles");
+        let nan = refused("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
+        assert_eq!(nan, "vertex 2: (0, NaN, 0) is not a place: coordinates must be finite");
+        assert!(refused("v 0 0 0\nf 1 2 3\n").starts_with("is not a readable .obj"));
+    }
+}

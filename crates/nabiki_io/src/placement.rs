@@ -1,0 +1,231 @@
+//! Where a file's coordinates lie in head space: unit, up axis, facing and origin, applied once, at the door.
+
+use std::{fmt, str::FromStr};
+
+use glam::{Affine3A, Mat3, Vec3};
+use nabiki::SettingError;
+use serde::{Deserialize, Serialize};
+
+/// A signed coordinate axis: `"x"`, `"+y"`, `"-z"`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct Axis {
+    /// 0, 1, 2 for x, y, z.
+    pub index: usize,
+    /// Whether it points the other way.
+    pub negative: bool,
+}
+
+impl Axis {
+    /// +x.
+    pub const X: Self = Self { index: 0, negative: false };
+    /// +y.
+    pub const Y: Self = Self { index: 1, negative: false };
+    /// +z.
+    pub const Z: Self = Self { index: 2, negative: false };
+
+    /// The unit vector along it.
+    pub fn vector(self) -> Vec3 {
+        Vec3::AXES[self.index] * if self.negative { -1.0 } else { 1.0 }
+    }
+}
+
+impl fmt::Display for Axis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{}", if self.negative { '-' } else { '+' }, ['x', 'y', 'z'][self.index])
+    }
+}
+
+impl FromStr for Axis {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (negative, name) = match text.strip_prefix('-') {
+            Some(name) => (true, name),
+            None => (false, text.strip_prefix('+').unwrap_or(text)),
+        };
+        match ["x", "y", "z"].iter().position(|&axis| axis.eq_ignore_ascii_case(name)) {
+            Some(index) => Ok(Self { index, negative }),
+            None => Err(format!("\"{text}\" is not an axis: write \"+x\", \"-x\", \"+y\", \"-y\", \"+z\" or \"-z\"")),
+        }
+    }
+}
+
+impl TryFrom<String> for Axis {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl From<Axis> for String {
+    fn from(axis: Axis) -> Self {
+        axis.to_string()
+    }
+}
+
+/// A file's length unit: a name, `"mm"`, `"cm"`, `"dm"`, `"m"`, `"in"`, `"ft"`, or the number of centimetres in it.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(try_from = "UnitText", into = "f32")]
+pub struct Unit {
+    /// Centimetres in one file unit.
+    pub cm: f32,
+}
+
+impl Default for Unit {
+    fn default() -> Self {
+        Self { cm: 1.0 }
+    }
+}
+
+impl From<Unit> for f32 {
+    fn from(unit: Unit) -> Self {
+        unit.cm
+    }
+}
+
+/// A unit as a scene spells it.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "a unit: \"mm\", \"cm\", \"dm\", \"m\", \"in\", \"ft\" or a number of centimetres")]
+enum UnitText {
+    Cm(f32),
+    Name(String),
+}
+
+impl TryFrom<UnitText> for Unit {
+    type Error = String;
+
+    fn try_from(text: UnitText) -> Result<Self, String> {
+        match text {
+            UnitText::Cm(cm) => Ok(Self { cm }),
+            UnitText::Name(name) => name.parse(),
+        }
+    }
+}
+
+impl FromStr for Unit {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        let cm = match name {
+            "mm" => 0.1,
+            "cm" => 1.0,
+            "dm" => 10.0,
+            "m" => 100.0,
+            "in" => 2.54,
+            "ft" => 30.48,
+            _ => match name.parse() {
+                Ok(cm) => cm,
+                Err(_) => {
+                    return Err(format!(
+                        "\"{name}\" is not a unit: write \"mm\", \"cm\", \"dm\", \"m\", \"in\", \"ft\" or a number of centimetres"
+                    ));
+                }
+            },
+        };
+        Ok(Self { cm })
+    }
+}
+
+/// How a file's coordinates turn into head space (cm, y up, face +x).
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Placement {
+    /// Length of one file unit (default: 1 cm).
+    pub unit: Unit,
+    /// Axis of the file that points up (default: +y).
+    pub up: Axis,
+    /// Axis of the file along which the face looks (default: +x).
+    pub facing: Axis,
+    /// Point of the file that becomes the origin of head space (file units, default: 0, 0, 0).
+    pub origin: Vec3,
+}
+
+impl Default for Placement {
+    fn default() -> Self {
+        Self { unit: Unit::default(), up: Axis::Y, facing: Axis::X, origin: Vec3::ZERO }
+    }
+}
+
+impl Placement {
+    /// Refuses units that are not above 0, equal or opposite axes, and origins that are no place.
+    /// `table`: the scene table that holds it, `head`.
+    pub fn check(&self, table: &str) -> Result<(), SettingError> {
+        nabiki::error::check_positive(&format!("{table}.unit"), self.unit.cm)?;
+        if self.up.index == self.facing.index {
+            let remedy = format!("must be another axis than {table}.up, which is \"{}\"", self.up);
+            return Err(SettingError::new(format!("{table}.facing"), format!("\"{}\"", self.facing), remedy));
+        }
+        if !self.origin.is_finite() {
+            return Err(SettingError::new(format!("{table}.origin"), self.origin, "must be finite"));
+        }
+        Ok(())
+    }
+
+    /// Rotation whose rows are the head's axes in the file: facing, up, right hand.
+    fn head_from_file_rotation(&self) -> Mat3 {
+        let (facing, up) = (self.facing.vector(), self.up.vector());
+        Mat3::from_cols(facing, up, facing.cross(up)).transpose()
+    }
+
+    /// Maps the file's points into head space (cm).
+    pub fn head_from_file(&self) -> Affine3A {
+        let matrix = self.head_from_file_rotation() * self.unit.cm;
+        Affine3A { matrix3: matrix.into(), translation: (matrix * -self.origin).into() }
+    }
+
+    /// Maps head space back into the file's.
+    pub fn file_from_head(&self) -> Affine3A {
+        let matrix = self.head_from_file_rotation().transpose() * self.unit.cm.recip();
+        Affine3A { matrix3: matrix.into(), translation: self.origin.into() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn facing_z_in_metres() -> Placement {
+        Placement { unit: Unit { cm: 100.0 }, up: Axis::Y, facing: Axis::Z, origin: Vec3::new(0.0, 1.5, 0.0) }
+    }
+
+    #[test]
+    fn the_file_s_facing_up_and_right_become_x_y_and_z() {
+        let head_from_file = facing_z_in_metres().head_from_file();
+        assert_eq!(head_from_file.transform_point3(Vec3::new(0.0, 1.5, 0.25)), Vec3::new(25.0, 0.0, 0.0));
+        assert_eq!(head_from_file.transform_point3(Vec3::new(0.0, 1.75, 0.0)), Vec3::new(0.0, 25.0, 0.0));
+        // Facing +z with y up, the right hand is at -x.
+        assert_eq!(head_from_file.transform_point3(Vec3::new(-0.25, 1.5, 0.0)), Vec3::new(0.0, 0.0, 25.0));
+    }
+
+    #[test]
+    fn every_placement_is_a_rotation_and_comes_back() {
+        let axes = ["+x", "-x", "+y", "-y", "+z", "-z"].map(|a| a.parse::<Axis>().unwrap());
+        for up in axes {
+            for facing in axes.into_iter().filter(|a| a.index != up.index) {
+                let placement = Placement { up, facing, unit: Unit { cm: 4.0 }, origin: Vec3::new(1.0, -2.0, 3.0) };
+                assert_eq!(placement.check("head"), Ok(()));
+                assert_eq!(placement.head_from_file().matrix3.determinant(), 64.0);
+                let there_and_back = placement.file_from_head() * placement.head_from_file();
+                assert_eq!(there_and_back, Affine3A::IDENTITY, "up {up}, facing {facing}: all products are exact");
+            }
+        }
+    }
+
+    #[test]
+    fn nonsense_is_refused_by_name() {
+        let refused = |placement: Placement| placement.check("hair").unwrap_err().to_string();
+        let good = facing_z_in_metres();
+        assert_eq!(
+            refused(Placement { facing: Axis { negative: true, ..Axis::Y }, ..good }),
+            "hair.facing = \"-y\": must be another axis than hair.up, which is \"+y\""
+        );
+        assert_eq!(
+            refused(Placement { unit: Unit { cm: 0.0 }, ..good }),
+            "hair.unit = 0: must be a finite number above 0"
+        );
+        assert!("w".parse::<Axis>().unwrap_err().contains("is not an axis"));
+        assert!("mile".parse::<Unit>().unwrap_err().contains("is not a unit"));
+    }
+}

@@ -1,0 +1,110 @@
+//! Real hair and heads of `../shared/data`, against the counts its README states. Skipped, and said so, without it.
+
+use std::path::{Path, PathBuf};
+
+use nabiki_io::{hair, mesh, placement::Placement};
+
+/// The path of a shared file; prints why the test is skipped where there is none.
+fn shared(name: &str) -> Option<PathBuf> {
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")).join(name);
+    if !path.exists() {
+        eprintln!("SKIPPED: {} is absent, the shared data are not part of the project", path.display());
+        return None;
+    }
+    Some(path)
+}
+
+fn read(name: &str) -> Option<nabiki::Hair> {
+    shared(name).map(|path| hair::read(&path).unwrap())
+}
+
+#[test]
+fn sintel_has_11400_strands_of_16_points_in_both_formats() {
+    let (Some(tfx), Some(hair)) = (read("hair/sintel_hair_16pts.tfx"), read("hair/sintel_hair_16pts.hair")) else {
+        return;
+    };
+    assert_eq!((tfx.strands.len(), tfx.strands.points().len()), (11_400, 182_400));
+    assert!(tfx.strands.iter().all(|s| s.len() == 16));
+    assert_eq!(tfx.strands, hair.strands, "positions unchanged");
+    assert_eq!(hair.attributes.constant.width, Some(7e-5));
+    let freedom = tfx.attributes.freedom.unwrap();
+    assert!(freedom.iter().enumerate().all(|(p, &w)| w == if p % 16 == 0 { 0.0 } else { 1.0 }), "roots are held");
+}
+
+#[test]
+fn ratboy_s_short_segments_are_joined_and_counted_as_the_readme_did() {
+    let (Some(path), Some(expected)) = (shared("hair/ratboy_mohawk.tfx"), read("hair/ratboy_mohawk_varseg.hair"))
+    else {
+        return;
+    };
+    let raw = hair::read(&path).unwrap();
+    assert_eq!((raw.strands.len(), raw.strands.points().len()), (2_228, 71_296));
+    assert_eq!(raw.attributes.root_uv.as_ref().unwrap().len(), 2_228);
+    assert_eq!((expected.strands.len(), expected.strands.points().len()), (2_219, 67_089));
+    let segments: Vec<usize> = expected.strands.iter().map(|s| s.len() - 1).collect();
+    assert_eq!((segments.iter().min(), segments.iter().max()), (Some(&1), Some(&31)));
+
+    let cleaning = hair::Cleaning { join_within: 1e-3, drop_shorter_than: 0.0 };
+    let (cleaned, report) = hair::import(&path, &Placement::default(), &cleaning).unwrap();
+    assert_eq!((report.strands_in_file, report.points_in_file), (2_228, 71_296));
+    assert_eq!(report.degenerate.dropped_strands, 9);
+    assert_eq!(cleaned.strands.len(), 2_219);
+    assert_eq!(cleaned.strands.points().len(), 67_089);
+    assert_eq!(cleaned.attributes.root_uv.unwrap().len(), 2_219);
+}
+
+#[test]
+fn the_curly_swatch_is_the_same_as_lines_and_as_hair() {
+    let (Some(obj), Some(hair)) = (read("hair/curly_swatch_frame00.obj"), read("hair/curly_swatch_frame00.hair"))
+    else {
+        return;
+    };
+    assert_eq!((obj.strands.len(), obj.strands.points().len()), (98, 10_589));
+    assert_eq!(obj.strands, hair.strands);
+    let hanging = read("hair/curly_swatch_frame70.obj").unwrap();
+    assert_eq!(hanging.strands.starts(), obj.strands.starts());
+}
+
+#[test]
+fn every_hair_file_written_back_reads_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["sintel_hair_16pts.tfx", "sintel_hair_16pts.hair", "ratboy_mohawk.tfx", "ratboy_mohawk_varseg.hair"] {
+        let Some(original) = read(&format!("hair/{name}")) else { return };
+        let copy = folder.path().join(name);
+        hair::write(&copy, &original).unwrap();
+        assert_eq!(hair::read(&copy).unwrap(), original, "{name}");
+    }
+}
+
+#[test]
+fn every_head_has_the_counts_and_the_box_of_the_readme() {
+    let none: &[String] = &[];
+    let body: &[String] = &["body".to_owned()];
+    // Vertices and triangles as the file has them, and the upper corner of the box (file units).
+    let heads = [
+        ("sintel_bust.obj", none, 3_046, 5_952, [0.1974, 1.6552, 0.1188]),
+        ("sintel_eyes.obj", none, 708, 1_408, [f32::NAN; 3]),
+        ("sintel_collider.obj", none, 341, 678, [0.0822, 1.6520, 0.1254]),
+        ("lps_head.obj", none, 9_223, 17_684, [4.276, 3.974, 2.590]),
+        ("makehuman_base.obj", body, 13_380, 26_756, [f32::NAN; 3]),
+        ("suzanne.glb", none, 8_098, 15_744, [0.930, 0.668, 0.576]),
+    ];
+    for (name, groups, vertices, triangles, upper) in heads {
+        let Some(path) = shared(&format!("heads/{name}")) else { return };
+        let head = mesh::read(&path, groups).unwrap();
+        assert_eq!((head.positions.len(), head.triangles.len()), (vertices, triangles), "{name}");
+        let max = head.positions.iter().copied().reduce(glam::Vec3::max).unwrap().to_array();
+        for (found, stated) in max.into_iter().zip(upper) {
+            assert!(stated.is_nan() || (found - stated).abs() <= 0.5e-3 * stated.max(1.0), "{name}: {found} {stated}");
+        }
+    }
+}
+
+#[test]
+fn seams_of_the_scanned_head_close_when_it_is_imported() {
+    let Some(path) = shared("heads/lps_head.obj") else { return };
+    let (head, report) = mesh::import(&path, &Placement::default(), &[]).unwrap();
+    assert_eq!((head.positions.len(), report.joined_vertices), (8_839, 9_223 - 8_839));
+    // Quantisation left 6 triangles with two corners at one place.
+    assert_eq!((head.triangles.len(), report.dropped_triangles), (17_678, 6));
+}
