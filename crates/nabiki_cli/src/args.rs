@@ -1,0 +1,182 @@
+//! What may be written after `nabiki`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Hair in the wind: groom it, blow on it, draw it.
+#[derive(Parser)]
+#[command(name = "nabiki", version, arg_required_else_help = true, after_help = "\
+Start with:
+  nabiki preview scenes/gust.toml                     300 strands: what will the wind do?
+  nabiki preview scenes/gust.toml --set force.1.vector=[-15,-300,0]
+  nabiki run scenes/gust.toml                         the whole movie
+
+A scene is a TOML file: head, hair, motion, pseudo_force, force, picture, output. The files in scenes/ are
+commented. Exit codes: 0 done, 1 refused or failed (one line says why), 2 the command line makes no sense.")]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+
+    /// No progress bars and no report, only errors
+    #[arg(long, short, global = true)]
+    pub quiet: bool,
+
+    /// Threads to work with (default: all cores); the result is the same with any
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+}
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// Groom, simulate and draw a scene: a movie and a contact sheet
+    Run(Run),
+    /// The same at once, with a few strands that move exactly as they will in the whole
+    ///
+    /// Before any step it prints how many frames a swing takes at the root, the middle and the tip of a strand under
+    /// each force of the field. That is how to choose a force by thinking: T = 2 pi / acos(1 - c |F| / 2) frames, about
+    /// 2 pi / sqrt(c |F|); four times the force halves the time.
+    Preview(Preview),
+    /// Grow or import the hair of a scene and write it at rest, as a .hair or .tfx file
+    Groom(Groom),
+    /// Move the hair of a scene and write every frame into a motion cache
+    Simulate(Simulate),
+    /// Draw a scene, moved by its own simulation or by a motion cache
+    Render(Render),
+    /// Turn a hair file, or a frame of a motion cache, into another format
+    Convert(Convert),
+    /// Say what is in a scene, hair file, motion cache or mesh
+    Info(Info),
+}
+
+/// A scene, and changes to it for a quick try.
+#[derive(Args)]
+pub struct SceneArgs {
+    /// The scene (TOML)
+    pub scene: PathBuf,
+
+    /// Frames to simulate, in place of motion.frames
+    #[arg(long, value_name = "N")]
+    pub frames: Option<u32>,
+
+    /// Any setting of the scene in TOML, as often as wanted: motion.time_step=0.05, force.0.vector=[0,-100,0]
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub sets: Vec<String>,
+}
+
+#[derive(Args)]
+pub struct Run {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+
+    /// Strands to grow, in place of hair.strands; of imported hair, an even choice of so many
+    #[arg(long, value_name = "N")]
+    pub strands: Option<usize>,
+
+    /// Folder for all that is written
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+}
+
+#[derive(Args)]
+pub struct Preview {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+
+    /// Strands to show, chosen evenly over the scalp from all of the scene's
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = positive)]
+    pub strands: usize,
+
+    /// Folder for all that is written
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+}
+
+#[derive(Args)]
+pub struct Groom {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+
+    /// Strands to grow, in place of hair.strands; of imported hair, an even choice of so many
+    #[arg(long, value_name = "N")]
+    pub strands: Option<usize>,
+
+    /// The hair file to write: .hair or .tfx
+    #[arg(long, short, value_name = "FILE")]
+    pub output: PathBuf,
+}
+
+#[derive(Args)]
+pub struct Simulate {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+
+    /// Strands to grow, in place of hair.strands; of imported hair, an even choice of so many
+    #[arg(long, value_name = "N")]
+    pub strands: Option<usize>,
+
+    /// The motion cache to write
+    #[arg(long, short, value_name = "FILE")]
+    pub output: PathBuf,
+
+    /// Which of the twins steps
+    #[arg(long, value_enum, default_value_t = StepperName::Fast)]
+    pub stepper: StepperName,
+}
+
+/// The twins.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum StepperName {
+    /// f32, sixteen strands at a time, all cores
+    Fast,
+    /// The specification: one segment at a time in f64
+    F64,
+}
+
+#[derive(Args)]
+pub struct Render {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+
+    /// The motion cache to draw, written from the same scene by `simulate`; without it the scene is simulated
+    #[arg(long, value_name = "FILE")]
+    pub motion: Option<PathBuf>,
+
+    /// Draw this frame only, as a PNG
+    #[arg(long, value_name = "N")]
+    pub frame: Option<u32>,
+
+    /// Folder for all that is written
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+}
+
+#[derive(Args)]
+pub struct Convert {
+    /// A hair file (.hair, .tfx, .obj) or a motion cache (.nabiki)
+    pub input: PathBuf,
+
+    /// The file to write: .hair or .tfx
+    pub output: PathBuf,
+
+    /// Frame to take out of a motion cache
+    #[arg(long, value_name = "N")]
+    pub frame: Option<u32>,
+}
+
+#[derive(Args)]
+pub struct Info {
+    /// A scene, hair file, motion cache or mesh
+    pub file: PathBuf,
+
+    /// Write JSON, for programs to read
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn positive(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(n) if n > 0 => Ok(n),
+        _ => Err("must be a whole number of at least 1".into()),
+    }
+}
