@@ -3,7 +3,8 @@
 //! Each size is measured in turn with two rooflines of the same machine and run: a loop that only reads and writes
 //! the bytes of the step (states read and written, points written), and a loop that only takes its sines and
 //! cosines. All three use the same threads and blocks. The figures are medians over the rounds, in ns a segment and
-//! frame.
+//! frame. The last size has strands of 10 to 20 segments of all lengths, side by side: blocks that are filled up, with
+//! lengths and gains of their own in each lane.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -23,10 +24,13 @@ fn main() {
         "{:>10} {:>9} {:>12} {:>12} {:>12} {:>7}",
         "strands", "segments", "step", "bytes only", "sines only", "ratio"
     );
-    for (strands, segments, frames) in [(300, 20, 1000), (20_000, 20, 20), (200_000, 20, 4)] {
-        let mut simulation = Simulation::new(&hair(strands, segments), &gust()).expect("settings in range");
+    for (strands, segments, frames, mixed) in
+        [(300, 20, 1000, false), (20_000, 20, 20, false), (200_000, 20, 4, false), (20_000, 20, 20, true)]
+    {
+        let hair = hair(strands, segments, mixed);
+        let mut simulation = Simulation::new(&hair, &gust()).expect("settings in range");
         let mut bytes = Bytes::new(strands, segments);
-        let per_segment = 1e9 / (strands * segments * frames) as f64;
+        let per_segment = 1e9 / (hair.segment_count() * frames) as f64;
         let mut times = [const { Vec::new() }; 3];
         for _ in 0..ROUNDS {
             times[0].push(time(frames, || simulation.step_frame_under(Vec3::new(-100.0, 0.0, 0.0))));
@@ -35,6 +39,7 @@ fn main() {
         }
         let [step, bytes, sines] = times.map(|t| median(t) * per_segment);
         let ratio = step / bytes.max(sines);
+        let segments = if mixed { "10 to 20".to_owned() } else { segments.to_string() };
         println!("{strands:>10} {segments:>9} {step:>9.2} ns {bytes:>9.2} ns {sines:>9.2} ns {ratio:>7.2}");
     }
 }
@@ -65,15 +70,16 @@ fn gust() -> Dynamics {
     }
 }
 
-/// Arcs from an ellipsoid over a spiral of roots.
-fn hair(strands: usize, segments: usize) -> Strands {
+/// Arcs from an ellipsoid over a spiral of roots; `mixed`: of half to all of the segments.
+fn hair(strands: usize, segments: usize, mixed: bool) -> Strands {
     let mut hair = Strands::with_capacity(strands, strands * (segments + 1));
     for s in 0..strands {
         let y = 1.0 - (s as f32 + 0.5) / strands as f32;
         let azimuth = s as f32 * 2.399_963;
         let out = Vec3::new((1.0 - y * y).sqrt() * azimuth.sin(), y, (1.0 - y * y).sqrt() * azimuth.cos());
         let mut p = out * Vec3::new(9.5, 11.0, 8.0);
-        let points = (0..=segments).map(|i| {
+        let cut = if mixed { s * 7 % (segments / 2 + 1) } else { 0 };
+        let points = (0..=segments - cut).map(|i| {
             let point = p;
             p += (out + Vec3::NEG_Y * (0.2 * i as f32)).normalize();
             point
