@@ -1,0 +1,167 @@
+//! What a style asks of one strand: from its pore to the direction, length, stiffness and loads it starts with.
+
+use glam::{DVec3, IVec3, Vec3};
+
+use super::chance::Chance;
+use super::style::{Region, Style};
+use crate::pores::Pore;
+use crate::{Ellipsoid, Head};
+
+/// Channels of chance, one use each.
+mod channel {
+    pub const LENGTH: u64 = 0;
+    pub const STRAY: u64 = 1;
+    pub const DEPTH: u64 = 2;
+    pub const PHASE: u64 = 3;
+    pub const SIDE: u64 = 4;
+    pub const STIFFNESS: u64 = 5;
+    pub const CUT: u64 = 6;
+    pub const ROOT: u64 = 7;
+    pub const TILT: u64 = 8;
+    pub const WOBBLE: u64 = 9;
+}
+
+/// One strand's share of the style (head space, cm; loads in units of its own weight).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Course {
+    /// The pore.
+    pub root: DVec3,
+    /// Direction of the hair at the pore (unit vector).
+    pub clamp: DVec3,
+    /// (E I / w)^(1/3) (cm).
+    pub bend: f64,
+    /// Length before any cut (cm).
+    pub length: f64,
+    /// Load along all of the strand: the weight, tilted.
+    pub weight: DVec3,
+    /// Load at the root, and the length over which it falls to 1/e (cm).
+    pub comb: DVec3,
+    /// See `comb`.
+    pub comb_decay: f64,
+    /// Share of the layer's thickness that this strand reaches, 0..1.
+    pub depth: f64,
+    /// Slope of the strand's waves, across them.
+    pub wave: DVec3,
+    /// Phase of the waves at the root (rad).
+    pub wave_phase: f64,
+    /// Where the strand is rooted.
+    pub region: Region,
+    /// How far beyond its plane a cut is made (cm).
+    pub cut_offset: f64,
+}
+
+impl Course {
+    /// The load per unit length at arc length `s` (cm).
+    pub(super) fn load(&self, s: f64) -> DVec3 {
+        self.weight + self.comb * (-s / self.comb_decay).exp()
+    }
+}
+
+/// Shares of top, sides, back and fringe at a root.
+fn shares(ellipsoid: &Ellipsoid, style: &Style, root: Vec3) -> [f32; 4] {
+    let u = (root - ellipsoid.center) / ellipsoid.half_axes;
+    if style.fringe.half_width > 0.0 && root.z.abs() < style.fringe.half_width && root.x > style.fringe.from {
+        return [0.0, 0.0, 0.0, 1.0];
+    }
+    let smooth = |t: f32| {
+        let t = t.clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
+    };
+    let top = smooth((u.y - 0.45) / 0.3);
+    let back = smooth((0.1 - u.x) / 0.4);
+    [top, (1.0 - top) * (1.0 - back), (1.0 - top) * back, 0.0]
+}
+
+fn mean(values: [(&'static str, f32); 4], shares: [f32; 4]) -> f64 {
+    values.iter().zip(shares).map(|(&(_, value), share)| f64::from(value * share)).sum()
+}
+
+/// Middle of the lock that a root belongs to, and the lock's own chance: the nearest of the points scattered one to a
+/// cell through a grid.
+fn lock_of(root: Vec3, size: f32, seed: u64) -> (Vec3, Chance) {
+    let home = (root / size).floor().as_ivec3();
+    let mut nearest = (f32::INFINITY, root, Chance::at_cell(seed, home));
+    for n in 0..27 {
+        let cell = home + IVec3::new(n % 3, n / 3 % 3, n / 9) - 1;
+        let chance = Chance::at_cell(seed, cell);
+        let inside = DVec3::new(chance.unit(100), chance.unit(101), chance.unit(102)).as_vec3();
+        let middle = (cell.as_vec3() + inside) * size;
+        let far = middle.distance_squared(root);
+        if far < nearest.0 {
+            nearest = (far, middle, chance);
+        }
+    }
+    (nearest.1, nearest.2)
+}
+
+/// The direction, level, in which hair is combed at `root`: away from the nearest point of the parting.
+fn away_from_parting(style: &Style, root: DVec3, strand: Chance, lock: Chance) -> DVec3 {
+    let parting = &style.parting;
+    let x = root.x.clamp(f64::from(parting.crown), f64::from(parting.front));
+    let z = f64::from(parting.z) + f64::from(parting.wobble) * lock.bell(channel::WOBBLE);
+    let away = DVec3::new(root.x - x, 0.0, root.z - z);
+    let side = if strand.unit(channel::SIDE) < 0.5 { DVec3::Z } else { DVec3::NEG_Z };
+    away.try_normalize().unwrap_or(side)
+}
+
+/// Draws up the course of the strand at `pore`.
+pub(super) fn course(head: &Head, style: &Style, pore: &Pore, seed: u64) -> Course {
+    let root = pore.position.as_dvec3();
+    let normal = pore.normal.as_dvec3();
+    let strand = Chance::at_point(seed, pore.position);
+    let (lock_middle, lock) = lock_of(pore.position, style.locks.size, seed);
+    let shares = shares(&head.ellipsoid, style, pore.position);
+    let region = if shares[3] > 0.0 {
+        Region::Fringe
+    } else if shares[0] >= 0.5 {
+        Region::Top
+    } else if shares[1] > shares[2] {
+        Region::Sides
+    } else {
+        Region::Back
+    };
+
+    let comb = if region == Region::Fringe {
+        DVec3::new(f64::from(style.fringe.forward), 0.0, f64::from(style.fringe.aside))
+    } else {
+        let away = away_from_parting(style, root, strand, lock);
+        away * f64::from(style.comb.away) + style.comb.sweep.as_dvec3()
+    };
+    let variation = &style.variation;
+    let stray = if strand.unit(channel::STRAY) < f64::from(variation.strays) { 4.0 } else { 1.0 };
+    let own = f64::from(variation.direction_degrees).to_radians() * stray;
+    let shared = f64::from(style.locks.direction_degrees).to_radians();
+
+    // Along the scalp: as combed on top, where that says little (on the sides) as the hair falls.
+    let wanted = comb + DVec3::NEG_Y * (1.0 + comb.length());
+    let along = wanted - normal * wanted.dot(normal);
+    let along = along.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
+    let lift = mean(style.lift_degrees.each(), shares).to_radians();
+    let clamp = along * lift.cos() + normal * lift.sin();
+    let clamp = (clamp + strand.vector(channel::ROOT) * own + lock.vector(channel::ROOT) * shared).normalize();
+    // Chance must not lead a root into the skin.
+    let clamp = (clamp + normal * (0.05 - clamp.dot(normal)).max(0.0)).normalize();
+
+    let length = mean(style.length.each(), shares) * (1.0 - f64::from(variation.length) * strand.unit(channel::LENGTH));
+    let level = |v: DVec3| DVec3::new(v.x, 0.0, v.z);
+    let gather = level((lock_middle - pore.position).as_dvec3()) * (f64::from(style.locks.gather) / length);
+    let tilt = level(strand.vector(channel::TILT) * (0.5 * own) + lock.vector(channel::TILT) * shared) + gather;
+
+    let wave_slope = std::f64::consts::TAU * f64::from(style.locks.wave) / f64::from(style.locks.wave_length);
+    let across = lock.vector(channel::PHASE).try_normalize().unwrap_or(DVec3::Z);
+    Course {
+        root,
+        clamp,
+        bend: mean(style.stiffness.each(), shares)
+            * (1.0 + f64::from(variation.stiffness) * strand.bell(channel::STIFFNESS)),
+        length,
+        weight: DVec3::NEG_Y + tilt,
+        comb,
+        comb_decay: f64::from(style.comb.decay),
+        depth: strand.unit(channel::DEPTH),
+        wave: across * wave_slope * (0.8 + 0.4 * strand.unit(channel::PHASE)),
+        wave_phase: std::f64::consts::TAU * lock.unit(channel::PHASE) + 0.5 * strand.bell(channel::PHASE),
+        region,
+        cut_offset: f64::from(variation.cut) * strand.bell(channel::CUT),
+    }
+}

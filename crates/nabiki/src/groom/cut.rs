@@ -1,0 +1,57 @@
+//! Cutting: the length at which a strand ends on a plane.
+
+use glam::DVec3;
+
+use super::course::Course;
+use super::drape::{Draping, Ground};
+use super::style::Cut;
+
+/// A strand is cut anew this many times at most, since what is left, being lighter, hangs differently.
+const TRIMS: usize = 6;
+/// Distance of the tip from the plane that is near enough (cm).
+const NEAR: f64 = 0.01;
+
+/// How far `p` lies beyond the plane, on the side that is cut off (cm).
+fn beyond(cut: &Cut, course: &Course, p: DVec3) -> f64 {
+    (p - cut.point.as_dvec3()).dot(cut.normal.as_dvec3().normalize()) - course.cut_offset
+}
+
+/// Arc length at which the nodes first pass the plane.
+fn crossing(cut: &Cut, course: &Course, nodes: &[DVec3]) -> Option<f64> {
+    let mut s = 0.0;
+    for pair in nodes.windows(2) {
+        let (a, b) = (beyond(cut, course, pair[0]), beyond(cut, course, pair[1]));
+        let d = pair[0].distance(pair[1]);
+        if a > 0.0 {
+            return Some(s);
+        }
+        if b > 0.0 {
+            return Some(s + d * a / (a - b));
+        }
+        s += d;
+    }
+    None
+}
+
+/// Drapes a strand, cutting it wherever a plane that concerns it says so.
+pub(super) fn drape_and_cut(ground: &Ground<'_>, cuts: &[Cut], course: &Course, draping: &mut Draping) {
+    let mut length = course.length;
+    ground.drape(course, length, draping);
+    for cut in cuts.iter().filter(|cut| cut.region.is_none_or(|region| region == course.region)) {
+        let shortest = f64::from(cut.shortest).min(length);
+        let longest = length;
+        let Some(at) = crossing(cut, course, &draping.nodes) else { continue };
+        length = at.max(shortest);
+        for _ in 0..TRIMS {
+            ground.drape(course, length, draping);
+            let [.., before, tip] = draping.nodes[..] else { break };
+            let left = beyond(cut, course, tip);
+            if left.abs() < NEAR || (left > 0.0 && length <= shortest) {
+                break;
+            }
+            // Per cm of hair the tip moves on by about the last segment's direction.
+            let rate = (left - beyond(cut, course, before)) / before.distance(tip);
+            length = (length - left / rate.max(0.3)).clamp(shortest, longest);
+        }
+    }
+}
