@@ -1,1 +1,41 @@
-//! Placeholder.
+//! A hair renderer for the CPU: strands and a head become pictures, movies and contact sheets.
+//!
+//! ```
+//! use nabiki_render::{Bounds, Developer, Picture, Renderer, View};
+//! # use nabiki::{Mesh, Strands};
+//! # let (strands, head) = (Strands::default(), Mesh::default());
+//! let picture = Picture { size: [64, 36], ..Picture::default() };
+//! let mut bounds = Bounds::default();
+//! bounds.include_strands(&strands); // of every frame, so that the movie's camera stands still
+//! let view = View::new(&picture.camera.at(0.0), picture.size, &bounds);
+//! let mut renderer = Renderer::new(&picture, &head)?;
+//! let frame = renderer.draw(&strands, &view)?;
+//! let display = Developer::new(&picture).rgba8(&frame);
+//! # assert_eq!(display.len(), 64 * 36 * 4);
+//! # Ok::<(), nabiki_render::RenderError>(())
+//! ```
+//!
+//! Space and units are those of [`nabiki`]: head space, y up, face toward +x, centimetres. Angles in settings are
+//! degrees. Light is linear, with Rec. 709 primaries.
+
+#![forbid(unsafe_code)]
+
+pub mod camera;
+mod colour;
+mod curve;
+mod error;
+pub mod frame;
+mod light;
+pub mod output;
+mod raster;
+mod renderer;
+pub mod settings;
+
+pub use camera::{Bounds, View};
+pub use error::RenderError;
+pub use frame::{Developer, Frame};
+pub use output::canvas::Canvas;
+pub use output::sheet::ContactSheet;
+pub use output::video::Movie;
+pub use renderer::Renderer;
+pub use settings::Picture;

@@ -1,0 +1,49 @@
+//! The colour of hair: from pigment to absorption, and what colour a mass of it shows.
+
+use crate::frame::linear_from_srgb;
+use crate::settings::{HairColour, HairLook};
+
+/// Absorption of a unit of eumelanin and of pheomelanin for red, green and blue (per fibre radius), after d'Eon et al.
+/// (2011), figure 12, as tabulated for red, green and blue by Pharr, Jakob and Humphreys.
+const EUMELANIN: [f32; 3] = [0.419, 0.697, 1.37];
+const PHEOMELANIN: [f32; 3] = [0.187, 0.4, 1.05];
+
+/// Absorption of the fibre's inside (per fibre radius; red, green, blue).
+pub fn absorption(look: &HairLook) -> [f32; 3] {
+    match (look.color.melanin(), look.color) {
+        (Some([eumelanin, pheomelanin]), _) => {
+            std::array::from_fn(|c| eumelanin * EUMELANIN[c] + pheomelanin * PHEOMELANIN[c])
+        }
+        (None, HairColour::Rgb(rgb)) => {
+            let depth = albedo_depth(look.azimuthal_roughness);
+            rgb.map(|c| (linear_from_srgb(c).clamp(1e-4, 0.999).ln() / depth).powi(2))
+        }
+        (None, _) => [0.0; 3],
+    }
+}
+
+/// Colour (linear) that a thick mass of hair with this absorption shows in even light: the inverse of the fit of
+/// Chiang et al. (2016), equation 9.
+pub fn albedo(absorption: [f32; 3], azimuthal_roughness: f32) -> [f32; 3] {
+    let depth = albedo_depth(azimuthal_roughness);
+    absorption.map(|a| (-a.sqrt() * depth).exp())
+}
+
+fn albedo_depth(b: f32) -> f32 {
+    5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + b * 0.245))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_given_colour_comes_back_from_its_absorption() {
+        let rgb = [0.6, 0.35, 0.2];
+        let look = HairLook { color: HairColour::Rgb(rgb), ..HairLook::default() };
+        let shown = albedo(absorption(&look), look.azimuthal_roughness);
+        for c in 0..3 {
+            assert!((shown[c] - linear_from_srgb(rgb[c])).abs() < 1e-5);
+        }
+    }
+}

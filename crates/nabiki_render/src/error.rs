@@ -1,0 +1,30 @@
+//! What can go wrong while drawing and writing pictures.
+
+use std::path::{Path, PathBuf};
+
+use nabiki::SettingError;
+
+/// Why a picture could not be drawn or written. Its text is one line.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// A setting of the scene's `[picture]` table is out of its range.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// The strands or the head cannot be drawn: which one, and what is wrong with it.
+    #[error("{0}")]
+    Geometry(String),
+    /// A file could not be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file's final name.
+        path: PathBuf,
+        /// What the system or the encoder said.
+        source: std::io::Error,
+    },
+}
+
+impl RenderError {
+    pub(crate) fn write(path: &Path, source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Self {
+        Self::Write { path: path.to_owned(), source: std::io::Error::other(source) }
+    }
+}

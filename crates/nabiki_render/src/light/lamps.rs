@@ -1,0 +1,35 @@
+//! Lamps as a frame sees them.
+
+use glam::Vec3;
+
+use crate::camera::{View, direction};
+use crate::settings::{Light, LightSpace};
+
+/// A lamp: where it is, and how strong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lamp {
+    /// Unit vector toward the lamp (head space).
+    pub toward: Vec3,
+    /// Radiance that a white surface facing the lamp shows (linear red, green, blue).
+    pub strength: [f32; 3],
+    /// Half of the lamp's extent as seen from the hair (rad).
+    pub spread: f32,
+}
+
+/// The lamps of a picture for one view.
+pub fn lamps(lights: &[Light], view: &View) -> Vec<Lamp> {
+    // Camera lamps turn about the vertical with the camera but keep their height: the key never comes from below.
+    let back = -view.forward;
+    let camera_azimuth = back.z.atan2(back.x).to_degrees();
+    lights
+        .iter()
+        .map(|light| Lamp {
+            toward: match light.space {
+                LightSpace::Head => direction(light.azimuth, light.elevation),
+                LightSpace::Camera => direction(camera_azimuth + light.azimuth, light.elevation),
+            },
+            strength: light.color.map(|c| c * light.strength),
+            spread: light.spread.to_radians() / 2.0,
+        })
+        .collect()
+}

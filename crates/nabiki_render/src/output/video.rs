@@ -1,0 +1,136 @@
+//! Movies: H.264 in MP4, encoded in this process, streamed to disk.
+
+use std::fs::File;
+use std::io::{BufReader, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use openh264::OpenH264API;
+use openh264::encoder::{
+    Complexity, Encoder, EncoderConfig, FrameRate, IntraFramePeriod, QpRange, RateControlMode, SpsPpsStrategy,
+    UsageType, VuiConfig,
+};
+use openh264::formats::YUVSlices;
+use rayon::prelude::*;
+
+use super::mp4::Track;
+use super::{beside, name};
+use crate::RenderError;
+use crate::frame::{Developer, Frame};
+use crate::settings::Picture;
+
+/// Longest run of frames that depend on one another: seeking lands at most this far away.
+const INTRA_PERIOD: u32 = 48;
+
+/// A movie being written. Nothing stands under its name until [`finish`](Self::finish).
+///
+/// Colour is Rec. 709, studio range, 4:2:0. An odd side loses its last row or column, which H.264's halved
+/// colour cannot hold. A transparent frame is shown on black.
+pub struct Movie {
+    path: PathBuf,
+    size: [usize; 2],
+    encoder: Encoder,
+    track: Track,
+    coded: BufWriter<File>,
+    scratch: Vec<u8>,
+}
+
+impl Movie {
+    /// Starts a movie at `path` with the size, frame rate and quality of `picture`.
+    pub fn create(path: &Path, picture: &Picture) -> Result<Self, RenderError> {
+        picture.check()?;
+        let size = picture.size.map(|s| s as usize & !1);
+        let (longer, shorter) = (size[0].max(size[1]), size[0].min(size[1]));
+        if longer > 3840 || !(16..=2160).contains(&shorter) {
+            return Err(nabiki::SettingError::new(
+                "picture.size",
+                format!("{} x {}", picture.size[0], picture.size[1]),
+                "a movie's sides must lie within 16 and 3840 x 2160 pixels; write PNG frames instead",
+            )
+            .into());
+        }
+        // The encoder takes 12 (near lossless) to 51. A range of one value leaves its rate control nothing to decide.
+        let quantiser = (44.0 - 32.0 * picture.video.quality).round() as u8;
+        let config = EncoderConfig::new()
+            .usage_type(UsageType::CameraVideoRealTime)
+            .rate_control_mode(RateControlMode::Quality)
+            .qp(QpRange::new(quantiser, quantiser))
+            .complexity(Complexity::Medium)
+            .skip_frames(false)
+            .scene_change_detect(false)
+            .adaptive_quantization(false)
+            .background_detection(false)
+            .sps_pps_strategy(SpsPpsStrategy::ConstantId)
+            .intra_frame_period(IntraFramePeriod::from_num_frames(INTRA_PERIOD))
+            .max_frame_rate(FrameRate::from_hz(picture.video.fps))
+            // More threads would slice the picture differently, and so change the file's bits.
+            .num_threads(1)
+            .vui(VuiConfig::bt709());
+        let encoder = Encoder::with_api_config(OpenH264API::from_source(), config)
+            .map_err(|e| RenderError::write(path, e.to_string()))?;
+        let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let coded =
+            tempfile::tempfile_in(folder).map_err(|source| RenderError::Write { path: path.to_owned(), source })?;
+        Ok(Self {
+            path: path.to_owned(),
+            size,
+            encoder,
+            track: Track::new(size.map(|s| s as u16), picture.video.fps),
+            coded: BufWriter::new(coded),
+            scratch: Vec::new(),
+        })
+    }
+
+    /// Appends a frame.
+    ///
+    /// # Panics
+    /// If the frame's size is not that of the picture the movie was created for.
+    pub fn push(&mut self, frame: &Frame, developer: &Developer) -> Result<(), RenderError> {
+        assert_eq!(frame.size.map(|s| s as usize & !1), self.size, "every frame has the movie's size");
+        let planes = planes(frame, self.size, developer);
+        let [width, _] = self.size;
+        let source =
+            YUVSlices::new((&planes[0], &planes[1], &planes[2]), (width, self.size[1]), (width, width / 2, width / 2));
+        let bits = self.encoder.encode(&source).map_err(|e| RenderError::write(&self.path, e.to_string()))?;
+        self.scratch.clear();
+        bits.write_vec(&mut self.scratch);
+        self.track.append(&self.scratch, &mut self.coded).map_err(|e| RenderError::write(&self.path, e))
+    }
+
+    /// Writes the index and gives the file its name.
+    pub fn finish(mut self) -> Result<(), RenderError> {
+        let failed = |e: std::io::Error| RenderError::write(&self.path, e);
+        self.coded.flush().map_err(failed)?;
+        let mut coded = BufReader::new(self.coded.get_ref().try_clone().map_err(failed)?);
+        let mut file = beside(&self.path)?;
+        let mut out = BufWriter::new(file.as_file_mut());
+        self.track.finish(&mut coded, &mut out).map_err(failed)?;
+        out.flush().map_err(failed)?;
+        drop(out);
+        name(file, &self.path)
+    }
+}
+
+/// Studio-range Rec. 709 planes: luma of full size, the two colour differences averaged over 2 x 2 pixels.
+fn planes(frame: &Frame, [width, height]: [usize; 2], developer: &Developer) -> [Vec<u8>; 3] {
+    let mut luma = vec![0; width * height];
+    let mut blue = vec![0; width * height / 4];
+    let mut red = vec![0; width * height / 4];
+    let stride = frame.size[0] as usize;
+    let rows = luma.par_chunks_mut(2 * width).zip(blue.par_chunks_mut(width / 2)).zip(red.par_chunks_mut(width / 2));
+    rows.enumerate().for_each(|(pair, ((luma, blue), red))| {
+        for x in (0..width).step_by(2) {
+            let mut differences = [0.0; 2];
+            for (dy, dx) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                let p = frame.rgba[(2 * pair + dy) * stride + x + dx];
+                let [r, g, b] = [developer.value(p[0]), developer.value(p[1]), developer.value(p[2])];
+                let y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+                luma[dy * width + x + dx] = (16.5 + 219.0 * y) as u8;
+                differences[0] += (b - y) / 1.8556;
+                differences[1] += (r - y) / 1.5748;
+            }
+            blue[x / 2] = (128.5 + 56.0 * differences[0]) as u8;
+            red[x / 2] = (128.5 + 56.0 * differences[1]) as u8;
+        }
+    });
+    [luma, blue, red]
+}

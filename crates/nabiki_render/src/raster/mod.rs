@@ -1,0 +1,57 @@
+//! From nodes on the picture to pixels: sorting pieces of hair into tiles, and drawing each tile.
+
+pub mod bins;
+pub mod oversample;
+
+/// Side of a tile (pixels).
+pub const TILE: usize = 16;
+
+/// A node of a curve as the picture sees it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Node {
+    /// Place (pixels, right and down).
+    pub at: [f32; 2],
+    /// Depth (cm).
+    pub depth: f32,
+    /// Half of the hair's thickness (pixels); below 0 where the node cannot be seen.
+    pub radius: f32,
+    /// Light toward the eye (linear red, green, blue).
+    pub light: [f32; 3],
+    /// Unit direction on the picture, or zero where the hair points at the eye.
+    pub direction: [f32; 2],
+    /// Movement while the shutter is open (pixels).
+    pub motion: [f32; 2],
+    /// Which strand it belongs to; pieces join neighbours of the same strand.
+    pub strand: u32,
+}
+
+/// A straight piece between two nodes, prepared for drawing.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece {
+    pub a: Node,
+    pub b: Node,
+    /// Unit direction on the picture and length (pixels).
+    pub unit: [f32; 2],
+    pub length: f32,
+    /// Normals of the lines through a and b at which the neighbouring pieces take over.
+    pub cut: [[f32; 2]; 2],
+}
+
+impl Piece {
+    /// None where the piece has no length on the picture.
+    #[inline]
+    pub fn new(a: &Node, b: &Node) -> Option<Self> {
+        let along = [b.at[0] - a.at[0], b.at[1] - a.at[1]];
+        let length = (along[0] * along[0] + along[1] * along[1]).sqrt();
+        if length.is_nan() || length < 1e-4 {
+            return None;
+        }
+        let unit = [along[0] / length, along[1] / length];
+        // Where the curve turns sharply on the picture its tangent is no sensible border between two pieces.
+        let border = |n: &Node| {
+            let turn = n.direction[0] * unit[0] + n.direction[1] * unit[1];
+            if turn > 0.7 { n.direction } else { unit }
+        };
+        Some(Self { a: *a, b: *b, unit, length, cut: [border(a), border(b)] })
+    }
+}

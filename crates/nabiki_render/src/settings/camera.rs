@@ -1,0 +1,147 @@
+//! Settings of the camera: `[picture.camera]`.
+
+use glam::Vec3;
+use nabiki::SettingError;
+use nabiki::error::{check_positive, check_range};
+use serde::{Deserialize, Serialize};
+
+/// How space becomes a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Projection {
+    /// As an eye sees.
+    #[default]
+    Perspective,
+    /// All rays parallel, as in a drawing.
+    Orthographic,
+}
+
+/// `[picture.camera]`: a camera on an orbit about the hair, or moving between two places of it.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Camera {
+    /// `"perspective"` (default) or `"orthographic"`.
+    pub projection: Projection,
+    /// Direction of the camera about the vertical (degrees): 0 before the face, 90 at the character's right hand,
+    /// 180 behind. Default 40.
+    pub azimuth: f32,
+    /// Direction of the camera above the horizon (degrees, -89..89). Default 5.
+    pub elevation: f32,
+    /// Vertical field of view (degrees, 1..150), for perspective. Default 26.
+    pub fov: f32,
+    /// From the target to the eye (cm). Default: near enough to frame everything.
+    pub distance: Option<f32>,
+    /// Height of the picture in space (cm), for orthographic views. Default: enough to frame everything.
+    pub height: Option<f32>,
+    /// The point looked at (head space, cm). Default: the middle of what is framed.
+    pub target: Option<Vec3>,
+    /// Empty border around what is framed, as part of the picture's shorter side, 0..0.45. Default 0.06.
+    pub margin: f32,
+    /// Where the camera is at the last frame, `[picture.camera.to]`: it glides there from the values above.
+    pub to: Option<CameraKey>,
+}
+
+/// The second place of a moving camera; what is left out stays as it was.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct CameraKey {
+    /// Azimuth at the end (degrees).
+    pub azimuth: Option<f32>,
+    /// Elevation at the end (degrees).
+    pub elevation: Option<f32>,
+    /// Distance at the end (cm); needs `distance` at the start.
+    pub distance: Option<f32>,
+    /// Field of view at the end (degrees).
+    pub fov: Option<f32>,
+    /// Target at the end (cm); needs `target` at the start.
+    pub target: Option<Vec3>,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self {
+            projection: Projection::Perspective,
+            azimuth: 40.0,
+            elevation: 5.0,
+            fov: 26.0,
+            distance: None,
+            height: None,
+            target: None,
+            margin: 0.06,
+            to: None,
+        }
+    }
+}
+
+impl Camera {
+    /// The camera `progress` (0..1) of the way to its second key, with a soft start and stop.
+    pub fn at(&self, progress: f32) -> Self {
+        let Some(to) = self.to else { return *self };
+        let t = progress.clamp(0.0, 1.0);
+        let t = t * t * (3.0 - 2.0 * t);
+        let mix = |a: f32, b: Option<f32>| b.map_or(a, |b| a + (b - a) * t);
+        Self {
+            azimuth: mix(self.azimuth, to.azimuth),
+            elevation: mix(self.elevation, to.elevation),
+            fov: mix(self.fov, to.fov),
+            distance: self.distance.map(|d| mix(d, to.distance)),
+            target: self.target.map(|a| to.target.map_or(a, |b| a.lerp(b, t))),
+            to: None,
+            ..*self
+        }
+    }
+
+    pub(crate) fn check(&self) -> Result<(), SettingError> {
+        check_angles("picture.camera", Some(self.azimuth), Some(self.elevation), Some(self.fov))?;
+        if let Some(distance) = self.distance {
+            check_positive("picture.camera.distance", distance)?;
+        }
+        if let Some(height) = self.height {
+            check_positive("picture.camera.height", height)?;
+        }
+        check_target("picture.camera.target", self.target)?;
+        check_range("picture.camera.margin", self.margin, 0.0, 0.45)?;
+        let Some(to) = self.to else { return Ok(()) };
+        check_angles("picture.camera.to", to.azimuth, to.elevation, to.fov)?;
+        check_target("picture.camera.to.target", to.target)?;
+        if let Some(distance) = to.distance {
+            check_positive("picture.camera.to.distance", distance)?;
+            if self.distance.is_none() {
+                let way_out = "give picture.camera.distance as well, to start from";
+                return Err(SettingError::new("picture.camera.to.distance", distance, way_out));
+            }
+        }
+        match to.target {
+            Some(target) if self.target.is_none() => {
+                let way_out = "give picture.camera.target as well, to start from";
+                Err(SettingError::new("picture.camera.to.target", target, way_out))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn check_angles(
+    table: &str,
+    azimuth: Option<f32>,
+    elevation: Option<f32>,
+    fov: Option<f32>,
+) -> Result<(), SettingError> {
+    for (name, value, low, high) in
+        [("azimuth", azimuth, -3600.0, 3600.0), ("elevation", elevation, -89.0, 89.0), ("fov", fov, 1.0, 150.0)]
+    {
+        if let Some(value) = value {
+            check_range(&format!("{table}.{name}"), value, low, high)?;
+        }
+    }
+    Ok(())
+}
+
+fn check_target(thing: &str, target: Option<Vec3>) -> Result<(), SettingError> {
+    match target {
+        Some(t) if !(t.is_finite() && t.abs().max_element() <= 1e6) => {
+            Err(SettingError::new(thing, t, "must be three numbers within a million cm"))
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,96 @@
+//! Settings of the light: `[[picture.lights]]` and `[picture.sky]`.
+
+use nabiki::SettingError;
+use nabiki::error::check_range;
+use serde::{Deserialize, Serialize};
+
+use super::check_colour;
+
+/// What a lamp's direction is relative to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LightSpace {
+    /// The camera: azimuth 0 comes from where the camera stands, and a moving camera carries its lamps with it.
+    #[default]
+    Camera,
+    /// The head: azimuth 0 comes from before the face.
+    Head,
+}
+
+/// One lamp, far away: an element of `[[picture.lights]]`.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Light {
+    /// Where the light comes from, about the vertical (degrees), counted as the camera's azimuth. Default 0.
+    pub azimuth: f32,
+    /// Where it comes from, above the horizon (degrees, -90..90). Default 40.
+    pub elevation: f32,
+    /// Its strength: a white surface facing it is as bright as this. 0..1000, default 1.
+    pub strength: f32,
+    /// Its colour (linear red, green, blue; 0..1). Default white.
+    pub color: [f32; 3],
+    /// How far the lamp spreads as seen from the hair (degrees, 0..45): wide lamps throw soft shadows. Default 4.
+    pub spread: f32,
+    /// `"camera"` (default) or `"head"`.
+    pub space: LightSpace,
+}
+
+impl Default for Light {
+    fn default() -> Self {
+        Self { azimuth: 0.0, elevation: 40.0, strength: 1.0, color: [1.0; 3], spread: 4.0, space: LightSpace::Camera }
+    }
+}
+
+impl Light {
+    /// A portrait photographer's three lamps: a warm key from above, a cool fill, a rim from behind.
+    pub fn studio() -> Vec<Self> {
+        vec![
+            Self { azimuth: 35.0, elevation: 48.0, strength: 1.9, color: [1.0, 0.96, 0.9], ..Self::default() },
+            Self {
+                azimuth: -55.0,
+                elevation: 12.0,
+                strength: 0.45,
+                color: [0.82, 0.9, 1.0],
+                spread: 20.0,
+                ..Self::default()
+            },
+            Self { azimuth: -155.0, elevation: 38.0, strength: 2.2, color: [1.0, 0.97, 0.93], ..Self::default() },
+        ]
+    }
+
+    pub(crate) fn check(&self, table: &str) -> Result<(), SettingError> {
+        check_range(&format!("{table}.azimuth"), self.azimuth, -3600.0, 3600.0)?;
+        check_range(&format!("{table}.elevation"), self.elevation, -90.0, 90.0)?;
+        check_range(&format!("{table}.strength"), self.strength, 0.0, 1000.0)?;
+        check_range(&format!("{table}.spread"), self.spread, 0.0, 45.0)?;
+        check_colour(&format!("{table}.color"), self.color, 1.0)
+    }
+}
+
+/// `[picture.sky]`: light from all around, dimmed where hair or head hide it.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Sky {
+    /// Strength: an unhidden white surface is as bright as this, 0..1000. Default 0.42.
+    pub strength: f32,
+    /// Colour of the light from straight above (linear, 0..1).
+    pub above: [f32; 3],
+    /// Colour of the light from straight below (linear, 0..1).
+    pub below: [f32; 3],
+    /// Whether hair and head hide the sky from what lies within. Default true.
+    pub occlusion: bool,
+}
+
+impl Default for Sky {
+    fn default() -> Self {
+        Self { strength: 0.42, above: [0.93, 0.97, 1.0], below: [0.55, 0.5, 0.47], occlusion: true }
+    }
+}
+
+impl Sky {
+    pub(crate) fn check(&self) -> Result<(), SettingError> {
+        check_range("picture.sky.strength", self.strength, 0.0, 1000.0)?;
+        check_colour("picture.sky.above", self.above, 1.0)?;
+        check_colour("picture.sky.below", self.below, 1.0)
+    }
+}

@@ -1,0 +1,171 @@
+//! What is written, as others would read it; and what bad input gets.
+
+use glam::Vec3;
+use nabiki::{Mesh, Strands};
+use nabiki_render::output::png::{self, Depth};
+use nabiki_render::settings::{Antialiasing, Background};
+use nabiki_render::{Bounds, ContactSheet, Developer, Movie, Picture, Renderer, View};
+
+fn scene() -> (Strands, Mesh) {
+    let mut strands = Strands::default();
+    for i in 0..200 {
+        let angle = i as f32 * 0.1;
+        let root = Vec3::new(8.0 * angle.cos(), 4.0, 8.0 * angle.sin());
+        strands.push((0..10).map(|j| root + Vec3::new(0.02, -1.0, 0.1 * angle.sin()) * j as f32));
+    }
+    let corners = [Vec3::X, Vec3::Z, -Vec3::X, -Vec3::Z].map(|c| 7.0 * c);
+    let positions = [&[7.0 * Vec3::Y, -7.0 * Vec3::Y][..], &corners].concat();
+    let triangles = (0..4).flat_map(|i| [[0, 2 + (i + 1) % 4, 2 + i], [1, 2 + i, 2 + (i + 1) % 4]]).collect();
+    (strands, Mesh { positions, triangles })
+}
+
+fn setting(picture: &Picture) -> (Renderer, Strands, View) {
+    let (strands, head) = scene();
+    let mut bounds = Bounds::default();
+    bounds.include_strands(&strands);
+    let view = View::new(&picture.camera, picture.size, &bounds);
+    (Renderer::new(picture, &head).unwrap(), strands, view)
+}
+
+fn small() -> Picture {
+    Picture { size: [96, 64], ..Picture::default() }
+}
+
+#[test]
+fn png_files_hold_what_was_developed() {
+    let picture = Picture { background: Background { transparent: true, ..Background::default() }, ..small() };
+    let (mut renderer, strands, view) = setting(&picture);
+    let frame = renderer.draw(&strands, &view).unwrap();
+    let developer = Developer::new(&picture);
+    let folder = tempfile::tempdir().unwrap();
+    for (name, depth) in [("8.png", Depth::Eight), ("16.png", Depth::Sixteen)] {
+        let path = folder.path().join(name);
+        png::write(&path, &frame, &developer, depth).unwrap();
+        let read = image::open(&path).unwrap();
+        match depth {
+            Depth::Eight => assert_eq!(read.into_rgba8().into_raw(), developer.rgba8(&frame)),
+            Depth::Sixteen => assert_eq!(read.into_rgba16().into_raw(), developer.rgba16(&frame)),
+        }
+    }
+}
+
+#[test]
+fn a_movie_decodes_to_the_frames_it_was_given() {
+    let picture = Picture { video: nabiki_render::settings::Video { quality: 1.0, fps: 25.0 }, ..small() };
+    let (mut renderer, strands, view) = setting(&picture);
+    let developer = Developer::new(&picture);
+    let frame = renderer.draw(&strands, &view).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("movie.mp4");
+    let mut movie = Movie::create(&path, &picture).unwrap();
+    for _ in 0..3 {
+        movie.push(&frame, &developer).unwrap();
+    }
+    assert!(!path.exists(), "nothing stands under the final name before the end");
+    movie.finish().unwrap();
+
+    // Back to the stream that decoders take: parameter sets from the index, units after lengths.
+    let file = std::fs::read(&path).unwrap();
+    let find = |kind: &[u8]| file.windows(4).position(|w| w == kind).unwrap();
+    let at = find(b"avcC") + 4;
+    let length = |at: usize| usize::from(u16::from_be_bytes([file[at], file[at + 1]]));
+    let first = &file[at + 8..at + 8 + length(at + 6)];
+    let second_at = at + 8 + first.len() + 1;
+    let second = &file[second_at + 2..second_at + 2 + length(second_at)];
+    let mut stream = [&[0, 0, 0, 1][..], first, &[0, 0, 0, 1], second].concat();
+    let mut rest = &file[find(b"mdat") + 4..];
+    while let Some((size, after)) = rest.split_first_chunk::<4>() {
+        let (unit, after) = after.split_at(u32::from_be_bytes(*size) as usize);
+        stream.extend([0, 0, 0, 1]);
+        stream.extend(unit);
+        rest = after;
+    }
+    let mut decoder = openh264::decoder::Decoder::new().unwrap();
+    let mut frames = 0;
+    let mut worst = 0.0_f64;
+    for unit in openh264::nal_units(&stream) {
+        if let Some(yuv) = decoder.decode(unit).unwrap() {
+            use openh264::formats::YUVSource;
+            frames += 1;
+            assert_eq!(yuv.dimensions(), (96, 64));
+            let shown = developer.rgba8(&frame);
+            let mut sum = 0.0;
+            for y in 0..64 {
+                for x in 0..96 {
+                    let [r, g, b] = [0, 1, 2].map(|c| f64::from(shown[4 * (y * 96 + x) + c]));
+                    let luma = 16.0 + 219.0 / 255.0 * (0.2126 * r + 0.7152 * g + 0.0722 * b);
+                    sum += (luma - f64::from(yuv.y()[y * yuv.strides().0 + x])).powi(2);
+                }
+            }
+            worst = worst.max((sum / (96.0 * 64.0)).sqrt());
+        }
+    }
+    for yuv in decoder.flush_remaining().unwrap() {
+        let _ = yuv;
+        frames += 1;
+    }
+    assert_eq!(frames, 3);
+    // Quantiser 12 has a step of 2.5 of 255 and a dead zone of two thirds of it: an error below that in each
+    // coefficient, and as much in each pixel, plus rounding.
+    assert!(worst < 2.0, "{worst}");
+}
+
+#[test]
+fn contact_sheets_hold_every_picture_and_its_arrow() {
+    let picture = small();
+    let (mut renderer, strands, view) = setting(&picture);
+    let developer = Developer::new(&picture);
+    let frame = renderer.draw(&strands, &view).unwrap();
+    let mut sheet = ContactSheet::new(2);
+    let mut plain = ContactSheet::new(2);
+    for number in [0, 30, 60] {
+        sheet.add(&frame, &developer, number, Some(Vec3::new(-100.0, 0.0, 0.0)), &view);
+        plain.add(&frame, &developer, number, None, &view);
+    }
+    assert_eq!(sheet.canvas().size(), [2 * (96 + 12) + 12, 2 * (64 + 12) + 12]);
+    assert_ne!(sheet.canvas(), plain.canvas());
+}
+
+#[test]
+fn bad_settings_are_refused_by_their_scene_key() {
+    let wide = |width| {
+        let mut picture = small();
+        picture.hair.width = width;
+        picture
+    };
+    for (picture, key) in [
+        (Picture { size: [0, 10], ..small() }, "picture.size"),
+        (Picture { size: [10, 20_000], ..small() }, "picture.size"),
+        (Picture { samples: 0, ..small() }, "picture.samples"),
+        (Picture { exposure: f32::NAN, ..small() }, "picture.exposure"),
+        (wide(0.0), "picture.hair.width"),
+        (wide(f32::NAN), "picture.hair.width"),
+        (wide(1e9), "picture.hair.width"),
+    ] {
+        let text = Renderer::new(&picture, &Mesh::default()).err().unwrap().to_string();
+        assert!(text.starts_with(key) && !text.contains('\n'), "{text}");
+    }
+    let text = Movie::create("x.mp4".as_ref(), &Picture { size: [8, 8], ..small() }).err().unwrap().to_string();
+    assert!(text.contains("picture.size"), "{text}");
+}
+
+#[test]
+fn points_that_are_no_numbers_are_refused_by_strand() {
+    for antialiasing in [Antialiasing::Coverage, Antialiasing::Oversample] {
+        let (mut renderer, mut strands, view) = setting(&Picture { antialiasing, ..small() });
+        strands.strand_mut(7)[3].y = f32::NAN;
+        let text = renderer.draw(&strands, &view).err().unwrap().to_string();
+        assert!(text.contains("strand 7, point 3"), "{text}");
+    }
+}
+
+#[test]
+fn an_unwritable_place_is_named_and_left_alone() {
+    let picture = small();
+    let (mut renderer, strands, view) = setting(&picture);
+    let frame = renderer.draw(&strands, &view).unwrap();
+    let path = std::path::Path::new("/nowhere/at/all/x.png");
+    let text = png::write(path, &frame, &Developer::new(&picture), Depth::Eight).err().unwrap().to_string();
+    assert!(text.starts_with("cannot write /nowhere/at/all/x.png"), "{text}");
+    assert!(Movie::create(path, &picture).is_err());
+}
