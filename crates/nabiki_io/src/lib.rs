@@ -4,10 +4,12 @@
 
 mod atomic;
 mod bytes;
+pub mod cache;
 pub mod error;
 mod finite;
 pub mod hair;
 pub mod hair_file;
+pub mod identity;
 pub mod mesh;
 pub mod motion;
 mod names;
@@ -16,4 +18,5 @@ pub mod placement;
 pub mod tfx;
 
 pub use error::{Error, Result};
+pub use identity::SceneId;
 pub use placement::Placement;

@@ -1,6 +1,6 @@
 //! Triangle meshes of heads: .obj, .glb and .gltf, told apart by their name's ending.
 
-mod glb;
+pub(crate) mod glb;
 mod obj;
 
 use std::{collections::HashMap, fs, path::Path};

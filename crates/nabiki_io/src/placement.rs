@@ -1,69 +1,12 @@
 //! Where a file's coordinates lie in head space: unit, up axis, facing and origin, applied once, at the door.
 
-use std::{fmt, str::FromStr};
+use std::str::FromStr;
 
 use glam::{Affine3A, Mat3, Vec3};
 use nabiki::SettingError;
 use serde::{Deserialize, Serialize};
 
-/// A signed coordinate axis: `"x"`, `"+y"`, `"-z"`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(try_from = "String", into = "String")]
-pub struct Axis {
-    /// 0, 1, 2 for x, y, z.
-    pub index: usize,
-    /// Whether it points the other way.
-    pub negative: bool,
-}
-
-impl Axis {
-    /// +x.
-    pub const X: Self = Self { index: 0, negative: false };
-    /// +y.
-    pub const Y: Self = Self { index: 1, negative: false };
-    /// +z.
-    pub const Z: Self = Self { index: 2, negative: false };
-
-    /// The unit vector along it.
-    pub fn vector(self) -> Vec3 {
-        Vec3::AXES[self.index] * if self.negative { -1.0 } else { 1.0 }
-    }
-}
-
-impl fmt::Display for Axis {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}{}", if self.negative { '-' } else { '+' }, ['x', 'y', 'z'][self.index])
-    }
-}
-
-impl FromStr for Axis {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let (negative, name) = match text.strip_prefix('-') {
-            Some(name) => (true, name),
-            None => (false, text.strip_prefix('+').unwrap_or(text)),
-        };
-        match ["x", "y", "z"].iter().position(|&axis| axis.eq_ignore_ascii_case(name)) {
-            Some(index) => Ok(Self { index, negative }),
-            None => Err(format!("\"{text}\" is not an axis: write \"+x\", \"-x\", \"+y\", \"-y\", \"+z\" or \"-z\"")),
-        }
-    }
-}
-
-impl TryFrom<String> for Axis {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, String> {
-        text.parse()
-    }
-}
-
-impl From<Axis> for String {
-    fn from(axis: Axis) -> Self {
-        axis.to_string()
-    }
-}
+use crate::motion::Axis;
 
 /// A file's length unit: a name, `"mm"`, `"cm"`, `"dm"`, `"m"`, `"in"`, `"ft"`, or the number of centimetres in it.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
@@ -144,7 +87,7 @@ pub struct Placement {
 
 impl Default for Placement {
     fn default() -> Self {
-        Self { unit: Unit::default(), up: Axis::Y, facing: Axis::X, origin: Vec3::ZERO }
+        Self { unit: Unit::default(), up: Axis::PlusY, facing: Axis::PlusX, origin: Vec3::ZERO }
     }
 }
 
@@ -153,7 +96,7 @@ impl Placement {
     /// `table`: the scene table that holds it, `head`.
     pub fn check(&self, table: &str) -> Result<(), SettingError> {
         nabiki::error::check_positive(&format!("{table}.unit"), self.unit.cm)?;
-        if self.up.index == self.facing.index {
+        if self.up.vector().dot(self.facing.vector()) != 0.0 {
             let remedy = format!("must be another axis than {table}.up, which is \"{}\"", self.up);
             return Err(SettingError::new(format!("{table}.facing"), format!("\"{}\"", self.facing), remedy));
         }
@@ -165,7 +108,7 @@ impl Placement {
 
     /// Rotation whose rows are the head's axes in the file: facing, up, right hand.
     fn head_from_file_rotation(&self) -> Mat3 {
-        let (facing, up) = (self.facing.vector(), self.up.vector());
+        let (facing, up) = (self.facing.vector().as_vec3(), self.up.vector().as_vec3());
         Mat3::from_cols(facing, up, facing.cross(up)).transpose()
     }
 
@@ -187,7 +130,7 @@ mod tests {
     use super::*;
 
     fn facing_z_in_metres() -> Placement {
-        Placement { unit: Unit { cm: 100.0 }, up: Axis::Y, facing: Axis::Z, origin: Vec3::new(0.0, 1.5, 0.0) }
+        Placement { unit: Unit { cm: 100.0 }, up: Axis::PlusY, facing: Axis::PlusZ, origin: Vec3::new(0.0, 1.5, 0.0) }
     }
 
     #[test]
@@ -201,9 +144,9 @@ mod tests {
 
     #[test]
     fn every_placement_is_a_rotation_and_comes_back() {
-        let axes = ["+x", "-x", "+y", "-y", "+z", "-z"].map(|a| a.parse::<Axis>().unwrap());
+        let axes = [Axis::PlusX, Axis::MinusX, Axis::PlusY, Axis::MinusY, Axis::PlusZ, Axis::MinusZ];
         for up in axes {
-            for facing in axes.into_iter().filter(|a| a.index != up.index) {
+            for facing in axes.into_iter().filter(|a| a.vector().dot(up.vector()) == 0.0) {
                 let placement = Placement { up, facing, unit: Unit { cm: 4.0 }, origin: Vec3::new(1.0, -2.0, 3.0) };
                 assert_eq!(placement.check("head"), Ok(()));
                 assert_eq!(placement.head_from_file().matrix3.determinant(), 64.0);
@@ -218,14 +161,13 @@ mod tests {
         let refused = |placement: Placement| placement.check("hair").unwrap_err().to_string();
         let good = facing_z_in_metres();
         assert_eq!(
-            refused(Placement { facing: Axis { negative: true, ..Axis::Y }, ..good }),
+            refused(Placement { facing: Axis::MinusY, ..good }),
             "hair.facing = \"-y\": must be another axis than hair.up, which is \"+y\""
         );
         assert_eq!(
             refused(Placement { unit: Unit { cm: 0.0 }, ..good }),
             "hair.unit = 0: must be a finite number above 0"
         );
-        assert!("w".parse::<Axis>().unwrap_err().contains("is not an axis"));
         assert!("mile".parse::<Unit>().unwrap_err().contains("is not a unit"));
     }
 }

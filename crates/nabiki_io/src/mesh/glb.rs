@@ -14,16 +14,18 @@ use gltf::{
 use nabiki::Mesh;
 
 use super::{check, check_groups};
-use crate::error::{Error, Result};
+use crate::{
+    bytes::Bytes,
+    error::{Error, Result},
+};
 
 /// A mesh drawn by many nodes is copied for each; beyond this many times the file's size it is a trick, not a head.
 const MOST_COPIES: usize = 64;
 
 /// `folder`: where buffers in files of their own are; `None` refuses them.
 pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String]) -> Result<Mesh> {
-    let gltf = gltf::Gltf::from_slice(bytes).map_err(|e| Error::new(format!("is not a readable glTF: {e}")))?;
-    let buffers = buffers(&gltf, folder)?;
-    let document = &gltf.document;
+    let (document, blob) = open(bytes)?;
+    let buffers = buffers(&document, blob.as_deref(), folder)?;
     let nodes = document.nodes().filter_map(|n| n.name());
     let names: Vec<&str> = nodes.chain(document.meshes().filter_map(|m| m.name())).collect();
     check_groups(groups, &names)?;
@@ -61,13 +63,56 @@ pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String])
     check(mesh)
 }
 
+/// The document, valid, and the binary chunk of a .glb.
+pub(crate) fn open(bytes: &[u8]) -> Result<(gltf::Document, Option<Vec<u8>>)> {
+    let unreadable = |e: gltf::Error| Error::new(format!("is not a readable glTF: {e}"));
+    let (text, blob) = if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (bytes, None) };
+    if text.trim_ascii_start().first() != Some(&b'{') {
+        return Err(Error::new("is not a glTF: it does not start with glTF or {"));
+    }
+    let gltf = gltf::Gltf::from_slice_without_validation(text).map_err(unreadable)?;
+    let json = gltf.document.into_json();
+    // The crate's validation looks at these accessors before it has checked that they exist.
+    let primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    if let Some(missing) = primitives.flat_map(|p| p.attributes.values()).find(|a| a.value() >= json.accessors.len()) {
+        let (missing, count) = (missing.value(), json.accessors.len());
+        return Err(Error::new(format!("is not a readable glTF: accessor {missing} is named, there are {count}")));
+    }
+    Ok((gltf::Document::from_json(json).map_err(unreadable)?, blob.map(<[u8]>::to_vec)))
+}
+
+/// The JSON and the binary chunk of a .glb. (The crate's own reader of them trusts their lengths.)
+fn chunks(glb: &[u8]) -> Result<(&[u8], Option<&[u8]>)> {
+    let mut source = Bytes::from_slice(glb);
+    let [_, version, length]: [u32; 3] = source.value("header")?;
+    if version != 2 {
+        return Err(Error::new(format!("glTF version is {version}: only version 2 is read")));
+    }
+    if u64::from(length) != source.len() {
+        return Err(Error::new(format!("{length} bytes expected, {} found: the file is cut short", source.len())));
+    }
+    let mut chunk = |kind: &[u8; 4]| -> Result<Option<&[u8]>> {
+        if source.remaining() == 0 {
+            return Ok(None);
+        }
+        let bytes: u32 = source.value("chunk length")?;
+        let found: [u8; 4] = source.value("chunk type")?;
+        source.expect(u64::from(bytes), "chunk")?;
+        let (start, end) = (source.at(), source.at() + u64::from(bytes));
+        source.seek(end)?;
+        Ok((found == *kind).then_some(&glb[start as usize..end as usize]))
+    };
+    let text = chunk(b"JSON")?.ok_or_else(|| Error::new("its first chunk is not JSON"))?;
+    Ok((text, chunk(b"BIN\0")?))
+}
+
 /// The bytes of every buffer.
-fn buffers(gltf: &gltf::Gltf, folder: Option<&Path>) -> Result<Vec<Vec<u8>>> {
+fn buffers(document: &gltf::Document, blob: Option<&[u8]>, folder: Option<&Path>) -> Result<Vec<Vec<u8>>> {
     let mut all = Vec::new();
-    for buffer in gltf.document.buffers() {
+    for buffer in document.buffers() {
         let name = |e: Error| Error::new(format!("buffer {}: {}", buffer.index(), e.what));
         let bytes = match buffer.source() {
-            Source::Bin => gltf.blob.clone().ok_or_else(|| name(Error::new("the file has no binary chunk")))?,
+            Source::Bin => blob.ok_or_else(|| name(Error::new("the file has no binary chunk")))?.to_vec(),
             Source::Uri(uri) if uri.starts_with("data:") => {
                 let data = gltf::buffer::Data::from_source(buffer.source(), None);
                 data.map_err(|e| name(Error::new(e.to_string())))?.0

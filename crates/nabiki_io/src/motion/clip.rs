@@ -13,8 +13,7 @@ use super::{Axis, Door, HeadMotion, MotionSource, Sample, frame_count, poses};
 /// Reads the poses of `source.node` in `source.clip`.
 pub(super) fn head_motion(source: &MotionSource, frame_rate: f64) -> Result<HeadMotion, String> {
     let file = std::fs::read(&source.file).map_err(|e| e.to_string())?;
-    let gltf = gltf::Gltf::from_slice(&file).map_err(|e| format!("not glTF that can be read: {e}"))?;
-    let (document, blob) = (gltf.document, gltf.blob);
+    let (document, blob) = crate::mesh::glb::open(&file).map_err(|e| e.what)?;
     let buffers = gltf::import_buffers(&document, source.file.parent(), blob)
         .map_err(|e| format!("its buffers cannot be read: {e}"))?;
     let chain = chain(&document, &source.node)?;

@@ -1,0 +1,254 @@
+//! Motion caches, `.nabiki`: every frame of a simulation, exact to the bit, in a file that is written and read one
+//! frame at a time. `docs/cache.md` describes the layout.
+
+mod attributes;
+
+use std::{
+    fs::File,
+    io::{Seek, SeekFrom, Write},
+    path::{Path, PathBuf},
+};
+
+use glam::{Quat, Vec3};
+use nabiki::{Hair, Strands, hair::Attributes};
+
+use crate::{
+    atomic::Unfinished,
+    bytes::{Bytes, put},
+    error::{Error, Result},
+    finite,
+    identity::SceneId,
+    motion::Pose,
+};
+
+const MAGIC: &[u8; 8] = b"NABIKI\r\n";
+const VERSION: u32 = 1;
+const HEADER_BYTES: u64 = 64;
+const FRAMES_AT: u64 = 24;
+const POSE_BYTES: u64 = 28;
+
+/// What is the same in every frame of a cache.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Header {
+    /// The scene that made the motion.
+    pub scene: SceneId,
+    /// Frames a second at which the motion is meant to be seen.
+    pub frame_rate: f64,
+    /// Where each strand's points start, and the number of points at the end ([`Strands::starts`]).
+    pub starts: Vec<u32>,
+    /// What the groom carries beside its points (widths in cm).
+    pub attributes: Attributes,
+}
+
+impl Header {
+    /// The header of a scene's hair.
+    pub fn new(scene: SceneId, frame_rate: f64, hair: &Hair) -> Self {
+        let starts = hair.strands.starts().to_vec();
+        Self { scene, frame_rate, starts, attributes: hair.attributes.clone() }
+    }
+
+    fn strand_count(&self) -> usize {
+        self.starts.len().saturating_sub(1)
+    }
+
+    fn point_count(&self) -> usize {
+        self.starts.last().map_or(0, |&n| n as usize)
+    }
+
+    /// Bytes of a frame.
+    fn frame_bytes(&self) -> u64 {
+        POSE_BYTES + 12 * self.point_count() as u64
+    }
+
+    /// Strands of this topology, all points at the origin, to read frames into.
+    pub fn strands(&self) -> Strands {
+        Strands::from_parts(self.starts.clone(), vec![Vec3::ZERO; self.point_count()])
+    }
+}
+
+/// Writes a cache frame by frame. Dropped before [`finish`](Self::finish), it leaves no file.
+pub struct Writer {
+    file: Unfinished,
+    target: PathBuf,
+    points: usize,
+    frames: u64,
+}
+
+impl Writer {
+    /// Starts a cache that will be called `path`.
+    pub fn create(path: &Path, header: &Header) -> Result<Self> {
+        let named = |e: Error| e.in_file(path);
+        let shape = header.strands();
+        if shape.is_empty() {
+            return Err(named(Error::new("there are no strands to write")));
+        }
+        if !(header.frame_rate.is_finite() && header.frame_rate > 0.0) {
+            return Err(named(Error::new(format!("frame rate is {}: must be above 0", header.frame_rate))));
+        }
+        let hair = Hair { strands: shape, attributes: header.attributes.clone() };
+        hair.check_lengths().map_err(|e| named(Error::new(e.to_string())))?;
+        let mut file = Unfinished::beside(path)?;
+        write_header(&mut file.file, header).map_err(named)?;
+        Ok(Self { file, target: path.to_owned(), points: header.point_count(), frames: 0 })
+    }
+
+    /// Appends one frame: all `points` (head space, cm) and where the head is.
+    pub fn push(&mut self, head: &Pose, points: &[Vec3]) -> Result<()> {
+        let frame = self.frames;
+        let refuse = |what: String| Err(Error::new(what).in_file(&self.target));
+        if points.len() != self.points {
+            return refuse(format!("frame {frame}: {} points, the cache is of {}", points.len(), self.points));
+        }
+        if let Some(p) = points.iter().position(|p| !p.is_finite()) {
+            return refuse(format!("frame {frame}: point {p} is {}: refused, the file would be useless", points[p]));
+        }
+        if !(head.position_cm.is_finite() && head.rotation.is_finite()) {
+            return refuse(format!("frame {frame}: the head is at {}, turned {}", head.position_cm, head.rotation));
+        }
+        let out = &mut self.file.file;
+        put(out, &[head.position_cm])
+            .and_then(|()| put(out, &[head.rotation.to_array()]))
+            .and_then(|()| put(out, points))
+            .map_err(|e| e.in_file(&self.target))?;
+        self.frames += 1;
+        Ok(())
+    }
+
+    /// Puts the cache under its name, and returns its number of frames.
+    pub fn finish(mut self) -> Result<u64> {
+        let named = |e: Error| e.in_file(&self.target);
+        if self.frames == 0 {
+            return Err(named(Error::new("there are no frames to write")));
+        }
+        let out = &mut self.file.file;
+        out.seek(SeekFrom::Start(FRAMES_AT)).map_err(|e| named(e.into()))?;
+        put(out, &[self.frames]).map_err(named)?;
+        self.file.finish()?;
+        Ok(self.frames)
+    }
+}
+
+fn write_header(out: &mut dyn Write, header: &Header) -> Result<()> {
+    let mut blocks = Vec::new();
+    put(&mut blocks, &header.starts)?;
+    blocks.resize(blocks.len().next_multiple_of(8), 0);
+    attributes::write(&mut blocks, &header.attributes)?;
+    out.write_all(MAGIC)?;
+    put(out, &[VERSION, header.strand_count() as u32, header.point_count() as u32, 0])?;
+    put(out, &[0, HEADER_BYTES + blocks.len() as u64])?;
+    put(out, &[header.frame_rate])?;
+    out.write_all(&header.scene.0.to_le_bytes())?;
+    out.write_all(&blocks)?;
+    Ok(())
+}
+
+/// Reads any frame of a cache.
+pub struct Reader<R = File> {
+    source: Bytes<R>,
+    path: PathBuf,
+    header: Header,
+    frames: u64,
+    first_frame_at: u64,
+}
+
+impl Reader {
+    /// Opens a cache and checks its header against the file's length.
+    pub fn open(path: &Path) -> Result<Self> {
+        Self::from_source(Bytes::open(path)?, path)
+    }
+}
+
+impl<'a> Reader<std::io::Cursor<&'a [u8]>> {
+    /// The same in memory.
+    pub fn from_bytes(bytes: &'a [u8]) -> Result<Self> {
+        Self::from_source(Bytes::from_slice(bytes), Path::new("cache"))
+    }
+}
+
+impl<R: std::io::Read + Seek> Reader<R> {
+    fn from_source(mut source: Bytes<R>, path: &Path) -> Result<Self> {
+        let (header, frames, first_frame_at) = read_header(&mut source).map_err(|e| e.in_file(path))?;
+        Ok(Self { source, path: path.to_owned(), header, frames, first_frame_at })
+    }
+
+    /// What is the same in every frame.
+    pub fn header(&self) -> &Header {
+        &self.header
+    }
+
+    /// Number of frames, numbered from 0; frame 0 is the hair at rest.
+    pub fn frame_count(&self) -> u64 {
+        self.frames
+    }
+
+    /// Reads one frame into `strands`, made by [`Header::strands`], and returns where the head is.
+    pub fn read(&mut self, frame: u64, strands: &mut Strands) -> Result<Pose> {
+        let path = self.path.clone();
+        self.read_frame(frame, strands).map_err(|e| e.in_file(&path))
+    }
+
+    fn read_frame(&mut self, frame: u64, strands: &mut Strands) -> Result<Pose> {
+        if frame >= self.frames {
+            let last = self.frames - 1;
+            return Err(Error::new(format!("frame {frame} is not in the cache: it holds frames 0 to {last}")));
+        }
+        if strands.points().len() != self.header.point_count() {
+            let (given, own) = (strands.points().len(), self.header.point_count());
+            return Err(Error::new(format!("frame {frame}: room for {given} points, the cache has {own}")));
+        }
+        self.source.seek(self.first_frame_at + frame * self.header.frame_bytes())?;
+        let position_cm: Vec3 = self.source.value("head position")?;
+        let rotation = Quat::from_array(self.source.value("head rotation")?);
+        self.source.fill(strands.points_mut(), "points")?;
+        if !(position_cm.is_finite() && rotation.is_finite()) {
+            return Err(Error::new(format!("frame {frame}: the head's placement is not finite: the file is damaged")));
+        }
+        finite::points(strands).map_err(|e| Error::new(format!("frame {frame}: {}", e.what)))?;
+        Ok(Pose { position_cm, rotation })
+    }
+
+    /// One frame as hair, with the attributes that the cache carries.
+    pub fn hair(&mut self, frame: u64) -> Result<Hair> {
+        let mut strands = self.header.strands();
+        self.read(frame, &mut strands)?;
+        Ok(Hair { strands, attributes: self.header.attributes.clone() })
+    }
+}
+
+fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<(Header, u64, u64)> {
+    source.expect(HEADER_BYTES, "header")?;
+    if source.array::<u8>(8, "magic")? != MAGIC {
+        return Err(Error::new("does not start with NABIKI: not a motion cache"));
+    }
+    let [version, strand_count, point_count, _]: [u32; 4] = source.value("counts")?;
+    if version != VERSION {
+        return Err(Error::new(format!("version is {version}: this program reads version {VERSION}")));
+    }
+    let (frames, first_frame_at): (u64, u64) = (source.value("frame count")?, source.value("first frame")?);
+    let frame_rate: f64 = source.value("frame rate")?;
+    let scene = SceneId(u128::from_le_bytes(source.value::<[u8; 16]>("scene identity")?));
+    if strand_count == 0 || frames == 0 {
+        return Err(Error::new(format!("{strand_count} strands, {frames} frames: the cache is empty")));
+    }
+    if !(frame_rate.is_finite() && frame_rate > 0.0) {
+        return Err(Error::new(format!("frame rate is {frame_rate}: must be above 0")));
+    }
+    let frame_bytes = POSE_BYTES + 12 * u64::from(point_count);
+    let expected = frames.checked_mul(frame_bytes).and_then(|all| all.checked_add(first_frame_at));
+    if expected != Some(source.len()) {
+        let whole = source.len().saturating_sub(first_frame_at) / frame_bytes;
+        let found = source.len();
+        return Err(Error::new(format!(
+            "{frames} frames of {frame_bytes} bytes from offset {first_frame_at} on expected, {found} bytes found \
+             ({whole} frames): the file is cut short or its counts are wrong"
+        )));
+    }
+    let starts: Vec<u32> = source.array(strand_count as usize + 1, "starts")?;
+    if starts[0] != 0 || !starts.is_sorted() || starts.last() != Some(&point_count) {
+        return Err(Error::new(format!("starts of strands do not rise from 0 to {point_count}: the file is damaged")));
+    }
+    let blocks_at = HEADER_BYTES + (starts.len() as u64 * 4).next_multiple_of(8);
+    source.seek(blocks_at)?;
+    let attributes = attributes::read(source, first_frame_at, strand_count as usize, point_count as usize)?;
+    Ok((Header { scene, frame_rate, starts, attributes }, frames, first_frame_at))
+}

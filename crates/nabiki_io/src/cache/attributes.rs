@@ -1,0 +1,103 @@
+//! Attribute blocks of a cache: an eight-letter tag, the length in bytes, the values, zeros up to a multiple of 8.
+
+use std::io::{Read, Seek};
+
+use nabiki::hair::Attributes;
+
+use crate::{
+    bytes::{Bytes, Scalar, put},
+    error::{Error, Result},
+    finite,
+};
+
+pub(super) fn write(out: &mut Vec<u8>, a: &Attributes) -> Result<()> {
+    fn block<T: Scalar>(out: &mut Vec<u8>, tag: &[u8; 8], values: Option<&[T]>) -> Result<()> {
+        let Some(values) = values else { return Ok(()) };
+        out.extend_from_slice(tag);
+        put(out, &[size_of_val(values) as u64])?;
+        put(out, values)?;
+        out.resize(out.len().next_multiple_of(8), 0);
+        Ok(())
+    }
+    block(out, b"id      ", a.id.as_deref())?;
+    block(out, b"root_uv ", a.root_uv.as_deref())?;
+    block(out, b"group   ", a.group.as_deref())?;
+    let guide: Option<Vec<u8>> = a.guide.as_ref().map(|guide| guide.iter().map(|&g| u8::from(g)).collect());
+    block(out, b"guide   ", guide.as_deref())?;
+    block(out, b"width   ", a.width.as_deref())?;
+    block(out, b"color   ", a.color.as_deref())?;
+    block(out, b"transpar", a.transparency.as_deref())?;
+    block(out, b"point_uv", a.point_uv.as_deref())?;
+    block(out, b"freedom ", a.freedom.as_deref())?;
+    block(out, b"c_width ", a.constant.width.as_ref().map(std::slice::from_ref))?;
+    block(out, b"c_color ", a.constant.color.as_ref().map(std::slice::from_ref))?;
+    block(out, b"c_transp", a.constant.transparency.as_ref().map(std::slice::from_ref))?;
+    for (number, name) in &a.group_names {
+        let mut text = number.to_le_bytes().to_vec();
+        text.extend_from_slice(name.as_bytes());
+        block(out, b"grp_name", Some(&text))?;
+    }
+    Ok(())
+}
+
+/// Reads the blocks up to the offset `end`; tags of later versions are passed over.
+pub(super) fn read<R: Read + Seek>(
+    source: &mut Bytes<R>,
+    end: u64,
+    strands: usize,
+    points: usize,
+) -> Result<Attributes> {
+    let mut a = Attributes::default();
+    while source.at() < end {
+        let tag: [u8; 8] = source.value("attribute tag")?;
+        let length: u64 = source.value("attribute length")?;
+        let name = String::from_utf8_lossy(&tag).trim_end().to_owned();
+        let next = length.checked_next_multiple_of(8).and_then(|padded| source.at().checked_add(padded));
+        let Some(next) = next.filter(|&next| next <= end) else {
+            return Err(Error::new(format!("attribute {name}: {length} bytes reach beyond the header")));
+        };
+        let mut block = Block { source, name: &name, length };
+        match &tag {
+            b"id      " => a.id = Some(block.values(strands)?),
+            b"root_uv " => a.root_uv = Some(finite::tuples(&name, block.values(strands)?)?),
+            b"group   " => a.group = Some(block.values(strands)?),
+            b"guide   " => a.guide = Some(block.values::<u8>(strands)?.iter().map(|&g| g != 0).collect()),
+            b"width   " => a.width = Some(finite::widths(&name, block.values(points)?)?),
+            b"color   " => a.color = Some(finite::tuples(&name, block.values(points)?)?),
+            b"transpar" => a.transparency = Some(finite::values(&name, block.values(points)?)?),
+            b"point_uv" => a.point_uv = Some(finite::tuples(&name, block.values(points)?)?),
+            b"freedom " => a.freedom = Some(finite::values(&name, block.values(points)?)?),
+            b"c_width " => a.constant.width = finite::widths(&name, block.values(1)?)?.pop(),
+            b"c_color " => a.constant.color = finite::tuples(&name, block.values(1)?)?.pop(),
+            b"c_transp" => a.constant.transparency = finite::values(&name, block.values(1)?)?.pop(),
+            b"grp_name" => {
+                let text: Vec<u8> = block.values(length as usize)?;
+                let damaged = || Error::new("attribute grp_name: not a number and a name: the file is damaged");
+                let (number, text) = text.split_first_chunk().ok_or_else(damaged)?;
+                let text = std::str::from_utf8(text).map_err(|_| damaged())?;
+                a.group_names.insert(i32::from_le_bytes(*number), text.to_owned());
+            }
+            _ => {}
+        }
+        source.seek(next)?;
+    }
+    Ok(a)
+}
+
+/// The values of one block.
+struct Block<'a, R> {
+    source: &'a mut Bytes<R>,
+    name: &'a str,
+    length: u64,
+}
+
+impl<R: Read + Seek> Block<'_, R> {
+    fn values<T: Scalar>(&mut self, count: usize) -> Result<Vec<T>> {
+        let expected = (count as u64).saturating_mul(size_of::<T>() as u64);
+        if expected != self.length {
+            let (name, found) = (self.name, self.length);
+            return Err(Error::new(format!("attribute {name}: {expected} bytes expected, {found} found")));
+        }
+        self.source.array(count, self.name)
+    }
+}

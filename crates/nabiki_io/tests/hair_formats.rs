@@ -1,0 +1,127 @@
+//! What each hair format holds comes back exactly; what it cannot hold is said; what is wrong is refused by name.
+
+#[allow(dead_code, reason = "shared by several test programs, each of which uses a part")]
+mod samples;
+
+use nabiki::hair::Attributes;
+use nabiki_io::{hair, hair_file, tfx};
+
+#[test]
+fn a_hair_file_keeps_points_widths_colours_and_transparencies_and_names_the_rest() {
+    let original = samples::hair(&[3, 2, 4]);
+    let read = hair_file::from_bytes(&samples::hair_bytes()).unwrap();
+    assert_eq!(read.strands, original.strands);
+    let kept = Attributes {
+        width: original.attributes.width.clone(),
+        color: original.attributes.color.clone(),
+        transparency: original.attributes.transparency.clone(),
+        constant: original.attributes.constant,
+        ..Attributes::default()
+    };
+    assert_eq!(read.attributes, kept);
+    let lost = ["strand ids", "root UVs", "groups", "guide flags", "point UVs", "which points are held"];
+    assert_eq!(hair_file::losses(&original), lost);
+    assert!(hair_file::losses(&read).is_empty());
+}
+
+#[test]
+fn a_tfx_file_keeps_uvs_colours_and_held_points() {
+    let mut original = samples::hair(&[4, 4, 4]);
+    original.attributes.width = Some([0.01, 0.02, 0.03].iter().flat_map(|&w| [w; 4]).collect());
+    let mut bytes = Vec::new();
+    tfx::to_writer(&original, &mut bytes).unwrap();
+    let read = tfx::from_bytes(&bytes).unwrap();
+    assert_eq!(read.strands, original.strands);
+    let (a, b) = (read.attributes, original.attributes);
+    assert_eq!((a.root_uv, a.point_uv, a.width), (b.root_uv, b.point_uv, b.width));
+    // The sample's transparencies are multiples of 1/32, which 1 - (1 - t) keeps.
+    assert_eq!((a.color, a.transparency, a.freedom), (b.color, b.transparency, b.freedom));
+    assert_eq!(tfx::losses(&samples::hair(&[4])).len(), 4, "ids, groups, guides and the taper");
+}
+
+#[test]
+fn version_3_gives_guides_and_holds_both_ends_where_it_says_so() {
+    let hair = tfx::from_bytes(&samples::tfx_3_bytes()).unwrap();
+    assert_eq!(hair.strands.starts(), [0, 3, 6], "five strands follow each guide and are not in the file");
+    assert_eq!(hair.strands.strand(1)[2], glam::Vec3::new(1.0, 2.0, 0.5));
+    assert_eq!(hair.attributes.freedom, Some(vec![0.0, 1.0, 0.0, 0.0, 1.0, 0.0]));
+    assert_eq!(hair.attributes.width, Some(vec![0.01, 0.01, 0.01, 0.02, 0.02, 0.02]));
+    assert_eq!(hair.attributes.root_uv, Some(vec![[0.25, 0.5], [0.75, 1.0]]));
+}
+
+#[test]
+fn strands_of_different_lengths_are_refused_by_tfx_with_the_way_out() {
+    let error = tfx::to_writer(&samples::hair(&[3, 2]), &mut Vec::new()).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "strand 0 has 3 points and strand 1 2: a .tfx file holds strands of one length; resample them or write .hair"
+    );
+}
+
+/// The sample .hair file with four bytes replaced.
+fn altered(at: usize, word: [u8; 4]) -> String {
+    let mut bytes = samples::hair_bytes();
+    bytes[at..at + 4].copy_from_slice(&word);
+    hair_file::from_bytes(&bytes).unwrap_err().to_string()
+}
+
+#[test]
+fn lying_counts_are_refused_against_the_length_of_the_file() {
+    assert_eq!(
+        altered(4, u32::MAX.to_le_bytes()),
+        "segments: 8589934590 bytes expected at offset 128, 294 found: the file is cut short or its counts are wrong"
+    );
+    assert_eq!(altered(8, 10u32.to_le_bytes()), "point count is 10, but 3 strands have 9 points in all");
+    assert_eq!(altered(4, [0; 4]), "strand count is 0: the file holds no hair");
+}
+
+#[test]
+fn nan_is_refused_naming_the_strand() {
+    // Points start after the header and three u16: point 4 is the second of strand 1.
+    let at = 128 + 6 + 4 * 12;
+    assert_eq!(
+        altered(at, f32::NAN.to_le_bytes()),
+        "strand 1, point 1: (NaN, 0.5, 0.25) is not a place: coordinates must be finite"
+    );
+    assert!(altered(at, f32::INFINITY.to_le_bytes()).starts_with("strand 1, point 1: (inf,"));
+}
+
+#[test]
+fn a_missing_file_a_folder_and_a_strange_ending_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let missing = folder.path().join("no.hair");
+    let error = hair::read(&missing).unwrap_err().to_string();
+    assert_eq!(error, format!("{}: No such file or directory (os error 2)", missing.display()));
+    let named_folder = folder.path().join("folder.hair");
+    std::fs::create_dir(&named_folder).unwrap();
+    let error = hair::read(&named_folder).unwrap_err().to_string();
+    assert_eq!(error, format!("{}: not a regular file", named_folder.display()));
+    let error = hair::read("hair.fbx".as_ref()).unwrap_err().to_string();
+    assert_eq!(error, "hair.fbx: ending \"fbx\" is not a hair format: .hair, .tfx or .obj");
+}
+
+#[test]
+fn a_failed_write_leaves_nothing_and_an_old_file_as_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out.tfx");
+    std::fs::write(&path, "old").unwrap();
+    hair::write(&path, &samples::hair(&[3, 2])).unwrap_err();
+    assert_eq!(std::fs::read(&path).unwrap(), b"old");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "no part file is left");
+}
+
+#[test]
+fn placement_and_cleaning_are_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mixed.obj");
+    std::fs::write(&path, "v 0 0 0\nv 0 0 0\nv 0 0.5 0\nv 0 0.5 0.01\nl 1 2 3\nl 1 2\nl 3 4\n").unwrap();
+    let metres = nabiki_io::Placement { unit: "m".parse().unwrap(), ..Default::default() };
+    let cleaning = hair::Cleaning { join_within: 0.0, drop_shorter_than: 2.0 };
+    let (hair, report) = hair::import(&path, &metres, &cleaning).unwrap();
+    assert_eq!((report.strands_in_file, report.points_in_file), (3, 7));
+    assert_eq!((report.degenerate.joined_points, report.degenerate.dropped_strands, report.dropped_short), (1, 1, 1));
+    assert_eq!(hair.strands.points(), [glam::Vec3::ZERO, glam::Vec3::new(0.0, 50.0, 0.0)]);
+    let all_too_short = hair::Cleaning { drop_shorter_than: 60.0, ..cleaning };
+    let error = hair::import(&path, &metres, &all_too_short).unwrap_err().to_string();
+    assert!(error.contains("none of 3 strands is left: 1 have no extent, 2 are shorter than 60 cm"), "{error}");
+}
