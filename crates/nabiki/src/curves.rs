@@ -1,0 +1,279 @@
+//! Curves as other tools store them, turned into the polylines of strands.
+//!
+//! Cubic curves are walked by arc length into segments of equal length; polylines stay as they are unless another
+//! number of segments is asked for. What a curve carries at its control points goes the same way, blended by the
+//! weights that the curve's own basis gives.
+
+use glam::Vec3;
+
+use crate::Strands;
+
+/// How a curve runs between its control points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Basis {
+    /// Straight from point to point.
+    Linear,
+    /// Through every third point; the others pull.
+    Bezier,
+    /// Near its points.
+    Bspline,
+    /// Through its points.
+    CatmullRom,
+}
+
+/// Many curves, one after another.
+#[derive(Clone, Debug)]
+pub struct Curves<'a> {
+    /// Control points of each curve.
+    pub counts: &'a [usize],
+    /// Control points, curve after curve, root first.
+    pub points: &'a [Vec3],
+    /// How they run.
+    pub basis: Basis,
+    /// Whether B-splines and Catmull-Rom curves begin and end at their first and last points ("pinned"), as if a
+    /// further point stood beyond each end, rather than one segment short of them.
+    pub pinned: bool,
+}
+
+/// One point of a strand as a blend of its curve's control points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blend {
+    /// Index of the first control point concerned (of all curves).
+    pub first: usize,
+    /// Its weight and those of the three after it; 0 where there is none.
+    pub weights: [f64; 4],
+    /// Which segment of the curve it lies on, and how far along (0..1): for values kept at the segments' ends.
+    pub segment: (usize, f64),
+}
+
+/// Strands made from curves.
+#[derive(Clone, Debug, Default)]
+pub struct Walked {
+    /// The strands.
+    pub strands: Strands,
+    /// Where each point came from; empty if the strands' points are the control points themselves.
+    pub blends: Vec<Blend>,
+}
+
+/// Steps into which a cubic is cut to measure its length.
+const STEPS: usize = 32;
+
+impl Curves<'_> {
+    /// Walks every curve into `segments` segments; `None` keeps polylines as they are, and gives cubic curves as many
+    /// points as they have control points.
+    ///
+    /// # Errors
+    /// A curve with too few control points for its basis, a number of segments that is 0; the text names the curve.
+    ///
+    /// # Panics
+    /// If the counts do not add up to the number of points.
+    pub fn walk(&self, segments: Option<usize>) -> Result<Walked, String> {
+        assert_eq!(self.counts.iter().sum::<usize>(), self.points.len(), "counts and points");
+        if segments == Some(0) {
+            return Err("0 segments: a strand needs one at least".to_owned());
+        }
+        let mut walked = Walked { strands: Strands::with_capacity(self.counts.len(), 0), ..Walked::default() };
+        let mut first = 0;
+        for (curve, &count) in self.counts.iter().enumerate() {
+            let points = &self.points[first..first + count];
+            let pieces = self.pieces(count).map_err(|e| format!("curve {curve}: {e}"))?;
+            match (self.basis, segments) {
+                (Basis::Linear, None) => walked.strands.push(points.iter().copied()),
+                _ => {
+                    let wanted = segments.unwrap_or(count - 1);
+                    let blends = self.blends(points, pieces, wanted);
+                    walked.strands.push(blends.iter().map(|b| b.of(points).as_vec3()));
+                    walked.blends.extend(blends.into_iter().map(|b| Blend { first: first + b.first, ..b }));
+                }
+            }
+            first += count;
+        }
+        Ok(walked)
+    }
+
+    /// Number of segments between ends of pieces: straight lines or cubics.
+    fn pieces(&self, count: usize) -> Result<usize, String> {
+        let (pieces, rest) = match self.basis {
+            Basis::Linear => (count.saturating_sub(1), 0),
+            Basis::Bezier => (count.saturating_sub(1) / 3, count.saturating_sub(1) % 3),
+            _ if self.pinned => (count.saturating_sub(1), 0),
+            _ => (count.saturating_sub(3), 0),
+        };
+        if pieces == 0 || rest != 0 {
+            let (basis, wrap) = (self.basis, if self.pinned { "pinned " } else { "" });
+            return Err(format!("{count} control points do not make a {wrap}{basis:?} curve"));
+        }
+        Ok(pieces)
+    }
+
+    /// `segments` + 1 points equally far apart along the curve.
+    fn blends(&self, points: &[Vec3], pieces: usize, segments: usize) -> Vec<Blend> {
+        let steps = if self.basis == Basis::Linear { 1 } else { STEPS };
+        let at = |step: usize, part: f64| {
+            let place = (step as f64 + part) / steps as f64;
+            let piece = (place as usize).min(pieces - 1);
+            self.blend(points.len(), piece, place - piece as f64)
+        };
+        let mut lengths = Vec::with_capacity(pieces * steps + 1);
+        let (mut length, mut last) = (0.0, at(0, 0.0).of(points));
+        lengths.push(0.0);
+        for step in 1..=pieces * steps {
+            let next = at(step, 0.0).of(points);
+            length += next.distance(last);
+            last = next;
+            lengths.push(length);
+        }
+        let mut step = 0;
+        (0..=segments)
+            .map(|n| {
+                let wanted = length * n as f64 / segments as f64;
+                while step + 2 < lengths.len() && lengths[step + 1] < wanted {
+                    step += 1;
+                }
+                let span = lengths[step + 1] - lengths[step];
+                let part = if span > 0.0 { ((wanted - lengths[step]) / span).clamp(0.0, 1.0) } else { 0.0 };
+                if n == segments { at(pieces * steps, 0.0) } else { at(step, part) }
+            })
+            .collect()
+    }
+
+    /// The blend at `t` (0..1) of a piece of a curve of `count` points.
+    fn blend(&self, count: usize, piece: usize, t: f64) -> Blend {
+        let (t2, t3, u) = (t * t, t * t * t, 1.0 - t);
+        let segment = (piece, t);
+        match self.basis {
+            Basis::Linear => Blend { first: piece, weights: [u, t, 0.0, 0.0], segment },
+            Basis::Bezier => {
+                Blend { first: 3 * piece, weights: [u * u * u, 3.0 * u * u * t, 3.0 * u * t2, t3], segment }
+            }
+            Basis::Bspline | Basis::CatmullRom => {
+                let weights = if self.basis == Basis::Bspline {
+                    [u * u * u, 4.0 - 6.0 * t2 + 3.0 * t3, 1.0 + 3.0 * t + 3.0 * t2 - 3.0 * t3, t3].map(|w| w / 6.0)
+                } else {
+                    [-t + 2.0 * t2 - t3, 2.0 - 5.0 * t2 + 3.0 * t3, t + 4.0 * t2 - 3.0 * t3, t3 - t2].map(|w| w / 2.0)
+                };
+                if !self.pinned {
+                    return Blend { first: piece, weights, segment };
+                }
+                // The points beyond the ends, 2 p_0 - p_1 and its like, are put in terms of those there are.
+                let first = piece.saturating_sub(1).min(count.saturating_sub(4));
+                let mut folded = [0.0; 4];
+                for (k, w) in weights.into_iter().enumerate() {
+                    match (piece + k).checked_sub(1) {
+                        None => {
+                            folded[0] += 2.0 * w;
+                            folded[1] -= w;
+                        }
+                        Some(i) if i >= count => {
+                            folded[count - 1 - first] += 2.0 * w;
+                            folded[count - 2 - first] -= w;
+                        }
+                        Some(i) => folded[i - first] += w,
+                    }
+                }
+                Blend { first, weights: folded, segment }
+            }
+        }
+    }
+}
+
+impl Blend {
+    fn of(&self, points: &[Vec3]) -> glam::DVec3 {
+        let near = points[self.first..].iter().zip(self.weights);
+        near.map(|(p, w)| p.as_dvec3() * w).sum()
+    }
+
+    /// Blends values kept at the control points (of all curves), `N` numbers each.
+    pub fn values<const N: usize>(&self, values: &[[f32; N]]) -> [f32; N] {
+        let mut sum = [0.0; N];
+        for (value, w) in values[self.first..].iter().zip(self.weights) {
+            for (sum, v) in sum.iter_mut().zip(value) {
+                *sum += w * f64::from(*v);
+            }
+        }
+        sum.map(|x| x as f32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BASES: [(Basis, bool); 6] = [
+        (Basis::Linear, false),
+        (Basis::Bezier, false),
+        (Basis::Bspline, false),
+        (Basis::Bspline, true),
+        (Basis::CatmullRom, false),
+        (Basis::CatmullRom, true),
+    ];
+
+    #[test]
+    fn evenly_spaced_points_on_a_line_stay_evenly_spaced_on_it() {
+        let points: Vec<Vec3> = (0..7).map(|i| Vec3::new(1.0, -2.0, 0.5) * i as f32).collect();
+        for (basis, pinned) in BASES {
+            let walked = Curves { counts: &[7], points: &points, basis, pinned }.walk(Some(9)).unwrap();
+            // Unpinned splines leave one segment at each end undrawn.
+            let short = f32::from(u8::from(!pinned && matches!(basis, Basis::Bspline | Basis::CatmullRom)));
+            for (i, p) in walked.strands.strand(0).iter().enumerate() {
+                let expected = Vec3::new(1.0, -2.0, 0.5) * (short + (6.0 - 2.0 * short) * i as f32 / 9.0);
+                assert!(p.distance(expected) < 1e-5, "{basis:?} {pinned}: {p} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn weights_of_every_basis_add_up_to_one() {
+        for (basis, pinned) in BASES {
+            let curves = Curves { counts: &[], points: &[], basis, pinned };
+            for count in [2, 4, 7] {
+                for piece in 0..curves.pieces(count).unwrap_or(0) {
+                    for t in [0.0, 0.3, 1.0] {
+                        let blend = curves.blend(count, piece, t);
+                        assert!((blend.weights.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{basis:?} {blend:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_bezier_quarter_circle_is_cut_into_equal_chords() {
+        let k = 0.552_284_8;
+        let points = [Vec3::X, Vec3::new(1.0, k, 0.0), Vec3::new(k, 1.0, 0.0), Vec3::Y];
+        let walked = Curves { counts: &[4], points: &points, basis: Basis::Bezier, pinned: false }.walk(Some(12));
+        let walked = walked.unwrap();
+        let strand = walked.strands.strand(0);
+        assert_eq!(strand[0], Vec3::X);
+        assert!(strand[12].distance(Vec3::Y) < 1e-6);
+        let chord = 2.0 * (std::f32::consts::FRAC_PI_2 / 24.0).sin();
+        for w in strand.windows(2) {
+            // This cubic is off the circle by 2.7e-4, and within one of the 32 steps its speed is taken as constant.
+            assert!((w[0].distance(w[1]) / chord - 1.0).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn polylines_are_left_alone_and_cubics_keep_their_number_of_points() {
+        let points: Vec<Vec3> = (0..9).map(|i| Vec3::new(0.1, 0.7, 0.3) * (i * i) as f32).collect();
+        let linear = Curves { counts: &[4, 5], points: &points, basis: Basis::Linear, pinned: false };
+        let walked = linear.walk(None).unwrap();
+        assert_eq!(walked.strands.points(), points);
+        assert!(walked.blends.is_empty());
+        let spline = Curves { basis: Basis::Bspline, ..linear.clone() }.walk(None).unwrap();
+        assert_eq!(spline.strands.starts(), [0, 4, 9]);
+        assert!(Curves { basis: Basis::Bezier, ..linear }.walk(None).unwrap_err().starts_with("curve 1: 5 control"));
+    }
+
+    #[test]
+    fn values_at_the_control_points_follow_the_points() {
+        let points: Vec<Vec3> = (0..8).map(|i| Vec3::new(i as f32, (i % 3) as f32, 0.5)).collect();
+        for (basis, pinned) in [(Basis::Bspline, true), (Basis::CatmullRom, false), (Basis::Linear, false)] {
+            let walked = Curves { counts: &[8], points: &points, basis, pinned }.walk(Some(20)).unwrap();
+            let values: Vec<[f32; 3]> = points.iter().map(|p| p.to_array()).collect();
+            for (blend, p) in walked.blends.iter().zip(walked.strands.points()) {
+                assert_eq!(blend.values(&values), p.to_array());
+            }
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! What every exporter of moving hair is told, and the one way to feed it frames.
+
+use std::io;
+
+use glam::{Affine3A, Vec3};
+
+use crate::{Hair, Mesh, Strands};
+
+/// A groom at rest and the world in which its file is to show it.
+#[derive(Clone, Debug)]
+pub struct Export<'a> {
+    /// The hair at rest (head space, cm): its strands fix how many points each frame has.
+    pub hair: &'a Hair,
+    /// The head to go with it (head space, cm); `None` leaves it out.
+    pub head: Option<&'a Mesh>,
+    /// Frames a second.
+    pub frame_rate: f64,
+    /// Number of the first frame given.
+    pub first_frame: i32,
+    /// Takes head space to the space of the file's hair: the inverse of what an importer applied, or identity.
+    pub file_from_head: Affine3A,
+    /// Length of the file's unit (m): 0.01 while `file_from_head` keeps centimetres.
+    pub meters_per_unit: f64,
+    /// Whether +z rather than +y is up in the file. It names the axis; `file_from_head` does the turning.
+    pub z_up: bool,
+}
+
+impl<'a> Export<'a> {
+    /// Hair without a head in centimetres, y up, from frame 0 on.
+    pub fn new(hair: &'a Hair, frame_rate: f64) -> Self {
+        Self {
+            hair,
+            head: None,
+            frame_rate,
+            first_frame: 0,
+            file_from_head: Affine3A::IDENTITY,
+            meters_per_unit: 0.01,
+            z_up: false,
+        }
+    }
+
+    /// Diameter by point in the file's unit, where the hair has any.
+    pub fn widths(&self) -> Option<Vec<f32>> {
+        let scale = self.file_from_head.matrix3.determinant().abs().cbrt();
+        let points = self.hair.strands.points().len();
+        let attributes = &self.hair.attributes;
+        let one = attributes.constant.width.map(|w| vec![w * scale; points]);
+        attributes.width.as_ref().map(|w| w.iter().map(|w| w * scale).collect()).or(one)
+    }
+
+    /// Refuses attributes of a wrong length, a frame rate that is none, and a unit that is none.
+    pub fn check(&self) -> io::Result<()> {
+        let invalid = |problem: String| Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
+        if let Err(e) = self.hair.check_lengths() {
+            return invalid(e.to_string());
+        }
+        if self.hair.strands.is_empty() {
+            return invalid("there are no strands to write".to_owned());
+        }
+        if !(self.frame_rate.is_finite() && self.frame_rate > 0.0) {
+            return invalid(format!("frame rate {}: must be a finite number above 0", self.frame_rate));
+        }
+        if !(self.meters_per_unit.is_finite() && self.meters_per_unit > 0.0) {
+            return invalid(format!("meters per unit {}: must be a finite number above 0", self.meters_per_unit));
+        }
+        Ok(())
+    }
+
+    /// Puts the points of `strands`, taken to the file's space, into `points`.
+    ///
+    /// # Errors
+    /// Strands that are not those of the groom, a point that is not finite.
+    pub fn points(&self, strands: &Strands, points: &mut Vec<Vec3>) -> io::Result<()> {
+        let invalid = |problem: String| Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
+        if strands.starts() != self.hair.strands.starts() {
+            let (found, expected) = (strands.points().len(), self.hair.strands.points().len());
+            return invalid(format!("a frame of {found} points for a groom of {expected}: strands may not change"));
+        }
+        points.clear();
+        if self.file_from_head == Affine3A::IDENTITY {
+            points.extend_from_slice(strands.points());
+        } else {
+            points.extend(strands.points().iter().map(|&p| self.file_from_head.transform_point3(p)));
+        }
+        match points.iter().position(|p| !p.is_finite()) {
+            Some(at) => invalid(format!("point {at} is {}: only finite points can be written", points[at])),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Takes one frame of the hair after another; the file has its name only once `finish` returned.
+pub trait FrameSink {
+    /// Writes the next frame.
+    ///
+    /// `strands`: head space, cm, point for point those of the groom. `world_from_head`: where the head is in
+    /// this frame (cm), identity for a head that rests.
+    ///
+    /// # Errors
+    /// What the disk says, strands that do not match the groom, points that are not finite.
+    fn frame(&mut self, strands: &Strands, world_from_head: &Affine3A) -> io::Result<()>;
+
+    /// Completes the file and gives it its name.
+    ///
+    /// # Errors
+    /// What the disk says.
+    fn finish(self: Box<Self>) -> io::Result<()>;
+}

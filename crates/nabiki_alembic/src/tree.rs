@@ -1,0 +1,300 @@
+//! The objects and properties of an archive being read.
+
+use std::io::{Read, Seek};
+
+use crate::Problem;
+use crate::layout::{INLINE_METADATA, Kind, Pod, flags};
+use crate::ogawa::read::{Group, Reader, is_data};
+
+/// Objects below objects; an archive that claims more refers to itself.
+const DEEPEST: usize = 64;
+/// Objects of one archive; see [`DEEPEST`].
+const MOST_OBJECTS: usize = 1 << 20;
+
+/// One of the archive's time samplings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Timing {
+    /// Length of a cycle (s); more than 1e10 for times without a rule.
+    pub period: f64,
+    /// Times of the samples of the first cycle (s).
+    pub times: Vec<f64>,
+}
+
+impl Timing {
+    /// When sample `i` is (s).
+    pub fn time(&self, i: usize) -> f64 {
+        let n = self.times.len();
+        if self.period > 1e10 {
+            return self.times[i.min(n - 1)];
+        }
+        self.times[i % n] + (i / n) as f64 * self.period
+    }
+}
+
+/// An object: where it is, what it is, and what is above it.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// Names from the top down, joined by `/`.
+    pub path: String,
+    /// Its metadata: `schema=AbcGeom_Curve_v2;...`.
+    pub metadata: String,
+    /// Its group.
+    pub place: u64,
+    /// Index of the object above it in the list.
+    pub parent: Option<usize>,
+}
+
+impl Object {
+    /// Whether its schema's name begins thus.
+    pub fn is(&self, schema: &str) -> bool {
+        self.metadata.split(';').any(|entry| entry.strip_prefix("schema=").is_some_and(|s| s.starts_with(schema)))
+    }
+}
+
+/// What a property is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// Properties below one name.
+    Compound,
+    /// One value a sample.
+    Scalar,
+    /// Any number of values a sample.
+    Array,
+}
+
+/// A property as its header describes it.
+#[derive(Clone, Debug)]
+pub struct Header {
+    /// Name.
+    pub name: String,
+    /// What it is.
+    pub form: Form,
+    /// Type of its values (meaningless for compounds).
+    pub kind: Kind,
+    /// Number of samples.
+    pub samples: usize,
+    first_change: usize,
+    last_change: usize,
+    /// Which of the archive's time samplings it follows.
+    pub timing: usize,
+    /// Its group.
+    pub place: u64,
+}
+
+impl Header {
+    /// Samples up to the last that differs from the one before it: all that need be looked at.
+    pub fn different_samples(&self) -> usize {
+        self.samples.min(self.last_change + 1)
+    }
+
+    /// Which stored sample stands for sample `i`.
+    fn stored(&self, i: usize) -> usize {
+        if i < self.first_change || (self.first_change, self.last_change) == (0, 0) {
+            0
+        } else {
+            // From the first change on, each is stored.
+            i.min(self.last_change) - self.first_change + 1
+        }
+    }
+}
+
+/// An archive's tables and its file.
+pub struct Tree<R> {
+    from: Reader<R>,
+    metadata: Vec<String>,
+    /// Time samplings.
+    pub timings: Vec<Timing>,
+    /// All objects, parents before their children; the first is the top.
+    pub objects: Vec<Object>,
+}
+
+impl<R: Read + Seek> Tree<R> {
+    /// Reads the tables and lists the objects.
+    pub fn new(from: R) -> Result<Self, Problem> {
+        let (mut from, root) = Reader::new(from)?;
+        let &[version, _, top, _, timing, metadata] = root.get(..6).unwrap_or(&[]) else {
+            return Err(Problem(format!("has {} parts at its root, where Alembic puts 6", root.len())));
+        };
+        let version = from.data(version)?;
+        if version != [0; 4] {
+            return Err(Problem(format!("has layout version {version:?}, of which nothing is known")));
+        }
+        let timings = timings(&from.data(timing)?)?;
+        let metadata = table(&from.data(metadata)?)?;
+        let mut tree = Self { from, metadata, timings, objects: Vec::new() };
+        tree.list(Object { path: String::new(), metadata: String::new(), place: top, parent: None }, 0)?;
+        Ok(tree)
+    }
+
+    fn list(&mut self, object: Object, depth: usize) -> Result<(), Problem> {
+        if depth > DEEPEST || self.objects.len() >= MOST_OBJECTS {
+            return Err(Problem(format!("object {}: so many lie above or before it that it must repeat", object.path)));
+        }
+        let children = self.from.group(object.place)?;
+        let parent = self.objects.len();
+        let path = object.path.clone();
+        self.objects.push(object);
+        let Some((&headers, [_, children @ ..])) = children.split_last() else { return Ok(()) };
+        if !is_data(headers) {
+            return Ok(());
+        }
+        let bytes = self.from.data(headers)?;
+        let mut bytes = Bytes(&bytes[..bytes.len().saturating_sub(32)]);
+        let mut children = children.iter();
+        while !bytes.0.is_empty() {
+            let length = bytes.number(4)?;
+            let name = bytes.text(length)?;
+            let index = bytes.number(1)?;
+            let metadata = self.metadata(index, 4, &mut bytes)?;
+            let &place = children.next().ok_or_else(|| Problem(format!("object {path}: a child has no place")))?;
+            let child = Object { path: format!("{path}/{name}"), metadata, place, parent: Some(parent) };
+            self.list(child, depth + 1)?;
+        }
+        Ok(())
+    }
+
+    fn metadata(&self, index: usize, width: usize, bytes: &mut Bytes<'_>) -> Result<String, Problem> {
+        if index == usize::from(INLINE_METADATA) {
+            let length = bytes.number(width)?;
+            bytes.text(length)
+        } else {
+            let entry = self.metadata.get(index);
+            entry.cloned().ok_or_else(|| Problem(format!("names metadata {index} of {}", self.metadata.len())))
+        }
+    }
+
+    /// The properties of an object.
+    pub fn properties_of(&mut self, object: usize) -> Result<Vec<Header>, Problem> {
+        match self.from.group(self.objects[object].place)?.first() {
+            Some(&place) => self.properties(place),
+            None => Ok(Vec::new()),
+        }
+    }
+
+    /// The properties in the compound at `place`.
+    pub fn properties(&mut self, place: u64) -> Result<Vec<Header>, Problem> {
+        let children = self.from.group(place)?;
+        let Some((&headers, children)) = children.split_last() else { return Ok(Vec::new()) };
+        if !is_data(headers) {
+            return Ok(Vec::new());
+        }
+        let bytes = self.from.data(headers)?;
+        let mut bytes = Bytes(&bytes);
+        let mut found = Vec::new();
+        for &place in children {
+            if bytes.0.is_empty() {
+                break;
+            }
+            found.push(self.header(&mut bytes, place)?);
+        }
+        Ok(found)
+    }
+
+    fn header(&self, bytes: &mut Bytes<'_>, place: u64) -> Result<Header, Problem> {
+        let info = bytes.number(4)? as u32;
+        let width = match info >> flags::WIDTH_SHIFT & 3 {
+            0 => 1,
+            1 => 2,
+            2 => 4,
+            _ => return Err(Problem::new("has a property header of unknown width")),
+        };
+        let form = match info & flags::TYPE {
+            0 => Form::Compound,
+            1 => Form::Scalar,
+            _ => Form::Array,
+        };
+        let mut kind = Kind { pod: Pod::U8, extent: 1 };
+        let (mut samples, mut first_change, mut last_change, mut timing) = (0, 0, 0, 0);
+        if form != Form::Compound {
+            let code = info >> flags::POD_SHIFT & 0xf;
+            let pod = Pod::from_code(code).ok_or_else(|| Problem(format!("has values of unknown type {code}")))?;
+            kind = Kind { pod, extent: (info >> flags::EXTENT_SHIFT & 0xff) as u8 };
+            samples = bytes.number(width)?;
+            if info & flags::CHANGES != 0 {
+                first_change = bytes.number(width)?;
+                last_change = bytes.number(width)?;
+            } else if info & flags::CONSTANT == 0 {
+                (first_change, last_change) = (1, samples.saturating_sub(1));
+            }
+            if info & flags::TIMED != 0 {
+                timing = bytes.number(width)?;
+            }
+        }
+        let length = bytes.number(width)?;
+        let name = bytes.text(length)?;
+        self.metadata((info >> flags::METADATA_SHIFT & 0xff) as usize, width, bytes)?;
+        if timing >= self.timings.len() || kind.extent == 0 || first_change > last_change {
+            return Err(Problem(format!("property {name}: its header contradicts itself")));
+        }
+        Ok(Header { name, form, kind, samples, first_change, last_change, timing, place })
+    }
+
+    /// Bytes of sample `i` of a property; the nearest one it has.
+    pub fn sample(&mut self, header: &Header, i: usize) -> Result<Vec<u8>, Problem> {
+        if header.samples == 0 || header.form == Form::Compound {
+            return Ok(Vec::new());
+        }
+        let each = if header.form == Form::Array { 2 } else { 1 };
+        let group: Group = self.from.group(header.place)?;
+        let stored = header.stored(i.min(header.samples - 1));
+        let data = group.get(each * stored).copied();
+        let data = data.ok_or_else(|| Problem(format!("property {}: sample {i} is missing", header.name)))?;
+        // The digest comes before the values.
+        self.from.data_after(data, 16)
+    }
+}
+
+fn timings(bytes: &[u8]) -> Result<Vec<Timing>, Problem> {
+    let mut bytes = Bytes(bytes);
+    let mut found = Vec::new();
+    while !bytes.0.is_empty() {
+        bytes.number(4)?;
+        let period = bytes.double()?;
+        let count = bytes.number(4)?;
+        if count == 0 || count > bytes.0.len() / 8 {
+            return Err(Problem(format!("claims {count} times where {} bytes are left", bytes.0.len())));
+        }
+        let times: Vec<f64> = (0..count).map(|_| bytes.double()).collect::<Result<_, _>>()?;
+        if !(period > 0.0 && times.iter().all(|t| t.is_finite())) {
+            return Err(Problem(format!("has times that are not finite, or a cycle of {period} s")));
+        }
+        found.push(Timing { period, times });
+    }
+    Ok(found)
+}
+
+fn table(bytes: &[u8]) -> Result<Vec<String>, Problem> {
+    let mut bytes = Bytes(bytes);
+    let mut found = vec![String::new()];
+    while !bytes.0.is_empty() {
+        let length = bytes.number(1)?;
+        found.push(bytes.text(length)?);
+    }
+    Ok(found)
+}
+
+/// Bytes yet to be read.
+struct Bytes<'a>(&'a [u8]);
+
+impl<'a> Bytes<'a> {
+    fn take(&mut self, length: usize) -> Result<&'a [u8], Problem> {
+        let (taken, rest) =
+            self.0.split_at_checked(length).ok_or_else(|| Problem::new("has a header that ends too early"))?;
+        self.0 = rest;
+        Ok(taken)
+    }
+
+    fn number(&mut self, width: usize) -> Result<usize, Problem> {
+        let mut all = [0; 8];
+        all[..width].copy_from_slice(self.take(width)?);
+        Ok(u64::from_le_bytes(all) as usize)
+    }
+
+    fn double(&mut self) -> Result<f64, Problem> {
+        Ok(f64::from_le_bytes(self.take(8)?.try_into().expect("eight bytes")))
+    }
+
+    fn text(&mut self, length: usize) -> Result<String, Problem> {
+        Ok(String::from_utf8_lossy(self.take(length)?).into_owned())
+    }
+}

@@ -1,0 +1,297 @@
+//! Moving hair into an archive, one frame at a time.
+//!
+//! The archive: a transform `head`, below it the curves `hair` and, if asked for, the mesh `skin`. Positions, bounds
+//! and the transform have a sample a frame; all else is stored once. Alembic has no unit and no up axis: consumers
+//! take it as y up, and its unit for their own.
+
+use std::io::{self, BufWriter};
+use std::path::{Path, PathBuf};
+
+use glam::{Affine3A, DMat4, Mat4, Vec3};
+use nabiki::export::{Export, FrameSink};
+use nabiki::{Mesh, Strands};
+use tempfile::NamedTempFile;
+
+use crate::layout::{Kind, Pod};
+use crate::ogawa::write::Writer;
+use crate::property::{Compound, MetadataTable, Object, Property, Schema};
+
+const POINT: Kind = Kind { pod: Pod::F32, extent: 3 };
+const UV: Kind = Kind { pod: Pod::F32, extent: 2 };
+const NUMBER: Kind = Kind { pod: Pod::F32, extent: 1 };
+const INTEGER: Kind = Kind { pod: Pod::I32, extent: 1 };
+const TEXT: Kind = Kind { pod: Pod::Text, extent: 1 };
+const BOX: Kind = Kind { pod: Pod::F64, extent: 6 };
+const FLAG: Kind = Kind { pod: Pod::Bool, extent: 1 };
+const BYTE: Kind = Kind { pod: Pod::U8, extent: 1 };
+
+/// Time samplings of the archive: 0 is the default every archive has, 1 that of the frames.
+const FRAMES: u32 = 1;
+
+type Archive = Writer<BufWriter<NamedTempFile>>;
+
+/// An Alembic archive that takes the hair frame by frame.
+pub struct HairArchive<'a> {
+    export: Export<'a>,
+    path: PathBuf,
+    to: Archive,
+    positions: Property,
+    bounds: Property,
+    transform: Property,
+    moved_channels: [bool; 16],
+    rest_transform: Option<[f64; 16]>,
+    points: Vec<Vec3>,
+}
+
+impl<'a> HairArchive<'a> {
+    /// Begins the archive that [`FrameSink::finish`] will name `path`.
+    ///
+    /// # Errors
+    /// Settings that [`Export::check`] refuses; what the disk says.
+    pub fn create(path: &Path, export: Export<'a>) -> io::Result<Self> {
+        export.check()?;
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let file = NamedTempFile::new_in(folder)?;
+        Ok(Self {
+            export,
+            path: path.to_owned(),
+            to: Writer::new(BufWriter::with_capacity(1 << 20, file))?,
+            positions: Property::array("P", "geoScope=vtx;interpretation=point", POINT, FRAMES),
+            bounds: Property::scalar(".selfBnds", "interpretation=box", BOX, FRAMES),
+            transform: Property::scalar(".vals", "", Kind { pod: Pod::F64, extent: 16 }, FRAMES),
+            moved_channels: [false; 16],
+            rest_transform: None,
+            points: Vec::new(),
+        })
+    }
+
+    fn complete(mut self) -> io::Result<()> {
+        if self.positions.samples() == 0 {
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, "no frame was given"));
+        }
+        let mut table = MetadataTable::default();
+        let version = self.to.data(&[&0i32.to_le_bytes()])?;
+        // The layout is that of Alembic 1.7 to 1.8; readers use the number to tell what they may meet.
+        let library = self.to.data(&[&10_800i32.to_le_bytes()])?;
+        let timing = self.timing();
+        let to = &mut self.to;
+        let hair = curves(to, &mut table, &self.export, &self.positions, &self.bounds)?;
+        let skin = self.export.head.map(|mesh| polygons(to, &mut table, mesh, &self.export)).transpose()?;
+
+        let inside = transform(to, &mut table, &self.transform, &self.moved_channels)?;
+        let mut head = Object::with_schema(to, &mut table, Schema::Xform, inside)?;
+        head.add(to, &mut table, "hair", Schema::Curves, hair)?;
+        if let Some(skin) = skin {
+            head.add(to, &mut table, "skin", Schema::PolyMesh, skin)?;
+        }
+        let mut top = Object::default();
+        top.add(to, &mut table, "head", Schema::Xform, head)?;
+        let top = top.finish(to)?;
+
+        let metadata = format!("_ai_AlembicVersion=Alembic 1.8.0;_ai_Application=Nabiki {}", env!("CARGO_PKG_VERSION"));
+        let fps = format!(";_ai_DCC_FPS={}", self.export.frame_rate);
+        let metadata = to.data(&[metadata.as_bytes(), fps.as_bytes()])?;
+        let timing = to.data(&[&timing])?;
+        let table = to.data(&[&table.bytes()])?;
+        let root = to.group(&[version, library, top, metadata, timing, table])?;
+        let file = self.to.finish(root)?.into_inner().map_err(|e| e.into_error())?;
+        file.persist(&self.path).map_err(|e| e.error)?;
+        Ok(())
+    }
+
+    /// Time samplings: the default, and a uniform one of the frames.
+    fn timing(&self) -> Vec<u8> {
+        let period = 1.0 / self.export.frame_rate;
+        let start = f64::from(self.export.first_frame) * period;
+        let mut bytes = Vec::new();
+        for (samples, period, start) in [(1, 1.0, 0.0), (self.positions.samples(), period, start)] {
+            bytes.extend(u32::to_le_bytes(samples));
+            bytes.extend(f64::to_le_bytes(period));
+            bytes.extend(1u32.to_le_bytes());
+            bytes.extend(f64::to_le_bytes(start));
+        }
+        bytes
+    }
+}
+
+impl FrameSink for HairArchive<'_> {
+    fn frame(&mut self, strands: &Strands, world_from_head: &Affine3A) -> io::Result<()> {
+        self.export.points(strands, &mut self.points)?;
+        self.positions.put(&mut self.to, bytemuck::cast_slice(&self.points))?;
+        self.bounds.put(&mut self.to, &box_of(&self.points))?;
+        let file_from_head = self.export.file_from_head;
+        let parent = if *world_from_head == Affine3A::IDENTITY {
+            Mat4::IDENTITY
+        } else {
+            Mat4::from(file_from_head * *world_from_head * file_from_head.inverse())
+        };
+        // Alembic multiplies rows from the left, so a column here is a row there and the order of numbers is the same.
+        let parent = DMat4::from_cols_array(&parent.to_cols_array().map(f64::from)).to_cols_array();
+        let rest = self.rest_transform.get_or_insert(parent);
+        for (moved, (a, b)) in self.moved_channels.iter_mut().zip(rest.iter().zip(&parent)) {
+            *moved |= a != b;
+        }
+        self.transform.put(&mut self.to, bytemuck::cast_slice(&parent))
+    }
+
+    fn finish(self: Box<Self>) -> io::Result<()> {
+        self.complete()
+    }
+}
+
+fn box_of(points: &[Vec3]) -> Vec<u8> {
+    let low = points.iter().fold(Vec3::INFINITY, |a, &b| a.min(b));
+    let high = points.iter().fold(Vec3::NEG_INFINITY, |a, &b| a.max(b));
+    let numbers: [f64; 6] = [low.x, low.y, low.z, high.x, high.y, high.z].map(f64::from);
+    bytemuck::cast_slice(&numbers).to_vec()
+}
+
+/// The properties of the parent transform: one matrix.
+fn transform(
+    to: &mut Archive,
+    table: &mut MetadataTable,
+    values: &Property,
+    moved: &[bool; 16],
+) -> io::Result<Compound> {
+    const MATRIX: u8 = 3 << 4;
+    let mut inside = Compound::default();
+    let mut once = |inside: &mut Compound, mut property: Property, value: &[u8]| {
+        property.put(to, value)?;
+        // Readers take the number of a transform's samples from these.
+        property.hold(values.samples());
+        inside.add(to, table, &property)
+    };
+    once(&mut inside, Property::scalar(".inherits", "", FLAG, FRAMES), &[1])?;
+    once(&mut inside, Property::scalar(".ops", "", BYTE, 0), &[MATRIX])?;
+    inside.add(to, table, values)?;
+    let mut still = Property::scalar("isNotConstantIdentity", "", FLAG, 0);
+    still.put(to, &[1])?;
+    inside.add(to, table, &still)?;
+    let channels: Vec<u32> = (0..16u32).filter(|&c| moved[c as usize]).collect();
+    if !channels.is_empty() {
+        let mut animated = Property::array(".animChans", "", Kind { pod: Pod::U32, extent: 1 }, 0);
+        animated.put(to, bytemuck::cast_slice(&channels))?;
+        inside.add(to, table, &animated)?;
+    }
+    let groom = groom_properties(to, table)?;
+    inside.nest(to, table, ".userProperties", "", groom)?;
+    Ok(inside)
+}
+
+/// What says to Unreal which form of groom this is, at the topmost transform.
+fn groom_properties(to: &mut Archive, table: &mut MetadataTable) -> io::Result<Compound> {
+    let mut inside = Compound::default();
+    let number = Kind { pod: Pod::I16, extent: 1 };
+    for (name, value) in [("groom_version_major", 1i16), ("groom_version_minor", 5)] {
+        let mut property = Property::scalar(name, "", number, 0);
+        property.put(to, &value.to_le_bytes())?;
+        inside.add(to, table, &property)?;
+    }
+    let mut tool = Property::scalar("groom_tool", "", TEXT, 0);
+    tool.put(to, concat!("Nabiki ", env!("CARGO_PKG_VERSION"), "\0").as_bytes())?;
+    inside.add(to, table, &tool)?;
+    Ok(inside)
+}
+
+/// The curves: the frames' positions and bounds, and everything that does not move.
+fn curves(
+    to: &mut Archive,
+    table: &mut MetadataTable,
+    export: &Export<'_>,
+    positions: &Property,
+    bounds: &Property,
+) -> io::Result<Object> {
+    let mut inside = Compound::default();
+    inside.add(to, table, bounds)?;
+    inside.add(to, table, positions)?;
+    let mut once = |inside: &mut Compound, mut property: Property, value: &[u8]| {
+        property.put(to, value)?;
+        property.hold(if property.is_timed() { positions.samples() } else { 1 });
+        inside.add(to, table, &property)
+    };
+    let strands = &export.hair.strands;
+    let counts: Vec<i32> = strands.iter().map(|s| s.len() as i32).collect();
+    once(&mut inside, Property::array("nVertices", "", INTEGER, FRAMES), bytemuck::cast_slice(&counts))?;
+    // Linear, not periodic, no basis.
+    let shape = Property::scalar("curveBasisAndType", "", Kind { pod: Pod::U8, extent: 4 }, FRAMES);
+    once(&mut inside, shape, &[1, 0, 0, 0])?;
+    let attributes = &export.hair.attributes;
+    if let Some(uv) = &attributes.root_uv {
+        once(&mut inside, Property::attribute("uv", "uni", "vector", UV, FRAMES), bytemuck::cast_slice(uv))?;
+    }
+    if let Some(widths) = export.widths() {
+        once(&mut inside, Property::attribute("width", "vtx", "", NUMBER, FRAMES), bytemuck::cast_slice(&widths))?;
+    }
+
+    let mut more = Compound::default();
+    if let Some(uv) = &attributes.root_uv {
+        let property = Property::attribute("groom_root_uv", "uni", "vector", UV, 0);
+        once(&mut more, property, bytemuck::cast_slice(uv))?;
+    }
+    if let Some(ids) = &attributes.id {
+        // Unreal's ids are 32-bit; others are kept whole under a name of our own.
+        match ids.iter().map(|&id| i32::try_from(id)).collect::<Result<Vec<_>, _>>() {
+            Ok(ids) => {
+                let property = Property::attribute("groom_id", "uni", "", INTEGER, 0);
+                once(&mut more, property, bytemuck::cast_slice(&ids))?;
+            }
+            Err(_) => {
+                let property = Property::attribute("id", "uni", "", Kind { pod: Pod::I64, extent: 1 }, 0);
+                once(&mut more, property, bytemuck::cast_slice(ids))?;
+            }
+        }
+    }
+    if let Some(groups) = &attributes.group {
+        let property = Property::attribute("groom_group_id", "uni", "", INTEGER, 0);
+        once(&mut more, property, bytemuck::cast_slice(groups))?;
+        if !attributes.group_names.is_empty() {
+            let empty = String::new();
+            let name = |g: &i32| attributes.group_names.get(g).unwrap_or(&empty).replace('\0', "") + "\0";
+            let names: String = groups.iter().map(name).collect();
+            once(&mut more, Property::attribute("groom_group_name", "uni", "", TEXT, 0), names.as_bytes())?;
+        }
+    }
+    if let Some(guides) = &attributes.guide {
+        let guides: Vec<i16> = guides.iter().map(|&g| i16::from(g)).collect();
+        let property = Property::attribute("groom_guide", "uni", "", Kind { pod: Pod::I16, extent: 1 }, 0);
+        once(&mut more, property, bytemuck::cast_slice(&guides))?;
+    }
+    let one_color = attributes.constant.color.map(|c| vec![c; strands.points().len()]);
+    if let Some(colors) = attributes.color.as_ref().or(one_color.as_ref()) {
+        let property = Property::attribute("groom_color", "vtx", "rgb", POINT, 0);
+        once(&mut more, property, bytemuck::cast_slice(colors))?;
+    }
+    if let Some(uv) = &attributes.point_uv {
+        once(&mut more, Property::attribute("point_uv", "vtx", "vector", UV, 0), bytemuck::cast_slice(uv))?;
+    }
+    if let Some(values) = &attributes.transparency {
+        once(&mut more, Property::attribute("transparency", "vtx", "", NUMBER, 0), bytemuck::cast_slice(values))?;
+    }
+    if let Some(values) = &attributes.freedom {
+        once(&mut more, Property::attribute("freedom", "vtx", "", NUMBER, 0), bytemuck::cast_slice(values))?;
+    }
+    inside.nest(to, table, ".arbGeomParams", "", more)?;
+    Object::with_schema(to, table, Schema::Curves, inside)
+}
+
+/// The head, which keeps its shape.
+fn polygons(to: &mut Archive, table: &mut MetadataTable, mesh: &Mesh, export: &Export<'_>) -> io::Result<Object> {
+    let positions: Vec<Vec3> = mesh.positions.iter().map(|&p| export.file_from_head.transform_point3(p)).collect();
+    // Alembic winds faces clockwise; a mirroring turns them once more.
+    let mirrored = export.file_from_head.matrix3.determinant() < 0.0;
+    let wound = |&[a, b, c]: &[u32; 3]| if mirrored { [a, b, c] } else { [c, b, a] };
+    let corners: Vec<i32> = mesh.triangles.iter().flat_map(wound).map(|v| v as i32).collect();
+    let counts = vec![3i32; mesh.triangles.len()];
+    let mut inside = Compound::default();
+    for (property, value) in [
+        (Property::scalar(".selfBnds", "interpretation=box", BOX, 0), &box_of(&positions)[..]),
+        (Property::array("P", "geoScope=vtx;interpretation=point", POINT, 0), bytemuck::cast_slice(&positions)),
+        (Property::array(".faceIndices", "", INTEGER, 0), bytemuck::cast_slice(&corners)),
+        (Property::array(".faceCounts", "", INTEGER, 0), bytemuck::cast_slice(&counts)),
+    ] {
+        let mut property = property;
+        property.put(to, value)?;
+        inside.add(to, table, &property)?;
+    }
+    Object::with_schema(to, table, Schema::PolyMesh, inside)
+}

@@ -1,0 +1,261 @@
+//! Archives written and read back, and damaged ones refused. That other programs read them is `tests/interchange`.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use glam::{Affine3A, Quat, Vec3};
+use nabiki::export::{Export, FrameSink};
+use nabiki::hair::Attributes;
+use nabiki::{Hair, Mesh, Strands};
+use nabiki_alembic::{ArchiveReader, HairArchive};
+use proptest::prelude::*;
+
+const FRAMES: usize = 12;
+
+fn strands(frame: usize) -> Strands {
+    let mut strands = Strands::default();
+    for s in 0..40 {
+        let swing = (0.3 * frame as f32 + s as f32).sin();
+        let point = |p: usize| Vec3::new(0.1 * s as f32 + swing * p as f32 * 0.1, -(p as f32), swing);
+        strands.push((0..2 + s % 5).map(point));
+    }
+    strands
+}
+
+fn groom() -> Hair {
+    let mut hair = Hair::from(strands(0));
+    let (n, points) = (hair.strands.len(), hair.strands.points().len());
+    hair.attributes = Attributes {
+        id: Some((0..n as i64).map(|s| 7 * s).collect()),
+        root_uv: Some((0..n).map(|s| [s as f32 / n as f32, 0.25]).collect()),
+        group: Some((0..n as i32).map(|s| s % 3).collect()),
+        group_names: [(0, "fringe".to_owned()), (2, "back".to_owned())].into(),
+        guide: Some((0..n).map(|s| s % 7 == 0).collect()),
+        width: Some((0..points).map(|p| 0.008 + 1e-5 * p as f32).collect()),
+        color: Some((0..points).map(|p| [0.1, 0.001 * p as f32, 0.02]).collect()),
+        point_uv: Some((0..points).map(|p| [0.5, p as f32]).collect()),
+        transparency: Some((0..points).map(|p| 1.0 / (1.0 + p as f32)).collect()),
+        freedom: Some((0..points).map(|p| f32::from(u8::from(p % 2 == 0))).collect()),
+        ..Attributes::default()
+    };
+    hair
+}
+
+fn pose(frame: usize) -> Affine3A {
+    let turn = Quat::from_rotation_y(0.1 * frame as f32);
+    Affine3A::from_rotation_translation(turn, Vec3::new(frame as f32, 150.0, 0.0))
+}
+
+fn write(path: &Path, export: Export<'_>, poses: impl Fn(usize) -> Affine3A) {
+    let mut sink = Box::new(HairArchive::create(path, export).unwrap());
+    for frame in 0..FRAMES {
+        sink.frame(&strands(frame), &poses(frame)).unwrap();
+    }
+    sink.finish().unwrap();
+}
+
+fn bytes(export: Export<'_>, poses: impl Fn(usize) -> Affine3A) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("hair.abc");
+    write(&path, export, poses);
+    std::fs::read(path).unwrap()
+}
+
+fn tetrahedron() -> Mesh {
+    Mesh {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z],
+        triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+    }
+}
+
+#[test]
+fn every_frame_and_attribute_comes_back_to_the_bit() {
+    let hair = groom();
+    let file = bytes(Export::new(&hair, 24.0), |_| Affine3A::IDENTITY);
+    let mut archive = ArchiveReader::new(Cursor::new(&file)).unwrap();
+    let contents = archive.contents().unwrap();
+    assert_eq!((contents.frames, contents.frame_rate), (FRAMES, 24.0));
+    for frame in 0..FRAMES {
+        let read = archive.hair(frame, None).unwrap();
+        assert_eq!(read.strands, strands(frame), "frame {frame}");
+        assert_eq!(read.attributes, hair.attributes);
+    }
+}
+
+#[test]
+fn ids_beyond_32_bits_and_one_width_for_all_survive() {
+    let mut hair = Hair::from(strands(0));
+    hair.attributes.id = Some((0..40).map(|s| (1i64 << 40) + s).collect());
+    hair.attributes.constant.width = Some(0.007);
+    let file = bytes(Export::new(&hair, 30.0), |_| Affine3A::IDENTITY);
+    let read = ArchiveReader::new(Cursor::new(&file)).unwrap().hair(3, None).unwrap();
+    assert_eq!(read.attributes.id, hair.attributes.id);
+    assert_eq!(read.attributes.width, Some(vec![0.007; hair.strands.points().len()]));
+}
+
+#[test]
+fn the_moving_head_carries_hair_and_skin() {
+    let (hair, mesh) = (groom(), tetrahedron());
+    let mut export = Export::new(&hair, 24.0);
+    export.head = Some(&mesh);
+    export.first_frame = 10;
+    let file = bytes(export, pose);
+    let mut archive = ArchiveReader::new(Cursor::new(&file)).unwrap();
+    assert!((archive.contents().unwrap().start - 10.0 / 24.0).abs() < 1e-12);
+    for frame in 0..FRAMES {
+        let read = archive.hair(frame, None).unwrap();
+        for (&p, &q) in read.strands.points().iter().zip(strands(frame).points()) {
+            assert!(p.distance(pose(frame).transform_point3(q)) < 5e-5, "f32 near 150");
+        }
+    }
+    let motion = archive.motion("head").unwrap();
+    assert_eq!(motion.len(), FRAMES);
+    for (frame, (time, position, rotation)) in motion.into_iter().enumerate() {
+        assert!((time - (10 + frame) as f64 / 24.0).abs() < 1e-12);
+        assert_eq!(position.as_vec3(), Vec3::from(pose(frame).translation));
+        let turn = Quat::from_rotation_y(0.1 * frame as f32);
+        assert!(1.0 - rotation.as_quat().dot(turn).abs() < 1e-6);
+    }
+    let skin = archive.mesh().unwrap();
+    assert_eq!(skin.triangles.len(), 4);
+    assert_eq!(skin.positions[1], pose(0).transform_point3(Vec3::X));
+    // Corners may begin anywhere, but which side is outside must stay.
+    let [a, b, c] = skin.triangles[3].map(|v| skin.positions[v as usize]);
+    assert!((b - a).cross(c - a).dot(Vec3::ONE) > 0.0, "the outside stays outside");
+}
+
+#[test]
+fn hair_that_stands_still_is_stored_once() {
+    let hair = Hair::from(strands(0));
+    let folder = tempfile::tempdir().unwrap();
+    let size = |frames: usize| {
+        let path = folder.path().join("still.abc");
+        let mut sink = Box::new(HairArchive::create(&path, Export::new(&hair, 24.0)).unwrap());
+        for _ in 0..frames {
+            sink.frame(&hair.strands, &Affine3A::IDENTITY).unwrap();
+        }
+        sink.finish().unwrap();
+        std::fs::metadata(&path).unwrap().len()
+    };
+    assert_eq!(size(1), size(200), "200 still fits one byte");
+}
+
+#[test]
+fn a_pause_in_the_motion_keeps_every_frame_in_its_place() {
+    let hair = Hair::from(strands(0));
+    let order = [0, 0, 0, 5, 5, 6, 6, 6, 7, 0, 0];
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("pause.abc");
+    let mut sink = Box::new(HairArchive::create(&path, Export::new(&hair, 24.0)).unwrap());
+    for frame in order {
+        sink.frame(&strands(frame), &Affine3A::IDENTITY).unwrap();
+    }
+    sink.finish().unwrap();
+    let mut archive = ArchiveReader::open(&path).unwrap();
+    for (n, frame) in order.into_iter().enumerate() {
+        assert_eq!(archive.hair(n, None).unwrap().strands, strands(frame), "sample {n}");
+    }
+}
+
+#[test]
+fn frames_that_do_not_fit_the_groom_are_refused_and_leave_no_file() {
+    let hair = groom();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("hair.abc");
+    let mut sink = HairArchive::create(&path, Export::new(&hair, 24.0)).unwrap();
+    let mut other = strands(0);
+    other.push([Vec3::ZERO, Vec3::X]);
+    assert!(sink.frame(&other, &Affine3A::IDENTITY).unwrap_err().to_string().contains("strands may not change"));
+    let mut bad = strands(0);
+    bad.points_mut()[3].x = f32::NAN;
+    assert!(sink.frame(&bad, &Affine3A::IDENTITY).unwrap_err().to_string().contains("point 3"));
+    drop(sink);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    assert!(HairArchive::create(&path, Export::new(&hair, 0.0)).is_err());
+}
+
+/// Reads all there is; only a panic, or never coming back, is wrong.
+fn read_whatever(bytes: &[u8]) {
+    let Ok(mut archive) = ArchiveReader::new(Cursor::new(bytes)) else { return };
+    let _ = archive.contents();
+    for frame in [0, 1, 7, usize::MAX] {
+        let _ = archive.hair(frame, None);
+    }
+    let _ = archive.hair(2, Some(5));
+    let _ = archive.mesh();
+    let _ = archive.motion("head");
+}
+
+/// A container with the given children at its root, each a group of its own.
+fn crafted(parts: &[&[u64]]) -> Vec<u8> {
+    let mut file = b"Ogawa\xff\x00\x01".to_vec();
+    file.extend(16u64.to_le_bytes());
+    for part in parts {
+        file.extend((part.len() as u64).to_le_bytes());
+        file.extend(part.iter().flat_map(|x| x.to_le_bytes()));
+    }
+    file
+}
+
+#[test]
+fn archives_that_lie_or_turn_in_circles_are_errors() {
+    const DATA: u64 = 1 << 63;
+    for lie in [
+        crafted(&[&[16; 6]]),
+        crafted(&[&[DATA | 16; 6]]),
+        crafted(&[&[u64::MAX; 6]]),
+        crafted(&[&[DATA | 72, DATA | 72, 16, DATA, DATA, DATA], &[0]]),
+        crafted(&[]),
+        b"Ogawa\xff\x00\x01\xff\xff\xff\xff\xff\xff\xff\x7f".to_vec(),
+        b"Ogawa\x00\x00\x01\x10\x00\x00\x00\x00\x00\x00\x00".to_vec(),
+        b"\x89HDF\r\n\x1a\n00000000".to_vec(),
+        b"Ogawa".to_vec(),
+        Vec::new(),
+    ] {
+        let problem = ArchiveReader::new(Cursor::new(lie)).and_then(|mut a| a.hair(0, None));
+        assert!(problem.is_err());
+    }
+}
+
+#[test]
+fn a_count_larger_than_the_file_is_named() {
+    let mut file = crafted(&[&[0]]);
+    file[16..24].copy_from_slice(&u64::MAX.to_le_bytes());
+    let problem = ArchiveReader::new(Cursor::new(file)).map(|_| ()).unwrap_err().to_string();
+    assert!(problem.contains("more than it has"), "{problem}");
+}
+
+#[test]
+fn every_truncation_is_an_error() {
+    let hair = groom();
+    let file = bytes(Export::new(&hair, 24.0), pose);
+    for length in (0..file.len()).step_by(37) {
+        let cut = ArchiveReader::new(Cursor::new(&file[..length])).and_then(|mut a| a.hair(FRAMES - 1, None));
+        assert!(cut.is_err(), "{length} of {} bytes", file.len());
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn damaged_archives_cause_no_panic(
+        hits in prop::collection::vec((0.0..1.0f64, any::<u8>()), 1..12),
+        near_the_end in any::<bool>(),
+    ) {
+        thread_local!(static FILE: Vec<u8> = {
+            let (hair, mesh) = (groom(), tetrahedron());
+            let mut export = Export::new(&hair, 24.0);
+            export.head = Some(&mesh);
+            bytes(export, pose)
+        });
+        let mut file = FILE.with(Clone::clone);
+        // Headers lie near the end, where damage does most.
+        let first = if near_the_end { file.len() - 4000 } else { 0 };
+        for (place, value) in hits {
+            let at = first + (place * (file.len() - first) as f64) as usize;
+            file[at] = value;
+        }
+        read_whatever(&file);
+    }
+}
