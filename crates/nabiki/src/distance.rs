@@ -19,6 +19,8 @@ use tree::Tree;
 const FINE: usize = 4;
 /// Fine samples along one edge of a block, both ends included.
 const EDGE: usize = FINE + 1;
+/// Share by which a distance far from the skin may come out too large.
+const SLACK: f32 = 0.05;
 /// Marks a coarse cell without a fine block.
 const COARSE: u32 = u32::MAX;
 
@@ -51,39 +53,77 @@ impl SkinDistance {
         let mut coarse = vec![0.0_f32; nx * ny * nodes.z as usize];
         coarse.par_chunks_mut(nx).enumerate().for_each(|(row, samples)| {
             let (j, k) = (row % ny, row / ny);
-            tree.signed_row(node(0, j, k), Vec3::X * cell, f32::INFINITY, samples);
+            samples[0] = tree.signed(node(0, j, k));
+            for i in 1..nx {
+                samples[i] = tree.signed_beside(node(i, j, k), samples[i - 1], cell, SLACK);
+            }
         });
 
         let (cx, cy) = (cells.x as usize, cells.y as usize);
         let half_diagonal = 0.5 * cell * 3.0_f32.sqrt();
-        let near: Vec<Option<(Vec3, f32)>> = (0..cx * cy * cells.z as usize)
+        // Cells whose every point is farther from the skin than two fine steps do without a block.
+        let near: Vec<bool> = (0..cx * cy * cells.z as usize)
             .into_par_iter()
             .map(|c| {
                 let (i, j, k) = (c % cx, c / cx % cy, c / (cx * cy));
-                let corner = (k * ny + j) * nx + i;
-                let limit = 2.0 * half_diagonal + 2.0 * spacing;
-                if coarse[corner].abs() > limit {
-                    return None;
-                }
-                let from_center = tree.distance(node(i, j, k) + 0.5 * cell, limit);
-                (from_center <= half_diagonal + 2.0 * spacing).then(|| (node(i, j, k), from_center + half_diagonal))
+                let (known, limit) = (coarse[(k * ny + j) * nx + i].abs(), half_diagonal + 2.0 * spacing);
+                known <= (limit + half_diagonal) * (1.0 + SLACK)
+                    && tree.distance(node(i, j, k) + 0.5 * cell, limit, 0.0) < limit
             })
             .collect();
+        let with_block: Vec<usize> = (0..near.len()).filter(|&c| near[c]).collect();
         let mut block_of = vec![COARSE; near.len()];
-        let mut corners = Vec::new();
-        for (slot, found) in block_of.iter_mut().zip(&near) {
-            if let Some(found) = found {
-                *slot = corners.len() as u32;
-                corners.push(*found);
-            }
+        for (block, &c) in with_block.iter().enumerate() {
+            block_of[c] = block as u32;
         }
-        let fine = corners
+
+        let place = |c: usize, i: usize, j: usize, k: usize| {
+            let corner = node(c % cx, c / cx % cy, c / (cx * cy));
+            corner + spacing * Vec3::new(i as f32, j as f32, k as f32)
+        };
+        // Each block's own samples; those on its three far faces belong to the next blocks.
+        let own: Vec<[f32; FINE * FINE * FINE]> = with_block
             .par_iter()
-            .map(|&(corner, limit)| {
+            .map(|&c| {
+                let (i, j, k) = (c % cx, c / cx % cy, c / (cx * cy));
+                let mut block = [0.0; FINE * FINE * FINE];
+                block[0] = tree.signed_beside(place(c, 0, 0, 0), coarse[(k * ny + j) * nx + i], 0.0, 0.0);
+                for at in 1..block.len() {
+                    let (i, j, k) = (at % FINE, at / FINE % FINE, at / (FINE * FINE));
+                    let before = if i > 0 {
+                        1
+                    } else if j > 0 {
+                        FINE
+                    } else {
+                        FINE * FINE
+                    };
+                    block[at] = tree.signed_beside(place(c, i, j, k), block[at - before], spacing, 0.0);
+                }
+                block
+            })
+            .collect();
+        let fine = (with_block.par_iter().zip(&own))
+            .map(|(&c, own_of_c)| {
+                let corner = UVec3::new((c % cx) as u32, (c / cx % cy) as u32, (c / (cx * cy)) as u32);
                 let mut block = [0.0; EDGE * EDGE * EDGE];
-                for (row, samples) in block.chunks_mut(EDGE).enumerate() {
-                    let start = corner + spacing * Vec3::new(0.0, (row % EDGE) as f32, (row / EDGE) as f32);
-                    tree.signed_row(start, Vec3::X * spacing, limit * 1.001 + spacing, samples);
+                for (at, sample) in block.iter_mut().enumerate() {
+                    let (i, j, k) = (at % EDGE, at / EDGE % EDGE, at / (EDGE * EDGE));
+                    let inner = |i: usize, j: usize, k: usize| (k * FINE + j) * FINE + i;
+                    let beyond = UVec3::new((i / FINE) as u32, (j / FINE) as u32, (k / FINE) as u32);
+                    let next = corner + beyond;
+                    let next_block = if next.cmplt(cells).all() {
+                        block_of[(next.z as usize * cy + next.y as usize) * cx + next.x as usize]
+                    } else {
+                        COARSE
+                    };
+                    *sample = if next_block != COARSE {
+                        own[next_block as usize][inner(i % FINE, j % FINE, k % FINE)]
+                    } else {
+                        let last = FINE - 1;
+                        let beside = own_of_c[inner(i.min(last), j.min(last), k.min(last))];
+                        let away = spacing * beyond.as_vec3().length();
+                        tree.signed_beside(place(c, i, j, k), beside, away, 0.0)
+                    };
                 }
                 block
             })
@@ -91,8 +131,9 @@ impl SkinDistance {
         Self { tree, low, cell, nodes, coarse, block_of, fine }
     }
 
-    /// Signed distance at `p`. Within two fine steps of the skin it is that of the mesh but for the interpolation's
-    /// error, h^2 / 8 times the curvature; beyond the sampled box it is exact, and about a hundred times dearer.
+    /// Signed distance at `p`. Within two fine steps h of the skin it is that of the mesh but for the interpolation's
+    /// error, h^2 / 8 times the sum of the curvatures; farther off it may be too large by a twentieth; beyond the
+    /// sampled box it is exact, and about a hundred times dearer.
     pub fn at(&self, p: Vec3) -> f32 {
         let q = (p - self.low) / self.cell;
         let cells = (self.nodes - 1).as_ivec3();

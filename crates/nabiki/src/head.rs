@@ -44,7 +44,7 @@ impl Head {
         let low = mesh.positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
         let high = mesh.positions.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
         // Hair is met near the skin; of a whole body only what is within its reach is sampled.
-        let spacing = ellipsoid.half_axes.min_element() / 32.0;
+        let spacing = ellipsoid.half_axes.min_element() / 24.0;
         let reach = 4.0 * ellipsoid.half_axes.max_element();
         let margin = 0.6 * ellipsoid.half_axes.max_element();
         let low = (low - margin).max(ellipsoid.center - reach);
@@ -101,6 +101,9 @@ fn check_ellipsoid(ellipsoid: &Ellipsoid) -> Result<(), SettingError> {
     let h = ellipsoid.half_axes;
     if !(h.is_finite() && h.min_element() > 0.0) {
         return Err(SettingError::new("head.ellipsoid.half_axes", h, "must be finite numbers above 0"));
+    }
+    if h.max_element() > 4.0 * h.min_element() {
+        return Err(SettingError::new("head.ellipsoid.half_axes", h, "must lie within a factor 4 of each other"));
     }
     Ok(())
 }

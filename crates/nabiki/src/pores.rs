@@ -1,9 +1,9 @@
 //! Pores: where hair grows out of the scalp (the paper, section 3.1).
 //!
-//! The paper sets the pores on the head ellipsoid E. A real scalp differs from E by some millimetres, so here each
-//! place chosen on E is carried along the normal of E onto the skin: outward where the skin stands outside E, inward
-//! where it lies inside. The pores are blue noise, and in an order whose every beginning is blue noise too: the first
-//! 300 of 20,000 are a preview of them.
+//! The paper sets the pores on the head ellipsoid E, which stands for the scalp. A real scalp differs from E by some
+//! millimetres, and a root beside the skin shows; so the pores are set on the skin itself: outside E where the skin
+//! stands outside, inside where it lies inside. E says which part of the skin is scalp. The pores are blue noise, and
+//! in an order whose every beginning is blue noise too: the first 300 of 20,000 are a preview of them.
 
 mod hairline;
 
@@ -26,25 +26,29 @@ pub struct Pore {
 
 /// Candidates for each pore asked for: with more the spacing gains little, with fewer it shows.
 const CANDIDATES: usize = 5;
-/// Directions drawn at most for each candidate kept; a hairline that keeps less leaves no scalp to speak of.
-const TRIES: usize = 64;
+/// Places drawn at most for each candidate kept; a hairline that keeps less leaves no scalp to speak of.
+const TRIES: u64 = 64;
 
 /// Spreads `count` pores evenly within `hairline`; the same `seed` gives the same pores to the bit.
 ///
 /// # Errors
-/// If the hairline is out of range or leaves nothing of the scalp.
+/// If the hairline is out of range, or leaves nothing of the scalp.
 pub fn spread(head: &Head, hairline: &Hairline, count: usize, seed: u64) -> Result<Vec<Pore>, SettingError> {
     hairline.check()?;
+    let bald = || SettingError::new("hair.hairline", "no scalp", "leaves hardly a place for hair: widen it");
+    let scalp = Scalp::new(head, hairline);
+    if scalp.upto.is_empty() {
+        return Err(bald());
+    }
     let wanted = count.saturating_mul(CANDIDATES);
     let mut candidates: Vec<Pore> = Vec::with_capacity(wanted);
     let mut drawn = 0_u64;
     while candidates.len() < wanted {
-        if drawn > (wanted.saturating_mul(TRIES) as u64).max(100_000) {
-            return Err(SettingError::new("hair.hairline", "no scalp", "leaves hardly a place for hair: widen it"));
+        if drawn > (wanted as u64).saturating_mul(TRIES).max(100_000) {
+            return Err(bald());
         }
         let batch = (2 * (wanted - candidates.len())).max(1024) as u64;
-        let found: Vec<Pore> =
-            (drawn..drawn + batch).into_par_iter().filter_map(|i| candidate(head, hairline, seed, i)).collect();
+        let found: Vec<Pore> = (drawn..drawn + batch).into_par_iter().filter_map(|i| scalp.draw(seed, i)).collect();
         candidates.extend(found.into_iter().take(wanted - candidates.len()));
         drawn += batch;
     }
@@ -52,35 +56,67 @@ pub fn spread(head: &Head, hairline: &Hairline, count: usize, seed: u64) -> Resu
     Ok(farthest_first(&places, count).into_iter().map(|i| candidates[i]).collect())
 }
 
-/// The `i`-th draw of the seed: a place uniform over the area of E, kept if hair grows there.
-fn candidate(head: &Head, hairline: &Hairline, seed: u64, i: u64) -> Option<Pore> {
-    let mut state = seed.wrapping_mul(0xD134_2543_DE82_EF95) ^ i.wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    let mut uniform = || {
-        // SplitMix64 (Steele, Lea and Flood, 2014), its upper 24 bits as a number in [0, 1).
-        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 40) as f32 / (1_u32 << 24) as f32
-    };
-    let y = 2.0 * uniform() - 1.0;
-    let (sin, cos) = (std::f32::consts::TAU * uniform()).sin_cos();
-    let around = (1.0 - y * y).sqrt();
-    let u = Vec3::new(around * cos, y, around * sin);
-    // The sphere's area is stretched by |u / h| times the product of the half axes h: keep in proportion to it.
-    let h = head.ellipsoid.half_axes;
-    if uniform() > (u / h).length() * h.min_element() || !hairline.grows(u, uniform()) {
-        return None;
+/// The triangles that may bear hair, and how to draw from them.
+struct Scalp<'a> {
+    head: &'a Head,
+    hairline: &'a Hairline,
+    normals: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+    /// Area of the triangles up to and including each.
+    upto: Vec<f64>,
+}
+
+impl<'a> Scalp<'a> {
+    fn new(head: &'a Head, hairline: &'a Hairline) -> Self {
+        let near = head.ellipsoid.scaled(1.6);
+        let mut scalp = Self { head, hairline, normals: head.mesh.vertex_normals(), triangles: vec![], upto: vec![] };
+        let mut sum = 0.0;
+        for &triangle in &head.mesh.triangles {
+            let [a, b, c] = triangle.map(|v| head.mesh.positions[v as usize]);
+            let area = f64::from((b - a).cross(c - a).length());
+            if area > 0.0 && [a, b, c].iter().any(|&p| near.value(p) < 0.0) {
+                sum += area;
+                scalp.triangles.push(triangle);
+                scalp.upto.push(sum);
+            }
+        }
+        scalp
     }
-    let on_ellipsoid = head.ellipsoid.center + u * h;
-    let along = (u / h).normalize();
-    let mut position = on_ellipsoid;
-    for _ in 0..8 {
-        position -= head.distance(position) * along;
+
+    /// The `i`-th draw of the seed: a place uniform over the triangles' area, kept if hair grows there.
+    fn draw(&self, seed: u64, i: u64) -> Option<Pore> {
+        let mut state = seed.wrapping_mul(0xD134_2543_DE82_EF95) ^ i.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        let mut uniform = || {
+            // SplitMix64 (Steele, Lea and Flood, 2014), its upper bits as a number in [0, 1).
+            state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+            let z = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+            let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+            ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let area = uniform() * self.upto[self.upto.len() - 1];
+        let t = self.upto.partition_point(|&upto| upto <= area).min(self.upto.len() - 1);
+        let (mut u, mut v, chance) = (uniform() as f32, uniform() as f32, uniform() as f32);
+        if u + v > 1.0 {
+            (u, v) = (1.0 - u, 1.0 - v);
+        }
+        let mix = |[a, b, c]: [Vec3; 3]| a + (b - a) * u + (c - a) * v;
+        let position = mix(self.triangles[t].map(|w| self.head.mesh.positions[w as usize]));
+        let normal = mix(self.triangles[t].map(|w| self.normals[w as usize])).try_normalize()?;
+        let grows = self.hairline.grows(&self.head.ellipsoid, position, chance) && self.is_skull(position, normal);
+        grows.then_some(Pore { position, normal })
     }
-    let normal = head.outward(position);
-    let off = (position - on_ellipsoid).dot(along) / h.min_element();
-    let is_scalp = normal.dot(along) > 0.6 && off.abs() < 0.2 && head.distance(position).abs() < 0.01 * h.min_element();
-    is_scalp.then_some(Pore { position, normal })
+
+    /// Whether a place of the skin is the skull's outside: turned as E is there, and neither far within E, as the
+    /// mouth's inside is, nor beyond E at the side, as the ears are.
+    fn is_skull(&self, position: Vec3, normal: Vec3) -> bool {
+        let e = &self.head.ellipsoid;
+        let q = (position - e.center) / e.half_axes;
+        // Below the middle, where E closes, the nape goes straight down.
+        let outward = (Vec3::new(q.x, q.y.max(0.0), q.z) / e.half_axes).normalize_or_zero();
+        let beyond = q.length() - 1.0;
+        let beside = q.z.abs() > 0.75 * q.length() && q.y < 0.35;
+        normal.dot(outward) > 0.5 && beyond > -0.25 && beyond < if beside { 0.06 } else { 0.35 }
+    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::f32::consts::TAU;
 
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 
 use crate::Mesh;
 
@@ -11,43 +11,57 @@ const LEAF: usize = 4;
 /// A branch farther away than this many of its own radii counts as one dipole in the winding number.
 const FAR: f32 = 2.5;
 
+/// A little more than 1, by which a bound is widened so that rounding cannot break it.
+const ROUNDING: f32 = 1.001;
+
 /// A triangle's corners.
-type Triangle = [Vec3; 3];
+type Triangle = [Vec3A; 3];
 
 #[derive(Clone, Debug)]
 struct Node {
-    low: Vec3,
-    high: Vec3,
-    /// Mean of the triangles' middles by area, the place of the dipole.
-    middle: Vec3,
-    /// Sum of the triangles' area vectors, the dipole.
-    area: Vec3,
-    /// No corner lies farther from `middle`.
-    radius: f32,
+    low: Vec3A,
+    high: Vec3A,
     /// First triangle of a leaf; second child of a branch (the first follows the branch itself).
     next: u32,
     /// Triangles of a leaf, 0 for a branch.
     count: u32,
 }
 
+/// What a branch is to a far point: the winding number of its triangles as one dipole.
+#[derive(Clone, Debug)]
+struct Dipole {
+    /// Mean of the triangles' middles by area.
+    middle: Vec3A,
+    /// Sum of the triangles' area vectors.
+    area: Vec3A,
+    /// No corner lies farther from `middle`.
+    radius: f32,
+}
+
 #[derive(Clone, Debug)]
 pub(super) struct Tree {
     nodes: Vec<Node>,
+    /// One for each node.
+    dipoles: Vec<Dipole>,
     triangles: Vec<Triangle>,
 }
 
 impl Tree {
     pub(super) fn new(mesh: &Mesh) -> Self {
-        let mut triangles: Vec<Triangle> =
-            mesh.triangles.iter().map(|t| t.map(|v| mesh.positions[v as usize])).collect();
-        let mut nodes = Vec::with_capacity(triangles.len());
-        let all = triangles.len();
-        split(&mut triangles, 0, all, &mut nodes);
-        Self { nodes, triangles }
+        let triangles: Vec<Triangle> =
+            mesh.triangles.iter().map(|t| t.map(|v| mesh.positions[v as usize].into())).collect();
+        let count = triangles.len();
+        let mut tree = Self { nodes: Vec::with_capacity(count), dipoles: Vec::with_capacity(count), triangles };
+        tree.split(0, count);
+        tree
     }
 
-    /// Distance from `p` to the nearest triangle, or `limit` when none is nearer.
-    pub(super) fn distance(&self, p: Vec3, limit: f32) -> f32 {
+    /// Distance from `p` to the nearest triangle, or `limit` when none is nearer. It may come out too large by the
+    /// share `slack`: from the middle of a head half its skin is about equally far, and to tell which is nearest
+    /// costs a visit to all of it.
+    pub(super) fn distance(&self, p: Vec3, limit: f32, slack: f32) -> f32 {
+        let near_enough = 1.0 / (1.0 + slack).powi(2);
+        let p = Vec3A::from(p);
         let mut best = limit * limit;
         let mut stack = [(0_u32, 0.0_f32); 64];
         let mut top = 1;
@@ -55,7 +69,7 @@ impl Tree {
         while top > 0 {
             top -= 1;
             let (at, nearest) = stack[top];
-            if nearest >= best {
+            if nearest >= best * near_enough {
                 continue;
             }
             let node = &self.nodes[at as usize];
@@ -78,17 +92,18 @@ impl Tree {
 
     /// How often the surface winds about `p`: 1 inside, 0 outside, between where the surface has gaps.
     pub(super) fn winding(&self, p: Vec3) -> f32 {
+        let p = Vec3A::from(p);
         let mut turns = 0.0;
         let mut stack = [0_u32; 64];
         let mut top = 1;
         while top > 0 {
             top -= 1;
             let at = stack[top];
-            let node = &self.nodes[at as usize];
-            let away = node.middle - p;
+            let (node, dipole) = (&self.nodes[at as usize], &self.dipoles[at as usize]);
+            let away = dipole.middle - p;
             let squared = away.length_squared();
-            if squared > (FAR * node.radius).powi(2) {
-                turns += node.area.dot(away) / (squared * squared.sqrt());
+            if squared > (FAR * dipole.radius).powi(2) {
+                turns += dipole.area.dot(away) / (squared * squared.sqrt());
             } else if node.count > 0 {
                 let first = node.next as usize;
                 for triangle in &self.triangles[first..first + node.count as usize] {
@@ -104,78 +119,72 @@ impl Tree {
     }
 
     fn is_inside(&self, p: Vec3) -> bool {
-        self.nodes[0].box_distance_squared(p) == 0.0 && self.winding(p) > 0.5
+        self.nodes[0].box_distance_squared(p.into()) == 0.0 && self.winding(p) > 0.5
     }
 
     /// Signed distance at `p`, negative inside.
     pub(super) fn signed(&self, p: Vec3) -> f32 {
-        let distance = self.distance(p, f32::INFINITY);
+        let distance = self.distance(p, f32::INFINITY, 0.0);
         if self.is_inside(p) { -distance } else { distance }
     }
 
-    /// Signed distances at `start`, `start + step`, ... of which the first is known to be at most `limit`.
+    /// Signed distance at `p`, at the length `away` of a place whose signed distance is `known`.
     ///
-    /// The distance changes no faster than the place, so between two samples whose distances together exceed the
-    /// step there is no skin: the sign carries over, and the winding number is seldom needed.
-    pub(super) fn signed_row(&self, start: Vec3, step: Vec3, limit: f32, samples: &mut [f32]) {
-        let length = step.length();
-        let mut before: Option<(f32, bool)> = None;
-        for (i, sample) in samples.iter_mut().enumerate() {
-            let p = start + step * i as f32;
-            let limit = before.map_or(limit, |(d, _)| (d + length) * 1.001);
-            let distance = self.distance(p, limit);
-            let inside = match before {
-                Some((d, inside)) if d + distance > length * 1.001 => inside,
-                _ => self.is_inside(p),
-            };
-            *sample = if inside { -distance } else { distance };
-            before = Some((distance, inside));
+    /// The distance changes no faster than the place, so where both distances together exceed the length between
+    /// there is no skin between: the sign carries over, and the winding number is seldom needed.
+    pub(super) fn signed_beside(&self, p: Vec3, known: f32, away: f32, slack: f32) -> f32 {
+        let distance = self.distance(p, (known.abs() + away) * ROUNDING, slack);
+        let inside =
+            if known.abs() + distance > away * ROUNDING * (1.0 + slack) { known < 0.0 } else { self.is_inside(p) };
+        if inside { -distance } else { distance }
+    }
+}
+
+impl Tree {
+    /// Builds the branch of `count` triangles from `first` on, halved across its longest side, depth first.
+    fn split(&mut self, first: usize, count: usize) {
+        let own = &mut self.triangles[first..first + count];
+        let (mut low, mut high) = (Vec3A::INFINITY, Vec3A::NEG_INFINITY);
+        let (mut area, mut weighted, mut weight) = (Vec3A::ZERO, Vec3A::ZERO, 0.0);
+        for triangle in own.iter() {
+            let [a, b, c] = *triangle;
+            low = low.min(a).min(b).min(c);
+            high = high.max(a).max(b).max(c);
+            let vector = 0.5 * (b - a).cross(c - a);
+            area += vector;
+            weighted += vector.length() * (a + b + c) / 3.0;
+            weight += vector.length();
         }
+        let middle = if weight > 0.0 { weighted / weight } else { 0.5 * (low + high) };
+        let radius = own.iter().flatten().map(|v| v.distance_squared(middle)).fold(0.0, f32::max).sqrt();
+        let at = self.nodes.len();
+        self.nodes.push(Node { low, high, next: first as u32, count: count as u32 });
+        self.dipoles.push(Dipole { middle, area, radius });
+        if count <= LEAF {
+            return;
+        }
+        let extent = high - low;
+        let axis = (0..3).max_by(|&i, &j| extent[i].total_cmp(&extent[j])).unwrap_or(0);
+        let half = count / 2;
+        own.select_nth_unstable_by(half, |s, t| {
+            let middle = |t: &Triangle| t[0][axis] + t[1][axis] + t[2][axis];
+            middle(s).total_cmp(&middle(t))
+        });
+        self.split(first, half);
+        self.nodes[at].next = self.nodes.len() as u32;
+        self.nodes[at].count = 0;
+        self.split(first + half, count - half);
     }
 }
 
 impl Node {
-    fn box_distance_squared(&self, p: Vec3) -> f32 {
-        (self.low - p).max(p - self.high).max(Vec3::ZERO).length_squared()
+    fn box_distance_squared(&self, p: Vec3A) -> f32 {
+        (self.low - p).max(p - self.high).max(Vec3A::ZERO).length_squared()
     }
-}
-
-/// Builds the branch of `triangles[first..first + count]`, halving it across its longest side, depth first.
-fn split(triangles: &mut [Triangle], first: usize, count: usize, nodes: &mut Vec<Node>) {
-    let own = &mut triangles[first..first + count];
-    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-    let (mut area, mut weighted, mut weight) = (Vec3::ZERO, Vec3::ZERO, 0.0);
-    for triangle in own.iter() {
-        let [a, b, c] = *triangle;
-        low = low.min(a).min(b).min(c);
-        high = high.max(a).max(b).max(c);
-        let vector = 0.5 * (b - a).cross(c - a);
-        area += vector;
-        weighted += vector.length() * (a + b + c) / 3.0;
-        weight += vector.length();
-    }
-    let middle = if weight > 0.0 { weighted / weight } else { 0.5 * (low + high) };
-    let radius = own.iter().flatten().map(|v| v.distance_squared(middle)).fold(0.0, f32::max).sqrt();
-    let at = nodes.len();
-    nodes.push(Node { low, high, middle, area, radius, next: first as u32, count: count as u32 });
-    if count <= LEAF {
-        return;
-    }
-    let extent = high - low;
-    let axis = (0..3).max_by(|&i, &j| extent[i].total_cmp(&extent[j])).unwrap_or(0);
-    let half = count / 2;
-    own.select_nth_unstable_by(half, |s, t| {
-        let middle = |t: &Triangle| t[0][axis] + t[1][axis] + t[2][axis];
-        middle(s).total_cmp(&middle(t))
-    });
-    split(triangles, first, half, nodes);
-    nodes[at].next = nodes.len() as u32;
-    nodes[at].count = 0;
-    split(triangles, first + half, count - half, nodes);
 }
 
 /// The solid angle of a triangle seen from `p`, positive from behind (Van Oosterom and Strackee, 1983).
-fn solid_angle(triangle: &Triangle, p: Vec3) -> f32 {
+fn solid_angle(triangle: &Triangle, p: Vec3A) -> f32 {
     let [a, b, c] = triangle.map(|v| v - p);
     let (la, lb, lc) = (a.length(), b.length(), c.length());
     let above = a.dot(b.cross(c));
@@ -184,7 +193,7 @@ fn solid_angle(triangle: &Triangle, p: Vec3) -> f32 {
 }
 
 /// The point of a triangle nearest to `p`, by the region of its plane that `p` falls into.
-fn nearest_on(triangle: &Triangle, p: Vec3) -> Vec3 {
+fn nearest_on(triangle: &Triangle, p: Vec3A) -> Vec3A {
     let [a, b, c] = *triangle;
     let (ab, ac, ap) = (b - a, c - a, p - a);
     let (d1, d2) = (ab.dot(ap), ac.dot(ap));

@@ -25,7 +25,7 @@ pub(super) fn scalp(mesh: &Mesh) -> Result<Ellipsoid, SettingError> {
     let mut guess = first_guess(&samples)?;
     for pass in 0..PASSES {
         // The net is drawn in from 20 % of the size to 6 %, which leaves hardly more than the scalp's own shape.
-        let tolerance = (0.2 * 0.8_f64.powi(pass as i32)).max(0.06);
+        let tolerance = (0.3 * 0.85_f64.powi(pass as i32)).max(0.2);
         guess = refit(&samples, &guess, tolerance)
             .ok_or_else(|| SettingError::new("head.ellipsoid", "fit", "found no skull: give center and half_axes"))?;
     }
@@ -81,7 +81,7 @@ fn first_guess(samples: &[Sample]) -> Result<Guess, SettingError> {
 fn is_scalp(u: DVec3) -> bool {
     let u = u.normalize_or_zero();
     let forehead_free = u.y > 0.45 || u.x < 0.6;
-    let above_ears = if u.x < -0.35 { -0.35 } else { 0.2 };
+    let above_ears = if u.x < -0.35 { -0.4 } else { 0.1 };
     forehead_free && u.y > above_ears
 }
 

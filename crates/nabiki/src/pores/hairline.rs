@@ -1,76 +1,104 @@
 //! The hairline: a closed curve about the head, above which hair grows.
 
+use std::f32::consts::PI;
+
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use crate::SettingError;
 use crate::error::check_range;
+use crate::{Ellipsoid, SettingError};
 
-/// Where hair grows, as heights above the middle of the head ellipsoid E, so that it fits a head of any size.
+/// Where hair grows: how far the hairline runs below the crown, all about the head.
 ///
-/// Heights are angles (rad) of the direction from the centre of E, measured after scaling E to a sphere: 0 at the
-/// level of the centre, pi / 2 at the top. Scene key: `hair.hairline`.
+/// Depths are measured straight down from the highest point of the head ellipsoid E, in units of the mean of its two
+/// horizontal half axes (8.65 cm on the builtin bust), so that a hairline fits heads of any size. Scene key:
+/// `hair.hairline`.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Hairline {
-    /// Height of the line over the middle of the forehead (rad, default 0.68).
+    /// Depth of the line over the middle of the forehead (default 0.50: 4.3 cm on the bust).
     pub forehead: f32,
-    /// How much higher the line stands over the temples (rad, default 0.08).
+    /// How much higher than that the line stands over the temples (default 0.05: 0.4 cm).
     pub temple_recession: f32,
-    /// Height of the lower end of the sideburns, in front of the ears (rad, default -0.15).
+    /// Depth of the lower end of the sideburns, in front of the ears (default 1.45: 12.5 cm).
     pub sideburns: f32,
-    /// Height of the line above the ears (rad, default 0.15).
+    /// Depth of the line above the ears (default 0.98: 8.5 cm).
     pub above_ears: f32,
-    /// Height of the line on the nape (rad, default -0.75).
+    /// Depth of the line on the nape (default 2.10: 18 cm).
     pub nape: f32,
-    /// Width over which hair thins out at the line (rad, default 0.08).
+    /// Height over which hair thins out at the line (default 0.06: 0.5 cm).
     pub fade: f32,
 }
 
 impl Default for Hairline {
     fn default() -> Self {
-        Self { forehead: 0.68, temple_recession: 0.08, sideburns: -0.15, above_ears: 0.15, nape: -0.75, fade: 0.08 }
+        Self { forehead: 0.5, temple_recession: 0.05, sideburns: 1.45, above_ears: 0.98, nape: 2.1, fade: 0.06 }
     }
 }
 
 impl Hairline {
-    /// Refuses angles that are not finite or lie outside the head.
+    /// Refuses depths that are not finite or lie off the head.
     ///
     /// # Errors
     /// Names the first such setting.
     pub fn check(&self) -> Result<(), SettingError> {
-        check_range("hair.hairline.forehead", self.forehead, -0.5, 1.5)?;
+        check_range("hair.hairline.forehead", self.forehead, 0.0, 2.0)?;
         check_range("hair.hairline.temple_recession", self.temple_recession, -0.5, 0.5)?;
-        check_range("hair.hairline.sideburns", self.sideburns, -1.0, 1.0)?;
-        check_range("hair.hairline.above_ears", self.above_ears, -1.0, 1.0)?;
-        check_range("hair.hairline.nape", self.nape, -1.2, 1.0)?;
-        check_range("hair.hairline.fade", self.fade, 0.0, 0.5)
+        check_range("hair.hairline.sideburns", self.sideburns, 0.0, 2.5)?;
+        check_range("hair.hairline.above_ears", self.above_ears, 0.0, 2.5)?;
+        check_range("hair.hairline.nape", self.nape, 0.0, 2.8)?;
+        check_range("hair.hairline.fade", self.fade, 0.0, 1.0)
     }
 
-    /// The line's height (rad) at the angle `around` (rad) from the front: 0 there, pi at the back.
-    pub fn height(&self, around: f32) -> f32 {
+    /// The line's depth at the angle `around` (rad) from the front: 0 there, pi at the back.
+    pub fn depth(&self, around: f32) -> f32 {
+        let temple = self.forehead - self.temple_recession;
+        let before_ear = |t: f32| temple + (self.sideburns - temple) * t;
+        let behind_ear = |t: f32| self.above_ears + (self.nape - self.above_ears) * t;
         let knots = [
             (0.0, self.forehead),
-            (0.65, self.forehead + self.temple_recession),
-            (1.05, 0.5 * (self.forehead + self.sideburns)),
-            (1.30, self.sideburns),
-            (1.42, self.sideburns),
-            (1.60, self.above_ears),
-            (1.95, self.above_ears),
-            (2.35, 0.5 * (self.above_ears + self.nape)),
-            (2.75, self.nape),
-            (std::f32::consts::PI, self.nape),
+            (0.61, temple),
+            (0.90, before_ear(0.14)),
+            (1.09, before_ear(0.50)),
+            (1.20, before_ear(0.85)),
+            (1.29, self.sideburns),
+            (1.41, self.sideburns),
+            (1.52, self.sideburns + (self.above_ears - self.sideburns) * 0.7),
+            (1.62, self.above_ears),
+            (1.88, self.above_ears),
+            (2.10, behind_ear(0.20)),
+            (2.30, behind_ear(0.55)),
+            (2.50, behind_ear(0.86)),
+            (2.72, self.nape),
+            (PI, self.nape),
         ];
-        let next = knots.partition_point(|k| k.0 <= around).clamp(1, knots.len() - 1);
-        let ((a, from), (b, to)) = (knots[next - 1], knots[next]);
-        let t = ((around - a) / (b - a)).clamp(0.0, 1.0);
-        from + (to - from) * t * t * (3.0 - 2.0 * t)
+        let at = |i: usize| knots[i.min(knots.len() - 1)];
+        let rise = |i: usize| (at(i + 1).1 - at(i).1) / (at(i + 1).0 - at(i).0);
+        // The harmonic mean of the slopes at both sides, 0 at a turning point, never overshoots (Fritsch and
+        // Butland, 1984).
+        let slope = |i: usize| {
+            let (a, b) = if i == 0 || i + 1 >= knots.len() { (0.0, 0.0) } else { (rise(i - 1), rise(i)) };
+            if a * b > 0.0 { 2.0 * a * b / (a + b) } else { 0.0 }
+        };
+        let i = knots.partition_point(|k| k.0 <= around).clamp(1, knots.len() - 1) - 1;
+        let width = at(i + 1).0 - at(i).0;
+        let t = ((around - at(i).0) / width).clamp(0.0, 1.0);
+        let (t2, t3) = (t * t, t * t * t);
+        at(i).1 * (2.0 * t3 - 3.0 * t2 + 1.0)
+            + at(i + 1).1 * (3.0 * t2 - 2.0 * t3)
+            + width * (slope(i) * (t3 - 2.0 * t2 + t) + slope(i + 1) * (t3 - t2))
     }
 
-    /// Whether hair grows in the direction `u` (of unit length, E scaled to a sphere); `chance` in 0..1 decides
-    /// within the fading edge.
-    pub(super) fn grows(&self, u: Vec3, chance: f32) -> bool {
-        let above = u.y.clamp(-1.0, 1.0).asin() - self.height(u.z.abs().atan2(u.x));
-        above > self.fade * chance
+    /// How far `p` (head space, cm) lies above the line, in its unit: negative where no hair grows.
+    pub fn above(&self, ellipsoid: &Ellipsoid, p: Vec3) -> f32 {
+        let Ellipsoid { center, half_axes } = *ellipsoid;
+        let q = (p - center) / half_axes;
+        let depth = (center.y + half_axes.y - p.y) / (0.5 * (half_axes.x + half_axes.z));
+        self.depth(q.z.abs().atan2(q.x)) - depth
+    }
+
+    /// Whether hair grows at `p`; `chance` in 0..1 decides within the fading edge.
+    pub(super) fn grows(&self, ellipsoid: &Ellipsoid, p: Vec3, chance: f32) -> bool {
+        self.above(ellipsoid, p) > self.fade * chance
     }
 }

@@ -1,0 +1,22 @@
+//! The face without its features: cheeks, jaw and chin.
+
+use glam::{Quat, Vec3};
+
+use super::shapes::{capsule, ellipsoid, join, swell, turned_ellipsoid};
+
+/// Joins the face to the skull.
+pub(super) fn add(p: Vec3, skin: f32) -> f32 {
+    let egg = turned_ellipsoid(p, Vec3::new(3.3, -3.6, 0.0), Vec3::new(5.7, 8.3, 5.9), Quat::from_rotation_z(0.27));
+    let cheek = ellipsoid(p, Vec3::new(5.2, -3.2, 3.9), Vec3::new(2.6, 2.3, 2.4));
+    let jaw = capsule(p, Vec3::new(1.0, -7.2, 3.9), Vec3::new(6.8, -10.2, 0.9), 1.0, 1.1);
+    let chin = ellipsoid(p, Vec3::new(7.2, -10.1, 0.0), Vec3::new(1.75, 1.45, 1.7));
+    let muzzle = ellipsoid(p, Vec3::new(6.2, -7.3, 0.0), Vec3::new(3.2, 2.9, 3.2));
+    let mut skin = join(skin, egg, 2.5);
+    skin = join(skin, cheek, 2.2);
+    skin = join(skin, jaw, 2.4);
+    skin = join(skin, muzzle, 2.2);
+    skin = join(skin, chin, 1.6);
+    // The hollow below the cheekbone, and the crease above the chin.
+    skin += 0.1 * swell(p, Vec3::new(6.2, -6.4, 4.2), Vec3::new(2.5, 2.4, 2.2));
+    skin + 0.3 * swell(p, Vec3::new(9.3, -9.0, 0.0), Vec3::new(1.4, 0.8, 2.2))
+}

@@ -1,0 +1,92 @@
+//! Real heads of the shared data: the fitted ellipsoid lies on each scalp, and the distance agrees with a published
+//! grid. Where the data are absent the tests say so and pass.
+
+use std::path::PathBuf;
+
+use glam::Vec3;
+use nabiki::{Ellipsoid, Head, Mesh};
+
+fn shared(path: &str) -> Option<PathBuf> {
+    let full = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")).join(path);
+    if !full.exists() {
+        println!("skipped: {} is not there", full.display());
+        return None;
+    }
+    Some(full)
+}
+
+/// The triangles of an .obj file, or of one group of it, in head space: y up as they are, face from +z to +x.
+fn read(path: &str, group: Option<&str>, cm: f32) -> Option<Mesh> {
+    let text = std::fs::read_to_string(shared(path)?).expect("readable");
+    let mut mesh = Mesh::default();
+    let mut wanted = group.is_none();
+    for line in text.lines() {
+        let mut words = line.split_whitespace();
+        match words.next() {
+            Some("v") => {
+                let p: Vec<f32> = words.take(3).map(|w| w.parse().expect("a coordinate")).collect();
+                mesh.positions.push(cm * Vec3::new(p[2], p[1], -p[0]));
+            }
+            Some("g") => wanted = group.is_none_or(|g| words.next() == Some(g)),
+            Some("f") if wanted => {
+                let corner = |w: &str| w.split('/').next().and_then(|i| i.parse::<u32>().ok()).expect("an index") - 1;
+                let face: Vec<u32> = words.map(corner).collect();
+                mesh.triangles.extend((2..face.len()).map(|i| [face[0], face[i - 1], face[i]]));
+            }
+            _ => {}
+        }
+    }
+    Some(mesh)
+}
+
+/// Distances of the skin from E over the back and top of the skull, in shares of the mean half axis: those of the
+/// points where rays from the centre leave the skin, evenly over the directions where hair grows on anyone.
+fn off_the_scalp(head: &Head) -> Vec<f32> {
+    let Ellipsoid { center, half_axes } = head.ellipsoid;
+    let golden = std::f32::consts::PI * (3.0 - 5.0_f32.sqrt());
+    let directions = (0..2000).map(|i| {
+        let y = 1.0 - (i as f32 + 0.5) / 1000.0;
+        let (sin, cos) = (golden * i as f32).sin_cos();
+        Vec3::new((1.0 - y * y).sqrt() * cos, y, (1.0 - y * y).sqrt() * sin)
+    });
+    directions
+        .filter(|u| u.y > 0.3 && u.x < 0.5 || u.y > -0.2 && u.x < -0.6)
+        .map(|u| {
+            let mut t = 1.0;
+            for _ in 0..20 {
+                t -= head.distance(center + t * u * half_axes) / (u * half_axes).length();
+            }
+            (t - 1.0) * (u * half_axes).length() / (half_axes.element_sum() / 3.0)
+        })
+        .collect()
+}
+
+/// Fits E to a head whose skull should have these half axes (cm), give or take `within` of each.
+fn lies_on_the_scalp(mesh: Mesh) -> Ellipsoid {
+    let head = Head::from_mesh(mesh, None).expect("a head");
+    let off = off_the_scalp(&head);
+    let rms = (off.iter().map(|d| d * d).sum::<f32>() / off.len() as f32).sqrt();
+    let worst = off.iter().fold(0.0_f32, |w, d| w.max(d.abs()));
+    println!("{:?} rms {:.2} % worst {:.2} %", head.ellipsoid, 100.0 * rms, 100.0 * worst);
+    assert!(rms < 0.04, "{rms}");
+    head.ellipsoid
+}
+
+#[test]
+fn the_scanned_head_gets_an_ellipsoid_on_its_scalp() {
+    // The scan's unit is its own; its head of 4.5 units is taken for one of 22.5 cm.
+    let Some(mesh) = read("heads/lps_head.obj", None, 5.0) else { return };
+    lies_on_the_scalp(mesh);
+}
+
+#[test]
+fn the_sintel_bust_gets_an_ellipsoid_on_its_scalp() {
+    let Some(mesh) = read("heads/sintel_bust.obj", None, 100.0) else { return };
+    lies_on_the_scalp(mesh);
+}
+
+#[test]
+fn the_makehuman_body_gets_an_ellipsoid_on_its_scalp() {
+    let Some(mesh) = read("heads/makehuman_base.obj", Some("body"), 10.0) else { return };
+    lies_on_the_scalp(mesh);
+}
