@@ -53,7 +53,18 @@ pub fn spread(head: &Head, hairline: &Hairline, count: usize, seed: u64) -> Resu
         drawn += batch;
     }
     let places: Vec<Vec3> = candidates.iter().map(|pore| pore.position).collect();
-    Ok(farthest_first(&places, count).into_iter().map(|i| candidates[i]).collect())
+    let chosen = farthest_first(&places, count);
+    Ok(chosen.into_par_iter().map(|i| onto_sampled_skin(head, candidates[i])).collect())
+}
+
+/// The same pore where the sampled distance is zero, some hundredths of a millimetre from the triangle: so that no
+/// root lies inside the head by the measure that the groom goes by.
+fn onto_sampled_skin(head: &Head, pore: Pore) -> Pore {
+    let mut position = pore.position;
+    for _ in 0..3 {
+        position -= head.distance(position) * pore.normal;
+    }
+    Pore { position, ..pore }
 }
 
 /// The triangles that may bear hair, and how to draw from them.
