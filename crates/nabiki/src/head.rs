@@ -40,6 +40,15 @@ impl Head {
         Ok(Self::assemble(mesh, ellipsoid))
     }
 
+    /// The ellipsoid E that [`from_mesh`](Self::from_mesh) would fit to this mesh.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn fit(mesh: &Mesh) -> Result<Ellipsoid, SettingError> {
+        check_mesh(mesh)?;
+        fit::scalp(mesh)
+    }
+
     fn assemble(mesh: Mesh, ellipsoid: Ellipsoid) -> Self {
         let low = mesh.positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
         let high = mesh.positions.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);

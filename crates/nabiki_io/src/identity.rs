@@ -8,7 +8,7 @@ use twox_hash::XxHash3_128;
 
 use crate::error::{Error, Result};
 
-/// 128 bits (XXH3) of everything in a scene that affects motion. Equal scenes have equal identities on any machine.
+/// 128 bits (XXH3) of everything that decides how a scene's hair moves, see [`Stage::identity`](crate::stage::Stage).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SceneId(pub u128);
 
@@ -25,11 +25,9 @@ impl Serialize for SceneId {
 }
 
 /// Collects what an identity is made of, each part under its name.
-pub struct Digest(XxHash3_128);
+pub(crate) struct Digest(XxHash3_128);
 
 impl Digest {
-    /// Nothing yet.
-    #[allow(clippy::new_without_default, reason = "an empty digest is no default of anything")]
     pub fn new() -> Self {
         Self(XxHash3_128::new())
     }
@@ -48,7 +46,6 @@ impl Digest {
         self.part(b'b', bytes);
     }
 
-    /// The identity of all parts so far, in their order.
     pub fn finish(&self) -> SceneId {
         SceneId(self.0.finish_128())
     }

@@ -15,8 +15,11 @@ pub mod motion;
 mod names;
 pub mod obj_lines;
 pub mod placement;
+pub mod scene;
+pub mod stage;
 pub mod tfx;
 
 pub use error::{Error, Result};
 pub use identity::SceneId;
 pub use placement::Placement;
+pub use scene::Scene;

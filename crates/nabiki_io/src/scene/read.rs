@@ -1,0 +1,270 @@
+//! Settings out of a TOML tree, with errors that say which key is wrong and what was perhaps meant.
+
+use std::fmt::{self, Display};
+
+use serde::{
+    de::{
+        self, DeserializeSeed, Deserializer, EnumAccess, Expected, IntoDeserializer, MapAccess, SeqAccess, Unexpected,
+        VariantAccess, Visitor, value::StrDeserializer,
+    },
+    forward_to_deserialize_any,
+};
+use toml::Value;
+
+use crate::names::nearest;
+
+/// A value refused while settings were read.
+#[derive(Debug)]
+pub(super) struct Refusal {
+    /// Keys and indices from the refused value outward.
+    outward: Vec<String>,
+    problem: Problem,
+}
+
+#[derive(Debug)]
+enum Problem {
+    Text(String),
+    UnknownKey { near: Option<String>, known: &'static [&'static str] },
+}
+
+impl Refusal {
+    fn text(text: impl Into<String>) -> Self {
+        Self { outward: Vec::new(), problem: Problem::Text(text.into()) }
+    }
+
+    fn below(mut self, key: impl Into<String>) -> Self {
+        self.outward.push(key.into());
+        self
+    }
+
+    /// The dotted path of the refused value.
+    pub fn path(&self) -> String {
+        self.join(self.outward.iter().rev())
+    }
+
+    fn join<'a>(&self, steps: impl Iterator<Item = &'a String>) -> String {
+        let mut path = String::new();
+        for step in steps {
+            if step.bytes().all(|b| b.is_ascii_digit()) {
+                path = format!("{path}[{step}]");
+            } else if path.is_empty() {
+                path.push_str(step);
+            } else {
+                path = format!("{path}.{step}");
+            }
+        }
+        path
+    }
+}
+
+impl Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.outward.is_empty() {
+            write!(f, "{}: ", self.path())?;
+        }
+        match &self.problem {
+            Problem::Text(text) => f.write_str(text),
+            Problem::UnknownKey { near: Some(near), .. } => {
+                let whole = self.join(self.outward.iter().skip(1).rev().chain([near]));
+                write!(f, "unknown key; did you mean {whole}?")
+            }
+            Problem::UnknownKey { known, .. } => write!(f, "unknown key; the keys here are {}", known.join(", ")),
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+impl de::Error for Refusal {
+    fn custom<T: Display>(text: T) -> Self {
+        Self::text(text.to_string())
+    }
+
+    fn invalid_type(found: Unexpected, wanted: &dyn Expected) -> Self {
+        Self::text(format!("found {found}, must be {}", plain(wanted)))
+    }
+
+    fn invalid_value(found: Unexpected, wanted: &dyn Expected) -> Self {
+        Self::invalid_type(found, wanted)
+    }
+
+    fn invalid_length(found: usize, wanted: &dyn Expected) -> Self {
+        Self::text(format!("has {found} entries, must be {}", plain(wanted)))
+    }
+
+    fn unknown_variant(found: &str, known: &'static [&'static str]) -> Self {
+        let list: Vec<String> = known.iter().map(|name| format!("\"{name}\"")).collect();
+        let hint = nearest(found, known.iter().copied()).map(|near| format!("; did you mean \"{near}\"?"));
+        Self::text(format!("found \"{found}\", must be one of {}{}", list.join(", "), hint.unwrap_or_default()))
+    }
+
+    fn unknown_field(found: &str, known: &'static [&'static str]) -> Self {
+        let near = nearest(found, known.iter().copied()).map(str::to_owned);
+        Self { outward: vec![found.to_owned()], problem: Problem::UnknownKey { near, known } }
+    }
+
+    fn missing_field(name: &'static str) -> Self {
+        Self::text(format!("is missing: write {name} = ...")).below(name)
+    }
+
+    fn duplicate_field(name: &'static str) -> Self {
+        Self::text("is given twice").below(name)
+    }
+}
+
+/// Type names of the language as words of the user's.
+fn plain(wanted: &dyn Expected) -> String {
+    match wanted.to_string().as_str() {
+        "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number, 0 or more".to_owned(),
+        "i8" | "i16" | "i32" | "i64" | "isize" => "a whole number".to_owned(),
+        "f32" | "f64" => "a number".to_owned(),
+        "a boolean" => "true or false".to_owned(),
+        text if text.starts_with("struct ") => "a table".to_owned(),
+        text if text.starts_with("a sequence of 3 f32") => "three numbers, [x, y, z]".to_owned(),
+        text => text.to_owned(),
+    }
+}
+
+/// One value of the tree.
+pub(super) struct Node<'a>(pub &'a Value);
+
+impl<'de> IntoDeserializer<'de, Refusal> for Node<'_> {
+    type Deserializer = Self;
+
+    fn into_deserializer(self) -> Self {
+        self
+    }
+}
+
+impl<'de> Deserializer<'de> for Node<'_> {
+    type Error = Refusal;
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+        match self.0 {
+            Value::String(text) => visitor.visit_str(text),
+            Value::Integer(number) => visitor.visit_i64(*number),
+            Value::Float(number) => visitor.visit_f64(*number),
+            Value::Boolean(flag) => visitor.visit_bool(*flag),
+            Value::Datetime(date) => Err(Refusal::text(format!("found the date {date}: no setting is a date"))),
+            Value::Array(values) => {
+                let mut entries = Entries { values, next: 0 };
+                let value = visitor.visit_seq(&mut entries)?;
+                match entries.next {
+                    read if read < values.len() => {
+                        Err(Refusal::text(format!("has {} entries, must have {read}", values.len())))
+                    }
+                    _ => Ok(value),
+                }
+            }
+            Value::Table(table) => visitor.visit_map(Keys { entries: table.iter(), value: None }),
+        }
+    }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+        visitor.visit_some(self)
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'de>>(self, _: &'static str, visitor: V) -> Result<V::Value, Refusal> {
+        visitor.visit_newtype_struct(self)
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        _: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Refusal> {
+        match self.0 {
+            Value::String(text) => visitor.visit_enum(StrDeserializer::new(text)),
+            Value::Table(table) if table.len() == 1 => match table.iter().next() {
+                Some((name, content)) => visitor.visit_enum(Variant { name, content }),
+                None => Err(Refusal::text("is empty")),
+            },
+            other => {
+                Err(Refusal::text(format!("found {} {other}, must be a name or a table of one name", other.type_str())))
+            }
+        }
+    }
+
+    forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf
+        unit unit_struct seq tuple tuple_struct map struct identifier ignored_any
+    }
+}
+
+/// The entries of an array.
+struct Entries<'a> {
+    values: &'a [Value],
+    next: usize,
+}
+
+impl<'de> SeqAccess<'de> for &mut Entries<'_> {
+    type Error = Refusal;
+
+    fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Refusal> {
+        let Some(value) = self.values.get(self.next) else { return Ok(None) };
+        let index = self.next;
+        self.next += 1;
+        seed.deserialize(Node(value)).map(Some).map_err(|e| e.below(index.to_string()))
+    }
+
+    fn size_hint(&self) -> Option<usize> {
+        Some(self.values.len() - self.next)
+    }
+}
+
+/// The entries of a table.
+struct Keys<'a> {
+    entries: toml::map::Iter<'a, String, Value>,
+    value: Option<(&'a str, &'a Value)>,
+}
+
+impl<'de> MapAccess<'de> for Keys<'_> {
+    type Error = Refusal;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, Refusal> {
+        let Some((key, value)) = self.entries.next() else { return Ok(None) };
+        self.value = Some((key, value));
+        seed.deserialize(StrDeserializer::new(key)).map(Some)
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Refusal> {
+        let (key, value) = self.value.take().ok_or_else(|| Refusal::text("a value without a key"))?;
+        seed.deserialize(Node(value)).map_err(|e| e.below(key))
+    }
+}
+
+/// `name = content` as a choice that has content.
+struct Variant<'a> {
+    name: &'a str,
+    content: &'a Value,
+}
+
+impl<'de, 'a> EnumAccess<'de> for Variant<'a> {
+    type Error = Refusal;
+    type Variant = Self;
+
+    fn variant_seed<V: DeserializeSeed<'de>>(self, seed: V) -> Result<(V::Value, Self), Refusal> {
+        Ok((seed.deserialize(StrDeserializer::new(self.name))?, self))
+    }
+}
+
+impl<'de> VariantAccess<'de> for Variant<'_> {
+    type Error = Refusal;
+
+    fn unit_variant(self) -> Result<(), Refusal> {
+        Err(Refusal::text(format!("{} takes no content: write \"{}\"", self.name, self.name)))
+    }
+
+    fn newtype_variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<T::Value, Refusal> {
+        seed.deserialize(Node(self.content)).map_err(|e| e.below(self.name))
+    }
+
+    fn tuple_variant<V: Visitor<'de>>(self, _: usize, visitor: V) -> Result<V::Value, Refusal> {
+        Node(self.content).deserialize_any(visitor).map_err(|e| e.below(self.name))
+    }
+
+    fn struct_variant<V: Visitor<'de>>(self, _: &'static [&'static str], visitor: V) -> Result<V::Value, Refusal> {
+        Node(self.content).deserialize_any(visitor).map_err(|e| e.below(self.name))
+    }
+}

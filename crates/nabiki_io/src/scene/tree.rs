@@ -1,0 +1,134 @@
+//! A scene file as a tree of TOML values that remembers where each stood, so that errors can say so.
+
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
+
+use toml::{
+    Table, Value,
+    de::{DeTable, DeValue},
+};
+
+use crate::error::{Error, Result};
+
+/// Where the values of a scene come from: lines of the file, or overrides.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Origins {
+    file: PathBuf,
+    /// Line of each dotted path (`force.1.vector`).
+    lines: BTreeMap<String, usize>,
+    /// Text of the override that set each dotted path.
+    overrides: BTreeMap<String, String>,
+}
+
+impl Origins {
+    /// An error about the value at `path` (dotted, or with indices in brackets): its file and line, or its override.
+    pub fn error(&self, path: &str, what: &str) -> Error {
+        let dotted = path.replace('[', ".").replace(']', "");
+        let mut at = dotted.as_str();
+        loop {
+            if let Some(text) = self.overrides.get(at) {
+                return Error::new(format!("--set {text}: {what}")).in_file(&self.file);
+            }
+            if let Some(&line) = self.lines.get(at) {
+                return Error::new(what).in_file(&self.file).at_line(Some(line));
+            }
+            // What is not in the file stands where its table does.
+            match at.rsplit_once('.') {
+                Some((parent, _)) => at = parent,
+                None => return Error::new(what).in_file(&self.file),
+            }
+        }
+    }
+
+    /// The scene file.
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+}
+
+/// Parses a scene's text and applies the overrides in order.
+pub(super) fn parse(text: &str, file: &Path, overrides: &[(String, String)]) -> Result<(Table, Origins)> {
+    let mut origins = Origins { file: file.to_owned(), ..Origins::default() };
+    let line_starts: Vec<usize> = std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
+    let line_at = |offset: usize| line_starts.partition_point(|&start| start <= offset);
+    let syntax = |e: toml::de::Error| {
+        let line = e.span().map(|span| line_at(span.start));
+        Error::new(format!("not TOML: {}", e.message())).in_file(file).at_line(line)
+    };
+    let spanned = DeTable::parse(text).map_err(syntax)?;
+    record_table(spanned.get_ref(), "", &line_at, &mut origins.lines);
+    let mut table: Table = toml::from_str(text).map_err(syntax)?;
+    for (path, value) in overrides {
+        let text = format!("{path}={value}");
+        set(&mut table, path, value).map_err(|what| Error::new(format!("--set {text}: {what}")).in_file(file))?;
+        origins.overrides.insert(dotted(path).join("."), text);
+    }
+    Ok((table, origins))
+}
+
+/// Notes the line of every entry of a table.
+fn record_table(table: &DeTable, path: &str, line_at: &impl Fn(usize) -> usize, lines: &mut BTreeMap<String, usize>) {
+    for (key, value) in table {
+        let below = if path.is_empty() { key.get_ref().to_string() } else { format!("{path}.{}", key.get_ref()) };
+        lines.insert(below.clone(), line_at(key.span().start));
+        record_value(value.get_ref(), &below, line_at, lines);
+    }
+}
+
+fn record_value(value: &DeValue, path: &str, line_at: &impl Fn(usize) -> usize, lines: &mut BTreeMap<String, usize>) {
+    match value {
+        DeValue::Table(table) => record_table(table, path, line_at, lines),
+        DeValue::Array(values) => {
+            for (i, value) in values.iter().enumerate() {
+                let below = format!("{path}.{i}");
+                lines.insert(below.clone(), line_at(value.span().start));
+                record_value(value.get_ref(), &below, line_at, lines);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// The steps of a path, `force.1.vector` or `force[1].vector`.
+fn dotted(path: &str) -> Vec<String> {
+    path.replace('[', ".").replace(']', "").split('.').map(|step| step.trim().to_owned()).collect()
+}
+
+/// Puts `text`, read as a TOML value or else as a string, at `path`, making tables on the way where there are none.
+fn set(table: &mut Table, path: &str, text: &str) -> Result<(), String> {
+    let value: Value = text.trim().parse().unwrap_or_else(|_| Value::String(text.trim().to_owned()));
+    let steps = dotted(path);
+    if steps.iter().any(String::is_empty) {
+        return Err("write a key as motion.time_step or force.0.vector".to_owned());
+    }
+    let mut place = table.entry(steps[0].clone()).or_insert_with(|| below(&steps, 1));
+    for (depth, step) in steps.iter().enumerate().skip(1) {
+        let so_far = steps[..depth].join(".");
+        place = match place {
+            Value::Table(table) => table.entry(step.clone()).or_insert_with(|| below(&steps, depth + 1)),
+            Value::Array(values) => {
+                let count = values.len();
+                let index = step.parse().ok().filter(|&i: &usize| i <= count).ok_or_else(|| {
+                    format!("{so_far} is a list of {count}: name an entry by a number from 0 to {count}")
+                })?;
+                if index == count {
+                    values.push(below(&steps, depth + 1));
+                }
+                &mut values[index]
+            }
+            other => return Err(format!("{so_far} is {} {other}, it has nothing below it", other.type_str())),
+        };
+    }
+    *place = value;
+    Ok(())
+}
+
+/// What to make for the part of a path that is not there yet.
+fn below(steps: &[String], depth: usize) -> Value {
+    match steps.get(depth) {
+        Some(step) if step.parse::<usize>().is_ok() => Value::Array(Vec::new()),
+        _ => Value::Table(Table::new()),
+    }
+}

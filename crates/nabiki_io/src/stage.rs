@@ -1,0 +1,191 @@
+//! A scene with everything in its place: the head, the hair, what moves them.
+
+use nabiki::{Hair, Head, SettingError, Strands, dynamics::Dynamics, groom::groom, pores, subset};
+
+use crate::{
+    error::{Error, Result},
+    hair::{self, ImportReport},
+    identity::{Digest, SceneId},
+    mesh::{self, MeshReport},
+    motion::{self, HeadMotion},
+    placement::Placement,
+    scene::{EllipsoidChoice, HairSettings, Scene},
+};
+
+/// All that a scene names, loaded and in head space.
+#[derive(Clone, Debug)]
+pub struct Stage {
+    /// The scene it was built from.
+    pub scene: Scene,
+    /// The head.
+    pub head: Head,
+    /// How the head's file lies in head space; the identity for the built-in head.
+    pub placement: Placement,
+    /// What the head's file held; `None` for the built-in head.
+    pub mesh_report: Option<MeshReport>,
+    /// The hair at rest.
+    pub hair: Hair,
+    /// How the hair's file lies in head space; `None` for hair grown here.
+    pub hair_placement: Option<Placement>,
+    /// What the hair's file held; `None` for hair grown here.
+    pub import_report: Option<ImportReport>,
+    /// What moves the hair.
+    pub dynamics: Dynamics,
+}
+
+impl Scene {
+    /// Loads the head, grows or imports the hair.
+    ///
+    /// # Errors
+    /// One line: file, thing, value and the way out.
+    pub fn build(self) -> Result<Stage> {
+        self.build_with(hair::import)
+    }
+
+    /// The same, with a reader of hair files that may know more formats than this crate.
+    pub fn build_with(
+        self,
+        import: impl Fn(&std::path::Path, &Placement, &hair::Cleaning) -> Result<(Hair, ImportReport)>,
+    ) -> Result<Stage> {
+        let (head, placement, mesh_report) = load_head(&self)?;
+        let dynamics = dynamics(&self, &head)?;
+        let (hair, hair_placement, import_report) = match &self.hair.file {
+            None => (grow(&self, &head)?.into(), None, None),
+            Some(file) => {
+                let placement = hair_placement(&self.hair, &placement);
+                placement.check("hair").map_err(|refused| self.refusal(refused))?;
+                let (hair, report) = import(&self.resolve(file), &placement, &self.hair.cleaning())?;
+                let chosen = match self.hair.strands {
+                    Some(count) if count < hair.strands.len() => choose(&hair, count),
+                    _ => hair,
+                };
+                (chosen, Some(placement), Some(report))
+            }
+        };
+        Ok(Stage { scene: self, head, placement, mesh_report, hair, hair_placement, import_report, dynamics })
+    }
+}
+
+impl Stage {
+    /// What a motion cache of this stage is marked with: everything that decides how its hair moves, but not how many
+    /// frames are made of it, nor how it is drawn. Two scenes spelled differently that mean the same have the same.
+    pub fn identity(&self) -> Result<SceneId> {
+        let mut digest = Digest::new();
+        digest.bytes("starts", bytemuck::cast_slice(&little_endian(self.hair.strands.starts())));
+        let points: &[f32] = bytemuck::cast_slice(self.hair.strands.points());
+        let bits: Vec<u32> = points.iter().map(|x| x.to_bits()).collect();
+        digest.bytes("points", bytemuck::cast_slice(&little_endian(&bits)));
+        let motion = nabiki::dynamics::Motion { frames: 1, ..self.dynamics.motion.clone() };
+        digest.settings("motion", &motion)?;
+        digest.settings("segment_length", &[self.dynamics.segment_length, self.dynamics.shell])?;
+        digest.settings("ellipsoid", &self.dynamics.ellipsoid)?;
+        digest.settings("pseudo_force", &self.dynamics.pseudo_force)?;
+        digest.settings("force", &self.dynamics.field.keyframes())?;
+        if let Some(disturbance) = &self.dynamics.disturbance {
+            digest.settings("disturbance", disturbance)?;
+        }
+        if let Some(source) = &self.scene.head.motion {
+            digest.settings("head.motion", source)?;
+            let path = self.scene.resolve(&source.file);
+            let bytes = std::fs::read(&path).map_err(|e| Error::from(e).in_file(&path))?;
+            digest.bytes("head.motion.file", &bytes);
+        }
+        Ok(digest.finish())
+    }
+
+    /// Where the head is in each frame, at `frame_rate` frames a second; `None` for a head that stands still.
+    pub fn head_motion(&self, frame_rate: f64) -> Result<Option<HeadMotion>> {
+        let Some(source) = &self.scene.head.motion else { return Ok(None) };
+        let source = motion::MotionSource { file: self.scene.resolve(&source.file), ..source.clone() };
+        motion::read(&source, frame_rate).map(Some).map_err(|e| Error::new(e.problem).in_file(&e.file))
+    }
+
+    /// A refused setting as an error that names the scene's file and line.
+    pub fn refusal(&self, refused: SettingError) -> Error {
+        self.scene.refusal(refused)
+    }
+}
+
+fn little_endian(values: &[u32]) -> Vec<u32> {
+    values.iter().map(|value| value.to_le()).collect()
+}
+
+fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshReport>)> {
+    let settings = &scene.head;
+    let given = match settings.ellipsoid {
+        EllipsoidChoice::Fit => None,
+        EllipsoidChoice::Given(ellipsoid) => Some(ellipsoid),
+    };
+    if settings.is_builtin() {
+        let head = match given {
+            None => Head::builtin(),
+            Some(_) => Head::from_mesh(Head::builtin().mesh, given).map_err(|refused| scene.refusal(refused))?,
+        };
+        return Ok((head, Placement::default(), None));
+    }
+    let file = scene.resolve(settings.mesh.as_ref());
+    let mut placement = settings.placement();
+    let (mut mesh, report) = mesh::import(&file, &placement, &settings.groups)?;
+    let mut ellipsoid = given;
+    if settings.origin.is_none() && given.is_none() {
+        let mut fitted = Head::fit(&mesh).map_err(|refused| scene.refusal(refused))?;
+        placement.origin = placement.file_from_head().transform_point3(fitted.center);
+        for p in &mut mesh.positions {
+            *p -= fitted.center;
+        }
+        fitted.center = glam::Vec3::ZERO;
+        ellipsoid = Some(fitted);
+    }
+    let head = Head::from_mesh(mesh, ellipsoid).map_err(|refused| scene.refusal(refused))?;
+    Ok((head, placement, Some(report)))
+}
+
+/// How the hair's file lies in head space: as the head's file does, but for what the scene says of it.
+fn hair_placement(settings: &HairSettings, head: &Placement) -> Placement {
+    let unmoved = Placement {
+        unit: settings.unit.unwrap_or(head.unit),
+        up: settings.up.unwrap_or(head.up),
+        facing: settings.facing.unwrap_or(head.facing),
+        origin: glam::Vec3::ZERO,
+    };
+    if unmoved == (Placement { origin: glam::Vec3::ZERO, ..*head }) {
+        return Placement { origin: settings.origin.unwrap_or(head.origin), ..unmoved };
+    }
+    // The head's origin is a place in the world that both files share.
+    let shared = Placement { origin: glam::Vec3::ZERO, ..*head }.head_from_file().transform_point3(head.origin);
+    let origin = settings.origin.unwrap_or_else(|| unmoved.file_from_head().transform_point3(shared));
+    Placement { origin, ..unmoved }
+}
+
+fn grow(scene: &Scene, head: &Head) -> Result<Strands> {
+    let HairSettings { hairline, style, segments, segment_length, seed, .. } = &scene.hair;
+    let count = scene.hair.strands.unwrap_or(HairSettings::STRANDS);
+    pores::spread(head, hairline, count, *seed)
+        .and_then(|pores| groom(head, &pores, style, *segments, *segment_length, *seed))
+        .map_err(|refused| scene.refusal(refused))
+}
+
+/// An even choice of `count` strands, in the order of the file.
+fn choose(hair: &Hair, count: usize) -> Hair {
+    let roots: Vec<glam::Vec3> = hair.strands.iter().map(|strand| strand[0]).collect();
+    let mut chosen = subset::evenly(&roots, count);
+    chosen.sort_unstable();
+    hair.select(&chosen)
+}
+
+fn dynamics(scene: &Scene, head: &Head) -> Result<Dynamics> {
+    let build = || -> std::result::Result<Dynamics, SettingError> {
+        let dynamics = Dynamics {
+            motion: scene.motion.clone(),
+            segment_length: scene.hair.segment_length,
+            pseudo_force: scene.pseudo_force.clone(),
+            ellipsoid: head.ellipsoid,
+            shell: scene.head.shell,
+            field: scene.field()?,
+            disturbance: scene.disturbance.clone(),
+        };
+        dynamics.check()?;
+        Ok(dynamics)
+    };
+    build().map_err(|refused| scene.refusal(refused))
+}
