@@ -1,6 +1,6 @@
 //! What a style asks of one strand: from its pore to the direction, length, stiffness and loads it starts with.
 
-use glam::{DVec3, IVec3, Vec3};
+use glam::{DVec2, DVec3, IVec3, Vec3};
 
 use super::chance::Chance;
 use super::style::{Region, Style};
@@ -96,10 +96,12 @@ fn lock_of(root: Vec3, size: f32, seed: u64) -> (Vec3, Chance) {
 
 /// The direction, level, in which hair is combed at `root`: away from the nearest point of the parting.
 fn away_from_parting(style: &Style, root: DVec3, strand: Chance, lock: Chance) -> DVec3 {
-    let parting = &style.parting;
-    let x = root.x.clamp(f64::from(parting.crown), f64::from(parting.front));
-    let z = f64::from(parting.z) + f64::from(parting.wobble) * lock.bell(channel::WOBBLE);
-    let away = DVec3::new(root.x - x, 0.0, root.z - z);
+    let [front, crown] = [style.parting.front, style.parting.crown].map(|end| end.as_dvec2());
+    let line = front - crown;
+    let here = DVec2::new(root.x, root.z + f64::from(style.parting.wobble) * lock.bell(channel::WOBBLE));
+    let share = ((here - crown).dot(line) / line.length_squared().max(1e-12)).clamp(0.0, 1.0);
+    let away = here - (crown + line * share);
+    let away = DVec3::new(away.x, 0.0, away.y);
     let side = if strand.unit(channel::SIDE) < 0.5 { DVec3::Z } else { DVec3::NEG_Z };
     away.try_normalize().unwrap_or(side)
 }

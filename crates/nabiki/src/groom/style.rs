@@ -1,6 +1,6 @@
 //! Settings of a hairstyle: the table `[hair.style]` of a scene.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::SettingError;
@@ -100,23 +100,22 @@ by_region!(
 
 /// The parting: a line over the top of the head, straight as seen from above, from the front to the crown.
 ///
-/// Hair is combed away from the nearest point of it: to the sides along the line, all around behind its end.
+/// Hair is combed away from the nearest point of it: to the sides along the line, all around beyond its ends.
+/// Positive z is on the character's right.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Parting {
-    /// Where it runs: 0 in the middle, positive on the character's right (cm, default 0).
-    pub z: f32,
-    /// Its front end, from which it may stop short of the hairline (x, cm, default 10: through the hairline).
-    pub front: f32,
-    /// Its end at the crown (x, cm, default -4).
-    pub crown: f32,
+    /// Its front end as seen from above, (x, z); it may stop short of the hairline (cm, default (10, 0): through it).
+    pub front: Vec2,
+    /// Its end at the crown, (x, z) (cm, default (-4, 0)).
+    pub crown: Vec2,
     /// How far it strays from the straight line (cm, default 0.1).
     pub wobble: f32,
 }
 
 impl Default for Parting {
     fn default() -> Self {
-        Self { z: 0.0, front: 10.0, crown: -4.0, wobble: 0.1 }
+        Self { front: Vec2::new(10.0, 0.0), crown: Vec2::new(-4.0, 0.0), wobble: 0.1 }
     }
 }
 
@@ -268,9 +267,10 @@ impl Style {
             check_range(&format!("hair.style.lift_degrees.{region}"), value, 0.0, 90.0)?;
         }
         let range = |key: &str, value, low, high| check_range(&format!("hair.style.{key}"), value, low, high);
-        range("parting.z", self.parting.z, -100.0, 100.0)?;
-        range("parting.front", self.parting.front, self.parting.crown, 100.0)?;
-        range("parting.crown", self.parting.crown, -100.0, 100.0)?;
+        for (end, at) in [("front", self.parting.front), ("crown", self.parting.crown)] {
+            range(&format!("parting.{end} (x)"), at.x, -100.0, 100.0)?;
+            range(&format!("parting.{end} (z)"), at.y, -100.0, 100.0)?;
+        }
         range("parting.wobble", self.parting.wobble, 0.0, 5.0)?;
         range("comb.away", self.comb.away, 0.0, 1000.0)?;
         for (axis, value) in ["x", "y", "z"].into_iter().zip(self.comb.sweep.to_array()) {
