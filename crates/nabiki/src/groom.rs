@@ -45,7 +45,8 @@ pub fn groom(
     }
     let longest = segments as f32 * segment_length;
     for (region, length) in style.length.each() {
-        if length > longest * (1.0 + 1e-5) {
+        let grows = region != "fringe" || style.fringe.half_width > 0.0;
+        if grows && length > longest * (1.0 + 1e-5) {
             let remedy =
                 format!("must be at most hair.segments x hair.segment_length = {longest} cm: raise one of them");
             return Err(SettingError::new(format!("hair.style.length.{region}"), length, remedy));

@@ -57,16 +57,18 @@ impl Course {
     }
 }
 
+/// Rises from 0 to 1 over 0..1, smoothly.
+fn smooth(t: f32) -> f32 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
 /// Shares of top, sides, back and fringe at a root.
 fn shares(ellipsoid: &Ellipsoid, style: &Style, root: Vec3) -> [f32; 4] {
     let u = (root - ellipsoid.center) / ellipsoid.half_axes;
     if style.fringe.half_width > 0.0 && root.z.abs() < style.fringe.half_width && root.x > style.fringe.from {
         return [0.0, 0.0, 0.0, 1.0];
     }
-    let smooth = |t: f32| {
-        let t = t.clamp(0.0, 1.0);
-        t * t * (3.0 - 2.0 * t)
-    };
     let top = smooth((u.y - 0.45) / 0.3);
     let back = smooth((0.1 - u.x) / 0.4);
     [top, (1.0 - top) * (1.0 - back), (1.0 - top) * back, 0.0]
@@ -127,7 +129,9 @@ pub(super) fn course(head: &Head, style: &Style, pore: &Pore, seed: u64) -> Cour
         DVec3::new(f64::from(style.fringe.forward), 0.0, f64::from(style.fringe.aside))
     } else {
         let away = away_from_parting(style, root, strand, lock);
-        away * f64::from(style.comb.away) + style.comb.sweep.as_dvec3()
+        let front = (pore.position.x - head.ellipsoid.center.x) / head.ellipsoid.half_axes.x;
+        let off_face = f64::from(style.comb.off_face * smooth((front - 0.3) / 0.5));
+        away * f64::from(style.comb.away) + style.comb.sweep.as_dvec3() + DVec3::NEG_X * off_face
     };
     let variation = &style.variation;
     let stray = if strand.unit(channel::STRAY) < f64::from(variation.strays) { 4.0 } else { 1.0 };

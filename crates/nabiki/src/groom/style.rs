@@ -127,13 +127,16 @@ pub struct Comb {
     pub away: f32,
     /// In one direction for all hair but the fringe, (-1, 0, 0) for backward (times the weight, default none).
     pub sweep: Vec3,
-    /// Length over which both fall to 1/e (cm, default 6).
+    /// Backward for hair rooted in front, growing toward the forehead, which keeps the face free (times the weight,
+    /// default 0).
+    pub off_face: f32,
+    /// Length over which they fall to 1/e (cm, default 6).
     pub decay: f32,
 }
 
 impl Default for Comb {
     fn default() -> Self {
-        Self { away: 1.0, sweep: Vec3::ZERO, decay: 6.0 }
+        Self { away: 1.0, sweep: Vec3::ZERO, off_face: 0.0, decay: 6.0 }
     }
 }
 
@@ -276,6 +279,7 @@ impl Style {
         for (axis, value) in ["x", "y", "z"].into_iter().zip(self.comb.sweep.to_array()) {
             range(&format!("comb.sweep ({axis})"), value, -1000.0, 1000.0)?;
         }
+        range("comb.off_face", self.comb.off_face, 0.0, 1000.0)?;
         check_positive("hair.style.comb.decay", self.comb.decay)?;
         range("fringe.half_width", self.fringe.half_width, 0.0, 100.0)?;
         range("fringe.from", self.fringe.from, -100.0, 100.0)?;
