@@ -38,11 +38,30 @@ pub struct Motion {
     /// Hair shorter than this (cm) has the inertia of hair this long: it is held by its longer neighbours.
     /// 0, the paper's way, gives every strand the inertia of its own length, and short hair very fast swings.
     pub friction_length: f32,
+    /// Space of the forces; it matters where the head turns.
+    pub force_space: ForceSpace,
+}
+
+/// The space that forces are given in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ForceSpace {
+    /// They stay as they are while the head turns under them (the default).
+    #[default]
+    World,
+    /// They turn with the head.
+    Head,
 }
 
 impl Default for Motion {
     fn default() -> Self {
-        Self { frames: 100, time_step: 0.1, linear_density: 0.05, friction_length: 0.0 }
+        Self {
+            frames: 100,
+            time_step: 0.1,
+            linear_density: 0.05,
+            friction_length: 0.0,
+            force_space: ForceSpace::default(),
+        }
     }
 }
 

@@ -6,14 +6,19 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Hair in the wind: groom it, blow on it, draw it.
 #[derive(Parser)]
-#[command(name = "nabiki", version, arg_required_else_help = true, after_help = "\
+#[command(
+    name = "nabiki",
+    version,
+    arg_required_else_help = true,
+    after_help = "\
 Start with:
   nabiki preview scenes/gust.toml                     300 strands: what will the wind do?
   nabiki preview scenes/gust.toml --set force.1.vector=[-15,-300,0]
   nabiki run scenes/gust.toml                         the whole movie
 
 A scene is a TOML file: head, hair, motion, pseudo_force, force, picture, output. The files in scenes/ are
-commented. Exit codes: 0 done, 1 refused or failed (one line says why), 2 the command line makes no sense.")]
+commented. Exit codes: 0 done, 1 refused or failed (one line says why), 2 the command line makes no sense."
+)]
 pub struct Cli {
     #[command(subcommand)]
     pub command: Command,

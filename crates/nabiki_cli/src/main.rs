@@ -1,2 +1,45 @@
-//! Placeholder.
-fn main() {}
+//! The command `nabiki`.
+
+mod args;
+mod commands;
+mod failure;
+mod film;
+mod opening;
+mod progress;
+mod report;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Cli, Command};
+use failure::Failure;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    match run(&cli) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("nabiki: {failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(cli: &Cli) -> Result<(), Failure> {
+    if let Some(threads) = cli.threads {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.into())
+            .build_global()
+            .map_err(|e| Failure::new(format!("--threads {threads}: {e}")))?;
+    }
+    match &cli.command {
+        Command::Run(args) => commands::run::run(args, cli.quiet),
+        Command::Preview(args) => commands::preview::preview(args, cli.quiet),
+        Command::Groom(args) => commands::groom::groom(args, cli.quiet),
+        Command::Simulate(args) => commands::simulate::simulate(args, cli.quiet),
+        Command::Render(args) => commands::render::render(args, cli.quiet),
+        Command::Convert(args) => commands::convert::convert(args, cli.quiet),
+        Command::Info(_) => Err(Failure::new("not yet")),
+    }
+}

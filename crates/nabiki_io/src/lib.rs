@@ -17,6 +17,7 @@ pub mod obj_lines;
 pub mod placement;
 pub mod scene;
 pub mod stage;
+pub mod take;
 pub mod tfx;
 
 pub use error::{Error, Result};

@@ -1,0 +1,15 @@
+//! `nabiki info`: what is in a file.
+
+use crate::args::Info;
+use crate::failure::Failure;
+
+pub fn info(args: &Info) -> Result<(), Failure> {
+    let info = nabiki_io::info::info(&args.file)?;
+    if args.json {
+        let text = serde_json::to_string_pretty(&info).map_err(|e| Failure::new(e.to_string()))?;
+        println!("{text}");
+    } else {
+        println!("{info}");
+    }
+    Ok(())
+}

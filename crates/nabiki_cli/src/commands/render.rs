@@ -1,0 +1,57 @@
+//! `nabiki render`: a scene's pictures, moved by its own simulation or by a motion cache.
+
+use nabiki_io::cache::Reader;
+
+use crate::args::Render;
+use crate::failure::Failure;
+use crate::film::{Cached, Film, Frames, Simulated};
+use crate::opening::{folder, open};
+use crate::report::Report;
+
+pub fn render(args: &Render, quiet: bool) -> Result<(), Failure> {
+    let take = open(&args.scene, None)?;
+    folder(&args.out)?;
+    let scene = &take.stage.scene;
+    let source = || -> Result<Box<dyn Frames + '_>, Failure> {
+        match &args.motion {
+            Some(cache) => Ok(Box::new(Cached::new(matching(Reader::open(cache)?, args, &take)?))),
+            None => Ok(Box::new(Simulated { take: &take, simulation: take.simulation()? })),
+        }
+    };
+    let report = Report::new(&take, quiet);
+    let mut film = Film::new(&take, &scene.picture, source()?.as_mut(), quiet)?;
+    let written = match args.frame {
+        None => film.shoot(source()?.as_mut(), &args.out, &scene.name())?,
+        Some(frame) if frame <= scene.motion.frames => {
+            let path = args.out.join(format!("{}_{frame:04}.png", scene.name()));
+            film.still(frame, source()?.as_mut(), &path)?;
+            vec![path]
+        }
+        Some(frame) => {
+            let last = scene.motion.frames;
+            return Err(Failure::new(format!("--frame {frame}: the last frame is motion.frames = {last}")));
+        }
+    };
+    report.written(&written);
+    Ok(())
+}
+
+/// Refuses a cache of another scene, or one that ends too soon.
+fn matching(reader: Reader, args: &Render, take: &nabiki_io::take::Take) -> Result<Reader, Failure> {
+    let file = args.motion.as_deref().unwrap_or(&args.scene.scene).display();
+    let scene = args.scene.scene.display();
+    if reader.header().scene != take.stage.identity()? {
+        return Err(Failure::new(format!(
+            "{file}: its motion was not made from {scene} as it is now; make it again with nabiki simulate"
+        )));
+    }
+    let (last, given) = (u64::from(take.stage.scene.motion.frames), reader.frame_count());
+    if given <= last {
+        return Err(Failure::new(format!(
+            "{file}: holds {given} frames and {scene} has {}; draw fewer with --frames {}",
+            last + 1,
+            given.saturating_sub(1)
+        )));
+    }
+    Ok(reader)
+}

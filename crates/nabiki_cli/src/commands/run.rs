@@ -1,0 +1,24 @@
+//! `nabiki run`: groom, simulate, draw.
+
+use crate::args::Run;
+use crate::failure::Failure;
+use crate::film::{Film, Frames, Simulated};
+use crate::opening::{folder, open};
+use crate::report::Report;
+
+pub fn run(args: &Run, quiet: bool) -> Result<(), Failure> {
+    let take = open(&args.scene, args.strands)?;
+    folder(&args.out)?;
+    let report = Report::new(&take, quiet);
+    report.scene();
+    report.swing();
+    let simulation = take.simulation()?;
+    let mut rehearsal = Simulated { take: &take, simulation: simulation.clone() };
+    let mut frames = Simulated { take: &take, simulation };
+    let scene = &take.stage.scene;
+    let mut film = Film::new(&take, &scene.picture, &mut rehearsal, quiet)?;
+    let written = film.shoot(&mut frames, &args.out, &scene.name())?;
+    report.inside(frames.frame(scene.motion.frames)?);
+    report.written(&written);
+    Ok(())
+}

@@ -1,0 +1,36 @@
+//! `nabiki simulate`: the motion of a scene's hair, into a cache.
+
+use nabiki::dynamics::Stepper;
+use nabiki_io::cache::{Header, Writer};
+
+use crate::args::{Simulate, StepperName};
+use crate::failure::Failure;
+use crate::opening::open;
+use crate::progress;
+use crate::report::Report;
+
+pub fn simulate(args: &Simulate, quiet: bool) -> Result<(), Failure> {
+    let take = open(&args.scene, args.strands)?;
+    let report = Report::new(&take, quiet);
+    report.scene();
+    report.swing();
+    let mut stepper: Box<dyn Stepper> = match args.stepper {
+        StepperName::Fast => Box::new(take.simulation()?),
+        StepperName::F64 => Box::new(take.reference()?),
+    };
+    let frame_rate = f64::from(take.stage.scene.picture.video.fps);
+    let mut cache = Writer::create(&args.output, &Header::new(take.stage.identity()?, frame_rate, &take.stage.hair))?;
+    let bar = progress::bar(u64::from(take.stage.scene.motion.frames) + 1, "simulating", quiet);
+    cache.push(&take.pose(0), stepper.strands().points())?;
+    bar.inc(1);
+    for frame in 1..=take.stage.scene.motion.frames {
+        stepper.step_frame_under(take.force_in_head(frame));
+        cache.push(&take.pose(frame), stepper.strands().points())?;
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    cache.finish()?;
+    report.inside(stepper.strands());
+    report.written(std::slice::from_ref(&args.output));
+    Ok(())
+}

@@ -1,0 +1,41 @@
+//! What a command may fail with: one line for the user.
+
+use std::fmt;
+use std::path::Path;
+
+use nabiki::SettingError;
+use nabiki_io::Error;
+use nabiki_render::RenderError;
+
+/// One line: file, thing, value, way out.
+#[derive(Debug)]
+pub struct Failure(String);
+
+impl Failure {
+    pub fn new(line: impl Into<String>) -> Self {
+        Self(line.into())
+    }
+}
+
+/// Names the scene that a refused setting came from.
+pub fn in_scene(scene: &Path) -> impl Fn(SettingError) -> Failure + '_ {
+    move |error| Failure(format!("{}: {error}", scene.display()))
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self(error.to_string())
+    }
+}
+
+impl From<RenderError> for Failure {
+    fn from(error: RenderError) -> Self {
+        Self(error.to_string())
+    }
+}

@@ -1,0 +1,155 @@
+//! The pictures of a take: every frame into a movie, some into a contact sheet.
+
+use std::path::{Path, PathBuf};
+
+use glam::{Quat, Vec3};
+use nabiki::Strands;
+use nabiki::dynamics::{Simulation, Stepper};
+use nabiki_io::cache::Reader;
+use nabiki_io::take::Take;
+use nabiki_render::output::png;
+use nabiki_render::{Bounds, ContactSheet, Developer, Frame, Movie, Picture, RenderError, Renderer, View};
+
+use crate::failure::Failure;
+use crate::progress;
+
+/// Where frames come from, one after another from 0 on.
+pub trait Frames {
+    /// The strands of frame `n` (head space).
+    fn frame(&mut self, n: u32) -> Result<&Strands, Failure>;
+}
+
+/// Frames as they are simulated.
+pub struct Simulated<'a> {
+    pub take: &'a Take,
+    pub simulation: Simulation,
+}
+
+impl Frames for Simulated<'_> {
+    fn frame(&mut self, n: u32) -> Result<&Strands, Failure> {
+        while self.simulation.frame() < n {
+            self.simulation.step_frame_under(self.take.force_in_head(self.simulation.frame() + 1));
+        }
+        Ok(self.simulation.strands())
+    }
+}
+
+/// Frames out of a motion cache.
+pub struct Cached {
+    reader: Reader,
+    strands: Strands,
+}
+
+impl Cached {
+    pub fn new(reader: Reader) -> Self {
+        Self { strands: reader.header().strands(), reader }
+    }
+}
+
+impl Frames for Cached {
+    fn frame(&mut self, n: u32) -> Result<&Strands, Failure> {
+        self.reader.read(n.into(), &mut self.strands)?;
+        Ok(&self.strands)
+    }
+}
+
+/// Draws one frame after another and keeps none.
+pub struct Film<'a> {
+    take: &'a Take,
+    picture: Picture,
+    renderer: Renderer,
+    developer: Developer,
+    bounds: Bounds,
+    quiet: bool,
+}
+
+impl<'a> Film<'a> {
+    /// Shows `take` as `picture` says, framed so that it holds the hair of all its `frames`.
+    pub fn new(take: &'a Take, picture: &Picture, frames: &mut dyn Frames, quiet: bool) -> Result<Self, Failure> {
+        let head = &take.stage.head;
+        let mut bounds = Bounds::default();
+        bounds.include_head(&head.mesh, &head.ellipsoid);
+        let camera = &picture.camera;
+        if camera.target.is_none() || (camera.distance.is_none() && camera.height.is_none()) {
+            for n in 0..=take.stage.scene.motion.frames {
+                let turn = take.pose(n).rotation;
+                let strands = frames.frame(n)?;
+                if take.head_moves() {
+                    strands.points().iter().for_each(|&p| bounds.include(turn * p));
+                } else {
+                    bounds.include_strands(strands);
+                }
+            }
+        }
+        Ok(Self {
+            take,
+            picture: picture.clone(),
+            renderer: Renderer::new(picture, &head.mesh)?,
+            developer: Developer::new(picture),
+            bounds,
+            quiet,
+        })
+    }
+
+    /// Draws all frames: the movie, the contact sheet and what else the scene asks for, in `folder`, their names
+    /// beginning with `name`. Returns what was written.
+    pub fn shoot(&mut self, frames: &mut dyn Frames, folder: &Path, name: &str) -> Result<Vec<PathBuf>, Failure> {
+        let (output, last) = (&self.take.stage.scene.output, self.take.stage.scene.motion.frames);
+        let on_sheet = output.sheet_frames(last);
+        let files = [folder.join(format!("{name}.mp4")), folder.join(format!("{name}_sheet.png"))];
+        let stills = output.png_frames.then(|| folder.join(format!("{name}_frames")));
+        if let Some(stills) = &stills {
+            std::fs::create_dir_all(stills)
+                .map_err(|e| Failure::new(format!("{}: cannot make this folder: {e}", stills.display())))?;
+        }
+        let mut movie = if output.movie { Some(Movie::create(&files[0], &self.picture)?) } else { None };
+        let mut sheet = ContactSheet::new(2);
+        let bar = progress::bar(u64::from(last) + 1, "drawing", self.quiet);
+        for n in 0..=last {
+            let (frame, view) = self.draw(n, frames.frame(n)?)?;
+            if let Some(movie) = &mut movie {
+                movie.push(&frame, &self.developer)?;
+            }
+            if let Some(stills) = &stills {
+                png::write(&stills.join(format!("{n:04}.png")), &frame, &self.developer, png::Depth::Eight)?;
+            }
+            if on_sheet.contains(&n) {
+                sheet.add(&frame, &self.developer, n, Some(self.take.force_in_head(n.max(1))), &view);
+            }
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        let [movie_file, sheet_file] = files;
+        let mut written = Vec::new();
+        if let Some(movie) = movie {
+            movie.finish()?;
+            written.push(movie_file);
+        }
+        if !sheet.is_empty() {
+            sheet.write(&sheet_file)?;
+            written.push(sheet_file);
+        }
+        written.extend(stills);
+        Ok(written)
+    }
+
+    /// Draws frame `n` alone, as a PNG at `path`.
+    pub fn still(&mut self, n: u32, frames: &mut dyn Frames, path: &Path) -> Result<(), Failure> {
+        let (frame, _) = self.draw(n, frames.frame(n)?)?;
+        Ok(png::write(path, &frame, &self.developer, png::Depth::Eight)?)
+    }
+
+    /// The camera goes along with the head, and does not turn with it.
+    fn draw(&mut self, n: u32, strands: &Strands) -> Result<(Frame, View), RenderError> {
+        let progress = n as f32 / self.take.stage.scene.motion.frames as f32;
+        let view = View::new(&self.picture.camera.at(progress), self.picture.size, &self.bounds);
+        let view = turned(view, self.take.pose(n).rotation.inverse());
+        Ok((self.renderer.draw(strands, &view)?, view))
+    }
+}
+
+/// The view from a camera turned about the origin.
+fn turned(view: View, turn: Quat) -> View {
+    let [eye, right, up, forward] = [view.eye, view.right, view.up, view.forward].map(|v: Vec3| turn * v);
+    View { eye, right, up, forward, ..view }
+}
