@@ -1,5 +1,7 @@
 //! Hair as tools exchange it: strands with whatever else a file says about them.
 
+mod resample;
+
 use std::collections::BTreeMap;
 
 use glam::{Affine3A, Vec3};

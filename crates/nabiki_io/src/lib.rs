@@ -10,6 +10,7 @@ mod finite;
 pub mod hair;
 pub mod hair_file;
 pub mod identity;
+pub mod info;
 pub mod mesh;
 pub mod motion;
 mod names;

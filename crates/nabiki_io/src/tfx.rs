@@ -159,7 +159,7 @@ pub fn losses(hair: &Hair) -> Vec<String> {
     let points = hair.strands.iter().next().map_or(0, <[Vec3]>::len);
     let loads = points.is_power_of_two() && (4..=64).contains(&points);
     if !loads {
-        lost.push(format!("loading in TressFX itself, which wants 4, 8, 16, 32 or 64 points a strand, not {points}"));
+        lost.push(format!("{points} points a strand as TressFX itself wants them: 4, 8, 16, 32 or 64"));
     }
     lost
 }

@@ -2,7 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use nabiki_io::{hair, mesh, placement::Placement};
+use nabiki_io::{
+    hair,
+    info::{Info, info},
+    mesh,
+    placement::Placement,
+};
 
 /// The path of a shared file; prints why the test is skipped where there is none.
 fn shared(name: &str) -> Option<PathBuf> {
@@ -107,4 +112,33 @@ fn seams_of_the_scanned_head_close_when_it_is_imported() {
     assert_eq!((head.positions.len(), report.joined_vertices), (8_839, 9_223 - 8_839));
     // Quantisation left 6 triangles with two corners at one place.
     assert_eq!((head.triangles.len(), report.dropped_triangles), (17_678, 6));
+}
+
+#[test]
+fn info_says_what_the_readme_says_of_sintel() {
+    let Some(path) = shared("hair/sintel_hair_16pts.tfx") else { return };
+    let Info::Hair(info) = info(&path).unwrap() else { panic!("a .tfx is hair") };
+    assert_eq!((info.strands, info.points, info.segments), (11_400, 182_400, [15, 15]));
+    let near = |found: f32, stated: f32| assert!((found / stated - 1.0).abs() < 0.005, "{found} {stated}");
+    near(info.strand_length.min, 0.0251);
+    near(info.strand_length.median, 0.1015);
+    near(info.strand_length.max, 0.248);
+    near(info.bounds.max[1], 1.6749);
+    assert_eq!((info.likely_unit, info.likely_up), (Some("m"), Some("+y")));
+    assert_eq!((info.zero_segments, info.empty_strands), (0, 0));
+}
+
+#[test]
+fn info_counts_the_open_edges_of_the_readme() {
+    for (name, open, crowded) in [
+        ("heads/sintel_bust.obj", 148, 0),
+        ("heads/sintel_collider.obj", 0, 0),
+        ("heads/suzanne.glb", 168, 0),
+        // The README counts 10 crowded edges; 6 of them are of triangles without area, which are dropped.
+        ("heads/lps_head.obj", 0, 4),
+    ] {
+        let Some(path) = shared(name) else { return };
+        let Info::Mesh(mesh) = info(&path).unwrap() else { panic!("{name} is a mesh") };
+        assert_eq!((mesh.open_edges, mesh.crowded_edges), (open, crowded), "{name}");
+    }
 }

@@ -1,0 +1,61 @@
+//! What is in a motion cache.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use super::{HairInfo, Short};
+use crate::{cache::Reader, error::Result, identity::SceneId};
+
+/// Frames, and the hair of the first.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CacheInfo {
+    /// Number of frames, the rest frame 0 among them.
+    pub frames: u64,
+    /// Frames a second.
+    pub frame_rate: f64,
+    /// The scene that made it.
+    pub scene: SceneId,
+    /// Greatest distance of a point in the last frame from where it was in the first (head space, cm).
+    pub farthest_move: f32,
+    /// Whether the head is elsewhere in the last frame than in the first.
+    pub head_moves: bool,
+    /// The hair of frame 0 (cm).
+    pub rest: HairInfo,
+}
+
+impl CacheInfo {
+    /// Looks at the first and the last frame.
+    pub fn of(mut cache: Reader) -> Result<Self> {
+        let frames = cache.frame_count();
+        let rest = cache.hair(0)?;
+        let mut last = rest.strands.clone();
+        let first_pose = cache.read(0, &mut last)?;
+        let last_pose = cache.read(frames - 1, &mut last)?;
+        let moves = last.points().iter().zip(rest.strands.points()).map(|(a, b)| a.distance(*b));
+        Ok(Self {
+            frames,
+            frame_rate: cache.header().frame_rate,
+            scene: cache.header().scene,
+            farthest_move: moves.fold(0.0, f32::max),
+            head_moves: first_pose != last_pose,
+            rest: HairInfo { likely_unit: Some("cm"), likely_up: Some("+y"), ..HairInfo::of(&rest) },
+        })
+    }
+}
+
+impl fmt::Display for CacheInfo {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "motion cache: {} frames at {} a second, of scene {}", self.frames, self.frame_rate, self.scene)?;
+        let head = if self.head_moves { "moves" } else { "stands still" };
+        writeln!(
+            f,
+            "from first to last frame a point moves {} cm at most; the head {head}",
+            Short(self.farthest_move)
+        )?;
+        let rest = self.rest.to_string();
+        // The unit is the format's, no guess.
+        let lines: Vec<&str> = rest.lines().filter(|line| !line.starts_with("unit")).collect();
+        write!(f, "{}\nunit: cm; up: +y; facing: +x (head space)", lines.join("\n"))
+    }
+}

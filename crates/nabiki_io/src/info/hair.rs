@@ -1,0 +1,116 @@
+//! What is in a hair file.
+
+use std::fmt;
+
+use glam::Vec3;
+use nabiki::Hair;
+use serde::Serialize;
+
+use super::{Box3, Spread, guess_unit};
+use crate::hair::length;
+
+/// Strands and what is known of them, in the file's own unit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HairInfo {
+    /// Number of strands.
+    pub strands: usize,
+    /// Number of points of all strands.
+    pub points: usize,
+    /// Fewest and most segments of a strand.
+    pub segments: [usize; 2],
+    /// Around all points.
+    pub bounds: Box3,
+    /// Arc length of the strands.
+    pub strand_length: Spread,
+    /// Length of the segments.
+    pub segment_length: Spread,
+    /// Segments whose two ends lie at one place.
+    pub zero_segments: usize,
+    /// Strands without any extent.
+    pub empty_strands: usize,
+    /// Names of what the file carries beside its points.
+    pub attributes: Vec<&'static str>,
+    /// Unit in which this would be a person's hair; a guess.
+    pub likely_unit: Option<&'static str>,
+    /// Axis that points up if the hair hangs; a guess.
+    pub likely_up: Option<&'static str>,
+}
+
+impl HairInfo {
+    /// Looks through `hair`.
+    pub fn of(hair: &Hair) -> Self {
+        let strands = &hair.strands;
+        let lengths: Vec<f32> = strands.iter().map(length).collect();
+        let segments: Vec<f32> =
+            strands.iter().flat_map(|strand| strand.windows(2).map(|w| w[0].distance(w[1]))).collect();
+        let counts = strands.iter().map(|strand| strand.len().saturating_sub(1));
+        let (fewest, most) = counts.fold((usize::MAX, 0), |(low, high), n| (low.min(n), high.max(n)));
+        let bounds = Box3::of(strands.points());
+        Self {
+            strands: strands.len(),
+            points: strands.points().len(),
+            segments: [fewest, most],
+            zero_segments: segments.iter().filter(|&&length| length == 0.0).count(),
+            empty_strands: lengths.iter().filter(|&&length| length == 0.0).count(),
+            strand_length: Spread::of(lengths),
+            segment_length: Spread::of(segments),
+            attributes: attributes(hair),
+            // A crop to hair down to the knees.
+            likely_unit: guess_unit(bounds.diagonal(), 15.0, 140.0),
+            likely_up: up(hair),
+            bounds,
+        }
+    }
+}
+
+fn attributes(hair: &Hair) -> Vec<&'static str> {
+    let a = &hair.attributes;
+    let all = [
+        (a.id.is_some(), "strand ids"),
+        (a.root_uv.is_some(), "root UVs"),
+        (a.group.is_some(), "groups"),
+        (a.guide.is_some(), "guide flags"),
+        (a.width.is_some(), "widths"),
+        (a.color.is_some(), "colours"),
+        (a.transparency.is_some(), "transparencies"),
+        (a.point_uv.is_some(), "point UVs"),
+        (a.freedom.is_some(), "held points"),
+        (a.constant.width.is_some(), "one width"),
+        (a.constant.color.is_some(), "one colour"),
+        (a.constant.transparency.is_some(), "one transparency"),
+    ];
+    all.into_iter().filter(|&(there, _)| there).map(|(_, name)| name).collect()
+}
+
+/// Against the mean direction from root to tip, if that is clearly along y or z: no tool in use has x for up.
+fn up(hair: &Hair) -> Option<&'static str> {
+    let chords = hair.strands.iter().filter_map(|strand| (*strand.last()? - *strand.first()?).try_normalize());
+    let mean = chords.fold(Vec3::ZERO, |sum, chord| sum + chord) / hair.strands.len() as f32;
+    let axis = mean.abs().max_position();
+    let others = mean.abs()[(axis + 1) % 3].max(mean.abs()[(axis + 2) % 3]);
+    let clear = mean[axis].abs() > 0.3 && mean[axis].abs() > 2.0 * others;
+    let name = [[None, None], [Some("-y"), Some("+y")], [Some("-z"), Some("+z")]][axis];
+    name[usize::from(mean[axis] < 0.0)].filter(|_| clear)
+}
+
+impl fmt::Display for HairInfo {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [fewest, most] = self.segments;
+        let of = if fewest == most { format!("{most}") } else { format!("{fewest} to {most}") };
+        writeln!(f, "hair: {} strands of {of} segments, {} points", self.strands, self.points)?;
+        writeln!(f, "box: {}", self.bounds)?;
+        writeln!(f, "strand length: {}", self.strand_length)?;
+        writeln!(f, "segment length: {}", self.segment_length)?;
+        writeln!(f, "degenerate: {} zero segments, {} strands without extent", self.zero_segments, self.empty_strands)?;
+        let carried = if self.attributes.is_empty() { "nothing".to_owned() } else { self.attributes.join(", ") };
+        writeln!(f, "beside the points: {carried}")?;
+        match self.likely_unit {
+            Some(unit) => write!(f, "unit: {unit} (a guess); ")?,
+            None => write!(f, "unit: unknown; ")?,
+        }
+        match self.likely_up {
+            Some(up) => write!(f, "up: {up} (a guess: the tips lie the other way); facing: unknown"),
+            None => write!(f, "up, facing: unknown"),
+        }
+    }
+}

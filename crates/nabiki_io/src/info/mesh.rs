@@ -1,0 +1,72 @@
+//! What is in a mesh file.
+
+use std::{collections::HashMap, fmt};
+
+use nabiki::Mesh;
+use serde::Serialize;
+
+use super::{Box3, guess_unit};
+use crate::{mesh::place_and_weld, placement::Placement};
+
+/// Triangles and what is known of them, in the file's own unit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MeshInfo {
+    /// Vertices as the file has them.
+    pub vertices: usize,
+    /// Triangles as the file has them, larger polygons cut up.
+    pub triangles: usize,
+    /// Around all vertices.
+    pub bounds: Box3,
+    /// Vertices that share their place with another.
+    pub doubled_vertices: usize,
+    /// Triangles of which two corners lie at one place.
+    pub degenerate_triangles: usize,
+    /// Edges with a triangle on one side only, doubled vertices joined: 0 for a closed surface.
+    pub open_edges: usize,
+    /// Edges with more than two triangles.
+    pub crowded_edges: usize,
+    /// Unit in which this would be a person's head, bust or body; a guess.
+    pub likely_unit: Option<&'static str>,
+}
+
+impl MeshInfo {
+    /// Looks through `mesh`.
+    pub fn of(mesh: &Mesh) -> Self {
+        let bounds = Box3::of(&mesh.positions);
+        let mut edges: HashMap<[u32; 2], u32> = HashMap::new();
+        let (mut doubled_vertices, mut degenerate_triangles) = (0, mesh.triangles.len());
+        if let Ok((welded, report)) = place_and_weld(mesh.clone(), &Placement::default()) {
+            (doubled_vertices, degenerate_triangles) = (report.joined_vertices, report.dropped_triangles);
+            for &[a, b, c] in &welded.triangles {
+                for (p, q) in [(a, b), (b, c), (c, a)] {
+                    *edges.entry([p.min(q), p.max(q)]).or_default() += 1;
+                }
+            }
+        }
+        Self {
+            vertices: mesh.positions.len(),
+            triangles: mesh.triangles.len(),
+            doubled_vertices,
+            degenerate_triangles,
+            open_edges: edges.values().filter(|&&n| n == 1).count(),
+            crowded_edges: edges.values().filter(|&&n| n > 2).count(),
+            // A small head to a tall body.
+            likely_unit: guess_unit(bounds.max[1] - bounds.min[1], 18.0, 220.0),
+            bounds,
+        }
+    }
+}
+
+impl fmt::Display for MeshInfo {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "mesh: {} vertices, {} triangles", self.vertices, self.triangles)?;
+        writeln!(f, "box: {}", self.bounds)?;
+        writeln!(f, "edges: {} open, {} with more than two triangles", self.open_edges, self.crowded_edges)?;
+        let (doubled, degenerate) = (self.doubled_vertices, self.degenerate_triangles);
+        writeln!(f, "degenerate: {degenerate} triangles without area; {doubled} doubled vertices")?;
+        match self.likely_unit {
+            Some(unit) => write!(f, "unit: {unit} (a guess, if y is up); up, facing: unknown"),
+            None => write!(f, "unit, up, facing: unknown"),
+        }
+    }
+}

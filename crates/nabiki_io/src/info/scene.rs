@@ -1,0 +1,77 @@
+//! What is in a scene file.
+
+use std::fmt;
+
+use nabiki::field::Keyframe;
+use serde::Serialize;
+
+use super::Short;
+use crate::scene::{HairSettings, Scene};
+
+/// The outline of a scene, without loading what it names.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SceneInfo {
+    /// The head's mesh, as the scene names it.
+    pub head: String,
+    /// The hair's file, or how it is grown.
+    pub hair: String,
+    /// Frames after the rest frame.
+    pub frames: u32,
+    /// Delta t.
+    pub time_step: f32,
+    /// lambda.
+    pub linear_density: f32,
+    /// alpha.
+    pub alpha: f32,
+    /// The field.
+    pub force: Vec<Keyframe>,
+    /// Frames from one disturbance to the next.
+    pub disturbed_every: Option<u32>,
+    /// Width and height of the pictures (pixels).
+    pub picture: [u32; 2],
+}
+
+impl SceneInfo {
+    /// Outlines `scene`.
+    pub fn of(scene: &Scene) -> Self {
+        let hair = match (&scene.hair.file, scene.hair.strands) {
+            (Some(file), None) => file.display().to_string(),
+            (Some(file), Some(count)) => format!("{count} strands of {}", file.display()),
+            (None, count) => {
+                let count = count.unwrap_or(HairSettings::STRANDS);
+                format!("{count} strands of at most {} x {} cm", scene.hair.segments, scene.hair.segment_length)
+            }
+        };
+        Self {
+            head: scene.head.mesh.clone(),
+            hair,
+            frames: scene.motion.frames,
+            time_step: scene.motion.time_step,
+            linear_density: scene.motion.linear_density,
+            alpha: scene.pseudo_force.alpha,
+            force: scene.force.clone(),
+            disturbed_every: scene.disturbance.as_ref().map(|d| d.every),
+            picture: scene.picture.size,
+        }
+    }
+}
+
+impl fmt::Display for SceneInfo {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "scene: {} frames, {} x {} pixels", self.frames, self.picture[0], self.picture[1])?;
+        writeln!(f, "head: {}", self.head)?;
+        writeln!(f, "hair: {}", self.hair)?;
+        let (step, density) = (Short(self.time_step), Short(self.linear_density));
+        write!(f, "motion: time step {step}, linear density {density}, alpha {}", Short(self.alpha))?;
+        if let Some(every) = self.disturbed_every {
+            write!(f, ", disturbed every {every} frames")?;
+        }
+        let mut first = 1;
+        for key in &self.force {
+            let [x, y, z] = key.vector.to_array().map(Short);
+            write!(f, "\nforce: ({x}, {y}, {z}) in frames {first} to {}", key.through)?;
+            first = key.through + 1;
+        }
+        Ok(())
+    }
+}
