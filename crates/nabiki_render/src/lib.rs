@@ -20,6 +20,7 @@
 
 #![forbid(unsafe_code)]
 
+mod backdrop;
 pub mod camera;
 mod colour;
 mod curve;
@@ -30,6 +31,9 @@ pub mod output;
 mod raster;
 mod renderer;
 pub mod settings;
+mod shutter;
+mod skin;
+pub mod timing;
 
 pub use camera::{Bounds, View};
 pub use error::RenderError;

@@ -5,25 +5,58 @@ use nabiki::{Mesh, Strands};
 use rayon::prelude::*;
 
 use crate::RenderError;
+use crate::backdrop::Backdrop;
 use crate::camera::{NEAR, View};
 use crate::colour;
 use crate::curve::{Curves, drawable};
-use crate::frame::{Frame, NO_DEPTH, linear_from_srgb};
+use crate::frame::{Frame, HairLayer, NO_DEPTH};
+use crate::light::fibre::Fibre;
+use crate::light::headlight::HeadShadow;
 use crate::light::kajiya::KajiyaKay;
-use crate::light::lamps::lamps;
+use crate::light::lamps::{Lamp, lamps};
+use crate::light::shade::{HairLight, Model};
+use crate::light::shadow::{Crossings, Scene, Sweep};
+use crate::light::sky::SkyMap;
 use crate::raster::bins::Bins;
-use crate::raster::oversample::{Corner, OversampledTile};
+use crate::raster::coverage::{CoverageTile, Watch};
+use crate::raster::oversample::OversampledTile;
 use crate::raster::{Node, TILE};
-use crate::settings::Picture;
+use crate::settings::{Antialiasing, Picture, Shading};
+use crate::shutter;
+use crate::skin::{SkinLight, SkinPixel, SkinView};
+use crate::timing::{Stage, Timing};
 
-/// Draws frames of strands on a head. It keeps its working memory from frame to frame.
+/// Fineness of hair's shadows (cm).
+const SHADOW_CELL: f32 = 0.16;
+/// How far a piece may leave traces beyond its own width (pixels): a cell, and its overhang.
+const MARGIN: f32 = 1.25;
+
+/// Draws frames of strands on a head. It keeps its working memory from frame to frame, and what does not change
+/// while camera, lamps and head stand still.
 pub struct Renderer {
     picture: Picture,
+    layers: bool,
     head: Mesh,
     normals: Vec<Vec3>,
+    model: Model,
     curves: Curves,
+    radius: Vec<f32>,
     nodes: Vec<Node>,
     bins: Bins,
+    sweeps: Vec<Sweep>,
+    sky_map: SkyMap,
+    still: Option<Still>,
+    timing: Timing,
+}
+
+/// What stays the same from frame to frame for one view.
+struct Still {
+    view: View,
+    lamps: Vec<Lamp>,
+    head_shadows: Vec<HeadShadow>,
+    skin: SkinView,
+    skin_places: Vec<Vec3>,
+    skin_unhidden: Vec<f32>,
 }
 
 impl Renderer {
@@ -45,14 +78,35 @@ impl Renderer {
                 "triangle {t} of the head names a vertex beyond its {vertices}"
             )));
         }
+        let look = &picture.hair;
+        let model = match look.shading {
+            Shading::Fibre => Model::Fibre(Box::new(Fibre::new(look))),
+            Shading::KajiyaKay => {
+                let colour = colour::albedo(colour::absorption(look), look.azimuthal_roughness);
+                Model::KajiyaKay(KajiyaKay::new(colour, look.roughness.to_radians()))
+            }
+        };
         Ok(Self {
             picture: picture.clone(),
+            layers: false,
             head: head.clone(),
             normals: head.vertex_normals(),
+            model,
             curves: Curves::default(),
+            radius: Vec::new(),
             nodes: Vec::new(),
             bins: Bins::default(),
+            sweeps: Vec::new(),
+            sky_map: SkyMap::default(),
+            still: None,
+            timing: Timing::default(),
         })
+    }
+
+    /// Fills the frames' layers of hair direction and motion as well (coverage only).
+    pub fn with_layers(mut self) -> Self {
+        self.layers = true;
+        self
     }
 
     /// The settings it draws with.
@@ -60,147 +114,295 @@ impl Renderer {
         &self.picture
     }
 
-    /// Draws one frame of strands (head space, cm).
+    /// Time spent so far on each stage of drawing.
+    pub fn timing(&self) -> &Timing {
+        &self.timing
+    }
+
+    /// Draws one frame of strands (head space, cm), sharp.
     ///
     /// # Errors
     /// If a point of a strand is not finite: which one.
     pub fn draw(&mut self, strands: &Strands, view: &View) -> Result<Frame, RenderError> {
-        self.curves.build(strands, &[], &self.picture.hair, view)?;
-        self.shade(view);
-        self.bins.fill(&self.nodes, view.size, 0.0);
-        let corners = self.head_corners(view);
-        Ok(self.oversampled(view, &corners))
+        self.draw_moving(strands, &[], view)
     }
 
-    fn shade(&mut self, view: &View) {
-        let look = &self.picture.hair;
-        let colour = colour::albedo(colour::absorption(look), look.azimuthal_roughness);
-        let model = KajiyaKay::new(colour, look.roughness.to_radians());
+    /// Draws one frame of strands that move while the shutter is open: from `open` to `close` (head space, cm), which the caller
+    /// takes as far apart as `picture.shutter` says. Costs little more than a sharp frame, however fast the hair.
+    ///
+    /// # Errors
+    /// If a point of a strand is not finite, or the two have not the same strands.
+    pub fn draw_blurred(&mut self, open: &Strands, close: &Strands, view: &View) -> Result<Frame, RenderError> {
+        let (middle, moved) = shutter::halfway(open, close)?;
+        self.draw_moving(&middle, &moved, view)
+    }
+
+    fn draw_moving(&mut self, strands: &Strands, moved: &[Vec3], view: &View) -> Result<Frame, RenderError> {
+        let mut clock = self.timing.start();
+        self.curves.build(strands, moved, &self.picture.hair, view)?;
+        clock.lap(&mut self.timing, Stage::Curves);
+        self.stand(view);
+        clock.lap(&mut self.timing, Stage::Head);
+        self.project(view);
+        clock.lap(&mut self.timing, Stage::Projection);
+        self.cast_shadows();
+        clock.lap(&mut self.timing, Stage::Shadows);
+        self.occlude_sky();
+        clock.lap(&mut self.timing, Stage::Sky);
+        let skin_light = self.shade(view);
+        clock.lap(&mut self.timing, Stage::Shading);
+        self.bins.fill(&self.nodes, view.size, MARGIN);
+        clock.lap(&mut self.timing, Stage::Sorting);
+        let frame = match self.picture.antialiasing {
+            Antialiasing::Coverage if self.layers => self.compose::<true>(view, &skin_light),
+            Antialiasing::Coverage => self.compose::<false>(view, &skin_light),
+            Antialiasing::Oversample => self.oversample(view, &skin_light),
+        };
+        clock.lap(&mut self.timing, Stage::Pixels);
+        Ok(frame)
+    }
+
+    /// Prepares what stays the same while nothing but the hair moves.
+    fn stand(&mut self, view: &View) {
+        if self.still.as_ref().is_some_and(|s| s.view == *view) {
+            return;
+        }
         let lamps = lamps(&self.picture.lights, view);
-        let sky = self.picture.sky.strength * 0.5;
-        self.curves
+        let head_shadows: Vec<_> = if self.picture.shadows {
+            lamps.par_iter().map(|lamp| HeadShadow::new(lamp, &self.head)).collect()
+        } else {
+            Vec::new()
+        };
+        let skin = SkinView::new(&self.head, &self.normals, view);
+        let skin_places = skin.pixels.iter().map(|p| p.position + 0.15 * p.normal).collect();
+        let skin_unhidden = SkinLight::unhidden(&skin.pixels, &head_shadows);
+        self.still = Some(Still { view: *view, lamps, head_shadows, skin, skin_places, skin_unhidden });
+    }
+
+    fn project(&mut self, view: &View) {
+        let still = self.still.as_ref().expect("stands");
+        let look = &self.picture.hair;
+        let curve = &self.curves;
+        let tiles = view.size.map(|s| (s as usize).div_ceil(TILE));
+        let [width, height] = view.size.map(|s| s as f32);
+        curve
             .nodes
             .par_iter()
+            .with_min_len(4096)
             .map(|n| {
+                let thin = ((n.along - 1.0 + look.taper) / look.taper.max(1e-6)).clamp(0.0, 1.0);
+                0.5 * look.width * (1.0 - thin * (1.0 - look.tip))
+            })
+            .collect_into_vec(&mut self.radius);
+        let radius = &self.radius;
+        (0..curve.nodes.len())
+            .into_par_iter()
+            .with_min_len(4096)
+            .map(|i| {
+                let n = &curve.nodes[i];
                 let p = view.project(n.position);
                 if p.z < NEAR {
-                    return Node { radius: -1.0, strand: n.strand, ..Node::default() };
+                    return Node { strand: n.strand, ..Node::default() };
                 }
                 let eye = view.toward_eye(n.position);
-                let mut light = colour.map(|c| c * sky);
-                for lamp in &lamps {
-                    let part = model.reflected(n.tangent, lamp.toward, eye);
-                    light = std::array::from_fn(|c| light[c] + part[c] * lamp.strength[c]);
-                }
-                let thin = ((n.along - 1.0 + look.taper) / look.taper.max(1e-6)).clamp(0.0, 1.0);
-                let width = look.width * (1.0 - thin * (1.0 - look.tip));
-                let seen = n.tangent + eye * eye.dot(-n.tangent);
+                let seen = n.tangent - eye * eye.dot(n.tangent);
                 let across = [seen.dot(view.right), -seen.dot(view.up)];
                 let length = across[0].hypot(across[1]);
-                let direction = if length > 1e-6 { across.map(|c| c / length) } else { [0.0; 2] };
+                let motion = curve.velocities.get(i).map_or([0.0; 2], |&v| {
+                    let (a, b) = (view.project(n.position - 0.5 * v), view.project(n.position + 0.5 * v));
+                    if a.z.min(b.z) < NEAR { [0.0; 2] } else { [b.x - a.x, b.y - a.y] }
+                });
+                let at = [p.x, p.y];
+                let beside = p.x < 0.0 || p.y < 0.0 || p.x >= width || p.y >= height;
+                let hidden = !beside && {
+                    let tile = (p.y as usize / TILE) * tiles[0] + p.x as usize / TILE;
+                    p.z > still.skin.hidden_beyond[tile] + 0.5
+                };
                 Node {
-                    at: [p.x, p.y],
+                    at,
                     depth: p.z,
-                    radius: 0.5 * width * view.pixels_per_cm(p.z),
-                    light,
-                    direction,
-                    motion: [0.0; 2],
+                    radius: radius[i] * view.pixels_per_cm(p.z),
+                    light: [0.0; 3],
+                    direction: if length > 1e-6 { across.map(|c| c / length) } else { [0.0; 2] },
+                    motion,
                     strand: n.strand,
+                    drawable: true,
+                    hidden,
                 }
             })
             .collect_into_vec(&mut self.nodes);
     }
 
-    fn head_corners(&self, view: &View) -> Vec<Corner> {
-        let lamps = lamps(&self.picture.lights, view);
-        let skin = self.picture.head.color.map(linear_from_srgb);
-        let soft = self.picture.head.softness;
-        self.head
-            .positions
-            .par_iter()
-            .zip(&self.normals)
-            .map(|(&position, normal)| {
-                let p = view.project(position);
-                let mut light = [self.picture.sky.strength * (0.75 + 0.25 * normal.y); 3];
-                for lamp in &lamps {
-                    let facing = ((normal.dot(lamp.toward) + soft) / (1.0 + soft)).max(0.0);
-                    light = std::array::from_fn(|c| light[c] + lamp.strength[c] * facing);
-                }
-                Corner { at: [p.x, p.y], depth: p.z, light: std::array::from_fn(|c| light[c] * skin[c]) }
-            })
-            .collect()
+    fn cast_shadows(&mut self) {
+        let still = self.still.as_ref().expect("stands");
+        if !self.picture.shadows {
+            self.sweeps.clear();
+            return;
+        }
+        let scene = Scene { nodes: &self.curves.nodes, radius: &self.radius, skin: &still.skin_places };
+        self.sweeps.resize_with(still.lamps.len(), Sweep::default);
+        self.sweeps.par_iter_mut().zip(&still.lamps).for_each(|(sweep, lamp)| sweep.run(lamp, &scene, SHADOW_CELL));
     }
 
-    fn oversampled(&self, view: &View, corners: &[Corner]) -> Frame {
-        let [width, height] = view.size.map(|s| s as usize);
-        let tiles = self.bins.tiles;
-        let mut triangles = vec![Vec::new(); tiles[0] * tiles[1]];
-        for (t, triangle) in self.head.triangles.iter().enumerate() {
-            let c = triangle.map(|v| corners[v as usize]);
-            if c.iter().any(|c| c.depth < NEAR) {
-                continue;
-            }
-            let span = |i: usize| {
-                let low = c.iter().fold(f32::INFINITY, |m, c| m.min(c.at[i])) / TILE as f32;
-                let high = c.iter().fold(f32::NEG_INFINITY, |m, c| m.max(c.at[i])) / TILE as f32;
-                low.max(0.0) as usize..((high.max(-1.0) + 1.0) as usize).min(tiles[i])
-            };
-            for y in span(1) {
-                for x in span(0) {
-                    triangles[y * tiles[0] + x].push(t as u32);
-                }
-            }
+    fn occlude_sky(&mut self) {
+        if self.picture.sky.occlusion && self.picture.sky.strength > 0.0 {
+            self.sky_map.fill(&self.curves.nodes, &self.radius, &self.head);
         }
+    }
 
-        let background = Backdrop::new(&self.picture, height);
-        let mut rgba = vec![[0.0; 4]; width * height];
-        let mut depth = vec![NO_DEPTH; width * height];
-        let rows = rgba.par_chunks_mut(TILE * width).zip(depth.par_chunks_mut(TILE * width));
-        rows.enumerate().for_each_init(
-            || OversampledTile::new(self.picture.samples as usize),
-            |tile, (row, (rgba, depth))| {
-                for column in 0..tiles[0] {
-                    let here = triangles[row * tiles[0] + column]
-                        .iter()
-                        .map(|&t| self.head.triangles[t as usize].map(|v| corners[v as usize]));
-                    tile.draw([column, row], here, (&self.nodes, &self.bins), |x, y, light, nearest| {
-                        let (px, py) = (column * TILE + x, row * TILE + y);
-                        if px < width && py < height {
-                            rgba[y * width + px] = background.behind(light, py);
-                            depth[y * width + px] = nearest;
-                        }
+    /// Lights all nodes; returns the light of the skin's pixels.
+    fn shade(&mut self, view: &View) -> Vec<[f32; 3]> {
+        let still = self.still.as_ref().expect("stands");
+        let crossings: Vec<&Crossings> = self.sweeps.iter().map(|s| &s.crossings).collect();
+        let occluded = self.picture.sky.occlusion && self.picture.sky.strength > 0.0;
+        let sky_map = occluded.then_some(&self.sky_map);
+        let hair = HairLight {
+            model: &self.model,
+            variation: self.picture.hair.variation,
+            lamps: &still.lamps,
+            crossings: &crossings,
+            head_shadows: &still.head_shadows,
+            sky: &self.picture.sky,
+            sky_map,
+            view,
+        };
+        hair.shade(&self.curves.nodes, &mut self.nodes);
+        let skin = SkinLight {
+            look: &self.picture.head,
+            lamps: &still.lamps,
+            crossings: &crossings,
+            first_receiver: self.curves.nodes.len(),
+            sky: &self.picture.sky,
+            sky_map,
+        };
+        skin.shade(&still.skin.pixels, &still.skin_unhidden, view)
+    }
+
+    fn compose<const LAYERS: bool>(&self, view: &View, skin_light: &[[f32; 3]]) -> Frame {
+        let still = self.still.as_ref().expect("stands");
+        let skin_visible = self.picture.head.visible;
+        let size = view.size.map(|s| s as usize);
+        let layers = vec![HairLayer::default(); if LAYERS { size[0] * size[1] } else { 0 }];
+        let mut frame = self.empty(view, layers);
+        let backdrop = Backdrop::new(&self.picture, size[1]);
+        let rows = rows_of_tiles(&mut frame);
+        rows.into_par_iter().enumerate().for_each_init(CoverageTile::new, |work, (row, mut out)| {
+            for column in 0..self.bins.tiles[0] {
+                let tile = row * self.bins.tiles[0] + column;
+                let pieces = self.bins.tile(tile);
+                let range = still.skin.tile(tile);
+                let skin = (&still.skin.pixels[range.clone()], skin_visible.then_some(&skin_light[range]));
+                let mut watch = LayerWatch {
+                    curves: &self.curves,
+                    nodes: &self.nodes,
+                    layers: vec![HairLayer::default(); if LAYERS { TILE * TILE } else { 0 }],
+                };
+                if LAYERS {
+                    work.draw([column, row], &self.nodes, pieces, skin, &mut watch);
+                } else {
+                    work.draw([column, row], &self.nodes, pieces, skin, &mut ());
+                }
+                out.put(column, size[0], |i, y| {
+                    let drawn = work.drawn(i);
+                    let layer = watch.layers.get(i).copied();
+                    (backdrop.behind(drawn.light, row * TILE + y), drawn.depth, layer)
+                });
+            }
+        });
+        frame
+    }
+
+    fn oversample(&self, view: &View, skin_light: &[[f32; 3]]) -> Frame {
+        let still = self.still.as_ref().expect("stands");
+        let mut frame = self.empty(view, Vec::new());
+        let width = view.size[0] as usize;
+        let backdrop = Backdrop::new(&self.picture, view.size[1] as usize);
+        let samples = self.picture.samples as usize;
+        let rows = rows_of_tiles(&mut frame);
+        rows.into_par_iter().enumerate().for_each_init(
+            || OversampledTile::new(samples),
+            |work, (row, mut out)| {
+                for column in 0..self.bins.tiles[0] {
+                    let tile = row * self.bins.tiles[0] + column;
+                    let range = still.skin.tile(tile);
+                    let skin: (&[SkinPixel], &[[f32; 3]]) = (&still.skin.pixels[range.clone()], &skin_light[range]);
+                    work.draw([column, row], &self.nodes, self.bins.tile(tile), skin, self.picture.head.visible);
+                    out.put(column, width, |i, y| {
+                        let (light, depth) = work.pixel(i);
+                        (backdrop.behind(light, row * TILE + y), depth, None)
                     });
                 }
             },
         );
-        Frame { size: view.size, rgba, depth, layers: Vec::new() }
+        frame
+    }
+
+    fn empty(&self, view: &View, layers: Vec<HairLayer>) -> Frame {
+        let pixels = view.size[0] as usize * view.size[1] as usize;
+        Frame { size: view.size, rgba: vec![[0.0; 4]; pixels], depth: vec![NO_DEPTH; pixels], layers }
     }
 }
 
-/// What shows where nothing hides it.
-struct Backdrop {
-    rows: Vec<[f32; 4]>,
+/// The pixels that a row of tiles covers.
+struct TileRow<'a> {
+    rgba: &'a mut [[f32; 4]],
+    depth: &'a mut [f32],
+    layers: &'a mut [HairLayer],
 }
 
-impl Backdrop {
-    fn new(picture: &Picture, height: usize) -> Self {
-        let look = &picture.background;
-        let rows = (0..height)
-            .map(|y| {
-                if look.transparent {
-                    return [0.0; 4];
+fn rows_of_tiles(frame: &mut Frame) -> Vec<TileRow<'_>> {
+    let length = TILE * frame.size[0] as usize;
+    let mut layers = frame.layers.chunks_mut(length);
+    frame
+        .rgba
+        .chunks_mut(length)
+        .zip(frame.depth.chunks_mut(length))
+        .map(|(rgba, depth)| TileRow { rgba, depth, layers: layers.next().unwrap_or_default() })
+        .collect()
+}
+
+impl TileRow<'_> {
+    /// Writes a tile's pixels, as far as they lie on the picture. `value` is given the pixel in the tile and its row.
+    fn put(
+        &mut self,
+        column: usize,
+        width: usize,
+        mut value: impl FnMut(usize, usize) -> ([f32; 4], f32, Option<HairLayer>),
+    ) {
+        for y in 0..self.rgba.len() / width {
+            for x in 0..TILE.min(width - column * TILE) {
+                let to = y * width + column * TILE + x;
+                let (rgba, depth, layer) = value(y * TILE + x, y);
+                self.rgba[to] = rgba;
+                self.depth[to] = depth;
+                if let Some(layer) = layer {
+                    self.layers[to] = layer;
                 }
-                let t = (y as f32 + 0.5) / height as f32;
-                let shown: [f32; 3] = std::array::from_fn(|c| look.top[c] + (look.bottom[c] - look.top[c]) * t);
-                let light = shown.map(|v| picture.tone.scene(linear_from_srgb(v)) * (-picture.exposure).exp2());
-                [light[0], light[1], light[2], 1.0]
-            })
-            .collect();
-        Self { rows }
+            }
+        }
     }
+}
 
-    fn behind(&self, light: [f32; 4], row: usize) -> [f32; 4] {
-        let back = self.rows[row];
-        std::array::from_fn(|c| light[c] + back[c] * (1.0 - light[3]))
+/// Gathers the layers of one tile.
+struct LayerWatch<'a> {
+    curves: &'a Curves,
+    nodes: &'a [Node],
+    layers: Vec<HairLayer>,
+}
+
+impl Watch for LayerWatch<'_> {
+    #[inline(always)]
+    fn hair(&mut self, pixel: usize, share: f32, along: f32, piece: u32) {
+        let i = piece as usize;
+        let direction = self.curves.nodes[i].tangent.lerp(self.curves.nodes[i + 1].tangent, along);
+        let layer = &mut self.layers[pixel];
+        for c in 0..3 {
+            layer.direction[c] += share * direction[c];
+        }
+        for c in 0..2 {
+            let (a, b) = (self.nodes[i].motion[c], self.nodes[i + 1].motion[c]);
+            layer.motion[c] += share * (a + (b - a) * along);
+        }
+        layer.share += share;
     }
 }

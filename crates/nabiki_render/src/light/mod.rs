@@ -1,4 +1,10 @@
-//! Light: lamps as directions, and what hair and skin make of them.
+//! Light: lamps and sky, what gets in their way, and what hair makes of them.
 
+mod approx;
+pub mod fibre;
+pub mod headlight;
 pub mod kajiya;
 pub mod lamps;
+pub mod shade;
+pub mod shadow;
+pub mod sky;

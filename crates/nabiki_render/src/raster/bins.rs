@@ -133,10 +133,11 @@ impl Bins {
 
 #[inline]
 fn visible(a: &Node, b: &Node, bounds: [f32; 2], margin: f32) -> bool {
-    let reach = a.radius.max(b.radius) + margin + 0.5 * moved(a).max(moved(b));
+    let reach = 1.42 * a.radius.max(b.radius) + margin + moved(a).max(moved(b));
     a.strand == b.strand
-        && a.radius >= 0.0
-        && b.radius >= 0.0
+        && !(a.hidden && b.hidden)
+        && a.drawable
+        && b.drawable
         && (0..2).all(|i| a.at[i].max(b.at[i]) + reach > 0.0 && a.at[i].min(b.at[i]) - reach < bounds[i])
 }
 
@@ -149,7 +150,7 @@ fn moved(n: &Node) -> f32 {
 #[inline]
 fn rectangle(nodes: &[Node], piece: u32, tiles: [usize; 2], margin: f32) -> [u16; 4] {
     let (a, b) = (&nodes[piece as usize], &nodes[piece as usize + 1]);
-    let reach = a.radius.max(b.radius) + margin + 0.5 * moved(a).max(moved(b));
+    let reach = 1.42 * a.radius.max(b.radius) + margin + moved(a).max(moved(b));
     let tile = |x: f32, i: usize| (x / TILE as f32).floor().clamp(0.0, tiles[i] as f32 - 1.0) as u16;
     [
         tile(a.at[0].min(b.at[0]) - reach, 0),
@@ -162,7 +163,7 @@ fn rectangle(nodes: &[Node], piece: u32, tiles: [usize; 2], margin: f32) -> [u16
 /// Whether the line of a piece comes within reach of a tile.
 fn near(nodes: &[Node], piece: u32, tile: [usize; 2], margin: f32) -> bool {
     let (a, b) = (&nodes[piece as usize], &nodes[piece as usize + 1]);
-    let reach = a.radius.max(b.radius) + margin + 0.5 * moved(a).max(moved(b));
+    let reach = 1.42 * a.radius.max(b.radius) + margin + moved(a).max(moved(b));
     let along = [b.at[0] - a.at[0], b.at[1] - a.at[1]];
     let centre = tile.map(|t| (t as f32 + 0.5) * TILE as f32);
     let off = along[0] * (centre[1] - a.at[1]) - along[1] * (centre[0] - a.at[0]);

@@ -1,10 +1,24 @@
 //! From nodes on the picture to pixels: sorting pieces of hair into tiles, and drawing each tile.
 
 pub mod bins;
+pub mod coverage;
 pub mod oversample;
 
 /// Side of a tile (pixels).
 pub const TILE: usize = 16;
+
+/// Hair this little (cm) behind the skin is still drawn: roots lie on it.
+pub const BURIED: f32 = 0.06;
+
+/// Cells along each side of a pixel, and in all of it.
+pub const SIDE: usize = 4;
+pub const CELLS: usize = SIDE * SIDE;
+
+/// Centre of a cell from its pixel's upper left corner (pixels).
+#[inline(always)]
+pub fn cell_offset(cell: usize) -> [f32; 2] {
+    [(cell % SIDE) as f32, (cell / SIDE) as f32].map(|c| (c + 0.5) / SIDE as f32)
+}
 
 /// A node of a curve as the picture sees it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -13,7 +27,7 @@ pub struct Node {
     pub at: [f32; 2],
     /// Depth (cm).
     pub depth: f32,
-    /// Half of the hair's thickness (pixels); below 0 where the node cannot be seen.
+    /// Half of the hair's thickness (pixels).
     pub radius: f32,
     /// Light toward the eye (linear red, green, blue).
     pub light: [f32; 3],
@@ -23,6 +37,10 @@ pub struct Node {
     pub motion: [f32; 2],
     /// Which strand it belongs to; pieces join neighbours of the same strand.
     pub strand: u32,
+    /// False where it is too near to the eye, or behind it.
+    pub drawable: bool,
+    /// Known to lie behind the head or beside the picture.
+    pub hidden: bool,
 }
 
 /// A straight piece between two nodes, prepared for drawing.

@@ -1,72 +1,60 @@
 //! The paper's way to draw (section 4.4): opaque lines and the head's triangles against a depth buffer with several
 //! points in each pixel, averaged.
 
-use super::bins::Bins;
-use super::{Node, Piece, TILE};
-
-/// A corner of a triangle of the head, on the picture.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Corner {
-    /// Place (pixels) and depth (cm).
-    pub at: [f32; 2],
-    pub depth: f32,
-    pub light: [f32; 3],
-}
+use super::{BURIED, Node, Piece, SIDE, TILE};
+use crate::skin::SkinPixel;
 
 /// The depth buffer of one tile.
 pub struct OversampledTile {
     samples: usize,
     /// Depth and light of what is nearest at each point, row after row.
     depth: Vec<f32>,
-    light: Vec<[f32; 3]>,
+    light: Vec<[f32; 4]>,
 }
 
 impl OversampledTile {
     /// With `samples` x `samples` points in each pixel.
     pub fn new(samples: usize) -> Self {
         let points = (TILE * samples).pow(2);
-        Self { samples, depth: vec![f32::INFINITY; points], light: vec![[0.0; 3]; points] }
+        Self { samples, depth: vec![f32::INFINITY; points], light: vec![[0.0; 4]; points] }
     }
 
-    /// Draws what lies in a tile. Returns light (premultiplied), alpha and nearest depth of its pixels through `out`.
+    /// Draws what lies in a tile; skin that is not `visible` hides hair all the same.
     pub fn draw(
         &mut self,
         tile: [usize; 2],
-        triangles: impl Iterator<Item = [Corner; 3]>,
-        pieces: (&[Node], &Bins),
-        mut out: impl FnMut(usize, usize, [f32; 4], f32),
+        nodes: &[Node],
+        pieces: &[u32],
+        skin: (&[SkinPixel], &[[f32; 3]]),
+        visible: bool,
     ) {
         self.depth.fill(f32::INFINITY);
-        for corners in triangles {
-            self.triangle(tile, corners);
+        self.light.fill([0.0; 4]);
+        for (piece, light) in skin.0.iter().zip(skin.1) {
+            self.skin(piece, if visible { [light[0], light[1], light[2], 1.0] } else { [0.0; 4] });
         }
-        let (nodes, bins) = pieces;
-        for &i in bins.tile(tile[1] * bins.tiles[0] + tile[0]) {
+        for &i in pieces {
             if let Some(piece) = Piece::new(&nodes[i as usize], &nodes[i as usize + 1]) {
                 self.piece(tile, &piece);
             }
         }
-        let n = self.samples;
-        let share = 1.0 / (n * n) as f32;
-        for y in 0..TILE {
-            for x in 0..TILE {
-                let mut sum = [0.0; 4];
-                let mut nearest = f32::INFINITY;
-                for row in y * n..(y + 1) * n {
-                    for i in row * TILE * n + x * n..row * TILE * n + (x + 1) * n {
-                        if self.depth[i] < f32::INFINITY {
-                            nearest = nearest.min(self.depth[i]);
-                            let [r, g, b] = self.light[i];
-                            sum = [sum[0] + r, sum[1] + g, sum[2] + b, sum[3] + 1.0];
-                        }
-                    }
-                }
-                out(x, y, sum.map(|s| s * share), nearest);
-            }
-        }
     }
 
-    fn put(&mut self, x: usize, y: usize, depth: f32, light: impl FnOnce() -> [f32; 3]) {
+    /// Light (premultiplied), alpha and nearest depth of a pixel of the tile.
+    pub fn pixel(&self, i: usize) -> ([f32; 4], f32) {
+        let (x, y, n) = (i % TILE, i / TILE, self.samples);
+        let mut sum = [0.0; 4];
+        let mut nearest = f32::INFINITY;
+        for row in y * n..(y + 1) * n {
+            for i in row * TILE * n + x * n..row * TILE * n + (x + 1) * n {
+                nearest = nearest.min(self.depth[i]);
+                sum = std::array::from_fn(|c| sum[c] + self.light[i][c]);
+            }
+        }
+        (sum.map(|s| s / (n * n) as f32), nearest)
+    }
+
+    fn put(&mut self, x: usize, y: usize, depth: f32, light: impl FnOnce() -> [f32; 4]) {
         let i = y * TILE * self.samples + x;
         if depth < self.depth[i] {
             self.depth[i] = depth;
@@ -113,35 +101,27 @@ impl OversampledTile {
                     let t = ((from_a[0] * unit[0] + from_a[1] * unit[1]) / length).clamp(0.0, 1.0);
                     let mix = |x: f32, y: f32| x + (y - x) * t;
                     let (x, y) = if major == 0 { (step, number) } else { (number, step) };
-                    self.put(x, y, mix(a.depth, b.depth), || std::array::from_fn(|c| mix(a.light[c], b.light[c])));
+                    self.put(x, y, mix(a.depth, b.depth), || {
+                        let [r, g, b] = std::array::from_fn(|c| mix(a.light[c], b.light[c]));
+                        [r, g, b, 1.0]
+                    });
                 }
             }
         }
     }
 
-    fn triangle(&mut self, tile: [usize; 2], [a, b, c]: [Corner; 3]) {
-        let area = cross(a.at, b.at, c.at);
-        if area == 0.0 || !area.is_finite() {
-            return;
-        }
-        let low = [0, 1].map(|i| a.at[i].min(b.at[i]).min(c.at[i]));
-        let high = [0, 1].map(|i| a.at[i].max(b.at[i]).max(c.at[i]));
-        let columns = self.numbers(tile[0], low[0], high[0] + 1.0 / self.samples as f32);
-        for row in self.numbers(tile[1], low[1], high[1] + 1.0 / self.samples as f32) {
-            for column in columns.clone() {
-                let p = [self.place(tile[0], column), self.place(tile[1], row)];
-                let w = [cross(b.at, c.at, p) / area, cross(c.at, a.at, p) / area, cross(a.at, b.at, p) / area];
-                if w.iter().all(|w| *w >= 0.0) {
-                    let mix = |x: f32, y: f32, z: f32| w[0] * x + w[1] * y + w[2] * z;
-                    let depth = mix(a.depth, b.depth, c.depth);
-                    self.put(column, row, depth, || std::array::from_fn(|i| mix(a.light[i], b.light[i], c.light[i])));
+    /// The head's surface in one pixel. Its outline is known to a cell: finer points take that of the cell they lie in.
+    fn skin(&mut self, piece: &SkinPixel, light: [f32; 4]) {
+        let (x, y, n) = (usize::from(piece.pixel) % TILE, usize::from(piece.pixel) / TILE, self.samples);
+        for dy in 0..n {
+            for dx in 0..n {
+                let p = [dx, dy].map(|d| (d as f32 + 0.5) / n as f32);
+                let cell = (p[1] * SIDE as f32) as usize * SIDE + (p[0] * SIDE as f32) as usize;
+                if piece.mask >> cell & 1 == 1 {
+                    let depth = piece.depth + piece.slope[0] * (p[0] - 0.5) + piece.slope[1] * (p[1] - 0.5) + BURIED;
+                    self.put(x * n + dx, y * n + dy, depth, || light);
                 }
             }
         }
     }
-}
-
-/// Twice the area of the triangle a, b, c; its sign is its turn.
-fn cross(a: [f32; 2], b: [f32; 2], c: [f32; 2]) -> f32 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }

@@ -1,0 +1,36 @@
+//! What shows where nothing hides it.
+
+use crate::frame::linear_from_srgb;
+use crate::settings::Picture;
+
+/// The background of each row of a picture.
+pub struct Backdrop {
+    rows: Vec<[f32; 4]>,
+}
+
+impl Backdrop {
+    /// Its colours come out of development as the settings have them.
+    pub fn new(picture: &Picture, height: usize) -> Self {
+        let look = &picture.background;
+        let rows = (0..height)
+            .map(|y| {
+                if look.transparent {
+                    return [0.0; 4];
+                }
+                let t = (y as f32 + 0.5) / height as f32;
+                let shown: [f32; 3] = std::array::from_fn(|c| look.top[c] + (look.bottom[c] - look.top[c]) * t);
+                let light = shown.map(|v| picture.tone.scene(linear_from_srgb(v)) * (-picture.exposure).exp2());
+                [light[0], light[1], light[2], 1.0]
+            })
+            .collect();
+        Self { rows }
+    }
+
+    /// Premultiplied light with the background of `row` behind it.
+    pub fn behind(&self, light: [f32; 4], row: usize) -> [f32; 4] {
+        match self.rows.get(row) {
+            Some(back) => std::array::from_fn(|c| light[c] + back[c] * (1.0 - light[3])),
+            None => light,
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! The light that each node of the hair sends to the eye.
+//!
+//! A lamp's light that crosses `n` fibres on its way arrives unscattered with e^-n; what is scattered forward by those fibres
+//! arrives with e^(-n (1 - a)) - e^-n, where a is the part that one fibre passes on: the Poisson mean of a^k over k >= 1 crossings. Both,
+//! and the light sent back by the hair behind, follow the dual scattering of Zinke et al. (2008), with one wide
+//! shape for all scattered light.
+
+#![expect(clippy::needless_range_loop, reason = "lanes side by side read as vector code")]
+
+use std::f32::consts::PI;
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::approx::{arccos, exp_of_negative};
+use super::fibre::{COLUMNS, Fibre, GRADES, Longitudinal, ROWS, Row, Table};
+use super::headlight::HeadShadow;
+use super::kajiya::KajiyaKay;
+use super::lamps::Lamp;
+use super::shadow::Crossings;
+use super::sky::SkyMap;
+use crate::camera::View;
+use crate::colour::of_strand;
+use crate::curve::CurveNode;
+use crate::raster::Node;
+use crate::settings::Sky;
+
+/// Nodes that are shaded together.
+const LANES: usize = 16;
+/// Share of the scattered light that stays within hair: dual scattering's density factor.
+const DENSITY: f32 = 0.7;
+/// Variance along the hair of light scattered more than once (rad^2).
+const WIDE: f32 = 0.35;
+/// Largest deviation of a strand's tilt (rad), for a variation of 1.
+const TILT_SPREAD: f32 = 0.14;
+
+/// How hair reflects.
+pub enum Model {
+    Fibre(Box<Fibre>),
+    KajiyaKay(KajiyaKay),
+}
+
+/// Everything that light meets on its way to a node.
+pub struct HairLight<'a> {
+    pub model: &'a Model,
+    pub variation: f32,
+    pub lamps: &'a [Lamp],
+    /// For each lamp; empty without shadows.
+    pub crossings: &'a [&'a Crossings],
+    pub head_shadows: &'a [HeadShadow],
+    pub sky: &'a Sky,
+    pub sky_map: Option<&'a SkyMap>,
+    pub view: &'a View,
+}
+
+impl HairLight<'_> {
+    /// Fills in the light of every node that shows, or has a neighbour that shows.
+    pub fn shade(&self, curve: &[CurveNode], nodes: &mut [Node]) {
+        let shows: Vec<bool> = nodes.par_iter().with_min_len(8192).map(|n| n.drawable && !n.hidden).collect();
+        const CHUNK: usize = 64 * LANES;
+        nodes.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, nodes)| {
+            let first = chunk * CHUNK;
+            let mut batch = [0; LANES];
+            let mut filled = 0;
+            for i in first..first + nodes.len() {
+                if shows[i.saturating_sub(1)..(i + 2).min(shows.len())].contains(&true) {
+                    batch[filled] = i;
+                    filled += 1;
+                }
+                if filled == LANES || (i + 1 == first + nodes.len() && filled > 0) {
+                    let last = batch[filled - 1];
+                    batch[filled..].fill(last);
+                    let light = match self.model {
+                        Model::Fibre(fibre) => pulp::Arch::new().dispatch(
+                            #[inline(always)]
+                            || self.fibre(fibre, &batch, curve),
+                        ),
+                        Model::KajiyaKay(model) => batch.map(|i| self.kajiya(model, i, &curve[i])),
+                    };
+                    for (lane, &i) in batch.iter().enumerate() {
+                        nodes[i - first].light = light[lane];
+                    }
+                    filled = 0;
+                }
+            }
+        });
+    }
+
+    fn sky_above_below(&self, p: Vec3) -> (f32, f32) {
+        self.sky_map.map_or((1.0, 1.0), |s| {
+            let a = s.at(p);
+            (a.above, a.below)
+        })
+    }
+
+    fn kajiya(&self, model: &KajiyaKay, i: usize, node: &CurveNode) -> [f32; 3] {
+        let eye = self.view.toward_eye(node.position);
+        let (above, below) = self.sky_above_below(node.position);
+        let mut light: [f32; 3] = std::array::from_fn(|c| {
+            0.5 * self.sky.strength * model.colour[c] * (self.sky.above[c] * above + self.sky.below[c] * below)
+        });
+        for (l, lamp) in self.lamps.iter().enumerate() {
+            let hair = self.crossings.get(l).map_or(1.0, |c| (-c.at(i)).exp());
+            let head = self.head_shadows.get(l).map_or(1.0, |s| s.visible_from_hair(node.position));
+            let part = model.reflected(node.tangent, lamp.toward, eye);
+            light = std::array::from_fn(|c| light[c] + part[c] * lamp.strength[c] * hair * head);
+        }
+        light
+    }
+
+    #[inline(always)]
+    fn fibre(&self, fibre: &Fibre, batch: &[usize; LANES], curve: &[CurveNode]) -> [[f32; 3]; LANES] {
+        let wide = Longitudinal::new(WIDE);
+        let mut tangent = [[0.0_f32; LANES]; 3];
+        let mut eye = [[0.0_f32; LANES]; 3];
+        let mut tilt = [0.0_f32; LANES];
+        let mut tables = [&fibre.grades[0]; LANES];
+        for lane in 0..LANES {
+            let node = &curve[batch[lane]];
+            let toward = self.view.toward_eye(node.position);
+            for c in 0..3 {
+                tangent[c][lane] = node.tangent[c];
+                eye[c][lane] = toward[c];
+            }
+            let deviation = of_strand(node.strand, 1) + of_strand(node.strand, 2) - 1.0;
+            tilt[lane] = fibre.tilt + TILT_SPREAD * self.variation * deviation;
+            let grade = (of_strand(node.strand, 3) + of_strand(node.strand, 4)) * 0.5 * GRADES as f32;
+            tables[lane] = &fibre.grades[(grade as usize).min(GRADES - 1)];
+        }
+
+        let mut sin_eye = [0.0_f32; LANES];
+        let mut cos_eye = [0.0_f32; LANES];
+        let mut turned = [[(0.0_f32, 0.0_f32); LANES]; 3];
+        for lane in 0..LANES {
+            let s = tangent[0][lane] * eye[0][lane] + tangent[1][lane] * eye[1][lane] + tangent[2][lane] * eye[2][lane];
+            let s = s.clamp(-0.9995, 0.9995);
+            let c = (1.0 - s * s).sqrt();
+            sin_eye[lane] = s;
+            cos_eye[lane] = c;
+            for (p, turn) in Fibre::turns(tilt[lane]).into_iter().enumerate() {
+                // Sine and cosine of a small turn, by the first terms of their series.
+                let (st, ct) = (turn - turn * turn * turn * (1.0 / 6.0), 1.0 - 0.5 * turn * turn);
+                turned[p][lane] = (s * ct + c * st, (c * ct - s * st).abs());
+            }
+        }
+
+        let mut rows = [Row::default(); LANES];
+        let mut again = [[0.0_f32; 3]; LANES];
+        let mut light = [[0.0_f32; 3]; LANES];
+        for lane in 0..LANES {
+            let row = tables[lane].row(sin_eye[lane].abs() * (ROWS - 1) as f32);
+            for c in 0..3 {
+                // Sent back by the hair behind, and passed on by this one: once, or after three reversals.
+                let (f, b) = (row.forward[c] * row.forward[c], row.back[c]);
+                let g = 1.0 / (1.0 - f).max(0.02);
+                again[lane][c] = DENSITY * (b * f * g + b * b * b * f * g * g * g);
+            }
+            let (above, below) = self.sky_above_below(curve[batch[lane]].position);
+            for c in 0..3 {
+                let (a, b) = (row.forward[c], row.back[c]);
+                let arrives = |open: f32| open + DENSITY * (open.max(1e-6).powf(1.0 - a) - open).max(0.0);
+                let sky = self.sky.above[c] * arrives(above) + self.sky.below[c] * arrives(below);
+                light[lane][c] = 0.5 * self.sky.strength * sky * (a + b + again[lane][c]);
+            }
+            rows[lane] = row;
+        }
+
+        for (l, lamp) in self.lamps.iter().enumerate() {
+            let toward = lamp.toward.to_array();
+            let mut column = [0.0_f32; LANES];
+            let mut cos_azimuth = [0.0_f32; LANES];
+            let mut along = [[0.0_f32; LANES]; 4];
+            for lane in 0..LANES {
+                let t = [tangent[0][lane], tangent[1][lane], tangent[2][lane]];
+                let s = t[0] * toward[0] + t[1] * toward[1] + t[2] * toward[2];
+                let s = s.clamp(-0.9995, 0.9995);
+                let c = (1.0 - s * s).sqrt();
+                let cos = toward[0] * eye[0][lane] + toward[1] * eye[1][lane] + toward[2] * eye[2][lane];
+                let azimuth = ((cos - s * sin_eye[lane]) / (c * cos_eye[lane])).clamp(-1.0, 1.0);
+                cos_azimuth[lane] = azimuth;
+                column[lane] = arccos(azimuth) * (COLUMNS as f32 / PI);
+                for p in 0..3 {
+                    let (st, ct) = turned[p][lane];
+                    along[p][lane] = fibre.spread[p].at(s, c, st, ct);
+                }
+                along[3][lane] = wide.at(s, c, sin_eye[lane], cos_eye[lane]);
+            }
+            let mut reached = [1.0_f32; LANES];
+            let mut crossed = [0.0_f32; LANES];
+            for lane in 0..LANES {
+                let i = batch[lane];
+                crossed[lane] = self.crossings.get(l).map_or(0.0, |c| c.at(i));
+                reached[lane] = self.head_shadows.get(l).map_or(1.0, |s| s.visible_from_hair(curve[i].position));
+            }
+            for lane in 0..LANES {
+                let m = [along[0][lane], along[1][lane], along[2][lane], along[3][lane]];
+                let part = self.scattered(
+                    tables[lane],
+                    &rows[lane],
+                    &again[lane],
+                    sin_eye[lane].abs() * (ROWS - 1) as f32,
+                    column[lane],
+                    cos_azimuth[lane],
+                    m,
+                    crossed[lane],
+                );
+                for c in 0..3 {
+                    light[lane][c] += PI * reached[lane] * lamp.strength[c] * part[c];
+                }
+            }
+        }
+        light
+    }
+
+    /// Light of one lamp of unit strength over pi, scattered once and more often.
+    #[expect(clippy::too_many_arguments, reason = "the inner loop's values, all alike")]
+    #[inline(always)]
+    fn scattered(
+        &self,
+        table: &Table,
+        row: &Row,
+        again: &[f32; 3],
+        at_row: f32,
+        at_column: f32,
+        cos_azimuth: f32,
+        m: [f32; 4],
+        crossed: f32,
+    ) -> [f32; 3] {
+        let lobes = table.lobes(at_row, at_column);
+        let straight = exp_of_negative(-crossed);
+        let (same_side, far_side) = (0.5 * (1.0 + cos_azimuth) / PI, 0.5 * (1.0 - cos_azimuth) / PI);
+        let mut part = [0.0; 3];
+        for c in 0..3 {
+            let once = m[0] * lobes[0] + m[1] * lobes[1 + c] + m[2] * (lobes[4 + c] + row.rest[c]);
+            let back = m[3] * again[c] * same_side;
+            let many = m[3] * (row.back[c] * same_side + row.forward[c] * far_side);
+            let passed = DENSITY * (exp_of_negative(-crossed * (1.0 - row.forward[c]).max(0.0)) - straight);
+            part[c] = straight * (once + back) + passed.max(0.0) * (many + back);
+        }
+        part
+    }
+}

@@ -1,0 +1,239 @@
+//! Light from all around, and how much of it hair and head take away.
+//!
+//! Space is cut into cells that know how much fibre and how much skin they hold. Along fourteen lattice directions the light is
+//! carried from cell to cell, losing what each cell takes; what arrives is kept as two numbers a cell: the light from the
+//! upper and from the lower half of the sky.
+
+use glam::{UVec3, Vec3};
+use nabiki::Mesh;
+use rayon::prelude::*;
+
+use crate::curve::CurveNode;
+
+/// Side of a cell (cm), unless the hair is so spread out that this would make too many.
+const CELL: f32 = 0.55;
+const MOST_CELLS: f32 = 1_000_000.0;
+/// Optical depth of skin, for each full crossing of a cell.
+const SKIN: f32 = 4.0;
+
+/// Share of the sky that arrives: from above and from below, each 0..1 of its half.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Arriving {
+    pub above: f32,
+    pub below: f32,
+}
+
+/// The share of the sky that arrives in each cell about hair and head.
+#[derive(Default)]
+pub struct SkyMap {
+    low: Vec3,
+    cell: f32,
+    size: UVec3,
+    taken: Vec<f32>,
+    arriving: Vec<Arriving>,
+    skin: Vec<(u32, f32)>,
+    skin_of: Option<(Vec3, f32, UVec3)>,
+}
+
+impl SkyMap {
+    /// Carries the sky's light through the hair (half thicknesses `radius`, cm) and past the head.
+    pub fn fill(&mut self, nodes: &[CurveNode], radius: &[f32], head: &Mesh) {
+        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        for n in nodes {
+            low = low.min(n.position);
+            high = high.max(n.position);
+        }
+        if !low.is_finite() {
+            (low, high) = (Vec3::ZERO, Vec3::ZERO);
+        }
+        let extent = high - low;
+        self.cell = CELL.max((extent.x * extent.y * extent.z / MOST_CELLS).cbrt()).max(extent.max_element() / 1000.0);
+        // Whole cells from a fixed origin: a grid that moved with the hair would make the light flicker.
+        let border = 2.0;
+        self.low = ((low / self.cell).floor() - border) * self.cell;
+        self.size = ((high - self.low) / self.cell).ceil().as_uvec3() + UVec3::splat(border as u32 + 1);
+        self.taken.clear();
+        self.taken.resize(self.size.element_product() as usize, 0.0);
+        self.lay_hair(nodes, radius);
+        self.lay_skin(head);
+        self.carry();
+    }
+
+    /// What arrives at a place; everything outside of the cells.
+    #[inline]
+    pub fn at(&self, p: Vec3) -> Arriving {
+        let c = (p - self.low) / self.cell - 0.5;
+        let base = c.floor();
+        let inside = base.cmpge(Vec3::ZERO).all() && (base + 1.0).cmplt(self.size.as_vec3()).all();
+        if !inside {
+            return Arriving { above: 1.0, below: 1.0 };
+        }
+        let f = c - base;
+        let b = base.as_uvec3();
+        let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
+        let at = self.index(b);
+        let mix = |a: Arriving, b: Arriving, t: f32| Arriving {
+            above: a.above + (b.above - a.above) * t,
+            below: a.below + (b.below - a.below) * t,
+        };
+        let line = |i: usize| mix(self.arriving[i], self.arriving[i + 1], f.x);
+        let plane = |i: usize| mix(line(i), line(i + row), f.y);
+        mix(plane(at), plane(at + slice), f.z)
+    }
+
+    fn index(&self, c: UVec3) -> usize {
+        (c.x + self.size.x * (c.y + self.size.y * c.z)) as usize
+    }
+
+    fn lay_hair(&mut self, nodes: &[CurveNode], radius: &[f32]) {
+        // Optical depth per crossing: projected area over the cell's face, averaged over directions (pi / 4).
+        let per_area = std::f32::consts::FRAC_PI_4 / (self.cell * self.cell);
+        for (i, pair) in nodes.windows(2).enumerate() {
+            if pair[0].strand != pair[1].strand {
+                continue;
+            }
+            let length = pair[0].position.distance(pair[1].position);
+            let c = (0.5 * (pair[0].position + pair[1].position) - self.low) / self.cell - 0.5;
+            let base = c.floor();
+            let f = c - base;
+            let at = self.index(base.as_uvec3());
+            let amount = 2.0 * radius[i] * length * per_area;
+            let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
+            for (z, wz) in [(0, 1.0 - f.z), (slice, f.z)] {
+                for (y, wy) in [(0, 1.0 - f.y), (row, f.y)] {
+                    let w = amount * wz * wy;
+                    self.taken[at + z + y] += w * (1.0 - f.x);
+                    self.taken[at + z + y + 1] += w * f.x;
+                }
+            }
+        }
+    }
+
+    /// Marks the cells that skin passes through. The head stands still: this is worked out once.
+    fn lay_skin(&mut self, head: &Mesh) {
+        let grid = (self.low, self.cell, self.size);
+        if self.skin_of != Some(grid) {
+            let mut marked = vec![0.0_f32; self.taken.len()];
+            for triangle in &head.triangles {
+                let [a, b, c] = triangle.map(|v| head.positions[v as usize]);
+                let area = 0.5 * (b - a).cross(c - a).length();
+                let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+                let steps = (2.0 * longest / self.cell).ceil().clamp(1.0, 64.0) as usize;
+                let share = area / (steps * steps) as f32 / (self.cell * self.cell);
+                for i in 0..steps {
+                    for j in 0..steps {
+                        // Points of a lattice on the unit square, folded onto the triangle.
+                        let (mut u, mut v) = ((i as f32 + 0.5) / steps as f32, (j as f32 + 0.5) / steps as f32);
+                        if u + v > 1.0 {
+                            (u, v) = (1.0 - u, 1.0 - v);
+                        }
+                        let p = (a + (b - a) * u + (c - a) * v - self.low) / self.cell;
+                        if p.cmpge(Vec3::ZERO).all() && p.cmplt(self.size.as_vec3()).all() {
+                            marked[self.index(p.as_uvec3())] += share;
+                        }
+                    }
+                }
+            }
+            self.skin.clear();
+            let some = marked.iter().enumerate().filter(|(_, m)| **m > 0.0);
+            self.skin.extend(some.map(|(i, m)| (i as u32, SKIN * m.min(1.5))));
+            self.skin_of = Some(grid);
+        }
+        for &(i, depth) in &self.skin {
+            self.taken[i as usize] += depth;
+        }
+    }
+
+    /// Carries light along the lattice directions, one after the other, slice by slice.
+    fn carry(&mut self) {
+        let count = self.taken.len();
+        let directions: Vec<[i32; 3]> = (0..27_i32)
+            .map(|i| [i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1])
+            .filter(|d| matches!(d.iter().map(|c: &i32| c.abs()).sum::<i32>(), 1 | 3))
+            .collect();
+        let carried: Vec<([i32; 3], Vec<f32>)> = directions.into_par_iter().map(|d| (d, self.carry_along(d))).collect();
+        let sum = |half: fn(f32) -> f32| carried.iter().map(|(d, _)| half(unit_height(*d))).sum::<f32>();
+        let (all_above, all_below) = (sum(above), sum(below));
+        self.arriving.resize(count, Arriving::default());
+        self.arriving.par_chunks_mut(4096).enumerate().for_each(|(chunk, arriving)| {
+            arriving.fill(Arriving::default());
+            for (d, light) in &carried {
+                let (up, down) = (above(unit_height(*d)) / all_above, below(unit_height(*d)) / all_below);
+                for (a, &l) in arriving.iter_mut().zip(&light[chunk * 4096..]) {
+                    a.above += up * l;
+                    a.below += down * l;
+                }
+            }
+        });
+    }
+
+    /// Light that arrives in each cell from direction `-d`, before the cell takes its own part.
+    fn carry_along(&self, d: [i32; 3]) -> Vec<f32> {
+        let [nx, ny, nz] = [self.size.x, self.size.y, self.size.z].map(|n| n as i32);
+        let length = (d.iter().map(|c| c * c).sum::<i32>() as f32).sqrt();
+        let mut light = vec![1.0_f32; self.taken.len()];
+        let order = |n: i32, step: i32| (0..n).map(move |i| if step < 0 { n - 1 - i } else { i });
+        for z in order(nz, d[2]) {
+            for y in order(ny, d[1]) {
+                let (fy, fz) = (y - d[1], z - d[2]);
+                if !(0..ny).contains(&fy) || !(0..nz).contains(&fz) {
+                    continue;
+                }
+                let (here, from) = ((nx * (y + ny * z)) as usize, (nx * (fy + ny * fz)) as usize);
+                for x in order(nx, d[0]) {
+                    let fx = x - d[0];
+                    if (0..nx).contains(&fx) {
+                        let i = from + fx as usize;
+                        light[here + x as usize] = light[i] * super::approx::exp_of_negative(-self.taken[i] * length);
+                    }
+                }
+            }
+        }
+        light
+    }
+}
+
+/// Height of the place that light travelling along `d` comes from, on the unit sphere.
+fn unit_height(d: [i32; 3]) -> f32 {
+    -d[1] as f32 / (d.iter().map(|c| c * c).sum::<i32>() as f32).sqrt()
+}
+
+/// Weights of a direction in the two halves of the sky; they add up to 1 and meet at the horizon.
+fn above(height: f32) -> f32 {
+    0.5 + 0.5 * height
+}
+
+fn below(height: f32) -> f32 {
+    0.5 - 0.5 * height
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sky_reaches_the_outside_of_a_ball_of_hair_and_not_its_middle() {
+        let mut nodes = vec![];
+        for s in 0..4000_u32 {
+            let direction = crate::camera::direction(
+                s as f32 * 137.508,
+                (1.0 - 2.0 * (s as f32 + 0.5) / 4000.0).asin().to_degrees(),
+            );
+            for k in 0..10 {
+                nodes.push(CurveNode {
+                    position: direction * (1.0 + 0.5 * k as f32),
+                    strand: s,
+                    ..CurveNode::default()
+                });
+            }
+        }
+        let radius = vec![0.05; nodes.len()];
+        let mut sky = SkyMap::default();
+        sky.fill(&nodes, &radius, &Mesh::default());
+        let middle = sky.at(Vec3::ZERO);
+        assert!(middle.above < 0.05 && middle.below < 0.05, "{middle:?}");
+        let top = sky.at(Vec3::new(0.0, 5.4, 0.0));
+        assert!(top.above > 0.6 && top.above > 2.0 * top.below, "{top:?}");
+        assert_eq!(sky.at(Vec3::splat(100.0)), Arriving { above: 1.0, below: 1.0 });
+    }
+}

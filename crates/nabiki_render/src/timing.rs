@@ -1,0 +1,71 @@
+//! Where a frame's time goes.
+
+use std::time::{Duration, Instant};
+
+/// The stages of a frame, in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Curves through the strands' points.
+    Curves,
+    /// The head's pixels and its shadows, where they are not known from the frame before.
+    Head,
+    /// From space to the picture.
+    Projection,
+    /// Hair in the lamps' way.
+    Shadows,
+    /// Hair and head in the sky's way.
+    Sky,
+    /// Light of hair and skin.
+    Shading,
+    /// Sorting by depth and into tiles.
+    Sorting,
+    /// Shares of pixels.
+    Pixels,
+}
+
+impl Stage {
+    /// All of them, in order.
+    pub const ALL: [Self; 8] = [
+        Self::Curves,
+        Self::Head,
+        Self::Projection,
+        Self::Shadows,
+        Self::Sky,
+        Self::Shading,
+        Self::Sorting,
+        Self::Pixels,
+    ];
+}
+
+/// Wall-clock time of each stage, summed over frames.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Timing {
+    spent: [Duration; Stage::ALL.len()],
+}
+
+impl Timing {
+    /// Time spent on a stage.
+    pub fn of(&self, stage: Stage) -> Duration {
+        self.spent[stage as usize]
+    }
+
+    /// Time spent on all stages.
+    pub fn total(&self) -> Duration {
+        self.spent.iter().sum()
+    }
+
+    pub(crate) fn start(&self) -> Clock {
+        Clock(Instant::now())
+    }
+}
+
+/// Runs from one stage to the next.
+pub(crate) struct Clock(Instant);
+
+impl Clock {
+    pub fn lap(&mut self, timing: &mut Timing, stage: Stage) {
+        let now = Instant::now();
+        timing.spent[stage as usize] += now - self.0;
+        self.0 = now;
+    }
+}
