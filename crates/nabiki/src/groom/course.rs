@@ -139,7 +139,7 @@ pub(super) fn course(head: &Head, style: &Style, pore: &Pore, seed: u64) -> Cour
     let shared = f64::from(style.locks.direction_degrees).to_radians();
 
     // Along the scalp: as combed on top, where that says little (on the sides) as the hair falls.
-    let wanted = comb + DVec3::NEG_Y * (1.0 + comb.length());
+    let wanted = comb + DVec3::NEG_Y * (1.0 + comb.length() * (1.0 - normal.y).clamp(0.0, 1.0).powi(2));
     let along = wanted - normal * wanted.dot(normal);
     let along = along.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
     let lift = mean(style.lift_degrees.each(), shares).to_radians();

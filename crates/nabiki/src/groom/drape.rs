@@ -14,11 +14,15 @@ use crate::Head;
 /// A free piece is settled to this (rad): a hundredth of a millimetre on 18 cm.
 const SETTLED: f64 = 5e-5;
 
+/// Times that the bends of a lying strand are rounded.
+const ROUNDINGS: usize = 3;
+
 /// Nodes of one strand, and what is needed to find them; kept from strand to strand.
 #[derive(Debug, Default)]
 pub(super) struct Draping {
     /// The nodes, root first (head space, cm).
     pub nodes: Vec<DVec3>,
+    directions: Vec<DVec3>,
     loads: Vec<DVec3>,
     free: Vec<DVec3>,
     beam: Workspace,
@@ -44,6 +48,18 @@ impl Ground<'_> {
         gap + layers * (1.0 - (-s / f64::from(self.volume.reach)).exp())
     }
 
+    /// What the end of the segment that ends at `s` keeps, and its middle.
+    fn clearances(&self, course: &Course, s: f64, d: f64) -> (f64, f64) {
+        let clearance = self.clearance(course, s);
+        // The first segment starts on the skin.
+        (clearance, if s < 1.5 * d { 0.0 } else { 0.7 * self.clearance(course, s - d).min(clearance) })
+    }
+
+    /// How much farther from the skin than it must be a segment `reach` from `p` stays, negative if it fails to.
+    fn spare(&self, p: DVec3, reach: DVec3, clearance: f64, halfway: f64) -> f64 {
+        (self.distance(p + reach) - clearance).min(self.distance(p + reach * 0.5) - halfway)
+    }
+
     fn distance(&self, p: DVec3) -> f64 {
         f64::from(self.head.distance(p.as_vec3()))
     }
@@ -54,10 +70,7 @@ impl Ground<'_> {
         let outward = self.head.outward((p + t * d).as_vec3()).as_dvec3();
         let side = (outward - t * outward.dot(t)).try_normalize().unwrap_or_else(|| t.any_orthonormal_vector());
         let turned = |angle: f64| t * angle.cos() + side * angle.sin();
-        let spare = |angle: f64| {
-            let reach = turned(angle) * d;
-            (self.distance(p + reach) - clearance).min(self.distance(p + reach * 0.5) - halfway)
-        };
+        let spare = |angle: f64| self.spare(p, turned(angle) * d, clearance, halfway);
         // Bracket the touch between an angle that is clear and one, below it, that is not.
         let first = spare(0.0);
         let (mut clear, mut inside, mut best) = (None, None, (first, 0.0));
@@ -92,28 +105,26 @@ impl Ground<'_> {
 
     /// Lays out a strand of `length` (cm) in equal segments: its nodes end up in `draping.nodes`.
     pub(super) fn drape(&self, course: &Course, length: f64, draping: &mut Draping) {
-        let Draping { nodes, loads, free, beam: workspace } = draping;
+        let Draping { nodes, directions, loads, free, beam: workspace } = draping;
         let k = segments(length, self.segment);
         let d = length / k as f64;
         loads.clear();
         loads.extend((0..k).map(|j| course.load((j as f64 + 0.5) * d)));
         nodes.clear();
         nodes.push(course.root);
+        directions.clear();
 
         let mut beam = Beam { stiffness: course.bend.powi(3), segment: d, clamp: course.clamp, hold: Hold::Clamped };
         // The free piece starts at this segment.
         let mut from = 0;
         self.hang(&beam, loads, false, free, workspace);
-        let (mut p, mut lies) = (course.root, false);
+        let (mut p, mut lies, mut touched) = (course.root, false, false);
         for i in 0..k {
             let s = (i + 1) as f64 * d;
             let wave = wave_at(course, self.wave_length, s - 0.5 * d);
-            let clearance = self.clearance(course, s);
-            let halfway = if i == 0 { 0.0 } else { 0.7 * self.clearance(course, s - d).min(clearance) };
+            let (clearance, halfway) = self.clearances(course, s, d);
             let hanging = (free[i - from] + wave).normalize();
-            let is_clear =
-                self.distance(p + hanging * d) >= clearance && self.distance(p + hanging * (0.5 * d)) >= halfway;
-            let taken = if is_clear {
+            let taken = if self.spare(p, hanging * d, clearance, halfway) >= 0.0 {
                 lies = false;
                 hanging
             } else {
@@ -122,6 +133,7 @@ impl Ground<'_> {
                 let along = (along.try_normalize().unwrap_or(beam.clamp) + wave).normalize();
                 let along = self.turned_onto(p, along, d, clearance, halfway);
                 lies = true;
+                touched = true;
                 beam.clamp = (along - wave).normalize();
                 beam.hold = Hold::Continued;
                 from = i + 1;
@@ -136,6 +148,32 @@ impl Ground<'_> {
             };
             p += taken * d;
             nodes.push(p);
+            directions.push(taken);
+        }
+        if touched {
+            for _ in 0..ROUNDINGS {
+                self.round(course, d, directions, nodes);
+            }
+        }
+    }
+
+    /// Rounds the bends of a strand that lies on something, as its own stiffness and the hair around it do: over an
+    /// ear it lifts off above and comes down below. Nodes still keep their clearance.
+    fn round(&self, course: &Course, d: f64, directions: &mut [DVec3], nodes: &mut [DVec3]) {
+        let mut before = directions[0];
+        for i in 1..directions.len() {
+            let t = directions[i];
+            let after = directions.get(i + 1).copied().unwrap_or(t);
+            directions[i] = (before + 2.0 * t + after).try_normalize().unwrap_or(t);
+            before = t;
+        }
+        for (i, t) in directions.iter_mut().enumerate().skip(1) {
+            let (p, s) = (nodes[i], (i + 1) as f64 * d);
+            let (clearance, halfway) = self.clearances(course, s, d);
+            if self.spare(p, *t * d, clearance, halfway) < 0.0 {
+                *t = self.turned_onto(p, *t, d, clearance, halfway);
+            }
+            nodes[i + 1] = p + *t * d;
         }
     }
 
