@@ -76,16 +76,6 @@ impl Head {
     pub fn outward(&self, p: Vec3) -> Vec3 {
         self.skin.gradient(p).try_normalize().unwrap_or_else(|| self.ellipsoid.gradient(p).normalize_or(Vec3::Y))
     }
-
-    /// The point of the skin that `p` meets on its way along the steepest descent of the distance, and the normal
-    /// there. Exact from near the skin; from the middle of the head it is one of several.
-    pub fn on_skin(&self, p: Vec3) -> (Vec3, Vec3) {
-        let mut q = p;
-        for _ in 0..4 {
-            q -= self.distance(q) * self.outward(q);
-        }
-        (q, self.outward(q))
-    }
 }
 
 fn check_mesh(mesh: &Mesh) -> Result<(), SettingError> {

@@ -54,8 +54,10 @@ impl Cells {
         let extent = (high - low).max_element();
         // Points on a surface fill about n = (extent / size)^2 cells; a few points share one.
         let along = (0.6 * (points.len() as f32).sqrt()).clamp(1.0, 160.0);
-        let size = if extent > 0.0 && extent.is_finite() { extent / along } else { f32::MAX };
-        let across = ((high - low) / size).floor().as_ivec3() + 1;
+        // One cell holds them all where they lie on one spot, or so far apart that their distances overflow.
+        let measurable = extent > 0.0 && extent.is_finite();
+        let size = if measurable { extent / along } else { f32::MAX };
+        let across = if measurable { ((high - low) / size).floor().as_ivec3() + 1 } else { IVec3::ONE };
         let mut cells = Self { low, size, across, starts: vec![], index: vec![], place: vec![], gap: vec![] };
         let cell_of: Vec<usize> = points.iter().map(|&p| cells.linear(cells.cell_of(p))).collect();
         let mut starts = vec![0_u32; across.as_usizevec3().element_product() + 1];

@@ -90,3 +90,68 @@ fn the_makehuman_body_gets_an_ellipsoid_on_its_scalp() {
     let Some(mesh) = read("heads/makehuman_base.obj", Some("body"), 10.0) else { return };
     lies_on_the_scalp(mesh);
 }
+
+/// The grid file: 64, 0, the box's corners, then 64^3 distances at the middles of the cells, x fastest.
+fn published_grid() -> Option<(Vec3, Vec3, Vec<f32>)> {
+    let bytes = std::fs::read(shared("heads/sintel_collider_sdf64.bin")?).expect("readable");
+    let words: Vec<[u8; 4]> = bytes.chunks_exact(4).map(|c| c.try_into().expect("four bytes")).collect();
+    assert_eq!((u32::from_le_bytes(words[0]), words.len()), (64, 8 + 64 * 64 * 64));
+    let numbers: Vec<f32> = words[2..].iter().map(|&w| f32::from_le_bytes(w)).collect();
+    Some((Vec3::from_slice(&numbers[..3]), Vec3::from_slice(&numbers[3..6]), numbers[6..].to_vec()))
+}
+
+#[test]
+fn distance_agrees_with_a_published_grid() {
+    let (Some(mesh), Some((low, high, grid))) = (read("heads/sintel_collider.obj", None, 100.0), published_grid())
+    else {
+        return;
+    };
+    let head = Head::from_mesh(mesh, None).expect("a head");
+    let (mut worst_near, mut worst_far) = (0.0_f32, 0.0_f32);
+    for (i, &metres) in grid.iter().enumerate() {
+        let cell = Vec3::new((i % 64) as f32, (i / 64 % 64) as f32, (i / 4096) as f32);
+        let p = 100.0 * (low + (cell + 0.5) * (high - low) / 64.0);
+        let (found, real) = (head.distance(Vec3::new(p.z, p.y, -p.x)), 100.0 * metres);
+        if real.abs() < 0.5 {
+            worst_near = worst_near.max((found - real).abs());
+        } else {
+            worst_far = worst_far.max((found - real).abs() / real.abs());
+            assert_eq!(found < 0.0, real < 0.0, "{p}");
+        }
+    }
+    println!("worst error {worst_near} cm near the skin, {:.1} % far from it", 100.0 * worst_far);
+    // Samples 0.33 cm apart miss a kink of the facets (up to a right angle, at the nose) by half a step at most.
+    assert!(worst_near < 0.17, "{worst_near}");
+    // The grid's own error, the slack of a twentieth, and a coarse step of 1.3 cm across the skull's middle.
+    assert!(worst_far < 0.3, "{worst_far}");
+}
+
+#[test]
+fn an_open_bust_is_solid_inside() {
+    let Some(mesh) = read("heads/sintel_bust.obj", None, 100.0) else { return };
+    let head = Head::from_mesh(mesh, None).expect("a head");
+    let middle = head.ellipsoid.center;
+    assert!(head.contains(middle) && head.distance(middle) < -5.0);
+    assert!(head.contains(middle - 18.0 * Vec3::Y), "the neck");
+    for away in [40.0 * Vec3::Y, 40.0 * Vec3::Z, -40.0 * Vec3::X, 40.0 * Vec3::X, -60.0 * Vec3::Y] {
+        assert!(head.distance(middle + away) > 10.0, "{away}");
+    }
+}
+
+#[test]
+fn pores_keep_off_the_faces_and_ears_of_real_heads() {
+    for (path, group, cm) in [
+        ("heads/lps_head.obj", None, 5.0),
+        ("heads/sintel_bust.obj", None, 100.0),
+        ("heads/makehuman_base.obj", Some("body"), 10.0),
+    ] {
+        let Some(mesh) = read(path, group, cm) else { return };
+        let head = Head::from_mesh(mesh, None).expect("a head");
+        let pores = nabiki::pores::spread(&head, &Default::default(), 2000, 1).expect("a scalp");
+        for pore in pores {
+            let q = (pore.position - head.ellipsoid.center) / head.ellipsoid.half_axes;
+            assert!(q.length() < 1.35 && q.length() > 0.75, "{path}: {q}");
+            assert!(!(q.x > 0.5 && q.y < 0.2 && q.z.abs() < 0.7), "{path}: a pore on the face, {q}");
+        }
+    }
+}

@@ -29,7 +29,7 @@ pub(super) fn mesh() -> Mesh {
 
 /// The bust as one function of the place: negative inside, zero on the skin, and near it about the distance (cm).
 /// The same on both sides of z = 0, to the bit.
-fn field(p: Vec3) -> f32 {
+pub(super) fn field(p: Vec3) -> f32 {
     // Rounding |z| off at the middle keeps what both halves share smooth there.
     let p = Vec3::new(p.x, p.y, (p.z * p.z + 0.01).sqrt());
     let mut skin = skull::add(p);

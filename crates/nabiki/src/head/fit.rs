@@ -12,6 +12,9 @@ use crate::{Ellipsoid, Mesh, SettingError};
 /// Passes of the reweighted fit; it settles to 1e-4 of the size in about ten.
 const PASSES: usize = 25;
 
+/// Horizontal sections in which the skull is looked for.
+const LEVELS: usize = 600;
+
 /// A vertex with its share of the surface.
 struct Sample {
     place: DVec3,
@@ -21,13 +24,13 @@ struct Sample {
 
 /// The ellipsoid through the scalp of a mesh that [`super::check_mesh`] accepts (the mesh's unit).
 pub(super) fn scalp(mesh: &Mesh) -> Result<Ellipsoid, SettingError> {
+    let none = || SettingError::new("head.ellipsoid", "fit", "found no skull: give center and half_axes");
     let samples = samples(mesh);
-    let mut guess = first_guess(&samples)?;
+    let mut guess = first_guess(mesh).ok_or_else(none)?;
     for pass in 0..PASSES {
         // The net is drawn in from 20 % of the size to 6 %, which leaves hardly more than the scalp's own shape.
         let tolerance = (0.3 * 0.85_f64.powi(pass as i32)).max(0.2);
-        guess = refit(&samples, &guess, tolerance)
-            .ok_or_else(|| SettingError::new("head.ellipsoid", "fit", "found no skull: give center and half_axes"))?;
+        guess = refit(&samples, &guess, tolerance).ok_or_else(none)?;
     }
     Ok(Ellipsoid { center: guess.center.as_vec3(), half_axes: guess.half_axes.as_vec3() })
 }
@@ -55,26 +58,37 @@ fn samples(mesh: &Mesh) -> Vec<Sample> {
 }
 
 /// An ellipsoid of a head's usual proportions at the top of the mesh.
-fn first_guess(samples: &[Sample]) -> Result<Guess, SettingError> {
-    let mut by_depth: Vec<&Sample> = samples.iter().collect();
-    by_depth.sort_by(|s, t| t.place.y.total_cmp(&s.place.y));
-    let none = || SettingError::new("head.ellipsoid", "fit", "found no skull: give center and half_axes");
-    let top = by_depth.first().ok_or_else(none)?.place.y;
-    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for s in by_depth {
-        low = low.min(s.place);
-        high = high.max(s.place);
-        let (depth, half_breadth) = (top - s.place.y, 0.5 * (high.z - low.z));
-        if half_breadth > 0.0 && depth >= half_breadth {
+fn first_guess(mesh: &Mesh) -> Option<Guess> {
+    let heights = mesh.triangles.iter().flatten().map(|&v| f64::from(mesh.positions[v as usize].y));
+    let (bottom, top) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(b, t), y| (b.min(y), t.max(y)));
+    let step = (top - bottom) / LEVELS as f64;
+    let level = |p: DVec3| (top - p.y) / step;
+    let mut sections = vec![(DVec3::INFINITY, DVec3::NEG_INFINITY); LEVELS];
+    for triangle in &mesh.triangles {
+        let corners = triangle.map(|v| mesh.positions[v as usize].as_dvec3());
+        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+            let (a, b) = if corners[i].y > corners[j].y { (corners[i], corners[j]) } else { (corners[j], corners[i]) };
+            let (first, last) = (level(a).ceil() as usize, level(b).floor() as usize);
+            for (k, section) in sections.iter_mut().enumerate().take(last + 1).skip(first) {
+                let along = if b.y < a.y { (k as f64 - level(a)) / (level(b) - level(a)) } else { 0.0 };
+                let p = a.lerp(b, along);
+                *section = (section.0.min(p), section.1.max(p));
+            }
+        }
+    }
+    let (mut low, mut high) = sections[0];
+    for (k, section) in sections.iter().enumerate().skip(1) {
+        (low, high) = (low.min(section.0), high.max(section.1));
+        let (depth, r) = (step * k as f64, 0.5 * (high.z - low.z));
+        if depth >= r && r > 0.0 {
             let middle = 0.5 * (low + high);
-            let r = half_breadth;
-            return Ok(Guess {
+            return Some(Guess {
                 center: DVec3::new(middle.x, top - 1.4 * r, middle.z),
                 half_axes: r * DVec3::new(1.2, 1.4, 1.02),
             });
         }
     }
-    Err(none())
+    None
 }
 
 /// Where hair grows, by the direction from the centre in units of the half axes.

@@ -1,7 +1,159 @@
-use super::Head;
-use crate::Mesh;
+use std::f32::consts::PI;
+use std::sync::LazyLock;
+
+use glam::{Vec3, vec3};
+
+use super::{Head, bust};
+use crate::{Ellipsoid, Mesh};
+
+static BUST: LazyLock<Head> = LazyLock::new(Head::builtin);
+
+/// A ball of `rings` by twice as many corners, stretched to `ellipsoid`.
+fn egg(ellipsoid: Ellipsoid, rings: u32) -> Mesh {
+    let mut mesh = Mesh::default();
+    for i in 0..=rings {
+        for j in 0..2 * rings {
+            let ((st, ct), (sp, cp)) =
+                ((PI * i as f32 / rings as f32).sin_cos(), (PI * j as f32 / rings as f32).sin_cos());
+            mesh.positions.push(ellipsoid.center + ellipsoid.half_axes * vec3(st * sp, ct, st * cp));
+            let (next, below) = (i * 2 * rings + (j + 1) % (2 * rings), 2 * rings);
+            if i < rings {
+                let here = i * 2 * rings + j;
+                mesh.triangles.push([here, here + below, next + below]);
+                mesh.triangles.push([here, next + below, next]);
+            }
+        }
+    }
+    mesh
+}
+
+fn refused(mesh: Mesh, ellipsoid: Option<Ellipsoid>) -> String {
+    Head::from_mesh(mesh, ellipsoid).expect_err("refused").to_string()
+}
 
 #[test]
-fn a_mesh_without_triangles_is_refused() {
-    assert_eq!(Head::from_mesh(Mesh::default(), None).unwrap_err().thing, "head.mesh");
+fn the_bust_is_the_same_on_both_sides() {
+    let golden = (0..4000).map(|i| {
+        let [a, b, c] = [0.618_034, 0.754_878, 0.569_84].map(|g: f32| (i as f32 * g).fract() - 0.5);
+        vec3(30.0 * a, 46.0 * b - 10.0, 42.0 * c)
+    });
+    for p in golden {
+        assert_eq!(bust::field(p), bust::field(vec3(p.x, p.y, -p.z)), "{p}");
+    }
+    let head = &*BUST;
+    for &p in head.mesh.positions.iter().step_by(50) {
+        let mirrored = vec3(p.x, p.y, -p.z);
+        // The halves' triangles differ in their diagonals, and samples lie 0.33 cm apart in nostrils of that size.
+        assert!(head.distance(mirrored).abs() < 0.15, "{p} but {}", head.distance(mirrored));
+    }
+}
+
+#[test]
+fn the_bust_has_an_adult_heads_measures() {
+    let head = &*BUST;
+    let reach = |from: Vec3, toward: Vec3| {
+        let mut t = 0.0;
+        while t < 80.0 && head.distance(from + t * toward) > 0.005 {
+            t += 0.9 * head.distance(from + t * toward);
+        }
+        from + t * toward
+    };
+    let crown = reach(vec3(0.0, 60.0, 0.0), Vec3::NEG_Y).y;
+    let chin = head.mesh.positions.iter().filter(|p| p.x > 5.0 && p.z.abs() < 2.0).fold(0.0_f32, |y, p| y.min(p.y));
+    let breadth = 2.0 * reach(vec3(-2.0, 4.0, 60.0), Vec3::NEG_Z).z;
+    let depth = reach(vec3(60.0, 1.5, 0.0), Vec3::NEG_X).x - reach(vec3(-60.0, 1.5, 0.0), Vec3::X).x;
+    let shoulders = 2.0 * head.mesh.positions.iter().fold(0.0_f32, |z, p| z.max(p.z));
+    // Within the spread of adults (cm): menton to vertex, head breadth above the ears, head length, bideltoid breadth.
+    assert!((21.0..24.5).contains(&(crown - chin)), "height {}", crown - chin);
+    assert!((13.8..16.5).contains(&breadth), "breadth {breadth}");
+    assert!((17.5..20.5).contains(&depth), "depth {depth}");
+    assert!((36.0..46.0).contains(&shoulders), "shoulders {shoulders}");
+    let nose = reach(vec3(60.0, -4.5, 0.0), Vec3::NEG_X).x;
+    let beside = reach(vec3(60.0, -4.5, 2.5), Vec3::NEG_X).x;
+    assert!((1.5..4.5).contains(&(nose - beside)), "nose {}", nose - beside);
+}
+
+#[test]
+fn the_bust_is_closed_and_every_vertex_is_on_its_zero_set() {
+    let mesh = &BUST.mesh;
+    let mut edges = std::collections::HashMap::<(u32, u32), i32>::new();
+    for &[a, b, c] in &mesh.triangles {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            *edges.entry((from.min(to), from.max(to))).or_default() += if from < to { 1 } else { -1 };
+        }
+    }
+    assert!(edges.values().all(|&balance| balance == 0));
+    let off = mesh.positions.iter().map(|&p| bust::field(p).abs()).fold(0.0, f32::max);
+    assert!(off < 0.01, "{off}");
+}
+
+#[test]
+fn the_bust_is_the_same_twice() {
+    assert_eq!(bust::mesh(), BUST.mesh);
+}
+
+#[test]
+fn the_ellipsoid_of_the_bust_is_the_one_that_fits_it() {
+    let head = &*BUST;
+    let fitted = Head::from_mesh(head.mesh.clone(), None).unwrap().ellipsoid;
+    let off = (fitted.half_axes - head.ellipsoid.half_axes).abs().max((fitted.center - head.ellipsoid.center).abs());
+    // The skull is no ellipsoid: 0.4 cm is the rms that the fit leaves on real heads.
+    assert!(off.max_element() < 0.8, "{fitted:?}");
+}
+
+#[test]
+fn an_ellipsoid_is_found_again_wherever_it_is_and_however_large() {
+    for (size, center) in [(1.0, Vec3::ZERO), (0.01, vec3(3.0, 1.6, -2.0)), (250.0, vec3(-40.0, 900.0, 70.0))] {
+        let made = Ellipsoid { center, half_axes: size * vec3(9.6, 10.4, 7.9) };
+        let found = Head::from_mesh(egg(made, 60), None).unwrap().ellipsoid;
+        // The positions are rounded to f32, relative to the largest coordinate.
+        let rounding = 40.0 * f32::EPSILON * center.abs().max_element();
+        let off = (found.half_axes - made.half_axes).abs().max((found.center - center).abs()).max_element();
+        assert!(off < 1e-4 * size + rounding, "{made:?} but {found:?}");
+    }
+}
+
+#[test]
+fn distance_gradient_and_inside_agree_on_an_egg() {
+    let e = Ellipsoid { center: vec3(1.0, 2.0, -0.5), half_axes: vec3(9.5, 11.0, 8.0) };
+    let head = Head::from_mesh(egg(e, 80), Some(e)).unwrap();
+    for i in 0..500 {
+        let (y, around) = (1.0 - (i as f32 + 0.5) / 250.0, 2.4 * i as f32);
+        let u = vec3((1.0 - y * y).sqrt() * around.cos(), y, (1.0 - y * y).sqrt() * around.sin());
+        let (on, normal) = (e.center + e.half_axes * u, (u / e.half_axes).normalize());
+        for away in [-0.4, 0.0, 0.3] {
+            let p = on + away * normal;
+            // Facets of 0.4 cm and samples 0.33 cm apart on a radius of at least 8^2 / 11 cm leave 0.01 cm.
+            assert!((head.distance(p) - away).abs() < 0.01, "{p}");
+            assert!(head.outward(p).dot(normal) > 0.998, "{p}");
+        }
+        assert!(head.contains(on - 0.1 * normal) && !head.contains(on + 0.1 * normal));
+    }
+}
+
+#[test]
+fn what_is_no_mesh_is_refused_by_name() {
+    let sound = egg(Ellipsoid { center: Vec3::ZERO, half_axes: vec3(9.0, 10.0, 8.0) }, 12);
+    assert!(refused(Mesh::default(), None).starts_with("head.mesh = no triangles"));
+    let mut lost = sound.clone();
+    lost.triangles[5][1] = 100_000;
+    assert!(refused(lost, None).starts_with("head.mesh = index 100000"));
+    let mut torn = sound.clone();
+    torn.positions[7].y = f32::NAN;
+    assert!(refused(torn, None).starts_with("head.mesh = vertex 7 at"));
+    let mut flat = sound.clone();
+    flat.positions.iter_mut().for_each(|p| p.y = 0.0);
+    assert!(refused(flat, None).starts_with("head.ellipsoid = fit"));
+}
+
+#[test]
+fn what_is_no_ellipsoid_is_refused_by_name() {
+    let sound = Ellipsoid { center: Vec3::ZERO, half_axes: vec3(9.0, 10.0, 8.0) };
+    let mesh = egg(sound, 12);
+    let nowhere = Ellipsoid { center: vec3(0.0, f32::INFINITY, 0.0), ..sound };
+    assert!(refused(mesh.clone(), Some(nowhere)).starts_with("head.ellipsoid.center"));
+    for half_axes in [vec3(9.0, 0.0, 8.0), vec3(9.0, f32::NAN, 8.0), vec3(-9.0, 10.0, 8.0), vec3(90.0, 10.0, 8.0)] {
+        let text = refused(mesh.clone(), Some(Ellipsoid { half_axes, ..sound }));
+        assert!(text.starts_with("head.ellipsoid.half_axes"), "{text}");
+    }
 }

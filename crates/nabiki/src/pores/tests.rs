@@ -1,10 +1,130 @@
-use super::{Hairline, spread};
+use std::sync::LazyLock;
+
+use glam::Vec3;
+
+use super::{Hairline, Pore, spread};
 use crate::Head;
 
+static BUST: LazyLock<Head> = LazyLock::new(Head::builtin);
+
+fn pores(count: usize, seed: u64) -> Vec<Pore> {
+    spread(&BUST, &Hairline::default(), count, seed).unwrap()
+}
+
+/// The scalp's area (cm2) by counting what share of all triangles' area bears hair.
+fn scalp_area() -> f32 {
+    let hairline = Hairline::default();
+    let mesh = &BUST.mesh;
+    (mesh.triangles.iter())
+        .map(|t| t.map(|v| mesh.positions[v as usize]))
+        .filter(|[a, b, c]| hairline.above(&BUST.ellipsoid, (*a + *b + *c) / 3.0) > 0.0)
+        .map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length())
+        .sum()
+}
+
+fn nearest_spacings(pores: &[Pore]) -> Vec<f32> {
+    pores
+        .iter()
+        .enumerate()
+        .map(|(i, p)| {
+            let others = pores.iter().enumerate().filter(|(j, _)| *j != i);
+            others.map(|(_, q)| p.position.distance_squared(q.position)).fold(f32::INFINITY, f32::min).sqrt()
+        })
+        .collect()
+}
+
 #[test]
-fn pores_lie_on_the_skin() {
-    let head = Head::builtin();
-    let pores = spread(&head, &Hairline::default(), 500, 1).unwrap();
-    assert_eq!(pores.len(), 500);
-    assert!(pores.iter().all(|p| head.distance(p.position).abs() < 0.05));
+fn pores_lie_on_the_skin_and_point_out_of_it() {
+    for pore in pores(2000, 1) {
+        assert!(BUST.distance(pore.position).abs() < 1e-3);
+        assert!((pore.normal.length() - 1.0).abs() < 1e-5);
+        assert!(BUST.outward(pore.position).dot(pore.normal) > 0.95);
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_pores_and_another_gives_others() {
+    let (first, other) = (pores(500, 7), pores(500, 8));
+    assert_eq!(first, pores(500, 7));
+    assert!(first.iter().zip(&other).filter(|(a, b)| a == b).count() < 5);
+    let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    assert_eq!(first, one_thread.install(|| pores(500, 7)));
+}
+
+// n points that keep the distance r on an area A cannot do better than the hexagonal lattice, r^2 = 2 A / (sqrt(3) n).
+// Poisson discs drawn at random come to 0.7 of that r, the farthest of five candidates a pore to a little more; points
+// thrown independently to nothing.
+#[test]
+fn every_beginning_of_the_order_is_blue_noise() {
+    let all = pores(3000, 3);
+    let area = scalp_area();
+    for n in [50, 300, 1000, 3000] {
+        let spacings = nearest_spacings(&all[..n]);
+        let hexagonal = (2.0 * area / (3.0_f32.sqrt() * n as f32)).sqrt();
+        let least = spacings.iter().copied().fold(f32::INFINITY, f32::min) / hexagonal;
+        let mean = spacings.iter().sum::<f32>() / n as f32 / hexagonal;
+        println!("{n}: least {least}, mean {mean}");
+        assert!((0.6..1.0).contains(&least), "{n} pores: least spacing {least} of the hexagonal");
+        assert!(mean > 0.7, "{n} pores: mean spacing {mean} of the hexagonal");
+    }
+}
+
+#[test]
+fn face_ears_and_nape_are_free() {
+    for Pore { position: p, .. } in pores(5000, 2) {
+        let on_face = p.x > 4.5 && p.y < 5.0 && p.z.abs() < 5.5;
+        let on_ear = p.z.abs() > 8.05 || (p.x > -3.0 && p.x < 0.0 && p.y < 0.8);
+        assert!(!on_face && !on_ear && p.y > -8.0, "{p}");
+    }
+}
+
+#[test]
+fn hair_grows_over_the_forehead_at_the_back_and_before_the_ears() {
+    let all = pores(5000, 2);
+    let any = |test: &dyn Fn(Vec3) -> bool| all.iter().any(|p| test(p.position));
+    assert!(any(&|p| p.x > 7.0 && p.z.abs() < 1.0));
+    assert!(any(&|p| p.x < -6.0 && p.y < -6.0));
+    assert!(any(&|p| p.x > 0.5 && p.y < 0.0 && p.z > 5.0));
+    assert!(any(&|p| p.x > 0.5 && p.y < 0.0 && p.z < -5.0));
+    assert!(any(&|p| p.y > 10.5));
+}
+
+// Left and right of the parting differ by a boundary effect only: pores within half a spacing of the middle, which is
+// 20 cm long and 0.3 cm wide of 600 cm2.
+#[test]
+fn both_sides_get_the_same_share() {
+    let all = pores(4000, 11);
+    let right = all.iter().filter(|p| p.position.z > 0.0).count() as f32 / all.len() as f32;
+    assert!((right - 0.5).abs() < 0.01, "{right}");
+}
+
+#[test]
+fn the_line_rises_over_the_temples_and_passes_through_its_settings() {
+    let line = Hairline::default();
+    assert_eq!(line.depth(0.0), line.forehead);
+    assert!(line.depth(0.61) < line.forehead);
+    assert!((line.depth(1.35) - line.sideburns).abs() < 1e-6);
+    assert!((line.depth(1.75) - line.above_ears).abs() < 1e-6);
+    assert!((line.depth(3.0) - line.nape).abs() < 1e-6);
+    for i in 0..314 {
+        let step = line.depth(0.01 * (i + 1) as f32) - line.depth(0.01 * i as f32);
+        assert!(step.abs() < 0.1, "no jump at {}", 0.01 * i as f32);
+    }
+}
+
+#[test]
+fn settings_off_the_head_are_refused_by_name() {
+    let refused = |hairline: Hairline| spread(&BUST, &hairline, 10, 1).unwrap_err().to_string();
+    let text = refused(Hairline { forehead: f32::NAN, ..Hairline::default() });
+    assert!(text.starts_with("hair.hairline.forehead = NaN"), "{text}");
+    let text = refused(Hairline { nape: 9.0, ..Hairline::default() });
+    assert!(text.starts_with("hair.hairline.nape = 9"), "{text}");
+    let bald = Hairline { forehead: 0.0, sideburns: 0.0, above_ears: 0.0, nape: 0.0, fade: 1.0, ..Hairline::default() };
+    assert!(refused(bald).starts_with("hair.hairline = no scalp"));
+}
+
+#[test]
+fn no_pores_are_no_trouble() {
+    assert!(pores(0, 1).is_empty());
+    assert_eq!(pores(1, 1).len(), 1);
 }

@@ -16,7 +16,7 @@ pub(super) fn add(p: Vec3, skin: f32) -> f32 {
     let q = lean.transpose() * (p - center);
     // Narrower toward the lobe.
     let width = 1.75 + 0.18 * q.y;
-    let flat = Vec2::new(q.x / width.max(0.6), q.y / 3.1);
+    let flat = Vec2::new(q.x / width.max(0.6), q.y / 2.95);
     let edge = (flat.length() - 1.0) * 1.75;
     let plate = join(edge, q.z.abs() - 0.25, 0.1).max(edge).max(q.z.abs() - 0.3);
     let rim = Vec2::new((edge + 0.3) * 1.0, q.z - 0.25).length() - 0.33;
@@ -26,5 +26,5 @@ pub(super) fn add(p: Vec3, skin: f32) -> f32 {
     let mut ear = join(plate, rim, 0.35);
     ear = carve(ear, concha, 0.3);
     ear = carve(ear, hollow, 0.3);
-    join(skin, ear, 0.5)
+    join(skin, ear, 0.7)
 }

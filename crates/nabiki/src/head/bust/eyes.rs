@@ -2,10 +2,10 @@
 
 use glam::{Quat, Vec3};
 
-use super::shapes::{carve, chain, join, swell, turned_ellipsoid};
+use super::shapes::{chain, join, ridge, swell, turned_ellipsoid};
 
 /// Middle of the eyeball.
-const EYE: Vec3 = Vec3::new(7.15, -0.8, 3.15);
+const EYE: Vec3 = Vec3::new(7.1, -0.8, 3.15);
 
 /// Sinks the sockets, sets the lidded eyes into them and raises the brows.
 pub(super) fn add(p: Vec3, skin: f32) -> f32 {
@@ -15,35 +15,44 @@ pub(super) fn add(p: Vec3, skin: f32) -> f32 {
     let mut skin = skin;
     // The socket is deepest between eye and nose, and under the brow.
     skin += 0.75 * swell(p, Vec3::new(8.9, -0.5, 2.4), Vec3::new(2.2, 2.2, 2.4));
-    skin += 0.35 * swell(p, Vec3::new(8.0, 0.0, 4.4), Vec3::new(2.0, 1.6, 1.8));
-    // The brow follows the upper rim.
+    skin += 0.30 * swell(p, Vec3::new(7.8, 0.1, 4.2), Vec3::new(2.0, 1.6, 1.9));
+    // The brow's bone follows the upper rim.
     let brow = chain(
         p,
         &[
-            (Vec3::new(8.55, 1.35, 1.4), 0.2),
-            (Vec3::new(8.2, 1.8, 2.8), 0.28),
-            (Vec3::new(7.1, 1.8, 4.4), 0.2),
-            (Vec3::new(6.0, 1.1, 5.3), 0.1),
+            (Vec3::new(8.55, 1.3, 1.4), 0.2),
+            (Vec3::new(8.2, 1.75, 2.8), 0.28),
+            (Vec3::new(7.1, 1.7, 4.4), 0.2),
+            (Vec3::new(6.0, 1.0, 5.3), 0.1),
         ],
     );
-    skin = join(skin, brow, 1.3);
-    let ball = turned_ellipsoid(p, EYE, Vec3::new(1.3, 1.2, 1.5), Quat::from_rotation_y(0.35));
-    skin = join(skin, ball, 0.5);
-    // The closed lids meet on a line that hangs like a bow, a little higher outside.
-    let line = lid_line(p);
-    skin = carve(skin, line, 0.3);
-    skin
+    skin = join(skin, brow, 1.5);
+    let ball = turned_ellipsoid(p, EYE, Vec3::new(1.3, 1.22, 1.6), Quat::from_rotation_y(-0.3));
+    skin = join(skin, ball, 0.55);
+    skin + lids(p) - eyebrow(p)
 }
 
-fn lid_line(p: Vec3) -> f32 {
-    let at = |t: f32| {
-        let z = EYE.z + 1.55 * t;
-        let y = EYE.y - 0.55 + 0.5 * t * t + 0.08 * t;
-        Vec3::new(8.5 - 0.55 * t - 0.55 * t * t, y, z)
-    };
-    let links: [(Vec3, f32); 9] = std::array::from_fn(|i| {
-        let t = i as f32 / 4.0 - 1.0;
-        (at(t), 0.14 - 0.06 * t * t)
-    });
-    chain(p, &links)
+/// The line on which the closed lids meet hangs like a bow; a crease runs above it.
+fn lids(p: Vec3) -> f32 {
+    let t = (p.z - 3.2) / 1.55;
+    let bow = 1.0 - t * t;
+    if bow <= -0.2 {
+        return 0.0;
+    }
+    let open = bow.max(0.0).sqrt();
+    let line = p.y - (-0.85 + 0.12 * t - 0.55 * bow);
+    let crease = p.y - (-0.6 + 0.1 * t + 0.62 * bow);
+    // The lower lid lies a little behind the upper one.
+    let below = (-line / 0.25).clamp(0.0, 1.0) * ridge(line, 1.2);
+    open * (0.19 * ridge(line, 0.2) + 0.05 * below + 0.1 * ridge(crease, 0.3))
+}
+
+/// The eyebrow as a sculptor has it: a low ridge that rises outward and falls at its end.
+fn eyebrow(p: Vec3) -> f32 {
+    let t = (p.z - 1.3) / 3.9;
+    if !(0.0..=1.0).contains(&t) {
+        return 0.0;
+    }
+    let off = p.y - (1.35 + 1.9 * t - 2.0 * t * t * t);
+    0.1 * ridge(off, 0.62 - 0.25 * t) * (t * 6.0).min(1.0) * ((1.0 - t) * 2.5).min(1.0)
 }

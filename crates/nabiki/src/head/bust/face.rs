@@ -12,11 +12,11 @@ pub(super) fn add(p: Vec3, skin: f32) -> f32 {
     let chin = ellipsoid(p, Vec3::new(7.2, -10.1, 0.0), Vec3::new(1.75, 1.45, 1.7));
     let muzzle = ellipsoid(p, Vec3::new(6.2, -7.3, 0.0), Vec3::new(3.2, 2.9, 3.2));
     let mut skin = join(skin, egg, 2.5);
-    skin = join(skin, cheek, 2.2);
+    skin = join(skin, cheek, 2.8);
     skin = join(skin, jaw, 2.4);
     skin = join(skin, muzzle, 2.2);
     skin = join(skin, chin, 1.6);
-    // The hollow below the cheekbone, and the crease above the chin.
-    skin += 0.1 * swell(p, Vec3::new(6.2, -6.4, 4.2), Vec3::new(2.5, 2.4, 2.2));
+    // The fullness of the cheek beside the mouth, and the crease above the chin.
+    skin -= 0.22 * swell(p, Vec3::new(7.2, -5.6, 3.4), Vec3::new(2.4, 2.2, 2.2));
     skin + 0.3 * swell(p, Vec3::new(9.3, -9.0, 0.0), Vec3::new(1.4, 0.8, 2.2))
 }

@@ -12,10 +12,20 @@ use crate::Mesh;
 
 /// Stretches of an axis: from the first number on (cm), the second is the step (cm). The last ends the axis.
 type Axis = &'static [(f32, f32)];
-const ALONG_X: Axis = &[(-14.0, 0.4), (-5.0, 0.25), (0.5, 0.35), (4.5, 0.2), (12.0, 0.0)];
-const ALONG_Y: Axis = &[(-33.0, 0.5), (-20.0, 0.4), (-12.4, 0.19), (2.6, 0.4), (12.4, 0.0)];
+const ALONG_X: Axis = &[(-14.0, 0.4), (-5.0, 0.25), (0.5, 0.35), (4.5, 0.19), (12.0, 0.0)];
+const ALONG_Y: Axis = &[
+    (-33.0, 0.5),
+    (-20.0, 0.4),
+    (-12.4, 0.22),
+    (-8.8, 0.16),
+    (-6.6, 0.2),
+    (-2.2, 0.16),
+    (0.4, 0.2),
+    (2.8, 0.4),
+    (12.4, 0.0),
+];
 /// From the middle outward, on both sides.
-const ALONG_Z: Axis = &[(0.1, 0.2), (5.0, 0.25), (10.0, 0.5), (20.6, 0.0)];
+const ALONG_Z: Axis = &[(0.09, 0.18), (5.4, 0.26), (10.0, 0.5), (20.6, 0.0)];
 /// Nodes along a block's edge.
 const BLOCK: usize = 8;
 /// The field may change this many times faster than the distance.

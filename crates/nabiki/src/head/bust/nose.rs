@@ -2,19 +2,23 @@
 
 use glam::Vec3;
 
-use super::shapes::{capsule, carve, ellipsoid, join};
+use super::shapes::{capsule, carve, ellipsoid, join, swell};
 
 /// Joins the nose to the face.
 pub(super) fn add(p: Vec3, skin: f32) -> f32 {
     if p.x < 5.0 || p.y > 4.0 || p.y < -9.0 {
         return skin;
     }
-    let bridge = capsule(p, Vec3::new(8.0, 0.6, 0.0), Vec3::new(10.25, -4.3, 0.0), 0.6, 0.7);
-    let tip = ellipsoid(p, Vec3::new(10.45, -4.45, 0.0), Vec3::new(0.85, 0.75, 0.85));
-    let wing = ellipsoid(p, Vec3::new(9.35, -4.85, 1.1), Vec3::new(0.95, 0.62, 0.6));
+    let bridge = capsule(p, Vec3::new(8.0, 0.6, 0.0), Vec3::new(10.1, -4.1, 0.0), 0.6, 0.72);
+    let tip = ellipsoid(p, Vec3::new(10.35, -4.35, 0.0), Vec3::new(0.9, 0.82, 0.95));
+    let wing = ellipsoid(p, Vec3::new(9.35, -4.8, 1.0), Vec3::new(0.95, 0.62, 0.62));
     let mut skin = join(skin, bridge, 1.3);
     skin = join(skin, tip, 0.7);
-    skin = join(skin, wing, 0.5);
-    let nostril = ellipsoid(p, Vec3::new(9.75, -5.45, 0.62), Vec3::new(0.42, 0.3, 0.26));
-    carve(skin, nostril, 0.25)
+    let base = ellipsoid(p, Vec3::new(9.85, -5.1, 0.0), Vec3::new(0.8, 0.4, 0.4));
+    skin = join(skin, base, 0.6);
+    skin = join(skin, wing, 0.6);
+    let nostril = ellipsoid(p, Vec3::new(9.75, -5.4, 0.58), Vec3::new(0.45, 0.28, 0.22));
+    skin = carve(skin, nostril, 0.3);
+    // The bridge is a little hollow in profile.
+    skin + 0.13 * swell(p, Vec3::new(9.7, -2.0, 0.0), Vec3::new(1.2, 1.9, 1.2))
 }

@@ -43,3 +43,9 @@ pub(super) fn swell(p: Vec3, center: Vec3, half_axes: Vec3) -> f32 {
     let left = 1.0 - ((p - center) / half_axes).length_squared();
     if left > 0.0 { left * left * left } else { 0.0 }
 }
+
+/// 1 on a line, falling smoothly to 0 at the distance `width` from it and beyond, of a place `off` it.
+pub(super) fn ridge(off: f32, width: f32) -> f32 {
+    let left = 1.0 - (off / width) * (off / width);
+    if left > 0.0 { left * left * left } else { 0.0 }
+}
