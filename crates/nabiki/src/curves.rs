@@ -4,9 +4,13 @@
 //! number of segments is asked for. What a curve carries at its control points goes the same way, blended by the
 //! weights that the curve's own basis gives.
 
+mod gather;
+
 use glam::Vec3;
 
 use crate::Strands;
+
+pub use gather::Gathered;
 
 /// How a curve runs between its control points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,6 +93,55 @@ impl Curves<'_> {
             first += count;
         }
         Ok(walked)
+    }
+
+    /// What `values` say at each point of the walked strands; how many there are tells whether they are one for all,
+    /// one a curve, one a control point, or one an end of the curves' segments. `None` for any other number.
+    pub fn at_points<const N: usize>(&self, walked: &Walked, values: &[[f32; N]]) -> Option<Vec<[f32; N]>> {
+        let all: usize = walked.strands.points().len();
+        let ends = || self.counts.iter().map(|&c| self.pieces(c).unwrap_or(0) + 1);
+        let n = values.len();
+        if n == self.points.len() {
+            return Some(if walked.blends.is_empty() {
+                values.to_vec()
+            } else {
+                walked.blends.iter().map(|b| b.values(values)).collect()
+            });
+        }
+        if n == self.counts.len() {
+            let each = walked.strands.iter().zip(values);
+            return Some(each.flat_map(|(strand, &v)| std::iter::repeat_n(v, strand.len())).collect());
+        }
+        if n == ends().sum::<usize>() && !walked.blends.is_empty() {
+            let mut first = 0;
+            let mut found = Vec::with_capacity(all);
+            for (s, ends) in ends().enumerate() {
+                for blend in &walked.blends[walked.strands.range(s)] {
+                    let (piece, t) = blend.segment;
+                    let [a, b] = [values[first + piece], values[first + piece + 1]];
+                    found.push(std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t as f32));
+                }
+                first += ends;
+            }
+            return Some(found);
+        }
+        (n == 1).then(|| vec![values[0]; all])
+    }
+
+    /// What `values` say of each curve as a whole: one each, one for all, or that at each root of one a point.
+    pub fn at_roots<T: Copy>(&self, values: &[T]) -> Option<Vec<T>> {
+        match values.len() {
+            n if n == self.counts.len() => Some(values.to_vec()),
+            1 => Some(vec![values[0]; self.counts.len()]),
+            n if n == self.points.len() => {
+                let roots = self.counts.iter().scan(0, |at, &count| {
+                    *at += count;
+                    Some(*at - count)
+                });
+                roots.map(|root| values.get(root).copied()).collect()
+            }
+            _ => None,
+        }
     }
 
     /// Number of segments between ends of pieces: straight lines or cubics.

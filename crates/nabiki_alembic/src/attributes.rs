@@ -1,14 +1,13 @@
-//! What curves carry beside their points: read by name and scope, and joined when curves lie in several objects.
+//! What curves carry beside their points, by name.
 
-use std::collections::BTreeMap;
 use std::io::{Read, Seek};
 
-use nabiki::Hair;
-use nabiki::curves::Blend;
+use nabiki::curves::{Curves, Walked};
 use nabiki::hair::Attributes;
 
 use crate::Problem;
-use crate::read::{ArchiveReader, append_strands};
+use crate::layout::Pod;
+use crate::read::ArchiveReader;
 use crate::tree::{Form, Header};
 use crate::values::{integers, singles, words};
 
@@ -18,8 +17,8 @@ impl<R: Read + Seek> ArchiveReader<R> {
         &mut self,
         inside: &[Header],
         frame: usize,
-        counts: &[usize],
-        blends: &[Blend],
+        curves: &Curves<'_>,
+        walked: &Walked,
     ) -> Result<Attributes, Problem> {
         let mut headers = inside.to_vec();
         if let Some(more) = inside.iter().find(|h| h.name == ".arbGeomParams" && h.form == Form::Compound) {
@@ -31,31 +30,30 @@ impl<R: Read + Seek> ArchiveReader<R> {
             let name = header.name.strip_prefix("groom_").unwrap_or(&header.name);
             match name {
                 "width" => {
-                    let width = self.by_point::<1>(header, frame, counts, blends)?;
+                    let width = self.by_point::<1>(header, frame, curves, walked)?;
                     found.width = width.map(|w| w.into_iter().map(|[w]| w).collect());
                 }
-                "color" => found.color = self.by_point::<3>(header, frame, counts, blends)?,
-                "point_uv" => found.point_uv = self.by_point::<2>(header, frame, counts, blends)?,
+                "color" => found.color = self.by_point::<3>(header, frame, curves, walked)?,
+                "point_uv" => found.point_uv = self.by_point::<2>(header, frame, curves, walked)?,
                 "transparency" => {
-                    let values = self.by_point::<1>(header, frame, counts, blends)?;
+                    let values = self.by_point::<1>(header, frame, curves, walked)?;
                     found.transparency = values.map(|v| v.into_iter().map(|[v]| v).collect());
                 }
                 "freedom" => {
-                    let values = self.by_point::<1>(header, frame, counts, blends)?;
+                    let values = self.by_point::<1>(header, frame, curves, walked)?;
                     found.freedom = values.map(|v| v.into_iter().map(|[v]| v).collect());
                 }
                 "uv" | "root_uv" => {
-                    if let Some(uv) = self.by_strand_uv(header, frame, counts)? {
-                        found.root_uv = Some(uv);
-                    }
+                    let values = self.numbers::<2>(header, frame)?;
+                    found.root_uv = values.and_then(|v| curves.at_roots(&v)).or(found.root_uv);
                 }
-                "id" => found.id = self.whole_by_strand(header, frame, counts.len())?,
+                "id" => found.id = self.whole_by_strand(header, frame, curves)?,
                 "group_id" => {
-                    let groups = self.whole_by_strand(header, frame, counts.len())?;
+                    let groups = self.whole_by_strand(header, frame, curves)?;
                     found.group = groups.map(|g| g.into_iter().map(|g| g as i32).collect());
                 }
                 "guide" => {
-                    let guides = self.whole_by_strand(header, frame, counts.len())?;
+                    let guides = self.whole_by_strand(header, frame, curves)?;
                     found.guide = guides.map(|g| g.into_iter().map(|g| g != 0).collect());
                 }
                 "group_name" => {
@@ -94,7 +92,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
     /// `N` numbers for each value; `None` for attributes of another shape, which are not those meant.
     fn numbers<const N: usize>(&mut self, header: &Header, frame: usize) -> Result<Option<Vec<[f32; N]>>, Problem> {
         let ((values, bytes), indices) = self.indexed(header, frame)?;
-        if matches!(values.kind.pod, crate::layout::Pod::Text | crate::layout::Pod::WideText) {
+        if matches!(values.kind.pod, Pod::Text | Pod::WideText) {
             return Ok(None);
         }
         let numbers = singles(values.kind, &bytes)?;
@@ -117,107 +115,30 @@ impl<R: Read + Seek> ArchiveReader<R> {
         &mut self,
         header: &Header,
         frame: usize,
-        counts: &[usize],
-        blends: &[Blend],
+        curves: &Curves<'_>,
+        walked: &Walked,
     ) -> Result<Option<Vec<[f32; N]>>, Problem> {
         let Some(values) = self.numbers::<N>(header, frame)? else { return Ok(None) };
-        let points: usize = counts.iter().sum();
-        let at_controls: Vec<[f32; N]> = match values.len() {
-            n if n == points => values,
-            1 => vec![values[0]; points],
-            n if n == counts.len() => {
-                counts.iter().zip(&values).flat_map(|(&count, &v)| std::iter::repeat_n(v, count)).collect()
-            }
-            0 => return Ok(None),
-            n => {
-                let name = &header.name;
-                return Err(Problem(format!(
-                    "attribute {name}: {n} values for {points} points of {} curves",
-                    counts.len()
-                )));
-            }
-        };
-        Ok(Some(if blends.is_empty() { at_controls } else { blends.iter().map(|b| b.values(&at_controls)).collect() }))
+        if values.is_empty() {
+            return Ok(None);
+        }
+        let found = curves.at_points(walked, &values);
+        found.map(Some).ok_or_else(|| {
+            let (n, points, curves) = (values.len(), curves.points.len(), curves.counts.len());
+            Problem(format!("attribute {}: {n} values for {points} points of {curves} curves", header.name))
+        })
     }
 
-    fn by_strand_uv(
+    fn whole_by_strand(
         &mut self,
         header: &Header,
         frame: usize,
-        counts: &[usize],
-    ) -> Result<Option<Vec<[f32; 2]>>, Problem> {
-        let Some(values) = self.numbers::<2>(header, frame)? else { return Ok(None) };
-        let points: usize = counts.iter().sum();
-        Ok(match values.len() {
-            n if n == counts.len() => Some(values),
-            // One for each point: the root's counts.
-            n if n == points => {
-                let starts = counts.iter().scan(0, |at, &count| {
-                    *at += count;
-                    Some(*at - count)
-                });
-                Some(starts.map(|s| values.get(s).copied().unwrap_or_default()).collect())
-            }
-            _ => None,
-        })
-    }
-
-    fn whole_by_strand(&mut self, header: &Header, frame: usize, strands: usize) -> Result<Option<Vec<i64>>, Problem> {
+        curves: &Curves<'_>,
+    ) -> Result<Option<Vec<i64>>, Problem> {
         let ((values, bytes), indices) = self.indexed(header, frame)?;
-        if indices.is_some() || values.kind.extent != 1 {
+        if indices.is_some() || values.kind.extent != 1 || matches!(values.kind.pod, Pod::Text | Pod::WideText) {
             return Ok(None);
         }
-        let numbers = match values.kind.pod {
-            crate::layout::Pod::Text | crate::layout::Pod::WideText => return Ok(None),
-            _ => integers(values.kind, &bytes)?,
-        };
-        Ok(match numbers.len() {
-            n if n == strands => Some(numbers),
-            1 => Some(vec![numbers[0]; strands]),
-            _ => None,
-        })
-    }
-}
-
-/// Hair from several objects.
-#[derive(Default)]
-pub(crate) struct Gathered {
-    all: Option<Hair>,
-}
-
-impl Gathered {
-    /// Appends a part; `group` names it where it has no groups of its own. An attribute stays only if all parts
-    /// have it.
-    pub(crate) fn append(&mut self, mut part: Hair, group: Option<(i32, String)>) {
-        if let (Some((number, name)), None) = (group, &part.attributes.group) {
-            part.attributes.group = Some(vec![number; part.strands.len()]);
-            part.attributes.group_names = BTreeMap::from([(number, name)]);
-        }
-        let Some(all) = &mut self.all else {
-            self.all = Some(part);
-            return;
-        };
-        append_strands(&mut all.strands, &part.strands);
-        fn join<T>(a: &mut Option<Vec<T>>, b: Option<Vec<T>>) {
-            match (a.as_mut(), b) {
-                (Some(a), Some(b)) => a.extend(b),
-                _ => *a = None,
-            }
-        }
-        let (a, b) = (&mut all.attributes, part.attributes);
-        join(&mut a.id, b.id);
-        join(&mut a.root_uv, b.root_uv);
-        join(&mut a.group, b.group);
-        join(&mut a.guide, b.guide);
-        join(&mut a.width, b.width);
-        join(&mut a.color, b.color);
-        join(&mut a.transparency, b.transparency);
-        join(&mut a.point_uv, b.point_uv);
-        join(&mut a.freedom, b.freedom);
-        a.group_names.extend(b.group_names);
-    }
-
-    pub(crate) fn hair(self) -> Hair {
-        self.all.unwrap_or_default()
+        Ok(curves.at_roots(&integers(values.kind, &bytes)?))
     }
 }

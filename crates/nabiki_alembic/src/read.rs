@@ -5,11 +5,10 @@ use std::io::{Read, Seek};
 use std::path::Path;
 
 use glam::{Affine3A, DMat4, DQuat, DVec3, Mat4, Vec3};
-use nabiki::curves::{Basis, Curves};
-use nabiki::{Hair, Mesh, Strands};
+use nabiki::curves::{Basis, Curves, Gathered};
+use nabiki::{Hair, Mesh};
 
 use crate::Problem;
-use crate::attributes::Gathered;
 use crate::tree::{Form, Header, Tree};
 use crate::values::{doubles, integers, singles};
 
@@ -129,7 +128,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
         };
         let curves = Curves { counts: &counts, points: &points, basis, pinned };
         let walked = curves.walk(segments).map_err(Problem)?;
-        let attributes = self.attributes(&inside, frame, &counts, &walked.blends)?;
+        let attributes = self.attributes(&inside, frame, &curves, &walked)?;
         let hair = Hair { strands: walked.strands, attributes };
         let world = self.world(object, time)?;
         Ok(if world == DMat4::IDENTITY { hair } else { hair.transformed(&Affine3A::from_mat4(to_single(world))) })
@@ -350,12 +349,5 @@ fn basis(bytes: &[u8]) -> Result<(Basis, bool), Problem> {
         (0, 3) => Ok((Basis::CatmullRom, false)),
         (0, b) => Err(Problem(format!("cubic curves of basis {b}: export them as linear, Bezier or B-spline curves"))),
         _ => Err(Problem::new("are NURBS of their own orders: export them as linear curves")),
-    }
-}
-
-/// Strands of a part, appended to those before.
-pub(crate) fn append_strands(all: &mut Strands, part: &Strands) {
-    for strand in part.iter() {
-        all.push(strand.iter().copied());
     }
 }

@@ -51,7 +51,7 @@ impl<'a> HairArchive<'a> {
     pub fn create(path: &Path, export: Export<'a>) -> io::Result<Self> {
         export.check()?;
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let file = NamedTempFile::new_in(folder)?;
+        let file = unnamed_in(folder)?;
         Ok(Self {
             export,
             path: path.to_owned(),
@@ -294,4 +294,13 @@ fn polygons(to: &mut Archive, table: &mut MetadataTable, mesh: &Mesh, export: &E
         inside.add(to, table, &property)?;
     }
     Object::with_schema(to, table, Schema::PolyMesh, inside)
+}
+
+/// A file in `folder` that goes away unless it is given a name, with the rights of any new file.
+fn unnamed_in(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    // A temporary file is its owner's alone unless told otherwise; the user's mask still takes away from this.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder)
 }

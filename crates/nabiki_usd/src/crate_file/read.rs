@@ -1,0 +1,494 @@
+//! Reading of binary layers, with nothing believed that the file's size contradicts.
+
+use std::collections::HashMap;
+use std::io::{Read, Seek, SeekFrom};
+
+use super::integers::{unpack, unpack_integers};
+use super::{END_OF_SET, HEADER, MAGIC, Rep, specs, types};
+use crate::Problem;
+use crate::source::{AttributeInfo, Handle, PrimInfo};
+
+/// Arrays shorter than this are not packed even where they say so.
+const SHORTEST_PACKED: usize = 16;
+/// Table entries for each byte of the file, which packing can do at most in any honest file.
+const SLACK: u64 = 4096;
+
+/// The values of a binary layer.
+pub struct CrateReader<R> {
+    from: R,
+    size: u64,
+    version: [u8; 3],
+    tokens: Vec<String>,
+    strings: Vec<u32>,
+}
+
+/// What a path names, before prims and attributes are told apart.
+struct Node {
+    /// Number by which specs know it.
+    path: usize,
+    parent: Option<usize>,
+    token: usize,
+    is_property: bool,
+}
+
+type Opened<R> = (CrateReader<R>, Vec<PrimInfo>, HashMap<String, Handle>);
+
+impl<R: Read + Seek> CrateReader<R> {
+    /// Reads the tables.
+    pub fn new(from: R, size: u64) -> Result<Opened<R>, Problem> {
+        let mut reader = Self { from, size, version: [0; 3], tokens: Vec::new(), strings: Vec::new() };
+        let header = reader.bytes(0, HEADER as u64)?;
+        if header[..8] != *MAGIC {
+            return Err(Problem::new("is no binary USD layer"));
+        }
+        reader.version = [header[8], header[9], header[10]];
+        if reader.version[0] != 0 || reader.version < [0, 4, 0] {
+            let [a, b, c] = reader.version;
+            return Err(Problem(format!("is a binary layer of version {a}.{b}.{c}; 0.4.0 to 0.13.x are read")));
+        }
+        let list = number(&header[16..24]);
+        let count = number(&reader.bytes(list, 8)?);
+        if count > 64 {
+            return Err(Problem(format!("claims {count} tables, of which USD has 6")));
+        }
+        let mut sections = HashMap::new();
+        for entry in reader.bytes(list + 8, 32 * count)?.chunks_exact(32) {
+            let name = String::from_utf8_lossy(&entry[..16]).trim_end_matches('\0').to_owned();
+            sections.insert(name, (number(&entry[16..24]), number(&entry[24..32])));
+        }
+        let mut section = |reader: &mut Self, name: &str| {
+            let (start, length) = sections.remove(name).ok_or_else(|| Problem(format!("has no table {name}")))?;
+            Ok::<_, Problem>(Table { bytes: reader.bytes(start, length)?, at: 0, most: size.max(SLACK) })
+        };
+
+        let mut table = section(&mut reader, "TOKENS")?;
+        reader.tokens = tokens(&mut table)?;
+        let mut table = section(&mut reader, "STRINGS")?;
+        let count = table.count()?;
+        reader.strings =
+            table.take(4 * count)?.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+        let mut table = section(&mut reader, "FIELDS")?;
+        let count = table.count()?;
+        let names = table.integers(count)?;
+        let reps = table.packed(8 * count)?;
+        let fields: Vec<(usize, u64)> =
+            names.iter().map(|&n| n as usize).zip(reps.chunks_exact(8).map(number)).collect();
+        let mut table = section(&mut reader, "FIELDSETS")?;
+        let count = table.count()?;
+        let sets = table.integers(count)?;
+        let mut table = section(&mut reader, "PATHS")?;
+        let nodes = paths(&mut table)?;
+        let mut table = section(&mut reader, "SPECS")?;
+        let count = table.count()?;
+        let (spec_paths, spec_sets, spec_kinds) =
+            (table.integers(count)?, table.integers(count)?, table.integers(count)?);
+
+        let mut of_path = HashMap::new();
+        for ((&path, &set), &kind) in spec_paths.iter().zip(&spec_sets).zip(&spec_kinds) {
+            of_path.insert(path as usize, (set as usize, kind as u32));
+        }
+        let set_fields = |set: usize| {
+            let numbers = sets.get(set..).unwrap_or_default();
+            numbers.iter().take_while(|&&f| f as u32 != END_OF_SET).filter_map(|&f| fields.get(f as usize)).copied()
+        };
+        let mut layer = (Vec::new(), HashMap::new());
+        let mut prim_of_node: HashMap<usize, usize> = HashMap::new();
+        // Fields are listed once a spec, and sets may share them: more in all than this is a file that repeats itself.
+        let mut budget = 16 * (fields.len() + nodes.len()) + 1024;
+        for (i, node) in nodes.iter().enumerate() {
+            let Some(&(set, kind)) = of_path.get(&node.path) else { continue };
+            let named: Vec<(&str, u64)> = set_fields(set)
+                .take(budget)
+                .map(|(name, rep)| (reader.tokens.get(name).map_or("", String::as_str), rep))
+                .collect();
+            budget = budget
+                .checked_sub(named.len() + 1)
+                .ok_or_else(|| Problem::new("names its fields over and over: it must be damaged"))?;
+            let field = |wanted: &str| named.iter().find(|(name, _)| *name == wanted).map(|&(_, rep)| rep);
+            let word = |rep: Option<u64>| rep.map(|r| reader.token(Rep(r).payload())).unwrap_or_default();
+            let name = reader.tokens.get(node.token).cloned().unwrap_or_default();
+            match kind {
+                specs::LAYER => {
+                    layer.1.extend(named.iter().map(|&(name, rep)| (name.to_owned(), (rep, 0))));
+                }
+                specs::PRIM if !node.is_property => {
+                    let parent = node.parent.and_then(|p| prim_of_node.get(&p).copied());
+                    let type_name = word(field("typeName"));
+                    prim_of_node.insert(i, layer.0.len());
+                    layer.0.push(PrimInfo { name, type_name, parent, attributes: HashMap::new() });
+                }
+                specs::ATTRIBUTE => {
+                    let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&p)) else { continue };
+                    let default = field("default").map(|rep| (rep, 0));
+                    let samples = field("timeSamples");
+                    let samples = samples.map(|rep| reader.samples(Rep(rep))).transpose()?.unwrap_or_default();
+                    let prim: &mut PrimInfo = &mut layer.0[prim];
+                    prim.attributes.insert(name, AttributeInfo { default, samples });
+                }
+                _ => {}
+            }
+        }
+        Ok((reader, layer.0, layer.1))
+    }
+
+    /// Time codes and values of an attribute.
+    fn samples(&mut self, rep: Rep) -> Result<Vec<(f64, Handle)>, Problem> {
+        if rep.kind() != types::TIME_SAMPLES || rep.is_inlined() {
+            return Err(Problem::new("has time samples of an unknown form"));
+        }
+        let beyond = || Problem::new("has time samples past its end");
+        // Two parts, each named by its distance from the number that names it.
+        let first = rep.payload();
+        let times_at = first.checked_add(number(&self.bytes(first, 8)?)).ok_or_else(beyond)?;
+        let times = Rep(number(&self.bytes(times_at, 8)?));
+        let second = times_at + 8;
+        let values_at = second.checked_add(number(&self.bytes(second, 8)?)).ok_or_else(beyond)?;
+        let count = number(&self.bytes(values_at, 8)?);
+        let values = self.bytes(values_at + 8, count.checked_mul(8).ok_or_else(beyond)?)?;
+        let times = self.numbers(times.0)?;
+        if times.len() as u64 != count {
+            return Err(Problem(format!("has {} times for {count} samples", times.len())));
+        }
+        let mut found: Vec<(f64, Handle)> =
+            times.into_iter().zip(values.chunks_exact(8).map(|b| (number(b), 0))).collect();
+        if found.iter().any(|(t, _)| !t.is_finite()) {
+            return Err(Problem::new("has a time code that is not finite"));
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(found)
+    }
+
+    /// All numbers of a value in a row; nothing for values that are not numbers.
+    pub fn numbers(&mut self, rep: u64) -> Result<Vec<f64>, Problem> {
+        let rep = Rep(rep);
+        let Some((scalar, extent)) = shape(rep.kind()) else { return Ok(Vec::new()) };
+        if rep.is_inlined() {
+            return Ok(inlined(rep, scalar, extent));
+        }
+        if !rep.is_array() && rep.kind() != types::DOUBLE_VECTOR {
+            let bytes = self.bytes(rep.payload(), (scalar.size() * extent) as u64)?;
+            return Ok(scalar.numbers(&bytes));
+        }
+        if rep.payload() == 0 {
+            return Ok(Vec::new());
+        }
+        let (count, place) = self.array_count(rep)?;
+        if rep.is_compressed() && count >= SHORTEST_PACKED {
+            return self.packed_numbers(scalar, count * extent, place);
+        }
+        let bytes = self.bytes(place, (count as u64).saturating_mul((scalar.size() * extent) as u64))?;
+        Ok(scalar.numbers(&bytes))
+    }
+
+    /// As [`numbers`](Self::numbers) in single precision; arrays of singles are only copied.
+    pub fn singles(&mut self, rep: u64) -> Result<Vec<f32>, Problem> {
+        let found = Rep(rep);
+        let plain = found.is_array() && !found.is_inlined() && !found.is_compressed() && found.payload() != 0;
+        if let (true, Some((Scalar::F32, extent))) = (plain, shape(found.kind())) {
+            let (count, place) = self.array_count(found)?;
+            let bytes = self.bytes(place, (count as u64).saturating_mul(4 * extent as u64))?;
+            return Ok(bytes.as_chunks::<4>().0.iter().map(|&b| f32::from_le_bytes(b)).collect());
+        }
+        Ok(self.numbers(rep)?.into_iter().map(|x| x as f32).collect())
+    }
+
+    /// As [`numbers`](Self::numbers) in whole numbers; 64-bit ones stay exact where they are not packed.
+    pub fn integers(&mut self, rep: u64) -> Result<Vec<i64>, Problem> {
+        let found = Rep(rep);
+        let plain = found.is_array() && !found.is_inlined() && !found.is_compressed() && found.payload() != 0;
+        if plain && found.kind() == types::INT64 {
+            let (count, place) = self.array_count(found)?;
+            let bytes = self.bytes(place, (count as u64).saturating_mul(8))?;
+            return Ok(bytes.as_chunks::<8>().0.iter().map(|&b| i64::from_le_bytes(b)).collect());
+        }
+        Ok(self.numbers(rep)?.into_iter().map(|x| x as i64).collect())
+    }
+
+    /// All words of a value; nothing for values that are not words.
+    pub fn words(&mut self, rep: u64) -> Result<Vec<String>, Problem> {
+        let rep = Rep(rep);
+        let word = |reader: &Self, index: u64| match rep.kind() {
+            types::STRING => {
+                let token = reader.strings.get(index as usize).map_or(u64::MAX, |&t| u64::from(t));
+                reader.token(token)
+            }
+            _ => reader.token(index),
+        };
+        if !matches!(rep.kind(), types::STRING | types::TOKEN | types::TOKEN_VECTOR) {
+            return Ok(Vec::new());
+        }
+        if rep.is_inlined() {
+            return Ok(vec![word(self, rep.payload())]);
+        }
+        if rep.payload() == 0 {
+            return Ok(Vec::new());
+        }
+        let (count, place) = self.array_count(rep)?;
+        let bytes = self.bytes(place, 4 * count as u64)?;
+        let indices = bytes.as_chunks::<4>().0;
+        let mut budget = 64 * self.size as usize + 4096;
+        let mut words = Vec::with_capacity(indices.len());
+        for &index in indices {
+            let word = word(self, u64::from(u32::from_le_bytes(index)));
+            budget = budget
+                .checked_sub(word.len())
+                .ok_or_else(|| Problem::new("repeats long words more often than any honest file"))?;
+            words.push(word);
+        }
+        Ok(words)
+    }
+
+    /// Number of elements of an array, and where they begin.
+    fn array_count(&mut self, rep: Rep) -> Result<(usize, u64), Problem> {
+        let place = rep.payload();
+        let wide = self.version >= [0, 7, 0] || !rep.is_array();
+        let (count, start) = if wide {
+            (number(&self.bytes(place, 8)?), place + 8)
+        } else {
+            // Before 0.5.0 a number of dimensions, always 1, came first.
+            let skip = if self.version < [0, 5, 0] { 4 } else { 0 };
+            let bytes = self.bytes(place + skip, 4)?;
+            (u64::from(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])), place + skip + 4)
+        };
+        if count > self.size.max(SLACK) {
+            return Err(Problem(format!("claims {count} elements at byte {place}, more than it can hold")));
+        }
+        Ok((count as usize, start))
+    }
+
+    fn packed_numbers(&mut self, scalar: Scalar, count: usize, place: u64) -> Result<Vec<f64>, Problem> {
+        match scalar {
+            Scalar::I32 | Scalar::U32 => {
+                let found = unpack_integers::<4>(&self.sized(place)?, count).map_err(Problem)?;
+                let unsigned = scalar == Scalar::U32;
+                Ok(found.into_iter().map(|x| if unsigned { f64::from(x as u32) } else { x as f64 }).collect())
+            }
+            Scalar::I64 | Scalar::U64 => {
+                let found = unpack_integers::<8>(&self.sized(place)?, count).map_err(Problem)?;
+                Ok(found.into_iter().map(|x| x as f64).collect())
+            }
+            Scalar::F16 | Scalar::F32 | Scalar::F64 => match self.bytes(place, 1)?[0] {
+                b'i' => {
+                    let found = unpack_integers::<4>(&self.sized(place + 1)?, count).map_err(Problem)?;
+                    Ok(found.into_iter().map(|x| x as f64).collect())
+                }
+                b't' => {
+                    let bytes = self.bytes(place + 1, 4)?;
+                    let length = u64::from(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
+                    let length = length * scalar.size() as u64;
+                    let values = scalar.numbers(&self.bytes(place + 5, length)?);
+                    let indices = unpack_integers::<4>(&self.sized(place + 5 + length)?, count).map_err(Problem)?;
+                    let pick = |i: i64| usize::try_from(i).ok().and_then(|i| values.get(i)).copied();
+                    let found: Option<Vec<f64>> = indices.into_iter().map(pick).collect();
+                    found.ok_or_else(|| Problem::new("has a packed array that names values it does not have"))
+                }
+                code => Err(Problem(format!("has an array packed in an unknown way ({code})"))),
+            },
+            Scalar::U8 => Err(Problem::new("has packed bytes, which no version writes")),
+        }
+    }
+
+    /// Bytes with their number before them.
+    fn sized(&mut self, place: u64) -> Result<Vec<u8>, Problem> {
+        let length = number(&self.bytes(place, 8)?);
+        self.bytes(place + 8, length)
+    }
+
+    fn bytes(&mut self, place: u64, length: u64) -> Result<Vec<u8>, Problem> {
+        if place.checked_add(length).is_none_or(|end| end > self.size) {
+            return Err(Problem(format!("names {length} bytes at byte {place}, past its end ({})", self.size)));
+        }
+        self.from.seek(SeekFrom::Start(place))?;
+        let mut bytes = vec![0; length as usize];
+        self.from.read_exact(&mut bytes)?;
+        Ok(bytes)
+    }
+
+    fn token(&self, index: u64) -> String {
+        self.tokens.get(index as usize).cloned().unwrap_or_default()
+    }
+}
+
+/// A table's bytes.
+struct Table {
+    bytes: Vec<u8>,
+    at: usize,
+    /// Entries beyond which a count is a lie.
+    most: u64,
+}
+
+impl Table {
+    fn take(&mut self, length: usize) -> Result<&[u8], Problem> {
+        let end = self.at.checked_add(length).filter(|&end| end <= self.bytes.len());
+        let end = end.ok_or_else(|| Problem::new("has a table that ends too early"))?;
+        let taken = &self.bytes[self.at..end];
+        self.at = end;
+        Ok(taken)
+    }
+
+    fn number(&mut self) -> Result<u64, Problem> {
+        Ok(number(self.take(8)?))
+    }
+
+    fn count(&mut self) -> Result<usize, Problem> {
+        let count = self.number()?;
+        if count > self.most {
+            return Err(Problem(format!("has a table of {count} entries, more than it can hold")));
+        }
+        Ok(count as usize)
+    }
+
+    fn integers(&mut self, count: usize) -> Result<Vec<i64>, Problem> {
+        let length = self.number()?;
+        unpack_integers::<4>(self.take(usize::try_from(length).unwrap_or(usize::MAX))?, count).map_err(Problem)
+    }
+
+    fn packed(&mut self, size: usize) -> Result<Vec<u8>, Problem> {
+        let length = self.number()?;
+        unpack(self.take(usize::try_from(length).unwrap_or(usize::MAX))?, size).map_err(Problem)
+    }
+}
+
+fn tokens(table: &mut Table) -> Result<Vec<String>, Problem> {
+    let count = table.count()?;
+    let size = table.number()?;
+    if size > 64 * table.most {
+        return Err(Problem(format!("has words of {size} bytes, more than it can hold")));
+    }
+    let words = table.packed(size as usize)?;
+    let tokens: Vec<String> =
+        words.split(|&b| b == 0).take(count).map(|w| String::from_utf8_lossy(w).into_owned()).collect();
+    if tokens.len() < count {
+        return Err(Problem(format!("has {} words where it claims {count}", tokens.len())));
+    }
+    Ok(tokens)
+}
+
+/// The paths, parents before what hangs below them.
+fn paths(table: &mut Table) -> Result<Vec<Node>, Problem> {
+    let damaged = || Problem::new("has a table of paths that contradicts itself");
+    table.count()?;
+    let count = table.count()?;
+    let (indices, tokens, jumps) = (table.integers(count)?, table.integers(count)?, table.integers(count)?);
+    let mut nodes: Vec<Node> = Vec::new();
+    // Entries to visit, each with the node above it.
+    let mut todo = if count == 0 { Vec::new() } else { vec![(0, None)] };
+    while let Some((entry, parent)) = todo.pop() {
+        if nodes.len() == count || entry >= count {
+            return Err(damaged());
+        }
+        let (token, jump) = (tokens[entry], jumps[entry]);
+        let is_property = token < 0;
+        let token = token.unsigned_abs() as usize;
+        nodes.push(Node { path: indices[entry] as usize, parent, token, is_property });
+        if jump >= 0 {
+            let sibling = if jump == 0 { entry + 1 } else { entry + jump as usize };
+            todo.push((sibling, parent));
+        }
+        if jump > 0 || jump == -1 {
+            todo.push((entry + 1, Some(nodes.len() - 1)));
+        }
+    }
+    Ok(nodes)
+}
+
+/// Kinds of numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Scalar {
+    U8,
+    I32,
+    U32,
+    I64,
+    U64,
+    F16,
+    F32,
+    F64,
+}
+
+impl Scalar {
+    fn size(self) -> usize {
+        match self {
+            Self::U8 => 1,
+            Self::F16 => 2,
+            Self::I32 | Self::U32 | Self::F32 => 4,
+            Self::I64 | Self::U64 | Self::F64 => 8,
+        }
+    }
+
+    fn numbers(self, bytes: &[u8]) -> Vec<f64> {
+        fn each<const N: usize>(bytes: &[u8], number: impl Fn([u8; N]) -> f64) -> Vec<f64> {
+            bytes.as_chunks::<N>().0.iter().map(|&b| number(b)).collect()
+        }
+        match self {
+            Self::U8 => bytes.iter().map(|&b| f64::from(b)).collect(),
+            Self::I32 => each(bytes, |b| f64::from(i32::from_le_bytes(b))),
+            Self::U32 => each(bytes, |b| f64::from(u32::from_le_bytes(b))),
+            Self::I64 => each(bytes, |b| i64::from_le_bytes(b) as f64),
+            Self::U64 => each(bytes, |b| u64::from_le_bytes(b) as f64),
+            Self::F16 => each(bytes, |b| half(u16::from_le_bytes(b))),
+            Self::F32 => each(bytes, |b| f64::from(f32::from_le_bytes(b))),
+            Self::F64 => each(bytes, f64::from_le_bytes),
+        }
+    }
+}
+
+/// Kind of number and how many make a value of a type; `None` for types that are not numbers.
+fn shape(kind: u8) -> Option<(Scalar, usize)> {
+    use Scalar::{F16, F32, F64, I32, I64, U8, U32, U64};
+    Some(match kind {
+        types::BOOL | types::UCHAR => (U8, 1),
+        types::INT => (I32, 1),
+        types::UINT => (U32, 1),
+        types::INT64 => (I64, 1),
+        types::UINT64 => (U64, 1),
+        types::HALF => (F16, 1),
+        types::FLOAT => (F32, 1),
+        types::DOUBLE | types::DOUBLE_VECTOR => (F64, 1),
+        types::MATRIX4D => (F64, 16),
+        types::QUATD | types::VEC4D => (F64, 4),
+        types::QUATF | types::VEC4F => (F32, 4),
+        types::QUATH | types::VEC4H => (F16, 4),
+        types::VEC2D => (F64, 2),
+        types::VEC2F => (F32, 2),
+        types::VEC2H => (F16, 2),
+        types::VEC3D => (F64, 3),
+        types::VEC3F => (F32, 3),
+        types::VEC3H => (F16, 3),
+        _ => return None,
+    })
+}
+
+/// A value that is its own payload: up to four bytes of it, or one byte for each component.
+fn inlined(rep: Rep, scalar: Scalar, extent: usize) -> Vec<f64> {
+    let bits = rep.payload() as u32;
+    let component = |i: usize| f64::from(bits.to_le_bytes()[i] as i8);
+    if rep.kind() == types::MATRIX4D {
+        return (0..16).map(|i| if i % 5 == 0 { component(i / 5) } else { 0.0 }).collect();
+    }
+    if extent > 1 {
+        return (0..extent).map(component).collect();
+    }
+    vec![match scalar {
+        Scalar::U8 => f64::from(bits as u8),
+        Scalar::I32 | Scalar::I64 => f64::from(bits as i32),
+        Scalar::U32 | Scalar::U64 => f64::from(bits),
+        Scalar::F16 => half(bits as u16),
+        Scalar::F32 | Scalar::F64 => f64::from(f32::from_bits(bits)),
+    }]
+}
+
+/// IEEE half precision.
+fn half(bits: u16) -> f64 {
+    let (sign, exponent, fraction) = (bits >> 15, bits >> 10 & 0x1f, f64::from(bits & 0x3ff));
+    let size = match exponent {
+        0 => fraction * 2f64.powi(-24),
+        31 if fraction == 0.0 => f64::INFINITY,
+        31 => f64::NAN,
+        e => (1024.0 + fraction) * 2f64.powi(i32::from(e) - 25),
+    };
+    if sign == 1 { -size } else { size }
+}
+
+fn number(bytes: &[u8]) -> u64 {
+    u64::from_le_bytes(bytes[..8].try_into().expect("eight bytes"))
+}

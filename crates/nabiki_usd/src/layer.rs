@@ -1,0 +1,95 @@
+//! What a layer says, apart from how it is written: prims, their attributes, and values.
+
+/// A value of an attribute or of the layer.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// `token`
+    Token(String),
+    /// `token[]`
+    Tokens(Vec<String>),
+    /// `string[]`
+    Texts(Vec<String>),
+    /// `double`
+    Double(f64),
+    /// `int[]`
+    Ints(Vec<i32>),
+    /// `int64[]`
+    Longs(Vec<i64>),
+    /// `float[]`
+    Floats(Vec<f32>),
+    /// `float2[]`, `texCoord2f[]`
+    Pairs(Vec<[f32; 2]>),
+    /// `float3[]`, `point3f[]`, `color3f[]`
+    Triples(Vec<[f32; 3]>),
+    /// `matrix4d`, row by row as USD multiplies rows from the left
+    Matrix([f64; 16]),
+}
+
+/// A property of a prim.
+#[derive(Clone, Debug)]
+pub struct Attribute<S> {
+    /// Name with its namespace: `primvars:st`.
+    pub name: &'static str,
+    /// Type as text has it: `texCoord2f[]`.
+    pub type_name: &'static str,
+    /// Whether it can never vary over time.
+    pub uniform: bool,
+    /// Value without a time.
+    pub value: Option<Value>,
+    /// Values at the layer's time codes, in the writer's own form.
+    pub samples: Vec<S>,
+    /// How many values there are: constant, uniform (by curve) or vertex (by point).
+    pub interpolation: Option<&'static str>,
+}
+
+impl<S> Attribute<S> {
+    /// An attribute with one value.
+    pub fn new(name: &'static str, type_name: &'static str, value: Value) -> Self {
+        Self { name, type_name, uniform: false, value: Some(value), samples: Vec::new(), interpolation: None }
+    }
+
+    /// The same, never varying.
+    pub fn uniform(name: &'static str, type_name: &'static str, value: Value) -> Self {
+        Self { uniform: true, ..Self::new(name, type_name, value) }
+    }
+
+    /// The same with an interpolation.
+    pub fn primvar(name: &'static str, type_name: &'static str, interpolation: &'static str, value: Value) -> Self {
+        Self { interpolation: Some(interpolation), ..Self::new(name, type_name, value) }
+    }
+
+    /// An attribute with samples only.
+    pub fn sampled(name: &'static str, type_name: &'static str, samples: Vec<S>) -> Self {
+        Self { name, type_name, uniform: false, value: None, samples, interpolation: None }
+    }
+}
+
+/// A prim.
+#[derive(Clone, Debug)]
+pub struct Prim<S> {
+    /// Name.
+    pub name: String,
+    /// Type, `BasisCurves`; empty for an `over`, which adds to a prim of another layer.
+    pub type_name: &'static str,
+    /// Attributes.
+    pub attributes: Vec<Attribute<S>>,
+    /// Prims below it.
+    pub children: Vec<Prim<S>>,
+}
+
+/// What a layer says about itself.
+#[derive(Clone, Debug)]
+pub struct Metadata {
+    /// First prim, which a reference to the layer means.
+    pub default_prim: String,
+    /// Whether z rather than y is up.
+    pub z_up: bool,
+    /// Length of the unit (m).
+    pub meters_per_unit: f64,
+    /// Time code of the first frame; one code is one frame.
+    pub start: f64,
+    /// Time code of the last.
+    pub end: f64,
+    /// Frames a second.
+    pub frame_rate: f64,
+}

@@ -1,0 +1,39 @@
+//! Hair in and out of USD layers.
+//!
+//! Text and binary layers are written and read by this crate itself. The one Rust crate that does both, `openusd`,
+//! takes 200 s to build on two cores and keeps a layer in memory, where a hundred frames of hair are half a gigabyte;
+//! what is needed of the format is small. Layers are not composed: references, payloads, sublayers and variants must
+//! be flattened first (`usdcat --flatten`).
+
+#![forbid(unsafe_code)]
+
+mod content;
+mod crate_file;
+mod layer;
+mod read;
+mod source;
+mod text;
+mod text_read;
+mod transform;
+mod write;
+
+pub use read::{Contents, StageReader};
+pub use source::Source;
+pub use write::{Form, HairStage};
+
+/// What is wrong with a layer, in one line without the file's name.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct Problem(String);
+
+impl Problem {
+    fn new(text: &str) -> Self {
+        Self(text.to_owned())
+    }
+}
+
+impl From<std::io::Error> for Problem {
+    fn from(error: std::io::Error) -> Self {
+        Self(error.to_string())
+    }
+}

@@ -1,0 +1,82 @@
+//! Transforms of prims, from the operations that each lists.
+
+use glam::{DMat4, DQuat, DVec3};
+
+use crate::Problem;
+use crate::source::Layer;
+
+/// The product of all transforms from the top down to `prim` at a time code.
+pub fn world(layer: &mut Layer, prim: usize, time: f64) -> Result<DMat4, Problem> {
+    let mut world = DMat4::IDENTITY;
+    let mut above = Some(prim);
+    while let Some(i) = above {
+        let (local, resets) = local(layer, i, time)?;
+        world = local * world;
+        if resets {
+            break;
+        }
+        above = layer.prims[i].parent;
+    }
+    Ok(world)
+}
+
+/// A prim's own transform, and whether those above it do not count.
+fn local(layer: &mut Layer, prim: usize, time: f64) -> Result<(DMat4, bool), Problem> {
+    let mut local = DMat4::IDENTITY;
+    let mut resets = false;
+    let Some(order) = layer.at(prim, "xformOpOrder", time) else { return Ok((local, resets)) };
+    for word in layer.words(order)? {
+        if word == "!resetXformStack!" {
+            (local, resets) = (DMat4::IDENTITY, true);
+            continue;
+        }
+        let (inverted, name) = match word.strip_prefix("!invert!") {
+            Some(name) => (true, name),
+            None => (false, word.as_str()),
+        };
+        let path = || layer.path(prim);
+        let value = layer.at(prim, name, time).ok_or_else(|| Problem(format!("prim {}: has no {name}", path())))?;
+        let numbers = layer.numbers(value)?;
+        let kind = name.strip_prefix("xformOp:").unwrap_or(name).split(':').next().unwrap_or_default();
+        let operation = operation(kind, &numbers, layer.real_first());
+        let operation =
+            operation.ok_or_else(|| Problem(format!("prim {}: {name} is no transform", layer.path(prim))))?;
+        local *= if inverted { operation.inverse() } else { operation };
+    }
+    Ok((local, resets))
+}
+
+/// One operation as a matrix that multiplies columns.
+fn operation(kind: &str, v: &[f64], real_first: bool) -> Option<DMat4> {
+    let triple = || v.get(..3).map(DVec3::from_slice);
+    let turn = |axes: &str| {
+        let angles = triple()?;
+        // Rows multiplied from the left turn about the first letter first; in columns that one stands last.
+        Some(axes.chars().fold(DMat4::IDENTITY, |product, axis| match axis {
+            'X' => DMat4::from_rotation_x(angles.x.to_radians()) * product,
+            'Y' => DMat4::from_rotation_y(angles.y.to_radians()) * product,
+            _ => DMat4::from_rotation_z(angles.z.to_radians()) * product,
+        }))
+    };
+    Some(match kind {
+        "translate" => DMat4::from_translation(triple()?),
+        "translateX" => DMat4::from_translation(DVec3::X * v.first()?),
+        "translateY" => DMat4::from_translation(DVec3::Y * v.first()?),
+        "translateZ" => DMat4::from_translation(DVec3::Z * v.first()?),
+        "scale" => DMat4::from_scale(triple()?),
+        "scaleX" => DMat4::from_scale(DVec3::new(*v.first()?, 1.0, 1.0)),
+        "scaleY" => DMat4::from_scale(DVec3::new(1.0, *v.first()?, 1.0)),
+        "scaleZ" => DMat4::from_scale(DVec3::new(1.0, 1.0, *v.first()?)),
+        "rotateX" => DMat4::from_rotation_x(v.first()?.to_radians()),
+        "rotateY" => DMat4::from_rotation_y(v.first()?.to_radians()),
+        "rotateZ" => DMat4::from_rotation_z(v.first()?.to_radians()),
+        "rotateXYZ" | "rotateXZY" | "rotateYXZ" | "rotateYZX" | "rotateZXY" | "rotateZYX" => turn(&kind[6..])?,
+        "orient" => {
+            let &[a, b, c, d] = v else { return None };
+            let quaternion = if real_first { DQuat::from_xyzw(b, c, d, a) } else { DQuat::from_xyzw(a, b, c, d) };
+            DMat4::from_quat(if quaternion.length() > 0.0 { quaternion.normalize() } else { DQuat::IDENTITY })
+        }
+        "transform" => DMat4::from_cols_array(v.try_into().ok()?),
+        _ => return None,
+    })
+}
