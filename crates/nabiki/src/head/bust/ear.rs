@@ -6,7 +6,7 @@ use super::shapes::{carve, ellipsoid, join};
 
 /// Joins the ear to the head.
 pub(super) fn add(p: Vec3, skin: f32) -> f32 {
-    let center = Vec3::new(-1.6, -1.6, 7.35);
+    let center = Vec3::new(-1.6, -1.6, 7.3);
     if p.distance_squared(center) > 36.0 {
         return skin;
     }

@@ -11,8 +11,8 @@ pub(super) fn add(p: Vec3, skin: f32) -> f32 {
     }
     let column = capsule(p, Vec3::new(-1.4, -7.0, 0.0), Vec3::new(-4.2, -23.0, 0.0), 4.4, 4.9);
     // From behind the ear to the pit of the neck.
-    let muscle = capsule(p, Vec3::new(-2.6, -6.5, 4.5), Vec3::new(-0.3, -20.6, 1.5), 1.0, 0.7);
-    let nape = capsule(p, Vec3::new(-4.2, -6.0, 1.0), Vec3::new(-6.6, -18.0, 1.0), 2.4, 2.5);
+    let muscle = capsule(p, Vec3::new(-2.4, -6.5, 4.4), Vec3::new(-0.2, -20.6, 1.6), 1.0, 0.8);
+    let nape = capsule(p, Vec3::new(-3.7, -6.0, 1.0), Vec3::new(-6.6, -18.5, 1.0), 2.3, 2.4);
     let mut skin = join(skin, column, 2.4);
     skin = join(skin, nape, 3.2);
     skin = join(skin, muscle, 1.6);
