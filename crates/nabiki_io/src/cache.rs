@@ -99,7 +99,9 @@ impl Writer {
         if points.len() != self.points {
             return refuse(format!("frame {frame}: {} points, the cache is of {}", points.len(), self.points));
         }
-        if let Some(p) = points.iter().position(|p| !p.is_finite()) {
+        if !finite::all_finite(bytemuck::cast_slice(points))
+            && let Some(p) = points.iter().position(|p| !p.is_finite())
+        {
             return refuse(format!("frame {frame}: point {p} is {}: refused, the file would be useless", points[p]));
         }
         if !(head.position_cm.is_finite() && head.rotation.is_finite()) {

@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 
 /// Points, named by strand and point, both counted from 0.
 pub(crate) fn points(strands: &Strands) -> Result<()> {
-    if strands.points().iter().all(|p| p.is_finite()) {
+    if all_finite(bytemuck::cast_slice(strands.points())) {
         return Ok(());
     }
     let all = strands.iter().enumerate();
@@ -18,6 +18,12 @@ pub(crate) fn points(strands: &Strands) -> Result<()> {
         ))),
         None => Ok(()),
     }
+}
+
+/// Whether no number is NaN or infinite: no exponent is all ones. A greatest value without a branch, so that it keeps
+/// up with the memory.
+pub(crate) fn all_finite(values: &[f32]) -> bool {
+    values.iter().fold(0, |greatest, v| (v.to_bits() & 0x7FFF_FFFF).max(greatest)) < 0x7F80_0000
 }
 
 /// Numbers by strand or point.

@@ -1,0 +1,13 @@
+//! Every frame of whatever opens as a motion cache.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use nabiki_io::cache::Reader;
+
+fuzz_target!(|bytes: &[u8]| {
+    if let Ok(mut cache) = Reader::from_bytes(bytes) {
+        for frame in 0..cache.frame_count() {
+            let _ = cache.hair(frame);
+        }
+    }
+});
