@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::disturbance::Disturbance;
 use crate::ellipsoid::Ellipsoid;
-use crate::error::{SettingError, check_positive};
+use crate::error::{SettingError, check_positive, check_range};
 use crate::field::Field;
 use crate::pseudo_force::{Gamma, PseudoForce};
 use crate::strands::Strands;
@@ -38,6 +38,11 @@ pub struct Motion {
     /// Hair shorter than this (cm) has the inertia of hair this long: it is held by its longer neighbours.
     /// 0, the paper's way, gives every strand the inertia of its own length, and short hair very fast swings.
     pub friction_length: f32,
+    /// Segments that hang within this of the vertical at rest are made to hang exactly so (degrees, 0..45), and are
+    /// then free to swing in the plane of any force (section 4.2). A segment nearly vertical is not: it keeps the
+    /// plane of its small lean, and hair that leans this way and that is blown apart. 0, the paper's way, leaves
+    /// the hair as it is.
+    pub straighten: f32,
     /// Space of the forces; it matters where the head turns.
     pub force_space: ForceSpace,
 }
@@ -60,6 +65,7 @@ impl Default for Motion {
             time_step: 0.1,
             linear_density: 0.05,
             friction_length: 0.0,
+            straighten: 0.0,
             force_space: ForceSpace::default(),
         }
     }
@@ -77,7 +83,11 @@ impl Motion {
             let remedy = "must be a finite length of at least 0 cm";
             return Err(SettingError::new("motion.friction_length", self.friction_length, remedy));
         }
-        Ok(())
+        check_range("motion.straighten", self.straighten, 0.0, 45.0)
+    }
+
+    fn straighten_rad(&self) -> f64 {
+        f64::from(self.straighten).to_radians()
     }
 }
 

@@ -77,7 +77,7 @@ impl Reference {
         let mut segments = Vec::with_capacity(strands.segment_count());
         for (s, strand) in strands.iter().enumerate() {
             for (shape, w) in segment_shapes(dynamics, strand, s)?.into_iter().zip(strand.windows(2)) {
-                let (theta, phi) = from_direction(w[1].as_dvec3() - w[0].as_dvec3());
+                let (theta, phi) = from_direction(w[1].as_dvec3() - w[0].as_dvec3(), dynamics.motion.straighten_rad());
                 segments.push(Segment { shape, theta, phi, theta_increment: 0.0, phi_increment: 0.0 });
             }
         }

@@ -104,7 +104,8 @@ impl Simulation {
         self.states.resize(start + block.segments as usize, SegmentState::default());
         for (lane, s) in range.enumerate() {
             for (i, w) in self.strands.strand(s).windows(2).enumerate() {
-                let (theta, phi) = from_direction(w[1].as_dvec3() - w[0].as_dvec3());
+                let direction = w[1].as_dvec3() - w[0].as_dvec3();
+                let (theta, phi) = from_direction(direction, self.dynamics.motion.straighten_rad());
                 let state = &mut self.states[start + i];
                 (state.theta.0[lane], state.phi.0[lane]) = (theta as f32, phi as f32);
             }
