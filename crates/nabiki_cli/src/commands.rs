@@ -2,6 +2,7 @@
 
 pub mod convert;
 pub mod groom;
+pub mod info;
 
 pub mod preview;
 pub mod render;

@@ -1,9 +1,7 @@
 //! What a command may fail with: one line for the user.
 
 use std::fmt;
-use std::path::Path;
 
-use nabiki::SettingError;
 use nabiki_io::Error;
 use nabiki_render::RenderError;
 
@@ -15,11 +13,6 @@ impl Failure {
     pub fn new(line: impl Into<String>) -> Self {
         Self(line.into())
     }
-}
-
-/// Names the scene that a refused setting came from.
-pub fn in_scene(scene: &Path) -> impl Fn(SettingError) -> Failure + '_ {
-    move |error| Failure(format!("{}: {error}", scene.display()))
 }
 
 impl fmt::Display for Failure {

@@ -40,6 +40,6 @@ fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Simulate(args) => commands::simulate::simulate(args, cli.quiet),
         Command::Render(args) => commands::render::render(args, cli.quiet),
         Command::Convert(args) => commands::convert::convert(args, cli.quiet),
-        Command::Info(_) => Err(Failure::new("not yet")),
+        Command::Info(args) => commands::info::info(args),
     }
 }
