@@ -1,5 +1,10 @@
 //! Laws of the hairstyle as a whole, for every style that is shipped.
 
+use std::sync::LazyLock;
+
+use glam::{DVec3, Vec3};
+use nabiki::groom::cantilever::{Beam, Hold, Workspace};
+use nabiki::groom::style::{Cut, Length, Lift, Region};
 use nabiki::groom::{Style, groom};
 use nabiki::pores::{Hairline, Pore, spread};
 use nabiki::{Head, Strands};
@@ -29,41 +34,56 @@ const SCENES: [(&str, &str); 3] = [
 struct Styled {
     name: &'static str,
     hair: Hair,
-    head: Head,
     pores: Vec<Pore>,
     strands: Strands,
 }
 
+static HEAD: LazyLock<Head> = LazyLock::new(Head::builtin);
+
+static STYLES: LazyLock<Vec<Styled>> = LazyLock::new(|| {
+    let styled = |(name, text)| {
+        let hair = toml::from_str::<Scene>(text).unwrap_or_else(|e| panic!("{name}: {e}")).hair;
+        let pores = spread(&HEAD, &hair.hairline, 1500, 5).unwrap();
+        let strands = groom(&HEAD, &pores, &hair.style, hair.segments, hair.segment_length, 5).unwrap();
+        Styled { name, hair, pores, strands }
+    };
+    SCENES.into_iter().map(styled).collect()
+});
+
 impl Styled {
     fn groom(&self, pores: &[Pore], seed: u64) -> Strands {
-        groom(&self.head, pores, &self.hair.style, self.hair.segments, self.hair.segment_length, seed).unwrap()
+        groom(&HEAD, pores, &self.hair.style, self.hair.segments, self.hair.segment_length, seed).unwrap()
     }
 }
 
-fn each_style() -> impl Iterator<Item = Styled> {
-    let head = Head::builtin();
-    SCENES.into_iter().map(move |(name, text)| {
-        let hair = toml::from_str::<Scene>(text).unwrap_or_else(|e| panic!("{name}: {e}")).hair;
-        let pores = spread(&head, &hair.hairline, 1500, 5).unwrap();
-        let strands = groom(&head, &pores, &hair.style, hair.segments, hair.segment_length, 5).unwrap();
-        Styled { name, hair, head: head.clone(), pores, strands }
-    })
+fn style_named(name: &str) -> &'static Styled {
+    STYLES.iter().find(|styled| styled.name == name).unwrap()
+}
+
+/// A style without chance, without locks and without a comb: hair leaves along the normal and falls.
+fn plain() -> Style {
+    let mut style =
+        Style { lift_degrees: Lift { top: 90.0, sides: 90.0, back: 90.0, fringe: 90.0 }, ..Style::default() };
+    (style.comb.away, style.parting.wobble) = (0.0, 0.0);
+    let (variation, locks) = (&mut style.variation, &mut style.locks);
+    (variation.length, variation.stiffness, variation.direction_degrees, variation.cut) = (0.0, 0.0, 0.0, 0.0);
+    (locks.gather, locks.direction_degrees, locks.wave) = (0.0, 0.0, 0.0);
+    style
 }
 
 /// A node keeps `volume.gap` from the skin as the distance is sampled; the roots lie on the skin, as the pores do.
 /// So do the middles of segments. Rounding a node to f32 moves it by less than 2e-6 cm, its distance by no more.
 #[test]
 fn no_node_lies_inside_the_head() {
-    for styled in each_style() {
-        let Styled { name, head, strands, .. } = &styled;
+    for Styled { name, strands, .. } in STYLES.iter() {
         for strand in strands.iter() {
-            assert!(head.distance(strand[0]) > -1e-3, "{name}: root {} in the skin", strand[0]);
+            assert!(HEAD.distance(strand[0]) > -1e-3, "{name}: root {} in the skin", strand[0]);
             for &p in &strand[1..] {
-                assert!(head.distance(p) > 0.0, "{name}: {p} lies {} cm deep", -head.distance(p));
+                assert!(HEAD.distance(p) > 0.0, "{name}: {p} lies {} cm deep", -HEAD.distance(p));
             }
             for pair in strand.windows(2) {
                 let middle = pair[0].midpoint(pair[1]);
-                assert!(head.distance(middle) > -1e-3, "{name}: {middle} lies {} cm deep", -head.distance(middle));
+                assert!(HEAD.distance(middle) > -1e-3, "{name}: {middle} lies {} cm deep", -HEAD.distance(middle));
             }
         }
     }
@@ -73,7 +93,7 @@ fn no_node_lies_inside_the_head() {
 /// segment errs by at most sqrt(3) of that.
 #[test]
 fn segments_of_a_strand_are_equal_to_rounding_and_no_longer_than_asked() {
-    for Styled { name, hair, strands, .. } in each_style() {
+    for Styled { name, hair, strands, .. } in STYLES.iter() {
         for strand in strands.iter() {
             let lengths: Vec<f32> = strand.windows(2).map(|pair| pair[0].distance(pair[1])).collect();
             assert!((1..=hair.segments).contains(&lengths.len()), "{name}: {} segments", lengths.len());
@@ -87,9 +107,9 @@ fn segments_of_a_strand_are_equal_to_rounding_and_no_longer_than_asked() {
 
 #[test]
 fn strand_by_strand_they_start_at_their_pores() {
-    for Styled { name, pores, strands, .. } in each_style() {
+    for Styled { name, pores, strands, .. } in STYLES.iter() {
         assert_eq!(strands.len(), pores.len());
-        for (strand, pore) in strands.iter().zip(&pores) {
+        for (strand, pore) in strands.iter().zip(pores) {
             assert_eq!(strand[0], pore.position, "{name}");
         }
     }
@@ -97,7 +117,7 @@ fn strand_by_strand_they_start_at_their_pores() {
 
 #[test]
 fn same_seed_same_bits_for_any_threads_and_any_subset() {
-    for styled in each_style() {
+    for styled in STYLES.iter() {
         let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
         let again = alone.install(|| styled.groom(&styled.pores, 5));
         assert_eq!(styled.strands, again, "{}", styled.name);
@@ -112,12 +132,142 @@ fn same_seed_same_bits_for_any_threads_and_any_subset() {
 
 #[test]
 fn hair_is_finite_and_within_its_length_of_the_root() {
-    for Styled { name, strands, .. } in each_style() {
+    for Styled { name, strands, .. } in STYLES.iter() {
         for strand in strands.iter() {
             let length: f32 = strand.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
             for p in strand {
                 assert!(p.is_finite() && p.distance(strand[0]) <= length * 1.0001, "{name}: {p}");
             }
         }
+    }
+}
+
+/// Away from the head nothing touches the strand, and it must be the settled cantilever: up to the tolerance that a
+/// groom settles to, 5e-5 rad over 18 cm, and rounding to f32.
+#[test]
+fn a_strand_off_the_head_is_the_cantilever() {
+    let style = plain();
+    for normal in [Vec3::X, Vec3::new(0.6, 0.8, 0.0), Vec3::new(0.0, -0.6, 0.8)] {
+        let pore = Pore { position: Vec3::new(60.0, 40.0, -50.0), normal };
+        let strands = groom(&HEAD, &[pore], &style, 18, 1.0, 1).unwrap();
+        let beam = Beam { stiffness: 8.0, segment: 1.0, clamp: normal.as_dvec3().normalize(), hold: Hold::Clamped };
+        let mut directions = Vec::new();
+        beam.settle(&[DVec3::NEG_Y; 18], 1e-12, false, &mut directions, &mut Workspace::default());
+        let mut p = pore.position.as_dvec3();
+        for (i, direction) in directions.iter().enumerate() {
+            p += *direction;
+            assert!((p - strands.strand(0)[i + 1].as_dvec3()).length() < 1e-3, "node {} from {normal}", i + 1);
+        }
+    }
+}
+
+/// Trimming stops within 0.01 cm of the plane; a strand that the cut would leave shorter than `shortest` may pass it.
+#[test]
+fn a_cut_takes_off_what_lies_beyond_its_plane() {
+    let mut style = plain();
+    let (point, normal) = (Vec3::new(0.0, -4.0, 0.0), Vec3::new(0.0, -2.0, 0.5));
+    style.cuts.push(Cut { point, normal, region: None, shortest: 2.5 });
+    let pores = &style_named("gust").pores;
+    let strands = groom(&HEAD, pores, &style, 18, 1.0, 1).unwrap();
+    let (mut ends_there, mut short) = (0, 0);
+    for strand in strands.iter() {
+        let length: f32 = strand.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        let beyond = |p: Vec3| (p - point).dot(normal.normalize());
+        let most = strand.iter().map(|&p| beyond(p)).fold(f32::NEG_INFINITY, f32::max);
+        if length < 2.5001 {
+            short += 1;
+        } else {
+            assert!(most < 0.011, "a strand of {length} cm passes the plane by {most} cm");
+        }
+        ends_there += usize::from(beyond(strand[strand.len() - 1]).abs() < 0.011);
+    }
+    assert!(2 * ends_there > strands.len(), "only {ends_there} of {} end on the plane", strands.len());
+    assert!(short < strands.len() / 4, "{short} strands are left short");
+
+    style.cuts[0].region = Some(Region::Fringe);
+    let uncut = groom(&HEAD, pores, &style, 18, 1.0, 1).unwrap();
+    assert_eq!(uncut.segment_count(), 18 * pores.len(), "a cut of the fringe cut something else");
+}
+
+#[test]
+fn a_strand_has_the_fewest_segments_not_longer_than_asked() {
+    let mut style = plain();
+    for (length, segment, expected) in [(18.0, 1.0, 18), (17.3, 1.0, 18), (6.0, 0.5, 12), (0.7, 1.0, 1), (0.3, 0.1, 3)]
+    {
+        style.length = Length { top: length, sides: length, back: length, fringe: length };
+        let strands = groom(&HEAD, &style_named("gust").pores[..40], &style, 18, segment, 1).unwrap();
+        for strand in strands.iter() {
+            assert_eq!(strand.len() - 1, expected, "{length} cm in segments of {segment} cm");
+        }
+    }
+}
+
+/// Where they pass the side of the head, hair from the parting lies farther out than hair from the side itself.
+#[test]
+fn upper_hair_lies_over_lower_hair() {
+    let (mut upper, mut lower) = (Vec::new(), Vec::new());
+    for strand in style_named("gust").strands.iter() {
+        for p in &strand[1..] {
+            if (2.0..5.0).contains(&p.y) && p.z.abs() > 5.0 {
+                match strand[0].y {
+                    y if y > 9.0 => upper.push(HEAD.distance(*p)),
+                    y if y < 6.0 => lower.push(HEAD.distance(*p)),
+                    _ => {}
+                }
+            }
+        }
+    }
+    let mean = |d: &[f32]| d.iter().sum::<f32>() / d.len() as f32;
+    assert!(upper.len() > 100 && lower.len() > 100, "{} and {} nodes", upper.len(), lower.len());
+    assert!(mean(&upper) > 1.5 * mean(&lower), "{} cm over {} cm", mean(&upper), mean(&lower));
+}
+
+/// Between the eyes and the mouth; the nose stands out from there. One node in a thousand may be a stray hair's.
+#[test]
+fn no_hair_falls_over_the_face() {
+    for Styled { name, strands, .. } in STYLES.iter() {
+        let over_face = |p: &&Vec3| p.x > 7.0 && p.z.abs() < 2.5 && (-9.0..0.5).contains(&p.y);
+        let found = strands.points().iter().filter(over_face).count();
+        assert!(found * 1000 <= strands.points().len(), "{name}: {found} nodes before the face");
+    }
+}
+
+/// Roots are drawn evenly and by chance: the mean side of n nodes strays by about its deviation over the root of the
+/// number of strands (nodes of one strand stray together); four times that is allowed.
+#[test]
+fn styles_with_a_middle_parting_are_balanced() {
+    for name in ["gust", "bob"] {
+        let strands = &style_named(name).strands;
+        let n = strands.points().len() as f32;
+        let mean = strands.points().iter().map(|p| p.z).sum::<f32>() / n;
+        let deviation = (strands.points().iter().map(|p| p.z * p.z).sum::<f32>() / n).sqrt();
+        assert!(mean.abs() < 4.0 * deviation / (strands.len() as f32).sqrt(), "{name}: mean z {mean} cm");
+    }
+}
+
+#[test]
+fn what_cannot_be_styled_is_refused_by_its_key() {
+    let cases: [(&str, &str); 12] = [
+        ("stiffness = { top = 0.0 }", "hair.style.stiffness.top"),
+        ("stiffness = { back = nan }", "hair.style.stiffness.back"),
+        ("length = { sides = -3.0 }", "hair.style.length.sides"),
+        ("lift_degrees = { top = 91.0 }", "hair.style.lift_degrees.top"),
+        ("parting = { front = [inf, 0.0] }", "hair.style.parting.front (x)"),
+        ("comb = { decay = 0.0 }", "hair.style.comb.decay"),
+        ("comb = { sweep = [0.0, nan, 0.0] }", "hair.style.comb.sweep (y)"),
+        ("volume = { thickness = -1.0 }", "hair.style.volume.thickness"),
+        ("variation = { length = 1.0 }", "hair.style.variation.length"),
+        ("locks = { wave = 4.0, wave_length = 8.0 }", "hair.style.locks.wave"),
+        ("cuts = [{ point = [0, 0, 0], normal = [0, 0, 0] }]", "hair.style.cuts[0].normal"),
+        ("length = { top = 18.5 }", "hair.style.length.top"),
+    ];
+    for (text, thing) in cases {
+        let style: Style = toml::from_str(text).unwrap_or_else(|e| panic!("{text}: {e}"));
+        let error = groom(&HEAD, &[], &style, 18, 1.0, 1).expect_err(text);
+        assert_eq!(error.thing, thing, "{text}: {error}");
+    }
+    assert!(toml::from_str::<Style>("stifness = { top = 1.0 }").is_err());
+    for (segments, length, thing) in [(0, 1.0, "hair.segments"), (18, 0.0, "hair.segment_length")] {
+        assert_eq!(groom(&HEAD, &[], &Style::default(), segments, length, 1).unwrap_err().thing, thing);
     }
 }

@@ -18,7 +18,9 @@ mod channel {
     pub const CUT: u64 = 6;
     pub const ROOT: u64 = 7;
     pub const TILT: u64 = 8;
+    /// Two of them.
     pub const WOBBLE: u64 = 9;
+    pub const EDGE: u64 = 11;
 }
 
 /// One strand's share of the style (head space, cm; loads in units of its own weight).
@@ -64,9 +66,12 @@ fn smooth(t: f32) -> f32 {
 }
 
 /// Shares of top, sides, back and fringe at a root.
-fn shares(ellipsoid: &Ellipsoid, style: &Style, root: Vec3) -> [f32; 4] {
+fn shares(ellipsoid: &Ellipsoid, style: &Style, root: Vec3, strand: Chance) -> [f32; 4] {
     let u = (root - ellipsoid.center) / ellipsoid.half_axes;
-    if style.fringe.half_width > 0.0 && root.z.abs() < style.fringe.half_width && root.x > style.fringe.from {
+    // The fringe's edges are partings too.
+    let astray = style.parting.wobble * strand.bell(channel::EDGE) as f32;
+    let fringe = &style.fringe;
+    if fringe.half_width > 0.0 && root.z.abs() < fringe.half_width + astray && root.x > fringe.from + astray {
         return [0.0, 0.0, 0.0, 1.0];
     }
     let top = smooth((u.y - 0.45) / 0.3);
@@ -96,16 +101,25 @@ fn lock_of(root: Vec3, size: f32, seed: u64) -> (Vec3, Chance) {
     (nearest.1, nearest.2)
 }
 
+/// So near the parting (cm) hair leaves it at a slant, toward the crown, and covers the line better than it would
+/// straight across.
+const SLANTED: f32 = 2.5;
+
 /// The direction, level, in which hair is combed at `root`: away from the nearest point of the parting.
 fn away_from_parting(style: &Style, root: DVec3, strand: Chance, lock: Chance) -> DVec3 {
+    let plane = |chance: Chance| DVec2::new(chance.bell(channel::WOBBLE), chance.bell(channel::WOBBLE + 1));
     let [front, crown] = [style.parting.front, style.parting.crown].map(|end| end.as_dvec2());
     let line = front - crown;
-    let here = DVec2::new(root.x, root.z + f64::from(style.parting.wobble) * lock.bell(channel::WOBBLE));
+    let strays = f64::from(style.parting.wobble);
+    let here = DVec2::new(root.x, root.z) + strays * (plane(lock) + plane(strand)) * 0.7;
     let share = ((here - crown).dot(line) / line.length_squared().max(1e-12)).clamp(0.0, 1.0);
     let away = here - (crown + line * share);
     let away = DVec3::new(away.x, 0.0, away.y);
+    let apart = f64::from(smooth(away.length() as f32 / SLANTED));
     let side = if strand.unit(channel::SIDE) < 0.5 { DVec3::Z } else { DVec3::NEG_Z };
-    away.try_normalize().unwrap_or(side)
+    let away = away.try_normalize().unwrap_or(side);
+    let back = DVec3::new(-line.x, 0.0, -line.y).try_normalize().unwrap_or(away);
+    back.lerp(away, 0.3 + 0.7 * apart)
 }
 
 /// Draws up the course of the strand at `pore`.
@@ -114,7 +128,7 @@ pub(super) fn course(head: &Head, style: &Style, pore: &Pore, seed: u64) -> Cour
     let normal = pore.normal.as_dvec3();
     let strand = Chance::at_point(seed, pore.position);
     let (lock_middle, lock) = lock_of(pore.position, style.locks.size, seed);
-    let shares = shares(&head.ellipsoid, style, pore.position);
+    let shares = shares(&head.ellipsoid, style, pore.position, strand);
     let region = if shares[3] > 0.0 {
         Region::Fringe
     } else if shares[0] >= 0.5 {

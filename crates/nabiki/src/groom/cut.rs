@@ -38,20 +38,29 @@ pub(super) fn drape_and_cut(ground: &Ground<'_>, cuts: &[Cut], course: &Course, 
     let mut length = course.length;
     ground.drape(course, length, draping);
     for cut in cuts.iter().filter(|cut| cut.region.is_none_or(|region| region == course.region)) {
-        let shortest = f64::from(cut.shortest).min(length);
-        let longest = length;
         let Some(at) = crossing(cut, course, &draping.nodes) else { continue };
-        length = at.max(shortest);
-        for _ in 0..TRIMS {
+        // The tip passes the plane at `long`, and not at `short`, if at any length that is allowed.
+        let (mut short, mut long) = (f64::from(cut.shortest).min(length), length);
+        length = at.max(short);
+        for trim in 0.. {
             ground.drape(course, length, draping);
             let [.., before, tip] = draping.nodes[..] else { break };
             let left = beyond(cut, course, tip);
-            if left.abs() < NEAR || (left > 0.0 && length <= shortest) {
+            if left.abs() < NEAR || length <= short {
                 break;
+            }
+            *(if left > 0.0 { &mut long } else { &mut short }) = length;
+            if trim >= TRIMS {
+                // On a bend over an ear or a shoulder the tip may jump past the plane.
+                length = short;
+                continue;
             }
             // Per cm of hair the tip moves on by about the last segment's direction.
             let rate = (left - beyond(cut, course, before)) / before.distance(tip);
-            length = (length - left / rate.max(0.3)).clamp(shortest, longest);
+            length -= left / rate.max(0.3);
+            if !(short..long).contains(&length) {
+                length = 0.5 * (short + long);
+            }
         }
     }
 }

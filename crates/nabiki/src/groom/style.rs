@@ -109,13 +109,14 @@ pub struct Parting {
     pub front: Vec2,
     /// Its end at the crown, (x, z) (cm, default (-4, 0)).
     pub crown: Vec2,
-    /// How far it strays from the straight line (cm, default 0.1).
+    /// How far it strays from the straight line, locks and single strands alike: what grows nearer falls to either
+    /// side, which keeps the line from being bare (cm, default 0.3).
     pub wobble: f32,
 }
 
 impl Default for Parting {
     fn default() -> Self {
-        Self { front: Vec2::new(10.0, 0.0), crown: Vec2::new(-4.0, 0.0), wobble: 0.1 }
+        Self { front: Vec2::new(10.0, 0.0), crown: Vec2::new(-4.0, 0.0), wobble: 0.3 }
     }
 }
 
