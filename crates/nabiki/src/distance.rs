@@ -53,9 +53,10 @@ impl SkinDistance {
         let mut coarse = vec![0.0_f32; nx * ny * nodes.z as usize];
         coarse.par_chunks_mut(nx).enumerate().for_each(|(row, samples)| {
             let (j, k) = (row % ny, row / ny);
+            let mut nearest = 0;
             samples[0] = tree.signed(node(0, j, k));
             for i in 1..nx {
-                samples[i] = tree.signed_beside(node(i, j, k), samples[i - 1], cell, SLACK);
+                samples[i] = tree.signed_beside(node(i, j, k), samples[i - 1], cell, SLACK, &mut nearest);
             }
         });
 
@@ -68,7 +69,7 @@ impl SkinDistance {
                 let (i, j, k) = (c % cx, c / cx % cy, c / (cx * cy));
                 let (known, limit) = (coarse[(k * ny + j) * nx + i].abs(), half_diagonal + 2.0 * spacing);
                 known <= (limit + half_diagonal) * (1.0 + SLACK)
-                    && tree.distance(node(i, j, k) + 0.5 * cell, limit, 0.0) < limit
+                    && tree.distance(node(i, j, k) + 0.5 * cell, limit, 0.0, &mut 0) < limit
             })
             .collect();
         let with_block: Vec<usize> = (0..near.len()).filter(|&c| near[c]).collect();
@@ -86,8 +87,8 @@ impl SkinDistance {
             .par_iter()
             .map(|&c| {
                 let (i, j, k) = (c % cx, c / cx % cy, c / (cx * cy));
-                let mut block = [0.0; FINE * FINE * FINE];
-                block[0] = tree.signed_beside(place(c, 0, 0, 0), coarse[(k * ny + j) * nx + i], 0.0, 0.0);
+                let (mut block, mut nearest) = ([0.0; FINE * FINE * FINE], 0);
+                block[0] = tree.signed_beside(place(c, 0, 0, 0), coarse[(k * ny + j) * nx + i], 0.0, 0.0, &mut nearest);
                 for at in 1..block.len() {
                     let (i, j, k) = (at % FINE, at / FINE % FINE, at / (FINE * FINE));
                     let before = if i > 0 {
@@ -97,7 +98,7 @@ impl SkinDistance {
                     } else {
                         FINE * FINE
                     };
-                    block[at] = tree.signed_beside(place(c, i, j, k), block[at - before], spacing, 0.0);
+                    block[at] = tree.signed_beside(place(c, i, j, k), block[at - before], spacing, 0.0, &mut nearest);
                 }
                 block
             })
@@ -105,7 +106,7 @@ impl SkinDistance {
         let fine = (with_block.par_iter().zip(&own))
             .map(|(&c, own_of_c)| {
                 let corner = UVec3::new((c % cx) as u32, (c / cx % cy) as u32, (c / (cx * cy)) as u32);
-                let mut block = [0.0; EDGE * EDGE * EDGE];
+                let (mut block, mut nearest) = ([0.0; EDGE * EDGE * EDGE], 0);
                 for (at, sample) in block.iter_mut().enumerate() {
                     let (i, j, k) = (at % EDGE, at / EDGE % EDGE, at / (EDGE * EDGE));
                     let inner = |i: usize, j: usize, k: usize| (k * FINE + j) * FINE + i;
@@ -122,7 +123,7 @@ impl SkinDistance {
                         let last = FINE - 1;
                         let beside = own_of_c[inner(i.min(last), j.min(last), k.min(last))];
                         let away = spacing * beyond.as_vec3().length();
-                        tree.signed_beside(place(c, i, j, k), beside, away, 0.0)
+                        tree.signed_beside(place(c, i, j, k), beside, away, 0.0, &mut nearest)
                     };
                 }
                 block

@@ -58,25 +58,30 @@ impl Tree {
 
     /// Distance from `p` to the nearest triangle, or `limit` when none is nearer. It may come out too large by the
     /// share `slack`: from the middle of a head half its skin is about equally far, and to tell which is nearest
-    /// costs a visit to all of it.
-    pub(super) fn distance(&self, p: Vec3, limit: f32, slack: f32) -> f32 {
+    /// costs a visit to all of it. `nearest` is a triangle to look at first, at best that of a place close by, and is
+    /// left at the one found.
+    pub(super) fn distance(&self, p: Vec3, limit: f32, slack: f32, nearest: &mut usize) -> f32 {
         let near_enough = 1.0 / (1.0 + slack).powi(2);
         let p = Vec3A::from(p);
-        let mut best = limit * limit;
+        let mut best = (limit * limit).min(nearest_on(&self.triangles[*nearest], p).distance_squared(p));
         let mut stack = [(0_u32, 0.0_f32); 64];
         let mut top = 1;
         stack[0] = (0, self.nodes[0].box_distance_squared(p));
         while top > 0 {
             top -= 1;
-            let (at, nearest) = stack[top];
-            if nearest >= best * near_enough {
+            let (at, at_least) = stack[top];
+            if at_least >= best * near_enough {
                 continue;
             }
             let node = &self.nodes[at as usize];
             if node.count > 0 {
                 let first = node.next as usize;
-                for triangle in &self.triangles[first..first + node.count as usize] {
-                    best = best.min(nearest_on(triangle, p).distance_squared(p));
+                for (i, triangle) in self.triangles[first..first + node.count as usize].iter().enumerate() {
+                    let squared = nearest_on(triangle, p).distance_squared(p);
+                    if squared < best {
+                        best = squared;
+                        *nearest = first + i;
+                    }
                 }
                 continue;
             }
@@ -124,7 +129,7 @@ impl Tree {
 
     /// Signed distance at `p`, negative inside.
     pub(super) fn signed(&self, p: Vec3) -> f32 {
-        let distance = self.distance(p, f32::INFINITY, 0.0);
+        let distance = self.distance(p, f32::INFINITY, 0.0, &mut 0);
         if self.is_inside(p) { -distance } else { distance }
     }
 
@@ -132,8 +137,8 @@ impl Tree {
     ///
     /// The distance changes no faster than the place, so where both distances together exceed the length between
     /// there is no skin between: the sign carries over, and the winding number is seldom needed.
-    pub(super) fn signed_beside(&self, p: Vec3, known: f32, away: f32, slack: f32) -> f32 {
-        let distance = self.distance(p, (known.abs() + away) * ROUNDING, slack);
+    pub(super) fn signed_beside(&self, p: Vec3, known: f32, away: f32, slack: f32, nearest: &mut usize) -> f32 {
+        let distance = self.distance(p, (known.abs() + away) * ROUNDING, slack, nearest);
         let inside =
             if known.abs() + distance > away * ROUNDING * (1.0 + slack) { known < 0.0 } else { self.is_inside(p) };
         if inside { -distance } else { distance }

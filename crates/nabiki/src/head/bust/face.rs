@@ -6,6 +6,9 @@ use super::shapes::{capsule, ellipsoid, join, swell, turned_ellipsoid};
 
 /// Joins the face to the skull.
 pub(super) fn add(p: Vec3, skin: f32) -> f32 {
+    if p.x < -6.0 || p.y < -16.0 {
+        return skin;
+    }
     let egg = turned_ellipsoid(p, Vec3::new(3.3, -3.6, 0.0), Vec3::new(5.7, 8.3, 5.9), Quat::from_rotation_z(0.27));
     let cheek = ellipsoid(p, Vec3::new(5.2, -3.2, 3.9), Vec3::new(2.6, 2.3, 2.4));
     let jaw = capsule(p, Vec3::new(1.0, -7.2, 3.9), Vec3::new(6.8, -10.2, 0.9), 1.0, 1.1);
