@@ -9,7 +9,7 @@ use crate::{
     atomic,
     bytes::Bytes,
     error::{Error, Result},
-    hair_file, obj_lines,
+    exchange, hair_file, obj_lines,
     placement::Placement,
     tfx,
 };
@@ -26,6 +26,12 @@ pub enum Format {
     /// Polylines of a Wavefront .obj; read only.
     #[serde(rename = "obj")]
     ObjLines,
+    /// A USD layer, text or binary.
+    #[serde(rename = "usd")]
+    Usd,
+    /// An Alembic archive.
+    #[serde(rename = "alembic")]
+    Alembic,
 }
 
 impl Format {
@@ -35,8 +41,11 @@ impl Format {
             "hair" => Ok(Self::Hair),
             "tfx" => Ok(Self::Tfx),
             "obj" => Ok(Self::ObjLines),
+            "usd" | "usda" | "usdc" => Ok(Self::Usd),
+            "abc" => Ok(Self::Alembic),
             other => {
-                Err(Error::new(format!("ending \"{other}\" is not a hair format: .hair, .tfx or .obj")).in_file(path))
+                let known = ".hair, .tfx, .obj, .usda, .usdc or .abc";
+                Err(Error::new(format!("ending \"{other}\" is not a hair format: {known}")).in_file(path))
             }
         }
     }
@@ -94,6 +103,7 @@ pub fn read(path: &Path) -> Result<Hair> {
             let bytes = fs::read(path).map_err(|e| Error::from(e).in_file(path))?;
             obj_lines::from_bytes(&bytes).map_err(named)
         }
+        Format::Usd | Format::Alembic => exchange::hair(path, 0, None),
     }
 }
 
@@ -141,6 +151,7 @@ pub fn losses(path: &Path, hair: &Hair) -> Result<Vec<String>> {
     match Format::of(path)? {
         Format::Hair => Ok(hair_file::losses(hair)),
         Format::Tfx => Ok(tfx::losses(hair)),
+        Format::Usd | Format::Alembic => Ok(exchange::losses(hair)),
         Format::ObjLines => Err(Error::new("hair is not written as .obj: write .hair or .tfx").in_file(path)),
     }
 }
@@ -149,6 +160,10 @@ pub fn losses(path: &Path, hair: &Hair) -> Result<Vec<String>> {
 pub fn write(path: &Path, hair: &Hair) -> Result<Vec<String>> {
     hair.check_lengths().map_err(|e| Error::new(e.to_string()).in_file(path))?;
     let lost = losses(path, hair)?;
+    if matches!(Format::of(path)?, Format::Usd | Format::Alembic) {
+        exchange::write(path, hair, exchange::Said::default())?;
+        return Ok(lost);
+    }
     atomic::write(path, |out| match Format::of(path)? {
         Format::Tfx => tfx::to_writer(hair, out),
         _ => hair_file::to_writer(hair, "Written by Nabiki", out),

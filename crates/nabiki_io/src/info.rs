@@ -3,6 +3,7 @@
 mod cache;
 mod hair;
 mod mesh;
+mod motion;
 mod scene;
 
 use std::{fmt, fs, path::Path};
@@ -13,10 +14,12 @@ use serde::Serialize;
 pub use cache::CacheInfo;
 pub use hair::HairInfo;
 pub use mesh::MeshInfo;
+pub use motion::MotionInfo;
 pub use scene::SceneInfo;
 
 use crate::{
     error::{Error, Result},
+    exchange::ExchangeInfo,
     hair::extension,
 };
 
@@ -32,6 +35,10 @@ pub enum Info {
     Cache(CacheInfo),
     /// A scene file.
     Scene(SceneInfo),
+    /// A USD layer or an Alembic archive.
+    Exchange(ExchangeInfo),
+    /// Motion of a head.
+    Motion(MotionInfo),
 }
 
 impl fmt::Display for Info {
@@ -41,15 +48,20 @@ impl fmt::Display for Info {
             Self::Mesh(info) => info.fmt(f),
             Self::Cache(info) => info.fmt(f),
             Self::Scene(info) => info.fmt(f),
+            Self::Exchange(info) => info.fmt(f),
+            Self::Motion(info) => info.fmt(f),
         }
     }
 }
 
-/// Looks into a file, told by its name's ending: .hair, .tfx, .obj, .glb, .gltf, .nabiki or .toml.
+/// Looks into a file, told by its name's ending: .hair, .tfx, .obj, .glb, .gltf, .ply, .usda, .usdc, .abc,
+/// .bvh, .csv, .nabiki or .toml.
 pub fn info(path: &Path) -> Result<Info> {
     match extension(path).as_str() {
         "hair" | "tfx" => Ok(Info::Hair(HairInfo::of(&crate::hair::read(path)?))),
-        "glb" | "gltf" => Ok(Info::Mesh(MeshInfo::of(&crate::mesh::read(path, &[])?))),
+        "usd" | "usda" | "usdc" | "abc" => Ok(Info::Exchange(ExchangeInfo::of(path)?)),
+        "bvh" | "csv" => Ok(Info::Motion(MotionInfo::of(path)?)),
+        "glb" | "gltf" | "ply" => Ok(Info::Mesh(MeshInfo::of(&crate::mesh::read(path, &[])?))),
         "obj" => {
             let bytes = fs::read(path).map_err(|e| Error::from(e).in_file(path))?;
             let is_hair = bytes.split(|&b| b == b'\n').any(|line| line.starts_with(b"l "));
@@ -62,7 +74,7 @@ pub fn info(path: &Path) -> Result<Info> {
         "nabiki" => Ok(Info::Cache(CacheInfo::of(crate::cache::Reader::open(path)?)?)),
         "toml" => Ok(Info::Scene(SceneInfo::of(&crate::Scene::load(path, &[])?))),
         other => {
-            let known = ".hair, .tfx, .obj, .glb, .gltf, .nabiki or .toml";
+            let known = ".hair, .tfx, .obj, .glb, .gltf, .ply, .usda, .usdc, .abc, .bvh, .csv, .nabiki or .toml";
             Err(Error::new(format!("ending \"{other}\" is not one of {known}")).in_file(path))
         }
     }

@@ -6,6 +6,7 @@ mod atomic;
 mod bytes;
 pub mod cache;
 pub mod error;
+pub mod exchange;
 mod finite;
 pub mod hair;
 pub mod hair_file;

@@ -1,7 +1,8 @@
-//! Triangle meshes of heads: .obj, .glb and .gltf, told apart by their name's ending.
+//! Triangle meshes of heads: .obj, .glb, .gltf, .ply, USD and Alembic, told apart by their name's ending.
 
 pub(crate) mod glb;
 mod obj;
+mod ply;
 
 use std::{collections::HashMap, fs, path::Path};
 
@@ -34,7 +35,12 @@ pub fn read(path: &Path, groups: &[String]) -> Result<Mesh> {
     match extension(path).as_str() {
         "obj" => obj::from_bytes(&bytes()?, groups).map_err(named),
         "glb" | "gltf" => glb::from_bytes(&bytes()?, path.parent(), groups).map_err(named),
-        other => Err(named(Error::new(format!("ending \"{other}\" is not a mesh format: .obj, .glb or .gltf")))),
+        "ply" => ply::from_bytes(&bytes()?).map_err(named),
+        "abc" | "usd" | "usda" | "usdc" => crate::exchange::mesh(path),
+        other => {
+            let known = ".obj, .glb, .gltf, .ply, .usda, .usdc or .abc";
+            Err(named(Error::new(format!("ending \"{other}\" is not a mesh format: {known}"))))
+        }
     }
 }
 

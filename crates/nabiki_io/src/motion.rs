@@ -41,18 +41,19 @@ pub struct HeadMotion {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MotionSource {
-    /// A .bvh, .glb or .gltf file, or a .csv with the columns t_s, px_m, py_m, pz_m, qx, qy, qz, qw.
+    /// A .bvh, .glb, .gltf, .abc, .usda or .usdc file, or a .csv with the columns t_s, px_m, py_m, pz_m, qx, qy, qz, qw.
     pub file: PathBuf,
     /// Joint or node that carries the head (default "Head"; capitals do not count). Not used for .csv.
     pub node: String,
     /// Animation of a .glb by name; may stay empty where there is one only.
     pub clip: String,
-    /// Length of the file's unit (cm). Needed for .bvh; .glb is in metres unless said here; .csv names its own.
+    /// Length of the file's unit (cm). Needed for .bvh and .abc; .glb is in metres unless said here; .csv and USD name
+    /// their own.
     pub unit_cm: Option<f64>,
-    /// Up axis of the file's world. Needed for .bvh and .csv; +y in .glb.
+    /// Up axis of the file's world. Needed for .bvh and .csv; +y in .glb and .abc; USD names its own.
     pub up: Option<Axis>,
-    /// Axis of the file's world that the character faces while the joint is unturned. Needed for .bvh and .csv;
-    /// +z in .glb, whose node is unturned as the file's still pose has it.
+    /// Axis of the file's world that the character faces while the joint is unturned. Needed but for .glb:
+    /// +z in that, whose node is unturned as the file's still pose has it.
     pub facing: Option<Axis>,
     /// Samples dropped at the start of a .bvh or .csv (a T-pose, say; default 0).
     pub skip: usize,
@@ -173,8 +174,23 @@ pub fn read(source: &MotionSource, frame_rate: f64) -> Result<HeadMotion, Motion
         }
         "csv" => csv::track(&read_text(file)?).map_err(error)?.head_motion(source, frame_rate),
         "glb" | "gltf" => clip::head_motion(source, frame_rate).map_err(error),
-        other => Err(error(format!("motion in a .{other} file: only .bvh, .glb, .gltf and .csv are read"))),
+        "abc" | "usd" | "usda" | "usdc" => {
+            crate::exchange::track(file, &source.node).map_err(error)?.head_motion(source, frame_rate)
+        }
+        other => Err(error(format!("motion in a .{other} file: .bvh, .glb, .gltf, .csv, .abc and .usd are read"))),
     }
+}
+
+/// The samples of a .csv, or those of the first joint of a .bvh and the names of all.
+pub(crate) fn survey(file: &Path) -> Result<(Track, Vec<String>), MotionError> {
+    let error = |problem: String| MotionError::new(file, problem);
+    let text = read_text(file)?;
+    if file.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv")) {
+        return Ok((csv::track(&text).map_err(error)?, Vec::new()));
+    }
+    let joints = bvh::joints(&text).map_err(error)?;
+    let first = joints.first().cloned().unwrap_or_default();
+    Ok((bvh::track(&text, &first).map_err(error)?, joints))
 }
 
 fn read_text(file: &Path) -> Result<String, MotionError> {

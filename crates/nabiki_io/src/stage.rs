@@ -4,6 +4,7 @@ use nabiki::{Hair, Head, SettingError, Strands, dynamics::Dynamics, groom::groom
 
 use crate::{
     error::{Error, Result},
+    exchange::{self, Said},
     hair::{self, ImportReport},
     identity::{Digest, SceneId},
     mesh::{self, MeshReport},
@@ -52,7 +53,8 @@ impl Scene {
         let (hair, hair_placement, import_report) = match &self.hair.file {
             None => (grow(&self, &head)?.into(), None, None),
             Some(file) => {
-                let placement = hair_placement(&self.hair, &placement);
+                let said = exchange::said(&self.resolve(file))?;
+                let placement = hair_placement(&self.hair, &placement, said);
                 placement.check("hair").map_err(|refused| self.refusal(refused))?;
                 let (hair, report) = import(&self.resolve(file), &placement, &self.hair.cleaning())?;
                 let chosen = match self.hair.strands {
@@ -125,6 +127,9 @@ fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshReport>)> {
     }
     let file = scene.resolve(settings.mesh.as_ref());
     let mut placement = settings.placement();
+    let said = exchange::said(&file)?;
+    placement.unit = settings.unit.or(said.unit).unwrap_or(placement.unit);
+    placement.up = settings.up.or(said.up).unwrap_or(placement.up);
     let (mut mesh, report) = mesh::import(&file, &placement, &settings.groups)?;
     let mut ellipsoid = given;
     if settings.origin.is_none() && given.is_none() {
@@ -140,11 +145,11 @@ fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshReport>)> {
     Ok((head, placement, Some(report)))
 }
 
-/// How the hair's file lies in head space: as the head's file does, but for what the scene says of it.
-fn hair_placement(settings: &HairSettings, head: &Placement) -> Placement {
+/// How the hair's file lies in head space: as the head's file does, but for what the scene or the file itself says.
+fn hair_placement(settings: &HairSettings, head: &Placement, said: Said) -> Placement {
     let unmoved = Placement {
-        unit: settings.unit.unwrap_or(head.unit),
-        up: settings.up.unwrap_or(head.up),
+        unit: settings.unit.or(said.unit).unwrap_or(head.unit),
+        up: settings.up.or(said.up).unwrap_or(head.up),
         facing: settings.facing.unwrap_or(head.facing),
         origin: glam::Vec3::ZERO,
     };

@@ -23,6 +23,12 @@ struct Joint {
     first_column: usize,
 }
 
+/// Names of all joints, parents before their children.
+pub(super) fn joints(text: &str) -> Result<Vec<String>, String> {
+    let mut words = Words { words: text.split_ascii_whitespace(), count: 0 };
+    Ok(hierarchy(&mut words)?.0.into_iter().map(|joint| joint.name).collect())
+}
+
 /// Reads the world poses of joint `name`.
 pub(super) fn track(text: &str, name: &str) -> Result<Track, String> {
     let mut words = Words { words: text.split_ascii_whitespace(), count: 0 };

@@ -22,7 +22,7 @@ pub(super) fn track(text: &str) -> Result<Track, String> {
     for (slot, name) in columns.iter_mut().zip(["px", "py", "pz", "qx", "qy", "qz", "qw"]) {
         *slot = if name.starts_with('p') { column(&format!("{name}{suffix}"))? } else { column(name)? };
     }
-    let mut track = Track { what: "table of poses".to_owned(), unit_cm: Some(unit_cm), axes: None, ..Track::default() };
+    let mut track = Track { what: "table of poses".to_owned(), unit_cm: Some(unit_cm), ..Track::default() };
     for (number, line) in lines {
         let cells: Vec<&str> = line.split(',').map(str::trim).collect();
         let value = |column: usize| -> Result<f64, String> {

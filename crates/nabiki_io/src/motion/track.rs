@@ -24,8 +24,8 @@ pub struct Track {
     pub what: String,
     /// Length of the file's unit (cm) where the file says it.
     pub unit_cm: Option<f64>,
-    /// Up and facing axis where the file says them.
-    pub axes: Option<(super::Axis, super::Axis)>,
+    /// Up axis where the file says it.
+    pub up: Option<super::Axis>,
 }
 
 impl Track {
@@ -45,9 +45,7 @@ impl Track {
             let (a, b) = (self.times[i], self.times[i + 1]);
             return Err(error(format!("sample {}: time {b} s follows {a} s, but times must grow", i + 1)));
         }
-        let (file_up, file_facing) = self.axes.unzip();
-        let door = Door::new(source.unit_cm.or(self.unit_cm), source.up.or(file_up), source.facing.or(file_facing))
-            .map_err(error)?;
+        let door = Door::new(source.unit_cm.or(self.unit_cm), source.up.or(self.up), source.facing).map_err(error)?;
         let duration = self.times[self.times.len() - 1] - self.times[0];
         let frames = frame_count(duration, frame_rate).map_err(error)?;
         let mut key = 0;

@@ -1,0 +1,259 @@
+//! Stanford .ply: a text header that names elements and their properties, then those, as text or binary.
+
+use glam::Vec3;
+use nabiki::Mesh;
+
+use crate::error::{Error, Result};
+
+/// How the body is written.
+#[derive(Clone, Copy, PartialEq)]
+enum Encoding {
+    Text,
+    Little,
+    Big,
+}
+
+/// Type of a number.
+#[derive(Clone, Copy)]
+enum Kind {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+impl Kind {
+    fn of(name: &str) -> Option<Self> {
+        Some(match name {
+            "char" | "int8" => Self::I8,
+            "uchar" | "uint8" => Self::U8,
+            "short" | "int16" => Self::I16,
+            "ushort" | "uint16" => Self::U16,
+            "int" | "int32" => Self::I32,
+            "uint" | "uint32" => Self::U32,
+            "float" | "float32" => Self::F32,
+            "double" | "float64" => Self::F64,
+            _ => return None,
+        })
+    }
+}
+
+struct Property {
+    name: String,
+    /// Type of a list's length; `None` for a single number.
+    list: Option<Kind>,
+    kind: Kind,
+}
+
+struct Element {
+    name: String,
+    count: usize,
+    properties: Vec<Property>,
+}
+
+/// Reads the vertices and faces; larger polygons become fans, other elements are passed over.
+pub fn from_bytes(bytes: &[u8]) -> Result<Mesh> {
+    let (encoding, elements, body) = header(bytes)?;
+    let mut body = Body { encoding, rest: body };
+    let mut mesh = Mesh::default();
+    for element in &elements {
+        let place = |name: &str| element.properties.iter().position(|p| p.name == name && p.list.is_none());
+        let axes = [place("x"), place("y"), place("z")];
+        let is_face = element.name == "face";
+        for i in 0..element.count {
+            let mut position = [0.0f32; 3];
+            for (p, property) in element.properties.iter().enumerate() {
+                let short = || Error::new(format!("ends within {} {i} of {}", element.name, element.count));
+                let length = match property.list {
+                    Some(kind) => body.number(kind).ok_or_else(short)?,
+                    None => 1.0,
+                };
+                let corners = is_face && matches!(property.name.as_str(), "vertex_indices" | "vertex_index");
+                let mut face = Vec::new();
+                let mut n = 0.0;
+                while n < length {
+                    let value = body.number(property.kind).ok_or_else(short)?;
+                    if let Some(axis) = axes.iter().position(|&a| a == Some(p)) {
+                        position[axis] = value as f32;
+                    }
+                    if corners {
+                        face.push(value);
+                    }
+                    n += 1.0;
+                }
+                for k in 2..face.len() {
+                    mesh.triangles.push([corner(face[0])?, corner(face[k - 1])?, corner(face[k])?]);
+                }
+            }
+            if element.name == "vertex" {
+                mesh.positions.push(Vec3::from(position));
+            }
+        }
+    }
+    let vertices = mesh.positions.len();
+    if let Some(v) = mesh.triangles.iter().flatten().find(|&&v| v as usize >= vertices) {
+        return Err(Error::new(format!("a face names vertex {v} of {vertices}")));
+    }
+    super::check(mesh)
+}
+
+fn corner(value: f64) -> Result<u32> {
+    if value.fract() == 0.0 && (0.0..4_294_967_296.0).contains(&value) {
+        Ok(value as u32)
+    } else {
+        Err(Error::new(format!("a face names vertex {value}, which is none")))
+    }
+}
+
+fn header(bytes: &[u8]) -> Result<(Encoding, Vec<Element>, &[u8])> {
+    let mut rest = bytes;
+    let mut line = || -> Result<Vec<&str>> {
+        let end = rest.iter().position(|&b| b == b'\n').ok_or_else(|| Error::new("its header never ends"))?;
+        let text = std::str::from_utf8(&rest[..end]).map_err(|_| Error::new("its header is not text"))?;
+        rest = &rest[end + 1..];
+        Ok(text.split_ascii_whitespace().collect())
+    };
+    if line()? != ["ply"] {
+        return Err(Error::new("does not start with ply: not a .ply file"));
+    }
+    let mut encoding = None;
+    let mut elements: Vec<Element> = Vec::new();
+    loop {
+        let words = line()?;
+        let unknown = || Error::new(format!("header line \"{}\" is not understood", words.join(" ")));
+        match words[..] {
+            ["format", "ascii", _] => encoding = Some(Encoding::Text),
+            ["format", "binary_little_endian", _] => encoding = Some(Encoding::Little),
+            ["format", "binary_big_endian", _] => encoding = Some(Encoding::Big),
+            ["comment" | "obj_info", ..] | [] => {}
+            ["element", name, count] => {
+                let count: usize = count.parse().map_err(|_| unknown())?;
+                // Every element of a file takes a byte at least, if it has properties.
+                if count > bytes.len() {
+                    return Err(Error::new(format!("claims {count} of {name}, more than its {} bytes", bytes.len())));
+                }
+                elements.push(Element { name: name.to_owned(), count, properties: Vec::new() });
+            }
+            ["property", "list", length, kind, name] => {
+                let list = Some(Kind::of(length).ok_or_else(unknown)?);
+                let kind = Kind::of(kind).ok_or_else(unknown)?;
+                let property = Property { name: name.to_owned(), list, kind };
+                elements.last_mut().ok_or_else(unknown)?.properties.push(property);
+            }
+            ["property", kind, name] => {
+                let kind = Kind::of(kind).ok_or_else(unknown)?;
+                let property = Property { name: name.to_owned(), list: None, kind };
+                elements.last_mut().ok_or_else(unknown)?.properties.push(property);
+            }
+            ["end_header"] => break,
+            _ => return Err(unknown()),
+        }
+    }
+    let encoding = encoding.ok_or_else(|| Error::new("its header names no format"))?;
+    Ok((encoding, elements, rest))
+}
+
+/// What is left to read.
+struct Body<'a> {
+    encoding: Encoding,
+    rest: &'a [u8],
+}
+
+impl Body<'_> {
+    fn number(&mut self, kind: Kind) -> Option<f64> {
+        if self.encoding == Encoding::Text {
+            let start = self.rest.iter().position(|b| !b.is_ascii_whitespace())?;
+            let word = &self.rest[start..];
+            let end = word.iter().position(u8::is_ascii_whitespace).unwrap_or(word.len());
+            self.rest = &word[end..];
+            return std::str::from_utf8(&word[..end]).ok()?.parse().ok();
+        }
+        Some(match kind {
+            Kind::I8 => f64::from(i8::from_le_bytes(self.take()?)),
+            Kind::U8 => f64::from(u8::from_le_bytes(self.take()?)),
+            Kind::I16 => f64::from(i16::from_le_bytes(self.take()?)),
+            Kind::U16 => f64::from(u16::from_le_bytes(self.take()?)),
+            Kind::I32 => f64::from(i32::from_le_bytes(self.take()?)),
+            Kind::U32 => f64::from(u32::from_le_bytes(self.take()?)),
+            Kind::F32 => f64::from(f32::from_le_bytes(self.take()?)),
+            Kind::F64 => f64::from_le_bytes(self.take()?),
+        })
+    }
+
+    /// The next bytes, the least significant first.
+    fn take<const N: usize>(&mut self) -> Option<[u8; N]> {
+        let (taken, rest) = self.rest.split_first_chunk::<N>()?;
+        self.rest = rest;
+        let mut taken = *taken;
+        if self.encoding == Encoding::Big {
+            taken.reverse();
+        }
+        Some(taken)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEADER: &str = "ply\nformat FORMAT 1.0\ncomment a square\nelement vertex 4\nproperty float x\nproperty uchar red\n\
+        property float y\nproperty double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+
+    fn text() -> Vec<u8> {
+        let body = "0 9 0 0\n1 9 0 0\n1 9 1 0.5\n0 9 1 0\n4 0 1 2 3\n";
+        (HEADER.replace("FORMAT", "ascii") + body).into_bytes()
+    }
+
+    fn binary(big: bool) -> Vec<u8> {
+        let mut bytes = HEADER.replace("FORMAT", if big { "binary_big_endian" } else { "binary_little_endian" });
+        let mut body = Vec::new();
+        let mut put = |le: &[u8]| {
+            if big { body.extend(le.iter().rev()) } else { body.extend(le) }
+        };
+        for [x, y, z] in [[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.5], [0.0, 1.0, 0.0]] {
+            put(&x.to_le_bytes());
+            put(&[9]);
+            put(&y.to_le_bytes());
+            put(&f64::from(z).to_le_bytes());
+        }
+        put(&[4]);
+        (0..4i32).for_each(|v| put(&v.to_le_bytes()));
+        let mut all = std::mem::take(&mut bytes).into_bytes();
+        all.extend(body);
+        all
+    }
+
+    #[test]
+    fn text_and_both_byte_orders_give_the_same_mesh() {
+        let mesh = from_bytes(&text()).unwrap();
+        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+        assert_eq!(mesh.positions[2], Vec3::new(1.0, 1.0, 0.5));
+        assert_eq!(from_bytes(&binary(false)).unwrap(), mesh);
+        assert_eq!(from_bytes(&binary(true)).unwrap(), mesh);
+    }
+
+    #[test]
+    fn truncated_and_lying_files_are_errors() {
+        for file in [text(), binary(false), binary(true)] {
+            // The last number of a text may lose its line's end and still be whole.
+            for length in 0..file.len() - 2 {
+                assert!(from_bytes(&file[..length]).is_err(), "{length}");
+            }
+        }
+        let broken = |from: &str, to: &str| {
+            let file = String::from_utf8(text()).unwrap();
+            assert!(file.contains(from), "{from}");
+            from_bytes(file.replacen(from, to, 1).as_bytes()).unwrap_err().to_string()
+        };
+        assert!(broken("vertex 4", "vertex 99999999999").contains("more than its"));
+        assert!(broken("0 1 2 3", "0 1 2 4").contains("vertex 4 of 4"));
+        assert!(broken("0 1 2 3", "0 1 -2 3").contains("which is none"));
+        assert!(broken("1 9 1 0.5", "1 9 inf 0.5").contains("is not a place"));
+        assert!(broken("4 0 1 2 3", "1e30 0 1 2 3").contains("ends within"));
+        assert!(broken("property float x", "property matrix x").contains("not understood"));
+    }
+}
