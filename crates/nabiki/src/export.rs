@@ -13,6 +13,9 @@ pub struct Export<'a> {
     pub hair: &'a Hair,
     /// The head to go with it (head space, cm); `None` leaves it out.
     pub head: Option<&'a Mesh>,
+    /// Diameter of hair that says nothing of its own (cm); `None` leaves widths out of the file, which readers then
+    /// make up.
+    pub default_width: Option<f32>,
     /// Frames a second.
     pub frame_rate: f64,
     /// Number of the first frame given.
@@ -31,6 +34,7 @@ impl<'a> Export<'a> {
         Self {
             hair,
             head: None,
+            default_width: None,
             frame_rate,
             first_frame: 0,
             file_from_head: Affine3A::IDENTITY,
@@ -44,8 +48,17 @@ impl<'a> Export<'a> {
         let scale = self.file_from_head.matrix3.determinant().abs().cbrt();
         let points = self.hair.strands.points().len();
         let attributes = &self.hair.attributes;
-        let one = attributes.constant.width.map(|w| vec![w * scale; points]);
+        let constant = attributes.constant.width.or(self.default_width);
+        let one = constant.map(|w| vec![w * scale; points]);
         attributes.width.as_ref().map(|w| w.iter().map(|w| w * scale).collect()).or(one)
+    }
+
+    /// 0 opaque .. 1 invisible, by point; `None` where all is opaque.
+    pub fn transparency(&self) -> Option<Vec<f32>> {
+        let attributes = &self.hair.attributes;
+        let constant = attributes.constant.transparency.filter(|&t| t != 0.0);
+        let one = constant.map(|t| vec![t; self.hair.strands.points().len()]);
+        attributes.transparency.clone().or(one)
     }
 
     /// Refuses attributes of a wrong length, a frame rate that is none, and a unit that is none.

@@ -264,8 +264,8 @@ fn curves(
     if let Some(uv) = &attributes.point_uv {
         once(&mut more, Property::attribute("point_uv", "vtx", "vector", UV, 0), bytemuck::cast_slice(uv))?;
     }
-    if let Some(values) = &attributes.transparency {
-        once(&mut more, Property::attribute("transparency", "vtx", "", NUMBER, 0), bytemuck::cast_slice(values))?;
+    if let Some(values) = export.transparency() {
+        once(&mut more, Property::attribute("transparency", "vtx", "", NUMBER, 0), bytemuck::cast_slice(&values))?;
     }
     if let Some(values) = &attributes.freedom {
         once(&mut more, Property::attribute("freedom", "vtx", "", NUMBER, 0), bytemuck::cast_slice(values))?;

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use nabiki_io::placement::Unit;
 
 /// Hair in the wind: groom it, blow on it, draw it.
 #[derive(Parser)]
@@ -81,6 +82,25 @@ pub struct Run {
     /// Folder for all that is written
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
+
+    #[command(flatten)]
+    pub export: ExportArgs,
+}
+
+/// Moving hair for other tools.
+#[derive(Args)]
+pub struct ExportArgs {
+    /// Write the moving hair for other tools: .usdc, .usda or .abc, as often as wanted
+    #[arg(long, value_name = "FILE")]
+    pub export: Vec<PathBuf>,
+
+    /// Write samples alone, to be laid over the groom at this prim path of the USD stage that the hair came from
+    #[arg(long, value_name = "PRIM", requires = "export")]
+    pub export_layer: Option<String>,
+
+    /// Put the head into .abc files too; Unreal then takes them for a mesh, not for a groom
+    #[arg(long, requires = "export")]
+    pub export_head: bool,
 }
 
 #[derive(Args)]
@@ -106,7 +126,7 @@ pub struct Groom {
     #[arg(long, value_name = "N")]
     pub strands: Option<usize>,
 
-    /// The hair file to write: .hair or .tfx
+    /// The hair file to write: .hair, .tfx, .usda, .usdc or .abc
     #[arg(long, short, value_name = "FILE")]
     pub output: PathBuf,
 }
@@ -127,6 +147,9 @@ pub struct Simulate {
     /// Which of the twins steps
     #[arg(long, value_enum, default_value_t = StepperName::Fast)]
     pub stepper: StepperName,
+
+    #[command(flatten)]
+    pub export: ExportArgs,
 }
 
 /// The twins.
@@ -158,15 +181,27 @@ pub struct Render {
 
 #[derive(Args)]
 pub struct Convert {
-    /// A hair file (.hair, .tfx, .obj) or a motion cache (.nabiki)
+    /// A hair file (.hair, .tfx, .obj, .usda, .usdc, .abc) or a motion cache (.nabiki)
     pub input: PathBuf,
 
-    /// The file to write: .hair or .tfx
+    /// The file to write: .hair, .tfx, .usda, .usdc or .abc; a whole motion cache goes into one of the last three
     pub output: PathBuf,
 
-    /// Frame to take out of a motion cache
+    /// Frame to take out of a motion cache, a USD layer or an Alembic archive
     #[arg(long, value_name = "N")]
     pub frame: Option<u32>,
+
+    /// Segments into which every strand is walked (default: as the file has them)
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub segments: Option<usize>,
+
+    /// Unit of the input, for a USD layer to name: mm, cm, dm, m, in, ft or a number of centimetres
+    #[arg(long, value_name = "UNIT")]
+    pub unit: Option<Unit>,
+
+    /// Whether z is up in the input, for a USD layer to name
+    #[arg(long)]
+    pub z_up: bool,
 }
 
 #[derive(Args)]

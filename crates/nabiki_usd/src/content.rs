@@ -59,11 +59,11 @@ pub fn curves<S>(export: &Export<'_>, name: &str) -> Prim<S> {
         let value = Value::Pairs(uv.clone());
         attributes.push(Attribute::primvar("primvars:point_uv", "texCoord2f[]", "vertex", value));
     }
-    if let Some(transparency) = &at.transparency {
+    if let Some(transparency) = export.transparency() {
         let opacity = transparency.iter().map(|t| 1.0 - t).collect();
         attributes.push(Attribute::primvar("primvars:displayOpacity", "float[]", "vertex", Value::Floats(opacity)));
         // The subtraction above rounds; this comes back to the bit.
-        let value = Value::Floats(transparency.clone());
+        let value = Value::Floats(transparency);
         attributes.push(Attribute::primvar("primvars:transparency", "float[]", "vertex", value));
     }
     if let Some(freedom) = &at.freedom {

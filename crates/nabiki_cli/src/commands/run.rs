@@ -1,6 +1,7 @@
 //! `nabiki run`: groom, simulate, draw.
 
 use crate::args::Run;
+use crate::export::{Exported, Exports};
 use crate::failure::Failure;
 use crate::film::{Film, Frames, Simulated};
 use crate::opening::{folder, open};
@@ -14,11 +15,14 @@ pub fn run(args: &Run, quiet: bool) -> Result<(), Failure> {
     report.swing();
     let simulation = take.simulation()?;
     let mut rehearsal = Simulated { take: &take, simulation: simulation.clone() };
-    let mut frames = Simulated { take: &take, simulation };
+    let mut exports = Exports::begin(&args.export, &take)?;
+    let frames = Simulated { take: &take, simulation };
+    let mut frames = Exported { frames, take: &take, exports: &mut exports };
     let scene = &take.stage.scene;
     let mut film = Film::new(&take, &scene.picture, &mut rehearsal, quiet)?;
-    let written = film.shoot(&mut frames, &args.out, &scene.name())?;
+    let mut written = film.shoot(&mut frames, &args.out, &scene.name())?;
     report.inside(frames.frame(scene.motion.frames)?);
+    written.extend(exports.finish()?);
     report.written(&written);
     Ok(())
 }

@@ -4,6 +4,7 @@ use nabiki::dynamics::Stepper;
 use nabiki_io::cache::{Header, Writer};
 
 use crate::args::{Simulate, StepperName};
+use crate::export::Exports;
 use crate::failure::Failure;
 use crate::opening::open;
 use crate::progress;
@@ -20,17 +21,22 @@ pub fn simulate(args: &Simulate, quiet: bool) -> Result<(), Failure> {
     };
     let frame_rate = f64::from(take.stage.scene.picture.video.fps);
     let mut cache = Writer::create(&args.output, &Header::new(take.stage.identity()?, frame_rate, &take.stage.hair))?;
+    let mut exports = Exports::begin(&args.export, &take)?;
     let bar = progress::bar(u64::from(take.stage.scene.motion.frames) + 1, "simulating", quiet);
     cache.push(&take.pose(0), stepper.strands().points())?;
+    exports.frame(0, stepper.strands(), &take.pose(0))?;
     bar.inc(1);
     for frame in 1..=take.stage.scene.motion.frames {
         stepper.step_frame_under(take.force_in_head(frame));
         cache.push(&take.pose(frame), stepper.strands().points())?;
+        exports.frame(frame, stepper.strands(), &take.pose(frame))?;
         bar.inc(1);
     }
     bar.finish_and_clear();
     cache.finish()?;
     report.inside(stepper.strands());
-    report.written(std::slice::from_ref(&args.output));
+    let mut written = vec![args.output.clone()];
+    written.extend(exports.finish()?);
+    report.written(&written);
     Ok(())
 }

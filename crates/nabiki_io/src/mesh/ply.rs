@@ -210,7 +210,7 @@ mod tests {
 
     fn binary(big: bool) -> Vec<u8> {
         let mut bytes = HEADER.replace("FORMAT", if big { "binary_big_endian" } else { "binary_little_endian" });
-        let mut body = Vec::new();
+        let mut body: Vec<u8> = Vec::new();
         let mut put = |le: &[u8]| {
             if big { body.extend(le.iter().rev()) } else { body.extend(le) }
         };
