@@ -1,0 +1,258 @@
+//! The command `nabiki` as a user meets it: what it writes, what it refuses, and in which words.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+
+const GUST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/gust.toml");
+
+fn nabiki(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_nabiki")).args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+fn succeed(arguments: &[&str]) -> String {
+    let output = nabiki(arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+/// The one line of a refusal, which leaves nothing behind in `folder`.
+fn refuse(arguments: &[&str], folder: &Path) -> String {
+    let before = names(folder);
+    let output = nabiki(arguments);
+    let line = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{arguments:?}: {line}");
+    assert_eq!(line.trim_end().lines().count(), 1, "one line: {line}");
+    assert!(line.starts_with("nabiki: "), "{line}");
+    assert_eq!(names(folder), before, "{arguments:?} leaves nothing behind");
+    line
+}
+
+fn names(folder: &Path) -> Vec<PathBuf> {
+    let mut names: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    names.sort();
+    names
+}
+
+fn path(folder: &TempDir, name: &str) -> String {
+    folder.path().join(name).to_str().unwrap().to_owned()
+}
+
+/// A scene file of the gust with `change` put after it.
+fn scene_with(folder: &TempDir, from: &str, to: &str) -> String {
+    let gust = fs::read_to_string(GUST).unwrap();
+    assert!(gust.contains(from), "{from}");
+    let file = path(folder, "scene.toml");
+    fs::write(&file, gust.replacen(from, to, 1)).unwrap();
+    file
+}
+
+const SMALL: [&str; 6] = ["--strands", "60", "--frames", "4", "--set", "picture.size=[96,64]"];
+
+#[test]
+fn run_writes_a_movie_and_a_contact_sheet() {
+    let folder = TempDir::new().unwrap();
+    let out = path(&folder, "out");
+    let said = succeed(&[&["run", GUST, "--out", &out, "--set", "output.sheet=[0,2,4]"][..], &SMALL].concat());
+    for (name, magic) in [("gust.mp4", &b"ftyp"[..]), ("gust_sheet.png", b"PNG")] {
+        let bytes = fs::read(Path::new(&out).join(name)).unwrap();
+        assert!(bytes.windows(magic.len()).take(16).any(|w| w == magic), "{name}");
+        assert!(said.contains(name), "{said}");
+    }
+    assert!(said.contains("% of the nodes are inside the head"), "{said}");
+    assert_eq!(names(Path::new(&out)).len(), 2);
+}
+
+#[test]
+fn preview_says_how_long_a_swing_takes_before_it_steps() {
+    let folder = TempDir::new().unwrap();
+    let said = succeed(&[
+        "preview",
+        GUST,
+        "--strands",
+        "20",
+        "--frames",
+        "2",
+        "--out",
+        &path(&folder, "out"),
+        "--set",
+        "hair.strands=200",
+        "--set",
+        "output.sheet=[0]",
+        "--set",
+        "picture.size=[96,64]",
+    ]);
+    let (swing, wrote) = (said.find("swing").unwrap(), said.find("wrote").unwrap());
+    assert!(swing < wrote, "{said}");
+    assert!(said.contains("20 strands"), "{said}");
+}
+
+#[test]
+fn a_cache_draws_the_frames_that_the_simulation_would() {
+    let folder = TempDir::new().unwrap();
+    let (cache, direct, cached) = (path(&folder, "m.nabiki"), path(&folder, "a"), path(&folder, "b"));
+    let changes =
+        ["--frames", "4", "--set", "hair.strands=60", "--set", "picture.size=[96,64]", "--set", "output.sheet=[0]"];
+    succeed(&[&["simulate", GUST, "-o", &cache][..], &changes].concat());
+    succeed(&[&["render", GUST, "--frame", "4", "--out", &direct][..], &changes].concat());
+    succeed(&[&["render", GUST, "--frame", "4", "--motion", &cache, "--out", &cached][..], &changes].concat());
+    let picture = |folder: &str| fs::read(Path::new(folder).join("gust_0004.png")).unwrap();
+    assert!(picture(&direct) == picture(&cached));
+
+    let other = refuse(
+        &[&["render", GUST, "--motion", &cache, "--out", &cached, "--set", "motion.time_step=0.2"][..], &changes]
+            .concat(),
+        folder.path(),
+    );
+    assert!(other.contains("m.nabiki: its motion was not made from"), "{other}");
+}
+
+#[test]
+fn a_frame_of_a_cache_becomes_a_hair_file() {
+    let folder = TempDir::new().unwrap();
+    let (cache, hair, back) = (path(&folder, "m.nabiki"), path(&folder, "f.hair"), path(&folder, "f.tfx"));
+    succeed(&["simulate", GUST, "-o", &cache, "--strands", "40", "--frames", "3", "--set", "output.sheet=[0]"]);
+    succeed(&["convert", &cache, "--frame", "3", &hair]);
+    assert!(succeed(&["info", &hair]).contains("40"), "the strands are counted");
+    let json = succeed(&["info", "--json", &hair]);
+    assert!(json.trim_start().starts_with('{'), "{json}");
+    let whole = refuse(&["convert", &cache, &back], folder.path());
+    assert!(whole.contains("--frame N"), "{whole}");
+    let beyond = refuse(&["convert", &cache, "--frame", "4", &back], folder.path());
+    assert!(beyond.contains("m.nabiki"), "{beyond}");
+}
+
+#[test]
+fn both_twins_simulate() {
+    let folder = TempDir::new().unwrap();
+    for stepper in ["f64", "fast"] {
+        let cache = path(&folder, &format!("{stepper}.nabiki"));
+        let scene = ["simulate", GUST, "-o", &cache, "--stepper", stepper, "--strands", "30", "--frames", "4"];
+        succeed(&[&scene[..], &["--set", "output.sheet=[0]"]].concat());
+    }
+    let sizes: Vec<u64> = names(folder.path()).iter().map(|file| fs::metadata(file).unwrap().len()).collect();
+    assert_eq!(sizes[0], sizes[1]);
+}
+
+#[test]
+fn any_number_of_threads_writes_the_same_files() {
+    let folder = TempDir::new().unwrap();
+    let run = |threads: &str| {
+        let out = path(&folder, threads);
+        let run = ["run", GUST, "--threads", threads, "--out", &out, "--set", "output.sheet=[0,4]"];
+        succeed(&[&run[..], &SMALL].concat());
+        ["gust.mp4", "gust_sheet.png"].map(|name| fs::read(Path::new(&out).join(name)).unwrap())
+    };
+    assert!(run("1") == run("3"));
+}
+
+#[test]
+fn settings_that_cannot_be_are_refused_with_file_line_and_way_out() {
+    let folder = TempDir::new().unwrap();
+    let out = path(&folder, "out.nabiki");
+    for (from, to, words) in [
+        ("time_step = 0.1", "time_step = 0", &["scene.toml:", "motion.time_step", "above 0"][..]),
+        ("time_step = 0.1", "time_stpe = 0.1", &["time_stpe", "did you mean", "time_step"]),
+        ("linear_density = 0.05", "linear_density = -1", &["motion.linear_density = -1"]),
+        ("alpha = -0.75", "alpha = 1.5", &["pseudo_force.alpha = 1.5", "-1..1"]),
+        ("[0.01, 0.01,", "[0.01, 1.2,", &["pseudo_force.coefficients[1] = 1.2"]),
+        ("through = 100", "through = 40", &["force[1].through = 40", "after frame 50"]),
+        ("strands = 19330", "strands = 0", &["hair.strands = 0"]),
+        ("segment_length = 1.0", "segment_length = nan", &["hair.segment_length"]),
+        ("size = [960, 540]", "size = [0, 540]", &["picture.size"]),
+        ("vector = [-100, 0, 0]", "vector = [-1e9, 0, 0]", &["force[0].vector", "keep |F| below"]),
+        ("mesh = \"builtin:bust\"", "mesh = \"missing.obj\"", &["missing.obj"]),
+        ("frames = 100", "frames = \"many\"", &["motion.frames"]),
+    ] {
+        let scene = scene_with(&folder, from, to);
+        let line = refuse(&["simulate", &scene, "-o", &out], folder.path());
+        for word in words {
+            assert!(line.contains(word), "{to}: {line}");
+        }
+    }
+}
+
+#[test]
+fn files_that_cannot_be_are_refused_by_name() {
+    let folder = TempDir::new().unwrap();
+    let file = |name: &str, bytes: &[u8]| {
+        let file = path(&folder, name);
+        fs::write(&file, bytes).unwrap();
+        file
+    };
+    let out = path(&folder, "out.hair");
+    let missing = path(&folder, "missing.hair");
+    let mut lying = b"HAIR".to_vec();
+    lying.extend([u32::MAX, u32::MAX, 2, 15].iter().flat_map(|n| n.to_le_bytes()));
+    lying.resize(128, 0);
+    for name in [
+        missing,
+        file("empty.hair", b""),
+        file("short.hair", b"HAIR"),
+        file("lying.hair", &lying),
+        file("noise.tfx", &[0x5a; 500]),
+        file("noise.nabiki", &[0x5a; 500]),
+        file("noise.xyz", b"?"),
+    ] {
+        let frame = if name.ends_with("nabiki") { &["--frame", "0"][..] } else { &[] };
+        let line = refuse(&[&["convert", &name, &out][..], frame].concat(), folder.path());
+        assert!(line.contains(&name), "{line}");
+        let info = refuse(&["info", &name], folder.path());
+        assert!(info.contains(&name), "{info}");
+    }
+    let scene = refuse(&["run", "no/such/scene.toml", "--out", &path(&folder, "x")], folder.path());
+    assert!(scene.contains("no/such/scene.toml"), "{scene}");
+    let unwritable = refuse(&["groom", GUST, "--strands", "5", "-o", "/proc/none/out.hair"], folder.path());
+    assert!(unwritable.contains("/proc/none/out.hair"), "{unwritable}");
+}
+
+#[test]
+fn a_command_line_that_makes_no_sense_exits_with_2() {
+    for arguments in
+        [&["blow", GUST][..], &["run"], &["run", GUST, "--strands", "many"], &["run", GUST, "--threads", "0"]]
+    {
+        assert_eq!(nabiki(arguments).status.code(), Some(2), "{arguments:?}");
+    }
+}
+
+#[test]
+fn a_killed_run_leaves_nothing_under_a_final_name() {
+    let folder = TempDir::new().unwrap();
+    let cache = path(&folder, "long.nabiki");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_nabiki"))
+        .args(["simulate", GUST, "-o", &cache, "--strands", "500", "--frames", "4000000000"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    // Once the cache is begun, a file stands beside where it will be.
+    while names(folder.path()).is_empty() {
+        assert!(child.try_wait().unwrap().is_none(), "it runs until it is killed");
+        std::thread::yield_now();
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(!Path::new(&cache).exists());
+}
+
+#[test]
+fn every_scene_shipped_moves() {
+    let folder = TempDir::new().unwrap();
+    let scenes = Path::new(GUST).parent().unwrap();
+    let mut count = 0;
+    for scene in names(scenes).iter().filter(|file| file.extension().is_some_and(|e| e == "toml")) {
+        let cache = path(&folder, "m.nabiki");
+        let scene = scene.to_str().unwrap();
+        let small = ["--strands", "50", "--frames", "2", "--set", "output.sheet=[0]"];
+        let said = succeed(&[&["simulate", scene, "-o", &cache][..], &small].concat());
+        assert!(said.contains("50 strands"), "{scene}: {said}");
+        count += 1;
+    }
+    assert!(count >= 8, "{count} scenes");
+}
