@@ -69,9 +69,9 @@ fn smooth(t: f32) -> f32 {
 fn shares(ellipsoid: &Ellipsoid, style: &Style, root: Vec3, strand: Chance) -> [f32; 4] {
     let u = (root - ellipsoid.center) / ellipsoid.half_axes;
     // The fringe's edges are partings too.
-    let astray = style.parting.wobble * strand.bell(channel::EDGE) as f32;
+    let astray = style.parting.wobble * strand.bell(channel::EDGE).abs() as f32;
     let fringe = &style.fringe;
-    if fringe.half_width > 0.0 && root.z.abs() < fringe.half_width + astray && root.x > fringe.from + astray {
+    if fringe.half_width > 0.0 && root.z.abs() < fringe.half_width + astray && root.x > fringe.from - astray {
         return [0.0, 0.0, 0.0, 1.0];
     }
     let top = smooth((u.y - 0.45) / 0.3);
