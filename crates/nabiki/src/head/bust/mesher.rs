@@ -12,7 +12,7 @@ use crate::Mesh;
 
 /// Stretches of an axis: from the first number on (cm), the second is the step (cm). The last ends the axis.
 type Axis = &'static [(f32, f32)];
-const ALONG_X: Axis = &[(-14.0, 0.4), (-5.0, 0.25), (0.5, 0.35), (4.5, 0.19), (12.0, 0.0)];
+const ALONG_X: Axis = &[(-14.0, 0.4), (-5.0, 0.25), (0.5, 0.35), (4.5, 0.2), (8.0, 0.13), (10.5, 0.2), (12.0, 0.0)];
 const ALONG_Y: Axis = &[
     (-33.0, 0.5),
     (-20.0, 0.4),
@@ -21,7 +21,10 @@ const ALONG_Y: Axis = &[
     (-8.8, 0.15),
     (-7.9, 0.08),
     (-7.1, 0.14),
-    (-6.4, 0.2),
+    (-6.4, 0.17),
+    // The nostrils.
+    (-5.9, 0.1),
+    (-5.1, 0.2),
     // The line of the lids.
     (-2.2, 0.13),
     (-1.8, 0.08),

@@ -15,7 +15,7 @@ pub(super) fn add(p: Vec3, skin: f32) -> f32 {
             (Vec3::new(9.55, -7.0, 0.0), 0.46),
             (Vec3::new(9.56, -6.93, 0.5), 0.5),
             (Vec3::new(9.18, -7.05, 1.4), 0.45),
-            (Vec3::new(8.25, -7.33, 2.5), 0.18),
+            (Vec3::new(8.25, -7.25, 2.5), 0.18),
         ],
     );
     let lower = chain(
@@ -24,13 +24,13 @@ pub(super) fn add(p: Vec3, skin: f32) -> f32 {
             (Vec3::new(9.35, -8.02, 0.0), 0.58),
             (Vec3::new(9.27, -8.0, 0.6), 0.58),
             (Vec3::new(8.9, -7.78, 1.5), 0.44),
-            (Vec3::new(8.2, -7.4, 2.45), 0.2),
+            (Vec3::new(8.2, -7.33, 2.45), 0.2),
         ],
     );
     let mut skin = join(skin, upper, 0.4);
     skin = join(skin, lower, 0.45);
     // The corners are drawn in.
-    skin += 0.12 * swell(p, Vec3::new(8.4, -7.35, 2.65), Vec3::new(1.0, 0.8, 0.8));
+    skin += 0.12 * swell(p, Vec3::new(8.4, -7.22, 2.7), Vec3::new(1.0, 0.8, 0.8));
     // Groove between nose and lip.
     skin += 0.14 * swell(p, Vec3::new(9.5, -6.25, 0.0), Vec3::new(1.0, 0.7, 0.7));
     skin + parting(p) - vermilion(p)
@@ -43,8 +43,8 @@ fn parting(p: Vec3) -> f32 {
         return 0.0;
     }
     let dip = ridge(p.z, 0.8);
-    let off = p.y - (-7.42 - 0.12 * dip + 0.14 * t * t * t);
-    0.16 * ridge(off, 0.2) * ((1.0 - t) * 3.0).min(1.0)
+    let off = p.y - (-7.42 - 0.12 * dip + 0.24 * t * t * t);
+    0.13 * ridge(off, 0.2) * ((1.0 - t) * 3.0).min(1.0)
 }
 
 /// The red of the lips stands out a little from the skin about it, with the bow of the upper lip.
@@ -53,7 +53,7 @@ fn vermilion(p: Vec3) -> f32 {
     if t >= 1.0 {
         return 0.0;
     }
-    let upper = -6.62 - 0.1 * ridge(p.z, 0.5) - 0.68 * t * t;
+    let upper = -6.62 - 0.1 * ridge(p.z, 0.5) - 0.6 * t * t;
     let lower = -8.62 + 1.28 * t * t;
     let rise = |depth: f32| {
         let s = (depth / 0.22).clamp(0.0, 1.0);
