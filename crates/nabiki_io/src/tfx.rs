@@ -172,7 +172,7 @@ pub fn to_writer(hair: &Hair, out: &mut dyn Write) -> Result<()> {
     };
     if let Some((s, strand)) = strands.iter().enumerate().find(|(_, strand)| strand.len() != points) {
         return Err(Error::new(format!(
-            "strand 0 has {points} points and strand {s} {}: a .tfx file holds strands of one length; resample them or write .hair",
+            "strand 0 has {points} points and strand {s} {}: a .tfx file holds strands of one number of points; resample them (convert --segments N) or write .hair",
             strand.len()
         )));
     }

@@ -54,7 +54,8 @@ fn strands_of_different_lengths_are_refused_by_tfx_with_the_way_out() {
     let error = tfx::to_writer(&samples::hair(&[3, 2]), &mut Vec::new()).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "strand 0 has 3 points and strand 1 2: a .tfx file holds strands of one length; resample them or write .hair"
+        "strand 0 has 3 points and strand 1 2: a .tfx file holds strands of one number of points; resample them \
+         (convert --segments N) or write .hair"
     );
 }
 
