@@ -16,6 +16,7 @@ pub mod mesh;
 pub mod motion;
 mod names;
 pub mod obj_lines;
+mod obj_text;
 pub mod placement;
 pub mod scene;
 pub mod stage;

@@ -169,6 +169,12 @@ mod tests {
         assert_eq!(refused("v 0 0 0\n"), "holds no triangles");
         let nan = refused("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
         assert_eq!(nan, "vertex 2: (0, NaN, 0) is not a place: coordinates must be finite");
-        assert!(refused("v 0 0 0\nf 1 2 3\n").starts_with("is not a readable .obj"));
+        assert_eq!(
+            refused("v 0 0 0\nf 1 2 3\n"),
+            "\"f 1 2 3\": \"2\" is not one of the 1 vertices that stand before this line"
+        );
+        assert_eq!(refused("v 0 0 0\nf 1 1\n"), "\"f 1 1\": a face has three vertices or more");
+        // Found by fuzzing.
+        assert!(refused("v 1 0 0\nv 2 3 4\nf -1/23/-2 //4 1\n").contains("\"//4\" is not one of the 2 vertices"));
     }
 }

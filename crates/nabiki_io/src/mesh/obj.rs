@@ -1,24 +1,68 @@
-//! Wavefront .obj by way of the crate tobj.
+//! Faces of a Wavefront .obj. (Its words are few; the reader of the crate tobj panics on faces without positions.)
+
+use std::collections::BTreeSet;
 
 use glam::Vec3;
 use nabiki::Mesh;
 
 use super::{check, check_groups};
-use crate::error::{Error, Result};
+use crate::{error::Result, obj_text};
 
-pub(super) fn from_bytes(mut bytes: &[u8], groups: &[String]) -> Result<Mesh> {
-    let options =
-        tobj::LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..Default::default() };
-    // Materials are nothing to a head of one skin.
-    let (models, _) = tobj::load_obj_buf(&mut bytes, &options, |_| Err(tobj::LoadError::GenericFailure))
-        .map_err(|e| Error::new(format!("is not a readable .obj: {e}")))?;
-    let names: Vec<&str> = models.iter().map(|model| model.name.as_str()).collect();
-    check_groups(groups, &names)?;
-    let mut mesh = Mesh::default();
-    for model in models.iter().filter(|m| groups.is_empty() || groups.contains(&m.name)) {
-        let first = mesh.positions.len() as u32;
-        mesh.positions.extend(model.mesh.positions.chunks_exact(3).map(Vec3::from_slice));
-        mesh.triangles.extend(model.mesh.indices.chunks_exact(3).map(|t| [first + t[0], first + t[1], first + t[2]]));
+/// `groups`: names that follow a `g` or an `o`; faces under any of them are kept, all where there are none.
+pub(super) fn from_bytes(bytes: &[u8], groups: &[String]) -> Result<Mesh> {
+    let mut positions: Vec<Vec3> = Vec::new();
+    let mut triangles: Vec<[u32; 3]> = Vec::new();
+    let text = obj_text::text(bytes);
+    let mut names: BTreeSet<&str> = BTreeSet::new();
+    let wanted = |name: &str| groups.iter().any(|group| group == name);
+    let (mut in_object, mut in_group) = (false, false);
+    for (i, line) in text.lines().enumerate() {
+        let mut words = line.split_ascii_whitespace();
+        match words.next() {
+            Some("v") => positions.push(obj_text::place(words, line, i + 1)?),
+            Some("f") if groups.is_empty() || in_object || in_group => {
+                let mut vertex = || words.next().map(|word| obj_text::vertex(word, positions.len(), line, i + 1));
+                let (Some(first), Some(second)) = (vertex().transpose()?, vertex().transpose()?) else {
+                    return Err(obj_text::refusal(line, i + 1, "a face has three vertices or more"));
+                };
+                let (mut previous, before) = (second, triangles.len());
+                while let Some(next) = vertex().transpose()? {
+                    triangles.push([first, previous, next]);
+                    previous = next;
+                }
+                if triangles.len() == before {
+                    return Err(obj_text::refusal(line, i + 1, "a face has three vertices or more"));
+                }
+            }
+            Some("o") => {
+                let name = line.trim_start()[1..].trim();
+                in_object = wanted(name);
+                names.insert(name);
+            }
+            Some("g") => {
+                in_group = words.clone().any(wanted);
+                names.extend(words);
+            }
+            _ => {}
+        }
     }
-    check(mesh)
+    let names: Vec<&str> = names.into_iter().collect();
+    check_groups(groups, &names)?;
+    check(only_used(positions, triangles))
+}
+
+/// Leaves out the vertices of other groups, and those of no face.
+fn only_used(positions: Vec<Vec3>, mut triangles: Vec<[u32; 3]>) -> Mesh {
+    let mut number = vec![u32::MAX; positions.len()];
+    for &v in triangles.iter().flatten() {
+        number[v as usize] = 0;
+    }
+    for (used, n) in number.iter_mut().filter(|n| **n == 0).enumerate() {
+        *n = used as u32;
+    }
+    for v in triangles.iter_mut().flatten() {
+        *v = number[*v as usize];
+    }
+    let kept = positions.iter().zip(&number).filter(|&(_, &n)| n != u32::MAX);
+    Mesh { positions: kept.map(|(p, _)| *p).collect(), triangles }
 }
