@@ -8,7 +8,7 @@ use crate::RenderError;
 use crate::backdrop::Backdrop;
 use crate::camera::{NEAR, View};
 use crate::colour;
-use crate::curve::{Curves, drawable};
+use crate::curve::{CurveNode, Curves, drawable};
 use crate::frame::{Frame, HairLayer, NO_DEPTH};
 use crate::light::fibre::Fibre;
 use crate::light::headlight::HeadShadow;
@@ -41,6 +41,7 @@ pub struct Renderer {
     model: Model,
     curves: Curves,
     radius: Vec<f32>,
+    length: Vec<f32>,
     nodes: Vec<Node>,
     bins: Bins,
     sweeps: Vec<Sweep>,
@@ -94,6 +95,7 @@ impl Renderer {
             model,
             curves: Curves::default(),
             radius: Vec::new(),
+            length: Vec::new(),
             nodes: Vec::new(),
             bins: Bins::default(),
             sweeps: Vec::new(),
@@ -227,6 +229,9 @@ impl Renderer {
                     motion,
                     strand: n.strand,
                     drawable: true,
+                    end: i == 0
+                        || curve.nodes[i - 1].strand != n.strand
+                        || curve.nodes.get(i + 1).is_none_or(|o| o.strand != n.strand),
                     hidden,
                 }
             })
@@ -239,7 +244,19 @@ impl Renderer {
             self.sweeps.clear();
             return;
         }
-        let scene = Scene { nodes: &self.curves.nodes, radius: &self.radius, skin: &still.skin_places };
+        let nodes = &self.curves.nodes;
+        (0..nodes.len())
+            .into_par_iter()
+            .with_min_len(8192)
+            .map(|i| {
+                let half = |other: Option<&CurveNode>| {
+                    let joined = other.filter(|o| o.strand == nodes[i].strand);
+                    joined.map_or(0.0, |o| 0.5 * o.position.distance(nodes[i].position))
+                };
+                half(i.checked_sub(1).map(|j| &nodes[j])) + half(nodes.get(i + 1))
+            })
+            .collect_into_vec(&mut self.length);
+        let scene = Scene { nodes, length: &self.length, radius: &self.radius, skin: &still.skin_places };
         self.sweeps.resize_with(still.lamps.len(), Sweep::default);
         self.sweeps.par_iter_mut().zip(&still.lamps).for_each(|(sweep, lamp)| sweep.run(lamp, &scene, SHADOW_CELL));
     }

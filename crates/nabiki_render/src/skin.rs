@@ -227,7 +227,7 @@ impl SkinLight<'_> {
         pixels
             .par_iter()
             .with_min_len(256)
-            .flat_map_iter(|p| shadows.iter().map(|s| s.visible_from_skin(p.position + 0.1 * p.normal)))
+            .flat_map_iter(|p| shadows.iter().map(|s| s.visible(p.position + 0.1 * p.normal)))
             .collect()
     }
 

@@ -1,27 +1,27 @@
-//! The head in the way of a lamp: its outline and depth as the lamp sees it.
+//! The head in the way of a lamp: its outline and depth as the lamp sees it, blurred once as the lamp is wide.
 
 use glam::Vec3;
 use nabiki::Mesh;
 
 use super::lamps::Lamp;
 
-/// Side of a cell (cm) of a head's map, unless the mesh is so large that this would make too many.
-const CELL: f32 = 0.12;
+/// Side of a cell (cm), unless the head is so large that this would make too many.
+const CELL: f32 = 0.15;
 const MOST_CELLS: f32 = 1500.0;
+/// How far behind the head's surface (cm) its shadow begins, and over which depth it sets in.
+const SOFT: f32 = 0.45;
+/// Least blur (cm).
+const BLUR: f32 = 0.4;
 
-/// Distances of the head from a lamp.
+/// What a lamp sees of the head.
 pub struct HeadShadow {
     toward: Vec3,
     axes: [Vec3; 2],
     low: [f32; 2],
     cell: f32,
     size: [usize; 2],
-    /// Nearest distance in each cell (cm), infinite where the head is not.
-    distance: Vec<f32>,
-    /// Depth over which a shadow sets in (cm).
-    soft: f32,
-    /// Cells on each side that are averaged.
-    blur: i32,
+    /// In each cell: the part of its surroundings that the head covers, and the head's mean distance there (cm).
+    cells: Vec<[f32; 2]>,
 }
 
 impl HeadShadow {
@@ -31,9 +31,10 @@ impl HeadShadow {
         let axes = [right, lamp.toward.cross(right)];
         let seen: Vec<[f32; 3]> =
             head.positions.iter().map(|p| [p.dot(axes[0]), p.dot(axes[1]), -p.dot(lamp.toward)]).collect();
+        let blur = BLUR.max(2.5 * lamp.spread.tan());
         let limit = |i: usize, f: fn(f32, f32) -> f32, from: f32| seen.iter().map(|p| p[i]).fold(from, f);
-        let low = [0, 1].map(|i| limit(i, f32::min, f32::INFINITY));
-        let high = [0, 1].map(|i| limit(i, f32::max, f32::NEG_INFINITY));
+        let low = [0, 1].map(|i| limit(i, f32::min, f32::INFINITY) - 2.0 * blur);
+        let high = [0, 1].map(|i| limit(i, f32::max, f32::NEG_INFINITY) + 2.0 * blur);
         let extent = (high[0] - low[0]).max(high[1] - low[1]).max(0.0);
         let cell = CELL.max(extent / MOST_CELLS);
         let size = if seen.is_empty() { [0, 0] } else { [0, 1].map(|i| ((high[i] - low[i]) / cell) as usize + 2) };
@@ -45,65 +46,62 @@ impl HeadShadow {
             });
             draw(corners, size, &mut distance);
         }
-        let blur = (0.5 + 2.5 * lamp.spread.tan() / cell).clamp(1.0, 6.0) as i32;
-        let soft = 0.25 + 1.2 * cell * blur as f32;
-        Self { toward: lamp.toward, axes, low, cell, size, distance, soft, blur }
-    }
-
-    /// Part of the lamp that the head leaves visible from a place on a hair, 0..1: with a narrow border.
-    #[inline]
-    pub fn visible_from_hair(&self, p: Vec3) -> f32 {
-        let (base, part, distance) = self.place(p);
-        let upper =
-            self.lit(base[0], base[1], distance) * (1.0 - part[0]) + self.lit(base[0] + 1, base[1], distance) * part[0];
-        let lower = self.lit(base[0], base[1] + 1, distance) * (1.0 - part[0])
-            + self.lit(base[0] + 1, base[1] + 1, distance) * part[0];
-        upper + (lower - upper) * part[1]
-    }
-
-    /// Part of the lamp that the head leaves visible from a place on the skin, 0..1: as soft as the lamp is wide.
-    pub fn visible_from_skin(&self, p: Vec3) -> f32 {
-        let (base, part, distance) = self.place(p);
-        let (mut lit, mut all) = (0.0, 0.0);
-        let reach = self.blur;
-        for dy in -reach..=reach + 1 {
-            for dx in -reach..=reach + 1 {
-                // A box that slides smoothly over the cells.
-                let weight = edge(dx, part[0], reach) * edge(dy, part[1], reach);
-                all += weight;
-                lit += weight * self.lit(base[0] + dx, base[1] + dy, distance);
+        // Covered part and distance times covered part: both can be averaged.
+        let mut cells: Vec<[f32; 2]> =
+            distance.iter().map(|&d| if d < f32::INFINITY { [1.0, d] } else { [0.0; 2] }).collect();
+        let radius = (blur / cell).round() as usize;
+        for _ in 0..2 {
+            for axis in 0..2 {
+                cells = blurred(&cells, size, axis, radius);
             }
         }
-        lit / all
+        for c in &mut cells {
+            c[1] /= c[0].max(1e-6);
+        }
+        Self { toward: lamp.toward, axes, low, cell, size, cells }
     }
 
-    /// Cell, place within it and distance from the lamp.
+    /// Part of the lamp that the head leaves visible from a place, 0..1.
     #[inline]
-    fn place(&self, p: Vec3) -> ([i32; 2], [f32; 2], f32) {
-        let place = [0, 1].map(|i| (p.dot(self.axes[i]) - self.low[i]) / self.cell);
-        let base = place.map(f32::floor);
-        (base.map(|b| b as i32), [place[0] - base[0], place[1] - base[1]], -p.dot(self.toward))
-    }
-
-    #[inline]
-    fn lit(&self, x: i32, y: i32, distance: f32) -> f32 {
-        if x < 0 || y < 0 || x as usize >= self.size[0] || y as usize >= self.size[1] {
+    pub fn visible(&self, p: Vec3) -> f32 {
+        let x = (p.dot(self.axes[0]) - self.low[0]) / self.cell;
+        let y = (p.dot(self.axes[1]) - self.low[1]) / self.cell;
+        let [width, height] = self.size;
+        if !(x >= 0.0 && y >= 0.0 && x + 1.0 < width as f32 && y + 1.0 < height as f32) {
             return 1.0;
         }
-        let behind = distance - self.distance[y as usize * self.size[0] + x as usize];
-        // Skin does not shade itself: the shadow sets in some way behind the surface.
-        1.0 - ((behind - self.soft) / self.soft).clamp(0.0, 1.0)
+        let (column, row) = (x as usize, y as usize);
+        let (u, v) = (x - column as f32, y - row as f32);
+        let at = row * width + column;
+        let distance = -p.dot(self.toward);
+        let hidden = |cell: [f32; 2]| cell[0] * ((distance - cell[1]) / SOFT - 1.0).clamp(0.0, 1.0);
+        let upper = hidden(self.cells[at]) * (1.0 - u) + hidden(self.cells[at + 1]) * u;
+        let lower = hidden(self.cells[at + width]) * (1.0 - u) + hidden(self.cells[at + width + 1]) * u;
+        1.0 - (upper + (lower - upper) * v)
     }
 }
 
-fn edge(d: i32, part: f32, reach: i32) -> f32 {
-    if d == -reach {
-        1.0 - part
-    } else if d == reach + 1 {
-        part
-    } else {
-        1.0
+/// The mean over `radius` cells to both sides along one axis.
+fn blurred(cells: &[[f32; 2]], size: [usize; 2], axis: usize, radius: usize) -> Vec<[f32; 2]> {
+    let mut out = vec![[0.0; 2]; cells.len()];
+    let (length, step) = (size[axis], if axis == 0 { 1 } else { size[0] });
+    let per = 1.0 / (2 * radius + 1) as f64;
+    for line in 0..size[1 - axis] {
+        let first = if axis == 0 { line * size[0] } else { line };
+        // A sum that slides along the line, in double precision so that nothing is left over at its end.
+        let mut sum = [0.0_f64; 2];
+        for i in 0..length + radius {
+            let entering = cells.get(first + i * step).filter(|_| i < length).copied().unwrap_or_default();
+            let leaving = i.checked_sub(2 * radius + 1).map_or([0.0; 2], |j| cells[first + j * step]);
+            for c in 0..2 {
+                sum[c] += f64::from(entering[c]) - f64::from(leaving[c]);
+            }
+            if let Some(j) = i.checked_sub(radius) {
+                out[first + j * step] = sum.map(|s| (s * per) as f32);
+            }
+        }
     }
+    out
 }
 
 /// Keeps the nearest distance of a triangle in the cells it covers.
@@ -127,5 +125,28 @@ fn draw([a, b, c]: [[f32; 3]; 3], size: [usize; 2], distance: &mut [f32]) {
                 *here = here.min(u * a[2] + v * b[2] + w * c[2]);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plate_hides_the_lamp_from_what_lies_behind_it_only() {
+        let corners = [[-6.0, -6.0], [6.0, -6.0], [6.0, 6.0], [-6.0, 6.0]];
+        let plate = Mesh {
+            positions: corners.map(|[x, z]| Vec3::new(x, 0.0, z)).to_vec(),
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+        };
+        let lamp = Lamp { toward: Vec3::Y, strength: [1.0; 3], spread: 0.03 };
+        let shadow = HeadShadow::new(&lamp, &plate);
+        let visible = |x: f32, y: f32| shadow.visible(Vec3::new(x, y, 0.3));
+        assert_eq!(visible(0.0, 2.0), 1.0);
+        assert!(visible(0.0, -2.0) < 1e-5);
+        assert_eq!(visible(20.0, -2.0), 1.0);
+        // At the edge, half of the blurred plate: within a cell of 1/3 of the blur's slope.
+        assert!((visible(6.0, -2.0) - 0.5).abs() < 0.25);
+        assert_eq!(HeadShadow::new(&lamp, &Mesh::default()).visible(Vec3::ZERO), 1.0);
     }
 }

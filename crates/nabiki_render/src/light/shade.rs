@@ -53,6 +53,23 @@ pub struct HairLight<'a> {
     pub view: &'a View,
 }
 
+/// One batch, compiled for each width of vectors that machines have; one is chosen at run time.
+struct ShadeFibre<'a> {
+    light: &'a HairLight<'a>,
+    fibre: &'a Fibre,
+    batch: &'a [usize; LANES],
+    curve: &'a [CurveNode],
+}
+
+impl pulp::WithSimd for ShadeFibre<'_> {
+    type Output = [[f32; 3]; LANES];
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Self::Output {
+        self.light.fibre(self.fibre, self.batch, self.curve)
+    }
+}
+
 impl HairLight<'_> {
     /// Fills in the light of every node that shows, or has a neighbour that shows.
     pub fn shade(&self, curve: &[CurveNode], nodes: &mut [Node]) {
@@ -71,10 +88,9 @@ impl HairLight<'_> {
                     let last = batch[filled - 1];
                     batch[filled..].fill(last);
                     let light = match self.model {
-                        Model::Fibre(fibre) => pulp::Arch::new().dispatch(
-                            #[inline(always)]
-                            || self.fibre(fibre, &batch, curve),
-                        ),
+                        Model::Fibre(fibre) => {
+                            pulp::Arch::new().dispatch(ShadeFibre { light: self, fibre, batch: &batch, curve })
+                        }
                         Model::KajiyaKay(model) => batch.map(|i| self.kajiya(model, i, &curve[i])),
                     };
                     for (lane, &i) in batch.iter().enumerate() {
@@ -101,7 +117,7 @@ impl HairLight<'_> {
         });
         for (l, lamp) in self.lamps.iter().enumerate() {
             let hair = self.crossings.get(l).map_or(1.0, |c| (-c.at(i)).exp());
-            let head = self.head_shadows.get(l).map_or(1.0, |s| s.visible_from_hair(node.position));
+            let head = self.head_shadows.get(l).map_or(1.0, |s| s.visible(node.position));
             let part = model.reflected(node.tangent, lamp.toward, eye);
             light = std::array::from_fn(|c| light[c] + part[c] * lamp.strength[c] * hair * head);
         }
@@ -156,9 +172,12 @@ impl HairLight<'_> {
                 again[lane][c] = DENSITY * (b * f * g + b * b * b * f * g * g * g);
             }
             let (above, below) = self.sky_above_below(curve[batch[lane]].position);
+            let (above, below) = ((above, above.max(1e-6).ln()), (below, below.max(1e-6).ln()));
             for c in 0..3 {
                 let (a, b) = (row.forward[c], row.back[c]);
-                let arrives = |open: f32| open + DENSITY * (open.max(1e-6).powf(1.0 - a) - open).max(0.0);
+                let arrives = |(open, log): (f32, f32)| {
+                    open + DENSITY * (exp_of_negative(log * (1.0 - a).max(0.0)) - open).max(0.0)
+                };
                 let sky = self.sky.above[c] * arrives(above) + self.sky.below[c] * arrives(below);
                 light[lane][c] = 0.5 * self.sky.strength * sky * (a + b + again[lane][c]);
             }
@@ -190,7 +209,7 @@ impl HairLight<'_> {
             for lane in 0..LANES {
                 let i = batch[lane];
                 crossed[lane] = self.crossings.get(l).map_or(0.0, |c| c.at(i));
-                reached[lane] = self.head_shadows.get(l).map_or(1.0, |s| s.visible_from_hair(curve[i].position));
+                reached[lane] = self.head_shadows.get(l).map_or(1.0, |s| s.visible(curve[i].position));
             }
             for lane in 0..LANES {
                 let m = [along[0][lane], along[1][lane], along[2][lane], along[3][lane]];

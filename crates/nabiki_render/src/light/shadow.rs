@@ -14,7 +14,9 @@ use super::lamps::Lamp;
 use crate::curve::CurveNode;
 
 /// Strips of a map, each walked by one task.
-const STRIPS: usize = 6;
+const STRIPS: usize = 4;
+/// Nodes between one that is asked for and the one that is taken.
+const AHEAD: usize = 16;
 /// Bits of the distance by which nodes are sorted, in two passes.
 const DIGIT: u32 = 9;
 
@@ -35,16 +37,23 @@ impl Crossings {
 /// What the lamp sees: nodes that lay down fibre, and places on the skin that only read.
 pub struct Scene<'a> {
     pub nodes: &'a [CurveNode],
+    /// Length of hair that each node stands for (cm): halfway to its neighbours on both sides.
+    pub length: &'a [f32],
     /// Half thickness of the hair at each node (cm).
     pub radius: &'a [f32],
     pub skin: &'a [Vec3],
 }
 
-/// One node or place as the lamp sees it: cells right and down, distance from the lamp (cm).
+/// One node or place as the lamp sees it.
 #[derive(Clone, Copy)]
+#[repr(align(32))]
 struct Seen {
+    /// Place (cells right and down) and distance from the lamp (cm).
     at: [f32; 2],
     distance: f32,
+    /// Extent of the fibre it stands for (cells), and how many fibres that is when spread over one cell.
+    extent: [f32; 2],
+    fibres: f32,
 }
 
 /// A strip's order of nodes and map, kept from frame to frame.
@@ -71,28 +80,32 @@ impl Sweep {
         let right = lamp.toward.any_orthonormal_vector();
         let up = lamp.toward.cross(right);
         let total = scene.nodes.len() + scene.skin.len();
-        let position = |i: usize| {
-            if i < scene.nodes.len() { scene.nodes[i].position } else { scene.skin[i - scene.nodes.len()] }
-        };
         (0..total)
             .into_par_iter()
             .with_min_len(4096)
             .map(|i| {
-                let p = position(i);
-                Seen { at: [p.dot(right) / cell, p.dot(up) / cell], distance: -p.dot(lamp.toward) }
+                let place = |p: Vec3| ([p.dot(right) / cell, p.dot(up) / cell], -p.dot(lamp.toward));
+                let Some(node) = scene.nodes.get(i) else {
+                    let (at, distance) = place(scene.skin[i - scene.nodes.len()]);
+                    return Seen { at, distance, extent: [0.0; 2], fibres: 0.0 };
+                };
+                let (at, distance) = place(node.position);
+                let length = scene.length[i];
+                let extent = [node.tangent.dot(right) * length / cell, node.tangent.dot(up) * length / cell];
+                let across = (extent[0] * extent[0] + extent[1] * extent[1]).sqrt();
+                Seen { at, distance, extent, fibres: 2.0 * scene.radius[i] / cell * across }
             })
             .collect_into_vec(&mut self.seen);
         let nodes = &self.seen[..scene.nodes.len()];
         self.crossings.counts.clear();
         self.crossings.counts.resize_with(total, Default::default);
         let Some(range) = Range::of(nodes) else { return };
-        let map = Map { range, cell, toward: lamp.toward, axes: [right, up] };
 
         let counts = &self.crossings.counts;
         let seen = &self.seen;
         self.strips.resize_with(STRIPS, Strip::default);
         self.strips.par_iter_mut().enumerate().for_each(|(s, strip)| {
-            strip.sweep(s, seen, scene, &map, counts);
+            strip.sweep(s, seen, &range, counts);
         });
     }
 }
@@ -103,16 +116,6 @@ struct Range {
     size: [usize; 2],
     near: f32,
     keys_per_cm: f32,
-}
-
-/// A map of the lamp's view.
-struct Map {
-    range: Range,
-    /// Side of a cell (cm).
-    cell: f32,
-    toward: Vec3,
-    /// Unit vectors along rows and columns.
-    axes: [Vec3; 2],
 }
 
 /// Largest side of a map (cells).
@@ -157,8 +160,7 @@ impl Range {
 }
 
 impl Strip {
-    fn sweep(&mut self, s: usize, seen: &[Seen], scene: &Scene, map: &Map, counts: &[AtomicU32]) {
-        let range = &map.range;
+    fn sweep(&mut self, s: usize, seen: &[Seen], range: &Range, counts: &[AtomicU32]) {
         let [width, height] = range.size;
         let (first, end) = (s * height / STRIPS, (s + 1) * height / STRIPS);
         // Reading needs one row more than the strip owns; laying from a node may reach two cells around it.
@@ -178,7 +180,9 @@ impl Strip {
         self.cells.resize(rows * width, 0.0);
         let top = first as f32;
         let keys = std::mem::take(&mut self.keys);
-        for &(_, i) in &keys {
+        for (k, &(_, i)) in keys.iter().enumerate() {
+            // They come from all over memory: asking for later ones now hides most of the wait.
+            std::hint::black_box(seen[keys[(k + AHEAD).min(keys.len() - 1)].1 as usize].distance);
             let i = i as usize;
             let n = &seen[i];
             let (x, y) = (n.at[0] - range.low[0], n.at[1] - range.low[1]);
@@ -186,8 +190,8 @@ impl Strip {
                 let count = self.read(x, y - top, width, rows);
                 counts[i].store(count.to_bits(), Ordering::Relaxed);
             }
-            if i < scene.nodes.len() {
-                self.lay(i, [x, y - top], scene, map, rows);
+            if n.fibres > 0.0 {
+                self.lay(n, [x, y - top], width, rows);
             }
         }
         self.keys = keys;
@@ -206,38 +210,29 @@ impl Strip {
         upper + (lower - upper) * v
     }
 
-    /// Lays down the fibre from halfway to the node before until halfway to the one after, in steps of a cell at most.
+    /// Lays down a node's fibre, in steps of a cell at most.
     #[inline(always)]
-    fn lay(&mut self, i: usize, at: [f32; 2], scene: &Scene, map: &Map, rows: usize) {
-        let (width, cell) = (map.range.size[0], map.cell);
-        let node = &scene.nodes[i];
-        let of_same = |j: usize| scene.nodes.get(j).filter(|n| n.strand == node.strand);
-        let to = |other: Option<&CurveNode>| other.map_or(0.0, |o| 0.5 * o.position.distance(node.position));
-        let before = to(i.checked_sub(1).and_then(of_same));
-        let after = to(of_same(i + 1));
-        let length = before + after;
-        let along = node.tangent.dot(map.toward);
-        let across = (1.0 - along * along).max(0.0).sqrt();
-        let fibres = 2.0 * scene.radius[i] * length * across / (cell * cell);
-        let step = [node.tangent.dot(map.axes[0]) / cell, node.tangent.dot(map.axes[1]) / cell];
-        let steps = (length * across / cell).ceil().clamp(1.0, 8.0);
-        let share = fibres / steps;
-        for k in 0..steps as usize {
-            let t = (k as f32 + 0.5) / steps * length - before;
-            let (x, y) = (at[0] + step[0] * t, at[1] + step[1] * t);
-            let (column, row) = (x.floor(), y.floor());
-            if !(column >= 0.0 && column < width as f32 - 1.0 && row >= -1.0 && row < rows as f32) {
+    fn lay(&mut self, n: &Seen, at: [f32; 2], width: usize, rows: usize) {
+        let longer = n.extent[0].abs().max(n.extent[1].abs());
+        let steps = (longer as usize).min(7) + 1;
+        let part = 1.0 / steps as f32;
+        let share = n.fibres * part;
+        for k in 0..steps {
+            let t = (k as f32 + 0.5) * part - 0.5;
+            // One cell more, so that rounding toward zero is rounding down within the border.
+            let (x, y) = (at[0] + n.extent[0] * t + 1.0, at[1] + n.extent[1] * t + 1.0);
+            if !(x >= 1.0 && x < width as f32 && y >= 0.0 && y < rows as f32 + 1.0) {
                 continue;
             }
-            let (u, v) = (x - column, y - row);
-            let (column, row) = (column as usize, row as i32);
-            if row >= 0 {
-                let at = row as usize * width + column;
+            let (column, row) = (x as usize, y as usize);
+            let (u, v) = (x - column as f32, y - row as f32);
+            if row >= 1 {
+                let at = (row - 1) * width + column - 1;
                 self.cells[at] += share * (1.0 - u) * (1.0 - v);
                 self.cells[at + 1] += share * u * (1.0 - v);
             }
-            if row + 1 < rows as i32 {
-                let at = (row + 1) as usize * width + column;
+            if row < rows {
+                let at = row * width + column - 1;
                 self.cells[at] += share * (1.0 - u) * v;
                 self.cells[at + 1] += share * u * v;
             }

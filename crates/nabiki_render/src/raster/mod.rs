@@ -22,6 +22,7 @@ pub fn cell_offset(cell: usize) -> [f32; 2] {
 
 /// A node of a curve as the picture sees it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(align(64))]
 pub struct Node {
     /// Place (pixels, right and down).
     pub at: [f32; 2],
@@ -39,6 +40,8 @@ pub struct Node {
     pub strand: u32,
     /// False where it is too near to the eye, or behind it.
     pub drawable: bool,
+    /// The first or last of its strand.
+    pub end: bool,
     /// Known to lie behind the head or beside the picture.
     pub hidden: bool,
 }

@@ -48,9 +48,9 @@ impl HairColour {
     /// Eumelanin and pheomelanin of the named colours.
     pub(crate) fn melanin(self) -> Option<[f32; 2]> {
         match self {
-            Self::Black => Some([6.0, 0.0]),
-            Self::Brown => Some([1.1, 0.25]),
-            Self::Blond => Some([0.16, 0.18]),
+            Self::Black => Some([8.0, 0.0]),
+            Self::Brown => Some([1.3, 0.35]),
+            Self::Blond => Some([0.07, 0.21]),
             Self::Red => Some([0.25, 1.6]),
             Self::Grey => Some([0.06, 0.0]),
             Self::Melanin { eumelanin, pheomelanin } => Some([eumelanin, pheomelanin]),
@@ -63,7 +63,7 @@ impl HairColour {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct HairLook {
-    /// Thickness of a hair at its root (diameter, cm), 1e-5..5. Default 0.012: a real hair of 0.007 cm made thicker
+    /// Thickness of a hair at its root (diameter, cm), 1e-5..5. Default 0.014: a real hair of 0.007 cm made thicker
     /// because twenty thousand stand for a hundred thousand.
     pub width: f32,
     /// Thickness at the tip as a part of that at the root, 0..1. Default 0.3.
@@ -76,7 +76,7 @@ pub struct HairLook {
     pub variation: f32,
     /// `"fibre"` (default) or `"kajiya-kay"`.
     pub shading: Shading,
-    /// Roughness along the hair: the width of the highlight's band (degrees, 2..40). Default 8.
+    /// Roughness along the hair: the width of the highlight's band (degrees, 2..40). Default 7.
     pub roughness: f32,
     /// Roughness around the hair, 0.05..1: small sharpens the light through the fibre. Default 0.35.
     pub azimuthal_roughness: f32,
@@ -92,13 +92,13 @@ pub struct HairLook {
 impl Default for HairLook {
     fn default() -> Self {
         Self {
-            width: 0.012,
+            width: 0.014,
             tip: 0.3,
             taper: 0.4,
             color: HairColour::Brown,
             variation: 0.25,
             shading: Shading::Fibre,
-            roughness: 8.0,
+            roughness: 7.0,
             azimuthal_roughness: 0.35,
             scale_tilt: 2.5,
             refraction: 1.55,

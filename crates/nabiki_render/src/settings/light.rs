@@ -45,16 +45,16 @@ impl Light {
     /// A portrait photographer's three lamps: a warm key from above, a cool fill, a rim from behind.
     pub fn studio() -> Vec<Self> {
         vec![
-            Self { azimuth: 35.0, elevation: 48.0, strength: 1.9, color: [1.0, 0.96, 0.9], ..Self::default() },
+            Self { azimuth: 35.0, elevation: 46.0, strength: 2.2, color: [1.0, 0.96, 0.9], ..Self::default() },
             Self {
                 azimuth: -55.0,
                 elevation: 12.0,
-                strength: 0.45,
+                strength: 0.35,
                 color: [0.82, 0.9, 1.0],
                 spread: 20.0,
                 ..Self::default()
             },
-            Self { azimuth: -155.0, elevation: 38.0, strength: 2.2, color: [1.0, 0.97, 0.93], ..Self::default() },
+            Self { azimuth: -155.0, elevation: 38.0, strength: 1.4, color: [1.0, 0.97, 0.93], ..Self::default() },
         ]
     }
 
@@ -71,7 +71,7 @@ impl Light {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Sky {
-    /// Strength: an unhidden white surface is as bright as this, 0..1000. Default 0.42.
+    /// Strength: an unhidden white surface is as bright as this, 0..1000. Default 0.32.
     pub strength: f32,
     /// Colour of the light from straight above (linear, 0..1).
     pub above: [f32; 3],
@@ -83,7 +83,7 @@ pub struct Sky {
 
 impl Default for Sky {
     fn default() -> Self {
-        Self { strength: 0.42, above: [0.93, 0.97, 1.0], below: [0.55, 0.5, 0.47], occlusion: true }
+        Self { strength: 0.32, above: [0.93, 0.97, 1.0], below: [0.55, 0.5, 0.47], occlusion: true }
     }
 }
 
