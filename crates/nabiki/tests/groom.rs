@@ -4,10 +4,11 @@ use std::sync::LazyLock;
 
 use glam::{DVec3, Vec3};
 use nabiki::groom::cantilever::{Beam, Hold, Workspace};
-use nabiki::groom::style::{Cut, Length, Lift, Region};
+use nabiki::groom::style::{Cut, Length, LeverArms, Lift, Region, Stiffness};
 use nabiki::groom::{Style, groom};
 use nabiki::pores::{Hairline, Pore, spread};
 use nabiki::{Head, Strands};
+use proptest::prelude::*;
 use serde::Deserialize;
 
 /// The tables of a scene that concern the groom.
@@ -269,5 +270,41 @@ fn what_cannot_be_styled_is_refused_by_its_key() {
     assert!(toml::from_str::<Style>("stifness = { top = 1.0 }").is_err());
     for (segments, length, thing) in [(0, 1.0, "hair.segments"), (18, 0.0, "hair.segment_length")] {
         assert_eq!(groom(&HEAD, &[], &Style::default(), segments, length, 1).unwrap_err().thing, thing);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Whatever passes the check gives hair: finite, its segments equal, its nodes out of the head.
+    #[test]
+    fn any_style_that_passes_the_check_grows(
+        stiffness in -1.0..2.0f32, lift in 0.0..=90.0f32, length in 0.5..40.0f32, segment in 0.2..3.0f32,
+        away in 0.0..100.0f32, sweep in prop::array::uniform3(-50.0..50.0f32), decay in 0.1..20.0f32,
+        thickness in 0.0..4.0f32, wave in 0.0..0.16f32, direction in 0.0..45.0f32, level in -12.0..8.0f32,
+        straight in any::<bool>(),
+    ) {
+        let mut style = Style::default();
+        let bend = 10f32.powf(stiffness);
+        style.stiffness = Stiffness { top: bend, sides: bend, back: bend, fringe: bend };
+        style.lift_degrees = Lift { top: lift, sides: lift, back: lift, fringe: lift };
+        style.length = Length { top: length, sides: length, back: length, fringe: length };
+        (style.comb.away, style.comb.sweep, style.comb.decay) = (away, Vec3::from(sweep), decay);
+        style.fringe.half_width = 4.0;
+        style.volume.thickness = thickness;
+        style.locks.wave = wave * style.locks.wave_length;
+        style.variation.direction_degrees = direction;
+        style.lever_arms = if straight { LeverArms::Straight } else { LeverArms::Deformed };
+        style.cuts.push(Cut { point: Vec3::Y * level, normal: Vec3::NEG_Y, region: None, shortest: 1.0 });
+        let pores = &style_named("gust").pores[..40];
+        let strands = groom(&HEAD, pores, &style, 200, segment, 3).unwrap();
+        for strand in strands.iter() {
+            let d = strand[0].distance(strand[1]);
+            for pair in strand.windows(2) {
+                prop_assert!(pair[1].is_finite());
+                prop_assert!((pair[0].distance(pair[1]) - d).abs() < 2e-5, "{} and {}", pair[0].distance(pair[1]), d);
+                prop_assert!(HEAD.distance(pair[1]) > 0.0, "{} lies {} cm deep", pair[1], -HEAD.distance(pair[1]));
+            }
+        }
     }
 }
