@@ -26,13 +26,13 @@ pub struct Hairline {
     pub above_ears: f32,
     /// Depth of the line on the nape (default 2.10: 18 cm).
     pub nape: f32,
-    /// Height over which hair thins out at the line (default 0.06: 0.5 cm).
+    /// Height over which hair thins out at the line (default 0.10: 0.9 cm).
     pub fade: f32,
 }
 
 impl Default for Hairline {
     fn default() -> Self {
-        Self { forehead: 0.5, temple_recession: 0.05, sideburns: 1.45, above_ears: 0.98, nape: 2.1, fade: 0.06 }
+        Self { forehead: 0.5, temple_recession: 0.05, sideburns: 1.45, above_ears: 0.98, nape: 2.1, fade: 0.1 }
     }
 }
 
@@ -98,7 +98,12 @@ impl Hairline {
     }
 
     /// Whether hair grows at `p`; `chance` in 0..1 decides within the fading edge.
+    ///
+    /// More places are tried than are taken, so that hair would be as dense at a third of the chances as at all of
+    /// them: with the cube it thins out visibly.
     pub(super) fn grows(&self, ellipsoid: &Ellipsoid, p: Vec3, chance: f32) -> bool {
-        self.above(ellipsoid, p) > self.fade * chance
+        let above = self.above(ellipsoid, p);
+        let share = if above < self.fade { above / self.fade } else { 1.0 };
+        above > 0.0 && share * share * share > chance
     }
 }
