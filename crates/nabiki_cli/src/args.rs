@@ -61,7 +61,7 @@ pub struct SceneArgs {
     /// The scene (TOML)
     pub scene: PathBuf,
 
-    /// Frames to simulate, in place of motion.frames
+    /// Frames to simulate, in place of motion.frames; the contact sheet goes without those it does not reach
     #[arg(long, value_name = "N")]
     pub frames: Option<u32>,
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::{Quat, Vec3};
 use nabiki::Strands;
-use nabiki::dynamics::{Simulation, Stepper};
+use nabiki::dynamics::{ForceSpace, Simulation, Stepper};
 use nabiki_io::cache::Reader;
 use nabiki_io::take::Take;
 use nabiki_render::output::png;
@@ -114,7 +114,7 @@ impl<'a> Film<'a> {
                 png::write(&stills.join(format!("{n:04}.png")), &frame, &self.developer, png::Depth::Eight)?;
             }
             if on_sheet.contains(&n) {
-                sheet.add(&frame, &self.developer, n, Some(self.take.force_in_head(n.max(1))), &view);
+                sheet.add(&frame, &self.developer, n, Some(self.take.force(n.max(1))), &view);
             }
             bar.inc(1);
         }
@@ -139,12 +139,17 @@ impl<'a> Film<'a> {
         Ok(png::write(path, &frame, &self.developer, png::Depth::Eight)?)
     }
 
-    /// The camera goes along with the head, and does not turn with it.
+    /// The frame, and the view in the space of the forces. The camera goes along with the head, and does not turn
+    /// with it.
     fn draw(&mut self, n: u32, strands: &Strands) -> Result<(Frame, View), RenderError> {
         let progress = n as f32 / self.take.stage.scene.motion.frames as f32;
         let view = View::new(&self.picture.camera.at(progress), self.picture.size, &self.bounds);
-        let view = turned(view, self.take.pose(n).rotation.inverse());
-        Ok((self.renderer.draw(strands, &view)?, view))
+        let view_in_head = turned(view, self.take.pose(n).rotation.inverse());
+        let frame = self.renderer.draw(strands, &view_in_head)?;
+        match self.take.stage.dynamics.motion.force_space {
+            ForceSpace::World => Ok((frame, view)),
+            ForceSpace::Head => Ok((frame, view_in_head)),
+        }
     }
 }
 

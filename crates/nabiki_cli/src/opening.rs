@@ -22,7 +22,12 @@ pub fn scene(args: &SceneArgs, strands: Option<usize>) -> Result<Scene, Failure>
             .ok_or_else(|| Failure::new(format!("--set {set}: write KEY=VALUE, as in --set motion.time_step=0.05")))?;
         overrides.push((key.trim().to_owned(), value.trim().to_owned()));
     }
-    overrides.extend(args.frames.map(|n| ("motion.frames".to_owned(), n.to_string())));
+    if let Some(frames) = args.frames {
+        overrides.push(("motion.frames".to_owned(), frames.to_string()));
+        if !overrides.iter().any(|(key, _)| key.starts_with("output.sheet")) {
+            overrides.extend(shorter_sheet(&args.scene, frames));
+        }
+    }
     overrides.extend(strands.map(|n| ("hair.strands".to_owned(), n.to_string())));
     Ok(Scene::load(&args.scene, &overrides)?)
 }
@@ -32,4 +37,17 @@ pub fn folder(path: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(path).map_err(|e| {
         Failure::new(format!("{}: cannot make this folder: {e}; choose another with --out", path.display()))
     })
+}
+
+/// The contact sheet of the scene without the frames that a shorter try does not reach. A file that cannot be read
+/// is left for the scene's own reader to refuse.
+fn shorter_sheet(scene: &Path, frames: u32) -> Option<(String, String)> {
+    let table: toml::Table = std::fs::read_to_string(scene).ok()?.parse().ok()?;
+    let sheet = table.get("output")?.get("sheet")?.as_array()?;
+    let reached: Vec<String> = sheet
+        .iter()
+        .filter(|frame| frame.as_integer().is_none_or(|n| n <= frames.into()))
+        .map(ToString::to_string)
+        .collect();
+    Some(("output.sheet".to_owned(), format!("[{}]", reached.join(", "))))
 }

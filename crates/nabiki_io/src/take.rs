@@ -78,9 +78,14 @@ impl Take {
         self.poses.get(frame as usize).copied().unwrap_or(still)
     }
 
+    /// F(n), in the space that the scene gives its forces in.
+    pub fn force(&self, frame: u32) -> Vec3 {
+        self.stage.dynamics.field.at(frame)
+    }
+
     /// F(n) as the hair on the turning head feels it.
     pub fn force_in_head(&self, frame: u32) -> Vec3 {
-        let force = self.stage.dynamics.field.at(frame);
+        let force = self.force(frame);
         match self.stage.dynamics.motion.force_space {
             ForceSpace::World => self.pose(frame).rotation.inverse() * force,
             ForceSpace::Head => force,
