@@ -37,19 +37,18 @@ pub(super) fn closed(mesh: &Mesh) -> Mesh {
         .map(|((a, b), count)| if count > 0 { (b, a) } else { (a, b) })
         .collect();
     open.sort_unstable();
-    while let Some((start, mut at)) = open.pop() {
+    let mut onward: HashMap<u32, Vec<u32>> = HashMap::with_capacity(open.len());
+    for &(from, to) in &open {
+        onward.entry(from).or_default().push(to);
+    }
+    for (start, _) in open {
+        let Some(mut at) = onward.get_mut(&start).and_then(Vec::pop) else { continue };
         let mut rim = vec![start];
         while at != start {
             rim.push(at);
-            let next = open.partition_point(|&(from, _)| from < at);
-            match open.get(next) {
-                Some(&(from, to)) if from == at => {
-                    open.remove(next);
-                    at = to;
-                }
-                // The rim of a badly joined mesh may end nowhere: then the last fan triangle closes it.
-                _ => break,
-            }
+            // The rim of a badly joined mesh may end nowhere: then the last fan triangle closes it.
+            let Some(next) = onward.get_mut(&at).and_then(Vec::pop) else { break };
+            at = next;
         }
         let middle = rim.iter().map(|&v| closed.positions[v as usize]).sum::<Vec3>() / rim.len() as f32;
         let hub = closed.positions.len() as u32;

@@ -110,3 +110,15 @@ fn a_place_that_is_no_number_has_no_distance_and_does_no_harm() {
     assert!(skin.at(Vec3::NAN).is_nan() || skin.at(Vec3::NAN) > 0.0);
     assert!(skin.at(Vec3::splat(f32::INFINITY)) > 0.0);
 }
+
+#[test]
+fn loose_triangles_are_closed_each_by_itself() {
+    let mut soup = Mesh::default();
+    for i in 0..60_000 {
+        let p = vec3((i % 200) as f32, (i / 200) as f32, 0.0);
+        let first = soup.positions.len() as u32;
+        soup.positions.extend([p, p + 0.1 * Vec3::X, p + 0.1 * Vec3::Y]);
+        soup.triangles.push([first, first + 1, first + 2]);
+    }
+    assert_eq!(super::rims::closed(&soup).triangles.len(), 4 * soup.triangles.len());
+}
