@@ -1,4 +1,4 @@
-//! The cantilever beam that shapes a strand (the paper's [4] and [9]; method section 4).
+//! The cantilever beam that shapes a strand (the paper's references 4 and 9; method section 4).
 //!
 //! A strand of k segments of length d hangs from a clamp under a load w_i per unit length. The bending moment of all
 //! that hangs beyond node i-1, M_i, turns segment i away from its forerunner's direction a0: a0 d is displaced by
@@ -8,7 +8,7 @@
 //! tan(turn_i) = kappa_i d        (half of it for the first, clamped, segment)
 //! ```
 //!
-//! [`Beam::straight_arms`] takes the lever arms of the straight strand, as [9] does: one walk from the root, right for
+//! [`Beam::straight_arms`] takes the lever arms of the straight strand, as reference 9 does: one walk from the root, right for
 //! small loads. [`Beam::settle`] takes those of the deformed strand, repeating the pass until the shape stops moving:
 //! the heavy elastica. Loads are forces per unit length in any unit, stiffness in that unit times length cubed; only
 //! their ratio counts. Everything is in f64, without a transcendental function that could differ between platforms

@@ -248,7 +248,7 @@ fn shortest() -> f32 {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum LeverArms {
-    /// Those of the straight strand, one pass, as in the paper's [9]: for short or stiff hair.
+    /// Those of the straight strand, one pass, as in the paper's reference 9: for short or stiff hair.
     Straight,
     /// Those of the bent strand, the heavy elastica.
     #[default]
