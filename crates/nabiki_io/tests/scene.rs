@@ -297,3 +297,17 @@ fn sintels_hair_lands_on_her_head() {
     let placement = stage.hair_placement.unwrap();
     assert_eq!(placement, stage.placement, "the hair's file lies as the head's");
 }
+
+#[test]
+fn every_scene_of_the_gallery_is_read() {
+    let gallery = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes"));
+    let mut read = 0;
+    for entry in std::fs::read_dir(gallery).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|ending| ending == "toml") {
+            Scene::load(&path, &[]).unwrap();
+            read += 1;
+        }
+    }
+    assert!(read >= 3, "{read} scenes in {}", gallery.display());
+}
