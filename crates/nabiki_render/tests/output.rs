@@ -50,6 +50,31 @@ fn png_files_hold_what_was_developed() {
 }
 
 #[test]
+fn openexr_files_hold_the_frame_to_the_bit() {
+    use exr::prelude::*;
+    let picture = Picture { background: Background { transparent: true, ..Background::default() }, ..small() };
+    let (renderer, strands, view) = setting(&picture);
+    let mut moved = strands.clone();
+    moved.points_mut().iter_mut().for_each(|p| p.x += 0.5);
+    let frame = renderer.with_layers().draw_blurred(&strands, &moved, &view).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("frame.exr");
+    nabiki_render::output::exr::write(&path, &frame).unwrap();
+    let read = read_first_flat_layer_from_file(&path).unwrap();
+    let channel = |name: &str| -> Vec<f32> {
+        let found = read.layer_data.channel_data.list.iter().find(|c| c.name.eq(name));
+        found.unwrap_or_else(|| panic!("no channel {name}")).sample_data.values_as_f32().collect()
+    };
+    for (i, name) in ["R", "G", "B", "A"].iter().enumerate() {
+        assert!(channel(name).iter().zip(&frame.rgba).all(|(a, p)| a.to_bits() == p[i].to_bits()));
+    }
+    assert_eq!(channel("Z"), frame.depth);
+    assert!(channel("hair.A").iter().zip(&frame.layers).all(|(a, l)| *a == l.share));
+    assert!(channel("direction.Y").iter().zip(&frame.layers).all(|(a, l)| *a == l.direction[1]));
+    assert!(channel("motion.X").iter().zip(&frame.layers).all(|(a, l)| *a == l.motion[0]));
+}
+
+#[test]
 fn a_movie_decodes_to_the_frames_it_was_given() {
     let picture = Picture { video: nabiki_render::settings::Video { quality: 1.0, fps: 25.0 }, ..small() };
     let (mut renderer, strands, view) = setting(&picture);

@@ -1,6 +1,8 @@
 //! Files: pictures, movies, sheets and drawings, each written beside its name and renamed when whole.
 
 pub mod canvas;
+pub mod exr;
+pub mod field_plot;
 mod font;
 mod mp4;
 pub mod png;

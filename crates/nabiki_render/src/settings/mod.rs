@@ -110,6 +110,10 @@ impl Picture {
         self.background.check()?;
         check_range("picture.exposure", self.exposure, -20.0, 20.0)?;
         check_range("picture.shutter", self.shutter, 0.0, 1.0)?;
+        if self.shutter > 0.0 && self.antialiasing == Antialiasing::Oversample {
+            let way_out = "motion blur needs antialiasing = \"coverage\"; use that, or shutter = 0";
+            return Err(SettingError::new("picture.shutter", self.shutter, way_out));
+        }
         self.video.check()
     }
 }

@@ -1,0 +1,50 @@
+//! OpenEXR files: linear light, alpha, depth, and what compositors want of the hair.
+
+use std::path::Path;
+
+use exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer, LayerAttributes,
+    Vec2, WritableImage,
+};
+
+use super::write_whole;
+use crate::RenderError;
+use crate::frame::{Frame, HairLayer};
+
+/// Writes a frame as an OpenEXR file of 32 bit floats, losslessly compressed.
+///
+/// Channels: `R`, `G`, `B` (linear, Rec. 709 primaries) *premultiplied* by `A`, as OpenEXR has it; `Z`, the depth along the axis of
+/// view (cm), infinite where nothing is. With the frame's layers also `hair.A`, the share of the pixel that shows hair;
+/// `direction.X`, `.Y`, `.Z`, the hair's direction from root to tip in head space; `motion.X`, `.Y`, its movement while the shutter is
+/// open (pixels, right and down), both premultiplied by `hair.A`.
+pub fn write(path: &Path, frame: &Frame) -> Result<(), RenderError> {
+    let channel = |name: &str, values: Vec<f32>| AnyChannel::new(name, FlatSamples::F32(values));
+    let of = |i: usize| frame.rgba.iter().map(|p| p[i]).collect::<Vec<f32>>();
+    let mut channels = vec![
+        channel("R", of(0)),
+        channel("G", of(1)),
+        channel("B", of(2)),
+        channel("A", of(3)),
+        channel("Z", frame.depth.clone()),
+    ];
+    if !frame.layers.is_empty() {
+        let of = |value: fn(&HairLayer) -> f32| frame.layers.iter().map(value).collect::<Vec<f32>>();
+        channels.extend([
+            channel("hair.A", of(|l| l.share)),
+            channel("direction.X", of(|l| l.direction[0])),
+            channel("direction.Y", of(|l| l.direction[1])),
+            channel("direction.Z", of(|l| l.direction[2])),
+            channel("motion.X", of(|l| l.motion[0])),
+            channel("motion.Y", of(|l| l.motion[1])),
+        ]);
+    }
+    let size = Vec2(frame.size[0] as usize, frame.size[1] as usize);
+    let layer = Layer::new(
+        size,
+        LayerAttributes::default(),
+        Encoding::SMALL_LOSSLESS,
+        AnyChannels::sort(channels.into_iter().collect()),
+    );
+    let image = Image::empty(ImageAttributes::new(IntegerBounds::from_dimensions(size))).with_layer(layer);
+    write_whole(path, |file| image.write().to_buffered(file).map_err(Into::into))
+}
