@@ -80,10 +80,25 @@ fn write(folder: &Path) -> std::io::Result<()> {
         let form = Form::Layer("/head/hair".to_owned());
         fill(Box::new(HairStage::create(&folder.join(name), still.clone(), form)?), false)?;
     }
-    let mut frames = Vec::new();
+    let mut rest = Box::new(HairStage::create(&folder.join("rest.usda"), still, Form::Stage)?);
+    rest.frame(&hair.strands, &Affine3A::IDENTITY)?;
+    rest.finish()?;
+    // Strands of one number of points, which every format holds.
+    let mut even = Strands::default();
+    for s in 0..STRANDS {
+        even.push((0..5).map(|p| Vec3::new((s as f32).sin(), 0.1 * p as f32, (s as f32).cos()) * 9.7));
+    }
+    let even = Hair::from(even);
+    let mut sink = Box::new(HairStage::create(&folder.join("even.usda"), Export::new(&even, 24.0), Form::Stage)?);
+    sink.frame(&even.strands, &Affine3A::IDENTITY)?;
+    sink.finish()?;
+
+    let (mut frames, mut poses) = (Vec::new(), Vec::new());
     for frame in 0..FRAMES {
         frames.extend_from_slice(strands(frame).points());
+        poses.extend(glam::Mat4::from(pose(frame)).to_cols_array());
     }
+    fs::write(folder.join("poses.f32"), bytemuck::cast_slice(&poses))?;
     fs::write(folder.join("points.f32"), bytemuck::cast_slice(&frames))?;
     let counts: Vec<u32> = hair.strands.iter().map(|s| s.len() as u32).collect();
     fs::write(folder.join("counts.u32"), bytemuck::cast_slice(&counts))

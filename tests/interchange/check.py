@@ -1,0 +1,116 @@
+"""Opens what Nabiki writes with tools that are not Nabiki's, and takes hair through every pair of formats.
+
+    python3 tests/interchange/check.py                  builds, makes its own environment, checks
+    python3 tests/interchange/check.py --bpy PYTHON     the Blender part with another Python, one that has bpy
+
+usd-core, alembic3d and numpy come from PyPI into target/interchange. Blender is checked where the package bpy is
+installed (bpy 5.0.1 wants Python 3.11 and some shared libraries of a desktop); where it is not, that part says
+SKIPPED.
+"""
+
+import argparse
+import os
+import struct
+import subprocess
+import sys
+import venv
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+WORK = ROOT / "target" / "interchange"
+FORMATS = ["hair", "tfx", "usda", "usdc", "abc"]
+
+
+def run(*command, **options):
+    return subprocess.run([str(word) for word in command], check=True, cwd=ROOT, **options)
+
+
+def environment():
+    """A Python with usd-core, alembic3d and numpy; made once."""
+    python = WORK / "venv" / "bin" / "python"
+    if not python.exists():
+        venv.create(WORK / "venv", with_pip=True)
+        run(python, "-m", "pip", "install", "--quiet", "usd-core==26.11", "alembic3d==1.8.12.1", "numpy")
+    return python
+
+
+def points_of(path):
+    """The counts and points of a .hair file, as bytes."""
+    data = path.read_bytes()
+    magic, strands, points, arrays, segments = struct.unpack_from("<4sIIII", data)
+    assert magic == b"HAIR", path
+    at = 128
+    counts = struct.pack("<H", segments) * strands
+    if arrays & 1:
+        counts = data[at : at + 2 * strands]
+        at += 2 * strands
+    return counts, data[at : at + 12 * points]
+
+
+def round_trips(nabiki, samples):
+    """In -> out -> in for every pair of formats, and all shared hair through each format: the same bits."""
+    folder = WORK / "round_trips"
+    folder.mkdir(exist_ok=True)
+
+    def convert(source, target):
+        run(nabiki, "convert", source, target, "--unit", "cm", "--quiet")
+        return target
+
+    even = samples / "even.usda"
+    known = points_of(convert(even, folder / "known.hair"))
+    for first in FORMATS:
+        there = convert(even, folder / f"there.{first}")
+        for second in FORMATS:
+            back = convert(there, folder / f"back.{second}")
+            found = points_of(convert(back, folder / "found.hair"))
+            assert found == known, f"{first} -> {second}"
+    print(f"round trips: {len(FORMATS) ** 2} pairs of formats, the same bits")
+
+    shared = ROOT / ".." / "shared" / "data" / "hair"
+    if not shared.is_dir():
+        print(f"SKIPPED: {shared} is not there, so no real hair goes through")
+        return
+    files = [f for f in sorted(shared.iterdir()) if f.suffix in (".hair", ".tfx") or f.name.startswith("curly_swatch_f")]
+    for source in files:
+        known = points_of(convert(source, folder / "known.hair"))
+        for ending in ["usda", "usdc", "abc"]:
+            there = convert(source, folder / f"real.{ending}")
+            found = points_of(convert(there, folder / "found.hair"))
+            assert found == known, f"{source.name} -> {ending}"
+    print(f"round trips: {len(files)} files of real hair through .usda, .usdc and .abc, the same bits")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bpy", type=Path, help="a Python that has the package bpy")
+    parser.add_argument("--debug", action="store_true", help="build without optimisation")
+    arguments = parser.parse_args()
+
+    WORK.mkdir(parents=True, exist_ok=True)
+    profile = [] if arguments.debug else ["--release"]
+    run("cargo", "build", "--quiet", *profile, "-p", "nabiki_cli", "-p", "nabiki_usd", "--bins", "--examples")
+    built = ROOT / "target" / ("debug" if arguments.debug else "release")
+    nabiki = built / "nabiki"
+    samples = WORK / "samples"
+    run(built / "examples" / "interchange", "write", samples)
+
+    round_trips(nabiki, samples)
+    python = environment()
+    run(python, HERE / "usd.py", samples)
+    run(python, HERE / "alembic.py", samples)
+
+    blender = arguments.bpy or os.environ.get("NABIKI_BPY_PYTHON") or python
+    has_bpy = subprocess.run([str(blender), "-c", "import bpy"], capture_output=True).returncode == 0
+    if has_bpy:
+        run(blender, HERE / "blender.py", samples, nabiki)
+    else:
+        print("SKIPPED: Blender, as bpy is not installed (pip install bpy==5.0.1 for Python 3.11, then --bpy PYTHON)")
+    print("interchange: all well")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except subprocess.CalledProcessError as failure:
+        sys.exit(f"failed: {' '.join(map(str, failure.cmd))}")
