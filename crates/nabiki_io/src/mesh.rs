@@ -44,9 +44,13 @@ pub fn read(path: &Path, groups: &[String]) -> Result<Mesh> {
     }
 }
 
-/// The same from memory; `extension`: `obj`, `glb` or `gltf`. Buffers in files of their own are refused.
+/// The same from memory; `extension`: `obj`, `ply`, `glb` or `gltf`. Buffers in files of their own are refused.
 pub fn from_bytes(bytes: &[u8], extension: &str, groups: &[String]) -> Result<Mesh> {
-    if extension == "obj" { obj::from_bytes(bytes, groups) } else { glb::from_bytes(bytes, None, groups) }
+    match extension {
+        "obj" => obj::from_bytes(bytes, groups),
+        "ply" => ply::from_bytes(bytes),
+        _ => glb::from_bytes(bytes, None, groups),
+    }
 }
 
 /// Reads a mesh into head space, joins vertices at the same place and drops triangles without area.

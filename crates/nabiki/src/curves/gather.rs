@@ -8,6 +8,8 @@ use crate::Hair;
 #[derive(Default)]
 pub struct Gathered {
     all: Option<Hair>,
+    /// Parts that were grouped by their object.
+    named: usize,
 }
 
 impl Gathered {
@@ -17,6 +19,7 @@ impl Gathered {
         if let (Some((number, name)), None) = (group, &part.attributes.group) {
             part.attributes.group = Some(vec![number; part.strands.len()]);
             part.attributes.group_names = BTreeMap::from([(number, name)]);
+            self.named += 1;
         }
         let Some(all) = &mut self.all else {
             self.all = Some(part);
@@ -44,8 +47,13 @@ impl Gathered {
         a.group_names.extend(b.group_names);
     }
 
-    /// The whole.
+    /// The whole. Objects of one strand each, as some tools write them, are no groups.
     pub fn hair(self) -> Hair {
-        self.all.unwrap_or_default()
+        let mut hair = self.all.unwrap_or_default();
+        if self.named >= hair.strands.len() {
+            hair.attributes.group = None;
+            hair.attributes.group_names.clear();
+        }
+        hair
     }
 }
