@@ -81,6 +81,28 @@ def round_trips(nabiki, samples):
     print(f"round trips: {len(files)} files of real hair through .usda, .usdc and .abc, the same bits")
 
 
+SCENE = """
+[hair]
+file = "samples/rest.usda"
+join_within = 0
+
+[motion]
+frames = 3
+
+[[force]]
+through = 3
+vector = [-10, 0, 0]
+"""
+
+
+def there_and_back(nabiki, samples):
+    """A groom of another tool gets wind, and comes back as a layer over itself."""
+    scene = WORK / "trip.toml"
+    scene.write_text(SCENE)
+    options = ["--export", samples / "trip.usdc", "--export-layer", "/head/hair", "--quiet"]
+    run(nabiki, "simulate", scene, "-o", WORK / "trip.nabiki", *options)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bpy", type=Path, help="a Python that has the package bpy")
@@ -96,6 +118,7 @@ def main():
     run(built / "examples" / "interchange", "write", samples)
 
     round_trips(nabiki, samples)
+    there_and_back(nabiki, samples)
     python = environment()
     run(python, HERE / "usd.py", samples)
     run(python, HERE / "alembic.py", samples)

@@ -15,7 +15,7 @@ class Expected:
         self.points = np.fromfile(folder / "points.f32", "<f4").reshape(FRAMES, -1, 3)
         # Column by column: the transpose of each is the matrix that multiplies rows.
         self.poses = np.fromfile(folder / "poses.f32", "<f4").reshape(FRAMES, 4, 4).astype("f8")
-        self.counts = np.fromfile(folder / "counts.u32", "<u4")
+        self.counts = np.fromfile(folder / "counts.u32", "<u4").astype(int)
         self.strands = len(self.counts)
         self.size = float(np.ptp(self.points[0], axis=0).max())
         n = self.points.shape[1]

@@ -47,6 +47,19 @@ def curves(stage, expected, name, moving):
     assert list(primvar("groom_guide")) == list(expected.guides), name
 
 
+def there_and_back(expected):
+    """The layer of a simulated groom lies over the groom: the same points at rest, roots that stay, tips that move."""
+    shot = Usd.Stage.CreateInMemory()
+    shot.GetRootLayer().subLayerPaths = [str(expected.folder / "trip.usdc"), str(expected.folder / "rest.usda")]
+    hair = UsdGeom.BasisCurves(shot.GetPrimAtPath("/head/hair"))
+    assert hair.GetPointsAttr().GetTimeSamples() == [0, 1, 2, 3]
+    frames = [np.array(hair.GetPointsAttr().Get(frame)) for frame in range(4)]
+    expected.near(frames[0], expected.points[0], "trip: rest")
+    roots = np.concatenate([[0], np.cumsum(expected.counts)[:-1]])
+    expected.near(frames[3][roots], expected.points[0][roots], "trip: roots")
+    assert np.abs(frames[3] - frames[0]).max() > 0.01 * expected.size, "trip: nothing moved"
+
+
 def main():
     expected = Expected(sys.argv[1])
     for name in ["still.usda", "still.usdc", "moving.usda", "moving.usdc"]:
@@ -71,6 +84,7 @@ def main():
         validate(alone, name)
         own = {a.GetName() for a in alone.GetPrimAtPath("/head/hair").GetAuthoredAttributes()}
         assert own == {"points", "extent"}, f"{name}: {own}"
+    there_and_back(expected)
     version = ".".join(map(str, Usd.GetVersion()))
     print(f"usd-core {version}: 4 stages and 2 layers, {FRAMES} frames each, and no complaint from its validators")
 
