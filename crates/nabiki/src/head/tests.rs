@@ -181,3 +181,24 @@ fn near_its_skin_the_bust_has_no_jumps() {
         }
     }
 }
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(8))]
+
+    #[test]
+    fn any_heap_of_triangles_is_a_head_or_refused(
+        corners in proptest::collection::vec((-20.0_f32..20.0, -20.0_f32..20.0, -20.0_f32..20.0), 3..12),
+        picks in proptest::collection::vec((0_u32..3, 0_u32..12, 0_u32..12), 1..20),
+        flat in proptest::bool::ANY,
+        fit in proptest::bool::ANY,
+    ) {
+        let lift = if flat { 0.0 } else { 1.0 };
+        let positions: Vec<Vec3> = corners.iter().map(|&(x, y, z)| vec3(x, lift * y, z)).collect();
+        let mesh = Mesh { positions, triangles: picks.iter().map(|&(a, b, c)| [a, b, c]).collect() };
+        let given = Ellipsoid { center: Vec3::ZERO, half_axes: vec3(9.0, 10.0, 8.0) };
+        if let Ok(head) = Head::from_mesh(mesh, (!fit).then_some(given)) {
+            proptest::prop_assert!(head.distance(Vec3::ZERO).is_finite());
+            proptest::prop_assert!(head.outward(vec3(3.0, 4.0, 5.0)).is_normalized());
+        }
+    }
+}
