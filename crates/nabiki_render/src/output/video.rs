@@ -52,7 +52,7 @@ impl Movie {
         let quantiser = (44.0 - 32.0 * picture.video.quality).round() as u8;
         let config = EncoderConfig::new()
             .usage_type(UsageType::CameraVideoRealTime)
-            .rate_control_mode(RateControlMode::Quality)
+            .rate_control_mode(RateControlMode::Bufferbased)
             .qp(QpRange::new(quantiser, quantiser))
             .complexity(Complexity::Medium)
             .skip_frames(false)
