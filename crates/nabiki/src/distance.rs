@@ -41,7 +41,8 @@ pub struct SkinDistance {
 impl SkinDistance {
     /// Samples the distance to `mesh` through the box `low..high`, with steps of `spacing` near the skin.
     ///
-    /// The mesh must have triangles, all of them with finite vertices; `spacing` must be above 0.
+    /// Every vertex must be finite, and some triangle must have three corners in different places; `spacing` must be
+    /// above 0.
     pub fn new(mesh: &Mesh, low: Vec3, high: Vec3, spacing: f32) -> Self {
         let tree = Tree::new(&rims::closed(mesh));
         let cell = spacing * FINE as f32;

@@ -90,6 +90,13 @@ fn check_mesh(mesh: &Mesh) -> Result<(), SettingError> {
         let value = format!("vertex {v} at {}", mesh.positions[v]);
         return Err(SettingError::new("head.mesh", value, "must have finite coordinates"));
     }
+    let has_area = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|v| mesh.positions[v as usize]);
+        a != b && b != c && c != a
+    };
+    if !mesh.triangles.iter().any(has_area) {
+        return Err(SettingError::new("head.mesh", "only triangles without area", "must have a surface"));
+    }
     Ok(())
 }
 

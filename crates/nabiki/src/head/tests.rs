@@ -135,6 +135,9 @@ fn distance_gradient_and_inside_agree_on_an_egg() {
 fn what_is_no_mesh_is_refused_by_name() {
     let sound = egg(Ellipsoid { center: Vec3::ZERO, half_axes: vec3(9.0, 10.0, 8.0) }, 12);
     assert!(refused(Mesh::default(), None).starts_with("head.mesh = no triangles"));
+    let mut points = sound.clone();
+    points.triangles.iter_mut().for_each(|t| t[1] = t[0]);
+    assert!(refused(points, None).starts_with("head.mesh = only triangles without area"));
     let mut lost = sound.clone();
     lost.triangles[5][1] = 100_000;
     assert!(refused(lost, None).starts_with("head.mesh = index 100000"));
