@@ -7,7 +7,7 @@ use nabiki::Strands;
 use nabiki::dynamics::{ForceSpace, Simulation, Stepper};
 use nabiki_io::cache::Reader;
 use nabiki_io::take::Take;
-use nabiki_render::output::png;
+use nabiki_render::output::{exr, field_plot, png};
 use nabiki_render::{Bounds, ContactSheet, Developer, Frame, Movie, Picture, RenderError, Renderer, View};
 
 use crate::failure::Failure;
@@ -60,6 +60,8 @@ pub struct Film<'a> {
     renderer: Renderer,
     developer: Developer,
     bounds: Bounds,
+    /// The frame before, where the shutter stays open.
+    previous: Option<Strands>,
     quiet: bool,
 }
 
@@ -84,9 +86,14 @@ impl<'a> Film<'a> {
         Ok(Self {
             take,
             picture: picture.clone(),
-            renderer: Renderer::new(picture, &head.mesh)?,
+            renderer: if take.stage.scene.output.exr_frames {
+                Renderer::new(picture, &head.mesh)?.with_layers()
+            } else {
+                Renderer::new(picture, &head.mesh)?
+            },
             developer: Developer::new(picture),
             bounds,
+            previous: None,
             quiet,
         })
     }
@@ -97,7 +104,8 @@ impl<'a> Film<'a> {
         let (output, last) = (&self.take.stage.scene.output, self.take.stage.scene.motion.frames);
         let on_sheet = output.sheet_frames(last);
         let files = [folder.join(format!("{name}.mp4")), folder.join(format!("{name}_sheet.png"))];
-        let stills = output.png_frames.then(|| folder.join(format!("{name}_frames")));
+        let depth = if output.png_bits == 16 { png::Depth::Sixteen } else { png::Depth::Eight };
+        let stills = (output.png_frames || output.exr_frames).then(|| folder.join(format!("{name}_frames")));
         if let Some(stills) = &stills {
             std::fs::create_dir_all(stills)
                 .map_err(|e| Failure::new(format!("{}: cannot make this folder: {e}", stills.display())))?;
@@ -111,7 +119,12 @@ impl<'a> Film<'a> {
                 movie.push(&frame, &self.developer)?;
             }
             if let Some(stills) = &stills {
-                png::write(&stills.join(format!("{n:04}.png")), &frame, &self.developer, png::Depth::Eight)?;
+                if output.png_frames {
+                    png::write(&stills.join(format!("{n:04}.png")), &frame, &self.developer, depth)?;
+                }
+                if output.exr_frames {
+                    exr::write(&stills.join(format!("{n:04}.exr")), &frame)?;
+                }
             }
             if on_sheet.contains(&n) {
                 sheet.add(&frame, &self.developer, n, Some(self.take.force(n.max(1))), &view);
@@ -130,6 +143,23 @@ impl<'a> Film<'a> {
             written.push(sheet_file);
         }
         written.extend(stills);
+        if output.field {
+            let intervals: Vec<_> = self
+                .take
+                .stage
+                .scene
+                .force
+                .iter()
+                .map(|k| field_plot::Interval { through: k.through, vector: k.vector })
+                .collect();
+            for (kind, write) in
+                [("svg", field_plot::write_svg as fn(&Path, &[_]) -> _), ("png", field_plot::write_png)]
+            {
+                let path = folder.join(format!("{name}_field.{kind}"));
+                write(&path, &intervals)?;
+                written.push(path);
+            }
+        }
         Ok(written)
     }
 
@@ -145,7 +175,11 @@ impl<'a> Film<'a> {
         let progress = n as f32 / self.take.stage.scene.motion.frames as f32;
         let view = View::new(&self.picture.camera.at(progress), self.picture.size, &self.bounds);
         let view_in_head = turned(view, self.take.pose(n).rotation.inverse());
-        let frame = self.renderer.draw(strands, &view_in_head)?;
+        let previous = self.previous.as_ref().unwrap_or(strands);
+        let frame = self.renderer.draw_since(previous, strands, &view_in_head)?;
+        if self.picture.shutter > 0.0 {
+            self.previous = Some(strands.clone());
+        }
         match self.take.stage.dynamics.motion.force_space {
             ForceSpace::World => Ok((frame, view)),
             ForceSpace::Head => Ok((frame, view_in_head)),

@@ -31,7 +31,7 @@ pub mod output;
 mod raster;
 mod renderer;
 pub mod settings;
-mod shutter;
+pub mod shutter;
 mod skin;
 pub mod timing;
 

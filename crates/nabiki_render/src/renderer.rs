@@ -129,14 +129,28 @@ impl Renderer {
         self.draw_moving(strands, &[], view)
     }
 
-    /// Draws one frame of strands that move while the shutter is open: from `open` to `close` (head space, cm), which the caller
-    /// takes as far apart as `picture.shutter` says. Costs little more than a sharp frame, however fast the hair.
+    /// Draws one frame of strands that move while the shutter is open: from `open` to `close` (head space, cm), whatever
+    /// `picture.shutter` says. Costs little more than a sharp frame, however fast the hair.
     ///
     /// # Errors
     /// If a point of a strand is not finite, or the two have not the same strands.
     pub fn draw_blurred(&mut self, open: &Strands, close: &Strands, view: &View) -> Result<Frame, RenderError> {
         let (middle, moved) = shutter::halfway(open, close)?;
         self.draw_moving(&middle, &moved, view)
+    }
+
+    /// Draws one frame of strands (head space, cm) as a camera does whose shutter closes at this frame and opened
+    /// `picture.shutter` of a frame earlier: `previous` is the frame before. Sharp where the shutter is 0.
+    ///
+    /// # Errors
+    /// If a point of a strand is not finite, or the two have not the same strands.
+    pub fn draw_since(&mut self, previous: &Strands, strands: &Strands, view: &View) -> Result<Frame, RenderError> {
+        let shutter = self.picture.shutter;
+        if shutter == 0.0 {
+            return self.draw(strands, view);
+        }
+        let open = shutter::between(previous, strands, 1.0 - shutter)?;
+        self.draw_blurred(&open, strands, view)
     }
 
     fn draw_moving(&mut self, strands: &Strands, moved: &[Vec3], view: &View) -> Result<Frame, RenderError> {

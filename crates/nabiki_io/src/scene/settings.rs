@@ -217,19 +217,29 @@ pub struct Output {
     pub movie: bool,
     /// Whether every frame is written as a PNG (default false).
     pub png_frames: bool,
+    /// Bits of each channel of those PNGs, 8 (default) or 16.
+    pub png_bits: u32,
+    /// Whether every frame is written as an OpenEXR file with depth, hair direction and motion (default false).
+    pub exr_frames: bool,
+    /// Whether the force's projections on the yz and zx planes are drawn, as SVG and PNG (default false; the paper's
+    /// Figure 10).
+    pub field: bool,
     /// Frames of the contact sheet (default: four, evenly from frame 0 on, as the paper's Figure 6 has them).
     pub sheet: Option<Vec<u32>>,
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Self { movie: true, png_frames: false, sheet: None }
+        Self { movie: true, png_frames: false, png_bits: 8, exr_frames: false, field: false, sheet: None }
     }
 }
 
 impl Output {
     /// Refuses frames that the motion does not reach.
     pub fn check(&self, frames: u32) -> Result<(), SettingError> {
+        if !matches!(self.png_bits, 8 | 16) {
+            return Err(SettingError::new("output.png_bits", self.png_bits, "must be 8 or 16"));
+        }
         match self.sheet.iter().flatten().enumerate().find(|&(_, &frame)| frame > frames) {
             Some((i, frame)) => {
                 let remedy = format!("the last frame is motion.frames = {frames}");
