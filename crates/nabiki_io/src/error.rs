@@ -62,7 +62,10 @@ impl std::error::Error for Error {
 
 impl From<io::Error> for Error {
     fn from(source: io::Error) -> Self {
-        Self { source: Some(io::Error::from(source.kind())), ..Self::new(source.to_string()) }
+        let text = source.to_string();
+        // The crate tempfile adds the name of the part file, which is gone by the time anyone reads this.
+        let what = text.split(" at path ").next().unwrap_or(&text);
+        Self { source: Some(io::Error::from(source.kind())), ..Self::new(what) }
     }
 }
 
