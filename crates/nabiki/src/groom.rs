@@ -7,6 +7,7 @@ mod chance;
 mod course;
 mod cut;
 mod drape;
+mod ears;
 
 pub mod cantilever;
 pub mod style;
@@ -19,6 +20,7 @@ use crate::error::check_positive;
 use crate::pores::Pore;
 use crate::{Head, SettingError, Strands};
 use drape::{Draping, Ground};
+use ears::EarHills;
 
 /// Strands styled by one task.
 const STRANDS_A_TASK: usize = 64;
@@ -52,8 +54,10 @@ pub fn groom(
             return Err(SettingError::new(format!("hair.style.length.{region}"), length, remedy));
         }
     }
+    let ears = style.volume.over_ears.then(|| EarHills::new(head));
     let ground = Ground {
         head,
+        ears: ears.as_ref(),
         volume: style.volume,
         lever_arms: style.lever_arms,
         wave_length: f64::from(style.locks.wave_length),

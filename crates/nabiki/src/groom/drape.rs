@@ -8,6 +8,7 @@ use glam::DVec3;
 
 use super::cantilever::{Beam, Hold, Workspace};
 use super::course::Course;
+use super::ears::EarHills;
 use super::style::{LeverArms, Volume};
 use crate::Head;
 
@@ -16,6 +17,23 @@ const SETTLED: f64 = 5e-5;
 
 /// Times that the bends of a lying strand are rounded.
 const ROUNDINGS: usize = 3;
+
+/// A turn (rad) beyond which a segment had rather lie closer than the layers want.
+const SHARP: f64 = 0.9;
+
+/// Steepest rise of lying hair toward the layer that it belongs to (slope).
+const RISE: f64 = 0.4;
+
+/// A root deeper than this under the hill over an ear (cm) is of the hair that lies about the ear.
+const ON_HILL: f64 = 0.3;
+
+/// What a segment keeps (cm): from the skin at its end and in its middle, from the hills over the ears at its end.
+#[derive(Clone, Copy, Debug)]
+struct Keep {
+    end: f64,
+    halfway: f64,
+    over_ears: Option<f64>,
+}
 
 /// Nodes of one strand, and what is needed to find them; kept from strand to strand.
 #[derive(Debug, Default)]
@@ -32,6 +50,8 @@ pub(super) struct Draping {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ground<'a> {
     pub head: &'a Head,
+    /// What hair from above passes over, if the style wants it to.
+    pub ears: Option<&'a EarHills>,
     pub volume: Volume,
     pub lever_arms: LeverArms,
     pub wave_length: f64,
@@ -48,49 +68,73 @@ impl Ground<'_> {
         gap + layers * (1.0 - (-s / f64::from(self.volume.reach)).exp())
     }
 
-    /// What the end of the segment that ends at `s` keeps, and its middle.
-    fn clearances(&self, course: &Course, s: f64, d: f64) -> (f64, f64) {
-        let clearance = self.clearance(course, s);
+    /// What the segment from `p` that ends at `s` keeps. It rises toward that by no more than `RISE`.
+    fn keep(&self, course: &Course, over_ears: Option<f64>, p: DVec3, s: f64, d: f64) -> Keep {
+        let here = self.distance(p).max(0.0);
+        let end = self.clearance(course, s).min((here + RISE * d).max(f64::from(self.volume.gap)));
         // The first segment starts on the skin.
-        (clearance, if s < 1.5 * d { 0.0 } else { 0.7 * self.clearance(course, s - d).min(clearance) })
+        let halfway = if s < 1.5 * d { 0.0 } else { 0.7 * here.min(end) };
+        Keep { end, halfway, over_ears }
+    }
+
+    /// How far above the hills over the ears a strand stays: none, if it is rooted under one.
+    fn over_ears(&self, course: &Course) -> Option<f64> {
+        let root = self.ears?.above(course.root);
+        (root > -ON_HILL).then_some(root.min(0.0))
     }
 
     /// How much farther from the skin than it must be a segment `reach` from `p` stays, negative if it fails to.
-    fn spare(&self, p: DVec3, reach: DVec3, clearance: f64, halfway: f64) -> f64 {
-        (self.distance(p + reach) - clearance).min(self.distance(p + reach * 0.5) - halfway)
+    fn spare(&self, p: DVec3, reach: DVec3, keep: &Keep) -> f64 {
+        let end = p + reach;
+        let mut spare = (self.distance(end) - keep.end).min(self.distance(p + reach * 0.5) - keep.halfway);
+        if let (Some(ears), Some(least)) = (self.ears, keep.over_ears) {
+            spare = spare.min(ears.above(end) - least);
+        }
+        spare
     }
 
     fn distance(&self, p: DVec3) -> f64 {
         f64::from(self.head.distance(p.as_vec3()))
     }
 
-    /// Turns a segment from `p` along `t` toward or away from the skin until it just keeps `clearance` at its end,
-    /// and `halfway` in its middle. If no angle does, the one that comes nearest.
-    fn turned_onto(&self, p: DVec3, t: DVec3, d: f64, clearance: f64, halfway: f64) -> DVec3 {
+    /// Turns a segment from `p` along `t` toward or away from the skin until it just keeps what it must. Where that
+    /// would take a sharp turn, as in the groove behind an ear, it keeps only the gap, and at worst turns aside.
+    fn turned_onto(&self, p: DVec3, t: DVec3, d: f64, keep: &Keep) -> DVec3 {
         let outward = self.head.outward((p + t * d).as_vec3()).as_dvec3();
         let side = (outward - t * outward.dot(t)).try_normalize().unwrap_or_else(|| t.any_orthonormal_vector());
+        let gap = f64::from(self.volume.gap);
+        let bare = Keep { end: keep.end.min(gap), halfway: keep.halfway.min(0.7 * gap), over_ears: None };
+        let aside = t.cross(side);
+        let ways = [(side, keep, SHARP), (side, &bare, SHARP), (aside, &bare, SHARP), (-aside, &bare, SHARP)];
+        let mut found = ways.iter().find_map(|&(side, keep, most)| self.turned(p, t, d, side, keep, most));
+        if found.is_none() {
+            found = self.turned(p, t, d, side, &bare, std::f64::consts::PI);
+        }
+        found.unwrap_or(outward)
+    }
+
+    /// The least turn from `t` toward `side`, if less than `most` (rad), after which the segment keeps what it must; or,
+    /// if it does so before, the turn the other way that brings it down to that.
+    fn turned(&self, p: DVec3, t: DVec3, d: f64, side: DVec3, keep: &Keep, most: f64) -> Option<DVec3> {
         let turned = |angle: f64| t * angle.cos() + side * angle.sin();
-        let spare = |angle: f64| self.spare(p, turned(angle) * d, clearance, halfway);
+        let spare = |angle: f64| self.spare(p, turned(angle) * d, keep);
         // Bracket the touch between an angle that is clear and one, below it, that is not.
         let first = spare(0.0);
-        let (mut clear, mut inside, mut best) = (None, None, (first, 0.0));
+        let (mut clear, mut inside) = (None, None);
         *(if first >= 0.0 { &mut clear } else { &mut inside }) = Some((0.0, first));
         let away = if first >= 0.0 { -1.0 } else { 1.0 };
         let mut step = (first.abs() / d).clamp(0.02, 0.5);
         let mut angle = 0.0;
         while clear.is_none() || inside.is_none() {
             angle += away * step;
-            if angle.abs() > std::f64::consts::PI {
-                return turned(best.1);
+            if angle.abs() > most {
+                return clear.map(|_| t);
             }
             let now = spare(angle);
-            if now > best.0 {
-                best = (now, angle);
-            }
             *(if now >= 0.0 { &mut clear } else { &mut inside }) = Some((angle, now));
             step = (1.5 * step).min(0.3);
         }
-        let (Some(mut clear), Some(mut inside)) = (clear, inside) else { return turned(best.1) };
+        let (mut clear, mut inside) = (clear?, inside?);
         for _ in 0..24 {
             if clear.1 < 1e-3 {
                 break;
@@ -100,7 +144,7 @@ impl Ground<'_> {
             let now = spare(angle);
             *(if now >= 0.0 { &mut clear } else { &mut inside }) = (angle, now);
         }
-        turned(clear.0)
+        Some(turned(clear.0))
     }
 
     /// Lays out a strand of `length` (cm) in equal segments: its nodes end up in `draping.nodes`.
@@ -114,6 +158,7 @@ impl Ground<'_> {
         nodes.push(course.root);
         directions.clear();
 
+        let over_ears = self.over_ears(course);
         let mut beam = Beam { stiffness: course.bend.powi(3), segment: d, clamp: course.clamp, hold: Hold::Clamped };
         // The free piece starts at this segment.
         let mut from = 0;
@@ -122,16 +167,16 @@ impl Ground<'_> {
         for i in 0..k {
             let s = (i + 1) as f64 * d;
             let wave = wave_at(course, self.wave_length, s - 0.5 * d);
-            let (clearance, halfway) = self.clearances(course, s, d);
+            let keep = self.keep(course, over_ears, p, s, d);
             let hanging = (free[i - from] + wave).normalize();
-            let taken = if self.spare(p, hanging * d, clearance, halfway) >= 0.0 {
+            let taken = if self.spare(p, hanging * d, &keep) >= 0.0 {
                 lies = false;
                 hanging
             } else {
                 // Lying hair carries about as much as hangs over one length of its stiffness: kappa = |w_perp| / bend.
                 let along = if lies { beam.clamp + loads[i] * (d / course.bend) } else { free[i - from] };
                 let along = (along.try_normalize().unwrap_or(beam.clamp) + wave).normalize();
-                let along = self.turned_onto(p, along, d, clearance, halfway);
+                let along = self.turned_onto(p, along, d, &keep);
                 lies = true;
                 touched = true;
                 beam.clamp = (along - wave).normalize();
@@ -152,14 +197,14 @@ impl Ground<'_> {
         }
         if touched {
             for _ in 0..ROUNDINGS {
-                self.round(course, d, directions, nodes);
+                self.round(course, over_ears, d, directions, nodes);
             }
         }
     }
 
     /// Rounds the bends of a strand that lies on something, as its own stiffness and the hair around it do: over an
     /// ear it lifts off above and comes down below. Nodes still keep their clearance.
-    fn round(&self, course: &Course, d: f64, directions: &mut [DVec3], nodes: &mut [DVec3]) {
+    fn round(&self, course: &Course, over_ears: Option<f64>, d: f64, directions: &mut [DVec3], nodes: &mut [DVec3]) {
         let mut before = directions[0];
         for i in 1..directions.len() {
             let t = directions[i];
@@ -169,9 +214,9 @@ impl Ground<'_> {
         }
         for (i, t) in directions.iter_mut().enumerate().skip(1) {
             let (p, s) = (nodes[i], (i + 1) as f64 * d);
-            let (clearance, halfway) = self.clearances(course, s, d);
-            if self.spare(p, *t * d, clearance, halfway) < 0.0 {
-                *t = self.turned_onto(p, *t, d, clearance, halfway);
+            let keep = self.keep(course, over_ears, p, s, d);
+            if self.spare(p, *t * d, &keep) < 0.0 {
+                *t = self.turned_onto(p, *t, d, &keep);
             }
             nodes[i + 1] = p + *t * d;
         }

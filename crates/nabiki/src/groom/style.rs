@@ -171,11 +171,13 @@ pub struct Volume {
     pub reach: f32,
     /// Distance that any hair keeps (cm, default 0.04).
     pub gap: f32,
+    /// Whether hair from above passes over the ears (default true) or parts about them.
+    pub over_ears: bool,
 }
 
 impl Default for Volume {
     fn default() -> Self {
-        Self { thickness: 0.8, reach: 6.0, gap: 0.04 }
+        Self { thickness: 0.8, reach: 6.0, gap: 0.04, over_ears: true }
     }
 }
 
