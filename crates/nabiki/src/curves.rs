@@ -76,20 +76,25 @@ impl Curves<'_> {
         if segments == Some(0) {
             return Err("0 segments: a strand needs one at least".to_owned());
         }
+        if (self.basis, segments) == (Basis::Linear, None) {
+            for (curve, &count) in self.counts.iter().enumerate() {
+                self.pieces(count).map_err(|e| format!("curve {curve}: {e}"))?;
+            }
+            let ends = self.counts.iter().scan(0, |at, &count| {
+                *at += count as u32;
+                Some(*at)
+            });
+            let starts = std::iter::once(0).chain(ends).collect();
+            return Ok(Walked { strands: Strands::from_parts(starts, self.points.to_vec()), blends: Vec::new() });
+        }
         let mut walked = Walked { strands: Strands::with_capacity(self.counts.len(), 0), ..Walked::default() };
         let mut first = 0;
         for (curve, &count) in self.counts.iter().enumerate() {
             let points = &self.points[first..first + count];
             let pieces = self.pieces(count).map_err(|e| format!("curve {curve}: {e}"))?;
-            match (self.basis, segments) {
-                (Basis::Linear, None) => walked.strands.push(points.iter().copied()),
-                _ => {
-                    let wanted = segments.unwrap_or(count - 1);
-                    let blends = self.blends(points, pieces, wanted);
-                    walked.strands.push(blends.iter().map(|b| b.of(points).as_vec3()));
-                    walked.blends.extend(blends.into_iter().map(|b| Blend { first: first + b.first, ..b }));
-                }
-            }
+            let blends = self.blends(points, pieces, segments.unwrap_or(count - 1));
+            walked.strands.push(blends.iter().map(|b| b.of(points).as_vec3()));
+            walked.blends.extend(blends.into_iter().map(|b| Blend { first: first + b.first, ..b }));
             first += count;
         }
         Ok(walked)

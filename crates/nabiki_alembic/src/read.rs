@@ -117,8 +117,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
         let inside = self.schema(object)?;
         let positions = required(&inside, "P", "")?;
         let time = self.tree.timings[positions.timing].time(frame.min(positions.samples.saturating_sub(1)));
-        let numbers = singles(positions.kind, &self.tree.sample(positions, frame)?)?;
-        let points: Vec<Vec3> = numbers.as_chunks::<3>().0.iter().map(|&p| Vec3::from(p)).collect();
+        let points = self.tree.points(positions, frame)?;
         let counts = required(&inside, "nVertices", "")?;
         let counts = integers(counts.kind, &self.tree.sample(counts, frame)?)?;
         let counts = checked_counts(&counts, points.len())?;

@@ -2,10 +2,15 @@
 
 use std::io::{Read, Seek};
 
+use glam::Vec3;
+
 use crate::Problem;
 use crate::layout::{INLINE_METADATA, Kind, Pod, flags};
 use crate::ogawa::read::{Group, Reader, is_data};
+use crate::values::singles;
 
+/// Bytes of digest before the values of a sample.
+const DIGEST: usize = 16;
 /// Objects below objects; an archive that claims more refers to itself.
 const DEEPEST: usize = 64;
 /// Objects of one archive; see [`DEEPEST`].
@@ -231,16 +236,34 @@ impl<R: Read + Seek> Tree<R> {
 
     /// Bytes of sample `i` of a property; the nearest one it has.
     pub fn sample(&mut self, header: &Header, i: usize) -> Result<Vec<u8>, Problem> {
+        match self.place(header, i)? {
+            Some(data) => self.from.data_after(data, DIGEST),
+            None => Ok(Vec::new()),
+        }
+    }
+
+    /// Sample `i` of a property of points, without a detour where they are stored as they are wanted.
+    pub fn points(&mut self, header: &Header, i: usize) -> Result<Vec<Vec3>, Problem> {
+        if header.kind == (Kind { pod: Pod::F32, extent: 3 }) && cfg!(target_endian = "little") {
+            return match self.place(header, i)? {
+                Some(data) => self.from.plain_after(data, DIGEST),
+                None => Ok(Vec::new()),
+            };
+        }
+        let numbers = singles(header.kind, &self.sample(header, i)?)?;
+        Ok(numbers.as_chunks::<3>().0.iter().map(|&p| Vec3::from(p)).collect())
+    }
+
+    /// Where the data of sample `i` is.
+    fn place(&mut self, header: &Header, i: usize) -> Result<Option<u64>, Problem> {
         if header.samples == 0 || header.form == Form::Compound {
-            return Ok(Vec::new());
+            return Ok(None);
         }
         let each = if header.form == Form::Array { 2 } else { 1 };
         let group: Group = self.from.group(header.place)?;
         let stored = header.stored(i.min(header.samples - 1));
         let data = group.get(each * stored).copied();
-        let data = data.ok_or_else(|| Problem(format!("property {}: sample {i} is missing", header.name)))?;
-        // The digest comes before the values.
-        self.from.data_after(data, 16)
+        data.map(Some).ok_or_else(|| Problem(format!("property {}: sample {i} is missing", header.name)))
     }
 }
 

@@ -119,8 +119,7 @@ impl StageReader {
     fn curves(&mut self, prim: usize, time: f64, segments: Option<usize>) -> Result<Hair, Problem> {
         let layer = &mut self.layer;
         let points = layer.at(prim, "points", time).ok_or_else(|| Problem::new("have no points"))?;
-        let points = layer.singles(points)?;
-        let points: Vec<Vec3> = points.as_chunks::<3>().0.iter().map(|&p| Vec3::from(p)).collect();
+        let points = layer.points(points)?;
         let counts = layer.at(prim, "curveVertexCounts", time);
         let counts = layer.integers(counts.ok_or_else(|| Problem::new("have no curveVertexCounts"))?)?;
         let counts = checked_counts(&counts, points.len())?;

@@ -4,6 +4,8 @@ use std::collections::HashMap;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 
+use glam::Vec3;
+
 use crate::Problem;
 use crate::crate_file::MAGIC;
 use crate::crate_file::read::CrateReader;
@@ -91,6 +93,17 @@ impl Layer {
         match &mut self.values {
             Values::Text(text) => text_read::numbers(text, handle),
             Values::Binary(reader) => reader.singles(handle.0),
+        }
+    }
+
+    /// All numbers of a value as points.
+    pub fn points(&mut self, handle: Handle) -> Result<Vec<Vec3>, Problem> {
+        match &mut self.values {
+            Values::Text(text) => {
+                let numbers: Vec<f32> = text_read::numbers(text, handle)?;
+                Ok(numbers.as_chunks::<3>().0.iter().map(|&p| Vec3::from(p)).collect())
+            }
+            Values::Binary(reader) => reader.points(handle.0),
         }
     }
 

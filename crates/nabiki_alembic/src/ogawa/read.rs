@@ -72,6 +72,18 @@ impl<R: Read + Seek> Reader<R> {
         Ok(bytes)
     }
 
+    /// The data at `child` but for the first `skip` bytes, read into numbers where they will stay; a part of one at
+    /// the end is left out.
+    pub fn plain_after<T: bytemuck::Pod>(&mut self, child: u64, skip: usize) -> Result<Vec<T>, Problem> {
+        let length = self.length(child)?.saturating_sub(skip);
+        let mut values = vec![T::zeroed(); length / size_of::<T>()];
+        if !values.is_empty() {
+            self.from.seek_relative(skip as i64)?;
+            self.from.read_exact(bytemuck::cast_slice_mut(&mut values))?;
+        }
+        Ok(values)
+    }
+
     /// Number of bytes of the data at `child`; reading goes on at the first of them.
     pub fn length(&mut self, child: u64) -> Result<usize, Problem> {
         if !is_data(child) {
