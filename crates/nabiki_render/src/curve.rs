@@ -29,8 +29,8 @@ pub struct Curves {
 }
 
 /// Longest piece (cm), turn (rad) and length on the picture (pixels) between neighbouring nodes.
-const LONGEST: f32 = 0.6;
-const SHARPEST: f32 = 0.11;
+const LONGEST: f32 = 0.8;
+const SHARPEST: f32 = 0.15;
 const WIDEST: f32 = 14.0;
 /// Most pieces that one segment is cut into.
 const MOST_CUTS: f32 = 64.0;

@@ -227,7 +227,7 @@ impl SkinLight<'_> {
         pixels
             .par_iter()
             .with_min_len(256)
-            .flat_map_iter(|p| shadows.iter().map(|s| s.visible(p.position + 0.1 * p.normal)))
+            .flat_map_iter(|p| shadows.iter().map(|s| s.visible_from_skin(p.position, p.normal)))
             .collect()
     }
 
@@ -250,14 +250,14 @@ impl SkinLight<'_> {
                     let hair = self.crossings.get(l).map_or(1.0, |c| (-c.at(self.first_receiver + i)).exp());
                     let head = unhidden.get(i * self.lamps.len() + l).copied().unwrap_or(1.0);
                     // Near the terminator the angle itself is the shadow.
-                    let sure = smooth(facing / 0.35);
+                    let sure = smooth((facing - 0.05) / 0.4);
                     let lit = hair * (1.0 - sure * (1.0 - head));
                     let halfway = (lamp.toward + eye).normalize_or(eye);
                     let gloss = 0.045 * 9.0 * normal.dot(halfway).max(0.0).powi(18) * smooth(facing / 0.25);
                     let rim = (1.0 - eye.dot(normal).clamp(0.0, 1.0)).powi(4) * facing.max(0.0);
                     for c in 0..3 {
                         let wrapped = ((facing + soft[c]) / (1.0 + soft[c])).max(0.0);
-                        diffuse[c] += lamp.strength[c] * lit * wrapped.powf(1.0 + 0.6 * soft[c]);
+                        diffuse[c] += lamp.strength[c] * lit * wrapped * wrapped;
                         sheen[c] += lamp.strength[c] * lit * (gloss + 0.5 * rim);
                     }
                 }

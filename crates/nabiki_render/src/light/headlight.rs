@@ -19,6 +19,8 @@ pub struct HeadShadow {
     axes: [Vec3; 2],
     low: [f32; 2],
     cell: f32,
+    /// Radius of the blur (cm).
+    blur: f32,
     size: [usize; 2],
     /// In each cell: the part of its surroundings that the head covers, and the head's mean distance there (cm).
     cells: Vec<[f32; 2]>,
@@ -58,7 +60,15 @@ impl HeadShadow {
         for c in &mut cells {
             c[1] /= c[0].max(1e-6);
         }
-        Self { toward: lamp.toward, axes, low, cell, size, cells }
+        Self { toward: lamp.toward, axes, low, cell, blur, size, cells }
+    }
+
+    /// Part of the lamp that the head leaves visible from a place on its own skin with this unit normal, 0..1: skin aslant to the
+    /// lamp is not taken to lie behind its own blurred surroundings.
+    pub fn visible_from_skin(&self, p: Vec3, normal: Vec3) -> f32 {
+        let facing = normal.dot(self.toward).clamp(0.1, 1.0);
+        let steep = (1.0 - facing * facing).sqrt() / facing;
+        self.visible(p + self.toward * (self.blur * steep))
     }
 
     /// Part of the lamp that the head leaves visible from a place, 0..1.

@@ -10,7 +10,7 @@ use crate::camera::View;
 use crate::frame::{Developer, Frame};
 
 /// Widest thumbnail (pixels); larger frames are shrunk by a whole number.
-const WIDEST: usize = 720;
+const WIDEST: usize = 960;
 const GAP: usize = 12;
 const PAPER: [u8; 3] = [24, 25, 28];
 const INK: [u8; 3] = [235, 235, 230];

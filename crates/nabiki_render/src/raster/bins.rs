@@ -91,23 +91,25 @@ impl Bins {
 
     /// Lists what can be seen, sorted by depth with ties in the order of the nodes.
     fn sort(&mut self, nodes: &[Node], size: [u32; 2], margin: f32) {
-        self.order.clear();
         let bounds = [size[0] as f32, size[1] as f32];
-        let (mut near, mut far) = (f32::INFINITY, 0.0_f32);
-        for (i, pair) in nodes.windows(2).enumerate() {
-            if visible(&pair[0], &pair[1], bounds, margin) {
-                self.order.push(i as u32);
-                let depth = pair[0].depth + pair[1].depth;
-                near = near.min(depth);
-                far = far.max(depth);
-            }
-        }
+        let ends = nodes.len().saturating_sub(1);
+        let depth = |i: u32| nodes[i as usize].depth + nodes[i as usize + 1].depth;
+        self.order.clear();
+        self.order.par_extend(
+            (0..ends as u32)
+                .into_par_iter()
+                .with_min_len(8192)
+                .filter(|&i| visible(&nodes[i as usize], &nodes[i as usize + 1], bounds, margin)),
+        );
+        let (near, far) = self
+            .order
+            .par_iter()
+            .with_min_len(8192)
+            .fold(|| (f32::INFINITY, 0.0_f32), |(near, far), &i| (near.min(depth(i)), far.max(depth(i))))
+            .reduce(|| (f32::INFINITY, 0.0_f32), |a, b| (a.0.min(b.0), a.1.max(b.1)));
         let scale = ((DIGITS * DIGITS - 1) as f32) / (far - near).max(1e-6);
-        self.keys.clear();
-        self.keys.extend(self.order.iter().map(|&i| {
-            let depth = nodes[i as usize].depth + nodes[i as usize + 1].depth;
-            ((depth - near) * scale) as u32
-        }));
+        let key = |&i: &u32| ((depth(i) - near) * scale) as u32;
+        self.order.par_iter().with_min_len(8192).map(key).collect_into_vec(&mut self.keys);
         self.spare.resize(self.order.len(), 0);
         self.spare_keys.resize(self.order.len(), 0);
         for shift in [0, DIGIT] {

@@ -45,7 +45,7 @@ impl Light {
     /// A portrait photographer's three lamps: a warm key from above, a cool fill, a rim from behind.
     pub fn studio() -> Vec<Self> {
         vec![
-            Self { azimuth: 35.0, elevation: 46.0, strength: 2.2, color: [1.0, 0.96, 0.9], ..Self::default() },
+            Self { azimuth: 35.0, elevation: 46.0, strength: 1.9, color: [1.0, 0.96, 0.9], ..Self::default() },
             Self {
                 azimuth: -55.0,
                 elevation: 12.0,

@@ -22,7 +22,7 @@ pub struct HeadLook {
 
 impl Default for HeadLook {
     fn default() -> Self {
-        Self { visible: true, color: [0.80, 0.69, 0.62], softness: 0.35, sheen: 0.25 }
+        Self { visible: true, color: [0.76, 0.62, 0.54], softness: 0.35, sheen: 0.25 }
     }
 }
 
