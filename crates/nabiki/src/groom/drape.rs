@@ -16,7 +16,7 @@ use crate::Head;
 const SETTLED: f64 = 5e-5;
 
 /// Times that the bends of a lying strand are rounded.
-const ROUNDINGS: usize = 3;
+const ROUNDINGS: usize = 5;
 
 /// A turn (rad) beyond which a segment had rather lie closer than the layers want.
 const SHARP: f64 = 0.9;
@@ -25,7 +25,7 @@ const SHARP: f64 = 0.9;
 const RISE: f64 = 0.4;
 
 /// A root deeper than this under the hill over an ear (cm) is of the hair that lies about the ear.
-const ON_HILL: f64 = 0.3;
+const ON_HILL: f64 = 0.8;
 
 /// What a segment keeps (cm): from the skin at its end and in its middle, from the hills over the ears at its end.
 #[derive(Clone, Copy, Debug)]
