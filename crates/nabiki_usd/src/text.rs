@@ -117,15 +117,30 @@ impl<W: Write + Seek> TextWriter<W> {
             Value::Double(x) => write!(to, "{x}"),
             Value::Ints(values) => list(to, values, |to, x| write!(to, "{x}")),
             Value::Longs(values) => list(to, values, |to, x| write!(to, "{x}")),
-            Value::Floats(values) => list(to, values, |to, x| write!(to, "{x}")),
-            Value::Pairs(values) => list(to, values, |to, [x, y]| write!(to, "({x}, {y})")),
-            Value::Triples(values) => list(to, values, |to, [x, y, z]| write!(to, "({x}, {y}, {z})")),
+            Value::Floats(values) => list(to, values, |to, &x| float(to, x)),
+            Value::Pairs(values) => list(to, values, tuple),
+            Value::Triples(values) => list(to, values, tuple),
             Value::Matrix(m) => {
                 let row = |i: usize| format!("({}, {}, {}, {})", m[4 * i], m[4 * i + 1], m[4 * i + 2], m[4 * i + 3]);
                 write!(to, "( {}, {}, {}, {} )", row(0), row(1), row(2), row(3))
             }
         }
     }
+}
+
+/// The shortest digits that come back to the same bits.
+fn float<W: Write>(to: &mut W, x: f32) -> io::Result<()> {
+    let mut digits = zmij::Buffer::new();
+    let digits = digits.format(x);
+    to.write_all(digits.strip_suffix(".0").unwrap_or(digits).as_bytes())
+}
+
+fn tuple<W: Write, const N: usize>(to: &mut W, numbers: &[f32; N]) -> io::Result<()> {
+    for (i, &x) in numbers.iter().enumerate() {
+        to.write_all(if i == 0 { b"(" } else { b", " })?;
+        float(to, x)?;
+    }
+    to.write_all(b")")
 }
 
 fn list<W: Write, T>(to: &mut W, values: &[T], one: impl Fn(&mut W, &T) -> io::Result<()>) -> io::Result<()> {
