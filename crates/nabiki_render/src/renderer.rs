@@ -27,7 +27,7 @@ use crate::skin::{SkinLight, SkinPixel, SkinView};
 use crate::timing::{Stage, Timing};
 
 /// Fineness of hair's shadows (cm).
-const SHADOW_CELL: f32 = 0.16;
+const SHADOW_CELL: f32 = 0.2;
 /// How far a piece may leave traces beyond its own width (pixels): a cell, and its overhang.
 const MARGIN: f32 = 1.25;
 

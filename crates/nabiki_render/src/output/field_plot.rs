@@ -58,17 +58,14 @@ fn marks(field: &[Interval]) -> Vec<Mark> {
             marks.push(Mark::Arrow(origin, at(interval.vector)));
         }
         marks.push(Mark::Path(field.iter().map(|i| at(i.vector)).collect()));
-        // Intervals with the same projection share one caption.
+        // Vectors with the same projection share one caption: the numbers of their intervals.
         let mut captions: Vec<([f32; 2], String)> = Vec::new();
-        let mut from = 1;
-        for interval in field {
+        for (i, interval) in field.iter().enumerate() {
             let place = at(interval.vector);
-            let text = format!("{from} to {}", interval.through);
             match captions.iter_mut().find(|(p, _)| (p[0] - place[0]).hypot(p[1] - place[1]) < 14.0) {
-                Some((_, caption)) => *caption = format!("{caption}, {text}"),
-                None => captions.push((place, text)),
+                Some((_, caption)) => *caption = format!("{caption}, {}", i + 1),
+                None => captions.push((place, (i + 1).to_string())),
             }
-            from = interval.through + 1;
         }
         for (place, text) in captions {
             marks.push(Mark::Dot(place));
@@ -78,7 +75,19 @@ fn marks(field: &[Interval]) -> Vec<Mark> {
             marks.push(Mark::Text(text, [x, place[1] + below]));
         }
     }
+    marks.push(Mark::Text(legend(field), [BORDER, SIZE[1] - 12.0]));
     marks
+}
+
+/// Which frames each interval holds.
+fn legend(field: &[Interval]) -> String {
+    let mut from = 1;
+    let mut intervals = Vec::new();
+    for (i, interval) in field.iter().enumerate() {
+        intervals.push(format!("{}: {from} to {}", i + 1, interval.through));
+        from = interval.through + 1;
+    }
+    format!("frames  {}", intervals.join("   "))
 }
 
 /// Writes the projections as a PNG file.

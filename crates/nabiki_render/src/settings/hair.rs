@@ -50,7 +50,7 @@ impl HairColour {
         match self {
             Self::Black => Some([8.0, 0.0]),
             Self::Brown => Some([1.3, 0.35]),
-            Self::Blond => Some([0.07, 0.21]),
+            Self::Blond => Some([0.04, 0.25]),
             Self::Red => Some([0.25, 1.6]),
             Self::Grey => Some([0.06, 0.0]),
             Self::Melanin { eumelanin, pheomelanin } => Some([eumelanin, pheomelanin]),
