@@ -257,3 +257,29 @@ fn every_scene_shipped_moves() {
     }
     assert!(count >= 8, "{count} scenes");
 }
+
+#[test]
+fn a_recorded_runner_carries_the_head() {
+    let track = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/motion/head_tracks/cmu_02_03_run.csv");
+    if !Path::new(track).exists() {
+        eprintln!("SKIPPED: {track} is not here");
+        return;
+    }
+    let folder = TempDir::new().unwrap();
+    let running = Path::new(GUST).with_file_name("running.toml");
+    let simulate = |name: &str, changes: &[&str]| {
+        let cache = path(&folder, name);
+        let small = ["simulate", running.to_str().unwrap(), "-o", &cache, "--strands", "60", "--frames", "34"];
+        let said = succeed(&[&small[..], changes].concat());
+        let hair = path(&folder, &format!("{name}.hair"));
+        succeed(&["convert", &cache, "--frame", "34", &hair]);
+        (said, fs::read(hair).unwrap())
+    };
+    let motion = format!("head.motion={{file=\"{track}\",up=\"+y\",facing=\"+z\",start_at_origin=true}}");
+    let (said, in_world) = simulate("world.nabiki", &["--set", &motion]);
+    assert!(said.contains("120 Hz") && said.contains("24 Hz"), "the conversion of the rate is said: {said}");
+    let in_head = simulate("head.nabiki", &["--set", &motion, "--set", "motion.force_space=\"head\""]).1;
+    let still = simulate("still.nabiki", &[]).1;
+    assert!(in_world != still, "a turning head feels the world's wind from other sides");
+    assert!(in_head == still, "a force that turns with the head moves the hair on it as on a still one");
+}
