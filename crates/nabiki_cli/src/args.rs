@@ -14,7 +14,7 @@ use nabiki_io::placement::Unit;
     after_help = "\
 Start with:
   nabiki preview scenes/gust.toml                     300 strands: what will the wind do?
-  nabiki preview scenes/gust.toml --set force.1.vector=[-15,-300,0]
+  nabiki preview scenes/gust.toml --set 'force.1.vector=[-15,-300,0]'
   nabiki run scenes/gust.toml                         the whole movie
 
 A scene is a TOML file: head, hair, motion, pseudo_force, force, picture, output. The files in scenes/ are
@@ -65,7 +65,7 @@ pub struct SceneArgs {
     #[arg(long, value_name = "N")]
     pub frames: Option<u32>,
 
-    /// Any setting of the scene in TOML, as often as wanted: motion.time_step=0.05, force.0.vector=[0,-100,0]
+    /// Any setting of the scene in TOML, as often as wanted: motion.time_step=0.05, or in quotes force.0.vector=[0,-100,0]
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub sets: Vec<String>,
 }
