@@ -34,8 +34,6 @@ const SHARPEST: f32 = 0.3;
 const WIDEST: f32 = 32.0;
 /// Largest height of a piece's arc over its chord (pixels).
 const ROUNDEST: f32 = 0.2;
-/// As many times more pieces for hair wider than a pixel.
-const THICK: f32 = 2.5;
 /// Most pieces that one segment is cut into.
 const MOST_CUTS: f32 = 64.0;
 
@@ -83,7 +81,7 @@ impl Curves {
                     .map(|s| {
                         let range = strands.range(s);
                         let cuts = &mut cuts[range.start - first..range.end - first];
-                        count_cuts(strands.strand(s), look, view, cuts)
+                        count_cuts(strands.strand(s), look.smooth, view, cuts)
                     })
                     .sum()
             })
@@ -123,7 +121,7 @@ fn split<T>(mut slice: &mut [T], lengths: impl Iterator<Item = usize>) -> Vec<&m
 
 /// Decides into how many pieces each segment is cut (`cuts[i]` for the segment that ends at point i) and returns the
 /// number of nodes. Segments without length vanish: 0 pieces.
-fn count_cuts(points: &[Vec3], look: &HairLook, view: &View, cuts: &mut [u8]) -> usize {
+fn count_cuts(points: &[Vec3], smooth: bool, view: &View, cuts: &mut [u8]) -> usize {
     if points.is_empty() {
         return 0;
     }
@@ -139,7 +137,7 @@ fn count_cuts(points: &[Vec3], look: &HairLook, view: &View, cuts: &mut [u8]) ->
         }
         let unit = along / length;
         let mut turn = 0.0_f32;
-        if look.smooth {
+        if smooth {
             let turned = |other: Vec3| (1.0 - unit.dot(other)).max(0.0) * 2.0;
             if before != Vec3::ZERO {
                 turn = turned(before);
@@ -151,13 +149,10 @@ fn count_cuts(points: &[Vec3], look: &HairLook, view: &View, cuts: &mut [u8]) ->
         }
         let depth = (0.5 * (points[i] + points[i - 1]) - view.eye).dot(view.forward).max(NEAR);
         let across = (length * length - along.dot(view.forward).powi(2)).max(0.0).sqrt();
-        let pixels_per_cm = view.pixels_per_cm(depth);
-        let pixels = across * pixels_per_cm;
+        let pixels = across * view.pixels_per_cm(depth);
         // An arc of length l and turn t stands l t / 8 over its chord; both shrink with the number of pieces.
         let round = (pixels * turn / (8.0 * ROUNDEST)).sqrt();
         let wanted = (length / LONGEST).max(turn / SHARPEST).max(pixels / WIDEST).max(round);
-        // Pieces are sorted whole: where a hair is wider than a pixel, which of two is nearer must be right along it.
-        let wanted = if look.width * pixels_per_cm > 1.0 { THICK * wanted } else { wanted };
         cuts[i] = wanted.ceil().clamp(1.0, MOST_CUTS) as u8;
         nodes += cuts[i] as usize;
         before = unit;
