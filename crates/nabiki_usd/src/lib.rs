@@ -13,7 +13,6 @@ mod layer;
 mod read;
 mod source;
 mod text;
-mod text_read;
 mod transform;
 mod write;
 

@@ -9,7 +9,7 @@ use glam::Vec3;
 use crate::Problem;
 use crate::crate_file::MAGIC;
 use crate::crate_file::read::CrateReader;
-use crate::text_read;
+use crate::text::read as text;
 
 /// Where a value is: in text its first byte and length, in binary what names it.
 pub type Handle = (u64, u64);
@@ -46,7 +46,7 @@ pub struct Layer {
 }
 
 enum Values {
-    Text(Vec<u8>),
+    Text(Box<dyn Source>),
     Binary(Box<CrateReader<Box<dyn Source>>>),
 }
 
@@ -69,10 +69,11 @@ impl Layer {
         if first.starts_with(b"PK\x03\x04") {
             return Err(Problem::new("is a .usdz package: unpack it and give the layer inside"));
         }
-        let mut text = Vec::with_capacity(length as usize);
-        from.read_to_end(&mut text)?;
-        let (prims, metadata) = text_read::parse(&text)?;
-        Ok(Self { prims, metadata, values: Values::Text(text) })
+        if !first.starts_with(b"#usda") && !first.starts_with(b"#sdf") {
+            return Err(Problem::new("is no USD layer: it begins neither with #usda nor with PXR-USDC"));
+        }
+        let (prims, metadata) = text::parse(&mut *from, length)?;
+        Ok(Self { prims, metadata, values: Values::Text(from) })
     }
 
     /// Opens the layer in a file.
@@ -83,7 +84,7 @@ impl Layer {
     /// All numbers of a value, in a row; nothing for text.
     pub fn numbers(&mut self, handle: Handle) -> Result<Vec<f64>, Problem> {
         match &mut self.values {
-            Values::Text(text) => text_read::numbers(text, handle),
+            Values::Text(from) => text::numbers(&mut **from, handle),
             Values::Binary(reader) => reader.numbers(handle.0),
         }
     }
@@ -91,7 +92,7 @@ impl Layer {
     /// All numbers of a value as singles.
     pub fn singles(&mut self, handle: Handle) -> Result<Vec<f32>, Problem> {
         match &mut self.values {
-            Values::Text(text) => text_read::numbers(text, handle),
+            Values::Text(from) => text::numbers(&mut **from, handle),
             Values::Binary(reader) => reader.singles(handle.0),
         }
     }
@@ -99,8 +100,8 @@ impl Layer {
     /// All numbers of a value as points.
     pub fn points(&mut self, handle: Handle) -> Result<Vec<Vec3>, Problem> {
         match &mut self.values {
-            Values::Text(text) => {
-                let numbers: Vec<f32> = text_read::numbers(text, handle)?;
+            Values::Text(from) => {
+                let numbers: Vec<f32> = text::numbers(&mut **from, handle)?;
                 Ok(numbers.as_chunks::<3>().0.iter().map(|&p| Vec3::from(p)).collect())
             }
             Values::Binary(reader) => reader.points(handle.0),
@@ -110,7 +111,7 @@ impl Layer {
     /// All numbers of a value as whole numbers.
     pub fn integers(&mut self, handle: Handle) -> Result<Vec<i64>, Problem> {
         match &mut self.values {
-            Values::Text(text) => text_read::numbers(text, handle),
+            Values::Text(from) => text::numbers(&mut **from, handle),
             Values::Binary(reader) => reader.integers(handle.0),
         }
     }
@@ -118,7 +119,7 @@ impl Layer {
     /// All words of a value: tokens or strings.
     pub fn words(&mut self, handle: Handle) -> Result<Vec<String>, Problem> {
         match &mut self.values {
-            Values::Text(text) => Ok(text_read::words(text, handle)),
+            Values::Text(from) => text::words(&mut **from, handle),
             Values::Binary(reader) => reader.words(handle.0),
         }
     }

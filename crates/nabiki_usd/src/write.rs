@@ -12,7 +12,7 @@ use crate::content::{curves, extent, skin};
 use crate::crate_file::Rep;
 use crate::crate_file::write::CrateWriter;
 use crate::layer::{Attribute, Metadata, Prim, Value};
-use crate::text::TextWriter;
+use crate::text::write::TextWriter;
 
 /// Which prims a layer has.
 #[derive(Clone, Debug, PartialEq, Eq)]

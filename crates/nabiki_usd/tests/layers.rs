@@ -90,6 +90,26 @@ fn every_frame_and_attribute_comes_back_to_the_bit() {
 }
 
 #[test]
+fn text_is_the_same_wherever_it_is_cut_into_parts() {
+    // Text is read a quarter of a megabyte at a time: a comment of any length moves all that follows it.
+    let long: Vec<Vec3> =
+        (0..20_000).map(|i| Vec3::new((i as f32).sin(), -1e-7 * i as f32, 1.5e9 / i as f32)).collect();
+    let mut hair = Hair::from(Strands::default());
+    long[1..].chunks(1000).for_each(|strand| hair.strands.push(strand.iter().copied()));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("long.usda");
+    let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), Form::Stage).unwrap());
+    sink.frame(&hair.strands, &Affine3A::IDENTITY).unwrap();
+    sink.finish().unwrap();
+    let text = std::fs::read_to_string(path).unwrap();
+    assert!(text.len() > 3 << 18);
+    for length in 0..70 {
+        let moved = text.replacen("\n", &format!("\n#{}\n", "x".repeat(length)), 1);
+        assert_eq!(reader(moved).hair(0, None).unwrap().strands, hair.strands, "moved by {length}");
+    }
+}
+
+#[test]
 fn the_moving_head_carries_hair_and_skin() {
     let (hair, mesh) = (groom(), tetrahedron());
     for name in NAMES {

@@ -1,0 +1,221 @@
+//! Reading of text layers: one pass notes where values are; each is turned into numbers when it is asked for.
+
+use std::collections::HashMap;
+use std::io::SeekFrom;
+use std::str::FromStr;
+
+use super::numbers::{Number, Numbers, is_part};
+use super::scan::{Scanner, WINDOW};
+use crate::Problem;
+use crate::source::{Handle, PrimInfo, Source};
+
+/// Prims below prims.
+const DEEPEST: usize = 512;
+
+type Parsed = (Vec<PrimInfo>, HashMap<String, Handle>);
+
+/// Finds the prims of a layer of `length` bytes and what it says about itself.
+pub fn parse(from: &mut dyn Source, length: u64) -> Result<Parsed, Problem> {
+    let mut text = Scanner::new(from, (0, length))?;
+    let mut metadata = HashMap::new();
+    let mut prims: Vec<PrimInfo> = Vec::new();
+    // Prims whose braces are open.
+    let mut open: Vec<usize> = Vec::new();
+    if text.peek()? == Some(b'(') {
+        layer_metadata(&mut text, &mut metadata)?;
+    }
+    while let Some(next) = text.peek()? {
+        if next == b'}' {
+            text.pass();
+            if open.pop().is_none() {
+                return Err(text.problem("a closing brace too many"));
+            }
+            continue;
+        }
+        if next == b';' {
+            text.pass();
+            continue;
+        }
+        let word = text.word()?;
+        match word.as_str() {
+            "def" | "over" | "class" => {
+                let type_name = if text.peek()? == Some(b'"') { String::new() } else { text.word()? };
+                let name = text.quoted()?;
+                if text.peek()? == Some(b'(') {
+                    text.skip_brackets()?;
+                }
+                text.expect(b'{')?;
+                let parent = open.last().copied();
+                open.push(prims.len());
+                if open.len() > DEEPEST {
+                    return Err(text.problem("prims nested deeper than any scene is"));
+                }
+                prims.push(PrimInfo { name, type_name, parent, attributes: HashMap::new() });
+            }
+            "variantSet" => {
+                text.quoted()?;
+                text.expect(b'=')?;
+                text.skip_value()?;
+            }
+            "reorder" => {
+                text.word()?;
+                text.expect(b'=')?;
+                text.skip_value()?;
+            }
+            _ if open.is_empty() => return Err(text.problem(&format!("\"{word:.40}\" where a prim should begin"))),
+            _ => property(&mut text, word, &mut prims[open[open.len() - 1]])?,
+        }
+    }
+    match open.last() {
+        Some(&prim) => Err(Problem(format!("ends within prim {}: is it whole?", prims[prim].name))),
+        None => Ok((prims, metadata)),
+    }
+}
+
+/// Passes over the layer's metadata in parentheses, noting `name = value`.
+fn layer_metadata(text: &mut Scanner<'_>, into: &mut HashMap<String, Handle>) -> Result<(), Problem> {
+    text.expect(b'(')?;
+    loop {
+        match text.peek()? {
+            Some(b')') => {
+                text.pass();
+                return Ok(());
+            }
+            Some(b'"' | b'\'') => {
+                text.quoted()?;
+            }
+            Some(b';' | b',') => text.pass(),
+            Some(_) => {
+                let mut name = text.word()?;
+                while text.peek()?.is_some_and(|b| b != b'=') {
+                    name = text.word()?;
+                }
+                text.expect(b'=')?;
+                let value = text.skip_value()?;
+                into.insert(name, value);
+            }
+            None => return Err(text.problem("a parenthesis that is never closed: is the file whole?")),
+        }
+    }
+}
+
+/// A property of `prim` whose first word was `first`.
+fn property(text: &mut Scanner<'_>, first: String, prim: &mut PrimInfo) -> Result<(), Problem> {
+    let mut words = vec![first];
+    loop {
+        match text.peek()? {
+            Some(b'[') => {
+                text.pass();
+                text.expect(b']')?;
+            }
+            Some(b'=' | b'(' | b'}' | b';') | None => break,
+            // A property without a value ends where the next line begins.
+            Some(_) if words.len() >= 2 && text.line_ended() && !is_prefix(&words[words.len() - 2]) => break,
+            Some(_) => words.push(text.word()?),
+        }
+        if words.len() > 8 {
+            return Err(text.problem("a property of too many words"));
+        }
+    }
+    let is_relation = words.iter().any(|w| w == "rel");
+    let [.., _, name] = &words[..] else {
+        return Err(text.problem(&format!("\"{:.40}\" where a property should stand", words[0])));
+    };
+    let (name, timed) = match name.strip_suffix(".timeSamples") {
+        Some(name) => (name, true),
+        None => (name.as_str(), false),
+    };
+    let connection = name.ends_with(".connect");
+    if text.peek()? == Some(b'=') {
+        text.pass();
+        if is_relation || connection {
+            text.skip_value()?;
+        } else if timed {
+            let found = samples(text)?;
+            prim.attributes.entry(name.to_owned()).or_default().samples = found;
+        } else {
+            let value = text.skip_value()?;
+            prim.attributes.entry(name.to_owned()).or_default().default = Some(value);
+        }
+    }
+    if text.peek()? == Some(b'(') {
+        text.skip_brackets()?;
+    }
+    Ok(())
+}
+
+fn samples(text: &mut Scanner<'_>) -> Result<Vec<(f64, Handle)>, Problem> {
+    text.expect(b'{')?;
+    let mut found = Vec::new();
+    loop {
+        match text.peek()? {
+            Some(b'}') => {
+                text.pass();
+                break;
+            }
+            Some(b',') => text.pass(),
+            _ => {
+                // A time code's word takes the colon after it along.
+                let word = text.word()?;
+                let number = word.trim_end_matches(':');
+                let Some(time) = f64::from_str(number).ok().filter(|t| t.is_finite()) else {
+                    return Err(text.problem(&format!("\"{word:.40}\" is no time code")));
+                };
+                if number.len() == word.len() {
+                    text.expect(b':')?;
+                }
+                found.push((time, text.skip_value()?));
+            }
+        }
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(found)
+}
+
+/// Words before a type.
+fn is_prefix(word: &str) -> bool {
+    matches!(word, "custom" | "uniform" | "varying" | "config" | "prepend" | "append" | "add" | "delete")
+}
+
+/// Numbers of a value, whatever brackets stand between them.
+pub fn numbers<T: Number>(from: &mut dyn Source, (start, length): Handle) -> Result<Vec<T>, Problem> {
+    from.seek(SeekFrom::Start(start))?;
+    let mut numbers = Numbers::new();
+    let mut window = Vec::new();
+    let mut left = length;
+    while left > 0 {
+        // Behind what was left of the last window, the beginning of a number.
+        let begun = window.len();
+        let more = left.min((WINDOW - begun) as u64);
+        window.resize(begun + more as usize, 0);
+        from.read_exact(&mut window[begun..])?;
+        left -= more;
+        let whole = match window.iter().rposition(|&b| !is_part(b)) {
+            _ if left == 0 => window.len(),
+            Some(last) => last + 1,
+            None => return Err(Problem(format!("byte {start}: a number of more than {WINDOW} digits"))),
+        };
+        numbers.read(&window[..whole]).map_err(|e| Problem(format!("byte {start}: {e}")))?;
+        if numbers.found.capacity() * 2 < numbers.found.len() * 3 && left > 0 {
+            let share = (length - left) as f64 / length as f64;
+            let expected = (numbers.found.len() as f64 / share) as usize;
+            numbers.found.reserve_exact(expected.saturating_sub(numbers.found.len()));
+        }
+        window.drain(..whole);
+    }
+    numbers.all().map_err(|e| Problem(format!("byte {start}: {e}")))
+}
+
+/// Words in quotation marks of a value.
+pub fn words(from: &mut dyn Source, value: Handle) -> Result<Vec<String>, Problem> {
+    let mut text = Scanner::new(from, value)?;
+    let mut found = Vec::new();
+    while let Some(byte) = text.peek()? {
+        if matches!(byte, b'"' | b'\'') {
+            found.push(text.quoted()?);
+        } else {
+            text.pass();
+        }
+    }
+    Ok(found)
+}

@@ -1,0 +1,266 @@
+//! Text passed through a window: words, quotations, and the places of values that are only passed over.
+
+use std::io::SeekFrom;
+
+use crate::Problem;
+use crate::source::{Handle, Source};
+
+/// Bytes of text at hand at a time; about what a core's own cache holds.
+pub const WINDOW: usize = 1 << 18;
+
+/// Brackets within brackets.
+const DEEPEST: usize = 512;
+
+/// Text being read from front to back.
+pub struct Scanner<'a> {
+    from: &'a mut dyn Source,
+    window: Vec<u8>,
+    /// Next byte in the window.
+    at: usize,
+    /// Bytes of the text before the window.
+    before: u64,
+    /// Bytes of the text after the window.
+    after: u64,
+    /// Whether a line has ended since the last byte that is no blank.
+    line_ended: bool,
+}
+
+impl<'a> Scanner<'a> {
+    /// Reads the `length` bytes from `start` on, which the source has.
+    pub fn new(from: &'a mut dyn Source, (start, length): Handle) -> Result<Self, Problem> {
+        from.seek(SeekFrom::Start(start))?;
+        Ok(Self { from, window: Vec::new(), at: 0, before: start, after: length, line_ended: false })
+    }
+
+    /// Which byte of the text is next.
+    pub fn place(&self) -> u64 {
+        self.before + self.at as u64
+    }
+
+    /// What is wrong here.
+    pub fn problem(&mut self, what: &str) -> Problem {
+        match self.line() {
+            Ok(line) => Problem(format!("line {line}: {what}")),
+            Err(problem) => problem,
+        }
+    }
+
+    /// The line at which the scanner stands, counted from the start of the source.
+    fn line(&mut self) -> Result<usize, Problem> {
+        let place = self.place();
+        self.from.seek(SeekFrom::Start(0))?;
+        let mut line = 1;
+        let mut left = place;
+        let mut block = vec![0; WINDOW];
+        while left > 0 {
+            let block = &mut block[..left.min(WINDOW as u64) as usize];
+            self.from.read_exact(block)?;
+            line += block.iter().filter(|&&b| b == b'\n').count();
+            left -= block.len() as u64;
+        }
+        self.from.seek(SeekFrom::Start(self.before + self.window.len() as u64))?;
+        Ok(line)
+    }
+
+    /// Moves the window on once all of it has been read; `false` at the end of the text.
+    fn fill(&mut self) -> Result<bool, Problem> {
+        if self.at < self.window.len() {
+            return Ok(true);
+        }
+        self.before += self.window.len() as u64;
+        self.at = 0;
+        self.window.resize(self.after.min(WINDOW as u64) as usize, 0);
+        self.from.read_exact(&mut self.window)?;
+        self.after -= self.window.len() as u64;
+        Ok(!self.window.is_empty())
+    }
+
+    /// The next byte, whatever it is.
+    fn here(&mut self) -> Result<Option<u8>, Problem> {
+        Ok(if self.fill()? { Some(self.window[self.at]) } else { None })
+    }
+
+    /// The next byte that is neither blank nor comment.
+    pub fn peek(&mut self) -> Result<Option<u8>, Problem> {
+        while let Some(byte) = self.here()? {
+            match byte {
+                b'#' => {
+                    while self.here()?.is_some_and(|b| b != b'\n') {
+                        self.at += 1;
+                    }
+                }
+                b if b.is_ascii_whitespace() => {
+                    self.line_ended |= b == b'\n';
+                    self.at += 1;
+                }
+                b => return Ok(Some(b)),
+            }
+        }
+        Ok(None)
+    }
+
+    /// Passes over the byte that [`peek`](Self::peek) gave.
+    pub fn pass(&mut self) {
+        self.at += 1;
+        self.line_ended = false;
+    }
+
+    /// Whether a line ended in the blanks just passed over.
+    pub fn line_ended(&self) -> bool {
+        self.line_ended
+    }
+
+    /// Passes over blanks and one byte, which must be `wanted`.
+    pub fn expect(&mut self, wanted: u8) -> Result<(), Problem> {
+        if self.peek()? == Some(wanted) {
+            self.pass();
+            Ok(())
+        } else {
+            Err(self.problem(&format!("'{}' should stand here", wanted as char)))
+        }
+    }
+
+    /// A run of letters, digits and what names and types hold.
+    pub fn word(&mut self) -> Result<String, Problem> {
+        let is_part = |b: u8| b.is_ascii_alphanumeric() || matches!(b, b'_' | b':' | b'.' | b'-' | b'+') || b >= 0x80;
+        self.peek()?;
+        let mut word = Vec::new();
+        while let Some(byte) = self.here()?.filter(|&b| is_part(b)) {
+            word.push(byte);
+            self.pass();
+        }
+        if word.is_empty() {
+            return Err(self.problem("a word should stand here"));
+        }
+        Ok(String::from_utf8_lossy(&word).into_owned())
+    }
+
+    /// The text between the quotation marks that follow.
+    pub fn quoted(&mut self) -> Result<String, Problem> {
+        let quote = match self.peek()? {
+            Some(q) if q == b'"' || q == b'\'' => q,
+            _ => return Err(self.problem("a name in quotation marks should stand here")),
+        };
+        let mut opening = 0;
+        while opening < 3 && self.here()? == Some(quote) {
+            opening += 1;
+            self.pass();
+        }
+        if opening == 2 {
+            return Ok(String::new());
+        }
+        let mut text = Vec::new();
+        let mut closing = 0;
+        while let Some(byte) = self.here()? {
+            self.pass();
+            match byte {
+                b'\\' => {
+                    let escaped = self.here()?.ok_or_else(|| Problem::new("ends within quotation marks"))?;
+                    self.pass();
+                    text.push(match escaped {
+                        b'n' => b'\n',
+                        b'r' => b'\r',
+                        b't' => b'\t',
+                        other => other,
+                    });
+                    closing = 0;
+                    continue;
+                }
+                b if b == quote => closing += 1,
+                _ => closing = 0,
+            }
+            text.push(byte);
+            if closing == opening {
+                text.truncate(text.len() - opening);
+                return Ok(String::from_utf8_lossy(&text).into_owned());
+            }
+        }
+        Err(self.problem("quotation marks that are never closed"))
+    }
+
+    /// Passes over one value and gives its place.
+    pub fn skip_value(&mut self) -> Result<Handle, Problem> {
+        let first = self.peek()?;
+        let start = self.place();
+        match first {
+            Some(b'[' | b'(' | b'{') => self.skip_brackets()?,
+            Some(b'"' | b'\'') => {
+                self.quoted()?;
+            }
+            Some(b'@') => self.skip_until(b'@')?,
+            Some(b'<') => self.skip_until(b'>')?,
+            _ => {
+                self.word()?;
+            }
+        }
+        Ok((start, self.place() - start))
+    }
+
+    fn skip_until(&mut self, end: u8) -> Result<(), Problem> {
+        self.pass();
+        while let Some(byte) = self.here()? {
+            self.pass();
+            if byte == end {
+                return Ok(());
+            }
+        }
+        Err(self.problem("a path that is never closed"))
+    }
+
+    /// Passes over brackets and all that is in them. Parentheses in a list are left to whoever reads its values: most
+    /// of a file is lists of points.
+    pub fn skip_brackets(&mut self) -> Result<(), Problem> {
+        let mut open: Vec<u8> = Vec::new();
+        loop {
+            let in_list = open.last() == Some(&b'[');
+            if in_list {
+                self.skip_unmarked()?;
+            }
+            match self.peek()? {
+                Some(b'(' | b')') if in_list => self.pass(),
+                Some(bracket @ (b'[' | b'(' | b'{')) => {
+                    if open.len() == DEEPEST {
+                        return Err(self.problem("brackets nested deeper than any value is"));
+                    }
+                    open.push(bracket);
+                    self.pass();
+                }
+                Some(b']' | b')' | b'}') => {
+                    open.pop();
+                    self.pass();
+                }
+                Some(b'"' | b'\'') => {
+                    self.quoted()?;
+                }
+                Some(b'@') => self.skip_until(b'@')?,
+                Some(_) => self.pass(),
+                None => return Err(self.problem("a bracket that is never closed: is the file whole?")),
+            }
+            if open.is_empty() {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Passes over bytes that mean nothing within a list of numbers.
+    fn skip_unmarked(&mut self) -> Result<(), Problem> {
+        // Closing and opening brackets and braces differ in three bits only; the few letters that share the others
+        // are let go by the caller.
+        let is_mark = |b: u8| (b | 0x26 == 0x7f) | (b == b'"') | (b == b'\'') | (b == b'#') | (b == b'@');
+        while self.fill()? {
+            let rest = &self.window[self.at..];
+            let (blocks, _) = rest.as_chunks::<64>();
+            // Whole blocks without a branch within them, so that they are compared many bytes at a time.
+            let clear = |block: &&[u8; 64]| !block.iter().fold(false, |any, &b| any | is_mark(b));
+            let clear = 64 * blocks.iter().take_while(clear).count();
+            match rest[clear..].iter().position(|&b| is_mark(b)) {
+                Some(more) => {
+                    self.at += clear + more;
+                    return Ok(());
+                }
+                None => self.at = self.window.len(),
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,183 @@
+//! Writing of text layers.
+
+use std::io::{self, Seek, SeekFrom, Write};
+
+use crate::layer::{Attribute, Metadata, Prim, Value};
+
+/// Room that the number of the last frame takes in the header, filled in at the end.
+const END_WIDTH: usize = 24;
+
+/// A text layer being written: header, prims whose samples are known, and one attribute of samples that stream.
+pub struct TextWriter<W> {
+    to: W,
+    end_at: u64,
+}
+
+impl<W: Write + Seek> TextWriter<W> {
+    /// Writes the header.
+    pub fn new(mut to: W, metadata: &Metadata) -> io::Result<Self> {
+        write!(
+            to,
+            "#usda 1.0\n(\n    defaultPrim = \"{}\"\n    doc = \"Written by Nabiki {}\"\n    framesPerSecond = {}\n    \
+             metersPerUnit = {}\n    startTimeCode = {}\n    timeCodesPerSecond = {}\n    upAxis = \"{}\"\n    \
+             endTimeCode = ",
+            metadata.default_prim,
+            env!("CARGO_PKG_VERSION"),
+            metadata.frame_rate,
+            metadata.meters_per_unit,
+            metadata.start,
+            metadata.frame_rate,
+            if metadata.z_up { "Z" } else { "Y" },
+        )?;
+        let end_at = to.stream_position()?;
+        writeln!(to, "{:END_WIDTH$}\n)\n", metadata.end)?;
+        Ok(Self { to, end_at })
+    }
+
+    /// Begins a prim; [`close`](Self::close) ends it.
+    pub fn open(&mut self, name: &str, type_name: &str, depth: usize) -> io::Result<()> {
+        let pad = Pad(depth);
+        if type_name.is_empty() {
+            writeln!(self.to, "{pad}over \"{name}\"\n{pad}{{")
+        } else {
+            writeln!(self.to, "{pad}def {type_name} \"{name}\"\n{pad}{{")
+        }
+    }
+
+    /// Ends a prim.
+    pub fn close(&mut self, depth: usize) -> io::Result<()> {
+        writeln!(self.to, "{}}}", Pad(depth))
+    }
+
+    /// Writes a whole prim whose samples are time codes and values.
+    pub fn prim(&mut self, prim: &Prim<(f64, Value)>, depth: usize) -> io::Result<()> {
+        self.open(&prim.name, prim.type_name, depth)?;
+        for attribute in &prim.attributes {
+            self.attribute(attribute, depth + 1)?;
+        }
+        for child in &prim.children {
+            self.prim(child, depth + 1)?;
+        }
+        self.close(depth)
+    }
+
+    /// Writes an attribute.
+    pub fn attribute(&mut self, attribute: &Attribute<(f64, Value)>, depth: usize) -> io::Result<()> {
+        let Attribute { name, type_name, uniform, value, samples, interpolation } = attribute;
+        let pad = Pad(depth);
+        if let Some(value) = value {
+            let uniform = if *uniform { "uniform " } else { "" };
+            write!(self.to, "{pad}{uniform}{type_name} {name} = ")?;
+            self.value(value)?;
+            match interpolation {
+                Some(word) => writeln!(self.to, " (\n{pad}    interpolation = \"{word}\"\n{pad})")?,
+                None => writeln!(self.to)?,
+            }
+        }
+        if !samples.is_empty() {
+            self.begin_samples(name, type_name, depth)?;
+            for (time, value) in samples {
+                self.sample(*time, value, depth)?;
+            }
+            self.end_samples(depth)?;
+        }
+        Ok(())
+    }
+
+    /// Begins the samples of an attribute; then come [`sample`](Self::sample)s, then [`end_samples`](Self::end_samples).
+    pub fn begin_samples(&mut self, name: &str, type_name: &str, depth: usize) -> io::Result<()> {
+        writeln!(self.to, "{}{type_name} {name}.timeSamples = {{", Pad(depth))
+    }
+
+    /// Writes one sample.
+    pub fn sample(&mut self, time: f64, value: &Value, depth: usize) -> io::Result<()> {
+        write!(self.to, "{}{time}: ", Pad(depth + 1))?;
+        self.value(value)?;
+        writeln!(self.to, ",")
+    }
+
+    /// Ends the samples.
+    pub fn end_samples(&mut self, depth: usize) -> io::Result<()> {
+        writeln!(self.to, "{}}}", Pad(depth))
+    }
+
+    /// Fills in the last time code.
+    pub fn finish(mut self, end: f64) -> io::Result<W> {
+        self.to.seek(SeekFrom::Start(self.end_at))?;
+        write!(self.to, "{end:END_WIDTH$}")?;
+        self.to.flush()?;
+        Ok(self.to)
+    }
+
+    fn value(&mut self, value: &Value) -> io::Result<()> {
+        let to = &mut self.to;
+        match value {
+            Value::Token(word) => write!(to, "{}", Quoted(word)),
+            Value::Tokens(words) | Value::Texts(words) => list(to, words, |to, word| write!(to, "{}", Quoted(word))),
+            Value::Double(x) => write!(to, "{x}"),
+            Value::Ints(values) => list(to, values, |to, x| write!(to, "{x}")),
+            Value::Longs(values) => list(to, values, |to, x| write!(to, "{x}")),
+            Value::Floats(values) => list(to, values, |to, &x| float(to, x)),
+            Value::Pairs(values) => list(to, values, tuple),
+            Value::Triples(values) => list(to, values, tuple),
+            Value::Matrix(m) => {
+                let row = |i: usize| format!("({}, {}, {}, {})", m[4 * i], m[4 * i + 1], m[4 * i + 2], m[4 * i + 3]);
+                write!(to, "( {}, {}, {}, {} )", row(0), row(1), row(2), row(3))
+            }
+        }
+    }
+}
+
+/// The shortest digits that come back to the same bits.
+fn float<W: Write>(to: &mut W, x: f32) -> io::Result<()> {
+    let mut digits = zmij::Buffer::new();
+    let digits = digits.format(x);
+    to.write_all(digits.strip_suffix(".0").unwrap_or(digits).as_bytes())
+}
+
+fn tuple<W: Write, const N: usize>(to: &mut W, numbers: &[f32; N]) -> io::Result<()> {
+    for (i, &x) in numbers.iter().enumerate() {
+        to.write_all(if i == 0 { b"(" } else { b", " })?;
+        float(to, x)?;
+    }
+    to.write_all(b")")
+}
+
+fn list<W: Write, T>(to: &mut W, values: &[T], one: impl Fn(&mut W, &T) -> io::Result<()>) -> io::Result<()> {
+    to.write_all(b"[")?;
+    for (i, value) in values.iter().enumerate() {
+        if i > 0 {
+            to.write_all(b", ")?;
+        }
+        one(to, value)?;
+    }
+    to.write_all(b"]")
+}
+
+/// Four blanks for each level.
+struct Pad(usize);
+
+impl std::fmt::Display for Pad {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        (0..self.0).try_for_each(|_| f.write_str("    "))
+    }
+}
+
+/// Text in quotation marks.
+struct Quoted<'a>(&'a str);
+
+impl std::fmt::Display for Quoted<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("\"")?;
+        for c in self.0.chars() {
+            match c {
+                '"' => f.write_str("\\\"")?,
+                '\\' => f.write_str("\\\\")?,
+                '\n' => f.write_str("\\n")?,
+                '\r' => f.write_str("\\r")?,
+                c => write!(f, "{c}")?,
+            }
+        }
+        f.write_str("\"")
+    }
+}
