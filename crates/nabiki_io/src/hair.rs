@@ -43,6 +43,10 @@ impl Format {
             "obj" => Ok(Self::ObjLines),
             "usd" | "usda" | "usdc" => Ok(Self::Usd),
             "abc" => Ok(Self::Alembic),
+            "tfxbone" => {
+                let what = "holds no strands, only how those of the .tfx beside it follow bones: read that";
+                Err(Error::new(what).in_file(path))
+            }
             other => {
                 let known = ".hair, .tfx, .obj, .usda, .usdc or .abc";
                 Err(Error::new(format!("ending \"{other}\" is not a hair format: {known}")).in_file(path))

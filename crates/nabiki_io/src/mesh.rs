@@ -1,8 +1,9 @@
-//! Triangle meshes of heads: .obj, .glb, .gltf, .ply, USD and Alembic, told apart by their name's ending.
+//! Triangle meshes of heads: .obj, .glb, .gltf, .ply, .tfxmesh, USD and Alembic, told apart by their name's ending.
 
 pub(crate) mod glb;
 mod obj;
 mod ply;
+mod tfxmesh;
 
 use std::{collections::HashMap, fs, path::Path};
 
@@ -36,19 +37,21 @@ pub fn read(path: &Path, groups: &[String]) -> Result<Mesh> {
         "obj" => obj::from_bytes(&bytes()?, groups).map_err(named),
         "glb" | "gltf" => glb::from_bytes(&bytes()?, path.parent(), groups).map_err(named),
         "ply" => ply::from_bytes(&bytes()?).map_err(named),
+        "tfxmesh" => tfxmesh::from_bytes(&bytes()?).map_err(named),
         "abc" | "usd" | "usda" | "usdc" => crate::exchange::mesh(path),
         other => {
-            let known = ".obj, .glb, .gltf, .ply, .usda, .usdc or .abc";
+            let known = ".obj, .glb, .gltf, .ply, .tfxmesh, .usda, .usdc or .abc";
             Err(named(Error::new(format!("ending \"{other}\" is not a mesh format: {known}"))))
         }
     }
 }
 
-/// The same from memory; `extension`: `obj`, `ply`, `glb` or `gltf`. Buffers in files of their own are refused.
+/// The same from memory; `extension`: `obj`, `ply`, `tfxmesh`, `glb` or `gltf`. Buffers in files of their own are refused.
 pub fn from_bytes(bytes: &[u8], extension: &str, groups: &[String]) -> Result<Mesh> {
     match extension {
         "obj" => obj::from_bytes(bytes, groups),
         "ply" => ply::from_bytes(bytes),
+        "tfxmesh" => tfxmesh::from_bytes(bytes),
         _ => glb::from_bytes(bytes, None, groups),
     }
 }
@@ -170,7 +173,7 @@ mod tests {
     #[test]
     fn what_cannot_be_a_mesh_is_refused() {
         let refused = |text: &str| from_bytes(text.as_bytes(), "obj", &[]).unwrap_err().to_string();
-        assert_eq!(refused("v 0 0 0\n"), "holds no triangles");
+        assert_eq!(refused("v 0 0 0\n"), "holds 1 vertices but no faces: not a head");
         let nan = refused("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
         assert_eq!(nan, "vertex 2: (0, NaN, 0) is not a place: coordinates must be finite");
         assert_eq!(

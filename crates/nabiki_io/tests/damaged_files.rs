@@ -13,6 +13,9 @@ static MEMORY: PeakAlloc = PeakAlloc;
 
 const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng a\nf 1 2 3 4\ng b\nf -1/2/3 -2//4 1\nl 1 2 3\nl 3/1 4\n";
 
+const TFXMESH: &str = "numOfBones 1\n# bone index, bone name\n0 root\nnumOfVertices 3\n0 0 0 0 0 0 1 0 0 0 0 1 0 0 0\n\
+    1 1 0 0 0 0 1 0 0 0 0 1 0 0 0\n2 0 1 0 0 0 1 0 0 0 0 1 0 0 0\nnumOfTriangles 1\n0 0 1 2\n";
+
 /// A .glb of one triangle under a turned, mirrored node.
 fn glb() -> Vec<u8> {
     let json = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
@@ -38,7 +41,7 @@ fn glb() -> Vec<u8> {
 /// Reads all that a file offers; true if it was accepted.
 type Read = fn(&[u8]) -> bool;
 
-fn formats() -> [(&'static str, Vec<u8>, Read); 7] {
+fn formats() -> [(&'static str, Vec<u8>, Read); 8] {
     let read_cache: Read = |bytes| {
         let Ok(mut reader) = cache::Reader::from_bytes(bytes) else { return false };
         (0..reader.frame_count()).all(|frame| reader.hair(frame).is_ok())
@@ -49,6 +52,7 @@ fn formats() -> [(&'static str, Vec<u8>, Read); 7] {
         (".tfx 3", samples::tfx_3_bytes(), |bytes| tfx::from_bytes(bytes).is_ok()),
         (".obj lines", OBJ.into(), |bytes| obj_lines::from_bytes(bytes).is_ok()),
         (".obj", OBJ.into(), |bytes| mesh::from_bytes(bytes, "obj", &[]).is_ok()),
+        (".tfxmesh", TFXMESH.into(), |bytes| mesh::from_bytes(bytes, "tfxmesh", &[]).is_ok()),
         (".glb", glb(), |bytes| mesh::from_bytes(bytes, "glb", &[]).is_ok()),
         ("cache", samples::cache_bytes(), read_cache),
     ]
@@ -57,7 +61,7 @@ fn formats() -> [(&'static str, Vec<u8>, Read); 7] {
 /// Room allowed for a file: a small multiple of its length; the parsers of text and JSON take more, and some at once.
 fn allowance(name: &str, bytes: &[u8]) -> usize {
     match name {
-        ".obj" | ".obj lines" | ".glb" => 64 * bytes.len() + (1 << 18),
+        ".obj" | ".obj lines" | ".tfxmesh" | ".glb" => 64 * bytes.len() + (1 << 18),
         _ => 4 * bytes.len() + (1 << 12),
     }
 }
@@ -75,7 +79,7 @@ fn survives(name: &str, bytes: &[u8], read: Read) -> bool {
 fn no_damage_panics_or_takes_more_memory_than_a_small_multiple_of_the_file() {
     for (name, bytes, read) in formats() {
         assert!(survives(name, &bytes, read), "{name}: the sound file is read");
-        let binary = !name.starts_with(".obj");
+        let binary = !matches!(name, ".obj" | ".obj lines" | ".tfxmesh");
         for length in 0..bytes.len() {
             let accepted = survives(name, &bytes[..length], read);
             assert!(!(accepted && binary), "{name}: cut to {length} of {} bytes, it is refused", bytes.len());

@@ -6,7 +6,10 @@ use glam::Vec3;
 use nabiki::Mesh;
 
 use super::{check, check_groups};
-use crate::{error::Result, obj_text};
+use crate::{
+    error::{Error, Result},
+    obj_text,
+};
 
 /// `groups`: names that follow a `g` or an `o`; faces under any of them are kept, all where there are none.
 pub(super) fn from_bytes(bytes: &[u8], groups: &[String]) -> Result<Mesh> {
@@ -48,6 +51,9 @@ pub(super) fn from_bytes(bytes: &[u8], groups: &[String]) -> Result<Mesh> {
     }
     let names: Vec<&str> = names.into_iter().collect();
     check_groups(groups, &names)?;
+    if triangles.is_empty() {
+        return Err(Error::new(format!("holds {} vertices but no faces: not a head", positions.len())));
+    }
     check(only_used(positions, triangles))
 }
 
