@@ -283,3 +283,53 @@ fn a_recorded_runner_carries_the_head() {
     assert!(in_world != still, "a turning head feels the world's wind from other sides");
     assert!(in_head == still, "a force that turns with the head moves the hair on it as on a still one");
 }
+
+#[test]
+fn what_a_motion_file_does_not_say_is_asked_for_one_by_one() {
+    // Beside the scene's folder, as the scene names it: its own paths count from there.
+    let data = "../../shared/data/motion";
+    let running = Path::new(GUST).with_file_name("running.toml");
+    if !running.with_file_name(data).exists() {
+        eprintln!("SKIPPED: {} is not here", running.with_file_name(data).display());
+        return;
+    }
+    let folder = TempDir::new().unwrap();
+    let cache = path(&folder, "m.nabiki");
+    let arguments = |motion: &str| {
+        let small = ["simulate", running.to_str().unwrap(), "-o", &cache, "--strands", "20", "--frames", "34", "--set"];
+        [&small[..], &[motion]].concat().iter().map(|&argument| argument.to_owned()).collect::<Vec<_>>()
+    };
+    for (file, given) in [
+        (
+            "cmu_02_03_run.amc",
+            &[
+                ("skeleton", format!("\"{data}/cmu_02.asf\"")),
+                ("frames_per_second", "120".to_owned()),
+                ("up", "\"+y\"".to_owned()),
+                ("facing", "\"+z\"".to_owned()),
+            ][..],
+        ),
+        (
+            "jolt_sprint.tof",
+            &[
+                ("skeleton", format!("\"{data}/jolt_human.tof\"")),
+                ("unit_cm", "100".to_owned()),
+                ("up", "\"+y\"".to_owned()),
+                ("facing", "\"+z\"".to_owned()),
+            ],
+        ),
+    ] {
+        let node = if file.ends_with("amc") { "head" } else { "C_Head_sjnt_0" };
+        let mut motion = format!("head.motion={{file=\"{data}/{file}\",node=\"{node}\"");
+        for (key, value) in given {
+            let complete = arguments(&format!("{motion}}}"));
+            let said = refuse(&complete.iter().map(String::as_str).collect::<Vec<_>>(), folder.path());
+            assert!(said.contains(&format!("{file}: {key} is not in the file: give {key} = ")), "{said}");
+            motion += &format!(",{key}={value}");
+        }
+        let complete = arguments(&format!("{motion}}}"));
+        let said = succeed(&complete.iter().map(String::as_str).collect::<Vec<_>>());
+        assert!(said.contains("Hz (1.") && said.contains("24 Hz (positions cubic"), "the rates are said: {said}");
+        fs::remove_file(&cache).unwrap();
+    }
+}

@@ -89,15 +89,14 @@ pub fn mesh(path: &Path) -> Result<Mesh> {
 }
 
 /// Reads the way of the object or prim `node`.
-pub(crate) fn track(path: &Path, node: &str) -> Result<Track, String> {
+pub(crate) fn track(path: &Path, node: &str) -> Result<Track> {
+    let named = |problem: String| Error::new(problem).in_file(path);
     let motion = if is_alembic(path) {
-        let mut archive = ArchiveReader::open(path).map_err(|e| e.to_string())?;
-        archive.motion(node).map_err(|e| e.to_string())?
+        archive(path)?.motion(node).map_err(|e| named(e.to_string()))?
     } else {
-        let mut stage = StageReader::open(path).map_err(|e| e.to_string())?;
-        stage.motion(node).map_err(|e| e.to_string())?
+        stage(path)?.motion(node).map_err(|e| named(e.to_string()))?
     };
-    let said = said(path).map_err(|e| e.what)?;
+    let said = said(path)?;
     let (times, samples) =
         motion.into_iter().map(|(time, position, rotation)| (time, Sample { position, rotation })).unzip();
     let unit_cm = said.unit.map(|unit| f64::from(unit.cm));

@@ -54,14 +54,14 @@ impl fmt::Display for Info {
     }
 }
 
-/// Looks into a file, told by its name's ending: .hair, .tfx, .obj, .glb, .gltf, .ply, .usda, .usdc, .abc,
-/// .bvh, .csv, .nabiki or .toml.
+/// Looks into a file, told by its name's ending: .hair, .tfx, .obj, .glb, .gltf, .ply, .tfxmesh, .usda, .usdc, .abc,
+/// .bvh, .csv, .amc, .asf, .tof, .nabiki or .toml.
 pub fn info(path: &Path) -> Result<Info> {
     match extension(path).as_str() {
-        "hair" | "tfx" => Ok(Info::Hair(HairInfo::of(&crate::hair::read(path)?))),
+        "hair" | "tfx" | "tfxbone" => Ok(Info::Hair(HairInfo::of(&crate::hair::read(path)?))),
         "usd" | "usda" | "usdc" | "abc" => Ok(Info::Exchange(ExchangeInfo::of(path)?)),
-        "bvh" | "csv" => Ok(Info::Motion(MotionInfo::of(path)?)),
-        "glb" | "gltf" | "ply" => Ok(Info::Mesh(MeshInfo::of(&crate::mesh::read(path, &[])?))),
+        "bvh" | "csv" | "amc" | "asf" | "tof" => Ok(Info::Motion(MotionInfo::of(path)?)),
+        "glb" | "gltf" | "ply" | "tfxmesh" => Ok(Info::Mesh(MeshInfo::of(&crate::mesh::read(path, &[])?))),
         "obj" => {
             let bytes = fs::read(path).map_err(|e| Error::from(e).in_file(path))?;
             let is_hair = bytes.split(|&b| b == b'\n').any(|line| line.starts_with(b"l "));
@@ -74,7 +74,8 @@ pub fn info(path: &Path) -> Result<Info> {
         "nabiki" => Ok(Info::Cache(CacheInfo::of(crate::cache::Reader::open(path)?)?)),
         "toml" => Ok(Info::Scene(SceneInfo::of(&crate::Scene::load(path, &[])?))),
         other => {
-            let known = ".hair, .tfx, .obj, .glb, .gltf, .ply, .usda, .usdc, .abc, .bvh, .csv, .nabiki or .toml";
+            let known = ".hair, .tfx, .obj, .glb, .gltf, .ply, .tfxmesh, .usda, .usdc, .abc, .bvh, .csv, .amc, .asf, .tof, \
+                         .nabiki or .toml";
             Err(Error::new(format!("ending \"{other}\" is not one of {known}")).in_file(path))
         }
     }

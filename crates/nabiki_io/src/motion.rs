@@ -1,20 +1,28 @@
-//! Motion of the head: poses from .bvh, .glb or .csv, at the scene's own frame rate.
+//! Motion of the head: poses from files of many kinds, at the scene's own frame rate.
 //!
 //! A file's world becomes the scene's by one rotation and one scale: its up axis goes to +y, the axis its character
 //! faces goes to +x, its unit to centimetres. The same rotation carries the joint's own axes to head space, so the
 //! unturned joint of a character who faces the file's facing axis is an unturned head.
 
+mod acclaim;
 mod bvh;
 mod clip;
 mod csv;
+mod survey;
+mod tof;
 mod track;
 
 use std::fmt;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use glam::{DQuat, DVec3, Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
+use crate::error::{Error, Result};
+use crate::hair::extension;
+
+pub(crate) use survey::survey;
 pub use track::{Sample, Track};
 
 /// Where the head is in one frame.
@@ -41,23 +49,31 @@ pub struct HeadMotion {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MotionSource {
-    /// A .bvh, .glb, .gltf, .abc, .usda or .usdc file, or a .csv with the columns t_s, px_m, py_m, pz_m, qx, qy, qz, qw.
+    /// A .bvh, .amc, .tof, .glb, .gltf, .abc, .usda or .usdc file, or a .csv with the columns t_s, px_m, py_m, pz_m, qx,
+    /// qy, qz, qw.
     pub file: PathBuf,
-    /// Joint or node that carries the head (default "Head"; capitals do not count). Not used for .csv.
+    /// File of the skeleton that the motion moves: the .asf of an .amc, the .tof with the skeleton of a .tof animation.
+    /// Others have none.
+    pub skeleton: Option<PathBuf>,
+    /// Joint, bone or node that carries the head (default "Head"; capitals do not count). Not used for .csv.
     pub node: String,
     /// Animation of a .glb by name; may stay empty where there is one only.
     pub clip: String,
-    /// Length of the file's unit (cm). Needed for .bvh and .abc; .glb is in metres unless said here; .csv and USD name
-    /// their own.
+    /// Length of the file's unit (cm). Needed for .bvh, .tof and .abc; .glb is in metres unless said here, .amc in
+    /// inches times the `length` of its .asf; .csv and USD name their own.
     pub unit_cm: Option<f64>,
-    /// Up axis of the file's world. Needed for .bvh and .csv; +y in .glb and .abc; USD names its own.
+    /// Up axis of the file's world. Needed for .bvh, .amc, .tof and .csv; +y in .glb and .abc; USD names its own.
     pub up: Option<Axis>,
     /// Axis of the file's world that the character faces while the joint is unturned. Needed but for .glb:
-    /// +z in that, whose node is unturned as the file's still pose has it.
+    /// +z in that, whose node is unturned as the file's still pose has it. A bone of an .amc is unturned as the .asf
+    /// has it, a joint of a .tof where its axes are the world's.
     pub facing: Option<Axis>,
-    /// Samples dropped at the start of a .bvh or .csv (a T-pose, say; default 0).
+    /// Samples a second. Needed for an .amc, which seldom says; all others say it themselves.
+    pub frames_per_second: Option<f64>,
+    /// Samples dropped at the start (a T-pose, say; default 0). Not for .glb.
     pub skip: usize,
-    /// How positions between two samples are found (default cubic). Rotations turn at a constant rate (slerp).
+    /// How positions between two samples are found (default cubic). Rotations turn at a constant rate (slerp). Not for
+    /// .glb, whose channels say it themselves.
     pub positions: Interpolation,
     /// Whether the first frame is moved to the world's origin and turned about y to face +x (default false).
     pub start_at_origin: bool,
@@ -67,11 +83,13 @@ impl Default for MotionSource {
     fn default() -> Self {
         Self {
             file: PathBuf::new(),
+            skeleton: None,
             node: "Head".to_owned(),
             clip: String::new(),
             unit_cm: None,
             up: None,
             facing: None,
+            frames_per_second: None,
             skip: 0,
             positions: Interpolation::Cubic,
             start_at_origin: false,
@@ -139,19 +157,27 @@ impl fmt::Display for Axis {
     }
 }
 
-/// A motion file that cannot be used: which one, and what is wrong with what in it.
-#[derive(Debug, thiserror::Error)]
-#[error("{}: {problem}", file.display())]
-pub struct MotionError {
-    /// The file.
-    pub file: PathBuf,
-    /// The thing found, its value and the way out, in one line.
-    pub problem: String,
-}
+impl MotionSource {
+    /// Whether the motion is in one file and its skeleton in another.
+    fn has_skeleton(&self) -> bool {
+        matches!(extension(&self.file).as_str(), "amc" | "tof")
+    }
 
-impl MotionError {
-    fn new(file: &Path, problem: impl Into<String>) -> Self {
-        Self { file: file.to_owned(), problem: problem.into() }
+    /// Refuses what has no effect on a file of this kind.
+    fn check(&self) -> Result<()> {
+        let ending = extension(&self.file);
+        let is_clip = matches!(ending.as_str(), "glb" | "gltf");
+        let useless = [
+            (self.skeleton.is_some() && !self.has_skeleton(), "skeleton"),
+            (self.frames_per_second.is_some() && ending != "amc", "frames_per_second"),
+            (!self.clip.is_empty() && !is_clip, "clip"),
+            (self.skip > 0 && is_clip, "skip"),
+            (self.positions != Interpolation::Cubic && is_clip, "positions"),
+        ];
+        match useless.into_iter().find(|&(given, _)| given) {
+            Some((_, key)) => Err(Error::new(format!("{key} has no effect on a .{ending} file: remove it"))),
+            None => Ok(()),
+        }
     }
 }
 
@@ -159,46 +185,107 @@ impl MotionError {
 ///
 /// # Errors
 /// A file that is missing, malformed or too short, a joint or clip it does not have, a number that is not finite,
-/// a unit or axis that neither file nor `source` gives.
-pub fn read(source: &MotionSource, frame_rate: f64) -> Result<HeadMotion, MotionError> {
+/// a skeleton, rate, unit or axis that neither file nor `source` gives.
+pub fn read(source: &MotionSource, frame_rate: f64) -> Result<HeadMotion> {
     let file = &source.file;
-    let error = |problem: String| MotionError::new(file, problem);
+    let named = |e: Error| e.in_file(file);
     if !(frame_rate.is_finite() && frame_rate > 0.0) {
-        return Err(error(format!("frame rate {frame_rate}: must be a finite number above 0")));
+        return Err(named(Error::new(format!("frame rate {frame_rate}: must be a finite number above 0"))));
     }
-    let extension = file.extension().and_then(|e| e.to_str()).unwrap_or_default().to_lowercase();
-    match extension.as_str() {
-        "bvh" => {
-            let track = bvh::track(&read_text(file)?, &source.node).map_err(error)?;
-            track.head_motion(source, frame_rate)
+    source.check().map_err(named)?;
+    match extension(file).as_str() {
+        "bvh" | "csv" | "amc" | "tof" => {
+            let text = read_text(file)?;
+            let skeleton = source.skeleton.as_deref().map(read_text).transpose()?;
+            track(source, &text, skeleton.as_deref())?.head_motion(source, frame_rate)
         }
-        "csv" => csv::track(&read_text(file)?).map_err(error)?.head_motion(source, frame_rate),
-        "glb" | "gltf" => clip::head_motion(source, frame_rate).map_err(error),
-        "abc" | "usd" | "usda" | "usdc" => {
-            crate::exchange::track(file, &source.node).map_err(error)?.head_motion(source, frame_rate)
+        "glb" | "gltf" => {
+            let bytes = fs::read(file).map_err(|e| named(Error::from(e)))?;
+            clip(source, &bytes, frame_rate)
         }
-        other => Err(error(format!("motion in a .{other} file: .bvh, .glb, .gltf, .csv, .abc and .usd are read"))),
+        "abc" | "usd" | "usda" | "usdc" => crate::exchange::track(file, &source.node)?.head_motion(source, frame_rate),
+        other => {
+            let known = ".bvh, .amc, .tof, .glb, .gltf, .csv, .abc and .usd are read";
+            Err(named(Error::new(format!("motion in a .{other} file: {known}"))))
+        }
     }
 }
 
-/// The samples of a .csv, or those of the first joint of a .bvh and the names of all.
-pub(crate) fn survey(file: &Path) -> Result<(Track, Vec<String>), MotionError> {
-    let error = |problem: String| MotionError::new(file, problem);
-    let text = read_text(file)?;
-    if file.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv")) {
-        return Ok((csv::track(&text).map_err(error)?, Vec::new()));
+/// The samples of a text file, .bvh, .csv, .amc or .tof, which holds `text`; `skeleton`: what `source.skeleton` holds.
+///
+/// # Errors
+/// As [`read`], but for unit and axes, which samples are without.
+pub fn track(source: &MotionSource, text: &str, skeleton: Option<&str>) -> Result<Track> {
+    let named = |e: Error| e.in_file(&source.file);
+    let skeleton_file = source.skeleton.as_deref().unwrap_or(Path::new(""));
+    let in_skeleton = |e: Error| e.in_file(skeleton_file);
+    let skeleton = || {
+        let example = if extension(&source.file) == "tof" { "\"skeleton.tof\"" } else { "\"skeleton.asf\"" };
+        skeleton.ok_or_else(|| named(asked("skeleton", example)))
+    };
+    let mut track = match extension(&source.file).as_str() {
+        "amc" => {
+            let skeleton = acclaim::Skeleton::read(skeleton()?).map_err(in_skeleton)?;
+            let chain = skeleton.chain(&source.node).map_err(in_skeleton)?;
+            skeleton.track(&chain, text, source.frames_per_second).map_err(named)?
+        }
+        "tof" => {
+            let skeleton = tof::skeleton(skeleton()?).map_err(in_skeleton)?;
+            let chain = tof::chain(&skeleton, &source.node).map_err(in_skeleton)?;
+            tof::animation(text).and_then(|animation| tof::track(&chain, &animation)).map_err(named)?
+        }
+        "csv" => csv::track(text).map_err(|problem| named(Error::new(problem)))?,
+        _ => bvh::track(text, &source.node).map_err(|problem| named(Error::new(problem)))?,
+    };
+    if source.has_skeleton() {
+        track.what += &format!(" of {}", skeleton_file.display());
     }
-    let joints = bvh::joints(&text).map_err(error)?;
-    let first = joints.first().cloned().unwrap_or_default();
-    Ok((bvh::track(&text, &first).map_err(error)?, joints))
+    Ok(track)
 }
 
-fn read_text(file: &Path) -> Result<String, MotionError> {
-    let bytes = std::fs::read(file).map_err(|e| MotionError::new(file, e.to_string()))?;
+/// The motion in a .glb or .gltf, which holds `bytes`.
+///
+/// # Errors
+/// As [`read`].
+pub fn clip(source: &MotionSource, bytes: &[u8], frame_rate: f64) -> Result<HeadMotion> {
+    clip::head_motion(source, bytes, frame_rate).map_err(|problem| Error::new(problem).in_file(&source.file))
+}
+
+fn read_text(file: &Path) -> Result<String> {
+    let bytes = fs::read(file).map_err(|e| Error::from(e).in_file(file))?;
     String::from_utf8(bytes).map_err(|e| {
         let at = e.utf8_error().valid_up_to();
-        MotionError::new(file, format!("byte {at} is not text: is this the file that was meant?"))
+        Error::new(format!("byte {at} is not text: is this the file that was meant?")).in_file(file)
     })
+}
+
+/// A setting that a scene must give, since a file of this kind does not.
+fn asked(key: &str, example: &str) -> Error {
+    Error::new(format!("{key} is not in the file: give {key} = {example} in the scene"))
+}
+
+/// A joint that is not there, and those that are.
+fn unknown_node<'a>(kind: &str, node: &str, names: impl Iterator<Item = &'a str>) -> Error {
+    let names: Vec<&str> = names.take(60).collect();
+    Error::new(format!("no {kind} \"{node}\": node can be {}", names.join(", ")))
+}
+
+/// The joints from the root down to `joint`, of `count` that there are.
+fn chain_to_root(joint: usize, parent: impl Fn(usize) -> Option<usize>, count: usize) -> Result<Vec<usize>> {
+    // Each frame walks the chain, so this bounds the time that a small file can take; a body has a dozen.
+    const DEEPEST: usize = 1000;
+    let mut chain = vec![joint];
+    while let Some(parent) = parent(chain[chain.len() - 1]) {
+        chain.push(parent);
+        if chain.len() > count {
+            return Err(Error::new("a joint is its own ancestor"));
+        }
+        if chain.len() > DEEPEST {
+            return Err(Error::new(format!("a joint has more than {DEEPEST} ancestors, which is more than are read")));
+        }
+    }
+    chain.reverse();
+    Ok(chain)
 }
 
 /// Carries samples of a file's world into the scene's.
@@ -212,7 +299,7 @@ struct Door {
 
 impl Door {
     fn new(unit_cm: Option<f64>, up: Option<Axis>, facing: Option<Axis>) -> Result<Self, String> {
-        let asked = |key: &str, example: &str| format!("{key} is not in the file: give {key} = {example} in the scene");
+        let asked = |key: &str, example: &str| asked(key, example).what;
         let unit_cm = unit_cm.ok_or_else(|| asked("unit_cm", "2.54 (cm in one unit)"))?;
         let up = up.ok_or_else(|| asked("up", "\"+y\""))?;
         let facing = facing.ok_or_else(|| asked("facing", "\"+z\""))?;

@@ -88,9 +88,12 @@ impl Stage {
         }
         if let Some(source) = &self.scene.head.motion {
             digest.settings("head.motion", source)?;
-            let path = self.scene.resolve(&source.file);
-            let bytes = std::fs::read(&path).map_err(|e| Error::from(e).in_file(&path))?;
-            digest.bytes("head.motion.file", &bytes);
+            let files = [("head.motion.file", Some(&source.file)), ("head.motion.skeleton", source.skeleton.as_ref())];
+            for (name, file) in files.into_iter().filter_map(|(name, file)| Some((name, file?))) {
+                let path = self.scene.resolve(file);
+                let bytes = std::fs::read(&path).map_err(|e| Error::from(e).in_file(&path))?;
+                digest.bytes(name, &bytes);
+            }
         }
         Ok(digest.finish())
     }
@@ -98,8 +101,12 @@ impl Stage {
     /// Where the head is in each frame, at `frame_rate` frames a second; `None` for a head that stands still.
     pub fn head_motion(&self, frame_rate: f64) -> Result<Option<HeadMotion>> {
         let Some(source) = &self.scene.head.motion else { return Ok(None) };
-        let source = motion::MotionSource { file: self.scene.resolve(&source.file), ..source.clone() };
-        motion::read(&source, frame_rate).map(Some).map_err(|e| Error::new(e.problem).in_file(&e.file))
+        let source = motion::MotionSource {
+            file: self.scene.resolve(&source.file),
+            skeleton: source.skeleton.as_ref().map(|skeleton| self.scene.resolve(skeleton)),
+            ..source.clone()
+        };
+        motion::read(&source, frame_rate).map(Some)
     }
 
     /// A refused setting as an error that names the scene's file and line.

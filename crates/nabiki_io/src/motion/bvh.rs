@@ -6,7 +6,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Sample, Track};
+use super::{Sample, Track, chain_to_root, unknown_node};
 
 /// What one column of the motion drives.
 #[derive(Clone, Copy)]
@@ -34,14 +34,9 @@ pub(super) fn track(text: &str, name: &str) -> Result<Track, String> {
     let mut words = Words { words: text.split_ascii_whitespace(), count: 0 };
     let (joints, columns) = hierarchy(&mut words)?;
     let found = joints.iter().position(|j| j.name.eq_ignore_ascii_case(name));
-    let mut chain = vec![found.ok_or_else(|| {
-        let names: Vec<&str> = joints.iter().map(|j| j.name.as_str()).take(40).collect();
-        format!("no joint \"{name}\": node can be {}", names.join(", "))
-    })?];
-    while let Some(parent) = joints[chain[chain.len() - 1]].parent {
-        chain.push(parent);
-    }
-    chain.reverse();
+    let names = joints.iter().map(|j| j.name.as_str());
+    let found = found.ok_or_else(|| unknown_node("joint", name, names).what)?;
+    let chain = chain_to_root(found, |joint| joints[joint].parent, joints.len()).map_err(|e| e.what)?;
 
     words.expect("Frames:")?;
     let frames = words.number("Frames")?;

@@ -10,10 +10,9 @@ use gltf::animation::{Interpolation, util::ReadOutputs};
 use super::track::hermite;
 use super::{Axis, Door, HeadMotion, MotionSource, Sample, frame_count, poses};
 
-/// Reads the poses of `source.node` in `source.clip`.
-pub(super) fn head_motion(source: &MotionSource, frame_rate: f64) -> Result<HeadMotion, String> {
-    let file = std::fs::read(&source.file).map_err(|e| e.to_string())?;
-    let (document, blob) = crate::mesh::glb::open(&file).map_err(|e| e.what)?;
+/// Reads the poses of `source.node` in `source.clip` out of the file's bytes.
+pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) -> Result<HeadMotion, String> {
+    let (document, blob) = crate::mesh::glb::open(bytes).map_err(|e| e.what)?;
     let buffers = gltf::import_buffers(&document, source.file.parent(), blob)
         .map_err(|e| format!("its buffers cannot be read: {e}"))?;
     let chain = chain(&document, &source.node)?;

@@ -3,6 +3,8 @@ use std::fs;
 
 use proptest::prelude::*;
 
+use super::acclaim::tests::{AMC, ASF};
+use super::tof::tests::{TOF, TOF_SKELETON};
 use super::*;
 
 fn shared(name: &str) -> Option<PathBuf> {
@@ -47,6 +49,67 @@ fn the_head_of_a_bvh_is_where_its_table_of_poses_has_it() {
         // Rounding: position 5e-5 cm, time 1e-6 s at 160 cm/s, quaternion components 5e-8, f32 near 200 cm 8e-6 cm.
         assert!(a.position_cm.distance(b.position_cm) < 3e-4, "{a:?} {b:?}");
         assert!(1.0 - a.rotation.dot(b.rotation).abs() < 4.0 * f32::EPSILON, "{a:?} {b:?}");
+    }
+}
+
+/// A motion that moves a skeleton of another file, in the shared data.
+fn recorded(file: &str, skeleton: &str, node: &str) -> Option<MotionSource> {
+    let (file, skeleton) = (shared(file)?, shared(skeleton)?);
+    let rate = extension(&file) == "amc";
+    Some(MotionSource {
+        skeleton: Some(skeleton),
+        node: node.to_owned(),
+        frames_per_second: rate.then_some(120.0),
+        ..straight(file, None)
+    })
+}
+
+#[test]
+fn recorded_heads_are_where_their_tables_of_poses_have_them() {
+    // The tables were computed from these very files by another program. Its unit is the metre, as is Jolt's.
+    for (file, skeleton, node, table, rows, metres) in [
+        ("cmu_02_03_run.amc", "cmu_02.asf", "head", "cmu_02_03_run", 173, 0.0254 / 0.45),
+        ("jolt_walk.tof", "jolt_human.tof", "C_Head_sjnt_0", "jolt_walk", 85, 1.0),
+        ("jolt_sprint.tof", "jolt_human.tof", "c_head_SJNT_0", "jolt_sprint", 49, 1.0),
+    ] {
+        let Some(source) = recorded(file, skeleton, node) else { return };
+        let Some(table) = shared(&format!("head_tracks/{table}.csv")) else { return };
+        let text = |path: &Path| read_text(path).unwrap();
+        let found = track(&source, &text(&source.file), source.skeleton.as_deref().map(text).as_deref()).unwrap();
+        let table = csv::track(&text(&table)).unwrap();
+        assert_eq!((found.samples.len(), table.samples.len()), (rows, rows), "{file}");
+        assert!(found.unit_cm.is_none_or(|cm| (cm / 100.0 - metres).abs() < 1e-15), "{file}: {:?}", found.unit_cm);
+        for (i, (a, b)) in found.samples.iter().zip(&table.samples).enumerate() {
+            // Printed with 6 digits behind the point; the rest is for rounding in f64.
+            let off = (a.position * metres - b.position).abs().max_element();
+            assert!(off < 0.5e-6 + 1e-12, "{file}, row {i}: {off} m");
+            assert!((found.times[i] - table.times[i]).abs() < 0.5e-6 + 1e-12, "{file}, row {i}");
+            // Printed with 7 digits, 5e-8 for each component; made of length 1 again, at most their sum, 1e-7, more.
+            let same_sign = if a.rotation.dot(b.rotation) < 0.0 { -b.rotation } else { b.rotation };
+            let off = (a.rotation - same_sign).to_array().into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+            assert!(off < 1.5e-7, "{file}, row {i}: {off}");
+        }
+    }
+}
+
+#[test]
+fn recorded_heads_run_upright_and_face_the_way_they_go() {
+    for (file, skeleton, node, unit) in [
+        ("cmu_02_03_run.amc", "cmu_02.asf", "head", None),
+        ("jolt_walk.tof", "jolt_human.tof", "C_Head_sjnt_0", Some(100.0)),
+        ("jolt_sprint.tof", "jolt_human.tof", "C_Head_sjnt_0", Some(100.0)),
+    ] {
+        let Some(source) = recorded(file, skeleton, node) else { return };
+        let source = MotionSource { unit_cm: unit, facing: Some(Axis::PlusZ), start_at_origin: true, ..source };
+        let motion = read(&source, 24.0).unwrap();
+        let of = format!(" of {}", source.skeleton.unwrap().display());
+        assert!(motion.report.contains(&of) && motion.report.contains("24 Hz"), "{}", motion.report);
+        let way = motion.poses[motion.poses.len() - 1].position_cm.normalize();
+        for (n, pose) in motion.poses.iter().enumerate() {
+            // Runners bend and turn their heads, but by less than half of the quarter turn that a wrong axis would give.
+            let (up, ahead) = ((pose.rotation * Vec3::Y).y, (pose.rotation * Vec3::X).dot(way));
+            assert!(up.min(ahead) > std::f32::consts::FRAC_1_SQRT_2, "{file}, {n}: {pose:?}");
+        }
     }
 }
 
@@ -170,6 +233,21 @@ fn what_a_file_cannot_say_is_asked_for() {
     assert!(error(&unknown).contains("node can be Hips, Head"), "{}", error(&unknown));
 }
 
+#[test]
+fn settings_without_effect_are_refused() {
+    let refused = |source: MotionSource| read(&source, 24.0).unwrap_err().to_string();
+    let of = |file: &str| straight(file.into(), Some(1.0));
+    for (source, key, ending) in [
+        (MotionSource { skeleton: Some("a.asf".into()), ..of("a.bvh") }, "skeleton", "bvh"),
+        (MotionSource { frames_per_second: Some(30.0), ..of("a.tof") }, "frames_per_second", "tof"),
+        (MotionSource { clip: "Run".into(), ..of("a.csv") }, "clip", "csv"),
+        (MotionSource { skip: 1, ..of("a.glb") }, "skip", "glb"),
+        (MotionSource { positions: Interpolation::Linear, ..of("a.gltf") }, "positions", "gltf"),
+    ] {
+        assert_eq!(refused(source), format!("a.{ending}: {key} has no effect on a .{ending} file: remove it"));
+    }
+}
+
 /// A .glb whose node Head hangs below Body (moved up 1 m) and has one channel: `keys` values over times 0, 1, 2.
 fn glb(interpolation: &str, path: &str, values: &[f32]) -> Vec<u8> {
     let width = if path == "rotation" { 4 } else { 3 };
@@ -206,7 +284,7 @@ fn glb(interpolation: &str, path: &str, values: &[f32]) -> Vec<u8> {
     file
 }
 
-fn clip_motion(bytes: &[u8], frame_rate: f64) -> Result<HeadMotion, MotionError> {
+fn clip_motion(bytes: &[u8], frame_rate: f64) -> Result<HeadMotion> {
     let (_folder, path) = written("nod.glb", bytes);
     read(
         &MotionSource { facing: Some(Axis::PlusX), ..MotionSource { file: path, ..MotionSource::default() } },
@@ -244,6 +322,14 @@ fn read_whatever(bytes: &[u8]) {
     let source = straight("fuzz".into(), Some(1.0));
     for track in [bvh::track(&text, "Head"), csv::track(&text)].into_iter().flatten() {
         let _ = track.head_motion(&source, 24.0);
+    }
+    for (name, skeleton, motion) in [("fuzz.amc", ASF, AMC), ("fuzz.tof", TOF_SKELETON, TOF)] {
+        let source = MotionSource { skeleton: Some(name.into()), ..straight(name.into(), Some(1.0)) };
+        let source =
+            MotionSource { frames_per_second: extension(&source.file).starts_with('a').then_some(60.0), ..source };
+        for (skeleton, motion) in [(skeleton, &*text), (&*text, motion)] {
+            let _ = track(&source, motion, Some(skeleton)).map(|track| track.head_motion(&source, 24.0));
+        }
     }
     let _ = clip_motion(bytes, 24.0);
 }
@@ -313,14 +399,15 @@ proptest! {
 
     #[test]
     fn damaged_motion_is_an_error_and_no_panic(
-        kind in 0..3usize,
+        kind in 0..7usize,
         cut in 0.0..1.0f64,
         hits in prop::collection::vec((0.0..1.0f64, any::<u8>()), 0..6),
     ) {
         let mut bytes = match kind {
             0 => bvh("Zrotation Xrotation Yrotation", "1 2 3 4 5 6 7 8 9").into_bytes(),
             1 => b"t_s,px_m,py_m,pz_m,qx,qy,qz,qw\n0,1,2,3,0,0,0,1\n0.5,1,2,3,0,0,0,1\n".to_vec(),
-            _ => glb("CUBICSPLINE", "translation", &[0.5; 27]),
+            2 => glb("CUBICSPLINE", "translation", &[0.5; 27]),
+            other => [ASF, AMC, TOF_SKELETON, TOF][other - 3].into(),
         };
         for (place, value) in hits {
             let at = (place * bytes.len() as f64) as usize;

@@ -2,7 +2,9 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Door, HeadMotion, Interpolation, MotionError, MotionSource, frame_count, poses};
+use super::{Door, HeadMotion, Interpolation, MotionSource, frame_count, poses};
+use crate::error::{Error, Result};
+use crate::info::Short;
 
 /// A joint in its file's own world and unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,8 +35,8 @@ impl Track {
     ///
     /// # Errors
     /// No sample left after `source.skip`, times that do not grow, a unit or axis that nobody gives.
-    pub fn head_motion(mut self, source: &MotionSource, frame_rate: f64) -> Result<HeadMotion, MotionError> {
-        let error = |problem: String| MotionError::new(&source.file, problem);
+    pub fn head_motion(mut self, source: &MotionSource, frame_rate: f64) -> Result<HeadMotion> {
+        let error = |problem: String| Error::new(problem).in_file(&source.file);
         if source.skip >= self.samples.len() {
             let problem = format!("skip = {}: the file has {} samples", source.skip, self.samples.len());
             return Err(error(problem));
@@ -72,7 +74,7 @@ impl Track {
                 Interpolation::Linear => "linear",
                 Interpolation::Cubic => "cubic",
             },
-            door.unit_cm,
+            Short(door.unit_cm as f32),
             door.up,
             door.facing,
         );
