@@ -1,0 +1,11 @@
+//! Meshes out of .tfxmesh; every index names a vertex.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use nabiki_io::mesh;
+
+fuzz_target!(|bytes: &[u8]| {
+    if let Ok(mesh) = mesh::from_bytes(bytes, "tfxmesh", &[]) {
+        assert!(mesh.triangles.iter().flatten().all(|&v| (v as usize) < mesh.positions.len()));
+    }
+});
