@@ -17,10 +17,16 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
         .map_err(|e| format!("its buffers cannot be read: {e}"))?;
     let chain = chain(&document, &source.node)?;
     let animation = animation(&document, &source.clip)?;
-    // The crate's own validation passes over this one, and its reader would panic.
-    let paths = document.as_json().animations[animation.index()].channels.iter().map(|c| c.target.path);
-    if paths.into_iter().any(|path| matches!(path, gltf::json::validation::Checked::Invalid)) {
-        return Err("a channel moves something that is no translation, rotation, scale or weights".to_owned());
+    // The crate's own validation passes over a channel's target, and its reader would panic.
+    let json = document.as_json();
+    for target in json.animations[animation.index()].channels.iter().map(|channel| &channel.target) {
+        if matches!(target.path, gltf::json::validation::Checked::Invalid) {
+            return Err("a channel moves something that is no translation, rotation, scale or weights".to_owned());
+        }
+        let (node, count) = (target.node.value(), json.nodes.len());
+        if node >= count {
+            return Err(format!("a channel moves node {node}, there are {count}"));
+        }
     }
 
     let mut curves: Vec<Curves> = chain.iter().map(still).collect();

@@ -379,6 +379,7 @@ fn cases_found_by_fuzzing_stay_errors() {
         (r#""count":3,"type":"VEC3""#, r#""count":9,"type":"VEC3""#),
         (r#""byteLength":12}"#, r#""byteLength":99}"#),
         (r#""path":"translation""#, r#""path":"tran lation""#),
+        (r#""node":1,"path""#, r#""node":2,"path""#),
         (r#""Head"               }"#, r#""Head","children":[0]}"#),
         (r#""componentType":5126,"count":3,"type":"SCALAR""#, r#""componentType":5125,"count":3,"type":"SCALAR""#),
     ] {
