@@ -61,14 +61,14 @@ pub fn info(path: &Path) -> Result<Info> {
         "hair" | "tfx" | "tfxbone" => Ok(Info::Hair(HairInfo::of(&crate::hair::read(path)?))),
         "usd" | "usda" | "usdc" | "abc" => Ok(Info::Exchange(ExchangeInfo::of(path)?)),
         "bvh" | "csv" | "amc" | "asf" | "tof" => Ok(Info::Motion(MotionInfo::of(path)?)),
-        "glb" | "gltf" | "ply" | "tfxmesh" => Ok(Info::Mesh(MeshInfo::of(&crate::mesh::read(path, &[])?))),
+        "glb" | "gltf" | "ply" | "tfxmesh" => Ok(Info::Mesh(MeshInfo::of_file(path)?)),
         "obj" => {
             let bytes = fs::read(path).map_err(|e| Error::from(e).in_file(path))?;
             let is_hair = bytes.split(|&b| b == b'\n').any(|line| line.starts_with(b"l "));
             if is_hair {
                 Ok(Info::Hair(HairInfo::of(&crate::hair::read(path)?)))
             } else {
-                Ok(Info::Mesh(MeshInfo::of(&crate::mesh::read(path, &[])?)))
+                Ok(Info::Mesh(MeshInfo::of_file(path)?))
             }
         }
         "nabiki" => Ok(Info::Cache(CacheInfo::of(crate::cache::Reader::open(path)?)?)),

@@ -1,12 +1,17 @@
 //! What is in a mesh file.
 
-use std::{collections::HashMap, fmt};
+use std::{collections::HashMap, fmt, fs, path::Path};
 
 use nabiki::Mesh;
 use serde::Serialize;
 
 use super::{Box3, guess_unit};
-use crate::{mesh::place_and_weld, placement::Placement};
+use crate::{
+    error::{Error, Result},
+    hair::extension,
+    mesh::{self, place_and_weld},
+    placement::Placement,
+};
 
 /// Triangles and what is known of them, in the file's own unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -27,9 +32,35 @@ pub struct MeshInfo {
     pub crowded_edges: usize,
     /// Unit in which this would be a person's head, bust or body; a guess.
     pub likely_unit: Option<&'static str>,
+    /// Animations of a .glb that may move a head.
+    pub clips: Vec<ClipInfo>,
+    /// Names of the nodes that these may move.
+    pub nodes: Vec<String>,
+}
+
+/// An animation of a .glb.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ClipInfo {
+    /// Its name, empty where it has none.
+    pub name: String,
+    /// Time of its last key (s), where the file says it ahead.
+    pub end: Option<f64>,
 }
 
 impl MeshInfo {
+    /// Looks into a mesh file.
+    pub fn of_file(path: &Path) -> Result<Self> {
+        let info = Self::of(&mesh::read(path, &[])?);
+        if !matches!(extension(path).as_str(), "glb" | "gltf") {
+            return Ok(info);
+        }
+        let bytes = fs::read(path).map_err(|e| Error::from(e).in_file(path))?;
+        let (document, _) = mesh::glb::open(&bytes).map_err(|e| e.in_file(path))?;
+        let clips: Vec<ClipInfo> = document.animations().map(|animation| clip(&animation)).collect();
+        let names = document.nodes().filter_map(|node| node.name().map(str::to_owned));
+        Ok(Self { nodes: if clips.is_empty() { Vec::new() } else { names.collect() }, clips, ..info })
+    }
+
     /// Looks through `mesh`.
     pub fn of(mesh: &Mesh) -> Self {
         let bounds = Box3::of(&mesh.positions);
@@ -53,8 +84,16 @@ impl MeshInfo {
             // A small head to a tall body.
             likely_unit: guess_unit(bounds.max[1] - bounds.min[1], 18.0, 220.0),
             bounds,
+            clips: Vec::new(),
+            nodes: Vec::new(),
         }
     }
+}
+
+fn clip(animation: &gltf::Animation<'_>) -> ClipInfo {
+    let last = |sampler: gltf::animation::Sampler<'_>| sampler.input().max()?.get(0)?.as_f64();
+    let end = animation.samplers().filter_map(last).reduce(f64::max);
+    ClipInfo { name: animation.name().unwrap_or_default().to_owned(), end }
 }
 
 impl fmt::Display for MeshInfo {
@@ -64,6 +103,18 @@ impl fmt::Display for MeshInfo {
         writeln!(f, "edges: {} open, {} with more than two triangles", self.open_edges, self.crowded_edges)?;
         let (doubled, degenerate) = (self.doubled_vertices, self.degenerate_triangles);
         writeln!(f, "degenerate: {degenerate} triangles without area; {doubled} doubled vertices")?;
+        if !self.clips.is_empty() {
+            let clips = self.clips.iter().map(|clip| match clip.end {
+                Some(end) => format!("{} ({end:.3} s)", clip.name),
+                None => clip.name.clone(),
+            });
+            writeln!(f, "nodes: {}", self.nodes.join(", "))?;
+            writeln!(f, "clips: {}", clips.collect::<Vec<_>>().join(", "))?;
+            writeln!(
+                f,
+                "as motion: unit 100 cm, up +y, facing +z, as glTF has it; to be given in the scene: node, clip"
+            )?;
+        }
         match self.likely_unit {
             Some(unit) => write!(f, "unit: {unit} (a guess, if y is up); up, facing: unknown"),
             None => write!(f, "unit, up, facing: unknown"),
