@@ -234,8 +234,8 @@ pub fn track(source: &MotionSource, text: &str, skeleton: Option<&str>) -> Resul
             let chain = tof::chain(&skeleton, &source.node).map_err(in_skeleton)?;
             tof::animation(text).and_then(|animation| tof::track(&chain, &animation)).map_err(named)?
         }
-        "csv" => csv::track(text).map_err(|problem| named(Error::new(problem)))?,
-        _ => bvh::track(text, &source.node).map_err(|problem| named(Error::new(problem)))?,
+        "csv" => csv::track(text).map_err(named)?,
+        _ => bvh::track(text, &source.node).map_err(named)?,
     };
     if source.has_skeleton() {
         track.what += &format!(" of {}", skeleton_file.display());
@@ -248,7 +248,7 @@ pub fn track(source: &MotionSource, text: &str, skeleton: Option<&str>) -> Resul
 /// # Errors
 /// As [`read`].
 pub fn clip(source: &MotionSource, bytes: &[u8], frame_rate: f64) -> Result<HeadMotion> {
-    clip::head_motion(source, bytes, frame_rate).map_err(|problem| Error::new(problem).in_file(&source.file))
+    clip::head_motion(source, bytes, frame_rate).map_err(|e| e.in_file(&source.file))
 }
 
 fn read_text(file: &Path) -> Result<String> {
@@ -298,17 +298,16 @@ struct Door {
 }
 
 impl Door {
-    fn new(unit_cm: Option<f64>, up: Option<Axis>, facing: Option<Axis>) -> Result<Self, String> {
-        let asked = |key: &str, example: &str| asked(key, example).what;
+    fn new(unit_cm: Option<f64>, up: Option<Axis>, facing: Option<Axis>) -> Result<Self> {
         let unit_cm = unit_cm.ok_or_else(|| asked("unit_cm", "2.54 (cm in one unit)"))?;
         let up = up.ok_or_else(|| asked("up", "\"+y\""))?;
         let facing = facing.ok_or_else(|| asked("facing", "\"+z\""))?;
         if !(unit_cm.is_finite() && unit_cm > 0.0) {
-            return Err(format!("unit_cm = {unit_cm}: must be a finite number above 0"));
+            return Err(Error::new(format!("unit_cm = {unit_cm}: must be a finite number above 0")));
         }
         let (y, x) = (up.vector(), facing.vector());
         if y.dot(x) != 0.0 {
-            return Err(format!("up = {up} and facing = {facing}: must be normal to each other"));
+            return Err(Error::new(format!("up = {up} and facing = {facing}: must be normal to each other")));
         }
         let file_from_world = DQuat::from_mat3(&glam::DMat3::from_cols(x, y, x.cross(y)));
         Ok(Self { world_from_file: file_from_world.inverse(), unit_cm, up, facing })
@@ -321,7 +320,7 @@ impl Door {
 }
 
 /// The poses of all frames, moved to start at the origin where asked.
-fn poses(door: &Door, samples: impl Iterator<Item = Sample>, start_at_origin: bool) -> Result<Vec<Pose>, String> {
+fn poses(door: &Door, samples: impl Iterator<Item = Sample>, start_at_origin: bool) -> Result<Vec<Pose>> {
     let mut poses: Vec<(DVec3, DQuat)> = samples.map(|s| door.pose(s)).collect();
     if let (true, Some(&(start, turned))) = (start_at_origin, poses.first()) {
         let face = turned * DVec3::X;
@@ -336,20 +335,24 @@ fn poses(door: &Door, samples: impl Iterator<Item = Sample>, start_at_origin: bo
         .map(|(position, rotation)| Pose { position_cm: position.as_vec3(), rotation: rotation.normalize().as_quat() })
         .collect();
     match single.iter().position(|p| !(p.position_cm.is_finite() && p.rotation.is_finite())) {
-        Some(frame) => Err(format!("frame {frame}: the pose is not finite; look at unit_cm and the file's numbers")),
+        Some(frame) => {
+            Err(Error::new(format!("frame {frame}: the pose is not finite; look at unit_cm and the file's numbers")))
+        }
         None => Ok(single),
     }
 }
 
 /// Number of scene frames that fit into `duration` seconds, the first at 0.
-fn frame_count(duration: f64, frame_rate: f64) -> Result<usize, String> {
+fn frame_count(duration: f64, frame_rate: f64) -> Result<usize> {
     const MOST: f64 = 1e7;
     // A last frame that misses the end by rounding only still counts.
     let last = (duration * frame_rate + 1e-4).floor();
     if (0.0..MOST).contains(&last) {
         Ok(last as usize + 1)
     } else {
-        Err(format!("lasts {duration} s, {last} frames at {frame_rate} a second: more than {MOST} are not read"))
+        Err(Error::new(format!(
+            "lasts {duration} s, {last} frames at {frame_rate} a second: more than {MOST} are not read"
+        )))
     }
 }
 

@@ -7,6 +7,7 @@
 use glam::{DQuat, DVec3};
 
 use super::{Sample, Track, chain_to_root, unknown_node};
+use crate::error::{Error, Result};
 
 /// What one column of the motion drives.
 #[derive(Clone, Copy)]
@@ -24,19 +25,19 @@ struct Joint {
 }
 
 /// Names of all joints, parents before their children.
-pub(super) fn joints(text: &str) -> Result<Vec<String>, String> {
+pub(super) fn joints(text: &str) -> Result<Vec<String>> {
     let mut words = Words { words: text.split_ascii_whitespace(), count: 0 };
     Ok(hierarchy(&mut words)?.0.into_iter().map(|joint| joint.name).collect())
 }
 
 /// Reads the world poses of joint `name`.
-pub(super) fn track(text: &str, name: &str) -> Result<Track, String> {
+pub(super) fn track(text: &str, name: &str) -> Result<Track> {
     let mut words = Words { words: text.split_ascii_whitespace(), count: 0 };
     let (joints, columns) = hierarchy(&mut words)?;
     let found = joints.iter().position(|j| j.name.eq_ignore_ascii_case(name));
     let names = joints.iter().map(|j| j.name.as_str());
-    let found = found.ok_or_else(|| unknown_node("joint", name, names).what)?;
-    let chain = chain_to_root(found, |joint| joints[joint].parent, joints.len()).map_err(|e| e.what)?;
+    let found = found.ok_or_else(|| unknown_node("joint", name, names))?;
+    let chain = chain_to_root(found, |joint| joints[joint].parent, joints.len())?;
 
     words.expect("Frames:")?;
     let frames = words.number("Frames")?;
@@ -44,13 +45,13 @@ pub(super) fn track(text: &str, name: &str) -> Result<Track, String> {
     words.expect("Time:")?;
     let frame_time = words.number("Frame Time")?;
     if frames < 1.0 || frames.fract() != 0.0 {
-        return Err(format!("Frames: {frames}: must be a whole number above 0"));
+        return Err(Error::new(format!("Frames: {frames}: must be a whole number above 0")));
     }
     if frame_time <= 0.0 {
-        return Err(format!("Frame Time: {frame_time}: must be above 0 (s)"));
+        return Err(Error::new(format!("Frame Time: {frame_time}: must be above 0 (s)")));
     }
     if columns == 0 {
-        return Err("no joint has channels, so nothing moves".to_owned());
+        return Err(Error::new("no joint has channels, so nothing moves"));
     }
     let mut track = Track { what: format!("joint {}", joints[chain[chain.len() - 1]].name), ..Track::default() };
     let rate = rate(frame_time);
@@ -60,7 +61,7 @@ pub(super) fn track(text: &str, name: &str) -> Result<Track, String> {
         for (column, value) in row.iter_mut().enumerate() {
             *value = words
                 .number("motion")
-                .map_err(|e| format!("frame {frame} of {frames}, channel {column} of {columns}: {e}"))?;
+                .map_err(|e| Error::new(format!("frame {frame} of {frames}, channel {column} of {columns}: {e}")))?;
         }
         track.times.push(frame as f64 / rate);
         track.samples.push(pose(&joints, &chain, &row));
@@ -98,7 +99,7 @@ fn pose(joints: &[Joint], chain: &[usize], row: &[f64]) -> Sample {
 }
 
 /// Reads up to and with the word MOTION; the joints, and how many columns a row of motion has.
-fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize), String> {
+fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize)> {
     words.expect("HIERARCHY")?;
     let mut joints: Vec<Joint> = Vec::new();
     // Joints whose braces are open; None for an End Site.
@@ -110,7 +111,7 @@ fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize), String> {
         match word {
             "ROOT" | "JOINT" => {
                 if word == "JOINT" && current.is_none() {
-                    return Err(format!("word {}: JOINT outside a joint", words.count));
+                    return Err(Error::new(format!("word {}: JOINT outside a joint", words.count)));
                 }
                 let name = words.next("a joint's name")?.to_owned();
                 words.expect("{")?;
@@ -125,7 +126,7 @@ fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize), String> {
                 open.push(None);
             }
             "}" => {
-                open.pop().ok_or_else(|| format!("word {}: a closing brace too many", words.count))?;
+                open.pop().ok_or_else(|| Error::new(format!("word {}: a closing brace too many", words.count)))?;
             }
             "OFFSET" => {
                 let x = words.number("OFFSET")?;
@@ -136,9 +137,9 @@ fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize), String> {
                 }
             }
             "CHANNELS" => {
-                let j = current.ok_or_else(|| format!("word {}: CHANNELS outside a joint", words.count))?;
+                let j = current.ok_or_else(|| Error::new(format!("word {}: CHANNELS outside a joint", words.count)))?;
                 if !joints[j].channels.is_empty() {
-                    return Err(format!("joint {}: CHANNELS twice", joints[j].name));
+                    return Err(Error::new(format!("joint {}: CHANNELS twice", joints[j].name)));
                 }
                 let count = words.number("CHANNELS")?;
                 joints[j].first_column = columns;
@@ -150,13 +151,13 @@ fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize), String> {
             "MOTION" if open.is_empty() => return Ok((joints, columns)),
             other => {
                 let at = words.count;
-                return Err(format!("word {at}, \"{other:.40}\": not a word of a hierarchy"));
+                return Err(Error::new(format!("word {at}, \"{other:.40}\": not a word of a hierarchy")));
             }
         }
     }
 }
 
-fn channel(name: &str) -> Result<Channel, String> {
+fn channel(name: &str) -> Result<Channel> {
     Ok(match name.to_ascii_lowercase().as_str() {
         "xposition" => Channel::Position(0),
         "yposition" => Channel::Position(1),
@@ -164,7 +165,7 @@ fn channel(name: &str) -> Result<Channel, String> {
         "xrotation" => Channel::Rotation(DVec3::X),
         "yrotation" => Channel::Rotation(DVec3::Y),
         "zrotation" => Channel::Rotation(DVec3::Z),
-        _ => return Err(format!("channel \"{name:.40}\": must be one of Xposition .. Zrotation")),
+        _ => return Err(Error::new(format!("channel \"{name:.40}\": must be one of Xposition .. Zrotation"))),
     })
 }
 
@@ -175,23 +176,23 @@ struct Words<'a> {
 }
 
 impl<'a> Words<'a> {
-    fn next(&mut self, wanted: &str) -> Result<&'a str, String> {
+    fn next(&mut self, wanted: &str) -> Result<&'a str> {
         self.count += 1;
-        self.words.next().ok_or_else(|| format!("ends where {wanted} should follow: is it whole?"))
+        self.words.next().ok_or_else(|| Error::new(format!("ends where {wanted} should follow: is it whole?")))
     }
 
-    fn expect(&mut self, wanted: &str) -> Result<(), String> {
+    fn expect(&mut self, wanted: &str) -> Result<()> {
         match self.next(wanted)? {
             found if found.eq_ignore_ascii_case(wanted) => Ok(()),
-            found => Err(format!("word {}, \"{found:.40}\": {wanted} should stand here", self.count)),
+            found => Err(Error::new(format!("word {}, \"{found:.40}\": {wanted} should stand here", self.count))),
         }
     }
 
-    fn number(&mut self, what: &str) -> Result<f64, String> {
+    fn number(&mut self, what: &str) -> Result<f64> {
         let word = self.next("a number")?;
         match word.parse::<f64>() {
             Ok(x) if x.is_finite() => Ok(x),
-            _ => Err(format!("word {}, {what} \"{word:.40}\": not a finite number", self.count)),
+            _ => Err(Error::new(format!("word {}, {what} \"{word:.40}\": not a finite number", self.count))),
         }
     }
 }

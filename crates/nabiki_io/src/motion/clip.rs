@@ -8,24 +8,25 @@ use glam::{DAffine3, DMat4, DQuat, DVec3, DVec4};
 use gltf::animation::{Interpolation, util::ReadOutputs};
 
 use super::track::hermite;
-use super::{Axis, Door, HeadMotion, MotionSource, Sample, frame_count, poses};
+use super::{Axis, Door, HeadMotion, MotionSource, Sample, chain_to_root, frame_count, poses, unknown_node};
+use crate::error::{Error, Result};
 
 /// Reads the poses of `source.node` in `source.clip` out of the file's bytes.
-pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) -> Result<HeadMotion, String> {
-    let (document, blob) = crate::mesh::glb::open(bytes).map_err(|e| e.what)?;
+pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) -> Result<HeadMotion> {
+    let (document, blob) = crate::mesh::glb::open(bytes)?;
     let buffers = gltf::import_buffers(&document, source.file.parent(), blob)
-        .map_err(|e| format!("its buffers cannot be read: {e}"))?;
+        .map_err(|e| Error::new(format!("its buffers cannot be read: {e}")))?;
     let chain = chain(&document, &source.node)?;
     let animation = animation(&document, &source.clip)?;
     // The crate's own validation passes over a channel's target, and its reader would panic.
     let json = document.as_json();
     for target in json.animations[animation.index()].channels.iter().map(|channel| &channel.target) {
         if matches!(target.path, gltf::json::validation::Checked::Invalid) {
-            return Err("a channel moves something that is no translation, rotation, scale or weights".to_owned());
+            return Err(Error::new("a channel moves something that is no translation, rotation, scale or weights"));
         }
         let (node, count) = (target.node.value(), json.nodes.len());
         if node >= count {
-            return Err(format!("a channel moves node {node}, there are {count}"));
+            return Err(Error::new(format!("a channel moves node {node}, there are {count}")));
         }
     }
 
@@ -34,11 +35,12 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
     for channel in animation.channels() {
         check_accessors(&channel.sampler(), &buffers)?;
         let reader = channel.reader(|buffer| buffers.get(buffer.index()).map(|b| &b.0[..]));
-        let times: Vec<f64> = reader.read_inputs().ok_or("an animation without times")?.map(f64::from).collect();
+        let times: Vec<f64> =
+            reader.read_inputs().ok_or_else(|| Error::new("an animation without times"))?.map(f64::from).collect();
         let node = channel.target().node();
         let name = node.name().unwrap_or("without a name");
         if times.is_empty() || !times.iter().all(|t| t.is_finite()) || times.windows(2).any(|w| w[0] >= w[1]) {
-            return Err(format!("clip of node {name}: its times must grow and be finite"));
+            return Err(Error::new(format!("clip of node {name}: its times must grow and be finite")));
         }
         start = start.min(times[0]);
         end = end.max(times[times.len() - 1]);
@@ -46,7 +48,7 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
         let interpolation = channel.sampler().interpolation();
         let curve = |values: Vec<DVec4>| Curve::new(times.clone(), values, interpolation, name);
         let wide = |v: [f32; 3]| DVec3::from(v.map(f64::from)).extend(0.0);
-        match reader.read_outputs().ok_or("an animation without values")? {
+        match reader.read_outputs().ok_or_else(|| Error::new("an animation without values"))? {
             ReadOutputs::Translations(v) => curves[place].translation = curve(v.map(wide).collect())?,
             ReadOutputs::Scales(v) => curves[place].scale = curve(v.map(wide).collect())?,
             ReadOutputs::Rotations(v) => {
@@ -57,7 +59,7 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
         }
     }
     if start > end {
-        return Err(format!("clip \"{}\" has no channel", animation.name().unwrap_or_default()));
+        return Err(Error::new(format!("clip \"{}\" has no channel", animation.name().unwrap_or_default())));
     }
     let still_pose = world(chain.iter().map(|node| matrix(node.transform())), &source.node)?;
     let (up, facing) = (source.up.unwrap_or(Axis::PlusY), source.facing.unwrap_or(Axis::PlusZ));
@@ -85,52 +87,42 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
 }
 
 /// The nodes from the scene's root down to the one named.
-fn chain<'a>(document: &'a gltf::Document, name: &str) -> Result<Vec<gltf::Node<'a>>, String> {
+fn chain<'a>(document: &'a gltf::Document, name: &str) -> Result<Vec<gltf::Node<'a>>> {
     let nodes: Vec<gltf::Node<'a>> = document.nodes().collect();
     let found = nodes.iter().position(|n| n.name().is_some_and(|n| n.eq_ignore_ascii_case(name)));
-    let mut at = found.ok_or_else(|| {
-        let names: Vec<&str> = nodes.iter().filter_map(|n| n.name()).take(60).collect();
-        format!("no node \"{name}\": node can be {}", names.join(", "))
-    })?;
+    let found = found.ok_or_else(|| unknown_node("node", name, nodes.iter().filter_map(|n| n.name())))?;
     let mut parents = vec![None; nodes.len()];
     for node in &nodes {
         for child in node.children() {
             if parents[child.index()].replace(node.index()).is_some() {
-                return Err(format!("node {} hangs below two others", child.index()));
+                return Err(Error::new(format!("node {} hangs below two others", child.index())));
             }
         }
     }
-    let mut chain = vec![nodes[at].clone()];
-    while let Some(parent) = parents[at] {
-        at = parent;
-        chain.push(nodes[at].clone());
-        if chain.len() > nodes.len() {
-            return Err(format!("node {at} is its own ancestor"));
-        }
-    }
-    chain.reverse();
-    Ok(chain)
+    let chain = chain_to_root(found, |node| parents[node], nodes.len())?;
+    Ok(chain.into_iter().map(|node| nodes[node].clone()).collect())
 }
 
-fn animation<'a>(document: &'a gltf::Document, clip: &str) -> Result<gltf::Animation<'a>, String> {
+fn animation<'a>(document: &'a gltf::Document, clip: &str) -> Result<gltf::Animation<'a>> {
     let names = || document.animations().filter_map(|a| a.name()).take(100).collect::<Vec<_>>().join(", ");
     if clip.is_empty() {
         let mut all = document.animations();
         match (all.next(), all.next()) {
             (Some(only), None) => Ok(only),
-            (None, _) => Err("has no animation".to_owned()),
-            _ => Err(format!("has several animations: give clip = one of {}", names())),
+            (None, _) => Err(Error::new("has no animation")),
+            _ => Err(Error::new(format!("has several animations: give clip = one of {}", names()))),
         }
     } else {
         let mut all = document.animations();
-        all.find(|a| a.name() == Some(clip)).ok_or_else(|| format!("no clip \"{clip}\": clip can be {}", names()))
+        all.find(|a| a.name() == Some(clip))
+            .ok_or_else(|| Error::new(format!("no clip \"{clip}\": clip can be {}", names())))
     }
 }
 
 /// Refuses accessors that reach past their buffers, which the reader itself would meet with a panic.
-fn check_accessors(sampler: &gltf::animation::Sampler<'_>, buffers: &[gltf::buffer::Data]) -> Result<(), String> {
+fn check_accessors(sampler: &gltf::animation::Sampler<'_>, buffers: &[gltf::buffer::Data]) -> Result<()> {
     for accessor in [sampler.input(), sampler.output()] {
-        let problem = |what: &str| format!("accessor {}: {what}", accessor.index());
+        let problem = |what: &str| Error::new(format!("accessor {}: {what}", accessor.index()));
         if accessor.sparse().is_some() {
             return Err(problem("sparse animation data is not read"));
         }
@@ -149,7 +141,7 @@ fn check_accessors(sampler: &gltf::animation::Sampler<'_>, buffers: &[gltf::buff
     use gltf::accessor::{DataType, Dimensions};
     let input = sampler.input();
     if (input.data_type(), input.dimensions()) != (DataType::F32, Dimensions::Scalar) {
-        return Err(format!("accessor {}: times must be 32-bit floats", input.index()));
+        return Err(Error::new(format!("accessor {}: times must be 32-bit floats", input.index())));
     }
     let output = sampler.output();
     match (output.data_type(), output.dimensions()) {
@@ -157,7 +149,9 @@ fn check_accessors(sampler: &gltf::animation::Sampler<'_>, buffers: &[gltf::buff
         | (DataType::I8 | DataType::U8 | DataType::I16 | DataType::U16, Dimensions::Vec4 | Dimensions::Scalar) => {
             Ok(())
         }
-        (kind, shape) => Err(format!("accessor {}: {kind:?} {shape:?} is not an animation's value", output.index())),
+        (kind, shape) => {
+            Err(Error::new(format!("accessor {}: {kind:?} {shape:?} is not an animation's value", output.index())))
+        }
     }
 }
 
@@ -206,12 +200,12 @@ impl Curves {
 }
 
 /// Position and rotation of the product of `matrices`, root first.
-fn world(matrices: impl Iterator<Item = DMat4>, name: &str) -> Result<Sample, String> {
+fn world(matrices: impl Iterator<Item = DMat4>, name: &str) -> Result<Sample> {
     let product = matrices.fold(DMat4::IDENTITY, |product, m| product * m);
     let affine = DAffine3::from_mat4(product);
     let volume = affine.matrix3.determinant();
     if !(product.is_finite() && volume.is_finite() && volume.abs() > 0.0) {
-        return Err(format!("node {name}: its transform is not finite or flattens space"));
+        return Err(Error::new(format!("node {name}: its transform is not finite or flattens space")));
     }
     let (_, rotation, position) = affine.to_scale_rotation_translation();
     Ok(Sample { position, rotation })
@@ -225,14 +219,14 @@ struct Curve {
 }
 
 impl Curve {
-    fn new(times: Vec<f64>, values: Vec<DVec4>, interpolation: Interpolation, node: &str) -> Result<Self, String> {
+    fn new(times: Vec<f64>, values: Vec<DVec4>, interpolation: Interpolation, node: &str) -> Result<Self> {
         let each = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
         if values.len() != each * times.len() {
             let (v, t) = (values.len(), times.len());
-            return Err(format!("clip of node {node}: {v} values for {t} times ({each} each are needed)"));
+            return Err(Error::new(format!("clip of node {node}: {v} values for {t} times ({each} each are needed)")));
         }
         match values.iter().position(|v| !v.is_finite()) {
-            Some(i) => Err(format!("clip of node {node}: value {i} is not finite")),
+            Some(i) => Err(Error::new(format!("clip of node {node}: value {i} is not finite"))),
             None => Ok(Self { times, values, interpolation }),
         }
     }

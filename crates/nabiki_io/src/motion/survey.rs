@@ -11,15 +11,14 @@ use crate::info::MotionInfo;
 pub(crate) fn survey(file: &Path) -> Result<MotionInfo> {
     let text = read_text(file)?;
     let named = |e: Error| e.in_file(file);
-    let problem = |problem: String| named(Error::new(problem));
     match extension(file).as_str() {
-        "csv" => csv::track(&text).map(|track| of_track(&track, Vec::new(), vec!["up", "facing"])).map_err(problem),
+        "csv" => csv::track(&text).map(|track| of_track(&track, Vec::new(), vec!["up", "facing"])).map_err(named),
         "amc" => amc(&text).map_err(named),
         "asf" => asf(&text).map_err(named),
         "tof" => object_stream(&text).map_err(named),
         _ => {
-            let joints = bvh::joints(&text).map_err(problem)?;
-            let track = bvh::track(&text, joints.first().map_or("", String::as_str)).map_err(problem)?;
+            let joints = bvh::joints(&text).map_err(named)?;
+            let track = bvh::track(&text, joints.first().map_or("", String::as_str)).map_err(named)?;
             Ok(of_track(&track, joints, vec!["unit_cm", "up", "facing"]))
         }
     }

@@ -36,20 +36,21 @@ impl Track {
     /// # Errors
     /// No sample left after `source.skip`, times that do not grow, a unit or axis that nobody gives.
     pub fn head_motion(mut self, source: &MotionSource, frame_rate: f64) -> Result<HeadMotion> {
-        let error = |problem: String| Error::new(problem).in_file(&source.file);
+        let named = |e: Error| e.in_file(&source.file);
         if source.skip >= self.samples.len() {
             let problem = format!("skip = {}: the file has {} samples", source.skip, self.samples.len());
-            return Err(error(problem));
+            return Err(named(Error::new(problem)));
         }
         self.times.drain(..source.skip);
         self.samples.drain(..source.skip);
         if let Some(i) = self.times.windows(2).position(|w| !(w[0] < w[1] && w[0].is_finite() && w[1].is_finite())) {
             let (a, b) = (self.times[i], self.times[i + 1]);
-            return Err(error(format!("sample {}: time {b} s follows {a} s, but times must grow", i + 1)));
+            let problem = format!("sample {}: time {b} s follows {a} s, but times must grow", i + 1);
+            return Err(named(Error::new(problem)));
         }
-        let door = Door::new(source.unit_cm.or(self.unit_cm), source.up.or(self.up), source.facing).map_err(error)?;
+        let door = Door::new(source.unit_cm.or(self.unit_cm), source.up.or(self.up), source.facing).map_err(named)?;
         let duration = self.times[self.times.len() - 1] - self.times[0];
-        let frames = frame_count(duration, frame_rate).map_err(error)?;
+        let frames = frame_count(duration, frame_rate).map_err(named)?;
         let mut key = 0;
         let samples = (0..frames).map(|n| {
             let time = self.times[0] + n as f64 / frame_rate;
@@ -58,7 +59,7 @@ impl Track {
             }
             self.at(key, time, source.positions)
         });
-        let poses = poses(&door, samples, source.start_at_origin).map_err(error)?;
+        let poses = poses(&door, samples, source.start_at_origin).map_err(named)?;
         let rate = (self.times.len() - 1) as f64 / duration.max(f64::MIN_POSITIVE);
         let report = format!(
             "{}: {}, {} samples at {} Hz ({:.3} s) -> {} frames at {} Hz (positions {}, rotations slerp; unit {} cm, \
