@@ -79,13 +79,14 @@ impl Camera {
         let Some(to) = self.to else { return *self };
         let t = progress.clamp(0.0, 1.0);
         let t = t * t * (3.0 - 2.0 * t);
-        let mix = |a: f32, b: Option<f32>| b.map_or(a, |b| a + (b - a) * t);
+        // Weighted so that both keys are met to the bit.
+        let mix = |a: f32, b: Option<f32>| b.map_or(a, |b| a * (1.0 - t) + b * t);
         Self {
             azimuth: mix(self.azimuth, to.azimuth),
             elevation: mix(self.elevation, to.elevation),
             fov: mix(self.fov, to.fov),
             distance: self.distance.map(|d| mix(d, to.distance)),
-            target: self.target.map(|a| to.target.map_or(a, |b| a.lerp(b, t))),
+            target: self.target.map(|a| to.target.map_or(a, |b| a * (1.0 - t) + b * t)),
             to: None,
             ..*self
         }
@@ -143,5 +144,61 @@ fn check_target(thing: &str, target: Option<Vec3>) -> Result<(), SettingError> {
             Err(SettingError::new(thing, t, "must be three numbers within a million cm"))
         }
         _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn gliding() -> Camera {
+        Camera {
+            azimuth: 10.1,
+            elevation: -3.3,
+            distance: Some(70.7),
+            target: Some(Vec3::new(0.1, 0.2, 0.3)),
+            to: Some(CameraKey {
+                azimuth: Some(200.3),
+                elevation: Some(25.1),
+                distance: Some(41.9),
+                fov: Some(33.3),
+                target: Some(Vec3::new(-7.7, 1.1, 5.9)),
+            }),
+            ..Camera::default()
+        }
+    }
+
+    #[test]
+    fn a_gliding_camera_meets_both_keys_to_the_bit() {
+        let camera = gliding();
+        let to = camera.to.unwrap();
+        assert_eq!(camera.at(0.0), Camera { to: None, ..camera });
+        let end = camera.at(1.0);
+        assert_eq!(Some(end.azimuth), to.azimuth);
+        assert_eq!(Some(end.elevation), to.elevation);
+        assert_eq!(Some(end.fov), to.fov);
+        assert_eq!((end.distance, end.target, end.to), (to.distance, to.target, None));
+    }
+
+    #[test]
+    fn it_is_halfway_in_the_middle_and_never_turns_back() {
+        let camera = gliding();
+        let to = camera.to.unwrap();
+        // 1 - t is exact to half a unit in the last place, and so is each product and the sum: four of them.
+        let near = |a: f32, b: f32| (a - b).abs() <= 4.0 * f32::EPSILON * a.abs().max(b.abs());
+        let middle = camera.at(0.5);
+        assert!(near(middle.azimuth, 0.5 * (camera.azimuth + to.azimuth.unwrap())));
+        assert!(near(middle.distance.unwrap(), 0.5 * (camera.distance.unwrap() + to.distance.unwrap())));
+        let way: Vec<f32> = (0..=100).map(|n| camera.at(n as f32 / 100.0).azimuth).collect();
+        assert!(way.is_sorted());
+        // A soft start: the first step is under a tenth of the one in the middle.
+        assert!((way[1] - way[0]) < 0.1 * (way[51] - way[50]));
+    }
+
+    #[test]
+    fn what_the_second_key_leaves_out_stays() {
+        let camera = Camera { to: Some(CameraKey { azimuth: Some(90.0), ..CameraKey::default() }), ..gliding() };
+        assert_eq!(camera.at(0.37), Camera { azimuth: camera.at(0.37).azimuth, to: None, ..camera });
+        assert_eq!(Camera::default().at(0.37), Camera::default());
     }
 }
