@@ -30,6 +30,7 @@ mod light;
 pub mod output;
 mod raster;
 mod renderer;
+mod scalp;
 pub mod settings;
 pub mod shutter;
 mod skin;

@@ -21,6 +21,7 @@ use crate::raster::bins::Bins;
 use crate::raster::coverage::{CoverageTile, Watch};
 use crate::raster::oversample::OversampledTile;
 use crate::raster::{Node, TILE};
+use crate::scalp::{Scalp, roots};
 use crate::settings::{Antialiasing, Picture, Shading};
 use crate::shutter;
 use crate::skin::{SkinLight, SkinPixel, SkinView};
@@ -57,7 +58,18 @@ struct Still {
     head_shadows: Vec<HeadShadow>,
     skin: SkinView,
     skin_places: Vec<Vec3>,
-    skin_unhidden: Vec<f32>,
+    skin_unhidden: Vec<[f32; 3]>,
+    roots: Vec<Vec3>,
+    stubble: Vec<f32>,
+}
+
+impl Still {
+    /// Tints the scalp about the roots of these strands.
+    fn grow(&mut self, strands: &Strands, picture: &Picture) {
+        let shade = picture.head.stubble * picture.hair.width;
+        self.roots = roots(strands).collect();
+        self.stubble = SkinLight::stubble(&self.skin.pixels, &Scalp::new(strands), shade);
+    }
 }
 
 impl Renderer {
@@ -157,7 +169,7 @@ impl Renderer {
         let mut clock = self.timing.start();
         self.curves.build(strands, moved, &self.picture.hair, view)?;
         clock.lap(&mut self.timing, Stage::Curves);
-        self.stand(view);
+        self.stand(strands, view);
         clock.lap(&mut self.timing, Stage::Head);
         self.project(view);
         clock.lap(&mut self.timing, Stage::Projection);
@@ -179,8 +191,11 @@ impl Renderer {
     }
 
     /// Prepares what stays the same while nothing but the hair moves.
-    fn stand(&mut self, view: &View) {
-        if self.still.as_ref().is_some_and(|s| s.view == *view) {
+    fn stand(&mut self, strands: &Strands, view: &View) {
+        if let Some(still) = self.still.as_mut().filter(|s| s.view == *view) {
+            if !roots(strands).eq(still.roots.iter().copied()) {
+                still.grow(strands, &self.picture);
+            }
             return;
         }
         let lamps = lamps(&self.picture.lights, view);
@@ -192,7 +207,10 @@ impl Renderer {
         let skin = SkinView::new(&self.head, &self.normals, view);
         let skin_places = skin.pixels.iter().map(|p| p.position + 0.15 * p.normal).collect();
         let skin_unhidden = SkinLight::unhidden(&skin.pixels, &head_shadows);
-        self.still = Some(Still { view: *view, lamps, head_shadows, skin, skin_places, skin_unhidden });
+        let (roots, stubble) = (Vec::new(), Vec::new());
+        let mut still = Still { view: *view, lamps, head_shadows, skin, skin_places, skin_unhidden, roots, stubble };
+        still.grow(strands, &self.picture);
+        self.still = Some(still);
     }
 
     fn project(&mut self, view: &View) {
@@ -305,8 +323,10 @@ impl Renderer {
             first_receiver: self.curves.nodes.len(),
             sky: &self.picture.sky,
             sky_map,
+            hair: colour::albedo(colour::absorption(&self.picture.hair), self.picture.hair.azimuthal_roughness),
+            passed: self.model.passed_on(),
         };
-        skin.shade(&still.skin.pixels, &still.skin_unhidden, view)
+        skin.shade(&still.skin.pixels, &still.skin_unhidden, &still.stubble, view)
     }
 
     fn compose<const LAYERS: bool>(&self, view: &View, skin_light: &[[f32; 3]]) -> Frame {

@@ -6,11 +6,14 @@ use rayon::prelude::*;
 
 use crate::camera::{NEAR, View};
 use crate::frame::linear_from_srgb;
+use crate::light::approx::exp_of_negative;
 use crate::light::headlight::HeadShadow;
 use crate::light::lamps::Lamp;
+use crate::light::shade::DENSITY;
 use crate::light::shadow::Crossings;
 use crate::light::sky::SkyMap;
 use crate::raster::{CELLS, TILE, cell_offset};
+use crate::scalp::Scalp;
 use crate::settings::{Projection, Sky};
 
 /// Pieces of surface farther apart than this (cm) in one pixel are kept apart.
@@ -219,11 +222,15 @@ pub struct SkinLight<'a> {
     pub first_receiver: usize,
     pub sky: &'a Sky,
     pub sky_map: Option<&'a SkyMap>,
+    /// Colour of a mass of the hair (linear), for what of it is too short to be drawn.
+    pub hair: [f32; 3],
+    /// The part of its light that a hair passes on forward: what is scattered by hair in the way reaches skin as well.
+    pub passed: [f32; 3],
 }
 
 impl SkinLight<'_> {
     /// What the head leaves of each lamp at each place: it does not change while head and lamps stand still.
-    pub fn unhidden(pixels: &[SkinPixel], shadows: &[HeadShadow]) -> Vec<f32> {
+    pub fn unhidden(pixels: &[SkinPixel], shadows: &[HeadShadow]) -> Vec<[f32; 3]> {
         pixels
             .par_iter()
             .with_min_len(256)
@@ -231,8 +238,15 @@ impl SkinLight<'_> {
             .collect()
     }
 
-    /// Light toward the eye (linear) from each place on the skin. `unhidden`: see there; empty without shadows.
-    pub fn shade(&self, pixels: &[SkinPixel], unhidden: &[f32], view: &View) -> Vec<[f32; 3]> {
+    /// How much of each place hair too short to be drawn covers, 0..1, where `shade` square centimetres of it stand on each root.
+    pub fn stubble(pixels: &[SkinPixel], scalp: &Scalp, shade: f32) -> Vec<f32> {
+        let covered = |p: &SkinPixel| 1.0 - (-shade * scalp.density(p.position)).exp();
+        if shade > 0.0 { pixels.par_iter().with_min_len(256).map(covered).collect() } else { Vec::new() }
+    }
+
+    /// Light toward the eye (linear) from each place on the skin. `unhidden` and `stubble`: see there; empty, there are neither
+    /// shadows nor stubble.
+    pub fn shade(&self, pixels: &[SkinPixel], unhidden: &[[f32; 3]], stubble: &[f32], view: &View) -> Vec<[f32; 3]> {
         let skin = self.look.color.map(linear_from_srgb);
         // Red light spreads farthest under skin.
         let soft = [1.25, 0.8, 0.6].map(|s| s * self.look.softness);
@@ -247,30 +261,44 @@ impl SkinLight<'_> {
                 let mut sheen = [0.0; 3];
                 for (l, lamp) in self.lamps.iter().enumerate() {
                     let facing = normal.dot(lamp.toward);
-                    let hair = self.crossings.get(l).map_or(1.0, |c| (-c.at(self.first_receiver + i)).exp());
-                    let head = unhidden.get(i * self.lamps.len() + l).copied().unwrap_or(1.0);
-                    // Near the terminator the angle itself is the shadow.
-                    let sure = smooth((facing - 0.05) / 0.4);
-                    let lit = hair * (1.0 - sure * (1.0 - head));
+                    let hair = self.crossings.get(l).map_or([1.0; 3], |c| self.through(c.at(self.first_receiver + i)));
+                    let head = unhidden.get(i * self.lamps.len() + l).copied().unwrap_or([1.0; 3]);
+                    // Past the terminator the angle itself is the shadow.
+                    let sure = smooth((facing + 0.1) / 0.3);
+                    let lit = [0, 1, 2].map(|c| hair[c] * (1.0 - sure * (1.0 - head[c])));
                     let halfway = (lamp.toward + eye).normalize_or(eye);
                     let gloss = 0.045 * 9.0 * normal.dot(halfway).max(0.0).powi(18) * smooth(facing / 0.25);
                     let rim = (1.0 - eye.dot(normal).clamp(0.0, 1.0)).powi(4) * facing.max(0.0);
                     for c in 0..3 {
                         let wrapped = ((facing + soft[c]) / (1.0 + soft[c])).max(0.0);
-                        diffuse[c] += lamp.strength[c] * lit * wrapped * wrapped;
-                        sheen[c] += lamp.strength[c] * lit * (gloss + 0.5 * rim);
+                        diffuse[c] += lamp.strength[c] * lit[c] * wrapped * wrapped;
+                        sheen[c] += lamp.strength[c] * lit[c] * (gloss + 0.5 * rim);
                     }
                 }
                 let arriving = self.sky_map.map(|s| s.at(p.position + 0.9 * normal));
-                let (open_above, open_below) = arriving.map_or((1.0, 1.0), |a| (a.above, a.below));
+                let open = |part: f32| if part < 1.0 { self.through(-part.max(1e-6).ln()) } else { [1.0; 3] };
+                let (open_above, open_below) =
+                    arriving.map_or(([1.0; 3], [1.0; 3]), |a| (open(a.above), open(a.below)));
                 let up = 0.5 + 0.5 * normal.y;
                 for (c, diffuse) in diffuse.iter_mut().enumerate() {
-                    let sky = self.sky.above[c] * up * open_above + self.sky.below[c] * (1.0 - up) * open_below;
+                    let sky = self.sky.above[c] * up * open_above[c] + self.sky.below[c] * (1.0 - up) * open_below[c];
                     *diffuse += self.sky.strength * sky;
                 }
-                std::array::from_fn(|c| skin[c] * diffuse[c] + self.look.sheen * sheen[c])
+                let hair = stubble.get(i).copied().unwrap_or(0.0);
+                std::array::from_fn(|c| {
+                    let bare = skin[c] * diffuse[c] + self.look.sheen * sheen[c];
+                    bare + (self.hair[c] * diffuse[c] - bare) * hair
+                })
             })
             .collect()
+    }
+}
+
+impl SkinLight<'_> {
+    /// What arrives through hair that light crosses `n` times: unscattered, and scattered forward as among the hair itself.
+    fn through(&self, n: f32) -> [f32; 3] {
+        let straight = exp_of_negative(-n);
+        self.passed.map(|p| straight + DENSITY * (exp_of_negative(-n * (1.0 - p).max(0.0)) - straight).max(0.0))
     }
 }
 

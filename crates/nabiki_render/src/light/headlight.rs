@@ -1,4 +1,7 @@
-//! The head in the way of a lamp: its outline and depth as the lamp sees it, blurred once as the lamp is wide.
+//! The head in the way of a lamp: its outline and depth as the lamp sees it.
+//!
+//! Hair reads a map that is blurred once, as the lamp is wide. Skin reads the sharp one, at places around its own, so that what
+//! lies in its own tangent plane never hides it.
 
 use glam::Vec3;
 use nabiki::Mesh;
@@ -6,12 +9,20 @@ use nabiki::Mesh;
 use super::lamps::Lamp;
 
 /// Side of a cell (cm), unless the head is so large that this would make too many.
-const CELL: f32 = 0.15;
+const CELL: f32 = 0.12;
 const MOST_CELLS: f32 = 1500.0;
 /// How far behind the head's surface (cm) its shadow begins, and over which depth it sets in.
 const SOFT: f32 = 0.45;
 /// Least blur (cm).
 const BLUR: f32 = 0.4;
+/// Places around a place on the skin, of which each is asked whether it sees the lamp.
+const TAPS: usize = 24;
+/// How far light spreads under skin (cm; red, green, blue), as the radius of a disc: the red of a shadow's edge.
+const UNDER_SKIN: [f32; 3] = [0.6, 0.42, 0.34];
+/// How far before the tangent plane (cm) what hides the lamp must lie, more where the plane is steep on the map, and over which
+/// depth it sets in.
+const BEFORE: f32 = 0.1;
+const SETS_IN: f32 = 0.25;
 
 /// What a lamp sees of the head.
 pub struct HeadShadow {
@@ -19,11 +30,13 @@ pub struct HeadShadow {
     axes: [Vec3; 2],
     low: [f32; 2],
     cell: f32,
-    /// Radius of the blur (cm).
-    blur: f32,
     size: [usize; 2],
+    /// In each cell: the head's distance (cm), infinite where there is none.
+    distance: Vec<f32>,
     /// In each cell: the part of its surroundings that the head covers, and the head's mean distance there (cm).
     cells: Vec<[f32; 2]>,
+    /// Where skin looks from, around a place (cm), and each one's share for red, green and blue.
+    taps: [([f32; 2], [f32; 3]); TAPS],
 }
 
 impl HeadShadow {
@@ -60,35 +73,82 @@ impl HeadShadow {
         for c in &mut cells {
             c[1] /= c[0].max(1e-6);
         }
-        Self { toward: lamp.toward, axes, low, cell, blur, size, cells }
+        let penumbra = 2.5 * lamp.spread.tan();
+        Self { toward: lamp.toward, axes, low, cell, size, distance, cells, taps: taps(penumbra) }
     }
 
-    /// Part of the lamp that the head leaves visible from a place on its own skin with this unit normal, 0..1: skin aslant to the
-    /// lamp is not taken to lie behind its own blurred surroundings.
-    pub fn visible_from_skin(&self, p: Vec3, normal: Vec3) -> f32 {
-        let facing = normal.dot(self.toward).clamp(0.1, 1.0);
-        let steep = (1.0 - facing * facing).sqrt() / facing;
-        self.visible(p + self.toward * (self.blur * steep))
+    /// Part of the lamp (red, green, blue) that the head leaves to a place on its own skin with this unit normal, 0..1. Light that
+    /// enters beside the place and reaches it under the skin counts, red from farthest.
+    pub fn visible_from_skin(&self, p: Vec3, normal: Vec3) -> [f32; 3] {
+        let facing = normal.dot(self.toward).max(0.12);
+        // Growth of the tangent plane's distance from the lamp.
+        let slope = self.axes.map(|a| normal.dot(a) / facing);
+        let at = self.axes.map(|a| p.dot(a));
+        let steps = self.cell * (slope[0].abs() + slope[1].abs());
+        let distance = -p.dot(self.toward) - BEFORE - 0.7 * steps;
+        let mut visible = [0.0; 3];
+        for (offset, share) in &self.taps {
+            let plane = distance + slope[0] * offset[0] + slope[1] * offset[1];
+            let open = 1.0 - self.covered([at[0] + offset[0], at[1] + offset[1]], plane);
+            for c in 0..3 {
+                visible[c] += share[c] * open;
+            }
+        }
+        visible
+    }
+
+    /// How much of the four cells around a place (cm) hides what lies at a distance.
+    fn covered(&self, at: [f32; 2], distance: f32) -> f32 {
+        let Some((cell, [u, v])) = self.cell_at(at) else { return 0.0 };
+        let width = self.size[0];
+        let hidden = |i: usize| ((distance - self.distance[i]) / SETS_IN).clamp(0.0, 1.0);
+        let upper = hidden(cell) * (1.0 - u) + hidden(cell + 1) * u;
+        let lower = hidden(cell + width) * (1.0 - u) + hidden(cell + width + 1) * u;
+        upper + (lower - upper) * v
+    }
+
+    /// The cell below and left of a place on the map (cm), and how far into the next it lies.
+    #[inline(always)]
+    fn cell_at(&self, at: [f32; 2]) -> Option<(usize, [f32; 2])> {
+        let [x, y] = [0, 1].map(|i| (at[i] - self.low[i]) / self.cell);
+        let [width, height] = self.size;
+        if !(x >= 0.0 && y >= 0.0 && x + 1.0 < width as f32 && y + 1.0 < height as f32) {
+            return None;
+        }
+        let (column, row) = (x as usize, y as usize);
+        Some((row * width + column, [x - column as f32, y - row as f32]))
     }
 
     /// Part of the lamp that the head leaves visible from a place, 0..1.
     #[inline]
     pub fn visible(&self, p: Vec3) -> f32 {
-        let x = (p.dot(self.axes[0]) - self.low[0]) / self.cell;
-        let y = (p.dot(self.axes[1]) - self.low[1]) / self.cell;
-        let [width, height] = self.size;
-        if !(x >= 0.0 && y >= 0.0 && x + 1.0 < width as f32 && y + 1.0 < height as f32) {
-            return 1.0;
-        }
-        let (column, row) = (x as usize, y as usize);
-        let (u, v) = (x - column as f32, y - row as f32);
-        let at = row * width + column;
+        let Some((at, [u, v])) = self.cell_at(self.axes.map(|a| p.dot(a))) else { return 1.0 };
+        let width = self.size[0];
         let distance = -p.dot(self.toward);
         let hidden = |cell: [f32; 2]| cell[0] * ((distance - cell[1]) / SOFT - 1.0).clamp(0.0, 1.0);
         let upper = hidden(self.cells[at]) * (1.0 - u) + hidden(self.cells[at + 1]) * u;
         let lower = hidden(self.cells[at + width]) * (1.0 - u) + hidden(self.cells[at + width + 1]) * u;
         1.0 - (upper + (lower - upper) * v)
     }
+}
+
+/// A spiral of places over a disc, and what each gives to each colour: the disc's outer part only to those that spread far under
+/// skin, or as far as the lamp's own blur (cm).
+fn taps(penumbra: f32) -> [([f32; 2], [f32; 3]); TAPS] {
+    let reach = UNDER_SKIN.map(|u| u.hypot(penumbra));
+    let widest = reach.into_iter().fold(0.0, f32::max);
+    let mut taps = std::array::from_fn(|i| {
+        let part = (i as f32 + 0.5) / TAPS as f32;
+        // The golden angle spreads them evenly.
+        let (sin, cos) = (2.399_963 * i as f32).sin_cos();
+        let radius = widest * part.sqrt();
+        ([radius * cos, radius * sin], reach.map(|r| (-2.0 * (radius / r).powi(2)).exp()))
+    });
+    for c in 0..3 {
+        let sum: f32 = taps.iter().map(|t| t.1[c]).sum();
+        taps.iter_mut().for_each(|t| t.1[c] /= sum);
+    }
+    taps
 }
 
 /// The mean over `radius` cells to both sides along one axis.
@@ -158,5 +218,41 @@ mod tests {
         // At the edge, half of the blurred plate: within a cell of 1/3 of the blur's slope.
         assert!((visible(6.0, -2.0) - 0.5).abs() < 0.25);
         assert_eq!(HeadShadow::new(&lamp, &Mesh::default()).visible(Vec3::ZERO), 1.0);
+    }
+
+    #[test]
+    fn skin_that_faces_the_lamp_is_not_in_its_own_shadow() {
+        // A ball of 8 cm in facets of about 0.5 cm.
+        let (rows, columns) = (48_u32, 96_u32);
+        let at = |row: u32, column: u32| {
+            let up = 180.0 * row as f32 / rows as f32 - 90.0;
+            crate::camera::direction(360.0 * column as f32 / columns as f32, up)
+        };
+        let mut ball = Mesh::default();
+        for row in 0..=rows {
+            ball.positions.extend((0..columns).map(|column| 8.0 * at(row, column)));
+        }
+        for row in 0..rows {
+            for c in 0..columns {
+                let (a, b) = (row * columns + c, row * columns + (c + 1) % columns);
+                ball.triangles.extend([[a, b, a + columns], [b, b + columns, a + columns]]);
+            }
+        }
+        for toward in [Vec3::Y, Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.48, 0.64, 0.6)] {
+            for spread in [0.0, 0.17] {
+                let shadow = HeadShadow::new(&Lamp { toward, strength: [1.0; 3], spread }, &ball);
+                for p in &ball.positions {
+                    let normal = *p / 8.0;
+                    let visible = shadow.visible_from_skin(*p, normal);
+                    if normal.dot(toward) > 0.2 {
+                        assert!(visible.iter().all(|v| *v > 0.97), "{p} {visible:?}");
+                    }
+                    // 8 (1 - sqrt(1 - 0.5^2)) = 1.07 cm within the outline: farther than red light spreads here, 0.73 cm.
+                    if normal.dot(toward) < -0.5 {
+                        assert!(visible.iter().all(|v| *v < 0.03), "{p} {visible:?}");
+                    }
+                }
+            }
+        }
     }
 }

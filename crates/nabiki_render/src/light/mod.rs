@@ -1,6 +1,6 @@
 //! Light: lamps and sky, what gets in their way, and what hair makes of them.
 
-mod approx;
+pub mod approx;
 pub mod fibre;
 pub mod headlight;
 pub mod kajiya;

@@ -28,7 +28,7 @@ use crate::settings::Sky;
 /// Nodes that are shaded together.
 const LANES: usize = 16;
 /// Share of the scattered light that stays within hair: dual scattering's density factor.
-const DENSITY: f32 = 0.7;
+pub const DENSITY: f32 = 0.7;
 /// Variance along the hair of light scattered more than once (rad^2).
 const WIDE: f32 = 0.35;
 /// Largest deviation of a strand's tilt (rad), for a variation of 1.
@@ -38,6 +38,16 @@ const TILT_SPREAD: f32 = 0.14;
 pub enum Model {
     Fibre(Box<Fibre>),
     KajiyaKay(KajiyaKay),
+}
+
+impl Model {
+    /// The part of its light (red, green, blue) that one hair, of middling pigment and lean to the light, passes on forward.
+    pub fn passed_on(&self) -> [f32; 3] {
+        match self {
+            Self::Fibre(fibre) => fibre.grades[GRADES / 2].row(0.5 * (ROWS - 1) as f32).forward,
+            Self::KajiyaKay(_) => [0.0; 3],
+        }
+    }
 }
 
 /// Everything that light meets on its way to a node.

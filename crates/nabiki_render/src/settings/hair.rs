@@ -32,7 +32,7 @@ pub enum HairColour {
     /// `color = "grey"`
     Grey,
     /// `color = { melanin = { eumelanin = 1.3, pheomelanin = 0.2 } }`: concentrations as in d'Eon et al. (2011), relative
-    /// to the fibre's radius. Eumelanin 8 is black, 1.3 brown, 0.3 blond; pheomelanin reddens.
+    /// to the fibre's radius. Eumelanin 8 is black, 1 brown, 0.1 blond; pheomelanin reddens.
     Melanin {
         /// Brown-black pigment, 0..100.
         eumelanin: f32,
@@ -49,9 +49,9 @@ impl HairColour {
     pub(crate) fn melanin(self) -> Option<[f32; 2]> {
         match self {
             Self::Black => Some([8.0, 0.0]),
-            Self::Brown => Some([1.3, 0.35]),
-            Self::Blond => Some([0.04, 0.25]),
-            Self::Red => Some([0.25, 1.6]),
+            Self::Brown => Some([1.1, 0.6]),
+            Self::Blond => Some([0.03, 0.2]),
+            Self::Red => Some([0.0, 1.9]),
             Self::Grey => Some([0.06, 0.0]),
             Self::Melanin { eumelanin, pheomelanin } => Some([eumelanin, pheomelanin]),
             Self::Rgb(_) => None,
@@ -76,7 +76,7 @@ pub struct HairLook {
     pub variation: f32,
     /// `"fibre"` (default) or `"kajiya-kay"`.
     pub shading: Shading,
-    /// Roughness along the hair: the width of the highlight's band (degrees, 2..40). Default 7.
+    /// Roughness along the hair: the width of the highlight's band (degrees, 2..40). Default 5.
     pub roughness: f32,
     /// Roughness around the hair, 0.05..1: small sharpens the light through the fibre. Default 0.35.
     pub azimuthal_roughness: f32,
@@ -98,7 +98,7 @@ impl Default for HairLook {
             color: HairColour::Brown,
             variation: 0.25,
             shading: Shading::Fibre,
-            roughness: 7.0,
+            roughness: 5.0,
             azimuthal_roughness: 0.35,
             scale_tilt: 2.5,
             refraction: 1.55,

@@ -45,16 +45,16 @@ impl Light {
     /// A portrait photographer's three lamps: a warm key from above, a cool fill, a rim from behind.
     pub fn studio() -> Vec<Self> {
         vec![
-            Self { azimuth: 35.0, elevation: 46.0, strength: 1.9, color: [1.0, 0.96, 0.9], ..Self::default() },
+            Self { azimuth: 30.0, elevation: 42.0, strength: 2.9, color: [1.0, 0.97, 0.93], ..Self::default() },
             Self {
-                azimuth: -55.0,
-                elevation: 12.0,
-                strength: 0.35,
-                color: [0.82, 0.9, 1.0],
+                azimuth: -50.0,
+                elevation: 15.0,
+                strength: 0.6,
+                color: [0.94, 0.97, 1.0],
                 spread: 20.0,
                 ..Self::default()
             },
-            Self { azimuth: -155.0, elevation: 38.0, strength: 1.4, color: [1.0, 0.97, 0.93], ..Self::default() },
+            Self { azimuth: -155.0, elevation: 38.0, strength: 1.2, color: [1.0, 0.97, 0.94], ..Self::default() },
         ]
     }
 

@@ -12,17 +12,20 @@ use super::check_colour;
 pub struct HeadLook {
     /// Whether the head is drawn; it hides hair behind it and throws shadows all the same. Default true.
     pub visible: bool,
-    /// Its colour (sRGB, 0..1). Default a light neutral skin.
+    /// Its colour (sRGB, 0..1). Default a neutral skin, dull enough to leave the eye to the hair.
     pub color: [f32; 3],
     /// How far light creeps past the terminator, as in skin, 0..1. Default 0.35.
     pub softness: f32,
     /// Strength of its sheen, 0..1. Default 0.25.
     pub sheen: f32,
+    /// Hair too short to be drawn: its length for each root (cm, as thick as the hair), 0..100. It tints the scalp as dense as
+    /// the roots stand, so that partings do not gleam. Default 2; 0 shows bare skin.
+    pub stubble: f32,
 }
 
 impl Default for HeadLook {
     fn default() -> Self {
-        Self { visible: true, color: [0.76, 0.62, 0.54], softness: 0.35, sheen: 0.25 }
+        Self { visible: true, color: [0.56, 0.44, 0.37], softness: 0.35, sheen: 0.25, stubble: 2.0 }
     }
 }
 
@@ -30,7 +33,8 @@ impl HeadLook {
     pub(crate) fn check(&self) -> Result<(), SettingError> {
         check_colour("picture.head.color", self.color, 1.0)?;
         check_range("picture.head.softness", self.softness, 0.0, 1.0)?;
-        check_range("picture.head.sheen", self.sheen, 0.0, 1.0)
+        check_range("picture.head.sheen", self.sheen, 0.0, 1.0)?;
+        check_range("picture.head.stubble", self.stubble, 0.0, 100.0)
     }
 }
 
