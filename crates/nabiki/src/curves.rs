@@ -4,12 +4,15 @@
 //! number of segments is asked for. What a curve carries at its control points goes the same way, blended by the
 //! weights that the curve's own basis gives.
 
+mod carried;
 mod gather;
 
 use glam::Vec3;
 
 use crate::Strands;
+use crate::error::Problem;
 
+pub use carried::{Carried, indexed};
 pub use gather::Gathered;
 
 /// How a curve runs between its control points.
@@ -25,13 +28,11 @@ pub enum Basis {
     CatmullRom,
 }
 
-/// Many curves, one after another.
-#[derive(Clone, Debug)]
-pub struct Curves<'a> {
+/// What many curves are, but for their points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
     /// Control points of each curve.
-    pub counts: &'a [usize],
-    /// Control points, curve after curve, root first.
-    pub points: &'a [Vec3],
+    pub counts: Vec<usize>,
     /// How they run.
     pub basis: Basis,
     /// Whether B-splines and Catmull-Rom curves begin and end at their first and last points ("pinned"), as if a
@@ -51,102 +52,76 @@ pub struct Blend {
 }
 
 /// Strands made from curves.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Walked {
     /// The strands.
     pub strands: Strands,
     /// Where each point came from; empty if the strands' points are the control points themselves.
     pub blends: Vec<Blend>,
+    /// The curves they were made from.
+    pub shape: Shape,
+}
+
+/// Counts as a file has them, once they are known not to be negative and to add up to `total`.
+///
+/// # Errors
+/// A negative count; another sum.
+pub fn checked_counts(counts: &[i64], total: usize) -> Result<Vec<usize>, Problem> {
+    let mut sum = 0usize;
+    let mut checked = Vec::with_capacity(counts.len());
+    for &count in counts {
+        let count = usize::try_from(count).map_err(|_| Problem(format!("a count of {count}")))?;
+        sum = sum.saturating_add(count);
+        checked.push(count);
+    }
+    if sum == total {
+        Ok(checked)
+    } else {
+        Err(Problem(format!("counts that add up to {sum} where there are {total}")))
+    }
 }
 
 /// Steps into which a cubic is cut to measure its length.
 const STEPS: usize = 32;
 
-impl Curves<'_> {
+impl Shape {
     /// Walks every curve into `segments` segments; `None` keeps polylines as they are, and gives cubic curves as many
-    /// points as they have control points.
+    /// points as they have control points. `points`: control points, curve after curve, root first.
     ///
     /// # Errors
     /// A curve with too few control points for its basis, a number of segments that is 0; the text names the curve.
     ///
     /// # Panics
     /// If the counts do not add up to the number of points.
-    pub fn walk(&self, segments: Option<usize>) -> Result<Walked, String> {
-        assert_eq!(self.counts.iter().sum::<usize>(), self.points.len(), "counts and points");
+    pub fn walk(self, points: Vec<Vec3>, segments: Option<usize>) -> Result<Walked, Problem> {
+        assert_eq!(self.counts.iter().sum::<usize>(), points.len(), "counts and points");
         if segments == Some(0) {
-            return Err("0 segments: a strand needs one at least".to_owned());
+            return Err(Problem::new("0 segments: a strand needs one at least"));
         }
+        let pieces = self.counts.iter().enumerate().map(|(curve, &count)| {
+            let pieces = self.pieces(count);
+            pieces.map_err(|e| Problem(format!("curve {curve}: {e}")))
+        });
         if (self.basis, segments) == (Basis::Linear, None) {
-            for (curve, &count) in self.counts.iter().enumerate() {
-                self.pieces(count).map_err(|e| format!("curve {curve}: {e}"))?;
-            }
+            pieces.collect::<Result<Vec<_>, _>>()?;
             let ends = self.counts.iter().scan(0, |at, &count| {
                 *at += count as u32;
                 Some(*at)
             });
             let starts = std::iter::once(0).chain(ends).collect();
-            return Ok(Walked { strands: Strands::from_parts(starts, self.points.to_vec()), blends: Vec::new() });
+            return Ok(Walked { strands: Strands::from_parts(starts, points), blends: Vec::new(), shape: self });
         }
-        let mut walked = Walked { strands: Strands::with_capacity(self.counts.len(), 0), ..Walked::default() };
+        let mut strands = Strands::with_capacity(self.counts.len(), 0);
+        let mut blends = Vec::new();
         let mut first = 0;
-        for (curve, &count) in self.counts.iter().enumerate() {
-            let points = &self.points[first..first + count];
-            let pieces = self.pieces(count).map_err(|e| format!("curve {curve}: {e}"))?;
-            let blends = self.blends(points, pieces, segments.unwrap_or(count - 1));
-            walked.strands.push(blends.iter().map(|b| b.of(points).as_vec3()));
-            walked.blends.extend(blends.into_iter().map(|b| Blend { first: first + b.first, ..b }));
+        for (&count, pieces) in self.counts.iter().zip(pieces) {
+            let points = &points[first..first + count];
+            let of_curve = self.blends(points, pieces?, segments.unwrap_or(count - 1));
+            strands.push(of_curve.iter().map(|b| b.of(points).as_vec3()));
+            blends.extend(of_curve.into_iter().map(|b| Blend { first: first + b.first, ..b }));
             first += count;
         }
-        Ok(walked)
-    }
-
-    /// What `values` say at each point of the walked strands; how many there are tells whether they are one for all,
-    /// one a curve, one a control point, or one an end of the curves' segments. `None` for any other number.
-    pub fn at_points<const N: usize>(&self, walked: &Walked, values: &[[f32; N]]) -> Option<Vec<[f32; N]>> {
-        let all: usize = walked.strands.points().len();
-        let ends = || self.counts.iter().map(|&c| self.pieces(c).unwrap_or(0) + 1);
-        let n = values.len();
-        if n == self.points.len() {
-            return Some(if walked.blends.is_empty() {
-                values.to_vec()
-            } else {
-                walked.blends.iter().map(|b| b.values(values)).collect()
-            });
-        }
-        if n == self.counts.len() {
-            let each = walked.strands.iter().zip(values);
-            return Some(each.flat_map(|(strand, &v)| std::iter::repeat_n(v, strand.len())).collect());
-        }
-        if n == ends().sum::<usize>() && !walked.blends.is_empty() {
-            let mut first = 0;
-            let mut found = Vec::with_capacity(all);
-            for (s, ends) in ends().enumerate() {
-                for blend in &walked.blends[walked.strands.range(s)] {
-                    let (piece, t) = blend.segment;
-                    let [a, b] = [values[first + piece], values[first + piece + 1]];
-                    found.push(std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t as f32));
-                }
-                first += ends;
-            }
-            return Some(found);
-        }
-        (n == 1).then(|| vec![values[0]; all])
-    }
-
-    /// What `values` say of each curve as a whole: one each, one for all, or that at each root of one a point.
-    pub fn at_roots<T: Copy>(&self, values: &[T]) -> Option<Vec<T>> {
-        match values.len() {
-            n if n == self.counts.len() => Some(values.to_vec()),
-            1 => Some(vec![values[0]; self.counts.len()]),
-            n if n == self.points.len() => {
-                let roots = self.counts.iter().scan(0, |at, &count| {
-                    *at += count;
-                    Some(*at - count)
-                });
-                roots.map(|root| values.get(root).copied()).collect()
-            }
-            _ => None,
-        }
+        Ok(Walked { strands, blends, shape: self })
     }
 
     /// Number of segments between ends of pieces: straight lines or cubics.
@@ -235,6 +210,62 @@ impl Curves<'_> {
     }
 }
 
+impl Walked {
+    /// Number of control points of the curves.
+    fn control_points(&self) -> usize {
+        self.shape.counts.iter().sum()
+    }
+
+    /// What `values` say at each point of the strands; how many there are tells whether they are one for all, one a
+    /// curve, one a control point, or one an end of the curves' segments. `None` for any other number.
+    pub fn at_points<const N: usize>(&self, values: &[[f32; N]]) -> Option<Vec<[f32; N]>> {
+        let (shape, all, n) = (&self.shape, self.strands.points().len(), values.len());
+        let ends = || shape.counts.iter().map(|&c| shape.pieces(c).unwrap_or(0) + 1);
+        if n == self.control_points() {
+            return Some(if self.blends.is_empty() {
+                values.to_vec()
+            } else {
+                self.blends.iter().map(|b| b.values(values)).collect()
+            });
+        }
+        if n == shape.counts.len() {
+            let each = self.strands.iter().zip(values);
+            return Some(each.flat_map(|(strand, &v)| std::iter::repeat_n(v, strand.len())).collect());
+        }
+        if n == ends().sum::<usize>() && !self.blends.is_empty() {
+            let mut first = 0;
+            let mut found = Vec::with_capacity(all);
+            for (s, ends) in ends().enumerate() {
+                for blend in &self.blends[self.strands.range(s)] {
+                    let (piece, t) = blend.segment;
+                    let [a, b] = [values[first + piece], values[first + piece + 1]];
+                    found.push(std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t as f32));
+                }
+                first += ends;
+            }
+            return Some(found);
+        }
+        (n == 1).then(|| vec![values[0]; all])
+    }
+
+    /// What `values` say of each curve as a whole: one each, one for all, or that at each root of one a control point.
+    pub fn at_roots<T: Clone>(&self, values: &[T]) -> Option<Vec<T>> {
+        let counts = &self.shape.counts;
+        match values.len() {
+            n if n == counts.len() => Some(values.to_vec()),
+            1 => Some(vec![values[0].clone(); counts.len()]),
+            n if n == self.control_points() => {
+                let roots = counts.iter().scan(0, |at, &count| {
+                    *at += count;
+                    Some(*at - count)
+                });
+                roots.map(|root| values.get(root).cloned()).collect()
+            }
+            _ => None,
+        }
+    }
+}
+
 impl Blend {
     fn of(&self, points: &[Vec3]) -> glam::DVec3 {
         let near = points[self.first..].iter().zip(self.weights);
@@ -270,7 +301,7 @@ mod tests {
     fn evenly_spaced_points_on_a_line_stay_evenly_spaced_on_it() {
         let points: Vec<Vec3> = (0..7).map(|i| Vec3::new(1.0, -2.0, 0.5) * i as f32).collect();
         for (basis, pinned) in BASES {
-            let walked = Curves { counts: &[7], points: &points, basis, pinned }.walk(Some(9)).unwrap();
+            let walked = Shape { counts: vec![7], basis, pinned }.walk(points.clone(), Some(9)).unwrap();
             // Unpinned splines leave one segment at each end undrawn.
             let short = f32::from(u8::from(!pinned && matches!(basis, Basis::Bspline | Basis::CatmullRom)));
             for (i, p) in walked.strands.strand(0).iter().enumerate() {
@@ -283,7 +314,7 @@ mod tests {
     #[test]
     fn weights_of_every_basis_add_up_to_one() {
         for (basis, pinned) in BASES {
-            let curves = Curves { counts: &[], points: &[], basis, pinned };
+            let curves = Shape { counts: Vec::new(), basis, pinned };
             for count in [2, 4, 7] {
                 for piece in 0..curves.pieces(count).unwrap_or(0) {
                     for t in [0.0, 0.3, 1.0] {
@@ -298,8 +329,8 @@ mod tests {
     #[test]
     fn a_bezier_quarter_circle_is_cut_into_equal_chords() {
         let k = 0.552_284_8;
-        let points = [Vec3::X, Vec3::new(1.0, k, 0.0), Vec3::new(k, 1.0, 0.0), Vec3::Y];
-        let walked = Curves { counts: &[4], points: &points, basis: Basis::Bezier, pinned: false }.walk(Some(12));
+        let points = vec![Vec3::X, Vec3::new(1.0, k, 0.0), Vec3::new(k, 1.0, 0.0), Vec3::Y];
+        let walked = Shape { counts: vec![4], basis: Basis::Bezier, pinned: false }.walk(points, Some(12));
         let walked = walked.unwrap();
         let strand = walked.strands.strand(0);
         assert_eq!(strand[0], Vec3::X);
@@ -314,20 +345,21 @@ mod tests {
     #[test]
     fn polylines_are_left_alone_and_cubics_keep_their_number_of_points() {
         let points: Vec<Vec3> = (0..9).map(|i| Vec3::new(0.1, 0.7, 0.3) * (i * i) as f32).collect();
-        let linear = Curves { counts: &[4, 5], points: &points, basis: Basis::Linear, pinned: false };
-        let walked = linear.walk(None).unwrap();
+        let linear = Shape { counts: vec![4, 5], basis: Basis::Linear, pinned: false };
+        let walked = linear.clone().walk(points.clone(), None).unwrap();
         assert_eq!(walked.strands.points(), points);
         assert!(walked.blends.is_empty());
-        let spline = Curves { basis: Basis::Bspline, ..linear.clone() }.walk(None).unwrap();
+        let spline = Shape { basis: Basis::Bspline, ..linear.clone() }.walk(points.clone(), None).unwrap();
         assert_eq!(spline.strands.starts(), [0, 4, 9]);
-        assert!(Curves { basis: Basis::Bezier, ..linear }.walk(None).unwrap_err().starts_with("curve 1: 5 control"));
+        let refused = Shape { basis: Basis::Bezier, ..linear }.walk(points, None).unwrap_err();
+        assert!(refused.0.starts_with("curve 1: 5 control"), "{refused}");
     }
 
     #[test]
     fn values_at_the_control_points_follow_the_points() {
         let points: Vec<Vec3> = (0..8).map(|i| Vec3::new(i as f32, (i % 3) as f32, 0.5)).collect();
         for (basis, pinned) in [(Basis::Bspline, true), (Basis::CatmullRom, false), (Basis::Linear, false)] {
-            let walked = Curves { counts: &[8], points: &points, basis, pinned }.walk(Some(20)).unwrap();
+            let walked = Shape { counts: vec![8], basis, pinned }.walk(points.clone(), Some(20)).unwrap();
             let values: Vec<[f32; 3]> = points.iter().map(|p| p.to_array()).collect();
             for (blend, p) in walked.blends.iter().zip(walked.strands.points()) {
                 assert_eq!(blend.values(&values), p.to_array());

@@ -2,8 +2,9 @@
 
 use std::io;
 
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, Mat4, Vec3};
 
+use crate::strands::not_finite;
 use crate::{Hair, Mesh, Strands};
 
 /// A groom at rest and the world in which its file is to show it.
@@ -79,26 +80,36 @@ impl<'a> Export<'a> {
         Ok(())
     }
 
-    /// Puts the points of `strands`, taken to the file's space, into `points`.
+    /// The points of `strands` in the file's space: their own, or `room` filled with them.
     ///
     /// # Errors
     /// Strands that are not those of the groom, a point that is not finite.
-    pub fn points(&self, strands: &Strands, points: &mut Vec<Vec3>) -> io::Result<()> {
+    pub fn points<'p>(&self, strands: &'p Strands, room: &'p mut Vec<Vec3>) -> io::Result<&'p [Vec3]> {
         let invalid = |problem: String| Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
         if strands.starts() != self.hair.strands.starts() {
             let (found, expected) = (strands.points().len(), self.hair.strands.points().len());
             return invalid(format!("a frame of {found} points for a groom of {expected}: strands may not change"));
         }
-        points.clear();
-        if self.file_from_head == Affine3A::IDENTITY {
-            points.extend_from_slice(strands.points());
+        let points = if self.file_from_head == Affine3A::IDENTITY {
+            strands.points()
         } else {
-            points.extend(strands.points().iter().map(|&p| self.file_from_head.transform_point3(p)));
-        }
-        match points.iter().position(|p| !p.is_finite()) {
+            room.clear();
+            room.extend(strands.points().iter().map(|&p| self.file_from_head.transform_point3(p)));
+            room
+        };
+        match not_finite(points) {
             Some(at) => invalid(format!("point {at} is {}: only finite points can be written", points[at])),
-            None => Ok(()),
+            None => Ok(points),
         }
+    }
+
+    /// The transform of the prim or object above the hair, which moves as the head does. Its columns are the rows of
+    /// formats that multiply rows from the left.
+    pub fn parent(&self, world_from_head: &Affine3A) -> Mat4 {
+        if *world_from_head == Affine3A::IDENTITY {
+            return Mat4::IDENTITY;
+        }
+        Mat4::from(self.file_from_head * *world_from_head * self.file_from_head.inverse())
     }
 }
 

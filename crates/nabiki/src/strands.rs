@@ -2,6 +2,38 @@
 
 use glam::Vec3;
 
+/// The first point that is NaN or infinite.
+///
+/// Where all are finite, as they should be, this keeps up with the memory: no exponent is all ones, a greatest value
+/// without a branch.
+pub fn not_finite(points: &[Vec3]) -> Option<usize> {
+    let numbers: &[f32] = bytemuck::cast_slice(points);
+    if numbers.iter().fold(0, |greatest, x| (x.to_bits() & 0x7fff_ffff).max(greatest)) < 0x7f80_0000 {
+        return None;
+    }
+    points.iter().position(|p| !p.is_finite())
+}
+
+/// The lowest and the highest corner of the points' box; infinite for no points. NaN counts for nothing.
+pub fn bounds(points: &[Vec3]) -> [Vec3; 2] {
+    // Eight boxes side by side, so that none waits for its own last point, and plain comparisons, which are one
+    // instruction where the greatest of two floats is several.
+    const ROW: usize = 24;
+    let lower = |a: f32, b: f32| if b < a { b } else { a };
+    let higher = |a: f32, b: f32| if b > a { b } else { a };
+    let (rows, rest) = bytemuck::cast_slice::<Vec3, f32>(points).as_chunks::<ROW>();
+    let (mut low, mut high) = ([f32::INFINITY; ROW], [f32::NEG_INFINITY; ROW]);
+    for row in rows {
+        low = std::array::from_fn(|k| lower(low[k], row[k]));
+        high = std::array::from_fn(|k| higher(high[k], row[k]));
+    }
+    let all = |boxes: [f32; ROW], start: f32, chosen: &dyn Fn(f32, f32) -> f32| {
+        let numbers = boxes.as_chunks::<3>().0.iter().chain(rest.as_chunks::<3>().0);
+        Vec3::from(numbers.fold([start; 3], |a, b| std::array::from_fn(|k| chosen(a[k], b[k]))))
+    };
+    [all(low, f32::INFINITY, &lower), all(high, f32::NEG_INFINITY, &higher)]
+}
+
 /// Polylines of any length, each from root to tip, in one contiguous array of points (head space, cm).
 ///
 /// Strand `s` owns the points `starts[s]..starts[s + 1]`: its root, then the end of each of its segments
@@ -101,5 +133,31 @@ impl Strands {
             chosen.push(self.strand(s).iter().copied());
         }
         chosen
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_point_that_is_not_finite_is_found_anywhere() {
+        let mut points: Vec<Vec3> = (0..100).map(|i| Vec3::splat(f32::MAX - 1e32 * i as f32)).collect();
+        assert_eq!(not_finite(&points), None);
+        for i in (0..100).rev() {
+            points[i][i % 3] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY][i % 3];
+            assert_eq!(not_finite(&points), Some(i));
+        }
+    }
+
+    #[test]
+    fn bounds_are_the_lowest_and_highest_of_any_number_of_points() {
+        let points: Vec<Vec3> =
+            (0..50).map(|i| Vec3::new((i as f32).sin(), (7.3 * i as f32).cos(), -(i as f32))).collect();
+        for n in 0..points.len() {
+            let low = points[..n].iter().fold(Vec3::INFINITY, |a, &b| a.min(b));
+            let high = points[..n].iter().fold(Vec3::NEG_INFINITY, |a, &b| a.max(b));
+            assert_eq!(bounds(&points[..n]), [low, high], "{n} points");
+        }
     }
 }

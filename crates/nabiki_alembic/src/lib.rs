@@ -18,22 +18,6 @@ mod tree;
 mod values;
 mod write;
 
+pub use nabiki::error::Problem;
 pub use read::{ArchiveReader, Contents};
 pub use write::HairArchive;
-
-/// What is wrong with an archive, in one line without the file's name.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct Problem(String);
-
-impl Problem {
-    fn new(text: &str) -> Self {
-        Self(text.to_owned())
-    }
-}
-
-impl From<std::io::Error> for Problem {
-    fn from(error: std::io::Error) -> Self {
-        Self(error.to_string())
-    }
-}

@@ -5,10 +5,11 @@ use std::io::{Read, Seek};
 use std::path::Path;
 
 use glam::{Affine3A, DMat4, DQuat, DVec3, Mat4, Vec3};
-use nabiki::curves::{Basis, Curves, Gathered};
+use nabiki::curves::{Basis, Gathered, Shape, checked_counts};
 use nabiki::{Hair, Mesh};
 
 use crate::Problem;
+use crate::attributes::Parameters;
 use crate::tree::{Form, Header, Tree};
 use crate::values::{doubles, integers, singles};
 
@@ -106,11 +107,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
             let part = self.curves(object, frame, segments).map_err(|e| Problem(format!("curves {path}: {e}")))?;
             all.append(part, (objects.len() > 1).then_some((group as i32, name)));
         }
-        let hair = all.hair();
-        match hair.strands.points().iter().position(|p| !p.is_finite()) {
-            Some(i) => Err(Problem(format!("point {i} of its curves is not finite"))),
-            None => Ok(hair),
-        }
+        all.hair()
     }
 
     fn curves(&mut self, object: usize, frame: usize, segments: Option<usize>) -> Result<Hair, Problem> {
@@ -125,9 +122,8 @@ impl<R: Read + Seek> ArchiveReader<R> {
             Some(header) => basis(&self.tree.sample(header, frame)?)?,
             None => return Err(Problem::new("do not say whether they are straight or cubic")),
         };
-        let curves = Curves { counts: &counts, points: &points, basis, pinned };
-        let walked = curves.walk(segments).map_err(Problem)?;
-        let attributes = self.attributes(&inside, frame, &curves, &walked)?;
+        let walked = Shape { counts, basis, pinned }.walk(points, segments)?;
+        let attributes = walked.attributes(&mut Parameters::of(&mut self.tree, inside, frame)?)?;
         let hair = Hair { strands: walked.strands, attributes };
         let world = self.world(object, time)?;
         Ok(if world == DMat4::IDENTITY { hair } else { hair.transformed(&Affine3A::from_mat4(to_single(world))) })
@@ -157,22 +153,11 @@ impl<R: Read + Seek> ArchiveReader<R> {
             let counts = integers(header.kind, &bytes)?;
             let (header, bytes) = numbers(".faceIndices")?;
             let corners = integers(header.kind, &bytes)?;
-            let counts = checked_counts(&counts, corners.len()).map_err(|e| Problem(format!("mesh {path}: {e}")))?;
-            let positions = positions.as_chunks::<3>().0;
-            let base = mesh.positions.len() as u32;
-            let corner = |c: &i64| match usize::try_from(*c) {
-                Ok(i) if i < positions.len() => Ok(base + i as u32),
-                _ => Err(Problem(format!("mesh {path}: corner {c} of {} vertices", positions.len()))),
-            };
-            let mut at = 0;
-            for count in counts {
-                let face = corners[at..at + count].iter().map(corner).collect::<Result<Vec<u32>, _>>()?;
-                // Alembic winds faces clockwise.
-                mesh.triangles.extend((2..count).map(|k| [face[0], face[k], face[k - 1]]));
-                at += count;
-            }
             let world = to_single(world);
-            mesh.positions.extend(positions.iter().map(|&p| world.transform_point3(Vec3::from(p))));
+            let positions = positions.as_chunks::<3>().0.iter().map(|&p| world.transform_point3(Vec3::from(p)));
+            // Alembic winds faces clockwise.
+            let added = mesh.add_polygons(positions, &counts, &corners, true);
+            added.map_err(|e| Problem(format!("mesh {path}: {e}")))?;
         }
         match mesh.positions.iter().find(|p| !p.is_finite()) {
             Some(p) => Err(Problem(format!("has a vertex at {p}"))),
@@ -224,16 +209,12 @@ impl<R: Read + Seek> ArchiveReader<R> {
     }
 
     /// The properties of an object's schema.
-    pub(crate) fn schema(&mut self, object: usize) -> Result<Vec<Header>, Problem> {
+    fn schema(&mut self, object: usize) -> Result<Vec<Header>, Problem> {
         let properties = self.tree.properties_of(object)?;
         match properties.iter().find(|h| h.form == Form::Compound && matches!(&*h.name, ".geom" | ".xform")) {
             Some(header) => self.tree.properties(header.place),
             None => Err(Problem(format!("object {}: its schema is empty", self.tree.objects[object].path))),
         }
-    }
-
-    pub(crate) fn tree(&mut self) -> &mut Tree<R> {
-        &mut self.tree
     }
 
     /// The product of all transforms from the top down to `object` at `time` (s).
@@ -315,22 +296,6 @@ fn to_single(m: DMat4) -> Mat4 {
 fn required<'a>(headers: &'a [Header], name: &str, path: &str) -> Result<&'a Header, Problem> {
     let found = headers.iter().find(|h| h.name == name && h.form != Form::Compound);
     found.ok_or_else(|| Problem(format!("{path} has no property {name}")))
-}
-
-/// Counts that are not negative and add up to `total`.
-fn checked_counts(counts: &[i64], total: usize) -> Result<Vec<usize>, Problem> {
-    let mut sum = 0usize;
-    let mut checked = Vec::with_capacity(counts.len());
-    for &count in counts {
-        let count = usize::try_from(count).map_err(|_| Problem(format!("a count of {count}")))?;
-        sum = sum.saturating_add(count);
-        checked.push(count);
-    }
-    if sum == total {
-        Ok(checked)
-    } else {
-        Err(Problem(format!("counts that add up to {sum} where there are {total}")))
-    }
 }
 
 /// Type, wrap and basis of curves; the Boolean: whether they are pinned (never, in Alembic).

@@ -7,8 +7,9 @@
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
-use glam::{Affine3A, DMat4, Mat4, Vec3};
+use glam::{Affine3A, Vec3};
 use nabiki::export::{Export, FrameSink};
+use nabiki::strands::bounds;
 use nabiki::{Mesh, Strands};
 use tempfile::NamedTempFile;
 
@@ -116,17 +117,11 @@ impl<'a> HairArchive<'a> {
 
 impl FrameSink for HairArchive<'_> {
     fn frame(&mut self, strands: &Strands, world_from_head: &Affine3A) -> io::Result<()> {
-        self.export.points(strands, &mut self.points)?;
-        self.positions.put(&mut self.to, bytemuck::cast_slice(&self.points))?;
-        self.bounds.put(&mut self.to, &box_of(&self.points))?;
-        let file_from_head = self.export.file_from_head;
-        let parent = if *world_from_head == Affine3A::IDENTITY {
-            Mat4::IDENTITY
-        } else {
-            Mat4::from(file_from_head * *world_from_head * file_from_head.inverse())
-        };
-        // Alembic multiplies rows from the left, so a column here is a row there and the order of numbers is the same.
-        let parent = DMat4::from_cols_array(&parent.to_cols_array().map(f64::from)).to_cols_array();
+        let points = self.export.points(strands, &mut self.points)?;
+        self.positions.put(&mut self.to, bytemuck::cast_slice(points))?;
+        self.bounds.put(&mut self.to, &box_of(points))?;
+        // Alembic multiplies rows from the left.
+        let parent = self.export.parent(world_from_head).to_cols_array().map(f64::from);
         let rest = self.rest_transform.get_or_insert(parent);
         for (moved, (a, b)) in self.moved_channels.iter_mut().zip(rest.iter().zip(&parent)) {
             *moved |= a != b;
@@ -140,8 +135,7 @@ impl FrameSink for HairArchive<'_> {
 }
 
 fn box_of(points: &[Vec3]) -> Vec<u8> {
-    let low = points.iter().fold(Vec3::INFINITY, |a, &b| a.min(b));
-    let high = points.iter().fold(Vec3::NEG_INFINITY, |a, &b| a.max(b));
+    let [low, high] = bounds(points);
     let numbers: [f64; 6] = [low.x, low.y, low.z, high.x, high.y, high.z].map(f64::from);
     bytemuck::cast_slice(&numbers).to_vec()
 }

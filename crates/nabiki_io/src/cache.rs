@@ -10,7 +10,7 @@ use std::{
 };
 
 use glam::{Quat, Vec3};
-use nabiki::{Hair, Strands, hair::Attributes};
+use nabiki::{Hair, Strands, hair::Attributes, strands::not_finite};
 
 use crate::{
     atomic::Unfinished,
@@ -99,9 +99,7 @@ impl Writer {
         if points.len() != self.points {
             return refuse(format!("frame {frame}: {} points, the cache is of {}", points.len(), self.points));
         }
-        if !finite::all_finite(bytemuck::cast_slice(points))
-            && let Some(p) = points.iter().position(|p| !p.is_finite())
-        {
+        if let Some(p) = not_finite(points) {
             return refuse(format!("frame {frame}: point {p} is {}: refused, the file would be useless", points[p]));
         }
         if !(head.position_cm.is_finite() && head.rotation.is_finite()) {

@@ -1,29 +1,18 @@
 //! Refuses NaN and infinities in what a file brings, naming the strand or the entry.
 
-use nabiki::Strands;
+use nabiki::{Strands, strands::not_finite};
 
 use crate::error::{Error, Result};
 
 /// Points, named by strand and point, both counted from 0.
 pub(crate) fn points(strands: &Strands) -> Result<()> {
-    if all_finite(bytemuck::cast_slice(strands.points())) {
-        return Ok(());
-    }
-    let all = strands.iter().enumerate();
-    let mut bad = all.flat_map(|(s, strand)| strand.iter().enumerate().map(move |(p, point)| (s, p, point)));
-    match bad.find(|(_, _, point)| !point.is_finite()) {
-        Some((s, p, point)) => Err(Error::new(format!(
-            "strand {s}, point {p}: ({}, {}, {}) is not a place: coordinates must be finite",
-            point.x, point.y, point.z
-        ))),
-        None => Ok(()),
-    }
-}
-
-/// Whether no number is NaN or infinite: no exponent is all ones. A greatest value without a branch, so that it keeps
-/// up with the memory.
-pub(crate) fn all_finite(values: &[f32]) -> bool {
-    values.iter().fold(0, |greatest, v| (v.to_bits() & 0x7FFF_FFFF).max(greatest)) < 0x7F80_0000
+    let Some(bad) = not_finite(strands.points()) else { return Ok(()) };
+    let s = strands.starts().partition_point(|&start| start as usize <= bad) - 1;
+    let (p, point) = (bad - strands.range(s).start, strands.points()[bad]);
+    Err(Error::new(format!(
+        "strand {s}, point {p}: ({}, {}, {}) is not a place: coordinates must be finite",
+        point.x, point.y, point.z
+    )))
 }
 
 /// Numbers by strand or point.

@@ -2,7 +2,7 @@
 
 use std::{fs, path::Path};
 
-use nabiki::{Hair, SettingError, error::check_range, hair::Degenerate};
+use nabiki::{Hair, SettingError, error::check_range, hair::Degenerate, strands::not_finite};
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -123,7 +123,7 @@ pub fn import(path: &Path, placement: &Placement, cleaning: &Cleaning) -> Result
 pub fn place_and_clean(hair: Hair, placement: &Placement, cleaning: &Cleaning) -> Result<(Hair, ImportReport)> {
     let (strands_in_file, points_in_file) = (hair.strands.len(), hair.strands.points().len());
     let placed = hair.transformed(&placement.head_from_file());
-    if let Some(p) = placed.strands.points().iter().position(|p| !p.is_finite()) {
+    if let Some(p) = not_finite(placed.strands.points()) {
         return Err(Error::new(format!("point {p} leaves the range of f32 when converted to cm: check hair.unit")));
     }
     let (mut hair, degenerate) = placed.without_degenerate(cleaning.join_within);

@@ -3,6 +3,7 @@
 use glam::Vec3;
 use nabiki::Mesh;
 use nabiki::export::Export;
+use nabiki::strands::bounds;
 
 use crate::layer::{Attribute, Prim, Value};
 
@@ -90,7 +91,6 @@ pub fn skin<S>(mesh: &Mesh, export: &Export<'_>) -> Prim<S> {
 
 /// The lowest and highest corner of the points' box, widened by `margin` on all sides.
 pub fn extent(points: &[Vec3], margin: f32) -> Vec<[f32; 3]> {
-    let low = points.iter().fold(Vec3::INFINITY, |a, &b| a.min(b)) - margin;
-    let high = points.iter().fold(Vec3::NEG_INFINITY, |a, &b| a.max(b)) + margin;
-    vec![low.to_array(), high.to_array()]
+    let [low, high] = bounds(points);
+    vec![(low - margin).to_array(), (high + margin).to_array()]
 }

@@ -16,23 +16,7 @@ mod text;
 mod transform;
 mod write;
 
+pub use nabiki::error::Problem;
 pub use read::{Contents, StageReader};
 pub use source::Source;
 pub use write::{Form, HairStage};
-
-/// What is wrong with a layer, in one line without the file's name.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct Problem(String);
-
-impl Problem {
-    fn new(text: &str) -> Self {
-        Self(text.to_owned())
-    }
-}
-
-impl From<std::io::Error> for Problem {
-    fn from(error: std::io::Error) -> Self {
-        Self(error.to_string())
-    }
-}

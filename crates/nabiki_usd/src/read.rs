@@ -3,12 +3,11 @@
 use std::path::Path;
 
 use glam::{Affine3A, DMat4, DQuat, DVec3, Mat4, Vec3};
-use nabiki::curves::{Basis, Curves, Gathered, Walked};
-use nabiki::hair::Attributes;
+use nabiki::curves::{Basis, Carried, Gathered, Shape, checked_counts, indexed};
 use nabiki::{Hair, Mesh};
 
 use crate::Problem;
-use crate::source::{Layer, Source};
+use crate::source::{Handle, Layer, Source};
 use crate::transform;
 
 /// A layer to read hair, heads and motion from; everything comes in the layer's own unit and axes.
@@ -109,11 +108,7 @@ impl StageReader {
             let name = self.layer.prims[prim].name.clone();
             all.append(part, (prims.len() > 1).then_some((group as i32, name)));
         }
-        let hair = all.hair();
-        match hair.strands.points().iter().position(|p| !p.is_finite()) {
-            Some(i) => Err(Problem(format!("point {i} of its curves is not finite"))),
-            None => Ok(hair),
-        }
+        all.hair()
     }
 
     fn curves(&mut self, prim: usize, time: f64, segments: Option<usize>) -> Result<Hair, Problem> {
@@ -137,110 +132,11 @@ impl StageReader {
             ("cubic", "catmullRom") => Basis::CatmullRom,
             (order, basis) => return Err(Problem(format!("are {order} of basis {basis}, which USD does not know"))),
         };
-        let curves = Curves { counts: &counts, points: &points, basis, pinned: wrap == "pinned" };
-        let walked = curves.walk(segments).map_err(Problem)?;
-        let attributes = self.attributes(prim, time, &curves, &walked)?;
+        let walked = Shape { counts, basis, pinned: wrap == "pinned" }.walk(points, segments)?;
+        let attributes = walked.attributes(&mut Primvars { layer: &mut self.layer, prim, time })?;
         let hair = Hair { strands: walked.strands, attributes };
         let world = transform::world(&mut self.layer, prim, time)?;
         Ok(if world == DMat4::IDENTITY { hair } else { hair.transformed(&Affine3A::from_mat4(single(world))) })
-    }
-
-    fn attributes(
-        &mut self,
-        prim: usize,
-        time: f64,
-        curves: &Curves<'_>,
-        walked: &Walked,
-    ) -> Result<Attributes, Problem> {
-        let one = |values: Vec<[f32; 1]>| values.into_iter().map(|[x]| x).collect();
-        let mut found = Attributes {
-            width: self.by_point(prim, &["widths"], time, curves, walked)?.map(one),
-            ..Attributes::default()
-        };
-        found.color = self.by_point(prim, &["displayColor", "groom_color"], time, curves, walked)?;
-        found.point_uv = self.by_point(prim, &["point_uv"], time, curves, walked)?;
-        found.freedom = self.by_point(prim, &["freedom"], time, curves, walked)?.map(one);
-        found.transparency = self.by_point(prim, &["transparency"], time, curves, walked)?.map(one);
-        if found.transparency.is_none() {
-            let opacity = self.by_point::<1>(prim, &["displayOpacity"], time, curves, walked)?;
-            found.transparency = opacity.map(|o| o.into_iter().map(|[x]| 1.0 - x).collect());
-        }
-        // `surface_uv_coordinate` is Blender's, `rootuv` Houdini's.
-        for name in ["st", "groom_root_uv", "surface_uv_coordinate", "rootuv", "uv", "UVMap"] {
-            if found.root_uv.is_none() {
-                let values = self.values::<2>(prim, name, time)?;
-                found.root_uv = values.and_then(|v| curves.at_roots(&v));
-            }
-        }
-        let id = self.whole(prim, &["groom_id", "id", "ids", "hairId"], time)?;
-        found.id = id.and_then(|v| curves.at_roots(&v));
-        let group = self.whole(prim, &["groom_group_id", "group_id", "group"], time)?;
-        found.group = group.and_then(|v| curves.at_roots(&v)).map(|g| g.into_iter().map(|g| g as i32).collect());
-        let guide = self.whole(prim, &["groom_guide", "guide"], time)?;
-        found.guide = guide.and_then(|v| curves.at_roots(&v)).map(|g| g.into_iter().map(|g| g != 0).collect());
-        if let (Some(groups), Some(handle)) = (&found.group, self.primvar(prim, "groom_group_name", time)) {
-            let words = self.layer.words(handle)?;
-            let names = curves.at_roots(&words.iter().collect::<Vec<_>>());
-            let named = groups.iter().zip(names.into_iter().flatten().cloned());
-            found.group_names = named.filter(|(_, name)| !name.is_empty()).map(|(&g, name)| (g, name)).collect();
-        }
-        Ok(found)
-    }
-
-    fn primvar(&self, prim: usize, name: &str, time: f64) -> Option<crate::source::Handle> {
-        if name == "widths" {
-            let plain = self.layer.at(prim, name, time);
-            return plain.or_else(|| self.layer.at(prim, "primvars:widths", time));
-        }
-        self.layer.at(prim, &format!("primvars:{name}"), time)
-    }
-
-    /// Values of a primvar, `N` numbers each, looked up where it is stored by index.
-    fn values<const N: usize>(&mut self, prim: usize, name: &str, time: f64) -> Result<Option<Vec<[f32; N]>>, Problem> {
-        let Some(handle) = self.primvar(prim, name, time) else { return Ok(None) };
-        let numbers = self.layer.singles(handle)?;
-        if numbers.is_empty() || numbers.len() % N != 0 {
-            return Ok(None);
-        }
-        let values = numbers.as_chunks::<N>().0;
-        let Some(indices) = self.layer.at(prim, &format!("primvars:{name}:indices"), time) else {
-            return Ok(Some(values.to_vec()));
-        };
-        let pick = |i: i64| usize::try_from(i).ok().and_then(|i| values.get(i)).copied();
-        let picked: Option<Vec<[f32; N]>> = self.layer.integers(indices)?.into_iter().map(pick).collect();
-        picked.map(Some).ok_or_else(|| Problem(format!("primvar {name}: an index past its values")))
-    }
-
-    /// Values at the walked points of the first primvar there is of those named.
-    fn by_point<const N: usize>(
-        &mut self,
-        prim: usize,
-        names: &[&str],
-        time: f64,
-        curves: &Curves<'_>,
-        walked: &Walked,
-    ) -> Result<Option<Vec<[f32; N]>>, Problem> {
-        for name in names {
-            let Some(values) = self.values::<N>(prim, name, time)? else { continue };
-            let found = curves.at_points(walked, &values);
-            return found.map(Some).ok_or_else(|| {
-                let (n, points, curves) = (values.len(), curves.points.len(), curves.counts.len());
-                Problem(format!("{name}: {n} values for {points} points of {curves} curves"))
-            });
-        }
-        Ok(None)
-    }
-
-    fn whole(&mut self, prim: usize, names: &[&str], time: f64) -> Result<Option<Vec<i64>>, Problem> {
-        for name in names {
-            if let Some(handle) = self.primvar(prim, name, time) {
-                let values = self.layer.integers(handle)?;
-                if !values.is_empty() {
-                    return Ok(Some(values));
-                }
-            }
-        }
-        Ok(None)
     }
 
     /// All meshes at their first time code, cut into triangles, with the transforms above them, as one.
@@ -261,24 +157,9 @@ impl StageReader {
             let corners = layer.at(prim, "faceVertexIndices", first).ok_or_else(|| problem("has no faces"))?;
             let corners = layer.integers(corners)?;
             let left_handed = layer.word(prim, "orientation")?.as_deref() == Some("leftHanded");
-            let counts = checked_counts(&counts, corners.len()).map_err(|e| problem(&e.0))?;
-            let points = points.as_chunks::<3>().0;
-            let base = mesh.positions.len() as u32;
-            let corner = |c: &i64| match usize::try_from(*c) {
-                Ok(i) if i < points.len() => Ok(base + i as u32),
-                _ => Err(Problem(format!("mesh {path}: corner {c} of {} points", points.len()))),
-            };
-            let mut at = 0;
-            for count in counts {
-                let face = corners[at..at + count].iter().map(corner).collect::<Result<Vec<u32>, _>>()?;
-                let wound = |k: usize| {
-                    if left_handed { [face[0], face[k], face[k - 1]] } else { [face[0], face[k - 1], face[k]] }
-                };
-                mesh.triangles.extend((2..count).map(wound));
-                at += count;
-            }
             let world = single(transform::world(&mut self.layer, prim, 0.0)?);
-            mesh.positions.extend(points.iter().map(|&p| world.transform_point3(Vec3::from(p))));
+            let positions = points.as_chunks::<3>().0.iter().map(|&p| world.transform_point3(Vec3::from(p)));
+            mesh.add_polygons(positions, &counts, &corners, left_handed).map_err(|e| problem(&e.0))?;
         }
         match mesh.positions.iter().find(|p| !p.is_finite()) {
             Some(p) => Err(Problem(format!("has a vertex at {p}"))),
@@ -333,18 +214,47 @@ fn single(m: DMat4) -> Mat4 {
     Mat4::from_cols_array(&m.to_cols_array().map(|x| x as f32))
 }
 
-/// Counts that are not negative and add up to `total`.
-fn checked_counts(counts: &[i64], total: usize) -> Result<Vec<usize>, Problem> {
-    let mut sum = 0usize;
-    let mut checked = Vec::with_capacity(counts.len());
-    for &count in counts {
-        let count = usize::try_from(count).map_err(|_| Problem(format!("a count of {count}")))?;
-        sum = sum.saturating_add(count);
-        checked.push(count);
+/// What a prim carries at a time code: its primvars, and `widths`, which is an attribute of its own.
+struct Primvars<'a> {
+    layer: &'a mut Layer,
+    prim: usize,
+    time: f64,
+}
+
+impl Primvars<'_> {
+    fn named(&self, name: &str) -> Option<Handle> {
+        let plain = if name == "widths" { self.layer.at(self.prim, name, self.time) } else { None };
+        plain.or_else(|| self.layer.at(self.prim, &format!("primvars:{name}"), self.time))
     }
-    if sum == total {
-        Ok(checked)
-    } else {
-        Err(Problem(format!("counts that add up to {sum} where there are {total}")))
+
+    /// Values, looked up where they are stored by index.
+    fn expanded<T: Clone>(&mut self, name: &str, values: Vec<T>) -> Result<Option<Vec<T>>, Problem> {
+        match self.layer.at(self.prim, &format!("primvars:{name}:indices"), self.time) {
+            Some(indices) => indexed(name, &values, &self.layer.integers(indices)?).map(Some),
+            None => Ok(Some(values)),
+        }
+    }
+}
+
+impl Carried for Primvars<'_> {
+    fn tuples<const N: usize>(&mut self, name: &str) -> Result<Option<Vec<[f32; N]>>, Problem> {
+        let Some(handle) = self.named(name) else { return Ok(None) };
+        let numbers = self.layer.singles(handle)?;
+        match numbers.as_chunks::<N>() {
+            (values, []) if !values.is_empty() => self.expanded(name, values.to_vec()),
+            _ => Ok(None),
+        }
+    }
+
+    fn integers(&mut self, name: &str) -> Result<Option<Vec<i64>>, Problem> {
+        let Some(handle) = self.named(name) else { return Ok(None) };
+        let values = self.layer.integers(handle)?;
+        self.expanded(name, values)
+    }
+
+    fn words(&mut self, name: &str) -> Result<Option<Vec<String>>, Problem> {
+        let Some(handle) = self.named(name) else { return Ok(None) };
+        let values = self.layer.words(handle)?;
+        self.expanded(name, values)
     }
 }

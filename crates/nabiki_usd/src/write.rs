@@ -3,7 +3,7 @@
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
-use glam::{Affine3A, Mat4, Vec3};
+use glam::{Affine3A, Vec3};
 use nabiki::Strands;
 use nabiki::export::{Export, FrameSink};
 use tempfile::NamedTempFile;
@@ -46,7 +46,7 @@ enum Encoding {
     /// Samples stand where they were written.
     Text(TextWriter<Writer>),
     /// Samples lie anywhere; an attribute lists where.
-    Binary { to: Box<CrateWriter<Writer>>, points: Vec<Rep> },
+    Binary { to: Box<CrateWriter<Writer>>, samples: Vec<Rep> },
 }
 
 fn invalid(problem: String) -> io::Error {
@@ -83,7 +83,7 @@ impl<'a> HairStage<'a> {
         };
         let widest = export.widths().unwrap_or_default().into_iter().fold(0.0, f32::max);
         let to = if binary {
-            Encoding::Binary { to: Box::new(CrateWriter::new(file)?), points: Vec::new() }
+            Encoding::Binary { to: Box::new(CrateWriter::new(file)?), samples: Vec::new() }
         } else {
             let mut to = TextWriter::new(file, &metadata)?;
             let hair = names.len() - 1;
@@ -156,7 +156,7 @@ impl<'a> HairStage<'a> {
                 }
                 to.finish(end)?
             }
-            Encoding::Binary { mut to, points } => {
+            Encoding::Binary { mut to, samples } => {
                 let extents = self.extents.iter().map(|e| to.value(e)).collect::<io::Result<Vec<Rep>>>()?;
                 let mut hair = if is_stage {
                     curves(&self.export, "hair")
@@ -165,8 +165,8 @@ impl<'a> HairStage<'a> {
                     Prim { name, type_name: "", attributes: Vec::new(), children: Vec::new() }
                 };
                 match hair.attributes.iter_mut().find(|a| a.name == "points") {
-                    Some(attribute) => attribute.samples = points,
-                    None => hair.attributes.push(Attribute::sampled("points", "point3f[]", points)),
+                    Some(attribute) => attribute.samples = samples,
+                    None => hair.attributes.push(Attribute::sampled("points", "point3f[]", samples)),
                 }
                 hair.attributes.push(Attribute::sampled("extent", "float3[]", extents));
                 let mut prim = hair;
@@ -199,29 +199,26 @@ impl<'a> HairStage<'a> {
 
 impl FrameSink for HairStage<'_> {
     fn frame(&mut self, strands: &Strands, world_from_head: &Affine3A) -> io::Result<()> {
-        self.export.points(strands, &mut self.points)?;
+        let points = self.export.points(strands, &mut self.points)?;
         let time = self.metadata.start + self.times.len() as f64;
-        self.extents.push(Value::Triples(extent(&self.points, self.margin)));
+        self.extents.push(Value::Triples(extent(points, self.margin)));
         match &mut self.to {
-            Encoding::Text(to) => {
-                let value = Value::Triples(self.points.iter().map(|p| p.to_array()).collect());
-                to.sample(time, &value, self.names.len())?;
-            }
-            Encoding::Binary { to, points } => {
-                let rep = match points.last() {
-                    Some(&last) if self.points == self.last_points => last,
-                    _ => to.points(&self.points)?,
+            Encoding::Text(to) => to.points(time, points, self.names.len())?,
+            Encoding::Binary { to, samples } => {
+                let rep = match samples.last() {
+                    // Hair that stands still is written once.
+                    Some(&last) if points == self.last_points => last,
+                    _ => {
+                        self.last_points.clear();
+                        self.last_points.extend_from_slice(points);
+                        to.points(points)?
+                    }
                 };
-                points.push(rep);
-                std::mem::swap(&mut self.points, &mut self.last_points);
+                samples.push(rep);
             }
         }
-        let parent = if *world_from_head == Affine3A::IDENTITY {
-            Mat4::IDENTITY
-        } else {
-            Mat4::from(self.export.file_from_head * *world_from_head * self.export.file_from_head.inverse())
-        };
-        // USD multiplies rows from the left, so a column here is a row there and the order of numbers is the same.
+        // USD multiplies rows from the left.
+        let parent = self.export.parent(world_from_head);
         self.transforms.push(Value::Matrix(parent.to_cols_array().map(f64::from)));
         self.times.push(time);
         Ok(())

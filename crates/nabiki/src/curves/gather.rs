@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::Hair;
+use crate::error::Problem;
+use crate::strands::not_finite;
 
 /// Hair from several objects.
 #[derive(Default)]
@@ -48,12 +50,18 @@ impl Gathered {
     }
 
     /// The whole. Objects of one strand each, as some tools write them, are no groups.
-    pub fn hair(self) -> Hair {
+    ///
+    /// # Errors
+    /// A point that is not finite.
+    pub fn hair(self) -> Result<Hair, Problem> {
         let mut hair = self.all.unwrap_or_default();
         if self.named >= hair.strands.len() {
             hair.attributes.group = None;
             hair.attributes.group_names.clear();
         }
-        hair
+        match not_finite(hair.strands.points()) {
+            Some(i) => Err(Problem(format!("point {i} of its curves is not finite"))),
+            None => Ok(hair),
+        }
     }
 }

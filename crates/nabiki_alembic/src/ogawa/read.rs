@@ -76,7 +76,7 @@ impl<R: Read + Seek> Reader<R> {
     /// the end is left out.
     pub fn plain_after<T: bytemuck::Pod>(&mut self, child: u64, skip: usize) -> Result<Vec<T>, Problem> {
         let length = self.length(child)?.saturating_sub(skip);
-        let mut values = vec![T::zeroed(); length / size_of::<T>()];
+        let mut values = bytemuck::zeroed_vec(length / size_of::<T>());
         if !values.is_empty() {
             self.from.seek_relative(skip as i64)?;
             self.from.read_exact(bytemuck::cast_slice_mut(&mut values))?;

@@ -204,7 +204,7 @@ impl<R: Read + Seek> CrateReader<R> {
         }
         let (count, place) = self.array_count(found)?;
         self.go_to(place, (count as u64).saturating_mul(12))?;
-        let mut points = vec![Vec3::ZERO; count];
+        let mut points = bytemuck::zeroed_vec(count);
         self.from.read_exact(bytemuck::cast_slice_mut(&mut points))?;
         Ok(points)
     }

@@ -2,6 +2,8 @@
 
 use std::io::{self, Seek, SeekFrom, Write};
 
+use glam::Vec3;
+
 use crate::layer::{Attribute, Metadata, Prim, Value};
 
 /// Room that the number of the last frame takes in the header, filled in at the end.
@@ -96,6 +98,13 @@ impl<W: Write + Seek> TextWriter<W> {
         writeln!(self.to, ",")
     }
 
+    /// Writes one sample of points.
+    pub fn points(&mut self, time: f64, points: &[Vec3], depth: usize) -> io::Result<()> {
+        write!(self.to, "{}{time}: ", Pad(depth + 1))?;
+        list(&mut self.to, points, |line, p| tuple(line, &p.to_array()))?;
+        writeln!(self.to, ",")
+    }
+
     /// Ends the samples.
     pub fn end_samples(&mut self, depth: usize) -> io::Result<()> {
         writeln!(self.to, "{}}}", Pad(depth))
@@ -113,11 +122,11 @@ impl<W: Write + Seek> TextWriter<W> {
         let to = &mut self.to;
         match value {
             Value::Token(word) => write!(to, "{}", Quoted(word)),
-            Value::Tokens(words) | Value::Texts(words) => list(to, words, |to, word| write!(to, "{}", Quoted(word))),
+            Value::Tokens(words) | Value::Texts(words) => list(to, words, |line, word| display(line, Quoted(word))),
             Value::Double(x) => write!(to, "{x}"),
-            Value::Ints(values) => list(to, values, |to, x| write!(to, "{x}")),
-            Value::Longs(values) => list(to, values, |to, x| write!(to, "{x}")),
-            Value::Floats(values) => list(to, values, |to, &x| float(to, x)),
+            Value::Ints(values) => list(to, values, |line, &x| display(line, x)),
+            Value::Longs(values) => list(to, values, |line, &x| display(line, x)),
+            Value::Floats(values) => list(to, values, |line, &x| float(line, x)),
             Value::Pairs(values) => list(to, values, tuple),
             Value::Triples(values) => list(to, values, tuple),
             Value::Matrix(m) => {
@@ -129,29 +138,41 @@ impl<W: Write + Seek> TextWriter<W> {
 }
 
 /// The shortest digits that come back to the same bits.
-fn float<W: Write>(to: &mut W, x: f32) -> io::Result<()> {
+fn float(line: &mut Vec<u8>, x: f32) {
     let mut digits = zmij::Buffer::new();
     let digits = digits.format(x);
-    to.write_all(digits.strip_suffix(".0").unwrap_or(digits).as_bytes())
+    line.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes());
 }
 
-fn tuple<W: Write, const N: usize>(to: &mut W, numbers: &[f32; N]) -> io::Result<()> {
+fn tuple<const N: usize>(line: &mut Vec<u8>, numbers: &[f32; N]) {
     for (i, &x) in numbers.iter().enumerate() {
-        to.write_all(if i == 0 { b"(" } else { b", " })?;
-        float(to, x)?;
+        line.extend_from_slice(if i == 0 { b"(" } else { b", " });
+        float(line, x);
     }
-    to.write_all(b")")
+    line.push(b')');
 }
 
-fn list<W: Write, T>(to: &mut W, values: &[T], one: impl Fn(&mut W, &T) -> io::Result<()>) -> io::Result<()> {
-    to.write_all(b"[")?;
+fn display(line: &mut Vec<u8>, value: impl std::fmt::Display) {
+    line.extend_from_slice(value.to_string().as_bytes());
+}
+
+/// Values between brackets, gathered into blocks: a call of the writer for every number would cost more than its digits.
+fn list<W: Write, T>(to: &mut W, values: &[T], one: impl Fn(&mut Vec<u8>, &T)) -> io::Result<()> {
+    const BLOCK: usize = 1 << 16;
+    let mut line = Vec::with_capacity(BLOCK + 256);
+    line.push(b'[');
     for (i, value) in values.iter().enumerate() {
         if i > 0 {
-            to.write_all(b", ")?;
+            line.extend_from_slice(b", ");
         }
-        one(to, value)?;
+        one(&mut line, value);
+        if line.len() >= BLOCK {
+            to.write_all(&line)?;
+            line.clear();
+        }
     }
-    to.write_all(b"]")
+    line.push(b']');
+    to.write_all(&line)
 }
 
 /// Four blanks for each level.
