@@ -53,6 +53,7 @@ fn the_transforms_of_layers_and_archives_move_a_head() {
         };
         let motion = motion::read(&source, 10.0).unwrap();
         assert_eq!(motion.poses.len(), 6, "{}", motion.report);
+        assert!(motion.report.contains("11 samples at 20 Hz (0.500 s) -> 6 frames at 10 Hz"), "{}", motion.report);
         for (n, found) in motion.poses.iter().enumerate() {
             let expected = pose(2 * n);
             assert!(found.position_cm.distance(expected.translation.into()) < 1e-4, "{name}, frame {n}");
