@@ -5,7 +5,7 @@
 //! still pose, the one the file has without its animation, since a bone's own axes seldom lie along the world's.
 
 use glam::{DAffine3, DMat4, DQuat, DVec3, DVec4};
-use gltf::animation::{Interpolation, util::ReadOutputs};
+use gltf::animation::{Interpolation, Property, util::ReadOutputs};
 
 use super::track::hermite;
 use super::{Axis, Door, HeadMotion, MotionSource, Sample, chain_to_root, frame_count, poses, unknown_node};
@@ -33,7 +33,7 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
     let mut curves: Vec<Curves> = chain.iter().map(still).collect();
     let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
     for channel in animation.channels() {
-        check_accessors(&channel.sampler(), &buffers)?;
+        check_accessors(&channel, &buffers)?;
         let reader = channel.reader(|buffer| buffers.get(buffer.index()).map(|b| &b.0[..]));
         let times: Vec<f64> =
             reader.read_inputs().ok_or_else(|| Error::new("an animation without times"))?.map(f64::from).collect();
@@ -119,8 +119,10 @@ fn animation<'a>(document: &'a gltf::Document, clip: &str) -> Result<gltf::Anima
     }
 }
 
-/// Refuses accessors that reach past their buffers, which the reader itself would meet with a panic.
-fn check_accessors(sampler: &gltf::animation::Sampler<'_>, buffers: &[gltf::buffer::Data]) -> Result<()> {
+/// Refuses accessors that reach past their buffers, which the reader itself would meet with a panic, and those of
+/// another shape than what the channel moves, which it would read askew.
+fn check_accessors(channel: &gltf::animation::Channel<'_>, buffers: &[gltf::buffer::Data]) -> Result<()> {
+    let sampler = channel.sampler();
     for accessor in [sampler.input(), sampler.output()] {
         let problem = |what: &str| Error::new(format!("accessor {}: {what}", accessor.index()));
         if accessor.sparse().is_some() {
@@ -143,16 +145,20 @@ fn check_accessors(sampler: &gltf::animation::Sampler<'_>, buffers: &[gltf::buff
     if (input.data_type(), input.dimensions()) != (DataType::F32, Dimensions::Scalar) {
         return Err(Error::new(format!("accessor {}: times must be 32-bit floats", input.index())));
     }
-    let output = sampler.output();
-    match (output.data_type(), output.dimensions()) {
-        (DataType::F32, Dimensions::Vec3 | Dimensions::Vec4 | Dimensions::Scalar)
-        | (DataType::I8 | DataType::U8 | DataType::I16 | DataType::U16, Dimensions::Vec4 | Dimensions::Scalar) => {
-            Ok(())
+    let (output, moved) = (sampler.output(), channel.target().property());
+    let whole = matches!(output.data_type(), DataType::I8 | DataType::U8 | DataType::I16 | DataType::U16);
+    let fits = match (moved, output.dimensions()) {
+        (Property::Translation | Property::Scale, Dimensions::Vec3) => output.data_type() == DataType::F32,
+        (Property::Rotation, Dimensions::Vec4) | (Property::MorphTargetWeights, Dimensions::Scalar) => {
+            output.data_type() == DataType::F32 || whole
         }
-        (kind, shape) => {
-            Err(Error::new(format!("accessor {}: {kind:?} {shape:?} is not an animation's value", output.index())))
-        }
+        _ => false,
+    };
+    if fits {
+        return Ok(());
     }
+    let (kind, shape) = (output.data_type(), output.dimensions());
+    Err(Error::new(format!("accessor {}: {kind:?} {shape:?} is not a {moved:?}", output.index())))
 }
 
 /// What moves one node; a curve without times holds its one value.

@@ -316,6 +316,18 @@ fn step_linear_and_cubicspline_follow_their_definitions() {
     }
 }
 
+#[test]
+fn values_of_another_shape_than_what_they_move_are_refused() {
+    // Found by fuzzing: read as VEC3, they would come from the wrong places.
+    let mut four_wide = glb("STEP", "translation", &[0.0; 12]);
+    let at = four_wide.windows(6).position(|w| w == b"\"VEC3\"").unwrap();
+    four_wide[at + 4] = b'4';
+    let at = four_wide.windows(9).position(|w| w == b"\"count\":4").unwrap();
+    four_wide[at + 8] = b'3';
+    let error = clip_motion(&four_wide, 24.0).unwrap_err().to_string();
+    assert!(error.contains("accessor 1: F32 Vec4 is not a Translation"), "{error}");
+}
+
 /// Reads `bytes` as each kind of motion; only a panic, or never coming back, is wrong.
 fn read_whatever(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
