@@ -14,7 +14,7 @@ const UP: usize = 48;
 const LOWEST: f32 = -0.8;
 const HIGHEST: f32 = 0.8;
 /// Fall of the hill (radii of E) at an angle (rad) from its crest: this times the angle squared.
-const FALL: f32 = 1.4;
+const FALL: f32 = 0.8;
 /// Only what stands this far to the side (unit sphere) is an ear.
 const ASIDE: f32 = 0.7;
 

@@ -54,7 +54,7 @@ impl Light {
                 spread: 20.0,
                 ..Self::default()
             },
-            Self { azimuth: -155.0, elevation: 38.0, strength: 1.2, color: [1.0, 0.97, 0.94], ..Self::default() },
+            Self { azimuth: -155.0, elevation: 38.0, strength: 0.9, color: [1.0, 0.97, 0.94], ..Self::default() },
         ]
     }
 
