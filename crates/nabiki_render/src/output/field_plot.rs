@@ -84,10 +84,10 @@ fn legend(field: &[Interval]) -> String {
     let mut from = 1;
     let mut intervals = Vec::new();
     for (i, interval) in field.iter().enumerate() {
-        intervals.push(format!("{}: {from} to {}", i + 1, interval.through));
+        intervals.push(format!("({}) {from} to {}", i + 1, interval.through));
         from = interval.through + 1;
     }
-    format!("frames  {}", intervals.join("   "))
+    format!("frames {}", intervals.join(", "))
 }
 
 /// Writes the projections as a PNG file.
