@@ -206,7 +206,7 @@ impl Renderer {
         };
         let skin = SkinView::new(&self.head, &self.normals, view);
         let skin_places = skin.pixels.iter().map(|p| p.position + 0.15 * p.normal).collect();
-        let skin_unhidden = SkinLight::unhidden(&skin.pixels, &head_shadows);
+        let skin_unhidden = SkinLight::unhidden(&skin.pixels, &lamps, &head_shadows);
         let (roots, stubble) = (Vec::new(), Vec::new());
         let mut still = Still { view: *view, lamps, head_shadows, skin, skin_places, skin_unhidden, roots, stubble };
         still.grow(strands, &self.picture);

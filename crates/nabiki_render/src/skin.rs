@@ -18,6 +18,8 @@ use crate::settings::{Projection, Sky};
 
 /// Pieces of surface farther apart than this (cm) in one pixel are kept apart.
 const APART: f32 = 0.4;
+/// Cosine of the angle to a lamp from which on the angle itself is the shadow, not what else of the head is in the way.
+const TERMINATOR: f32 = -0.1;
 
 /// One piece of the head's surface in one pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +31,7 @@ pub struct SkinPixel {
     /// Depth at the pixel's centre (cm), and its growth by a pixel right and down.
     pub depth: f32,
     pub slope: [f32; 2],
-    /// A place on it (head space, cm) and the unit normal there, turned toward the eye.
+    /// A place on it (head space, cm) and the unit normal there, on the eye's side.
     pub position: Vec3,
     pub normal: Vec3,
 }
@@ -175,6 +177,8 @@ impl TileSurface {
                     |of: &[Vec3]| w[0] * of[t[0] as usize] + w[1] * of[t[1] as usize] + w[2] * of[t[2] as usize];
                 let position = blend(&head.positions);
                 let normal = blend(normals).normalize_or(Vec3::Y);
+                // Interpolated normals lean a little away from the eye at outlines; farther, it is the inside of an open mesh.
+                let normal = if normal.dot(view.toward_eye(position)) < -0.2 { -normal } else { normal };
                 let slope = slope(c);
                 let centre = [0, 1].map(|i| (self.tile[i] * TILE) as f32 + 0.5);
                 let centre = [centre[0] + (pixel % TILE) as f32, centre[1] + (pixel / TILE) as f32];
@@ -230,11 +234,15 @@ pub struct SkinLight<'a> {
 
 impl SkinLight<'_> {
     /// What the head leaves of each lamp at each place: it does not change while head and lamps stand still.
-    pub fn unhidden(pixels: &[SkinPixel], shadows: &[HeadShadow]) -> Vec<[f32; 3]> {
+    pub fn unhidden(pixels: &[SkinPixel], lamps: &[Lamp], shadows: &[HeadShadow]) -> Vec<[f32; 3]> {
+        let of = |p: &SkinPixel, lamp: &Lamp, shadow: &HeadShadow| {
+            let matters = p.normal.dot(lamp.toward) > TERMINATOR;
+            if matters { shadow.visible_from_skin(p.position, p.normal) } else { [1.0; 3] }
+        };
         pixels
             .par_iter()
             .with_min_len(256)
-            .flat_map_iter(|p| shadows.iter().map(|s| s.visible_from_skin(p.position, p.normal)))
+            .flat_map_iter(|p| lamps.iter().zip(shadows).map(move |(lamp, shadow)| of(p, lamp, shadow)))
             .collect()
     }
 
@@ -256,15 +264,14 @@ impl SkinLight<'_> {
             .enumerate()
             .map(|(i, p)| {
                 let eye = view.toward_eye(p.position);
-                let normal = if p.normal.dot(eye) < -0.2 { -p.normal } else { p.normal };
+                let normal = p.normal;
                 let mut diffuse = [0.0; 3];
                 let mut sheen = [0.0; 3];
                 for (l, lamp) in self.lamps.iter().enumerate() {
                     let facing = normal.dot(lamp.toward);
                     let hair = self.crossings.get(l).map_or([1.0; 3], |c| self.through(c.at(self.first_receiver + i)));
                     let head = unhidden.get(i * self.lamps.len() + l).copied().unwrap_or([1.0; 3]);
-                    // Past the terminator the angle itself is the shadow.
-                    let sure = smooth((facing + 0.1) / 0.3);
+                    let sure = smooth((facing - TERMINATOR) / 0.3);
                     let lit = [0, 1, 2].map(|c| hair[c] * (1.0 - sure * (1.0 - head[c])));
                     let halfway = (lamp.toward + eye).normalize_or(eye);
                     let gloss = 0.045 * 9.0 * normal.dot(halfway).max(0.0).powi(18) * smooth(facing / 0.25);
