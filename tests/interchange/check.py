@@ -3,13 +3,14 @@
     python3 tests/interchange/check.py                  builds, makes its own environment, checks
     python3 tests/interchange/check.py --bpy PYTHON     the Blender part with another Python, one that has bpy
 
-usd-core, alembic3d and numpy come from PyPI into target/interchange. Blender is checked where the package bpy is
-installed (bpy 5.0.1 wants Python 3.11 and some shared libraries of a desktop); where it is not, that part says
-SKIPPED.
+usd-core, alembic3d and numpy come from PyPI into target/interchange. Blender comes along as the package bpy where there
+is a Python 3.11, which it wants (a gigabyte once installed, and some shared libraries of a desktop); where it cannot be
+had, that part says SKIPPED and why.
 """
 
 import argparse
 import os
+import shutil
 import struct
 import subprocess
 import sys
@@ -33,6 +34,37 @@ def environment():
         venv.create(WORK / "venv", with_pip=True)
         run(python, "-m", "pip", "install", "--quiet", "usd-core==26.11", "alembic3d==1.8.12.1", "numpy")
     return python
+
+
+def blender(given):
+    """A Python that has bpy, or None and why there is none."""
+    if given:
+        python = Path(given)
+    else:
+        python = WORK / "bpy" / "bin" / "python"
+        base = sys.executable if sys.version_info[:2] == (3, 11) else shutil.which("python3.11")
+        if not base:
+            return None, "bpy wants Python 3.11, which is not here"
+        if not (WORK / "bpy" / "complete").exists():
+            shutil.rmtree(WORK / "bpy", ignore_errors=True)
+            try:
+                run(base, "-m", "venv", WORK / "bpy", capture_output=True)
+                install = [python, "-m", "pip", "install", "--quiet", "--retries", "1", "bpy==5.0.1"]
+                run(*install, capture_output=True, text=True, timeout=300)
+            except subprocess.TimeoutExpired:
+                return None, "bpy could not be fetched within five minutes"
+            except subprocess.CalledProcessError as failure:
+                return None, f"bpy could not be installed: {last_line(failure.stderr)}"
+            (WORK / "bpy" / "complete").touch()
+    found = subprocess.run([str(python), "-c", "import bpy"], capture_output=True, text=True)
+    return (python, "") if found.returncode == 0 else (None, f"{python}: {last_line(found.stderr)}")
+
+
+def last_line(text):
+    if isinstance(text, bytes):
+        text = text.decode(errors="replace")
+    lines = (text or "").strip().splitlines()
+    return lines[-1] if lines else "no reason given"
 
 
 def points_of(path):
@@ -123,12 +155,11 @@ def main():
     run(python, HERE / "usd.py", samples)
     run(python, HERE / "alembic.py", samples)
 
-    blender = arguments.bpy or os.environ.get("NABIKI_BPY_PYTHON") or python
-    has_bpy = subprocess.run([str(blender), "-c", "import bpy"], capture_output=True).returncode == 0
-    if has_bpy:
-        run(blender, HERE / "blender.py", samples, nabiki)
+    bpy, why = blender(arguments.bpy or os.environ.get("NABIKI_BPY_PYTHON"))
+    if bpy:
+        run(bpy, HERE / "blender.py", samples, nabiki)
     else:
-        print("SKIPPED: Blender, as bpy is not installed (pip install bpy==5.0.1 for Python 3.11, then --bpy PYTHON)")
+        print(f"SKIPPED: Blender: {why}")
     print("interchange: all well")
 
 

@@ -62,7 +62,8 @@ impl<'a> Export<'a> {
         attributes.transparency.clone().or(one)
     }
 
-    /// Refuses attributes of a wrong length, a frame rate that is none, and a unit that is none.
+    /// Refuses attributes of a wrong length, strands that are no curves, a frame rate that is none, and a unit that is
+    /// none.
     pub fn check(&self) -> io::Result<()> {
         let invalid = |problem: String| Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
         if let Err(e) = self.hair.check_lengths() {
@@ -70,6 +71,10 @@ impl<'a> Export<'a> {
         }
         if self.hair.strands.is_empty() {
             return invalid("there are no strands to write".to_owned());
+        }
+        if let Some(s) = self.hair.strands.iter().position(|strand| strand.len() < 2) {
+            let n = self.hair.strands.strand(s).len();
+            return invalid(format!("strand {s} has {n} points: a curve has two at least; leave it out"));
         }
         if !(self.frame_rate.is_finite() && self.frame_rate > 0.0) {
             return invalid(format!("frame rate {}: must be a finite number above 0", self.frame_rate));

@@ -184,7 +184,8 @@ pub struct Convert {
     /// A hair file (.hair, .tfx, .obj, .usda, .usdc, .abc) or a motion cache (.nabiki)
     pub input: PathBuf,
 
-    /// The file to write: .hair, .tfx, .usda, .usdc or .abc; a whole motion cache goes into one of the last three
+    /// The file to write: .hair, .tfx, .usda, .usdc or .abc; a whole motion cache goes into one of the last three.
+    /// Imported hair comes out of a cache in the unit, axes and place of the file it came from
     pub output: PathBuf,
 
     /// Frame to take out of a motion cache, a USD layer or an Alembic archive
@@ -202,6 +203,11 @@ pub struct Convert {
     /// Whether z is up in the input, for a USD layer to name
     #[arg(long)]
     pub z_up: bool,
+
+    /// Write samples of a motion cache alone, to be laid over the groom at this prim path of the USD stage that the
+    /// hair came from
+    #[arg(long, value_name = "PRIM", conflicts_with = "frame")]
+    pub export_layer: Option<String>,
 }
 
 #[derive(Args)]

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use glam::Affine3A;
 use nabiki::Strands;
-use nabiki::export::{Export, FrameSink};
+use nabiki::export::FrameSink;
 use nabiki_io::exchange;
-use nabiki_io::motion::{Axis, Pose};
+use nabiki_io::motion::Pose;
 use nabiki_io::take::Take;
 
 use crate::args::ExportArgs;
@@ -21,22 +21,18 @@ pub struct Exports<'a> {
 
 impl<'a> Exports<'a> {
     /// Begins the files that were asked for.
-    ///
-    /// Hair that came from a file goes back into that file's own space; hair grown here is in centimetres, y up.
     pub fn begin(args: &ExportArgs, take: &'a Take) -> Result<Self, Failure> {
+        let stage = &take.stage;
         let mut sinks = Vec::new();
         for path in &args.export {
-            let mut export = Export::new(&take.stage.hair, f64::from(take.stage.scene.picture.video.fps));
-            if let Some(placement) = &take.stage.hair_placement {
-                export.file_from_head = placement.file_from_head();
-                export.meters_per_unit = f64::from(placement.unit.cm) / 100.0;
-                export.z_up = placement.up == Axis::PlusZ;
-            }
-            export.default_width = Some(take.stage.scene.picture.hair.width);
+            let frame_rate = f64::from(stage.scene.picture.video.fps);
+            let mut export = exchange::export(&stage.hair, frame_rate, stage.hair_placement.as_ref());
+            export.default_width = Some(stage.scene.picture.hair.width);
             // Unreal takes no archive that has a mesh for a groom.
-            export.head = (!exchange::is_alembic(path) || args.export_head).then_some(&take.stage.head.mesh);
+            export.head = (!exchange::is_alembic(path) || args.export_head).then_some(&stage.head.mesh);
             if args.export_layer.is_some() {
-                same_strands(take, path)?;
+                let in_file = stage.import_report.map(|report| report.points_in_file as u64);
+                exchange::check_layer(in_file, stage.hair.strands.points().len()).map_err(|e| e.in_file(path))?;
             }
             sinks.push((path.clone(), exchange::sink(path, export, args.export_layer.as_deref())?));
         }
@@ -69,21 +65,6 @@ impl<'a> Exports<'a> {
 
 fn failed(path: &Path, error: &std::io::Error) -> Failure {
     Failure::new(format!("{}: {error}", path.display()))
-}
-
-/// Refuses a layer over a groom whose strands the import has changed: it would not fit.
-fn same_strands(take: &Take, path: &Path) -> Result<(), Failure> {
-    let refuse = |why: String| Err(Failure::new(format!("{}: a layer would not fit the groom: {why}", path.display())));
-    match &take.stage.import_report {
-        None => refuse("its hair is grown here; leave out --export-layer for a complete stage".to_owned()),
-        Some(report) if report.points_in_file != take.stage.hair.strands.points().len() => refuse(format!(
-            "{} of its {} points are used; set hair.join_within = 0 and hair.drop_shorter_than = 0, leave out \
-             hair.strands, and take strands without extent out of the file",
-            take.stage.hair.strands.points().len(),
-            report.points_in_file
-        )),
-        Some(_) => Ok(()),
-    }
 }
 
 /// Frames that are passed on to files as they are asked for.

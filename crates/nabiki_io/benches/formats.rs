@@ -148,6 +148,7 @@ fn timed(work: impl FnOnce()) -> (f64, usize) {
     (started.elapsed().as_secs_f64(), MEMORY.peak_usage() - before)
 }
 
+/// A block at a time into the same memory, as `cat` does: readers, which must make room for what they give, do more.
 fn read_bare(path: &Path, block: &mut [u8]) {
     let mut file = File::open(path).expect("opened");
     while file.read(block).expect("read") > 0 {}

@@ -2,6 +2,7 @@
 //! frame at a time. `docs/cache.md` describes the layout.
 
 mod attributes;
+mod origin;
 
 use std::{
     fs::File,
@@ -21,6 +22,8 @@ use crate::{
     motion::Pose,
 };
 
+pub use origin::Origin;
+
 const MAGIC: &[u8; 8] = b"NABIKI\r\n";
 const VERSION: u32 = 1;
 const HEADER_BYTES: u64 = 64;
@@ -38,13 +41,15 @@ pub struct Header {
     pub starts: Vec<u32>,
     /// What the groom carries beside its points (widths in cm).
     pub attributes: Attributes,
+    /// Where the hair came from; `None` for hair grown here.
+    pub origin: Option<Origin>,
 }
 
 impl Header {
-    /// The header of a scene's hair.
+    /// The header of a scene's hair, grown here until `origin` says otherwise.
     pub fn new(scene: SceneId, frame_rate: f64, hair: &Hair) -> Self {
         let starts = hair.strands.starts().to_vec();
-        Self { scene, frame_rate, starts, attributes: hair.attributes.clone() }
+        Self { scene, frame_rate, starts, attributes: hair.attributes.clone(), origin: None }
     }
 
     fn strand_count(&self) -> usize {
@@ -133,6 +138,9 @@ fn write_header(out: &mut dyn Write, header: &Header) -> Result<()> {
     put(&mut blocks, &header.starts)?;
     blocks.resize(blocks.len().next_multiple_of(8), 0);
     attributes::write(&mut blocks, &header.attributes)?;
+    if let Some(origin) = &header.origin {
+        attributes::block(&mut blocks, origin::TAG, Some(&origin.bytes()))?;
+    }
     out.write_all(MAGIC)?;
     put(out, &[VERSION, header.strand_count() as u32, header.point_count() as u32, 0])?;
     put(out, &[0, HEADER_BYTES + blocks.len() as u64])?;
@@ -249,6 +257,6 @@ fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<(Header
     }
     let blocks_at = HEADER_BYTES + (starts.len() as u64 * 4).next_multiple_of(8);
     source.seek(blocks_at)?;
-    let attributes = attributes::read(source, first_frame_at, strand_count as usize, point_count as usize)?;
-    Ok((Header { scene, frame_rate, starts, attributes }, frames, first_frame_at))
+    let (attributes, origin) = attributes::read(source, first_frame_at, strand_count as usize, point_count as usize)?;
+    Ok((Header { scene, frame_rate, starts, attributes, origin }, frames, first_frame_at))
 }

@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::hair::extension;
 use crate::info::{HairInfo, MeshInfo};
 use crate::motion::{Axis, Sample, Track};
-use crate::placement::Unit;
+use crate::placement::{Placement, Unit};
 
 /// Whether a file's ending is that of a USD layer.
 pub fn is_usd(path: &Path) -> bool {
@@ -75,6 +75,20 @@ pub fn hair(path: &Path, frame: usize, segments: Option<usize>) -> Result<Hair> 
     }
 }
 
+/// Number of frames of the curves in a layer or archive; 1 for hair that stands still.
+///
+/// # Errors
+/// What is wrong with the file.
+pub fn frames(path: &Path) -> Result<usize> {
+    let named = |problem: String| Error::new(problem).in_file(path);
+    let frames = if is_alembic(path) {
+        archive(path)?.contents().map_err(|e| named(e.to_string()))?.frames
+    } else {
+        stage(path)?.contents().map_err(|e| named(e.to_string()))?.times.len()
+    };
+    Ok(frames.max(1))
+}
+
 /// Reads all meshes, in the file's own unit and axes.
 ///
 /// # Errors
@@ -101,6 +115,34 @@ pub(crate) fn track(path: &Path, node: &str) -> Result<Track> {
         motion.into_iter().map(|(time, position, rotation)| (time, Sample { position, rotation })).unzip();
     let unit_cm = said.unit.map(|unit| f64::from(unit.cm));
     Ok(Track { times, samples, what: format!("object {node}"), unit_cm, up: said.up })
+}
+
+/// What is told to a file of moving hair: imported hair goes back into its own file's space, at its `placement`, hair
+/// grown here is in centimetres, y up.
+pub fn export<'a>(hair: &'a Hair, frame_rate: f64, placement: Option<&Placement>) -> Export<'a> {
+    let mut export = Export::new(hair, frame_rate);
+    if let Some(placement) = placement {
+        export.file_from_head = placement.file_from_head();
+        export.meters_per_unit = f64::from(placement.unit.cm) / 100.0;
+        export.z_up = placement.up == Axis::PlusZ;
+    }
+    export
+}
+
+/// Refuses to lay a layer over a groom of `in_file` points (`None` for one grown here) whose import kept `used`.
+///
+/// # Errors
+/// One line that says how to import it whole.
+pub fn check_layer(in_file: Option<u64>, used: usize) -> Result<()> {
+    let refuse = |why: String| Err(Error::new(format!("a layer would not fit the groom: {why}")));
+    match in_file {
+        None => refuse("its hair is grown here; leave out --export-layer for a complete stage".to_owned()),
+        Some(points) if points != used as u64 => refuse(format!(
+            "{used} of its {points} points are used; set hair.join_within = 0 and hair.drop_shorter_than = 0, leave \
+             out hair.strands, and take strands without extent out of the file"
+        )),
+        Some(_) => Ok(()),
+    }
 }
 
 /// Begins a file that takes moving hair frame by frame: .usda, .usdc or .abc. `layer`: the prim path of a groom over

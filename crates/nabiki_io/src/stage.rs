@@ -3,6 +3,7 @@
 use nabiki::{Hair, Head, SettingError, Strands, dynamics::Dynamics, groom::groom, pores, subset};
 
 use crate::{
+    cache::Origin,
     error::{Error, Result},
     exchange::{self, Said},
     hair::{self, ImportReport},
@@ -98,6 +99,12 @@ impl Stage {
             }
         }
         Ok(digest.finish())
+    }
+
+    /// How imported hair lay in its file, for a motion cache to remember.
+    pub fn hair_origin(&self) -> Option<Origin> {
+        let (placement, report) = (self.hair_placement?, self.import_report?);
+        Some(Origin { placement, points: report.points_in_file as u64 })
     }
 
     /// Where the head is in each frame, at `frame_rate` frames a second; `None` for a head that stands still.

@@ -156,6 +156,8 @@ pub fn losses(hair: &Hair) -> Vec<String> {
         let tapers = (0..hair.strands.len()).any(|s| width[hair.strands.range(s)].windows(2).any(|w| w[0] != w[1]));
         lose(tapers, "width along a strand (each strand gets that of its root)");
     }
+    let transparencies = a.transparency.iter().flatten().chain(&a.constant.transparency);
+    lose(transparencies.clone().any(|t| 1.0 - (1.0 - t) != *t), "the last bits of transparencies (it holds 1 - t)");
     let points = hair.strands.iter().next().map_or(0, <[Vec3]>::len);
     let loads = points.is_power_of_two() && (4..=64).contains(&points);
     if !loads {
@@ -182,7 +184,10 @@ pub fn to_writer(hair: &Hair, out: &mut dyn Write) -> Result<()> {
         (None, Some(width)) => Some(vec![width; strand_count]),
         (None, None) => None,
     };
-    let has_color = a.color.is_some() || a.transparency.is_some();
+    // TressFX has no colour for all points at once; white and opaque it takes for granted.
+    let tinted = a.constant.color.is_some_and(|rgb| rgb != [1.0; 3]);
+    let clear = a.constant.transparency.is_some_and(|t| t != 0.0);
+    let has_color = a.color.is_some() || a.transparency.is_some() || tinted || clear;
     let mut end = u64::from(HEADER_BYTES);
     let mut place = |there: bool, bytes: usize| -> Result<u32> {
         let at = end;

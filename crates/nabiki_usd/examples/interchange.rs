@@ -1,20 +1,17 @@
 //! The half of `tests/interchange/check.py` that is Rust.
 //!
 //! `interchange write DIR` writes a small moving groom in every form, and beside the files what they must hold, as
-//! bare numbers. `interchange measure DIR` writes and reads 20,000 strands of 21 points over 100 frames (504 MB) in
-//! each form, beside a bare writing of the same bytes, and says how long each took and how much memory at most.
+//! bare numbers.
 
 use std::fs;
-use std::io::{Read, Write};
 use std::path::Path;
-use std::time::Instant;
 
 use glam::{Affine3A, Quat, Vec3};
 use nabiki::export::{Export, FrameSink};
 use nabiki::hair::Attributes;
 use nabiki::{Hair, Mesh, Strands};
-use nabiki_alembic::{ArchiveReader, HairArchive};
-use nabiki_usd::{Form, HairStage, StageReader};
+use nabiki_alembic::HairArchive;
+use nabiki_usd::{Form, HairStage};
 
 const FRAMES: usize = 10;
 const STRANDS: usize = 50;
@@ -107,88 +104,12 @@ fn write(folder: &Path) -> std::io::Result<()> {
     fs::write(folder.join("counts.u32"), bytemuck::cast_slice(&counts))
 }
 
-/// Most memory that this process has had so far (MB), where the system tells.
-fn peak_memory() -> u64 {
-    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find(|l| l.starts_with("VmHWM:")).unwrap_or_default();
-    line.split_whitespace().nth(1).and_then(|kb| kb.parse::<u64>().ok()).unwrap_or_default() / 1000
-}
-
-fn measure(folder: &Path) -> std::io::Result<()> {
-    const COUNT: usize = 20_000;
-    const FRAMES: usize = 100;
-    fs::create_dir_all(folder)?;
-    let mut hair = Strands::default();
-    for s in 0..COUNT {
-        let angle = s as f32 * 0.618;
-        hair.push((0..21).map(|p| Vec3::new(9.0 * angle.cos(), 10.0 - p as f32, 9.0 * angle.sin())));
-    }
-    let hair = Hair::from(hair);
-    let bytes = hair.strands.points().len() * 12 * FRAMES;
-    let mut moving = hair.strands.clone();
-    let mut step = |frame: usize| {
-        for p in moving.points_mut() {
-            p.x += 1e-3 * frame as f32;
-        }
-        moving.clone()
-    };
-    let said = |what: &str, start: Instant| {
-        let seconds = start.elapsed().as_secs_f64();
-        println!("{what:28} {seconds:6.2} s {:6.0} MB/s, {} MB at most", bytes as f64 / 1e6 / seconds, peak_memory());
-    };
-    let start = Instant::now();
-    let mut bare = std::io::BufWriter::with_capacity(1 << 20, fs::File::create(folder.join("bare"))?);
-    for frame in 0..FRAMES {
-        bare.write_all(bytemuck::cast_slice(step(frame).points()))?;
-    }
-    bare.flush()?;
-    drop(bare);
-    said("write the bare numbers", start);
-    let start = Instant::now();
-    let mut bare = fs::File::open(folder.join("bare"))?;
-    let mut frame = vec![0; bytes / FRAMES];
-    (0..FRAMES).try_for_each(|_| bare.read_exact(&mut frame))?;
-    said("read them", start);
-    for name in ["hair.usdc", "hair.abc", "hair.usda"] {
-        let path = folder.join(name);
-        let start = Instant::now();
-        let export = Export::new(&hair, 24.0);
-        let mut sink: Box<dyn FrameSink> = if name.ends_with("abc") {
-            Box::new(HairArchive::create(&path, export)?)
-        } else {
-            Box::new(HairStage::create(&path, export, Form::Stage)?)
-        };
-        for frame in 0..FRAMES {
-            sink.frame(&step(frame), &Affine3A::IDENTITY)?;
-        }
-        sink.finish()?;
-        said(&format!("write {name}"), start);
-        let start = Instant::now();
-        let failed = |e: String| std::io::Error::other(e);
-        if name.ends_with("abc") {
-            let mut archive = ArchiveReader::open(&path).map_err(|e| failed(e.to_string()))?;
-            for frame in 0..FRAMES {
-                archive.hair(frame, None).map_err(|e| failed(e.to_string()))?;
-            }
-        } else {
-            let mut stage = StageReader::open(&path).map_err(|e| failed(e.to_string()))?;
-            for frame in 0..FRAMES {
-                stage.hair(frame, None).map_err(|e| failed(e.to_string()))?;
-            }
-        }
-        said(&format!("read every frame of {name}"), start);
-        fs::remove_file(&path)?;
-    }
-    fs::remove_file(folder.join("bare"))
-}
-
 fn main() -> std::io::Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match &arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["write", folder] => write(Path::new(folder)),
-        ["measure", folder] => measure(Path::new(folder)),
         _ => {
-            eprintln!("usage: interchange write DIR | interchange measure DIR");
+            eprintln!("usage: interchange write DIR");
             std::process::exit(2)
         }
     }

@@ -2,12 +2,11 @@
 
 use glam::Affine3A;
 use nabiki::Hair;
-use nabiki::export::Export;
 use nabiki_io::cache::Reader;
 use nabiki_io::exchange::{self, Said};
 use nabiki_io::hair;
 use nabiki_io::motion::Axis;
-use nabiki_io::placement::Unit;
+use nabiki_io::placement::Placement;
 
 use crate::args::Convert;
 use crate::failure::Failure;
@@ -18,13 +17,18 @@ pub fn convert(args: &Convert, quiet: bool) -> Result<(), Failure> {
     if is_cache(args) && args.frame.is_none() && to_tools {
         return all_frames(args, quiet);
     }
+    if args.export_layer.is_some() {
+        let line = "--export-layer is for all frames of a motion cache, into .usda or .usdc";
+        return Err(Failure::new(format!("{}: {line}", args.input.display())));
+    }
     let hair = read(args)?;
-    let losses = if to_tools {
+    let mut losses = if to_tools {
         exchange::write(&args.output, &hair, said(args)?)?;
         exchange::losses(&hair)
     } else {
         hair::write(&args.output, &hair)?
     };
+    losses.extend(unsaid(args)?);
     if !quiet {
         for loss in losses {
             println!("{} cannot hold {loss}", args.output.display());
@@ -42,7 +46,14 @@ fn read(args: &Convert) -> Result<Hair, Failure> {
     let from_tools = exchange::is_usd(&args.input) || exchange::is_alembic(&args.input);
     let line = |text: &str| Failure::new(format!("{}: {text}", args.input.display()));
     let hair = match (is_cache(args), args.frame) {
-        (true, Some(frame)) => Reader::open(&args.input)?.hair(frame.into())?,
+        (true, Some(frame)) => {
+            let mut cache = Reader::open(&args.input)?;
+            let hair = cache.hair(frame.into())?;
+            match placement(&cache) {
+                Some(placement) => hair.transformed(&placement.file_from_head()),
+                None => hair,
+            }
+        }
         (true, None) => return Err(line("a motion cache holds many frames; say which with --frame N")),
         (false, frame) if from_tools => {
             return Ok(exchange::hair(&args.input, frame.unwrap_or(0) as usize, args.segments)?);
@@ -58,10 +69,31 @@ fn read(args: &Convert) -> Result<Hair, Failure> {
     })
 }
 
+/// What the input says beside its hair and the output cannot: frames, unit and up axis.
+fn unsaid(args: &Convert) -> Result<Vec<String>, Failure> {
+    let mut lost = Vec::new();
+    if exchange::is_usd(&args.input) || exchange::is_alembic(&args.input) {
+        let frames = exchange::frames(&args.input)?;
+        if frames > 1 {
+            let kept = (args.frame.unwrap_or(0) as usize).min(frames - 1);
+            lost.push(format!("motion: it is frame {kept} of the {frames} in {}", args.input.display()));
+        }
+    }
+    let Said { unit, up } = if is_cache(args) { said(args)? } else { exchange::said(&args.input)? };
+    if let Some(unit) = unit.filter(|unit| unit.cm != 1.0 && !exchange::is_usd(&args.output)) {
+        lost.push(format!("its unit: give hair.unit = {} where it is read", unit.cm));
+    }
+    if let Some(up) = up.filter(|&up| up != Axis::PlusY && !exchange::is_usd(&args.output)) {
+        lost.push(format!("its up axis: give hair.up = \"{up}\" where it is read"));
+    }
+    Ok(lost)
+}
+
 /// Unit and up axis of the input: as it says itself, or else as the command line does.
 fn said(args: &Convert) -> Result<Said, Failure> {
     if is_cache(args) {
-        return Ok(Said { unit: Some(Unit { cm: 1.0 }), up: Some(Axis::PlusY) });
+        let Placement { unit, up, .. } = placement(&Reader::open(&args.input)?).unwrap_or_default();
+        return Ok(Said { unit: Some(unit), up: Some(up) });
     }
     let in_file = exchange::said(&args.input)?;
     let said = Said {
@@ -78,12 +110,25 @@ fn said(args: &Convert) -> Result<Said, Failure> {
     Ok(said)
 }
 
-/// Every frame of a cache, in centimetres and y up, below the moving head.
+/// Where imported hair came from, and goes back to.
+fn placement(cache: &Reader) -> Option<Placement> {
+    cache.header().origin.map(|origin| origin.placement)
+}
+
+/// Every frame of a cache below the moving head, in the space of the file that the hair came from; hair that was grown
+/// is in centimetres, y up.
 fn all_frames(args: &Convert, quiet: bool) -> Result<(), Failure> {
     let mut cache = Reader::open(&args.input)?;
     let hair = cache.hair(0)?;
+    let placement = placement(&cache);
+    let export = exchange::export(&hair, cache.header().frame_rate, placement.as_ref());
+    let layer = args.export_layer.as_deref();
+    if layer.is_some() {
+        let in_file = cache.header().origin.map(|origin| origin.points);
+        exchange::check_layer(in_file, hair.strands.points().len()).map_err(|e| e.in_file(&args.output))?;
+    }
     let failed = |e: std::io::Error| Failure::new(format!("{}: {e}", args.output.display()));
-    let mut sink = exchange::sink(&args.output, Export::new(&hair, cache.header().frame_rate), None)?;
+    let mut sink = exchange::sink(&args.output, export, layer)?;
     let mut strands = cache.header().strands();
     let frames = cache.frame_count();
     let bar = progress::bar(frames, "converting", quiet);
@@ -96,6 +141,9 @@ fn all_frames(args: &Convert, quiet: bool) -> Result<(), Failure> {
     bar.finish_and_clear();
     sink.finish().map_err(failed)?;
     if !quiet {
+        for loss in exchange::losses(&hair).into_iter().chain(unsaid(args)?) {
+            println!("{} cannot hold {loss}", args.output.display());
+        }
         println!("wrote {}: {frames} frames of {} strands", args.output.display(), hair.strands.len());
     }
     Ok(())

@@ -20,7 +20,9 @@ pub fn simulate(args: &Simulate, quiet: bool) -> Result<(), Failure> {
         StepperName::F64 => Box::new(take.reference()?),
     };
     let frame_rate = f64::from(take.stage.scene.picture.video.fps);
-    let mut cache = Writer::create(&args.output, &Header::new(take.stage.identity()?, frame_rate, &take.stage.hair))?;
+    let mut header = Header::new(take.stage.identity()?, frame_rate, &take.stage.hair);
+    header.origin = take.stage.hair_origin();
+    let mut cache = Writer::create(&args.output, &header)?;
     let mut exports = Exports::begin(&args.export, &take)?;
     let bar = progress::bar(u64::from(take.stage.scene.motion.frames) + 1, "simulating", quiet);
     cache.push(&take.pose(0), stepper.strands().points())?;

@@ -4,21 +4,24 @@ use std::io::{Read, Seek};
 
 use nabiki::hair::Attributes;
 
+use super::origin::{self, Origin, TAG};
 use crate::{
     bytes::{Bytes, Scalar, put},
     error::{Error, Result},
     finite,
 };
 
+/// Writes one block, if there are values for it.
+pub(super) fn block<T: Scalar>(out: &mut Vec<u8>, tag: &[u8; 8], values: Option<&[T]>) -> Result<()> {
+    let Some(values) = values else { return Ok(()) };
+    out.extend_from_slice(tag);
+    put(out, &[size_of_val(values) as u64])?;
+    put(out, values)?;
+    out.resize(out.len().next_multiple_of(8), 0);
+    Ok(())
+}
+
 pub(super) fn write(out: &mut Vec<u8>, a: &Attributes) -> Result<()> {
-    fn block<T: Scalar>(out: &mut Vec<u8>, tag: &[u8; 8], values: Option<&[T]>) -> Result<()> {
-        let Some(values) = values else { return Ok(()) };
-        out.extend_from_slice(tag);
-        put(out, &[size_of_val(values) as u64])?;
-        put(out, values)?;
-        out.resize(out.len().next_multiple_of(8), 0);
-        Ok(())
-    }
     block(out, b"id      ", a.id.as_deref())?;
     block(out, b"root_uv ", a.root_uv.as_deref())?;
     block(out, b"group   ", a.group.as_deref())?;
@@ -46,8 +49,9 @@ pub(super) fn read<R: Read + Seek>(
     end: u64,
     strands: usize,
     points: usize,
-) -> Result<Attributes> {
+) -> Result<(Attributes, Option<Origin>)> {
     let mut a = Attributes::default();
+    let mut origin = None;
     while source.at() < end {
         let tag: [u8; 8] = source.value("attribute tag")?;
         let length: u64 = source.value("attribute length")?;
@@ -77,11 +81,12 @@ pub(super) fn read<R: Read + Seek>(
                 let text = std::str::from_utf8(text).map_err(|_| damaged())?;
                 a.group_names.insert(i32::from_le_bytes(*number), text.to_owned());
             }
+            TAG => origin = Some(Origin::from_bytes(&block.values(origin::BYTES)?)?),
             _ => {}
         }
         source.seek(next)?;
     }
-    Ok(a)
+    Ok((a, origin))
 }
 
 /// The values of one block.
