@@ -240,6 +240,19 @@ fn cubic_curves_are_walked_and_keep_what_they_carry() {
 }
 
 #[test]
+fn values_stored_by_index_are_looked_up() {
+    let stored = "int[] primvars:groom_group_id = [3, 8]\n        int[] primvars:groom_group_id:indices = [1, 0]\n        \
+                  string[] primvars:groom_group_name = [\"back\", \"it's a \\\"fringe\\\"\"]\n        \
+                  int[] primvars:groom_group_name:indices = [1, 0]\n        token visibility.connect";
+    let hair = reader(CUBIC.replace("token visibility.connect", stored)).hair(0, Some(6)).unwrap();
+    assert_eq!(hair.attributes.group, Some(vec![8, 3]));
+    let names = [(3, "back".to_owned()), (8, "it's a \"fringe\"".to_owned())];
+    assert_eq!(hair.attributes.group_names, names.into());
+    let past = CUBIC.replace("token visibility.connect", &stored.replace("[1, 0]", "[1, 2]"));
+    assert!(reader(past).hair(0, None).unwrap_err().to_string().contains("an index past its 2 values"));
+}
+
+#[test]
 fn what_is_not_said_is_bezier_and_what_is_closed_is_refused() {
     let unsaid = CUBIC.replace("uniform token type = \"cubic\"", "").replace("uniform token basis = \"bspline\"", "");
     let problem = reader(unsaid).hair(0, None).unwrap_err().to_string();
