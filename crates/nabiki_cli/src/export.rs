@@ -12,6 +12,7 @@ use nabiki_io::take::Take;
 use crate::args::ExportArgs;
 use crate::failure::Failure;
 use crate::film::Frames;
+use crate::place;
 
 /// The files being written.
 pub struct Exports<'a> {
@@ -25,6 +26,7 @@ impl<'a> Exports<'a> {
         let stage = &take.stage;
         let mut sinks = Vec::new();
         for path in &args.export {
+            place::file(path)?;
             let frame_rate = f64::from(stage.scene.picture.video.fps);
             let mut export = exchange::export(&stage.hair, frame_rate, stage.hair_placement.as_ref());
             export.default_width = Some(stage.scene.picture.hair.width);

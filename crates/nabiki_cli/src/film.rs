@@ -1,17 +1,18 @@
-//! The pictures of a take: every frame into a movie, some into a contact sheet.
+//! The pictures of a take, drawn one after another.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::{Quat, Vec3};
 use nabiki::Strands;
 use nabiki::dynamics::{ForceSpace, Simulation, Stepper};
 use nabiki_io::cache::Reader;
 use nabiki_io::take::Take;
-use nabiki_render::output::{exr, field_plot, png};
-use nabiki_render::{Bounds, ContactSheet, Developer, Frame, Movie, Picture, RenderError, Renderer, View};
+use nabiki_render::output::png;
+use nabiki_render::{Bounds, Developer, Frame, Picture, RenderError, Renderer, View};
 
 use crate::failure::Failure;
 use crate::progress;
+use crate::reel::Reel;
 
 /// Where frames come from, one after another from 0 on.
 pub trait Frames {
@@ -69,6 +70,7 @@ impl<'a> Film<'a> {
     /// Shows `take` as `picture` says, framed so that it holds the hair of all its `frames`.
     pub fn new(take: &'a Take, picture: &Picture, frames: &mut dyn Frames, quiet: bool) -> Result<Self, Failure> {
         let head = &take.stage.head;
+        let renderer = Renderer::new(picture, &head.mesh)?;
         let mut bounds = Bounds::default();
         bounds.include_head(&head.mesh, &head.ellipsoid);
         let camera = &picture.camera;
@@ -86,11 +88,7 @@ impl<'a> Film<'a> {
         Ok(Self {
             take,
             picture: picture.clone(),
-            renderer: if take.stage.scene.output.exr_frames {
-                Renderer::new(picture, &head.mesh)?.with_layers()
-            } else {
-                Renderer::new(picture, &head.mesh)?
-            },
+            renderer: if take.stage.scene.output.exr_frames { renderer.with_layers() } else { renderer },
             developer: Developer::new(picture),
             bounds,
             previous: None,
@@ -98,69 +96,17 @@ impl<'a> Film<'a> {
         })
     }
 
-    /// Draws all frames: the movie, the contact sheet and what else the scene asks for, in `folder`, their names
-    /// beginning with `name`. Returns what was written.
-    pub fn shoot(&mut self, frames: &mut dyn Frames, folder: &Path, name: &str) -> Result<Vec<PathBuf>, Failure> {
-        let (output, last) = (&self.take.stage.scene.output, self.take.stage.scene.motion.frames);
-        let on_sheet = output.sheet_frames(last);
-        let files = [folder.join(format!("{name}.mp4")), folder.join(format!("{name}_sheet.png"))];
-        let depth = if output.png_bits == 16 { png::Depth::Sixteen } else { png::Depth::Eight };
-        let stills = (output.png_frames || output.exr_frames).then(|| folder.join(format!("{name}_frames")));
-        if let Some(stills) = &stills {
-            std::fs::create_dir_all(stills)
-                .map_err(|e| Failure::new(format!("{}: cannot make this folder: {e}", stills.display())))?;
-        }
-        let mut movie = if output.movie { Some(Movie::create(&files[0], &self.picture)?) } else { None };
-        let mut sheet = ContactSheet::new(2);
+    /// Draws all frames onto `reel`.
+    pub fn shoot(&mut self, frames: &mut dyn Frames, reel: &mut Reel) -> Result<(), Failure> {
+        let last = self.take.stage.scene.motion.frames;
         let bar = progress::bar(u64::from(last) + 1, "drawing", self.quiet);
         for n in 0..=last {
             let (frame, view) = self.draw(n, frames.frame(n)?)?;
-            if let Some(movie) = &mut movie {
-                movie.push(&frame, &self.developer)?;
-            }
-            if let Some(stills) = &stills {
-                if output.png_frames {
-                    png::write(&stills.join(format!("{n:04}.png")), &frame, &self.developer, depth)?;
-                }
-                if output.exr_frames {
-                    exr::write(&stills.join(format!("{n:04}.exr")), &frame)?;
-                }
-            }
-            if on_sheet.contains(&n) {
-                sheet.add(&frame, &self.developer, n, Some(self.take.force(n.max(1))), &view);
-            }
+            reel.push(n, &frame, &view)?;
             bar.inc(1);
         }
         bar.finish_and_clear();
-        let [movie_file, sheet_file] = files;
-        let mut written = Vec::new();
-        if let Some(movie) = movie {
-            movie.finish()?;
-            written.push(movie_file);
-        }
-        if !sheet.is_empty() {
-            sheet.write(&sheet_file)?;
-            written.push(sheet_file);
-        }
-        written.extend(stills);
-        if output.field {
-            let intervals: Vec<_> = self
-                .take
-                .stage
-                .scene
-                .force
-                .iter()
-                .map(|k| field_plot::Interval { through: k.through, vector: k.vector })
-                .collect();
-            for (kind, write) in
-                [("svg", field_plot::write_svg as fn(&Path, &[_]) -> _), ("png", field_plot::write_png)]
-            {
-                let path = folder.join(format!("{name}_field.{kind}"));
-                write(&path, &intervals)?;
-                written.push(path);
-            }
-        }
-        Ok(written)
+        Ok(())
     }
 
     /// Draws frame `n` alone, as a PNG at `path`.

@@ -6,7 +6,9 @@ mod export;
 mod failure;
 mod film;
 mod opening;
+mod place;
 mod progress;
+mod reel;
 mod report;
 
 use std::process::ExitCode;

@@ -32,13 +32,6 @@ pub fn scene(args: &SceneArgs, strands: Option<usize>) -> Result<Scene, Failure>
     Ok(Scene::load(&args.scene, &overrides)?)
 }
 
-/// Makes the folder that results go into.
-pub fn folder(path: &Path) -> Result<(), Failure> {
-    std::fs::create_dir_all(path).map_err(|e| {
-        Failure::new(format!("{}: cannot make this folder: {e}; choose another with --out", path.display()))
-    })
-}
-
 /// The contact sheet of the scene without the frames that a shorter try does not reach. A file that cannot be read
 /// is left for the scene's own reader to refuse.
 fn shorter_sheet(scene: &Path, frames: u32) -> Option<(String, String)> {

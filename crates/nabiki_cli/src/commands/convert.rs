@@ -10,9 +10,11 @@ use nabiki_io::placement::Placement;
 
 use crate::args::Convert;
 use crate::failure::Failure;
+use crate::place;
 use crate::progress;
 
 pub fn convert(args: &Convert, quiet: bool) -> Result<(), Failure> {
+    place::file(&args.output)?;
     let to_tools = exchange::is_usd(&args.output) || exchange::is_alembic(&args.output);
     if is_cache(args) && args.frame.is_none() && to_tools {
         return all_frames(args, quiet);

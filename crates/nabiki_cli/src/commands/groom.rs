@@ -3,9 +3,11 @@
 use crate::args::Groom;
 use crate::failure::Failure;
 use crate::opening::open;
+use crate::place;
 use crate::report::Report;
 
 pub fn groom(args: &Groom, quiet: bool) -> Result<(), Failure> {
+    place::file(&args.output)?;
     let take = open(&args.scene, args.strands)?;
     let report = Report::new(&take, quiet);
     report.scene();

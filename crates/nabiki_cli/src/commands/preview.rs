@@ -5,7 +5,9 @@ use nabiki_render::Picture;
 use crate::args::Preview;
 use crate::failure::Failure;
 use crate::film::{Film, Simulated};
-use crate::opening::{folder, open};
+use crate::opening::open;
+use crate::place::Folders;
+use crate::reel::Reel;
 use crate::report::Report;
 
 /// Longer side of a preview's frames (pixels).
@@ -13,19 +15,21 @@ const LONGER_SIDE: u32 = 480;
 
 pub fn preview(args: &Preview, quiet: bool) -> Result<(), Failure> {
     let whole = open(&args.scene, None)?;
-    folder(&args.out)?;
     let take = whole.thinned(args.strands);
-    let report = Report::new(&take, quiet);
-    report.scene();
-    report.swing();
     let [all, shown] = [&whole, &take].map(|take| take.stage.hair.strands.len() as f32);
     let scene = &take.stage.scene;
     let picture = small(&scene.picture, all / shown);
+    let mut folders = Folders::default();
+    let mut reel = Reel::begin(&take, &picture, &args.out, &format!("{}_preview", scene.name()), &mut folders)?;
+    let report = Report::new(&take, quiet);
+    report.scene();
+    report.swing();
     let simulation = take.simulation()?;
     let mut rehearsal = Simulated { take: &take, simulation: simulation.clone() };
     let mut film = Film::new(&take, &picture, &mut rehearsal, quiet)?;
     let mut frames = Simulated { take: &take, simulation };
-    report.written(&film.shoot(&mut frames, &args.out, &format!("{}_preview", scene.name()))?);
+    film.shoot(&mut frames, &mut reel)?;
+    report.written(&reel.finish()?);
     Ok(())
 }
 

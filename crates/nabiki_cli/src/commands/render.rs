@@ -5,26 +5,33 @@ use nabiki_io::cache::Reader;
 use crate::args::Render;
 use crate::failure::Failure;
 use crate::film::{Cached, Film, Frames, Simulated};
-use crate::opening::{folder, open};
+use crate::opening::open;
+use crate::place::{self, Folders};
+use crate::reel::{self, Reel};
 use crate::report::Report;
 
 pub fn render(args: &Render, quiet: bool) -> Result<(), Failure> {
     let take = open(&args.scene, None)?;
-    folder(&args.out)?;
     let scene = &take.stage.scene;
+    let mut folders = Folders::default();
     let source = || -> Result<Box<dyn Frames + '_>, Failure> {
         match &args.motion {
             Some(cache) => Ok(Box::new(Cached::new(matching(Reader::open(cache)?, args, &take)?))),
             None => Ok(Box::new(Simulated { take: &take, simulation: take.simulation()? })),
         }
     };
-    let report = Report::new(&take, quiet);
-    let mut film = Film::new(&take, &scene.picture, source()?.as_mut(), quiet)?;
+    let film = || Film::new(&take, &scene.picture, source()?.as_mut(), quiet);
     let written = match args.frame {
-        None => film.shoot(source()?.as_mut(), &args.out, &scene.name())?,
+        None => {
+            let mut reel = Reel::begin(&take, &scene.picture, &args.out, &scene.name(), &mut folders)?;
+            film()?.shoot(source()?.as_mut(), &mut reel)?;
+            reel.finish()?
+        }
         Some(frame) if frame <= scene.motion.frames => {
             let path = args.out.join(format!("{}_{frame:04}.png", scene.name()));
-            film.still(frame, source()?.as_mut(), &path)?;
+            folders.make(&args.out, reel::WAY_OUT)?;
+            place::free(&path, reel::WAY_OUT)?;
+            film()?.still(frame, source()?.as_mut(), &path)?;
             vec![path]
         }
         Some(frame) => {
@@ -32,7 +39,7 @@ pub fn render(args: &Render, quiet: bool) -> Result<(), Failure> {
             return Err(Failure::new(format!("--frame {frame}: the last frame is motion.frames = {last}")));
         }
     };
-    report.written(&written);
+    Report::new(&take, quiet).written(&written);
     Ok(())
 }
 

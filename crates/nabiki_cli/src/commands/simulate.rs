@@ -7,11 +7,14 @@ use crate::args::{Simulate, StepperName};
 use crate::export::Exports;
 use crate::failure::Failure;
 use crate::opening::open;
+use crate::place;
 use crate::progress;
 use crate::report::Report;
 
 pub fn simulate(args: &Simulate, quiet: bool) -> Result<(), Failure> {
+    place::file(&args.output)?;
     let take = open(&args.scene, args.strands)?;
+    let mut exports = Exports::begin(&args.export, &take)?;
     let report = Report::new(&take, quiet);
     report.scene();
     report.swing();
@@ -23,7 +26,6 @@ pub fn simulate(args: &Simulate, quiet: bool) -> Result<(), Failure> {
     let mut header = Header::new(take.stage.identity()?, frame_rate, &take.stage.hair);
     header.origin = take.stage.hair_origin();
     let mut cache = Writer::create(&args.output, &header)?;
-    let mut exports = Exports::begin(&args.export, &take)?;
     let bar = progress::bar(u64::from(take.stage.scene.motion.frames) + 1, "simulating", quiet);
     cache.push(&take.pose(0), stepper.strands().points())?;
     exports.frame(0, stepper.strands(), &take.pose(0))?;
