@@ -176,7 +176,7 @@ fn difference(a: &[u8], b: &[u8]) -> f64 {
 }
 
 fn error() {
-    println!("\nError against 16 x 16 oversampling (root mean square, steps of 255 in sRGB)");
+    println!("\nError against 32 x 32 oversampling (root mean square, steps of 255 in sRGB)");
     for (strands, width) in [(20_000, 0.003), (20_000, 0.006), (20_000, 0.012), (20_000, 0.025), (20_000, 0.1)] {
         let mut picture = Picture { size: [512, 512], ..Picture::default() };
         picture.hair.width = width;
@@ -188,13 +188,14 @@ fn error() {
             let frame = Renderer::new(&picture, &ball()).expect("settings").draw(&strands, &view).expect("draws");
             developer.rgba8(&frame)
         };
-        let reference = draw(Antialiasing::Oversample, 16);
+        let reference = draw(Antialiasing::Oversample, 32);
         println!(
-            "{width:>6} cm: coverage {:.2}, oversampled 2 x 2 {:.2}, 4 x 4 {:.2}, 8 x 8 {:.2}",
+            "{width:>6} cm: coverage {:.2}, oversampled 2 x 2 {:.2}, 4 x 4 {:.2}, 8 x 8 {:.2}, 16 x 16 {:.2}",
             difference(&draw(Antialiasing::Coverage, 1), &reference),
             difference(&draw(Antialiasing::Oversample, 2), &reference),
             difference(&draw(Antialiasing::Oversample, 4), &reference),
             difference(&draw(Antialiasing::Oversample, 8), &reference),
+            difference(&draw(Antialiasing::Oversample, 16), &reference),
         );
     }
 }

@@ -18,7 +18,7 @@
 //! Space and units are those of [`nabiki`]: head space, y up, face toward +x, centimetres. Angles in settings are
 //! degrees. Light is linear, with Rec. 709 primaries.
 
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
 mod backdrop;
 pub mod camera;
@@ -28,6 +28,7 @@ mod error;
 pub mod frame;
 mod light;
 pub mod output;
+mod prefetch;
 mod raster;
 mod renderer;
 mod scalp;

@@ -1,15 +1,16 @@
 //! One frame, from strands to light.
 
+mod compose;
+
 use glam::Vec3;
 use nabiki::{Mesh, Strands};
 use rayon::prelude::*;
 
 use crate::RenderError;
-use crate::backdrop::Backdrop;
 use crate::camera::{NEAR, View};
 use crate::colour;
 use crate::curve::{CurveNode, Curves, drawable};
-use crate::frame::{Frame, HairLayer, NO_DEPTH};
+use crate::frame::Frame;
 use crate::light::fibre::Fibre;
 use crate::light::headlight::HeadShadow;
 use crate::light::kajiya::KajiyaKay;
@@ -18,13 +19,11 @@ use crate::light::shade::{HairLight, Model};
 use crate::light::shadow::{Crossings, Scene, Sweep};
 use crate::light::sky::SkyMap;
 use crate::raster::bins::Bins;
-use crate::raster::coverage::{CoverageTile, Watch};
-use crate::raster::oversample::OversampledTile;
 use crate::raster::{Node, TILE};
 use crate::scalp::{Scalp, roots};
 use crate::settings::{Antialiasing, Picture, Shading};
 use crate::shutter;
-use crate::skin::{SkinLight, SkinPixel, SkinView};
+use crate::skin::{SkinLight, SkinView};
 use crate::timing::{Stage, Timing};
 
 /// Fineness of hair's shadows (cm).
@@ -173,18 +172,16 @@ impl Renderer {
         clock.lap(&mut self.timing, Stage::Head);
         self.project(view);
         clock.lap(&mut self.timing, Stage::Projection);
-        self.cast_shadows();
-        clock.lap(&mut self.timing, Stage::Shadows);
-        self.occlude_sky();
-        clock.lap(&mut self.timing, Stage::Sky);
-        let skin_light = self.shade(view);
+        self.occlude();
+        clock.lap(&mut self.timing, Stage::Occlusion);
+        self.shade(view);
         clock.lap(&mut self.timing, Stage::Shading);
         self.bins.fill(&self.nodes, view.size, MARGIN);
         clock.lap(&mut self.timing, Stage::Sorting);
         let frame = match self.picture.antialiasing {
-            Antialiasing::Coverage if self.layers => self.compose::<true>(view, &skin_light),
-            Antialiasing::Coverage => self.compose::<false>(view, &skin_light),
-            Antialiasing::Oversample => self.oversample(view, &skin_light),
+            Antialiasing::Coverage if self.layers => self.compose::<true>(view),
+            Antialiasing::Coverage => self.compose::<false>(view),
+            Antialiasing::Oversample => self.oversample(view),
         };
         clock.lap(&mut self.timing, Stage::Pixels);
         Ok(frame)
@@ -270,12 +267,9 @@ impl Renderer {
             .collect_into_vec(&mut self.nodes);
     }
 
-    fn cast_shadows(&mut self) {
+    /// Finds what stands in the way of lamps and sky.
+    fn occlude(&mut self) {
         let still = self.still.as_ref().expect("stands");
-        if !self.picture.shadows {
-            self.sweeps.clear();
-            return;
-        }
         let nodes = &self.curves.nodes;
         (0..nodes.len())
             .into_par_iter()
@@ -288,23 +282,26 @@ impl Renderer {
                 half(i.checked_sub(1).map(|j| &nodes[j])) + half(nodes.get(i + 1))
             })
             .collect_into_vec(&mut self.length);
+        let lamps: &[Lamp] = if self.picture.shadows { &still.lamps } else { &[] };
         let scene = Scene { nodes, length: &self.length, radius: &self.radius, skin: &still.skin_places };
-        self.sweeps.resize_with(still.lamps.len(), Sweep::default);
-        self.sweeps.par_iter_mut().zip(&still.lamps).for_each(|(sweep, lamp)| sweep.run(lamp, &scene, SHADOW_CELL));
+        self.sweeps.resize_with(lamps.len(), Sweep::default);
+        let (sweeps, sky_map) = (&mut self.sweeps, &mut self.sky_map);
+        let sky = &self.picture.sky;
+        let cast = || sweeps.par_iter_mut().zip(lamps).for_each(|(sweep, lamp)| sweep.run(lamp, &scene, SHADOW_CELL));
+        let cover = || {
+            if sky.occlusion && sky.strength > 0.0 {
+                sky_map.fill(nodes, &self.radius, &self.head);
+            }
+        };
+        // Parts of each run on one core only; side by side they fill each other's gaps.
+        rayon::join(cover, cast);
     }
 
-    fn occlude_sky(&mut self) {
-        if self.picture.sky.occlusion && self.picture.sky.strength > 0.0 {
-            self.sky_map.fill(&self.curves.nodes, &self.radius, &self.head);
-        }
-    }
-
-    /// Lights all nodes; returns the light of the skin's pixels.
-    fn shade(&mut self, view: &View) -> Vec<[f32; 3]> {
+    /// Lights all nodes.
+    fn shade(&mut self, view: &View) {
+        let mut nodes = std::mem::take(&mut self.nodes);
         let still = self.still.as_ref().expect("stands");
-        let crossings: Vec<&Crossings> = self.sweeps.iter().map(|s| &s.crossings).collect();
-        let occluded = self.picture.sky.occlusion && self.picture.sky.strength > 0.0;
-        let sky_map = occluded.then_some(&self.sky_map);
+        let crossings = self.crossings();
         let hair = HairLight {
             model: &self.model,
             variation: self.picture.hair.variation,
@@ -312,148 +309,35 @@ impl Renderer {
             crossings: &crossings,
             head_shadows: &still.head_shadows,
             sky: &self.picture.sky,
-            sky_map,
+            sky_map: self.occluded_sky(),
             view,
         };
-        hair.shade(&self.curves.nodes, &mut self.nodes);
-        let skin = SkinLight {
+        hair.shade(&self.curves.nodes, &mut nodes);
+        self.nodes = nodes;
+    }
+
+    fn skin_light<'a>(&'a self, crossings: &'a [&'a Crossings], view: &'a View) -> SkinLight<'a> {
+        let still = self.still.as_ref().expect("stands");
+        SkinLight {
             look: &self.picture.head,
             lamps: &still.lamps,
-            crossings: &crossings,
+            crossings,
             first_receiver: self.curves.nodes.len(),
             sky: &self.picture.sky,
-            sky_map,
+            sky_map: self.occluded_sky(),
             hair: colour::albedo(colour::absorption(&self.picture.hair), self.picture.hair.azimuthal_roughness),
             passed: self.model.passed_on(),
-        };
-        skin.shade(&still.skin.pixels, &still.skin_unhidden, &still.stubble, view)
-    }
-
-    fn compose<const LAYERS: bool>(&self, view: &View, skin_light: &[[f32; 3]]) -> Frame {
-        let still = self.still.as_ref().expect("stands");
-        let skin_visible = self.picture.head.visible;
-        let size = view.size.map(|s| s as usize);
-        let layers = vec![HairLayer::default(); if LAYERS { size[0] * size[1] } else { 0 }];
-        let mut frame = self.empty(view, layers);
-        let backdrop = Backdrop::new(&self.picture, size[1]);
-        let rows = rows_of_tiles(&mut frame);
-        rows.into_par_iter().enumerate().for_each_init(CoverageTile::new, |work, (row, mut out)| {
-            for column in 0..self.bins.tiles[0] {
-                let tile = row * self.bins.tiles[0] + column;
-                let pieces = self.bins.tile(tile);
-                let range = still.skin.tile(tile);
-                let skin = (&still.skin.pixels[range.clone()], skin_visible.then_some(&skin_light[range]));
-                let mut watch = LayerWatch {
-                    curves: &self.curves,
-                    nodes: &self.nodes,
-                    layers: vec![HairLayer::default(); if LAYERS { TILE * TILE } else { 0 }],
-                };
-                if LAYERS {
-                    work.draw([column, row], &self.nodes, pieces, skin, &mut watch);
-                } else {
-                    work.draw([column, row], &self.nodes, pieces, skin, &mut ());
-                }
-                out.put(column, size[0], |i, y| {
-                    let drawn = work.drawn(i);
-                    let layer = watch.layers.get(i).copied();
-                    (backdrop.behind(drawn.light, row * TILE + y), drawn.depth, layer)
-                });
-            }
-        });
-        frame
-    }
-
-    fn oversample(&self, view: &View, skin_light: &[[f32; 3]]) -> Frame {
-        let still = self.still.as_ref().expect("stands");
-        let mut frame = self.empty(view, Vec::new());
-        let width = view.size[0] as usize;
-        let backdrop = Backdrop::new(&self.picture, view.size[1] as usize);
-        let samples = self.picture.samples as usize;
-        let rows = rows_of_tiles(&mut frame);
-        rows.into_par_iter().enumerate().for_each_init(
-            || OversampledTile::new(samples),
-            |work, (row, mut out)| {
-                for column in 0..self.bins.tiles[0] {
-                    let tile = row * self.bins.tiles[0] + column;
-                    let range = still.skin.tile(tile);
-                    let skin: (&[SkinPixel], &[[f32; 3]]) = (&still.skin.pixels[range.clone()], &skin_light[range]);
-                    work.draw([column, row], &self.nodes, self.bins.tile(tile), skin, self.picture.head.visible);
-                    out.put(column, width, |i, y| {
-                        let (light, depth) = work.pixel(i);
-                        (backdrop.behind(light, row * TILE + y), depth, None)
-                    });
-                }
-            },
-        );
-        frame
-    }
-
-    fn empty(&self, view: &View, layers: Vec<HairLayer>) -> Frame {
-        let pixels = view.size[0] as usize * view.size[1] as usize;
-        Frame { size: view.size, rgba: vec![[0.0; 4]; pixels], depth: vec![NO_DEPTH; pixels], layers }
-    }
-}
-
-/// The pixels that a row of tiles covers.
-struct TileRow<'a> {
-    rgba: &'a mut [[f32; 4]],
-    depth: &'a mut [f32],
-    layers: &'a mut [HairLayer],
-}
-
-fn rows_of_tiles(frame: &mut Frame) -> Vec<TileRow<'_>> {
-    let length = TILE * frame.size[0] as usize;
-    let mut layers = frame.layers.chunks_mut(length);
-    frame
-        .rgba
-        .chunks_mut(length)
-        .zip(frame.depth.chunks_mut(length))
-        .map(|(rgba, depth)| TileRow { rgba, depth, layers: layers.next().unwrap_or_default() })
-        .collect()
-}
-
-impl TileRow<'_> {
-    /// Writes a tile's pixels, as far as they lie on the picture. `value` is given the pixel in the tile and its row.
-    fn put(
-        &mut self,
-        column: usize,
-        width: usize,
-        mut value: impl FnMut(usize, usize) -> ([f32; 4], f32, Option<HairLayer>),
-    ) {
-        for y in 0..self.rgba.len() / width {
-            for x in 0..TILE.min(width - column * TILE) {
-                let to = y * width + column * TILE + x;
-                let (rgba, depth, layer) = value(y * TILE + x, y);
-                self.rgba[to] = rgba;
-                self.depth[to] = depth;
-                if let Some(layer) = layer {
-                    self.layers[to] = layer;
-                }
-            }
+            unhidden: &still.skin_unhidden,
+            stubble: &still.stubble,
+            view,
         }
     }
-}
 
-/// Gathers the layers of one tile.
-struct LayerWatch<'a> {
-    curves: &'a Curves,
-    nodes: &'a [Node],
-    layers: Vec<HairLayer>,
-}
+    fn crossings(&self) -> Vec<&Crossings> {
+        self.sweeps.iter().map(|s| &s.crossings).collect()
+    }
 
-impl Watch for LayerWatch<'_> {
-    #[inline(always)]
-    fn hair(&mut self, pixel: usize, share: f32, along: f32, piece: u32) {
-        let i = piece as usize;
-        let direction = self.curves.nodes[i].tangent.lerp(self.curves.nodes[i + 1].tangent, along);
-        let layer = &mut self.layers[pixel];
-        for c in 0..3 {
-            layer.direction[c] += share * direction[c];
-        }
-        for c in 0..2 {
-            let (a, b) = (self.nodes[i].motion[c], self.nodes[i + 1].motion[c]);
-            layer.motion[c] += share * (a + (b - a) * along);
-        }
-        layer.share += share;
+    fn occluded_sky(&self) -> Option<&SkyMap> {
+        (self.picture.sky.occlusion && self.picture.sky.strength > 0.0).then_some(&self.sky_map)
     }
 }

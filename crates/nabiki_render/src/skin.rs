@@ -230,6 +230,11 @@ pub struct SkinLight<'a> {
     pub hair: [f32; 3],
     /// The part of its light that a hair passes on forward: what is scattered by hair in the way reaches skin as well.
     pub passed: [f32; 3],
+    /// What the head leaves of each lamp at each place; empty without shadows.
+    pub unhidden: &'a [[f32; 3]],
+    /// How much of each place is covered by hair too short to be drawn; empty without.
+    pub stubble: &'a [f32],
+    pub view: &'a View,
 }
 
 impl SkinLight<'_> {
@@ -252,56 +257,45 @@ impl SkinLight<'_> {
         if shade > 0.0 { pixels.par_iter().with_min_len(256).map(covered).collect() } else { Vec::new() }
     }
 
-    /// Light toward the eye (linear) from each place on the skin. `unhidden` and `stubble`: see there; empty, there are neither
-    /// shadows nor stubble.
-    pub fn shade(&self, pixels: &[SkinPixel], unhidden: &[[f32; 3]], stubble: &[f32], view: &View) -> Vec<[f32; 3]> {
+    /// Light toward the eye (linear) from place `i` on the skin.
+    pub fn at(&self, i: usize, p: &SkinPixel) -> [f32; 3] {
         let skin = self.look.color.map(linear_from_srgb);
         // Red light spreads farthest under skin.
         let soft = [1.25, 0.8, 0.6].map(|s| s * self.look.softness);
-        pixels
-            .par_iter()
-            .with_min_len(256)
-            .enumerate()
-            .map(|(i, p)| {
-                let eye = view.toward_eye(p.position);
-                let normal = p.normal;
-                let mut diffuse = [0.0; 3];
-                let mut sheen = [0.0; 3];
-                for (l, lamp) in self.lamps.iter().enumerate() {
-                    let facing = normal.dot(lamp.toward);
-                    let hair = self.crossings.get(l).map_or([1.0; 3], |c| self.through(c.at(self.first_receiver + i)));
-                    let head = unhidden.get(i * self.lamps.len() + l).copied().unwrap_or([1.0; 3]);
-                    let sure = smooth((facing - TERMINATOR) / 0.3);
-                    let lit = [0, 1, 2].map(|c| hair[c] * (1.0 - sure * (1.0 - head[c])));
-                    let halfway = (lamp.toward + eye).normalize_or(eye);
-                    let gloss = 0.045 * 9.0 * normal.dot(halfway).max(0.0).powi(18) * smooth(facing / 0.25);
-                    let rim = (1.0 - eye.dot(normal).clamp(0.0, 1.0)).powi(4) * facing.max(0.0);
-                    for c in 0..3 {
-                        let wrapped = ((facing + soft[c]) / (1.0 + soft[c])).max(0.0);
-                        diffuse[c] += lamp.strength[c] * lit[c] * wrapped * wrapped;
-                        sheen[c] += lamp.strength[c] * lit[c] * (gloss + 0.5 * rim);
-                    }
-                }
-                let arriving = self.sky_map.map(|s| s.at(p.position + 0.9 * normal));
-                let open = |part: f32| if part < 1.0 { self.through(-part.max(1e-6).ln()) } else { [1.0; 3] };
-                let (open_above, open_below) =
-                    arriving.map_or(([1.0; 3], [1.0; 3]), |a| (open(a.above), open(a.below)));
-                let up = 0.5 + 0.5 * normal.y;
-                for (c, diffuse) in diffuse.iter_mut().enumerate() {
-                    let sky = self.sky.above[c] * up * open_above[c] + self.sky.below[c] * (1.0 - up) * open_below[c];
-                    *diffuse += self.sky.strength * sky;
-                }
-                let hair = stubble.get(i).copied().unwrap_or(0.0);
-                std::array::from_fn(|c| {
-                    let bare = skin[c] * diffuse[c] + self.look.sheen * sheen[c];
-                    bare + (self.hair[c] * diffuse[c] - bare) * hair
-                })
-            })
-            .collect()
+        let eye = self.view.toward_eye(p.position);
+        let normal = p.normal;
+        let mut diffuse = [0.0; 3];
+        let mut sheen = [0.0; 3];
+        for (l, lamp) in self.lamps.iter().enumerate() {
+            let facing = normal.dot(lamp.toward);
+            let hair = self.crossings.get(l).map_or([1.0; 3], |c| self.through(c.at(self.first_receiver + i)));
+            let head = self.unhidden.get(i * self.lamps.len() + l).copied().unwrap_or([1.0; 3]);
+            let sure = smooth((facing - TERMINATOR) / 0.3);
+            let lit = [0, 1, 2].map(|c| hair[c] * (1.0 - sure * (1.0 - head[c])));
+            let halfway = (lamp.toward + eye).normalize_or(eye);
+            let gloss = 0.045 * 9.0 * normal.dot(halfway).max(0.0).powi(18) * smooth(facing / 0.25);
+            let rim = (1.0 - eye.dot(normal).clamp(0.0, 1.0)).powi(4) * facing.max(0.0);
+            for c in 0..3 {
+                let wrapped = ((facing + soft[c]) / (1.0 + soft[c])).max(0.0);
+                diffuse[c] += lamp.strength[c] * lit[c] * wrapped * wrapped;
+                sheen[c] += lamp.strength[c] * lit[c] * (gloss + 0.5 * rim);
+            }
+        }
+        let arriving = self.sky_map.map(|s| s.at(p.position + 0.9 * normal));
+        let open = |part: f32| if part < 1.0 { self.through(-part.max(1e-6).ln()) } else { [1.0; 3] };
+        let (open_above, open_below) = arriving.map_or(([1.0; 3], [1.0; 3]), |a| (open(a.above), open(a.below)));
+        let up = 0.5 + 0.5 * normal.y;
+        for (c, diffuse) in diffuse.iter_mut().enumerate() {
+            let sky = self.sky.above[c] * up * open_above[c] + self.sky.below[c] * (1.0 - up) * open_below[c];
+            *diffuse += self.sky.strength * sky;
+        }
+        let hair = self.stubble.get(i).copied().unwrap_or(0.0);
+        std::array::from_fn(|c| {
+            let bare = skin[c] * diffuse[c] + self.look.sheen * sheen[c];
+            bare + (self.hair[c] * diffuse[c] - bare) * hair
+        })
     }
-}
 
-impl SkinLight<'_> {
     /// What arrives through hair that light crosses `n` times: unscattered, and scattered forward as among the hair itself.
     fn through(&self, n: f32) -> [f32; 3] {
         let straight = exp_of_negative(-n);

@@ -11,10 +11,8 @@ pub enum Stage {
     Head,
     /// From space to the picture.
     Projection,
-    /// Hair in the lamps' way.
-    Shadows,
-    /// Hair and head in the sky's way.
-    Sky,
+    /// What stands in the way of lamps and sky.
+    Occlusion,
     /// Light of hair and skin.
     Shading,
     /// Sorting by depth and into tiles.
@@ -25,16 +23,8 @@ pub enum Stage {
 
 impl Stage {
     /// All of them, in order.
-    pub const ALL: [Self; 8] = [
-        Self::Curves,
-        Self::Head,
-        Self::Projection,
-        Self::Shadows,
-        Self::Sky,
-        Self::Shading,
-        Self::Sorting,
-        Self::Pixels,
-    ];
+    pub const ALL: [Self; 7] =
+        [Self::Curves, Self::Head, Self::Projection, Self::Occlusion, Self::Shading, Self::Sorting, Self::Pixels];
 }
 
 /// Wall-clock time of each stage, summed over frames.

@@ -16,6 +16,20 @@ pub fn exp_of_negative(x: f32) -> f32 {
     f32::from_bits(p.to_bits().wrapping_add(whole))
 }
 
+/// ln x for positive normal x, to 2e-6 of 1 + |ln x|.
+#[inline(always)]
+pub fn ln(x: f32) -> f32 {
+    // x = m 2^e with m between 1/sqrt 2 and sqrt 2.
+    const ROOT_HALF: u32 = 0x3f35_04f3;
+    let shifted = x.to_bits().wrapping_sub(ROOT_HALF);
+    let e = (shifted as i32 >> 23) as f32;
+    let m = f32::from_bits((shifted & 0x007f_ffff) + ROOT_HALF);
+    // The series of 2 artanh t.
+    let t = (m - 1.0) / (m + 1.0);
+    let s = t * t;
+    e * std::f32::consts::LN_2 + 2.0 * t * (1.0 + s * (1.0 / 3.0 + s * (0.2 + s * (1.0 / 7.0 + s * (1.0 / 9.0)))))
+}
+
 /// arccos of x in -1..1 (rad), to 1e-4: Abramowitz and Stegun 4.4.45.
 #[inline(always)]
 pub fn arccos(x: f32) -> f32 {
@@ -44,6 +58,8 @@ mod tests {
             assert!((f64::from(exp_of_negative(x)) / exact - 1.0).abs() < 2e-5, "exp {x}");
             let c = i as f32 / 10_000.0 - 1.0;
             assert!((arccos(c) - c.acos()).abs() < 1e-4, "arccos {c}");
+            let y = (-x / 4.0).exp() * 1e-6;
+            assert!((f64::from(ln(y)) - f64::from(y).ln()).abs() < 2e-6 * (1.0 + f64::from(y).ln().abs()), "ln {y}");
         }
         for i in 0..=400 {
             let x = f64::from(i) / 4.0;

@@ -33,6 +33,8 @@ pub struct HeadShadow {
     size: [usize; 2],
     /// In each cell: the head's distance (cm), infinite where there is none.
     distance: Vec<f32>,
+    /// Distance up to which the head hides nothing (cm).
+    clear: f32,
     /// In each cell: the part of its surroundings that the head covers, and the head's mean distance there (cm).
     cells: Vec<[f32; 2]>,
     /// Where skin looks from, around a place (cm), and each one's share for red, green and blue.
@@ -74,7 +76,8 @@ impl HeadShadow {
             c[1] /= c[0].max(1e-6);
         }
         let penumbra = 2.5 * lamp.spread.tan();
-        Self { toward: lamp.toward, axes, low, cell, size, distance, cells, taps: taps(penumbra) }
+        let clear = cells.iter().filter(|c| c[0] > 0.0).map(|c| c[1]).fold(f32::INFINITY, f32::min) + SOFT;
+        Self { toward: lamp.toward, axes, low, cell, size, distance, clear, cells, taps: taps(penumbra) }
     }
 
     /// Part of the lamp (red, green, blue) that the head leaves to a place on its own skin with this unit normal, 0..1. Light that
@@ -122,9 +125,12 @@ impl HeadShadow {
     /// Part of the lamp that the head leaves visible from a place, 0..1.
     #[inline]
     pub fn visible(&self, p: Vec3) -> f32 {
+        let distance = -p.dot(self.toward);
+        if distance <= self.clear {
+            return 1.0;
+        }
         let Some((at, [u, v])) = self.cell_at(self.axes.map(|a| p.dot(a))) else { return 1.0 };
         let width = self.size[0];
-        let distance = -p.dot(self.toward);
         let hidden = |cell: [f32; 2]| cell[0] * ((distance - cell[1]) / SOFT - 1.0).clamp(0.0, 1.0);
         let upper = hidden(self.cells[at]) * (1.0 - u) + hidden(self.cells[at + 1]) * u;
         let lower = hidden(self.cells[at + width]) * (1.0 - u) + hidden(self.cells[at + width + 1]) * u;

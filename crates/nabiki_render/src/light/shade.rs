@@ -12,8 +12,8 @@ use std::f32::consts::PI;
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::approx::{arccos, exp_of_negative};
-use super::fibre::{COLUMNS, Fibre, GRADES, Longitudinal, ROWS, Row, Table};
+use super::approx::{arccos, exp_of_negative, ln};
+use super::fibre::{COLUMNS, Fibre, GRADES, Longitudinal, ROWS};
 use super::headlight::HeadShadow;
 use super::kajiya::KajiyaKay;
 use super::lamps::Lamp;
@@ -170,28 +170,33 @@ impl HairLight<'_> {
             }
         }
 
-        let mut rows = [Row::default(); LANES];
-        let mut again = [[0.0_f32; 3]; LANES];
-        let mut light = [[0.0_f32; 3]; LANES];
+        let mut rows = Rows::default();
+        let mut above = [1.0_f32; LANES];
+        let mut below = [1.0_f32; LANES];
         for lane in 0..LANES {
             let row = tables[lane].row(sin_eye[lane].abs() * (ROWS - 1) as f32);
             for c in 0..3 {
+                rows.forward[c][lane] = row.forward[c];
+                rows.back[c][lane] = row.back[c];
+                rows.rest[c][lane] = row.rest[c];
+            }
+            (above[lane], below[lane]) = self.sky_above_below(curve[batch[lane]].position);
+        }
+        let mut light = [[0.0_f32; LANES]; 3];
+        for c in 0..3 {
+            for lane in 0..LANES {
+                let (a, b) = (rows.forward[c][lane], rows.back[c][lane]);
                 // Sent back by the hair behind, and passed on by this one: once, or after three reversals.
-                let (f, b) = (row.forward[c] * row.forward[c], row.back[c]);
-                let g = 1.0 / (1.0 - f).max(0.02);
-                again[lane][c] = DENSITY * (b * f * g + b * b * b * f * g * g * g);
-            }
-            let (above, below) = self.sky_above_below(curve[batch[lane]].position);
-            let (above, below) = ((above, above.max(1e-6).ln()), (below, below.max(1e-6).ln()));
-            for c in 0..3 {
-                let (a, b) = (row.forward[c], row.back[c]);
-                let arrives = |(open, log): (f32, f32)| {
-                    open + DENSITY * (exp_of_negative(log * (1.0 - a).max(0.0)) - open).max(0.0)
+                let g = 1.0 / (1.0 - a * a).max(0.02);
+                let again = DENSITY * (b * a * a * g + b * b * b * a * a * g * g * g);
+                rows.again[c][lane] = again;
+                let arrives = |open: f32| {
+                    let scattered = exp_of_negative(ln(open.max(1e-6)) * (1.0 - a).max(0.0));
+                    open + DENSITY * (scattered - open).max(0.0)
                 };
-                let sky = self.sky.above[c] * arrives(above) + self.sky.below[c] * arrives(below);
-                light[lane][c] = 0.5 * self.sky.strength * sky * (a + b + again[lane][c]);
+                let sky = self.sky.above[c] * arrives(above[lane]) + self.sky.below[c] * arrives(below[lane]);
+                light[c][lane] = 0.5 * self.sky.strength * sky * (a + b + again);
             }
-            rows[lane] = row;
         }
 
         for (l, lamp) in self.lamps.iter().enumerate() {
@@ -216,56 +221,41 @@ impl HairLight<'_> {
             }
             let mut reached = [1.0_f32; LANES];
             let mut crossed = [0.0_f32; LANES];
+            let mut lobes = [[0.0_f32; LANES]; 8];
             for lane in 0..LANES {
                 let i = batch[lane];
                 crossed[lane] = self.crossings.get(l).map_or(0.0, |c| c.at(i));
-                reached[lane] = self.head_shadows.get(l).map_or(1.0, |s| s.visible(curve[i].position));
+                reached[lane] = PI * self.head_shadows.get(l).map_or(1.0, |s| s.visible(curve[i].position));
+                let mixed = tables[lane].lobes(sin_eye[lane].abs() * (ROWS - 1) as f32, column[lane]);
+                for i in 0..8 {
+                    lobes[i][lane] = mixed[i];
+                }
             }
-            for lane in 0..LANES {
-                let m = [along[0][lane], along[1][lane], along[2][lane], along[3][lane]];
-                let part = self.scattered(
-                    tables[lane],
-                    &rows[lane],
-                    &again[lane],
-                    sin_eye[lane].abs() * (ROWS - 1) as f32,
-                    column[lane],
-                    cos_azimuth[lane],
-                    m,
-                    crossed[lane],
-                );
-                for c in 0..3 {
-                    light[lane][c] += PI * reached[lane] * lamp.strength[c] * part[c];
+            for c in 0..3 {
+                for lane in 0..LANES {
+                    let cos = cos_azimuth[lane];
+                    let (same_side, far_side) = (0.5 * (1.0 + cos) / PI, 0.5 * (1.0 - cos) / PI);
+                    let m = [along[0][lane], along[1][lane], along[2][lane], along[3][lane]];
+                    let (forward, rest) = (rows.forward[c][lane], rows.rest[c][lane]);
+                    let once = m[0] * lobes[0][lane] + m[1] * lobes[1 + c][lane] + m[2] * (lobes[4 + c][lane] + rest);
+                    let back = m[3] * rows.again[c][lane] * same_side;
+                    let many = m[3] * (rows.back[c][lane] * same_side + forward * far_side);
+                    let straight = exp_of_negative(-crossed[lane]);
+                    let passed = exp_of_negative(-crossed[lane] * (1.0 - forward).max(0.0)) - straight;
+                    let part = straight * (once + back) + DENSITY * passed.max(0.0) * (many + back);
+                    light[c][lane] += reached[lane] * lamp.strength[c] * part;
                 }
             }
         }
-        light
+        std::array::from_fn(|lane| [light[0][lane], light[1][lane], light[2][lane]])
     }
+}
 
-    /// Light of one lamp of unit strength over pi, scattered once and more often.
-    #[expect(clippy::too_many_arguments, reason = "the inner loop's values, all alike")]
-    #[inline(always)]
-    fn scattered(
-        &self,
-        table: &Table,
-        row: &Row,
-        again: &[f32; 3],
-        at_row: f32,
-        at_column: f32,
-        cos_azimuth: f32,
-        m: [f32; 4],
-        crossed: f32,
-    ) -> [f32; 3] {
-        let lobes = table.lobes(at_row, at_column);
-        let straight = exp_of_negative(-crossed);
-        let (same_side, far_side) = (0.5 * (1.0 + cos_azimuth) / PI, 0.5 * (1.0 - cos_azimuth) / PI);
-        let mut part = [0.0; 3];
-        for c in 0..3 {
-            let once = m[0] * lobes[0] + m[1] * lobes[1 + c] + m[2] * (lobes[4 + c] + row.rest[c]);
-            let back = m[3] * again[c] * same_side;
-            let many = m[3] * (row.back[c] * same_side + row.forward[c] * far_side);
-            let passed = DENSITY * (exp_of_negative(-crossed * (1.0 - row.forward[c]).max(0.0)) - straight);
-            part[c] = straight * (once + back) + passed.max(0.0) * (many + back);
-        }
-        part
-    }
+/// Rows of the lanes' tables, and the light that comes back from the hair behind.
+#[derive(Default)]
+struct Rows {
+    forward: [[f32; LANES]; 3],
+    back: [[f32; LANES]; 3],
+    rest: [[f32; LANES]; 3],
+    again: [[f32; LANES]; 3],
 }

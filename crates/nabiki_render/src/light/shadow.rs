@@ -15,10 +15,13 @@ use crate::curve::CurveNode;
 
 /// Strips of a map, each walked by one task.
 const STRIPS: usize = 4;
-/// Nodes between one that is asked for and the one that is taken.
-const AHEAD: usize = 16;
-/// Bits of the distance by which nodes are sorted, in two passes.
-const DIGIT: u32 = 9;
+/// Distances are told apart in slabs so thick (cm): a few fibres. Within a slab the order is that of the nodes.
+const SLAB: f32 = 0.05;
+const MOST_SLABS: f32 = 2048.0;
+/// Hair farther than this from the origin of head space (cm) is not told apart, lest one lost strand spoil the order of all.
+const FARTHEST: f32 = 200.0;
+/// Largest side of a map (cells).
+const LARGEST: f32 = 4096.0;
 
 /// The fibres in front of each node and each place on the skin, as seen from one lamp.
 #[derive(Default)]
@@ -45,29 +48,38 @@ pub struct Scene<'a> {
 }
 
 /// One node or place as the lamp sees it.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 #[repr(align(32))]
 struct Seen {
-    /// Place (cells right and down) and distance from the lamp (cm).
+    /// Place (cells right and down).
     at: [f32; 2],
-    distance: f32,
     /// Extent of the fibre it stands for (cells), and how many fibres that is when spread over one cell.
     extent: [f32; 2],
     fibres: f32,
+    receiver: u32,
 }
 
-/// A strip's order of nodes and map, kept from frame to frame.
+/// Where a node or place belongs: its slab, and the rows of cells that it needs.
+#[derive(Clone, Copy)]
+struct Place {
+    slab: u16,
+    first_row: u16,
+    last_row: u16,
+}
+
+/// What one strip of the map holds, in the order of distance; kept from frame to frame.
 #[derive(Default)]
-pub struct Strip {
-    keys: Vec<(u32, u32)>,
-    spare: Vec<(u32, u32)>,
+struct Strip {
+    rows: std::ops::Range<usize>,
+    starts: Vec<u32>,
+    seen: Vec<Seen>,
     cells: Vec<f32>,
 }
 
 /// Working memory of one lamp.
 #[derive(Default)]
 pub struct Sweep {
-    seen: Vec<Seen>,
+    places: Vec<Place>,
     strips: Vec<Strip>,
     pub crossings: Crossings,
 }
@@ -75,188 +87,201 @@ pub struct Sweep {
 impl Sweep {
     /// Counts the fibres before every node and place. `fineness`: side of a cell (cm) for a lamp that is a point.
     pub fn run(&mut self, lamp: &Lamp, scene: &Scene, fineness: f32) {
-        // A wide lamp blurs what lies some centimetres behind the occluder by so much.
-        let cell = fineness.max(5.0 * lamp.spread.tan());
-        let right = lamp.toward.any_orthonormal_vector();
-        let up = lamp.toward.cross(right);
         let total = scene.nodes.len() + scene.skin.len();
+        self.crossings.counts.clear();
+        self.crossings.counts.resize_with(total, Default::default);
+        let Some(map) = Map::new(lamp, scene.nodes, fineness) else { return };
         (0..total)
             .into_par_iter()
             .with_min_len(4096)
-            .map(|i| {
-                let place = |p: Vec3| ([p.dot(right) / cell, p.dot(up) / cell], -p.dot(lamp.toward));
-                let Some(node) = scene.nodes.get(i) else {
-                    let (at, distance) = place(scene.skin[i - scene.nodes.len()]);
-                    return Seen { at, distance, extent: [0.0; 2], fibres: 0.0 };
-                };
-                let (at, distance) = place(node.position);
-                let length = scene.length[i];
-                let extent = [node.tangent.dot(right) * length / cell, node.tangent.dot(up) * length / cell];
-                let across = (extent[0] * extent[0] + extent[1] * extent[1]).sqrt();
-                Seen { at, distance, extent, fibres: 2.0 * scene.radius[i] / cell * across }
-            })
-            .collect_into_vec(&mut self.seen);
-        let nodes = &self.seen[..scene.nodes.len()];
-        self.crossings.counts.clear();
-        self.crossings.counts.resize_with(total, Default::default);
-        let Some(range) = Range::of(nodes) else { return };
+            .map(|i| map.place(&map.seen(scene, i), map.distance(position(scene, i))))
+            .collect_into_vec(&mut self.places);
 
-        let counts = &self.crossings.counts;
-        let seen = &self.seen;
+        let (places, counts) = (&self.places, &self.crossings.counts);
         self.strips.resize_with(STRIPS, Strip::default);
         self.strips.par_iter_mut().enumerate().for_each(|(s, strip)| {
-            strip.sweep(s, seen, &range, counts);
+            strip.rows = s * map.size[1] / STRIPS..(s + 1) * map.size[1] / STRIPS;
+            strip.sort(places, &map, scene);
+            strip.sweep(map.size[0], counts);
         });
     }
 }
 
-/// Cells and distances that hold hair.
-struct Range {
+fn position(scene: &Scene, i: usize) -> Vec3 {
+    scene.nodes.get(i).map_or_else(|| scene.skin[i - scene.nodes.len()], |n| n.position)
+}
+
+/// The plane and the distances that hold hair.
+struct Map {
+    right: Vec3,
+    up: Vec3,
+    toward: Vec3,
+    cells_per_cm: f32,
+    /// First cell, and number of cells right and down.
     low: [f32; 2],
     size: [usize; 2],
     near: f32,
-    keys_per_cm: f32,
+    slabs_per_cm: f32,
+    slabs: usize,
 }
 
-/// Largest side of a map (cells).
-const LARGEST: f32 = 4096.0;
-
-impl Range {
-    fn of(nodes: &[Seen]) -> Option<Self> {
-        let none = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+impl Map {
+    fn new(lamp: &Lamp, nodes: &[CurveNode], fineness: f32) -> Option<Self> {
+        let toward = lamp.toward;
+        let right = toward.any_orthonormal_vector();
+        let up = toward.cross(right);
+        // A wide lamp blurs what lies some centimetres behind the occluder by so much.
+        let cells_per_cm = 1.0 / fineness.max(5.0 * lamp.spread.tan());
+        let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         let (low, high) = nodes
             .par_iter()
             .with_min_len(8192)
             .fold(
                 || none,
                 |(low, high), n| {
-                    let c = [n.at[0], n.at[1], n.distance];
-                    (std::array::from_fn(|i| low[i].min(c[i])), std::array::from_fn(|i| high[i].max(c[i])))
+                    let p = n.position;
+                    let c = Vec3::new(p.dot(right) * cells_per_cm, p.dot(up) * cells_per_cm, -p.dot(toward));
+                    (low.min(c), high.max(c))
                 },
             )
-            .reduce(
-                || none,
-                |a, b| {
-                    (
-                        std::array::from_fn(|i: usize| a.0[i].min(b.0[i])),
-                        std::array::from_fn(|i: usize| a.1[i].max(b.1[i])),
-                    )
-                },
-            );
-        if low[0] > high[0] {
+            .reduce(|| none, |a, b| (a.0.min(b.0), a.1.max(b.1)));
+        if low.x > high.x {
             return None;
         }
         // Beyond the largest map, far outliers are left without shadow rather than all hair with a coarse one.
-        let middle = [0, 1].map(|i| 0.5 * (low[i] + high[i]));
-        let side = [0, 1].map(|i| (high[i] - low[i]).min(LARGEST));
-        let keys = (1_u32 << (2 * DIGIT)) - 1;
+        let middle = 0.5 * (low + high);
+        let side = (high - low).min(Vec3::splat(LARGEST));
+        let (near, far) = (low.z.clamp(-FARTHEST, FARTHEST), high.z.clamp(-FARTHEST, FARTHEST));
+        let slabs = ((far - near) / SLAB).ceil().clamp(1.0, MOST_SLABS);
         Some(Self {
-            low: [0, 1].map(|i| middle[i] - 0.5 * side[i]),
-            size: side.map(|s| s as usize + 3),
-            near: low[2],
-            keys_per_cm: keys as f32 / (high[2] - low[2]).max(1e-6),
+            right,
+            up,
+            toward,
+            cells_per_cm,
+            low: [middle.x - 0.5 * side.x, middle.y - 0.5 * side.y],
+            size: [side.x as usize + 3, side.y as usize + 3],
+            near,
+            slabs_per_cm: slabs / (far - near).max(SLAB),
+            slabs: slabs as usize,
         })
+    }
+
+    #[inline(always)]
+    fn distance(&self, p: Vec3) -> f32 {
+        -p.dot(self.toward)
+    }
+
+    #[inline(always)]
+    fn seen(&self, scene: &Scene, i: usize) -> Seen {
+        let place = |p: Vec3| {
+            [p.dot(self.right) * self.cells_per_cm - self.low[0], p.dot(self.up) * self.cells_per_cm - self.low[1]]
+        };
+        let Some(node) = scene.nodes.get(i) else {
+            let at = place(scene.skin[i - scene.nodes.len()]);
+            return Seen { at, receiver: i as u32, ..Seen::default() };
+        };
+        let length = scene.length[i] * self.cells_per_cm;
+        let extent = [node.tangent.dot(self.right) * length, node.tangent.dot(self.up) * length];
+        let across = (extent[0] * extent[0] + extent[1] * extent[1]).sqrt();
+        let fibres = 2.0 * scene.radius[i] * self.cells_per_cm * across;
+        Seen { at: place(node.position), extent, fibres, receiver: i as u32 }
+    }
+
+    #[inline(always)]
+    fn place(&self, seen: &Seen, distance: f32) -> Place {
+        // It reads the row it lies in and the next, and lays fibre into those its extent reaches, and one about them.
+        let half = 0.5 * seen.extent[1].abs() + 1.0;
+        Place {
+            slab: ((distance - self.near) * self.slabs_per_cm).min(self.slabs as f32 - 1.0) as u16,
+            first_row: (seen.at[1] - half).clamp(0.0, 65535.0) as u16,
+            last_row: (seen.at[1] + half).clamp(0.0, 65535.0) as u16,
+        }
     }
 }
 
 impl Strip {
-    fn sweep(&mut self, s: usize, seen: &[Seen], range: &Range, counts: &[AtomicU32]) {
-        let [width, height] = range.size;
-        let (first, end) = (s * height / STRIPS, (s + 1) * height / STRIPS);
-        // Reading needs one row more than the strip owns; laying from a node may reach two cells around it.
-        let rows = end + 1 - first;
-        let halo = 3.0;
-        let most = (1_u32 << (2 * DIGIT)) - 1;
-        self.keys.clear();
-        for (i, n) in seen.iter().enumerate() {
-            let y = n.at[1] - range.low[1];
-            if y >= first as f32 - halo && y < end as f32 + halo {
-                let key = ((n.distance - range.near) * range.keys_per_cm) as u32;
-                self.keys.push((key.min(most), i as u32));
-            }
+    /// Collects what touches the strip in the order of distance from the lamp, ties in the order of the nodes.
+    fn sort(&mut self, places: &[Place], map: &Map, scene: &Scene) {
+        // The row after the strip is its own copy: nodes between the two read it.
+        let (first, last) = (self.rows.start as u16, self.rows.end as u16);
+        let touches = |p: &Place| p.first_row <= last && p.last_row >= first;
+        self.starts.clear();
+        self.starts.resize(map.slabs, 0);
+        for p in places.iter().filter(|p| touches(p)) {
+            self.starts[usize::from(p.slab)] += 1;
         }
-        self.sort();
+        let mut sum = 0;
+        for start in &mut self.starts {
+            sum += std::mem::replace(start, sum);
+        }
+        self.seen.resize(sum as usize, Seen::default());
+        for (i, p) in places.iter().enumerate().filter(|(_, p)| touches(p)) {
+            let start = &mut self.starts[usize::from(p.slab)];
+            self.seen[*start as usize] = map.seen(scene, i);
+            *start += 1;
+        }
+    }
+
+    fn sweep(&mut self, width: usize, counts: &[AtomicU32]) {
+        let rows = self.rows.end + 1 - self.rows.start;
+        let top = self.rows.start as f32;
+        let own = (self.rows.end - self.rows.start) as f32;
         self.cells.clear();
         self.cells.resize(rows * width, 0.0);
-        let top = first as f32;
-        let keys = std::mem::take(&mut self.keys);
-        for (k, &(_, i)) in keys.iter().enumerate() {
-            // They come from all over memory: asking for later ones now hides most of the wait.
-            std::hint::black_box(seen[keys[(k + AHEAD).min(keys.len() - 1)].1 as usize].distance);
-            let i = i as usize;
-            let n = &seen[i];
-            let (x, y) = (n.at[0] - range.low[0], n.at[1] - range.low[1]);
-            if y >= top && y < end as f32 {
-                let count = self.read(x, y - top, width, rows);
-                counts[i].store(count.to_bits(), Ordering::Relaxed);
+        for n in &self.seen {
+            let (x, y) = (n.at[0], n.at[1] - top);
+            if y >= 0.0 && y < own {
+                let count = read(&self.cells, x, y, width);
+                counts[n.receiver as usize].store(count.to_bits(), Ordering::Relaxed);
             }
             if n.fibres > 0.0 {
-                self.lay(n, [x, y - top], width, rows);
+                lay(&mut self.cells, n, [x, y], width, rows);
             }
         }
-        self.keys = keys;
     }
+}
 
-    #[inline(always)]
-    fn read(&self, x: f32, y: f32, width: usize, rows: usize) -> f32 {
+#[inline(always)]
+fn read(cells: &[f32], x: f32, y: f32, width: usize) -> f32 {
+    let (column, row) = (x as i32, y as i32);
+    if x < 0.0 || column as usize + 1 >= width {
+        return 0.0;
+    }
+    let (u, v) = (x - column as f32, y - row as f32);
+    let at = row as usize * width + column as usize;
+    let (upper, lower) = (&cells[at..at + 2], &cells[at + width..at + width + 2]);
+    let upper = upper[0] + (upper[1] - upper[0]) * u;
+    let lower = lower[0] + (lower[1] - lower[0]) * u;
+    upper + (lower - upper) * v
+}
+
+/// Lays down a node's fibre, in steps of a cell at most.
+#[inline(always)]
+fn lay(cells: &mut [f32], n: &Seen, at: [f32; 2], width: usize, rows: usize) {
+    let longer = n.extent[0].abs().max(n.extent[1].abs());
+    let steps = (longer as i32).min(7) + 1;
+    let part = 1.0 / steps as f32;
+    let share = n.fibres * part;
+    for k in 0..steps {
+        let t = (k as f32 + 0.5) * part - 0.5;
+        // One cell more, so that rounding toward zero is rounding down within the border.
+        let (x, y) = (at[0] + n.extent[0] * t + 1.0, at[1] + n.extent[1] * t + 1.0);
+        if !(x >= 1.0 && x < width as f32 && y >= 0.0 && y < rows as f32 + 1.0) {
+            continue;
+        }
         let (column, row) = (x as i32, y as i32);
-        if x < 0.0 || y < 0.0 || column as usize + 1 >= width || row as usize + 1 >= rows {
-            return 0.0;
-        }
         let (u, v) = (x - column as f32, y - row as f32);
-        let at = row as usize * width + column as usize;
-        let upper = self.cells[at] + (self.cells[at + 1] - self.cells[at]) * u;
-        let lower = self.cells[at + width] + (self.cells[at + width + 1] - self.cells[at + width]) * u;
-        upper + (lower - upper) * v
-    }
-
-    /// Lays down a node's fibre, in steps of a cell at most.
-    #[inline(always)]
-    fn lay(&mut self, n: &Seen, at: [f32; 2], width: usize, rows: usize) {
-        let longer = n.extent[0].abs().max(n.extent[1].abs());
-        let steps = (longer as usize).min(7) + 1;
-        let part = 1.0 / steps as f32;
-        let share = n.fibres * part;
-        for k in 0..steps {
-            let t = (k as f32 + 0.5) * part - 0.5;
-            // One cell more, so that rounding toward zero is rounding down within the border.
-            let (x, y) = (at[0] + n.extent[0] * t + 1.0, at[1] + n.extent[1] * t + 1.0);
-            if !(x >= 1.0 && x < width as f32 && y >= 0.0 && y < rows as f32 + 1.0) {
-                continue;
-            }
-            let (column, row) = (x as usize, y as usize);
-            let (u, v) = (x - column as f32, y - row as f32);
-            if row >= 1 {
-                let at = (row - 1) * width + column - 1;
-                self.cells[at] += share * (1.0 - u) * (1.0 - v);
-                self.cells[at + 1] += share * u * (1.0 - v);
-            }
-            if row < rows {
-                let at = row * width + column - 1;
-                self.cells[at] += share * (1.0 - u) * v;
-                self.cells[at + 1] += share * u * v;
-            }
+        let (column, row) = (column as usize, row as usize);
+        let (left, right) = (share * (1.0 - u), share * u);
+        if row >= 1 {
+            let upper = &mut cells[(row - 1) * width + column - 1..][..2];
+            upper[0] += left * (1.0 - v);
+            upper[1] += right * (1.0 - v);
         }
-    }
-
-    /// Sorts by key, ties in order.
-    fn sort(&mut self) {
-        const SIZE: usize = 1 << DIGIT;
-        self.spare.resize(self.keys.len(), (0, 0));
-        for shift in [0, DIGIT] {
-            let mut places = [0_u32; SIZE];
-            let digit = |key: u32| (key >> shift) as usize & (SIZE - 1);
-            self.keys.iter().for_each(|k| places[digit(k.0)] += 1);
-            let mut sum = 0;
-            for place in &mut places {
-                sum += std::mem::replace(place, sum);
-            }
-            for &k in &self.keys {
-                let place = &mut places[digit(k.0)];
-                self.spare[*place as usize] = k;
-                *place += 1;
-            }
-            std::mem::swap(&mut self.keys, &mut self.spare);
+        if row < rows {
+            let lower = &mut cells[row * width + column - 1..][..2];
+            lower[0] += left * v;
+            lower[1] += right * v;
         }
     }
 }

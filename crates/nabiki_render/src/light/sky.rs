@@ -8,6 +8,7 @@ use glam::{UVec3, Vec3};
 use nabiki::Mesh;
 use rayon::prelude::*;
 
+use super::approx::exp_of_negative;
 use crate::curve::CurveNode;
 
 /// Side of a cell (cm), unless the hair is so spread out that this would make too many.
@@ -30,6 +31,7 @@ pub struct SkyMap {
     cell: f32,
     size: UVec3,
     taken: Vec<f32>,
+    carried: Vec<Vec<f32>>,
     arriving: Vec<Arriving>,
     skin: Vec<(u32, f32)>,
     skin_of: Option<(Vec3, f32, UVec3)>,
@@ -38,11 +40,12 @@ pub struct SkyMap {
 impl SkyMap {
     /// Carries the sky's light through the hair (half thicknesses `radius`, cm) and past the head.
     pub fn fill(&mut self, nodes: &[CurveNode], radius: &[f32], head: &Mesh) {
-        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        for n in nodes {
-            low = low.min(n.position);
-            high = high.max(n.position);
-        }
+        let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let (mut low, mut high) = nodes
+            .par_iter()
+            .with_min_len(8192)
+            .fold(|| none, |(low, high), n| (low.min(n.position), high.max(n.position)))
+            .reduce(|| none, |a, b| (a.0.min(b.0), a.1.max(b.1)));
         if !low.is_finite() {
             (low, high) = (Vec3::ZERO, Vec3::ZERO);
         }
@@ -143,18 +146,27 @@ impl SkyMap {
 
     /// Carries light along the lattice directions, one after the other, slice by slice.
     fn carry(&mut self) {
-        let count = self.taken.len();
         let directions: Vec<[i32; 3]> = (0..27_i32)
             .map(|i| [i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1])
-            .filter(|d| matches!(d.iter().map(|c: &i32| c.abs()).sum::<i32>(), 1 | 3))
+            .filter(|d| matches!(squared_length(*d), 1 | 3))
             .collect();
-        let carried: Vec<([i32; 3], Vec<f32>)> = directions.into_par_iter().map(|d| (d, self.carry_along(d))).collect();
-        let sum = |half: fn(f32) -> f32| carried.iter().map(|(d, _)| half(unit_height(*d))).sum::<f32>();
+        let through = |length: f32| {
+            let taken = self.taken.par_iter().with_min_len(8192);
+            taken.map(move |t| exp_of_negative(-t * length)).collect::<Vec<f32>>()
+        };
+        let (straight, aslant) = rayon::join(|| through(1.0), || through(3.0_f32.sqrt()));
+        self.carried.resize_with(directions.len(), Vec::new);
+        let size = self.size;
+        self.carried.par_iter_mut().zip(&directions).for_each(|(light, &d)| {
+            carry_along(d, size, if squared_length(d) == 1 { &straight } else { &aslant }, light);
+        });
+        let sum = |half: fn(f32) -> f32| directions.iter().map(|d| half(unit_height(*d))).sum::<f32>();
         let (all_above, all_below) = (sum(above), sum(below));
-        self.arriving.resize(count, Arriving::default());
+        self.arriving.resize(self.taken.len(), Arriving::default());
+        let carried = &self.carried;
         self.arriving.par_chunks_mut(4096).enumerate().for_each(|(chunk, arriving)| {
             arriving.fill(Arriving::default());
-            for (d, light) in &carried {
+            for (d, light) in directions.iter().zip(carried) {
                 let (up, down) = (above(unit_height(*d)) / all_above, below(unit_height(*d)) / all_below);
                 for (a, &l) in arriving.iter_mut().zip(&light[chunk * 4096..]) {
                     a.above += up * l;
@@ -163,36 +175,58 @@ impl SkyMap {
             }
         });
     }
+}
 
-    /// Light that arrives in each cell from direction `-d`, before the cell takes its own part.
-    fn carry_along(&self, d: [i32; 3]) -> Vec<f32> {
-        let [nx, ny, nz] = [self.size.x, self.size.y, self.size.z].map(|n| n as i32);
-        let length = (d.iter().map(|c| c * c).sum::<i32>() as f32).sqrt();
-        let mut light = vec![1.0_f32; self.taken.len()];
-        let order = |n: i32, step: i32| (0..n).map(move |i| if step < 0 { n - 1 - i } else { i });
-        for z in order(nz, d[2]) {
-            for y in order(ny, d[1]) {
-                let (fy, fz) = (y - d[1], z - d[2]);
-                if !(0..ny).contains(&fy) || !(0..nz).contains(&fz) {
-                    continue;
-                }
-                let (here, from) = ((nx * (y + ny * z)) as usize, (nx * (fy + ny * fz)) as usize);
+/// Light that arrives in each cell from direction `-d`, before the cell takes its own part; `through` is what a cell
+/// leaves of it.
+fn carry_along(d: [i32; 3], size: UVec3, through: &[f32], light: &mut Vec<f32>) {
+    let [nx, ny, nz] = [size.x, size.y, size.z].map(|n| n as i32);
+    light.clear();
+    light.resize(through.len(), 1.0);
+    let order = |n: i32, step: i32| (0..n).map(move |i| if step < 0 { n - 1 - i } else { i });
+    for z in order(nz, d[2]) {
+        for y in order(ny, d[1]) {
+            let (fy, fz) = (y - d[1], z - d[2]);
+            if !(0..ny).contains(&fy) || !(0..nz).contains(&fz) {
+                continue;
+            }
+            let width = nx as usize;
+            let (here, from) = (width * (y + ny * z) as usize, width * (fy + ny * fz) as usize);
+            if here == from {
                 for x in order(nx, d[0]) {
                     let fx = x - d[0];
                     if (0..nx).contains(&fx) {
                         let i = from + fx as usize;
-                        light[here + x as usize] = light[i] * super::approx::exp_of_negative(-self.taken[i] * length);
+                        light[here + x as usize] = light[i] * through[i];
                     }
                 }
+                continue;
+            }
+            let (to, source) = if here > from {
+                let (before, after) = light.split_at_mut(here);
+                (&mut after[..width], &before[from..from + width])
+            } else {
+                let (before, after) = light.split_at_mut(from);
+                (&mut before[here..here + width], &after[..width])
+            };
+            let (first, count) = (d[0].max(0) as usize, width - d[0].unsigned_abs() as usize);
+            let from_x = (-d[0]).max(0) as usize;
+            let through = &through[from + from_x..][..count];
+            for ((to, &light), &through) in to[first..][..count].iter_mut().zip(&source[from_x..][..count]).zip(through)
+            {
+                *to = light * through;
             }
         }
-        light
     }
+}
+
+fn squared_length(d: [i32; 3]) -> i32 {
+    d.iter().map(|c| c * c).sum()
 }
 
 /// Height of the place that light travelling along `d` comes from, on the unit sphere.
 fn unit_height(d: [i32; 3]) -> f32 {
-    -d[1] as f32 / (d.iter().map(|c| c * c).sum::<i32>() as f32).sqrt()
+    -d[1] as f32 / (squared_length(d) as f32).sqrt()
 }
 
 /// Weights of a direction in the two halves of the sky; they add up to 1 and meet at the horizon.

@@ -1,174 +1,221 @@
 //! Which pieces touch which tile, nearest first.
+//!
+//! Pieces are sorted one row of tiles at a time, right before it is drawn: what the row needs then lies close together and
+//! stays in a core's own cache. Within a tile pieces go by their depth *there*, so long hair that crosses other hair is
+//! before it in one tile and behind it in the next.
+
+use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::{Node, TILE};
+use super::{Node, Piece, TILE};
+use crate::prefetch::prefetch;
 
-/// Bits of the depth by which pieces are sorted, in two passes.
-const DIGIT: u32 = 11;
-const DIGITS: usize = 1 << DIGIT;
-/// Tile rows are shared out in so many bands, each filled by one task.
-const BANDS: usize = 8;
+/// Rows of tiles in one band: each row reads the list of its band.
+const BAND: usize = 8;
+/// Pieces between one whose nodes are asked for and the one that is prepared.
+const AHEAD: usize = 12;
+/// The rectangle of a piece that cannot be seen.
+const NOWHERE: [u16; 4] = [u16::MAX, u16::MAX, 0, 0];
 
-/// The pieces of each tile, by the index of their first node.
+/// The tiles that each piece may touch.
 #[derive(Default)]
 pub struct Bins {
     /// Tiles across and down.
     pub tiles: [usize; 2],
-    bands: Vec<Band>,
+    margin: f32,
+    /// First and last tiles (left, top, right, bottom) of the piece that starts at each node.
     rectangles: Vec<[u16; 4]>,
-    keys: Vec<u32>,
-    order: Vec<u32>,
-    spare: Vec<u32>,
-    spare_keys: Vec<u32>,
+    /// Pieces within each band of rows, by the index of their first node.
+    bands: Vec<Vec<u32>>,
 }
 
-/// Some consecutive rows of tiles.
+/// The pieces of one row of tiles; kept from row to row for its memory.
 #[derive(Default)]
-struct Band {
-    rows: std::ops::Range<usize>,
+pub struct Row {
+    numbers: Vec<u32>,
+    pieces: Vec<Piece>,
+    entries: Vec<(u16, u64)>,
     starts: Vec<u32>,
-    places: Vec<u32>,
-    pieces: Vec<u32>,
+    /// For each tile, what touches it: depth (high half), place among `pieces`, and which part of the piece it is.
+    order: Vec<u64>,
 }
+
+/// Hair is sorted in parts of a tile where it is so thick (pixels) that the eye sees which hair is before which: first and
+/// second half, or four quarters.
+const THICK: [f32; 2] = [0.2, 0.5];
+/// The parts of a tile, along the axis that a piece follows more: all of it, halves, quarters.
+const PARTS: [Range<usize>; 7] = [0..TILE, 0..8, 8..TILE, 0..4, 4..8, 8..12, 12..TILE];
+const PART_BITS: u32 = 3;
 
 impl Bins {
-    /// Sorts the pieces between neighbouring nodes of the same strand into the tiles of a picture.
+    /// Finds the tiles of all pieces between neighbouring nodes of the same strand.
     ///
     /// `margin`: how much farther than half its thickness a piece may leave traces (pixels).
     pub fn fill(&mut self, nodes: &[Node], size: [u32; 2], margin: f32) {
         let tiles = size.map(|s| (s as usize).div_ceil(TILE));
+        let bounds = size.map(|s| s as f32);
         self.tiles = tiles;
-        self.sort(nodes, size, margin);
-        self.order
-            .par_iter()
-            .map(|&piece| rectangle(nodes, piece, tiles, margin))
+        self.margin = margin;
+        (0..nodes.len().saturating_sub(1))
+            .into_par_iter()
+            .with_min_len(8192)
+            .map(|i| rectangle(&nodes[i], &nodes[i + 1], bounds, tiles, margin))
             .collect_into_vec(&mut self.rectangles);
-
-        self.bands.resize_with(BANDS, Band::default);
-        let (order, rectangles) = (&self.order, &self.rectangles);
-        self.bands.par_iter_mut().enumerate().for_each(|(i, band)| {
-            band.rows = i * tiles[1] / BANDS..(i + 1) * tiles[1] / BANDS;
-            let rows = band.rows.clone();
-            let each = |sink: &mut dyn FnMut(usize, u32)| {
-                for (&piece, &[left, top, right, bottom]) in order.iter().zip(rectangles) {
-                    let (top, bottom) = (usize::from(top).max(rows.start), (usize::from(bottom) + 1).min(rows.end));
-                    let long = right > left + 1 && bottom > top + 2;
-                    for y in top..bottom {
-                        for x in usize::from(left)..=usize::from(right) {
-                            if !long || near(nodes, piece, [x, y], margin) {
-                                sink((y - rows.start) * tiles[0] + x, piece);
-                            }
-                        }
-                    }
-                }
-            };
-            band.places.clear();
-            band.places.resize(rows.len() * tiles[0], 0);
-            each(&mut |tile, _| band.places[tile] += 1);
-            band.starts.clear();
-            let mut sum = 0;
-            for place in &mut band.places {
-                band.starts.push(sum);
-                sum += std::mem::replace(place, sum);
-            }
-            band.starts.push(sum);
-            band.pieces.resize(sum as usize, 0);
-            each(&mut |tile, piece| {
-                band.pieces[band.places[tile] as usize] = piece;
-                band.places[tile] += 1;
-            });
+        self.bands.resize_with(tiles[1].div_ceil(BAND), Vec::new);
+        let rectangles = &self.rectangles;
+        self.bands.par_iter_mut().enumerate().for_each(|(b, band)| {
+            let (first, end) = ((b * BAND) as u16, ((b + 1) * BAND) as u16);
+            band.clear();
+            let inside = |r: &[u16; 4]| r[1] < end && r[3] >= first;
+            band.extend(rectangles.iter().enumerate().filter(|(_, r)| inside(r)).map(|(i, _)| i as u32));
         });
     }
 
-    /// The pieces of a tile, nearest first.
-    pub fn tile(&self, tile: usize) -> &[u32] {
-        let row = tile / self.tiles[0];
-        let band = self.bands.iter().find(|b| b.rows.contains(&row)).expect("bands cover all rows");
-        let tile = tile - band.rows.start * self.tiles[0];
-        &band.pieces[band.starts[tile] as usize..band.starts[tile + 1] as usize]
+    /// Collects the pieces of a row of tiles. `in_parts`: whether thick hair is to be sorted part by part.
+    pub fn row(&self, row: usize, nodes: &[Node], in_parts: bool, out: &mut Row) {
+        out.pieces.clear();
+        out.entries.clear();
+        out.starts.clear();
+        out.starts.resize(self.tiles[0] + 1, 0);
+        let inside = |r: [u16; 4]| usize::from(r[1]) <= row && usize::from(r[3]) >= row;
+        out.numbers.clear();
+        out.numbers.extend(self.bands[row / BAND].iter().filter(|&&i| inside(self.rectangles[i as usize])));
+        for (n, &i) in out.numbers.iter().enumerate() {
+            // Nodes come from all over memory: asking for those of later pieces now hides most of the wait.
+            let later = out.numbers[(n + AHEAD).min(out.numbers.len() - 1)] as usize;
+            prefetch(&nodes[later]);
+            prefetch(&nodes[later + 1]);
+            let [left, top, right, bottom] = self.rectangles[i as usize];
+            let Some(piece) = Piece::new(&nodes[i as usize], &nodes[i as usize + 1], i) else { continue };
+            let several = right > left && bottom > top;
+            let place = out.pieces.len() as u64;
+            let parts = if in_parts { parts(&piece) } else { 0..1 };
+            for x in left..=right {
+                let corner = [f32::from(x), row as f32].map(|c| c * TILE as f32);
+                // Half of a tile's diagonal, and a little for rounding.
+                let near = piece.reach() + self.margin + TILE as f32 * 0.7072;
+                if several && piece.distance(corner.map(|c| c + 0.5 * TILE as f32)) > near {
+                    continue;
+                }
+                for part in parts.clone() {
+                    let Some(along) = piece.within(corner, &PARTS[part]) else { continue };
+                    let depth = piece.a.depth + (piece.b.depth - piece.a.depth) * along;
+                    out.entries.push((x, u64::from(depth.to_bits()) << 32 | place << PART_BITS | part as u64));
+                    out.starts[usize::from(x)] += 1;
+                }
+            }
+            out.pieces.push(piece);
+        }
+        out.sort();
+    }
+}
+
+impl Row {
+    /// The pieces of a tile of the row, nearest first, and which lines of the tile are meant; ties in the order of the nodes.
+    pub fn tile(&self, column: usize) -> impl Iterator<Item = (&Piece, &Range<usize>)> {
+        let order = &self.order[self.starts[column] as usize..self.starts[column + 1] as usize];
+        let piece = |entry: u64| &self.pieces[entry as u32 as usize >> PART_BITS];
+        let lines = |entry: u64| &PARTS[entry as usize & ((1 << PART_BITS) - 1)];
+        order.iter().enumerate().map(move |(n, &entry)| {
+            prefetch(piece(order[(n + AHEAD).min(order.len() - 1)]));
+            (piece(entry), lines(entry))
+        })
     }
 
-    /// Lists what can be seen, sorted by depth with ties in the order of the nodes.
-    fn sort(&mut self, nodes: &[Node], size: [u32; 2], margin: f32) {
-        let bounds = [size[0] as f32, size[1] as f32];
-        let ends = nodes.len().saturating_sub(1);
-        let depth = |i: u32| nodes[i as usize].depth + nodes[i as usize + 1].depth;
+    /// Turns the counts in `starts` into places, brings the entries there and sorts those of each tile.
+    fn sort(&mut self) {
+        let mut sum = 0;
+        for start in &mut self.starts {
+            sum += std::mem::replace(start, sum);
+        }
         self.order.clear();
-        self.order.par_extend(
-            (0..ends as u32)
-                .into_par_iter()
-                .with_min_len(8192)
-                .filter(|&i| visible(&nodes[i as usize], &nodes[i as usize + 1], bounds, margin)),
-        );
-        let (near, far) = self
-            .order
-            .par_iter()
-            .with_min_len(8192)
-            .fold(|| (f32::INFINITY, 0.0_f32), |(near, far), &i| (near.min(depth(i)), far.max(depth(i))))
-            .reduce(|| (f32::INFINITY, 0.0_f32), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-        let scale = ((DIGITS * DIGITS - 1) as f32) / (far - near).max(1e-6);
-        let key = |&i: &u32| ((depth(i) - near) * scale) as u32;
-        self.order.par_iter().with_min_len(8192).map(key).collect_into_vec(&mut self.keys);
-        self.spare.resize(self.order.len(), 0);
-        self.spare_keys.resize(self.order.len(), 0);
-        for shift in [0, DIGIT] {
-            let mut places = [0_u32; DIGITS];
-            for key in &self.keys {
-                places[(key >> shift) as usize & (DIGITS - 1)] += 1;
-            }
-            let mut sum = 0;
-            for place in &mut places {
-                sum += std::mem::replace(place, sum);
-            }
-            for (&key, &piece) in self.keys.iter().zip(&self.order) {
-                let place = &mut places[(key >> shift) as usize & (DIGITS - 1)];
-                self.spare[*place as usize] = piece;
-                self.spare_keys[*place as usize] = key;
-                *place += 1;
-            }
-            std::mem::swap(&mut self.order, &mut self.spare);
-            std::mem::swap(&mut self.keys, &mut self.spare_keys);
+        self.order.resize(self.entries.len(), 0);
+        for &(tile, entry) in &self.entries {
+            let place = &mut self.starts[usize::from(tile)];
+            self.order[*place as usize] = entry;
+            *place += 1;
+        }
+        // Each start has moved on to the end of its tile.
+        self.starts.rotate_right(1);
+        self.starts[0] = 0;
+        for tile in self.starts.windows(2) {
+            // Positive floats are in the order of their bits.
+            self.order[tile[0] as usize..tile[1] as usize].sort_unstable();
         }
     }
 }
 
+/// Into which of `PARTS` a piece is divided.
 #[inline]
-fn visible(a: &Node, b: &Node, bounds: [f32; 2], margin: f32) -> bool {
+fn parts(piece: &Piece) -> Range<usize> {
+    let thickness = 2.0 * piece.a.radius.max(piece.b.radius);
+    match THICK.map(|t| thickness > t) {
+        [false, _] => 0..1,
+        [true, false] => 1..3,
+        [true, true] => 3..7,
+    }
+}
+
+/// The tiles within reach of the piece between two nodes.
+#[inline]
+fn rectangle(a: &Node, b: &Node, bounds: [f32; 2], tiles: [usize; 2], margin: f32) -> [u16; 4] {
+    let moved = |n: &Node| n.motion[0].abs().max(n.motion[1].abs());
     let reach = 1.42 * a.radius.max(b.radius) + margin + moved(a).max(moved(b));
-    a.strand == b.strand
+    let low = [0, 1].map(|i| a.at[i].min(b.at[i]) - reach);
+    let high = [0, 1].map(|i| a.at[i].max(b.at[i]) + reach);
+    let shows = a.strand == b.strand
         && !(a.hidden && b.hidden)
         && a.drawable
         && b.drawable
-        && (0..2).all(|i| a.at[i].max(b.at[i]) + reach > 0.0 && a.at[i].min(b.at[i]) - reach < bounds[i])
+        && (0..2).all(|i| high[i] > 0.0 && low[i] < bounds[i]);
+    if !shows {
+        return NOWHERE;
+    }
+    let tile = |x: f32, i: usize| (x.max(0.0) * (1.0 / TILE as f32)).min(tiles[i] as f32 - 1.0) as u16;
+    [tile(low[0], 0), tile(low[1], 1), tile(high[0], 0), tile(high[1], 1)]
 }
 
-#[inline]
-fn moved(n: &Node) -> f32 {
-    n.motion[0].abs().max(n.motion[1].abs())
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
 
-/// First and last tiles (left, top, right, bottom) within reach of a piece.
-#[inline]
-fn rectangle(nodes: &[Node], piece: u32, tiles: [usize; 2], margin: f32) -> [u16; 4] {
-    let (a, b) = (&nodes[piece as usize], &nodes[piece as usize + 1]);
-    let reach = 1.42 * a.radius.max(b.radius) + margin + moved(a).max(moved(b));
-    let tile = |x: f32, i: usize| (x / TILE as f32).floor().clamp(0.0, tiles[i] as f32 - 1.0) as u16;
-    [
-        tile(a.at[0].min(b.at[0]) - reach, 0),
-        tile(a.at[1].min(b.at[1]) - reach, 1),
-        tile(a.at[0].max(b.at[0]) + reach, 0),
-        tile(a.at[1].max(b.at[1]) + reach, 1),
-    ]
-}
+    #[test]
+    fn parts_of_a_tile_make_a_whole() {
+        for of in [0..1, 1..3, 3..7] {
+            let mut lines: Vec<usize> = of.flat_map(|part| PARTS[part].clone()).collect();
+            lines.sort_unstable();
+            assert_eq!(lines, (0..TILE).collect::<Vec<_>>());
+        }
+    }
 
-/// Whether the line of a piece comes within reach of a tile.
-fn near(nodes: &[Node], piece: u32, tile: [usize; 2], margin: f32) -> bool {
-    let (a, b) = (&nodes[piece as usize], &nodes[piece as usize + 1]);
-    let reach = 1.42 * a.radius.max(b.radius) + margin + moved(a).max(moved(b));
-    let along = [b.at[0] - a.at[0], b.at[1] - a.at[1]];
-    let centre = tile.map(|t| (t as f32 + 0.5) * TILE as f32);
-    let off = along[0] * (centre[1] - a.at[1]) - along[1] * (centre[0] - a.at[0]);
-    // Half of a tile's diagonal, and a little for rounding.
-    off.abs() <= (reach + TILE as f32 * 0.7072) * along[0].hypot(along[1])
+    proptest! {
+        #[test]
+        fn every_place_on_a_piece_is_listed_in_its_tile(
+            from in [-20.0_f32..120.0, -20.0_f32..120.0],
+            to in [-20.0_f32..120.0, -20.0_f32..120.0],
+            width in 0.01_f32..3.0,
+            depths in [10.0_f32..20.0, 10.0_f32..20.0],
+        ) {
+            let node = |at, depth| Node { at, depth, radius: 0.5 * width, drawable: true, ..Node::default() };
+            let nodes = [node(from, depths[0]), node(to, depths[1])];
+            let mut bins = Bins::default();
+            bins.fill(&nodes, [100, 100], 1.25);
+            let mut row = Row::default();
+            for i in 0..=100 {
+                let t = i as f32 / 100.0;
+                let at = [0, 1].map(|c| from[c] + (to[c] - from[c]) * t);
+                if !at.iter().all(|c| (0.0..100.0).contains(c)) || from[0].hypot(from[1]) == to[0].hypot(to[1]) {
+                    continue;
+                }
+                let tile = at.map(|c| c as usize / TILE);
+                bins.row(tile[1], &nodes, true, &mut row);
+                let major = usize::from((to[1] - from[1]).abs() > (to[0] - from[0]).abs());
+                let line = at[major] as usize % TILE;
+                let listed = row.tile(tile[0]).filter(|(_, lines)| lines.contains(&line)).count();
+                prop_assert_eq!(listed, 1, "{:?} in {:?}", at, tile);
+            }
+        }
+    }
 }

@@ -5,31 +5,37 @@
 //! a hair's brightness in any row of cells is its width there, however thin it is. Motion blur
 //! widens the hair and thins it out.
 
-#![expect(clippy::needless_range_loop, reason = "cells side by side read as vector code")]
+use std::ops::Range;
 
 use pulp::{Simd, WithSimd};
 
-use super::{BURIED, CELLS, Node, Piece, SIDE, TILE, cell_offset};
+use super::{BURIED, CELLS, End, Piece, SIDE, TILE, cell_offset};
 use crate::skin::SkinPixel;
 
-/// Less than this of a pixel left (0..1), and nothing behind counts: a fifth of a step of 8 bit sRGB for equal light.
-const NOTHING: f32 = 1.0 / 1024.0;
-/// Pieces between one whose nodes are asked for and the one that is drawn.
-const AHEAD: usize = 12;
+/// Once less than this of a pixel is left open it counts as full, and what it holds stands for the rest of it.
+const NOTHING: f32 = 1.0 / 64.0;
 const PIXELS: usize = TILE * TILE;
+/// Pieces that lie this much behind a full tile are no reason to look for nearer ones (cm): longer than half a piece, by
+/// which one may come nearer than where it was sorted.
+const SLACK: f32 = 1.0;
 
 /// Working memory for one tile.
 pub struct CoverageTile {
     /// Part of each cell that nothing has covered yet.
-    open: Vec<[f32; CELLS]>,
+    open: Box<[[f32; CELLS]; PIXELS]>,
     /// Mean of `open`, and the light gathered so far.
-    left: Vec<f32>,
-    light: Vec<[f32; 4]>,
-    nearest: Vec<f32>,
-    /// Depth of the skin in each cell, and its extremes in each pixel. A pixel that is full has its farthest at -infinity.
-    skin: Vec<[f32; CELLS]>,
-    skin_near: Vec<f32>,
-    skin_far: Vec<f32>,
+    left: Box<[f32; PIXELS]>,
+    light: Box<[[f32; 4]; PIXELS]>,
+    nearest: Box<[f32; PIXELS]>,
+    /// Depth of the skin in each cell, and its extremes in each pixel.
+    skin: Box<[[f32; CELLS]; PIXELS]>,
+    skin_near: Box<[f32; PIXELS]>,
+    skin_far: Box<[f32; PIXELS]>,
+    /// Farthest skin of the tile.
+    farthest: f32,
+    /// Which pixels are full, a bit each: row after row, and column after column.
+    full: [[u16; TILE]; 2],
+    filled: usize,
 }
 
 /// What a tile's pixels hold when it is drawn.
@@ -52,48 +58,49 @@ impl Watch for () {
 
 /// The inner loops, compiled for each width of vectors that machines have; one is chosen at run time. There is no fused
 /// multiplication, so all give the same bits.
-struct DrawHair<'a, W> {
+struct DrawHair<'a, W, P> {
     work: &'a mut CoverageTile,
     tile: [usize; 2],
-    nodes: &'a [Node],
-    pieces: &'a [u32],
+    pieces: P,
     watch: &'a mut W,
 }
 
-impl<W: Watch> WithSimd for DrawHair<'_, W> {
+impl<'p, W: Watch, P: Iterator<Item = (&'p Piece, &'p Range<usize>)>> WithSimd for DrawHair<'_, W, P> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        self.work.draw_hair(simd, self.tile, self.nodes, self.pieces, self.watch);
+        self.work.draw_hair(simd, self.tile, self.pieces, self.watch);
     }
 }
 
 impl CoverageTile {
     pub fn new() -> Self {
         Self {
-            open: vec![[1.0; CELLS]; PIXELS],
-            left: vec![1.0; PIXELS],
-            light: vec![[0.0; 4]; PIXELS],
-            nearest: vec![f32::INFINITY; PIXELS],
-            skin: vec![[f32::INFINITY; CELLS]; PIXELS],
-            skin_near: vec![f32::INFINITY; PIXELS],
-            skin_far: vec![f32::INFINITY; PIXELS],
+            open: Box::new([[1.0; CELLS]; PIXELS]),
+            left: Box::new([1.0; PIXELS]),
+            light: Box::new([[0.0; 4]; PIXELS]),
+            nearest: Box::new([f32::INFINITY; PIXELS]),
+            skin: Box::new([[f32::INFINITY; CELLS]; PIXELS]),
+            skin_near: Box::new([f32::INFINITY; PIXELS]),
+            skin_far: Box::new([f32::INFINITY; PIXELS]),
+            farthest: f32::INFINITY,
+            full: [[0; TILE]; 2],
+            filled: 0,
         }
     }
 
-    /// Draws the tile: pieces of hair, nearest first, before the skin's pieces with their light. Skin without light hides
-    /// hair all the same.
-    pub fn draw(
+    /// Draws the tile: pieces of hair, nearest first, before the skin's pieces, whose light is asked for where they show. Skin
+    /// without light hides hair all the same.
+    pub fn draw<'p>(
         &mut self,
         tile: [usize; 2],
-        nodes: &[Node],
-        pieces: &[u32],
-        skin: (&[SkinPixel], Option<&[[f32; 3]]>),
+        pieces: impl Iterator<Item = (&'p Piece, &'p Range<usize>)>,
+        skin: (&[SkinPixel], Option<impl Fn(usize) -> [f32; 3]>),
         watch: &mut impl Watch,
     ) {
         self.clear(skin.0);
-        pulp::Arch::new().dispatch(DrawHair { work: self, tile, nodes, pieces, watch });
+        pulp::Arch::new().dispatch(DrawHair { work: self, tile, pieces, watch });
         if let Some(light) = skin.1 {
             self.add_skin(skin.0, light);
         }
@@ -112,6 +119,8 @@ impl CoverageTile {
         self.skin.fill([f32::INFINITY; CELLS]);
         self.skin_near.fill(f32::INFINITY);
         self.skin_far.fill(f32::INFINITY);
+        self.full = [[0; TILE]; 2];
+        self.filled = 0;
         for piece in skin {
             let i = usize::from(piece.pixel);
             for s in (0..CELLS).filter(|s| piece.mask >> s & 1 == 1) {
@@ -122,14 +131,19 @@ impl CoverageTile {
             }
             self.skin_far[i] = self.skin[i].iter().copied().fold(0.0, f32::max);
         }
+        self.farthest = self.skin_far.iter().copied().fold(0.0, f32::max);
     }
 
-    fn add_skin(&mut self, skin: &[SkinPixel], light: &[[f32; 3]]) {
-        for (piece, light) in skin.iter().zip(light) {
+    fn add_skin(&mut self, skin: &[SkinPixel], light: impl Fn(usize) -> [f32; 3]) {
+        for (n, piece) in skin.iter().enumerate() {
             let i = usize::from(piece.pixel);
+            if self.full[0][i / TILE] >> (i % TILE) & 1 == 1 {
+                continue;
+            }
             let cells = (0..CELLS).filter(|s| piece.mask >> s & 1 == 1);
             let share = cells.map(|s| self.open[i][s]).sum::<f32>() / CELLS as f32;
             if share > 0.0 {
+                let light = light(n);
                 self.nearest[i] = self.nearest[i].min(piece.depth);
                 let sum = &mut self.light[i];
                 *sum =
@@ -139,57 +153,63 @@ impl CoverageTile {
     }
 
     #[inline(always)]
-    fn draw_hair<S: Simd>(
+    fn draw_hair<'p, S: Simd>(
         &mut self,
         simd: S,
         tile: [usize; 2],
-        nodes: &[Node],
-        pieces: &[u32],
+        pieces: impl Iterator<Item = (&'p Piece, &'p Range<usize>)>,
         watch: &mut impl Watch,
     ) {
-        let mut farthest = f32::INFINITY;
-        for (n, &i) in pieces.iter().enumerate() {
-            // Nodes come from all over memory: asking for those of later pieces now hides most of the wait.
-            let ahead = pieces[(n + AHEAD).min(pieces.len() - 1)] as usize;
-            std::hint::black_box((nodes[ahead].depth, nodes[ahead + 1].depth));
-            let (a, b) = (&nodes[i as usize], &nodes[i as usize + 1]);
-            if n % 64 == 0 {
-                farthest = self.skin_far.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+        for (piece, among) in pieces {
+            let nearest = piece.a.depth.min(piece.b.depth);
+            if self.filled == PIXELS || nearest > self.farthest + SLACK {
+                break;
             }
-            if a.depth.min(b.depth) > farthest {
-                // Pieces are sorted by their middles: a later one may begin nearer, but not by much.
-                if 0.5 * (a.depth + b.depth) > farthest + 1.0 || farthest == f32::NEG_INFINITY {
-                    break;
-                }
-                continue;
-            }
-            if let Some(piece) = Piece::new(a, b) {
-                self.piece(simd, tile, &piece, i, watch);
+            if nearest <= self.farthest {
+                self.piece(simd, tile, piece, among, watch);
             }
         }
     }
 
     #[inline(always)]
-    fn piece<S: Simd>(&mut self, simd: S, tile: [usize; 2], piece: &Piece, number: u32, watch: &mut impl Watch) {
-        let Piece { a, b, unit, length, cut } = piece;
+    fn piece<S: Simd>(
+        &mut self,
+        simd: S,
+        tile: [usize; 2],
+        piece: &Piece,
+        among: &Range<usize>,
+        watch: &mut impl Watch,
+    ) {
+        let Piece { a, b, cut, unit, per_length, number } = piece;
         let (zero, one) = (simd.splat_f32s(0.0), simd.splat_f32s(1.0));
-        let corner = tile.map(|t| (t * TILE) as f32);
-        // Walk along the axis that the piece follows more; across it, shares are taken along the other.
-        let major = usize::from(unit[1].abs() > unit[0].abs());
+        let lines = Lines::new(tile, piece);
+        let Lines { major, slope, start, end, .. } = lines;
         let minor = 1 - major;
-        let slope = unit[minor] / unit[major];
-        let widen = 1.0 / unit[major].abs();
-        let start = [a.at[0] - corner[0], a.at[1] - corner[1]];
-        let end = [b.at[0] - corner[0], b.at[1] - corner[1]];
-        let per_major = 1.0 / (end[major] - start[major]);
-        // A hair that moves is as wide as it moves far, and as much more transparent: half of its movement.
-        let sway = |n: &Node| 0.5 * (n.motion[minor] - n.motion[major] * slope).abs();
-        let (sway_a, sway_b) = (sway(a), sway(b));
+
+        // All pixels first, then their work: a loop of unknown length within another would be mispredicted at each line.
+        let mut pixels = [0_u8; 2 * PIXELS];
+        let mut count = 0;
+        for m in lines.first.max(among.start)..(lines.last + 1).min(among.end) {
+            let mut bits = lines.pixels[m] & !u32::from(self.full[minor][m]);
+            for _ in 0..2 {
+                pixels[count % (2 * PIXELS)] = (m * TILE) as u8 | bits.trailing_zeros() as u8 & 15;
+                count += usize::from(bits != 0);
+                bits &= bits.wrapping_sub(1);
+            }
+            while bits != 0 {
+                pixels[count % (2 * PIXELS)] = (m * TILE) as u8 | bits.trailing_zeros() as u8;
+                count += 1;
+                bits &= bits - 1;
+            }
+        }
+        if count == 0 {
+            return;
+        }
 
         // Offsets of the cells: across the piece, and along the normals of its two ends.
         // At a strand's ends cells are shared in proportion; between two pieces each belongs to one of them, or their shares would
         // count as unrelated and leave gaps.
-        let sharpness = |n: &Node| if n.end { SIDE as f32 } else { 4096.0 };
+        let sharpness = |n: &End| if n.last { SIDE as f32 } else { 4096.0 };
         let (sharp_a, sharp_b) = (sharpness(a), sharpness(b));
         let mut across = [0.0_f32; CELLS];
         let mut from_a = [0.0_f32; CELLS];
@@ -200,88 +220,148 @@ impl CoverageTile {
             from_a[s] = (o[0] * cut[0][0] + o[1] * cut[0][1]) * sharp_a;
             from_b[s] = (o[0] * cut[1][0] + o[1] * cut[1][1]) * sharp_b;
         }
+        let light = |n: &End| [n.light[0], n.light[1], n.light[2], 1.0];
+        let (light_a, light_b) = (light(a), light(b));
 
-        let widest = a.radius.max(b.radius) * widen + sway_a.max(sway_b) + 0.5 / SIDE as f32;
-        // Beyond its ends a piece reaches half a cell, and at a border aslant by at most its radius.
-        let overhang = a.radius.max(b.radius) + 0.2;
-        let low = start[major].min(end[major]) - overhang;
-        let high = start[major].max(end[major]) + overhang;
-        let (first, last) = (low.max(0.0) as usize, high.clamp(0.0, TILE as f32 - 0.001) as usize);
-        if high < 0.0 || low >= TILE as f32 {
-            return;
-        }
-        for m in first..=last {
-            let step = m as f32 - start[major];
-            let middle = start[minor] + (step + 0.5) * slope;
-            let reach = widest + 0.5 * slope.abs();
-            if middle + reach <= 0.0 || middle - reach >= TILE as f32 {
+        for &place in &pixels[..count] {
+            let (m, q) = (usize::from(place) / TILE, usize::from(place) % TILE);
+            let (x, y) = if major == 0 { (m, q) } else { (q, m) };
+            // Of eight bits, so that the compiler sees that it lies in the tile.
+            let pixel = usize::from((y * TILE + x) as u8);
+            let depth = lines.depth[m];
+            if depth > self.skin_far[pixel] {
                 continue;
             }
-            let from = (middle - reach).max(0.0) as usize;
-            let to = (middle + reach).clamp(0.0, TILE as f32 - 0.001) as usize;
-            let t = ((step + 0.5) * per_major).clamp(0.0, 1.0);
-            let depth = a.depth + (b.depth - a.depth) * t;
-            let half = (a.radius + (b.radius - a.radius) * t) * widen;
-            let spread = half.max(sway_a + (sway_b - sway_a) * t);
-            let opacity = half / spread.max(f32::MIN_POSITIVE);
-            let top = simd.splat_f32s(opacity * (2.0 * spread * SIDE as f32).min(1.0));
-            let rise = simd.splat_f32s(opacity * (spread * SIDE as f32 + 0.5));
-            let fall = simd.splat_f32s(opacity * SIDE as f32);
-            for q in from..=to {
-                let (x, y) = if major == 0 { (m, q) } else { (q, m) };
-                let pixel = y * TILE + x;
-                if depth > self.skin_far[pixel] {
-                    continue;
+            let off = simd.splat_f32s(q as f32 - lines.middle[m]);
+            let (top, rise, fall) = (lines.top[m], lines.rise[m], lines.fall[m]);
+            let (top, rise, fall) = (simd.splat_f32s(top), simd.splat_f32s(rise), simd.splat_f32s(fall));
+            let corner = [x as f32, y as f32];
+            let after_a = ((corner[0] - start[0]) * cut[0][0] + (corner[1] - start[1]) * cut[0][1]) * sharp_a;
+            let after_b = ((corner[0] - end[0]) * cut[1][0] + (corner[1] - end[1]) * cut[1][1]) * sharp_b;
+            let (after_a, after_b) = (simd.splat_f32s(after_a + 0.5), simd.splat_f32s(0.5 - after_b));
+            let at_skin = depth > self.skin_near[pixel];
+            let open = S::as_mut_simd_f32s(&mut self.open[pixel]).0;
+            let mut taken = [0.0; CELLS];
+            for (i, taken) in S::as_mut_simd_f32s(&mut taken).0.iter_mut().enumerate() {
+                let distance = simd.mul_f32s(simd.abs_f32s(simd.add_f32s(off, S::as_simd_f32s(&across).0[i])), fall);
+                let mut share = simd.min_f32s(simd.max_f32s(simd.sub_f32s(rise, distance), zero), top);
+                let after = simd.add_f32s(after_a, S::as_simd_f32s(&from_a).0[i]);
+                share = simd.mul_f32s(share, simd.min_f32s(simd.max_f32s(after, zero), one));
+                let before = simd.sub_f32s(after_b, S::as_simd_f32s(&from_b).0[i]);
+                share = simd.mul_f32s(share, simd.min_f32s(simd.max_f32s(before, zero), one));
+                if at_skin {
+                    let before = simd.less_than_f32s(simd.splat_f32s(depth), S::as_simd_f32s(&self.skin[pixel]).0[i]);
+                    share = simd.select_f32s(before, share, zero);
                 }
-                let off = simd.splat_f32s(q as f32 - start[minor] - step * slope);
-                let corner = [x as f32, y as f32];
-                let after_a = ((corner[0] - start[0]) * cut[0][0] + (corner[1] - start[1]) * cut[0][1]) * sharp_a;
-                let after_b = ((corner[0] - end[0]) * cut[1][0] + (corner[1] - end[1]) * cut[1][1]) * sharp_b;
-                // A pixel's cells lie within 1.42 of its corner.
-                let (at_a, at_b, at_skin) =
-                    (after_a < 1.5 * sharp_a, after_b > -1.5 * sharp_b, depth > self.skin_near[pixel]);
-                let (after_a, after_b) = (simd.splat_f32s(after_a + 0.5), simd.splat_f32s(0.5 - after_b));
-                let across = S::as_simd_f32s(&across).0;
-                let open = S::as_mut_simd_f32s(&mut self.open[pixel]).0;
-                let mut taken = [0.0; CELLS];
-                for (i, taken) in S::as_mut_simd_f32s(&mut taken).0.iter_mut().enumerate() {
-                    let distance = simd.mul_f32s(simd.abs_f32s(simd.add_f32s(off, across[i])), fall);
-                    let mut share = simd.min_f32s(simd.max_f32s(simd.sub_f32s(rise, distance), zero), top);
-                    if at_a {
-                        let within = simd.add_f32s(after_a, S::as_simd_f32s(&from_a).0[i]);
-                        share = simd.mul_f32s(share, simd.min_f32s(simd.max_f32s(within, zero), one));
-                    }
-                    if at_b {
-                        let within = simd.sub_f32s(after_b, S::as_simd_f32s(&from_b).0[i]);
-                        share = simd.mul_f32s(share, simd.min_f32s(simd.max_f32s(within, zero), one));
-                    }
-                    if at_skin {
-                        let before =
-                            simd.less_than_f32s(simd.splat_f32s(depth), S::as_simd_f32s(&self.skin[pixel]).0[i]);
-                        share = simd.select_f32s(before, share, zero);
-                    }
-                    *taken = simd.mul_f32s(share, open[i]);
-                    open[i] = simd.sub_f32s(open[i], *taken);
-                }
-                // Always in this order, however wide the vectors.
-                let quarter = |c: usize| (taken[c] + taken[c + 4]) + (taken[c + 8] + taken[c + 12]);
-                let sum = ((quarter(0) + quarter(1)) + (quarter(2) + quarter(3))) * (1.0 / CELLS as f32);
-                if sum > 0.0 {
-                    let along = [(x as f32 + 0.5 - start[0]) * unit[0], (y as f32 + 0.5 - start[1]) * unit[1]];
-                    let t = ((along[0] + along[1]) / length).clamp(0.0, 1.0);
-                    let light = &mut self.light[pixel];
-                    for c in 0..3 {
-                        light[c] += sum * (a.light[c] + (b.light[c] - a.light[c]) * t);
-                    }
-                    light[3] += sum;
-                    self.nearest[pixel] = self.nearest[pixel].min(depth);
-                    watch.hair(pixel, sum, t, number);
-                    self.left[pixel] -= sum;
-                    if self.left[pixel] < NOTHING {
-                        self.skin_far[pixel] = f32::NEG_INFINITY;
-                    }
-                }
+                *taken = simd.mul_f32s(share, open[i]);
+                open[i] = simd.sub_f32s(open[i], *taken);
+            }
+            // Always in this order, however wide the vectors.
+            let quarter = |c: usize| (taken[c] + taken[c + 4]) + (taken[c + 8] + taken[c + 12]);
+            let sum = ((quarter(0) + quarter(1)) + (quarter(2) + quarter(3))) * (1.0 / CELLS as f32);
+            let along = [(x as f32 + 0.5 - start[0]) * unit[0], (y as f32 + 0.5 - start[1]) * unit[1]];
+            let t = ((along[0] + along[1]) * per_length).clamp(0.0, 1.0);
+            let light = &mut self.light[pixel];
+            *light = std::array::from_fn(|c| light[c] + sum * (light_a[c] + (light_b[c] - light_a[c]) * t));
+            // Where it covers nothing it only goes on to do nothing: cheaper than to ask.
+            let seen = if sum > 0.0 { depth } else { f32::INFINITY };
+            self.nearest[pixel] = self.nearest[pixel].min(seen);
+            watch.hair(pixel, sum, t, *number);
+            self.left[pixel] -= sum;
+            if self.left[pixel] < NOTHING {
+                self.fill(x, y);
             }
         }
     }
+
+    /// Lets what a pixel holds stand for all of it.
+    #[inline(always)]
+    fn fill(&mut self, x: usize, y: usize) {
+        self.full[0][y] |= 1 << x;
+        self.full[1][x] |= 1 << y;
+        self.filled += 1;
+        let light = &mut self.light[y * TILE + x];
+        let whole = 1.0 / light[3];
+        *light = light.map(|l| l * whole);
+    }
+}
+
+/// A piece line by line: rows of the tile if it is steep, columns if it is flat. Sixteen lines side by side.
+struct Lines {
+    /// The axis that the piece follows more, 0 for x; lines are told apart along it, and cross it along the other.
+    major: usize,
+    /// Growth along the other axis for one pixel of this.
+    slope: f32,
+    /// Ends, from the tile's corner (pixels).
+    start: [f32; 2],
+    end: [f32; 2],
+    /// First and last line that it may touch, and in each the pixels within reach, a bit each.
+    first: usize,
+    last: usize,
+    pixels: [u32; TILE],
+    /// The piece's middle on the near edge of the line (pixels), and its depth (cm).
+    middle: [f32; TILE],
+    depth: [f32; TILE],
+    /// A cell's share is `rise` less `fall` times its distance from the middle, and at most `top`.
+    top: [f32; TILE],
+    rise: [f32; TILE],
+    fall: [f32; TILE],
+}
+
+impl Lines {
+    #[inline(always)]
+    fn new(tile: [usize; 2], piece: &Piece) -> Self {
+        let Piece { a, b, unit, per_length, .. } = piece;
+        let corner = tile.map(|t| (t * TILE) as f32);
+        // Walk along the axis that the piece follows more; across it, shares are taken along the other.
+        let major = usize::from(unit[1].abs() > unit[0].abs());
+        let minor = 1 - major;
+        let per_unit = 1.0 / unit[major];
+        let (widen, slope) = (per_unit.abs(), unit[minor] * per_unit);
+        let start = [a.at[0] - corner[0], a.at[1] - corner[1]];
+        let end = [b.at[0] - corner[0], b.at[1] - corner[1]];
+        // A hair that moves is as wide as it moves far, and as much more transparent: half of its movement.
+        let sway = |n: &End| 0.5 * (n.motion[minor] - n.motion[major] * slope).abs();
+        let (sway_a, sway_b) = (sway(a), sway(b));
+        let thickest = a.radius.max(b.radius);
+        let reach = thickest * widen + sway_a.max(sway_b) + 0.5 / SIDE as f32 + 0.5 * slope.abs();
+        // Beyond its ends a piece reaches half a cell, and at a border aslant by at most its radius.
+        let overhang = thickest + 0.2;
+        let low = start[major].min(end[major]) - overhang;
+        let high = start[major].max(end[major]) + overhang;
+        let per_major = per_length * per_unit;
+        let blank = [0.0; TILE];
+        let (mut middle, mut depth, mut pixels) = (blank, blank, [0; TILE]);
+        let (mut top, mut rise, mut fall) = (blank, blank, blank);
+        for m in 0..TILE {
+            let line = m as f32;
+            let step = line - start[major];
+            middle[m] = start[minor] + step * slope;
+            let t = ((step + 0.5) * per_major).clamp(0.0, 1.0);
+            depth[m] = a.depth + (b.depth - a.depth) * t;
+            let half = (a.radius + (b.radius - a.radius) * t) * widen;
+            let spread = half.max(sway_a + (sway_b - sway_a) * t);
+            let opacity = if spread > half { half / spread } else { 1.0 };
+            top[m] = opacity * (2.0 * spread * SIDE as f32).min(1.0);
+            rise[m] = opacity * (spread * SIDE as f32 + 0.5);
+            fall[m] = opacity * SIDE as f32;
+
+            let centre = middle[m] + 0.5 * slope;
+            let (left, right) = (centre - reach, centre + reach);
+            let within = line + 1.0 > low && line <= high && left < TILE as f32 && right > 0.0;
+            let bits = u32::from(u16::MAX) << whole(left) & u32::from(u16::MAX) >> (15 - whole(right));
+            pixels[m] = if within { bits } else { 0 };
+        }
+        let (first, last) = (whole(low) as usize, whole(high) as usize);
+        Self { major, slope, start, end, first, last, pixels, middle, depth, top, rise, fall }
+    }
+}
+
+/// The pixel, 0 to 15, that a coordinate lies in; the one before it for a coordinate on the border. Without a conversion,
+/// which would keep its loop from being vectorised.
+#[inline(always)]
+fn whole(x: f32) -> u32 {
+    // Adding 1.5 * 2^23 leaves the nearest whole number in the low bits.
+    const SHIFT: f32 = 12_582_912.0;
+    ((x - 0.5).max(0.0).min(TILE as f32 - 1.0) + SHIFT).to_bits() & 15
 }

@@ -1,5 +1,7 @@
 //! From nodes on the picture to pixels: sorting pieces of hair into tiles, and drawing each tile.
 
+use std::ops::Range;
+
 pub mod bins;
 pub mod coverage;
 pub mod oversample;
@@ -22,7 +24,6 @@ pub fn cell_offset(cell: usize) -> [f32; 2] {
 
 /// A node of a curve as the picture sees it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[repr(align(64))]
 pub struct Node {
     /// Place (pixels, right and down).
     pub at: [f32; 2],
@@ -49,30 +50,81 @@ pub struct Node {
 /// A straight piece between two nodes, prepared for drawing.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece {
-    pub a: Node,
-    pub b: Node,
-    /// Unit direction on the picture and length (pixels).
-    pub unit: [f32; 2],
-    pub length: f32,
+    pub a: End,
+    pub b: End,
     /// Normals of the lines through a and b at which the neighbouring pieces take over.
     pub cut: [[f32; 2]; 2],
+    /// Unit direction on the picture, and one over the length (pixels).
+    pub unit: [f32; 2],
+    pub per_length: f32,
+    /// Index of its first node.
+    pub number: u32,
+}
+
+/// One end of a piece: of its node, what drawing needs.
+#[derive(Clone, Copy, Debug)]
+pub struct End {
+    pub at: [f32; 2],
+    pub depth: f32,
+    pub radius: f32,
+    pub light: [f32; 3],
+    /// Movement while the shutter is open (pixels).
+    pub motion: [f32; 2],
+    /// Whether the strand begins or stops here.
+    pub last: bool,
 }
 
 impl Piece {
-    /// None where the piece has no length on the picture.
+    /// Between node `number` and the next; none where that has no length on the picture.
     #[inline]
-    pub fn new(a: &Node, b: &Node) -> Option<Self> {
+    pub fn new(a: &Node, b: &Node, number: u32) -> Option<Self> {
         let along = [b.at[0] - a.at[0], b.at[1] - a.at[1]];
         let length = (along[0] * along[0] + along[1] * along[1]).sqrt();
         if length.is_nan() || length < 1e-4 {
             return None;
         }
-        let unit = [along[0] / length, along[1] / length];
+        let per_length = 1.0 / length;
+        let unit = [along[0] * per_length, along[1] * per_length];
         // Where the curve turns sharply on the picture its tangent is no sensible border between two pieces.
         let border = |n: &Node| {
             let turn = n.direction[0] * unit[0] + n.direction[1] * unit[1];
             if turn > 0.7 { n.direction } else { unit }
         };
-        Some(Self { a: *a, b: *b, unit, length, cut: [border(a), border(b)] })
+        let end = |n: &Node| End {
+            at: n.at,
+            depth: n.depth,
+            radius: n.radius,
+            light: n.light,
+            motion: n.motion,
+            last: n.end,
+        };
+        Some(Self { a: end(a), b: end(b), cut: [border(a), border(b)], unit, per_length, number })
+    }
+
+    /// Distance of a point from the piece's line (pixels).
+    #[inline]
+    pub fn distance(&self, point: [f32; 2]) -> f32 {
+        let from_a = [point[0] - self.a.at[0], point[1] - self.a.at[1]];
+        (from_a[0] * self.unit[1] - from_a[1] * self.unit[0]).abs()
+    }
+
+    /// Where on the piece (0..1) the middle of some lines of a tile lies, counted from the tile's `corner` (pixels) along the
+    /// axis that the piece follows more; none where it does not reach them.
+    #[inline]
+    pub fn within(&self, corner: [f32; 2], lines: &Range<usize>) -> Option<f32> {
+        let major = usize::from(self.unit[1].abs() > self.unit[0].abs());
+        let [start, end] = [self.a.at[major], self.b.at[major]].map(|c| c - corner[major]);
+        let (first, last) = (lines.start as f32, lines.end as f32);
+        // As far as drawing reaches beyond the ends.
+        let overhang = self.a.radius.max(self.b.radius) + 0.2;
+        let reaches = start.max(end) + overhang >= first && start.min(end) - overhang <= last;
+        reaches.then(|| ((0.5 * (first + last) - start) * self.per_length / self.unit[major]).clamp(0.0, 1.0))
+    }
+
+    /// How far from its line the piece reaches (pixels), moving hair included.
+    #[inline]
+    pub fn reach(&self) -> f32 {
+        let moved = |n: &End| n.motion[0].abs().max(n.motion[1].abs());
+        1.42 * self.a.radius.max(self.b.radius) + moved(&self.a).max(moved(&self.b))
     }
 }

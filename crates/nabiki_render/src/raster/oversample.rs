@@ -1,7 +1,7 @@
 //! The paper's way to draw (section 4.4): opaque lines and the head's triangles against a depth buffer with several
 //! points in each pixel, averaged.
 
-use super::{BURIED, Node, Piece, SIDE, TILE};
+use super::{BURIED, Piece, SIDE, TILE};
 use crate::skin::SkinPixel;
 
 /// The depth buffer of one tile.
@@ -20,11 +20,10 @@ impl OversampledTile {
     }
 
     /// Draws what lies in a tile; skin that is not `visible` hides hair all the same.
-    pub fn draw(
+    pub fn draw<'a>(
         &mut self,
         tile: [usize; 2],
-        nodes: &[Node],
-        pieces: &[u32],
+        pieces: impl Iterator<Item = &'a Piece>,
         skin: (&[SkinPixel], &[[f32; 3]]),
         visible: bool,
     ) {
@@ -33,10 +32,8 @@ impl OversampledTile {
         for (piece, light) in skin.0.iter().zip(skin.1) {
             self.skin(piece, if visible { [light[0], light[1], light[2], 1.0] } else { [0.0; 4] });
         }
-        for &i in pieces {
-            if let Some(piece) = Piece::new(&nodes[i as usize], &nodes[i as usize + 1]) {
-                self.piece(tile, &piece);
-            }
+        for piece in pieces {
+            self.piece(tile, piece);
         }
     }
 
@@ -75,7 +72,7 @@ impl OversampledTile {
     }
 
     fn piece(&mut self, tile: [usize; 2], piece: &Piece) {
-        let Piece { a, b, unit, length, cut } = piece;
+        let Piece { a, b, unit, per_length, cut, .. } = piece;
         // Walk along the axis that the piece follows more; across it the hair is a span.
         let major = usize::from(unit[1].abs() > unit[0].abs());
         let minor = 1 - major;
@@ -98,7 +95,7 @@ impl OversampledTile {
                 let begun = from_a[0] * cut[0][0] + from_a[1] * cut[0][1] >= 0.0;
                 let ended = from_b[0] * cut[1][0] + from_b[1] * cut[1][1] >= 0.0;
                 if begun && !ended {
-                    let t = ((from_a[0] * unit[0] + from_a[1] * unit[1]) / length).clamp(0.0, 1.0);
+                    let t = ((from_a[0] * unit[0] + from_a[1] * unit[1]) * per_length).clamp(0.0, 1.0);
                     let mix = |x: f32, y: f32| x + (y - x) * t;
                     let (x, y) = if major == 0 { (step, number) } else { (number, step) };
                     self.put(x, y, mix(a.depth, b.depth), || {

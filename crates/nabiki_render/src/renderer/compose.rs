@@ -1,0 +1,158 @@
+//! From lit nodes to the frame's pixels, tile by tile.
+
+use rayon::prelude::*;
+
+use super::Renderer;
+use crate::backdrop::Backdrop;
+use crate::camera::View;
+use crate::curve::Curves;
+use crate::frame::{Frame, HairLayer, NO_DEPTH};
+use crate::raster::bins::Row;
+use crate::raster::coverage::{CoverageTile, Watch};
+use crate::raster::oversample::OversampledTile;
+use crate::raster::{Node, TILE};
+
+impl Renderer {
+    pub(super) fn compose<const LAYERS: bool>(&self, view: &View) -> Frame {
+        let still = self.still.as_ref().expect("stands");
+        let crossings = self.crossings();
+        let skin_light = self.skin_light(&crossings, view);
+        let skin_visible = self.picture.head.visible;
+        let size = view.size.map(|s| s as usize);
+        let layers = vec![HairLayer::default(); if LAYERS { size[0] * size[1] } else { 0 }];
+        let mut frame = self.empty(view, layers);
+        let backdrop = Backdrop::new(&self.picture, size[1]);
+        let rows = rows_of_tiles(&mut frame);
+        let work = || (CoverageTile::new(), Row::default());
+        rows.into_par_iter().enumerate().for_each_init(work, |(work, hair), (row, mut out)| {
+            self.bins.row(row, &self.nodes, true, hair);
+            for column in 0..self.bins.tiles[0] {
+                let tile = row * self.bins.tiles[0] + column;
+                let pieces = hair.tile(column);
+                let range = still.skin.tile(tile);
+                let pixels = &still.skin.pixels[range.clone()];
+                let light = |i: usize| skin_light.at(range.start + i, &pixels[i]);
+                let skin = (pixels, skin_visible.then_some(light));
+                let mut watch = LayerWatch {
+                    curves: &self.curves,
+                    nodes: &self.nodes,
+                    layers: vec![HairLayer::default(); if LAYERS { TILE * TILE } else { 0 }],
+                };
+                if LAYERS {
+                    work.draw([column, row], pieces, skin, &mut watch);
+                } else {
+                    work.draw([column, row], pieces, skin, &mut ());
+                }
+                out.put(column, size[0], |i, y| {
+                    let drawn = work.drawn(i);
+                    let layer = watch.layers.get(i).copied();
+                    (backdrop.behind(drawn.light, row * TILE + y), drawn.depth, layer)
+                });
+            }
+        });
+        frame
+    }
+
+    pub(super) fn oversample(&self, view: &View) -> Frame {
+        let still = self.still.as_ref().expect("stands");
+        let crossings = self.crossings();
+        let skin_light = self.skin_light(&crossings, view);
+        let mut frame = self.empty(view, Vec::new());
+        let width = view.size[0] as usize;
+        let backdrop = Backdrop::new(&self.picture, view.size[1] as usize);
+        let samples = self.picture.samples as usize;
+        let rows = rows_of_tiles(&mut frame);
+        rows.into_par_iter().enumerate().for_each_init(
+            || (OversampledTile::new(samples), Row::default()),
+            |(work, hair), (row, mut out)| {
+                self.bins.row(row, &self.nodes, false, hair);
+                for column in 0..self.bins.tiles[0] {
+                    let tile = row * self.bins.tiles[0] + column;
+                    let range = still.skin.tile(tile);
+                    let pixels = &still.skin.pixels[range.clone()];
+                    let light: Vec<_> = range.zip(pixels).map(|(i, p)| skin_light.at(i, p)).collect();
+                    work.draw(
+                        [column, row],
+                        hair.tile(column).map(|(piece, _)| piece),
+                        (pixels, &light),
+                        self.picture.head.visible,
+                    );
+                    out.put(column, width, |i, y| {
+                        let (light, depth) = work.pixel(i);
+                        (backdrop.behind(light, row * TILE + y), depth, None)
+                    });
+                }
+            },
+        );
+        frame
+    }
+
+    fn empty(&self, view: &View, layers: Vec<HairLayer>) -> Frame {
+        let pixels = view.size[0] as usize * view.size[1] as usize;
+        Frame { size: view.size, rgba: vec![[0.0; 4]; pixels], depth: vec![NO_DEPTH; pixels], layers }
+    }
+}
+
+/// The pixels that a row of tiles covers.
+struct TileRow<'a> {
+    rgba: &'a mut [[f32; 4]],
+    depth: &'a mut [f32],
+    layers: &'a mut [HairLayer],
+}
+
+fn rows_of_tiles(frame: &mut Frame) -> Vec<TileRow<'_>> {
+    let length = TILE * frame.size[0] as usize;
+    let mut layers = frame.layers.chunks_mut(length);
+    frame
+        .rgba
+        .chunks_mut(length)
+        .zip(frame.depth.chunks_mut(length))
+        .map(|(rgba, depth)| TileRow { rgba, depth, layers: layers.next().unwrap_or_default() })
+        .collect()
+}
+
+impl TileRow<'_> {
+    /// Writes a tile's pixels, as far as they lie on the picture. `value` is given the pixel in the tile and its row.
+    fn put(
+        &mut self,
+        column: usize,
+        width: usize,
+        mut value: impl FnMut(usize, usize) -> ([f32; 4], f32, Option<HairLayer>),
+    ) {
+        for y in 0..self.rgba.len() / width {
+            for x in 0..TILE.min(width - column * TILE) {
+                let to = y * width + column * TILE + x;
+                let (rgba, depth, layer) = value(y * TILE + x, y);
+                self.rgba[to] = rgba;
+                self.depth[to] = depth;
+                if let Some(layer) = layer {
+                    self.layers[to] = layer;
+                }
+            }
+        }
+    }
+}
+
+/// Gathers the layers of one tile.
+struct LayerWatch<'a> {
+    curves: &'a Curves,
+    nodes: &'a [Node],
+    layers: Vec<HairLayer>,
+}
+
+impl Watch for LayerWatch<'_> {
+    #[inline(always)]
+    fn hair(&mut self, pixel: usize, share: f32, along: f32, piece: u32) {
+        let i = piece as usize;
+        let direction = self.curves.nodes[i].tangent.lerp(self.curves.nodes[i + 1].tangent, along);
+        let layer = &mut self.layers[pixel];
+        for c in 0..3 {
+            layer.direction[c] += share * direction[c];
+        }
+        for c in 0..2 {
+            let (a, b) = (self.nodes[i].motion[c], self.nodes[i + 1].motion[c]);
+            layer.motion[c] += share * (a + (b - a) * along);
+        }
+        layer.share += share;
+    }
+}
