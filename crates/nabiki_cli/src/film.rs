@@ -73,8 +73,7 @@ impl<'a> Film<'a> {
         let renderer = Renderer::new(picture, &head.mesh)?;
         let mut bounds = Bounds::default();
         bounds.include_head(&head.mesh, &head.ellipsoid);
-        let camera = &picture.camera;
-        if camera.target.is_none() || (camera.distance.is_none() && camera.height.is_none()) {
+        if picture.camera.is_automatic() {
             for n in 0..=take.stage.scene.motion.frames {
                 let turn = take.pose(n).rotation;
                 let strands = frames.frame(n)?;
@@ -115,11 +114,16 @@ impl<'a> Film<'a> {
         Ok(png::write(path, &frame, &self.developer, png::Depth::Eight)?)
     }
 
+    /// The view of frame `n`. It goes along with the head, and does not turn with it.
+    fn view(&self, n: u32) -> View {
+        let progress = n as f32 / self.take.stage.scene.motion.frames as f32;
+        View::new(&self.picture.camera.at(progress), self.picture.size, &self.bounds)
+    }
+
     /// The frame, and the view in the space of the forces. The camera goes along with the head, and does not turn
     /// with it.
     fn draw(&mut self, n: u32, strands: &Strands) -> Result<(Frame, View), RenderError> {
-        let progress = n as f32 / self.take.stage.scene.motion.frames as f32;
-        let view = View::new(&self.picture.camera.at(progress), self.picture.size, &self.bounds);
+        let view = self.view(n);
         let view_in_head = turned(view, self.take.pose(n).rotation.inverse());
         let previous = self.previous.as_ref().unwrap_or(strands);
         let frame = self.renderer.draw_since(previous, strands, &view_in_head)?;
@@ -138,3 +142,7 @@ fn turned(view: View, turn: Quat) -> View {
     let [eye, right, up, forward] = [view.eye, view.right, view.up, view.forward].map(|v: Vec3| turn * v);
     View { eye, right, up, forward, ..view }
 }
+
+#[cfg(test)]
+#[path = "film/tests.rs"]
+mod tests;

@@ -92,6 +92,16 @@ impl Camera {
         }
     }
 
+    /// Whether a view of this camera depends on what is to be framed: something it needs is left open.
+    pub fn is_automatic(&self) -> bool {
+        let open = match self.projection {
+            Projection::Perspective => self.distance.is_none(),
+            // Without a distance the eye stands before all that is framed.
+            Projection::Orthographic => self.height.is_none() || self.distance.is_none(),
+        };
+        self.target.is_none() || open
+    }
+
     pub(crate) fn check(&self) -> Result<(), SettingError> {
         check_angles("picture.camera", Some(self.azimuth), Some(self.elevation), Some(self.fov))?;
         if let Some(distance) = self.distance {

@@ -1,0 +1,116 @@
+use std::path::Path;
+
+use nabiki_io::scene::Scene;
+use nabiki_render::camera::NEAR;
+use nabiki_render::settings::{Camera, Projection};
+
+use super::*;
+
+const FRAMES: u32 = 12;
+const SIZE: [u32; 2] = [320, 180];
+
+/// Few strands in the gust, after `changes`.
+fn gust(changes: &[(&str, &str)]) -> Take {
+    let scene = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/gust.toml"));
+    let few = [("hair.strands", "40"), ("motion.frames", "12"), ("output.sheet", "[0]"), ("picture.size", "[320,180]")];
+    let changes: Vec<_> = few.iter().chain(changes).map(|&(key, value)| (key.to_owned(), value.to_owned())).collect();
+    Take::new(Scene::load(scene, &changes).unwrap().build().unwrap()).unwrap()
+}
+
+fn film<'a>(take: &'a Take, camera: Camera) -> Film<'a> {
+    let picture = Picture { camera, size: SIZE, ..take.stage.scene.picture.clone() };
+    let mut rehearsal = Simulated { take, simulation: take.simulation().unwrap() };
+    Film::new(take, &picture, &mut rehearsal, true).unwrap()
+}
+
+/// Pixels between a point and each side of the picture less its margin: left, right, top, bottom.
+fn spare(view: &View, margin: f32, p: Vec3) -> [f32; 4] {
+    let p = view.project(p);
+    assert!(p.z > NEAR, "it lies before the camera: {p}");
+    [p.x, SIZE[0] as f32 - p.x, p.y, SIZE[1] as f32 - p.y].map(|spare| spare - margin)
+}
+
+fn least(spare: [f32; 4]) -> f32 {
+    spare.into_iter().fold(f32::INFINITY, f32::min)
+}
+
+/// What the margin may at most be missed by: each face of the box touches a point, whose picture lies within that of
+/// the face's corners. So towards each side a point comes as near as the face whose furthest corner is nearest.
+fn guaranteed(view: &View, margin: f32, bounds: &Bounds) -> f32 {
+    let corner = |bits: usize| {
+        let pick = |axis: usize| if bits >> axis & 1 == 0 { bounds.low[axis] } else { bounds.high[axis] };
+        spare(view, margin, Vec3::new(pick(0), pick(1), pick(2)))
+    };
+    let of_face = |axis: usize, end: usize| {
+        let corners = (0..8).filter(|bits| bits >> axis & 1 == end).map(corner);
+        least(corners.fold([f32::NEG_INFINITY; 4], |m, c| std::array::from_fn(|side| m[side].max(c[side]))))
+    };
+    (0..6).map(|face| of_face(face / 2, face % 2)).fold(f32::INFINITY, f32::min)
+}
+
+/// Rounding of sums of coordinates some hundred pixels large, in single precision.
+const ROUNDING: f32 = 1e-2;
+
+/// Every point of every frame is in the picture as `film` shows it; returns how near to the margin the nearest comes.
+fn check(take: &Take, film: &Film) -> f32 {
+    let margin = film.picture.camera.margin * SIZE[1] as f32;
+    let mut frames = Simulated { take, simulation: take.simulation().unwrap() };
+    let mut nearest = f32::INFINITY;
+    for n in 0..=FRAMES {
+        let (view, turn) = (film.view(n), take.pose(n).rotation);
+        for &p in frames.frame(n).unwrap().points() {
+            let spare = least(spare(&view, margin, turn * p));
+            assert!(spare > -ROUNDING, "frame {n}: {p} is {spare} pixels beyond the margin");
+            nearest = nearest.min(spare);
+        }
+    }
+    nearest
+}
+
+#[test]
+fn automatic_framing_holds_every_point_of_every_frame_and_no_more_than_it_must() {
+    let take = gust(&[]);
+    for projection in [Projection::Perspective, Projection::Orthographic] {
+        for (azimuth, elevation) in [(0.0, 0.0), (40.0, 5.0), (90.0, 0.0), (205.0, -20.0), (300.0, 60.0)] {
+            let film = film(&take, Camera { projection, azimuth, elevation, ..Camera::default() });
+            // The head is framed as well, and may be what comes nearest.
+            let head = &take.stage.head;
+            let near_head = head.ellipsoid.scaled(1.5);
+            let (view, margin) = (film.view(0), film.picture.camera.margin * SIZE[1] as f32);
+            let of_head = head.mesh.positions.iter().filter(|&&p| near_head.value(p) <= 0.0);
+            let of_head = of_head.map(|&p| least(spare(&view, margin, p))).fold(f32::INFINITY, f32::min);
+            let nearest = check(&take, &film).min(of_head);
+            let guaranteed = guaranteed(&view, margin, &film.bounds);
+            eprintln!("{projection:?} {azimuth} {elevation}: {nearest:.2} px of {guaranteed:.2}");
+            assert!(nearest <= guaranteed + ROUNDING, "{projection:?} {azimuth}: {nearest} pixels, {guaranteed}");
+        }
+    }
+}
+
+#[test]
+fn a_head_that_turns_stays_framed() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("nod_and_turn.csv");
+    let mut table = "t_s,px_cm,py_cm,pz_cm,qx,qy,qz,qw\n".to_owned();
+    for n in 0..=FRAMES {
+        let angle = n as f32 / FRAMES as f32;
+        let turn = Quat::from_rotation_y(2.0 * angle) * Quat::from_rotation_z(angle);
+        table += &format!("{},{n},0,0,{},{},{},{}\n", n as f32 / 24.0, turn.x, turn.y, turn.z, turn.w);
+    }
+    std::fs::write(&file, table).unwrap();
+    let motion = format!("{{file=\"{}\",up=\"+y\",facing=\"+x\"}}", file.display());
+    let take = gust(&[("head.motion", &motion)]);
+    for projection in [Projection::Perspective, Projection::Orthographic] {
+        check(&take, &film(&take, Camera { projection, azimuth: 40.0, ..Camera::default() }));
+    }
+}
+
+#[test]
+fn what_a_camera_leaves_open_is_chosen_for_all_frames() {
+    let take = gust(&[]);
+    let looked_at = Camera { target: Some(Vec3::new(-5.0, 0.0, 0.0)), ..Camera::default() };
+    // A height means nothing in perspective, and a distance nothing for the size of an orthographic picture.
+    check(&take, &film(&take, Camera { height: Some(30.0), ..looked_at }));
+    let orthographic = Camera { projection: Projection::Orthographic, ..looked_at };
+    check(&take, &film(&take, Camera { distance: Some(200.0), ..orthographic }));
+}
