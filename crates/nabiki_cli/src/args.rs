@@ -43,13 +43,13 @@ pub enum Command {
     /// each force of the field. That is how to choose a force by thinking: T = 2 pi / acos(1 - c |F| / 2) frames, about
     /// 2 pi / sqrt(c |F|); four times the force halves the time.
     Preview(Preview),
-    /// Grow or import the hair of a scene and write it at rest, as a .hair or .tfx file
+    /// Grow or import the hair of a scene and write it at rest, into a hair file
     Groom(Groom),
     /// Move the hair of a scene and write every frame into a motion cache
     Simulate(Simulate),
     /// Draw a scene, moved by its own simulation or by a motion cache
     Render(Render),
-    /// Turn a hair file, or a frame of a motion cache, into another format
+    /// Turn a hair file, or a motion cache or a frame of it, into another format
     Convert(Convert),
     /// Say what is in a scene, hair file, motion cache or mesh
     Info(Info),
@@ -79,7 +79,7 @@ pub struct Run {
     #[arg(long, value_name = "N")]
     pub strands: Option<usize>,
 
-    /// Folder for all that is written
+    /// Folder for the pictures, made if it is not there
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
 
@@ -112,7 +112,7 @@ pub struct Preview {
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = positive)]
     pub strands: usize,
 
-    /// Folder for all that is written
+    /// Folder for the pictures, made if it is not there
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
 }
@@ -166,6 +166,10 @@ pub struct Render {
     #[command(flatten)]
     pub scene: SceneArgs,
 
+    /// Strands to grow, in place of hair.strands; of imported hair, an even choice of so many
+    #[arg(long, value_name = "N")]
+    pub strands: Option<usize>,
+
     /// The motion cache to draw, written from the same scene by `simulate`; without it the scene is simulated
     #[arg(long, value_name = "FILE")]
     pub motion: Option<PathBuf>,
@@ -174,7 +178,7 @@ pub struct Render {
     #[arg(long, value_name = "N")]
     pub frame: Option<u32>,
 
-    /// Folder for all that is written
+    /// Folder for the pictures, made if it is not there
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
 }

@@ -101,6 +101,8 @@ fn a_cache_draws_the_frames_that_the_simulation_would() {
         ["--frames", "4", "--set", "hair.strands=60", "--set", "picture.size=[96,64]", "--set", "output.sheet=[0]"];
     succeed(&[&["simulate", GUST, "-o", &cache][..], &changes].concat());
     succeed(&[&["render", GUST, "--frame", "4", "--out", &direct][..], &changes].concat());
+    // The number of strands may be given either way.
+    let changes = [&["--strands", "60"][..], &changes[..2], &changes[4..]].concat();
     succeed(&[&["render", GUST, "--frame", "4", "--motion", &cache, "--out", &cached][..], &changes].concat());
     let picture = |folder: &str| fs::read(Path::new(folder).join("gust_0004.png")).unwrap();
     assert!(picture(&direct) == picture(&cached));

@@ -11,7 +11,7 @@ use crate::reel::{self, Reel};
 use crate::report::Report;
 
 pub fn render(args: &Render, quiet: bool) -> Result<(), Failure> {
-    let take = open(&args.scene, None)?;
+    let take = open(&args.scene, args.strands)?;
     let scene = &take.stage.scene;
     let mut folders = Folders::default();
     let source = || -> Result<Box<dyn Frames + '_>, Failure> {
