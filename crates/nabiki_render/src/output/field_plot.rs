@@ -22,7 +22,12 @@ pub struct Interval {
 /// Side of each of the two drawings, and the border around it (pixels or SVG units).
 const SIDE: f32 = 360.0;
 const BORDER: f32 = 44.0;
-const SIZE: [f32; 2] = [2.0 * SIDE + 3.0 * BORDER, SIDE + 2.0 * BORDER];
+const WIDTH: f32 = 2.0 * SIDE + 3.0 * BORDER;
+/// Height of capitals, and distance of the lines of the legend.
+const TEXT: f32 = 9.0;
+const LINE: f32 = 18.0;
+/// Lines that the legend may have before it says how many intervals it leaves out.
+const LINES: usize = 16;
 
 /// A line, arrow or caption of the drawing.
 enum Mark {
@@ -59,47 +64,94 @@ fn marks(field: &[Interval]) -> Vec<Mark> {
         }
         marks.push(Mark::Path(field.iter().map(|i| at(i.vector)).collect()));
         // Vectors with the same projection share one caption: the numbers of their intervals.
-        let mut captions: Vec<([f32; 2], String)> = Vec::new();
+        let mut captions: Vec<([f32; 2], Vec<usize>)> = Vec::new();
         for (i, interval) in field.iter().enumerate() {
             let place = at(interval.vector);
             match captions.iter_mut().find(|(p, _)| (p[0] - place[0]).hypot(p[1] - place[1]) < 14.0) {
-                Some((_, caption)) => *caption = format!("{caption}, {}", i + 1),
-                None => captions.push((place, (i + 1).to_string())),
+                Some((_, numbers)) => numbers.push(i + 1),
+                None => captions.push((place, vec![i + 1])),
             }
         }
-        for (place, text) in captions {
+        for (place, numbers) in captions {
             marks.push(Mark::Dot(place));
-            let width = Canvas::caption_width(&text, 9.0);
-            let x = (place[0] + 7.0).min(SIZE[0] - width - 4.0);
+            let text = caption(&numbers);
+            let x = (place[0] + 7.0).min(WIDTH - width(&text) - 4.0);
             let below = if place[1] > origin[1] { 16.0 } else { -8.0 };
             marks.push(Mark::Text(text, [x, place[1] + below]));
         }
     }
-    marks.push(Mark::Text(legend(field), [BORDER, SIZE[1] - 12.0]));
+    for (row, text) in legend(field).into_iter().enumerate() {
+        marks.push(Mark::Text(text, [BORDER, SIDE + 2.0 * BORDER - 12.0 + row as f32 * LINE]));
+    }
     marks
 }
 
-/// Which frames each interval holds.
-fn legend(field: &[Interval]) -> String {
+/// Width and height of the whole drawing: the legend takes the lines it needs.
+fn size(field: &[Interval]) -> [f32; 2] {
+    [WIDTH, SIDE + 2.0 * BORDER + (legend(field).len() - 1) as f32 * LINE]
+}
+
+/// Width of a text in the PNG, whose letters are wider than those of common fonts in the SVG.
+fn width(text: &str) -> f32 {
+    Canvas::caption_width(text, TEXT)
+}
+
+/// The numbers of intervals, those that follow one another as a range; no wider than half of a drawing.
+fn caption(numbers: &[usize]) -> String {
+    let ranges: Vec<&[usize]> = numbers.chunk_by(|a, b| a + 1 == *b).collect();
+    let told = |shown: usize| {
+        let names: Vec<String> = ranges[..shown]
+            .iter()
+            .map(|range| match range {
+                [first, .., last] => format!("{first}-{last}"),
+                [only] => only.to_string(),
+                [] => String::new(),
+            })
+            .collect();
+        let left: usize = ranges[shown..].iter().map(|range| range.len()).sum();
+        let rest = if left > 0 { format!(" and {left} more") } else { String::new() };
+        names.join(", ") + &rest
+    };
+    let shown = (1..=ranges.len()).rev().find(|&shown| width(&told(shown)) <= SIDE / 2.0);
+    told(shown.unwrap_or(1))
+}
+
+/// Which frames each interval holds, in lines as wide as both drawings.
+fn legend(field: &[Interval]) -> Vec<String> {
     let mut from = 1;
-    let mut intervals = Vec::new();
+    let mut lines = vec!["frames".to_owned()];
     for (i, interval) in field.iter().enumerate() {
-        intervals.push(format!("({}) {from} to {}", i + 1, interval.through));
+        let comma = if i + 1 < field.len() { "," } else { "" };
+        let text = format!("({}) {from} to {}{comma}", i + 1, interval.through);
         from = interval.through + 1;
+        let line = lines.last().map_or(String::new(), |line| format!("{line} {text}"));
+        let rest = format!("and {} more", field.len() - i);
+        // The last line keeps room for the rest, unless this is the end of it.
+        let room = if lines.len() == LINES && !comma.is_empty() { width(&format!(" {rest}")) } else { 0.0 };
+        if width(&line) + room <= WIDTH - 2.0 * BORDER {
+            lines.pop();
+            lines.push(line);
+        } else if lines.len() < LINES {
+            lines.push(text);
+        } else {
+            let line = lines.pop().unwrap_or_default();
+            lines.push(format!("{line} {rest}"));
+            break;
+        }
     }
-    format!("frames {}", intervals.join(", "))
+    lines
 }
 
 /// Writes the projections as a PNG file.
 pub fn write_png(path: &Path, field: &[Interval]) -> Result<(), RenderError> {
-    let mut canvas = Canvas::new(SIZE.map(|s| s as usize), [255; 3]);
+    let mut canvas = Canvas::new(size(field).map(|s| s as usize), [255; 3]);
     for mark in marks(field) {
         match mark {
             Mark::Axis(a, b) => canvas.stroke(&[a, b], 1.0, [170; 3]),
             Mark::Path(line) => canvas.stroke(&line, 1.6, [30, 90, 170]),
             Mark::Arrow(a, b) => canvas.arrow(a, b, 1.3, [205, 110, 30]),
             Mark::Dot(p) => canvas.stroke(&[p], 6.0, [30, 90, 170]),
-            Mark::Text(text, at) => canvas.caption(&text, at, 9.0, [40; 3]),
+            Mark::Text(text, at) => canvas.caption(&text, at, TEXT, [40; 3]),
         }
     }
     canvas.write_png(path)
@@ -111,7 +163,7 @@ pub fn write_svg(path: &Path, field: &[Interval]) -> Result<(), RenderError> {
 }
 
 fn svg(field: &[Interval]) -> String {
-    let [width, height] = SIZE;
+    let [width, height] = size(field);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n\
          <defs><marker id=\"head\" viewBox=\"0 0 10 10\" refX=\"10\" refY=\"5\" markerWidth=\"7\" markerHeight=\"7\" \
@@ -184,5 +236,56 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         write_png(&folder.path().join("f.png"), &still).unwrap();
         write_svg(&folder.path().join("f.svg"), &running()).unwrap();
+    }
+
+    /// `count` intervals whose forces turn about a slanted axis, or stay the same.
+    fn many(count: u32, turning: bool) -> Vec<Interval> {
+        let force = |i: u32| if turning { 2.399 * i as f32 } else { 0.0 };
+        (0..count)
+            .map(|i| Interval {
+                through: 1000 * (i + 1),
+                vector: 80.0 * Vec3::new(1.0, force(i).sin(), force(i).cos()),
+            })
+            .collect()
+    }
+
+    #[test]
+    fn text_stays_inside_however_many_intervals_there_are() {
+        for field in [0, 1, 5, 12, 40, 130, 2000].into_iter().flat_map(|n| [many(n, true), many(n, false)]) {
+            let [across, down] = size(&field);
+            for mark in marks(&field) {
+                if let Mark::Text(text, [x, y]) = mark {
+                    assert!(x >= 0.0 && x + width(&text) <= across, "{} intervals: {text}", field.len());
+                    // Letters reach up by their height, and a comma down by a third of it.
+                    assert!(y - TEXT >= 0.0 && y + TEXT / 3.0 <= down, "{} intervals: {text}", field.len());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_legend_names_every_interval_or_says_how_many_it_leaves_out() {
+        for count in 0..300 {
+            let legend = legend(&many(count, true)).join(" ");
+            let named = (1..=count).filter(|i| legend.contains(&format!("({i}) {} to {}", 1000 * i - 999, 1000 * i)));
+            let named = named.count() as u32;
+            let left: u32 = match legend.strip_suffix(" more").and_then(|told| told.rsplit(' ').next()) {
+                Some(left) => left.parse().unwrap(),
+                None => 0,
+            };
+            assert_eq!(named + left, count, "{legend}");
+            assert!(left == 0 || count > 60, "{legend}");
+        }
+        assert_eq!(legend(&running()).len(), 1);
+    }
+
+    #[test]
+    fn a_caption_of_many_numbers_gives_ranges_and_says_how_many_it_leaves_out() {
+        assert_eq!(caption(&[3]), "3");
+        assert_eq!(caption(&[1, 2, 3, 5, 7, 8]), "1-3, 5, 7-8");
+        let odd: Vec<usize> = (0..40).map(|i| 2 * i + 1).collect();
+        let text = caption(&odd);
+        let (numbers, left) = text.strip_suffix(" more").unwrap().split_once(" and ").unwrap();
+        assert_eq!(numbers.split(", ").count() + left.parse::<usize>().unwrap(), 40);
     }
 }
