@@ -62,6 +62,10 @@ impl Scene {
                     Some(count) if count < hair.strands.len() => choose(&hair, count),
                     _ => hair,
                 };
+                let chosen = match self.hair.segments {
+                    Some(segments) => cut_anew(&chosen, segments).map_err(|refused| self.refusal(refused))?,
+                    None => chosen,
+                };
                 (chosen, Some(placement), Some(report))
             }
         };
@@ -181,9 +185,19 @@ fn hair_placement(settings: &HairSettings, head: &Placement, said: Said) -> Plac
 fn grow(scene: &Scene, head: &Head) -> Result<Strands> {
     let HairSettings { hairline, style, segments, segment_length, seed, .. } = &scene.hair;
     let count = scene.hair.strands.unwrap_or(HairSettings::STRANDS);
+    let segments = segments.unwrap_or(HairSettings::SEGMENTS);
     pores::spread(head, hairline, count, *seed)
-        .and_then(|pores| groom(head, &pores, style, *segments, *segment_length, *seed))
+        .and_then(|pores| groom(head, &pores, style, segments, *segment_length, *seed))
         .map_err(|refused| scene.refusal(refused))
+}
+
+/// The same strands in `segments` equally long segments each.
+fn cut_anew(hair: &Hair, segments: usize) -> std::result::Result<Hair, SettingError> {
+    let points = segments.checked_add(1).and_then(|points| points.checked_mul(hair.strands.len()));
+    match points {
+        Some(points) if points <= u32::MAX as usize => Ok(hair.resampled(segments + 1)),
+        _ => Err(SettingError::new("hair.segments", segments, "more than 2^32 points in all: ask for fewer")),
+    }
 }
 
 /// An even choice of `count` strands, in the order of the file.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::Vec3;
 use nabiki_io::{
-    scene::{EllipsoidChoice, Scene},
+    scene::{EllipsoidChoice, HairSettings, Scene},
     stage::Stage,
 };
 
@@ -45,7 +45,8 @@ fn what_a_scene_leaves_out_is_the_papers() {
     let scene = parse("[[force]]\nthrough = 50\nvector = [-100, 0, 0]\n", &[]).unwrap();
     assert_eq!((scene.motion.frames, scene.motion.time_step, scene.motion.linear_density), (100, 0.1, 0.05));
     assert_eq!((scene.pseudo_force.alpha, scene.head.shell), (-0.75, 1.25));
-    assert_eq!((scene.hair.segments, scene.hair.segment_length, scene.hair.strands), (18, 1.0, None));
+    assert_eq!(HairSettings::SEGMENTS, 18);
+    assert_eq!((scene.hair.segments, scene.hair.segment_length, scene.hair.strands), (None, 1.0, None));
     assert!(scene.head.is_builtin() && scene.disturbance.is_none());
     assert_eq!(scene.output.sheet_frames(100), [0, 30, 60, 90]);
     assert_eq!(scene.name(), "gust");
@@ -178,8 +179,8 @@ fn values_out_of_range_are_refused_by_their_owners_with_the_line() {
 #[test]
 fn keys_without_effect_are_refused() {
     assert_eq!(
-        refused("strands = 100", "file = \"a.tfx\"\nsegments = 7"),
-        "scenes/gust.toml:3: hair.segments: has no effect on hair that hair.file imports: remove one of them"
+        refused("strands = 100", "file = \"a.tfx\"\nseed = 7"),
+        "scenes/gust.toml:3: hair.seed: has no effect on hair that hair.file imports: remove one of them"
     );
     assert_eq!(
         refused("strands = 100", "join_within = 0.1"),
@@ -330,4 +331,29 @@ fn every_scene_of_the_gallery_is_read() {
         }
     }
     assert!(read >= 3, "{read} scenes in {}", gallery.display());
+}
+
+#[test]
+fn imported_hair_is_cut_into_the_segments_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("two.obj");
+    std::fs::write(&path, "v 0 10 0\nv 0 12 0\nv 0 12 1\nv 5 10 0\nv 9 10 0\nl 1 2 3\nl 4 5\n").unwrap();
+    let built = |segments: &str| {
+        let text = format!(
+            "[hair]\nfile = \"{}\"\n{segments}\n[[force]]\nthrough = 1\nvector = [0, -1, 0]\n[motion]\nframes = 1\n",
+            path.display()
+        );
+        Scene::parse(&text, std::path::Path::new("two.toml"), &[]).and_then(Scene::build)
+    };
+    let as_in_file = built("").unwrap().hair.strands;
+    let cut = built("segments = 6").unwrap().hair.strands;
+    assert_eq!(as_in_file.iter().map(<[_]>::len).collect::<Vec<_>>(), [3, 2]);
+    for (cut, whole) in cut.iter().zip(as_in_file.iter()) {
+        assert_eq!((cut.len(), cut[0], cut[6]), (7, whole[0], whole[whole.len() - 1]));
+    }
+    // 3 cm around a corner in halves of a centimetre: the corner is the fifth point.
+    let corner = as_in_file.iter().next().unwrap()[1];
+    assert!(cut.iter().next().unwrap()[4].distance(corner) < 1e-5);
+    let refused = built(&format!("segments = {}", usize::MAX / 2)).unwrap_err().to_string();
+    assert!(refused.contains("hair.segments") && refused.contains("ask for fewer"), "{refused}");
 }

@@ -39,7 +39,8 @@ impl SceneInfo {
             (Some(file), Some(count)) => format!("{count} strands of {}", file.display()),
             (None, count) => {
                 let count = count.unwrap_or(HairSettings::STRANDS);
-                format!("{count} strands of at most {} x {} cm", scene.hair.segments, scene.hair.segment_length)
+                let segments = scene.hair.segments.unwrap_or(HairSettings::SEGMENTS);
+                format!("{count} strands of at most {segments} x {} cm", scene.hair.segment_length)
             }
         };
         Self {

@@ -126,8 +126,9 @@ impl HeadSettings {
 pub struct HairSettings {
     /// Strands to grow (default 19330, the paper's), or to choose evenly from an imported file (default: all).
     pub strands: Option<usize>,
-    /// Most segments of a strand grown here (default 18).
-    pub segments: usize,
+    /// Most segments of a strand grown here (default 18), or segments that each imported strand is cut into anew, equally
+    /// long (default: as in its file).
+    pub segments: Option<usize>,
     /// d: length of a segment grown here, and the length that the paper's k and i are counted in (cm, default 1).
     pub segment_length: f32,
     /// Seed of all that is random in growing (default 1).
@@ -153,7 +154,7 @@ pub struct HairSettings {
 }
 
 /// Keys of `[hair]` that mean nothing beside `file`.
-pub(super) const GROWN_ONLY: [&str; 4] = ["segments", "seed", "hairline", "style"];
+pub(super) const GROWN_ONLY: [&str; 3] = ["seed", "hairline", "style"];
 /// Keys of `[hair]` that mean nothing without `file`.
 pub(super) const IMPORTED_ONLY: [&str; 6] = ["unit", "up", "facing", "origin", "join_within", "drop_shorter_than"];
 /// Keys of `[head]` that mean nothing for the built-in head.
@@ -164,7 +165,7 @@ impl Default for HairSettings {
         let cleaning = Cleaning::default();
         Self {
             strands: None,
-            segments: 18,
+            segments: None,
             segment_length: 1.0,
             seed: 1,
             hairline: Hairline::default(),
@@ -183,6 +184,8 @@ impl Default for HairSettings {
 impl HairSettings {
     /// The paper's number of strands (Table 1), grown unless the scene says otherwise.
     pub const STRANDS: usize = 19_330;
+    /// The most segments of a strand grown, unless the scene says otherwise: the paper's k (Table 1).
+    pub const SEGMENTS: usize = 18;
 
     /// What imported hair is cleaned of.
     pub fn cleaning(&self) -> Cleaning {
@@ -194,10 +197,13 @@ impl HairSettings {
         if self.strands == Some(0) {
             return Err(SettingError::new("hair.strands", 0, "must be at least 1"));
         }
-        if self.segments == 0 {
+        if self.segments == Some(0) {
             return Err(SettingError::new("hair.segments", 0, "must be at least 1"));
         }
-        let points = self.strands.unwrap_or(Self::STRANDS).checked_mul(self.segments.saturating_add(1));
+        let points = self
+            .strands
+            .unwrap_or(Self::STRANDS)
+            .checked_mul(self.segments.unwrap_or(Self::SEGMENTS).saturating_add(1));
         if self.file.is_none() && points.is_none_or(|points| points > u32::MAX as usize) {
             let strands = self.strands.unwrap_or(Self::STRANDS);
             return Err(SettingError::new("hair.strands", strands, "more than 2^32 points in all: grow less"));
