@@ -9,14 +9,14 @@ use rayon::prelude::*;
 use crate::RenderError;
 use crate::camera::{NEAR, View};
 use crate::colour;
-use crate::curve::{CurveNode, Curves, drawable};
-use crate::frame::Frame;
+use crate::curve::{Curves, drawable};
+use crate::frame::{Frame, linear_from_srgb};
 use crate::light::fibre::Fibre;
 use crate::light::headlight::HeadShadow;
 use crate::light::kajiya::KajiyaKay;
 use crate::light::lamps::{Lamp, lamps};
 use crate::light::shade::{HairLight, Model};
-use crate::light::shadow::{Crossings, Scene, Sweep};
+use crate::light::shadow::{self, Crossings, Scene, Sweep};
 use crate::light::sky::SkyMap;
 use crate::raster::bins::Bins;
 use crate::raster::{Node, TILE};
@@ -271,25 +271,17 @@ impl Renderer {
     fn occlude(&mut self) {
         let still = self.still.as_ref().expect("stands");
         let nodes = &self.curves.nodes;
-        (0..nodes.len())
-            .into_par_iter()
-            .with_min_len(8192)
-            .map(|i| {
-                let half = |other: Option<&CurveNode>| {
-                    let joined = other.filter(|o| o.strand == nodes[i].strand);
-                    joined.map_or(0.0, |o| 0.5 * o.position.distance(nodes[i].position))
-                };
-                half(i.checked_sub(1).map(|j| &nodes[j])) + half(nodes.get(i + 1))
-            })
-            .collect_into_vec(&mut self.length);
         let lamps: &[Lamp] = if self.picture.shadows { &still.lamps } else { &[] };
+        if !lamps.is_empty() {
+            shadow::lengths(nodes, &mut self.length);
+        }
         let scene = Scene { nodes, length: &self.length, radius: &self.radius, skin: &still.skin_places };
         self.sweeps.resize_with(lamps.len(), Sweep::default);
         let (sweeps, sky_map) = (&mut self.sweeps, &mut self.sky_map);
         let sky = &self.picture.sky;
         let cast = || sweeps.par_iter_mut().zip(lamps).for_each(|(sweep, lamp)| sweep.run(lamp, &scene, SHADOW_CELL));
         let cover = || {
-            if sky.occlusion && sky.strength > 0.0 {
+            if sky.is_occluded() {
                 sky_map.fill(nodes, &self.radius, &self.head);
             }
         };
@@ -325,6 +317,7 @@ impl Renderer {
             first_receiver: self.curves.nodes.len(),
             sky: &self.picture.sky,
             sky_map: self.occluded_sky(),
+            skin: self.picture.head.color.map(linear_from_srgb),
             hair: colour::albedo(colour::absorption(&self.picture.hair), self.picture.hair.azimuthal_roughness),
             passed: self.model.passed_on(),
             unhidden: &still.skin_unhidden,
@@ -338,6 +331,6 @@ impl Renderer {
     }
 
     fn occluded_sky(&self) -> Option<&SkyMap> {
-        (self.picture.sky.occlusion && self.picture.sky.strength > 0.0).then_some(&self.sky_map)
+        self.picture.sky.is_occluded().then_some(&self.sky_map)
     }
 }

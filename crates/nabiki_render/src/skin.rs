@@ -5,7 +5,6 @@ use nabiki::Mesh;
 use rayon::prelude::*;
 
 use crate::camera::{NEAR, View};
-use crate::frame::linear_from_srgb;
 use crate::light::approx::exp_of_negative;
 use crate::light::headlight::HeadShadow;
 use crate::light::lamps::Lamp;
@@ -226,6 +225,8 @@ pub struct SkinLight<'a> {
     pub first_receiver: usize,
     pub sky: &'a Sky,
     pub sky_map: Option<&'a SkyMap>,
+    /// Colour of bare skin (linear).
+    pub skin: [f32; 3],
     /// Colour of a mass of the hair (linear), for what of it is too short to be drawn.
     pub hair: [f32; 3],
     /// The part of its light that a hair passes on forward: what is scattered by hair in the way reaches skin as well.
@@ -259,7 +260,6 @@ impl SkinLight<'_> {
 
     /// Light toward the eye (linear) from place `i` on the skin.
     pub fn at(&self, i: usize, p: &SkinPixel) -> [f32; 3] {
-        let skin = self.look.color.map(linear_from_srgb);
         // Red light spreads farthest under skin.
         let soft = [1.25, 0.8, 0.6].map(|s| s * self.look.softness);
         let eye = self.view.toward_eye(p.position);
@@ -291,7 +291,7 @@ impl SkinLight<'_> {
         }
         let hair = self.stubble.get(i).copied().unwrap_or(0.0);
         std::array::from_fn(|c| {
-            let bare = skin[c] * diffuse[c] + self.look.sheen * sheen[c];
+            let bare = self.skin[c] * diffuse[c] + self.look.sheen * sheen[c];
             bare + (self.hair[c] * diffuse[c] - bare) * hair
         })
     }

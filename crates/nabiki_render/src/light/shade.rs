@@ -231,6 +231,7 @@ impl HairLight<'_> {
                     lobes[i][lane] = mixed[i];
                 }
             }
+            let straight = crossed.map(|n| exp_of_negative(-n));
             for c in 0..3 {
                 for lane in 0..LANES {
                     let cos = cos_azimuth[lane];
@@ -240,7 +241,7 @@ impl HairLight<'_> {
                     let once = m[0] * lobes[0][lane] + m[1] * lobes[1 + c][lane] + m[2] * (lobes[4 + c][lane] + rest);
                     let back = m[3] * rows.again[c][lane] * same_side;
                     let many = m[3] * (rows.back[c][lane] * same_side + forward * far_side);
-                    let straight = exp_of_negative(-crossed[lane]);
+                    let straight = straight[lane];
                     let passed = exp_of_negative(-crossed[lane] * (1.0 - forward).max(0.0)) - straight;
                     let part = straight * (once + back) + DENSITY * passed.max(0.0) * (many + back);
                     light[c][lane] += reached[lane] * lamp.strength[c] * part;

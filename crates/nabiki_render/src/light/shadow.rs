@@ -37,10 +37,22 @@ impl Crossings {
     }
 }
 
+/// Length of hair that each node stands for (cm): halfway to its neighbours on both sides.
+pub fn lengths(nodes: &[CurveNode], lengths: &mut Vec<f32>) {
+    let half = |a: &CurveNode, b: Option<&CurveNode>| {
+        b.filter(|b| b.strand == a.strand).map_or(0.0, |b| 0.5 * b.position.distance(a.position))
+    };
+    (0..nodes.len())
+        .into_par_iter()
+        .with_min_len(8192)
+        .map(|i| half(&nodes[i], i.checked_sub(1).map(|j| &nodes[j])) + half(&nodes[i], nodes.get(i + 1)))
+        .collect_into_vec(lengths);
+}
+
 /// What the lamp sees: nodes that lay down fibre, and places on the skin that only read.
 pub struct Scene<'a> {
     pub nodes: &'a [CurveNode],
-    /// Length of hair that each node stands for (cm): halfway to its neighbours on both sides.
+    /// Length of hair that each node stands for (cm), of [`lengths`].
     pub length: &'a [f32],
     /// Half thickness of the hair at each node (cm).
     pub radius: &'a [f32],

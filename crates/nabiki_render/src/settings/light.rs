@@ -88,6 +88,11 @@ impl Default for Sky {
 }
 
 impl Sky {
+    /// Whether there is anything to be hidden, and hair and head hide it.
+    pub(crate) fn is_occluded(&self) -> bool {
+        self.occlusion && self.strength > 0.0
+    }
+
     pub(crate) fn check(&self) -> Result<(), SettingError> {
         check_range("picture.sky.strength", self.strength, 0.0, 1000.0)?;
         check_colour("picture.sky.above", self.above, 1.0)?;
