@@ -2,6 +2,7 @@
 
 use crate::Problem;
 use crate::layout::{Kind, Pod};
+use half::f16;
 
 /// All numbers of a sample as doubles, whatever they are stored as.
 pub fn doubles(kind: Kind, bytes: &[u8]) -> Result<Vec<f64>, Problem> {
@@ -17,7 +18,7 @@ pub fn doubles(kind: Kind, bytes: &[u8]) -> Result<Vec<f64>, Problem> {
         Pod::I32 => each(bytes, |b| f64::from(i32::from_le_bytes(b))),
         Pod::U64 => each(bytes, |b| u64::from_le_bytes(b) as f64),
         Pod::I64 => each(bytes, |b| i64::from_le_bytes(b) as f64),
-        Pod::F16 => each(bytes, |b| half(u16::from_le_bytes(b))),
+        Pod::F16 => each(bytes, |b| f16::from_le_bytes(b).to_f64()),
         Pod::F32 => each(bytes, |b| f64::from(f32::from_le_bytes(b))),
         Pod::F64 => each(bytes, f64::from_le_bytes),
         Pod::Text | Pod::WideText => return Err(Problem::new("has text where numbers should be")),
@@ -49,16 +50,4 @@ pub fn words(kind: Kind, bytes: &[u8]) -> Vec<String> {
     let mut words: Vec<String> = bytes.split(|&b| b == 0).map(|w| String::from_utf8_lossy(w).into_owned()).collect();
     words.pop();
     words
-}
-
-/// IEEE half precision.
-fn half(bits: u16) -> f64 {
-    let (sign, exponent, fraction) = (bits >> 15, bits >> 10 & 0x1f, f64::from(bits & 0x3ff));
-    let size = match exponent {
-        0 => fraction * 2f64.powi(-24),
-        31 if fraction == 0.0 => f64::INFINITY,
-        31 => f64::NAN,
-        e => (1024.0 + fraction) * 2f64.powi(i32::from(e) - 25),
-    };
-    if sign == 1 { -size } else { size }
 }

@@ -1,6 +1,7 @@
 //! Which numbers a stored type is made of.
 
 use super::{Rep, types};
+use half::f16;
 
 /// Kinds of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,7 +46,7 @@ impl Scalar {
             Self::U32 => each(bytes, |b| f64::from(u32::from_le_bytes(b))),
             Self::I64 => each(bytes, |b| i64::from_le_bytes(b) as f64),
             Self::U64 => each(bytes, |b| u64::from_le_bytes(b) as f64),
-            Self::F16 => each(bytes, |b| half(u16::from_le_bytes(b))),
+            Self::F16 => each(bytes, |b| f16::from_le_bytes(b).to_f64()),
             Self::F32 => each(bytes, |b| f64::from(f32::from_le_bytes(b))),
             Self::F64 => each(bytes, f64::from_le_bytes),
         }
@@ -92,19 +93,7 @@ pub fn inlined(rep: Rep, scalar: Scalar, extent: usize) -> Vec<f64> {
         Scalar::U8 => f64::from(bits as u8),
         Scalar::I32 | Scalar::I64 => f64::from(bits as i32),
         Scalar::U32 | Scalar::U64 => f64::from(bits),
-        Scalar::F16 => half(bits as u16),
+        Scalar::F16 => f16::from_bits(bits as u16).to_f64(),
         Scalar::F32 | Scalar::F64 => f64::from(f32::from_bits(bits)),
     }]
-}
-
-/// IEEE half precision.
-fn half(bits: u16) -> f64 {
-    let (sign, exponent, fraction) = (bits >> 15, bits >> 10 & 0x1f, f64::from(bits & 0x3ff));
-    let size = match exponent {
-        0 => fraction * 2f64.powi(-24),
-        31 if fraction == 0.0 => f64::INFINITY,
-        31 => f64::NAN,
-        e => (1024.0 + fraction) * 2f64.powi(i32::from(e) - 25),
-    };
-    if sign == 1 { -size } else { size }
 }
