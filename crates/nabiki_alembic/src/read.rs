@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
 
-use glam::{Affine3A, DMat4, DQuat, DVec3, Mat4, Vec3};
+use glam::{Affine3A, DMat4, DQuat, DVec3, Vec3};
 use nabiki::curves::{Basis, Gathered, Shape, checked_counts};
 use nabiki::{Hair, Mesh};
 
@@ -118,15 +118,15 @@ impl<R: Read + Seek> ArchiveReader<R> {
         let counts = required(&inside, "nVertices", "")?;
         let counts = integers(counts.kind, &self.tree.sample(counts, frame)?)?;
         let counts = checked_counts(&counts, points.len())?;
-        let (basis, pinned) = match inside.iter().find(|h| h.name == "curveBasisAndType") {
+        let basis = match inside.iter().find(|h| h.name == "curveBasisAndType") {
             Some(header) => basis(&self.tree.sample(header, frame)?)?,
             None => return Err(Problem::new("do not say whether they are straight or cubic")),
         };
-        let walked = Shape { counts, basis, pinned }.walk(points, segments)?;
+        let walked = Shape { counts, basis, pinned: false }.walk(points, segments)?;
         let attributes = walked.attributes(&mut Parameters::of(&mut self.tree, inside, frame)?)?;
         let hair = Hair { strands: walked.strands, attributes };
         let world = self.world(object, time)?;
-        Ok(if world == DMat4::IDENTITY { hair } else { hair.transformed(&Affine3A::from_mat4(to_single(world))) })
+        Ok(if world == DMat4::IDENTITY { hair } else { hair.transformed(&Affine3A::from_mat4(world.as_mat4())) })
     }
 
     /// All polygon meshes at their first sample, cut into triangles, with the transforms above them, as one.
@@ -153,7 +153,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
             let counts = integers(header.kind, &bytes)?;
             let (header, bytes) = numbers(".faceIndices")?;
             let corners = integers(header.kind, &bytes)?;
-            let world = to_single(world);
+            let world = world.as_mat4();
             let positions = positions.as_chunks::<3>().0.iter().map(|&p| world.transform_point3(Vec3::from(p)));
             // Alembic winds faces clockwise.
             let added = mesh.add_polygons(positions, &counts, &corners, true);
@@ -289,17 +289,13 @@ impl<R: Read + Seek> ArchiveReader<R> {
     }
 }
 
-fn to_single(m: DMat4) -> Mat4 {
-    Mat4::from_cols_array(&m.to_cols_array().map(|x| x as f32))
-}
-
 fn required<'a>(headers: &'a [Header], name: &str, path: &str) -> Result<&'a Header, Problem> {
     let found = headers.iter().find(|h| h.name == name && h.form != Form::Compound);
     found.ok_or_else(|| Problem(format!("{path} has no property {name}")))
 }
 
-/// Type, wrap and basis of curves; the Boolean: whether they are pinned (never, in Alembic).
-fn basis(bytes: &[u8]) -> Result<(Basis, bool), Problem> {
+/// Type, wrap and basis of curves.
+fn basis(bytes: &[u8]) -> Result<Basis, Problem> {
     let &[order, periodic, basis, ..] = bytes else {
         return Err(Problem::new("do not say whether they are straight or cubic"));
     };
@@ -307,10 +303,10 @@ fn basis(bytes: &[u8]) -> Result<(Basis, bool), Problem> {
         return Err(Problem::new("are closed, which no hair is: export them as open (non-periodic) curves"));
     }
     match (order, basis) {
-        (1, _) => Ok((Basis::Linear, false)),
-        (0, 1) => Ok((Basis::Bezier, false)),
-        (0, 2) => Ok((Basis::Bspline, false)),
-        (0, 3) => Ok((Basis::CatmullRom, false)),
+        (1, _) => Ok(Basis::Linear),
+        (0, 1) => Ok(Basis::Bezier),
+        (0, 2) => Ok(Basis::Bspline),
+        (0, 3) => Ok(Basis::CatmullRom),
         (0, b) => Err(Problem(format!("cubic curves of basis {b}: export them as linear, Bezier or B-spline curves"))),
         _ => Err(Problem::new("are NURBS of their own orders: export them as linear curves")),
     }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use glam::{Affine3A, DMat4, DQuat, DVec3, Mat4, Vec3};
+use glam::{Affine3A, DMat4, DQuat, DVec3, Vec3};
 use nabiki::curves::{Basis, Carried, Gathered, Shape, checked_counts, indexed};
 use nabiki::{Hair, Mesh};
 
@@ -136,7 +136,7 @@ impl StageReader {
         let attributes = walked.attributes(&mut Primvars { layer: &mut self.layer, prim, time })?;
         let hair = Hair { strands: walked.strands, attributes };
         let world = transform::world(&mut self.layer, prim, time)?;
-        Ok(if world == DMat4::IDENTITY { hair } else { hair.transformed(&Affine3A::from_mat4(single(world))) })
+        Ok(if world == DMat4::IDENTITY { hair } else { hair.transformed(&Affine3A::from_mat4(world.as_mat4())) })
     }
 
     /// All meshes at their first time code, cut into triangles, with the transforms above them, as one.
@@ -157,7 +157,7 @@ impl StageReader {
             let corners = layer.at(prim, "faceVertexIndices", first).ok_or_else(|| problem("has no faces"))?;
             let corners = layer.integers(corners)?;
             let left_handed = layer.word(prim, "orientation")?.as_deref() == Some("leftHanded");
-            let world = single(transform::world(&mut self.layer, prim, 0.0)?);
+            let world = transform::world(&mut self.layer, prim, 0.0)?.as_mat4();
             let positions = points.as_chunks::<3>().0.iter().map(|&p| world.transform_point3(Vec3::from(p)));
             mesh.add_polygons(positions, &counts, &corners, left_handed).map_err(|e| problem(&e.0))?;
         }
@@ -208,10 +208,6 @@ impl StageReader {
         }
         Ok(motion)
     }
-}
-
-fn single(m: DMat4) -> Mat4 {
-    Mat4::from_cols_array(&m.to_cols_array().map(|x| x as f32))
 }
 
 /// What a prim carries at a time code: its primvars, and `widths`, which is an attribute of its own.

@@ -65,7 +65,8 @@ impl<'a> HairStage<'a> {
             Form::Stage => vec!["head".to_owned(), "hair".to_owned()],
             Form::Layer(prim) => prim_names(prim)?,
         };
-        let binary = match path.extension().and_then(|e| e.to_str()) {
+        let ending = path.extension().map(|e| e.to_ascii_lowercase());
+        let binary = match ending.as_ref().and_then(|e| e.to_str()) {
             Some("usda") => false,
             Some("usdc" | "usd") => true,
             _ => return Err(invalid("a USD layer's name must end in .usda or .usdc".to_owned())),
@@ -127,7 +128,7 @@ impl<'a> HairStage<'a> {
         let Some(&end) = self.times.last() else { return Err(invalid("no frame was given".to_owned())) };
         self.metadata.end = end;
         let still = self.transforms.iter().all(|t| *t == self.transforms[0]);
-        let order = Attribute::uniform("xformOpOrder", "token[]", Value::Tokens(vec!["xformOp:transform".to_owned()]));
+        let order = Value::Tokens(vec!["xformOp:transform".to_owned()]);
         let is_stage = self.form == Form::Stage;
         let file = match self.to {
             Encoding::Text(mut to) => {
@@ -144,12 +145,7 @@ impl<'a> HairStage<'a> {
                         transform.samples = timed(self.transforms);
                     }
                     to.attribute(&transform, 1)?;
-                    match order.value {
-                        Some(value) => {
-                            to.attribute(&Attribute::uniform("xformOpOrder", "token[]", value), 1)?;
-                        }
-                        None => unreachable!("written above with a value"),
-                    }
+                    to.attribute(&Attribute::uniform("xformOpOrder", "token[]", order), 1)?;
                 }
                 for depth in (0..depth - 1).rev() {
                     to.close(depth)?;
@@ -186,7 +182,7 @@ impl<'a> HairStage<'a> {
                         transform.samples =
                             self.transforms.iter().map(|t| to.value(t)).collect::<io::Result<Vec<Rep>>>()?;
                     }
-                    prim.attributes = vec![transform, order];
+                    prim.attributes = vec![transform, Attribute::uniform("xformOpOrder", "token[]", order)];
                 }
                 to.finish(&self.metadata, &[prim], &self.times)?
             }
