@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use glam::Affine3A;
 use nabiki::Strands;
 use nabiki::export::FrameSink;
-use nabiki_io::exchange;
 use nabiki_io::motion::Pose;
 use nabiki_io::take::Take;
+use nabiki_io::{Error, exchange};
 
 use crate::args::ExportArgs;
 use crate::failure::Failure;
@@ -21,12 +21,16 @@ pub struct Exports<'a> {
 }
 
 impl<'a> Exports<'a> {
-    /// Begins the files that were asked for.
-    pub fn begin(args: &ExportArgs, take: &'a Take) -> Result<Self, Failure> {
+    /// Begins the files that were asked for, `beside` the other files of the command.
+    pub fn begin(args: &ExportArgs, beside: &[&Path], take: &'a Take) -> Result<Self, Failure> {
         let stage = &take.stage;
         let mut sinks = Vec::new();
         for path in &args.export {
             place::file(path)?;
+        }
+        let exports = args.export.iter().map(PathBuf::as_path);
+        place::distinct(&beside.iter().copied().chain(exports).collect::<Vec<_>>())?;
+        for path in &args.export {
             let frame_rate = f64::from(stage.scene.picture.video.fps);
             let mut export = exchange::export(&stage.hair, frame_rate, stage.hair_placement.as_ref());
             export.default_width = Some(stage.scene.picture.hair.width);
@@ -49,7 +53,7 @@ impl<'a> Exports<'a> {
         self.next += 1;
         let world_from_head = Affine3A::from_rotation_translation(pose.rotation, pose.position_cm);
         for (path, sink) in &mut self.sinks {
-            sink.frame(strands, &world_from_head).map_err(|e| failed(path, &e))?;
+            sink.frame(strands, &world_from_head).map_err(|e| Error::from(e).in_file(path))?;
         }
         Ok(())
     }
@@ -58,15 +62,11 @@ impl<'a> Exports<'a> {
     pub fn finish(self) -> Result<Vec<PathBuf>, Failure> {
         let mut written = Vec::new();
         for (path, sink) in self.sinks {
-            sink.finish().map_err(|e| failed(&path, &e))?;
+            sink.finish().map_err(|e| Error::from(e).in_file(&path))?;
             written.push(path);
         }
         Ok(written)
     }
-}
-
-fn failed(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::new(format!("{}: {error}", path.display()))
 }
 
 /// Frames that are passed on to files as they are asked for.

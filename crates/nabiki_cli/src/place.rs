@@ -49,7 +49,7 @@ impl Drop for Folders {
 /// Refuses a file that cannot be written: in its place is what a file cannot replace, or its folder takes none.
 pub fn file(path: &Path) -> Result<(), Failure> {
     free(path, "choose another name")?;
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = folder_of(path);
     match writable(folder) {
         Ok(()) => Ok(()),
         Err(_) if !folder.exists() => Err(Failure::new(format!(
@@ -59,6 +59,24 @@ pub fn file(path: &Path) -> Result<(), Failure> {
         ))),
         Err(e) => Err(refused(path, "cannot be written there", e, "choose another folder")),
     }
+}
+
+/// Refuses files that would be written over one another, however their folders are spelled. All can be written, as
+/// [`file`] says.
+pub fn distinct(paths: &[&Path]) -> Result<(), Failure> {
+    let mut places = Vec::new();
+    for path in paths {
+        let place = fs::canonicalize(folder_of(path)).unwrap_or_default().join(path.file_name().unwrap_or_default());
+        if places.contains(&place) {
+            return Err(Failure::new(format!("{}: asked for twice; give each file a name of its own", path.display())));
+        }
+        places.push(place);
+    }
+    Ok(())
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// Refuses a name that belongs to something else than an ordinary file. A file that is there already is replaced when

@@ -159,3 +159,19 @@ fn a_folder_that_takes_no_files() {
         assert!(line.starts_with(&format!("nabiki: {out}: {why}")) && line.contains("--out"), "{line}");
     }
 }
+
+#[test]
+fn one_file_for_two_results() {
+    let folder = TempDir::new().unwrap();
+    fs::create_dir(folder.path().join("sub")).unwrap();
+    let [cache, layer, archive] = ["m.nabiki", "a.usdc", "a.abc"].map(|name| at(&folder, name));
+    let roundabout = at(&folder, "sub/../a.usdc");
+    let simulate = ["simulate", GUST, "-o"];
+    for exports in [[&layer, &roundabout], [&archive, &archive]] {
+        let line =
+            refuse(&[&simulate[..], &[&cache, "--export", exports[0], "--export", exports[1]]].concat(), &folder);
+        assert!(line.contains(&format!("{}: asked for twice", exports[1])), "{line}");
+    }
+    let line = refuse(&[&simulate[..], &[&layer, "--export", &roundabout]].concat(), &folder);
+    assert!(line.contains("asked for twice"), "{line}");
+}

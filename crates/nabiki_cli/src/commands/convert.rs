@@ -2,6 +2,7 @@
 
 use glam::Affine3A;
 use nabiki::Hair;
+use nabiki_io::Error;
 use nabiki_io::cache::Reader;
 use nabiki_io::exchange::{self, Said};
 use nabiki_io::hair;
@@ -129,7 +130,7 @@ fn all_frames(args: &Convert, quiet: bool) -> Result<(), Failure> {
         let in_file = cache.header().origin.map(|origin| origin.points);
         exchange::check_layer(in_file, hair.strands.points().len()).map_err(|e| e.in_file(&args.output))?;
     }
-    let failed = |e: std::io::Error| Failure::new(format!("{}: {e}", args.output.display()));
+    let failed = |e: std::io::Error| Error::from(e).in_file(&args.output);
     let mut sink = exchange::sink(&args.output, export, layer)?;
     let mut strands = cache.header().strands();
     let frames = cache.frame_count();

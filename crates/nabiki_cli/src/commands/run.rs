@@ -14,7 +14,7 @@ pub fn run(args: &Run, quiet: bool) -> Result<(), Failure> {
     let scene = &take.stage.scene;
     let mut folders = Folders::default();
     let mut reel = Reel::begin(&take, &scene.picture, &args.out, &scene.name(), &mut folders)?;
-    let mut exports = Exports::begin(&args.export, &take)?;
+    let mut exports = Exports::begin(&args.export, &[], &take)?;
     let report = Report::new(&take, quiet);
     report.scene();
     report.swing();

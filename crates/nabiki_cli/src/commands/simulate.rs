@@ -14,7 +14,7 @@ use crate::report::Report;
 pub fn simulate(args: &Simulate, quiet: bool) -> Result<(), Failure> {
     place::file(&args.output)?;
     let take = open(&args.scene, args.strands)?;
-    let mut exports = Exports::begin(&args.export, &take)?;
+    let mut exports = Exports::begin(&args.export, &[&args.output], &take)?;
     let report = Report::new(&take, quiet);
     report.scene();
     report.swing();
