@@ -10,6 +10,7 @@ mod place;
 mod progress;
 mod reel;
 mod report;
+mod say;
 
 use std::process::ExitCode;
 

@@ -6,6 +6,8 @@ use nabiki::Strands;
 use nabiki::dynamics::{gain, period};
 use nabiki_io::take::Take;
 
+use crate::say::say;
+
 /// Says things about one take.
 pub struct Report<'a> {
     take: &'a Take,
@@ -23,20 +25,20 @@ impl<'a> Report<'a> {
             return;
         }
         let stage = &self.take.stage;
-        println!("{}", stage.scene.file().display());
+        say!("{}", stage.scene.file().display());
         let ellipsoid = stage.head.ellipsoid;
         let axes = ellipsoid.half_axes;
-        println!("  head    {}, ellipsoid {:.1} x {:.1} x {:.1} cm", stage.scene.head.mesh, axes.x, axes.y, axes.z);
+        say!("  head    {}, ellipsoid {:.1} x {:.1} x {:.1} cm", stage.scene.head.mesh, axes.x, axes.y, axes.z);
         if let Some(motion) = &self.take.motion_report {
-            println!("          {motion}");
+            say!("          {motion}");
         }
         let hair = &stage.hair.strands;
         let longest = hair.iter().map(length).fold(0.0, f32::max);
-        println!("  hair    {} strands, {} segments, up to {longest:.1} cm", hair.len(), hair.segment_count());
+        say!("  hair    {} strands, {} segments, up to {longest:.1} cm", hair.len(), hair.segment_count());
         if let Some(import) = &stage.import_report {
             let joined = import.degenerate.joined_points;
             let dropped = import.degenerate.dropped_strands + import.dropped_short;
-            println!(
+            say!(
                 "          of {} strands in the file; {joined} doubled points joined, {dropped} strands dropped as too short",
                 import.strands_in_file
             );
@@ -55,14 +57,14 @@ impl<'a> Report<'a> {
         lengths.sort_by(f32::total_cmp);
         let middle = f64::from(lengths[lengths.len() / 2]);
         let count = middle / d;
-        println!("  swing   frames of one swing of a strand of {middle:.1} cm: at its root, middle, tip");
+        say!("  swing   frames of one swing of a strand of {middle:.1} cm: at its root, middle, tip");
         let mut first = 1;
         for key in stage.dynamics.field.keyframes() {
             let force = f64::from(key.vector.length());
             let frames = |position: f64| period(gain(&stage.dynamics, position, count) * force);
             let [root, middle, tip] = [1.0, (count + 1.0) / 2.0, count].map(frames);
             let interval = format!("{first} to {}", key.through);
-            println!("          frames {interval:<11} |F| = {force:<8.2} {root:>8.0} {middle:>8.0} {tip:>8.0}");
+            say!("          frames {interval:<11} |F| = {force:<8.2} {root:>8.0} {middle:>8.0} {tip:>8.0}");
             first = key.through + 1;
         }
     }
@@ -79,20 +81,20 @@ impl<'a> Report<'a> {
         };
         let frames = self.take.stage.scene.motion.frames;
         let (now, at_rest) = (share(strands), share(&self.take.stage.hair.strands));
-        println!("  inside  {now:.2} % of the nodes are inside the head at frame {frames} ({at_rest:.2} % at rest)");
+        say!("  inside  {now:.2} % of the nodes are inside the head at frame {frames} ({at_rest:.2} % at rest)");
     }
 
     /// What a format could not hold.
     pub fn losses(&self, losses: &[String]) {
         for loss in losses.iter().filter(|_| !self.quiet) {
-            println!("  lost    {loss}");
+            say!("  lost    {loss}");
         }
     }
 
     /// The files that now exist.
     pub fn written(&self, files: &[PathBuf]) {
         for file in files.iter().filter(|_| !self.quiet) {
-            println!("  wrote   {}", file.display());
+            say!("  wrote   {}", file.display());
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Where results cannot be written: each place is refused before a frame is made, and left as it was.
+//! Where results cannot be written: each place is refused before a frame is made, and left as it was; and who does not listen.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -174,4 +174,19 @@ fn one_file_for_two_results() {
     }
     let line = refuse(&[&simulate[..], &[&layer, "--export", &roundabout]].concat(), &folder);
     assert!(line.contains("asked for twice"), "{line}");
+}
+
+/// The command with a standard output that nobody reads any more.
+#[cfg(unix)]
+#[test]
+fn a_reader_that_has_gone() {
+    let folder = TempDir::new().unwrap();
+    let groom = at(&folder, "groom.hair");
+    for arguments in [&["groom", GUST, "--strands", "50", "-o", &groom][..], &["info", &groom]] {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let output = Command::new(env!("CARGO_BIN_EXE_nabiki")).args(arguments).stdout(writer).output().unwrap();
+        assert!(output.status.success() && output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    assert!(Path::new(&groom).exists());
 }

@@ -13,6 +13,7 @@ use crate::args::Convert;
 use crate::failure::Failure;
 use crate::place;
 use crate::progress;
+use crate::say::say;
 
 pub fn convert(args: &Convert, quiet: bool) -> Result<(), Failure> {
     place::file(&args.output)?;
@@ -34,9 +35,9 @@ pub fn convert(args: &Convert, quiet: bool) -> Result<(), Failure> {
     losses.extend(unsaid(args)?);
     if !quiet {
         for loss in losses {
-            println!("{} cannot hold {loss}", args.output.display());
+            say!("{} cannot hold {loss}", args.output.display());
         }
-        println!("wrote {}: {} strands", args.output.display(), hair.strands.len());
+        say!("wrote {}: {} strands", args.output.display(), hair.strands.len());
     }
     Ok(())
 }
@@ -145,9 +146,9 @@ fn all_frames(args: &Convert, quiet: bool) -> Result<(), Failure> {
     sink.finish().map_err(failed)?;
     if !quiet {
         for loss in exchange::losses(&hair).into_iter().chain(unsaid(args)?) {
-            println!("{} cannot hold {loss}", args.output.display());
+            say!("{} cannot hold {loss}", args.output.display());
         }
-        println!("wrote {}: {frames} frames of {} strands", args.output.display(), hair.strands.len());
+        say!("wrote {}: {frames} frames of {} strands", args.output.display(), hair.strands.len());
     }
     Ok(())
 }

@@ -2,14 +2,14 @@
 
 use crate::args::Info;
 use crate::failure::Failure;
+use crate::say;
 
 pub fn info(args: &Info) -> Result<(), Failure> {
     let info = nabiki_io::info::info(&args.file)?;
     if args.json {
         let text = serde_json::to_string_pretty(&info).map_err(|e| Failure::new(e.to_string()))?;
-        println!("{text}");
+        say::answer(text)
     } else {
-        println!("{info}");
+        say::answer(info)
     }
-    Ok(())
 }
