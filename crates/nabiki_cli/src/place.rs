@@ -62,7 +62,7 @@ pub fn file(path: &Path) -> Result<(), Failure> {
 }
 
 /// Refuses files that would be written over one another, however their folders are spelled. All can be written, as
-/// [`file`] says.
+/// [`file()`] says.
 pub fn distinct(paths: &[&Path]) -> Result<(), Failure> {
     let mut places = Vec::new();
     for path in paths {
