@@ -2,7 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use nabiki_io::Scene;
+use nabiki_scene::Scene;
 
 fuzz_target!(|text: &str| {
     let (text, over) = text.split_once('\0').unwrap_or((text, ""));

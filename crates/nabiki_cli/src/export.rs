@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use glam::Affine3A;
+use nabiki::Pose;
 use nabiki::Strands;
 use nabiki::export::FrameSink;
-use nabiki_io::motion::Pose;
-use nabiki_io::take::Take;
 use nabiki_io::{Error, exchange};
+use nabiki_scene::Take;
 
 use crate::args::ExportArgs;
 use crate::failure::Failure;

@@ -6,9 +6,9 @@ use glam::{Quat, Vec3};
 use nabiki::Strands;
 use nabiki::dynamics::{ForceSpace, Simulation, Stepper};
 use nabiki_io::cache::Reader;
-use nabiki_io::take::Take;
 use nabiki_render::output::png;
 use nabiki_render::{Bounds, Developer, Frame, Picture, RenderError, Renderer, View};
+use nabiki_scene::Take;
 
 use crate::failure::Failure;
 use crate::progress;

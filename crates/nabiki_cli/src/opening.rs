@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use nabiki_io::scene::Scene;
-use nabiki_io::take::Take;
+use nabiki_scene::Take;
+use nabiki_scene::scene::Scene;
 
 use crate::args::SceneArgs;
 use crate::failure::Failure;

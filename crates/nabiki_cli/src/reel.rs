@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
-use nabiki_io::take::Take;
 use nabiki_render::output::field_plot::{self, Interval};
 use nabiki_render::output::{exr, png};
 use nabiki_render::{ContactSheet, Developer, Frame, Movie, Picture, RenderError, View};
+use nabiki_scene::Take;
 
 use crate::failure::Failure;
 use crate::place::{self, Folders};

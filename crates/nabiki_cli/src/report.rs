@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use nabiki::Strands;
 use nabiki::dynamics::{gain, period};
-use nabiki_io::take::Take;
+use nabiki_scene::Take;
 
 use crate::say::say;
 

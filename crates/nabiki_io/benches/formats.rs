@@ -11,10 +11,11 @@ use std::path::Path;
 use std::time::Instant;
 
 use glam::{Affine3A, Vec3};
+use nabiki::Pose;
 use nabiki::export::{Export, FrameSink};
 use nabiki::{Hair, Strands};
 use nabiki_alembic::ArchiveReader;
-use nabiki_io::{SceneId, cache, exchange, hair, motion::Pose};
+use nabiki_io::{SceneId, cache, exchange, hair};
 use nabiki_usd::StageReader;
 use peak_alloc::PeakAlloc;
 

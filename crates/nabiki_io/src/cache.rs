@@ -11,7 +11,7 @@ use std::{
 };
 
 use glam::{Quat, Vec3};
-use nabiki::{Hair, Strands, hair::Attributes, strands::not_finite};
+use nabiki::{Hair, Pose, Strands, hair::Attributes, strands::not_finite};
 
 use crate::{
     atomic::Unfinished,
@@ -19,7 +19,6 @@ use crate::{
     error::{Error, Result},
     finite,
     identity::SceneId,
-    motion::Pose,
 };
 
 pub use origin::Origin;

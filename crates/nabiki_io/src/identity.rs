@@ -8,7 +8,7 @@ use twox_hash::XxHash3_128;
 
 use crate::error::{Error, Result};
 
-/// 128 bits (XXH3) of everything that decides how a scene's hair moves, see [`Stage::identity`](crate::stage::Stage).
+/// 128 bits (XXH3) of everything that decides how a scene's hair moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SceneId(pub u128);
 
@@ -25,14 +25,19 @@ impl Serialize for SceneId {
 }
 
 /// Collects what an identity is made of, each part under its name.
-pub(crate) struct Digest(XxHash3_128);
+#[derive(Default)]
+pub struct Digest(XxHash3_128);
 
 impl Digest {
+    /// Of nothing yet.
     pub fn new() -> Self {
-        Self(XxHash3_128::new())
+        Self::default()
     }
 
     /// Settings with their defaults filled in: it is their values that count, not how a scene spells them.
+    ///
+    /// # Errors
+    /// Settings that TOML cannot hold.
     pub fn settings(&mut self, name: &str, settings: &impl Serialize) -> Result<()> {
         let value = Value::try_from(settings).map_err(|e| Error::new(format!("{name}: {e}")))?;
         self.bytes(name, b"");
@@ -46,6 +51,7 @@ impl Digest {
         self.part(b'b', bytes);
     }
 
+    /// The identity of all that was collected.
     pub fn finish(&self) -> SceneId {
         SceneId(self.0.finish_128())
     }

@@ -4,7 +4,6 @@ mod cache;
 mod hair;
 mod mesh;
 mod motion;
-mod scene;
 
 use std::{fmt, fs, path::Path};
 
@@ -15,7 +14,6 @@ pub use cache::CacheInfo;
 pub use hair::HairInfo;
 pub use mesh::MeshInfo;
 pub use motion::MotionInfo;
-pub use scene::SceneInfo;
 
 use crate::{
     error::{Error, Result},
@@ -33,8 +31,6 @@ pub enum Info {
     Mesh(MeshInfo),
     /// Moving strands.
     Cache(CacheInfo),
-    /// A scene file.
-    Scene(SceneInfo),
     /// A USD layer or an Alembic archive.
     Exchange(ExchangeInfo),
     /// Motion of a head.
@@ -47,7 +43,6 @@ impl fmt::Display for Info {
             Self::Hair(info) => info.fmt(f),
             Self::Mesh(info) => info.fmt(f),
             Self::Cache(info) => info.fmt(f),
-            Self::Scene(info) => info.fmt(f),
             Self::Exchange(info) => info.fmt(f),
             Self::Motion(info) => info.fmt(f),
         }
@@ -55,7 +50,7 @@ impl fmt::Display for Info {
 }
 
 /// Looks into a file, told by its name's ending: .hair, .tfx, .obj, .glb, .gltf, .ply, .tfxmesh, .usda, .usdc, .abc,
-/// .bvh, .csv, .amc, .asf, .tof, .nabiki or .toml.
+/// .bvh, .csv, .amc, .asf, .tof or .nabiki.
 pub fn info(path: &Path) -> Result<Info> {
     match extension(path).as_str() {
         "hair" | "tfx" | "tfxbone" => Ok(Info::Hair(HairInfo::of(&crate::hair::read(path)?))),
@@ -72,10 +67,9 @@ pub fn info(path: &Path) -> Result<Info> {
             }
         }
         "nabiki" => Ok(Info::Cache(CacheInfo::of(crate::cache::Reader::open(path)?)?)),
-        "toml" => Ok(Info::Scene(SceneInfo::of(&crate::Scene::load(path, &[])?))),
         other => {
-            let known = ".hair, .tfx, .obj, .glb, .gltf, .ply, .tfxmesh, .usda, .usdc, .abc, .bvh, .csv, .amc, .asf, .tof, \
-                         .nabiki or .toml";
+            let known = ".hair, .tfx, .obj, .glb, .gltf, .ply, .tfxmesh, .usda, .usdc, .abc, .bvh, .csv, .amc, .asf, .tof \
+                         or .nabiki";
             Err(Error::new(format!("ending \"{other}\" is not one of {known}")).in_file(path))
         }
     }
@@ -144,7 +138,7 @@ impl fmt::Display for Spread {
 }
 
 /// A number with four digits that count.
-pub(crate) struct Short(pub f32);
+pub struct Short(pub f32);
 
 impl fmt::Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

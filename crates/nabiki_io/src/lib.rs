@@ -1,4 +1,4 @@
-//! What goes in and out of Nabiki: scenes, hair, heads, motion of the head, caches.
+//! What goes in and out of Nabiki: hair, heads, motion of the head, motion caches. It knows no scene and no picture.
 
 #![forbid(unsafe_code)]
 
@@ -14,16 +14,12 @@ pub mod identity;
 pub mod info;
 pub mod mesh;
 pub mod motion;
-mod names;
+pub mod names;
 pub mod obj_lines;
 mod obj_text;
 pub mod placement;
-pub mod scene;
-pub mod stage;
-pub mod take;
 pub mod tfx;
 
 pub use error::{Error, Result};
 pub use identity::SceneId;
 pub use placement::Placement;
-pub use scene::Scene;

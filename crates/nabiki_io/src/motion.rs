@@ -16,7 +16,8 @@ use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use glam::{DQuat, DVec3, Quat, Vec3};
+use glam::{DQuat, DVec3};
+use nabiki::Pose;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
@@ -24,15 +25,6 @@ use crate::hair::extension;
 
 pub(crate) use survey::survey;
 pub use track::{Sample, Track};
-
-/// Where the head is in one frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pose {
-    /// Origin of head space in the world (cm; y up, right-handed).
-    pub position_cm: Vec3,
-    /// Turns head space into the world: world = `rotation` head + `position_cm`.
-    pub rotation: Quat,
-}
 
 /// Poses of the head, one for each frame of the scene from frame 0 on.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! The nearest of the known names, for "did you mean".
 
 /// The candidate nearest to `name` by edit distance, unless all are too far to be meant.
-pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let distance = |candidate: &str| edit_distance(&name.to_lowercase(), &candidate.to_lowercase());
     let best = candidates.into_iter().map(|c| (distance(c), c)).min_by_key(|&(d, _)| d)?;
     // A name mostly rewritten is another name.

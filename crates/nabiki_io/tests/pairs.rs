@@ -8,8 +8,8 @@ use std::path::Path;
 
 use glam::{Quat, Vec3};
 use nabiki::Hair;
+use nabiki::Pose;
 use nabiki::hair::{Attributes, Constants};
-use nabiki_io::motion::Pose;
 use nabiki_io::{SceneId, cache, hair};
 
 const FORMATS: [&str; 6] = ["hair", "tfx", "usda", "usdc", "abc", "nabiki"];

@@ -1,13 +1,12 @@
 //! Any hair that a format can hold comes back from it to the bit.
 
 use glam::{Quat, Vec3};
+use nabiki::Pose;
 use nabiki::{Hair, Strands, hair::Attributes};
 use nabiki_io::{
     SceneId,
     cache::{Header, Reader, Writer},
-    hair_file,
-    motion::Pose,
-    tfx,
+    hair_file, tfx,
 };
 use proptest::{collection::vec, prelude::*};
 

@@ -44,7 +44,7 @@ pub fn render(args: &Render, quiet: bool) -> Result<(), Failure> {
 }
 
 /// Refuses a cache of another scene, or one that ends too soon.
-fn matching(reader: Reader, args: &Render, take: &nabiki_io::take::Take) -> Result<Reader, Failure> {
+fn matching(reader: Reader, args: &Render, take: &nabiki_scene::Take) -> Result<Reader, Failure> {
     let file = args.motion.as_deref().unwrap_or(&args.scene.scene).display();
     let scene = args.scene.scene.display();
     if reader.header().scene != take.stage.identity()? {

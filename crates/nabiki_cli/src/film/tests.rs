@@ -1,8 +1,8 @@
 use std::path::Path;
 
-use nabiki_io::scene::Scene;
 use nabiki_render::camera::NEAR;
 use nabiki_render::settings::{Camera, Projection};
+use nabiki_scene::scene::Scene;
 
 use super::*;
 

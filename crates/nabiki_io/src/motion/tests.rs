@@ -1,6 +1,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fs;
 
+use glam::{Quat, Vec3};
 use proptest::prelude::*;
 
 use super::acclaim::tests::{AMC, ASF};

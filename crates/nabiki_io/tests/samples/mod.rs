@@ -1,8 +1,9 @@
 //! Small valid files of every binary format, made in code.
 
 use glam::{Quat, Vec3};
+use nabiki::Pose;
 use nabiki::{Hair, Strands, hair::Attributes};
-use nabiki_io::{SceneId, cache, hair_file, motion::Pose, tfx};
+use nabiki_io::{SceneId, cache, hair_file, tfx};
 
 /// Strands of `counts` points with every attribute that any format holds.
 pub fn hair(counts: &[usize]) -> Hair {

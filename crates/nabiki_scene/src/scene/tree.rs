@@ -10,7 +10,7 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
-use crate::error::{Error, Result};
+use nabiki_io::{Error, Result};
 
 /// Where the values of a scene come from: lines of the file, or overrides.
 #[derive(Clone, Debug, Default, PartialEq)]

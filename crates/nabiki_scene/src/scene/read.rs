@@ -11,7 +11,7 @@ use serde::{
 };
 use toml::Value;
 
-use crate::names::nearest;
+use nabiki_io::names::nearest;
 
 /// A value refused while settings were read.
 #[derive(Debug)]

@@ -6,7 +6,7 @@ use glam::Vec3;
 use nabiki::{Ellipsoid, SettingError, error::check_positive, groom::Style, pores::Hairline};
 use serde::{Deserialize, Serialize};
 
-use crate::{
+use nabiki_io::{
     hair::Cleaning,
     motion::{Axis, MotionSource},
     placement::{Placement, Unit},

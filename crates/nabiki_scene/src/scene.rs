@@ -26,7 +26,7 @@ use toml::{Table, Value};
 
 pub use settings::{EllipsoidChoice, HairSettings, HeadSettings, Output};
 
-use crate::error::{Error, Result};
+use nabiki_io::{Error, Result};
 use settings::{GROWN_ONLY, IMPORTED_ONLY, MESH_FILE_ONLY};
 
 /// A scene, read and checked.

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use glam::Vec3;
-use nabiki_io::{
-    scene::{EllipsoidChoice, HairSettings, Scene},
-    stage::Stage,
+use nabiki_scene::{
+    Scene, Stage,
+    scene::{EllipsoidChoice, HairSettings},
 };
 
 const GUST: &str = "\

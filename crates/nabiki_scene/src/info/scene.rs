@@ -5,8 +5,8 @@ use std::fmt;
 use nabiki::field::Keyframe;
 use serde::Serialize;
 
-use super::Short;
 use crate::scene::{HairSettings, Scene};
+use nabiki_io::info::Short;
 
 /// The outline of a scene, without loading what it names.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -1,12 +1,12 @@
 //! A take: the hair of a stage, all or some of it, and the head's way through the frames.
 
-use glam::{Quat, Vec3};
+use glam::Vec3;
 use nabiki::dynamics::{ForceSpace, Reference, Simulation};
 use nabiki::subset;
 
-use crate::Result;
-use crate::motion::Pose;
 use crate::stage::Stage;
+use nabiki::Pose;
+use nabiki_io::Result;
 
 /// A stage ready to be stepped, frame by frame.
 #[derive(Clone, Debug)]
@@ -38,7 +38,7 @@ impl Take {
                 "head.motion ends at frame {} and motion.frames = {frames}: make motion.frames smaller, or the file longer",
                 given.saturating_sub(1)
             );
-            return Err(crate::Error::new(remedy).in_file(stage.scene.file()));
+            return Err(nabiki_io::Error::new(remedy).in_file(stage.scene.file()));
         }
         Ok(Self { stage, ids, poses: motion.poses, motion_report: Some(motion.report) })
     }
@@ -74,8 +74,7 @@ impl Take {
 
     /// Where the head is in a frame.
     pub fn pose(&self, frame: u32) -> Pose {
-        let still = Pose { position_cm: Vec3::ZERO, rotation: Quat::IDENTITY };
-        self.poses.get(frame as usize).copied().unwrap_or(still)
+        self.poses.get(frame as usize).copied().unwrap_or_default()
     }
 
     /// F(n), in the space that the scene gives its forces in.

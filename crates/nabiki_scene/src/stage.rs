@@ -2,17 +2,18 @@
 
 use nabiki::{Hair, Head, SettingError, Strands, dynamics::Dynamics, groom::groom, pores, subset};
 
-use crate::{
+use nabiki_io::{
+    Error, Result,
     cache::Origin,
-    error::{Error, Result},
     exchange::{self, Said},
     hair::{self, ImportReport},
     identity::{Digest, SceneId},
     mesh::{self, MeshReport},
     motion::{self, HeadMotion},
     placement::Placement,
-    scene::{EllipsoidChoice, HairSettings, Scene},
 };
+
+use crate::scene::{EllipsoidChoice, HairSettings, Scene};
 
 /// All that a scene names, loaded and in head space.
 #[derive(Clone, Debug)]

@@ -1,0 +1,193 @@
+//! Result files that appear under their own name only when whole.
+//!
+//! A [`PartFile`] grows beside its final place, under a hidden name, and takes its own name when it is finished. Dropped
+//! unfinished, it is removed; [`remove_unfinished`] removes all that a program has open, for a handler of signals. What a
+//! killed program left behind is removed by the next one that writes to the same place: the part files of programs that
+//! run are locked.
+
+#![forbid(unsafe_code)]
+
+use std::ffi::{OsStr, OsString};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use tempfile::TempPath;
+
+/// Between the final name and the random end of a part file's name.
+const MARK: &str = ".nabiki-part-";
+
+/// Bytes gathered before they are written.
+const BUFFER: usize = 1 << 20;
+
+/// The part files that this program has open.
+static OPEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn open_parts() -> MutexGuard<'static, Vec<PathBuf>> {
+    OPEN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A file being written beside its final name; dropped unfinished, it leaves nothing.
+#[derive(Debug)]
+pub struct PartFile {
+    file: BufWriter<File>,
+    part: Part,
+    target: PathBuf,
+}
+
+/// The name of a part file, listed among those open for as long as it lives.
+#[derive(Debug)]
+struct Part(Option<TempPath>);
+
+impl Drop for Part {
+    fn drop(&mut self) {
+        let Some(path) = self.0.take() else { return };
+        open_parts().retain(|open| *open != *path);
+    }
+}
+
+impl PartFile {
+    /// Starts the file that will be `target`. A `target` that is a link stays one: what it leads to is replaced. Whoever
+    /// may read other new files may read this one (the umask holds).
+    ///
+    /// # Errors
+    /// What the disk says.
+    pub fn create(target: &Path) -> io::Result<Self> {
+        let target = behind_links(target)?;
+        let folder = folder_of(&target);
+        remove_stale(folder, &target);
+        let mut builder = tempfile::Builder::new();
+        let prefix = prefix_of(&target);
+        builder.prefix(&prefix);
+        // Temporary files are private by default; this one becomes an ordinary file.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        // The list is held while the file is made, so that a signal in between finds it.
+        let mut open = open_parts();
+        let (file, path) = builder.tempfile_in(folder).map_err(without_path)?.into_parts();
+        open.push(path.to_path_buf());
+        drop(open);
+        let part = Part(Some(path));
+        // Where a file system has no locks, the part file of a killed program stays.
+        let _ = file.try_lock();
+        Ok(Self { file: BufWriter::with_capacity(BUFFER, file), part, target })
+    }
+
+    /// Puts the content under its final name.
+    ///
+    /// # Errors
+    /// What the disk says; the file that was there before is then as it was.
+    pub fn finish(mut self) -> io::Result<()> {
+        self.file.flush()?;
+        let path = self.part.0.take().ok_or_else(|| io::Error::other("the file is finished already"))?;
+        open_parts().retain(|open| *open != *path);
+        path.persist(&self.target).map_err(|e| e.error)
+    }
+
+    /// Bytes of the file so far.
+    ///
+    /// # Errors
+    /// What the disk says.
+    pub fn len(&mut self) -> io::Result<u64> {
+        self.file.flush()?;
+        Ok(self.file.get_ref().metadata()?.len())
+    }
+}
+
+impl Write for PartFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.file.write_all(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Read for PartFile {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        self.file.flush()?;
+        self.file.get_mut().read(bytes)
+    }
+}
+
+impl Seek for PartFile {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.file.seek(to)
+    }
+}
+
+/// Removes every part file that this program has open: the last act of a program that is told to end.
+pub fn remove_unfinished() {
+    for part in open_parts().drain(..) {
+        let _ = fs::remove_file(part);
+    }
+}
+
+/// Bytes that a file in `folder` may grow to before the disk is full.
+///
+/// # Errors
+/// What the disk says.
+pub fn available_bytes(folder: &Path) -> io::Result<u64> {
+    fs4::available_space(folder)
+}
+
+/// The folder that a file is in; `.` for a bare name.
+pub fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// What `path` leads to, where it is a link; a link that leads nowhere names the file to be made.
+fn behind_links(path: &Path) -> io::Result<PathBuf> {
+    // As many as Linux follows.
+    const MOST_LINKS: usize = 40;
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        match fs::read_link(&path) {
+            Ok(to) => path = folder_of(&path).join(to),
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(io::Error::other("too many links in a row"))
+}
+
+fn prefix_of(target: &Path) -> OsString {
+    let mut prefix = OsString::from(".");
+    prefix.push(target.file_name().unwrap_or(OsStr::new("result")));
+    prefix.push(MARK);
+    prefix
+}
+
+/// Removes the part files of `target` that no running program holds.
+fn remove_stale(folder: &Path, target: &Path) {
+    let prefix = prefix_of(target);
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        if !entry.file_name().as_encoded_bytes().starts_with(prefix.as_encoded_bytes()) {
+            continue;
+        }
+        let path = entry.path();
+        if open_parts().contains(&path) {
+            continue;
+        }
+        if File::open(&path).is_ok_and(|file| file.try_lock().is_ok()) {
+            let _ = fs::remove_file(&path);
+        }
+    }
+}
+
+/// The crate tempfile adds the name of the part file, which is gone by the time anyone reads this.
+fn without_path(error: io::Error) -> io::Error {
+    match error.raw_os_error() {
+        Some(code) => io::Error::from_raw_os_error(code),
+        None => io::Error::new(error.kind(), error.kind().to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,77 @@
+use super::*;
+
+fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a folder")
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_file_has_its_name_only_when_it_is_finished() {
+    let folder = folder();
+    let target = folder.path().join("hair.usdc");
+    fs::write(&target, "old").unwrap();
+    let mut part = PartFile::create(&target).unwrap();
+    part.write_all(b"new").unwrap();
+    assert_eq!(fs::read(&target).unwrap(), b"old");
+    part.finish().unwrap();
+    assert_eq!(fs::read(&target).unwrap(), b"new");
+    drop(PartFile::create(&target).unwrap());
+    assert_eq!(names(folder.path()), ["hair.usdc"]);
+}
+
+#[test]
+fn what_a_killed_program_left_is_removed_and_what_another_writes_is_not() {
+    let folder = folder();
+    let target = folder.path().join("motion.nabiki");
+    fs::write(folder.path().join(".motion.nabiki.nabiki-part-killed"), "half").unwrap();
+    let held = folder.path().join(".motion.nabiki.nabiki-part-held");
+    let holder = File::create(&held).unwrap();
+    holder.try_lock().unwrap();
+    let first = PartFile::create(&target).unwrap();
+    let second = PartFile::create(&target).unwrap();
+    assert!(held.exists());
+    assert_eq!(names(folder.path()).len(), 3, "one of another program and two of this");
+    drop((first, second));
+    assert_eq!(names(folder.path()), [".motion.nabiki.nabiki-part-held"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_stays_a_link() {
+    let folder = folder();
+    let (link, real) = (folder.path().join("latest.png"), folder.path().join("frame.png"));
+    std::os::unix::fs::symlink("frame.png", &link).unwrap();
+    let mut part = PartFile::create(&link).unwrap();
+    part.write_all(b"picture").unwrap();
+    part.finish().unwrap();
+    assert_eq!(fs::read_link(&link).unwrap(), Path::new("frame.png"));
+    assert_eq!(fs::read(&real).unwrap(), b"picture");
+}
+
+#[cfg(unix)]
+#[test]
+fn links_in_a_circle_are_refused() {
+    let folder = folder();
+    let (a, b) = (folder.path().join("a"), folder.path().join("b"));
+    std::os::unix::fs::symlink("b", &a).unwrap();
+    std::os::unix::fs::symlink("a", &b).unwrap();
+    assert!(PartFile::create(&a).is_err());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_finished_file_has_the_mode_of_any_other_new_file() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = folder();
+    let (ours, other) = (folder.path().join("ours"), folder.path().join("other"));
+    PartFile::create(&ours).unwrap().finish().unwrap();
+    File::create(&other).unwrap();
+    let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode();
+    assert_eq!(mode(&ours), mode(&other));
+}
