@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use nabiki_io::placement::Unit;
+use nabiki_scene::exports::ExportOptions;
+use nabiki_scene::tasks::Twin;
+use nabiki_scene::{Error, Result};
 
 /// Hair in the wind: groom it, blow on it, draw it.
 #[derive(Parser)]
@@ -75,8 +78,8 @@ pub struct Run {
     #[command(flatten)]
     pub scene: SceneArgs,
 
-    /// Strands to grow, in place of hair.strands; of imported hair, an even choice of so many
-    #[arg(long, value_name = "N")]
+    /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
+    #[arg(long, value_name = "N", value_parser = positive)]
     pub strands: Option<usize>,
 
     /// Folder for the pictures, made if it is not there
@@ -85,6 +88,15 @@ pub struct Run {
 
     #[command(flatten)]
     pub export: ExportArgs,
+}
+
+impl Cli {
+    /// Makes the threads that were asked for.
+    pub fn use_threads(&self) -> Result<()> {
+        let Some(threads) = self.threads else { return Ok(()) };
+        let built = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+        built.map_err(|e| Error::refused(format!("--threads {threads}: {e}")))
+    }
 }
 
 /// Moving hair for other tools.
@@ -103,6 +115,12 @@ pub struct ExportArgs {
     pub export_head: bool,
 }
 
+impl ExportArgs {
+    pub fn options(&self) -> ExportOptions {
+        ExportOptions { files: self.export.clone(), layer: self.export_layer.clone(), head: self.export_head }
+    }
+}
+
 #[derive(Args)]
 pub struct Preview {
     #[command(flatten)]
@@ -111,6 +129,10 @@ pub struct Preview {
     /// Strands to show, chosen evenly over the scalp from all of the scene's
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = positive)]
     pub strands: usize,
+
+    /// Write their motion into a cache (.nabiki), too
+    #[arg(long, value_name = "FILE")]
+    pub cache: Option<PathBuf>,
 
     /// Folder for the pictures, made if it is not there
     #[arg(long, value_name = "DIR", default_value = "out")]
@@ -122,8 +144,8 @@ pub struct Groom {
     #[command(flatten)]
     pub scene: SceneArgs,
 
-    /// Strands to grow, in place of hair.strands; of imported hair, an even choice of so many
-    #[arg(long, value_name = "N")]
+    /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
+    #[arg(long, value_name = "N", value_parser = positive)]
     pub strands: Option<usize>,
 
     /// The hair file to write: .hair, .tfx, .usda, .usdc or .abc
@@ -136,11 +158,11 @@ pub struct Simulate {
     #[command(flatten)]
     pub scene: SceneArgs,
 
-    /// Strands to grow, in place of hair.strands; of imported hair, an even choice of so many
-    #[arg(long, value_name = "N")]
+    /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
+    #[arg(long, value_name = "N", value_parser = positive)]
     pub strands: Option<usize>,
 
-    /// The motion cache to write
+    /// The motion cache to write (.nabiki), or moving hair for other tools (.usdc, .usda, .abc)
     #[arg(long, short, value_name = "FILE")]
     pub output: PathBuf,
 
@@ -161,13 +183,22 @@ pub enum StepperName {
     F64,
 }
 
+impl From<StepperName> for Twin {
+    fn from(name: StepperName) -> Self {
+        match name {
+            StepperName::Fast => Self::Fast,
+            StepperName::F64 => Self::Reference,
+        }
+    }
+}
+
 #[derive(Args)]
 pub struct Render {
     #[command(flatten)]
     pub scene: SceneArgs,
 
-    /// Strands to grow, in place of hair.strands; of imported hair, an even choice of so many
-    #[arg(long, value_name = "N")]
+    /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
+    #[arg(long, value_name = "N", value_parser = positive)]
     pub strands: Option<usize>,
 
     /// The motion cache to draw, written from the same scene by `simulate`; without it the scene is simulated

@@ -1,49 +1,42 @@
-//! The command `nabiki`.
+//! The command `nabiki`: arguments in, lines out. What it does is done by `nabiki_scene`.
 
 mod args;
 mod commands;
-mod export;
-mod failure;
-mod film;
-mod opening;
-mod place;
-mod progress;
-mod reel;
-mod report;
+mod ending;
 mod say;
+mod scene_args;
+mod terminal;
 
 use std::process::ExitCode;
 
 use clap::Parser;
+use nabiki_scene::Result;
 
 use args::{Cli, Command};
-use failure::Failure;
+use terminal::Terminal;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
+    ending::remove_parts_on_signals();
     match run(&cli) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            eprintln!("nabiki: {failure}");
+        Err(error) => {
+            eprintln!("nabiki: {error}");
             ExitCode::FAILURE
         }
     }
 }
 
-fn run(cli: &Cli) -> Result<(), Failure> {
-    if let Some(threads) = cli.threads {
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(threads.into())
-            .build_global()
-            .map_err(|e| Failure::new(format!("--threads {threads}: {e}")))?;
-    }
+fn run(cli: &Cli) -> Result<()> {
+    cli.use_threads()?;
+    let mut terminal = Terminal::new(cli.quiet);
     match &cli.command {
-        Command::Run(args) => commands::run::run(args, cli.quiet),
-        Command::Preview(args) => commands::preview::preview(args, cli.quiet),
-        Command::Groom(args) => commands::groom::groom(args, cli.quiet),
-        Command::Simulate(args) => commands::simulate::simulate(args, cli.quiet),
-        Command::Render(args) => commands::render::render(args, cli.quiet),
-        Command::Convert(args) => commands::convert::convert(args, cli.quiet),
-        Command::Info(args) => commands::info::info(args),
+        Command::Run(args) => commands::run(args, &mut terminal),
+        Command::Preview(args) => commands::preview(args, &mut terminal),
+        Command::Groom(args) => commands::groom(args, &mut terminal),
+        Command::Simulate(args) => commands::simulate(args, &mut terminal),
+        Command::Render(args) => commands::render(args, &mut terminal),
+        Command::Convert(args) => commands::convert(args, &mut terminal),
+        Command::Info(args) => commands::info(args),
     }
 }

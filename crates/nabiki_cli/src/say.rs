@@ -3,7 +3,7 @@
 use std::fmt;
 use std::io::{ErrorKind, Write};
 
-use crate::failure::Failure;
+use nabiki_scene::{Error, Result};
 
 /// A line of report, like `println!`, but work goes on when nobody listens any more (`nabiki run ... | head`).
 macro_rules! say {
@@ -19,9 +19,9 @@ pub fn line(told: fmt::Arguments) -> std::io::Result<()> {
 }
 
 /// Writes what the whole command is for; whoever stops reading has read enough.
-pub fn answer(told: impl fmt::Display) -> Result<(), Failure> {
+pub fn answer(told: impl fmt::Display) -> Result<()> {
     match line(format_args!("{told}")) {
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::new(format!("standard output: {e}"))),
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Error::refused(format!("standard output: {e}"))),
         _ => Ok(()),
     }
 }

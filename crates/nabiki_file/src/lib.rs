@@ -84,15 +84,6 @@ impl PartFile {
         open_parts().retain(|open| *open != *path);
         path.persist(&self.target).map_err(|e| e.error)
     }
-
-    /// Bytes of the file so far.
-    ///
-    /// # Errors
-    /// What the disk says.
-    pub fn len(&mut self) -> io::Result<u64> {
-        self.file.flush()?;
-        Ok(self.file.get_ref().metadata()?.len())
-    }
 }
 
 impl Write for PartFile {

@@ -126,6 +126,26 @@ impl Scene {
         self.file().file_stem().unwrap_or_default().to_string_lossy().into_owned()
     }
 
+    /// Frames a second, of the movie and of the head's motion.
+    pub fn frame_rate(&self) -> f64 {
+        f64::from(self.picture.video.fps)
+    }
+
+    /// Every file that this scene is read from: its own, and those that it names.
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        let mut named: Vec<&Path> = self.hair.file.iter().map(PathBuf::as_path).collect();
+        if !self.head.is_builtin() {
+            named.push(Path::new(&self.head.mesh));
+        }
+        if let Some(motion) = &self.head.motion {
+            named.push(&motion.file);
+            named.extend(motion.skeleton.as_deref());
+        }
+        let mut inputs = vec![self.file().to_owned()];
+        inputs.extend(named.into_iter().map(|path| self.resolve(path)));
+        inputs
+    }
+
     /// A path in the scene, relative to the scene file.
     pub fn resolve(&self, path: &Path) -> PathBuf {
         self.file().parent().unwrap_or(Path::new("")).join(path)

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::Vec3;
 use nabiki_scene::{
-    Scene, Stage,
+    BuiltScene, Scene, Shown,
     scene::{EllipsoidChoice, HairSettings},
 };
 
@@ -241,13 +241,13 @@ fn what_is_no_toml_is_refused_with_its_line() {
 
 #[test]
 fn the_identity_is_that_of_the_motion_and_not_of_the_spelling() {
-    let build = |overrides: &[(&str, &str)]| parse(GUST, overrides).unwrap().build().unwrap();
+    let build = |overrides: &[(&str, &str)]| parse(GUST, overrides).unwrap().build(Shown::All).unwrap();
     let gust = build(&[]);
     let identity = gust.identity().unwrap();
     let defaults_written_out = [("motion.time_step", "0.10"), ("pseudo_force.alpha", "-0.75"), ("hair.segments", "18")];
     assert_eq!(build(&defaults_written_out).identity().unwrap(), identity);
 
-    let same = |what: &str, change: &dyn Fn(&mut Stage)| {
+    let same = |what: &str, change: &dyn Fn(&mut BuiltScene)| {
         let mut stage = gust.clone();
         change(&mut stage);
         assert_eq!(stage.identity().unwrap(), identity, "{what}");
@@ -255,7 +255,7 @@ fn the_identity_is_that_of_the_motion_and_not_of_the_spelling() {
     same("the same motion, less of it", &|stage| stage.dynamics.motion.frames = 60);
     same("the same motion, drawn otherwise", &|stage| stage.scene.picture.size = [64, 64]);
 
-    let other = |what: &str, change: &dyn Fn(&mut Stage)| {
+    let other = |what: &str, change: &dyn Fn(&mut BuiltScene)| {
         let mut stage = gust.clone();
         change(&mut stage);
         assert_ne!(stage.identity().unwrap(), identity, "{what}");
@@ -273,21 +273,20 @@ fn the_identity_is_that_of_the_motion_and_not_of_the_spelling() {
 #[test]
 fn the_identity_is_also_that_of_the_files_that_move_the_head() {
     let folder = tempfile::tempdir().unwrap();
-    let identity_at = |fps: &str, motion: &str, skeleton: &str| {
-        for (name, text) in [("run.amc", motion), ("body.asf", skeleton)] {
-            std::fs::write(folder.path().join(name), text).unwrap();
-        }
+    let identity_at = |fps: &str, last_x: f32| {
+        let columns = "t_s,px_m,py_m,pz_m,qx,qy,qz,qw";
+        let table = format!("{columns}\n0,0,1.6,0,0,0,0,1\n1,0.5,1.6,0,0,0,0,1\n9,{last_x},1.6,0,0,0,0,1\n");
+        std::fs::write(folder.path().join("run.csv"), table).unwrap();
+        let over =
+            [("head.motion", "{ file = \"run.csv\", up = \"+y\", facing = \"+x\" }"), ("picture.video.fps", fps)];
+        let over = over.map(|(key, value)| (key.to_owned(), value.to_owned()));
         let path = folder.path().join("scene.toml");
-        let over = ("head.motion".to_owned(), "{ file = \"run.amc\", skeleton = \"body.asf\" }".to_owned());
-        let rate = ("picture.video.fps".to_owned(), fps.to_owned());
-        Scene::parse(GUST, &path, &[over, rate]).unwrap().build().unwrap().identity().unwrap()
+        Scene::parse(GUST, &path, &over).unwrap().build(Shown::All).unwrap().identity().unwrap()
     };
-    let identity = |motion: &str, skeleton: &str| identity_at("24", motion, skeleton);
-    let one = identity("a", "b");
-    assert_eq!(identity("a", "b"), one);
-    assert_ne!(identity("c", "b"), one);
-    assert_ne!(identity("a", "c"), one);
-    assert_ne!(identity_at("30", "a", "b"), one, "the head is elsewhere in each frame");
+    let one = identity_at("24", 2.0);
+    assert_eq!(identity_at("24", 2.0), one);
+    assert_ne!(identity_at("24", 3.0), one);
+    assert_ne!(identity_at("30", 2.0), one, "the head is elsewhere in each frame");
 }
 
 #[test]
@@ -303,7 +302,7 @@ fn sintels_hair_lands_on_her_head() {
          [[force]]\nthrough = 50\nvector = [-1, 0, 0]\n",
         data.display()
     );
-    let stage = parse(&text, &[]).unwrap().build().unwrap();
+    let stage = parse(&text, &[]).unwrap().build(Shown::All).unwrap();
     assert_eq!(stage.hair.strands.len(), 500);
     let report = stage.import_report.unwrap();
     assert_eq!((report.strands_in_file, report.degenerate.dropped_strands), (11_400, 0));
@@ -343,7 +342,9 @@ fn imported_hair_is_cut_into_the_segments_asked_for() {
             "[hair]\nfile = \"{}\"\n{segments}\n[[force]]\nthrough = 1\nvector = [0, -1, 0]\n[motion]\nframes = 1\n",
             path.display()
         );
-        Scene::parse(&text, std::path::Path::new("two.toml"), &[]).and_then(Scene::build)
+        Scene::parse(&text, std::path::Path::new("two.toml"), &[])
+            .map_err(Into::into)
+            .and_then(|scene| scene.build(Shown::All))
     };
     let as_in_file = built("").unwrap().hair.strands;
     let cut = built("segments = 6").unwrap().hair.strands;
@@ -355,5 +356,5 @@ fn imported_hair_is_cut_into_the_segments_asked_for() {
     let corner = as_in_file.iter().next().unwrap()[1];
     assert!(cut.iter().next().unwrap()[4].distance(corner) < 1e-5);
     let refused = built(&format!("segments = {}", usize::MAX / 2)).unwrap_err().to_string();
-    assert!(refused.contains("hair.segments") && refused.contains("ask for fewer"), "{refused}");
+    assert!(refused.contains("hair.segments") && refused.contains("must lie in 1..65535"), "{refused}");
 }

@@ -187,6 +187,17 @@ impl HairSettings {
     /// The most segments of a strand grown, unless the scene says otherwise: the paper's k (Table 1).
     pub const SEGMENTS: usize = 18;
 
+    /// The most segments that a strand may have: what the .hair format can count.
+    pub const MOST_SEGMENTS: usize = u16::MAX as usize;
+
+    /// Refuses no segments, and more than any format holds. `name`: where the number was given.
+    pub fn check_segments(name: &str, segments: usize) -> Result<(), SettingError> {
+        if (1..=Self::MOST_SEGMENTS).contains(&segments) {
+            return Ok(());
+        }
+        Err(SettingError::new(name, segments, format!("must lie in 1..{}", Self::MOST_SEGMENTS)))
+    }
+
     /// What imported hair is cleaned of.
     pub fn cleaning(&self) -> Cleaning {
         Cleaning { join_within: self.join_within, drop_shorter_than: self.drop_shorter_than }
@@ -197,9 +208,7 @@ impl HairSettings {
         if self.strands == Some(0) {
             return Err(SettingError::new("hair.strands", 0, "must be at least 1"));
         }
-        if self.segments == Some(0) {
-            return Err(SettingError::new("hair.segments", 0, "must be at least 1"));
-        }
+        self.segments.map_or(Ok(()), |segments| Self::check_segments("hair.segments", segments))?;
         let points = self
             .strands
             .unwrap_or(Self::STRANDS)

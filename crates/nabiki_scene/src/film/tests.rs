@@ -2,25 +2,26 @@ use std::path::Path;
 
 use nabiki_render::camera::NEAR;
 use nabiki_render::settings::{Camera, Projection};
-use nabiki_scene::scene::Scene;
 
 use super::*;
+use crate::frames::Simulated;
+use crate::{Scene, Shown};
 
 const FRAMES: u32 = 12;
 const SIZE: [u32; 2] = [320, 180];
 
 /// Few strands in the gust, after `changes`.
-fn gust(changes: &[(&str, &str)]) -> Take {
+fn gust(changes: &[(&str, &str)]) -> BuiltScene {
     let scene = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/gust.toml"));
     let few = [("hair.strands", "40"), ("motion.frames", "12"), ("output.sheet", "[0]"), ("picture.size", "[320,180]")];
     let changes: Vec<_> = few.iter().chain(changes).map(|&(key, value)| (key.to_owned(), value.to_owned())).collect();
-    Take::new(Scene::load(scene, &changes).unwrap().build().unwrap()).unwrap()
+    Scene::load(scene, &changes).unwrap().build(Shown::All).unwrap()
 }
 
-fn film<'a>(take: &'a Take, camera: Camera) -> Film<'a> {
-    let picture = Picture { camera, size: SIZE, ..take.stage.scene.picture.clone() };
-    let mut rehearsal = Simulated { take, simulation: take.simulation().unwrap() };
-    Film::new(take, &picture, &mut rehearsal, true).unwrap()
+fn film<'a>(built: &'a BuiltScene, camera: Camera) -> Film<'a> {
+    let picture = Picture { camera, size: SIZE, ..built.scene.picture.clone() };
+    let mut rehearsal = Simulated::new(built).unwrap();
+    Film::new(built, &picture, &mut rehearsal, &mut crate::Unwatched).unwrap()
 }
 
 /// Pixels between a point and each side of the picture less its margin: left, right, top, bottom.
@@ -52,12 +53,12 @@ fn guaranteed(view: &View, margin: f32, bounds: &Bounds) -> f32 {
 const ROUNDING: f32 = 1e-2;
 
 /// Every point of every frame is in the picture as `film` shows it; returns how near to the margin the nearest comes.
-fn check(take: &Take, film: &Film) -> f32 {
+fn check(built: &BuiltScene, film: &Film) -> f32 {
     let margin = film.picture.camera.margin * SIZE[1] as f32;
-    let mut frames = Simulated { take, simulation: take.simulation().unwrap() };
+    let mut frames = Simulated::new(built).unwrap();
     let mut nearest = f32::INFINITY;
     for n in 0..=FRAMES {
-        let (view, turn) = (film.view(n), take.pose(n).rotation);
+        let (view, turn) = (film.view(n), built.pose(n).rotation);
         for &p in frames.frame(n).unwrap().points() {
             let spare = least(spare(&view, margin, turn * p));
             assert!(spare > -ROUNDING, "frame {n}: {p} is {spare} pixels beyond the margin");
@@ -69,17 +70,17 @@ fn check(take: &Take, film: &Film) -> f32 {
 
 #[test]
 fn automatic_framing_holds_every_point_of_every_frame_and_no_more_than_it_must() {
-    let take = gust(&[]);
+    let built = gust(&[]);
     for projection in [Projection::Perspective, Projection::Orthographic] {
         for (azimuth, elevation) in [(0.0, 0.0), (40.0, 5.0), (90.0, 0.0), (205.0, -20.0), (300.0, 60.0)] {
-            let film = film(&take, Camera { projection, azimuth, elevation, ..Camera::default() });
+            let film = film(&built, Camera { projection, azimuth, elevation, ..Camera::default() });
             // The head is framed as well, and may be what comes nearest.
-            let head = &take.stage.head;
+            let head = &built.head;
             let near_head = head.ellipsoid.scaled(1.5);
             let (view, margin) = (film.view(0), film.picture.camera.margin * SIZE[1] as f32);
             let of_head = head.mesh.positions.iter().filter(|&&p| near_head.value(p) <= 0.0);
             let of_head = of_head.map(|&p| least(spare(&view, margin, p))).fold(f32::INFINITY, f32::min);
-            let nearest = check(&take, &film).min(of_head);
+            let nearest = check(&built, &film).min(of_head);
             let guaranteed = guaranteed(&view, margin, &film.bounds);
             eprintln!("{projection:?} {azimuth} {elevation}: {nearest:.2} px of {guaranteed:.2}");
             assert!(nearest <= guaranteed + ROUNDING, "{projection:?} {azimuth}: {nearest} pixels, {guaranteed}");
@@ -99,18 +100,18 @@ fn a_head_that_turns_stays_framed() {
     }
     std::fs::write(&file, table).unwrap();
     let motion = format!("{{file=\"{}\",up=\"+y\",facing=\"+x\"}}", file.display());
-    let take = gust(&[("head.motion", &motion)]);
+    let built = gust(&[("head.motion", &motion)]);
     for projection in [Projection::Perspective, Projection::Orthographic] {
-        check(&take, &film(&take, Camera { projection, azimuth: 40.0, ..Camera::default() }));
+        check(&built, &film(&built, Camera { projection, azimuth: 40.0, ..Camera::default() }));
     }
 }
 
 #[test]
 fn what_a_camera_leaves_open_is_chosen_for_all_frames() {
-    let take = gust(&[]);
+    let built = gust(&[]);
     let looked_at = Camera { target: Some(Vec3::new(-5.0, 0.0, 0.0)), ..Camera::default() };
     // A height means nothing in perspective, and a distance nothing for the size of an orthographic picture.
-    check(&take, &film(&take, Camera { height: Some(30.0), ..looked_at }));
+    check(&built, &film(&built, Camera { height: Some(30.0), ..looked_at }));
     let orthographic = Camera { projection: Projection::Orthographic, ..looked_at };
-    check(&take, &film(&take, Camera { distance: Some(200.0), ..orthographic }));
+    check(&built, &film(&built, Camera { distance: Some(200.0), ..orthographic }));
 }

@@ -1,4 +1,4 @@
-//! The files that the pictures of a take go into: a movie, a contact sheet, stills, the field.
+//! The files that the pictures of a scene go into: a movie, a contact sheet, stills, the field.
 
 use std::path::{Path, PathBuf};
 
@@ -6,19 +6,19 @@ use glam::Vec3;
 use nabiki_render::output::field_plot::{self, Interval};
 use nabiki_render::output::{exr, png};
 use nabiki_render::{ContactSheet, Developer, Frame, Movie, Picture, RenderError, View};
-use nabiki_scene::Take;
 
-use crate::failure::Failure;
+use crate::built::BuiltScene;
+use crate::error::Result;
 use crate::place::{self, Folders};
 
-/// What is said of any place that a reel cannot use.
+/// What is said of any place that a picture cannot use.
 pub const WAY_OUT: &str = "choose another folder with --out";
 
 type WriteField = fn(&Path, &[Interval]) -> Result<(), RenderError>;
 
 /// Takes frames one by one, and writes of them what the scene asks for.
-pub struct Reel<'a> {
-    take: &'a Take,
+pub(crate) struct PictureOutputs<'a> {
+    built: &'a BuiltScene,
     developer: Developer,
     movie: Option<(PathBuf, Movie)>,
     sheet: ContactSheet,
@@ -28,17 +28,18 @@ pub struct Reel<'a> {
     fields: Vec<(PathBuf, WriteField)>,
 }
 
-impl<'a> Reel<'a> {
+impl<'a> PictureOutputs<'a> {
     /// Begins the files in `folder`, their names beginning with `name`. Whatever could not be written in the end is
     /// refused now.
     pub fn begin(
-        take: &'a Take,
+        built: &'a BuiltScene,
         picture: &Picture,
         folder: &Path,
         name: &str,
+        inputs: &[PathBuf],
         folders: &mut Folders,
-    ) -> Result<Self, Failure> {
-        let (output, last) = (&take.stage.scene.output, take.stage.scene.motion.frames);
+    ) -> Result<Self> {
+        let (output, last) = (&built.scene.output, built.frames());
         let at = |ending: &str| folder.join(format!("{name}{ending}"));
         folders.make(folder, WAY_OUT)?;
         let movie_file = output.movie.then(|| at(".mp4"));
@@ -50,9 +51,10 @@ impl<'a> Reel<'a> {
             Vec::new()
         };
         let sheet = (!on_sheet.is_empty()).then_some(&sheet_file);
-        for file in movie_file.iter().chain(sheet).chain(fields.iter().map(|(file, _)| file)) {
-            place::free(file, WAY_OUT)?;
-        }
+        let files: Vec<&Path> =
+            movie_file.iter().chain(sheet).chain(fields.iter().map(|(file, _)| file)).map(PathBuf::as_path).collect();
+        files.iter().try_for_each(|file| place::free(file, WAY_OUT))?;
+        place::not_inputs(&files, inputs)?;
         if let Some(stills) = &stills {
             folders.make(stills, WAY_OUT)?;
             // What is there is looked through, rather than every name that will be: frames may be many.
@@ -74,12 +76,12 @@ impl<'a> Reel<'a> {
             None => None,
         };
         let developer = Developer::new(picture);
-        Ok(Self { take, developer, movie, sheet: ContactSheet::new(2), sheet_file, on_sheet, stills, fields })
+        Ok(Self { built, developer, movie, sheet: ContactSheet::new(2), sheet_file, on_sheet, stills, fields })
     }
 
     /// Takes frame `n`, which `view` shows in the space of the forces.
-    pub fn push(&mut self, n: u32, frame: &Frame, view: &View) -> Result<(), Failure> {
-        let output = &self.take.stage.scene.output;
+    pub fn push(&mut self, n: u32, frame: &Frame, view: &View) -> Result<()> {
+        let output = &self.built.scene.output;
         if let Some((_, movie)) = &mut self.movie {
             movie.push(frame, &self.developer)?;
         }
@@ -93,14 +95,14 @@ impl<'a> Reel<'a> {
             }
         }
         if self.on_sheet.contains(&n) {
-            let force: Vec3 = self.take.force(n.max(1));
+            let force: Vec3 = self.built.force(n.max(1));
             self.sheet.add(frame, &self.developer, n, Some(force), view);
         }
         Ok(())
     }
 
     /// Completes the files. Returns what was written.
-    pub fn finish(self) -> Result<Vec<PathBuf>, Failure> {
+    pub fn finish(self) -> Result<Vec<PathBuf>> {
         let mut written = Vec::new();
         if let Some((file, movie)) = self.movie {
             movie.finish()?;
@@ -111,7 +113,7 @@ impl<'a> Reel<'a> {
             written.push(self.sheet_file);
         }
         written.extend(self.stills);
-        let force = &self.take.stage.scene.force;
+        let force = &self.built.scene.force;
         let intervals: Vec<_> = force.iter().map(|k| Interval { through: k.through, vector: k.vector }).collect();
         for (file, write) in self.fields {
             write(&file, &intervals)?;

@@ -1,0 +1,40 @@
+//! From the command line to a scene: the file, with what the command line changes in it.
+
+use std::path::Path;
+
+use nabiki_scene::{Error, Result, Scene};
+
+use crate::args::SceneArgs;
+
+impl SceneArgs {
+    /// The scene with its overrides.
+    pub fn load(&self) -> Result<Scene> {
+        let mut overrides = Vec::new();
+        for set in &self.sets {
+            let (key, value) = set.split_once('=').ok_or_else(|| {
+                Error::refused(format!("--set {set}: write KEY=VALUE, as in --set motion.time_step=0.05"))
+            })?;
+            overrides.push((key.trim().to_owned(), value.trim().to_owned()));
+        }
+        if let Some(frames) = self.frames {
+            overrides.push(("motion.frames".to_owned(), frames.to_string()));
+            if !overrides.iter().any(|(key, _)| key.starts_with("output.sheet")) {
+                overrides.extend(shorter_sheet(&self.scene, frames));
+            }
+        }
+        Ok(Scene::load(&self.scene, &overrides)?)
+    }
+}
+
+/// The contact sheet of the scene without the frames that a shorter try does not reach. A file that cannot be read
+/// is left for the scene's own reader to refuse.
+fn shorter_sheet(scene: &Path, frames: u32) -> Option<(String, String)> {
+    let table: toml::Table = std::fs::read_to_string(scene).ok()?.parse().ok()?;
+    let sheet = table.get("output")?.get("sheet")?.as_array()?;
+    let reached: Vec<String> = sheet
+        .iter()
+        .filter(|frame| frame.as_integer().is_none_or(|n| n <= frames.into()))
+        .map(ToString::to_string)
+        .collect();
+    Some(("output.sheet".to_owned(), format!("[{}]", reached.join(", "))))
+}

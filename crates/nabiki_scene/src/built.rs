@@ -1,0 +1,149 @@
+//! A scene with everything in its place: the head, the hair, what moves them.
+
+mod identity;
+mod load;
+
+use std::path::PathBuf;
+
+use glam::Vec3;
+use nabiki::dynamics::{Dynamics, ForceSpace, Reference, Simulation};
+use nabiki::{Hair, Head, Pose, SettingError};
+use nabiki_io::cache::Origin;
+use nabiki_io::hair::ImportReport;
+use nabiki_io::mesh::MeshReport;
+use nabiki_io::placement::Placement;
+
+use crate::error::{Error, Result};
+use crate::scene::Scene;
+
+/// All that a scene names, loaded and in head space, ready to be stepped.
+#[derive(Clone, Debug)]
+pub struct BuiltScene {
+    /// The scene it was built from.
+    pub scene: Scene,
+    /// The head.
+    pub head: Head,
+    /// How the head's file lies in head space; the identity for the built-in head.
+    pub placement: Placement,
+    /// What the head's file held; `None` for the built-in head.
+    pub mesh_report: Option<MeshReport>,
+    /// The hair at rest: all of the scene's, or the strands asked for.
+    pub hair: Hair,
+    /// Strands of the whole scene, of which `hair` may be some.
+    pub strands_of_scene: usize,
+    /// How the hair's file lies in head space; `None` for hair grown here.
+    pub hair_placement: Option<Placement>,
+    /// What the hair's file held; `None` for hair grown here.
+    pub import_report: Option<ImportReport>,
+    /// What moves the hair.
+    pub dynamics: Dynamics,
+    /// How the head's motion was read and converted, in one line.
+    pub motion_report: Option<String>,
+    /// Number of each strand in the whole hair.
+    ids: Vec<u32>,
+    /// World poses of the head from frame 0 on; none for a head that stands still.
+    poses: Vec<Pose>,
+}
+
+impl Scene {
+    /// Loads the head, grows or imports the hair, reads the head's motion.
+    ///
+    /// # Errors
+    /// One line: file, thing, value and the way out.
+    pub fn build(self, shown: Shown) -> Result<BuiltScene> {
+        load::build(self, shown)
+    }
+}
+
+/// How many of a scene's strands are built: the first of the farthest-first order of its roots, so evenly spread over
+/// the scalp. Each moves, to the bit, as it does in the whole.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shown {
+    /// All.
+    #[default]
+    All,
+    /// So many; more than the scene has are refused.
+    First(usize),
+    /// So many, or all where the scene has fewer.
+    AtMost(usize),
+}
+
+impl Shown {
+    /// Strands shown of `of_scene`.
+    fn of(self, of_scene: usize) -> Result<usize> {
+        match self {
+            Self::All => Ok(of_scene),
+            Self::AtMost(count) => Ok(count.min(of_scene)),
+            Self::First(count) if count <= of_scene => Ok(count),
+            Self::First(count) => Err(Error::refused(format!(
+                "{count} strands are asked for and the scene has {of_scene}: ask for fewer, or grow more with \
+                 hair.strands = {count}"
+            ))),
+        }
+    }
+}
+
+impl BuiltScene {
+    /// The fast stepper, at rest.
+    ///
+    /// # Errors
+    /// A field too strong for the hair; strands that cannot be moved.
+    pub fn simulation(&self) -> Result<Simulation> {
+        let built = Simulation::with_ids(&self.hair.strands, &self.ids, &self.dynamics);
+        built.map_err(|refused| self.refusal(refused))
+    }
+
+    /// The f64 stepper, at rest.
+    ///
+    /// # Errors
+    /// As [`simulation`](Self::simulation).
+    pub fn reference(&self) -> Result<Reference> {
+        let built = Reference::with_ids(&self.hair.strands, &self.ids, &self.dynamics);
+        built.map_err(|refused| self.refusal(refused))
+    }
+
+    /// Frames after the rest frame 0.
+    pub fn frames(&self) -> u32 {
+        self.scene.motion.frames
+    }
+
+    /// Where the head is in a frame.
+    pub fn pose(&self, frame: u32) -> Pose {
+        self.poses.get(frame as usize).copied().unwrap_or_default()
+    }
+
+    /// F(n), in the space that the scene gives its forces in.
+    pub fn force(&self, frame: u32) -> Vec3 {
+        self.dynamics.field.at(frame)
+    }
+
+    /// F(n) as the hair on the turning head feels it.
+    pub fn force_in_head(&self, frame: u32) -> Vec3 {
+        let force = self.force(frame);
+        match self.dynamics.motion.force_space {
+            ForceSpace::World => self.pose(frame).rotation.inverse() * force,
+            ForceSpace::Head => force,
+        }
+    }
+
+    /// Whether the head moves.
+    pub fn head_moves(&self) -> bool {
+        !self.poses.is_empty()
+    }
+
+    /// How imported hair lay in its file, for a motion cache to remember.
+    pub fn hair_origin(&self) -> Option<Origin> {
+        let (placement, report) = (self.hair_placement?, self.import_report?);
+        Some(Origin { placement, points: report.points_in_file as u64 })
+    }
+
+    /// Every file that was read for this: the scene's own, and those that it names.
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        self.scene.inputs()
+    }
+
+    /// A refused setting as an error that names the scene's file and line.
+    pub fn refusal(&self, refused: SettingError) -> Error {
+        self.scene.refusal(refused).into()
+    }
+}

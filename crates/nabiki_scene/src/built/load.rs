@@ -1,0 +1,192 @@
+//! What a scene names, read and put into head space.
+
+use glam::Vec3;
+use nabiki::{Hair, Head, SettingError, Strands, dynamics::Dynamics, groom::groom, pores, subset};
+use nabiki_io::{
+    exchange::{self, Said},
+    hair::{self, ImportReport},
+    mesh::{self, MeshReport},
+    motion::{self, HeadMotion},
+    placement::Placement,
+};
+
+use super::{BuiltScene, Shown};
+use crate::error::Result;
+use crate::scene::{EllipsoidChoice, HairSettings, Scene};
+
+pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
+    let (head, placement, mesh_report) = load_head(&scene)?;
+    let dynamics = dynamics(&scene, &head)?;
+    let Loaded { hair, ids, of_scene, placement: hair_placement, report } =
+        load_hair(&scene, &head, &placement, shown)?;
+    let (poses, motion_report) = head_motion(&scene)?.map_or_else(Default::default, |m| (m.poses, Some(m.report)));
+    Ok(BuiltScene {
+        scene,
+        head,
+        placement,
+        mesh_report,
+        hair,
+        strands_of_scene: of_scene,
+        hair_placement,
+        import_report: report,
+        dynamics,
+        motion_report,
+        ids,
+        poses,
+    })
+}
+
+/// Hair at rest, some or all of the scene's.
+struct Loaded {
+    hair: Hair,
+    /// Number of each strand in the whole.
+    ids: Vec<u32>,
+    /// Strands of the whole.
+    of_scene: usize,
+    placement: Option<Placement>,
+    report: Option<ImportReport>,
+}
+
+fn load_hair(scene: &Scene, head: &Head, head_placement: &Placement, shown: Shown) -> Result<Loaded> {
+    let Some(file) = &scene.hair.file else {
+        let of_scene = scene.hair.strands.unwrap_or(HairSettings::STRANDS);
+        let count = shown.of(of_scene)?;
+        let hair = grow(scene, head, count)?.into();
+        return Ok(Loaded { hair, ids: (0..count as u32).collect(), of_scene, placement: None, report: None });
+    };
+    let file = scene.resolve(file);
+    let placement = hair_placement(&scene.hair, head_placement, exchange::said(&file)?);
+    placement.check("hair").map_err(|refused| scene.refusal(refused))?;
+    let (hair, report) = hair::import(&file, &placement, &scene.hair.cleaning())?;
+    let hair = match scene.hair.strands {
+        Some(count) if count < hair.strands.len() => hair.select(&evenly(&hair, count)),
+        _ => hair,
+    };
+    let of_scene = hair.strands.len();
+    let (hair, ids) = match shown.of(of_scene)? {
+        count if count < of_scene => {
+            let chosen = evenly(&hair, count);
+            (hair.select(&chosen), chosen.iter().map(|&s| s as u32).collect())
+        }
+        _ => (hair, (0..of_scene as u32).collect()),
+    };
+    let hair = match scene.hair.segments {
+        Some(segments) => cut_anew(&hair, segments).map_err(|refused| scene.refusal(refused))?,
+        None => hair,
+    };
+    Ok(Loaded { hair, ids, of_scene, placement: Some(placement), report: Some(report) })
+}
+
+/// `count` strands of the farthest-first order of the roots, in the order of the file.
+fn evenly(hair: &Hair, count: usize) -> Vec<usize> {
+    let roots: Vec<Vec3> = hair.strands.iter().map(|strand| strand[0]).collect();
+    let mut chosen = subset::evenly(&roots, count);
+    chosen.sort_unstable();
+    chosen
+}
+
+/// Where the head is in each frame; `None` for a head that stands still.
+fn head_motion(scene: &Scene) -> Result<Option<HeadMotion>> {
+    let Some(source) = &scene.head.motion else { return Ok(None) };
+    let source = motion::MotionSource {
+        file: scene.resolve(&source.file),
+        skeleton: source.skeleton.as_ref().map(|skeleton| scene.resolve(skeleton)),
+        ..source.clone()
+    };
+    let motion = motion::read(&source, scene.frame_rate())?;
+    let (frames, given) = (scene.motion.frames as usize, motion.poses.len());
+    if given > frames {
+        return Ok(Some(motion));
+    }
+    let remedy = format!(
+        "head.motion ends at frame {} and motion.frames = {frames}: make motion.frames smaller, or the file longer",
+        given.saturating_sub(1)
+    );
+    Err(nabiki_io::Error::new(remedy).in_file(scene.file()).into())
+}
+
+fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshReport>)> {
+    let settings = &scene.head;
+    let given = match settings.ellipsoid {
+        EllipsoidChoice::Fit => None,
+        EllipsoidChoice::Given(ellipsoid) => Some(ellipsoid),
+    };
+    if settings.is_builtin() {
+        let head = match given {
+            None => Head::builtin(),
+            Some(_) => Head::from_mesh(Head::builtin().mesh, given).map_err(|refused| scene.refusal(refused))?,
+        };
+        return Ok((head, Placement::default(), None));
+    }
+    let file = scene.resolve(settings.mesh.as_ref());
+    let mut placement = settings.placement();
+    let said = exchange::said(&file)?;
+    placement.unit = settings.unit.or(said.unit).unwrap_or(placement.unit);
+    placement.up = settings.up.or(said.up).unwrap_or(placement.up);
+    let (mut mesh, report) = mesh::import(&file, &placement, &settings.groups)?;
+    let mut ellipsoid = given;
+    if settings.origin.is_none() && given.is_none() {
+        let mut fitted = Head::fit(&mesh).map_err(|refused| scene.refusal(refused))?;
+        placement.origin = placement.file_from_head().transform_point3(fitted.center);
+        for p in &mut mesh.positions {
+            *p -= fitted.center;
+        }
+        fitted.center = glam::Vec3::ZERO;
+        ellipsoid = Some(fitted);
+    }
+    let head = Head::from_mesh(mesh, ellipsoid).map_err(|refused| scene.refusal(refused))?;
+    Ok((head, placement, Some(report)))
+}
+
+/// How the hair's file lies in head space: as the head's file does, but for what the scene or the file itself says.
+fn hair_placement(settings: &HairSettings, head: &Placement, said: Said) -> Placement {
+    let unmoved = Placement {
+        unit: settings.unit.or(said.unit).unwrap_or(head.unit),
+        up: settings.up.or(said.up).unwrap_or(head.up),
+        facing: settings.facing.unwrap_or(head.facing),
+        origin: glam::Vec3::ZERO,
+    };
+    if unmoved == (Placement { origin: glam::Vec3::ZERO, ..*head }) {
+        return Placement { origin: settings.origin.unwrap_or(head.origin), ..unmoved };
+    }
+    // The head's origin is a place in the world that both files share.
+    let shared = Placement { origin: glam::Vec3::ZERO, ..*head }.head_from_file().transform_point3(head.origin);
+    let origin = settings.origin.unwrap_or_else(|| unmoved.file_from_head().transform_point3(shared));
+    Placement { origin, ..unmoved }
+}
+
+/// The first `count` strands of the scene's.
+fn grow(scene: &Scene, head: &Head, count: usize) -> Result<Strands> {
+    let HairSettings { hairline, style, segments, segment_length, seed, .. } = &scene.hair;
+    let of_scene = scene.hair.strands.unwrap_or(HairSettings::STRANDS);
+    let segments = segments.unwrap_or(HairSettings::SEGMENTS);
+    pores::spread(head, hairline, of_scene, *seed)
+        .and_then(|pores| groom(head, &pores[..count], style, segments, *segment_length, *seed))
+        .map_err(|refused| scene.refusal(refused).into())
+}
+
+/// The same strands in `segments` equally long segments each.
+fn cut_anew(hair: &Hair, segments: usize) -> std::result::Result<Hair, SettingError> {
+    let points = segments.checked_add(1).and_then(|points| points.checked_mul(hair.strands.len()));
+    match points {
+        Some(points) if points <= u32::MAX as usize => Ok(hair.resampled(segments + 1)),
+        _ => Err(SettingError::new("hair.segments", segments, "more than 2^32 points in all: ask for fewer")),
+    }
+}
+
+fn dynamics(scene: &Scene, head: &Head) -> Result<Dynamics> {
+    let build = || -> std::result::Result<Dynamics, SettingError> {
+        let dynamics = Dynamics {
+            motion: scene.motion.clone(),
+            segment_length: scene.hair.segment_length,
+            pseudo_force: scene.pseudo_force.clone(),
+            ellipsoid: head.ellipsoid,
+            shell: scene.head.shell,
+            field: scene.field()?,
+            disturbance: scene.disturbance.clone(),
+        };
+        dynamics.check()?;
+        Ok(dynamics)
+    };
+    build().map_err(|refused| scene.refusal(refused).into())
+}

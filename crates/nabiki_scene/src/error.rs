@@ -1,0 +1,30 @@
+//! What building and running a scene may fail with.
+
+use nabiki_render::RenderError;
+
+/// What went wrong, in one line: file, thing, value, way out.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A scene, or a file that it names, is refused; a file could not be written.
+    #[error(transparent)]
+    File(#[from] nabiki_io::Error),
+    /// A picture or movie could not be made.
+    #[error(transparent)]
+    Picture(#[from] RenderError),
+    /// A request that the scene cannot meet, or a place that a result cannot go to.
+    #[error("{0}")]
+    Refused(String),
+    /// The watcher asked to stop; nothing is left under a final name.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+impl Error {
+    /// A refusal in one line.
+    pub fn refused(line: impl Into<String>) -> Self {
+        Self::Refused(line.into())
+    }
+}
+
+/// What this crate's functions return.
+pub type Result<T, E = Error> = std::result::Result<T, E>;

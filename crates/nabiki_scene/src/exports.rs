@@ -1,0 +1,94 @@
+//! Moving hair for other tools: frames passed on as they are made.
+
+use std::path::{Path, PathBuf};
+
+use nabiki::export::FrameSink;
+use nabiki::{Pose, Strands};
+use nabiki_io::exchange;
+
+use crate::built::BuiltScene;
+use crate::error::{Error, Result};
+use crate::place;
+use crate::watch::Watch;
+
+/// Which files of moving hair a task writes beside its other results.
+#[derive(Clone, Debug, Default)]
+pub struct ExportOptions {
+    /// .usdc, .usda or .abc files.
+    pub files: Vec<PathBuf>,
+    /// Prim path of the groom over which samples alone are laid; `None` writes complete stages.
+    pub layer: Option<String>,
+    /// Whether the head goes into .abc files too; Unreal then takes them for a mesh, not for a groom.
+    pub head: bool,
+}
+
+impl ExportOptions {
+    /// Refuses names that no moving hair can have, before anything is built.
+    ///
+    /// # Errors
+    /// An ending that is not of a format of moving hair; a layer of Alembic, which has none.
+    pub fn check(&self) -> Result<()> {
+        self.files.iter().try_for_each(|file| {
+            let way_out = match (exchange::is_usd(file), exchange::is_alembic(file), &self.layer) {
+                (true, _, _) | (_, true, None) => return place::file(file),
+                (_, true, Some(_)) => "Alembic has no layers: write .usda or .usdc",
+                _ => "moving hair is written as .usdc, .usda or .abc",
+            };
+            Err(Error::refused(format!("{}: {way_out}", file.display())))
+        })
+    }
+}
+
+/// The files being written.
+pub(crate) struct Exports<'a> {
+    sinks: Vec<(PathBuf, Box<dyn FrameSink + 'a>)>,
+    next: u32,
+}
+
+impl<'a> Exports<'a> {
+    /// Begins the files.
+    pub fn begin(options: &ExportOptions, built: &'a BuiltScene, watch: &mut dyn Watch) -> Result<Self> {
+        let mut sinks = Vec::new();
+        for path in &options.files {
+            // Three coordinates of four bytes; a text layer takes more.
+            place::room(path, (u64::from(built.frames()) + 1) * built.hair.strands.points().len() as u64 * 12, watch)?;
+            let frame_rate = built.scene.frame_rate();
+            let mut export = exchange::export(&built.hair, frame_rate, built.hair_placement.as_ref());
+            export.default_width = Some(built.scene.picture.hair.width);
+            export.head = (!exchange::is_alembic(path) || options.head).then_some(&built.head.mesh);
+            if options.layer.is_some() {
+                let in_file = built.import_report.map(|report| report.points_in_file as u64);
+                let used = built.hair.strands.points().len();
+                exchange::check_layer(in_file, used).map_err(|e| e.in_file(path))?;
+            }
+            sinks.push((path.clone(), exchange::sink(path, export, options.layer.as_deref())?));
+        }
+        Ok(Self { sinks, next: 0 })
+    }
+
+    /// Passes on frame `n`, unless it has been passed on before.
+    pub fn frame(&mut self, n: u32, strands: &Strands, pose: &Pose) -> Result<()> {
+        if n != self.next {
+            return Ok(());
+        }
+        self.next += 1;
+        for (path, sink) in &mut self.sinks {
+            sink.frame(strands, &pose.world_from_head()).map_err(|e| named(e, path))?;
+        }
+        Ok(())
+    }
+
+    /// Completes the files and names them.
+    pub fn finish(self) -> Result<Vec<PathBuf>> {
+        let mut written = Vec::new();
+        for (path, sink) in self.sinks {
+            sink.finish().map_err(|e| named(e, &path))?;
+            written.push(path);
+        }
+        Ok(written)
+    }
+}
+
+fn named(error: std::io::Error, path: &Path) -> Error {
+    nabiki_io::Error::from(error).in_file(path).into()
+}

@@ -1,0 +1,118 @@
+//! The pictures of a scene, drawn one after another.
+
+use std::path::Path;
+
+use glam::{Quat, Vec3};
+use nabiki::Strands;
+use nabiki::dynamics::ForceSpace;
+use nabiki_render::output::png;
+use nabiki_render::{Bounds, Developer, Frame, Picture, Renderer, View};
+
+use crate::built::BuiltScene;
+use crate::error::Result;
+use crate::frames::FrameSource;
+use crate::inside::{Inside, InsideFrame};
+use crate::outputs::PictureOutputs;
+use crate::watch::{Watch, each_frame};
+
+/// Draws one frame after another and keeps none.
+pub(crate) struct Film<'a> {
+    built: &'a BuiltScene,
+    picture: Picture,
+    renderer: Renderer,
+    developer: Developer,
+    bounds: Bounds,
+    /// The frame before, where the shutter stays open.
+    previous: Option<Strands>,
+}
+
+impl<'a> Film<'a> {
+    /// Shows the scene as `picture` says, framed so that it holds the hair of all its `frames`.
+    pub fn new(
+        built: &'a BuiltScene,
+        picture: &Picture,
+        frames: &mut dyn FrameSource,
+        watch: &mut dyn Watch,
+    ) -> Result<Self> {
+        let head = &built.head;
+        let renderer = Renderer::new(picture, &head.mesh)?;
+        let mut bounds = Bounds::default();
+        bounds.include_head(&head.mesh, &head.ellipsoid);
+        if picture.camera.is_automatic() {
+            each_frame(watch, "framing", 0..=built.frames(), |n| {
+                let turn = built.pose(n).rotation;
+                let strands = frames.frame(n)?;
+                if built.head_moves() {
+                    strands.points().iter().for_each(|&p| bounds.include(turn * p));
+                } else {
+                    bounds.include_strands(strands);
+                }
+                Ok(())
+            })?;
+        }
+        Ok(Self {
+            built,
+            picture: picture.clone(),
+            renderer: if built.scene.output.exr_frames { renderer.with_layers() } else { renderer },
+            developer: Developer::new(picture),
+            bounds,
+            previous: None,
+        })
+    }
+
+    /// Draws all frames into `outputs`, and counts what of the hair is inside the head.
+    pub fn shoot(
+        &mut self,
+        frames: &mut dyn FrameSource,
+        outputs: &mut PictureOutputs,
+        watch: &mut dyn Watch,
+    ) -> Result<Inside> {
+        let mut inside = Inside::default();
+        let built = self.built;
+        each_frame(watch, "drawing", 0..=built.frames(), |n| {
+            let strands = frames.frame(n)?;
+            inside.add(InsideFrame::of(n, &built.head, strands));
+            let (frame, view) = self.draw(n, strands)?;
+            outputs.push(n, &frame, &view)
+        })?;
+        Ok(inside)
+    }
+
+    /// Draws frame `n` alone, as a PNG at `path`.
+    pub fn still(&mut self, n: u32, frames: &mut dyn FrameSource, path: &Path) -> Result<()> {
+        let (frame, _) = self.draw(n, frames.frame(n)?)?;
+        Ok(png::write(path, &frame, &self.developer, png::Depth::Eight)?)
+    }
+
+    /// The view of frame `n`. It goes along with the head, and does not turn with it.
+    fn view(&self, n: u32) -> View {
+        let progress = n as f32 / self.built.frames() as f32;
+        View::new(&self.picture.camera.at(progress), self.picture.size, &self.bounds)
+    }
+
+    /// The frame, and the view in the space of the forces. The camera goes along with the head, and does not turn
+    /// with it.
+    fn draw(&mut self, n: u32, strands: &Strands) -> Result<(Frame, View)> {
+        let view = self.view(n);
+        let view_in_head = turned(view, self.built.pose(n).rotation.inverse());
+        let previous = self.previous.as_ref().unwrap_or(strands);
+        let frame = self.renderer.draw_since(previous, strands, &view_in_head)?;
+        if self.picture.shutter > 0.0 {
+            self.previous = Some(strands.clone());
+        }
+        match self.built.dynamics.motion.force_space {
+            ForceSpace::World => Ok((frame, view)),
+            ForceSpace::Head => Ok((frame, view_in_head)),
+        }
+    }
+}
+
+/// The view from a camera turned about the origin.
+fn turned(view: View, turn: Quat) -> View {
+    let [eye, right, up, forward] = [view.eye, view.right, view.up, view.forward].map(|v: Vec3| turn * v);
+    View { eye, right, up, forward, ..view }
+}
+
+#[cfg(test)]
+#[path = "film/tests.rs"]
+mod tests;

@@ -1,0 +1,92 @@
+//! Where the frames of a motion come from.
+
+use nabiki::Strands;
+use nabiki::dynamics::{Simulation, Stepper};
+use nabiki_io::cache::Reader;
+
+use crate::built::BuiltScene;
+use crate::error::{Error, Result};
+
+/// Frames, one after another from 0 on.
+pub trait FrameSource {
+    /// The strands of frame `n` (head space, cm); frames are asked for in ascending order.
+    ///
+    /// # Errors
+    /// What is wrong with the file that they come from.
+    fn frame(&mut self, n: u32) -> Result<&Strands>;
+}
+
+/// Frames as they are simulated.
+pub struct Simulated<'a, S = Simulation> {
+    built: &'a BuiltScene,
+    stepper: S,
+}
+
+impl<'a> Simulated<'a> {
+    /// The scene's hair at rest, moved by the fast stepper.
+    ///
+    /// # Errors
+    /// A field too strong for the hair; strands that cannot be moved.
+    pub fn new(built: &'a BuiltScene) -> Result<Self> {
+        Ok(Self { built, stepper: built.simulation()? })
+    }
+
+    /// The same motion once more, from rest.
+    pub fn again(&self) -> Self {
+        Self { built: self.built, stepper: self.stepper.clone() }
+    }
+}
+
+impl<'a, S: Stepper> Simulated<'a, S> {
+    /// Moved by any stepper of the scene, at rest.
+    pub fn by(built: &'a BuiltScene, stepper: S) -> Self {
+        Self { built, stepper }
+    }
+}
+
+impl<S: Stepper> FrameSource for Simulated<'_, S> {
+    fn frame(&mut self, n: u32) -> Result<&Strands> {
+        while self.stepper.frame() < n {
+            self.stepper.step_frame_under(self.built.force_in_head(self.stepper.frame() + 1));
+        }
+        Ok(self.stepper.strands())
+    }
+}
+
+/// Frames out of a motion cache.
+pub struct Cached {
+    reader: Reader,
+    strands: Strands,
+}
+
+impl Cached {
+    /// The frames of a cache that was made from this scene.
+    ///
+    /// # Errors
+    /// A cache of another scene, or one that ends too soon.
+    pub fn of(built: &BuiltScene, cache: &std::path::Path) -> Result<Self> {
+        let reader = Reader::open(cache)?;
+        let (file, scene) = (cache.display(), built.scene.file().display());
+        if reader.header().scene != built.identity()? {
+            return Err(Error::refused(format!(
+                "{file}: its motion was not made from {scene} as it is now; make it again with nabiki simulate"
+            )));
+        }
+        let (last, given) = (u64::from(built.frames()), reader.frame_count());
+        if given <= last {
+            return Err(Error::refused(format!(
+                "{file}: holds {given} frames and {scene} has {}; draw fewer with --frames {}",
+                last + 1,
+                given.saturating_sub(1)
+            )));
+        }
+        Ok(Self { strands: reader.header().strands(), reader })
+    }
+}
+
+impl FrameSource for Cached {
+    fn frame(&mut self, n: u32) -> Result<&Strands> {
+        self.reader.read(n.into(), &mut self.strands)?;
+        Ok(&self.strands)
+    }
+}

@@ -1,0 +1,159 @@
+//! Where results will stand: what cannot be written is refused before there is anything to write.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use nabiki_file::folder_of;
+
+use crate::error::{Error, Result};
+use crate::told::{Told, size};
+use crate::watch::Watch;
+
+/// Folders made for results. Those that are still empty in the end, because something was refused, are taken away again.
+#[derive(Default)]
+pub struct Folders {
+    made: Vec<PathBuf>,
+}
+
+impl Folders {
+    /// Makes the folder `path`, and those that it lies in, and tries whether files can be written there.
+    ///
+    /// `way_out` ends the line of a refusal.
+    pub fn make(&mut self, path: &Path, way_out: &str) -> Result<()> {
+        let missing: Vec<&Path> =
+            path.ancestors().take_while(|p| !p.as_os_str().is_empty() && fs::symlink_metadata(p).is_err()).collect();
+        for folder in missing.into_iter().rev() {
+            match fs::create_dir(folder) {
+                Ok(()) => self.made.push(folder.to_owned()),
+                // Another command was faster.
+                Err(_) if folder.is_dir() => {}
+                Err(e) => return Err(refused(path, "cannot make this folder", e, way_out)),
+            }
+        }
+        if path.is_dir() {
+            writable(path).map_err(|e| refused(path, "cannot write in this folder", e, way_out))
+        } else {
+            let is = if path.exists() { "a file, not a folder" } else { "a link to nothing" };
+            Err(Error::refused(format!("{}: this is {is}; move it away, or {way_out}", path.display())))
+        }
+    }
+}
+
+impl Drop for Folders {
+    fn drop(&mut self) {
+        for folder in self.made.iter().rev() {
+            // One that holds something by now stays, since only empty folders can be removed this way.
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// Refuses a file that cannot be written: in its place is what a file cannot replace, or its folder takes none.
+pub fn file(path: &Path) -> Result<()> {
+    free(path, "choose another name")?;
+    let folder = folder_of(path);
+    match writable(folder) {
+        Ok(()) => Ok(()),
+        Err(_) if !folder.exists() => Err(Error::refused(format!(
+            "{}: there is no folder {}; make it, or choose another",
+            path.display(),
+            folder.display()
+        ))),
+        Err(e) => Err(refused(path, "cannot be written there", e, "choose another folder")),
+    }
+}
+
+/// Refuses what no motion cache can be written as, or over.
+pub fn cache(path: &Path, inputs: &[PathBuf]) -> Result<()> {
+    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("nabiki")) {
+        return Err(Error::refused(format!(
+            "{}: a motion cache ends in .nabiki, moving hair for other tools in .usdc, .usda or .abc",
+            path.display()
+        )));
+    }
+    file(path)?;
+    not_inputs(&[path], inputs)
+}
+
+/// Refuses files that would be written over one another, however their folders are spelled. All can be written, as
+/// [`file()`] says.
+pub fn distinct(paths: &[&Path]) -> Result<()> {
+    let mut places = Vec::new();
+    for path in paths {
+        let place = real(path);
+        if places.contains(&place) {
+            return Err(Error::refused(format!(
+                "{}: asked for twice; give each file a name of its own",
+                path.display()
+            )));
+        }
+        places.push(place);
+    }
+    Ok(())
+}
+
+/// Refuses results that would take the place of what they are made from, however either is spelled or linked.
+pub fn not_inputs(outputs: &[&Path], inputs: &[PathBuf]) -> Result<()> {
+    for output in outputs {
+        if let Some(input) =
+            inputs.iter().find(|input| fs::canonicalize(input).is_ok_and(|input| input == real(output)))
+        {
+            let is = if input == output { String::new() } else { format!(", which is {}", input.display()) };
+            return Err(Error::refused(format!(
+                "{}: this is read to make the result{is}; give the result another name",
+                output.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// From this many bytes on, a result's size is said before it is written.
+const LARGE: u64 = 1 << 30;
+
+/// Says that a file will be large, and refuses one that the disk cannot hold. `bytes`: what it will take at least.
+pub fn room(path: &Path, bytes: u64, watch: &mut dyn Watch) -> Result<()> {
+    let folder = folder_of(path);
+    // A file system that does not say what it has left is tried.
+    if let Ok(left) = nabiki_file::available_bytes(folder)
+        && bytes > left
+    {
+        return Err(Error::refused(format!(
+            "{}: will take {} at least, and the disk has {} left; choose another folder, or fewer frames or strands",
+            path.display(),
+            size(bytes),
+            size(left)
+        )));
+    }
+    if bytes >= LARGE {
+        watch.told(Told::Large { file: path.to_owned(), bytes });
+    }
+    Ok(())
+}
+
+/// Where a file is or will be, without links on the way.
+fn real(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| {
+        fs::canonicalize(folder_of(path)).unwrap_or_default().join(path.file_name().unwrap_or_default())
+    })
+}
+
+/// Refuses a name that belongs to something else than an ordinary file. A file that is there already is replaced when
+/// the new one is whole.
+pub fn free(path: &Path, way_out: &str) -> Result<()> {
+    let is = match fs::metadata(path) {
+        Ok(there) if there.is_dir() => "a folder",
+        Ok(there) if !there.is_file() => "a device or a pipe",
+        _ => return Ok(()),
+    };
+    Err(Error::refused(format!("{}: this is {is}, not a file; move it away, or {way_out}", path.display())))
+}
+
+/// Whether a folder takes files, by putting one there that has no name.
+fn writable(folder: &Path) -> std::io::Result<()> {
+    tempfile::tempfile_in(folder).map(drop)
+}
+
+fn refused(path: &Path, what: &str, source: std::io::Error, way_out: &str) -> Error {
+    Error::refused(format!("{}: {what}: {}; {way_out}", path.display(), nabiki_io::Error::from(source).what))
+}

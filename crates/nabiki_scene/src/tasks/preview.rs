@@ -1,0 +1,60 @@
+//! A few strands, at once, that move exactly as they will among all.
+
+use std::path::Path;
+
+use nabiki_render::Picture;
+
+use crate::built::Shown;
+use crate::cache_file::write_cache;
+use crate::error::Result;
+use crate::film::Film;
+use crate::frames::Simulated;
+use crate::outputs::PictureOutputs;
+use crate::place::{self, Folders};
+use crate::scene::Scene;
+use crate::told::{SceneSummary, SwingTable, Told};
+use crate::watch::Watch;
+
+/// Longer side of a preview's frames (pixels).
+const LONGER_SIDE: u32 = 480;
+
+/// Draws at most `strands` of a scene's strands, small, into `folder`; their motion goes into `cache`, too, if one is
+/// named.
+///
+/// # Errors
+/// As [`run`](super::run).
+pub fn preview(scene: Scene, strands: usize, folder: &Path, cache: Option<&Path>, watch: &mut dyn Watch) -> Result<()> {
+    if let Some(cache) = cache {
+        place::cache(cache, &scene.inputs())?;
+    }
+    let built = scene.build(Shown::AtMost(strands))?;
+    let simulated = Simulated::new(&built)?;
+    let scene = &built.scene;
+    let share = built.strands_of_scene as f32 / built.hair.strands.len() as f32;
+    let picture = small(&scene.picture, share);
+    let mut folders = Folders::default();
+    let name = format!("{}_preview", scene.name());
+    let mut outputs = PictureOutputs::begin(&built, &picture, folder, &name, &built.inputs(), &mut folders)?;
+    watch.told(Told::Scene(SceneSummary::of(&built)));
+    watch.told(Told::Swing(SwingTable::of(&built)));
+    let mut film = Film::new(&built, &picture, &mut simulated.again(), watch)?;
+    let mut frames = simulated.again();
+    let inside = film.shoot(&mut frames, &mut outputs, watch)?;
+    watch.told(Told::Inside(inside));
+    let mut written = outputs.finish()?;
+    if let Some(cache) = cache {
+        write_cache(&built, cache, &mut simulated.again(), watch)?;
+        written.push(cache.to_owned());
+    }
+    super::wrote(written, watch);
+    Ok(())
+}
+
+/// A smaller picture of thicker hair: each strand stands for `share` of them, but is not drawn as thick as rope.
+fn small(picture: &Picture, share: f32) -> Picture {
+    let mut small = picture.clone();
+    let factor = (LONGER_SIDE as f32 / picture.size[0].max(picture.size[1]) as f32).min(1.0);
+    small.size = picture.size.map(|side| ((side as f32 * factor).round() as u32 & !1).max(16));
+    small.hair.width *= share.sqrt().min(8.0);
+    small
+}

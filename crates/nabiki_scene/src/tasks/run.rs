@@ -1,0 +1,60 @@
+//! Groom, simulate, draw.
+
+use std::path::Path;
+
+use nabiki::Strands;
+
+use crate::built::{BuiltScene, Shown};
+use crate::error::Result;
+use crate::exports::{ExportOptions, Exports};
+use crate::film::Film;
+use crate::frames::{FrameSource, Simulated};
+use crate::outputs::PictureOutputs;
+use crate::place::{self, Folders};
+use crate::scene::Scene;
+use crate::told::{SceneSummary, SwingTable, Told};
+use crate::watch::Watch;
+
+/// Moves the hair of a scene and draws all its frames into `folder`: a movie, a contact sheet and whatever else the
+/// scene asks for; beside them, moving hair for other tools.
+///
+/// # Errors
+/// A scene that cannot be built or stepped, a place that cannot be written; cancelled by `watch`.
+pub fn run(scene: Scene, shown: Shown, folder: &Path, exports: &ExportOptions, watch: &mut dyn Watch) -> Result<()> {
+    exports.check()?;
+    let files: Vec<&Path> = exports.files.iter().map(|file| file.as_path()).collect();
+    place::distinct(&files)?;
+    place::not_inputs(&files, &scene.inputs())?;
+    let built = scene.build(shown)?;
+    let simulated = Simulated::new(&built)?;
+    let scene = &built.scene;
+    let mut folders = Folders::default();
+    let mut outputs =
+        PictureOutputs::begin(&built, &scene.picture, folder, &scene.name(), &built.inputs(), &mut folders)?;
+    watch.told(Told::Scene(SceneSummary::of(&built)));
+    watch.told(Told::Swing(SwingTable::of(&built)));
+    let mut exports = Exports::begin(exports, &built, watch)?;
+    let mut rehearsal = simulated.again();
+    let mut frames = Exported { frames: simulated, built: &built, exports: &mut exports };
+    let inside = Film::new(&built, &scene.picture, &mut rehearsal, watch)?.shoot(&mut frames, &mut outputs, watch)?;
+    watch.told(Told::Inside(inside));
+    let mut written = outputs.finish()?;
+    written.extend(exports.finish()?);
+    super::wrote(written, watch);
+    Ok(())
+}
+
+/// Frames that are passed on to files as they are asked for.
+struct Exported<'a, 'b, F> {
+    frames: F,
+    built: &'a BuiltScene,
+    exports: &'b mut Exports<'a>,
+}
+
+impl<F: FrameSource> FrameSource for Exported<'_, '_, F> {
+    fn frame(&mut self, n: u32) -> Result<&Strands> {
+        let strands = self.frames.frame(n)?;
+        self.exports.frame(n, strands, &self.built.pose(n))?;
+        Ok(strands)
+    }
+}

@@ -1,0 +1,78 @@
+//! The motion of a scene's hair, without pictures.
+
+use std::path::{Path, PathBuf};
+
+use nabiki_io::exchange;
+
+use crate::built::Shown;
+use crate::cache_file::SceneCache;
+use crate::error::Result;
+use crate::exports::{ExportOptions, Exports};
+use crate::frames::{FrameSource, Simulated};
+use crate::inside::{Inside, InsideFrame};
+use crate::place;
+use crate::scene::Scene;
+use crate::told::{SceneSummary, SwingTable, Told};
+use crate::watch::{Watch, each_frame};
+
+/// What [`simulate`] writes, and how.
+#[derive(Clone, Debug)]
+pub struct SimulateOptions {
+    /// A motion cache (.nabiki), or moving hair for other tools (.usdc, .usda, .abc).
+    pub output: PathBuf,
+    /// Moving hair for other tools beside it.
+    pub exports: ExportOptions,
+    /// Which of the twins steps.
+    pub twin: Twin,
+}
+
+/// The two steppers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Twin {
+    /// f32, sixteen strands at a time, all cores.
+    #[default]
+    Fast,
+    /// The specification: one segment at a time in f64.
+    Reference,
+}
+
+/// Moves the hair of a scene and writes every frame.
+///
+/// # Errors
+/// A scene that cannot be built or stepped, a place that cannot be written; cancelled by `watch`.
+pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &mut dyn Watch) -> Result<()> {
+    let mut exports = options.exports.clone();
+    let to_tools = exchange::is_usd(&options.output) || exchange::is_alembic(&options.output);
+    let cache = (!to_tools).then_some(options.output.as_path());
+    match cache {
+        Some(cache) => place::cache(cache, &scene.inputs())?,
+        None => exports.files.insert(0, options.output.clone()),
+    }
+    exports.check()?;
+    let files: Vec<&Path> = cache.into_iter().chain(exports.files.iter().map(PathBuf::as_path)).collect();
+    place::distinct(&files)?;
+    place::not_inputs(&files, &scene.inputs())?;
+    let built = scene.build(shown)?;
+    let mut frames: Box<dyn FrameSource + '_> = match options.twin {
+        Twin::Fast => Box::new(Simulated::new(&built)?),
+        Twin::Reference => Box::new(Simulated::by(&built, built.reference()?)),
+    };
+    watch.told(Told::Scene(SceneSummary::of(&built)));
+    watch.told(Told::Swing(SwingTable::of(&built)));
+    let mut exports = Exports::begin(&exports, &built, watch)?;
+    let mut scene_cache = cache.map(|cache| SceneCache::begin(&built, cache, watch)).transpose()?;
+    let mut inside = Inside::default();
+    each_frame(watch, "simulating", 0..=built.frames(), |n| {
+        let strands = frames.frame(n)?;
+        inside.add(InsideFrame::of(n, &built.head, strands));
+        if let Some(cache) = &mut scene_cache {
+            cache.push(n, strands)?;
+        }
+        exports.frame(n, strands, &built.pose(n))
+    })?;
+    scene_cache.map_or(Ok(()), SceneCache::finish)?;
+    watch.told(Told::Inside(inside));
+    let written = cache.map(Path::to_owned).into_iter().chain(exports.finish()?);
+    super::wrote(written.collect(), watch);
+    Ok(())
+}

@@ -1,0 +1,191 @@
+//! What a task knows that a person wants to read, as values; their text is that of the command line's report.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use nabiki::dynamics::{gain, period};
+use nabiki_io::hair::ImportReport;
+
+use crate::built::BuiltScene;
+use crate::inside::Inside;
+
+/// Something said by a task.
+#[derive(Clone, Debug)]
+pub enum Told {
+    /// What the scene holds.
+    Scene(SceneSummary),
+    /// How long swings take.
+    Swing(SwingTable),
+    /// How much of the hair is inside the head.
+    Inside(Inside),
+    /// What a format could not hold of the hair.
+    Lost {
+        /// The file.
+        file: PathBuf,
+        /// What it lacks, as a phrase.
+        what: String,
+    },
+    /// A result will be large.
+    Large {
+        /// The file or folder.
+        file: PathBuf,
+        /// Bytes that it will take at least.
+        bytes: u64,
+    },
+    /// A file that now exists.
+    Wrote {
+        /// The file or folder.
+        file: PathBuf,
+        /// What is in it, where the task does not go without saying.
+        holds: Option<String>,
+    },
+}
+
+impl fmt::Display for Told {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scene(summary) => summary.fmt(f),
+            Self::Swing(table) => table.fmt(f),
+            Self::Inside(inside) => inside.fmt(f),
+            Self::Lost { file, what } => write!(f, "  lost    {} cannot hold {what}", file.display()),
+            Self::Large { file, bytes } => {
+                write!(f, "  large   {} will take {} at least", file.display(), size(*bytes))
+            }
+            Self::Wrote { file, holds: None } => write!(f, "  wrote   {}", file.display()),
+            Self::Wrote { file, holds: Some(what) } => write!(f, "  wrote   {}: {what}", file.display()),
+        }
+    }
+}
+
+/// A number of bytes for a person.
+pub(crate) fn size(bytes: u64) -> String {
+    let steps = [(1u64 << 40, "TiB"), (1 << 30, "GiB"), (1 << 20, "MiB"), (1 << 10, "KiB")];
+    match steps.into_iter().find(|&(unit, _)| bytes >= unit) {
+        Some((unit, name)) => format!("{:.1} {name}", bytes as f64 / unit as f64),
+        None => format!("{bytes} bytes"),
+    }
+}
+
+/// What a scene holds, and what was dropped of imported files.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneSummary {
+    /// The scene file.
+    pub file: PathBuf,
+    /// The head's mesh, as the scene names it.
+    pub head: String,
+    /// Half axes of the head ellipsoid E (cm).
+    pub half_axes: [f32; 3],
+    /// How the head's motion was read and converted.
+    pub motion: Option<String>,
+    /// Strands built.
+    pub strands: usize,
+    /// Strands of the whole scene.
+    pub strands_of_scene: usize,
+    /// Segments of the strands built.
+    pub segments: usize,
+    /// Length of the longest (cm).
+    pub longest: f32,
+    /// What an imported file held.
+    pub import: Option<ImportReport>,
+}
+
+impl SceneSummary {
+    /// Of a built scene.
+    pub fn of(built: &BuiltScene) -> Self {
+        let strands = &built.hair.strands;
+        Self {
+            file: built.scene.file().to_owned(),
+            head: built.scene.head.mesh.clone(),
+            half_axes: built.head.ellipsoid.half_axes.to_array(),
+            motion: built.motion_report.clone(),
+            strands: strands.len(),
+            strands_of_scene: built.strands_of_scene,
+            segments: strands.segment_count(),
+            longest: strands.iter().map(length).fold(0.0, f32::max),
+            import: built.import_report,
+        }
+    }
+}
+
+impl fmt::Display for SceneSummary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.file.display())?;
+        let [x, y, z] = self.half_axes;
+        writeln!(f, "  head    {}, ellipsoid {x:.1} x {y:.1} x {z:.1} cm", self.head)?;
+        if let Some(motion) = &self.motion {
+            writeln!(f, "          {motion}")?;
+        }
+        write!(f, "  hair    {} strands", self.strands)?;
+        if self.strands < self.strands_of_scene {
+            write!(f, " of {}", self.strands_of_scene)?;
+        }
+        write!(f, ", {} segments, up to {:.1} cm", self.segments, self.longest)?;
+        if let Some(import) = &self.import {
+            let joined = import.degenerate.joined_points;
+            let dropped = import.degenerate.dropped_strands + import.dropped_short;
+            write!(
+                f,
+                "\n          of {} strands in the file; {joined} doubled points joined, {dropped} strands dropped as too \
+                 short",
+                import.strands_in_file
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// How long a swing takes at the root, the middle and the tip of a strand under each force: what c_i and F give before
+/// any step (section 4.3 of the paper).
+#[derive(Clone, Debug, PartialEq)]
+pub struct SwingTable {
+    /// Length of the strand, the median of the hair's (cm).
+    pub length: f32,
+    /// A row for each interval of the field.
+    pub rows: Vec<SwingRow>,
+}
+
+/// The swings of one interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SwingRow {
+    /// First and last frame of the interval.
+    pub frames: [u32; 2],
+    /// |F|.
+    pub force: f64,
+    /// Frames of a swing at the root, in the middle, at the tip; infinite without force.
+    pub periods: [f64; 3],
+}
+
+impl SwingTable {
+    /// Of a built scene whose field is not too strong for its hair.
+    pub fn of(built: &BuiltScene) -> Self {
+        let mut lengths: Vec<f32> = built.hair.strands.iter().map(length).collect();
+        lengths.sort_by(f32::total_cmp);
+        let length = lengths[lengths.len() / 2];
+        let count = f64::from(length) / f64::from(built.dynamics.segment_length);
+        let mut first = 1;
+        let rows = built.dynamics.field.keyframes().iter().map(|key| {
+            let force = f64::from(key.vector.length());
+            let frames = |position: f64| period(gain(&built.dynamics, position, count) * force);
+            let periods = [1.0, (count + 1.0) / 2.0, count].map(frames);
+            let row = SwingRow { frames: [first, key.through], force, periods };
+            first = key.through + 1;
+            row
+        });
+        Self { length, rows: rows.collect() }
+    }
+}
+
+impl fmt::Display for SwingTable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "  swing   frames of one swing of a strand of {:.1} cm: at its root, middle, tip", self.length)?;
+        for SwingRow { frames: [first, last], force, periods: [root, middle, tip] } in &self.rows {
+            let interval = format!("{first} to {last}");
+            write!(f, "\n          frames {interval:<11} |F| = {force:<8.2} {root:>8.0} {middle:>8.0} {tip:>8.0}")?;
+        }
+        Ok(())
+    }
+}
+
+fn length(strand: &[glam::Vec3]) -> f32 {
+    strand.windows(2).map(|w| w[0].distance(w[1])).sum()
+}

@@ -1,0 +1,53 @@
+//! Who watches a long task: hears what it says, sees how far it is, may stop it.
+
+use crate::error::{Error, Result};
+use crate::told::Told;
+
+/// A shell's side of a task: a terminal, a window, a script. Every method may be left as it is.
+pub trait Watch {
+    /// Something is now known that a person wants to read.
+    fn told(&mut self, told: Told) {
+        let _ = told;
+    }
+
+    /// A stretch of `steps` frames begins; `doing`: "drawing", "simulating", ...
+    fn begin(&mut self, doing: &'static str, steps: u64) {
+        let _ = (doing, steps);
+    }
+
+    /// One frame of the stretch is done.
+    fn step(&mut self) {}
+
+    /// The stretch has ended.
+    fn end(&mut self) {}
+
+    /// Whether the task is to stop at the next frame.
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+/// Nobody watches.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {}
+
+/// Carries out `frame` for each of `frames`, before the eyes of `watch`.
+pub(crate) fn each_frame(
+    watch: &mut dyn Watch,
+    doing: &'static str,
+    frames: std::ops::RangeInclusive<u32>,
+    mut frame: impl FnMut(u32) -> Result<()>,
+) -> Result<()> {
+    watch.begin(doing, u64::from(frames.end() - frames.start()) + 1);
+    for n in frames {
+        if watch.cancelled() {
+            return Err(Error::Cancelled);
+        }
+        frame(n)?;
+        watch.step();
+    }
+    watch.end();
+    Ok(())
+}
