@@ -53,6 +53,14 @@ impl Scene {
     pub fn build(self, shown: Shown) -> Result<BuiltScene> {
         load::build(self, shown)
     }
+
+    /// Loads the head alone.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build).
+    pub fn load_head(&self) -> Result<Head> {
+        load::load_head(self).map(|(head, ..)| head)
+    }
 }
 
 /// How many of a scene's strands are built: the first of the farthest-first order of its roots, so evenly spread over

@@ -105,7 +105,7 @@ fn head_motion(scene: &Scene) -> Result<Option<HeadMotion>> {
     Err(nabiki_io::Error::new(remedy).in_file(scene.file()).into())
 }
 
-fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshReport>)> {
+pub(super) fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshReport>)> {
     let settings = &scene.head;
     let given = match settings.ellipsoid {
         EllipsoidChoice::Fit => None,

@@ -2,17 +2,24 @@
 
 use std::fmt;
 
+use nabiki::Ellipsoid;
 use nabiki::field::Keyframe;
 use serde::Serialize;
 
 use crate::scene::{HairSettings, Scene};
 use nabiki_io::info::Short;
 
-/// The outline of a scene, without loading what it names.
+/// The outline of a scene; of what it names the head alone is loaded.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SceneInfo {
     /// The head's mesh, as the scene names it.
     pub head: String,
+    /// The head ellipsoid E (head space, cm), where the head can be loaded.
+    pub ellipsoid: Option<Ellipsoid>,
+    /// Why the head cannot be loaded, where it cannot.
+    pub head_problem: Option<String>,
+    /// C is E scaled by this.
+    pub shell: f32,
     /// The hair's file, or how it is grown.
     pub hair: String,
     /// Frames after the rest frame.
@@ -43,8 +50,12 @@ impl SceneInfo {
                 format!("{count} strands of at most {segments} x {} cm", scene.hair.segment_length)
             }
         };
+        let head = scene.load_head();
         Self {
             head: scene.head.mesh.clone(),
+            ellipsoid: head.as_ref().ok().map(|head| head.ellipsoid),
+            head_problem: head.err().map(|problem| problem.to_string()),
+            shell: scene.head.shell,
             hair,
             frames: scene.motion.frames,
             time_step: scene.motion.time_step,
@@ -61,6 +72,14 @@ impl fmt::Display for SceneInfo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "scene: {} frames, {} x {} pixels", self.frames, self.picture[0], self.picture[1])?;
         writeln!(f, "head: {}", self.head)?;
+        if let Some(Ellipsoid { center, half_axes }) = self.ellipsoid {
+            let [x, y, z] = center.to_array().map(Short);
+            let [a, b, c] = half_axes.to_array().map(Short);
+            writeln!(f, "ellipsoid: {a} x {b} x {c} cm about ({x}, {y}, {z}), shell {} of it", Short(self.shell))?;
+        }
+        if let Some(problem) = &self.head_problem {
+            writeln!(f, "ellipsoid: unknown, {problem}")?;
+        }
         writeln!(f, "hair: {}", self.hair)?;
         let (step, density) = (Short(self.time_step), Short(self.linear_density));
         write!(f, "motion: time step {step}, linear density {density}, alpha {}", Short(self.alpha))?;
