@@ -4,6 +4,7 @@ use std::fmt;
 
 use nabiki_io::Error;
 use nabiki_render::RenderError;
+use nabiki_scene::scene::SceneError;
 
 /// One line: file, thing, value, way out.
 #[derive(Debug)]
@@ -23,6 +24,12 @@ impl fmt::Display for Failure {
 
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
+        Self(error.to_string())
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
         Self(error.to_string())
     }
 }

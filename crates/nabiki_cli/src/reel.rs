@@ -68,7 +68,7 @@ impl<'a> Reel<'a> {
         }
         let movie = match movie_file {
             Some(file) => {
-                let movie = Movie::create(&file, picture)?;
+                let movie = Movie::create(&file, picture, take.stage.scene.motion.frame_rate as f32)?;
                 Some((file, movie))
             }
             None => None,
@@ -111,7 +111,7 @@ impl<'a> Reel<'a> {
             written.push(self.sheet_file);
         }
         written.extend(self.stills);
-        let force = &self.take.stage.scene.force;
+        let force = self.take.stage.scene.keyframes();
         let intervals: Vec<_> = force.iter().map(|k| Interval { through: k.through, vector: k.vector }).collect();
         for (file, write) in self.fields {
             write(&file, &intervals)?;

@@ -28,7 +28,7 @@ impl<'a> Report<'a> {
         say!("{}", stage.scene.file().display());
         let ellipsoid = stage.head.ellipsoid;
         let axes = ellipsoid.half_axes;
-        say!("  head    {}, ellipsoid {:.1} x {:.1} x {:.1} cm", stage.scene.head.mesh, axes.x, axes.y, axes.z);
+        say!("  head    {}, ellipsoid {:.1} x {:.1} x {:.1} cm", stage.scene.head.mesh(), axes.x, axes.y, axes.z);
         if let Some(motion) = &self.take.motion_report {
             say!("          {motion}");
         }

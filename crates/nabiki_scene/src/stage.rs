@@ -13,7 +13,7 @@ use nabiki_io::{
     placement::Placement,
 };
 
-use crate::scene::{EllipsoidChoice, HairSettings, Scene};
+use crate::scene::{EllipsoidChoice, GrownHair, HairSource, HeadSource, ImportedHair, Scene};
 
 /// All that a scene names, loaded and in head space.
 #[derive(Clone, Debug)]
@@ -52,18 +52,18 @@ impl Scene {
     ) -> Result<Stage> {
         let (head, placement, mesh_report) = load_head(&self)?;
         let dynamics = dynamics(&self, &head)?;
-        let (hair, hair_placement, import_report) = match &self.hair.file {
-            None => (grow(&self, &head)?.into(), None, None),
-            Some(file) => {
-                let said = exchange::said(&self.resolve(file))?;
-                let placement = hair_placement(&self.hair, &placement, said);
+        let (hair, hair_placement, import_report) = match &self.hair.source {
+            HairSource::Grown(settings) => (grow(&self, settings, &head)?.into(), None, None),
+            HairSource::Imported(settings) => {
+                let file = self.resolve(&settings.file);
+                let placement = hair_placement(settings, &placement, exchange::said(&file)?);
                 placement.check("hair").map_err(|refused| self.refusal(refused))?;
-                let (hair, report) = import(&self.resolve(file), &placement, &self.hair.cleaning())?;
-                let chosen = match self.hair.strands {
+                let (hair, report) = import(&file, &placement, &settings.cleaning())?;
+                let chosen = match settings.strands {
                     Some(count) if count < hair.strands.len() => choose(&hair, count),
                     _ => hair,
                 };
-                let chosen = match self.hair.segments {
+                let chosen = match settings.segments {
                     Some(segments) => cut_anew(&chosen, segments).map_err(|refused| self.refusal(refused))?,
                     None => chosen,
                 };
@@ -95,7 +95,7 @@ impl Stage {
         if let Some(source) = &self.scene.head.motion {
             digest.settings("head.motion", source)?;
             // Where the head is in a frame depends on how many of them make a second.
-            digest.settings("picture.video.fps", &self.scene.picture.video.fps)?;
+            digest.settings("motion.frame_rate", &self.scene.motion.frame_rate)?;
             let files = [("head.motion.file", Some(&source.file)), ("head.motion.skeleton", source.skeleton.as_ref())];
             for (name, file) in files.into_iter().filter_map(|(name, file)| Some((name, file?))) {
                 let path = self.scene.resolve(file);
@@ -125,7 +125,7 @@ impl Stage {
 
     /// A refused setting as an error that names the scene's file and line.
     pub fn refusal(&self, refused: SettingError) -> Error {
-        self.scene.refusal(refused)
+        self.scene.refusal(refused).into()
     }
 }
 
@@ -139,21 +139,20 @@ fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshReport>)> {
         EllipsoidChoice::Fit => None,
         EllipsoidChoice::Given(ellipsoid) => Some(ellipsoid),
     };
-    if settings.is_builtin() {
+    let HeadSource::Imported(imported) = &settings.source else {
         let head = match given {
             None => Head::builtin(),
             Some(_) => Head::from_mesh(Head::builtin().mesh, given).map_err(|refused| scene.refusal(refused))?,
         };
         return Ok((head, Placement::default(), None));
-    }
-    let file = scene.resolve(settings.mesh.as_ref());
-    let mut placement = settings.placement();
+    };
+    let file = scene.resolve(&imported.file);
     let said = exchange::said(&file)?;
-    placement.unit = settings.unit.or(said.unit).unwrap_or(placement.unit);
-    placement.up = settings.up.or(said.up).unwrap_or(placement.up);
-    let (mut mesh, report) = mesh::import(&file, &placement, &settings.groups)?;
+    let mut placement = imported.placement(said.unit, said.up);
+    placement.check("head").map_err(|refused| scene.refusal(refused))?;
+    let (mut mesh, report) = mesh::import(&file, &placement, &imported.groups)?;
     let mut ellipsoid = given;
-    if settings.origin.is_none() && given.is_none() {
+    if imported.origin.is_none() && given.is_none() {
         let mut fitted = Head::fit(&mesh).map_err(|refused| scene.refusal(refused))?;
         placement.origin = placement.file_from_head().transform_point3(fitted.center);
         for p in &mut mesh.positions {
@@ -167,7 +166,7 @@ fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshReport>)> {
 }
 
 /// How the hair's file lies in head space: as the head's file does, but for what the scene or the file itself says.
-fn hair_placement(settings: &HairSettings, head: &Placement, said: Said) -> Placement {
+fn hair_placement(settings: &ImportedHair, head: &Placement, said: Said) -> Placement {
     let unmoved = Placement {
         unit: settings.unit.or(said.unit).unwrap_or(head.unit),
         up: settings.up.or(said.up).unwrap_or(head.up),
@@ -183,13 +182,11 @@ fn hair_placement(settings: &HairSettings, head: &Placement, said: Said) -> Plac
     Placement { origin, ..unmoved }
 }
 
-fn grow(scene: &Scene, head: &Head) -> Result<Strands> {
-    let HairSettings { hairline, style, segments, segment_length, seed, .. } = &scene.hair;
-    let count = scene.hair.strands.unwrap_or(HairSettings::STRANDS);
-    let segments = segments.unwrap_or(HairSettings::SEGMENTS);
-    pores::spread(head, hairline, count, *seed)
-        .and_then(|pores| groom(head, &pores, style, segments, *segment_length, *seed))
-        .map_err(|refused| scene.refusal(refused))
+fn grow(scene: &Scene, settings: &GrownHair, head: &Head) -> Result<Strands> {
+    let GrownHair { strands, segments, seed, hairline, style } = settings;
+    pores::spread(head, hairline, *strands, *seed)
+        .and_then(|pores| groom(head, &pores, style, *segments, scene.hair.segment_length, *seed))
+        .map_err(|refused| scene.refusal(refused).into())
 }
 
 /// The same strands in `segments` equally long segments each.
@@ -223,5 +220,5 @@ fn dynamics(scene: &Scene, head: &Head) -> Result<Dynamics> {
         dynamics.check()?;
         Ok(dynamics)
     };
-    build().map_err(|refused| scene.refusal(refused))
+    build().map_err(|refused| scene.refusal(refused).into())
 }
