@@ -207,7 +207,7 @@ fn movie() {
     let mut renderer = Renderer::new(&picture, &ball()).expect("settings");
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("movie.mp4");
-    let mut movie = Movie::create(&path, &picture).expect("a movie");
+    let mut movie = Movie::create(&path, &picture, 24.0).expect("a movie");
     let frames: Vec<Strands> = (0..10).map(|i| hair(19_330, (i as f32 * 0.6).sin())).collect();
     let start = Instant::now();
     let mut encoding = 0.0;

@@ -76,13 +76,13 @@ fn openexr_files_hold_the_frame_to_the_bit() {
 
 #[test]
 fn a_movie_decodes_to_the_frames_it_was_given() {
-    let picture = Picture { video: nabiki_render::settings::Video { quality: 1.0, fps: 25.0 }, ..small() };
+    let picture = Picture { video: nabiki_render::settings::Video { quality: 1.0 }, ..small() };
     let (mut renderer, strands, view) = setting(&picture);
     let developer = Developer::new(&picture);
     let frame = renderer.draw(&strands, &view).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("movie.mp4");
-    let mut movie = Movie::create(&path, &picture).unwrap();
+    let mut movie = Movie::create(&path, &picture, 25.0).unwrap();
     for _ in 0..3 {
         movie.push(&frame, &developer).unwrap();
     }
@@ -170,7 +170,7 @@ fn bad_settings_are_refused_by_their_scene_key() {
         let text = Renderer::new(&picture, &Mesh::default()).err().unwrap().to_string();
         assert!(text.starts_with(key) && !text.contains('\n'), "{text}");
     }
-    let text = Movie::create("x.mp4".as_ref(), &Picture { size: [8, 8], ..small() }).err().unwrap().to_string();
+    let text = Movie::create("x.mp4".as_ref(), &Picture { size: [8, 8], ..small() }, 25.0).err().unwrap().to_string();
     assert!(text.contains("picture.size"), "{text}");
 }
 
@@ -192,5 +192,5 @@ fn an_unwritable_place_is_named_and_left_alone() {
     let path = std::path::Path::new("/nowhere/at/all/x.png");
     let text = png::write(path, &frame, &Developer::new(&picture), Depth::Eight).err().unwrap().to_string();
     assert!(text.starts_with("cannot write /nowhere/at/all/x.png"), "{text}");
-    assert!(Movie::create(path, &picture).is_err());
+    assert!(Movie::create(path, &picture, 25.0).is_err());
 }

@@ -2,10 +2,15 @@
 
 use nabiki_render::RenderError;
 
+use crate::scene::SceneError;
+
 /// What went wrong, in one line: file, thing, value, way out.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// A scene, or a file that it names, is refused; a file could not be written.
+    /// A setting of the scene is refused.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A file that the scene names is refused; a file could not be written.
     #[error(transparent)]
     File(#[from] nabiki_io::Error),
     /// A picture or movie could not be made.

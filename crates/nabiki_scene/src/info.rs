@@ -4,12 +4,11 @@ mod scene;
 
 use std::{fmt, path::Path};
 
-use nabiki_io::Result;
 use serde::Serialize;
 
 pub use scene::SceneInfo;
 
-use crate::Scene;
+use crate::{Result, Scene};
 
 /// What a file turned out to be.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -70,7 +70,7 @@ impl<'a> PictureOutputs<'a> {
         }
         let movie = match movie_file {
             Some(file) => {
-                let movie = Movie::create(&file, picture)?;
+                let movie = Movie::create(&file, picture, built.scene.frame_rate() as f32)?;
                 Some((file, movie))
             }
             None => None,
@@ -113,7 +113,7 @@ impl<'a> PictureOutputs<'a> {
             written.push(self.sheet_file);
         }
         written.extend(self.stills);
-        let force = &self.built.scene.force;
+        let force = self.built.scene.keyframes();
         let intervals: Vec<_> = force.iter().map(|k| Interval { through: k.through, vector: k.vector }).collect();
         for (file, write) in self.fields {
             write(&file, &intervals)?;

@@ -1,36 +1,60 @@
-//! The scene file: everything that decides a movie, in TOML.
+//! The scene: everything that decides a movie, built in code or read from TOML, and written back.
 //!
-//! Tables: `[head]`, `[hair]` with `[hair.style]` and `[hair.hairline]`, `[motion]`, `[pseudo_force]`, one `[[force]]`
-//! for each interval of the field, `[disturbance]`, `[picture]`, `[output]`. All but `[[force]]` may be left out: the
-//! defaults are the paper's. Paths are relative to the scene file.
+//! Tables of the file: `[head]`, `[hair]` with `[hair.style]` and `[hair.hairline]`, `[motion]`, `[pseudo_force]`, one
+//! `[[force]]` for each interval of the field, `[disturbance]`, `[picture]`, `[output]`. All but `[[force]]` may be left
+//! out: the defaults are the paper's. Paths are relative to the scene file.
 
+mod edit;
+mod error;
+mod field;
+mod flat;
+mod hair;
+mod head;
+mod output;
 mod read;
-mod settings;
 mod tree;
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
-use nabiki::{
-    SettingError,
-    disturbance::Disturbance,
-    dynamics::Motion,
-    field::{Field, Keyframe},
-    pseudo_force::PseudoForce,
-};
+use nabiki::SettingError;
+use nabiki::disturbance::Disturbance;
+use nabiki::dynamics::Motion;
+use nabiki::field::{Field, Keyframe};
+use nabiki::pseudo_force::PseudoForce;
+use nabiki_file::PartFile;
+use nabiki_io::motion::MotionSource;
 use nabiki_render::Picture;
-use serde::{Deserialize, Serialize};
+use nabiki_render::settings::{Camera, CameraKey};
+use serde::Deserialize;
 use toml::{Table, Value};
+use toml_edit::DocumentMut;
 
-pub use settings::{EllipsoidChoice, HairSettings, HeadSettings, Output};
+pub use error::{Problem, SceneError};
+pub use field::FieldSource;
+pub use hair::{GrownHair, HairSettings, HairSource, ImportedHair};
+pub use head::{EllipsoidChoice, HeadSettings, HeadSource, ImportedHead};
+pub use output::Output;
 
-use nabiki_io::{Error, Result};
-use settings::{GROWN_ONLY, IMPORTED_ONLY, MESH_FILE_ONLY};
+use read::{Node, Refusal};
+use tree::{Unwritable, table_of};
 
-/// A scene, read and checked.
-#[derive(Clone, Debug, PartialEq)]
+/// A scene. Two are equal if they mean the same, wherever they came from.
+///
+/// ```
+/// use glam::Vec3;
+/// use nabiki::field::Keyframe;
+/// use nabiki_scene::Scene;
+/// use nabiki_scene::scene::FieldSource;
+///
+/// let text = "[[force]]          # the gust\nthrough = 50\nvector = [-100, 0, 0]\n";
+/// let mut scene = Scene::parse(text, "gust.toml".as_ref(), &[])?;
+/// scene.field = vec![FieldSource::Keyframes(vec![Keyframe { through: 50, vector: Vec3::new(-80.0, 0.0, 0.0) }])];
+/// assert_eq!(scene.to_toml()?, text.replace("-100", "-80"));
+/// # Ok::<(), nabiki_scene::scene::SceneError>(())
+/// ```
+#[derive(Clone, Debug)]
 pub struct Scene {
     /// `[head]`
     pub head: HeadSettings,
@@ -40,24 +64,57 @@ pub struct Scene {
     pub motion: Motion,
     /// `[pseudo_force]`
     pub pseudo_force: PseudoForce,
-    /// `[[force]]`
-    pub force: Vec<Keyframe>,
+    /// What pushes the hair: `[[force]]`. A scene made in code has none until it is given some.
+    pub field: Vec<FieldSource>,
     /// `[disturbance]`
     pub disturbance: Option<Disturbance>,
     /// `[picture]`
     pub picture: Picture,
     /// `[output]`
     pub output: Output,
+    /// The text it was read from, empty if it was made in code.
+    text: String,
     origins: tree::Origins,
 }
 
-/// The tables of the file, as they stand in it.
-#[derive(Deserialize, Serialize)]
+impl Default for Scene {
+    fn default() -> Self {
+        Self {
+            head: HeadSettings::default(),
+            hair: HairSettings::default(),
+            motion: Motion::default(),
+            pseudo_force: PseudoForce::default(),
+            field: Vec::new(),
+            disturbance: None,
+            picture: Picture::default(),
+            output: Output::default(),
+            text: String::new(),
+            origins: tree::Origins::default(),
+        }
+    }
+}
+
+impl PartialEq for Scene {
+    fn eq(&self, other: &Self) -> bool {
+        let Self { head, hair, motion, pseudo_force, field, disturbance, picture, output, .. } = self;
+        *head == other.head
+            && *hair == other.hair
+            && *motion == other.motion
+            && *pseudo_force == other.pseudo_force
+            && *field == other.field
+            && *disturbance == other.disturbance
+            && *picture == other.picture
+            && *output == other.output
+    }
+}
+
+/// The tables of the file. Those that several structs share are taken apart by these.
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields, default, rename = "a scene")]
 #[derive(Default)]
 struct Tables {
-    head: HeadSettings,
-    hair: HairSettings,
+    head: Table,
+    hair: Table,
     motion: Motion,
     pseudo_force: PseudoForce,
     force: Vec<Keyframe>,
@@ -71,28 +128,53 @@ impl Scene {
     /// `force.1.vector` and `[0, -100, 0]`, put in their places before anything is read.
     ///
     /// # Errors
-    /// One line: file and line (or override), key, value and the way out.
-    pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Self> {
-        let text = fs::read_to_string(path).map_err(|e| Error::from(e).in_file(path))?;
+    /// What is wrong with the file or an override: place, key, value and the way out.
+    pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
+        let text = fs::read_to_string(path).map_err(|e| file_error(path, &e))?;
         Self::parse(&text, path, overrides)
     }
 
     /// The same from text; `path` names it in errors, and paths in it are relative to the folder of `path`.
-    pub fn parse(text: &str, path: &Path, overrides: &[(String, String)]) -> Result<Self> {
-        let (table, origins) = tree::parse(text, path, overrides)?;
-        let useless = useless_key(&table);
-        let table = Value::Table(table);
-        let tables = Tables::deserialize(read::Node(&table)).map_err(|e| origins.error(&e.path(), &e.to_string()))?;
-        if let Some((key, why)) = useless {
-            return Err(origins.error(&key, &format!("{key}: {why}")));
-        }
-        let Tables { head, hair, motion, pseudo_force, force, disturbance, picture, output } = tables;
-        let scene = Self { head, hair, motion, pseudo_force, force, disturbance, picture, output, origins };
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn parse(text: &str, path: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
+        let scene = Self::read(text, path, overrides)?;
         scene.check().map_err(|refused| scene.refusal(refused))?;
         Ok(scene)
     }
 
+    /// What the text says, whether or not it is in its ranges.
+    fn read(text: &str, path: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
+        let (table, origins) = tree::parse(text, path, overrides)?;
+        let read = || -> Result<Self, Refusal> {
+            let tables = Tables::deserialize(Node(&Value::Table(table)))?;
+            Ok(Self {
+                head: HeadSettings::read(&tables.head).map_err(|e| e.below("head"))?,
+                hair: HairSettings::read(&tables.hair).map_err(|e| e.below("hair"))?,
+                motion: tables.motion,
+                pseudo_force: tables.pseudo_force,
+                field: if tables.force.is_empty() { vec![] } else { vec![FieldSource::Keyframes(tables.force)] },
+                disturbance: tables.disturbance,
+                picture: tables.picture,
+                output: tables.output,
+                text: text.to_owned(),
+                origins: tree::Origins::default(),
+            })
+        };
+        match read() {
+            Ok(scene) => Ok(Self { origins, ..scene }),
+            Err(refusal) => {
+                let (key, problem) = refusal.into_parts();
+                Err(origins.error(&key, problem))
+            }
+        }
+    }
+
     /// Refuses every value out of its range. What depends on the head or the hair is checked when they are loaded.
+    ///
+    /// # Errors
+    /// Names the first such setting.
     pub fn check(&self) -> Result<(), SettingError> {
         self.head.check()?;
         self.hair.check()?;
@@ -106,19 +188,28 @@ impl Scene {
         self.output.check(self.motion.frames)
     }
 
-    /// The force field of `[[force]]`.
+    /// What pushes the hair, ready to be asked.
+    ///
+    /// # Errors
+    /// No force at all, or keyframes that are no field.
     pub fn field(&self) -> Result<Field, SettingError> {
-        Field::new(&self.force)
+        field::build(&self.field)
+    }
+
+    /// The intervals of `[[force]]`; none where nothing of the field is given so.
+    pub fn keyframes(&self) -> &[Keyframe] {
+        field::keyframes(&self.field).unwrap_or_default()
     }
 
     /// A refused setting as an error that names the file and the line, or the override, that set it.
-    pub fn refusal(&self, refused: SettingError) -> Error {
-        self.origins.error(&refused.thing, &refused.to_string())
+    pub fn refusal(&self, refused: SettingError) -> SceneError {
+        let SceneError { key, problem, .. } = refused.into();
+        self.origins.error(&key, problem)
     }
 
-    /// The scene file.
+    /// The scene file; empty for a scene made in code.
     pub fn file(&self) -> &Path {
-        self.origins.file()
+        &self.origins.file
     }
 
     /// The scene file's name without folder and ending.
@@ -128,14 +219,17 @@ impl Scene {
 
     /// Frames a second, of the movie and of the head's motion.
     pub fn frame_rate(&self) -> f64 {
-        f64::from(self.picture.video.fps)
+        self.motion.frame_rate
     }
 
     /// Every file that this scene is read from: its own, and those that it names.
     pub fn inputs(&self) -> Vec<PathBuf> {
-        let mut named: Vec<&Path> = self.hair.file.iter().map(PathBuf::as_path).collect();
-        if !self.head.is_builtin() {
-            named.push(Path::new(&self.head.mesh));
+        let mut named: Vec<&Path> = Vec::new();
+        if let HairSource::Imported(hair) = &self.hair.source {
+            named.push(&hair.file);
+        }
+        if let HeadSource::Imported(head) = &self.head.source {
+            named.push(&head.file);
         }
         if let Some(motion) = &self.head.motion {
             named.push(&motion.file);
@@ -150,27 +244,87 @@ impl Scene {
     pub fn resolve(&self, path: &Path) -> PathBuf {
         self.file().parent().unwrap_or(Path::new("")).join(path)
     }
+
+    /// The scene as TOML: the text it was read from with what has changed since in its place, comments and layout as they
+    /// were. A setting that is at its default and not in the text stays out of it.
+    ///
+    /// # Errors
+    /// A setting that TOML cannot hold: a whole number beyond 2^63, a path that is not text, two lists of keyframes.
+    pub fn to_toml(&self) -> Result<String, SceneError> {
+        let unwritable = |Unwritable(why): Unwritable| self.origins.error("", Problem::Other(why));
+        let held = Self::read(&self.text, self.file(), &[])?.tree().map_err(unwritable)?;
+        let wanted = self.tree().map_err(unwritable)?;
+        if held == wanted {
+            return Ok(self.text.clone());
+        }
+        let bare = self.with_defaults();
+        let defaults = edit::Defaults {
+            bare: bare.tree().map_err(unwritable)?,
+            full: bare.with_optional_tables().tree().map_err(unwritable)?,
+        };
+        let mut document: DocumentMut = self.text.parse().map_err(|e: toml_edit::TomlError| {
+            let problem = Problem::NotToml(e.message().to_owned());
+            self.origins.error("", problem)
+        })?;
+        edit::apply(&mut document, &held, &wanted, &defaults);
+        Ok(document.to_string())
+    }
+
+    /// Writes [`to_toml`](Self::to_toml) to `path`; the file appears when whole. From then on it is the scene's file, to
+    /// whose folder its paths are relative.
+    ///
+    /// # Errors
+    /// As there, and what the disk says.
+    pub fn save(&mut self, path: &Path) -> Result<(), SceneError> {
+        let text = self.to_toml()?;
+        let write = || {
+            let mut file = PartFile::create(path)?;
+            file.write_all(text.as_bytes())?;
+            file.finish()
+        };
+        write().map_err(|e| file_error(path, &e))?;
+        *self = Self { origins: Self::read(&text, path, &[])?.origins, text, ..self.clone() };
+        Ok(())
+    }
+
+    /// The settings as the tree that they are read from.
+    fn tree(&self) -> Result<Table, Unwritable> {
+        let keyframes = field::keyframes(&self.field).map_err(|e| Unwritable(e.to_string()))?;
+        let force = keyframes.iter().map(|key| table_of(key).map(Value::Table)).collect::<Result<_, _>>()?;
+        let mut tree = Table::new();
+        tree.insert("head".to_owned(), self.head.table()?.into());
+        tree.insert("hair".to_owned(), self.hair.table()?.into());
+        tree.insert("motion".to_owned(), table_of(&self.motion)?.into());
+        tree.insert("pseudo_force".to_owned(), table_of(&self.pseudo_force)?.into());
+        tree.insert("force".to_owned(), Value::Array(force));
+        if let Some(disturbance) = &self.disturbance {
+            tree.insert("disturbance".to_owned(), table_of(disturbance)?.into());
+        }
+        tree.insert("picture".to_owned(), table_of(&self.picture)?.into());
+        tree.insert("output".to_owned(), table_of(&self.output)?.into());
+        Ok(tree)
+    }
+
+    /// The same sources with all else at its default.
+    fn with_defaults(&self) -> Self {
+        Self { head: self.head.with_defaults(), hair: self.hair.with_defaults(), ..Self::default() }
+    }
+
+    /// The same with every optional table there, at its own defaults.
+    fn with_optional_tables(mut self) -> Self {
+        self.head.motion = Some(MotionSource::default());
+        self.disturbance = Some(Disturbance::default());
+        self.picture.camera = Camera { to: Some(CameraKey::default()), ..self.picture.camera };
+        self
+    }
 }
 
-/// A key that has no effect beside what else the scene says, and why.
-fn useless_key(scene: &Table) -> Option<(String, String)> {
-    let table = |name: &str| scene.get(name).and_then(Value::as_table);
-    let given = |name: &str, keys: &[&str]| {
-        let table = table(name)?;
-        keys.iter().find(|&&key| table.contains_key(key)).map(|key| format!("{name}.{key}"))
-    };
-    let imported = table("hair").is_some_and(|hair| hair.contains_key("file"));
-    let mesh = table("head").and_then(|head| head.get("mesh")).and_then(Value::as_str);
-    let own_head = mesh.is_none_or(|mesh| mesh.starts_with("builtin:"));
-    if imported {
-        let why = "has no effect on hair that hair.file imports: remove one of them";
-        given("hair", &GROWN_ONLY).map(|key| (key, why.to_owned()))
-    } else {
-        let why = "has an effect only on hair that hair.file imports: give that or remove this";
-        given("hair", &IMPORTED_ONLY).map(|key| (key, why.to_owned()))
+fn file_error(path: &Path, error: &std::io::Error) -> SceneError {
+    SceneError {
+        file: path.to_owned(),
+        line: None,
+        set: None,
+        key: String::new(),
+        problem: Problem::File(error.to_string()),
     }
-    .or_else(|| {
-        let why = "has no effect on the built-in head: remove it, or give head.mesh a file";
-        given("head", &MESH_FILE_ONLY).filter(|_| own_head).map(|key| (key, why.to_owned()))
-    })
 }

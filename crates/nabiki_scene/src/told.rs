@@ -95,7 +95,7 @@ impl SceneSummary {
         let strands = &built.hair.strands;
         Self {
             file: built.scene.file().to_owned(),
-            head: built.scene.head.mesh.clone(),
+            head: built.scene.head.mesh(),
             half_axes: built.head.ellipsoid.half_axes.to_array(),
             motion: built.motion_report.clone(),
             strands: strands.len(),

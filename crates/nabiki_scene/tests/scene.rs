@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::Vec3;
 use nabiki_scene::{
     BuiltScene, Scene, Shown,
-    scene::{EllipsoidChoice, HairSettings},
+    scene::{EllipsoidChoice, GrownHair, HairSource, HeadSource, Problem, SceneError},
 };
 
 const GUST: &str = "\
@@ -25,7 +25,7 @@ through = 100
 vector = [-15, -150, 0]
 ";
 
-fn parse(text: &str, overrides: &[(&str, &str)]) -> nabiki_io::Result<Scene> {
+fn parse(text: &str, overrides: &[(&str, &str)]) -> Result<Scene, SceneError> {
     let overrides: Vec<(String, String)> = overrides.iter().map(|&(k, v)| (k.to_owned(), v.to_owned())).collect();
     Scene::parse(text, Path::new("scenes/gust.toml"), &overrides)
 }
@@ -45,9 +45,10 @@ fn what_a_scene_leaves_out_is_the_papers() {
     let scene = parse("[[force]]\nthrough = 50\nvector = [-100, 0, 0]\n", &[]).unwrap();
     assert_eq!((scene.motion.frames, scene.motion.time_step, scene.motion.linear_density), (100, 0.1, 0.05));
     assert_eq!((scene.pseudo_force.alpha, scene.head.shell), (-0.75, 1.25));
-    assert_eq!(HairSettings::SEGMENTS, 18);
-    assert_eq!((scene.hair.segments, scene.hair.segment_length, scene.hair.strands), (None, 1.0, None));
-    assert!(scene.head.is_builtin() && scene.disturbance.is_none());
+    let GrownHair { strands, segments, .. } = scene.hair.grown().unwrap();
+    assert_eq!((*segments, scene.hair.segment_length, *strands), (18, 1.0, 19_330));
+    assert!(scene.head.source == HeadSource::Builtin && scene.disturbance.is_none());
+    assert_eq!(scene.motion.frame_rate, 24.0);
     assert_eq!(scene.output.sheet_frames(100), [0, 30, 60, 90]);
     assert_eq!(scene.name(), "gust");
 }
@@ -66,11 +67,12 @@ fn overrides_are_put_in_before_anything_is_read() {
     ];
     let scene = parse(GUST, &overrides).unwrap();
     assert_eq!((scene.motion.time_step, scene.picture.size), (0.05, [320, 200]));
-    assert_eq!(scene.force[1].vector, Vec3::new(0.0, -100.0, 0.0));
-    assert_eq!((scene.force[2].through, scene.force[2].vector), (120, Vec3::new(1.0, 2.5, 3.0)));
+    assert_eq!(scene.keyframes()[1].vector, Vec3::new(0.0, -100.0, 0.0));
+    assert_eq!((scene.keyframes()[2].through, scene.keyframes()[2].vector), (120, Vec3::new(1.0, 2.5, 3.0)));
     assert!(matches!(scene.head.ellipsoid, EllipsoidChoice::Given(e) if e.half_axes.y == 11.0));
     assert_eq!(scene.disturbance.unwrap().every, 7);
-    assert_eq!(scene.hair.file.as_deref(), Some(Path::new("some/hair.tfx")), "a bare word is a string");
+    let HairSource::Imported(hair) = &scene.hair.source else { panic!("hair.file is given") };
+    assert_eq!(hair.file, Path::new("some/hair.tfx"), "a bare word is a string");
 }
 
 #[test]
@@ -92,11 +94,32 @@ fn an_unknown_key_is_refused_with_the_nearest_known_one() {
         "scenes/gust.toml:11: force[0].vectr: unknown key; did you mean force[0].vector?"
     );
     let nothing_near = refused("time_step", "quality");
-    let beginning =
-        "scenes/gust.toml:6: motion.quality: unknown key; the keys here are frames, time_step, linear_density";
+    let beginning = "scenes/gust.toml:6: motion.quality: unknown key; the keys here are frames, frame_rate, time_step";
     assert!(nothing_near.starts_with(beginning), "{nothing_near}");
     let deep = refused("strands = 100", "style.comb.swep = [1, 0, 0]");
     assert_eq!(deep, "scenes/gust.toml:2: hair.style.comb.swep: unknown key; did you mean hair.style.comb.sweep?");
+}
+
+#[test]
+fn a_key_that_was_renamed_is_told_its_new_name() {
+    let video = refused("[motion]", "[picture.video]\nfps = 12\n[motion]");
+    assert_eq!(video, "scenes/gust.toml:5: picture.video.fps: is now called motion.frame_rate");
+}
+
+#[test]
+fn errors_are_values() {
+    let error = |from: &str, to: &str| parse(&GUST.replacen(from, to, 1), &[]).unwrap_err();
+    let range = error("time_step = 0.1", "time_step = -0.1");
+    assert_eq!((range.file.as_path(), range.line), (Path::new("scenes/gust.toml"), Some(6)));
+    assert_eq!((range.key.as_str(), range.value()), ("motion.time_step", Some("-0.1")));
+    assert_eq!(range.remedy(), "must be a finite number above 0");
+    let kind = error("frames = 100", "frames = \"many\"");
+    assert_eq!((kind.key.as_str(), kind.value(), kind.line), ("motion.frames", Some("string \"many\""), Some(5)));
+    assert_eq!(kind.remedy(), "must be a whole number, 0 or more");
+    let unknown = error("time_step", "time_stpe");
+    assert!(matches!(unknown.problem, Problem::UnknownKey { near: Some(near), .. } if near == "motion.time_step"));
+    let set = parse(GUST, &[("motion.time_step", "-1")]).unwrap_err();
+    assert_eq!((set.line, set.set.as_deref()), (None, Some("motion.time_step=-1")));
 }
 
 #[test]
@@ -129,7 +152,7 @@ fn wrong_types_say_what_was_found_and_what_must_be() {
          a number of centimetres"
     );
     assert_eq!(
-        refused("[motion]", "[head]\nup = \"+w\"\n[motion]"),
+        refused("[motion]", "[head]\nup = \"+w\"\nmesh = \"a.obj\"\n[motion]"),
         "scenes/gust.toml:5: head.up: found \"+w\", must be one of \"+x\", \"x\", \"-x\", \"+y\", \"y\", \"-y\", \"+z\", \
          \"z\", \"-z\"; did you mean \"+x\"?"
     );
@@ -193,6 +216,10 @@ fn keys_without_effect_are_refused() {
     assert_eq!(
         refused("[motion]", "[head]\nmesh = \"builtin:head\"\n[motion]"),
         "scenes/gust.toml:5: head.mesh = \"builtin:head\": there is one built-in head, \"builtin:bust\""
+    );
+    assert_eq!(
+        refused("strands = 100", "file = \"a.tfx\"\nunti = \"m\""),
+        "scenes/gust.toml:3: hair.unti: unknown key; did you mean hair.unit?"
     );
 }
 
@@ -278,7 +305,7 @@ fn the_identity_is_also_that_of_the_files_that_move_the_head() {
         let table = format!("{columns}\n0,0,1.6,0,0,0,0,1\n1,0.5,1.6,0,0,0,0,1\n9,{last_x},1.6,0,0,0,0,1\n");
         std::fs::write(folder.path().join("run.csv"), table).unwrap();
         let over =
-            [("head.motion", "{ file = \"run.csv\", up = \"+y\", facing = \"+x\" }"), ("picture.video.fps", fps)];
+            [("head.motion", "{ file = \"run.csv\", up = \"+y\", facing = \"+x\" }"), ("motion.frame_rate", fps)];
         let over = over.map(|(key, value)| (key.to_owned(), value.to_owned()));
         let path = folder.path().join("scene.toml");
         Scene::parse(GUST, &path, &over).unwrap().build(Shown::All).unwrap().identity().unwrap()
@@ -342,9 +369,7 @@ fn imported_hair_is_cut_into_the_segments_asked_for() {
             "[hair]\nfile = \"{}\"\n{segments}\n[[force]]\nthrough = 1\nvector = [0, -1, 0]\n[motion]\nframes = 1\n",
             path.display()
         );
-        Scene::parse(&text, std::path::Path::new("two.toml"), &[])
-            .map_err(Into::into)
-            .and_then(|scene| scene.build(Shown::All))
+        Scene::parse(&text, std::path::Path::new("two.toml"), &[])?.build(Shown::All)
     };
     let as_in_file = built("").unwrap().hair.strands;
     let cut = built("segments = 6").unwrap().hair.strands;

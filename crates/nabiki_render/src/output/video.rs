@@ -35,8 +35,8 @@ pub struct Movie {
 }
 
 impl Movie {
-    /// Starts a movie at `path` with the size, frame rate and quality of `picture`.
-    pub fn create(path: &Path, picture: &Picture) -> Result<Self, RenderError> {
+    /// Starts a movie at `path` with the size and quality of `picture`. `frame_rate`: frames a second.
+    pub fn create(path: &Path, picture: &Picture, frame_rate: f32) -> Result<Self, RenderError> {
         picture.check()?;
         let size = picture.size.map(|s| s as usize & !1);
         let (longer, shorter) = (size[0].max(size[1]), size[0].min(size[1]));
@@ -61,7 +61,7 @@ impl Movie {
             .background_detection(false)
             .sps_pps_strategy(SpsPpsStrategy::ConstantId)
             .intra_frame_period(IntraFramePeriod::from_num_frames(INTRA_PERIOD))
-            .max_frame_rate(FrameRate::from_hz(picture.video.fps))
+            .max_frame_rate(FrameRate::from_hz(frame_rate))
             // More threads would slice the picture differently, and so change the file's bits.
             .num_threads(1)
             .vui(VuiConfig::bt709());
@@ -74,7 +74,7 @@ impl Movie {
             path: path.to_owned(),
             size,
             encoder,
-            track: Track::new(size.map(|s| s as u16), picture.video.fps),
+            track: Track::new(size.map(|s| s as u16), frame_rate),
             coded: BufWriter::new(coded),
             scratch: Vec::new(),
         })

@@ -78,21 +78,18 @@ pub enum Tone {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Video {
-    /// Frames a second, 1..240. Default 24.
-    pub fps: f32,
     /// 0 (small file) .. 1 (large, near lossless). Default 0.75.
     pub quality: f32,
 }
 
 impl Default for Video {
     fn default() -> Self {
-        Self { fps: 24.0, quality: 0.75 }
+        Self { quality: 0.75 }
     }
 }
 
 impl Video {
     pub(crate) fn check(&self) -> Result<(), SettingError> {
-        check_range("picture.video.fps", self.fps, 1.0, 240.0)?;
         check_range("picture.video.quality", self.quality, 0.0, 1.0)
     }
 }

@@ -12,7 +12,7 @@ use nabiki_io::{
 
 use super::{BuiltScene, Shown};
 use crate::error::Result;
-use crate::scene::{EllipsoidChoice, HairSettings, Scene};
+use crate::scene::{EllipsoidChoice, GrownHair, HairSource, HeadSource, ImportedHair, Scene};
 
 pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
     let (head, placement, mesh_report) = load_head(&scene)?;
@@ -48,17 +48,23 @@ struct Loaded {
 }
 
 fn load_hair(scene: &Scene, head: &Head, head_placement: &Placement, shown: Shown) -> Result<Loaded> {
-    let Some(file) = &scene.hair.file else {
-        let of_scene = scene.hair.strands.unwrap_or(HairSettings::STRANDS);
-        let count = shown.of(of_scene)?;
-        let hair = grow(scene, head, count)?.into();
-        return Ok(Loaded { hair, ids: (0..count as u32).collect(), of_scene, placement: None, report: None });
-    };
-    let file = scene.resolve(file);
-    let placement = hair_placement(&scene.hair, head_placement, exchange::said(&file)?);
+    match &scene.hair.source {
+        HairSource::Grown(settings) => {
+            let count = shown.of(settings.strands)?;
+            let hair = grow(scene, settings, head, count)?.into();
+            let ids = (0..count as u32).collect();
+            Ok(Loaded { hair, ids, of_scene: settings.strands, placement: None, report: None })
+        }
+        HairSource::Imported(settings) => import(scene, settings, head_placement, shown),
+    }
+}
+
+fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, shown: Shown) -> Result<Loaded> {
+    let file = scene.resolve(&settings.file);
+    let placement = hair_placement(settings, head_placement, exchange::said(&file)?);
     placement.check("hair").map_err(|refused| scene.refusal(refused))?;
-    let (hair, report) = hair::import(&file, &placement, &scene.hair.cleaning())?;
-    let hair = match scene.hair.strands {
+    let (hair, report) = hair::import(&file, &placement, &settings.cleaning())?;
+    let hair = match settings.strands {
         Some(count) if count < hair.strands.len() => hair.select(&evenly(&hair, count)),
         _ => hair,
     };
@@ -70,7 +76,7 @@ fn load_hair(scene: &Scene, head: &Head, head_placement: &Placement, shown: Show
         }
         _ => (hair, (0..of_scene as u32).collect()),
     };
-    let hair = match scene.hair.segments {
+    let hair = match settings.segments {
         Some(segments) => cut_anew(&hair, segments).map_err(|refused| scene.refusal(refused))?,
         None => hair,
     };
@@ -111,21 +117,20 @@ pub(super) fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshRe
         EllipsoidChoice::Fit => None,
         EllipsoidChoice::Given(ellipsoid) => Some(ellipsoid),
     };
-    if settings.is_builtin() {
+    let HeadSource::Imported(imported) = &settings.source else {
         let head = match given {
             None => Head::builtin(),
             Some(_) => Head::from_mesh(Head::builtin().mesh, given).map_err(|refused| scene.refusal(refused))?,
         };
         return Ok((head, Placement::default(), None));
-    }
-    let file = scene.resolve(settings.mesh.as_ref());
-    let mut placement = settings.placement();
+    };
+    let file = scene.resolve(&imported.file);
     let said = exchange::said(&file)?;
-    placement.unit = settings.unit.or(said.unit).unwrap_or(placement.unit);
-    placement.up = settings.up.or(said.up).unwrap_or(placement.up);
-    let (mut mesh, report) = mesh::import(&file, &placement, &settings.groups)?;
+    let mut placement = imported.placement(said.unit, said.up);
+    placement.check("head").map_err(|refused| scene.refusal(refused))?;
+    let (mut mesh, report) = mesh::import(&file, &placement, &imported.groups)?;
     let mut ellipsoid = given;
-    if settings.origin.is_none() && given.is_none() {
+    if imported.origin.is_none() && given.is_none() {
         let mut fitted = Head::fit(&mesh).map_err(|refused| scene.refusal(refused))?;
         placement.origin = placement.file_from_head().transform_point3(fitted.center);
         for p in &mut mesh.positions {
@@ -139,7 +144,7 @@ pub(super) fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshRe
 }
 
 /// How the hair's file lies in head space: as the head's file does, but for what the scene or the file itself says.
-fn hair_placement(settings: &HairSettings, head: &Placement, said: Said) -> Placement {
+fn hair_placement(settings: &ImportedHair, head: &Placement, said: Said) -> Placement {
     let unmoved = Placement {
         unit: settings.unit.or(said.unit).unwrap_or(head.unit),
         up: settings.up.or(said.up).unwrap_or(head.up),
@@ -156,12 +161,10 @@ fn hair_placement(settings: &HairSettings, head: &Placement, said: Said) -> Plac
 }
 
 /// The first `count` strands of the scene's.
-fn grow(scene: &Scene, head: &Head, count: usize) -> Result<Strands> {
-    let HairSettings { hairline, style, segments, segment_length, seed, .. } = &scene.hair;
-    let of_scene = scene.hair.strands.unwrap_or(HairSettings::STRANDS);
-    let segments = segments.unwrap_or(HairSettings::SEGMENTS);
-    pores::spread(head, hairline, of_scene, *seed)
-        .and_then(|pores| groom(head, &pores[..count], style, segments, *segment_length, *seed))
+fn grow(scene: &Scene, settings: &GrownHair, head: &Head, count: usize) -> Result<Strands> {
+    let GrownHair { strands, segments, seed, hairline, style } = settings;
+    pores::spread(head, hairline, *strands, *seed)
+        .and_then(|pores| groom(head, &pores[..count], style, *segments, scene.hair.segment_length, *seed))
         .map_err(|refused| scene.refusal(refused).into())
 }
 

@@ -6,7 +6,7 @@ use nabiki::Ellipsoid;
 use nabiki::field::Keyframe;
 use serde::Serialize;
 
-use crate::scene::{HairSettings, Scene};
+use crate::scene::{GrownHair, HairSource, ImportedHair, Scene};
 use nabiki_io::info::Short;
 
 /// The outline of a scene; of what it names the head alone is loaded.
@@ -41,18 +41,18 @@ pub struct SceneInfo {
 impl SceneInfo {
     /// Outlines `scene`.
     pub fn of(scene: &Scene) -> Self {
-        let hair = match (&scene.hair.file, scene.hair.strands) {
-            (Some(file), None) => file.display().to_string(),
-            (Some(file), Some(count)) => format!("{count} strands of {}", file.display()),
-            (None, count) => {
-                let count = count.unwrap_or(HairSettings::STRANDS);
-                let segments = scene.hair.segments.unwrap_or(HairSettings::SEGMENTS);
-                format!("{count} strands of at most {segments} x {} cm", scene.hair.segment_length)
+        let hair = match &scene.hair.source {
+            HairSource::Imported(ImportedHair { file, strands: None, .. }) => file.display().to_string(),
+            HairSource::Imported(ImportedHair { file, strands: Some(count), .. }) => {
+                format!("{count} strands of {}", file.display())
+            }
+            HairSource::Grown(GrownHair { strands, segments, .. }) => {
+                format!("{strands} strands of at most {segments} x {} cm", scene.hair.segment_length)
             }
         };
         let head = scene.load_head();
         Self {
-            head: scene.head.mesh.clone(),
+            head: scene.head.mesh(),
             ellipsoid: head.as_ref().ok().map(|head| head.ellipsoid),
             head_problem: head.err().map(|problem| problem.to_string()),
             shell: scene.head.shell,
@@ -61,7 +61,7 @@ impl SceneInfo {
             time_step: scene.motion.time_step,
             linear_density: scene.motion.linear_density,
             alpha: scene.pseudo_force.alpha,
-            force: scene.force.clone(),
+            force: scene.keyframes().to_vec(),
             disturbed_every: scene.disturbance.as_ref().map(|d| d.every),
             picture: scene.picture.size,
         }

@@ -13,6 +13,8 @@ use toml::Value;
 
 use nabiki_io::names::nearest;
 
+use super::error::Problem;
+
 /// A value refused while settings were read.
 #[derive(Debug)]
 pub(super) struct Refusal {
@@ -21,55 +23,79 @@ pub(super) struct Refusal {
     problem: Problem,
 }
 
-#[derive(Debug)]
-enum Problem {
-    Text(String),
-    UnknownKey { near: Option<String>, known: &'static [&'static str] },
-}
-
 impl Refusal {
-    fn text(text: impl Into<String>) -> Self {
-        Self { outward: Vec::new(), problem: Problem::Text(text.into()) }
+    fn new(problem: Problem) -> Self {
+        Self { outward: Vec::new(), problem }
     }
 
-    fn below(mut self, key: impl Into<String>) -> Self {
+    fn text(text: impl Into<String>) -> Self {
+        Self::new(Problem::Other(text.into()))
+    }
+
+    /// A value out of its range.
+    pub fn range(value: String, remedy: String) -> Self {
+        Self::new(Problem::Range { value, remedy })
+    }
+
+    /// A key without effect beside what else the scene says.
+    pub fn useless(why: &str) -> Self {
+        Self::new(Problem::Useless(why.to_owned()))
+    }
+
+    /// A key that is none of `known`.
+    pub fn unknown_key(found: &str, known: impl Iterator<Item = &'static str> + Clone) -> Self {
+        let near = nearest(found, known.clone()).map(str::to_owned);
+        let known = known.map(str::to_owned).collect();
+        Self { outward: vec![found.to_owned()], problem: Problem::UnknownKey { near, known } }
+    }
+
+    /// The same of a value that stands below `key`.
+    pub fn below(mut self, key: impl Into<String>) -> Self {
         self.outward.push(key.into());
         self
     }
 
-    /// The dotted path of the refused value.
-    pub fn path(&self) -> String {
-        self.join(self.outward.iter().rev())
+    /// The dotted path of the refused value, and what is wrong with it.
+    pub fn into_parts(self) -> (String, Problem) {
+        let path = join(self.outward.iter().rev());
+        let problem = match self.problem {
+            Problem::UnknownKey { known, near } => match RENAMED.iter().find(|(before, _)| *before == path) {
+                Some((_, now)) => Problem::Renamed { now: (*now).to_owned() },
+                None => {
+                    let whole = |near: &String| join(self.outward.iter().skip(1).rev().chain([near]));
+                    Problem::UnknownKey { near: near.as_ref().map(whole), known }
+                }
+            },
+            other => other,
+        };
+        (path, problem)
     }
+}
 
-    fn join<'a>(&self, steps: impl Iterator<Item = &'a String>) -> String {
-        let mut path = String::new();
-        for step in steps {
-            if step.bytes().all(|b| b.is_ascii_digit()) {
-                path = format!("{path}[{step}]");
-            } else if path.is_empty() {
-                path.push_str(step);
-            } else {
-                path = format!("{path}.{step}");
-            }
+/// What settings were called in earlier versions, and what they are called now.
+const RENAMED: [(&str, &str); 3] = [
+    ("hair.style.locks", "hair.style.clumps"),
+    ("motion.friction_length", "motion.inertia_floor"),
+    ("picture.video.fps", "motion.frame_rate"),
+];
+
+fn join<'a>(steps: impl Iterator<Item = &'a String>) -> String {
+    let mut path = String::new();
+    for step in steps {
+        if step.bytes().all(|b| b.is_ascii_digit()) {
+            path = format!("{path}[{step}]");
+        } else if path.is_empty() {
+            path.push_str(step);
+        } else {
+            path = format!("{path}.{step}");
         }
-        path
     }
+    path
 }
 
 impl Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if !self.outward.is_empty() {
-            write!(f, "{}: ", self.path())?;
-        }
-        match &self.problem {
-            Problem::Text(text) => f.write_str(text),
-            Problem::UnknownKey { near: Some(near), .. } => {
-                let whole = self.join(self.outward.iter().skip(1).rev().chain([near]));
-                write!(f, "unknown key; did you mean {whole}?")
-            }
-            Problem::UnknownKey { known, .. } => write!(f, "unknown key; the keys here are {}", known.join(", ")),
-        }
+        write!(f, "{}: {:?}", join(self.outward.iter().rev()), self.problem)
     }
 }
 
@@ -81,7 +107,7 @@ impl de::Error for Refusal {
     }
 
     fn invalid_type(found: Unexpected, wanted: &dyn Expected) -> Self {
-        Self::text(format!("found {found}, must be {}", plain(wanted)))
+        Self::new(Problem::Kind { found: found.to_string(), wanted: plain(wanted) })
     }
 
     fn invalid_value(found: Unexpected, wanted: &dyn Expected) -> Self {
@@ -95,16 +121,16 @@ impl de::Error for Refusal {
     fn unknown_variant(found: &str, known: &'static [&'static str]) -> Self {
         let list: Vec<String> = known.iter().map(|name| format!("\"{name}\"")).collect();
         let hint = nearest(found, known.iter().copied()).map(|near| format!("; did you mean \"{near}\"?"));
-        Self::text(format!("found \"{found}\", must be one of {}{}", list.join(", "), hint.unwrap_or_default()))
+        let wanted = format!("one of {}{}", list.join(", "), hint.unwrap_or_default());
+        Self::new(Problem::Kind { found: format!("\"{found}\""), wanted })
     }
 
     fn unknown_field(found: &str, known: &'static [&'static str]) -> Self {
-        let near = nearest(found, known.iter().copied()).map(str::to_owned);
-        Self { outward: vec![found.to_owned()], problem: Problem::UnknownKey { near, known } }
+        Self::unknown_key(found, known.iter().copied())
     }
 
     fn missing_field(name: &'static str) -> Self {
-        Self::text(format!("is missing: write {name} = ...")).below(name)
+        Self::new(Problem::Missing).below(name)
     }
 
     fn duplicate_field(name: &'static str) -> Self {
@@ -119,6 +145,7 @@ fn plain(wanted: &dyn Expected) -> String {
         "i8" | "i16" | "i32" | "i64" | "isize" => "a whole number".to_owned(),
         "f32" | "f64" => "a number".to_owned(),
         "a boolean" => "true or false".to_owned(),
+        "a map" => "a table".to_owned(),
         text if text.starts_with("struct ") => "a table".to_owned(),
         text if text.starts_with("a sequence of 3 f32") => "three numbers, [x, y, z]".to_owned(),
         text => text.to_owned(),

@@ -10,12 +10,15 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
-use nabiki_io::{Error, Result};
+use serde::Serialize;
+
+use super::error::{Problem, SceneError};
 
 /// Where the values of a scene come from: lines of the file, or overrides.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Origins {
-    file: PathBuf,
+    /// The scene file.
+    pub file: PathBuf,
     /// Line of each dotted path (`force.1.vector`).
     lines: BTreeMap<String, usize>,
     /// Text of the override that set each dotted path.
@@ -24,45 +27,60 @@ pub(super) struct Origins {
 
 impl Origins {
     /// An error about the value at `path` (dotted, or with indices in brackets): its file and line, or its override.
-    pub fn error(&self, path: &str, what: &str) -> Error {
-        let dotted = path.replace('[', ".").replace(']', "");
+    pub fn error(&self, path: &str, problem: Problem) -> SceneError {
+        let whole = SceneError { file: self.file.clone(), line: None, set: None, key: path.to_owned(), problem };
+        let dotted = dotted(path).join(".");
         let mut at = dotted.as_str();
         loop {
             if let Some(text) = self.overrides.get(at) {
-                return Error::new(format!("--set {text}: {what}")).in_file(&self.file);
+                return SceneError { set: Some(text.clone()), ..whole };
             }
             if let Some(&line) = self.lines.get(at) {
-                return Error::new(what).in_file(&self.file).at_line(Some(line));
+                return SceneError { line: Some(line), ..whole };
             }
             // What is not in the file stands where its table does.
             match at.rsplit_once('.') {
                 Some((parent, _)) => at = parent,
-                None => return Error::new(what).in_file(&self.file),
+                None => return whole,
             }
         }
     }
+}
 
-    /// The scene file.
-    pub fn file(&self) -> &Path {
-        &self.file
-    }
+/// Settings that TOML cannot hold: why.
+#[derive(Debug)]
+pub(super) struct Unwritable(pub String);
+
+/// Settings as the tree that they are read from.
+pub(super) fn table_of(settings: &impl Serialize) -> Result<Table, Unwritable> {
+    // By way of text, in which a number of 32 bits has no more digits than it takes to tell it from its neighbours.
+    let text = toml::to_string(settings).map_err(|e| Unwritable(e.to_string()))?;
+    text.parse().map_err(|e: toml::de::Error| Unwritable(e.message().to_owned()))
 }
 
 /// Parses a scene's text and applies the overrides in order.
-pub(super) fn parse(text: &str, file: &Path, overrides: &[(String, String)]) -> Result<(Table, Origins)> {
+pub(super) fn parse(text: &str, file: &Path, overrides: &[(String, String)]) -> Result<(Table, Origins), SceneError> {
     let mut origins = Origins { file: file.to_owned(), ..Origins::default() };
     let line_starts: Vec<usize> = std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
     let line_at = |offset: usize| line_starts.partition_point(|&start| start <= offset);
     let syntax = |e: toml::de::Error| {
         let line = e.span().map(|span| line_at(span.start));
-        Error::new(format!("not TOML: {}", e.message())).in_file(file).at_line(line)
+        let message = e.message().split_whitespace().collect::<Vec<_>>().join(" ");
+        let problem = Problem::NotToml(message);
+        SceneError { file: file.to_owned(), line, set: None, key: String::new(), problem }
     };
     let spanned = DeTable::parse(text).map_err(syntax)?;
     record_table(spanned.get_ref(), "", &line_at, &mut origins.lines);
     let mut table: Table = toml::from_str(text).map_err(syntax)?;
     for (path, value) in overrides {
         let text = format!("{path}={value}");
-        set(&mut table, path, value).map_err(|what| Error::new(format!("--set {text}: {what}")).in_file(file))?;
+        set(&mut table, path, value).map_err(|what| SceneError {
+            file: file.to_owned(),
+            line: None,
+            set: Some(text.clone()),
+            key: String::new(),
+            problem: Problem::Other(what),
+        })?;
         origins.overrides.insert(dotted(path).join("."), text);
     }
     Ok((table, origins))

@@ -1,0 +1,127 @@
+//! What a scene is refused for, as a value: an editor marks the place, a shell prints the one line.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use nabiki::SettingError;
+
+/// A scene that cannot be used. Its text is one line: file and line (or override), key, value, way out.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub struct SceneError {
+    /// The scene file; empty for a scene made in code.
+    pub file: PathBuf,
+    /// Line of the file that the refused value stands in, from 1; none where no line can be blamed.
+    pub line: Option<usize>,
+    /// The override that set the value, `KEY=VALUE`, where it was not the file.
+    pub set: Option<String>,
+    /// The setting as a scene file spells it, `force[1].vector`; empty where the file as a whole is meant.
+    pub key: String,
+    /// What is wrong.
+    pub problem: Problem,
+}
+
+/// What is wrong with a setting, or with the file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Problem {
+    /// The file cannot be read or written: the system's words.
+    File(String),
+    /// The text is not TOML: the parser's words.
+    NotToml(String),
+    /// No setting has this name.
+    UnknownKey {
+        /// The known one that was perhaps meant (whole, `motion.time_step`).
+        near: Option<String>,
+        /// The names that the table may hold.
+        known: Vec<String>,
+    },
+    /// The setting has had another name since an earlier version.
+    Renamed {
+        /// What it is called now (whole).
+        now: String,
+    },
+    /// The setting must be given and is not.
+    Missing,
+    /// The setting has no effect beside what else the scene says: why, and the way out.
+    Useless(String),
+    /// A value of the wrong kind.
+    Kind {
+        /// What was found, with its kind: `string "many"`.
+        found: String,
+        /// What it must be.
+        wanted: String,
+    },
+    /// A value out of its range.
+    Range {
+        /// The value.
+        value: String,
+        /// The range, or the way out.
+        remedy: String,
+    },
+    /// Anything else, in words.
+    Other(String),
+}
+
+impl SceneError {
+    /// The refused value, where there is one.
+    pub fn value(&self) -> Option<&str> {
+        match &self.problem {
+            Problem::Kind { found: value, .. } | Problem::Range { value, .. } => Some(value),
+            _ => None,
+        }
+    }
+
+    /// The range allowed, or the way out.
+    pub fn remedy(&self) -> String {
+        match &self.problem {
+            Problem::Kind { wanted, .. } => format!("must be {wanted}"),
+            Problem::Range { remedy, .. } => remedy.clone(),
+            Problem::UnknownKey { near: Some(near), .. } => format!("did you mean {near}?"),
+            Problem::UnknownKey { known, .. } => format!("the keys here are {}", known.join(", ")),
+            Problem::Renamed { now } => format!("is now called {now}"),
+            Problem::Missing => {
+                let name = self.key.rsplit('.').next().unwrap_or_default();
+                format!("write {name} = ...")
+            }
+            Problem::File(text) | Problem::NotToml(text) | Problem::Useless(text) | Problem::Other(text) => {
+                text.clone()
+            }
+        }
+    }
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.file.as_os_str().is_empty() {
+            write!(f, "{}:", self.file.display())?;
+            if let Some(line) = self.line {
+                write!(f, "{line}:")?;
+            }
+            write!(f, " ")?;
+        }
+        if let Some(set) = &self.set {
+            write!(f, "--set {set}: ")?;
+        }
+        f.write_str(&self.key)?;
+        match &self.problem {
+            Problem::Range { value, .. } => write!(f, " = {value}: ")?,
+            _ if self.key.is_empty() => {}
+            _ => write!(f, ": ")?,
+        }
+        let remedy = self.remedy();
+        match &self.problem {
+            Problem::NotToml(_) => write!(f, "not TOML: {remedy}"),
+            Problem::UnknownKey { .. } => write!(f, "unknown key; {remedy}"),
+            Problem::Missing => write!(f, "is missing: {remedy}"),
+            Problem::Kind { found, .. } => write!(f, "found {found}, {remedy}"),
+            _ => f.write_str(&remedy),
+        }
+    }
+}
+
+impl From<SettingError> for SceneError {
+    fn from(refused: SettingError) -> Self {
+        let SettingError { thing, value, remedy } = refused;
+        let problem = Problem::Range { value, remedy };
+        Self { file: PathBuf::new(), line: None, set: None, key: thing, problem }
+    }
+}

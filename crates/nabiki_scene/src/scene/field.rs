@@ -1,0 +1,31 @@
+//! Where forces come from. The file's spelling of the one source there is, the paper's vectors, is `[[force]]`.
+
+use nabiki::SettingError;
+use nabiki::field::{Field, Keyframe};
+
+/// A source of force. Sources add up.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FieldSource {
+    /// Vectors uniform in space, each over some frames: equation (5). Keys: `[[force]]`.
+    Keyframes(Vec<Keyframe>),
+}
+
+/// The keyframes among `sources`.
+///
+/// # Errors
+/// More than one list of them.
+pub(super) fn keyframes(sources: &[FieldSource]) -> Result<&[Keyframe], SettingError> {
+    match sources {
+        [] => Ok(&[]),
+        [FieldSource::Keyframes(keyframes)] => Ok(keyframes),
+        lists => Err(SettingError::new("force", format!("{} lists", lists.len()), "a scene has one list of keyframes")),
+    }
+}
+
+/// The field that `sources` make.
+///
+/// # Errors
+/// No force at all, or keyframes that are no field.
+pub(super) fn build(sources: &[FieldSource]) -> Result<Field, SettingError> {
+    Field::new(keyframes(sources)?)
+}

@@ -1,0 +1,240 @@
+//! `[head]`: where the head comes from, the ellipsoids of the paper's section 3.1, what moves it.
+
+use std::path::PathBuf;
+
+use glam::Vec3;
+use nabiki::{Ellipsoid, SettingError, error::check_positive};
+use nabiki_io::motion::{Axis, MotionSource};
+use nabiki_io::placement::{Placement, Unit};
+use serde::{Deserialize, Serialize};
+use toml::{Table, Value};
+
+use super::flat;
+use super::read::Refusal;
+use super::tree::{Unwritable, table_of};
+
+/// `[head]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeadSettings {
+    /// Where its mesh comes from (default: the built-in bust). Key: `mesh`, and those of [`ImportedHead`].
+    pub source: HeadSource,
+    /// E: fitted (default), or its centre and half axes (head space, cm).
+    pub ellipsoid: EllipsoidChoice,
+    /// C is E scaled by this, above 1 (default 1.25).
+    pub shell: f32,
+    /// A file that moves the head (default: it stands still).
+    pub motion: Option<MotionSource>,
+}
+
+/// Where the head's mesh comes from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum HeadSource {
+    /// The project's own bust: `mesh = "builtin:bust"`.
+    #[default]
+    Builtin,
+    /// A file.
+    Imported(ImportedHead),
+}
+
+/// A head out of a file.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ImportedHead {
+    /// A .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. Key: `mesh`.
+    #[serde(rename = "mesh")]
+    pub file: PathBuf,
+    /// Groups, objects or nodes of the file to keep (default: all).
+    pub groups: Vec<String>,
+    /// Unit of the file (default: what the file says, or cm).
+    pub unit: Option<Unit>,
+    /// Axis of the file that points up (default: what the file says, or +y).
+    pub up: Option<Axis>,
+    /// Axis of the file along which the face looks (default +x).
+    pub facing: Option<Axis>,
+    /// Point of the file that becomes the origin of head space (file units). Default: the centre of the fitted
+    /// ellipsoid; the file's own origin where the ellipsoid is given.
+    pub origin: Option<Vec3>,
+}
+
+/// How the head ellipsoid E is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(untagged, expecting = "must be \"fit\" or { center = [x, y, z], half_axes = [x, y, z] }")]
+pub enum EllipsoidChoice {
+    /// `"fit"`: fitted to the part of the mesh where hair grows; the built-in bust brings its own.
+    #[default]
+    #[serde(with = "fit")]
+    Fit,
+    /// As given.
+    Given(Ellipsoid),
+}
+
+/// The word "fit".
+mod fit {
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+
+    pub fn serialize<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str("fit")
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
+        match String::deserialize(deserializer)?.as_str() {
+            "fit" => Ok(()),
+            other => Err(D::Error::custom(format!("found \"{other}\", must be \"fit\""))),
+        }
+    }
+}
+
+/// The keys of any head.
+#[derive(Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+struct AnyHead {
+    ellipsoid: EllipsoidChoice,
+    shell: f32,
+    motion: Option<MotionSource>,
+}
+
+/// The keys of the built-in head.
+#[derive(Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+struct BuiltinHead {
+    mesh: String,
+}
+
+impl Default for AnyHead {
+    fn default() -> Self {
+        Self { ellipsoid: EllipsoidChoice::Fit, shell: 1.25, motion: None }
+    }
+}
+
+impl Default for BuiltinHead {
+    fn default() -> Self {
+        Self { mesh: HeadSettings::BUILTIN.to_owned() }
+    }
+}
+
+impl Default for HeadSettings {
+    fn default() -> Self {
+        Self::of(AnyHead::default(), HeadSource::Builtin)
+    }
+}
+
+impl HeadSettings {
+    /// The name of the built-in head, where a file's would stand.
+    pub const BUILTIN: &str = "builtin:bust";
+
+    fn of(any: AnyHead, source: HeadSource) -> Self {
+        let AnyHead { ellipsoid, shell, motion } = any;
+        Self { source, ellipsoid, shell, motion }
+    }
+
+    /// The mesh as a scene names it: its file, or that of the built-in head.
+    pub fn mesh(&self) -> String {
+        match &self.source {
+            HeadSource::Builtin => Self::BUILTIN.to_owned(),
+            HeadSource::Imported(head) => head.file.display().to_string(),
+        }
+    }
+
+    /// The table `[head]`, read.
+    pub(super) fn read(table: &Table) -> Result<Self, Refusal> {
+        match table.get("mesh") {
+            Some(Value::String(mesh)) if !mesh.starts_with("builtin:") => {
+                let (any, head) = flat::read(table, &[], "")?;
+                Ok(Self::of(any, HeadSource::Imported(head)))
+            }
+            _ => {
+                let why = "has no effect on the built-in head: remove it, or give head.mesh a file";
+                let (any, BuiltinHead { mesh }) = flat::read(table, flat::keys::<ImportedHead>(), why)?;
+                if mesh != Self::BUILTIN {
+                    let remedy = format!("there is one built-in head, \"{}\"", Self::BUILTIN);
+                    return Err(Refusal::range(format!("\"{mesh}\""), remedy).below("mesh"));
+                }
+                Ok(Self::of(any, HeadSource::Builtin))
+            }
+        }
+    }
+
+    /// The table `[head]`, to be written.
+    pub(super) fn table(&self) -> Result<Table, Unwritable> {
+        let mut table = match &self.source {
+            HeadSource::Builtin => table_of(&BuiltinHead::default())?,
+            HeadSource::Imported(head) => table_of(head)?,
+        };
+        let Self { ellipsoid, shell, motion, .. } = self.clone();
+        table.extend(table_of(&AnyHead { ellipsoid, shell, motion })?);
+        Ok(table)
+    }
+
+    /// The same source with all else at its default.
+    pub(super) fn with_defaults(&self) -> Self {
+        let source = match &self.source {
+            HeadSource::Builtin => HeadSource::Builtin,
+            // A file has no default: that of nowhere differs from any.
+            HeadSource::Imported(_) => HeadSource::Imported(ImportedHead::default()),
+        };
+        Self { source, motion: None, ..Self::default() }
+    }
+
+    /// Refuses what no head can be loaded from.
+    ///
+    /// # Errors
+    /// Names the first such setting.
+    pub fn check(&self) -> Result<(), SettingError> {
+        if let HeadSource::Imported(head) = &self.source {
+            head.check()?;
+        }
+        if let EllipsoidChoice::Given(ellipsoid) = self.ellipsoid {
+            if !ellipsoid.center.is_finite() {
+                return Err(SettingError::new("head.ellipsoid.center", ellipsoid.center, "must be finite"));
+            }
+            for half_axis in ellipsoid.half_axes.to_array() {
+                check_positive("head.ellipsoid.half_axes", half_axis)?;
+            }
+        }
+        if !(self.shell > 1.0 && self.shell.is_finite()) {
+            return Err(SettingError::new("head.shell", self.shell, "must be a finite number above 1"));
+        }
+        Ok(())
+    }
+}
+
+impl ImportedHead {
+    /// How the file lies in head space, before an origin is found for it. `up` and `unit`: what the file itself says.
+    pub fn placement(&self, unit: Option<Unit>, up: Option<Axis>) -> Placement {
+        let default = Placement::default();
+        Placement {
+            unit: self.unit.or(unit).unwrap_or(default.unit),
+            up: self.up.or(up).unwrap_or(default.up),
+            facing: self.facing.unwrap_or(default.facing),
+            origin: self.origin.unwrap_or(default.origin),
+        }
+    }
+
+    /// Refuses what can be told without the file, which may say its unit and up axis itself.
+    fn check(&self) -> Result<(), SettingError> {
+        check_placement("head", self.unit, self.up, self.facing, self.origin)
+    }
+}
+
+/// Refuses what the given parts of a placement cannot be, whatever a file says of the others.
+pub(super) fn check_placement(
+    table: &str,
+    unit: Option<Unit>,
+    up: Option<Axis>,
+    facing: Option<Axis>,
+    origin: Option<Vec3>,
+) -> Result<(), SettingError> {
+    let across = |axis: Axis| match axis {
+        Axis::PlusX | Axis::MinusX => Axis::PlusY,
+        _ => Axis::PlusX,
+    };
+    let default = Placement::default();
+    let (up, facing) = match (up, facing) {
+        (Some(up), Some(facing)) => (up, facing),
+        (Some(up), None) => (up, across(up)),
+        (None, Some(facing)) => (across(facing), facing),
+        (None, None) => (default.up, default.facing),
+    };
+    let (unit, origin) = (unit.unwrap_or(default.unit), origin.unwrap_or(default.origin));
+    Placement { unit, up, facing, origin }.check(table)
+}
