@@ -29,7 +29,7 @@ pub struct Simulated<'a> {
 impl Frames for Simulated<'_> {
     fn frame(&mut self, n: u32) -> Result<&Strands, Failure> {
         while self.simulation.frame() < n {
-            self.simulation.step_frame_under(self.take.force_in_head(self.simulation.frame() + 1));
+            self.simulation.step_frame(&self.take.input(self.simulation.frame() + 1));
         }
         Ok(self.simulation.strands())
     }

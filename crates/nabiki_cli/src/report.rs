@@ -33,7 +33,7 @@ impl<'a> Report<'a> {
             say!("          {motion}");
         }
         let hair = &stage.hair.strands;
-        let longest = hair.iter().map(length).fold(0.0, f32::max);
+        let longest = hair.lengths().fold(0.0, f32::max);
         say!("  hair    {} strands, {} segments, up to {longest:.1} cm", hair.len(), hair.segment_count());
         if let Some(import) = &stage.import_report {
             let joined = import.degenerate.joined_points;
@@ -53,13 +53,13 @@ impl<'a> Report<'a> {
         }
         let stage = &self.take.stage;
         let d = f64::from(stage.dynamics.segment_length);
-        let mut lengths: Vec<f32> = stage.hair.strands.iter().map(length).collect();
+        let mut lengths: Vec<f32> = stage.hair.strands.lengths().collect();
         lengths.sort_by(f32::total_cmp);
         let middle = f64::from(lengths[lengths.len() / 2]);
         let count = middle / d;
         say!("  swing   frames of one swing of a strand of {middle:.1} cm: at its root, middle, tip");
         let mut first = 1;
-        for key in stage.dynamics.field.keyframes() {
+        for key in stage.field.keyframes() {
             let force = f64::from(key.vector.length());
             let frames = |position: f64| period(gain(&stage.dynamics, position, count) * force);
             let [root, middle, tip] = [1.0, (count + 1.0) / 2.0, count].map(frames);
@@ -97,8 +97,4 @@ impl<'a> Report<'a> {
             say!("  wrote   {}", file.display());
         }
     }
-}
-
-fn length(strand: &[glam::Vec3]) -> f32 {
-    strand.windows(2).map(|w| w[0].distance(w[1])).sum()
 }

@@ -17,7 +17,7 @@ use nabiki::{
     SettingError,
     disturbance::Disturbance,
     dynamics::Motion,
-    field::{Field, Keyframe},
+    field::{Keyframe, KeyframedField},
     pseudo_force::PseudoForce,
 };
 use nabiki_render::Picture;
@@ -107,8 +107,8 @@ impl Scene {
     }
 
     /// The force field of `[[force]]`.
-    pub fn field(&self) -> Result<Field, SettingError> {
-        Field::new(&self.force)
+    pub fn field(&self) -> Result<KeyframedField, SettingError> {
+        KeyframedField::new(&self.force)
     }
 
     /// A refused setting as an error that names the file and the line, or the override, that set it.

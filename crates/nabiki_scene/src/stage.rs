@@ -1,6 +1,9 @@
 //! A scene with everything in its place: the head, the hair, what moves them.
 
-use nabiki::{Hair, Head, SettingError, Strands, dynamics::Dynamics, groom::groom, pores, subset};
+use std::sync::Arc;
+
+use nabiki::dynamics::{Dynamics, straightened};
+use nabiki::{Hair, Head, Pose, SettingError, Strands, field::KeyframedField, groom::groom, pores, subset};
 
 use nabiki_io::{
     Error, Result,
@@ -32,8 +35,10 @@ pub struct Stage {
     pub hair_placement: Option<Placement>,
     /// What the hair's file held; `None` for hair grown here.
     pub import_report: Option<ImportReport>,
-    /// What moves the hair.
+    /// How the hair answers a force.
     pub dynamics: Dynamics,
+    /// The force.
+    pub field: Arc<KeyframedField>,
 }
 
 impl Scene {
@@ -52,7 +57,8 @@ impl Scene {
     ) -> Result<Stage> {
         let (head, placement, mesh_report) = load_head(&self)?;
         let dynamics = dynamics(&self, &head)?;
-        let (hair, hair_placement, import_report) = match &self.hair.file {
+        let field = self.field().map_err(|refused| self.refusal(refused))?.into();
+        let (mut hair, hair_placement, import_report) = match &self.hair.file {
             None => (grow(&self, &head)?.into(), None, None),
             Some(file) => {
                 let said = exchange::said(&self.resolve(file))?;
@@ -70,7 +76,10 @@ impl Scene {
                 (chosen, Some(placement), Some(report))
             }
         };
-        Ok(Stage { scene: self, head, placement, mesh_report, hair, hair_placement, import_report, dynamics })
+        if self.head.motion.is_none() {
+            hair.strands = straightened(&hair.strands, &dynamics.motion, dynamics.polar_axis);
+        }
+        Ok(Stage { scene: self, head, placement, mesh_report, hair, hair_placement, import_report, dynamics, field })
     }
 }
 
@@ -88,7 +97,7 @@ impl Stage {
         digest.settings("segment_length", &[self.dynamics.segment_length, self.dynamics.shell])?;
         digest.settings("ellipsoid", &self.dynamics.ellipsoid)?;
         digest.settings("pseudo_force", &self.dynamics.pseudo_force)?;
-        digest.settings("force", &self.dynamics.field.keyframes())?;
+        digest.settings("force", &self.field.keyframes())?;
         if let Some(disturbance) = &self.dynamics.disturbance {
             digest.settings("disturbance", disturbance)?;
         }
@@ -121,6 +130,14 @@ impl Stage {
             ..source.clone()
         };
         motion::read(&source, frame_rate).map(Some)
+    }
+
+    /// Takes the vertical of the frame that the head's motion begins with for the polar axis, and straightens the hair
+    /// along it.
+    pub fn begin_with(&mut self, pose: &Pose) {
+        self.dynamics.polar_axis = pose.up_in_head();
+        let Dynamics { motion, polar_axis, .. } = &self.dynamics;
+        self.hair.strands = straightened(&self.hair.strands, motion, *polar_axis);
     }
 
     /// A refused setting as an error that names the scene's file and line.
@@ -217,7 +234,7 @@ fn dynamics(scene: &Scene, head: &Head) -> Result<Dynamics> {
             pseudo_force: scene.pseudo_force.clone(),
             ellipsoid: head.ellipsoid,
             shell: scene.head.shell,
-            field: scene.field()?,
+            polar_axis: glam::Vec3::Y,
             disturbance: scene.disturbance.clone(),
         };
         dynamics.check()?;

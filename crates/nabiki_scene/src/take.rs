@@ -1,7 +1,7 @@
 //! A take: the hair of a stage, all or some of it, and the head's way through the frames.
 
 use glam::Vec3;
-use nabiki::dynamics::{ForceSpace, Reference, Simulation};
+use nabiki::dynamics::{FrameInput, Reference, Simulation};
 use nabiki::subset;
 
 use crate::stage::Stage;
@@ -26,7 +26,7 @@ impl Take {
     ///
     /// # Errors
     /// A motion file that cannot be read or is shorter than the scene.
-    pub fn new(stage: Stage) -> Result<Self> {
+    pub fn new(mut stage: Stage) -> Result<Self> {
         let ids = (0..stage.hair.strands.len() as u32).collect();
         let motion = stage.head_motion(f64::from(stage.scene.picture.video.fps))?;
         let Some(motion) = motion else {
@@ -40,6 +40,7 @@ impl Take {
             );
             return Err(nabiki_io::Error::new(remedy).in_file(stage.scene.file()));
         }
+        stage.begin_with(&motion.poses[0]);
         Ok(Self { stage, ids, poses: motion.poses, motion_report: Some(motion.report) })
     }
 
@@ -59,8 +60,9 @@ impl Take {
     /// # Errors
     /// A field too strong for the hair; strands that cannot be moved.
     pub fn simulation(&self) -> Result<Simulation> {
-        let Stage { hair, dynamics, .. } = &self.stage;
-        Simulation::with_ids(&hair.strands, &self.ids, dynamics).map_err(|refused| self.stage.refusal(refused))
+        let Stage { hair, dynamics, field, .. } = &self.stage;
+        Simulation::with_ids(&hair.strands, &self.ids, dynamics, &**field)
+            .map_err(|refused| self.stage.refusal(refused))
     }
 
     /// The f64 stepper, at rest.
@@ -68,8 +70,8 @@ impl Take {
     /// # Errors
     /// As [`simulation`](Self::simulation).
     pub fn reference(&self) -> Result<Reference> {
-        let Stage { hair, dynamics, .. } = &self.stage;
-        Reference::with_ids(&hair.strands, &self.ids, dynamics).map_err(|refused| self.stage.refusal(refused))
+        let Stage { hair, dynamics, field, .. } = &self.stage;
+        Reference::with_ids(&hair.strands, &self.ids, dynamics, &**field).map_err(|refused| self.stage.refusal(refused))
     }
 
     /// Where the head is in a frame.
@@ -77,18 +79,14 @@ impl Take {
         self.poses.get(frame as usize).copied().unwrap_or_default()
     }
 
-    /// F(n), in the space that the scene gives its forces in.
-    pub fn force(&self, frame: u32) -> Vec3 {
-        self.stage.dynamics.field.at(frame)
+    /// What a step to a frame needs to know of it.
+    pub fn input(&self, frame: u32) -> FrameInput<'_> {
+        FrameInput { frame, pose: self.pose(frame), field: &*self.stage.field }
     }
 
-    /// F(n) as the hair on the turning head feels it.
-    pub fn force_in_head(&self, frame: u32) -> Vec3 {
-        let force = self.force(frame);
-        match self.stage.dynamics.motion.force_space {
-            ForceSpace::World => self.pose(frame).rotation.inverse() * force,
-            ForceSpace::Head => force,
-        }
+    /// F(n), in the space that the scene gives its forces in.
+    pub fn force(&self, frame: u32) -> Vec3 {
+        self.stage.field.vector(frame)
     }
 
     /// Whether the head moves.

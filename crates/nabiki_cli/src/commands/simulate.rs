@@ -31,7 +31,7 @@ pub fn simulate(args: &Simulate, quiet: bool) -> Result<(), Failure> {
     exports.frame(0, stepper.strands(), &take.pose(0))?;
     bar.inc(1);
     for frame in 1..=take.stage.scene.motion.frames {
-        stepper.step_frame_under(take.force_in_head(frame));
+        stepper.step_frame(&take.input(frame));
         cache.push(&take.pose(frame), stepper.strands().points())?;
         exports.frame(frame, stepper.strands(), &take.pose(frame))?;
         bar.inc(1);

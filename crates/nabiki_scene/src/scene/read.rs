@@ -25,7 +25,11 @@ pub(super) struct Refusal {
 enum Problem {
     Text(String),
     UnknownKey { near: Option<String>, known: &'static [&'static str] },
+    Renamed(&'static str),
 }
+
+/// Keys of older scenes, and what they are called now.
+const RENAMED: [(&str, &str); 1] = [("friction_length", "inertia_length_floor")];
 
 impl Refusal {
     fn text(text: impl Into<String>) -> Self {
@@ -40,6 +44,11 @@ impl Refusal {
     /// The dotted path of the refused value.
     pub fn path(&self) -> String {
         self.join(self.outward.iter().rev())
+    }
+
+    /// The dotted path of another key in the same table.
+    fn beside(&self, key: &str) -> String {
+        self.join(self.outward.iter().skip(1).rev().chain([&key.to_owned()]))
     }
 
     fn join<'a>(&self, steps: impl Iterator<Item = &'a String>) -> String {
@@ -65,9 +74,9 @@ impl Display for Refusal {
         match &self.problem {
             Problem::Text(text) => f.write_str(text),
             Problem::UnknownKey { near: Some(near), .. } => {
-                let whole = self.join(self.outward.iter().skip(1).rev().chain([near]));
-                write!(f, "unknown key; did you mean {whole}?")
+                write!(f, "unknown key; did you mean {}?", self.beside(near))
             }
+            Problem::Renamed(now) => write!(f, "is now called {}: rename it", self.beside(now)),
             Problem::UnknownKey { known, .. } => write!(f, "unknown key; the keys here are {}", known.join(", ")),
         }
     }
@@ -99,6 +108,9 @@ impl de::Error for Refusal {
     }
 
     fn unknown_field(found: &str, known: &'static [&'static str]) -> Self {
+        if let Some(&(_, now)) = RENAMED.iter().find(|(old, now)| *old == found && known.contains(now)) {
+            return Self { outward: vec![found.to_owned()], problem: Problem::Renamed(now) };
+        }
         let near = nearest(found, known.iter().copied()).map(str::to_owned);
         Self { outward: vec![found.to_owned()], problem: Problem::UnknownKey { near, known } }
     }

@@ -106,12 +106,7 @@ impl HeadSettings {
         }
         self.placement().check("head")?;
         if let EllipsoidChoice::Given(ellipsoid) = self.ellipsoid {
-            if !ellipsoid.center.is_finite() {
-                return Err(SettingError::new("head.ellipsoid.center", ellipsoid.center, "must be finite"));
-            }
-            for half_axis in ellipsoid.half_axes.to_array() {
-                check_positive("head.ellipsoid.half_axes", half_axis)?;
-            }
+            ellipsoid.check("head.ellipsoid")?;
         }
         if !(self.shell.is_finite() && self.shell > 1.0) {
             return Err(SettingError::new("head.shell", self.shell, "must be a finite number above 1"));
