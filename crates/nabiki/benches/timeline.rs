@@ -2,7 +2,7 @@
 //!
 //! 300 strands of 18 segments over the 100 frames of the gust, hair of nearly equal lengths. Three ways, measured in
 //! turn: the timeline, which keeps all frames; a stepper that is rewound, its frames copied into the same storage; and
-//! the same with a stepper built anew, which is what a command does. Medians, in ms.
+//! the same with a stepper built anew, which is what a command does. The fastest of all rounds, in ms.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -38,7 +38,7 @@ fn main() {
         }));
         times[2].push(time(|| step_all(&mut new(), &field, &mut film)));
     }
-    let [all, stepped, built] = times.map(median);
+    let [all, stepped, built] = times.map(fastest);
     println!("all frames at once      {all:>8.3} ms");
     println!("a step at a time        {stepped:>8.3} ms, {:.2} times as long", stepped / all);
     println!("the same, built anew    {built:>8.3} ms, {:.2} times as long", built / all);
@@ -61,9 +61,9 @@ fn time(mut run: impl FnMut()) -> f64 {
     1e3 * start.elapsed().as_secs_f64()
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
+/// What else the machine does only ever adds to a time.
+fn fastest(times: Vec<f64>) -> f64 {
+    times.into_iter().fold(f64::INFINITY, f64::min)
 }
 
 fn wind() -> KeyframedField {

@@ -139,7 +139,7 @@ impl<'a> Pages<'a> {
         }
     }
 
-    /// The points from number `first` on of frame `n` of `count`, if they are wanted.
+    /// Some points of frame `n` of `count`, if they are wanted.
     #[inline(always)]
     fn page(&mut self, n: usize, count: usize, points: std::ops::Range<usize>) -> Option<&mut [Vec3]> {
         match self {

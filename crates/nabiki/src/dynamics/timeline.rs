@@ -165,7 +165,7 @@ impl Timeline {
             let points = self.strands.points().len();
             self.film.resize((self.frames as usize + 1) * points, Vec3::ZERO);
             let mut film = std::mem::take(&mut self.film);
-            self.sweep(0..self.frames + 1, Pages::All(film.chunks_exact_mut(points).collect()));
+            self.sweep(0..=self.frames, Pages::All(film.chunks_exact_mut(points).collect()));
             self.strands.points_mut().copy_from_slice(&film[self.frames as usize * points..]);
             (self.film, self.frame, self.played) = (film, self.frames, true);
         }
@@ -215,12 +215,12 @@ impl Timeline {
     fn go(&mut self, frame: u32, from_rest: bool) {
         let first = if from_rest { 0 } else { self.frame + 1 };
         let mut strands = std::mem::take(&mut self.strands);
-        self.sweep(first..frame + 1, Pages::Last(strands.points_mut()));
+        self.sweep(first..=frame, Pages::Last(strands.points_mut()));
         (self.strands, self.frame) = (strands, frame);
     }
 
     /// Takes the hair through some frames, of which 0 is rest.
-    fn sweep(&mut self, frames: std::ops::Range<u32>, pages: Pages) {
+    fn sweep(&mut self, frames: std::ops::RangeInclusive<u32>, pages: Pages) {
         let Self { packed, field, poses, states, .. } = self;
         let plan = |frame: u32| match frame {
             0 => Plan::Rest,
