@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::{SettingError, check_positive};
+use crate::error::SettingError;
 use crate::random::mix;
 
 /// Turns every strand a little, at random, every so many frames.
@@ -17,38 +17,74 @@ pub struct Disturbance {
     pub every: u32,
     /// First frame that may be disturbed (frames). The paper disturbs the last 60 of 100.
     pub from: u32,
-    /// Largest turn at the tip (rad).
+    /// Largest turn at the tip (rad, above 0 and at most pi).
     pub amplitude: f32,
+    /// Frames in which a disturbance sets in, 1..=`every`. At 1, the paper's way, it is there at once, and seen as a
+    /// jump; over more frames it comes and stays smoothly, and is the same in the end.
+    pub over: u32,
     /// Seed of the random numbers.
     pub seed: u64,
 }
 
 impl Default for Disturbance {
     fn default() -> Self {
-        Self { every: 10, from: 1, amplitude: 0.03, seed: 1 }
+        Self { every: 10, from: 1, amplitude: 0.03, over: 1, seed: 1 }
     }
 }
 
+/// What a frame has of a disturbance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Part {
+    /// The frame that the disturbance falls on: it sets in there.
+    pub falls_on: u32,
+    /// The part of its turn that comes in this frame; those of all its frames add up to 1.
+    pub share: f32,
+}
+
 impl Disturbance {
-    /// Refuses `every = 0` and amplitudes that are not above 0.
+    /// Refuses `every = 0`, amplitudes that are not above 0 and at most pi, and disturbances that take no frame or
+    /// go on when the next one begins.
     pub fn check(&self) -> Result<(), SettingError> {
         if self.every == 0 {
             return Err(SettingError::new("disturbance.every", 0, "must be at least 1 frame"));
         }
-        check_positive("disturbance.amplitude", self.amplitude)
+        if self.over == 0 || self.over > self.every {
+            let remedy = format!("must lie in 1..{}, the frames from one disturbance to the next", self.every);
+            return Err(SettingError::new("disturbance.over", self.over, remedy));
+        }
+        if !(self.amplitude > 0.0 && self.amplitude <= std::f32::consts::PI) {
+            let remedy = "must lie above 0 and be at most pi (rad)";
+            return Err(SettingError::new("disturbance.amplitude", self.amplitude, remedy));
+        }
+        Ok(())
     }
 
-    /// Whether the hair is disturbed on arriving at this frame.
+    /// Whether a disturbance sets in on arriving at this frame.
     pub fn falls_on(&self, frame: u32) -> bool {
         frame >= self.from && frame.is_multiple_of(self.every)
     }
 
-    /// The turns (theta, phi) of strand `id`'s tip at this frame, each within `amplitude` (rad).
-    pub fn turn(&self, id: u32, frame: u32) -> [f32; 2] {
-        let key = mix(self.seed ^ mix((u64::from(id) << 32) | u64::from(frame)));
+    /// What comes of a disturbance on arriving at this frame, if anything does.
+    pub fn part(&self, frame: u32) -> Option<Part> {
+        let since = frame % self.every;
+        let falls_on = frame - since;
+        let share = self.arrived(since + 1) - self.arrived(since);
+        (since < self.over && self.falls_on(falls_on)).then_some(Part { falls_on, share: share as f32 })
+    }
+
+    /// The part of a turn that is there after so many of its frames: 3 t^2 - 2 t^3, which begins and ends at rest.
+    fn arrived(&self, frames: u32) -> f64 {
+        let t = f64::from(frames) / f64::from(self.over);
+        t * t * (3.0 - 2.0 * t)
+    }
+
+    /// The turns (theta, phi) that strand `id`'s tip makes as this part of a disturbance, all parts together within
+    /// `amplitude` each (rad).
+    pub fn turn(&self, id: u32, part: &Part) -> [f32; 2] {
+        let key = mix(self.seed ^ mix((u64::from(id) << 32) | u64::from(part.falls_on)));
         [key, mix(key)].map(|bits| {
             let unit = (bits >> 40) as f32 / (1u64 << 24) as f32;
-            self.amplitude * (2.0 * unit - 1.0)
+            part.share * (self.amplitude * (2.0 * unit - 1.0))
         })
     }
 }
@@ -60,7 +96,8 @@ mod tests {
     #[test]
     fn turns_are_uniform_within_the_amplitude_and_differ_by_strand_frame_and_seed() {
         let disturbance = Disturbance { amplitude: 0.5, ..Default::default() };
-        let turns: Vec<f32> = (0..10_000).flat_map(|id| disturbance.turn(id, 40)).collect();
+        let at = |falls_on| Part { falls_on, share: 1.0 };
+        let turns: Vec<f32> = (0..10_000).flat_map(|id| disturbance.turn(id, &at(40))).collect();
         assert!(turns.iter().all(|t| t.abs() <= 0.5));
         let mean = turns.iter().sum::<f32>() / turns.len() as f32;
         let variance = turns.iter().map(|t| t * t).sum::<f32>() / turns.len() as f32;
@@ -69,9 +106,9 @@ mod tests {
         assert!(mean.abs() < 5.0 * standard_error, "{mean}");
         let variance_error = 0.25 * (4.0 / 45.0 / turns.len() as f32).sqrt();
         assert!((variance - 0.25 / 3.0).abs() < 5.0 * variance_error, "{variance}");
-        assert_ne!(disturbance.turn(1, 40), disturbance.turn(2, 40));
-        assert_ne!(disturbance.turn(1, 40), disturbance.turn(1, 50));
-        assert_ne!(disturbance.turn(1, 40), Disturbance { seed: 2, ..disturbance.clone() }.turn(1, 40));
+        assert_ne!(disturbance.turn(1, &at(40)), disturbance.turn(2, &at(40)));
+        assert_ne!(disturbance.turn(1, &at(40)), disturbance.turn(1, &at(50)));
+        assert_ne!(disturbance.turn(1, &at(40)), Disturbance { seed: 2, ..disturbance.clone() }.turn(1, &at(40)));
     }
 
     #[test]
@@ -79,5 +116,43 @@ mod tests {
         let disturbance = Disturbance { from: 41, ..Default::default() };
         let frames: Vec<u32> = (0..=100).filter(|&n| disturbance.falls_on(n)).collect();
         assert_eq!(frames, [50, 60, 70, 80, 90, 100]);
+    }
+
+    #[test]
+    fn the_paper_disturbs_in_one_frame() {
+        let disturbance = Disturbance { from: 41, ..Default::default() };
+        for frame in 0..=100 {
+            let whole = Part { falls_on: frame, share: 1.0 };
+            assert_eq!(disturbance.part(frame), disturbance.falls_on(frame).then_some(whole), "frame {frame}");
+        }
+    }
+
+    #[test]
+    fn a_disturbance_over_many_frames_comes_smoothly_and_whole() {
+        for over in 1..=10 {
+            let disturbance = Disturbance { over, ..Default::default() };
+            let shares: Vec<Option<Part>> = (8..23).map(|frame| disturbance.part(frame)).collect();
+            let first: Vec<f32> = shares.iter().flatten().filter(|p| p.falls_on == 10).map(|p| p.share).collect();
+            assert_eq!(first.len(), over as usize);
+            // Each share is rounded to f32.
+            assert!((first.iter().sum::<f32>() - 1.0).abs() < over as f32 * 6e-8, "{first:?}");
+            // Second differences of what has arrived are differences of the shares; the second derivative of
+            // 3 t^2 - 2 t^3 is at most 6 and t goes by 1 / over.
+            let bound = (6.0 / (over * over) as f32).min(1.0) + 1e-6;
+            let padded: Vec<f32> = std::iter::once(0.0).chain(first).chain([0.0]).collect();
+            assert!(padded.windows(2).all(|w| (w[1] - w[0]).abs() <= bound), "over {over}: {padded:?}");
+        }
+    }
+
+    #[test]
+    fn disturbances_that_overlap_or_take_no_time_are_refused() {
+        for over in [0, 11] {
+            let refused = Disturbance { over, ..Default::default() }.check().unwrap_err();
+            assert_eq!(refused.thing, "disturbance.over");
+        }
+        for amplitude in [0.0, 3.2, f32::NAN] {
+            let refused = Disturbance { amplitude, ..Default::default() }.check().unwrap_err();
+            assert_eq!(refused.thing, "disturbance.amplitude");
+        }
     }
 }

@@ -1,15 +1,23 @@
 //! The motion of hair: projective equations (1), (2), their gains (6), (8) and two steppers of (7).
 //!
 //! [`Reference`] is the specification: scalar, f64, to be read beside the paper. [`Simulation`] is its fast twin:
-//! f32, sixteen strands to a block, all cores. Both take the same [`Dynamics`] and give the same frames.
+//! f32, sixteen strands to a block, all cores. Both take the same [`Dynamics`] and [`FrameInput`]s and give the same
+//! frames. [`Timeline`] is the fast twin with all its frames at hand.
 
 mod angles;
 mod block;
 mod gain;
 mod kernel;
+mod packed;
+mod polar;
 mod reference;
 mod simulation;
+mod straighten;
+mod timeline;
+mod transpose;
 mod trigonometry;
+mod turn;
+mod wind;
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -18,12 +26,15 @@ use crate::disturbance::Disturbance;
 use crate::ellipsoid::Ellipsoid;
 use crate::error::{SettingError, check_positive, check_range};
 use crate::field::Field;
+use crate::pose::Pose;
 use crate::pseudo_force::{Gamma, PseudoForce};
 use crate::strands::Strands;
 
-pub use gain::{gain, largest_gain, period};
+pub use gain::{check_field, gain, largest_gain, period};
 pub use reference::Reference;
 pub use simulation::{Simulation, VectorWidth};
+pub use straighten::straightened;
+pub use timeline::{Film, Timeline};
 
 /// The settings of the motion; the default is Table 1 of the paper.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -40,11 +51,11 @@ pub struct Motion {
     pub linear_density: f32,
     /// Hair shorter than this (cm) has the inertia of hair this long: it is held by its longer neighbours.
     /// 0, the paper's way, gives every strand the inertia of its own length, and short hair very fast swings.
-    pub friction_length: f32,
+    pub inertia_length_floor: f32,
     /// Segments that hang within this of the vertical at rest are made to hang exactly so (degrees, 0..45), and are
     /// then free to swing in the plane of any force (section 4.2). A segment nearly vertical is not: it keeps the
     /// plane of its small lean, and hair that leans this way and that is blown apart. 0, the paper's way, leaves
-    /// the hair as it is.
+    /// the hair as it is. It belongs to the making of the rest shape, see [`straightened`]; steppers take hair as it is.
     pub straighten: f32,
     /// Space of the forces; it matters where the head turns.
     pub force_space: ForceSpace,
@@ -68,7 +79,7 @@ impl Default for Motion {
             frame_rate: 24.0,
             time_step: 0.1,
             linear_density: 0.05,
-            friction_length: 0.0,
+            inertia_length_floor: 0.0,
             straighten: 0.0,
             force_space: ForceSpace::default(),
         }
@@ -87,19 +98,15 @@ impl Motion {
         }
         check_positive("motion.time_step", self.time_step)?;
         check_positive("motion.linear_density", self.linear_density)?;
-        if !(self.friction_length >= 0.0 && self.friction_length.is_finite()) {
+        if !(self.inertia_length_floor >= 0.0 && self.inertia_length_floor.is_finite()) {
             let remedy = "must be a finite length of at least 0 cm";
-            return Err(SettingError::new("motion.friction_length", self.friction_length, remedy));
+            return Err(SettingError::new("motion.inertia_length_floor", self.inertia_length_floor, remedy));
         }
         check_range("motion.straighten", self.straighten, 0.0, 45.0)
     }
-
-    fn straighten_rad(&self) -> f64 {
-        f64::from(self.straighten).to_radians()
-    }
 }
 
-/// All that moves hair, checked when a stepper is built.
+/// All that decides how hair answers a force, checked when a stepper is built.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dynamics {
     /// Step and inertia.
@@ -113,8 +120,10 @@ pub struct Dynamics {
     pub ellipsoid: Ellipsoid,
     /// C is E scaled by this, above 1.
     pub shell: f32,
-    /// The force at every frame.
-    pub field: Field,
+    /// The axis that theta is measured from (head space, any length but 0): the world's vertical at frame 0, with which
+    /// it goes along with the head from there on. [`Pose::up_in_head`] of the first pose gives it; y for a head that
+    /// starts upright.
+    pub polar_axis: Vec3,
     /// Disturbance of the segments, if any.
     pub disturbance: Option<Disturbance>,
 }
@@ -130,12 +139,10 @@ impl Dynamics {
             let remedy = "must be a finite number above 1: C encloses the head ellipsoid";
             return Err(SettingError::new("head.shell", self.shell, remedy));
         }
-        if !(self.ellipsoid.center.is_finite() && self.ellipsoid.half_axes.is_finite()) {
-            return Err(SettingError::new("head.ellipsoid", self.ellipsoid.center, "must be finite numbers"));
-        }
-        if self.ellipsoid.half_axes.min_element() <= 0.0 {
-            let remedy = "each must be above 0 cm";
-            return Err(SettingError::new("head.ellipsoid.half_axes", self.ellipsoid.half_axes, remedy));
+        self.ellipsoid.check("head.ellipsoid")?;
+        if !(self.polar_axis.is_finite() && self.polar_axis.length() > 0.0) {
+            let remedy = "the vertical of frame 0 in head space must be a direction";
+            return Err(SettingError::new("head.motion", self.polar_axis, remedy));
         }
         self.disturbance.as_ref().map_or(Ok(()), Disturbance::check)
     }
@@ -145,15 +152,22 @@ impl Dynamics {
     }
 }
 
+/// What a step needs to know of the frame that it arrives at.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameInput<'a> {
+    /// Number n + 1 of the frame to arrive at; 1 is the first after rest.
+    pub frame: u32,
+    /// Where the head is in that frame. Forces given in the world act on the hair as it would stand if it only went
+    /// along with the head: F(n + 1) is asked for at p_i of frame n, carried by this pose.
+    pub pose: Pose,
+    /// What pulls. Its strength is bounded when a stepper is built, and taken as it is here.
+    pub field: &'a dyn Field,
+}
+
 /// Hair that moves a frame at a time: the two twins, behind one interface.
 pub trait Stepper {
-    /// Advances from frame n to n + 1 under F(n + 1) of the field.
-    fn step_frame(&mut self);
-
-    /// Advances from frame n to n + 1 under `force_in_head` instead of the field's.
-    ///
-    /// The scheme is stable while c_i |F| < 4, which is checked for the field only; see [`largest_gain`].
-    fn step_frame_under(&mut self, force_in_head: Vec3);
+    /// Advances by one step, to the frame of `input`.
+    fn step_frame(&mut self, input: &FrameInput);
 
     /// The frame that [`strands`](Self::strands) shows; 0 at rest.
     fn frame(&self) -> u32;

@@ -1,86 +1,52 @@
-//! The force field of the paper: a few vectors over a few frames, equation (5).
+//! Force fields: what pulls at a point in a frame.
+
+mod keyframed;
+mod sum;
+
+use std::fmt::Debug;
 
 use glam::Vec3;
-use serde::{Deserialize, Serialize};
 
-use crate::error::SettingError;
+pub use keyframed::{Keyframe, KeyframedField};
+pub use sum::FieldSum;
 
-/// One interval of a field: `vector` drives every frame after the previous keyframe's and up to `through`.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Keyframe {
-    /// Last frame that feels this vector (k_j of equation (5)).
-    pub through: u32,
-    /// Force F_j: a direction with a strength, without a unit (section 4.3: only c_i |F| moves hair).
-    pub vector: Vec3,
-}
+/// Points or vectors of a [row](Field::at_row).
+pub const ROW: usize = 16;
 
-/// A force uniform in space and constant between keyframes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Field {
-    keyframes: Vec<Keyframe>,
-}
+/// Sixteen points or vectors: their x, their y, their z.
+pub type VectorRow = [[f32; ROW]; 3];
 
-impl Field {
-    /// Checks that there is a keyframe, that their frames ascend from 1 and that every vector is finite.
-    ///
-    /// # Errors
-    /// Names the keyframe as `force[j]`, counted from 0 as the scene file's overrides count them.
-    pub fn new(keyframes: &[Keyframe]) -> Result<Self, SettingError> {
-        if keyframes.is_empty() {
-            return Err(SettingError::new("force", "none", "give at least one [[force]] with through and vector"));
+/// A force at every point and in every frame.
+///
+/// A force is a direction with a strength, without a unit (section 4.3 of the paper: only c_i |F| moves hair). Points
+/// are in the world (cm, y up), or in head space where `motion.force_space` says that forces turn with the head. The
+/// answer depends on point and frame only and is finite: hair moves to the same bits whoever asks, and in whatever
+/// order.
+pub trait Field: Debug + Send + Sync {
+    /// The force at a point (cm) in a frame.
+    fn at(&self, point: Vec3, frame: u32) -> Vec3;
+
+    /// A bound on |F| over all points and frames, by which a field too strong for the step is refused before the
+    /// first one.
+    fn strongest(&self) -> f32;
+
+    /// What to change where |F| may exceed `limit`: the name and value of the first setting that is to blame. `None` where
+    /// it stays at or below it.
+    fn first_above(&self, limit: f64) -> Option<(String, String)> {
+        let strongest = self.strongest();
+        (f64::from(strongest) > limit).then(|| ("force".to_owned(), strongest.to_string()))
+    }
+
+    /// The vector that holds everywhere in this frame, if there is one: the steppers are then spared the asking.
+    fn uniform(&self, _frame: u32) -> Option<Vec3> {
+        None
+    }
+
+    /// The forces at sixteen points in a frame, each the very bits of [`at`](Self::at).
+    fn at_row(&self, points: &VectorRow, frame: u32, forces: &mut VectorRow) {
+        for i in 0..ROW {
+            let force = self.at(Vec3::new(points[0][i], points[1][i], points[2][i]), frame);
+            [forces[0][i], forces[1][i], forces[2][i]] = force.to_array();
         }
-        let mut previous = 0;
-        for (j, key) in keyframes.iter().enumerate() {
-            if key.through <= previous {
-                return Err(SettingError::new(
-                    format!("force[{j}].through"),
-                    key.through,
-                    format!("must come after frame {previous}, where the interval before it ends"),
-                ));
-            }
-            if !key.vector.is_finite() {
-                let remedy = "each component must be a finite number";
-                return Err(SettingError::new(format!("force[{j}].vector"), key.vector, remedy));
-            }
-            previous = key.through;
-        }
-        Ok(Self { keyframes: keyframes.to_vec() })
-    }
-
-    /// F(n), equation (5). At a shared frame k_j the earlier vector holds; the last vector holds for good.
-    pub fn at(&self, frame: u32) -> Vec3 {
-        let j = self.keyframes.partition_point(|key| key.through < frame);
-        self.keyframes[j.min(self.keyframes.len() - 1)].vector
-    }
-
-    /// The intervals, in order.
-    pub fn keyframes(&self) -> &[Keyframe] {
-        &self.keyframes
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn key(through: u32, x: f32) -> Keyframe {
-        Keyframe { through, vector: Vec3::new(x, 0.0, 0.0) }
-    }
-
-    #[test]
-    fn the_earlier_vector_holds_at_a_shared_frame_and_the_last_one_for_good() {
-        let field = Field::new(&[key(50, 1.0), key(100, 2.0)]).unwrap();
-        for (frame, x) in [(1, 1.0), (50, 1.0), (51, 2.0), (100, 2.0), (101, 2.0), (u32::MAX, 2.0)] {
-            assert_eq!(field.at(frame).x, x, "frame {frame}");
-        }
-    }
-
-    #[test]
-    fn fields_without_order_or_numbers_are_refused_by_name() {
-        assert_eq!(Field::new(&[]).unwrap_err().thing, "force");
-        assert_eq!(Field::new(&[key(0, 1.0)]).unwrap_err().thing, "force[0].through");
-        assert_eq!(Field::new(&[key(50, 1.0), key(50, 1.0)]).unwrap_err().thing, "force[1].through");
-        assert_eq!(Field::new(&[key(50, f32::NAN)]).unwrap_err().thing, "force[0].vector");
     }
 }

@@ -15,6 +15,16 @@ impl Pose {
     /// The pose of a head that stands still: head space is the world.
     pub const STILL: Self = Self { position_cm: Vec3::ZERO, rotation: Quat::IDENTITY };
 
+    /// Whether all its numbers are finite and its rotation is one: of length 1, to 1e-3.
+    pub fn is_valid(&self) -> bool {
+        self.position_cm.is_finite() && self.rotation.is_finite() && (self.rotation.length() - 1.0).abs() < 1e-3
+    }
+
+    /// The direction in head space that points up in the world.
+    pub fn up_in_head(&self) -> Vec3 {
+        self.rotation.inverse() * Vec3::Y
+    }
+
     /// Takes points of head space into the world (cm).
     pub fn world_from_head(&self) -> Affine3A {
         Affine3A::from_rotation_translation(self.rotation, self.position_cm)

@@ -34,6 +34,11 @@ pub fn bounds(points: &[Vec3]) -> [Vec3; 2] {
     [all(low, f32::INFINITY, &lower), all(high, f32::NEG_INFINITY, &higher)]
 }
 
+/// The length of one strand, the sum of its segments' (in the unit of its points).
+pub fn length(strand: &[Vec3]) -> f32 {
+    strand.windows(2).map(|w| w[0].distance(w[1])).sum()
+}
+
 /// Polylines of any length, each from root to tip, in one contiguous array of points (head space, cm).
 ///
 /// Strand `s` owns the points `starts[s]..starts[s + 1]`: its root, then the end of each of its segments
@@ -119,6 +124,11 @@ impl Strands {
     /// All points, strand after strand; their number and owners stay as they are.
     pub fn points_mut(&mut self) -> &mut [Vec3] {
         &mut self.points
+    }
+
+    /// The length of every strand (cm).
+    pub fn lengths(&self) -> impl ExactSizeIterator<Item = f32> {
+        self.iter().map(length)
     }
 
     /// Number of segments of all strands.

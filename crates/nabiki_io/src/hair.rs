@@ -145,10 +145,7 @@ pub fn place_and_clean(hair: Hair, placement: &Placement, cleaning: &Cleaning) -
     Ok((hair, ImportReport { strands_in_file, points_in_file, degenerate, dropped_short }))
 }
 
-/// Arc length of a strand (unit of its points).
-pub(crate) fn length(strand: &[glam::Vec3]) -> f32 {
-    strand.windows(2).map(|w| w[0].distance(w[1])).sum()
-}
+pub(crate) use nabiki::strands::length;
 
 /// What the format of `path` cannot hold of `hair`, a phrase each.
 pub fn losses(path: &Path, hair: &Hair) -> Result<Vec<String>> {

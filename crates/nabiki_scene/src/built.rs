@@ -4,9 +4,11 @@ mod identity;
 mod load;
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use glam::Vec3;
-use nabiki::dynamics::{Dynamics, ForceSpace, Reference, Simulation};
+use nabiki::dynamics::{Dynamics, FrameInput, Reference, Simulation, Timeline};
+use nabiki::field::{Field, KeyframedField};
 use nabiki::{Hair, Head, Pose, SettingError};
 use nabiki_io::cache::Origin;
 use nabiki_io::hair::ImportReport;
@@ -35,8 +37,10 @@ pub struct BuiltScene {
     pub hair_placement: Option<Placement>,
     /// What the hair's file held; `None` for hair grown here.
     pub import_report: Option<ImportReport>,
-    /// What moves the hair.
+    /// How the hair answers a force.
     pub dynamics: Dynamics,
+    /// The force.
+    pub field: Arc<KeyframedField>,
     /// How the head's motion was read and converted, in one line.
     pub motion_report: Option<String>,
     /// Number of each strand in the whole hair.
@@ -97,7 +101,7 @@ impl BuiltScene {
     /// # Errors
     /// A field too strong for the hair; strands that cannot be moved.
     pub fn simulation(&self) -> Result<Simulation> {
-        let built = Simulation::with_ids(&self.hair.strands, &self.ids, &self.dynamics);
+        let built = Simulation::with_ids(&self.hair.strands, &self.ids, &self.dynamics, &*self.field);
         built.map_err(|refused| self.refusal(refused))
     }
 
@@ -106,7 +110,18 @@ impl BuiltScene {
     /// # Errors
     /// As [`simulation`](Self::simulation).
     pub fn reference(&self) -> Result<Reference> {
-        let built = Reference::with_ids(&self.hair.strands, &self.ids, &self.dynamics);
+        let built = Reference::with_ids(&self.hair.strands, &self.ids, &self.dynamics, &*self.field);
+        built.map_err(|refused| self.refusal(refused))
+    }
+
+    /// All frames at hand, any of them again and again, under any field: for an editor, and for whatever tries many winds.
+    ///
+    /// # Errors
+    /// As [`simulation`](Self::simulation).
+    pub fn timeline(&self) -> Result<Timeline> {
+        let field: Arc<dyn Field> = self.field.clone();
+        let poses = if self.head_moves() { self.poses[..=self.frames() as usize].to_vec() } else { Vec::new() };
+        let built = Timeline::with_ids(&self.hair.strands, &self.ids, &self.dynamics, field, poses, self.frames());
         built.map_err(|refused| self.refusal(refused))
     }
 
@@ -120,18 +135,14 @@ impl BuiltScene {
         self.poses.get(frame as usize).copied().unwrap_or_default()
     }
 
-    /// F(n), in the space that the scene gives its forces in.
-    pub fn force(&self, frame: u32) -> Vec3 {
-        self.dynamics.field.at(frame)
+    /// What a step to a frame needs to know of it.
+    pub fn input(&self, frame: u32) -> FrameInput<'_> {
+        FrameInput { frame, pose: self.pose(frame), field: &*self.field }
     }
 
-    /// F(n) as the hair on the turning head feels it.
-    pub fn force_in_head(&self, frame: u32) -> Vec3 {
-        let force = self.force(frame);
-        match self.dynamics.motion.force_space {
-            ForceSpace::World => self.pose(frame).rotation.inverse() * force,
-            ForceSpace::Head => force,
-        }
+    /// F(n), in the space that the scene gives its forces in.
+    pub fn force(&self, frame: u32) -> Vec3 {
+        self.field.vector(frame)
     }
 
     /// Whether the head moves.

@@ -47,7 +47,7 @@ impl<'a, S: Stepper> Simulated<'a, S> {
 impl<S: Stepper> FrameSource for Simulated<'_, S> {
     fn frame(&mut self, n: u32) -> Result<&Strands> {
         while self.stepper.frame() < n {
-            self.stepper.step_frame_under(self.built.force_in_head(self.stepper.frame() + 1));
+            self.stepper.step_frame(&self.built.input(self.stepper.frame() + 1));
         }
         Ok(self.stepper.strands())
     }

@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 use nabiki::SettingError;
 use nabiki::disturbance::Disturbance;
 use nabiki::dynamics::Motion;
-use nabiki::field::{Field, Keyframe};
+use nabiki::field::{Keyframe, KeyframedField};
 use nabiki::pseudo_force::PseudoForce;
 use nabiki_file::PartFile;
 use nabiki_io::motion::MotionSource;
@@ -192,7 +192,7 @@ impl Scene {
     ///
     /// # Errors
     /// No force at all, or keyframes that are no field.
-    pub fn field(&self) -> Result<Field, SettingError> {
+    pub fn field(&self) -> Result<KeyframedField, SettingError> {
         field::build(&self.field)
     }
 

@@ -101,7 +101,7 @@ impl SceneSummary {
             strands: strands.len(),
             strands_of_scene: built.strands_of_scene,
             segments: strands.segment_count(),
-            longest: strands.iter().map(length).fold(0.0, f32::max),
+            longest: strands.lengths().fold(0.0, f32::max),
             import: built.import_report,
         }
     }
@@ -158,12 +158,12 @@ pub struct SwingRow {
 impl SwingTable {
     /// Of a built scene whose field is not too strong for its hair.
     pub fn of(built: &BuiltScene) -> Self {
-        let mut lengths: Vec<f32> = built.hair.strands.iter().map(length).collect();
+        let mut lengths: Vec<f32> = built.hair.strands.lengths().collect();
         lengths.sort_by(f32::total_cmp);
         let length = lengths[lengths.len() / 2];
         let count = f64::from(length) / f64::from(built.dynamics.segment_length);
         let mut first = 1;
-        let rows = built.dynamics.field.keyframes().iter().map(|key| {
+        let rows = built.field.keyframes().iter().map(|key| {
             let force = f64::from(key.vector.length());
             let frames = |position: f64| period(gain(&built.dynamics, position, count) * force);
             let periods = [1.0, (count + 1.0) / 2.0, count].map(frames);
@@ -184,8 +184,4 @@ impl fmt::Display for SwingTable {
         }
         Ok(())
     }
-}
-
-fn length(strand: &[glam::Vec3]) -> f32 {
-    strand.windows(2).map(|w| w[0].distance(w[1])).sum()
 }

@@ -96,6 +96,9 @@ fn an_unknown_key_is_refused_with_the_nearest_known_one() {
     let nothing_near = refused("time_step", "quality");
     let beginning = "scenes/gust.toml:6: motion.quality: unknown key; the keys here are frames, frame_rate, time_step";
     assert!(nothing_near.starts_with(beginning), "{nothing_near}");
+    let renamed = refused("time_step = ", "friction_length = ");
+    let now = "scenes/gust.toml:6: motion.friction_length: is now called motion.inertia_length_floor";
+    assert_eq!(renamed, now);
     let deep = refused("strands = 100", "style.comb.swep = [1, 0, 0]");
     assert_eq!(deep, "scenes/gust.toml:2: hair.style.comb.swep: unknown key; did you mean hair.style.comb.sweep?");
 }

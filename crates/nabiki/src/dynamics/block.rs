@@ -1,11 +1,13 @@
-//! Sixteen consecutive strands, packed side by side, and their step.
+//! Sixteen consecutive strands, packed side by side, and their way through the frames.
 
 use std::ops::Range;
 
 use glam::Vec3;
 
 use super::gain::SegmentShape;
-use super::kernel::{LANES, PointRow, Row, SegmentState, ShapeRow, Wind, place_segment, step_segment};
+use super::kernel::{LANES, PointRow, Row, SegmentState, ShapeRow, disturb_segment, extend, step_segment};
+use super::transpose::write_points;
+use super::wind::{Surroundings, Wind};
 
 /// Rows of points kept on the stack before they are written out strand by strand.
 const ROWS: usize = 8;
@@ -19,67 +21,52 @@ pub(super) struct Block {
     points: [u32; LANES],
     /// Segments of the longest strand.
     pub segments: u32,
-    shapes: Shapes,
-}
-
-/// Where a block's shapes lie in [`ShapeTable`].
-#[derive(Clone, Debug)]
-enum Shapes {
-    Shared(Range<usize>),
-    EachLane(Range<usize>),
-}
-
-/// Lengths and gains of all blocks. Blocks of equal strands share one list, which then stays in the nearest cache.
-#[derive(Clone, Debug, Default)]
-pub(super) struct ShapeTable {
-    shared: Vec<[f32; 3]>,
-    each_lane: Vec<[Row; 3]>,
-    last_shared: Range<usize>,
-}
-
-impl ShapeTable {
-    fn push(&mut self, strands: &[Vec<SegmentShape>], segments: usize) -> Shapes {
-        let narrow = |shape: &SegmentShape| [shape.length, shape.gain, shape.gain_in_gamma].map(|v| v as f32);
-        let first: Vec<[f32; 3]> = strands[0].iter().map(narrow).collect();
-        if strands.iter().all(|other| other.iter().map(narrow).eq(first.iter().copied())) {
-            if self.shared[self.last_shared.clone()] != first {
-                self.last_shared = self.shared.len()..self.shared.len() + first.len();
-                self.shared.extend(first);
-            }
-            return Shapes::Shared(self.last_shared.clone());
-        }
-        let start = self.each_lane.len();
-        for i in 0..segments {
-            let mut row = [Row::default(); 3];
-            for (lane, strand) in strands.iter().enumerate() {
-                let shape = strand.get(i).map(narrow).unwrap_or_default();
-                for (values, value) in row.iter_mut().zip(shape) {
-                    values.0[lane] = value;
-                }
-            }
-            self.each_lane.push(row);
-        }
-        Shapes::EachLane(start..self.each_lane.len())
-    }
+    /// Number of its first segment among those of all blocks.
+    first_segment: u32,
+    /// Number of its first strand.
+    pub first_strand: u32,
 }
 
 impl Block {
-    /// Packs strands given by root and shapes, at most sixteen.
-    pub fn new(roots: &[Vec3], strands: &[Vec<SegmentShape>], table: &mut ShapeTable) -> Self {
+    /// Packs strands given by root and shapes, at most sixteen, behind the rows of other blocks. `along`: for each
+    /// segment, how far along its strand it ends.
+    pub fn pack(
+        first_strand: usize,
+        roots: &[Vec3],
+        strands: &[Vec<SegmentShape>],
+        shapes: &mut Vec<ShapeRow>,
+        along: &mut Vec<Row>,
+    ) -> Self {
         let segments = strands.iter().map(Vec::len).max().unwrap_or(0);
         let mut block = Self {
             roots: [Row::default(); 3],
             points: [0; LANES],
             segments: segments as u32,
-            shapes: table.push(strands, segments),
+            first_segment: shapes.len() as u32,
+            first_strand: first_strand as u32,
         };
+        shapes.resize(shapes.len() + segments, ShapeRow::default());
+        along.resize(along.len() + segments, Row::default());
+        let rows = block.rows();
         for (lane, (root, strand)) in roots.iter().zip(strands).enumerate() {
             for axis in 0..3 {
                 block.roots[axis].0[lane] = root[axis];
             }
             block.points[lane] = strand.len() as u32 + 1;
+            for ((row, along), shape) in shapes[rows.clone()].iter_mut().zip(&mut along[rows.clone()]).zip(strand) {
+                row.length.0[lane] = shape.length as f32;
+                row.gain.0[lane] = shape.gain as f32;
+                row.gain_in_gamma.0[lane] = shape.gain_in_gamma as f32;
+                along.0[lane] = shape.along as f32;
+            }
         }
         block
+    }
+
+    /// Where its segments lie among those of all blocks.
+    pub fn rows(&self) -> Range<usize> {
+        let first = self.first_segment as usize;
+        first..first + self.segments as usize
     }
 
     /// Points of all its strands.
@@ -87,37 +74,62 @@ impl Block {
         self.points.iter().map(|&n| n as usize).sum()
     }
 
-    /// Moves the block by one frame and writes its points.
+    /// Moves the block by one frame, and writes its points where they are wanted.
     #[inline(always)]
-    pub fn step(&self, states: &mut [SegmentState], table: &ShapeTable, wind: &Wind, points: &mut [Vec3]) {
+    pub fn step<const TILTED: bool>(
+        &self,
+        states: &mut [SegmentState],
+        shapes: &[ShapeRow],
+        surroundings: &Surroundings,
+        wind: &impl Wind,
+        points: Option<&mut [Vec3]>,
+    ) {
         let before = self.roots;
-        match &self.shapes {
-            Shapes::Shared(range) => self.walk(states, &table.shared[range.clone()], points, Step { wind, before }),
-            Shapes::EachLane(range) => {
-                self.walk(states, &table.each_lane[range.clone()], points, Step { wind, before });
-            }
-        }
+        self.walk(states, shapes, points, Step::<TILTED, _> { surroundings, wind, before });
     }
 
     /// Writes the points of the angles as they are.
     #[inline(always)]
-    pub fn place(&self, states: &mut [SegmentState], table: &ShapeTable, points: &mut [Vec3]) {
-        match &self.shapes {
-            Shapes::Shared(range) => self.walk(states, &table.shared[range.clone()], points, Place),
-            Shapes::EachLane(range) => self.walk(states, &table.each_lane[range.clone()], points, Place),
+    pub fn place<const TILTED: bool>(
+        &self,
+        states: &mut [SegmentState],
+        shapes: &[ShapeRow],
+        surroundings: &Surroundings,
+        points: &mut [Vec3],
+    ) {
+        self.walk(states, shapes, Some(points), Place::<TILTED> { surroundings });
+    }
+
+    /// Turns every strand by its own angles (rad at the tip, less toward the root).
+    #[inline(always)]
+    pub fn disturb(&self, states: &mut [SegmentState], along: &[Row], turns: impl Iterator<Item = [f32; 2]>) {
+        let (mut theta, mut phi) = (Row::default(), Row::default());
+        for (lane, turn) in turns.take(LANES).enumerate() {
+            (theta.0[lane], phi.0[lane]) = (turn[0], turn[1]);
+        }
+        for (state, along) in states.iter_mut().zip(along) {
+            disturb_segment(state, &theta, &phi, along);
         }
     }
 
     /// Goes from the roots to the tips.
     #[inline(always)]
-    fn walk<S: ShapeRow>(&self, states: &mut [SegmentState], shapes: &[S], points: &mut [Vec3], mut pass: impl Pass) {
+    fn walk(
+        &self,
+        states: &mut [SegmentState],
+        shapes: &[ShapeRow],
+        mut points: Option<&mut [Vec3]>,
+        mut pass: impl Pass,
+    ) {
         let mut after = self.roots;
         let mut rows = [[Row::default(); 3]; ROWS];
         rows[0] = after;
         let (mut filled, mut written) = (1, 0);
         for (state, shape) in states.iter_mut().zip(shapes) {
             if filled == ROWS {
-                self.write(&rows, written, points);
+                if let Some(points) = &mut points {
+                    write_points(&rows, written, &self.points, points);
+                }
                 written += ROWS;
                 filled = 0;
             }
@@ -125,20 +137,8 @@ impl Block {
             rows[filled] = after;
             filled += 1;
         }
-        self.write(&rows[..filled], written, points);
-    }
-
-    /// Writes rows of points, the first of them point number `first` of every strand.
-    #[inline(always)]
-    fn write(&self, rows: &[PointRow], first: usize, points: &mut [Vec3]) {
-        let mut rest = points;
-        for (lane, &count) in self.points.iter().enumerate() {
-            let (strand, others) = rest.split_at_mut(count as usize);
-            rest = others;
-            let strand = strand.get_mut(first..).unwrap_or_default();
-            for (point, row) in strand.iter_mut().zip(rows) {
-                *point = Vec3::new(row[0].0[lane], row[1].0[lane], row[2].0[lane]);
-            }
+        if let Some(points) = &mut points {
+            write_points(&rows[..filled], written, &self.points, points);
         }
     }
 }
@@ -148,26 +148,29 @@ impl Block {
 /// A trait where a closure would do: only a named function can be forced into its caller, and so be compiled for
 /// the vectors chosen there.
 trait Pass {
-    fn segment<S: ShapeRow>(&mut self, state: &mut SegmentState, shape: &S, after: &mut PointRow);
+    fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, after: &mut PointRow);
 }
 
-struct Step<'a> {
-    wind: &'a Wind,
+struct Step<'a, const TILTED: bool, W> {
+    surroundings: &'a Surroundings,
+    wind: &'a W,
     before: PointRow,
 }
 
-impl Pass for Step<'_> {
+impl<const TILTED: bool, W: Wind> Pass for Step<'_, TILTED, W> {
     #[inline(always)]
-    fn segment<S: ShapeRow>(&mut self, state: &mut SegmentState, shape: &S, after: &mut PointRow) {
-        step_segment(state, shape, self.wind, &mut self.before, after);
+    fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, after: &mut PointRow) {
+        step_segment::<TILTED>(state, shape, self.surroundings, self.wind, &mut self.before, after);
     }
 }
 
-struct Place;
+struct Place<'a, const TILTED: bool> {
+    surroundings: &'a Surroundings,
+}
 
-impl Pass for Place {
+impl<const TILTED: bool> Pass for Place<'_, TILTED> {
     #[inline(always)]
-    fn segment<S: ShapeRow>(&mut self, state: &mut SegmentState, shape: &S, after: &mut PointRow) {
-        place_segment(state, shape, after);
+    fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, after: &mut PointRow) {
+        extend::<TILTED>(after, state, shape, self.surroundings);
     }
 }

@@ -9,14 +9,15 @@
 
 use super::Dynamics;
 use crate::error::SettingError;
-use crate::strands::Strands;
+use crate::field::Field;
+use crate::strands::{Strands, length};
 
 /// c_i of equation (8) (rad per unit of force and frame), for the segment at `position` = i of a strand `count` = k
 /// reference segments long. Both may be fractions, see the top of this file.
 pub fn gain(dynamics: &Dynamics, position: f64, count: f64) -> f64 {
     let (dt, lambda) = (f64::from(dynamics.motion.time_step), f64::from(dynamics.motion.linear_density));
     let d = f64::from(dynamics.segment_length);
-    let k = count.max(f64::from(dynamics.motion.friction_length) / d);
+    let k = count.max(f64::from(dynamics.motion.inertia_length_floor) / d);
     3.0 * position * d * dt.powi(2) / (2.0 * lambda * k.powi(4) * d.powi(3))
 }
 
@@ -82,38 +83,62 @@ pub(super) fn segment_shapes(
 /// # Errors
 /// As [`Simulation::new`](super::Simulation::new), but for the stability of the field.
 pub fn largest_gain(strands: &Strands, dynamics: &Dynamics) -> Result<f64, SettingError> {
-    Ok(worst_segment(strands, dynamics)?.0)
+    Ok(Stability::of(strands, dynamics)?.gain)
 }
 
-/// The largest gain, and the strand it belongs to. The gain grows along a strand, so its tip decides.
-fn worst_segment(strands: &Strands, dynamics: &Dynamics) -> Result<(f64, usize), SettingError> {
-    let mut worst = (0.0, 0);
-    for (s, strand) in strands.iter().enumerate() {
-        let tip = segment_shapes(dynamics, strand, s)?.last().map_or(0.0, |shape| shape.gain);
-        if tip > worst.0 {
-            worst = (tip, s);
+/// Refuses a field that is too strong for the step (7) of this hair: c_i |F| must stay below 4.
+///
+/// # Errors
+/// As [`Simulation::new`](super::Simulation::new), but for settings out of range.
+pub fn check_field(strands: &Strands, dynamics: &Dynamics, field: &dyn Field) -> Result<(), SettingError> {
+    Stability::of(strands, dynamics)?.check(field)
+}
+
+/// What decides whether a field is stable: the segment that is moved most easily.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stability {
+    /// c_i.
+    gain: f64,
+    /// Its strand, and the length of that (cm).
+    strand: usize,
+    length: f32,
+}
+
+impl Stability {
+    /// The gain grows along a strand, so its tip decides. Refuses no strands, and those that cannot be moved.
+    pub fn of(strands: &Strands, dynamics: &Dynamics) -> Result<Self, SettingError> {
+        if strands.is_empty() {
+            return Err(SettingError::new("hair", "0 strands", "there is nothing to move; give at least one strand"));
         }
+        let mut worst = (0.0, 0);
+        for (s, strand) in strands.iter().enumerate() {
+            let tip = segment_shapes(dynamics, strand, s)?.last().map_or(0.0, |shape| shape.gain);
+            if tip > worst.0 {
+                worst = (tip, s);
+            }
+        }
+        let (gain, strand) = worst;
+        Ok(Self { gain, strand, length: length(strands.strand(strand)) })
     }
-    Ok(worst)
-}
 
-/// Refuses fields under which the scheme (7) is unstable: c_i |F| must stay below 4.
-pub(super) fn check_stability(strands: &Strands, dynamics: &Dynamics) -> Result<(), SettingError> {
-    let (c, s) = worst_segment(strands, dynamics)?;
-    for (j, key) in dynamics.field.keyframes().iter().enumerate() {
-        let force = f64::from(key.vector.length());
-        if c * force < 4.0 {
-            continue;
+    /// Refuses fields under which the scheme (7) is unstable.
+    pub fn check(&self, field: &dyn Field) -> Result<(), SettingError> {
+        let Self { gain, strand, length } = *self;
+        let strongest = f64::from(field.strongest());
+        if gain * strongest < 4.0 {
+            return Ok(());
         }
-        let length: f32 = strands.strand(s).windows(2).map(|w| w[0].distance(w[1])).sum();
-        let largest = 4.0 / c;
+        let largest = 4.0 / gain;
+        // A force of exactly the largest is one too strong.
+        let below = largest.next_down();
+        let (thing, value) =
+            field.first_above(below).unwrap_or_else(|| ("force".to_owned(), field.strongest().to_string()));
         let remedy = format!(
-            "unstable: c_i |F| = {:.3} at the tip of strand {s} ({length:.2} cm long), and must stay below 4; \
-             keep |F| below {largest:.4}, make motion.time_step smaller, or set motion.friction_length so that \
+            "unstable: c_i |F| reaches {:.3} at the tip of strand {strand} ({length:.2} cm long), and must stay below 4; \
+             keep |F| below {largest:.4}, make motion.time_step smaller, or set motion.inertia_length_floor so that \
              short hair is held by its neighbours",
-            c * force
+            gain * strongest
         );
-        return Err(SettingError::new(format!("force[{j}].vector"), key.vector, remedy));
+        Err(SettingError::new(thing, value, remedy))
     }
-    Ok(())
 }

@@ -1,13 +1,11 @@
-//! The fast step of one block of strands: equation (7) for sixteen strands at a time, f32, without a branch.
+//! The fast step of one block of strands: equation (7) for sixteen strands at a time, f32.
 //!
 //! Every lane does the same operations whatever the machine's vectors hold, and multiplies and adds are fused by
-//! name, never at the compiler's choice: so the bits do not depend on the vector width.
-
-use glam::Vec3;
+//! name, never at the compiler's choice: so the bits do not depend on the vector width, nor on the other lanes.
 
 use super::angles;
-use super::trigonometry::sin_cos;
-use crate::pseudo_force::Gamma;
+use super::turn::{LITTLE, Turn, turn_far, turn_little};
+use super::wind::{Force, Forces, Surroundings, Wind};
 
 /// Strands in a block: two vectors of eight, or one of sixteen.
 pub(super) const LANES: usize = 16;
@@ -17,152 +15,139 @@ pub(super) const LANES: usize = 16;
 #[repr(C, align(64))]
 pub(super) struct Row(pub [f32; LANES]);
 
-/// Angles and increments (rad, rad per frame) of one segment of every strand of a block.
-#[derive(Clone, Copy, Debug, Default)]
+/// Sine and cosine of one angle of every strand of a block.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub(super) struct TurnRow {
+    sin: Row,
+    cos: Row,
+}
+
+impl TurnRow {
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> Turn {
+        [self.sin.0[lane], self.cos.0[lane]]
+    }
+
+    #[inline(always)]
+    pub fn set(&mut self, lane: usize, [sin, cos]: Turn) {
+        (self.sin.0[lane], self.cos.0[lane]) = (sin, cos);
+    }
+}
+
+/// Angles and increments (rad per frame) of one segment of every strand of a block.
+#[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub(super) struct SegmentState {
-    pub theta: Row,
-    pub phi: Row,
+    pub theta: TurnRow,
+    pub phi: TurnRow,
     pub theta_increment: Row,
     pub phi_increment: Row,
 }
 
-/// Length (cm), c_i and eps_i c_i of one segment of every strand of a block.
-pub(super) trait ShapeRow: Copy + Send + Sync {
-    fn lane(&self, lane: usize) -> [f32; 3];
-}
-
-/// One shape for all sixteen strands.
-impl ShapeRow for [f32; 3] {
-    #[inline(always)]
-    fn lane(&self, _: usize) -> [f32; 3] {
-        *self
+impl Default for SegmentState {
+    fn default() -> Self {
+        let zero = TurnRow { sin: Row::default(), cos: Row([1.0; LANES]) };
+        Self { theta: zero, phi: zero, theta_increment: Row::default(), phi_increment: Row::default() }
     }
 }
 
-/// A shape for each strand.
-impl ShapeRow for [Row; 3] {
-    #[inline(always)]
-    fn lane(&self, lane: usize) -> [f32; 3] {
-        [self[0].0[lane], self[1].0[lane], self[2].0[lane]]
-    }
+/// What moves one segment of every strand of a block. All 0 where a strand has no such segment.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
+pub(super) struct ShapeRow {
+    /// cm.
+    pub length: Row,
+    /// c_i.
+    pub gain: Row,
+    /// eps_i c_i.
+    pub gain_in_gamma: Row,
 }
 
 /// A point for each strand of a block: rows of x, y, z (cm).
 pub(super) type PointRow = [Row; 3];
 
-/// F(n+1) and Gamma, as the kernel wants them.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Wind {
-    force: [f32; 3],
-    /// Azimuth of the force, where it has one, and its sine and cosine.
-    azimuth: [f32; 3],
-    has_azimuth: bool,
-    center: [f32; 3],
-    /// 1 / half axis.
-    inverse: [f32; 3],
-    /// C as a squared radius, where E's is 1.
-    shell_squared: f32,
-    /// alpha |alpha| |F|^2: (4) with both sides multiplied by their own size, which spares the roots.
-    threshold: f32,
-}
-
-impl Wind {
-    pub fn new(force: Vec3, gamma: &Gamma) -> Self {
-        let azimuth = angles::azimuth(force.as_dvec3());
-        let angle = azimuth.unwrap_or(0.0) as f32;
-        let (sin, cos) = sin_cos(angle);
-        Self {
-            force: force.to_array(),
-            azimuth: [angle, sin, cos],
-            has_azimuth: azimuth.is_some(),
-            center: gamma.ellipsoid.center.to_array(),
-            inverse: gamma.ellipsoid.half_axes.recip().to_array(),
-            shell_squared: gamma.shell * gamma.shell,
-            threshold: gamma.alpha * gamma.alpha.abs() * force.length_squared(),
-        }
-    }
-
-    /// Equation (4), see [`Gamma::contains`].
-    #[inline(always)]
-    fn weakened_at(&self, p: [f32; 3]) -> bool {
-        let [ix, iy, iz] = self.inverse;
-        let q = [(p[0] - self.center[0]) * ix, (p[1] - self.center[1]) * iy, (p[2] - self.center[2]) * iz];
-        let normal = [q[0] * ix, q[1] * iy, q[2] * iz];
-        let radius_squared = dot(q, q);
-        let against = dot(normal, self.force);
-        (radius_squared > 1.0)
-            & (radius_squared <= self.shell_squared)
-            & (against * against.abs() <= self.threshold * dot(normal, normal))
-    }
-}
-
 /// Moves segment i of every strand of a block from frame n to n + 1. `before` and `after` hold the points p_(i-1)
-/// of the two frames on entry, and p_i on return.
+/// of the two frames on entry, and p_i on return. `TILTED`: whether the polar axis is not y.
 #[inline(always)]
-pub(super) fn step_segment<S: ShapeRow>(
+pub(super) fn step_segment<const TILTED: bool>(
     state: &mut SegmentState,
-    shape: &S,
-    wind: &Wind,
+    shape: &ShapeRow,
+    surroundings: &Surroundings,
+    wind: &impl Wind,
     before: &mut PointRow,
     after: &mut PointRow,
 ) {
+    extend::<TILTED>(before, state, shape, surroundings);
+    let forces = wind.at(before, surroundings);
+    let mut next = SegmentState::default();
+    let mut far = 0;
     for lane in 0..LANES {
-        let [length, gain, gain_in_gamma] = shape.lane(lane);
-        let (theta, theta_increment) = (state.theta.0[lane], state.theta_increment.0[lane]);
-        let (phi, phi_increment) = (state.phi.0[lane], state.phi_increment.0[lane]);
-        let (sin_theta, cos_theta) = sin_cos(theta);
-        let (sin_phi, cos_phi) = sin_cos(phi);
+        let force = forces.lane(lane);
+        let p = [before[0].0[lane], before[1].0[lane], before[2].0[lane]];
+        let c = if surroundings.weaken(p, &force) { shape.gain_in_gamma.0[lane] } else { shape.gain.0[lane] };
 
-        let p = extend(before, lane, length, [sin_theta * sin_phi, cos_theta, sin_theta * cos_phi]);
-        let c = if wind.weakened_at(p) { gain_in_gamma } else { gain };
-
-        let free = wind.has_azimuth
-            & (sin_theta.abs() < angles::POLE_SINE as f32)
-            & (theta_increment.abs() < angles::POLE_REST as f32);
-        let phi = if free { wind.azimuth[0] } else { phi };
-        let sin_phi = if free { wind.azimuth[1] } else { sin_phi };
-        let cos_phi = if free { wind.azimuth[2] } else { cos_phi };
-
-        let [fx, fy, fz] = wind.force;
+        let (theta, phi) = (state.theta.lane(lane), freed(state, lane, &force));
+        let ([sin_theta, cos_theta], [sin_phi, cos_phi]) = (theta, phi);
+        let [fx, fy, fz] = force.in_polar;
         let outward = fx.mul_add(sin_phi, fz * cos_phi);
         let around = fx.mul_add(cos_phi, -(fz * sin_phi));
         let f_theta = cos_theta.mul_add(outward, -(fy * sin_theta));
-        let theta_increment = c.mul_add(f_theta, theta_increment);
-        let phi_increment = c.mul_add(sin_theta * around, phi_increment);
-        let (theta, phi) = (theta + theta_increment, phi + phi_increment);
-        state.theta.0[lane] = theta;
-        state.phi.0[lane] = phi;
-        state.theta_increment.0[lane] = theta_increment;
-        state.phi_increment.0[lane] = phi_increment;
+        let theta_increment = c.mul_add(f_theta, state.theta_increment.0[lane]);
+        let phi_increment = c.mul_add(sin_theta * around, state.phi_increment.0[lane]);
+        far |= u32::from((theta_increment.abs() > LITTLE) | (phi_increment.abs() > LITTLE));
 
-        let (sin_theta, cos_theta) = sin_cos(theta);
-        let (sin_phi, cos_phi) = sin_cos(phi);
-        extend(after, lane, length, [sin_theta * sin_phi, cos_theta, sin_theta * cos_phi]);
+        next.theta.set(lane, turn_little(theta, theta_increment));
+        next.phi.set(lane, turn_little(phi, phi_increment));
+        next.theta_increment.0[lane] = theta_increment;
+        next.phi_increment.0[lane] = phi_increment;
+    }
+    if far != 0 {
+        // Lanes that turn little have what they need; each lane's bits are its own whichever way its block goes.
+        for lane in 0..LANES {
+            let (theta, phi) = (state.theta.lane(lane), freed(state, lane, &forces.lane(lane)));
+            let (theta_increment, phi_increment) = (next.theta_increment.0[lane], next.phi_increment.0[lane]);
+            let (theta, phi) = (turn_far(theta, theta_increment), turn_far(phi, phi_increment));
+            next.theta.set(lane, if theta_increment.abs() > LITTLE { theta } else { next.theta.lane(lane) });
+            next.phi.set(lane, if phi_increment.abs() > LITTLE { phi } else { next.phi.lane(lane) });
+        }
+    }
+    extend::<TILTED>(after, &next, shape, surroundings);
+    *state = next;
+}
+
+/// phi of one segment: the force's azimuth where the segment rests parallel to the polar axis (section 4.2).
+#[inline(always)]
+fn freed(state: &SegmentState, lane: usize, force: &Force) -> Turn {
+    let free = force.has_azimuth()
+        & (state.theta.lane(lane)[0].abs() < angles::POLE_SINE as f32)
+        & (state.theta_increment.0[lane].abs() < angles::POLE_REST as f32);
+    let (phi, azimuth) = (state.phi.lane(lane), force.azimuth);
+    [if free { azimuth[0] } else { phi[0] }, if free { azimuth[1] } else { phi[1] }]
+}
+
+/// Turns a segment of every strand by angles of any size, which leaves its increments as they are.
+#[inline(always)]
+pub(super) fn disturb_segment(state: &mut SegmentState, theta: &Row, phi: &Row, along: &Row) {
+    for lane in 0..LANES {
+        state.theta.set(lane, turn_far(state.theta.lane(lane), theta.0[lane] * along.0[lane]));
+        state.phi.set(lane, turn_far(state.phi.lane(lane), phi.0[lane] * along.0[lane]));
     }
 }
 
 /// Puts segment i of every strand of a block on its p_(i-1), which becomes p_i.
 #[inline(always)]
-pub(super) fn place_segment<S: ShapeRow>(state: &SegmentState, shape: &S, after: &mut PointRow) {
+pub(super) fn extend<const TILTED: bool>(
+    points: &mut PointRow,
+    state: &SegmentState,
+    shape: &ShapeRow,
+    surroundings: &Surroundings,
+) {
     for lane in 0..LANES {
-        let (sin_theta, cos_theta) = sin_cos(state.theta.0[lane]);
-        let (sin_phi, cos_phi) = sin_cos(state.phi.0[lane]);
-        extend(after, lane, shape.lane(lane)[0], [sin_theta * sin_phi, cos_theta, sin_theta * cos_phi]);
+        let direction = surroundings.direction::<TILTED>(state.theta.lane(lane), state.phi.lane(lane));
+        for axis in 0..3 {
+            let point = &mut points[axis].0[lane];
+            *point = shape.length.0[lane].mul_add(direction[axis], *point);
+        }
     }
-}
-
-#[inline(always)]
-fn extend(points: &mut PointRow, lane: usize, length: f32, direction: [f32; 3]) -> [f32; 3] {
-    let mut p = [0.0; 3];
-    for axis in 0..3 {
-        p[axis] = length.mul_add(direction[axis], points[axis].0[lane]);
-        points[axis].0[lane] = p[axis];
-    }
-    p
-}
-
-#[inline(always)]
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
 }

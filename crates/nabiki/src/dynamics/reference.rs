@@ -1,11 +1,13 @@
 //! The specification: projective equations one segment at a time, in f64, as the paper writes them.
 
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3};
 
 use super::angles::{POLE_REST, POLE_SINE, azimuth, from_direction, to_direction};
-use super::gain::{SegmentShape, check_stability, segment_shapes};
-use super::{Dynamics, Stepper};
+use super::gain::{SegmentShape, Stability, segment_shapes};
+use super::polar::PolarAxis;
+use super::{Dynamics, ForceSpace, FrameInput, Stepper};
 use crate::error::SettingError;
+use crate::field::Field;
 use crate::pseudo_force::Gamma;
 use crate::strands::Strands;
 
@@ -13,6 +15,8 @@ use crate::strands::Strands;
 pub struct Reference {
     dynamics: Dynamics,
     gamma: Gamma,
+    /// From head space to the space whose y is the polar axis, in which angles are counted.
+    polar_from_head: DMat3,
     segments: Vec<Segment>,
     ids: Vec<u32>,
     frame: u32,
@@ -32,7 +36,7 @@ struct Segment {
 }
 
 impl Segment {
-    /// Equation (7) for theta and for phi. `gain`: c_i or eps_i c_i; `force`: F(n+1) in head space.
+    /// Equation (7) for theta and for phi. `gain`: c_i or eps_i c_i; `force`: F(n+1), in the space of the angles.
     fn advance(&mut self, gain: f64, force: DVec3) {
         let at_rest_on_the_pole = self.theta.sin().abs() < POLE_SINE && self.theta_increment.abs() < POLE_REST;
         if at_rest_on_the_pole && let Some(azimuth) = azimuth(force) {
@@ -58,9 +62,9 @@ impl Reference {
     ///
     /// # Errors
     /// As [`Simulation::new`](super::Simulation::new).
-    pub fn new(strands: &Strands, dynamics: &Dynamics) -> Result<Self, SettingError> {
+    pub fn new(strands: &Strands, dynamics: &Dynamics, field: &dyn Field) -> Result<Self, SettingError> {
         let ids: Vec<u32> = (0..strands.len() as u32).collect();
-        Self::with_ids(strands, &ids, dynamics)
+        Self::with_ids(strands, &ids, dynamics, field)
     }
 
     /// As [`new`](Self::new), for strands that are some of a larger set: `ids` are their numbers in it.
@@ -70,20 +74,27 @@ impl Reference {
     ///
     /// # Panics
     /// If there are not as many ids as strands.
-    pub fn with_ids(strands: &Strands, ids: &[u32], dynamics: &Dynamics) -> Result<Self, SettingError> {
+    pub fn with_ids(
+        strands: &Strands,
+        ids: &[u32],
+        dynamics: &Dynamics,
+        field: &dyn Field,
+    ) -> Result<Self, SettingError> {
         assert_eq!(ids.len(), strands.len(), "one id for each strand");
         dynamics.check()?;
-        check_stability(strands, dynamics)?;
+        Stability::of(strands, dynamics)?.check(field)?;
+        let polar_from_head = PolarAxis::new(dynamics.polar_axis).polar_from_head();
         let mut segments = Vec::with_capacity(strands.segment_count());
         for (s, strand) in strands.iter().enumerate() {
             for (shape, w) in segment_shapes(dynamics, strand, s)?.into_iter().zip(strand.windows(2)) {
-                let (theta, phi) = from_direction(w[1].as_dvec3() - w[0].as_dvec3(), dynamics.motion.straighten_rad());
+                let (theta, phi) = from_direction(polar_from_head * (w[1].as_dvec3() - w[0].as_dvec3()));
                 segments.push(Segment { shape, theta, phi, theta_increment: 0.0, phi_increment: 0.0 });
             }
         }
         let mut reference = Self {
             dynamics: dynamics.clone(),
             gamma: dynamics.gamma(),
+            polar_from_head,
             segments,
             ids: ids.to_vec(),
             frame: 0,
@@ -99,26 +110,39 @@ impl Reference {
         &self.positions
     }
 
-    /// Solves i = 1 .. k for every strand; p_i at frame n decides whether eps_i holds.
-    fn advance(&mut self, force: Vec3) {
+    /// Solves i = 1 .. k for every strand; p_i at frame n decides what the force is and whether eps_i holds.
+    fn advance(&mut self, input: &FrameInput) {
         for s in 0..self.strands.len() {
             let points = self.strands.range(s);
-            for (i, segment) in self.segments[points.start - s..points.end - s - 1].iter_mut().enumerate() {
+            for i in 0..points.len() - 1 {
                 let end = self.positions[points.start + i + 1];
-                let weakened = self.gamma.contains(end, force);
+                let force = self.force_in_head(end, input);
+                let weakened = self.gamma.contains(end, force.as_vec3());
+                let segment = &mut self.segments[points.start - s + i];
                 let gain = if weakened { segment.shape.gain_in_gamma } else { segment.shape.gain };
-                segment.advance(gain, force.as_dvec3());
+                segment.advance(gain, self.polar_from_head * force);
+            }
+        }
+    }
+
+    /// F(n+1) at a point, both in head space.
+    fn force_in_head(&self, point: DVec3, input: &FrameInput) -> DVec3 {
+        let FrameInput { frame, pose, field } = input;
+        match self.dynamics.motion.force_space {
+            ForceSpace::Head => field.at(point.as_vec3(), *frame).as_dvec3(),
+            ForceSpace::World => {
+                let rotation = pose.rotation.as_dquat();
+                let in_world = rotation * point + pose.position_cm.as_dvec3();
+                rotation.inverse() * field.at(in_world.as_vec3(), *frame).as_dvec3()
             }
         }
     }
 
     fn disturb(&mut self) {
         let Some(disturbance) = &self.dynamics.disturbance else { return };
-        if !disturbance.falls_on(self.frame) {
-            return;
-        }
+        let Some(part) = disturbance.part(self.frame) else { return };
         for (s, &id) in self.ids.iter().enumerate() {
-            let [theta, phi] = disturbance.turn(id, self.frame).map(f64::from);
+            let [theta, phi] = disturbance.turn(id, &part).map(f64::from);
             let points = self.strands.range(s);
             for segment in &mut self.segments[points.start - s..points.end - s - 1] {
                 segment.theta += theta * segment.shape.along;
@@ -133,7 +157,7 @@ impl Reference {
             let points = self.strands.range(s);
             let mut p = self.positions[points.start];
             for (i, segment) in self.segments[points.start - s..points.end - s - 1].iter().enumerate() {
-                p += segment.vector();
+                p += self.polar_from_head.transpose() * segment.vector();
                 self.positions[points.start + i + 1] = p;
             }
         }
@@ -144,13 +168,9 @@ impl Reference {
 }
 
 impl Stepper for Reference {
-    fn step_frame(&mut self) {
-        self.step_frame_under(self.dynamics.field.at(self.frame + 1));
-    }
-
-    fn step_frame_under(&mut self, force_in_head: Vec3) {
-        self.advance(force_in_head);
-        self.frame += 1;
+    fn step_frame(&mut self, input: &FrameInput) {
+        self.advance(input);
+        self.frame = input.frame;
         self.disturb();
         self.place();
     }

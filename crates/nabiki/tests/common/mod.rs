@@ -1,21 +1,26 @@
 //! Hair and settings for the laws: arcs of equal segments from a spiral of roots on an ellipsoid.
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
-use glam::{Vec3, Vec3Swizzles};
-use nabiki::dynamics::{Dynamics, Motion, Stepper};
-use nabiki::field::{Field, Keyframe};
+use glam::{EulerRot, Quat, Vec3, Vec3Swizzles};
+use nabiki::dynamics::{Dynamics, FrameInput, Motion, Reference, Simulation, Stepper};
+use nabiki::field::{Field, Keyframe, KeyframedField};
 use nabiki::pseudo_force::PseudoForce;
-use nabiki::{Ellipsoid, Strands};
+use nabiki::{Ellipsoid, Pose, Strands};
 
 /// Round about y, so that a turned head is the same head.
 pub const HEAD: Ellipsoid = Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::new(9.0, 11.0, 9.0) };
 
-pub fn field(vectors: &[(u32, [f32; 3])]) -> Field {
+pub fn field(vectors: &[(u32, [f32; 3])]) -> KeyframedField {
     let keys: Vec<Keyframe> = vectors.iter().map(|&(through, v)| Keyframe { through, vector: v.into() }).collect();
-    Field::new(&keys).unwrap()
+    KeyframedField::new(&keys).unwrap()
 }
 
-/// Table 1 of the paper.
+/// The force of Table 1.
+pub fn wind() -> KeyframedField {
+    field(&[(50, [-100.0, 0.0, 0.0]), (100, [-15.0, -150.0, 0.0])])
+}
+
+/// Table 1 of the paper, but for the force.
 pub fn gust() -> Dynamics {
     Dynamics {
         motion: Motion::default(),
@@ -23,7 +28,7 @@ pub fn gust() -> Dynamics {
         pseudo_force: PseudoForce::default(),
         ellipsoid: HEAD,
         shell: 1.25,
-        field: field(&[(50, [-100.0, 0.0, 0.0]), (100, [-15.0, -150.0, 0.0])]),
+        polar_axis: Vec3::Y,
         disturbance: None,
     }
 }
@@ -72,12 +77,60 @@ pub fn map(strands: &Strands, f: impl Fn(Vec3) -> Vec3) -> Strands {
     mapped
 }
 
-pub fn run(stepper: &mut dyn Stepper, frames: u32) -> Strands {
+/// A force that differs from place to place and from frame to frame, of at most 110.
+#[derive(Debug)]
+pub struct Whirl;
+
+impl Field for Whirl {
+    fn at(&self, p: Vec3, frame: u32) -> Vec3 {
+        let phase = 0.2 * p + 0.05 * frame as f32;
+        60.0 * Vec3::new(phase.y.sin(), phase.z.sin(), phase.x.sin())
+    }
+
+    fn strongest(&self) -> f32 {
+        110.0
+    }
+}
+
+pub fn fast(hair: &Strands, dynamics: &Dynamics, field: &dyn Field) -> Simulation {
+    Simulation::new(hair, dynamics, field).unwrap()
+}
+
+pub fn exact(hair: &Strands, dynamics: &Dynamics, field: &dyn Field) -> Reference {
+    Reference::new(hair, dynamics, field).unwrap()
+}
+
+/// One frame, of a head that stands still.
+pub fn step(stepper: &mut dyn Stepper, field: &dyn Field) {
+    let frame = stepper.frame() + 1;
+    stepper.step_frame(&FrameInput { frame, pose: Pose::STILL, field });
+}
+
+pub fn run(stepper: &mut dyn Stepper, field: &dyn Field, frames: u32) -> Strands {
     for _ in 0..frames {
-        stepper.step_frame();
+        step(stepper, field);
     }
     assert_eq!(stepper.frame(), frames);
     stepper.strands().clone()
+}
+
+/// Frames 1 .. of a stepper, under a head that goes its way.
+pub fn run_under(stepper: &mut dyn Stepper, field: &dyn Field, poses: &[Pose]) -> Strands {
+    for (frame, &pose) in poses.iter().enumerate().skip(1) {
+        stepper.step_frame(&FrameInput { frame: frame as u32, pose, field });
+    }
+    stepper.strands().clone()
+}
+
+/// A head that walks, nods and looks about, from a tilted start on.
+pub fn way_of_a_head(frames: u32) -> Vec<Pose> {
+    (0..=frames)
+        .map(|n| {
+            let t = 0.05 * n as f32;
+            let rotation = Quat::from_euler(EulerRot::YXZ, 0.9 * t.sin(), 0.4 + 0.3 * (2.0 * t).cos(), 0.2 * t);
+            Pose { position_cm: Vec3::new(10.0 * t, 160.0 + 3.0 * (3.0 * t).sin(), -4.0 * t), rotation }
+        })
+        .collect()
 }
 
 pub fn bits(strands: &Strands) -> Vec<[u32; 3]> {

@@ -24,7 +24,7 @@ impl BuiltScene {
         digest.settings("segment_length", &[self.dynamics.segment_length, self.dynamics.shell])?;
         digest.settings("ellipsoid", &self.dynamics.ellipsoid)?;
         digest.settings("pseudo_force", &self.dynamics.pseudo_force)?;
-        digest.settings("force", &self.dynamics.field.keyframes())?;
+        digest.settings("force", &self.field.keyframes())?;
         if let Some(disturbance) = &self.dynamics.disturbance {
             digest.settings("disturbance", disturbance)?;
             digest.bytes("ids", bytemuck::cast_slice(&little_endian(&self.ids)));

@@ -1,7 +1,8 @@
 //! What a scene names, read and put into head space.
 
 use glam::Vec3;
-use nabiki::{Hair, Head, SettingError, Strands, dynamics::Dynamics, groom::groom, pores, subset};
+use nabiki::dynamics::{Dynamics, straightened};
+use nabiki::{Hair, Head, SettingError, Strands, groom::groom, pores, subset};
 use nabiki_io::{
     exchange::{self, Said},
     hair::{self, ImportReport},
@@ -16,10 +17,13 @@ use crate::scene::{EllipsoidChoice, GrownHair, HairSource, HeadSource, ImportedH
 
 pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
     let (head, placement, mesh_report) = load_head(&scene)?;
-    let dynamics = dynamics(&scene, &head)?;
-    let Loaded { hair, ids, of_scene, placement: hair_placement, report } =
-        load_hair(&scene, &head, &placement, shown)?;
     let (poses, motion_report) = head_motion(&scene)?.map_or_else(Default::default, |m| (m.poses, Some(m.report)));
+    let mut dynamics = dynamics(&scene, &head)?;
+    dynamics.polar_axis = poses.first().copied().unwrap_or_default().up_in_head();
+    let field = scene.field().map_err(|refused| scene.refusal(refused))?.into();
+    let Loaded { mut hair, ids, of_scene, placement: hair_placement, report } =
+        load_hair(&scene, &head, &placement, shown)?;
+    hair.strands = straightened(&hair.strands, &dynamics.motion, dynamics.polar_axis);
     Ok(BuiltScene {
         scene,
         head,
@@ -30,6 +34,7 @@ pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
         hair_placement,
         import_report: report,
         dynamics,
+        field,
         motion_report,
         ids,
         poses,
@@ -185,7 +190,7 @@ fn dynamics(scene: &Scene, head: &Head) -> Result<Dynamics> {
             pseudo_force: scene.pseudo_force.clone(),
             ellipsoid: head.ellipsoid,
             shell: scene.head.shell,
-            field: scene.field()?,
+            polar_axis: Vec3::Y,
             disturbance: scene.disturbance.clone(),
         };
         dynamics.check()?;

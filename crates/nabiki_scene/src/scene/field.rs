@@ -1,7 +1,7 @@
 //! Where forces come from. The file's spelling of the one source there is, the paper's vectors, is `[[force]]`.
 
 use nabiki::SettingError;
-use nabiki::field::{Field, Keyframe};
+use nabiki::field::{Keyframe, KeyframedField};
 
 /// A source of force. Sources add up.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +26,6 @@ pub(super) fn keyframes(sources: &[FieldSource]) -> Result<&[Keyframe], SettingE
 ///
 /// # Errors
 /// No force at all, or keyframes that are no field.
-pub(super) fn build(sources: &[FieldSource]) -> Result<Field, SettingError> {
-    Field::new(keyframes(sources)?)
+pub(super) fn build(sources: &[FieldSource]) -> Result<KeyframedField, SettingError> {
+    KeyframedField::new(keyframes(sources)?)
 }

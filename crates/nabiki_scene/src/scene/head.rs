@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use glam::Vec3;
-use nabiki::{Ellipsoid, SettingError, error::check_positive};
+use nabiki::{Ellipsoid, SettingError};
 use nabiki_io::motion::{Axis, MotionSource};
 use nabiki_io::placement::{Placement, Unit};
 use serde::{Deserialize, Serialize};
@@ -184,12 +184,7 @@ impl HeadSettings {
             head.check()?;
         }
         if let EllipsoidChoice::Given(ellipsoid) = self.ellipsoid {
-            if !ellipsoid.center.is_finite() {
-                return Err(SettingError::new("head.ellipsoid.center", ellipsoid.center, "must be finite"));
-            }
-            for half_axis in ellipsoid.half_axes.to_array() {
-                check_positive("head.ellipsoid.half_axes", half_axis)?;
-            }
+            ellipsoid.check("head.ellipsoid")?;
         }
         if !(self.shell > 1.0 && self.shell.is_finite()) {
             return Err(SettingError::new("head.shell", self.shell, "must be a finite number above 1"));

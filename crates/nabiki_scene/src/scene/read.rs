@@ -75,7 +75,7 @@ impl Refusal {
 /// What settings were called in earlier versions, and what they are called now.
 const RENAMED: [(&str, &str); 3] = [
     ("hair.style.locks", "hair.style.clumps"),
-    ("motion.friction_length", "motion.inertia_floor"),
+    ("motion.friction_length", "motion.inertia_length_floor"),
     ("picture.video.fps", "motion.frame_rate"),
 ];
 

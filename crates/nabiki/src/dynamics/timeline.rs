@@ -1,0 +1,287 @@
+//! All frames of a motion at once, again and again: for an editor, and for whatever tries many fields.
+//!
+//! Each block of strands goes through the whole time before the next one begins, so that its states stay in the nearest
+//! cache, and nothing is built anew between two runs. The frames are, to the bit, those of
+//! [`Simulation`](super::Simulation).
+//!
+//! Hair that feels its neighbours will need one order more: the few strands that carry the density move first, frame by
+//! frame, and what they leave in a grid is then a field like any other to all the rest, which go block by block as
+//! here.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+
+use super::kernel::SegmentState;
+use super::packed::{Packed, Pages, Plan};
+use super::{Dynamics, FrameInput, VectorWidth};
+use crate::error::SettingError;
+use crate::field::Field;
+use crate::pose::Pose;
+use crate::strands::Strands;
+
+/// Hair, what moves it, and the frames from rest to the last.
+///
+/// It stands at one [`frame`](Self::frame), whose hair it shows. [`advance`](Self::advance) and [`seek`](Self::seek)
+/// move it and keep no other frame; [`play`](Self::play) computes all of them into storage that it keeps. Threads are
+/// those of the rayon pool that calls.
+#[derive(Clone, Debug)]
+pub struct Timeline {
+    /// The hair at rest as it was given.
+    hair: Strands,
+    packed: Packed,
+    field: Arc<dyn Field>,
+    /// Of every frame; none for a head that stands still.
+    poses: Vec<Pose>,
+    frames: u32,
+    width: VectorWidth,
+    frame: u32,
+    states: Vec<SegmentState>,
+    strands: Strands,
+    /// The points of frame 0, then those of frame 1, ...
+    film: Vec<Vec3>,
+    played: bool,
+}
+
+impl Timeline {
+    /// Hair at rest in the given shape, at frame 0 of `frames` more. `poses` are those of the head in the world from
+    /// frame 0 on, or none for a head that stands still in the origin.
+    ///
+    /// # Errors
+    /// As [`Simulation::new`](super::Simulation::new); fewer poses than frames, and poses that are none.
+    pub fn new(
+        strands: &Strands,
+        dynamics: &Dynamics,
+        field: Arc<dyn Field>,
+        poses: Vec<Pose>,
+        frames: u32,
+    ) -> Result<Self, SettingError> {
+        let ids: Vec<u32> = (0..strands.len() as u32).collect();
+        Self::with_ids(strands, &ids, dynamics, field, poses, frames)
+    }
+
+    /// As [`new`](Self::new), for strands that are some of a larger set: `ids` are their numbers in it.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    ///
+    /// # Panics
+    /// If there are not as many ids as strands.
+    pub fn with_ids(
+        strands: &Strands,
+        ids: &[u32],
+        dynamics: &Dynamics,
+        field: Arc<dyn Field>,
+        poses: Vec<Pose>,
+        frames: u32,
+    ) -> Result<Self, SettingError> {
+        check_poses(&poses, frames)?;
+        let packed = Packed::new(strands, ids, dynamics)?;
+        packed.check_field(&*field)?;
+        let mut timeline = Self {
+            hair: strands.clone(),
+            states: packed.states(),
+            packed,
+            field,
+            poses,
+            frames,
+            width: VectorWidth::default(),
+            frame: 0,
+            strands: strands.clone(),
+            film: Vec::new(),
+            played: false,
+        };
+        timeline.rewind();
+        Ok(timeline)
+    }
+
+    /// The same timeline with vectors of another width.
+    pub fn with_vector_width(mut self, width: VectorWidth) -> Self {
+        self.width = width;
+        self
+    }
+
+    /// The number of the last frame.
+    pub fn frames(&self) -> u32 {
+        self.frames
+    }
+
+    /// The frame that [`strands`](Self::strands) shows; 0 at rest.
+    pub fn frame(&self) -> u32 {
+        self.frame
+    }
+
+    /// The hair at this frame (head space, cm).
+    pub fn strands(&self) -> &Strands {
+        &self.strands
+    }
+
+    /// What moves the hair.
+    pub fn field(&self) -> &Arc<dyn Field> {
+        &self.field
+    }
+
+    /// How it moves.
+    pub fn dynamics(&self) -> &Dynamics {
+        self.packed.dynamics()
+    }
+
+    /// Where the head is in a frame.
+    pub fn pose(&self, frame: u32) -> Pose {
+        self.poses.get(frame as usize).copied().unwrap_or_default()
+    }
+
+    /// Puts the hair back to rest, at frame 0.
+    pub fn rewind(&mut self) {
+        self.go(0, true);
+    }
+
+    /// Moves the hair by one frame; `false`, and no motion, at the last one.
+    pub fn advance(&mut self) -> bool {
+        let more = self.frame < self.frames;
+        if more {
+            self.go(self.frame + 1, false);
+        }
+        more
+    }
+
+    /// Goes to any frame and returns its hair (head space, cm): from where the timeline stands, or from rest where
+    /// that lies behind.
+    ///
+    /// # Panics
+    /// If there is no such frame.
+    pub fn seek(&mut self, frame: u32) -> &Strands {
+        assert!(frame <= self.frames, "frame {frame} of {}", self.frames);
+        if frame != self.frame {
+            self.go(frame, frame < self.frame);
+        }
+        &self.strands
+    }
+
+    /// Computes all frames, and stands at the last one. What it computed before is returned at once as long as nothing
+    /// was set since.
+    pub fn play(&mut self) -> Film<'_> {
+        if !self.played {
+            let points = self.strands.points().len();
+            self.film.resize((self.frames as usize + 1) * points, Vec3::ZERO);
+            let mut film = std::mem::take(&mut self.film);
+            self.sweep(0..=self.frames, Pages::All(film.chunks_exact_mut(points).collect()));
+            self.strands.points_mut().copy_from_slice(&film[self.frames as usize * points..]);
+            (self.film, self.frame, self.played) = (film, self.frames, true);
+        }
+        Film { points: &self.film, hair: &self.hair }
+    }
+
+    /// Puts another field in the place of this one, and the hair back to rest.
+    ///
+    /// # Errors
+    /// A field too strong for the step; the timeline is then as it was.
+    pub fn set_field(&mut self, field: Arc<dyn Field>) -> Result<(), SettingError> {
+        self.packed.check_field(&*field)?;
+        self.field = field;
+        self.forget();
+        Ok(())
+    }
+
+    /// Gives the hair other settings, and puts it back to rest.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); the timeline is then as it was.
+    pub fn set_dynamics(&mut self, dynamics: &Dynamics) -> Result<(), SettingError> {
+        let packed = Packed::new(&self.hair, self.packed.ids(), dynamics)?;
+        packed.check_field(&*self.field)?;
+        self.packed = packed;
+        self.forget();
+        Ok(())
+    }
+
+    /// Lets the head go another way, for another number of frames, and puts the hair back to rest.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); the timeline is then as it was.
+    pub fn set_poses(&mut self, poses: Vec<Pose>, frames: u32) -> Result<(), SettingError> {
+        check_poses(&poses, frames)?;
+        (self.poses, self.frames) = (poses, frames);
+        self.forget();
+        Ok(())
+    }
+
+    fn forget(&mut self) {
+        self.played = false;
+        self.rewind();
+    }
+
+    /// Goes to a frame that does not lie behind, or `from_rest`.
+    fn go(&mut self, frame: u32, from_rest: bool) {
+        let first = if from_rest { 0 } else { self.frame + 1 };
+        let mut strands = std::mem::take(&mut self.strands);
+        self.sweep(first..=frame, Pages::Last(strands.points_mut()));
+        (self.strands, self.frame) = (strands, frame);
+    }
+
+    /// Takes the hair through some frames, of which 0 is rest.
+    fn sweep(&mut self, frames: std::ops::RangeInclusive<u32>, pages: Pages) {
+        let Self { packed, field, poses, states, .. } = self;
+        let plan = |frame: u32| match frame {
+            0 => Plan::Rest,
+            frame => {
+                let pose = poses.get(frame as usize).copied().unwrap_or_default();
+                packed.plan(&FrameInput { frame, pose, field: &**field })
+            }
+        };
+        let plans: Vec<Plan> = frames.map(plan).collect();
+        packed.sweep(&plans, self.width, states, pages);
+    }
+}
+
+/// All frames of a motion, as [`Timeline::play`] keeps them.
+#[derive(Clone, Copy, Debug)]
+pub struct Film<'a> {
+    points: &'a [Vec3],
+    hair: &'a Strands,
+}
+
+impl<'a> Film<'a> {
+    /// The last frame's number.
+    pub fn frames(&self) -> u32 {
+        (self.points.len() / self.hair.points().len()) as u32 - 1
+    }
+
+    /// The points of all strands at a frame (head space, cm), as [`Strands::points`] orders them.
+    ///
+    /// # Panics
+    /// If there is no such frame.
+    pub fn points(&self, frame: u32) -> &'a [Vec3] {
+        let points = self.hair.points().len();
+        &self.points[frame as usize * points..][..points]
+    }
+
+    /// The points of one strand at a frame (head space, cm), root first.
+    ///
+    /// # Panics
+    /// If there is no such frame or strand.
+    pub fn strand(&self, frame: u32, strand: usize) -> &'a [Vec3] {
+        &self.points(frame)[self.hair.range(strand)]
+    }
+}
+
+/// Refuses a head whose way is shorter than the time, or leads through places that are none.
+fn check_poses(poses: &[Pose], frames: u32) -> Result<(), SettingError> {
+    if poses.is_empty() {
+        return Ok(());
+    }
+    if poses.len() <= frames as usize {
+        let remedy = format!(
+            "the head's motion ends at frame {}: give a pose for every frame from 0 on, or ask for fewer frames",
+            poses.len() - 1
+        );
+        return Err(SettingError::new("motion.frames", frames, remedy));
+    }
+    match poses.iter().position(|pose| !pose.is_valid()) {
+        None => Ok(()),
+        Some(n) => {
+            let remedy = "must be a finite position (cm) and a rotation of length 1";
+            Err(SettingError::new(format!("head.motion frame {n}"), format!("{:?}", poses[n]), remedy))
+        }
+    }
+}

@@ -1,0 +1,222 @@
+//! The force of one frame as the fast step wants it: the same for all hair, or asked of the field at every node.
+
+use glam::{Mat3, Vec3};
+
+use super::kernel::{LANES, PointRow, Row};
+use super::polar::PolarAxis;
+use super::{Dynamics, ForceSpace, FrameInput};
+use crate::ellipsoid::Ellipsoid;
+use crate::field::Field;
+
+/// What lies around the hair in every frame: Gamma but for the force, and the polar axis.
+#[derive(Clone, Debug)]
+pub(super) struct Surroundings {
+    center: [f32; 3],
+    /// 1 / half axis.
+    inverse: [f32; 3],
+    /// C as a squared radius, where E's is 1.
+    shell_squared: f32,
+    /// alpha |alpha|: (4) with both sides multiplied by their own size, which spares the roots.
+    alpha_squared: f32,
+    /// Columns of the rotation from head space to the space whose y is the polar axis.
+    polar_from_head: [[f32; 3]; 3],
+    head_from_polar: [[f32; 3]; 3],
+}
+
+impl Surroundings {
+    pub fn new(dynamics: &Dynamics, axis: &PolarAxis) -> Self {
+        let Ellipsoid { center, half_axes } = dynamics.ellipsoid;
+        let alpha = dynamics.pseudo_force.alpha;
+        let polar_from_head = axis.polar_from_head().as_mat3();
+        Self {
+            center: center.to_array(),
+            inverse: half_axes.recip().to_array(),
+            shell_squared: dynamics.shell * dynamics.shell,
+            alpha_squared: alpha * alpha.abs(),
+            polar_from_head: polar_from_head.to_cols_array_2d(),
+            head_from_polar: polar_from_head.transpose().to_cols_array_2d(),
+        }
+    }
+
+    /// Equation (4), see [`Gamma::contains`](crate::pseudo_force::Gamma::contains).
+    #[inline(always)]
+    pub fn weaken(&self, p: [f32; 3], force: &Force) -> bool {
+        let [ix, iy, iz] = self.inverse;
+        let q = [(p[0] - self.center[0]) * ix, (p[1] - self.center[1]) * iy, (p[2] - self.center[2]) * iz];
+        let normal = [q[0] * ix, q[1] * iy, q[2] * iz];
+        let radius_squared = dot(q, q);
+        let against = dot(normal, force.in_head);
+        (radius_squared > 1.0)
+            & (radius_squared <= self.shell_squared)
+            & (against * against.abs() <= force.threshold * dot(normal, normal))
+    }
+
+    /// The direction of given sines and cosines in head space. `TILTED`: whether the polar axis is not y.
+    #[inline(always)]
+    pub fn direction<const TILTED: bool>(&self, theta: [f32; 2], phi: [f32; 2]) -> [f32; 3] {
+        let direction = [theta[0] * phi[0], theta[1], theta[0] * phi[1]];
+        if TILTED { rotate(&self.head_from_polar, direction) } else { direction }
+    }
+}
+
+/// F(n+1) at one place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Force {
+    /// For Gamma.
+    in_head: [f32; 3],
+    /// For the equations: the space whose y is the polar axis.
+    pub in_polar: [f32; 3],
+    /// Sine and cosine of its azimuth about the polar axis; (0, 0) where it has none.
+    pub azimuth: [f32; 2],
+    /// alpha |alpha| |F|^2.
+    threshold: f32,
+}
+
+impl Force {
+    #[inline(always)]
+    fn new(in_head: [f32; 3], surroundings: &Surroundings) -> Self {
+        let in_polar = rotate(&surroundings.polar_from_head, in_head);
+        let [x, _, z] = in_polar;
+        let level = x.mul_add(x, z * z).sqrt();
+        let along = |component: f32| if level > 0.0 { component / level } else { 0.0 };
+        let threshold = surroundings.alpha_squared * dot(in_head, in_head);
+        Self { in_head, in_polar, azimuth: [along(x), along(z)], threshold }
+    }
+
+    #[inline(always)]
+    pub fn has_azimuth(&self) -> bool {
+        (self.azimuth[0] != 0.0) | (self.azimuth[1] != 0.0)
+    }
+}
+
+/// Where forces come from in one frame.
+pub(super) trait Wind {
+    /// The forces on sixteen segments that end at `points` (head space).
+    fn at(&self, points: &PointRow, surroundings: &Surroundings) -> impl Forces;
+}
+
+/// The force on each of sixteen segments.
+pub(super) trait Forces {
+    fn lane(&self, lane: usize) -> Force;
+}
+
+impl Wind for Force {
+    #[inline(always)]
+    fn at(&self, _: &PointRow, _: &Surroundings) -> impl Forces {
+        *self
+    }
+}
+
+impl Forces for Force {
+    #[inline(always)]
+    fn lane(&self, _: usize) -> Force {
+        *self
+    }
+}
+
+/// A field that differs from place to place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LocalWind<'a> {
+    field: &'a dyn Field,
+    frame: u32,
+    /// Head space in the space that the field is given in.
+    field_from_head: [[f32; 3]; 3],
+    head_origin: [f32; 3],
+    head_from_field: [[f32; 3]; 3],
+}
+
+impl Wind for LocalWind<'_> {
+    #[inline(always)]
+    fn at(&self, points: &PointRow, surroundings: &Surroundings) -> impl Forces {
+        let mut there = [[0.0; LANES]; 3];
+        for lane in 0..LANES {
+            let turned = rotate(&self.field_from_head, [0, 1, 2].map(|axis| points[axis].0[lane]));
+            for axis in 0..3 {
+                there[axis][lane] = turned[axis] + self.head_origin[axis];
+            }
+        }
+        let mut force = [[0.0; LANES]; 3];
+        self.field.at_row(&there, self.frame, &mut force);
+        let mut row = ForceRow::default();
+        for lane in 0..LANES {
+            let in_head = rotate(&self.head_from_field, [0, 1, 2].map(|axis| force[axis][lane]));
+            row.set(lane, Force::new(in_head, surroundings));
+        }
+        row
+    }
+}
+
+#[derive(Clone, Copy, Default)]
+struct ForceRow {
+    in_head: PointRow,
+    in_polar: PointRow,
+    azimuth: [Row; 2],
+    threshold: Row,
+}
+
+impl ForceRow {
+    #[inline(always)]
+    fn set(&mut self, lane: usize, force: Force) {
+        for axis in 0..3 {
+            self.in_head[axis].0[lane] = force.in_head[axis];
+            self.in_polar[axis].0[lane] = force.in_polar[axis];
+        }
+        self.azimuth[0].0[lane] = force.azimuth[0];
+        self.azimuth[1].0[lane] = force.azimuth[1];
+        self.threshold.0[lane] = force.threshold;
+    }
+}
+
+impl Forces for ForceRow {
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> Force {
+        let at = |row: &PointRow| [row[0].0[lane], row[1].0[lane], row[2].0[lane]];
+        Force {
+            in_head: at(&self.in_head),
+            in_polar: at(&self.in_polar),
+            azimuth: [self.azimuth[0].0[lane], self.azimuth[1].0[lane]],
+            threshold: self.threshold.0[lane],
+        }
+    }
+}
+
+/// The wind of one frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum AnyWind<'a> {
+    /// The same everywhere.
+    Uniform(Force),
+    /// Asked for at every node.
+    Local(LocalWind<'a>),
+}
+
+impl<'a> AnyWind<'a> {
+    pub fn new(input: &FrameInput<'a>, space: ForceSpace, surroundings: &Surroundings) -> Self {
+        let FrameInput { frame, pose, field } = *input;
+        let (turn, head_origin) = match space {
+            ForceSpace::World => (Mat3::from_quat(pose.rotation), pose.position_cm),
+            ForceSpace::Head => (Mat3::IDENTITY, Vec3::ZERO),
+        };
+        let head_from_field = turn.transpose().to_cols_array_2d();
+        match field.uniform(frame) {
+            Some(force) => Self::Uniform(Force::new(rotate(&head_from_field, force.to_array()), surroundings)),
+            None => Self::Local(LocalWind {
+                field,
+                frame,
+                field_from_head: turn.to_cols_array_2d(),
+                head_origin: head_origin.to_array(),
+                head_from_field,
+            }),
+        }
+    }
+}
+
+/// A rotation, given by its columns, of `v`.
+#[inline(always)]
+fn rotate([x, y, z]: &[[f32; 3]; 3], v: [f32; 3]) -> [f32; 3] {
+    [0, 1, 2].map(|i| x[i].mul_add(v[0], y[i].mul_add(v[1], z[i] * v[2])))
+}
+
+#[inline(always)]
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
+}
