@@ -38,6 +38,7 @@ fn run(cli: &Cli) -> Result<(), Failure> {
             .map_err(|e| Failure::new(format!("--threads {threads}: {e}")))?;
     }
     match &cli.command {
+        Command::New(args) => commands::new::new(args, cli.quiet),
         Command::Run(args) => commands::run::run(args, cli.quiet),
         Command::Preview(args) => commands::preview::preview(args, cli.quiet),
         Command::Groom(args) => commands::groom::groom(args, cli.quiet),

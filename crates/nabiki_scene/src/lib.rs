@@ -3,10 +3,12 @@
 
 #![forbid(unsafe_code)]
 
+pub mod advice;
 pub mod info;
 pub mod scene;
 pub mod stage;
 pub mod take;
+pub mod template;
 
 pub use scene::Scene;
 pub use stage::Stage;
