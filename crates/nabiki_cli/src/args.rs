@@ -38,6 +38,8 @@ pub struct Cli {
 
 #[derive(Subcommand)]
 pub enum Command {
+    /// Write a scene to begin with, about a head and hair of your own or the built-in ones
+    New(New),
     /// Groom, simulate and draw a scene: a movie and a contact sheet
     Run(Run),
     /// The same at once, with a few strands that move exactly as they will in the whole
@@ -71,6 +73,28 @@ pub struct SceneArgs {
     /// Any setting of the scene in TOML, as often as wanted: motion.time_step=0.05, or in quotes force.0.vector=[0,-100,0]
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub sets: Vec<String>,
+}
+
+#[derive(Args)]
+pub struct New {
+    /// The scene to write (TOML)
+    pub scene: PathBuf,
+
+    /// Mesh of the head: .obj, .glb, .gltf, .ply, .tfxmesh, .usda, .usdc or .abc (default: the built-in bust)
+    #[arg(long, value_name = "FILE")]
+    pub head: Option<PathBuf>,
+
+    /// Group, object or node of the head's file to keep, as often as wanted (default: all)
+    #[arg(long, value_name = "NAME", requires = "head")]
+    pub group: Vec<String>,
+
+    /// Hair to import: .hair, .tfx, .obj, .usda, .usdc or .abc (default: hair is grown)
+    #[arg(long, value_name = "FILE")]
+    pub hair: Option<PathBuf>,
+
+    /// Replace a file that is there already
+    #[arg(long)]
+    pub force: bool,
 }
 
 #[derive(Args)]

@@ -1,11 +1,21 @@
 //! Each subcommand as the task that it asks for.
 
-use nabiki_scene::tasks::{self, ConvertOptions, RenderOptions, SimulateOptions};
+use nabiki_scene::tasks::{self, ConvertOptions, NewOptions, RenderOptions, SimulateOptions};
 use nabiki_scene::{Error, Result, Shown};
 
-use crate::args::{Convert, Groom, Info, Preview, Render, Run, Simulate};
+use crate::args::{Convert, Groom, Info, New, Preview, Render, Run, Simulate};
 use crate::say;
 use crate::terminal::Terminal;
+
+pub fn new(args: &New, terminal: &mut Terminal) -> Result<()> {
+    let options = NewOptions {
+        head: args.head.clone(),
+        groups: args.group.clone(),
+        hair: args.hair.clone(),
+        replace: args.force,
+    };
+    tasks::new(&args.scene, &options, terminal)
+}
 
 pub fn run(args: &Run, terminal: &mut Terminal) -> Result<()> {
     tasks::run(args.scene.load()?, shown(args.strands), &args.out, &args.export.options(), terminal)

@@ -31,6 +31,7 @@ fn run(cli: &Cli) -> Result<()> {
     cli.use_threads()?;
     let mut terminal = Terminal::new(cli.quiet);
     match &cli.command {
+        Command::New(args) => commands::new(args, &mut terminal),
         Command::Run(args) => commands::run(args, &mut terminal),
         Command::Preview(args) => commands::preview(args, &mut terminal),
         Command::Groom(args) => commands::groom(args, &mut terminal),

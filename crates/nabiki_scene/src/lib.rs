@@ -6,6 +6,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod advice;
 pub mod built;
 mod cache_file;
 pub mod error;
@@ -18,6 +19,7 @@ mod outputs;
 mod place;
 pub mod scene;
 pub mod tasks;
+pub mod template;
 pub mod told;
 pub mod watch;
 

@@ -3,6 +3,7 @@
 
 mod convert;
 mod groom;
+mod new;
 mod preview;
 mod render;
 mod run;
@@ -10,6 +11,7 @@ mod simulate;
 
 pub use convert::{ConvertOptions, convert};
 pub use groom::groom;
+pub use new::{NewOptions, new};
 pub use preview::preview;
 pub use render::{RenderOptions, render};
 pub use run::run;

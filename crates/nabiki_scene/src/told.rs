@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use nabiki::dynamics::{gain, period};
 use nabiki_io::hair::ImportReport;
 
+use crate::advice::Advice;
 use crate::built::BuiltScene;
 use crate::inside::Inside;
 
@@ -18,6 +19,10 @@ pub enum Told {
     Swing(SwingTable),
     /// How much of the hair is inside the head.
     Inside(Inside),
+    /// What looks wrong about the size or place of head and hair.
+    Advice(Advice),
+    /// What no file says and a new scene takes for granted.
+    Guessed(String),
     /// What a format could not hold of the hair.
     Lost {
         /// The file.
@@ -47,6 +52,8 @@ impl fmt::Display for Told {
             Self::Scene(summary) => summary.fmt(f),
             Self::Swing(table) => table.fmt(f),
             Self::Inside(inside) => inside.fmt(f),
+            Self::Advice(advice) => write!(f, "  look    {advice}"),
+            Self::Guessed(what) => write!(f, "  guessed {what}"),
             Self::Lost { file, what } => write!(f, "  lost    {} cannot hold {what}", file.display()),
             Self::Large { file, bytes } => {
                 write!(f, "  large   {} will take {} at least", file.display(), size(*bytes))

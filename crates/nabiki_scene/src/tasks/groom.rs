@@ -22,6 +22,7 @@ pub fn groom(scene: Scene, shown: Shown, output: &Path, watch: &mut dyn Watch) -
     place::not_inputs(&[output], &scene.inputs())?;
     let built = scene.build(shown)?;
     watch.told(Told::Scene(SceneSummary::of(&built)));
+    built.advice().into_iter().for_each(|advice| watch.told(Told::Advice(advice)));
     for what in hair::write(output, &built.hair)? {
         watch.told(Told::Lost { file: output.to_owned(), what });
     }

@@ -12,7 +12,7 @@ use crate::frames::Simulated;
 use crate::outputs::PictureOutputs;
 use crate::place::{self, Folders};
 use crate::scene::Scene;
-use crate::told::{SceneSummary, SwingTable, Told};
+use crate::told::Told;
 use crate::watch::Watch;
 
 /// Longer side of a preview's frames (pixels).
@@ -35,8 +35,7 @@ pub fn preview(scene: Scene, strands: usize, folder: &Path, cache: Option<&Path>
     let mut folders = Folders::default();
     let name = format!("{}_preview", scene.name());
     let mut outputs = PictureOutputs::begin(&built, &picture, folder, &name, &built.inputs(), &mut folders)?;
-    watch.told(Told::Scene(SceneSummary::of(&built)));
-    watch.told(Told::Swing(SwingTable::of(&built)));
+    built.introduce(watch);
     let mut film = Film::new(&built, &picture, &mut simulated.again(), watch)?;
     let mut frames = simulated.again();
     let inside = film.shoot(&mut frames, &mut outputs, watch)?;

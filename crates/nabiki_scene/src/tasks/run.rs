@@ -12,7 +12,7 @@ use crate::frames::{FrameSource, Simulated};
 use crate::outputs::PictureOutputs;
 use crate::place::{self, Folders};
 use crate::scene::Scene;
-use crate::told::{SceneSummary, SwingTable, Told};
+use crate::told::Told;
 use crate::watch::Watch;
 
 /// Moves the hair of a scene and draws all its frames into `folder`: a movie, a contact sheet and whatever else the
@@ -31,8 +31,7 @@ pub fn run(scene: Scene, shown: Shown, folder: &Path, exports: &ExportOptions, w
     let mut folders = Folders::default();
     let mut outputs =
         PictureOutputs::begin(&built, &scene.picture, folder, &scene.name(), &built.inputs(), &mut folders)?;
-    watch.told(Told::Scene(SceneSummary::of(&built)));
-    watch.told(Told::Swing(SwingTable::of(&built)));
+    built.introduce(watch);
     let mut exports = Exports::begin(exports, &built, watch)?;
     let mut rehearsal = simulated.again();
     let mut frames = Exported { frames: simulated, built: &built, exports: &mut exports };

@@ -12,7 +12,7 @@ use crate::frames::{FrameSource, Simulated};
 use crate::inside::{Inside, InsideFrame};
 use crate::place;
 use crate::scene::Scene;
-use crate::told::{SceneSummary, SwingTable, Told};
+use crate::told::Told;
 use crate::watch::{Watch, each_frame};
 
 /// What [`simulate`] writes, and how.
@@ -57,8 +57,7 @@ pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &m
         Twin::Fast => Box::new(Simulated::new(&built)?),
         Twin::Reference => Box::new(Simulated::by(&built, built.reference()?)),
     };
-    watch.told(Told::Scene(SceneSummary::of(&built)));
-    watch.told(Told::Swing(SwingTable::of(&built)));
+    built.introduce(watch);
     let mut exports = Exports::begin(&exports, &built, watch)?;
     let mut scene_cache = cache.map(|cache| SceneCache::begin(&built, cache, watch)).transpose()?;
     let mut inside = Inside::default();
