@@ -8,10 +8,7 @@ mod read;
 mod settings;
 mod tree;
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use nabiki::{
     SettingError,
@@ -26,7 +23,7 @@ use toml::{Table, Value};
 
 pub use settings::{EllipsoidChoice, HairSettings, HeadSettings, Output};
 
-use nabiki_io::{Error, Result};
+use nabiki_io::{Error, Result, input, kind};
 use settings::{GROWN_ONLY, IMPORTED_ONLY, MESH_FILE_ONLY};
 
 /// A scene, read and checked.
@@ -73,7 +70,8 @@ impl Scene {
     /// # Errors
     /// One line: file and line (or override), key, value and the way out.
     pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Self> {
-        let text = fs::read_to_string(path).map_err(|e| Error::from(e).in_file(path))?;
+        kind::check_scene(path)?;
+        let text = input::read_text(path, input::MOST_SCENE_BYTES)?;
         Self::parse(&text, path, overrides)
     }
 

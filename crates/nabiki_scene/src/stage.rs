@@ -3,11 +3,12 @@
 use nabiki::{Hair, Head, SettingError, Strands, dynamics::Dynamics, groom::groom, pores, subset};
 
 use nabiki_io::{
-    Error, Result,
+    DeclaredSpace, Error, Result,
     cache::Origin,
-    exchange::{self, Said},
+    exchange,
     hair::{self, ImportReport},
     identity::{Digest, SceneId},
+    input,
     mesh::{self, MeshReport},
     motion::{self, HeadMotion},
     placement::Placement,
@@ -55,8 +56,8 @@ impl Scene {
         let (hair, hair_placement, import_report) = match &self.hair.file {
             None => (grow(&self, &head)?.into(), None, None),
             Some(file) => {
-                let said = exchange::said(&self.resolve(file))?;
-                let placement = hair_placement(&self.hair, &placement, said);
+                let declared = exchange::declared_space(&self.resolve(file))?;
+                let placement = hair_placement(&self.hair, &placement, declared);
                 placement.check("hair").map_err(|refused| self.refusal(refused))?;
                 let (hair, report) = import(&self.resolve(file), &placement, &self.hair.cleaning())?;
                 let chosen = match self.hair.strands {
@@ -99,7 +100,7 @@ impl Stage {
             let files = [("head.motion.file", Some(&source.file)), ("head.motion.skeleton", source.skeleton.as_ref())];
             for (name, file) in files.into_iter().filter_map(|(name, file)| Some((name, file?))) {
                 let path = self.scene.resolve(file);
-                let bytes = std::fs::read(&path).map_err(|e| Error::from(e).in_file(&path))?;
+                let bytes = input::read(&path, input::MOST_BINARY_BYTES)?;
                 digest.bytes(name, &bytes);
             }
         }
@@ -148,9 +149,9 @@ fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshReport>)> {
     }
     let file = scene.resolve(settings.mesh.as_ref());
     let mut placement = settings.placement();
-    let said = exchange::said(&file)?;
-    placement.unit = settings.unit.or(said.unit).unwrap_or(placement.unit);
-    placement.up = settings.up.or(said.up).unwrap_or(placement.up);
+    let declared = exchange::declared_space(&file)?;
+    placement.unit = settings.unit.or(declared.unit).unwrap_or(placement.unit);
+    placement.up = settings.up.or(declared.up).unwrap_or(placement.up);
     let (mut mesh, report) = mesh::import(&file, &placement, &settings.groups)?;
     let mut ellipsoid = given;
     if settings.origin.is_none() && given.is_none() {
@@ -167,10 +168,10 @@ fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshReport>)> {
 }
 
 /// How the hair's file lies in head space: as the head's file does, but for what the scene or the file itself says.
-fn hair_placement(settings: &HairSettings, head: &Placement, said: Said) -> Placement {
+fn hair_placement(settings: &HairSettings, head: &Placement, declared: DeclaredSpace) -> Placement {
     let unmoved = Placement {
-        unit: settings.unit.or(said.unit).unwrap_or(head.unit),
-        up: settings.up.or(said.up).unwrap_or(head.up),
+        unit: settings.unit.or(declared.unit).unwrap_or(head.unit),
+        up: settings.up.or(declared.up).unwrap_or(head.up),
         facing: settings.facing.unwrap_or(head.facing),
         origin: glam::Vec3::ZERO,
     };
