@@ -42,6 +42,9 @@ impl<'a> Report<'a> {
                 "          of {} strands in the file; {joined} doubled points joined, {dropped} strands dropped as too short",
                 import.strands_in_file
             );
+            if let Some(warning) = import.warning() {
+                say!("          {warning}");
+            }
         }
     }
 

@@ -11,8 +11,8 @@ use std::{
 };
 
 use glam::{Quat, Vec3};
-use nabiki_file::PartFile;
 use nabiki::{Hair, Pose, Strands, hair::Attributes, strands::not_finite};
+use nabiki_file::PartFile;
 
 use crate::{
     bytes::{Bytes, put},

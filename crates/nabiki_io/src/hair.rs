@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use nabiki_file::PartFile;
 use nabiki::{Hair, SettingError, error::check_range, hair::Degenerate, strands::not_finite};
+use nabiki_file::PartFile;
 use serde::{Deserialize, Serialize};
 
 use crate::{

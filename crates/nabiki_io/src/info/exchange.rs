@@ -59,10 +59,9 @@ impl ExchangeInfo {
         let mesh = if outline.meshes.is_empty() { None } else { Some(MeshInfo::of(&mesh(path)?)) };
         // One guess for the whole file, and only of what it leaves open.
         let likely = hair.as_ref().map(|hair| hair.guess).or(mesh.as_ref().map(|mesh| mesh.guess)).flatten();
-        let guess = likely.filter(|_| declared.unit.is_none()).map(|likely| Guess {
-            likely_up: likely.likely_up.filter(|_| declared.up.is_none()),
-            ..likely
-        });
+        let guess = likely
+            .filter(|_| declared.unit.is_none())
+            .map(|likely| Guess { likely_up: likely.likely_up.filter(|_| declared.up.is_none()), ..likely });
         Ok(Self {
             hair: hair.map(|hair| HairInfo { guess: None, ..hair }),
             mesh: mesh.map(|mesh| MeshInfo { guess: None, ..mesh }),

@@ -85,10 +85,7 @@ impl MeshInfo {
             open_edges: edges.values().filter(|&&n| n == 1).count(),
             crowded_edges: edges.values().filter(|&&n| n > 2).count(),
             // A small head to a tall body.
-            guess: Some(Guess {
-                likely_unit: guess_unit(bounds.max[1] - bounds.min[1], 18.0, 220.0),
-                likely_up: None,
-            }),
+            guess: Some(Guess { likely_unit: guess_unit(bounds.max[1] - bounds.min[1], 18.0, 220.0), likely_up: None }),
             bounds,
             clips: Vec::new(),
             nodes: Vec::new(),

@@ -148,7 +148,8 @@ fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize)> {
                 joints[j].first_column = columns;
                 while (joints[j].channels.len() as f64) < count {
                     let name = words.next("a channel's name")?;
-                    let channel = channel(name).ok_or_else(|| words.refusal(name, "a channel is one of Xposition .. Zrotation"));
+                    let channel =
+                        channel(name).ok_or_else(|| words.refusal(name, "a channel is one of Xposition .. Zrotation"));
                     joints[j].channels.push(channel?);
                 }
                 columns += joints[j].channels.len();

@@ -133,7 +133,8 @@ mod tests {
             "joint \"Head\": 4 have that name; give node as a path: one of /Hips/Spine/Head, /Hips/Tail/Head, /Head, \
              /Head/Head"
         );
-        let twins = Tree { kind: "node", names: vec![Some("A"), Some("B"), Some("B")], parents: vec![None, Some(0), Some(0)] };
+        let twins =
+            Tree { kind: "node", names: vec![Some("A"), Some("B"), Some("B")], parents: vec![None, Some(0), Some(0)] };
         assert_eq!(
             twins.chain("B").unwrap_err().to_string(),
             "node \"B\": 2 have that name; rename one of them in the file: /A/B, /A/B"
