@@ -2,7 +2,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fs;
 use std::path::PathBuf;
 
-use glam::{DQuat, DVec3, Vec3};
+use glam::{DQuat, DVec3, Quat, Vec3};
 use nabiki::Pose;
 use proptest::prelude::*;
 
