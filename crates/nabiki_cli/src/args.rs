@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use nabiki_io::placement::Unit;
+use nabiki_io::Unit;
 use nabiki_scene::exports::ExportOptions;
 use nabiki_scene::tasks::Twin;
 use nabiki_scene::{Error, Result};

@@ -238,25 +238,21 @@ fn every_scene_shipped_moves() {
 }
 
 #[test]
-fn a_recorded_runner_carries_the_head() {
-    let track = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/motion/head_tracks/cmu_02_03_run.csv");
-    if !Path::new(track).exists() {
-        eprintln!("SKIPPED: {track} is not here");
-        return;
-    }
+fn a_recorded_head_carries_the_hair() {
+    let track = concat!(env!("CARGO_MANIFEST_DIR"), "/../nabiki_io/tests/files/nod.csv");
     let folder = TempDir::new().unwrap();
     let running = Path::new(GUST).with_file_name("running.toml");
     let simulate = |name: &str, changes: &[&str]| {
         let cache = path(&folder, name);
-        let small = ["simulate", running.to_str().unwrap(), "-o", &cache, "--strands", "60", "--frames", "34"];
+        let small = ["simulate", running.to_str().unwrap(), "-o", &cache, "--strands", "60", "--frames", "12"];
         let said = succeed(&[&small[..], changes].concat());
         let hair = path(&folder, &format!("{name}.hair"));
-        succeed(&["convert", &cache, "--frame", "34", &hair]);
+        succeed(&["convert", &cache, "--frame", "12", &hair]);
         (said, fs::read(hair).unwrap())
     };
     let motion = format!("head.motion={{file=\"{track}\",up=\"+y\",facing=\"+z\",start_at_origin=true}}");
     let (said, in_world) = simulate("world.nabiki", &["--set", &motion]);
-    assert!(said.contains("120 Hz") && said.contains("24 Hz"), "the conversion of the rate is said: {said}");
+    assert!(said.contains("48 Hz") && said.contains("24 Hz"), "the conversion of the rate is said: {said}");
     let in_head = simulate("head.nabiki", &["--set", &motion, "--set", "motion.force_space=\"head\""]).1;
     let still = simulate("still.nabiki", &[]).1;
     assert!(in_world != still, "a turning head feels the world's wind from other sides");
@@ -266,40 +262,35 @@ fn a_recorded_runner_carries_the_head() {
 #[test]
 fn what_a_motion_file_does_not_say_is_asked_for_one_by_one() {
     // Beside the scene's folder, as the scene names it: its own paths count from there.
-    let data = "../../shared/data/motion";
+    let data = "../crates/nabiki_io/tests/files";
     let running = Path::new(GUST).with_file_name("running.toml");
-    if !running.with_file_name(data).exists() {
-        eprintln!("SKIPPED: {} is not here", running.with_file_name(data).display());
-        return;
-    }
     let folder = TempDir::new().unwrap();
     let cache = path(&folder, "m.nabiki");
     let arguments = |motion: &str| {
-        let small = ["simulate", running.to_str().unwrap(), "-o", &cache, "--strands", "20", "--frames", "34", "--set"];
+        let small = ["simulate", running.to_str().unwrap(), "-o", &cache, "--strands", "20", "--frames", "12", "--set"];
         [&small[..], &[motion]].concat().iter().map(|&argument| argument.to_owned()).collect::<Vec<_>>()
     };
     for (file, given) in [
         (
-            "cmu_02_03_run.amc",
+            "nod.amc",
             &[
-                ("skeleton", format!("\"{data}/cmu_02.asf\"")),
-                ("frames_per_second", "120".to_owned()),
+                ("skeleton", format!("\"{data}/nod.asf\"")),
+                ("frames_per_second", "48".to_owned()),
                 ("up", "\"+y\"".to_owned()),
                 ("facing", "\"+z\"".to_owned()),
             ][..],
         ),
         (
-            "jolt_sprint.tof",
+            "nod.tof",
             &[
-                ("skeleton", format!("\"{data}/jolt_human.tof\"")),
+                ("skeleton", format!("\"{data}/nod_skeleton.tof\"")),
                 ("unit_cm", "100".to_owned()),
                 ("up", "\"+y\"".to_owned()),
                 ("facing", "\"+z\"".to_owned()),
             ],
         ),
     ] {
-        let node = if file.ends_with("amc") { "head" } else { "C_Head_sjnt_0" };
-        let mut motion = format!("head.motion={{file=\"{data}/{file}\",node=\"{node}\"");
+        let mut motion = format!("head.motion={{file=\"{data}/{file}\"");
         for (key, value) in given {
             let complete = arguments(&format!("{motion}}}"));
             let said = refuse(&complete.iter().map(String::as_str).collect::<Vec<_>>(), folder.path());
@@ -308,7 +299,10 @@ fn what_a_motion_file_does_not_say_is_asked_for_one_by_one() {
         }
         let complete = arguments(&format!("{motion}}}"));
         let said = succeed(&complete.iter().map(String::as_str).collect::<Vec<_>>());
-        assert!(said.contains("Hz (1.") && said.contains("24 Hz (positions cubic"), "the rates are said: {said}");
+        assert!(
+            said.contains("48 Hz (0.500 s)") && said.contains("24 Hz (positions cubic"),
+            "the rates are said: {said}"
+        );
         fs::remove_file(&cache).unwrap();
     }
 }

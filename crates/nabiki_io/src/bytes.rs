@@ -11,6 +11,7 @@ use std::{
 use bytemuck::{AnyBitPattern, NoUninit};
 
 use crate::error::{Error, Result};
+use crate::input;
 
 /// A number, or a small array of them, as it stands in a little-endian file.
 pub(crate) trait Scalar: AnyBitPattern + NoUninit {
@@ -38,14 +39,11 @@ pub(crate) struct Bytes<R> {
 }
 
 impl Bytes<File> {
-    /// Opens a file; a folder or a device is refused.
+    /// Opens a regular file.
     pub fn open(path: &Path) -> Result<Self> {
-        let file = File::open(path).map_err(|e| Error::from(e).in_file(path))?;
-        let meta = file.metadata().map_err(|e| Error::from(e).in_file(path))?;
-        if !meta.is_file() {
-            return Err(Error::new("not a regular file").in_file(path));
-        }
-        Ok(Self { reader: file, len: meta.len(), at: 0 })
+        let file = input::open(path)?;
+        let len = file.metadata().map_err(|e| Error::from(e).in_file(path))?.len();
+        Ok(Self { reader: file, len, at: 0 })
     }
 }
 

@@ -12,9 +12,9 @@ use std::{
 
 use glam::{Quat, Vec3};
 use nabiki::{Hair, Pose, Strands, hair::Attributes, strands::not_finite};
+use nabiki_file::PartFile;
 
 use crate::{
-    atomic::Unfinished,
     bytes::{Bytes, put},
     error::{Error, Result},
     finite,
@@ -72,7 +72,7 @@ impl Header {
 
 /// Writes a cache frame by frame. Dropped before [`finish`](Self::finish), it leaves no file.
 pub struct Writer {
-    file: Unfinished,
+    file: PartFile,
     target: PathBuf,
     points: usize,
     frames: u64,
@@ -91,8 +91,8 @@ impl Writer {
         }
         let hair = Hair { strands: shape, attributes: header.attributes.clone() };
         hair.check_lengths().map_err(|e| named(Error::new(e.to_string())))?;
-        let mut file = Unfinished::beside(path)?;
-        write_header(&mut file.file, header).map_err(named)?;
+        let mut file = PartFile::create(path).map_err(|e| named(e.into()))?;
+        write_header(&mut file, header).map_err(named)?;
         Ok(Self { file, target: path.to_owned(), points: header.point_count(), frames: 0 })
     }
 
@@ -109,7 +109,7 @@ impl Writer {
         if !(head.position_cm.is_finite() && head.rotation.is_finite()) {
             return refuse(format!("frame {frame}: the head is at {}, turned {}", head.position_cm, head.rotation));
         }
-        let out = &mut self.file.file;
+        let out = &mut self.file;
         put(out, &[head.position_cm])
             .and_then(|()| put(out, &[head.rotation.to_array()]))
             .and_then(|()| put(out, points))
@@ -124,10 +124,10 @@ impl Writer {
         if self.frames == 0 {
             return Err(named(Error::new("there are no frames to write")));
         }
-        let out = &mut self.file.file;
+        let out = &mut self.file;
         out.seek(SeekFrom::Start(FRAMES_AT)).map_err(|e| named(e.into()))?;
         put(out, &[self.frames]).map_err(named)?;
-        self.file.finish()?;
+        self.file.finish().map_err(|e| Error::from(e).in_file(&self.target))?;
         Ok(self.frames)
     }
 }

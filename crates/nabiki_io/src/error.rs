@@ -34,6 +34,12 @@ impl Error {
         self
     }
 
+    /// Says first what it is part of: `joint Head: ...`.
+    pub fn under(mut self, thing: impl fmt::Display) -> Self {
+        self.what = format!("{thing}: {}", self.what);
+        self
+    }
+
     /// Names the line (from 1).
     pub fn at_line(mut self, line: Option<usize>) -> Self {
         self.line = line;
@@ -62,10 +68,7 @@ impl std::error::Error for Error {
 
 impl From<io::Error> for Error {
     fn from(source: io::Error) -> Self {
-        let text = source.to_string();
-        // The crate tempfile adds the name of the part file, which is gone by the time anyone reads this.
-        let what = text.split(" at path ").next().unwrap_or(&text);
-        Self { source: Some(io::Error::from(source.kind())), ..Self::new(what) }
+        Self { what: Self::new(source.to_string()).what, source: Some(source), file: None, line: None }
     }
 }
 

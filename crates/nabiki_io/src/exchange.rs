@@ -1,20 +1,21 @@
-//! USD layers and Alembic archives, which their own crates read and write: hair, heads, motion, and what the files say
-//! of unit and axes.
+//! USD layers and Alembic archives, which their own crates read and write: hair, heads, motion, and the space that the
+//! files declare.
 
-use std::fmt;
 use std::path::Path;
 
 use nabiki::export::{Export, FrameSink};
 use nabiki::{Hair, Mesh};
 use nabiki_alembic::{ArchiveReader, HairArchive};
 use nabiki_usd::{Form, HairStage, StageReader};
-use serde::Serialize;
 
+use crate::axis::Axis;
 use crate::error::{Error, Result};
-use crate::hair::extension;
-use crate::info::{HairInfo, MeshInfo};
-use crate::motion::{Axis, Sample, Track};
-use crate::placement::{Placement, Unit};
+use crate::kind::extension;
+use crate::motion::track::{Sample, Track};
+use crate::placement::Placement;
+use crate::unit::Unit;
+
+pub use crate::declared::DeclaredSpace;
 
 /// Whether a file's ending is that of a USD layer.
 pub fn is_usd(path: &Path) -> bool {
@@ -26,38 +27,29 @@ pub fn is_alembic(path: &Path) -> bool {
     extension(path) == "abc"
 }
 
-/// What a file itself says of its coordinates; `None` where it says nothing.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Said {
-    /// Length unit.
-    pub unit: Option<Unit>,
-    /// Axis that points up.
-    pub up: Option<Axis>,
-}
-
-/// What the file says. Only USD layers say anything; Alembic is y up by agreement.
+/// The unit and up axis that the file declares. Only USD layers say anything; Alembic is y up by agreement.
 ///
 /// # Errors
 /// A layer that cannot be read.
-pub fn said(path: &Path) -> Result<Said> {
+pub fn declared_space(path: &Path) -> Result<DeclaredSpace> {
     if is_alembic(path) {
-        return Ok(Said { unit: None, up: Some(Axis::PlusY) });
+        return Ok(DeclaredSpace { unit: None, up: Some(Axis::PlusY) });
     }
     if !is_usd(path) {
-        return Ok(Said::default());
+        return Ok(DeclaredSpace::default());
     }
     let contents = stage(path)?.contents().map_err(|e| Error::new(e.to_string()).in_file(path))?;
     // A layer that says nothing means centimetres and y, by USD's own rule.
     let cm = contents.meters_per_unit.unwrap_or(0.01) * 100.0;
     let up = if contents.z_up == Some(true) { Axis::PlusZ } else { Axis::PlusY };
-    Ok(Said { unit: Some(Unit { cm: cm as f32 }), up: Some(up) })
+    Ok(DeclaredSpace { unit: Some(Unit { cm: cm as f32 }), up: Some(up) })
 }
 
-fn stage(path: &Path) -> Result<StageReader> {
+pub(crate) fn stage(path: &Path) -> Result<StageReader> {
     StageReader::open(path).map_err(|e| Error::new(e.to_string()).in_file(path))
 }
 
-fn archive(path: &Path) -> Result<ArchiveReader> {
+pub(crate) fn archive(path: &Path) -> Result<ArchiveReader> {
     ArchiveReader::open(path).map_err(|e| Error::new(e.to_string()).in_file(path))
 }
 
@@ -110,11 +102,11 @@ pub(crate) fn track(path: &Path, node: &str) -> Result<Track> {
     } else {
         stage(path)?.motion(node).map_err(|e| named(e.to_string()))?
     };
-    let said = said(path)?;
+    let declared = declared_space(path)?;
     let (times, samples) =
         motion.into_iter().map(|(time, position, rotation)| (time, Sample { position, rotation })).unzip();
-    let unit_cm = said.unit.map(|unit| f64::from(unit.cm));
-    Ok(Track { times, samples, what: format!("object {node}"), unit_cm, up: said.up })
+    let unit_cm = declared.unit.map(|unit| f64::from(unit.cm));
+    Ok(Track { times, samples, what: format!("object {node}"), unit_cm, up: declared.up })
 }
 
 /// What is told to a file of moving hair: imported hair goes back into its own file's space, at its `placement`, hair
@@ -167,10 +159,10 @@ pub fn sink<'a>(path: &Path, export: Export<'a>, layer: Option<&str>) -> Result<
 ///
 /// # Errors
 /// What the disk says.
-pub fn write(path: &Path, hair: &Hair, said: Said) -> Result<()> {
+pub fn write(path: &Path, hair: &Hair, declared: DeclaredSpace) -> Result<()> {
     let mut export = Export::new(hair, 24.0);
-    export.meters_per_unit = said.unit.map_or(0.01, |unit| f64::from(unit.cm) / 100.0);
-    export.z_up = said.up == Some(Axis::PlusZ);
+    export.meters_per_unit = declared.unit.map_or(0.01, |unit| f64::from(unit.cm) / 100.0);
+    export.z_up = declared.up == Some(Axis::PlusZ);
     let mut sink = sink(path, export, None)?;
     let named = |e: std::io::Error| Error::from(e).in_file(path);
     sink.frame(&hair.strands, &glam::Affine3A::IDENTITY).map_err(named)?;
@@ -185,71 +177,5 @@ pub fn losses(hair: &Hair) -> Vec<String> {
         vec!["names of groups without strands".to_owned()]
     } else {
         Vec::new()
-    }
-}
-
-/// What is in a layer or archive.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ExchangeInfo {
-    /// The curves of the first frame, transforms applied.
-    pub hair: Option<HairInfo>,
-    /// The meshes, transforms applied.
-    pub mesh: Option<MeshInfo>,
-    /// Frames of the curves; 1 for a groom that stands still.
-    pub frames: usize,
-    /// Frames a second, where there are several.
-    pub frame_rate: Option<f64>,
-    /// Centimetres in the file's unit, where it says so.
-    pub unit_cm: Option<f32>,
-    /// Axis that points up, where it says so.
-    pub up: Option<String>,
-}
-
-impl ExchangeInfo {
-    /// Looks into the file.
-    ///
-    /// # Errors
-    /// What is wrong with it.
-    pub fn of(path: &Path) -> Result<Self> {
-        let named = |problem: String| Error::new(problem).in_file(path);
-        let (curves, meshes, frames, rate) = if is_alembic(path) {
-            let contents = archive(path)?.contents().map_err(|e| named(e.to_string()))?;
-            (contents.curves.len(), contents.meshes.len(), contents.frames, contents.frame_rate)
-        } else {
-            let contents = stage(path)?.contents().map_err(|e| named(e.to_string()))?;
-            (contents.curves.len(), contents.meshes.len(), contents.times.len(), contents.frame_rate)
-        };
-        let said = said(path)?;
-        Ok(Self {
-            hair: (curves > 0).then(|| hair(path, 0, None).map(|hair| HairInfo::of(&hair))).transpose()?,
-            mesh: (meshes > 0).then(|| mesh(path).map(|mesh| MeshInfo::of(&mesh))).transpose()?,
-            frames: frames.max(1),
-            frame_rate: (frames > 1).then_some(rate),
-            unit_cm: said.unit.map(|unit| unit.cm),
-            up: said.up.map(|axis| axis.to_string()),
-        })
-    }
-}
-
-impl fmt::Display for ExchangeInfo {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(hair) = &self.hair {
-            writeln!(f, "{hair}")?;
-        }
-        if let Some(mesh) = &self.mesh {
-            writeln!(f, "{mesh}")?;
-        }
-        match self.frame_rate {
-            Some(rate) => writeln!(f, "frames: {} at {rate} a second", self.frames)?,
-            None => writeln!(f, "frames: {}", self.frames)?,
-        }
-        match self.unit_cm {
-            Some(cm) => write!(f, "the file says: unit {cm} cm")?,
-            None => write!(f, "the file says: no unit")?,
-        }
-        match &self.up {
-            Some(up) => write!(f, ", up {up}; facing: unknown"),
-            None => write!(f, "; up, facing: unknown"),
-        }
     }
 }

@@ -1,15 +1,18 @@
 //! Hair files of any format, told apart by their name's ending.
 
-use std::{fs, path::Path};
+use std::path::Path;
 
 use nabiki::{Hair, SettingError, error::check_range, hair::Degenerate, strands::not_finite};
+use nabiki_file::PartFile;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    atomic,
     bytes::Bytes,
     error::{Error, Result},
-    exchange, hair_file, obj_lines,
+    exchange, hair_file,
+    input::{self, MOST_TEXT_BYTES},
+    kind::extension,
+    obj_lines,
     placement::Placement,
     tfx,
 };
@@ -55,11 +58,6 @@ impl Format {
     }
 }
 
-/// A name's ending in lower case, without the dot.
-pub(crate) fn extension(path: &Path) -> String {
-    path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
-}
-
 /// What an import gave, before and after cleaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ImportReport {
@@ -71,6 +69,23 @@ pub struct ImportReport {
     pub degenerate: Degenerate,
     /// Strands dropped because they are shorter than [`Cleaning::drop_shorter_than`].
     pub dropped_short: usize,
+    /// Strands left whose file holds their tips as well as their roots. The motion holds roots only: their tips swing.
+    pub held_at_both_ends: usize,
+}
+
+impl ImportReport {
+    /// What of the file the motion does not obey, in a line for the user; `None` where there is nothing.
+    pub fn warning(&self) -> Option<String> {
+        let count = self.held_at_both_ends;
+        (count > 0).then(|| format!("{count} strands are held at both ends in the file; here their tips swing freely"))
+    }
+}
+
+/// Strands whose tips are held, by TressFX's flag or weight, as well as their roots.
+pub(crate) fn held_at_both_ends(hair: &Hair) -> usize {
+    let Some(freedom) = &hair.attributes.freedom else { return 0 };
+    let ranges = (0..hair.strands.len()).map(|s| hair.strands.range(s)).filter(|range| range.len() > 1);
+    ranges.filter(|range| freedom[range.start] == 0.0 && freedom[range.end - 1] == 0.0).count()
 }
 
 /// What of imported hair is not worth moving.
@@ -103,10 +118,7 @@ pub fn read(path: &Path) -> Result<Hair> {
     match Format::of(path)? {
         Format::Hair => hair_file::from_source(&mut Bytes::open(path)?).map_err(named),
         Format::Tfx => tfx::from_source(&mut Bytes::open(path)?).map_err(named),
-        Format::ObjLines => {
-            let bytes = fs::read(path).map_err(|e| Error::from(e).in_file(path))?;
-            obj_lines::from_bytes(&bytes).map_err(named)
-        }
+        Format::ObjLines => obj_lines::from_bytes(&input::read(path, MOST_TEXT_BYTES)?).map_err(named),
         Format::Usd | Format::Alembic => exchange::hair(path, 0, None),
     }
 }
@@ -142,7 +154,8 @@ pub fn place_and_clean(hair: Hair, placement: &Placement, cleaning: &Cleaning) -
             degenerate.dropped_strands, cleaning.drop_shorter_than
         )));
     }
-    Ok((hair, ImportReport { strands_in_file, points_in_file, degenerate, dropped_short }))
+    let held_at_both_ends = held_at_both_ends(&hair);
+    Ok((hair, ImportReport { strands_in_file, points_in_file, degenerate, dropped_short, held_at_both_ends }))
 }
 
 pub(crate) use nabiki::strands::length;
@@ -162,12 +175,16 @@ pub fn write(path: &Path, hair: &Hair) -> Result<Vec<String>> {
     hair.check_lengths().map_err(|e| Error::new(e.to_string()).in_file(path))?;
     let lost = losses(path, hair)?;
     if matches!(Format::of(path)?, Format::Usd | Format::Alembic) {
-        exchange::write(path, hair, exchange::Said::default())?;
+        exchange::write(path, hair, exchange::DeclaredSpace::default())?;
         return Ok(lost);
     }
-    atomic::write(path, |out| match Format::of(path)? {
-        Format::Tfx => tfx::to_writer(hair, out),
-        _ => hair_file::to_writer(hair, "Written by Nabiki", out),
-    })?;
+    let on_disk = |e: std::io::Error| Error::from(e).in_file(path);
+    let mut file = PartFile::create(path).map_err(on_disk)?;
+    let written = match Format::of(path)? {
+        Format::Tfx => tfx::to_writer(hair, &mut file),
+        _ => hair_file::to_writer(hair, "Written by Nabiki", &mut file),
+    };
+    written.map_err(|e| e.in_file(path))?;
+    file.finish().map_err(on_disk)?;
     Ok(lost)
 }

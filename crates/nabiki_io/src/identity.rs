@@ -25,13 +25,24 @@ impl Serialize for SceneId {
 }
 
 /// Collects what an identity is made of, each part under its name.
-#[derive(Default)]
 pub struct Digest(XxHash3_128);
 
+impl Default for Digest {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Digest {
-    /// Of nothing yet.
+    /// Of nothing yet but the version of the method: the same settings may move otherwise in another.
     pub fn new() -> Self {
-        Self::default()
+        Self::of_method(nabiki::METHOD_VERSION)
+    }
+
+    fn of_method(version: u32) -> Self {
+        let mut digest = Self(XxHash3_128::default());
+        digest.bytes("method", &version.to_le_bytes());
+        digest
     }
 
     /// Settings with their defaults filled in: it is their values that count, not how a scene spells them.
@@ -85,5 +96,21 @@ impl Digest {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_version_of_the_method_is_another_identity() {
+        let of = |mut digest: Digest| {
+            digest.bytes("points", b"the same");
+            digest.finish()
+        };
+        let now = nabiki::METHOD_VERSION;
+        assert_eq!(of(Digest::new()), of(Digest::of_method(now)));
+        assert_ne!(of(Digest::new()), of(Digest::of_method(now + 1)));
     }
 }

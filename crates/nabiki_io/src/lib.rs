@@ -2,24 +2,33 @@
 
 #![forbid(unsafe_code)]
 
-mod atomic;
+mod axis;
 mod bytes;
 pub mod cache;
+mod declared;
 pub mod error;
 pub mod exchange;
 mod finite;
+mod gltf_file;
 pub mod hair;
 pub mod hair_file;
 pub mod identity;
 pub mod info;
+pub mod input;
+pub mod kind;
 pub mod mesh;
 pub mod motion;
 pub mod names;
 pub mod obj_lines;
 mod obj_text;
 pub mod placement;
+mod short;
 pub mod tfx;
+mod unit;
 
+pub use axis::Axis;
+pub use declared::DeclaredSpace;
 pub use error::{Error, Result};
 pub use identity::SceneId;
 pub use placement::Placement;
+pub use unit::Unit;

@@ -1,19 +1,21 @@
 //! Triangle meshes of heads: .obj, .glb, .gltf, .ply, .tfxmesh, USD and Alembic, told apart by their name's ending.
 
-pub(crate) mod glb;
+mod check;
+mod glb;
 mod obj;
 mod ply;
 mod tfxmesh;
 
-use std::{collections::HashMap, fs, path::Path};
+use std::{collections::HashMap, path::Path};
 
 use nabiki::Mesh;
 use serde::Serialize;
 
 use crate::{
     error::{Error, Result},
-    hair::extension,
-    names::nearest,
+    exchange,
+    input::{self, MOST_BINARY_BYTES, MOST_TEXT_BYTES},
+    kind::extension,
     placement::Placement,
 };
 
@@ -32,13 +34,14 @@ pub struct MeshReport {
 /// glTF nodes or meshes, to keep; all when empty. Larger polygons become fans, node transforms are applied.
 pub fn read(path: &Path, groups: &[String]) -> Result<Mesh> {
     let named = |e: Error| e.in_file(path);
-    let bytes = || fs::read(path).map_err(|e| Error::from(e).in_file(path));
+    let text = || input::read(path, MOST_TEXT_BYTES);
+    let binary = || input::read(path, MOST_BINARY_BYTES);
     match extension(path).as_str() {
-        "obj" => obj::from_bytes(&bytes()?, groups).map_err(named),
-        "glb" | "gltf" => glb::from_bytes(&bytes()?, path.parent(), groups).map_err(named),
-        "ply" => ply::from_bytes(&bytes()?).map_err(named),
-        "tfxmesh" => tfxmesh::from_bytes(&bytes()?).map_err(named),
-        "abc" | "usd" | "usda" | "usdc" => crate::exchange::mesh(path),
+        "obj" => obj::from_bytes(&text()?, groups).map_err(named),
+        "glb" | "gltf" => glb::from_bytes(&binary()?, path.parent(), groups).map_err(named),
+        "ply" => ply::from_bytes(&binary()?).map_err(named),
+        "tfxmesh" => tfxmesh::from_bytes(&text()?).map_err(named),
+        "abc" | "usd" | "usda" | "usdc" => exchange::mesh(path),
         other => {
             let known = ".obj, .glb, .gltf, .ply, .tfxmesh, .usda, .usdc or .abc";
             Err(named(Error::new(format!("ending \"{other}\" is not a mesh format: {known}"))))
@@ -106,36 +109,6 @@ fn weld(mesh: Mesh) -> Mesh {
     let renumbered = mesh.triangles.iter().map(|t| t.map(|v| number[v as usize]));
     let triangles = renumbered.filter(|[a, b, c]| a != b && b != c && c != a).collect();
     Mesh { positions, triangles }
-}
-
-/// Refuses what cannot be a mesh: NaN, infinities, no triangle. The readers have checked the indices.
-fn check(mesh: Mesh) -> Result<Mesh> {
-    if let Some(v) = mesh.positions.iter().position(|p| !p.is_finite()) {
-        let p = mesh.positions[v];
-        let place = format!("({}, {}, {})", p.x, p.y, p.z);
-        return Err(Error::new(format!("vertex {v}: {place} is not a place: coordinates must be finite")));
-    }
-    if mesh.triangles.is_empty() {
-        return Err(Error::new("holds no triangles"));
-    }
-    Ok(mesh)
-}
-
-/// Refuses a wanted group that the file has not.
-fn check_groups(wanted: &[String], known: &[&str]) -> Result<()> {
-    for group in wanted {
-        if !known.contains(&group.as_str()) {
-            let hint = match nearest(group, known.iter().copied()) {
-                Some(near) => format!("did you mean \"{near}\"?"),
-                None => match known {
-                    [] => "it has no named groups".to_owned(),
-                    [first, ..] => format!("it has {} groups, the first \"{first}\"", known.len()),
-                },
-            };
-            return Err(Error::new(format!("group \"{group}\" is not in the file; {hint}")));
-        }
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -1,75 +1,11 @@
 //! Where a file's coordinates lie in head space: unit, up axis, facing and origin, applied once, at the door.
 
-use std::str::FromStr;
-
 use glam::{Affine3A, Mat3, Vec3};
 use nabiki::SettingError;
 use serde::{Deserialize, Serialize};
 
-use crate::motion::Axis;
-
-/// A file's length unit: a name, `"mm"`, `"cm"`, `"dm"`, `"m"`, `"in"`, `"ft"`, or the number of centimetres in it.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(try_from = "UnitText", into = "f32")]
-pub struct Unit {
-    /// Centimetres in one file unit.
-    pub cm: f32,
-}
-
-impl Default for Unit {
-    fn default() -> Self {
-        Self { cm: 1.0 }
-    }
-}
-
-impl From<Unit> for f32 {
-    fn from(unit: Unit) -> Self {
-        unit.cm
-    }
-}
-
-/// A unit as a scene spells it.
-#[derive(Deserialize)]
-#[serde(untagged, expecting = "a unit: \"mm\", \"cm\", \"dm\", \"m\", \"in\", \"ft\" or a number of centimetres")]
-enum UnitText {
-    Cm(f32),
-    Name(String),
-}
-
-impl TryFrom<UnitText> for Unit {
-    type Error = String;
-
-    fn try_from(text: UnitText) -> Result<Self, String> {
-        match text {
-            UnitText::Cm(cm) => Ok(Self { cm }),
-            UnitText::Name(name) => name.parse(),
-        }
-    }
-}
-
-impl FromStr for Unit {
-    type Err = String;
-
-    fn from_str(name: &str) -> Result<Self, String> {
-        let cm = match name {
-            "mm" => 0.1,
-            "cm" => 1.0,
-            "dm" => 10.0,
-            "m" => 100.0,
-            "in" => 2.54,
-            "ft" => 30.48,
-            _ => match name.parse() {
-                Ok(cm) => cm,
-                Err(_) => {
-                    return Err(format!(
-                        "\"{name}\" is not a unit: write \"mm\", \"cm\", \"dm\", \"m\", \"in\", \"ft\" or a number of centimetres"
-                    ));
-                }
-            },
-        };
-        Ok(Self { cm })
-    }
-}
+pub use crate::axis::Axis;
+pub use crate::unit::Unit;
 
 /// How a file's coordinates turn into head space (cm, y up, face +x).
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
@@ -168,6 +104,5 @@ mod tests {
             refused(Placement { unit: Unit { cm: 0.0 }, ..good }),
             "hair.unit = 0: must be a finite number above 0"
         );
-        assert!("mile".parse::<Unit>().unwrap_err().contains("is not a unit"));
     }
 }

@@ -4,15 +4,14 @@ mod scene;
 
 use std::{fmt, path::Path};
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 pub use scene::SceneInfo;
 
 use crate::{Result, Scene};
 
 /// What a file turned out to be.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(untagged)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Info {
     /// A scene file.
     Scene(SceneInfo),
@@ -25,6 +24,21 @@ impl fmt::Display for Info {
         match self {
             Self::Scene(info) => info.fmt(f),
             Self::File(info) => info.fmt(f),
+        }
+    }
+}
+
+/// Every kind of file has its `kind`: `scene`, or what [`nabiki_io::info::Info`] says.
+impl Serialize for Info {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        #[serde(tag = "kind", rename_all = "lowercase")]
+        enum Tagged<'a> {
+            Scene(&'a SceneInfo),
+        }
+        match self {
+            Self::Scene(info) => Tagged::Scene(info).serialize(serializer),
+            Self::File(info) => info.serialize(serializer),
         }
     }
 }

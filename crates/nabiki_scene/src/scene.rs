@@ -14,7 +14,6 @@ mod output;
 mod read;
 mod tree;
 
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -25,6 +24,7 @@ use nabiki::field::{Keyframe, KeyframedField};
 use nabiki::pseudo_force::PseudoForce;
 use nabiki_file::PartFile;
 use nabiki_io::motion::MotionSource;
+use nabiki_io::{input, kind};
 use nabiki_render::Picture;
 use nabiki_render::settings::{Camera, CameraKey};
 use serde::Deserialize;
@@ -130,7 +130,8 @@ impl Scene {
     /// # Errors
     /// What is wrong with the file or an override: place, key, value and the way out.
     pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
-        let text = fs::read_to_string(path).map_err(|e| file_error(path, &e))?;
+        let text = kind::check_scene(path).and_then(|()| input::read_text(path, input::MOST_SCENE_BYTES));
+        let text = text.map_err(|e| file_error(path, e.what))?;
         Self::parse(&text, path, overrides)
     }
 
@@ -282,7 +283,7 @@ impl Scene {
             file.write_all(text.as_bytes())?;
             file.finish()
         };
-        write().map_err(|e| file_error(path, &e))?;
+        write().map_err(|e: std::io::Error| file_error(path, e.to_string()))?;
         *self = Self { origins: Self::read(&text, path, &[])?.origins, text, ..self.clone() };
         Ok(())
     }
@@ -319,12 +320,6 @@ impl Scene {
     }
 }
 
-fn file_error(path: &Path, error: &std::io::Error) -> SceneError {
-    SceneError {
-        file: path.to_owned(),
-        line: None,
-        set: None,
-        key: String::new(),
-        problem: Problem::File(error.to_string()),
-    }
+fn file_error(path: &Path, what: String) -> SceneError {
+    SceneError { file: path.to_owned(), line: None, set: None, key: String::new(), problem: Problem::File(what) }
 }

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use glam::Vec3;
 use nabiki::{Ellipsoid, Head, Mesh};
-use nabiki_io::motion::Axis;
-use nabiki_io::placement::{Placement, Unit};
-use nabiki_io::{Error, Result, exchange, hair, mesh};
+use nabiki_io::Axis;
+use nabiki_io::{DeclaredSpace, Error, Result, exchange, hair, mesh};
+use nabiki_io::{Placement, Unit};
 
 use crate::advice::{
     AFLOAT, HALF_AXIS, SPREAD, above_centre, mean_half_axis, median_distance, middle, spread, unit_for, vector,
@@ -101,7 +101,7 @@ camera = { azimuth = 50.0, elevation = 4.0 }
 struct Looked {
     head: Head,
     placement: Placement,
-    said: exchange::Said,
+    declared: DeclaredSpace,
     unit_text: String,
     /// Whether the ellipsoid could not be fitted, and was drawn about the mesh instead.
     boxed: Option<Ellipsoid>,
@@ -116,13 +116,13 @@ impl Looked {
                 groups.iter().map(|group| toml::Value::String(group.clone()).to_string()).collect();
             text += &format!("groups = [{}]\n", names.join(", "));
         }
-        if self.said.unit.is_none() {
+        if self.declared.unit.is_none() {
             text += &format!(
                 "unit = {:<18} # of the file, guessed: mm, cm, dm, m, in, ft or centimetres\n",
                 self.unit_text
             );
         }
-        if self.said.up.is_none() {
+        if self.declared.up.is_none() {
             text += &format!("up = \"{}\"                  # guessed\n", self.placement.up);
         }
         text += &format!("facing = \"{}\"              # guessed: where the face looks\n", self.placement.facing);
@@ -140,10 +140,10 @@ impl Looked {
 }
 
 fn look_at_head(file: &Path, groups: &[String], roots: Option<&[Vec3]>) -> Result<Looked> {
-    let said = exchange::said(file)?;
+    let declared = exchange::declared_space(file)?;
     let mesh = mesh::read(file, groups)?;
     let mut guesses = Vec::new();
-    let up = said.up.unwrap_or_else(|| {
+    let up = declared.up.unwrap_or_else(|| {
         let up = up_of(&mesh);
         guesses.push(format!("head.up = \"{up}\", by the shape of its box"));
         up
@@ -168,7 +168,7 @@ fn look_at_head(file: &Path, groups: &[String], roots: Option<&[Vec3]>) -> Resul
         Ok((ellipsoid, _)) => (ellipsoid, false),
         Err(_) => (about(&mesh, &placed), true),
     };
-    let (cm, unit_text) = match said.unit {
+    let (cm, unit_text) = match declared.unit {
         Some(unit) => (unit.cm, String::new()),
         None => {
             let text = unit_for(mean_half_axis(&ellipsoid), HALF_AXIS);
@@ -187,7 +187,7 @@ fn look_at_head(file: &Path, groups: &[String], roots: Option<&[Vec3]>) -> Resul
     if boxed {
         guesses.push("head.ellipsoid, about the whole mesh, on which no skull was found".to_owned());
     }
-    Ok(Looked { head, placement, said, unit_text, boxed: boxed.then_some(centred), guesses })
+    Ok(Looked { head, placement, declared, unit_text, boxed: boxed.then_some(centred), guesses })
 }
 
 /// The axis along which a mesh that does not say it stands: z where it is clearly taller that way, else y.
@@ -245,7 +245,7 @@ fn imported_hair(
     head: Option<&Looked>,
     guesses: &mut Vec<String>,
 ) -> Result<String> {
-    let said = exchange::said(file)?;
+    let declared = exchange::declared_space(file)?;
     let mut text = format!("[hair]\nfile = {}\n", quoted(scene, file)?);
     let built_in;
     let (skin, beside) = match head {
@@ -256,7 +256,7 @@ fn imported_hair(
         }
     };
     let mut placement =
-        Placement { unit: said.unit.unwrap_or(beside.unit), up: said.up.unwrap_or(beside.up), ..beside };
+        Placement { unit: declared.unit.unwrap_or(beside.unit), up: declared.up.unwrap_or(beside.up), ..beside };
     if head.is_none() {
         placement.facing = if matches!(placement.up, Axis::PlusZ) { Axis::MinusY } else { Axis::PlusZ };
         text += &format!("facing = \"{}\"              # guessed: where the face looks\n", placement.facing);
@@ -273,7 +273,7 @@ fn imported_hair(
         // The head's origin is a place that both files share, whatever their units.
         placement.origin = beside.origin * (beside.unit.cm / placement.unit.cm);
     }
-    if !grows(&placement) && said.unit.is_none() {
+    if !grows(&placement) && declared.unit.is_none() {
         let unit = unit_for(spread(roots), SPREAD * size);
         let cm = centimetres(&unit);
         placement.origin *= placement.unit.cm / cm;

@@ -136,6 +136,9 @@ impl fmt::Display for SceneSummary {
                  short",
                 import.strands_in_file
             )?;
+            if let Some(warning) = import.warning() {
+                write!(f, "\n          {warning}")?;
+            }
         }
         Ok(())
     }

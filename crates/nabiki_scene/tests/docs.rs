@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use glam::{Affine3A, Vec3};
 use nabiki::dynamics::Stepper;
+use nabiki_io::Axis;
 use nabiki_io::exchange;
-use nabiki_io::motion::Axis;
-use nabiki_io::placement::{Placement, Unit};
+use nabiki_io::{Placement, Unit};
 use nabiki_scene::scene::{HeadSource, Scene};
 use nabiki_scene::{BuiltScene, Shown};
 

@@ -6,8 +6,8 @@ use glam::{Vec2, Vec3};
 use nabiki::disturbance::Disturbance;
 use nabiki::field::Keyframe;
 use nabiki::groom::style::{Cut, Region};
+use nabiki_io::Unit;
 use nabiki_io::motion::{Axis, MotionSource};
-use nabiki_io::placement::Unit;
 use nabiki_render::settings::{CameraKey, HairColour, Light};
 use nabiki_scene::Scene;
 use nabiki_scene::scene::{

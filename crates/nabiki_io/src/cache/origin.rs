@@ -3,9 +3,10 @@
 use glam::Vec3;
 
 use crate::{
+    axis::Axis,
     error::{Error, Result},
-    motion::Axis,
-    placement::{Placement, Unit},
+    placement::Placement,
+    unit::Unit,
 };
 
 pub(super) const TAG: &[u8; 8] = b"origin  ";

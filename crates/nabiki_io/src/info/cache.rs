@@ -4,8 +4,8 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::{HairInfo, Short};
-use crate::{cache::Reader, error::Result, identity::SceneId};
+use super::hair::HairInfo;
+use crate::{cache::Reader, error::Result, identity::SceneId, short::Short};
 
 /// Frames, and the hair of the first.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -39,7 +39,7 @@ impl CacheInfo {
             scene: cache.header().scene,
             farthest_move: moves.fold(0.0, f32::max),
             head_moves: first_pose != last_pose,
-            rest: HairInfo { likely_unit: Some("cm"), likely_up: Some("+y"), ..HairInfo::of(&rest) },
+            rest: HairInfo { guess: None, ..HairInfo::of(&rest) },
         })
     }
 }
@@ -53,9 +53,6 @@ impl fmt::Display for CacheInfo {
             "from first to last frame a point moves {} cm at most; the head {head}",
             Short(self.farthest_move)
         )?;
-        let rest = self.rest.to_string();
-        // The unit is the format's, no guess.
-        let lines: Vec<&str> = rest.lines().filter(|line| !line.starts_with("unit")).collect();
-        write!(f, "{}\nunit: cm; up: +y; facing: +x (head space)", lines.join("\n"))
+        write!(f, "{}\nunit: cm; up: +y; facing: +x (head space)", self.rest)
     }
 }

@@ -6,8 +6,8 @@ use glam::Vec3;
 use nabiki::Hair;
 use serde::Serialize;
 
-use super::{Box3, Spread, guess_unit};
-use crate::hair::length;
+use super::measure::{Box3, Guess, Spread, guess_unit};
+use crate::hair::{held_at_both_ends, length};
 
 /// Strands and what is known of them, in the file's own unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -28,12 +28,13 @@ pub struct HairInfo {
     pub zero_segments: usize,
     /// Strands without any extent.
     pub empty_strands: usize,
+    /// Strands whose tips are held as well as their roots; the motion lets their tips swing.
+    pub held_at_both_ends: usize,
     /// Names of what the file carries beside its points.
     pub attributes: Vec<&'static str>,
-    /// Unit in which this would be a person's hair; a guess.
-    pub likely_unit: Option<&'static str>,
-    /// Axis that points up if the hair hangs; a guess.
-    pub likely_up: Option<&'static str>,
+    /// Unit and axis that would make it a person's hair; `None` where they are known.
+    #[serde(flatten)]
+    pub guess: Option<Guess>,
 }
 
 impl HairInfo {
@@ -54,10 +55,10 @@ impl HairInfo {
             empty_strands: lengths.iter().filter(|&&length| length == 0.0).count(),
             strand_length: Spread::of(lengths),
             segment_length: Spread::of(segments),
+            held_at_both_ends: held_at_both_ends(hair),
             attributes: attributes(hair),
             // A crop to hair down to the knees.
-            likely_unit: guess_unit(bounds.diagonal(), 15.0, 140.0),
-            likely_up: up(hair),
+            guess: Some(Guess { likely_unit: guess_unit(bounds.diagonal(), 15.0, 140.0), likely_up: up(hair) }),
             bounds,
         }
     }
@@ -102,15 +103,14 @@ impl fmt::Display for HairInfo {
         writeln!(f, "strand length: {}", self.strand_length)?;
         writeln!(f, "segment length: {}", self.segment_length)?;
         writeln!(f, "degenerate: {} zero segments, {} strands without extent", self.zero_segments, self.empty_strands)?;
-        let carried = if self.attributes.is_empty() { "nothing".to_owned() } else { self.attributes.join(", ") };
-        writeln!(f, "beside the points: {carried}")?;
-        match self.likely_unit {
-            Some(unit) => write!(f, "unit: {unit} (a guess); ")?,
-            None => write!(f, "unit: unknown; ")?,
+        if self.held_at_both_ends > 0 {
+            writeln!(f, "held: {} strands at both ends; here their tips swing freely", self.held_at_both_ends)?;
         }
-        match self.likely_up {
-            Some(up) => write!(f, "up: {up} (a guess: the tips lie the other way); facing: unknown"),
-            None => write!(f, "up, facing: unknown"),
+        let carried = if self.attributes.is_empty() { "nothing".to_owned() } else { self.attributes.join(", ") };
+        write!(f, "beside the points: {carried}")?;
+        match self.guess {
+            Some(guess) => write!(f, "\n{guess}"),
+            None => Ok(()),
         }
     }
 }

@@ -1,14 +1,16 @@
 //! What is in a mesh file.
 
-use std::{collections::HashMap, fmt, fs, path::Path};
+use std::{collections::HashMap, fmt, path::Path};
 
 use nabiki::Mesh;
 use serde::Serialize;
 
-use super::{Box3, guess_unit};
+use super::measure::{Box3, Guess, guess_unit};
 use crate::{
-    error::{Error, Result},
-    hair::extension,
+    error::Result,
+    gltf_file,
+    input::{self, MOST_BINARY_BYTES},
+    kind::extension,
     mesh::{self, place_and_weld},
     placement::Placement,
 };
@@ -30,8 +32,9 @@ pub struct MeshInfo {
     pub open_edges: usize,
     /// Edges with more than two triangles.
     pub crowded_edges: usize,
-    /// Unit in which this would be a person's head, bust or body; a guess.
-    pub likely_unit: Option<&'static str>,
+    /// Unit that would make it a person's head, bust or body, if y is up; `None` where it is known.
+    #[serde(flatten)]
+    pub guess: Option<Guess>,
     /// Animations of a .glb that may move a head.
     pub clips: Vec<ClipInfo>,
     /// Names of the nodes that these may move.
@@ -54,8 +57,8 @@ impl MeshInfo {
         if !matches!(extension(path).as_str(), "glb" | "gltf") {
             return Ok(info);
         }
-        let bytes = fs::read(path).map_err(|e| Error::from(e).in_file(path))?;
-        let (document, _) = mesh::glb::open(&bytes).map_err(|e| e.in_file(path))?;
+        let bytes = input::read(path, MOST_BINARY_BYTES)?;
+        let (document, _) = gltf_file::open(&bytes).map_err(|e| e.in_file(path))?;
         let clips: Vec<ClipInfo> = document.animations().map(|animation| clip(&animation)).collect();
         let names = document.nodes().filter_map(|node| node.name().map(str::to_owned));
         Ok(Self { nodes: if clips.is_empty() { Vec::new() } else { names.collect() }, clips, ..info })
@@ -82,7 +85,7 @@ impl MeshInfo {
             open_edges: edges.values().filter(|&&n| n == 1).count(),
             crowded_edges: edges.values().filter(|&&n| n > 2).count(),
             // A small head to a tall body.
-            likely_unit: guess_unit(bounds.max[1] - bounds.min[1], 18.0, 220.0),
+            guess: Some(Guess { likely_unit: guess_unit(bounds.max[1] - bounds.min[1], 18.0, 220.0), likely_up: None }),
             bounds,
             clips: Vec::new(),
             nodes: Vec::new(),
@@ -102,22 +105,23 @@ impl fmt::Display for MeshInfo {
         writeln!(f, "box: {}", self.bounds)?;
         writeln!(f, "edges: {} open, {} with more than two triangles", self.open_edges, self.crowded_edges)?;
         let (doubled, degenerate) = (self.doubled_vertices, self.degenerate_triangles);
-        writeln!(f, "degenerate: {degenerate} triangles without area; {doubled} doubled vertices")?;
+        write!(f, "degenerate: {degenerate} triangles without area; {doubled} doubled vertices")?;
         if !self.clips.is_empty() {
             let clips = self.clips.iter().map(|clip| match clip.end {
                 Some(end) => format!("{} ({end:.3} s)", clip.name),
                 None => clip.name.clone(),
             });
-            writeln!(f, "nodes: {}", self.nodes.join(", "))?;
-            writeln!(f, "clips: {}", clips.collect::<Vec<_>>().join(", "))?;
-            writeln!(
-                f,
-                "as motion: unit 100 cm, up +y, facing +z, as glTF has it; to be given in the scene: node, clip"
-            )?;
+            write!(f, "\nnodes: {}", self.nodes.join(", "))?;
+            write!(f, "\nclips: {}", clips.collect::<Vec<_>>().join(", "))?;
+            let way = "as motion: unit m, up +y, facing +z, as glTF has it; to be given in the scene: node, clip";
+            write!(f, "\n{way}")?;
         }
-        match self.likely_unit {
-            Some(unit) => write!(f, "unit: {unit} (a guess, if y is up); up, facing: unknown"),
-            None => write!(f, "unit, up, facing: unknown"),
+        match self.guess {
+            Some(Guess { likely_unit: Some(unit), .. }) => {
+                write!(f, "\nunit: {unit} (a guess, if y is up); up, facing: unknown")
+            }
+            Some(_) => write!(f, "\nunit, up, facing: unknown"),
+            None => Ok(()),
         }
     }
 }

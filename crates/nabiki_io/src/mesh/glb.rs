@@ -3,20 +3,19 @@
 //! Skins and morphs are left in their rest pose. Accessors are read here rather than by the crate, whose iterators
 //! trust the file's offsets and counts.
 
-use std::{fs, path::Path};
+use std::path::Path;
 
 use glam::{Mat4, Vec3};
 use gltf::{
     accessor::{DataType, Dimensions},
-    buffer::Source,
     mesh::Mode,
 };
 use nabiki::Mesh;
 
-use super::{check, check_groups};
+use super::check::{check, check_groups};
 use crate::{
-    bytes::Bytes,
     error::{Error, Result},
+    gltf_file::{buffers, open},
 };
 
 /// A mesh drawn by many nodes is copied for each; beyond this many times the file's size it is a trick, not a head.
@@ -61,83 +60,6 @@ pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String])
         open.extend(node.children().map(|child| (child, scene_from_node, node_wanted)));
     }
     check(mesh)
-}
-
-/// The document, valid, and the binary chunk of a .glb.
-pub(crate) fn open(bytes: &[u8]) -> Result<(gltf::Document, Option<Vec<u8>>)> {
-    let unreadable = |e: gltf::Error| Error::new(format!("is not a readable glTF: {e}"));
-    let (text, blob) = if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (bytes, None) };
-    if text.trim_ascii_start().first() != Some(&b'{') {
-        return Err(Error::new("is not a glTF: it does not start with glTF or {"));
-    }
-    let gltf = gltf::Gltf::from_slice_without_validation(text).map_err(unreadable)?;
-    let json = gltf.document.into_json();
-    // The crate's validation looks at these accessors before it has checked that they exist.
-    let primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
-    if let Some(missing) = primitives.flat_map(|p| p.attributes.values()).find(|a| a.value() >= json.accessors.len()) {
-        let (missing, count) = (missing.value(), json.accessors.len());
-        return Err(Error::new(format!("is not a readable glTF: accessor {missing} is named, there are {count}")));
-    }
-    Ok((gltf::Document::from_json(json).map_err(unreadable)?, blob.map(<[u8]>::to_vec)))
-}
-
-/// The JSON and the binary chunk of a .glb. (The crate's own reader of them trusts their lengths.)
-fn chunks(glb: &[u8]) -> Result<(&[u8], Option<&[u8]>)> {
-    let mut source = Bytes::from_slice(glb);
-    let [_, version, length]: [u32; 3] = source.value("header")?;
-    if version != 2 {
-        return Err(Error::new(format!("glTF version is {version}: only version 2 is read")));
-    }
-    if u64::from(length) != source.len() {
-        return Err(Error::new(format!("{length} bytes expected, {} found: the file is cut short", source.len())));
-    }
-    let mut chunk = |kind: &[u8; 4]| -> Result<Option<&[u8]>> {
-        if source.remaining() == 0 {
-            return Ok(None);
-        }
-        let bytes: u32 = source.value("chunk length")?;
-        let found: [u8; 4] = source.value("chunk type")?;
-        source.expect(u64::from(bytes), "chunk")?;
-        let (start, end) = (source.at(), source.at() + u64::from(bytes));
-        source.seek(end)?;
-        Ok((found == *kind).then_some(&glb[start as usize..end as usize]))
-    };
-    let text = chunk(b"JSON")?.ok_or_else(|| Error::new("its first chunk is not JSON"))?;
-    Ok((text, chunk(b"BIN\0")?))
-}
-
-/// The bytes of every buffer.
-fn buffers(document: &gltf::Document, blob: Option<&[u8]>, folder: Option<&Path>) -> Result<Vec<Vec<u8>>> {
-    let mut all = Vec::new();
-    for buffer in document.buffers() {
-        let name = |e: Error| Error::new(format!("buffer {}: {}", buffer.index(), e.what));
-        let bytes = match buffer.source() {
-            Source::Bin => blob.ok_or_else(|| name(Error::new("the file has no binary chunk")))?.to_vec(),
-            Source::Uri(uri) if uri.starts_with("data:") => {
-                let data = gltf::buffer::Data::from_source(buffer.source(), None);
-                data.map_err(|e| name(Error::new(e.to_string())))?.0
-            }
-            Source::Uri(uri) => external(uri, folder).map_err(name)?,
-        };
-        if bytes.len() < buffer.length() {
-            let (found, expected) = (bytes.len(), buffer.length());
-            return Err(name(Error::new(format!("{expected} bytes expected, {found} found: the file is cut short"))));
-        }
-        all.push(bytes);
-    }
-    Ok(all)
-}
-
-/// A buffer in a file of its own, beside the .gltf.
-fn external(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>> {
-    let plain = !uri.contains([':', '%', '\\']) && !uri.starts_with('/') && !uri.split('/').any(|part| part == "..");
-    match folder {
-        Some(folder) if plain => {
-            let path = folder.join(uri);
-            fs::read(&path).map_err(|e| Error::new(format!("{}: {e}", path.display())))
-        }
-        _ => Err(Error::new(format!("\"{uri}\" is not a file in the folder of the .gltf: save as .glb"))),
-    }
 }
 
 /// Adds one primitive's triangles.

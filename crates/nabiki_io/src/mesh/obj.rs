@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::Vec3;
 use nabiki::Mesh;
 
-use super::{check, check_groups};
+use super::check::{check, check_groups};
 use crate::{
     error::{Error, Result},
     obj_text,

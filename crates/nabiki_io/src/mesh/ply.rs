@@ -3,6 +3,7 @@
 use glam::Vec3;
 use nabiki::Mesh;
 
+use super::check::check;
 use crate::error::{Error, Result};
 
 /// How the body is written.
@@ -98,7 +99,7 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Mesh> {
     if let Some(v) = mesh.triangles.iter().flatten().find(|&&v| v as usize >= vertices) {
         return Err(Error::new(format!("a face names vertex {v} of {vertices}")));
     }
-    super::check(mesh)
+    check(mesh)
 }
 
 fn corner(value: f64) -> Result<u32> {

@@ -4,7 +4,7 @@
 use glam::Vec3;
 use nabiki::Mesh;
 
-use super::check;
+use super::check::check;
 use crate::{
     error::{Error, Result},
     obj_text,

@@ -12,7 +12,9 @@ use std::collections::HashMap;
 
 use glam::{DQuat, DVec3};
 
-use super::{Sample, Track, chain_to_root};
+use super::joints::Tree;
+use super::source::asked;
+use super::track::{Sample, Track};
 use crate::error::{Error, Result};
 
 /// What one number of the motion drives.
@@ -195,9 +197,9 @@ impl Skeleton {
 
     /// The bones from the root down to `node`.
     pub(super) fn chain(&self, node: &str) -> Result<Vec<usize>> {
-        let found = self.numbers.get(&node.to_lowercase());
-        let found = *found.ok_or_else(|| super::unknown_node("bone", node, self.names().iter().map(String::as_str)))?;
-        let chain = chain_to_root(found, |bone| self.bones[bone].parent, self.bones.len())?;
+        let names = self.bones.iter().map(|bone| Some(bone.name.as_str())).collect();
+        let parents = self.bones.iter().map(|bone| bone.parent).collect();
+        let chain = Tree { kind: "bone", names, parents }.chain(node)?;
         if chain[0] != 0 {
             return Err(Error::new(format!("bone {node}: :hierarchy does not hang it below the root")));
         }
@@ -346,7 +348,7 @@ fn sample_rate(in_file: Option<f64>, in_scene: Option<f64>) -> Result<f64> {
                 "frames_per_second: the file itself says {rate} samples a second; remove frames_per_second"
             )));
         }
-        (None, None) => return Err(super::asked("frames_per_second", "120")),
+        (None, None) => return Err(asked("frames_per_second", "120")),
     };
     if !(rate.is_finite() && rate > 0.0) {
         return Err(Error::new(format!("frames_per_second = {rate}: must be a finite number above 0")));

@@ -74,7 +74,7 @@ fn what_is_missing_or_does_not_fit_is_said_in_one_line() {
         ("  Neck Head", "  Neck Hat", "\"Hat\": no bone of that name is in :bonedata"),
         ("  Neck Head\n", "", "bone head: :hierarchy does not hang it below the root"),
         ("  Neck Head\n", "  Neck Head\n  Head Neck\n", "bone Neck: hangs below two others"),
-        ("  root Neck\n  Neck Head\n", "  Head Neck\n  Neck Head\n", "a joint is its own ancestor"),
+        ("  root Neck\n  Neck Head\n", "  Head Neck\n  Neck Head\n", "a bone is its own ancestor"),
         (":bonedata", ":bones", "\"Neck\": no bone of that name is in :bonedata"),
         (":bonedata\n", ":bonedata\n length 3\n", "\"length\": a bone begins with begin"),
         ("\nNeck 0 90 0", "", "bone Neck: has no numbers in this frame"),

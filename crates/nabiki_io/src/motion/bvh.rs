@@ -1,12 +1,15 @@
 //! Biovision hierarchies: one joint's world motion out of a .bvh file.
 //!
-//! A joint's rotation is the product of its rotation channels in the order they are listed; its translation is its
-//! OFFSET, to which the root's position channels are added and which those of any other joint replace (they repeat
-//! the bone there).
+//! A joint's rotation is the product of its rotation channels in the order they are listed. Its translation is its
+//! OFFSET, of which each position channel replaces its own coordinate, at the root and at any other joint: OFFSET is
+//! what the translation is at rest, the channel what it is in a frame. So Blender reads and writes them. (Files whose
+//! root moves relative to its OFFSET are so read with the root at the file's origin, in Blender, too.)
 
 use glam::{DQuat, DVec3};
 
-use super::{Sample, Track, chain_to_root, unknown_node};
+use super::joints::Tree;
+use super::track::{Sample, Track};
+use super::words::Words;
 use crate::error::{Error, Result};
 
 /// What one column of the motion drives.
@@ -24,31 +27,33 @@ struct Joint {
     first_column: usize,
 }
 
-/// Names of all joints, parents before their children.
-pub(super) fn joints(text: &str) -> Result<Vec<String>> {
-    let mut words = Words { words: text.split_ascii_whitespace(), count: 0 };
-    Ok(hierarchy(&mut words)?.0.into_iter().map(|joint| joint.name).collect())
+/// Names of all joints, parents before their children, and the world poses of the first, the root.
+pub(super) fn outline(text: &str) -> Result<(Vec<String>, Track)> {
+    let mut words = Words::plain(text);
+    let (joints, columns) = hierarchy(&mut words)?;
+    let track = motion(&mut words, &joints, columns, &[0])?;
+    Ok((joints.into_iter().map(|joint| joint.name).collect(), track))
 }
 
 /// Reads the world poses of joint `name`.
 pub(super) fn track(text: &str, name: &str) -> Result<Track> {
-    let mut words = Words { words: text.split_ascii_whitespace(), count: 0 };
+    let mut words = Words::plain(text);
     let (joints, columns) = hierarchy(&mut words)?;
-    let found = joints.iter().position(|j| j.name.eq_ignore_ascii_case(name));
-    let names = joints.iter().map(|j| j.name.as_str());
-    let found = found.ok_or_else(|| unknown_node("joint", name, names))?;
-    let chain = chain_to_root(found, |joint| joints[joint].parent, joints.len())?;
+    motion(&mut words, &joints, columns, &tree(&joints).chain(name)?)
+}
 
+/// Reads the rows of `columns` numbers and puts together where the last joint of `chain` is in each.
+fn motion(words: &mut Words<'_>, joints: &[Joint], columns: usize, chain: &[usize]) -> Result<Track> {
     words.expect("Frames:")?;
-    let frames = words.number("Frames")?;
+    let frames = words.number("the number of frames")?;
+    if frames < 1.0 || frames.fract() != 0.0 {
+        return Err(Error::new(format!("Frames: {frames}: must be a whole number above 0")).at_line(Some(words.line())));
+    }
     words.expect("Frame")?;
     words.expect("Time:")?;
-    let frame_time = words.number("Frame Time")?;
-    if frames < 1.0 || frames.fract() != 0.0 {
-        return Err(Error::new(format!("Frames: {frames}: must be a whole number above 0")));
-    }
+    let frame_time = words.number("the time of a frame")?;
     if frame_time <= 0.0 {
-        return Err(Error::new(format!("Frame Time: {frame_time}: must be above 0 (s)")));
+        return Err(Error::new(format!("Frame Time: {frame_time}: must be above 0 (s)")).at_line(Some(words.line())));
     }
     if columns == 0 {
         return Err(Error::new("no joint has channels, so nothing moves"));
@@ -59,12 +64,11 @@ pub(super) fn track(text: &str, name: &str) -> Result<Track> {
     let mut frame = 0;
     while (frame as f64) < frames {
         for (column, value) in row.iter_mut().enumerate() {
-            *value = words
-                .number("motion")
-                .map_err(|e| Error::new(format!("frame {frame} of {frames}, channel {column} of {columns}: {e}")))?;
+            let in_channel = |e: Error| e.under(format!("frame {frame} of {frames}, {}", channel_of(joints, column)));
+            *value = words.number("its value").map_err(in_channel)?;
         }
         track.times.push(frame as f64 / rate);
-        track.samples.push(pose(&joints, &chain, &row));
+        track.samples.push(pose(joints, chain, &row));
         frame += 1;
     }
     Ok(track)
@@ -83,15 +87,14 @@ fn pose(joints: &[Joint], chain: &[usize], row: &[f64]) -> Sample {
     let mut world = Sample { position: DVec3::ZERO, rotation: DQuat::IDENTITY };
     for &j in chain {
         let joint = &joints[j];
-        let (mut offset, mut rotation) = (joint.offset, DQuat::IDENTITY);
+        let (mut translation, mut rotation) = (joint.offset, DQuat::IDENTITY);
         for (channel, &value) in joint.channels.iter().zip(&row[joint.first_column..]) {
             match *channel {
-                Channel::Position(axis) if joint.parent.is_none() => offset[axis] += value,
-                Channel::Position(axis) => offset[axis] = value,
+                Channel::Position(axis) => translation[axis] = value,
                 Channel::Rotation(axis) => rotation *= DQuat::from_axis_angle(axis, value.to_radians()),
             }
         }
-        world.position += world.rotation * offset;
+        world.position += world.rotation * translation;
         world.rotation *= rotation;
     }
     world.rotation = world.rotation.normalize();
@@ -111,7 +114,7 @@ fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize)> {
         match word {
             "ROOT" | "JOINT" => {
                 if word == "JOINT" && current.is_none() {
-                    return Err(Error::new(format!("word {}: JOINT outside a joint", words.count)));
+                    return Err(words.refusal(word, "a joint hangs below another; the first is a ROOT"));
                 }
                 let name = words.next("a joint's name")?.to_owned();
                 words.expect("{")?;
@@ -126,7 +129,7 @@ fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize)> {
                 open.push(None);
             }
             "}" => {
-                open.pop().ok_or_else(|| Error::new(format!("word {}: a closing brace too many", words.count)))?;
+                open.pop().ok_or_else(|| words.refusal(word, "a closing brace too many"))?;
             }
             "OFFSET" => {
                 let x = words.number("OFFSET")?;
@@ -137,62 +140,46 @@ fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize)> {
                 }
             }
             "CHANNELS" => {
-                let j = current.ok_or_else(|| Error::new(format!("word {}: CHANNELS outside a joint", words.count)))?;
+                let j = current.ok_or_else(|| words.refusal(word, "channels belong to a joint"))?;
                 if !joints[j].channels.is_empty() {
-                    return Err(Error::new(format!("joint {}: CHANNELS twice", joints[j].name)));
+                    return Err(words.refusal(word, &format!("joint {} has its channels already", joints[j].name)));
                 }
                 let count = words.number("CHANNELS")?;
                 joints[j].first_column = columns;
                 while (joints[j].channels.len() as f64) < count {
-                    joints[j].channels.push(channel(words.next("a channel's name")?)?);
+                    let name = words.next("a channel's name")?;
+                    let channel =
+                        channel(name).ok_or_else(|| words.refusal(name, "a channel is one of Xposition .. Zrotation"));
+                    joints[j].channels.push(channel?);
                 }
                 columns += joints[j].channels.len();
             }
             "MOTION" if open.is_empty() => return Ok((joints, columns)),
-            other => {
-                let at = words.count;
-                return Err(Error::new(format!("word {at}, \"{other:.40}\": not a word of a hierarchy")));
-            }
+            other => return Err(words.refusal(other, "not a word of a hierarchy")),
         }
     }
 }
 
-fn channel(name: &str) -> Result<Channel> {
-    Ok(match name.to_ascii_lowercase().as_str() {
-        "xposition" => Channel::Position(0),
-        "yposition" => Channel::Position(1),
-        "zposition" => Channel::Position(2),
-        "xrotation" => Channel::Rotation(DVec3::X),
-        "yrotation" => Channel::Rotation(DVec3::Y),
-        "zrotation" => Channel::Rotation(DVec3::Z),
-        _ => return Err(Error::new(format!("channel \"{name:.40}\": must be one of Xposition .. Zrotation"))),
-    })
+/// The names of all channels: three positions, then three rotations.
+const CHANNELS: [&str; 6] = ["Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation", "Zrotation"];
+
+fn channel(name: &str) -> Option<Channel> {
+    let found = CHANNELS.iter().position(|known| known.eq_ignore_ascii_case(name))?;
+    Some(if found < 3 { Channel::Position(found) } else { Channel::Rotation(DVec3::AXES[found - 3]) })
 }
 
-/// The file's words, counted so that an error can say where.
-struct Words<'a> {
-    words: std::str::SplitAsciiWhitespace<'a>,
-    count: usize,
+/// Joint and name of the channel in a column of the motion: `Head.Xrotation`.
+fn channel_of(joints: &[Joint], column: usize) -> String {
+    let own = |joint: &&Joint| (joint.first_column..joint.first_column + joint.channels.len()).contains(&column);
+    let Some(joint) = joints.iter().find(own) else { return format!("column {column}") };
+    let name = match joint.channels[column - joint.first_column] {
+        Channel::Position(axis) => CHANNELS[axis],
+        Channel::Rotation(axis) => CHANNELS[3 + axis.max_position()],
+    };
+    format!("{}.{name}", joint.name)
 }
 
-impl<'a> Words<'a> {
-    fn next(&mut self, wanted: &str) -> Result<&'a str> {
-        self.count += 1;
-        self.words.next().ok_or_else(|| Error::new(format!("ends where {wanted} should follow: is it whole?")))
-    }
-
-    fn expect(&mut self, wanted: &str) -> Result<()> {
-        match self.next(wanted)? {
-            found if found.eq_ignore_ascii_case(wanted) => Ok(()),
-            found => Err(Error::new(format!("word {}, \"{found:.40}\": {wanted} should stand here", self.count))),
-        }
-    }
-
-    fn number(&mut self, what: &str) -> Result<f64> {
-        let word = self.next("a number")?;
-        match word.parse::<f64>() {
-            Ok(x) if x.is_finite() => Ok(x),
-            _ => Err(Error::new(format!("word {}, {what} \"{word:.40}\": not a finite number", self.count))),
-        }
-    }
+fn tree(joints: &[Joint]) -> Tree<'_> {
+    let names = joints.iter().map(|joint| Some(joint.name.as_str())).collect();
+    Tree { kind: "joint", names, parents: joints.iter().map(|joint| joint.parent).collect() }
 }

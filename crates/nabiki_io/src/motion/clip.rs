@@ -7,15 +7,18 @@
 use glam::{DAffine3, DMat4, DQuat, DVec3, DVec4};
 use gltf::animation::{Interpolation, Property, util::ReadOutputs};
 
-use super::track::hermite;
-use super::{Axis, Door, HeadMotion, MotionSource, Sample, chain_to_root, frame_count, poses, unknown_node};
+use super::joints::Tree;
+use super::source::MotionSource;
+use super::track::{Sample, hermite};
+use super::world::{HeadMotion, WorldFromFile, frame_count, poses};
+use crate::axis::Axis;
 use crate::error::{Error, Result};
+use crate::gltf_file;
 
 /// Reads the poses of `source.node` in `source.clip` out of the file's bytes.
 pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) -> Result<HeadMotion> {
-    let (document, blob) = crate::mesh::glb::open(bytes)?;
-    let buffers = gltf::import_buffers(&document, source.file.parent(), blob)
-        .map_err(|e| Error::new(format!("its buffers cannot be read: {e}")))?;
+    let (document, blob) = gltf_file::open(bytes)?;
+    let buffers = gltf_file::buffers(&document, blob.as_deref(), source.file.parent())?;
     let chain = chain(&document, &source.node)?;
     let animation = animation(&document, &source.clip)?;
     // The crate's own validation passes over a channel's target, and its reader would panic.
@@ -34,7 +37,7 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
     let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
     for channel in animation.channels() {
         check_accessors(&channel, &buffers)?;
-        let reader = channel.reader(|buffer| buffers.get(buffer.index()).map(|b| &b.0[..]));
+        let reader = channel.reader(|buffer| buffers.get(buffer.index()).map(Vec::as_slice));
         let times: Vec<f64> =
             reader.read_inputs().ok_or_else(|| Error::new("an animation without times"))?.map(f64::from).collect();
         let node = channel.target().node();
@@ -64,7 +67,7 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
     let still_pose = world(chain.iter().map(|node| matrix(node.transform())), &source.node)?;
     let (up, facing) = (source.up.unwrap_or(Axis::PlusY), source.facing.unwrap_or(Axis::PlusZ));
     let unit_cm = source.unit_cm.unwrap_or(100.0);
-    let door = Door::new(Some(unit_cm), Some(up), Some(facing))?;
+    let world_from_file = WorldFromFile::new(Some(unit_cm), Some(up), Some(facing))?;
     let frames = frame_count(end - start, frame_rate)?;
     let mut samples = Vec::with_capacity(frames.min(1 << 16));
     for n in 0..frames {
@@ -83,14 +86,12 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
         source.node,
         end - start,
     );
-    Ok(HeadMotion { frame_rate, poses: poses(&door, samples.into_iter(), source.start_at_origin)?, report })
+    Ok(HeadMotion { frame_rate, poses: poses(&world_from_file, samples.into_iter(), source.start_at_origin)?, report })
 }
 
 /// The nodes from the scene's root down to the one named.
 fn chain<'a>(document: &'a gltf::Document, name: &str) -> Result<Vec<gltf::Node<'a>>> {
     let nodes: Vec<gltf::Node<'a>> = document.nodes().collect();
-    let found = nodes.iter().position(|n| n.name().is_some_and(|n| n.eq_ignore_ascii_case(name)));
-    let found = found.ok_or_else(|| unknown_node("node", name, nodes.iter().filter_map(|n| n.name())))?;
     let mut parents = vec![None; nodes.len()];
     for node in &nodes {
         for child in node.children() {
@@ -99,7 +100,8 @@ fn chain<'a>(document: &'a gltf::Document, name: &str) -> Result<Vec<gltf::Node<
             }
         }
     }
-    let chain = chain_to_root(found, |node| parents[node], nodes.len())?;
+    let names = nodes.iter().map(|node| node.name()).collect();
+    let chain = Tree { kind: "node", names, parents }.chain(name)?;
     Ok(chain.into_iter().map(|node| nodes[node].clone()).collect())
 }
 
@@ -113,15 +115,18 @@ fn animation<'a>(document: &'a gltf::Document, clip: &str) -> Result<gltf::Anima
             _ => Err(Error::new(format!("has several animations: give clip = one of {}", names()))),
         }
     } else {
-        let mut all = document.animations();
-        all.find(|a| a.name() == Some(clip))
-            .ok_or_else(|| Error::new(format!("no clip \"{clip}\": clip can be {}", names())))
+        let mut all = document.animations().filter(|a| a.name() == Some(clip));
+        match (all.next(), all.next()) {
+            (Some(only), None) => Ok(only),
+            (None, _) => Err(Error::new(format!("no clip \"{clip}\": clip can be {}", names()))),
+            _ => Err(Error::new(format!("clip \"{clip}\": several have that name; rename all but one in the file"))),
+        }
     }
 }
 
 /// Refuses accessors that reach past their buffers, which the reader itself would meet with a panic, and those of
 /// another shape than what the channel moves, which it would read askew.
-fn check_accessors(channel: &gltf::animation::Channel<'_>, buffers: &[gltf::buffer::Data]) -> Result<()> {
+fn check_accessors(channel: &gltf::animation::Channel<'_>, buffers: &[Vec<u8>]) -> Result<()> {
     let sampler = channel.sampler();
     for accessor in [sampler.input(), sampler.output()] {
         let problem = |what: &str| Error::new(format!("accessor {}: {what}", accessor.index()));
@@ -135,7 +140,7 @@ fn check_accessors(channel: &gltf::animation::Channel<'_>, buffers: &[gltf::buff
             0 => return Err(problem("is empty")),
             n => accessor.offset() as u128 + stride * (n - 1) + size,
         };
-        let held = buffers.get(view.buffer().index()).map_or(0, |b| b.0.len() as u128);
+        let held = buffers.get(view.buffer().index()).map_or(0, |b| b.len() as u128);
         if stride < size || used > view.length() as u128 || view.offset() as u128 + view.length() as u128 > held {
             return Err(problem("reaches past the end of its buffer: is the file whole?"));
         }

@@ -1,15 +1,38 @@
 //! What a motion file holds and what it leaves for a scene to say.
 
+use std::fmt;
 use std::path::Path;
 
-use super::{Track, acclaim, bvh, csv, read_text, tof};
+use serde::Serialize;
+
+use super::track::Track;
+use super::{acclaim, bvh, csv, tof};
 use crate::error::{Error, Result};
-use crate::hair::extension;
-use crate::info::MotionInfo;
+use crate::input::{self, MOST_TEXT_BYTES};
+use crate::kind::extension;
+use crate::unit::Unit;
+
+/// Samples of a head or of a skeleton.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MotionInfo {
+    /// Number of samples; 0 in a file that holds a skeleton alone.
+    pub samples: usize,
+    /// Time from the first to the last (s), where the file says so.
+    pub duration: Option<f64>,
+    /// Joints to choose from; none in a table of poses.
+    pub joints: Vec<String>,
+    /// Centimetres in the file's unit, where it says so.
+    pub unit_cm: Option<f64>,
+    /// Settings of `head.motion` that the file leaves for the scene to give.
+    pub asked: Vec<&'static str>,
+}
 
 /// Looks through a .bvh, .csv, .amc, .asf or .tof file.
-pub(crate) fn survey(file: &Path) -> Result<MotionInfo> {
-    let text = read_text(file)?;
+///
+/// # Errors
+/// What is wrong with it, in one line.
+pub fn survey(file: &Path) -> Result<MotionInfo> {
+    let text = input::read_text(file, MOST_TEXT_BYTES)?;
     let named = |e: Error| e.in_file(file);
     match extension(file).as_str() {
         "csv" => csv::track(&text).map(|track| of_track(&track, Vec::new(), vec!["up", "facing"])).map_err(named),
@@ -17,8 +40,7 @@ pub(crate) fn survey(file: &Path) -> Result<MotionInfo> {
         "asf" => asf(&text).map_err(named),
         "tof" => object_stream(&text).map_err(named),
         _ => {
-            let joints = bvh::joints(&text).map_err(named)?;
-            let track = bvh::track(&text, joints.first().map_or("", String::as_str)).map_err(named)?;
+            let (joints, track) = bvh::outline(&text).map_err(named)?;
             Ok(of_track(&track, joints, vec!["unit_cm", "up", "facing"]))
         }
     }
@@ -57,4 +79,26 @@ fn object_stream(text: &str) -> Result<MotionInfo> {
     let (duration, samples) = tof::extent(&animation);
     let joints = animation.into_iter().map(|joint| joint.name).collect();
     Ok(MotionInfo { samples, duration: Some(duration), joints, unit_cm: None, asked })
+}
+
+impl fmt::Display for MotionInfo {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.samples, self.duration) {
+            (0, None) => writeln!(f, "skeleton: {} joints", self.joints.len())?,
+            (samples, None) => writeln!(f, "motion: {samples} samples; rate: unknown")?,
+            (samples, Some(duration)) => {
+                let rate = samples.saturating_sub(1) as f64 / duration.max(f64::MIN_POSITIVE);
+                writeln!(f, "motion: {samples} samples over {duration:.3} s, {rate:.2} a second")?;
+            }
+        }
+        if !self.joints.is_empty() {
+            writeln!(f, "joints: {}", self.joints.join(", "))?;
+        }
+        match self.unit_cm {
+            Some(cm) => write!(f, "unit: {}; ", Unit { cm: cm as f32 })?,
+            None if self.asked.contains(&"unit_cm") => {}
+            None => write!(f, "unit: as its skeleton says; ")?,
+        }
+        write!(f, "unknown, to be given in the scene: {}", self.asked.join(", "))
+    }
 }

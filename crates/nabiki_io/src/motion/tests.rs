@@ -1,22 +1,14 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fs;
+use std::path::PathBuf;
 
-use glam::{Quat, Vec3};
+use glam::{DQuat, DVec3, Quat, Vec3};
+use nabiki::Pose;
 use proptest::prelude::*;
 
 use super::acclaim::tests::{AMC, ASF};
 use super::tof::tests::{TOF, TOF_SKELETON};
 use super::*;
-
-fn shared(name: &str) -> Option<PathBuf> {
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/motion")).join(name);
-    if path.exists() {
-        Some(path)
-    } else {
-        eprintln!("SKIPPED: {} is not there", path.display());
-        None
-    }
-}
 
 /// A source whose world is already the scene's.
 fn straight(file: PathBuf, unit_cm: Option<f64>) -> MotionSource {
@@ -28,135 +20,6 @@ fn written(name: &str, bytes: &[u8]) -> (tempfile::TempDir, PathBuf) {
     let path = folder.path().join(name);
     fs::write(&path, bytes).unwrap();
     (folder, path)
-}
-
-/// Largest turn between neighbouring frames (degrees a second).
-fn fastest_turn(motion: &HeadMotion) -> f64 {
-    let turns = motion.poses.windows(2).map(|w| f64::from(w[0].rotation.angle_between(w[1].rotation)));
-    turns.fold(0.0, f64::max).to_degrees() * motion.frame_rate
-}
-
-#[test]
-fn the_head_of_a_bvh_is_where_its_table_of_poses_has_it() {
-    let (Some(bvh), Some(csv)) = (shared("cmu_12_01_walk.bvh"), shared("head_tracks/cmu_12_01_walk.csv")) else {
-        return;
-    };
-    // The skeleton's inch is 0.45 units; the table leaves out the T-pose of frame 0.
-    let joint = MotionSource { skip: 1, ..straight(bvh, Some(2.54 / 0.45)) };
-    let (joint, table) = (read(&joint, 120.0).unwrap(), read(&straight(csv, None), 120.0).unwrap());
-    assert_eq!(table.poses.len(), 523);
-    assert_eq!(joint.poses.len(), 523);
-    for (a, b) in joint.poses.iter().zip(&table.poses) {
-        // Rounding: position 5e-5 cm, time 1e-6 s at 160 cm/s, quaternion components 5e-8, f32 near 200 cm 8e-6 cm.
-        assert!(a.position_cm.distance(b.position_cm) < 3e-4, "{a:?} {b:?}");
-        assert!(1.0 - a.rotation.dot(b.rotation).abs() < 4.0 * f32::EPSILON, "{a:?} {b:?}");
-    }
-}
-
-/// A motion that moves a skeleton of another file, in the shared data.
-fn recorded(file: &str, skeleton: &str, node: &str) -> Option<MotionSource> {
-    let (file, skeleton) = (shared(file)?, shared(skeleton)?);
-    let rate = extension(&file) == "amc";
-    Some(MotionSource {
-        skeleton: Some(skeleton),
-        node: node.to_owned(),
-        frames_per_second: rate.then_some(120.0),
-        ..straight(file, None)
-    })
-}
-
-#[test]
-fn recorded_heads_are_where_their_tables_of_poses_have_them() {
-    // The tables were computed from these very files by another program. Its unit is the metre, as is Jolt's.
-    for (file, skeleton, node, table, rows, metres) in [
-        ("cmu_02_03_run.amc", "cmu_02.asf", "head", "cmu_02_03_run", 173, 0.0254 / 0.45),
-        ("jolt_walk.tof", "jolt_human.tof", "C_Head_sjnt_0", "jolt_walk", 85, 1.0),
-        ("jolt_sprint.tof", "jolt_human.tof", "c_head_SJNT_0", "jolt_sprint", 49, 1.0),
-    ] {
-        let Some(source) = recorded(file, skeleton, node) else { return };
-        let Some(table) = shared(&format!("head_tracks/{table}.csv")) else { return };
-        let text = |path: &Path| read_text(path).unwrap();
-        let found = track(&source, &text(&source.file), source.skeleton.as_deref().map(text).as_deref()).unwrap();
-        let table = csv::track(&text(&table)).unwrap();
-        assert_eq!((found.samples.len(), table.samples.len()), (rows, rows), "{file}");
-        assert!(found.unit_cm.is_none_or(|cm| (cm / 100.0 - metres).abs() < 1e-15), "{file}: {:?}", found.unit_cm);
-        for (i, (a, b)) in found.samples.iter().zip(&table.samples).enumerate() {
-            // Printed with 6 digits behind the point; the rest is for rounding in f64.
-            let off = (a.position * metres - b.position).abs().max_element();
-            assert!(off < 0.5e-6 + 1e-12, "{file}, row {i}: {off} m");
-            assert!((found.times[i] - table.times[i]).abs() < 0.5e-6 + 1e-12, "{file}, row {i}");
-            // Printed with 7 digits, 5e-8 for each component; made of length 1 again, at most their sum, 1e-7, more.
-            let same_sign = if a.rotation.dot(b.rotation) < 0.0 { -b.rotation } else { b.rotation };
-            let off = (a.rotation - same_sign).to_array().into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-            assert!(off < 1.5e-7, "{file}, row {i}: {off}");
-        }
-    }
-}
-
-#[test]
-fn recorded_heads_run_upright_and_face_the_way_they_go() {
-    for (file, skeleton, node, unit) in [
-        ("cmu_02_03_run.amc", "cmu_02.asf", "head", None),
-        ("jolt_walk.tof", "jolt_human.tof", "C_Head_sjnt_0", Some(100.0)),
-        ("jolt_sprint.tof", "jolt_human.tof", "C_Head_sjnt_0", Some(100.0)),
-    ] {
-        let Some(source) = recorded(file, skeleton, node) else { return };
-        let source = MotionSource { unit_cm: unit, facing: Some(Axis::PlusZ), start_at_origin: true, ..source };
-        let motion = read(&source, 24.0).unwrap();
-        let of = format!(" of {}", source.skeleton.unwrap().display());
-        assert!(motion.report.contains(&of) && motion.report.contains("24 Hz"), "{}", motion.report);
-        let way = motion.poses[motion.poses.len() - 1].position_cm.normalize();
-        for (n, pose) in motion.poses.iter().enumerate() {
-            // Runners bend and turn their heads, but by less than half of the quarter turn that a wrong axis would give.
-            let (up, ahead) = ((pose.rotation * Vec3::Y).y, (pose.rotation * Vec3::X).dot(way));
-            assert!(up.min(ahead) > std::f32::consts::FRAC_1_SQRT_2, "{file}, {n}: {pose:?}");
-        }
-    }
-}
-
-#[test]
-fn every_table_of_poses_converts_to_24_frames_and_says_so() {
-    for (name, samples, frames) in
-        [("cmu_12_01_walk", 523, 105), ("cmu_02_03_run", 173, 35), ("jolt_walk", 85, 68), ("jolt_sprint", 49, 39)]
-    {
-        let Some(path) = shared(&format!("head_tracks/{name}.csv")) else { return };
-        let motion = read(&straight(path, None), 24.0).unwrap();
-        assert_eq!(motion.poses.len(), frames, "{name}");
-        assert!(motion.report.contains(&format!("{samples} samples")), "{}", motion.report);
-        assert!(motion.report.contains(&format!("{frames} frames at 24 Hz")), "{}", motion.report);
-    }
-}
-
-#[test]
-fn a_z_up_file_stands_upright_and_faces_x() {
-    let Some(path) = shared("makehuman_walk1.bvh") else { return };
-    let source =
-        MotionSource { unit_cm: Some(10.0), up: Some(Axis::PlusZ), facing: Some(Axis::MinusY), ..straight(path, None) };
-    let motion = read(&source, 24.0).unwrap();
-    assert_eq!(motion.poses.len(), 14);
-    for pose in &motion.poses {
-        // An adult's head base lies 1.4 to 1.8 m above the feet, and walking turns it little.
-        assert!((120.0..190.0).contains(&pose.position_cm.y), "{pose:?}");
-        assert!((pose.rotation * Vec3::Y).y > 0.9 && (pose.rotation * Vec3::X).x > 0.9, "{pose:?}");
-    }
-}
-
-#[test]
-fn clips_turn_the_head_as_fast_as_is_known_of_them() {
-    let Some(path) = shared("kaykit_rogue.glb") else { return };
-    // Largest turn rates of the node "head", measured from the same file with another program (degrees a second).
-    for (clip, known) in [("2H_Melee_Attack_Spin", 912.0), ("Jump_Full_Short", 310.0), ("Running_A", 31.0)] {
-        let source =
-            MotionSource { file: path.clone(), node: "head".into(), clip: clip.into(), ..MotionSource::default() };
-        let found = fastest_turn(&read(&source, 30.0).unwrap());
-        // The rate of the known figures is not: one frame's turn is averaged over a longer or shorter time.
-        assert!((found / known - 1.0).abs() < 0.1, "{clip}: {found} deg/s, known {known}");
-    }
-    let Some(fox) = shared("fox.glb") else { return };
-    let source = MotionSource { file: fox, node: "b_Head_05".into(), clip: "Run".into(), ..MotionSource::default() };
-    let error = read(&MotionSource { clip: String::new(), ..source.clone() }, 24.0).unwrap_err().to_string();
-    assert!(error.contains("Survey, Walk, Run"), "{error}");
-    assert_eq!(read(&source, 24.0).unwrap().poses.len(), 28, "1.158 s and its first frame");
 }
 
 fn bvh(channels: &str, row: &str) -> String {
@@ -176,9 +39,62 @@ fn channels_count_in_the_order_in_which_they_stand() {
         let hips = DQuat::from_rotation_z(FRAC_PI_2);
         let head = DQuat::from_axis_angle(first, FRAC_PI_2) * DQuat::from_axis_angle(second, FRAC_PI_2);
         let sample = track.samples[0];
-        assert!((sample.position - (DVec3::new(1.0, 12.0, 3.0) + hips * DVec3::new(0.0, 5.0, 0.0))).length() < 1e-12);
+        assert!((sample.position - (DVec3::new(1.0, 2.0, 3.0) + hips * DVec3::new(0.0, 5.0, 0.0))).length() < 1e-12);
         assert!((sample.rotation.dot(hips * head).abs() - 1.0).abs() < 1e-12, "{channels}: {sample:?}");
     }
+}
+
+#[test]
+fn position_channels_replace_the_offset_of_any_joint() {
+    let text = bvh("Yposition Zrotation Xrotation", "3 1 2 0 0 90 7 0 0");
+    let text = text.replace("OFFSET 0 5 0", "OFFSET 4 5 6");
+    let sample = bvh::track(&text, "Head").unwrap().samples[0];
+    // The hips' OFFSET of 10 along y is gone; of the head's, y is 7, x and z have no channel and stay.
+    let expected = DVec3::new(1.0, 2.0, 3.0) + DQuat::from_rotation_z(FRAC_PI_2) * DVec3::new(4.0, 7.0, 6.0);
+    assert!(sample.position.distance(expected) < 1e-12, "{sample:?}");
+    let hips = bvh::track(&text, "Hips").unwrap().samples[0];
+    assert_eq!(hips.position, DVec3::new(1.0, 2.0, 3.0));
+}
+
+#[test]
+fn joints_of_one_name_are_told_apart_or_refused() {
+    let twins = bvh("Zrotation Xrotation Yrotation", "0 0 0 0 0 0 0 0 0").replace("ROOT Hips", "ROOT Head");
+    let error = bvh::track(&twins, "Head").unwrap_err().to_string();
+    assert_eq!(error, "joint \"Head\": 2 have that name; give node as a path: one of /Head, /Head/Head");
+    assert_eq!(bvh::track(&twins, "Head/Head").unwrap().samples[0].position, DVec3::new(0.0, 5.0, 0.0));
+    assert_eq!(bvh::track(&twins, "/Head").unwrap().samples[0].position, DVec3::ZERO);
+
+    // In a .tof names are all there is: of the parent of each joint, and of the joint that keys move.
+    let skeleton = TOF_SKELETON.replace("\"Head\"", "\"The \\\"Neck\\\"\"");
+    assert_ne!(skeleton, TOF_SKELETON);
+    let source = MotionSource { skeleton: Some("b.tof".into()), ..straight("a.tof".into(), Some(1.0)) };
+    let error = track(&source, TOF, Some(&skeleton)).unwrap_err().to_string();
+    assert!(error.starts_with("b.tof: joint The \"Neck\": twice in the skeleton"), "{error}");
+    let animation = TOF.replace("\"Head\"", "\"The \\\"Neck\\\"\"");
+    let error = track(&source, &animation, Some(TOF_SKELETON)).unwrap_err().to_string();
+    assert!(error.starts_with("a.tof: joint The \"Neck\": twice in the animation"), "{error}");
+}
+
+#[test]
+fn an_error_in_motion_names_file_line_and_channel() {
+    let refused = |channels: &str, row: &str| {
+        let (_folder, path) = written("walk.bvh", bvh(channels, row).as_bytes());
+        let said = read(&straight(path.clone(), Some(1.0)), 24.0).unwrap_err().to_string();
+        said.replace(&path.display().to_string(), "walk.bvh")
+    };
+    let channels = "Zrotation Xrotation Yrotation";
+    assert_eq!(
+        refused(channels, "0 0 0 0 0 0 0 nan 0"),
+        "walk.bvh:19: frame 0 of 1, Head.Xrotation: \"nan\": its value must be a finite number"
+    );
+    assert_eq!(
+        refused(channels, "0 0 0 0 0 0 0 0"),
+        "walk.bvh: frame 0 of 1, Head.Yrotation: ends where a number should follow: is it whole?"
+    );
+    assert_eq!(
+        refused("Zrotation Wrotation Yrotation", "0 0 0 0 0 0 0 0 0"),
+        "walk.bvh:9: \"Wrotation\": a channel is one of Xposition .. Zrotation"
+    );
 }
 
 /// A track sampled at uneven times from a head that accelerates evenly and turns at a constant rate.

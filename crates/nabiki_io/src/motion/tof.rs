@@ -13,7 +13,9 @@ use std::collections::HashMap;
 
 use glam::{DQuat, DVec3};
 
-use super::{Sample, Track, chain_to_root, unknown_node};
+use super::joints::Tree;
+use super::track::{Sample, Track};
+use super::words::Words;
 use crate::error::{Error, Result};
 
 /// Attributes of a class in the order of its values: name and type.
@@ -68,9 +70,10 @@ pub(super) fn animation(text: &str) -> Result<Vec<AnimatedJoint>> {
     for _ in 0..words.count("animated joints")? {
         let mut joint = AnimatedJoint { name: words.text("a joint's name")?, keys: Vec::new() };
         for _ in 0..words.count("keys")? {
-            let key = words.key().map_err(|e| Error::new(format!("joint {}: {e}", joint.name)))?;
+            let key = words.key().map_err(|e| e.under(format!("joint {}", joint.name)))?;
             if joint.keys.last().is_some_and(|last| last.time >= key.time) {
-                return Err(Error::new(format!("joint {}: time {} s: times must grow", joint.name, key.time)));
+                let what = format!("joint {}: time {} s: times must grow", joint.name, key.time);
+                return Err(Error::new(what).at_line(Some(words.line())));
             }
             joint.keys.push(key);
         }
@@ -88,12 +91,15 @@ pub(super) fn extent(joints: &[AnimatedJoint]) -> (f64, usize) {
 
 /// Names of the joints from the root down to `node`.
 pub(super) fn chain(skeleton: &[Joint], node: &str) -> Result<Vec<String>> {
-    let names = skeleton.iter().map(|joint| joint.name.as_str());
-    let numbers: HashMap<&str, usize> = names.clone().zip(0..).collect();
-    let found = names.clone().position(|name| name.eq_ignore_ascii_case(node));
-    let found = found.ok_or_else(|| unknown_node("joint", node, names))?;
-    let parent = |joint: usize| numbers.get(skeleton[joint].parent.as_str()).copied();
-    let chain = chain_to_root(found, parent, skeleton.len())?;
+    let mut numbers: HashMap<&str, usize> = HashMap::new();
+    for (number, joint) in skeleton.iter().enumerate() {
+        if numbers.insert(&joint.name, number).is_some() {
+            return Err(twice(&joint.name, "the skeleton"));
+        }
+    }
+    let names = skeleton.iter().map(|joint| Some(joint.name.as_str())).collect();
+    let parents = skeleton.iter().map(|joint| numbers.get(joint.parent.as_str()).copied()).collect();
+    let chain = Tree { kind: "joint", names, parents }.chain(node)?;
     let root = &skeleton[chain[0]];
     if !root.parent.is_empty() {
         return Err(Error::new(format!("joint {}: its parent {} is not in the skeleton", root.name, root.parent)));
@@ -101,10 +107,19 @@ pub(super) fn chain(skeleton: &[Joint], node: &str) -> Result<Vec<String>> {
     Ok(chain.into_iter().map(|joint| skeleton[joint].name.clone()).collect())
 }
 
+/// Joints are told apart, and find their parents and keys, by name alone.
+fn twice(name: &str, place: &str) -> Error {
+    Error::new(format!("joint {name:.80}: twice in {place}, where names must differ: rename one of them"))
+}
+
 /// The way of the last joint of `chain`, at every time at which a joint of it has a key.
 pub(super) fn track(chain: &[String], animation: &[AnimatedJoint]) -> Result<Track> {
-    let animated: HashMap<&str, &[Key]> =
-        animation.iter().map(|joint| (joint.name.as_str(), &joint.keys[..])).collect();
+    let mut animated: HashMap<&str, &[Key]> = HashMap::new();
+    for joint in animation {
+        if animated.insert(&joint.name, &joint.keys).is_some() {
+            return Err(twice(&joint.name, "the animation"));
+        }
+    }
     let keys = chain.iter().map(|name| match animated.get(name.as_str()) {
         Some(keys) if !keys.is_empty() => Ok(*keys),
         _ => Err(Error::new(format!("joint {name}: has no keys: does the animation belong to the skeleton?"))),
@@ -138,7 +153,7 @@ fn at(keys: &[Key], time: f64) -> Sample {
 
 /// What follows the head of the first object of `class`, and the shapes declared before it.
 fn object<'a>(text: &'a str, class: &str) -> Result<(Words<'a>, HashMap<String, Shape>)> {
-    let mut words = Words { rest: text, count: 0 };
+    let mut words = Words::quoted(text);
     match (words.next("TOS"), words.next("a version")) {
         (Ok("TOS"), Ok(version)) if version.split('.').next() == Some("1") => {}
         (Ok("TOS"), Ok(version)) => {
@@ -210,34 +225,8 @@ fn expect_first(shapes: &HashMap<String, Shape>, class: &str, name: &str, kind: 
     }
 }
 
-/// The file's words, counted so that an error can say where; a text in quotes is one word.
-struct Words<'a> {
-    rest: &'a str,
-    count: usize,
-}
-
-impl<'a> Words<'a> {
-    fn next(&mut self, wanted: &str) -> Result<&'a str> {
-        self.count += 1;
-        let rest = self.rest.trim_ascii_start();
-        let end = if rest.starts_with('"') {
-            let mut escaped = false;
-            let closing = rest.bytes().skip(1).position(|byte| {
-                let closes = byte == b'"' && !escaped;
-                escaped = byte == b'\\' && !escaped;
-                closes
-            });
-            closing.map(|at| at + 2)
-        } else {
-            let space = rest.bytes().position(|byte| byte.is_ascii_whitespace());
-            Some(space.unwrap_or(rest.len())).filter(|&end| end > 0)
-        };
-        let end = end.ok_or_else(|| Error::new(format!("ends where {wanted} should follow: is it whole?")))?;
-        let (word, rest) = rest.split_at(end);
-        self.rest = rest;
-        Ok(word)
-    }
-
+/// What the words of an object stream stand for.
+impl Words<'_> {
     fn text(&mut self, wanted: &str) -> Result<String> {
         let word = self.next(wanted)?;
         let inner = word.strip_prefix('"').and_then(|word| word.strip_suffix('"'));
@@ -255,31 +244,20 @@ impl<'a> Words<'a> {
         word.parse().map_err(|_| self.refusal(word, &format!("the number of {what} should stand here")))
     }
 
-    fn number(&mut self) -> Result<f64> {
-        let word = self.next("a number")?;
-        match word.parse::<f64>() {
-            Ok(x) if x.is_finite() => Ok(x),
-            _ => Err(self.refusal(word, "not a finite number")),
-        }
-    }
-
     fn key(&mut self) -> Result<Key> {
         let mut v = [0.0; 8];
         for v in &mut v {
-            *v = self.number()?;
+            *v = self.number("a key")?;
         }
         let [x, y, z, w, px, py, pz, time] = v;
         let rotation = DQuat::from_xyzw(x, y, z, w);
         // Files are rounded to some digits; a length further off than that is another mistake.
         if (rotation.length() - 1.0).abs() > 1e-2 {
             let length = rotation.length();
-            return Err(Error::new(format!("time {time} s: quaternion of length {length}, but only 1 is a rotation")));
+            let what = format!("time {time} s: quaternion of length {length}, but only 1 is a rotation");
+            return Err(Error::new(what).at_line(Some(self.line())));
         }
         Ok(Key { time, position: DVec3::new(px, py, pz), rotation: rotation.normalize() })
-    }
-
-    fn refusal(&self, word: &str, why: &str) -> Error {
-        Error::new(format!("word {}, \"{word:.40}\": {why}", self.count))
     }
 }
 

@@ -2,9 +2,8 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Door, HeadMotion, Interpolation, MotionSource, frame_count, poses};
-use crate::error::{Error, Result};
-use crate::info::Short;
+use super::source::Interpolation;
+use crate::axis::Axis;
 
 /// A joint in its file's own world and unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,63 +26,12 @@ pub struct Track {
     /// Length of the file's unit (cm) where the file says it.
     pub unit_cm: Option<f64>,
     /// Up axis where the file says it.
-    pub up: Option<super::Axis>,
+    pub up: Option<Axis>,
 }
 
 impl Track {
-    /// The head's poses at `frame_rate` frames a second, in the scene's world.
-    ///
-    /// # Errors
-    /// No sample left after `source.skip`, times that do not grow, a unit or axis that nobody gives.
-    pub fn head_motion(mut self, source: &MotionSource, frame_rate: f64) -> Result<HeadMotion> {
-        let named = |e: Error| e.in_file(&source.file);
-        if source.skip >= self.samples.len() {
-            let problem = format!("skip = {}: the file has {} samples", source.skip, self.samples.len());
-            return Err(named(Error::new(problem)));
-        }
-        self.times.drain(..source.skip);
-        self.samples.drain(..source.skip);
-        if let Some(i) = self.times.windows(2).position(|w| !(w[0] < w[1] && w[0].is_finite() && w[1].is_finite())) {
-            let (a, b) = (self.times[i], self.times[i + 1]);
-            let problem = format!("sample {}: time {b} s follows {a} s, but times must grow", i + 1);
-            return Err(named(Error::new(problem)));
-        }
-        let door = Door::new(source.unit_cm.or(self.unit_cm), source.up.or(self.up), source.facing).map_err(named)?;
-        let duration = self.times[self.times.len() - 1] - self.times[0];
-        let frames = frame_count(duration, frame_rate).map_err(named)?;
-        let mut key = 0;
-        let samples = (0..frames).map(|n| {
-            let time = self.times[0] + n as f64 / frame_rate;
-            while key + 2 < self.times.len() && self.times[key + 1] <= time {
-                key += 1;
-            }
-            self.at(key, time, source.positions)
-        });
-        let poses = poses(&door, samples, source.start_at_origin).map_err(named)?;
-        let rate = (self.times.len() - 1) as f64 / duration.max(f64::MIN_POSITIVE);
-        let report = format!(
-            "{}: {}, {} samples at {} Hz ({:.3} s) -> {} frames at {} Hz (positions {}, rotations slerp; unit {} cm, \
-             up {}, face {})",
-            source.file.display(),
-            self.what,
-            self.times.len(),
-            Rate(rate),
-            duration,
-            frames,
-            Rate(frame_rate),
-            match source.positions {
-                Interpolation::Linear => "linear",
-                Interpolation::Cubic => "cubic",
-            },
-            Short(door.unit_cm as f32),
-            door.up,
-            door.facing,
-        );
-        Ok(HeadMotion { frame_rate, poses, report })
-    }
-
     /// The pose at `time`, which lies between sample `key` and the next, or beyond the end by rounding.
-    fn at(&self, key: usize, time: f64, positions: Interpolation) -> Sample {
+    pub(super) fn at(&self, key: usize, time: f64, positions: Interpolation) -> Sample {
         let (t, s) = (&self.times, &self.samples);
         if key + 1 >= s.len() {
             return s[key];
@@ -122,14 +70,4 @@ impl Track {
 pub(super) fn hermite(p0: DVec3, m0: DVec3, p1: DVec3, m1: DVec3, u: f64) -> DVec3 {
     let (u2, u3) = (u * u, u * u * u);
     p0 * (2.0 * u3 - 3.0 * u2 + 1.0) + m0 * (u3 - 2.0 * u2 + u) + p1 * (3.0 * u2 - 2.0 * u3) + m1 * (u3 - u2)
-}
-
-/// A rate for reading: at most four decimals, and none that say nothing.
-struct Rate(f64);
-
-impl std::fmt::Display for Rate {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let text = format!("{:.4}", self.0);
-        f.write_str(text.trim_end_matches('0').trim_end_matches('.'))
-    }
 }

@@ -4,7 +4,7 @@ use glam::Vec3;
 use nabiki::dynamics::{Dynamics, straightened};
 use nabiki::{Hair, Head, SettingError, Strands, groom::groom, pores, subset};
 use nabiki_io::{
-    exchange::{self, Said},
+    DeclaredSpace, exchange,
     hair::{self, ImportReport},
     mesh::{self, MeshReport},
     motion::{self, HeadMotion},
@@ -66,7 +66,7 @@ fn load_hair(scene: &Scene, head: &Head, head_placement: &Placement, shown: Show
 
 fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, shown: Shown) -> Result<Loaded> {
     let file = scene.resolve(&settings.file);
-    let placement = hair_placement(settings, head_placement, exchange::said(&file)?);
+    let placement = hair_placement(settings, head_placement, exchange::declared_space(&file)?);
     placement.check("hair").map_err(|refused| scene.refusal(refused))?;
     let (hair, report) = hair::import(&file, &placement, &settings.cleaning())?;
     let hair = match settings.strands {
@@ -130,8 +130,8 @@ pub(super) fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshRe
         return Ok((head, Placement::default(), None));
     };
     let file = scene.resolve(&imported.file);
-    let said = exchange::said(&file)?;
-    let mut placement = imported.placement(said.unit, said.up);
+    let declared = exchange::declared_space(&file)?;
+    let mut placement = imported.placement(declared.unit, declared.up);
     placement.check("head").map_err(|refused| scene.refusal(refused))?;
     let (mut mesh, report) = mesh::import(&file, &placement, &imported.groups)?;
     let mut ellipsoid = given;
@@ -149,10 +149,10 @@ pub(super) fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshRe
 }
 
 /// How the hair's file lies in head space: as the head's file does, but for what the scene or the file itself says.
-fn hair_placement(settings: &ImportedHair, head: &Placement, said: Said) -> Placement {
+fn hair_placement(settings: &ImportedHair, head: &Placement, declared: DeclaredSpace) -> Placement {
     let unmoved = Placement {
-        unit: settings.unit.or(said.unit).unwrap_or(head.unit),
-        up: settings.up.or(said.up).unwrap_or(head.up),
+        unit: settings.unit.or(declared.unit).unwrap_or(head.unit),
+        up: settings.up.or(declared.up).unwrap_or(head.up),
         facing: settings.facing.unwrap_or(head.facing),
         origin: glam::Vec3::ZERO,
     };

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use glam::Vec3;
 use nabiki::{SettingError, error::check_positive, groom::Style, pores::Hairline};
+use nabiki_io::Axis;
+use nabiki_io::Unit;
 use nabiki_io::hair::Cleaning;
-use nabiki_io::motion::Axis;
-use nabiki_io::placement::Unit;
 use serde::{Deserialize, Serialize};
 use toml::Table;
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use glam::Vec3;
 use nabiki::{Ellipsoid, SettingError};
 use nabiki_io::motion::{Axis, MotionSource};
-use nabiki_io::placement::{Placement, Unit};
+use nabiki_io::{Placement, Unit};
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 

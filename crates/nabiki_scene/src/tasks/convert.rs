@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use nabiki::{Hair, Pose};
+use nabiki_io::Axis;
 use nabiki_io::cache::Reader;
-use nabiki_io::exchange::{self, Said};
 use nabiki_io::hair;
-use nabiki_io::motion::Axis;
-use nabiki_io::placement::{Placement, Unit};
+use nabiki_io::{DeclaredSpace, exchange};
+use nabiki_io::{Placement, Unit};
 
 use crate::error::{Error, Result};
 use crate::place;
@@ -144,7 +144,7 @@ fn unsaid(options: &ConvertOptions) -> Result<Vec<String>> {
             lost.push(format!("motion: it is frame {kept} of the {frames} in {}", input.display()));
         }
     }
-    let Said { unit, up } = if is_cache(options) { said(options)? } else { exchange::said(input)? };
+    let DeclaredSpace { unit, up } = if is_cache(options) { said(options)? } else { exchange::declared_space(input)? };
     if let Some(unit) = unit.filter(|unit| unit.cm != 1.0 && !exchange::is_usd(output)) {
         lost.push(format!("its unit: give hair.unit = {} where it is read", unit.cm));
     }
@@ -155,13 +155,13 @@ fn unsaid(options: &ConvertOptions) -> Result<Vec<String>> {
 }
 
 /// Unit and up axis of the input: as it says itself, or else as the options do.
-fn said(options: &ConvertOptions) -> Result<Said> {
+fn said(options: &ConvertOptions) -> Result<DeclaredSpace> {
     if is_cache(options) {
         let Placement { unit, up, .. } = placement(&Reader::open(&options.input)?).unwrap_or_default();
-        return Ok(Said { unit: Some(unit), up: Some(up) });
+        return Ok(DeclaredSpace { unit: Some(unit), up: Some(up) });
     }
-    let in_file = exchange::said(&options.input)?;
-    let said = Said {
+    let in_file = exchange::declared_space(&options.input)?;
+    let said = DeclaredSpace {
         unit: options.unit.or(in_file.unit),
         up: if options.z_up { Some(Axis::PlusZ) } else { in_file.up.or(Some(Axis::PlusY)) },
     };

@@ -1,33 +1,21 @@
-//! Real hair and heads of `../shared/data`, against the counts its README states. Skipped, and said so, without it.
-
-use std::path::{Path, PathBuf};
+//! Real hair and heads, against the counts that their README states.
 
 use nabiki_io::{
     hair,
-    info::{Info, info},
+    info::{Guess, Info, info},
     mesh,
     placement::Placement,
 };
+use nabiki_reference_tests::shared;
 
-/// The path of a shared file; prints why the test is skipped where there is none.
-fn shared(name: &str) -> Option<PathBuf> {
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")).join(name);
-    if !path.exists() {
-        eprintln!("SKIPPED: {} is absent, the shared data are not part of the project", path.display());
-        return None;
-    }
-    Some(path)
-}
-
-fn read(name: &str) -> Option<nabiki::Hair> {
-    shared(name).map(|path| hair::read(&path).unwrap())
+fn read(name: &str) -> nabiki::Hair {
+    hair::read(&shared(name)).unwrap()
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn sintel_has_11400_strands_of_16_points_in_both_formats() {
-    let (Some(tfx), Some(hair)) = (read("hair/sintel_hair_16pts.tfx"), read("hair/sintel_hair_16pts.hair")) else {
-        return;
-    };
+    let (tfx, hair) = (read("hair/sintel_hair_16pts.tfx"), read("hair/sintel_hair_16pts.hair"));
     assert_eq!((tfx.strands.len(), tfx.strands.points().len()), (11_400, 182_400));
     assert!(tfx.strands.iter().all(|s| s.len() == 16));
     assert_eq!(tfx.strands, hair.strands, "positions unchanged");
@@ -37,11 +25,9 @@ fn sintel_has_11400_strands_of_16_points_in_both_formats() {
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn ratboy_s_short_segments_are_joined_and_counted_as_the_readme_did() {
-    let (Some(path), Some(expected)) = (shared("hair/ratboy_mohawk.tfx"), read("hair/ratboy_mohawk_varseg.hair"))
-    else {
-        return;
-    };
+    let (path, expected) = (shared("hair/ratboy_mohawk.tfx"), read("hair/ratboy_mohawk_varseg.hair"));
     let raw = hair::read(&path).unwrap();
     assert_eq!((raw.strands.len(), raw.strands.points().len()), (2_228, 71_296));
     assert_eq!(raw.attributes.root_uv.as_ref().unwrap().len(), 2_228);
@@ -59,22 +45,21 @@ fn ratboy_s_short_segments_are_joined_and_counted_as_the_readme_did() {
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn the_curly_swatch_is_the_same_as_lines_and_as_hair() {
-    let (Some(obj), Some(hair)) = (read("hair/curly_swatch_frame00.obj"), read("hair/curly_swatch_frame00.hair"))
-    else {
-        return;
-    };
+    let (obj, hair) = (read("hair/curly_swatch_frame00.obj"), read("hair/curly_swatch_frame00.hair"));
     assert_eq!((obj.strands.len(), obj.strands.points().len()), (98, 10_589));
     assert_eq!(obj.strands, hair.strands);
-    let hanging = read("hair/curly_swatch_frame70.obj").unwrap();
+    let hanging = read("hair/curly_swatch_frame70.obj");
     assert_eq!(hanging.strands.starts(), obj.strands.starts());
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn every_hair_file_written_back_reads_the_same() {
     let folder = tempfile::tempdir().unwrap();
     for name in ["sintel_hair_16pts.tfx", "sintel_hair_16pts.hair", "ratboy_mohawk.tfx", "ratboy_mohawk_varseg.hair"] {
-        let Some(original) = read(&format!("hair/{name}")) else { return };
+        let original = read(&format!("hair/{name}"));
         let copy = folder.path().join(name);
         hair::write(&copy, &original).unwrap();
         assert_eq!(hair::read(&copy).unwrap(), original, "{name}");
@@ -82,6 +67,7 @@ fn every_hair_file_written_back_reads_the_same() {
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn every_head_has_the_counts_and_the_box_of_the_readme() {
     let none: &[String] = &[];
     let body: &[String] = &["body".to_owned()];
@@ -95,7 +81,7 @@ fn every_head_has_the_counts_and_the_box_of_the_readme() {
         ("suzanne.glb", none, 8_098, 15_744, [0.930, 0.668, 0.576]),
     ];
     for (name, groups, vertices, triangles, upper) in heads {
-        let Some(path) = shared(&format!("heads/{name}")) else { return };
+        let path = shared(&format!("heads/{name}"));
         let head = mesh::read(&path, groups).unwrap();
         assert_eq!((head.positions.len(), head.triangles.len()), (vertices, triangles), "{name}");
         let max = head.positions.iter().copied().reduce(glam::Vec3::max).unwrap().to_array();
@@ -106,8 +92,9 @@ fn every_head_has_the_counts_and_the_box_of_the_readme() {
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn seams_of_the_scanned_head_close_when_it_is_imported() {
-    let Some(path) = shared("heads/lps_head.obj") else { return };
+    let path = shared("heads/lps_head.obj");
     let (head, report) = mesh::import(&path, &Placement::default(), &[]).unwrap();
     assert_eq!((head.positions.len(), report.joined_vertices), (8_839, 9_223 - 8_839));
     // Quantisation left 6 triangles with two corners at one place.
@@ -115,8 +102,9 @@ fn seams_of_the_scanned_head_close_when_it_is_imported() {
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn info_says_what_the_readme_says_of_sintel() {
-    let Some(path) = shared("hair/sintel_hair_16pts.tfx") else { return };
+    let path = shared("hair/sintel_hair_16pts.tfx");
     let Info::Hair(info) = info(&path).unwrap() else { panic!("a .tfx is hair") };
     assert_eq!((info.strands, info.points, info.segments), (11_400, 182_400, [15, 15]));
     let near = |found: f32, stated: f32| assert!((found / stated - 1.0).abs() < 0.005, "{found} {stated}");
@@ -124,11 +112,12 @@ fn info_says_what_the_readme_says_of_sintel() {
     near(info.strand_length.median, 0.1015);
     near(info.strand_length.max, 0.248);
     near(info.bounds.max[1], 1.6749);
-    assert_eq!((info.likely_unit, info.likely_up), (Some("m"), Some("+y")));
+    assert_eq!(info.guess, Some(Guess { likely_unit: Some("m"), likely_up: Some("+y") }));
     assert_eq!((info.zero_segments, info.empty_strands), (0, 0));
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn info_counts_the_open_edges_of_the_readme() {
     for (name, open, crowded) in [
         ("heads/sintel_bust.obj", 148, 0),
@@ -137,7 +126,7 @@ fn info_counts_the_open_edges_of_the_readme() {
         // The README counts 10 crowded edges; 6 of them are of triangles without area, which are dropped.
         ("heads/lps_head.obj", 0, 4),
     ] {
-        let Some(path) = shared(name) else { return };
+        let path = shared(name);
         let Info::Mesh(mesh) = info(&path).unwrap() else { panic!("{name} is a mesh") };
         assert_eq!((mesh.open_edges, mesh.crowded_edges), (open, crowded), "{name}");
     }

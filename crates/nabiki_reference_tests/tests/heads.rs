@@ -1,23 +1,12 @@
-//! Real heads of the shared data: the fitted ellipsoid lies on each scalp, and the distance agrees with a published
-//! grid. Where the data are absent the tests say so and pass.
-
-use std::path::PathBuf;
+//! Real heads: the fitted ellipsoid lies on each scalp, and the distance agrees with a published grid.
 
 use glam::Vec3;
 use nabiki::{Ellipsoid, Head, Mesh};
-
-fn shared(path: &str) -> Option<PathBuf> {
-    let full = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")).join(path);
-    if !full.exists() {
-        println!("skipped: {} is not there", full.display());
-        return None;
-    }
-    Some(full)
-}
+use nabiki_reference_tests::shared;
 
 /// The triangles of an .obj file, or of one group of it, in head space: y up as they are, face from +z to +x.
-fn read(path: &str, group: Option<&str>, cm: f32) -> Option<Mesh> {
-    let text = std::fs::read_to_string(shared(path)?).expect("readable");
+fn read(path: &str, group: Option<&str>, cm: f32) -> Mesh {
+    let text = std::fs::read_to_string(shared(path)).expect("readable");
     let mut mesh = Mesh::default();
     let mut wanted = group.is_none();
     for line in text.lines() {
@@ -36,7 +25,7 @@ fn read(path: &str, group: Option<&str>, cm: f32) -> Option<Mesh> {
             _ => {}
         }
     }
-    Some(mesh)
+    mesh
 }
 
 /// Distances of the skin from E over the back and top of the skull, in shares of the mean half axis: those of the
@@ -73,39 +62,41 @@ fn lies_on_the_scalp(mesh: Mesh) -> Ellipsoid {
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn the_scanned_head_gets_an_ellipsoid_on_its_scalp() {
     // The scan's unit is its own; its head of 4.5 units is taken for one of 22.5 cm.
-    let Some(mesh) = read("heads/lps_head.obj", None, 5.0) else { return };
+    let mesh = read("heads/lps_head.obj", None, 5.0);
     lies_on_the_scalp(mesh);
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn the_sintel_bust_gets_an_ellipsoid_on_its_scalp() {
-    let Some(mesh) = read("heads/sintel_bust.obj", None, 100.0) else { return };
+    let mesh = read("heads/sintel_bust.obj", None, 100.0);
     lies_on_the_scalp(mesh);
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn the_makehuman_body_gets_an_ellipsoid_on_its_scalp() {
-    let Some(mesh) = read("heads/makehuman_base.obj", Some("body"), 10.0) else { return };
+    let mesh = read("heads/makehuman_base.obj", Some("body"), 10.0);
     lies_on_the_scalp(mesh);
 }
 
 /// The grid file: 64, 0, the box's corners, then 64^3 distances at the middles of the cells, x fastest.
-fn published_grid() -> Option<(Vec3, Vec3, Vec<f32>)> {
-    let bytes = std::fs::read(shared("heads/sintel_collider_sdf64.bin")?).expect("readable");
+fn published_grid() -> (Vec3, Vec3, Vec<f32>) {
+    let bytes = std::fs::read(shared("heads/sintel_collider_sdf64.bin")).expect("readable");
     let words: Vec<[u8; 4]> = bytes.chunks_exact(4).map(|c| c.try_into().expect("four bytes")).collect();
     assert_eq!((u32::from_le_bytes(words[0]), words.len()), (64, 8 + 64 * 64 * 64));
     let numbers: Vec<f32> = words[2..].iter().map(|&w| f32::from_le_bytes(w)).collect();
-    Some((Vec3::from_slice(&numbers[..3]), Vec3::from_slice(&numbers[3..6]), numbers[6..].to_vec()))
+    (Vec3::from_slice(&numbers[..3]), Vec3::from_slice(&numbers[3..6]), numbers[6..].to_vec())
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn distance_agrees_with_a_published_grid() {
-    let (Some(mesh), Some((low, high, grid))) = (read("heads/sintel_collider.obj", None, 100.0), published_grid())
-    else {
-        return;
-    };
+    let mesh = read("heads/sintel_collider.obj", None, 100.0);
+    let (low, high, grid) = published_grid();
     let head = Head::from_mesh(mesh, None).expect("a head");
     let (mut worst_near, mut worst_far) = (0.0_f32, 0.0_f32);
     for (i, &metres) in grid.iter().enumerate() {
@@ -127,8 +118,9 @@ fn distance_agrees_with_a_published_grid() {
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn an_open_bust_is_solid_inside() {
-    let Some(mesh) = read("heads/sintel_bust.obj", None, 100.0) else { return };
+    let mesh = read("heads/sintel_bust.obj", None, 100.0);
     let head = Head::from_mesh(mesh, None).expect("a head");
     let middle = head.ellipsoid.center;
     assert!(head.contains(middle) && head.distance(middle) < -5.0);
@@ -139,13 +131,14 @@ fn an_open_bust_is_solid_inside() {
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn pores_keep_off_the_faces_and_ears_of_real_heads() {
     for (path, group, cm) in [
         ("heads/lps_head.obj", None, 5.0),
         ("heads/sintel_bust.obj", None, 100.0),
         ("heads/makehuman_base.obj", Some("body"), 10.0),
     ] {
-        let Some(mesh) = read(path, group, cm) else { return };
+        let mesh = read(path, group, cm);
         let head = Head::from_mesh(mesh, None).expect("a head");
         let pores = nabiki::pores::spread(&head, &Default::default(), 2000, 1).expect("a scalp");
         for pore in pores {

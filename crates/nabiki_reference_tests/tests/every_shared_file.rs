@@ -1,6 +1,6 @@
-//! Every file of `../shared/data` in hair, heads and motion goes through: hair into every format and back, heads get
-//! their ellipsoid, motion gives poses, and what holds none of them says so in one line. Skipped, and said so, without
-//! the data. A file that is not known here fails: it must be said how it goes through.
+//! Every file of the shared data in hair, heads and motion goes through: hair into every format and back, heads get their
+//! ellipsoid, motion gives poses, and what holds none of them says so in one line. A file that is not known here fails: it
+//! must be said how it goes through.
 
 use std::path::{Path, PathBuf};
 
@@ -13,14 +13,12 @@ use nabiki_io::{
     motion::{self, Axis, MotionSource},
     placement::Placement,
 };
+use nabiki_reference_tests::shared;
 
-/// The files of a folder of the shared data, by name; none, and said so, where it is not there.
+/// The files of a folder of the shared data, by name.
 fn files(folder: &str) -> Vec<(String, PathBuf)> {
-    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")).join(folder);
-    let Ok(entries) = std::fs::read_dir(&folder) else {
-        eprintln!("SKIPPED: {} is absent, the shared data are not part of the project", folder.display());
-        return Vec::new();
-    };
+    let folder = shared(folder);
+    let entries = std::fs::read_dir(&folder).unwrap();
     let paths = entries.map(|entry| entry.unwrap().path()).filter(|path| path.is_file());
     let mut files: Vec<_> =
         paths.map(|path| (path.file_name().unwrap().to_string_lossy().into_owned(), path)).collect();
@@ -96,6 +94,7 @@ fn bits(hair: &Hair) -> (&[u32], Vec<[u32; 3]>) {
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn every_hair_file_goes_through() {
     for (name, path) in files("hair") {
         match name.as_str() {
@@ -117,6 +116,7 @@ fn every_hair_file_goes_through() {
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn every_head_goes_through() {
     for (name, path) in files("heads") {
         match name.as_str() {
@@ -133,6 +133,7 @@ fn every_head_goes_through() {
 }
 
 #[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
 fn every_motion_goes_through() {
     for (name, path) in files("motion").into_iter().chain(files("motion/head_tracks")) {
         let asked = MotionSource {

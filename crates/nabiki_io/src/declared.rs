@@ -1,0 +1,13 @@
+//! What a file says itself of the space of its coordinates.
+
+use crate::axis::Axis;
+use crate::unit::Unit;
+
+/// Unit and up axis that a file declares; `None` where it says nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DeclaredSpace {
+    /// Length unit.
+    pub unit: Option<Unit>,
+    /// Axis that points up.
+    pub up: Option<Axis>,
+}

@@ -1,0 +1,84 @@
+//! glTF documents and their buffers, for the readers of meshes and of motion. The crate gltf parses and validates; lengths,
+//! and buffers in files of their own, are seen to here.
+
+use std::path::Path;
+
+use gltf::buffer::Source;
+
+use crate::bytes::Bytes;
+use crate::error::{Error, Result};
+use crate::input::{self, MOST_BINARY_BYTES};
+
+/// The document, valid, and the binary chunk of a .glb.
+pub(crate) fn open(bytes: &[u8]) -> Result<(gltf::Document, Option<Vec<u8>>)> {
+    let unreadable = |e: gltf::Error| Error::new(format!("is not a readable glTF: {e}"));
+    let (text, blob) = if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (bytes, None) };
+    if text.trim_ascii_start().first() != Some(&b'{') {
+        return Err(Error::new("is not a glTF: it does not start with glTF or {"));
+    }
+    let gltf = gltf::Gltf::from_slice_without_validation(text).map_err(unreadable)?;
+    let json = gltf.document.into_json();
+    // The crate's validation looks at these accessors before it has checked that they exist.
+    let primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    if let Some(missing) = primitives.flat_map(|p| p.attributes.values()).find(|a| a.value() >= json.accessors.len()) {
+        let (missing, count) = (missing.value(), json.accessors.len());
+        return Err(Error::new(format!("is not a readable glTF: accessor {missing} is named, there are {count}")));
+    }
+    Ok((gltf::Document::from_json(json).map_err(unreadable)?, blob.map(<[u8]>::to_vec)))
+}
+
+/// The JSON and the binary chunk of a .glb. (The crate's own reader of them trusts their lengths.)
+fn chunks(glb: &[u8]) -> Result<(&[u8], Option<&[u8]>)> {
+    let mut source = Bytes::from_slice(glb);
+    let [_, version, length]: [u32; 3] = source.value("header")?;
+    if version != 2 {
+        return Err(Error::new(format!("glTF version is {version}: only version 2 is read")));
+    }
+    if u64::from(length) != source.len() {
+        return Err(Error::new(format!("{length} bytes expected, {} found: the file is cut short", source.len())));
+    }
+    let mut chunk = |kind: &[u8; 4]| -> Result<Option<&[u8]>> {
+        if source.remaining() == 0 {
+            return Ok(None);
+        }
+        let bytes: u32 = source.value("chunk length")?;
+        let found: [u8; 4] = source.value("chunk type")?;
+        source.expect(u64::from(bytes), "chunk")?;
+        let (start, end) = (source.at(), source.at() + u64::from(bytes));
+        source.seek(end)?;
+        Ok((found == *kind).then_some(&glb[start as usize..end as usize]))
+    };
+    let text = chunk(b"JSON")?.ok_or_else(|| Error::new("its first chunk is not JSON"))?;
+    Ok((text, chunk(b"BIN\0")?))
+}
+
+/// The bytes of every buffer.
+pub(crate) fn buffers(document: &gltf::Document, blob: Option<&[u8]>, folder: Option<&Path>) -> Result<Vec<Vec<u8>>> {
+    let mut all = Vec::new();
+    for buffer in document.buffers() {
+        let name = |e: Error| e.under(format!("buffer {}", buffer.index()));
+        let bytes = match buffer.source() {
+            Source::Bin => blob.ok_or_else(|| name(Error::new("the file has no binary chunk")))?.to_vec(),
+            Source::Uri(uri) if uri.starts_with("data:") => {
+                let data = gltf::buffer::Data::from_source(buffer.source(), None);
+                data.map_err(|e| name(Error::new(e.to_string())))?.0
+            }
+            Source::Uri(uri) => external(uri, folder).map_err(name)?,
+        };
+        if bytes.len() < buffer.length() {
+            let (found, expected) = (bytes.len(), buffer.length());
+            return Err(name(Error::new(format!("{expected} bytes expected, {found} found: the file is cut short"))));
+        }
+        all.push(bytes);
+    }
+    Ok(all)
+}
+
+/// A buffer in a file of its own, beside the .gltf.
+fn external(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>> {
+    let plain = !uri.contains([':', '%', '\\']) && !uri.starts_with('/') && !uri.split('/').any(|part| part == "..");
+    match folder {
+        Some(folder) if plain => input::read(&folder.join(uri), MOST_BINARY_BYTES),
+        _ => Err(Error::new(format!("\"{uri}\" is not a file in the folder of the .gltf: save as .glb"))),
+    }
+}

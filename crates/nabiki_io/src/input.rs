@@ -1,0 +1,118 @@
+//! Files that are read: regular ones, and no more of them than is stated.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use crate::error::{Error, Result};
+
+/// Bytes that a text of numbers may have: meshes, motion, strands as lines.
+pub const MOST_TEXT_BYTES: u64 = 1 << 30;
+
+/// Bytes that a scene may have.
+pub const MOST_SCENE_BYTES: u64 = 16 << 20;
+
+/// Bytes of a binary file that is read into memory whole; as much as a .glb can say that it has.
+pub const MOST_BINARY_BYTES: u64 = 1 << 32;
+
+/// Opens a regular file. A folder, a device and a pipe, which may never end or never begin, are refused.
+///
+/// # Errors
+/// One line that names the file.
+pub fn open(path: &Path) -> Result<File> {
+    let named = |e: std::io::Error| Error::from(e).in_file(path);
+    // Asked before it is opened: opening a pipe waits for someone to write into it.
+    let before = std::fs::metadata(path).map_err(named)?;
+    let file = if before.is_file() { Some(File::open(path).map_err(named)?) } else { None };
+    match file {
+        Some(file) if file.metadata().map_err(named)?.is_file() => Ok(file),
+        _ => {
+            let what = if before.is_dir() { "a folder" } else { "a device or a pipe" };
+            Err(Error::new(format!("is {what}, not a regular file: give a file")).in_file(path))
+        }
+    }
+}
+
+/// All of a regular file of at most `most` bytes.
+///
+/// # Errors
+/// What is no regular file, is longer, or cannot be read, in one line that names the file.
+pub fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
+    let named = |e: std::io::Error| Error::from(e).in_file(path);
+    let file = open(path)?;
+    let length = file.metadata().map_err(named)?.len();
+    let longer = || Error::new(format!("is longer than {}, which is more than is read", Size(most))).in_file(path);
+    if length > most {
+        return Err(longer());
+    }
+    let mut bytes = Vec::with_capacity(length as usize);
+    // A file may grow while it is read, and some that the system makes up say that they have no length.
+    file.take(most + 1).read_to_end(&mut bytes).map_err(named)?;
+    if bytes.len() as u64 > most { Err(longer()) } else { Ok(bytes) }
+}
+
+/// All of a regular file of at most `most` bytes, which must be UTF-8.
+///
+/// # Errors
+/// As [`read`]; a byte that is not text.
+pub fn read_text(path: &Path, most: u64) -> Result<String> {
+    String::from_utf8(read(path, most)?).map_err(|e| {
+        let at = e.utf8_error().valid_up_to();
+        Error::new(format!("byte {at} is not text (UTF-8): is this the file that was meant?")).in_file(path)
+    })
+}
+
+/// A number of bytes in whole units of 1024 each.
+struct Size(u64);
+
+impl std::fmt::Display for Size {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let mut left = self.0;
+        for unit in ["bytes", "KiB", "MiB"] {
+            if left == 0 || !left.is_multiple_of(1024) {
+                return write!(f, "{left} {unit}");
+            }
+            left /= 1024;
+        }
+        write!(f, "{left} GiB")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_read_up_to_what_is_stated_and_no_further() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("seven.txt");
+        std::fs::write(&path, "1234567").unwrap();
+        assert_eq!(read_text(&path, 7).unwrap(), "1234567");
+        let refused = |most| read_text(&path, most).unwrap_err().to_string();
+        assert_eq!(refused(6), format!("{}: is longer than 6 bytes, which is more than is read", path.display()));
+        std::fs::write(&path, b"12\xff").unwrap();
+        assert!(refused(7).contains("byte 2 is not text"), "{}", refused(7));
+        // A file full of holes is longer than it takes on the disk, and is refused before any of it is read.
+        std::fs::File::create(&path).unwrap().set_len(1 << 40).unwrap();
+        assert!(refused(MOST_TEXT_BYTES).contains("is longer than 1 GiB"), "{}", refused(MOST_TEXT_BYTES));
+        assert!(refused(MOST_SCENE_BYTES).contains("is longer than 16 MiB"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_never_ends_or_never_begins_is_refused_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let refused = |path: &Path| read(path, MOST_TEXT_BYTES).unwrap_err().to_string();
+        let is = |what: &str, path: &Path| format!("{}: is {what}, not a regular file: give a file", path.display());
+        assert_eq!(refused(folder.path()), is("a folder", folder.path()));
+        // Links that lead to a device are followed, and end there.
+        let link = folder.path().join("endless.bvh");
+        std::os::unix::fs::symlink("/dev/zero", &link).unwrap();
+        assert_eq!(refused(&link), is("a device or a pipe", &link));
+        let pipe = folder.path().join("pipe.obj");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        assert_eq!(refused(&pipe), is("a device or a pipe", &pipe));
+        let missing = folder.path().join("no.csv");
+        assert!(refused(&missing).contains("No such file"), "{}", refused(&missing));
+    }
+}

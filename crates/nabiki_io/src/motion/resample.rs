@@ -1,0 +1,71 @@
+//! From the samples of a file to the frames of a scene.
+
+use super::source::{Interpolation, MotionSource};
+use super::track::Track;
+use super::world::{HeadMotion, WorldFromFile, frame_count, poses};
+use crate::error::{Error, Result};
+use crate::short::Short;
+
+impl Track {
+    /// The head's poses at `frame_rate` frames a second, in the scene's world.
+    ///
+    /// # Errors
+    /// No sample left after `source.skip`, times that do not grow, a unit or axis that nobody gives.
+    pub fn head_motion(mut self, source: &MotionSource, frame_rate: f64) -> Result<HeadMotion> {
+        let named = |e: Error| e.in_file(&source.file);
+        if source.skip >= self.samples.len() {
+            let problem = format!("skip = {}: the file has {} samples", source.skip, self.samples.len());
+            return Err(named(Error::new(problem)));
+        }
+        self.times.drain(..source.skip);
+        self.samples.drain(..source.skip);
+        if let Some(i) = self.times.windows(2).position(|w| !(w[0] < w[1] && w[0].is_finite() && w[1].is_finite())) {
+            let (a, b) = (self.times[i], self.times[i + 1]);
+            let problem = format!("sample {}: time {b} s follows {a} s, but times must grow", i + 1);
+            return Err(named(Error::new(problem)));
+        }
+        let (unit_cm, up) = (source.unit_cm.or(self.unit_cm), source.up.or(self.up));
+        let world_from_file = WorldFromFile::new(unit_cm, up, source.facing).map_err(named)?;
+        let duration = self.times[self.times.len() - 1] - self.times[0];
+        let frames = frame_count(duration, frame_rate).map_err(named)?;
+        let mut key = 0;
+        let samples = (0..frames).map(|n| {
+            let time = self.times[0] + n as f64 / frame_rate;
+            while key + 2 < self.times.len() && self.times[key + 1] <= time {
+                key += 1;
+            }
+            self.at(key, time, source.positions)
+        });
+        let poses = poses(&world_from_file, samples, source.start_at_origin).map_err(named)?;
+        let rate = (self.times.len() - 1) as f64 / duration.max(f64::MIN_POSITIVE);
+        let report = format!(
+            "{}: {}, {} samples at {} Hz ({:.3} s) -> {} frames at {} Hz (positions {}, rotations slerp; unit {} cm, \
+             up {}, face {})",
+            source.file.display(),
+            self.what,
+            self.times.len(),
+            Rate(rate),
+            duration,
+            frames,
+            Rate(frame_rate),
+            match source.positions {
+                Interpolation::Linear => "linear",
+                Interpolation::Cubic => "cubic",
+            },
+            Short(world_from_file.unit_cm as f32),
+            world_from_file.up,
+            world_from_file.facing,
+        );
+        Ok(HeadMotion { frame_rate, poses, report })
+    }
+}
+
+/// A rate for reading: at most four decimals, and none that say nothing.
+struct Rate(f64);
+
+impl std::fmt::Display for Rate {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let text = format!("{:.4}", self.0);
+        f.write_str(text.trim_end_matches('0').trim_end_matches('.'))
+    }
+}

@@ -1,0 +1,100 @@
+//! Which file moves a head, and what that file cannot say itself.
+
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+use crate::axis::Axis;
+use crate::error::{Error, Result};
+use crate::kind::extension;
+
+/// Which file moves the head, and what that file cannot say itself: `[head.motion]` of a scene.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MotionSource {
+    /// A .bvh, .amc, .tof, .glb, .gltf, .abc, .usda or .usdc file, or a .csv with the columns t_s, px_m, py_m, pz_m, qx,
+    /// qy, qz, qw.
+    pub file: PathBuf,
+    /// File of the skeleton that the motion moves: the .asf of an .amc, the .tof with the skeleton of a .tof animation.
+    /// Others have none.
+    pub skeleton: Option<PathBuf>,
+    /// Joint, bone or node that carries the head (default "Head"; capitals do not count). Not used for .csv.
+    pub node: String,
+    /// Animation of a .glb by name; may stay empty where there is one only.
+    pub clip: String,
+    /// Length of the file's unit (cm). Needed for .bvh, .tof and .abc; .glb is in metres unless said here, .amc in
+    /// inches times the `length` of its .asf; .csv and USD name their own.
+    pub unit_cm: Option<f64>,
+    /// Up axis of the file's world. Needed for .bvh, .amc, .tof and .csv; +y in .glb and .abc; USD names its own.
+    pub up: Option<Axis>,
+    /// Axis of the file's world that the character faces while the joint is unturned. Needed but for .glb:
+    /// +z in that, whose node is unturned as the file's still pose has it. A bone of an .amc is unturned as the .asf
+    /// has it, a joint of a .tof where its axes are the world's.
+    pub facing: Option<Axis>,
+    /// Samples a second. Needed for an .amc, which seldom says; all others say it themselves.
+    pub frames_per_second: Option<f64>,
+    /// Samples dropped at the start (a T-pose, say; default 0). Not for .glb.
+    pub skip: usize,
+    /// How positions between two samples are found (default cubic). Rotations turn at a constant rate (slerp). Not for
+    /// .glb, whose channels say it themselves.
+    pub positions: Interpolation,
+    /// Whether the first frame is moved to the world's origin and turned about y to face +x (default false).
+    pub start_at_origin: bool,
+}
+
+impl Default for MotionSource {
+    fn default() -> Self {
+        Self {
+            file: PathBuf::new(),
+            skeleton: None,
+            node: "Head".to_owned(),
+            clip: String::new(),
+            unit_cm: None,
+            up: None,
+            facing: None,
+            frames_per_second: None,
+            skip: 0,
+            positions: Interpolation::Cubic,
+            start_at_origin: false,
+        }
+    }
+}
+
+/// How a position between two samples is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Interpolation {
+    /// On the straight line between them.
+    Linear,
+    /// On the Hermite cubic whose end velocities are those of the neighbouring samples' chord.
+    Cubic,
+}
+
+impl MotionSource {
+    /// Whether the motion is in one file and its skeleton in another.
+    pub(super) fn has_skeleton(&self) -> bool {
+        matches!(extension(&self.file).as_str(), "amc" | "tof")
+    }
+
+    /// Refuses what has no effect on a file of this kind.
+    pub(super) fn check(&self) -> Result<()> {
+        let ending = extension(&self.file);
+        let is_clip = matches!(ending.as_str(), "glb" | "gltf");
+        let useless = [
+            (self.skeleton.is_some() && !self.has_skeleton(), "skeleton"),
+            (self.frames_per_second.is_some() && ending != "amc", "frames_per_second"),
+            (!self.clip.is_empty() && !is_clip, "clip"),
+            (self.skip > 0 && is_clip, "skip"),
+            (self.positions != Interpolation::Cubic && is_clip, "positions"),
+        ];
+        match useless.into_iter().find(|&(given, _)| given) {
+            Some((_, key)) => Err(Error::new(format!("{key} has no effect on a .{ending} file: remove it"))),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A setting that a scene must give, since a file of this kind does not.
+pub(super) fn asked(key: &str, example: &str) -> Error {
+    Error::new(format!("{key} is not in the file: give {key} = {example} in the scene"))
+}

@@ -1,0 +1,103 @@
+//! From a file's world into the scene's.
+//!
+//! A file's world becomes the scene's by one rotation and one scale: its up axis goes to +y, the axis its character
+//! faces goes to +x, its unit to centimetres. The same rotation carries the joint's own axes to head space, so the
+//! unturned joint of a character who faces the file's facing axis is an unturned head.
+
+use glam::{DQuat, DVec3};
+use nabiki::Pose;
+
+use super::source::asked;
+use super::track::Sample;
+use crate::axis::Axis;
+use crate::error::{Error, Result};
+
+/// Poses of the head, one for each frame of the scene from frame 0 on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeadMotion {
+    /// Frames a second.
+    pub frame_rate: f64,
+    /// World poses, one for each frame.
+    pub poses: Vec<Pose>,
+    /// What was read and how it was converted, in one line for the user.
+    pub report: String,
+}
+
+/// The one rotation and the one scale that carry samples of a file's world into the scene's.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WorldFromFile {
+    rotation: DQuat,
+    /// Length of the file's unit (cm).
+    pub unit_cm: f64,
+    /// Axis of the file that points up.
+    pub up: Axis,
+    /// Axis of the file that an unturned head faces.
+    pub facing: Axis,
+}
+
+impl WorldFromFile {
+    /// Of what file and scene say together.
+    ///
+    /// # Errors
+    /// What neither says; a unit that is no length; axes that are not normal to each other.
+    pub fn new(unit_cm: Option<f64>, up: Option<Axis>, facing: Option<Axis>) -> Result<Self> {
+        let unit_cm = unit_cm.ok_or_else(|| asked("unit_cm", "2.54 (cm in one unit)"))?;
+        let up = up.ok_or_else(|| asked("up", "\"+y\""))?;
+        let facing = facing.ok_or_else(|| asked("facing", "\"+z\""))?;
+        if !(unit_cm.is_finite() && unit_cm > 0.0) {
+            return Err(Error::new(format!("unit_cm = {unit_cm}: must be a finite number above 0")));
+        }
+        let (y, x) = (up.vector(), facing.vector());
+        if y.dot(x) != 0.0 {
+            return Err(Error::new(format!("up = {up} and facing = {facing}: must be normal to each other")));
+        }
+        let file_from_world = DQuat::from_mat3(&glam::DMat3::from_cols(x, y, x.cross(y)));
+        Ok(Self { rotation: file_from_world.inverse(), unit_cm, up, facing })
+    }
+
+    fn pose(&self, sample: Sample) -> (DVec3, DQuat) {
+        let turn = self.rotation;
+        (turn * sample.position * self.unit_cm, turn * sample.rotation * turn.inverse())
+    }
+}
+
+/// The poses of all frames, moved to start at the origin where asked.
+pub(super) fn poses(
+    world_from_file: &WorldFromFile,
+    samples: impl Iterator<Item = Sample>,
+    start_at_origin: bool,
+) -> Result<Vec<Pose>> {
+    let mut poses: Vec<(DVec3, DQuat)> = samples.map(|s| world_from_file.pose(s)).collect();
+    if let (true, Some(&(start, turned))) = (start_at_origin, poses.first()) {
+        let face = turned * DVec3::X;
+        let upright = DQuat::from_rotation_y(face.z.atan2(face.x));
+        for (position, rotation) in &mut poses {
+            *position = upright * (*position - start);
+            *rotation = upright * *rotation;
+        }
+    }
+    let single: Vec<Pose> = poses
+        .into_iter()
+        .map(|(position, rotation)| Pose { position_cm: position.as_vec3(), rotation: rotation.normalize().as_quat() })
+        .collect();
+    match single.iter().position(|p| !(p.position_cm.is_finite() && p.rotation.is_finite())) {
+        Some(frame) => {
+            Err(Error::new(format!("frame {frame}: the pose is not finite; look at unit_cm and the file's numbers")))
+        }
+        None => Ok(single),
+    }
+}
+
+/// Number of scene frames that fit into `duration` seconds, the first at 0.
+pub(super) fn frame_count(duration: f64, frame_rate: f64) -> Result<usize> {
+    const MOST: f64 = 1e7;
+    // A last frame that misses the end by rounding only still counts.
+    let last = (duration * frame_rate + 1e-4).floor();
+    if (0.0..MOST).contains(&last) {
+        Ok(last as usize + 1)
+    } else {
+        Err(Error::new(format!(
+            "lasts {duration} s, {last} frames at {frame_rate} a second: more than {MOST} are not read"
+        )))
+    }
+}
