@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::{SettingError, check_positive};
+use crate::random::mix;
 
 /// Turns every strand a little, at random, every so many frames.
 ///
@@ -50,15 +51,6 @@ impl Disturbance {
             self.amplitude * (2.0 * unit - 1.0)
         })
     }
-}
-
-/// The finaliser of SplitMix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014):
-/// a counter goes in, a random number comes out, whatever was drawn before.
-pub(crate) fn mix(counter: u64) -> u64 {
-    let mut z = counter.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 #[cfg(test)]

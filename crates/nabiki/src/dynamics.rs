@@ -31,6 +31,9 @@ pub use simulation::{Simulation, VectorWidth};
 pub struct Motion {
     /// Frames after the rest frame 0 (N_f).
     pub frames: u32,
+    /// Frames in a second, finite and above 0. The steppers count frames and never see it: it says where a recorded
+    /// head is in each of them, and how fast the frames are shown.
+    pub frame_rate: f64,
     /// Delta t of equation (7), above 0 (its unit is the step's own: a frame is one step).
     pub time_step: f32,
     /// lambda of equation (6), above 0 (mass per cm, in the units of the force).
@@ -62,6 +65,7 @@ impl Default for Motion {
     fn default() -> Self {
         Self {
             frames: 100,
+            frame_rate: 24.0,
             time_step: 0.1,
             linear_density: 0.05,
             friction_length: 0.0,
@@ -72,10 +76,14 @@ impl Default for Motion {
 }
 
 impl Motion {
-    /// Refuses no frames, and steps and densities that are not above 0.
+    /// Refuses no frames, and rates, steps and densities that are not above 0.
     pub fn check(&self) -> Result<(), SettingError> {
         if self.frames == 0 {
             return Err(SettingError::new("motion.frames", 0, "must be at least 1"));
+        }
+        if !(self.frame_rate.is_finite() && self.frame_rate > 0.0) {
+            let remedy = "must be a finite number of frames a second, above 0";
+            return Err(SettingError::new("motion.frame_rate", self.frame_rate, remedy));
         }
         check_positive("motion.time_step", self.time_step)?;
         check_positive("motion.linear_density", self.linear_density)?;

@@ -25,6 +25,7 @@ pub mod mesh;
 pub mod pores;
 pub mod pose;
 pub mod pseudo_force;
+mod random;
 pub mod strands;
 pub mod subset;
 

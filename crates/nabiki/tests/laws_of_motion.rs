@@ -218,6 +218,7 @@ fn strands_that_cannot_be_moved_are_refused_by_number() {
     assert!(Simulation::new(&Strands::default(), &gust()).is_err());
     for (set, thing) in [
         ((|d: &mut Dynamics| d.motion.time_step = 0.0) as fn(&mut Dynamics), "motion.time_step"),
+        (|d| d.motion.frame_rate = f64::INFINITY, "motion.frame_rate"),
         (|d| d.motion.linear_density = -0.05, "motion.linear_density"),
         (|d| d.motion.friction_length = f32::NAN, "motion.friction_length"),
         (|d| d.segment_length = 0.0, "hair.segment_length"),

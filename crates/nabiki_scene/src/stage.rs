@@ -83,7 +83,7 @@ impl Stage {
         let points: &[f32] = bytemuck::cast_slice(self.hair.strands.points());
         let bits: Vec<u32> = points.iter().map(|x| x.to_bits()).collect();
         digest.bytes("points", bytemuck::cast_slice(&little_endian(&bits)));
-        let motion = nabiki::dynamics::Motion { frames: 1, ..self.dynamics.motion.clone() };
+        let motion = nabiki::dynamics::Motion { frames: 1, frame_rate: 24.0, ..self.dynamics.motion.clone() };
         digest.settings("motion", &motion)?;
         digest.settings("segment_length", &[self.dynamics.segment_length, self.dynamics.shell])?;
         digest.settings("ellipsoid", &self.dynamics.ellipsoid)?;
