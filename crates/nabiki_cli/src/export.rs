@@ -31,7 +31,7 @@ impl<'a> Exports<'a> {
         let exports = args.export.iter().map(PathBuf::as_path);
         place::distinct(&beside.iter().copied().chain(exports).collect::<Vec<_>>())?;
         for path in &args.export {
-            let frame_rate = f64::from(stage.scene.picture.video.fps);
+            let frame_rate = stage.scene.motion.frame_rate;
             let mut export = exchange::export(&stage.hair, frame_rate, stage.hair_placement.as_ref());
             export.default_width = Some(stage.scene.picture.hair.width);
             // Unreal takes no archive that has a mesh for a groom.

@@ -95,7 +95,7 @@ impl Stage {
         if let Some(source) = &self.scene.head.motion {
             digest.settings("head.motion", source)?;
             // Where the head is in a frame depends on how many of them make a second.
-            digest.settings("picture.video.fps", &self.scene.picture.video.fps)?;
+            digest.settings("motion.frame_rate", &self.scene.motion.frame_rate)?;
             let files = [("head.motion.file", Some(&source.file)), ("head.motion.skeleton", source.skeleton.as_ref())];
             for (name, file) in files.into_iter().filter_map(|(name, file)| Some((name, file?))) {
                 let path = self.scene.resolve(file);

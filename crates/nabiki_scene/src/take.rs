@@ -22,13 +22,13 @@ pub struct Take {
 }
 
 impl Take {
-    /// All of a stage's hair. The head's motion is read at the frame rate of the movie.
+    /// All of a stage's hair. The head's motion is read at the scene's frame rate.
     ///
     /// # Errors
     /// A motion file that cannot be read or is shorter than the scene.
     pub fn new(stage: Stage) -> Result<Self> {
         let ids = (0..stage.hair.strands.len() as u32).collect();
-        let motion = stage.head_motion(f64::from(stage.scene.picture.video.fps))?;
+        let motion = stage.head_motion(stage.scene.motion.frame_rate)?;
         let Some(motion) = motion else {
             return Ok(Self { stage, ids, poses: Vec::new(), motion_report: None });
         };

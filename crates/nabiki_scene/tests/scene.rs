@@ -273,13 +273,13 @@ fn the_identity_is_that_of_the_motion_and_not_of_the_spelling() {
 #[test]
 fn the_identity_is_also_that_of_the_files_that_move_the_head() {
     let folder = tempfile::tempdir().unwrap();
-    let identity_at = |fps: &str, motion: &str, skeleton: &str| {
+    let identity_at = |frame_rate: &str, motion: &str, skeleton: &str| {
         for (name, text) in [("run.amc", motion), ("body.asf", skeleton)] {
             std::fs::write(folder.path().join(name), text).unwrap();
         }
         let path = folder.path().join("scene.toml");
         let over = ("head.motion".to_owned(), "{ file = \"run.amc\", skeleton = \"body.asf\" }".to_owned());
-        let rate = ("picture.video.fps".to_owned(), fps.to_owned());
+        let rate = ("motion.frame_rate".to_owned(), frame_rate.to_owned());
         Scene::parse(GUST, &path, &[over, rate]).unwrap().build().unwrap().identity().unwrap()
     };
     let identity = |motion: &str, skeleton: &str| identity_at("24", motion, skeleton);

@@ -22,7 +22,7 @@ pub fn simulate(args: &Simulate, quiet: bool) -> Result<(), Failure> {
         StepperName::Fast => Box::new(take.simulation()?),
         StepperName::F64 => Box::new(take.reference()?),
     };
-    let frame_rate = f64::from(take.stage.scene.picture.video.fps);
+    let frame_rate = take.stage.scene.motion.frame_rate;
     let mut header = Header::new(take.stage.identity()?, frame_rate, &take.stage.hair);
     header.origin = take.stage.hair_origin();
     let mut cache = Writer::create(&args.output, &header)?;
