@@ -12,9 +12,9 @@ use nabiki::{Mesh, Strands};
 use nabiki_render::camera::direction;
 use nabiki_render::settings::{Antialiasing, Shading};
 use nabiki_render::timing::Stage;
-use nabiki_render::{Bounds, Developer, Movie, Picture, Renderer, View};
+use nabiki_render::{Bounds, FrameToDraw, Movie, Picture, Renderer, ToneMapping, View};
 
-/// Hair of 20 segments of 1 cm that leaves a ball's upper half and falls past it, in locks, at a moment of a swing.
+/// Hair of 20 segments of 1 cm that leaves a ball's upper half and falls past it, in clumps, at a moment of a swing.
 fn hair(strands: usize, swing: f32) -> Strands {
     let mut all = Strands::with_capacity(strands, strands * 21);
     let random = |i: usize, k: u32| {
@@ -26,9 +26,9 @@ fn hair(strands: usize, swing: f32) -> Strands {
     for i in 0..strands {
         let up = 1.0 - 1.05 * (i as f32 + 0.5) / strands as f32;
         let normal = direction(i as f32 * 137.507_76, up.asin().to_degrees());
-        let lock = (normal * 9.0).floor().to_array().map(|c| c as i32 as usize);
-        let lock = lock[0].wrapping_mul(31).wrapping_add(lock[1].wrapping_mul(17)).wrapping_add(lock[2]);
-        let sway = vec3(random(lock, 1), 0.0, random(lock, 2)) * 0.5;
+        let clump = (normal * 9.0).floor().to_array().map(|c| c as i32 as usize);
+        let clump = clump[0].wrapping_mul(31).wrapping_add(clump[1].wrapping_mul(17)).wrapping_add(clump[2]);
+        let sway = vec3(random(clump, 1), 0.0, random(clump, 2)) * 0.5;
         let own = vec3(random(i, 3), random(i, 4), random(i, 5)) * 0.25;
         let mut at = normal * 9.5;
         let mut heading = normal;
@@ -89,13 +89,13 @@ struct Cost {
 
 /// Best wall time and mean processor time of a few frames after a first one.
 fn cost(renderer: &mut Renderer, strands: &Strands, view: &View) -> Cost {
-    renderer.draw(strands, view).expect("draws");
+    renderer.draw(&FrameToDraw::at_rest(strands, *view)).expect("draws");
     let frames = 5;
     let before = core_seconds();
     let wall = (0..frames)
         .map(|_| {
             let start = Instant::now();
-            renderer.draw(strands, view).expect("draws");
+            renderer.draw(&FrameToDraw::at_rest(strands, *view)).expect("draws");
             start.elapsed().as_secs_f64()
         })
         .fold(f64::INFINITY, f64::min);
@@ -155,11 +155,11 @@ fn profile() {
     let view = view(&picture);
     let mut renderer = Renderer::new(&picture, &ball()).expect("settings");
     let strands = hair(20_000, 0.0);
-    renderer.draw(&strands, &view).expect("draws");
+    renderer.draw(&FrameToDraw::at_rest(&strands, view)).expect("draws");
     let first = *renderer.timing();
     let frames = 8;
     for _ in 0..frames {
-        renderer.draw(&strands, &view).expect("draws");
+        renderer.draw(&FrameToDraw::at_rest(&strands, view)).expect("draws");
     }
     println!("\nProfile: 20,000 x 20 segments, 1024 x 1024 (ms a frame, mean of {frames}; the first frame)");
     for stage in Stage::ALL {
@@ -182,11 +182,14 @@ fn error() {
         picture.hair.width = width;
         let strands = hair(strands, 0.0);
         let view = view(&picture);
-        let developer = Developer::new(&picture);
+        let tone_mapping = ToneMapping::new(&picture);
         let draw = |antialiasing, samples| {
             let picture = Picture { antialiasing, samples, ..picture.clone() };
-            let frame = Renderer::new(&picture, &ball()).expect("settings").draw(&strands, &view).expect("draws");
-            developer.rgba8(&frame)
+            let frame = Renderer::new(&picture, &ball())
+                .expect("settings")
+                .draw(&FrameToDraw::at_rest(&strands, view))
+                .expect("draws");
+            tone_mapping.rgba8(&frame)
         };
         let reference = draw(Antialiasing::Oversample, 32);
         println!(
@@ -203,7 +206,7 @@ fn error() {
 fn movie() {
     let picture = Picture { size: [1280, 720], ..Picture::default() };
     let view = view(&picture);
-    let developer = Developer::new(&picture);
+    let tone_mapping = ToneMapping::new(&picture);
     let mut renderer = Renderer::new(&picture, &ball()).expect("settings");
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("movie.mp4");
@@ -212,9 +215,9 @@ fn movie() {
     let start = Instant::now();
     let mut encoding = 0.0;
     for frame in &frames {
-        let frame = renderer.draw(frame, &view).expect("draws");
+        let frame = renderer.draw(&FrameToDraw::at_rest(frame, view)).expect("draws");
         let start = Instant::now();
-        movie.push(&frame, &developer).expect("encodes");
+        movie.push(&frame, &tone_mapping).expect("encodes");
         encoding += start.elapsed().as_secs_f64();
     }
     movie.finish().expect("finishes");

@@ -1,7 +1,7 @@
 //! What shows where nothing hides it.
 
-use crate::frame::linear_from_srgb;
 use crate::settings::Picture;
+use crate::tone_mapping::linear_from_srgb;
 
 /// The background of each row of a picture.
 pub struct Backdrop {
@@ -9,7 +9,7 @@ pub struct Backdrop {
 }
 
 impl Backdrop {
-    /// Its colours come out of development as the settings have them.
+    /// Its colours come out of the tone mapping as the settings have them.
     pub fn new(picture: &Picture, height: usize) -> Self {
         let look = &picture.background;
         let rows = (0..height)
@@ -19,7 +19,7 @@ impl Backdrop {
                 }
                 let t = (y as f32 + 0.5) / height as f32;
                 let shown: [f32; 3] = std::array::from_fn(|c| look.top[c] + (look.bottom[c] - look.top[c]) * t);
-                let light = shown.map(|v| picture.tone.scene(linear_from_srgb(v)) * (-picture.exposure).exp2());
+                let light = shown.map(|v| picture.tone_mapping.scene(linear_from_srgb(v)) * (-picture.exposure).exp2());
                 [light[0], light[1], light[2], 1.0]
             })
             .collect();

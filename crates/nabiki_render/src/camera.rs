@@ -1,7 +1,7 @@
-//! From head space to pixels: the camera of one frame, and the framing of many.
+//! From space to pixels: the camera of one frame, and the framing of many.
 
-use glam::Vec3;
-use nabiki::{Ellipsoid, Mesh, Strands};
+use glam::{Mat3, Quat, Vec3};
+use nabiki::{Ellipsoid, Mesh, Pose, Strands};
 
 use crate::settings::{Camera, Projection};
 
@@ -61,13 +61,14 @@ impl Bounds {
     }
 }
 
-/// The camera of one frame: where it stands and what a pixel sees.
+/// The camera of one frame: where it stands and what a pixel sees. It is given in the world; a head that stands still is
+/// the world.
 ///
 /// Pixel coordinates run right and down from the picture's upper left corner; the centre of the first pixel is
 /// (0.5, 0.5). Depth is the distance along the axis of view (cm).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// The eye (head space, cm). For an orthographic view it lies well before everything.
+    /// The eye (cm). For an orthographic view it lies well before everything.
     pub eye: Vec3,
     /// Unit vector to the picture's right.
     pub right: Vec3,
@@ -137,6 +138,33 @@ impl View {
                 let eye = target + outward * camera.distance.unwrap_or(2.0 * deepest + 2.0 * NEAR);
                 Self { eye, right, up, forward, projection: camera.projection, scale, size }
             }
+        }
+    }
+
+    /// The same camera as a head in this pose sees it.
+    pub(crate) fn in_head(&self, pose: &Pose) -> Self {
+        if *pose == Pose::STILL {
+            return *self;
+        }
+        let turn = pose.rotation.inverse();
+        let [right, up, forward] = [self.right, self.up, self.forward].map(|axis| turn * axis);
+        Self { eye: turn * (self.eye - pose.position_cm), right, up, forward, ..*self }
+    }
+
+    /// A camera on its way: `part` (0..1) of the way from `a` to `b`, with the size and projection of `b`.
+    pub(crate) fn between(a: &Self, b: &Self, part: f32) -> Self {
+        if a == b {
+            return *b;
+        }
+        let turned = |view: &Self| Quat::from_mat3(&Mat3::from_cols(view.right, view.up, -view.forward));
+        let axes = Mat3::from_quat(turned(a).slerp(turned(b), part));
+        Self {
+            eye: a.eye.lerp(b.eye, part),
+            right: axes.x_axis,
+            up: axes.y_axis,
+            forward: -axes.z_axis,
+            scale: a.scale + (b.scale - a.scale) * part,
+            ..*b
         }
     }
 

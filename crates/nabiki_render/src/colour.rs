@@ -1,7 +1,7 @@
 //! The colour of hair: from pigment to absorption, and what colour a mass of it shows.
 
-use crate::frame::linear_from_srgb;
 use crate::settings::{HairColour, HairLook};
+use crate::tone_mapping::linear_from_srgb;
 
 /// Absorption of a unit of eumelanin and of pheomelanin for red, green and blue (per fibre radius), after d'Eon et al.
 /// (2011), figure 12, as tabulated for red, green and blue by Pharr, Jakob and Humphreys.
@@ -10,7 +10,7 @@ const PHEOMELANIN: [f32; 3] = [0.187, 0.4, 1.05];
 
 /// Absorption of the fibre's inside (per fibre radius; red, green, blue).
 pub fn absorption(look: &HairLook) -> [f32; 3] {
-    match (look.color.melanin(), look.color) {
+    match (look.colour.melanin(), look.colour) {
         (Some([eumelanin, pheomelanin]), _) => {
             std::array::from_fn(|c| eumelanin * EUMELANIN[c] + pheomelanin * PHEOMELANIN[c])
         }
@@ -49,7 +49,7 @@ mod tests {
     #[test]
     fn a_given_colour_comes_back_from_its_absorption() {
         let rgb = [0.6, 0.35, 0.2];
-        let look = HairLook { color: HairColour::Rgb(rgb), ..HairLook::default() };
+        let look = HairLook { colour: HairColour::Rgb(rgb), ..HairLook::default() };
         let shown = albedo(absorption(&look), look.azimuthal_roughness);
         for c in 0..3 {
             assert!((shown[c] - linear_from_srgb(rgb[c])).abs() < 1e-5);

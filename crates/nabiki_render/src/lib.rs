@@ -1,7 +1,7 @@
 //! A hair renderer for the CPU: strands and a head become pictures, movies and contact sheets.
 //!
 //! ```
-//! use nabiki_render::{Bounds, Developer, Picture, Renderer, View};
+//! use nabiki_render::{Bounds, FrameToDraw, Picture, Renderer, ToneMapping, View};
 //! # use nabiki::{Mesh, Strands};
 //! # let (strands, head) = (Strands::default(), Mesh::default());
 //! let picture = Picture { size: [64, 36], ..Picture::default() };
@@ -9,13 +9,14 @@
 //! bounds.include_strands(&strands); // of every frame, so that the movie's camera stands still
 //! let view = View::new(&picture.camera.at(0.0), picture.size, &bounds);
 //! let mut renderer = Renderer::new(&picture, &head)?;
-//! let frame = renderer.draw(&strands, &view)?;
-//! let display = Developer::new(&picture).rgba8(&frame);
+//! let frame = renderer.draw(&FrameToDraw::at_rest(&strands, view))?;
+//! let display = ToneMapping::new(&picture).rgba8(&frame);
 //! # assert_eq!(display.len(), 64 * 36 * 4);
 //! # Ok::<(), nabiki_render::RenderError>(())
 //! ```
 //!
-//! Space and units are those of [`nabiki`]: head space, y up, face toward +x, centimetres. Angles in settings are
+//! Space and units are those of [`nabiki`]: head space, y up, face toward +x, centimetres; a [`Moment`] says where the head is
+//! in the world, in which the camera stands. Angles in settings are
 //! degrees. Light is linear, with Rec. 709 primaries.
 
 #![deny(unsafe_code)]
@@ -27,6 +28,7 @@ mod curve;
 mod error;
 pub mod frame;
 mod light;
+mod moment;
 pub mod output;
 mod prefetch;
 mod raster;
@@ -36,12 +38,16 @@ pub mod settings;
 pub mod shutter;
 mod skin;
 pub mod timing;
+pub mod tone_mapping;
 
 pub use camera::{Bounds, View};
 pub use error::RenderError;
-pub use frame::{Developer, Frame};
+pub use frame::Frame;
+pub use moment::{FrameToDraw, Moment};
 pub use output::canvas::Canvas;
 pub use output::sheet::ContactSheet;
+#[cfg(feature = "video")]
 pub use output::video::Movie;
 pub use renderer::Renderer;
 pub use settings::Picture;
+pub use tone_mapping::ToneMapping;

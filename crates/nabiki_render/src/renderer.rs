@@ -10,21 +10,23 @@ use crate::RenderError;
 use crate::camera::{NEAR, View};
 use crate::colour;
 use crate::curve::{Curves, drawable};
-use crate::frame::{Frame, linear_from_srgb};
+use crate::frame::Frame;
 use crate::light::fibre::Fibre;
 use crate::light::headlight::HeadShadow;
 use crate::light::kajiya::KajiyaKay;
-use crate::light::lamps::{Lamp, lamps};
+use crate::light::lamps::{Lamp, lamps, zenith};
 use crate::light::shade::{HairLight, Model};
 use crate::light::shadow::{self, Crossings, Scene, Sweep};
 use crate::light::sky::SkyMap;
+use crate::moment::FrameToDraw;
 use crate::raster::bins::Bins;
 use crate::raster::{Node, TILE};
 use crate::scalp::{Scalp, roots};
 use crate::settings::{Antialiasing, Picture, Shading};
-use crate::shutter;
+use crate::shutter::{Exposure, Shot};
 use crate::skin::{SkinLight, SkinView};
 use crate::timing::{Stage, Timing};
+use crate::tone_mapping::linear_from_srgb;
 
 /// Fineness of hair's shadows (cm).
 const SHADOW_CELL: f32 = 0.2;
@@ -46,13 +48,14 @@ pub struct Renderer {
     bins: Bins,
     sweeps: Vec<Sweep>,
     sky_map: SkyMap,
+    zenith: Vec3,
     still: Option<Still>,
     timing: Timing,
 }
 
 /// What stays the same from frame to frame for one view.
 struct Still {
-    view: View,
+    shot: Shot,
     lamps: Vec<Lamp>,
     head_shadows: Vec<HeadShadow>,
     skin: SkinView,
@@ -111,6 +114,7 @@ impl Renderer {
             bins: Bins::default(),
             sweeps: Vec::new(),
             sky_map: SkyMap::default(),
+            zenith: Vec3::Y,
             still: None,
             timing: Timing::default(),
         })
@@ -132,55 +136,30 @@ impl Renderer {
         &self.timing
     }
 
-    /// Draws one frame of strands (head space, cm), sharp.
+    /// Draws one frame as a camera does whose shutter closes at it and opened `picture.shutter` of a frame earlier. Blur costs
+    /// little more than a sharp frame, however fast the hair; a head that moves on the picture costs as much as it moves far.
     ///
     /// # Errors
-    /// If a point of a strand is not finite: which one.
-    pub fn draw(&mut self, strands: &Strands, view: &View) -> Result<Frame, RenderError> {
-        self.draw_moving(strands, &[], view)
-    }
-
-    /// Draws one frame of strands that move while the shutter is open: from `open` to `close` (head space, cm), whatever
-    /// `picture.shutter` says. Costs little more than a sharp frame, however fast the hair.
-    ///
-    /// # Errors
-    /// If a point of a strand is not finite, or the two have not the same strands.
-    pub fn draw_blurred(&mut self, open: &Strands, close: &Strands, view: &View) -> Result<Frame, RenderError> {
-        let (middle, moved) = shutter::halfway(open, close)?;
-        self.draw_moving(&middle, &moved, view)
-    }
-
-    /// Draws one frame of strands (head space, cm) as a camera does whose shutter closes at this frame and opened
-    /// `picture.shutter` of a frame earlier: `previous` is the frame before. Sharp where the shutter is 0.
-    ///
-    /// # Errors
-    /// If a point of a strand is not finite, or the two have not the same strands.
-    pub fn draw_since(&mut self, previous: &Strands, strands: &Strands, view: &View) -> Result<Frame, RenderError> {
-        let shutter = self.picture.shutter;
-        if shutter == 0.0 {
-            return self.draw(strands, view);
-        }
-        let open = shutter::between(previous, strands, 1.0 - shutter)?;
-        self.draw_blurred(&open, strands, view)
-    }
-
-    fn draw_moving(&mut self, strands: &Strands, moved: &[Vec3], view: &View) -> Result<Frame, RenderError> {
+    /// If a point of a strand is not finite: which one. If the frame before has not the same strands.
+    pub fn draw(&mut self, frame: &FrameToDraw) -> Result<Frame, RenderError> {
         let mut clock = self.timing.start();
-        self.curves.build(strands, moved, &self.picture.hair, view)?;
+        let exposure = Exposure::new(frame, self.picture.shutter)?;
+        self.curves.build(&exposure.strands, &exposure.moved, &self.picture.hair, &exposure.shot.middle)?;
         clock.lap(&mut self.timing, Stage::Curves);
-        self.stand(strands, view);
+        self.stand(&exposure);
         clock.lap(&mut self.timing, Stage::Head);
-        self.project(view);
+        self.project(&exposure.shot);
         clock.lap(&mut self.timing, Stage::Projection);
         self.occlude();
         clock.lap(&mut self.timing, Stage::Occlusion);
+        let view = &exposure.shot.middle;
         self.shade(view);
         clock.lap(&mut self.timing, Stage::Shading);
         self.bins.fill(&self.nodes, view.size, MARGIN);
         clock.lap(&mut self.timing, Stage::Sorting);
         let frame = match self.picture.antialiasing {
-            Antialiasing::Coverage if self.layers => self.compose::<true>(view),
-            Antialiasing::Coverage => self.compose::<false>(view),
+            Antialiasing::Coverage if self.layers => self.compose::<true>(&exposure.shot),
+            Antialiasing::Coverage => self.compose::<false>(&exposure.shot),
             Antialiasing::Oversample => self.oversample(view),
         };
         clock.lap(&mut self.timing, Stage::Pixels);
@@ -188,29 +167,35 @@ impl Renderer {
     }
 
     /// Prepares what stays the same while nothing but the hair moves.
-    fn stand(&mut self, strands: &Strands, view: &View) {
-        if let Some(still) = self.still.as_mut().filter(|s| s.view == *view) {
+    fn stand(&mut self, exposure: &Exposure) {
+        let lamps = lamps(&self.picture.lights, &exposure.view, &exposure.pose);
+        self.zenith = zenith(&self.picture.sky, &exposure.pose);
+        let strands = &exposure.strands;
+        let before = self.still.take();
+        if let Some(mut still) = before.filter(|s| s.shot == exposure.shot && s.lamps == lamps) {
             if !roots(strands).eq(still.roots.iter().copied()) {
                 still.grow(strands, &self.picture);
             }
+            self.still = Some(still);
             return;
         }
-        let lamps = lamps(&self.picture.lights, view);
         let head_shadows: Vec<_> = if self.picture.shadows {
             lamps.par_iter().map(|lamp| HeadShadow::new(lamp, &self.head)).collect()
         } else {
             Vec::new()
         };
-        let skin = SkinView::new(&self.head, &self.normals, view);
+        let skin = SkinView::new(&self.head, &self.normals, &exposure.shot);
         let skin_places = skin.pixels.iter().map(|p| p.position + 0.15 * p.normal).collect();
         let skin_unhidden = SkinLight::unhidden(&skin.pixels, &lamps, &head_shadows);
         let (roots, stubble) = (Vec::new(), Vec::new());
-        let mut still = Still { view: *view, lamps, head_shadows, skin, skin_places, skin_unhidden, roots, stubble };
+        let shot = exposure.shot.clone();
+        let mut still = Still { shot, lamps, head_shadows, skin, skin_places, skin_unhidden, roots, stubble };
         still.grow(strands, &self.picture);
         self.still = Some(still);
     }
 
-    fn project(&mut self, view: &View) {
+    fn project(&mut self, shot: &Shot) {
+        let view = &shot.middle;
         let still = self.still.as_ref().expect("stands");
         let look = &self.picture.hair;
         let curve = &self.curves;
@@ -239,23 +224,24 @@ impl Renderer {
                 let seen = n.tangent - eye * eye.dot(n.tangent);
                 let across = [seen.dot(view.right), -seen.dot(view.up)];
                 let length = across[0].hypot(across[1]);
-                let motion = curve.velocities.get(i).map_or([0.0; 2], |&v| {
-                    let (a, b) = (view.project(n.position - 0.5 * v), view.project(n.position + 0.5 * v));
-                    if a.z.min(b.z) < NEAR { [0.0; 2] } else { [b.x - a.x, b.y - a.y] }
-                });
-                let at = [p.x, p.y];
-                let beside = p.x < 0.0 || p.y < 0.0 || p.x >= width || p.y >= height;
-                let hidden = !beside && {
-                    let tile = (p.y as usize / TILE) * tiles[0] + p.x as usize / TILE;
-                    p.z > still.skin.hidden_beyond[tile] + 0.5
+                let motion = curve.velocities.get(i).map_or(Vec3::ZERO, |&v| shot.motion(n.position, v));
+                let behind_head = |p: Vec3| {
+                    let beside = p.x < 0.0 || p.y < 0.0 || p.x >= width || p.y >= height;
+                    !beside && {
+                        let tile = (p.y as usize / TILE) * tiles[0] + p.x as usize / TILE;
+                        p.z > still.skin.hidden_beyond[tile] + 0.5
+                    }
                 };
+                let hidden = behind_head(p)
+                    && (motion == Vec3::ZERO || behind_head(p - 0.5 * motion) && behind_head(p + 0.5 * motion));
                 Node {
-                    at,
+                    at: [p.x, p.y],
                     depth: p.z,
                     radius: radius[i] * view.pixels_per_cm(p.z),
                     light: [0.0; 3],
                     direction: if length > 1e-6 { across.map(|c| c / length) } else { [0.0; 2] },
-                    motion,
+                    motion: [motion.x, motion.y],
+                    recession: motion.z,
                     strand: n.strand,
                     drawable: true,
                     end: i == 0
@@ -282,7 +268,7 @@ impl Renderer {
         let cast = || sweeps.par_iter_mut().zip(lamps).for_each(|(sweep, lamp)| sweep.run(lamp, &scene, SHADOW_CELL));
         let cover = || {
             if sky.is_occluded() {
-                sky_map.fill(nodes, &self.radius, &self.head);
+                sky_map.fill(nodes, &self.radius, &self.head, self.zenith);
             }
         };
         // Parts of each run on one core only; side by side they fill each other's gaps.
@@ -316,8 +302,9 @@ impl Renderer {
             crossings,
             first_receiver: self.curves.nodes.len(),
             sky: &self.picture.sky,
+            zenith: self.zenith,
             sky_map: self.occluded_sky(),
-            skin: self.picture.head.color.map(linear_from_srgb),
+            skin: self.picture.head.colour.map(linear_from_srgb),
             hair: colour::albedo(colour::absorption(&self.picture.hair), self.picture.hair.azimuthal_roughness),
             passed: self.model.passed_on(),
             unhidden: &still.skin_unhidden,

@@ -1,10 +1,15 @@
-//! Hair while the shutter is open: where it is between two frames, and how far each point moves.
+//! Hair, head and camera while the shutter is open: where they are between two frames, and how far each point moves.
+
+use std::borrow::Cow;
 
 use glam::Vec3;
-use nabiki::Strands;
+use nabiki::{Pose, Strands};
 use rayon::prelude::*;
 
 use crate::RenderError;
+use crate::camera::{NEAR, View};
+use crate::moment::FrameToDraw;
+use crate::raster::CELLS;
 
 /// Strands handed to one task at a time.
 const CHUNK: usize = 256;
@@ -60,10 +65,84 @@ fn swing(a: &[Vec3], b: &[Vec3], part: f32, mixed: &mut [Vec3]) {
 }
 
 /// Hair halfway between two moments, and each point's movement from the first to the second (cm).
-pub(crate) fn halfway(open: &Strands, close: &Strands) -> Result<(Strands, Vec<Vec3>), RenderError> {
+fn halfway(open: &Strands, close: &Strands) -> Result<(Strands, Vec<Vec3>), RenderError> {
     let middle = between(open, close, 0.5)?;
     let moved = open.points().par_iter().zip(close.points()).map(|(a, b)| *b - *a).collect();
     Ok((middle, moved))
+}
+
+/// A head between two frames: `part` (0..1) of the way from `a` to `b`.
+fn pose_between(a: Pose, b: Pose, part: f32) -> Pose {
+    if a == b {
+        return a;
+    }
+    Pose { position_cm: a.position_cm.lerp(b.position_cm, part), rotation: a.rotation.slerp(b.rotation, part) }
+}
+
+/// What an open shutter sees of one frame.
+pub(crate) struct Exposure<'a> {
+    /// The hair halfway through (head space, cm).
+    pub strands: Cow<'a, Strands>,
+    /// Movement of each point while the shutter is open (head space, cm); empty if it is not open for any time.
+    pub moved: Vec<Vec3>,
+    /// Head and camera halfway through; the camera in the world.
+    pub pose: Pose,
+    pub view: View,
+    /// The camera as the head sees it.
+    pub shot: Shot,
+}
+
+impl<'a> Exposure<'a> {
+    /// The shutter closes at the frame and opened `shutter` (0..1) of a frame earlier.
+    pub fn new(frame: &FrameToDraw<'a>, shutter: f32) -> Result<Self, RenderError> {
+        let now = frame.now;
+        let Some(before) = frame.before.filter(|_| shutter > 0.0) else {
+            let shot = Shot::sharp(now.view.in_head(&now.pose));
+            let strands = Cow::Borrowed(now.strands);
+            return Ok(Self { strands, moved: Vec::new(), pose: now.pose, view: now.view, shot });
+        };
+        let open = between(before.strands, now.strands, 1.0 - shutter)?;
+        let (middle, moved) = halfway(&open, now.strands)?;
+        let at = |part: f32| {
+            let part = 1.0 - shutter * (1.0 - part);
+            (pose_between(before.pose, now.pose, part), View::between(&before.view, &now.view, part))
+        };
+        let in_head = |part: f32| {
+            let (pose, view) = at(part);
+            view.in_head(&pose)
+        };
+        let (pose, view) = at(0.5);
+        let [open, middle_view, close] = [0.0, 0.5, 1.0].map(in_head);
+        let between =
+            (open != close).then(|| Box::new(std::array::from_fn(|k| in_head((k as f32 + 0.5) / CELLS as f32))));
+        let shot = Shot { open, middle: middle_view, close, between };
+        Ok(Self { strands: Cow::Owned(middle), moved, pose, view, shot })
+    }
+}
+
+/// The camera in head space while the shutter is open.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Shot {
+    pub open: View,
+    pub middle: View,
+    pub close: View,
+    /// The middles of as many equal parts of the time as a pixel has cells; none if the camera does not move.
+    pub between: Option<Box<[View; CELLS]>>,
+}
+
+impl Shot {
+    /// Of a camera that does not move.
+    pub fn sharp(view: View) -> Self {
+        Self { open: view, middle: view, close: view, between: None }
+    }
+
+    /// How a place that is at `p` halfway through, and moves by `v` in head space (cm), moves on the picture: pixels right and
+    /// down, and depth (cm). Nothing for what comes too near to the eye.
+    #[inline]
+    pub fn motion(&self, p: Vec3, v: Vec3) -> Vec3 {
+        let (a, b) = (self.open.project(p - 0.5 * v), self.close.project(p + 0.5 * v));
+        if a.z.min(b.z) < NEAR { Vec3::ZERO } else { b - a }
+    }
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
 //! What must hold of every picture, whatever is on it.
 
 use glam::{Vec3, vec3};
-use nabiki::{Mesh, Strands};
+use nabiki::{Mesh, Pose, Strands};
 use nabiki_render::camera::direction;
 use nabiki_render::settings::{Antialiasing, Background, Projection, Shading};
-use nabiki_render::{Bounds, Developer, Frame, Picture, Renderer, View};
+use nabiki_render::{Bounds, Frame, FrameToDraw, Moment, Picture, Renderer, ToneMapping, View};
 use proptest::prelude::*;
 
 /// Wisps that curl from a ball, of `segments` segments each.
@@ -34,7 +34,13 @@ fn fixed_view(picture: &Picture) -> View {
 }
 
 fn draw(picture: &Picture, strands: &Strands) -> Frame {
-    Renderer::new(picture, &octahedron()).unwrap().draw(strands, &fixed_view(picture)).unwrap()
+    Renderer::new(picture, &octahedron()).unwrap().draw(&FrameToDraw::at_rest(strands, fixed_view(picture))).unwrap()
+}
+
+/// Hair that moves before a camera that stands still.
+fn between<'a>(before: &'a Strands, now: &'a Strands, view: View) -> FrameToDraw<'a> {
+    let moment = |strands| Moment { strands, pose: Pose::STILL, view };
+    FrameToDraw { now: moment(now), before: Some(moment(before)) }
 }
 
 fn black(size: [u32; 2]) -> Picture {
@@ -54,8 +60,8 @@ fn mean(frame: &Frame) -> [f64; 4] {
 
 /// Root of the mean square difference of two pictures as displayed, in steps of 255.
 fn difference(picture: &Picture, a: &Frame, b: &Frame) -> f64 {
-    let developer = Developer::new(picture);
-    let (a, b) = (developer.rgba8(a), developer.rgba8(b));
+    let tone_mapping = ToneMapping::new(picture);
+    let (a, b) = (tone_mapping.rgba8(a), tone_mapping.rgba8(b));
     (a.iter().zip(&b).map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2)).sum::<f64>() / a.len() as f64).sqrt()
 }
 
@@ -123,7 +129,7 @@ fn a_thin_hair_covers_its_length_times_its_width_however_it_lies() {
                 let mut hair = Strands::default();
                 hair.push((0..5).map(|k| vec3(0.0, shift, 2.0 * shift) + along * (k as f32 * 6.0 - 12.0)));
                 let frame = Renderer::new(&picture, &Mesh::default()).unwrap();
-                let frame = { frame }.draw(&hair, &fixed_view(&picture)).unwrap();
+                let frame = { frame }.draw(&FrameToDraw::at_rest(&hair, fixed_view(&picture))).unwrap();
                 let covered = mean(&frame)[3] * 64.0 * 64.0;
                 let exact = f64::from(width) * 24.0;
                 // Each of the two ends is cut to within half a cell, an eighth of a pixel; the rest is rounding.
@@ -183,8 +189,8 @@ fn a_renderer_draws_a_frame_as_if_it_were_its_first() {
     let picture = Picture { size: [80, 80], ..Picture::default() };
     let view = fixed_view(&picture);
     let mut renderer = Renderer::new(&picture, &octahedron()).unwrap();
-    renderer.draw(&wisps(900, 14), &view).unwrap();
-    let second = renderer.draw(&wisps(300, 9), &view).unwrap();
+    renderer.draw(&FrameToDraw::at_rest(&wisps(900, 14), view)).unwrap();
+    let second = renderer.draw(&FrameToDraw::at_rest(&wisps(300, 9), view)).unwrap();
     assert!(second == draw(&picture, &wisps(300, 9)));
 }
 
@@ -199,19 +205,20 @@ fn motion_blur_spreads_the_hair_and_keeps_its_light() {
         hair
     };
     let view = fixed_view(&picture);
+    picture.shutter = 1.0;
     let mut renderer = Renderer::new(&picture, &Mesh::default()).unwrap().with_layers();
-    let sharp = renderer.draw(&hair(0.0), &view).unwrap();
-    let blurred = renderer.draw_blurred(&hair(-3.0), &hair(3.0), &view).unwrap();
+    let sharp = renderer.draw(&FrameToDraw::at_rest(&hair(0.0), view)).unwrap();
+    let blurred = renderer.draw(&between(&hair(-3.0), &hair(3.0), view)).unwrap();
     let touched = |f: &Frame| f.rgba.iter().filter(|p| p[3] > 1e-4).count();
     assert!(touched(&blurred) > 4 * touched(&sharp));
     let (a, b) = (mean(&sharp)[3], mean(&blurred)[3]);
     assert!((a / b - 1.0).abs() < 0.01, "{a} {b}");
     // The layer tells the movement: right to left on the picture, no less than what 6 cm are at the nearest depth.
-    let layer = blurred.layers.iter().max_by(|a, b| a.share.total_cmp(&b.share)).unwrap();
-    let pixels = layer.motion[0].abs() / layer.share;
+    let layer = blurred.layers.iter().max_by(|a, b| a.hair.total_cmp(&b.hair)).unwrap();
+    let pixels = layer.motion[0].abs() / layer.hair;
     let expected = 6.0 * view.pixels_per_cm(view.project(vec3(12.0, 0.0, 0.0)).z);
     assert!((pixels / expected - 1.0).abs() < 0.5, "{pixels} {expected}");
-    assert!(layer.direction[1] / layer.share < -0.99, "from root to tip is down");
+    assert!(layer.direction[1] / layer.hair < -0.99, "from root to tip is down");
 }
 
 #[test]
@@ -225,7 +232,7 @@ fn nothing_of_hair_behind_the_camera_or_beside_the_picture_shows() {
         let beside = view.right * (200.0 + k as f32);
         hair.push([beside, beside + Vec3::Y]);
     }
-    let frame = Renderer::new(&picture, &Mesh::default()).unwrap().draw(&hair, &view).unwrap();
+    let frame = Renderer::new(&picture, &Mesh::default()).unwrap().draw(&FrameToDraw::at_rest(&hair, view)).unwrap();
     assert!(frame.rgba.iter().all(|p| *p == [0.0; 4]));
 }
 
@@ -267,12 +274,14 @@ proptest! {
         if kajiya { picture.hair.shading = Shading::KajiyaKay; }
         let view = fixed_view(&picture);
         let mut renderer = Renderer::new(&picture, &octahedron()).unwrap();
-        let frame = renderer.draw(&hair, &view).unwrap();
+        let frame = renderer.draw(&FrameToDraw::at_rest(&hair, view)).unwrap();
         prop_assert!(frame.rgba.iter().flatten().all(|v| v.is_finite() && *v >= 0.0));
         prop_assert!(frame.rgba.iter().all(|p| (p[3] - 1.0).abs() < 1e-3), "opaque before a background");
         let moved = { let mut m = hair.clone(); m.points_mut().iter_mut().for_each(|p| *p *= 0.9); m };
         if !oversample {
-            let blurred = renderer.draw_blurred(&hair, &moved, &view).unwrap();
+            let picture = Picture { shutter: 1.0, ..picture };
+            let mut renderer = Renderer::new(&picture, &octahedron()).unwrap();
+            let blurred = renderer.draw(&between(&hair, &moved, view)).unwrap();
             prop_assert!(blurred.rgba.iter().flatten().all(|v| v.is_finite() && *v >= 0.0));
         }
     }

@@ -1,10 +1,10 @@
 //! What is written, as others would read it; and what bad input gets.
 
 use glam::Vec3;
-use nabiki::{Mesh, Strands};
+use nabiki::{Mesh, Pose, Strands};
 use nabiki_render::output::png::{self, Depth};
 use nabiki_render::settings::{Antialiasing, Background};
-use nabiki_render::{Bounds, ContactSheet, Developer, Movie, Picture, Renderer, View};
+use nabiki_render::{Bounds, ContactSheet, FrameToDraw, Moment, Movie, Picture, Renderer, ToneMapping, View};
 
 fn scene() -> (Strands, Mesh) {
     let mut strands = Strands::default();
@@ -32,19 +32,19 @@ fn small() -> Picture {
 }
 
 #[test]
-fn png_files_hold_what_was_developed() {
+fn png_files_hold_the_display_values() {
     let picture = Picture { background: Background { transparent: true, ..Background::default() }, ..small() };
     let (mut renderer, strands, view) = setting(&picture);
-    let frame = renderer.draw(&strands, &view).unwrap();
-    let developer = Developer::new(&picture);
+    let frame = renderer.draw(&FrameToDraw::at_rest(&strands, view)).unwrap();
+    let tone_mapping = ToneMapping::new(&picture);
     let folder = tempfile::tempdir().unwrap();
     for (name, depth) in [("8.png", Depth::Eight), ("16.png", Depth::Sixteen)] {
         let path = folder.path().join(name);
-        png::write(&path, &frame, &developer, depth).unwrap();
+        png::write(&path, &frame, &tone_mapping, depth).unwrap();
         let read = image::open(&path).unwrap();
         match depth {
-            Depth::Eight => assert_eq!(read.into_rgba8().into_raw(), developer.rgba8(&frame)),
-            Depth::Sixteen => assert_eq!(read.into_rgba16().into_raw(), developer.rgba16(&frame)),
+            Depth::Eight => assert_eq!(read.into_rgba8().into_raw(), tone_mapping.rgba8(&frame)),
+            Depth::Sixteen => assert_eq!(read.into_rgba16().into_raw(), tone_mapping.rgba16(&frame)),
         }
     }
 }
@@ -52,11 +52,14 @@ fn png_files_hold_what_was_developed() {
 #[test]
 fn openexr_files_hold_the_frame_to_the_bit() {
     use exr::prelude::*;
-    let picture = Picture { background: Background { transparent: true, ..Background::default() }, ..small() };
+    let background = Background { transparent: true, ..Background::default() };
+    let picture = Picture { background, shutter: 1.0, ..small() };
     let (renderer, strands, view) = setting(&picture);
     let mut moved = strands.clone();
     moved.points_mut().iter_mut().for_each(|p| p.x += 0.5);
-    let frame = renderer.with_layers().draw_blurred(&strands, &moved, &view).unwrap();
+    let moment = |strands| Moment { strands, pose: Pose::STILL, view };
+    let blurred = FrameToDraw { now: moment(&moved), before: Some(moment(&strands)) };
+    let frame = renderer.with_layers().draw(&blurred).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("frame.exr");
     nabiki_render::output::exr::write(&path, &frame).unwrap();
@@ -69,7 +72,8 @@ fn openexr_files_hold_the_frame_to_the_bit() {
         assert!(channel(name).iter().zip(&frame.rgba).all(|(a, p)| a.to_bits() == p[i].to_bits()));
     }
     assert_eq!(channel("Z"), frame.depth);
-    assert!(channel("hair.A").iter().zip(&frame.layers).all(|(a, l)| *a == l.share));
+    assert!(channel("hair.A").iter().zip(&frame.layers).all(|(a, l)| *a == l.hair));
+    assert!(channel("head.A").iter().zip(&frame.layers).all(|(a, l)| *a == l.head));
     assert!(channel("direction.Y").iter().zip(&frame.layers).all(|(a, l)| *a == l.direction[1]));
     assert!(channel("motion.X").iter().zip(&frame.layers).all(|(a, l)| *a == l.motion[0]));
 }
@@ -78,13 +82,13 @@ fn openexr_files_hold_the_frame_to_the_bit() {
 fn a_movie_decodes_to_the_frames_it_was_given() {
     let picture = Picture { video: nabiki_render::settings::Video { quality: 1.0 }, ..small() };
     let (mut renderer, strands, view) = setting(&picture);
-    let developer = Developer::new(&picture);
-    let frame = renderer.draw(&strands, &view).unwrap();
+    let tone_mapping = ToneMapping::new(&picture);
+    let frame = renderer.draw(&FrameToDraw::at_rest(&strands, view)).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("movie.mp4");
     let mut movie = Movie::create(&path, &picture, 25.0).unwrap();
     for _ in 0..3 {
-        movie.push(&frame, &developer).unwrap();
+        movie.push(&frame, &tone_mapping).unwrap();
     }
     assert!(!path.exists(), "nothing stands under the final name before the end");
     movie.finish().unwrap();
@@ -113,7 +117,7 @@ fn a_movie_decodes_to_the_frames_it_was_given() {
             use openh264::formats::YUVSource;
             frames += 1;
             assert_eq!(yuv.dimensions(), (96, 64));
-            let shown = developer.rgba8(&frame);
+            let shown = tone_mapping.rgba8(&frame);
             let mut sum = 0.0;
             for y in 0..64 {
                 for x in 0..96 {
@@ -139,13 +143,13 @@ fn a_movie_decodes_to_the_frames_it_was_given() {
 fn contact_sheets_hold_every_picture_and_its_arrow() {
     let picture = small();
     let (mut renderer, strands, view) = setting(&picture);
-    let developer = Developer::new(&picture);
-    let frame = renderer.draw(&strands, &view).unwrap();
+    let tone_mapping = ToneMapping::new(&picture);
+    let frame = renderer.draw(&FrameToDraw::at_rest(&strands, view)).unwrap();
     let mut sheet = ContactSheet::new(2);
     let mut plain = ContactSheet::new(2);
     for number in [0, 30, 60] {
-        sheet.add(&frame, &developer, number, Some(Vec3::new(-100.0, 0.0, 0.0)), &view);
-        plain.add(&frame, &developer, number, None, &view);
+        sheet.add(&frame, &tone_mapping, number, Some(Vec3::new(-100.0, 0.0, 0.0)), &view);
+        plain.add(&frame, &tone_mapping, number, None, &view);
     }
     assert_eq!(sheet.canvas().size(), [2 * (96 + 12) + 12, 2 * (64 + 12) + 12]);
     assert_ne!(sheet.canvas(), plain.canvas());
@@ -170,7 +174,7 @@ fn bad_settings_are_refused_by_their_scene_key() {
         let text = Renderer::new(&picture, &Mesh::default()).err().unwrap().to_string();
         assert!(text.starts_with(key) && !text.contains('\n'), "{text}");
     }
-    let text = Movie::create("x.mp4".as_ref(), &Picture { size: [8, 8], ..small() }, 25.0).err().unwrap().to_string();
+    let text = Movie::create("x.mp4".as_ref(), &Picture { size: [8, 8], ..small() }, 24.0).err().unwrap().to_string();
     assert!(text.contains("picture.size"), "{text}");
 }
 
@@ -179,7 +183,7 @@ fn points_that_are_no_numbers_are_refused_by_strand() {
     for antialiasing in [Antialiasing::Coverage, Antialiasing::Oversample] {
         let (mut renderer, mut strands, view) = setting(&Picture { antialiasing, ..small() });
         strands.strand_mut(7)[3].y = f32::NAN;
-        let text = renderer.draw(&strands, &view).err().unwrap().to_string();
+        let text = renderer.draw(&FrameToDraw::at_rest(&strands, view)).err().unwrap().to_string();
         assert!(text.contains("strand 7, point 3"), "{text}");
     }
 }
@@ -188,9 +192,51 @@ fn points_that_are_no_numbers_are_refused_by_strand() {
 fn an_unwritable_place_is_named_and_left_alone() {
     let picture = small();
     let (mut renderer, strands, view) = setting(&picture);
-    let frame = renderer.draw(&strands, &view).unwrap();
+    let frame = renderer.draw(&FrameToDraw::at_rest(&strands, view)).unwrap();
     let path = std::path::Path::new("/nowhere/at/all/x.png");
-    let text = png::write(path, &frame, &Developer::new(&picture), Depth::Eight).err().unwrap().to_string();
+    let text = png::write(path, &frame, &ToneMapping::new(&picture), Depth::Eight).err().unwrap().to_string();
     assert!(text.starts_with("cannot write /nowhere/at/all/x.png"), "{text}");
-    assert!(Movie::create(path, &picture, 25.0).is_err());
+    assert!(Movie::create(path, &picture, 24.0).is_err());
+}
+
+/// A new file is for whoever the umask lets read it, and a link stays one.
+#[cfg(unix)]
+#[test]
+fn pictures_and_movies_are_as_readable_as_other_new_files() {
+    use std::os::unix::fs::PermissionsExt;
+    const INNER: &str = "NABIKI_TEST_UMASK_IS_SET";
+    if std::env::var_os(INNER).is_none() {
+        // A umask belongs to a whole program: this test runs again in one of its own for each.
+        for umask in ["077", "027", "022"] {
+            let name = "pictures_and_movies_are_as_readable_as_other_new_files";
+            let status = std::process::Command::new("sh")
+                .args(["-c", &format!("umask {umask} && exec \"$0\" --exact {name}")])
+                .arg(std::env::current_exe().unwrap())
+                .env(INNER, "1")
+                .stdout(std::process::Stdio::null())
+                .status();
+            assert!(status.unwrap().success(), "umask {umask}");
+        }
+        return;
+    }
+    let picture = small();
+    let (mut renderer, strands, view) = setting(&picture);
+    let tone_mapping = ToneMapping::new(&picture);
+    let frame = renderer.draw(&FrameToDraw::at_rest(&strands, view)).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let mode = |name: &str| std::fs::metadata(at(name)).unwrap().permissions().mode();
+    std::fs::write(at("plain"), "").unwrap();
+    png::write(&at("frame.png"), &frame, &tone_mapping, Depth::Eight).unwrap();
+    nabiki_render::output::exr::write(&at("frame.exr"), &frame).unwrap();
+    nabiki_render::output::field_plot::write_svg(&at("field.svg"), &[]).unwrap();
+    std::os::unix::fs::symlink(at("elsewhere.mp4"), at("link.mp4")).unwrap();
+    let mut movie = Movie::create(&at("link.mp4"), &picture, 24.0).unwrap();
+    movie.push(&frame, &tone_mapping).unwrap();
+    movie.finish().unwrap();
+    assert!(std::fs::symlink_metadata(at("link.mp4")).unwrap().is_symlink());
+    for name in ["frame.png", "frame.exr", "field.svg", "elsewhere.mp4"] {
+        assert_eq!(mode(name), mode("plain"), "{name}");
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 6, "nothing is left beside them");
 }

@@ -3,7 +3,7 @@
 use glam::{Vec3, vec3};
 use nabiki::{Mesh, Strands};
 use nabiki_render::settings::HairColour;
-use nabiki_render::{Bounds, Frame, Picture, Renderer, View};
+use nabiki_render::{Bounds, Frame, FrameToDraw, Picture, Renderer, View};
 
 /// A wall across the view, 20 cm wide and high.
 fn wall() -> Mesh {
@@ -25,7 +25,7 @@ fn hidden_hair() -> Strands {
 
 fn draw(picture: &Picture, hair: &Strands) -> Frame {
     let view = View::new(&picture.camera, picture.size, &Bounds { low: Vec3::splat(-9.0), high: Vec3::splat(9.0) });
-    Renderer::new(picture, &wall()).unwrap().draw(hair, &view).unwrap()
+    Renderer::new(picture, &wall()).unwrap().draw(&FrameToDraw::at_rest(hair, view)).unwrap()
 }
 
 #[test]
@@ -33,7 +33,7 @@ fn stubble_tints_the_skin_about_the_roots_and_nowhere_else() {
     let mut picture = Picture { size: [64, 64], ..Picture::default() };
     picture.camera.azimuth = 0.0;
     picture.camera.elevation = 0.0;
-    picture.hair.color = HairColour::Black;
+    picture.hair.colour = HairColour::Black;
     let with = |stubble: f32| {
         let mut picture = picture.clone();
         picture.head.stubble = stubble;

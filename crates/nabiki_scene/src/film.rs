@@ -6,7 +6,7 @@ use glam::{Quat, Vec3};
 use nabiki::Strands;
 use nabiki::dynamics::ForceSpace;
 use nabiki_render::output::png;
-use nabiki_render::{Bounds, Developer, Frame, Picture, Renderer, View};
+use nabiki_render::{Bounds, Frame, FrameToDraw, Moment, Picture, Renderer, ToneMapping, View};
 
 use crate::built::BuiltScene;
 use crate::error::Result;
@@ -20,7 +20,7 @@ pub(crate) struct Film<'a> {
     built: &'a BuiltScene,
     picture: Picture,
     renderer: Renderer,
-    developer: Developer,
+    tone_mapping: ToneMapping,
     bounds: Bounds,
     /// The frame before, where the shutter stays open.
     previous: Option<Strands>,
@@ -54,7 +54,7 @@ impl<'a> Film<'a> {
             built,
             picture: picture.clone(),
             renderer: if built.scene.output.exr_frames { renderer.with_layers() } else { renderer },
-            developer: Developer::new(picture),
+            tone_mapping: ToneMapping::new(picture),
             bounds,
             previous: None,
         })
@@ -80,30 +80,40 @@ impl<'a> Film<'a> {
 
     /// Draws frame `n` alone, as a PNG at `path`.
     pub fn still(&mut self, n: u32, frames: &mut dyn FrameSource, path: &Path) -> Result<()> {
+        if self.picture.shutter > 0.0 && n > 0 {
+            self.previous = Some(frames.frame(n - 1)?.clone());
+        }
         let (frame, _) = self.draw(n, frames.frame(n)?)?;
-        Ok(png::write(path, &frame, &self.developer, png::Depth::Eight)?)
+        Ok(png::write(path, &frame, &self.tone_mapping, png::Depth::Eight)?)
     }
 
-    /// The view of frame `n`. It goes along with the head, and does not turn with it.
+    /// The view of frame `n`, from the head's origin along the world's axes.
     fn view(&self, n: u32) -> View {
         let progress = n as f32 / self.built.frames() as f32;
         View::new(&self.picture.camera.at(progress), self.picture.size, &self.bounds)
     }
 
-    /// The frame, and the view in the space of the forces. The camera goes along with the head, and does not turn
-    /// with it.
-    fn draw(&mut self, n: u32, strands: &Strands) -> Result<(Frame, View)> {
+    /// The view of frame `n` in the world. The camera goes along with the head, and does not turn with it.
+    fn view_in_world(&self, n: u32) -> View {
         let view = self.view(n);
-        let view_in_head = turned(view, self.built.pose(n).rotation.inverse());
-        let previous = self.previous.as_ref().unwrap_or(strands);
-        let frame = self.renderer.draw_since(previous, strands, &view_in_head)?;
+        View { eye: view.eye + self.built.pose(n).position_cm, ..view }
+    }
+
+    /// The frame, and the view in the space of the forces.
+    fn draw(&mut self, n: u32, strands: &Strands) -> Result<(Frame, View)> {
+        let previous = self.previous.take();
+        let moment = |n: u32, strands| Moment { strands, pose: self.built.pose(n), view: self.view_in_world(n) };
+        let now = moment(n, strands);
+        let before = previous.as_ref().filter(|_| n > 0).map(|previous| moment(n - 1, previous));
+        let frame = self.renderer.draw(&FrameToDraw { now, before })?;
         if self.picture.shutter > 0.0 {
             self.previous = Some(strands.clone());
         }
-        match self.built.dynamics.motion.force_space {
-            ForceSpace::World => Ok((frame, view)),
-            ForceSpace::Head => Ok((frame, view_in_head)),
-        }
+        let view = match self.built.dynamics.motion.force_space {
+            ForceSpace::World => now.view,
+            ForceSpace::Head => turned(now.view, now.pose.rotation.inverse()),
+        };
+        Ok((frame, view))
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use glam::Vec3;
 use nabiki_render::output::field_plot::{self, Interval};
 use nabiki_render::output::{exr, png};
-use nabiki_render::{ContactSheet, Developer, Frame, Movie, Picture, RenderError, View};
+use nabiki_render::{ContactSheet, Frame, Movie, Picture, RenderError, ToneMapping, View};
 
 use crate::built::BuiltScene;
 use crate::error::Result;
@@ -19,7 +19,7 @@ type WriteField = fn(&Path, &[Interval]) -> Result<(), RenderError>;
 /// Takes frames one by one, and writes of them what the scene asks for.
 pub(crate) struct PictureOutputs<'a> {
     built: &'a BuiltScene,
-    developer: Developer,
+    tone_mapping: ToneMapping,
     movie: Option<(PathBuf, Movie)>,
     sheet: ContactSheet,
     sheet_file: PathBuf,
@@ -70,25 +70,25 @@ impl<'a> PictureOutputs<'a> {
         }
         let movie = match movie_file {
             Some(file) => {
-                let movie = Movie::create(&file, picture, built.scene.frame_rate() as f32)?;
+                let movie = Movie::create(&file, picture, built.scene.frame_rate())?;
                 Some((file, movie))
             }
             None => None,
         };
-        let developer = Developer::new(picture);
-        Ok(Self { built, developer, movie, sheet: ContactSheet::new(2), sheet_file, on_sheet, stills, fields })
+        let tone_mapping = ToneMapping::new(picture);
+        Ok(Self { built, tone_mapping, movie, sheet: ContactSheet::new(2), sheet_file, on_sheet, stills, fields })
     }
 
     /// Takes frame `n`, which `view` shows in the space of the forces.
     pub fn push(&mut self, n: u32, frame: &Frame, view: &View) -> Result<()> {
         let output = &self.built.scene.output;
         if let Some((_, movie)) = &mut self.movie {
-            movie.push(frame, &self.developer)?;
+            movie.push(frame, &self.tone_mapping)?;
         }
         if let Some(stills) = &self.stills {
             if output.png_frames {
                 let depth = if output.png_bits == 16 { png::Depth::Sixteen } else { png::Depth::Eight };
-                png::write(&still(stills, n, "png"), frame, &self.developer, depth)?;
+                png::write(&still(stills, n, "png"), frame, &self.tone_mapping, depth)?;
             }
             if output.exr_frames {
                 exr::write(&still(stills, n, "exr"), frame)?;
@@ -96,7 +96,7 @@ impl<'a> PictureOutputs<'a> {
         }
         if self.on_sheet.contains(&n) {
             let force: Vec3 = self.built.force(n.max(1));
-            self.sheet.add(frame, &self.developer, n, Some(force), view);
+            self.sheet.add(frame, &self.tone_mapping, n, Some(force), view);
         }
         Ok(())
     }

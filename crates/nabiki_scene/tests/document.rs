@@ -207,11 +207,11 @@ fn a_scene_made_in_code_is_written_short() {
     let mut scene = Scene::default();
     scene.field =
         vec![FieldSource::Keyframes(vec![keyframe(50, [-100.0, 0.0, 0.0]), keyframe(100, [-15.0, -150.0, 0.0])])];
-    scene.picture.hair.color = HairColour::Rgb([0.3, 0.1, 0.05]);
+    scene.picture.hair.colour = HairColour::Rgb([0.3, 0.1, 0.05]);
     assert_eq!(
         scene.to_toml().unwrap(),
         "[[force]]\nthrough = 50\nvector = [-100.0, 0.0, 0.0]\n\n[[force]]\nthrough = 100\nvector = [-15.0, -150.0, 0.0]\n\n\
-         [picture.hair]\ncolor = { rgb = [0.3, 0.1, 0.05] }\n"
+         [picture.hair]\ncolour = { rgb = [0.3, 0.1, 0.05] }\n"
     );
     assert_eq!(reread(&scene), scene);
 }
@@ -390,7 +390,7 @@ fn apply(edit: &Edit, scene: &mut Scene) {
             }
         }
         Edit::Colour(named, x) => {
-            scene.picture.hair.color =
+            scene.picture.hair.colour =
                 if named { HairColour::Grey } else { HairColour::Melanin { eumelanin: x, pheomelanin: 0.5 * x } };
         }
         Edit::Sheet(sheet) => scene.output.sheet = sheet,

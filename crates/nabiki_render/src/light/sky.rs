@@ -38,8 +38,8 @@ pub struct SkyMap {
 }
 
 impl SkyMap {
-    /// Carries the sky's light through the hair (half thicknesses `radius`, cm) and past the head.
-    pub fn fill(&mut self, nodes: &[CurveNode], radius: &[f32], head: &Mesh) {
+    /// Carries the sky's light through the hair (half thicknesses `radius`, cm) and past the head; `zenith` is above (unit).
+    pub fn fill(&mut self, nodes: &[CurveNode], radius: &[f32], head: &Mesh, zenith: Vec3) {
         let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         let (mut low, mut high) = nodes
             .par_iter()
@@ -59,7 +59,7 @@ impl SkyMap {
         self.taken.resize(self.size.element_product() as usize, 0.0);
         self.lay_hair(nodes, radius);
         self.lay_skin(head);
-        self.carry();
+        self.carry(zenith);
     }
 
     /// What arrives at a place; outside of the cells, what arrives at their border.
@@ -145,7 +145,7 @@ impl SkyMap {
     }
 
     /// Carries light along the lattice directions, one after the other, slice by slice.
-    fn carry(&mut self) {
+    fn carry(&mut self, zenith: Vec3) {
         let directions: Vec<[i32; 3]> = (0..27_i32)
             .map(|i| [i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1])
             .filter(|d| matches!(squared_length(*d), 1 | 3))
@@ -160,14 +160,15 @@ impl SkyMap {
         self.carried.par_iter_mut().zip(&directions).for_each(|(light, &d)| {
             carry_along(d, size, if squared_length(d) == 1 { &straight } else { &aslant }, light);
         });
-        let sum = |half: fn(f32) -> f32| directions.iter().map(|d| half(unit_height(*d))).sum::<f32>();
+        let sum = |half: fn(f32) -> f32| directions.iter().map(|d| half(unit_height(*d, zenith))).sum::<f32>();
         let (all_above, all_below) = (sum(above), sum(below));
         self.arriving.resize(self.taken.len(), Arriving::default());
         let carried = &self.carried;
         self.arriving.par_chunks_mut(4096).enumerate().for_each(|(chunk, arriving)| {
             arriving.fill(Arriving::default());
             for (d, light) in directions.iter().zip(carried) {
-                let (up, down) = (above(unit_height(*d)) / all_above, below(unit_height(*d)) / all_below);
+                let (up, down) =
+                    (above(unit_height(*d, zenith)) / all_above, below(unit_height(*d, zenith)) / all_below);
                 for (a, &l) in arriving.iter_mut().zip(&light[chunk * 4096..]) {
                     a.above += up * l;
                     a.below += down * l;
@@ -225,8 +226,8 @@ fn squared_length(d: [i32; 3]) -> i32 {
 }
 
 /// Height of the place that light travelling along `d` comes from, on the unit sphere.
-fn unit_height(d: [i32; 3]) -> f32 {
-    -d[1] as f32 / (squared_length(d) as f32).sqrt()
+fn unit_height(d: [i32; 3], zenith: Vec3) -> f32 {
+    -Vec3::from_array(d.map(|c| c as f32)).dot(zenith) / (squared_length(d) as f32).sqrt()
 }
 
 /// Weights of a direction in the two halves of the sky; they add up to 1 and meet at the horizon.
@@ -260,7 +261,7 @@ mod tests {
         }
         let radius = vec![0.05; nodes.len()];
         let mut sky = SkyMap::default();
-        sky.fill(&nodes, &radius, &Mesh::default());
+        sky.fill(&nodes, &radius, &Mesh::default(), Vec3::Y);
         let middle = sky.at(Vec3::ZERO);
         assert!(middle.above < 0.05 && middle.below < 0.05, "{middle:?}");
         let top = sky.at(Vec3::new(0.0, 5.4, 0.0));

@@ -9,14 +9,14 @@ use exr::prelude::{
 
 use super::write_whole;
 use crate::RenderError;
-use crate::frame::{Frame, HairLayer};
+use crate::frame::{Frame, Layer as PixelLayer};
 
 /// Writes a frame as an OpenEXR file of 32 bit floats, losslessly compressed.
 ///
 /// Channels: `R`, `G`, `B` (linear, Rec. 709 primaries) *premultiplied* by `A`, as OpenEXR has it; `Z`, the depth along the axis of
-/// view (cm), infinite where nothing is. With the frame's layers also `hair.A`, the share of the pixel that shows hair;
-/// `direction.X`, `.Y`, `.Z`, the hair's direction from root to tip in head space; `motion.X`, `.Y`, its movement while the shutter is
-/// open (pixels, right and down), both premultiplied by `hair.A`.
+/// view (cm), infinite where nothing is. With the frame's layers also `hair.A` and `head.A`, the shares of the pixel that show
+/// hair and head; `direction.X`, `.Y`, `.Z`, the hair's direction from root to tip in head space, premultiplied by `hair.A`; `motion.X`,
+/// `.Y`, the movement of both while the shutter is open (pixels, right and down), premultiplied by `hair.A + head.A`.
 pub fn write(path: &Path, frame: &Frame) -> Result<(), RenderError> {
     let channel = |name: &str, values: Vec<f32>| AnyChannel::new(name, FlatSamples::F32(values));
     let of = |i: usize| frame.rgba.iter().map(|p| p[i]).collect::<Vec<f32>>();
@@ -28,9 +28,10 @@ pub fn write(path: &Path, frame: &Frame) -> Result<(), RenderError> {
         channel("Z", frame.depth.clone()),
     ];
     if !frame.layers.is_empty() {
-        let of = |value: fn(&HairLayer) -> f32| frame.layers.iter().map(value).collect::<Vec<f32>>();
+        let of = |value: fn(&PixelLayer) -> f32| frame.layers.iter().map(value).collect::<Vec<f32>>();
         channels.extend([
-            channel("hair.A", of(|l| l.share)),
+            channel("hair.A", of(|l| l.hair)),
+            channel("head.A", of(|l| l.head)),
             channel("direction.X", of(|l| l.direction[0])),
             channel("direction.Y", of(|l| l.direction[1])),
             channel("direction.Z", of(|l| l.direction[2])),

@@ -1,52 +1,34 @@
-//! Files: pictures, movies, sheets and drawings, each written beside its name and renamed when whole.
+//! Files: pictures, movies, sheets and drawings, each under its name only when whole.
 
 pub mod canvas;
+#[cfg(feature = "exr")]
 pub mod exr;
 pub mod field_plot;
 mod font;
+#[cfg(feature = "video")]
 mod mp4;
 pub mod png;
 pub mod sheet;
+#[cfg(feature = "video")]
 pub mod video;
 
-use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use tempfile::NamedTempFile;
+use nabiki_file::PartFile;
 
 use crate::RenderError;
 
-/// An unnamed file in the folder where `path` will be.
-fn beside(path: &Path) -> Result<NamedTempFile, RenderError> {
-    let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    tempfile::Builder::new()
-        .prefix(".nabiki-")
-        .tempfile_in(folder)
-        .map_err(|source| RenderError::Write { path: path.to_owned(), source })
+/// The file that will be `path` when it is whole.
+fn create_part(path: &Path) -> Result<PartFile, RenderError> {
+    PartFile::create(path).map_err(|source| RenderError::Write { path: path.to_owned(), source })
 }
 
 /// Writes a whole file with `fill`, then gives it its name.
 fn write_whole(
     path: &Path,
-    fill: impl FnOnce(&mut BufWriter<&mut std::fs::File>) -> Result<(), Box<dyn std::error::Error + Send + Sync>>,
+    fill: impl FnOnce(&mut PartFile) -> Result<(), Box<dyn std::error::Error + Send + Sync>>,
 ) -> Result<(), RenderError> {
-    let mut file = beside(path)?;
-    let mut writer = BufWriter::new(file.as_file_mut());
-    fill(&mut writer).map_err(|e| RenderError::write(path, e))?;
-    writer.flush().map_err(|e| RenderError::write(path, e))?;
-    drop(writer);
-    name(file, path)
-}
-
-/// Gives a finished file its name, readable as other new files are.
-fn name(file: NamedTempFile, path: &Path) -> Result<(), RenderError> {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        file.as_file()
-            .set_permissions(std::fs::Permissions::from_mode(0o644))
-            .map_err(|e| RenderError::write(path, e))?;
-    }
-    file.persist(path).map_err(|e| RenderError::write(path, e.error))?;
-    Ok(())
+    let mut file = create_part(path)?;
+    fill(&mut file).map_err(|e| RenderError::write(path, e))?;
+    file.finish().map_err(|source| RenderError::Write { path: path.to_owned(), source })
 }

@@ -3,7 +3,7 @@
 //! Coded frames go to disk as they come; only their sizes stay in memory. The index is written before them when the
 //! movie ends, so that players and browsers can start before they have all of it.
 
-use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 
 /// Sample sizes and parameter sets of a movie whose coded frames are streamed elsewhere.
 pub(super) struct Track {
@@ -19,10 +19,10 @@ pub(super) struct Track {
 }
 
 impl Track {
-    pub fn new(size: [u16; 2], fps: f32) -> Self {
+    pub fn new(size: [u16; 2], frame_rate: f64) -> Self {
         // The usual video clock, which 24, 25, 30, 50 and 60 frames a second divide.
         let timescale = 90_000;
-        let frame_ticks = (timescale as f32 / fps).round() as u32;
+        let frame_ticks = (f64::from(timescale) / frame_rate).round() as u32;
         Self { size, timescale, frame_ticks, sequence_set: vec![], picture_set: vec![], sizes: vec![], sync: vec![] }
     }
 
@@ -50,7 +50,7 @@ impl Track {
     }
 
     /// Writes the whole file: type, index, then the frames copied from `data`.
-    pub fn finish(&self, data: &mut (impl Read + Seek), out: &mut BufWriter<impl Write>) -> io::Result<()> {
+    pub fn finish(&self, data: &mut (impl Read + Seek), out: &mut impl Write) -> io::Result<()> {
         let kind = boxed(b"ftyp", &[b"isom", &512_u32.to_be_bytes()[..], b"isom", b"iso2", b"avc1", b"mp41"].concat());
         let length = data.seek(SeekFrom::End(0))?;
         let wide = length + 16 > u64::from(u32::MAX);
@@ -193,9 +193,8 @@ mod tests {
         let mut data = io::Cursor::new(Vec::new());
         track.append(&[0, 0, 0, 1, 0x67, 66, 0, 30, 0, 0, 1, 0x68, 9, 0, 0, 1, 0x65, 7, 7], &mut data).unwrap();
         track.append(&[0, 0, 0, 1, 0x41, 8], &mut data).unwrap();
-        let mut out = BufWriter::new(Vec::new());
-        track.finish(&mut data, &mut out).unwrap();
-        let file = out.into_inner().unwrap();
+        let mut file = Vec::new();
+        track.finish(&mut data, &mut file).unwrap();
 
         let mut at = 0;
         let mut kinds = vec![];

@@ -7,7 +7,8 @@ use image::{ExtendedColorType, ImageEncoder};
 
 use super::write_whole;
 use crate::RenderError;
-use crate::frame::{Developer, Frame};
+use crate::frame::Frame;
+use crate::tone_mapping::ToneMapping;
 
 /// Bits of each channel of a PNG file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,11 +21,11 @@ pub enum Depth {
 }
 
 /// Writes a frame as a PNG file: sRGB, straight alpha (left out where the whole picture is opaque).
-pub fn write(path: &Path, frame: &Frame, developer: &Developer, depth: Depth) -> Result<(), RenderError> {
+pub fn write(path: &Path, frame: &Frame, tone_mapping: &ToneMapping, depth: Depth) -> Result<(), RenderError> {
     let opaque = frame.rgba.iter().all(|p| p[3] >= 1.0);
     match depth {
         Depth::Eight => {
-            let rgba = developer.rgba8(frame);
+            let rgba = tone_mapping.rgba8(frame);
             if opaque {
                 encode(path, frame.size, &without_alpha(&rgba), ExtendedColorType::Rgb8)
             } else {
@@ -32,7 +33,7 @@ pub fn write(path: &Path, frame: &Frame, developer: &Developer, depth: Depth) ->
             }
         }
         Depth::Sixteen => {
-            let rgba = developer.rgba16(frame);
+            let rgba = tone_mapping.rgba16(frame);
             if opaque {
                 encode(path, frame.size, bytemuck::cast_slice(&without_alpha(&rgba)), ExtendedColorType::Rgb16)
             } else {

@@ -7,7 +7,8 @@ use glam::Vec3;
 use super::canvas::Canvas;
 use crate::RenderError;
 use crate::camera::View;
-use crate::frame::{Developer, Frame};
+use crate::frame::Frame;
+use crate::tone_mapping::ToneMapping;
 
 /// Widest thumbnail (pixels); larger frames are shrunk by a whole number.
 const WIDEST: usize = 960;
@@ -31,9 +32,9 @@ impl ContactSheet {
     /// Adds a frame with its number; with `force` (head space) as an arrow beside it, drawn as `view` sees it.
     ///
     /// A force seen end on is a dot; its three numbers stand below the arrow.
-    pub fn add(&mut self, frame: &Frame, developer: &Developer, number: u32, force: Option<Vec3>, view: &View) {
+    pub fn add(&mut self, frame: &Frame, tone_mapping: &ToneMapping, number: u32, force: Option<Vec3>, view: &View) {
         let size = frame.size.map(|s| s as usize);
-        let mut picture = Canvas::shrunk(size, &developer.rgba8(frame), size[0].div_ceil(WIDEST));
+        let mut picture = Canvas::shrunk(size, &tone_mapping.rgba8(frame), size[0].div_ceil(WIDEST));
         let [width, height] = picture.size().map(|s| s as f32);
         let text = (height / 28.0).clamp(6.0, 18.0);
         picture.caption(&format!("frame {number}"), [text, 2.0 * text], text, INK);

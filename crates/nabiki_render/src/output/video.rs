@@ -1,9 +1,9 @@
 //! Movies: H.264 in MP4, encoded in this process, streamed to disk.
 
-use std::fs::File;
-use std::io::{BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use nabiki::error::check_range;
+use nabiki_file::PartFile;
 use openh264::OpenH264API;
 use openh264::encoder::{
     Complexity, Encoder, EncoderConfig, FrameRate, IntraFramePeriod, QpRange, RateControlMode, SpsPpsStrategy,
@@ -13,10 +13,11 @@ use openh264::formats::YUVSlices;
 use rayon::prelude::*;
 
 use super::mp4::Track;
-use super::{beside, name};
+use super::{create_part, write_whole};
 use crate::RenderError;
-use crate::frame::{Developer, Frame};
+use crate::frame::Frame;
 use crate::settings::Picture;
+use crate::tone_mapping::ToneMapping;
 
 /// Longest run of frames that depend on one another: seeking lands at most this far away.
 const INTRA_PERIOD: u32 = 48;
@@ -30,14 +31,18 @@ pub struct Movie {
     size: [usize; 2],
     encoder: Encoder,
     track: Track,
-    coded: BufWriter<File>,
+    coded: PartFile,
     scratch: Vec<u8>,
 }
 
 impl Movie {
-    /// Starts a movie at `path` with the size and quality of `picture`. `frame_rate`: frames a second.
-    pub fn create(path: &Path, picture: &Picture, frame_rate: f32) -> Result<Self, RenderError> {
+    /// Starts a movie at `path` with the size and quality of `picture`, of `frame_rate` frames a second (1..240).
+    ///
+    /// # Errors
+    /// A size or frame rate that a movie cannot have; a place that cannot be written.
+    pub fn create(path: &Path, picture: &Picture, frame_rate: f64) -> Result<Self, RenderError> {
         picture.check()?;
+        check_range("motion.frame_rate", frame_rate as f32, 1.0, 240.0)?;
         let size = picture.size.map(|s| s as usize & !1);
         let (longer, shorter) = (size[0].max(size[1]), size[0].min(size[1]));
         if longer > 3840 || !(16..=2160).contains(&shorter) {
@@ -61,21 +66,19 @@ impl Movie {
             .background_detection(false)
             .sps_pps_strategy(SpsPpsStrategy::ConstantId)
             .intra_frame_period(IntraFramePeriod::from_num_frames(INTRA_PERIOD))
-            .max_frame_rate(FrameRate::from_hz(frame_rate))
+            .max_frame_rate(FrameRate::from_hz(frame_rate as f32))
             // More threads would slice the picture differently, and so change the file's bits.
             .num_threads(1)
             .vui(VuiConfig::bt709());
         let encoder = Encoder::with_api_config(OpenH264API::from_source(), config)
             .map_err(|e| RenderError::write(path, e.to_string()))?;
-        let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let coded =
-            tempfile::tempfile_in(folder).map_err(|source| RenderError::Write { path: path.to_owned(), source })?;
+        let coded = create_part(path)?;
         Ok(Self {
             path: path.to_owned(),
             size,
             encoder,
             track: Track::new(size.map(|s| s as u16), frame_rate),
-            coded: BufWriter::new(coded),
+            coded,
             scratch: Vec::new(),
         })
     }
@@ -84,9 +87,9 @@ impl Movie {
     ///
     /// # Panics
     /// If the frame's size is not that of the picture the movie was created for.
-    pub fn push(&mut self, frame: &Frame, developer: &Developer) -> Result<(), RenderError> {
+    pub fn push(&mut self, frame: &Frame, tone_mapping: &ToneMapping) -> Result<(), RenderError> {
         assert_eq!(frame.size.map(|s| s as usize & !1), self.size, "every frame has the movie's size");
-        let planes = planes(frame, self.size, developer);
+        let planes = planes(frame, self.size, tone_mapping);
         let [width, _] = self.size;
         let source =
             YUVSlices::new((&planes[0], &planes[1], &planes[2]), (width, self.size[1]), (width, width / 2, width / 2));
@@ -97,21 +100,17 @@ impl Movie {
     }
 
     /// Writes the index and gives the file its name.
+    ///
+    /// # Errors
+    /// What the disk says.
     pub fn finish(mut self) -> Result<(), RenderError> {
-        let failed = |e: std::io::Error| RenderError::write(&self.path, e);
-        self.coded.flush().map_err(failed)?;
-        let mut coded = BufReader::new(self.coded.get_ref().try_clone().map_err(failed)?);
-        let mut file = beside(&self.path)?;
-        let mut out = BufWriter::new(file.as_file_mut());
-        self.track.finish(&mut coded, &mut out).map_err(failed)?;
-        out.flush().map_err(failed)?;
-        drop(out);
-        name(file, &self.path)
+        let Self { path, track, coded, .. } = &mut self;
+        write_whole(path, |file| Ok(track.finish(coded, file)?))
     }
 }
 
 /// Studio-range Rec. 709 planes: luma of full size, the two colour differences averaged over 2 x 2 pixels.
-fn planes(frame: &Frame, [width, height]: [usize; 2], developer: &Developer) -> [Vec<u8>; 3] {
+fn planes(frame: &Frame, [width, height]: [usize; 2], tone_mapping: &ToneMapping) -> [Vec<u8>; 3] {
     let mut luma = vec![0; width * height];
     let mut blue = vec![0; width * height / 4];
     let mut red = vec![0; width * height / 4];
@@ -122,7 +121,7 @@ fn planes(frame: &Frame, [width, height]: [usize; 2], developer: &Developer) -> 
             let mut differences = [0.0; 2];
             for (dy, dx) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let p = frame.rgba[(2 * pair + dy) * stride + x + dx];
-                let [r, g, b] = [developer.value(p[0]), developer.value(p[1]), developer.value(p[2])];
+                let [r, g, b] = [tone_mapping.value(p[0]), tone_mapping.value(p[1]), tone_mapping.value(p[2])];
                 let y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
                 luma[dy * width + x + dx] = (16.5 + 219.0 * y) as u8;
                 differences[0] += (b - y) / 1.8556;

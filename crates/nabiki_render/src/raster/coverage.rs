@@ -19,6 +19,9 @@ const PIXELS: usize = TILE * TILE;
 /// which one may come nearer than where it was sorted.
 const SLACK: f32 = 1.0;
 
+/// Movement across (pixels, both ends together) below which hair is as deep as halfway through it.
+const MOVES: f32 = 0.05;
+
 /// Working memory for one tile.
 pub struct CoverageTile {
     /// Part of each cell that nothing has covered yet.
@@ -33,6 +36,8 @@ pub struct CoverageTile {
     skin_far: Box<[f32; PIXELS]>,
     /// Farthest skin of the tile.
     farthest: f32,
+    /// Half of the farthest that hair moves in depth while the shutter is open (cm).
+    sway: f32,
     /// Which pixels are full, a bit each: row after row, and column after column.
     full: [[u16; TILE]; 2],
     filled: usize,
@@ -46,14 +51,19 @@ pub struct Drawn {
     pub depth: f32,
 }
 
-/// Told of each share that a piece gets: pixel in the tile, share, place along the piece (0..1), first node.
+/// Told of each share of a pixel of the tile.
 pub trait Watch {
+    /// A piece of hair got it: where along the piece (0..1), and its first node.
     fn hair(&mut self, pixel: usize, share: f32, along: f32, piece: u32);
+    /// A piece of skin got it: which of the tile.
+    fn skin(&mut self, pixel: usize, share: f32, piece: usize);
 }
 
 impl Watch for () {
     #[inline(always)]
     fn hair(&mut self, _: usize, _: f32, _: f32, _: u32) {}
+    #[inline(always)]
+    fn skin(&mut self, _: usize, _: f32, _: usize) {}
 }
 
 /// The inner loops, compiled for each width of vectors that machines have; one is chosen at run time. There is no fused
@@ -75,7 +85,9 @@ impl<'p, W: Watch, P: Iterator<Item = (&'p Piece, &'p Range<usize>)>> WithSimd f
 }
 
 impl CoverageTile {
-    pub fn new() -> Self {
+    /// `recession`: the farthest that hair moves in depth while the shutter is open (cm).
+    pub fn new(recession: f32) -> Self {
+        let sway = 0.5 * recession;
         Self {
             open: Box::new([[1.0; CELLS]; PIXELS]),
             left: Box::new([1.0; PIXELS]),
@@ -85,6 +97,7 @@ impl CoverageTile {
             skin_near: Box::new([f32::INFINITY; PIXELS]),
             skin_far: Box::new([f32::INFINITY; PIXELS]),
             farthest: f32::INFINITY,
+            sway,
             full: [[0; TILE]; 2],
             filled: 0,
         }
@@ -100,9 +113,9 @@ impl CoverageTile {
         watch: &mut impl Watch,
     ) {
         self.clear(skin.0);
-        pulp::Arch::new().dispatch(DrawHair { work: self, tile, pieces, watch });
+        pulp::Arch::new().dispatch(DrawHair { work: self, tile, pieces, watch: &mut *watch });
         if let Some(light) = skin.1 {
-            self.add_skin(skin.0, light);
+            self.add_skin(skin.0, light, watch);
         }
     }
 
@@ -134,7 +147,7 @@ impl CoverageTile {
         self.farthest = self.skin_far.iter().copied().fold(0.0, f32::max);
     }
 
-    fn add_skin(&mut self, skin: &[SkinPixel], light: impl Fn(usize) -> [f32; 3]) {
+    fn add_skin(&mut self, skin: &[SkinPixel], light: impl Fn(usize) -> [f32; 3], watch: &mut impl Watch) {
         for (n, piece) in skin.iter().enumerate() {
             let i = usize::from(piece.pixel);
             if self.full[0][i / TILE] >> (i % TILE) & 1 == 1 {
@@ -144,6 +157,7 @@ impl CoverageTile {
             let share = cells.map(|s| self.open[i][s]).sum::<f32>() / CELLS as f32;
             if share > 0.0 {
                 let light = light(n);
+                watch.skin(i, share, n);
                 self.nearest[i] = self.nearest[i].min(piece.depth);
                 let sum = &mut self.light[i];
                 *sum =
@@ -162,10 +176,11 @@ impl CoverageTile {
     ) {
         for (piece, among) in pieces {
             let nearest = piece.a.depth.min(piece.b.depth);
-            if self.filled == PIXELS || nearest > self.farthest + SLACK {
+            let recession = 0.5 * piece.a.recession.abs().max(piece.b.recession.abs());
+            if self.filled == PIXELS || nearest > self.farthest + SLACK + self.sway {
                 break;
             }
-            if nearest <= self.farthest {
+            if nearest - recession <= self.farthest {
                 self.piece(simd, tile, piece, among, watch);
             }
         }
@@ -228,7 +243,8 @@ impl CoverageTile {
             let (x, y) = if major == 0 { (m, q) } else { (q, m) };
             // Of eight bits, so that the compiler sees that it lies in the tile.
             let pixel = usize::from((y * TILE + x) as u8);
-            let depth = lines.depth[m];
+            let aside = q as f32 + 0.5 - (lines.middle[m] + 0.5 * lines.slope);
+            let depth = lines.depth[m] + aside.max(-lines.sway).min(lines.sway) * lines.recession;
             if depth > self.skin_far[pixel] {
                 continue;
             }
@@ -302,6 +318,9 @@ struct Lines {
     /// The piece's middle on the near edge of the line (pixels), and its depth (cm).
     middle: [f32; TILE],
     depth: [f32; TILE],
+    /// Half of the farthest that the piece moves across itself (pixels), and the growth of its depth for a pixel of that (cm).
+    sway: f32,
+    recession: f32,
     /// A cell's share is `rise` less `fall` times its distance from the middle, and at most `top`.
     top: [f32; TILE],
     rise: [f32; TILE],
@@ -323,6 +342,12 @@ impl Lines {
         // A hair that moves is as wide as it moves far, and as much more transparent: half of its movement.
         let sway = |n: &End| 0.5 * (n.motion[minor] - n.motion[major] * slope).abs();
         let (sway_a, sway_b) = (sway(a), sway(b));
+        // Where it is farthest aside it is at the shutter's opening or closing, and as deep as it is then.
+        let aside = |n: &End| n.motion[minor] - n.motion[major] * slope;
+        let per_line = (b.depth - a.depth) * per_length * per_unit;
+        let deeper = |n: &End| n.recession - n.motion[major] * per_line;
+        let (across, in_depth) = (aside(a) + aside(b), deeper(a) + deeper(b));
+        let recession = if across.abs() > MOVES { in_depth / across } else { 0.0 };
         let thickest = a.radius.max(b.radius);
         let reach = thickest * widen + sway_a.max(sway_b) + 0.5 / SIDE as f32 + 0.5 * slope.abs();
         // Beyond its ends a piece reaches half a cell, and at a border aslant by at most its radius.
@@ -353,7 +378,8 @@ impl Lines {
             pixels[m] = if within { bits } else { 0 };
         }
         let (first, last) = (whole(low) as usize, whole(high) as usize);
-        Self { major, slope, start, end, first, last, pixels, middle, depth, top, rise, fall }
+        let sway = sway_a.max(sway_b);
+        Self { major, slope, start, end, first, last, pixels, middle, depth, sway, recession, top, rise, fall }
     }
 }
 

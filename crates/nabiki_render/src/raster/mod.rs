@@ -35,8 +35,9 @@ pub struct Node {
     pub light: [f32; 3],
     /// Unit direction on the picture, or zero where the hair points at the eye.
     pub direction: [f32; 2],
-    /// Movement while the shutter is open (pixels).
+    /// Movement while the shutter is open (pixels), and growth of its depth (cm).
     pub motion: [f32; 2],
+    pub recession: f32,
     /// Which strand it belongs to; pieces join neighbours of the same strand.
     pub strand: u32,
     /// False where it is too near to the eye, or behind it.
@@ -68,8 +69,9 @@ pub struct End {
     pub depth: f32,
     pub radius: f32,
     pub light: [f32; 3],
-    /// Movement while the shutter is open (pixels).
+    /// Movement while the shutter is open (pixels), and growth of its depth (cm).
     pub motion: [f32; 2],
+    pub recession: f32,
     /// Whether the strand begins or stops here.
     pub last: bool,
 }
@@ -96,6 +98,7 @@ impl Piece {
             radius: n.radius,
             light: n.light,
             motion: n.motion,
+            recession: n.recession,
             last: n.end,
         };
         Some(Self { a: end(a), b: end(b), cut: [border(a), border(b)], unit, per_length, number })

@@ -1,29 +1,38 @@
 //! From lit nodes to the frame's pixels, tile by tile.
 
+use glam::Vec3;
 use rayon::prelude::*;
 
 use super::Renderer;
 use crate::backdrop::Backdrop;
 use crate::camera::View;
 use crate::curve::Curves;
-use crate::frame::{Frame, HairLayer, NO_DEPTH};
+use crate::frame::{Frame, Layer, NO_DEPTH};
 use crate::raster::bins::Row;
 use crate::raster::coverage::{CoverageTile, Watch};
 use crate::raster::oversample::OversampledTile;
 use crate::raster::{Node, TILE};
+use crate::shutter::Shot;
+use crate::skin::SkinPixel;
 
 impl Renderer {
-    pub(super) fn compose<const LAYERS: bool>(&self, view: &View) -> Frame {
+    pub(super) fn compose<const LAYERS: bool>(&self, shot: &Shot) -> Frame {
+        let view = &shot.middle;
         let still = self.still.as_ref().expect("stands");
         let crossings = self.crossings();
         let skin_light = self.skin_light(&crossings, view);
         let skin_visible = self.picture.head.visible;
         let size = view.size.map(|s| s as usize);
-        let layers = vec![HairLayer::default(); if LAYERS { size[0] * size[1] } else { 0 }];
+        let layers = vec![Layer::default(); if LAYERS { size[0] * size[1] } else { 0 }];
         let mut frame = self.empty(view, layers);
         let backdrop = Backdrop::new(&self.picture, size[1]);
         let rows = rows_of_tiles(&mut frame);
-        let work = || (CoverageTile::new(), Row::default());
+        let recession = if self.curves.velocities.is_empty() {
+            0.0
+        } else {
+            self.nodes.par_iter().map(|n| n.recession.abs()).reduce(|| 0.0, f32::max)
+        };
+        let work = || (CoverageTile::new(recession), Row::default());
         rows.into_par_iter().enumerate().for_each_init(work, |(work, hair), (row, mut out)| {
             self.bins.row(row, &self.nodes, true, hair);
             for column in 0..self.bins.tiles[0] {
@@ -36,7 +45,9 @@ impl Renderer {
                 let mut watch = LayerWatch {
                     curves: &self.curves,
                     nodes: &self.nodes,
-                    layers: vec![HairLayer::default(); if LAYERS { TILE * TILE } else { 0 }],
+                    skin: pixels,
+                    shot,
+                    layers: vec![Layer::default(); if LAYERS { TILE * TILE } else { 0 }],
                 };
                 if LAYERS {
                     work.draw([column, row], pieces, skin, &mut watch);
@@ -87,7 +98,7 @@ impl Renderer {
         frame
     }
 
-    fn empty(&self, view: &View, layers: Vec<HairLayer>) -> Frame {
+    fn empty(&self, view: &View, layers: Vec<Layer>) -> Frame {
         let pixels = view.size[0] as usize * view.size[1] as usize;
         Frame { size: view.size, rgba: vec![[0.0; 4]; pixels], depth: vec![NO_DEPTH; pixels], layers }
     }
@@ -97,7 +108,7 @@ impl Renderer {
 struct TileRow<'a> {
     rgba: &'a mut [[f32; 4]],
     depth: &'a mut [f32],
-    layers: &'a mut [HairLayer],
+    layers: &'a mut [Layer],
 }
 
 fn rows_of_tiles(frame: &mut Frame) -> Vec<TileRow<'_>> {
@@ -117,7 +128,7 @@ impl TileRow<'_> {
         &mut self,
         column: usize,
         width: usize,
-        mut value: impl FnMut(usize, usize) -> ([f32; 4], f32, Option<HairLayer>),
+        mut value: impl FnMut(usize, usize) -> ([f32; 4], f32, Option<Layer>),
     ) {
         for y in 0..self.rgba.len() / width {
             for x in 0..TILE.min(width - column * TILE) {
@@ -137,7 +148,9 @@ impl TileRow<'_> {
 struct LayerWatch<'a> {
     curves: &'a Curves,
     nodes: &'a [Node],
-    layers: Vec<HairLayer>,
+    skin: &'a [SkinPixel],
+    shot: &'a Shot,
+    layers: Vec<Layer>,
 }
 
 impl Watch for LayerWatch<'_> {
@@ -153,6 +166,16 @@ impl Watch for LayerWatch<'_> {
             let (a, b) = (self.nodes[i].motion[c], self.nodes[i + 1].motion[c]);
             layer.motion[c] += share * (a + (b - a) * along);
         }
-        layer.share += share;
+        layer.hair += share;
+    }
+
+    #[inline(always)]
+    fn skin(&mut self, pixel: usize, share: f32, piece: usize) {
+        let motion = self.shot.motion(self.skin[piece].position, Vec3::ZERO);
+        let layer = &mut self.layers[pixel];
+        for c in 0..2 {
+            layer.motion[c] += share * motion[c];
+        }
+        layer.head += share;
     }
 }

@@ -22,8 +22,8 @@ pub enum Projection {
 pub struct Camera {
     /// `"perspective"` (default) or `"orthographic"`.
     pub projection: Projection,
-    /// Direction of the camera about the vertical (degrees): 0 before the face, 90 at the character's right hand,
-    /// 180 behind. Default 40.
+    /// Direction of the camera about the world's vertical (degrees): of a head that has not turned 0 is before the face, 90 at
+    /// the character's right hand, 180 behind. Default 40.
     pub azimuth: f32,
     /// Direction of the camera above the horizon (degrees, -89..89). Default 5.
     pub elevation: f32,
@@ -33,7 +33,8 @@ pub struct Camera {
     pub distance: Option<f32>,
     /// Height of the picture in space (cm), for orthographic views. Default: enough to frame everything.
     pub height: Option<f32>,
-    /// The point looked at (head space, cm). Default: the middle of what is framed.
+    /// The point looked at (cm), from the head's origin along the world's axes: the camera goes along with the head and does
+    /// not turn with it. Default: the middle of what is framed.
     pub target: Option<Vec3>,
     /// Empty border around what is framed, as part of the picture's shorter side, 0..0.45. Default 0.06.
     pub margin: f32,

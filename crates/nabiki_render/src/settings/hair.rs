@@ -21,17 +21,17 @@ pub enum Shading {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case")]
 pub enum HairColour {
-    /// `color = "black"`
+    /// `colour = "black"`
     Black,
-    /// `color = "brown"`, the default.
+    /// `colour = "brown"`, the default.
     Brown,
-    /// `color = "blond"`
+    /// `colour = "blond"`
     Blond,
-    /// `color = "red"`
+    /// `colour = "red"`
     Red,
-    /// `color = "grey"`
+    /// `colour = "grey"`
     Grey,
-    /// `color = { melanin = { eumelanin = 1.3, pheomelanin = 0.2 } }`: concentrations as in d'Eon et al. (2011), relative
+    /// `colour = { melanin = { eumelanin = 1.3, pheomelanin = 0.2 } }`: concentrations as in d'Eon et al. (2011), relative
     /// to the fibre's radius. Eumelanin 8 is black, 1 brown, 0.1 blond; pheomelanin reddens.
     Melanin {
         /// Brown-black pigment, 0..100.
@@ -40,7 +40,7 @@ pub enum HairColour {
         #[serde(default)]
         pheomelanin: f32,
     },
-    /// `color = { rgb = [0.3, 0.1, 0.05] }`: the colour in sRGB (0..1) that a thick mass shows in even light.
+    /// `colour = { rgb = [0.3, 0.1, 0.05] }`: the colour in sRGB (0..1) that a thick mass shows in even light.
     Rgb([f32; 3]),
 }
 
@@ -71,7 +71,7 @@ pub struct HairLook {
     /// Part of the length over which the hair thins to its tip, 0..1. Default 0.4.
     pub taper: f32,
     /// A name (`"black"`, `"brown"`, `"blond"`, `"red"`, `"grey"`), `{ melanin = .. }` or `{ rgb = .. }`.
-    pub color: HairColour,
+    pub colour: HairColour,
     /// How much hairs differ in pigment and tilt of their scales, 0..1. Default 0.25.
     pub variation: f32,
     /// `"fibre"` (default) or `"kajiya-kay"`.
@@ -95,7 +95,7 @@ impl Default for HairLook {
             width: 0.014,
             tip: 0.3,
             taper: 0.4,
-            color: HairColour::Brown,
+            colour: HairColour::Brown,
             variation: 0.25,
             shading: Shading::Fibre,
             roughness: 5.0,
@@ -117,12 +117,12 @@ impl HairLook {
         check_range("picture.hair.azimuthal_roughness", self.azimuthal_roughness, 0.05, 1.0)?;
         check_range("picture.hair.scale_tilt", self.scale_tilt, -10.0, 10.0)?;
         check_range("picture.hair.refraction", self.refraction, 1.1, 2.5)?;
-        match self.color {
+        match self.colour {
             HairColour::Melanin { eumelanin, pheomelanin } => {
-                check_range("picture.hair.color.melanin.eumelanin", eumelanin, 0.0, 100.0)?;
-                check_range("picture.hair.color.melanin.pheomelanin", pheomelanin, 0.0, 100.0)
+                check_range("picture.hair.colour.melanin.eumelanin", eumelanin, 0.0, 100.0)?;
+                check_range("picture.hair.colour.melanin.pheomelanin", pheomelanin, 0.0, 100.0)
             }
-            HairColour::Rgb(rgb) => check_colour("picture.hair.color.rgb", rgb, 1.0),
+            HairColour::Rgb(rgb) => check_colour("picture.hair.colour.rgb", rgb, 1.0),
             _ => Ok(()),
         }
     }

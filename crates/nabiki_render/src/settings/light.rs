@@ -10,10 +10,24 @@ use super::check_colour;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LightSpace {
-    /// The camera: azimuth 0 comes from where the camera stands, and a moving camera carries its lamps with it.
+    /// The camera: azimuth 0 comes from where the camera stands, and a moving camera carries its lamps with it. They stay
+    /// in the world when the head turns.
     #[default]
     Camera,
-    /// The head: azimuth 0 comes from before the face.
+    /// The world: azimuth 0 is the world's +x, before the face of a head that has not turned.
+    World,
+    /// The head: azimuth 0 comes from before the face, and the lamps turn with the head.
+    Head,
+}
+
+/// What the sky is fixed to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SkySpace {
+    /// The world: it stays above when the head turns.
+    #[default]
+    World,
+    /// The head: it turns with the head.
     Head,
 }
 
@@ -28,16 +42,16 @@ pub struct Light {
     /// Its strength: a white surface facing it is as bright as this. 0..1000, default 1.
     pub strength: f32,
     /// Its colour (linear red, green, blue; 0..1). Default white.
-    pub color: [f32; 3],
+    pub colour: [f32; 3],
     /// How far the lamp spreads as seen from the hair (degrees, 0..45): wide lamps throw soft shadows. Default 4.
     pub spread: f32,
-    /// `"camera"` (default) or `"head"`.
+    /// `"camera"` (default), `"world"` or `"head"`.
     pub space: LightSpace,
 }
 
 impl Default for Light {
     fn default() -> Self {
-        Self { azimuth: 0.0, elevation: 40.0, strength: 1.0, color: [1.0; 3], spread: 4.0, space: LightSpace::Camera }
+        Self { azimuth: 0.0, elevation: 40.0, strength: 1.0, colour: [1.0; 3], spread: 4.0, space: LightSpace::Camera }
     }
 }
 
@@ -45,16 +59,16 @@ impl Light {
     /// A portrait photographer's three lamps: a warm key from above, a cool fill, a rim from behind.
     pub fn studio() -> Vec<Self> {
         vec![
-            Self { azimuth: 30.0, elevation: 42.0, strength: 2.9, color: [1.0, 0.97, 0.93], ..Self::default() },
+            Self { azimuth: 30.0, elevation: 42.0, strength: 2.9, colour: [1.0, 0.97, 0.93], ..Self::default() },
             Self {
                 azimuth: -50.0,
                 elevation: 15.0,
                 strength: 0.6,
-                color: [0.94, 0.97, 1.0],
+                colour: [0.94, 0.97, 1.0],
                 spread: 20.0,
                 ..Self::default()
             },
-            Self { azimuth: -155.0, elevation: 38.0, strength: 0.9, color: [1.0, 0.97, 0.94], ..Self::default() },
+            Self { azimuth: -155.0, elevation: 38.0, strength: 0.9, colour: [1.0, 0.97, 0.94], ..Self::default() },
         ]
     }
 
@@ -63,7 +77,7 @@ impl Light {
         check_range(&format!("{table}.elevation"), self.elevation, -90.0, 90.0)?;
         check_range(&format!("{table}.strength"), self.strength, 0.0, 1000.0)?;
         check_range(&format!("{table}.spread"), self.spread, 0.0, 45.0)?;
-        check_colour(&format!("{table}.color"), self.color, 1.0)
+        check_colour(&format!("{table}.colour"), self.colour, 1.0)
     }
 }
 
@@ -79,11 +93,19 @@ pub struct Sky {
     pub below: [f32; 3],
     /// Whether hair and head hide the sky from what lies within. Default true.
     pub occlusion: bool,
+    /// `"world"` (default) or `"head"`.
+    pub space: SkySpace,
 }
 
 impl Default for Sky {
     fn default() -> Self {
-        Self { strength: 0.32, above: [0.93, 0.97, 1.0], below: [0.55, 0.5, 0.47], occlusion: true }
+        Self {
+            strength: 0.32,
+            above: [0.93, 0.97, 1.0],
+            below: [0.55, 0.5, 0.47],
+            occlusion: true,
+            space: SkySpace::World,
+        }
     }
 }
 

@@ -7,8 +7,8 @@ mod surroundings;
 
 pub use camera::{Camera, CameraKey, Projection};
 pub use hair::{HairColour, HairLook, Shading};
-pub use light::{Light, LightSpace, Sky};
-pub use surroundings::{Background, HeadLook, Tone, Video};
+pub use light::{Light, LightSpace, Sky, SkySpace};
+pub use surroundings::{Background, HeadLook, ToneCurve, Video};
 
 use nabiki::SettingError;
 use nabiki::error::check_range;
@@ -54,8 +54,8 @@ pub struct Picture {
     pub background: Background,
     /// Brightness in photographic stops: each is a factor of 2. Default 0.
     pub exposure: f32,
-    /// How linear light becomes display values in 8 and 16 bit pictures and in video. Default `"filmic"`.
-    pub tone: Tone,
+    /// How scene light becomes display light in 8 and 16 bit pictures and in video. Default `"filmic"`.
+    pub tone_mapping: ToneCurve,
     /// Part of the frame interval during which the shutter is open, 0..1: 0 (default) is a sharp picture, 0.5 a
     /// film camera's 180 degrees.
     pub shutter: f32,
@@ -77,7 +77,7 @@ impl Default for Picture {
             head: HeadLook::default(),
             background: Background::default(),
             exposure: 0.0,
-            tone: Tone::default(),
+            tone_mapping: ToneCurve::default(),
             shutter: 0.0,
             video: Video::default(),
         }

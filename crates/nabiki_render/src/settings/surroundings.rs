@@ -1,4 +1,4 @@
-//! Settings of what surrounds the hair: head, background, tone and movie.
+//! Settings of what surrounds the hair: head, background, tone mapping and movie.
 
 use nabiki::SettingError;
 use nabiki::error::check_range;
@@ -13,7 +13,7 @@ pub struct HeadLook {
     /// Whether the head is drawn; it hides hair behind it and throws shadows all the same. Default true.
     pub visible: bool,
     /// Its colour (sRGB, 0..1). Default a neutral skin, dull enough to leave the eye to the hair.
-    pub color: [f32; 3],
+    pub colour: [f32; 3],
     /// How far light creeps past the terminator, as in skin, 0..1. Default 0.35.
     pub softness: f32,
     /// Strength of its sheen, 0..1. Default 0.25.
@@ -25,13 +25,13 @@ pub struct HeadLook {
 
 impl Default for HeadLook {
     fn default() -> Self {
-        Self { visible: true, color: [0.56, 0.44, 0.37], softness: 0.35, sheen: 0.25, stubble: 2.0 }
+        Self { visible: true, colour: [0.56, 0.44, 0.37], softness: 0.35, sheen: 0.25, stubble: 2.0 }
     }
 }
 
 impl HeadLook {
     pub(crate) fn check(&self) -> Result<(), SettingError> {
-        check_colour("picture.head.color", self.color, 1.0)?;
+        check_colour("picture.head.colour", self.colour, 1.0)?;
         check_range("picture.head.softness", self.softness, 0.0, 1.0)?;
         check_range("picture.head.sheen", self.sheen, 0.0, 1.0)?;
         check_range("picture.head.stubble", self.stubble, 0.0, 100.0)
@@ -63,10 +63,10 @@ impl Background {
     }
 }
 
-/// How linear light becomes display values.
+/// The curve of the tone mapping: how scene light becomes display light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Tone {
+pub enum ToneCurve {
     /// Clipped at white.
     Linear,
     /// Straight up to half of white, then a shoulder that rolls highlights off softly.
@@ -74,7 +74,7 @@ pub enum Tone {
     Filmic,
 }
 
-/// `[picture.video]`.
+/// `[picture.video]`; how many frames a second are shown is the motion's to say (`motion.frame_rate`).
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Video {

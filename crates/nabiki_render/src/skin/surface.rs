@@ -1,0 +1,285 @@
+//! The head's surface in pixels: which of their cells it covers, and how deep.
+//!
+//! While the shutter is open each cell of a pixel sees the head at a moment of its own. Neighbouring pixels share the
+//! moments, so an edge that moves fades over its way in as many steps as a pixel has cells. What lies between edges is told
+//! apart at as many moments as it moves pixels.
+
+use glam::Vec3;
+use nabiki::Mesh;
+use rayon::prelude::*;
+
+use crate::camera::{NEAR, View};
+use crate::raster::{CELLS, SIDE, TILE, cell_offset};
+use crate::settings::Projection;
+use crate::shutter::Shot;
+
+/// Pieces of surface farther apart than this (cm) in one pixel are kept apart.
+const APART: f32 = 0.4;
+/// How far surface may move on the picture (pixels) between the moments that one pixel tells apart.
+const STEP: f32 = 1.5;
+
+/// One piece of the head's surface in one pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkinPixel {
+    /// Pixel within its tile, row after row.
+    pub pixel: u16,
+    /// Which of the pixel's cells it covers, a bit each.
+    pub mask: u16,
+    /// Depth at the pixel's centre (cm), and its growth by a pixel right and down.
+    pub depth: f32,
+    pub slope: [f32; 2],
+    /// A place on it (head space, cm) and the unit normal there, on the eye's side.
+    pub position: Vec3,
+    pub normal: Vec3,
+}
+
+/// The head as one view sees it, tile by tile.
+#[derive(Default)]
+pub struct SkinView {
+    pub pixels: Vec<SkinPixel>,
+    starts: Vec<u32>,
+    /// Depth behind which nothing shows in a tile: that of the skin where it covers all of it, else infinite.
+    pub hidden_beyond: Vec<f32>,
+}
+
+struct Corner {
+    at: [f32; 2],
+    depth: f32,
+}
+
+/// The head at one moment, and the cells that see it then, a bit each.
+struct Seen {
+    view: View,
+    cells: u16,
+    corners: Vec<Corner>,
+    /// The triangles within each tile.
+    lists: Vec<Vec<u32>>,
+}
+
+impl Seen {
+    fn new(head: &Mesh, view: View, cells: u16) -> Self {
+        let tiles = view.size.map(|s| (s as usize).div_ceil(TILE));
+        let corners: Vec<Corner> = head
+            .positions
+            .par_iter()
+            .map(|&p| {
+                let p = view.project(p);
+                Corner { at: [p.x, p.y], depth: p.z }
+            })
+            .collect();
+        let mut lists = vec![Vec::new(); tiles[0] * tiles[1]];
+        for (t, triangle) in head.triangles.iter().enumerate() {
+            let c = triangle.map(|v| &corners[v as usize]);
+            if c.iter().any(|c| c.depth < NEAR) {
+                continue;
+            }
+            let span = |i: usize| {
+                let low = c.iter().fold(f32::INFINITY, |m, c| m.min(c.at[i])) / TILE as f32;
+                let high = c.iter().fold(f32::NEG_INFINITY, |m, c| m.max(c.at[i])) / TILE as f32;
+                low.max(0.0) as usize..((high.max(-1.0) + 1.0) as usize).min(tiles[i])
+            };
+            for y in span(1) {
+                for x in span(0) {
+                    lists[y * tiles[0] + x].push(t as u32);
+                }
+            }
+        }
+        Self { view, cells, corners, lists }
+    }
+
+    /// The head while the shutter is open: once for all cells, or at as many moments as there are cells.
+    fn all(head: &Mesh, shot: &Shot) -> Vec<Self> {
+        match &shot.between {
+            None => vec![Self::new(head, shot.middle, u16::MAX)],
+            Some(views) => (0..CELLS)
+                .into_par_iter()
+                .map(|moment| {
+                    let cells = (0..CELLS).filter(|&cell| moment_of(cell) == moment).fold(0, |m, cell| m | 1 << cell);
+                    Self::new(head, views[moment], cells)
+                })
+                .collect(),
+        }
+    }
+}
+
+/// At which of the moments a cell looks: a Graeco-Latin square, so that each row, each column and each fourth of the time has cells
+/// spread over all of the pixel.
+fn moment_of(cell: usize) -> usize {
+    const TWICE: [usize; SIDE] = [0, 2, 3, 1];
+    let (x, y) = (cell % SIDE, cell / SIDE);
+    SIDE * (x ^ y) + (TWICE[x] ^ y)
+}
+
+impl SkinView {
+    /// Draws the head (with unit normals at its vertices).
+    pub fn new(head: &Mesh, normals: &[Vec3], shot: &Shot) -> Self {
+        let tiles = shot.middle.size.map(|s| (s as usize).div_ceil(TILE));
+        let seen = Seen::all(head, shot);
+        let drawn: Vec<(Vec<SkinPixel>, f32)> = (0..tiles[0] * tiles[1])
+            .into_par_iter()
+            .map(|tile| {
+                if seen.iter().all(|seen| seen.lists[tile].is_empty()) {
+                    return (Vec::new(), f32::INFINITY);
+                }
+                let groups = groups(movement(head, &seen, tile));
+                TileSurface::draw([tile % tiles[0], tile / tiles[0]], tile, head, &seen)
+                    .resolve(head, normals, &seen, &groups)
+            })
+            .collect();
+        let mut all = Self::default();
+        for (pixels, hidden_beyond) in drawn {
+            all.starts.push(all.pixels.len() as u32);
+            all.pixels.extend(pixels);
+            all.hidden_beyond.push(hidden_beyond);
+        }
+        all.starts.push(all.pixels.len() as u32);
+        all
+    }
+
+    /// Where the pieces of a tile lie in `pixels`.
+    pub fn tile(&self, tile: usize) -> std::ops::Range<usize> {
+        self.starts[tile] as usize..self.starts[tile + 1] as usize
+    }
+}
+
+/// The farthest that the surface in a tile moves between the first moment and the last (pixels).
+fn movement(head: &Mesh, seen: &[Seen], tile: usize) -> f32 {
+    let [first, .., last] = seen else { return 0.0 };
+    let of_corner = |v: u32| {
+        let (a, b) = (&first.corners[v as usize], &last.corners[v as usize]);
+        (b.at[0] - a.at[0]).hypot(b.at[1] - a.at[1])
+    };
+    let triangles = [first, &seen[seen.len() / 2], last].into_iter().flat_map(|seen| &seen.lists[tile]);
+    triangles.flat_map(|&t| head.triangles[t as usize].map(of_corner)).fold(0.0, f32::max)
+}
+
+/// The cells that share a piece of surface, a bit each, where it moves so far (pixels).
+fn groups(movement: f32) -> Vec<u16> {
+    let count = ((movement / STEP).ceil().clamp(1.0, CELLS as f32) as usize).next_power_of_two();
+    let mut groups = vec![0; count];
+    for cell in 0..CELLS {
+        groups[moment_of(cell) * count / CELLS] |= 1 << cell;
+    }
+    groups
+}
+
+/// The nearest triangle in each cell of a tile.
+struct TileSurface {
+    tile: [usize; 2],
+    depth: Vec<[f32; CELLS]>,
+    triangle: Vec<[u32; CELLS]>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl TileSurface {
+    fn draw(tile: [usize; 2], number: usize, head: &Mesh, seen: &[Seen]) -> Self {
+        let mut surface =
+            Self { tile, depth: vec![[f32::INFINITY; CELLS]; TILE * TILE], triangle: vec![[NONE; CELLS]; TILE * TILE] };
+        for seen in seen {
+            for &t in &seen.lists[number] {
+                surface.triangle(t, head, seen);
+            }
+        }
+        surface
+    }
+
+    /// Draws a triangle in the cells that see it at this moment.
+    fn triangle(&mut self, t: u32, head: &Mesh, seen: &Seen) {
+        let c = head.triangles[t as usize].map(|v| &seen.corners[v as usize]);
+        let span = |i: usize| {
+            let first = (self.tile[i] * TILE) as f32;
+            let low = c.iter().fold(f32::INFINITY, |m, c| m.min(c.at[i])) - first;
+            let high = c.iter().fold(f32::NEG_INFINITY, |m, c| m.max(c.at[i])) - first;
+            low.max(0.0) as usize..((high.max(-1.0) + 1.0) as usize).min(TILE)
+        };
+        for y in span(1) {
+            for x in span(0) {
+                for s in (0..CELLS).filter(|s| seen.cells >> s & 1 == 1) {
+                    let pixel = y * TILE + x;
+                    let Some((_, depth)) = weights(c, self.place(pixel, s), &seen.view) else { continue };
+                    if depth < self.depth[pixel][s] {
+                        self.depth[pixel][s] = depth;
+                        self.triangle[pixel][s] = t;
+                    }
+                }
+            }
+        }
+    }
+
+    fn place(&self, pixel: usize, cell: usize) -> [f32; 2] {
+        let offset = cell_offset(cell);
+        let corner = [self.tile[0] * TILE + pixel % TILE, self.tile[1] * TILE + pixel / TILE];
+        [corner[0] as f32 + offset[0], corner[1] as f32 + offset[1]]
+    }
+
+    /// Gathers each group of a pixel's cells into one piece of surface, or two where an edge passes before something behind.
+    fn resolve(self, head: &Mesh, normals: &[Vec3], seen: &[Seen], groups: &[u16]) -> (Vec<SkinPixel>, f32) {
+        let mut pixels = Vec::new();
+        let mut hidden_beyond = 0.0_f32;
+        for pixel in 0..TILE * TILE {
+            let (depth, triangle) = (&self.depth[pixel], &self.triangle[pixel]);
+            hidden_beyond = depth.iter().copied().fold(hidden_beyond, f32::max);
+            for group in groups {
+                let cells = || (0..CELLS).filter(|s| group >> s & 1 == 1 && triangle[*s] != NONE);
+                let nearest = cells().map(|s| depth[s]).fold(f32::INFINITY, f32::min);
+                let pick =
+                    |test: &dyn Fn(f32) -> bool| cells().filter(|&s| test(depth[s])).fold(0_u16, |m, s| m | 1 << s);
+                let masks = [pick(&|d| d < nearest + APART), pick(&|d| d >= nearest + APART)];
+                pixels.extend(masks.into_iter().filter_map(|mask| self.piece(pixel, mask, head, normals, seen)));
+            }
+        }
+        (pixels, hidden_beyond)
+    }
+
+    /// The surface in some cells of a pixel, as it is in the middle of them; none in no cells.
+    fn piece(&self, pixel: usize, mask: u16, head: &Mesh, normals: &[Vec3], seen: &[Seen]) -> Option<SkinPixel> {
+        let cells = || (0..CELLS).filter(|s| mask >> s & 1 == 1);
+        let count = cells().count() as f32;
+        let middle = [0, 1].map(|i| cells().map(|s| cell_offset(s)[i]).sum::<f32>() / count);
+        let off = |s: usize| (cell_offset(s)[0] - middle[0]).hypot(cell_offset(s)[1] - middle[1]);
+        let cell = cells().min_by(|&a, &b| off(a).total_cmp(&off(b)))?;
+        let Seen { view, corners, .. } = &seen[moment_of(cell) * seen.len() / CELLS];
+        let t = head.triangles[self.triangle[pixel][cell] as usize];
+        let c = t.map(|v| &corners[v as usize]);
+        let place = self.place(pixel, cell);
+        let (w, here) = weights(c, place, view)?;
+        let blend = |of: &[Vec3]| w[0] * of[t[0] as usize] + w[1] * of[t[1] as usize] + w[2] * of[t[2] as usize];
+        let position = blend(&head.positions);
+        let normal = blend(normals).normalize_or(Vec3::Y);
+        // Interpolated normals lean a little away from the eye at outlines; farther, it is the inside of an open mesh.
+        let normal = if normal.dot(view.toward_eye(position)) < -0.2 { -normal } else { normal };
+        let slope = slope(c);
+        let centre = [0, 1].map(|i| (self.tile[i] * TILE) as f32 + 0.5);
+        let centre = [centre[0] + (pixel % TILE) as f32, centre[1] + (pixel / TILE) as f32];
+        let depth = here + slope[0] * (centre[0] - place[0]) + slope[1] * (centre[1] - place[1]);
+        Some(SkinPixel { pixel: pixel as u16, mask, depth, slope, position, normal })
+    }
+}
+
+/// Weights of a triangle's corners at a place of the picture and the depth there, if it is inside.
+fn weights(c: [&Corner; 3], p: [f32; 2], view: &View) -> Option<([f32; 3], f32)> {
+    let cross = |a: &Corner, b: &Corner, p: [f32; 2]| {
+        (b.at[0] - a.at[0]) * (p[1] - a.at[1]) - (b.at[1] - a.at[1]) * (p[0] - a.at[0])
+    };
+    let area = cross(c[0], c[1], c[2].at);
+    let mut w = [cross(c[1], c[2], p) / area, cross(c[2], c[0], p) / area, cross(c[0], c[1], p) / area];
+    if !w.iter().all(|w| *w >= 0.0) {
+        return None;
+    }
+    if view.projection == Projection::Perspective {
+        let over = [0, 1, 2].map(|i| w[i] / c[i].depth);
+        let sum: f32 = over.iter().sum();
+        w = over.map(|o| o / sum);
+    }
+    Some((w, w[0] * c[0].depth + w[1] * c[1].depth + w[2] * c[2].depth))
+}
+
+/// Growth of a triangle's depth by a pixel right and down; at most so steep that a pixel spans `APART`.
+fn slope([a, b, c]: [&Corner; 3]) -> [f32; 2] {
+    let (u, v) = ([b.at[0] - a.at[0], b.at[1] - a.at[1]], [c.at[0] - a.at[0], c.at[1] - a.at[1]]);
+    let (du, dv) = (b.depth - a.depth, c.depth - a.depth);
+    let area = u[0] * v[1] - u[1] * v[0];
+    [(du * v[1] - dv * u[1]) / area, (dv * u[0] - du * v[0]) / area]
+        .map(|s| if s.is_finite() { s.clamp(-APART, APART) } else { 0.0 })
+}
