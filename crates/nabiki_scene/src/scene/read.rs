@@ -73,8 +73,11 @@ impl Refusal {
 }
 
 /// What settings were called in earlier versions, and what they are called now.
-const RENAMED: [(&str, &str); 2] =
-    [("hair.style.locks", "hair.style.clumps"), ("picture.video.fps", "motion.frame_rate")];
+const RENAMED: [(&str, &str); 3] = [
+    ("hair.style.locks", "hair.style.clumps"),
+    ("motion.friction_length", "motion.inertia_length_floor"),
+    ("picture.video.fps", "motion.frame_rate"),
+];
 
 fn join<'a>(steps: impl Iterator<Item = &'a String>) -> String {
     let mut path = String::new();
