@@ -32,7 +32,7 @@ pub fn template(scene: &Path, head: Option<&Path>, groups: &[String], hair: Opti
     let (of_head, head_text) = match head {
         None => (
             None,
-            "[head]\nmesh = \"builtin:bust\"   # or a .obj, .glb, .ply, USD layer or Alembic archive\n".to_owned(),
+            "[head]\nmesh = \"builtin:bust\"      # or a .obj, .glb, .ply, USD layer or Alembic archive\n".to_owned(),
         ),
         Some(file) => {
             let found = look_at_head(file, groups, roots.as_deref())?;
@@ -86,11 +86,11 @@ coefficients = [0.005, 0.005, 0.01, 0.01, 0.03, 0.03, 0.05, 0.05, 0.1, 0.1, 0.15
 # Where the hair shall go: a direction with a strength, up to a frame. Four times the force halves the time of a swing.
 [[force]]
 through = 50
-vector = [-60, 0, 0]       # backward
+vector = [-40, 0, 0]       # backward
 
 [[force]]
 through = 100
-vector = [-10, -80, 0]     # and down
+vector = [-5, -50, 0]      # and down
 
 # The camera frames all that moves; distance (cm) and target fix it.
 [picture]
@@ -118,7 +118,7 @@ impl Looked {
         }
         if self.declared.unit.is_none() {
             text += &format!(
-                "unit = {:<18} # of the file, guessed: mm, cm, dm, m, in, ft or centimetres\n",
+                "unit = {:<20} # of the file, guessed: mm, cm, dm, m, in, ft or centimetres\n",
                 self.unit_text
             );
         }
@@ -131,7 +131,7 @@ impl Looked {
             Some(Ellipsoid { center, half_axes }) => {
                 let origin = self.placement.file_from_head().transform_point3(center);
                 text += &format!("origin = {}\n", vector(origin));
-                text += "# No skull was found to fit it to: it is drawn about the mesh.\n";
+                text += "# No skull was found to fit it to: it is drawn about what there is.\n";
                 text += &format!("ellipsoid = {{ center = [0.0, 0.0, 0.0], half_axes = {} }}\n", vector(half_axes));
             }
         }
@@ -166,7 +166,7 @@ fn look_at_head(file: &Path, groups: &[String], roots: Option<&[Vec3]>) -> Resul
     let placed = Placement { facing, ..as_is };
     let (ellipsoid, boxed) = match fit(facing) {
         Ok((ellipsoid, _)) => (ellipsoid, false),
-        Err(_) => (about(&mesh, &placed), true),
+        Err(_) => (about(roots.unwrap_or(&mesh.positions), &placed), true),
     };
     let (cm, unit_text) = match declared.unit {
         Some(unit) => (unit.cm, String::new()),
@@ -185,7 +185,8 @@ fn look_at_head(file: &Path, groups: &[String], roots: Option<&[Vec3]>) -> Resul
     let (in_head, _) = mesh::place_and_weld(mesh.clone(), &placement).map_err(|e| e.in_file(file))?;
     let head = Head::from_mesh(in_head, Some(centred)).map_err(|e| Error::from(e).in_file(file))?;
     if boxed {
-        guesses.push("head.ellipsoid, about the whole mesh, on which no skull was found".to_owned());
+        let what = if roots.is_some() { "the roots" } else { "the whole mesh" };
+        guesses.push(format!("head.ellipsoid, about {what}: no skull was found"));
     }
     Ok(Looked { head, placement, declared, unit_text, boxed: boxed.then_some(centred), guesses })
 }
@@ -223,10 +224,10 @@ fn facing_of(roots: &[Vec3], mesh: &Mesh, placement: &Placement) -> Option<Axis>
     best.max_by(|a, b| away(*a).total_cmp(&away(*b))).filter(|_| clear)
 }
 
-/// An ellipsoid about a mesh without a skull (placed, in its own unit).
-fn about(mesh: &Mesh, placement: &Placement) -> Ellipsoid {
+/// An ellipsoid in the box of points, where there is no skull (placed, in the file's unit).
+fn about(points: &[Vec3], placement: &Placement) -> Ellipsoid {
     let turn = placement.head_from_file();
-    let placed: Vec<Vec3> = mesh.positions.iter().map(|&p| turn.transform_point3(p)).collect();
+    let placed: Vec<Vec3> = points.iter().map(|&p| turn.transform_point3(p)).collect();
     let (low, high) = bounds(&placed);
     let half_axes = 0.5 * (high - low);
     Ellipsoid { center: 0.5 * (low + high), half_axes: half_axes.max(Vec3::splat(half_axes.max_element() / 3.0)) }
@@ -278,7 +279,7 @@ fn imported_hair(
         let cm = centimetres(&unit);
         placement.origin *= placement.unit.cm / cm;
         placement.unit = Unit { cm };
-        text += &format!("unit = {unit:<18} # guessed\n");
+        text += &format!("unit = {unit:<20} # guessed\n");
         guesses.push(format!("hair.unit = {unit}, by how far the roots spread"));
     }
     if !grows(&placement) {

@@ -106,7 +106,7 @@ fn an_unknown_key_is_refused_with_the_nearest_known_one() {
 #[test]
 fn a_key_that_was_renamed_is_told_its_new_name() {
     let video = refused("[motion]", "[picture.video]\nfps = 12\n[motion]");
-    assert_eq!(video, "scenes/gust.toml:5: picture.video.fps: is now called motion.frame_rate");
+    assert_eq!(video, "scenes/gust.toml:5: picture.video.fps: is now called motion.frame_rate: rename it");
 }
 
 #[test]

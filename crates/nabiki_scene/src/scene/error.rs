@@ -77,7 +77,7 @@ impl SceneError {
             Problem::Range { remedy, .. } => remedy.clone(),
             Problem::UnknownKey { near: Some(near), .. } => format!("did you mean {near}?"),
             Problem::UnknownKey { known, .. } => format!("the keys here are {}", known.join(", ")),
-            Problem::Renamed { now } => format!("is now called {now}"),
+            Problem::Renamed { now } => format!("is now called {now}: rename it"),
             Problem::Missing => {
                 let name = self.key.rsplit('.').next().unwrap_or_default();
                 format!("write {name} = ...")

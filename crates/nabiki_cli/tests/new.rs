@@ -1,0 +1,46 @@
+//! `nabiki new`, as a user calls it.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn nabiki(folder: &Path, args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_nabiki")).current_dir(folder).args(args).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+#[test]
+fn a_new_scene_is_written_once_and_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let first = nabiki(folder.path(), &["new", "mine.toml"]);
+    assert!(first.status.success(), "{}", text(&first.stderr));
+    assert_eq!(text(&first.stdout), "  wrote   mine.toml\n");
+    let again = nabiki(folder.path(), &["new", "mine.toml"]);
+    assert_eq!(again.status.code(), Some(1));
+    assert_eq!(
+        text(&again.stderr),
+        "nabiki: mine.toml: is there already; choose another name, or replace it with --force\n"
+    );
+    std::fs::write(&path, "mine").unwrap();
+    assert!(nabiki(folder.path(), &["new", "mine.toml", "--force"]).status.success());
+    let scene = std::fs::read_to_string(&path).unwrap();
+    assert!(scene.contains("[[force]]"), "{scene}");
+    let run = nabiki(folder.path(), &["simulate", "mine.toml", "--strands", "40", "--frames", "2", "-o", "m.nabiki"]);
+    assert!(run.status.success(), "{}", text(&run.stderr));
+}
+
+#[test]
+fn a_file_that_is_no_head_leaves_no_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("head.obj"), "v 0 0 0\n").unwrap();
+    for args in [&["new", "a.toml", "--head", "head.obj"][..], &["new", "a.toml", "--hair", "none.tfx"]] {
+        let refused = nabiki(folder.path(), args);
+        assert_eq!(refused.status.code(), Some(1));
+        let line = text(&refused.stderr);
+        assert!(line.lines().count() == 1 && line.contains(args[3]), "{line}");
+        assert!(!folder.path().join("a.toml").exists());
+    }
+}
