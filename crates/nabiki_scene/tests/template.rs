@@ -9,24 +9,24 @@ use nabiki_io::motion::Axis;
 use nabiki_io::placement::{Placement, Unit};
 use nabiki_scene::advice::{Advice, advice};
 use nabiki_scene::template::template;
-use nabiki_scene::{Scene, Stage};
+use nabiki_scene::{BuiltScene, Scene, Shown};
 
 const FORCE: &str = "[[force]]\nthrough = 1\nvector = [0, -1, 0]\n";
 
-fn built(text: &str, path: &Path) -> Stage {
+fn built(text: &str, path: &Path) -> BuiltScene {
     let few = [("hair.strands".to_owned(), "60".to_owned())];
     Scene::parse(text, path, &few)
         .unwrap_or_else(|e| panic!("{e}\n{text}"))
-        .build()
+        .build(Shown::All)
         .unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
-fn advised(stage: &Stage) -> Vec<Advice> {
+fn advised(stage: &BuiltScene) -> Vec<Advice> {
     advice(&stage.scene, &stage.head, &stage.placement, &stage.hair.strands, stage.hair_placement.as_ref())
 }
 
 /// The built-in head and some hair of it.
-fn bust() -> Stage {
+fn bust() -> BuiltScene {
     built(FORCE, Path::new("bust.toml"))
 }
 
