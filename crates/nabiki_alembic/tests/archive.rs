@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use glam::{Affine3A, Quat, Vec3};
-use nabiki::export::{Export, FrameSink};
+use nabiki_exchange::{Export, FrameSink, GroomReader, Placed};
 use nabiki::hair::Attributes;
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
@@ -74,7 +74,7 @@ fn every_frame_and_attribute_comes_back_to_the_bit() {
     let file = bytes(Export::new(&hair, 24.0), |_| Affine3A::IDENTITY);
     let mut archive = ArchiveReader::new(Cursor::new(&file)).unwrap();
     let contents = archive.contents().unwrap();
-    assert_eq!((contents.frames, contents.frame_rate), (FRAMES, 24.0));
+    assert_eq!((contents.times.len(), contents.frame_rate), (FRAMES, 24.0));
     for frame in 0..FRAMES {
         let read = archive.hair(frame, None).unwrap();
         assert_eq!(read.strands, strands(frame), "frame {frame}");
@@ -101,7 +101,7 @@ fn the_moving_head_carries_hair_and_skin() {
     export.first_frame = 10;
     let file = bytes(export, pose);
     let mut archive = ArchiveReader::new(Cursor::new(&file)).unwrap();
-    assert!((archive.contents().unwrap().start - 10.0 / 24.0).abs() < 1e-12);
+    assert!((archive.contents().unwrap().times[0] - 10.0 / 24.0).abs() < 1e-12);
     for frame in 0..FRAMES {
         let read = archive.hair(frame, None).unwrap();
         for (&p, &q) in read.strands.points().iter().zip(strands(frame).points()) {
@@ -110,7 +110,7 @@ fn the_moving_head_carries_hair_and_skin() {
     }
     let motion = archive.motion("head").unwrap();
     assert_eq!(motion.len(), FRAMES);
-    for (frame, (time, position, rotation)) in motion.into_iter().enumerate() {
+    for (frame, Placed { time, position, rotation }) in motion.into_iter().enumerate() {
         assert!((time - (10 + frame) as f64 / 24.0).abs() < 1e-12);
         assert_eq!(position.as_vec3(), Vec3::from(pose(frame).translation));
         let turn = Quat::from_rotation_y(0.1 * frame as f32);

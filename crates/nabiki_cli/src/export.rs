@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use glam::Affine3A;
 use nabiki::Pose;
 use nabiki::Strands;
-use nabiki::export::FrameSink;
+use nabiki_exchange::FrameSink;
 use nabiki_io::{Error, exchange};
 use nabiki_scene::Take;
 

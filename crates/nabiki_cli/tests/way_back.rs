@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 
 use glam::Vec3;
 use nabiki::{Hair, Strands};
-use nabiki_io::exchange::{self, Said};
+use nabiki_io::exchange::{self, Coordinates};
 use nabiki_io::hair;
 use nabiki_io::motion::Axis;
 use nabiki_io::placement::Unit;
@@ -27,7 +27,7 @@ fn refuse(folder: &Path, words: &str) -> String {
     String::from_utf8(output.stderr).unwrap()
 }
 
-const SAID: Said = Said { unit: Some(Unit { cm: 100.0 }), up: Some(Axis::PlusZ) };
+const SAID: Coordinates = Coordinates { unit: Some(Unit { cm: 100.0 }), up: Some(Axis::PlusZ) };
 
 /// A groom in metres, z up, as Blender writes it, beside a scene that moves it for three frames.
 fn groom(folder: &Path) -> Hair {
@@ -62,7 +62,7 @@ fn a_cache_of_imported_hair_goes_back_into_the_space_of_its_file() {
     }
     for name in ["moving.usdc", "rest.usda", "same.usda"] {
         let path = folder.join(name);
-        assert_eq!(exchange::said(&path).unwrap(), SAID, "{name}");
+        assert_eq!(exchange::coordinates(&path).unwrap(), SAID, "{name}");
         let back = hair::read(&path).unwrap();
         assert_eq!(back.strands.starts(), groom.strands.starts(), "{name}");
         assert_eq!(back.attributes.id, groom.attributes.id, "{name}");

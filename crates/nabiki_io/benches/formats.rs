@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use glam::{Affine3A, Vec3};
 use nabiki::Pose;
-use nabiki::export::{Export, FrameSink};
+use nabiki_exchange::{Export, FrameSink, GroomReader};
 use nabiki::{Hair, Strands};
 use nabiki_alembic::ArchiveReader;
 use nabiki_io::{SceneId, cache, exchange, hair};

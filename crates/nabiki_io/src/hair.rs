@@ -153,11 +153,17 @@ pub(crate) fn length(strand: &[glam::Vec3]) -> f32 {
 /// What the format of `path` cannot hold of `hair`, a phrase each.
 pub fn losses(path: &Path, hair: &Hair) -> Result<Vec<String>> {
     match Format::of(path)? {
-        Format::Hair => Ok(hair_file::losses(hair)),
-        Format::Tfx => Ok(tfx::losses(hair)),
-        Format::Usd | Format::Alembic => Ok(exchange::losses(hair)),
+        Format::Hair => Ok([hair_file::losses(hair), passed_on(hair)].concat()),
+        Format::Tfx => Ok([tfx::losses(hair), passed_on(hair)].concat()),
+        Format::Usd | Format::Alembic => Ok(exchange::losses(path, hair)),
         Format::ObjLines => Err(Error::new("hair is not written as .obj: write .hair or .tfx").in_file(path)),
     }
+}
+
+/// What only formats with attributes of any name pass on, and what was not read.
+fn passed_on(hair: &Hair) -> Vec<String> {
+    let names = hair.attributes.other.iter().map(|other| other.name.clone());
+    names.chain(hair.attributes.unread.iter().cloned()).collect()
 }
 
 /// Writes `hair` in the unit and axes it has, and says what the format could not hold. The file appears when whole.
@@ -165,7 +171,7 @@ pub fn write(path: &Path, hair: &Hair) -> Result<Vec<String>> {
     hair.check_lengths().map_err(|e| Error::new(e.to_string()).in_file(path))?;
     let lost = losses(path, hair)?;
     if matches!(Format::of(path)?, Format::Usd | Format::Alembic) {
-        exchange::write(path, hair, exchange::Said::default())?;
+        exchange::write(path, hair, exchange::Coordinates::default())?;
         return Ok(lost);
     }
     atomic::write(path, |out| match Format::of(path)? {

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use glam::{Affine3A, Quat, Vec3};
-use nabiki::export::Export;
+use nabiki_exchange::Export;
 use nabiki::{Hair, Mesh, Strands};
-use nabiki_io::exchange::{self, Said};
+use nabiki_io::exchange::{self, Coordinates};
 use nabiki_io::motion::{self, Axis, MotionSource};
 use nabiki_io::placement::Unit;
 use nabiki_io::{hair, mesh};
@@ -72,13 +72,13 @@ fn the_transforms_of_layers_and_archives_move_a_head() {
 fn unit_and_up_axis_are_what_the_layer_says() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("metres.usdc");
-    let said = Said { unit: Some(Unit { cm: 100.0 }), up: Some(Axis::PlusZ) };
+    let said = Coordinates { unit: Some(Unit { cm: 100.0 }), up: Some(Axis::PlusZ) };
     exchange::write(&path, &Hair::from(strands()), said).unwrap();
-    assert_eq!(exchange::said(&path).unwrap(), said);
+    assert_eq!(exchange::coordinates(&path).unwrap(), said);
     assert_eq!(hair::read(&path).unwrap().strands, strands());
     let archive = folder.path().join("hair.abc");
     hair::write(&archive, &Hair::from(strands())).unwrap();
-    assert_eq!(exchange::said(&archive).unwrap(), Said { unit: None, up: Some(Axis::PlusY) });
+    assert_eq!(exchange::coordinates(&archive).unwrap(), Coordinates { unit: None, up: Some(Axis::PlusY) });
 }
 
 #[test]

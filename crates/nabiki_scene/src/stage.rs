@@ -5,7 +5,7 @@ use nabiki::{Hair, Head, SettingError, Strands, dynamics::Dynamics, groom::groom
 use nabiki_io::{
     Error, Result,
     cache::Origin,
-    exchange::{self, Said},
+    exchange::{self, Coordinates},
     hair::{self, ImportReport},
     identity::{Digest, SceneId},
     mesh::{self, MeshReport},
@@ -55,7 +55,7 @@ impl Scene {
         let (hair, hair_placement, import_report) = match &self.hair.file {
             None => (grow(&self, &head)?.into(), None, None),
             Some(file) => {
-                let said = exchange::said(&self.resolve(file))?;
+                let said = exchange::coordinates(&self.resolve(file))?;
                 let placement = hair_placement(&self.hair, &placement, said);
                 placement.check("hair").map_err(|refused| self.refusal(refused))?;
                 let (hair, report) = import(&self.resolve(file), &placement, &self.hair.cleaning())?;
@@ -148,7 +148,7 @@ fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshReport>)> {
     }
     let file = scene.resolve(settings.mesh.as_ref());
     let mut placement = settings.placement();
-    let said = exchange::said(&file)?;
+    let said = exchange::coordinates(&file)?;
     placement.unit = settings.unit.or(said.unit).unwrap_or(placement.unit);
     placement.up = settings.up.or(said.up).unwrap_or(placement.up);
     let (mut mesh, report) = mesh::import(&file, &placement, &settings.groups)?;
@@ -167,7 +167,7 @@ fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshReport>)> {
 }
 
 /// How the hair's file lies in head space: as the head's file does, but for what the scene or the file itself says.
-fn hair_placement(settings: &HairSettings, head: &Placement, said: Said) -> Placement {
+fn hair_placement(settings: &HairSettings, head: &Placement, said: Coordinates) -> Placement {
     let unmoved = Placement {
         unit: settings.unit.or(said.unit).unwrap_or(head.unit),
         up: settings.up.or(said.up).unwrap_or(head.up),

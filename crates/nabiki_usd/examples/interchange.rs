@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 use glam::{Affine3A, Quat, Vec3};
-use nabiki::export::{Export, FrameSink};
+use nabiki_exchange::{Export, FrameSink};
 use nabiki::hair::Attributes;
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::HairArchive;

@@ -4,7 +4,7 @@ use glam::Affine3A;
 use nabiki::Hair;
 use nabiki_io::Error;
 use nabiki_io::cache::Reader;
-use nabiki_io::exchange::{self, Said};
+use nabiki_io::exchange::{self, Coordinates};
 use nabiki_io::hair;
 use nabiki_io::motion::Axis;
 use nabiki_io::placement::Placement;
@@ -28,7 +28,7 @@ pub fn convert(args: &Convert, quiet: bool) -> Result<(), Failure> {
     let hair = read(args)?;
     let mut losses = if to_tools {
         exchange::write(&args.output, &hair, said(args)?)?;
-        exchange::losses(&hair)
+        exchange::losses(&args.output, &hair)
     } else {
         hair::write(&args.output, &hair)?
     };
@@ -83,7 +83,7 @@ fn unsaid(args: &Convert) -> Result<Vec<String>, Failure> {
             lost.push(format!("motion: it is frame {kept} of the {frames} in {}", args.input.display()));
         }
     }
-    let Said { unit, up } = if is_cache(args) { said(args)? } else { exchange::said(&args.input)? };
+    let Coordinates { unit, up } = if is_cache(args) { said(args)? } else { exchange::coordinates(&args.input)? };
     if let Some(unit) = unit.filter(|unit| unit.cm != 1.0 && !exchange::is_usd(&args.output)) {
         lost.push(format!("its unit: give hair.unit = {} where it is read", unit.cm));
     }
@@ -94,13 +94,13 @@ fn unsaid(args: &Convert) -> Result<Vec<String>, Failure> {
 }
 
 /// Unit and up axis of the input: as it says itself, or else as the command line does.
-fn said(args: &Convert) -> Result<Said, Failure> {
+fn said(args: &Convert) -> Result<Coordinates, Failure> {
     if is_cache(args) {
         let Placement { unit, up, .. } = placement(&Reader::open(&args.input)?).unwrap_or_default();
-        return Ok(Said { unit: Some(unit), up: Some(up) });
+        return Ok(Coordinates { unit: Some(unit), up: Some(up) });
     }
-    let in_file = exchange::said(&args.input)?;
-    let said = Said {
+    let in_file = exchange::coordinates(&args.input)?;
+    let said = Coordinates {
         unit: args.unit.or(in_file.unit),
         up: if args.z_up { Some(Axis::PlusZ) } else { in_file.up.or(Some(Axis::PlusY)) },
     };
@@ -145,7 +145,7 @@ fn all_frames(args: &Convert, quiet: bool) -> Result<(), Failure> {
     bar.finish_and_clear();
     sink.finish().map_err(failed)?;
     if !quiet {
-        for loss in exchange::losses(&hair).into_iter().chain(unsaid(args)?) {
+        for loss in exchange::losses(&args.output, &hair).into_iter().chain(unsaid(args)?) {
             say!("{} cannot hold {loss}", args.output.display());
         }
         say!("wrote {}: {frames} frames of {} strands", args.output.display(), hair.strands.len());
