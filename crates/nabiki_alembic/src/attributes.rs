@@ -20,8 +20,16 @@ pub struct Parameters<'a, R> {
 }
 
 /// Properties of the curves' schema that are read elsewhere, or say nothing of the hair.
-const KNOWN: [&str; 8] =
-    ["P", "nVertices", "curveBasisAndType", ".selfBnds", ".childBnds", ".velocities", ".arbGeomParams", ".userProperties"];
+const KNOWN: [&str; 8] = [
+    "P",
+    "nVertices",
+    "curveBasisAndType",
+    ".selfBnds",
+    ".childBnds",
+    ".velocities",
+    ".arbGeomParams",
+    ".userProperties",
+];
 /// Attributes that the schema itself has.
 const OF_SCHEMA: [&str; 2] = ["uv", "width"];
 

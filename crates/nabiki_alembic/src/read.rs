@@ -20,6 +20,8 @@ const MOST_SAMPLES: usize = 1 << 18;
 /// An archive to read hair, heads and motion from. Alembic names no unit, and y is up.
 pub struct ArchiveReader<R = File> {
     tree: Tree<R>,
+    /// Times of the frames, once they have been asked for (s).
+    frame_times: Option<Vec<f64>>,
 }
 
 impl ArchiveReader<File> {
@@ -38,13 +40,19 @@ impl<R: Read + Seek> ArchiveReader<R> {
     /// # Errors
     /// What is wrong with it.
     pub fn new(from: R) -> Result<Self, Problem> {
-        Ok(Self { tree: Tree::new(from)? })
+        Ok(Self { tree: Tree::new(from)?, frame_times: None })
     }
 
-    fn curves(&mut self, object: usize, frame: usize, segments: Option<usize>, attributes: bool) -> Result<(Hair, Affine3A), Problem> {
+    fn curves(
+        &mut self,
+        object: usize,
+        time: f64,
+        segments: Option<usize>,
+        attributes: bool,
+    ) -> Result<(Hair, Affine3A), Problem> {
         let inside = self.schema(object)?;
         let positions = required(&inside, "P", "")?;
-        let time = self.tree.timings[positions.timing].time(frame.min(positions.samples.saturating_sub(1)));
+        let (frame, _) = self.tree.timings[positions.timing].at(time, positions.samples);
         let points = self.tree.points(positions, frame)?;
         let counts = required(&inside, "nVertices", "")?;
         let counts = integers(counts.kind, &self.tree.sample(counts, frame)?)?;
@@ -153,6 +161,37 @@ impl<R: Read + Seek> ArchiveReader<R> {
         Ok(moving)
     }
 
+    /// Times of the frames: of the curves with the most samples, or of what moves them whole (s).
+    fn frame_times(&mut self) -> Result<Vec<f64>, Problem> {
+        let mut most = Vec::new();
+        for object in self.of_schema("AbcGeom_Curve") {
+            let inside = self.schema(object)?;
+            let header = required(&inside, "P", &self.tree.objects[object].path)?;
+            if header.samples > MOST_SAMPLES {
+                return Err(Problem(format!("its curves have {} samples, more than is read", header.samples)));
+            }
+            let timing = &self.tree.timings[header.timing];
+            let mut times: Vec<f64> = (0..header.samples).map(|n| timing.time(n)).collect();
+            if times.len() < 2 {
+                let above = self.times(object)?;
+                times = if above.len() > 1 { above } else { times };
+            }
+            if times.len() > most.len() {
+                most = times;
+            }
+        }
+        Ok(most)
+    }
+
+    /// When a frame is (s); the last after those there are.
+    fn time_of(&mut self, frame: usize) -> Result<f64, Problem> {
+        if self.frame_times.is_none() {
+            self.frame_times = Some(self.frame_times()?);
+        }
+        let times = self.frame_times.as_deref().unwrap_or_default();
+        Ok(times.get(frame).or(times.last()).copied().unwrap_or(0.0))
+    }
+
     /// The objects of a schema.
     fn of_schema(&self, schema: &str) -> Vec<usize> {
         (0..self.tree.objects.len()).filter(|&i| self.tree.objects[i].is(schema)).collect()
@@ -210,22 +249,11 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
             z_up: Some(false),
             ..Contents::default()
         };
-        for object in self.of_schema("AbcGeom_Curve") {
-            let inside = self.schema(object)?;
-            let header = required(&inside, "P", &self.tree.objects[object].path)?;
-            if header.samples <= contents.times.len() {
-                continue;
-            }
-            if header.samples > MOST_SAMPLES {
-                return Err(Problem(format!("its curves have {} samples, more than is read", header.samples)));
-            }
-            let timing = &self.tree.timings[header.timing];
-            contents.times = (0..header.samples).map(|n| timing.time(n)).collect();
-            if let [first, .., last] = contents.times[..]
-                && last > first
-            {
-                contents.frame_rate = (header.samples - 1) as f64 / (last - first);
-            }
+        contents.times = self.frame_times()?;
+        if let [first, .., last] = contents.times[..]
+            && last > first
+        {
+            contents.frame_rate = (contents.times.len() - 1) as f64 / (last - first);
         }
         // A rate that is a whole number but for the rounding of its period is that number.
         let whole = contents.frame_rate.round();
@@ -270,11 +298,12 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
         if objects.is_empty() {
             return Err(Problem::new("has no curves"));
         }
+        let time = self.time_of(frame)?;
         let mut all = Gathered::default();
         for (group, &object) in objects.iter().enumerate() {
             let path = self.tree.objects[object].path.clone();
             let name = path.rsplit('/').next().unwrap_or_default().to_owned();
-            let part = self.curves(object, frame, segments, attributes);
+            let part = self.curves(object, time, segments, attributes);
             let (hair, world) = part.map_err(|e| Problem(format!("curves {path}: {e}")))?;
             all.append(hair, world, (objects.len() > 1).then_some((group as i32, name)));
         }
@@ -284,7 +313,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
     fn mesh(&mut self) -> Result<Mesh, Problem> {
         let mut mesh = Mesh::default();
         // Where the head stands as the hair's first frame finds it.
-        let time = self.contents()?.times.first().copied().unwrap_or(0.0);
+        let time = self.time_of(0)?;
         for object in self.of_schema("AbcGeom_PolyMesh") {
             let path = self.tree.objects[object].path.clone();
             let inside = self.schema(object)?;

@@ -138,8 +138,6 @@ impl Polylines {
             _ => None,
         };
         let per = found.per.or(by_number)?;
-        // A value of the groom as a whole may be a list.
-        let extent = if per == Per::Groom { found.values.len() } else { extent };
         let (strands, points) = (self.shape.counts.len(), self.control_points());
         let mut other = Other { name: name.to_owned(), per, role: found.role, extent, values: found.values };
         if other.values.len() != other.expected(strands, points) {

@@ -2,13 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use glam::{Affine3A, Vec3};
-use nabiki::hair::Other;
-use nabiki::strands::{bounds, not_finite};
+use glam::Affine3A;
 use nabiki::Hair;
+use nabiki::hair::Other;
 
 use crate::Problem;
-use crate::reader::InPlace;
+use crate::in_place::{InPlace, check_extent};
 
 /// Hair from several objects.
 #[derive(Default)]
@@ -55,18 +54,6 @@ impl Gathered {
         check_extent(all.hair.strands.points())?;
         Ok(all)
     }
-}
-
-/// Refuses points of which no size can be told.
-pub fn check_extent(points: &[Vec3]) -> Result<(), Problem> {
-    if let Some(i) = not_finite(points) {
-        return Err(Problem(format!("point {i} of its curves is not finite")));
-    }
-    let [low, high] = bounds(points);
-    if !points.is_empty() && !(high - low).length().is_finite() {
-        return Err(Problem(format!("its curves reach from {low} to {high}: their size is no finite number")));
-    }
-    Ok(())
 }
 
 fn join(all: &mut Hair, part: Hair) {

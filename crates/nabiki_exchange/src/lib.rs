@@ -10,11 +10,13 @@ pub mod attributes;
 pub mod curves;
 pub mod export;
 mod gather;
+mod in_place;
 mod polygons;
 mod reader;
 
 pub use export::{Export, FrameSink, Velocities};
 pub use gather::Gathered;
+pub use in_place::InPlace;
 pub use nabiki::error::Problem;
 pub use polygons::add_polygons;
-pub use reader::{Contents, GroomReader, InPlace, Placed, Prim, PrimKind};
+pub use reader::{Contents, GroomReader, Placed, Prim, PrimKind};

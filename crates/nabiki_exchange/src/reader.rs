@@ -1,11 +1,10 @@
 //! What every reader of grooms answers, whatever the format.
 
-use glam::{Affine3A, DQuat, DVec3};
-use nabiki::hair::Role;
+use glam::{DQuat, DVec3};
 use nabiki::{Hair, Mesh};
 
 use crate::Problem;
-use crate::gather::check_extent;
+use crate::in_place::InPlace;
 
 /// A file of curves, meshes and transforms. Everything comes in the file's own unit and axes.
 pub trait GroomReader {
@@ -114,34 +113,6 @@ pub enum PrimKind {
     },
     /// Anything else, by the file's word.
     Other(String),
-}
-
-/// Curves below a transform.
-#[derive(Clone, Debug, PartialEq)]
-pub struct InPlace {
-    /// The curves in their own space.
-    pub hair: Hair,
-    /// Takes them to the file's world; identity where objects of different transforms were joined, which are in the
-    /// world already.
-    pub world_from_hair: Affine3A,
-}
-
-impl InPlace {
-    /// The curves in the file's world.
-    ///
-    /// # Errors
-    /// Points that leave the range of numbers.
-    pub fn in_world(self) -> Result<Hair, Problem> {
-        if self.world_from_hair == Affine3A::IDENTITY {
-            return Ok(self.hair);
-        }
-        let mut hair = self.hair.transformed(&self.world_from_hair);
-        let attributes = &mut hair.attributes;
-        let placed = attributes.other.iter().filter(|o| matches!(o.role, Role::Point | Role::Vector | Role::Normal));
-        attributes.unread.extend(placed.map(|o| format!("the transform above {}: it stays in its own space", o.name)));
-        check_extent(hair.strands.points())?;
-        Ok(hair)
-    }
 }
 
 /// Where an object is at a time.

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use glam::Affine3A;
 use nabiki::{Hair, Mesh, Strands};
-use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem};
 use nabiki_alembic::{ArchiveReader, HairArchive};
+use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem};
 use nabiki_usd::{Form, HairStage, StageReader};
 use serde::Serialize;
 
@@ -181,9 +181,10 @@ impl MovingHair {
         Ok((hair.strands, world_from_hair))
     }
 
-    /// What is told to a file that takes these frames as they are: same numbers, frame rate, unit and axes.
-    pub fn export(&self) -> Export<'_> {
-        let mut export = Export::new(&self.hair, self.contents.frame_rate);
+    /// What is told to a file that takes these frames as they are: same numbers, frame rate, unit and axes. `hair`: a
+    /// copy of [`hair`](Self::hair), so that frames can be read while the file is written.
+    pub fn export<'h>(&self, hair: &'h Hair) -> Export<'h> {
+        let mut export = Export::new(hair, self.contents.frame_rate);
         export.first_frame = self.contents.first_frame();
         export.meters_per_unit = self.coordinates.meters_per_unit();
         export.z_up = self.coordinates.up == Some(Axis::PlusZ);

@@ -142,7 +142,10 @@ fn typed(other: &Other) -> Option<(&'static str, Value)> {
                 (_, 4) => "float4[]",
                 (Plain, 9 | 16) => {
                     let v = v.iter().copied().map(f64::from).collect();
-                    return Some((if extent == 9 { "matrix3d[]" } else { "matrix4d[]" }, Value::DoubleTuples(extent, v)));
+                    return Some((
+                        if extent == 9 { "matrix3d[]" } else { "matrix4d[]" },
+                        Value::DoubleTuples(extent, v),
+                    ));
                 }
                 _ => return None,
             };

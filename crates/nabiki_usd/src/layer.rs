@@ -53,7 +53,14 @@ pub struct Attribute<S> {
 impl<S> Attribute<S> {
     /// An attribute with one value.
     pub fn new(name: impl Into<Cow<'static, str>>, type_name: &'static str, value: Value) -> Self {
-        Self { name: name.into(), type_name, uniform: false, value: Some(value), samples: Vec::new(), interpolation: None }
+        Self {
+            name: name.into(),
+            type_name,
+            uniform: false,
+            value: Some(value),
+            samples: Vec::new(),
+            interpolation: None,
+        }
     }
 
     /// The same, never varying.
@@ -62,7 +69,12 @@ impl<S> Attribute<S> {
     }
 
     /// The same with an interpolation.
-    pub fn primvar(name: impl Into<Cow<'static, str>>, type_name: &'static str, interpolation: &'static str, value: Value) -> Self {
+    pub fn primvar(
+        name: impl Into<Cow<'static, str>>,
+        type_name: &'static str,
+        interpolation: &'static str,
+        value: Value,
+    ) -> Self {
         Self { interpolation: Some(interpolation), ..Self::new(name, type_name, value) }
     }
 

@@ -19,8 +19,8 @@ mod text;
 mod transform;
 mod write;
 
-pub use nabiki_exchange::{Contents, Problem};
 pub use content::{has_type, valid_name};
+pub use nabiki_exchange::{Contents, Problem};
 pub use read::StageReader;
 pub use source::Source;
 pub use write::{Form, HairStage};

@@ -119,7 +119,9 @@ impl Layer {
         let after = attribute.samples.partition_point(|&(t, _)| t <= time);
         let sample = |i: usize| attribute.samples.get(i).copied();
         match (after.checked_sub(1).and_then(sample), sample(after)) {
-            (Some((from, low)), Some((to, high))) if time > from => Some((low, Some((high, (time - from) / (to - from))))),
+            (Some((from, low)), Some((to, high))) if time > from => {
+                Some((low, Some((high, (time - from) / (to - from)))))
+            }
             (Some((_, value)), _) | (None, Some((_, value))) => Some((value, None)),
             (None, None) => attribute.default.map(|value| (value, None)),
         }

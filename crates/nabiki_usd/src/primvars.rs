@@ -39,10 +39,12 @@ impl Primvars<'_> {
         let other = |name: &&String| {
             !KNOWN.contains(&name.as_str()) && !name.starts_with("primvars:") && !name.starts_with("xformOp:")
         };
-        let mut unread: Vec<String> = prim.attributes.keys().filter(other).map(|name| format!("attribute {name}")).collect();
-        let moving = prim.attributes.iter().filter(|(name, a)| {
-            (name.starts_with("primvars:") || name.as_str() == "widths") && a.samples.len() > 1
-        });
+        let mut unread: Vec<String> =
+            prim.attributes.keys().filter(other).map(|name| format!("attribute {name}")).collect();
+        let moving = prim
+            .attributes
+            .iter()
+            .filter(|(name, a)| (name.starts_with("primvars:") || name.as_str() == "widths") && a.samples.len() > 1);
         unread.extend(moving.map(|(name, _)| format!("motion of {name}: its first value is kept")));
         for above in self.layer.upward(self.prim) {
             for name in &self.layer.prims[above].relationships {

@@ -68,12 +68,19 @@ impl StageReader {
         Ok(rate.unwrap_or(24.0))
     }
 
-    /// Time codes of the frames of the curves with the most samples, and how far apart they are. Samples at uneven
-    /// times give way to whole codes, between which there is interpolation.
+    /// Time codes of the frames of the curves with the most samples, or of what moves them whole, and how far apart they
+    /// are. Samples at uneven times give way to whole codes, between which there is interpolation.
     fn frame_codes(&self) -> Result<(Vec<f64>, f64), Problem> {
         let samples = |i: usize| self.layer.prims[i].attributes.get("points").map(|a| &a.samples[..]).unwrap_or(&[]);
         let most = self.layer.of_type("BasisCurves").into_iter().map(samples).max_by_key(|s| s.len());
-        let codes: Vec<f64> = most.unwrap_or_default().iter().map(|&(time, _)| time).collect();
+        let mut codes: Vec<f64> = most.unwrap_or_default().iter().map(|&(time, _)| time).collect();
+        if codes.len() < 2 {
+            let above = self.layer.of_type("BasisCurves").into_iter().map(|i| transform::times(&self.layer, i));
+            let mut above = above.max_by_key(Vec::len).unwrap_or_default();
+            above.sort_by(f64::total_cmp);
+            above.dedup();
+            codes = if above.len() > 1 { above } else { codes };
+        }
         let [first, second, ..] = codes[..] else { return Ok((codes, 1.0)) };
         let (last, step) = (codes[codes.len() - 1], second - first);
         let even = |(n, &code): (usize, &f64)| (code - (first + n as f64 * step)).abs() <= SAME_TIME * step;

@@ -50,24 +50,24 @@ pub fn joint(layer: &mut Layer, node: &str) -> Result<Option<Joint>, Problem> {
 
 fn of_skeleton(layer: &mut Layer, skeleton: usize, index: usize) -> Result<Joint, Problem> {
     let joints = joints(layer, skeleton)?;
+    let path = &joints[index];
+    let above = |joint: &String| path.strip_prefix(joint.as_str()).is_some_and(|r| r.is_empty() || r.starts_with('/'));
     let mut animations = Vec::new();
     for prim in layer.of_type("SkelAnimation") {
         let animated = self::joints(layer, prim)?;
-        if animated.contains(&joints[index]) {
+        if animated.iter().any(above) {
             animations.push((prim, animated));
         }
     }
     if animations.len() > 1 {
         let paths: Vec<String> = animations.iter().take(8).map(|&(prim, _)| layer.path(prim)).collect();
-        let joint = &joints[index];
-        return Err(Problem(format!("joint {joint} moves in {}: keep one animation in the layer", paths.join(", "))));
+        return Err(Problem(format!("joint {path} moves in {}: keep one animation in the layer", paths.join(", "))));
     }
     let animation = animations.pop();
     let place = |joint: &str| {
         let animated = animation.as_ref().and_then(|(_, animated)| animated.iter().position(|name| name == joint));
         joints.iter().position(|name| name == joint).map(|index| (index, animated))
     };
-    let path = &joints[index];
     let ends = path.match_indices('/').map(|(at, _)| at).chain([path.len()]);
     let chain = ends.filter_map(|end| place(&path[..end])).collect();
     Ok(Joint { skeleton, animation: animation.map(|(prim, _)| prim), chain })
@@ -101,21 +101,24 @@ impl Joint {
         let numbers = layer.numbers_at(self.skeleton, "restTransforms", 0.0)?.unwrap_or_default();
         match numbers.as_chunks::<16>().0.get(index) {
             Some(matrix) => Ok(DMat4::from_cols_array(matrix)),
-            None => Err(Problem(format!("skeleton {}: joint {index} has no rest transform", layer.path(self.skeleton)))),
+            None => {
+                Err(Problem(format!("skeleton {}: joint {index} has no rest transform", layer.path(self.skeleton))))
+            }
         }
     }
 }
 
 /// A joint's own transform in an animation: scale first, then turn, then place.
 fn moved(layer: &mut Layer, animation: usize, index: usize, time: f64) -> Result<DMat4, Problem> {
-    let triple = |numbers: Option<Vec<f64>>| {
-        numbers.unwrap_or_default().as_chunks::<3>().0.get(index).map(|&v| DVec3::from(v))
-    };
+    let triple =
+        |numbers: Option<Vec<f64>>| numbers.unwrap_or_default().as_chunks::<3>().0.get(index).map(|&v| DVec3::from(v));
     let place = triple(layer.numbers_at(animation, "translations", time)?);
     let scale = triple(layer.numbers_at(animation, "scales", time)?);
     let turn = layer.quaternions_at(animation, "rotations", time)?.and_then(|turns| turns.get(index).copied());
     match (place, turn) {
-        (Some(place), Some(turn)) => Ok(DMat4::from_scale_rotation_translation(scale.unwrap_or(DVec3::ONE), turn, place)),
+        (Some(place), Some(turn)) => {
+            Ok(DMat4::from_scale_rotation_translation(scale.unwrap_or(DVec3::ONE), turn, place))
+        }
         _ => Err(Problem(format!("animation {}: has no place or no turn of joint {index}", layer.path(animation)))),
     }
 }

@@ -24,7 +24,8 @@ fn mirrored_and_left_handed_meshes_come_in_with_their_outside_outside() {
         for left_handed in [false, true] {
             let scale = if mirrored { "(-2, 1, 1)" } else { "(2, 1, 1)" };
             // A left-handed mesh is listed the other way round.
-            let corners = if left_handed { "0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2" } else { "0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3" };
+            let corners =
+                if left_handed { "0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2" } else { "0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3" };
             let orientation = if left_handed { "leftHanded" } else { "rightHanded" };
             let mut stage = reader(format!(
                 "#usda 1.0\ndef Xform \"a\" {{ double3 xformOp:scale = {scale}\n uniform token[] xformOpOrder = [\"xformOp:scale\"]\n\
@@ -82,6 +83,21 @@ fn frames_at_uneven_times_are_read_at_whole_codes_between_their_samples() {
 }
 
 #[test]
+fn hair_that_only_its_transform_moves_has_the_frames_of_that() {
+    let mut stage = reader(
+        "#usda 1.0\ndef Xform \"a\" { double xformOp:translateX.timeSamples = { 0: 0, 1: 5, 2: 7 }\n\
+         uniform token[] xformOpOrder = [\"xformOp:translateX\"]\n def BasisCurves \"h\" { uniform token type = \"linear\"\n\
+         int[] curveVertexCounts = [2]\n point3f[] points = [(0, 0, 0), (1, 0, 0)] } }\n",
+    );
+    assert_eq!(stage.contents().unwrap().times, [0.0, 1.0, 2.0].map(|t| t / 24.0));
+    for (frame, x) in [0.0, 5.0, 7.0].into_iter().enumerate() {
+        let placed = stage.hair_in_place(frame, None, false).unwrap();
+        assert_eq!(placed.world_from_hair, Affine3A::from_translation(Vec3::X * x));
+        assert_eq!(stage.hair(frame, None).unwrap().strands.strand(0)[0], Vec3::X * x);
+    }
+}
+
+#[test]
 fn units_axes_and_rates_that_are_none_are_refused_in_one_line() {
     for (metadata, line) in [
         ("metersPerUnit = 0", "metersPerUnit = 0: must be a finite number above 0, 0.01 for centimetres"),
@@ -97,7 +113,9 @@ fn units_axes_and_rates_that_are_none_are_refused_in_one_line() {
 
 #[test]
 fn hair_without_a_finite_size_is_refused() {
-    for (scale, points) in [("1e30", "(0, 0, 0), (1e20, 0, 0)"), ("1", "(0, 0, 0), (1e25, 0, 0)"), ("1e24", "(0, 0, 0), (1, 0, 0)")] {
+    for (scale, points) in
+        [("1e30", "(0, 0, 0), (1e20, 0, 0)"), ("1", "(0, 0, 0), (1e25, 0, 0)"), ("1e24", "(0, 0, 0), (1, 0, 0)")]
+    {
         let mut stage = reader(format!(
             "#usda 1.0\ndef BasisCurves \"h\" {{ uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n\
              point3f[] points = [{points}]\n double xformOp:scaleX = {scale}\n\

@@ -5,9 +5,9 @@ use std::io::Cursor;
 use std::path::Path;
 
 use glam::{Affine3A, Quat, Vec3};
-use nabiki_exchange::{Export, FrameSink, GroomReader, Placed};
 use nabiki::hair::Attributes;
 use nabiki::{Hair, Mesh, Strands};
+use nabiki_exchange::{Export, FrameSink, GroomReader, Placed};
 use nabiki_usd::{Form, HairStage, StageReader};
 use proptest::prelude::*;
 

@@ -102,9 +102,7 @@ impl Values {
         };
         match self {
             Self::Floats(v) => Self::Floats(
-                blends
-                    .flat_map(|b| (0..extent).map(move |part| sum(&|i| f64::from(v[i]), &b, part) as f32))
-                    .collect(),
+                blends.flat_map(|b| (0..extent).map(move |part| sum(&|i| f64::from(v[i]), &b, part) as f32)).collect(),
             ),
             Self::Doubles(v) => {
                 Self::Doubles(blends.flat_map(|b| (0..extent).map(move |part| sum(&|i| v[i], &b, part))).collect())
@@ -120,12 +118,12 @@ impl Values {
 impl Other {
     /// How many numbers or words it must have for a number of strands and of points.
     pub fn expected(&self, strands: usize, points: usize) -> usize {
-        self.extent
-            * match self.per {
-                Per::Groom => 1,
-                Per::Strand => strands,
-                Per::Point => points,
-            }
+        match self.per {
+            // A groom may have a list of values.
+            Per::Groom => self.values.len().next_multiple_of(self.extent.max(1)),
+            Per::Strand => self.extent * strands,
+            Per::Point => self.extent * points,
+        }
     }
 
     /// Appends the values that further strands have; `false` where the two cannot be one.
@@ -156,9 +154,7 @@ impl Other {
     /// That of points blended from those there are, each by two of them and their weights.
     pub(super) fn resampled(&self, blends: impl Iterator<Item = [(usize, f64); 2]>) -> Self {
         match self.per {
-            Per::Point => {
-                Self { values: self.values.blended(self.extent, blends), ..self.clone_without_values() }
-            }
+            Per::Point => Self { values: self.values.blended(self.extent, blends), ..self.clone_without_values() },
             _ => self.clone(),
         }
     }
