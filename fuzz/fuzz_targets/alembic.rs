@@ -5,6 +5,7 @@ use std::io::Cursor;
 
 use libfuzzer_sys::fuzz_target;
 use nabiki_alembic::ArchiveReader;
+use nabiki_exchange::GroomReader;
 
 fuzz_target!(|bytes: &[u8]| {
     let Ok(mut file) = ArchiveReader::new(Cursor::new(bytes.to_vec())) else { return };

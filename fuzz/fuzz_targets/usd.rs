@@ -4,6 +4,7 @@
 use std::io::Cursor;
 
 use libfuzzer_sys::fuzz_target;
+use nabiki_exchange::GroomReader;
 use nabiki_usd::StageReader;
 
 fuzz_target!(|bytes: &[u8]| {

@@ -11,6 +11,7 @@ from alembic3d.AbcGeom import (
     ICurves,
     IInt16GeomParam,
     IInt32GeomParam,
+    IP3fGeomParam,
     IPolyMesh,
     IStringGeomParam,
     IV2fGeomParam,
@@ -60,7 +61,19 @@ def curves(schema, expected, name):
     assert attribute(IStringGeomParam, more, "groom_group_name", uniform) == expected.group_names, name
     assert attribute(IInt16GeomParam, more, "groom_guide", uniform) == list(expected.guides), name
     expected.near(rows(attribute(IV2fGeomParam, more, "groom_root_uv", uniform)), expected.root_uvs, name)
+    expected.near(rows(attribute(IV2fGeomParam, more, "surface_uv_coordinate", uniform)), expected.root_uvs, name)
     expected.near(rows(attribute(IV3fGeomParam, more, "groom_color", GeometryScope.kVertexScope)), expected.colors, name)
+
+
+def motion(schema, expected, name):
+    """Velocities and rest positions of the archive that moves."""
+    more = schema.getArbGeomParams()
+    rest = rows(attribute(IP3fGeomParam, more, "rest", GeometryScope.kVertexScope))
+    assert np.array_equal(rest.astype("f4"), expected.points[0]), name
+    for frame in range(FRAMES):
+        first = min(frame, FRAMES - 2)
+        velocities = FRAME_RATE * (expected.points[first + 1] - expected.points[first])
+        expected.near(rows(schema.getValue(at(frame)).getVelocities()), velocities, f"{name}: velocities of {frame}")
 
 
 def transform(schema, expected, name, moving):
@@ -86,6 +99,7 @@ def main():
         children = [head.getChild(i).getName() for i in range(head.getNumChildren())]
         assert children == (["hair", "skin"] if moving else ["hair"]), name
         if moving:
+            motion(ICurves(head, "hair").getSchema(), expected, name)
             mesh = IPolyMesh(head, "skin").getSchema().getValue()
             assert rows(mesh.getPositions())[1].tolist() == [8, 0, 0], name
             assert list(mesh.getFaceIndices())[:3] == [1, 2, 0], name

@@ -74,6 +74,8 @@ def exported(expected, nabiki):
         data.set_types(type=kind)
         data.attributes["position"].data.foreach_set("vector", points.ravel())
         data.attributes.new("radius", "FLOAT", "POINT").data.foreach_set("value", radii)
+        roots = np.array([[0.25, 0.5], [0.125, 0.75], [1, 0]], "f4")
+        data.attributes.new("surface_uv_coordinate", "FLOAT2", "CURVE").data.foreach_set("vector", roots.ravel())
         bpy.context.scene.collection.objects.link(bpy.data.objects.new("groom", data))
         made = expected.folder / f"blender.{ending}"
         if ending == "abc":
@@ -89,6 +91,11 @@ def exported(expected, nabiki):
             bpy.ops.wm.usd_import(filepath=str(back))
         found, widths, data = evaluated(0)
         assert [curve.points_length for curve in data.curves] == counts, f"{kind} {ending}"
+        if ending != "abc":
+            # Blender neither writes nor reads attributes of curves in Alembic.
+            back_roots = np.empty(6, "f4")
+            data.attributes["surface_uv_coordinate"].data.foreach_get("vector", back_roots)
+            assert np.array_equal(back_roots.reshape(-1, 2), roots), f"{kind} {ending}: root UVs"
         if kind == "POLY":
             expected.near(found, points, f"{kind} in .{ending}: points")
             expected.near(widths, radii, f"{kind} in .{ending}: radii")

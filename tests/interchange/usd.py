@@ -45,6 +45,16 @@ def curves(stage, expected, name, moving):
     assert list(primvar("groom_group_id")) == list(expected.groups), name
     assert list(primvar("groom_group_name")) == expected.group_names, name
     assert list(primvar("groom_guide")) == list(expected.guides), name
+    expected.near(primvar("surface_uv_coordinate"), expected.root_uvs, f"{name}: root UVs")
+    if not moving:
+        assert not hair.GetVelocitiesAttr().HasAuthoredValue() and primvar("rest") is None, name
+        return
+    assert np.array_equal(np.array(primvar("rest")), expected.points[0]), f"{name}: rest"
+    for frame in range(FRAMES):
+        # Velocities lead to the next frame; those of the last are those of the one before it.
+        first = min(frame, FRAMES - 2)
+        velocities = FRAME_RATE * (expected.points[first + 1] - expected.points[first])
+        expected.near(hair.GetVelocitiesAttr().Get(frame), velocities, f"{name}: velocities of frame {frame}")
 
 
 def there_and_back(expected):

@@ -1,5 +1,6 @@
 //! Hair as tools exchange it: strands with whatever else a file says about them.
 
+mod other;
 mod resample;
 
 use std::collections::BTreeMap;
@@ -7,6 +8,8 @@ use std::collections::BTreeMap;
 use glam::{Affine3A, Vec3};
 
 use crate::Strands;
+
+pub use other::{Other, Per, Role, Values};
 
 /// Strands and what a file carries beside their points.
 ///
@@ -44,6 +47,10 @@ pub struct Attributes {
     pub point_uv: Option<Vec<[f32; 2]>>,
     /// TressFX's w: 0 where a point is held by the skin, 1 where it is free, by point.
     pub freedom: Option<Vec<f32>>,
+    /// Whatever else the source carries, under its own names.
+    pub other: Vec<Other>,
+    /// What the source says of its strands that could not be kept, a phrase each.
+    pub unread: Vec<String>,
     /// Values that hold wherever no array says otherwise.
     pub constant: Constants,
 }
@@ -73,7 +80,7 @@ pub struct Degenerate {
 #[error("attribute {name}: {found} values where the hair has {expected}")]
 pub struct LengthError {
     /// Name of the field of [`Attributes`].
-    pub name: &'static str,
+    pub name: String,
     /// Entries found.
     pub found: usize,
     /// Strands or points of the hair.
@@ -89,9 +96,9 @@ impl From<Strands> for Hair {
 impl Hair {
     /// Refuses attribute arrays whose lengths are not those of the strands or points.
     pub fn check_lengths(&self) -> Result<(), LengthError> {
-        fn check<T>(name: &'static str, values: &Option<Vec<T>>, expected: usize) -> Result<(), LengthError> {
+        fn check<T>(name: &str, values: &Option<Vec<T>>, expected: usize) -> Result<(), LengthError> {
             match values {
-                Some(v) if v.len() != expected => Err(LengthError { name, found: v.len(), expected }),
+                Some(v) if v.len() != expected => Err(LengthError { name: name.to_owned(), found: v.len(), expected }),
                 _ => Ok(()),
             }
         }
@@ -104,7 +111,14 @@ impl Hair {
         check("color", &a.color, points)?;
         check("transparency", &a.transparency, points)?;
         check("point_uv", &a.point_uv, points)?;
-        check("freedom", &a.freedom, points)
+        check("freedom", &a.freedom, points)?;
+        for other in &a.other {
+            let (found, expected) = (other.values.len(), other.expected(strands, points));
+            if found != expected {
+                return Err(LengthError { name: other.name.clone(), found, expected });
+            }
+        }
+        Ok(())
     }
 
     /// The strands named by `indices`, in that order, with their attributes.
@@ -180,6 +194,8 @@ impl Attributes {
             transparency: pick(&self.transparency, points),
             point_uv: pick(&self.point_uv, points),
             freedom: pick(&self.freedom, points),
+            other: self.other.iter().map(|other| other.gather(strands, points)).collect(),
+            unread: self.unread.clone(),
             constant: self.constant,
         }
     }

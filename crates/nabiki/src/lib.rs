@@ -10,13 +10,11 @@
 
 #![forbid(unsafe_code)]
 
-pub mod curves;
 pub mod distance;
 pub mod disturbance;
 pub mod dynamics;
 pub mod ellipsoid;
 pub mod error;
-pub mod export;
 pub mod field;
 pub mod groom;
 pub mod hair;

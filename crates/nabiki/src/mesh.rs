@@ -2,9 +2,6 @@
 
 use glam::Vec3;
 
-use crate::curves::checked_counts;
-use crate::error::Problem;
-
 /// An indexed triangle mesh, counter-clockwise seen from outside (head space, cm, unless said otherwise).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
@@ -15,37 +12,6 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Appends polygons, cut into triangles from their first corners. `counts`: corners of each; `corners`: indices
-    /// into `positions`, polygon after polygon; `clockwise`: how they run, seen from outside.
-    ///
-    /// # Errors
-    /// Counts that do not fit the corners, a corner past the positions.
-    pub fn add_polygons(
-        &mut self,
-        positions: impl ExactSizeIterator<Item = Vec3>,
-        counts: &[i64],
-        corners: &[i64],
-        clockwise: bool,
-    ) -> Result<(), Problem> {
-        let (base, own) = (self.positions.len(), positions.len());
-        let mut rest = corners;
-        for count in checked_counts(counts, corners.len())? {
-            let (polygon, after) = rest.split_at(count);
-            rest = after;
-            let corner = |&c: &i64| match usize::try_from(c) {
-                Ok(i) if i < own => Ok((base + i) as u32),
-                _ => Err(Problem(format!("corner {c} of {own} vertices"))),
-            };
-            let polygon = polygon.iter().map(corner).collect::<Result<Vec<u32>, _>>()?;
-            self.triangles.extend((2..count).map(|k| {
-                let (b, c) = if clockwise { (k, k - 1) } else { (k - 1, k) };
-                [polygon[0], polygon[b], polygon[c]]
-            }));
-        }
-        self.positions.extend(positions);
-        Ok(())
-    }
-
     /// Unit normals at the vertices: the mean of the adjoining triangles' normals, weighted by area.
     /// A vertex without any gets +y.
     pub fn vertex_normals(&self) -> Vec<Vec3> {

@@ -2,23 +2,42 @@
 
 use std::io::{Read, Seek};
 
-use nabiki::curves::{Carried, indexed};
+use nabiki::hair::{Per, Role, Values};
+use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values};
 
 use crate::Problem;
 use crate::layout::{Kind, Pod};
 use crate::tree::{Form, Header, Tree};
-use crate::values::{integers, singles, words};
+use crate::values::{doubles, integers, singles, words};
 
 /// The parameters of one object's curves in one sample.
 pub struct Parameters<'a, R> {
     tree: &'a mut Tree<R>,
     headers: Vec<Header>,
+    /// How many of them are the schema's own; the rest are geometry parameters.
+    of_schema: usize,
     frame: usize,
 }
+
+/// Properties of the curves' schema that are read elsewhere, or say nothing of the hair.
+const KNOWN: [&str; 8] = [
+    "P",
+    "nVertices",
+    "curveBasisAndType",
+    ".selfBnds",
+    ".childBnds",
+    ".velocities",
+    ".arbGeomParams",
+    ".userProperties",
+];
+/// Attributes that the schema itself has.
+const OF_SCHEMA: [&str; 2] = ["uv", "width"];
 
 /// Values as they are stored.
 struct Stored {
     kind: Kind,
+    role: Role,
+    per: Option<Per>,
     bytes: Vec<u8>,
     /// Which of them stand where, for values stored once for many.
     indices: Option<Vec<i64>>,
@@ -27,18 +46,37 @@ struct Stored {
 impl<'a, R: Read + Seek> Parameters<'a, R> {
     /// Those of curves whose schema has the properties `inside`, in sample `frame`.
     pub fn of(tree: &'a mut Tree<R>, mut inside: Vec<Header>, frame: usize) -> Result<Self, Problem> {
+        let of_schema = inside.len();
         let more = inside.iter().find(|h| h.name == ".arbGeomParams" && h.form == Form::Compound);
         if let Some(place) = more.map(|h| h.place) {
             inside.extend(tree.properties(place)?);
         }
-        Ok(Self { tree, headers: inside, frame })
+        Ok(Self { tree, headers: inside, of_schema, frame })
+    }
+
+    /// What the curves say of themselves that is not read, a phrase each.
+    pub fn unread(&mut self) -> Result<Vec<String>, Problem> {
+        let (schema, parameters) = self.headers.split_at(self.of_schema);
+        let known = |name: &str| KNOWN.contains(&name) || OF_SCHEMA.contains(&name);
+        let other = schema.iter().filter(|h| !known(&h.name));
+        let mut unread: Vec<String> = other.map(|h| format!("property {}", h.name)).collect();
+        let carried = schema.iter().filter(|h| OF_SCHEMA.contains(&&*h.name)).chain(parameters);
+        let moving = carried.filter(|h| h.different_samples() > 1);
+        unread.extend(moving.map(|h| format!("motion of {}", h.name)));
+        let own = schema.iter().find(|h| h.name == ".userProperties" && h.form == Form::Compound).map(|h| h.place);
+        if let Some(place) = own {
+            let properties = self.tree.properties(place)?;
+            unread.extend(properties.into_iter().map(|h| format!("user property {}", h.name)));
+        }
+        Ok(unread)
     }
 
     fn stored(&mut self, name: &str) -> Result<Option<Stored>, Problem> {
         let Some(header) = self.headers.iter().find(|h| h.name == name) else { return Ok(None) };
+        let (role, per) = (role(header), per(header));
         if header.form != Form::Compound {
             let bytes = self.tree.sample(header, self.frame)?;
-            return Ok(Some(Stored { kind: header.kind, bytes, indices: None }));
+            return Ok(Some(Stored { kind: header.kind, role, per, bytes, indices: None }));
         }
         let inside = self.tree.properties(header.place)?;
         let part = |part: &str| {
@@ -48,7 +86,7 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
         let (values, indices) = (part(".vals")?, part(".indices")?);
         let bytes = self.tree.sample(values, self.frame)?;
         let indices = integers(indices.kind, &self.tree.sample(indices, self.frame)?)?;
-        Ok(Some(Stored { kind: values.kind, bytes, indices: Some(indices) }))
+        Ok(Some(Stored { kind: values.kind, role, per, bytes, indices: Some(indices) }))
     }
 }
 
@@ -65,7 +103,49 @@ impl Stored {
     }
 }
 
-impl<R: Read + Seek> Carried for Parameters<'_, R> {
+fn role(header: &Header) -> Role {
+    match (header.detail("interpretation"), header.kind.extent) {
+        (Some("rgb" | "rgba"), _) => Role::Color,
+        (Some("point"), _) => Role::Point,
+        (Some("normal"), _) => Role::Normal,
+        (Some("vector"), 2) => Role::TextureCoordinate,
+        (Some("vector"), _) => Role::Vector,
+        _ => Role::Plain,
+    }
+}
+
+fn per(header: &Header) -> Option<Per> {
+    match header.detail("geoScope") {
+        Some("con") => Some(Per::Groom),
+        Some("uni") => Some(Per::Strand),
+        Some("vtx") => Some(Per::Point),
+        _ => None,
+    }
+}
+
+impl<R: Read + Seek> NamedValues for Parameters<'_, R> {
+    fn names(&self) -> Vec<String> {
+        let (schema, parameters) = self.headers.split_at(self.of_schema);
+        let of_schema = schema.iter().filter(|h| OF_SCHEMA.contains(&&*h.name));
+        of_schema.chain(parameters).map(|h| h.name.clone()).collect()
+    }
+
+    fn whatever(&mut self, name: &str) -> Result<Option<Whatever>, Problem> {
+        let Some(Stored { kind, role, per, bytes, indices }) = self.stored(name)? else { return Ok(None) };
+        let mut values = match kind.pod {
+            Pod::F16 | Pod::F32 => Values::Floats(singles(kind, &bytes)?),
+            Pod::F64 => Values::Doubles(doubles(kind, &bytes)?),
+            Pod::Text => Values::Words(words(kind, &bytes)),
+            Pod::WideText => return Ok(None),
+            _ => Values::Integers(integers(kind, &bytes)?),
+        };
+        let extent = usize::from(kind.extent);
+        if let Some(indices) = indices {
+            values = indexed_values(name, &values, extent, &indices)?;
+        }
+        Ok(Some(Whatever { role, extent, per, values }))
+    }
+
     fn tuples<const N: usize>(&mut self, name: &str) -> Result<Option<Vec<[f32; N]>>, Problem> {
         let Some(stored) = self.stored(name)? else { return Ok(None) };
         let extent = usize::from(stored.kind.extent);

@@ -18,6 +18,6 @@ mod tree;
 mod values;
 mod write;
 
-pub use nabiki::error::Problem;
-pub use read::{ArchiveReader, Contents};
+pub use nabiki_exchange::{Contents, Problem};
+pub use read::ArchiveReader;
 pub use write::HairArchive;

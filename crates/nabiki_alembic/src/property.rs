@@ -21,8 +21,14 @@ impl MetadataTable {
             self.entries.push(metadata.to_owned());
             self.entries.len() - 1
         });
-        // Every entry is one of this crate's own: some twenty, all short.
-        u8::try_from(found + 1).ok().filter(|&i| i < INLINE_METADATA).expect("a small table")
+        // What the table has no room for stands behind its header.
+        match u8::try_from(found + 1) {
+            Ok(index) if index < INLINE_METADATA => index,
+            _ => {
+                self.entries.truncate(found);
+                INLINE_METADATA
+            }
+        }
     }
 
     /// The table as the archive stores it.
@@ -33,7 +39,7 @@ impl MetadataTable {
 
 /// A scalar or array property and the samples it has so far.
 pub struct Property {
-    name: &'static str,
+    name: String,
     metadata: String,
     kind: Kind,
     array: bool,
@@ -58,17 +64,17 @@ struct Sample {
 
 impl Property {
     /// A scalar property: one value a sample.
-    pub fn scalar(name: &'static str, metadata: &str, kind: Kind, timing: u32) -> Self {
+    pub fn scalar(name: &str, metadata: &str, kind: Kind, timing: u32) -> Self {
         Self::new(name, metadata, kind, timing, false)
     }
 
     /// An array property: any number of values a sample.
-    pub fn array(name: &'static str, metadata: &str, kind: Kind, timing: u32) -> Self {
+    pub fn array(name: &str, metadata: &str, kind: Kind, timing: u32) -> Self {
         Self::new(name, metadata, kind, timing, true)
     }
 
     /// An array property that geometry consumers take for an attribute of the given scope: "con", "uni" or "vtx".
-    pub fn attribute(name: &'static str, scope: &str, interpretation: &str, kind: Kind, timing: u32) -> Self {
+    pub fn attribute(name: &str, scope: &str, interpretation: &str, kind: Kind, timing: u32) -> Self {
         let interpretation =
             if interpretation.is_empty() { String::new() } else { format!("interpretation={interpretation};") };
         let metadata = format!(
@@ -79,9 +85,9 @@ impl Property {
         Self::new(name, &metadata, kind, timing, true)
     }
 
-    fn new(name: &'static str, metadata: &str, kind: Kind, timing: u32, array: bool) -> Self {
+    fn new(name: &str, metadata: &str, kind: Kind, timing: u32, array: bool) -> Self {
         Self {
-            name,
+            name: name.to_owned(),
             metadata: metadata.to_owned(),
             kind,
             array,
@@ -164,7 +170,8 @@ impl Property {
         let mut info = if self.array { 2 | u32::from(self.one_value) } else { 1 };
         info |= (self.kind.pod as u32) << flags::POD_SHIFT;
         info |= u32::from(self.kind.extent) << flags::EXTENT_SHIFT;
-        info |= u32::from(table.index(&self.metadata)) << flags::METADATA_SHIFT;
+        let metadata = table.index(&self.metadata);
+        info |= u32::from(metadata) << flags::METADATA_SHIFT;
         info |= if self.homogeneous { flags::HOMOGENEOUS } else { 0 };
         info |= if self.timing > 0 { flags::TIMED } else { 0 };
         let mut numbers = vec![self.samples];
@@ -178,6 +185,7 @@ impl Property {
             numbers.push(self.timing);
         }
         numbers.push(self.name.len() as u32);
+        let stands_behind = metadata == INLINE_METADATA;
         let width = match numbers.iter().copied().max().unwrap_or_default() {
             0..=0xff => 0,
             0x100..=0xffff => 1,
@@ -189,6 +197,10 @@ impl Property {
             bytes.extend(&number.to_le_bytes()[..1 << width]);
         }
         bytes.extend(self.name.as_bytes());
+        if stands_behind {
+            bytes.extend(&(self.metadata.len() as u32).to_le_bytes()[..1 << width]);
+            bytes.extend(self.metadata.as_bytes());
+        }
         bytes
     }
 }

@@ -4,38 +4,24 @@ use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
 
-use glam::{Affine3A, DMat4, DQuat, DVec3, Vec3};
-use nabiki::curves::{Basis, Gathered, Shape, checked_counts};
+use glam::{Affine3A, DMat4, DVec3, Vec3};
 use nabiki::{Hair, Mesh};
+use nabiki_exchange::curves::{Basis, Shape, checked_counts};
+use nabiki_exchange::{Contents, Gathered, GroomReader, InPlace, Placed, Prim, PrimKind, add_polygons};
 
 use crate::Problem;
 use crate::attributes::Parameters;
-use crate::tree::{Form, Header, Tree};
+use crate::tree::{Form, Header, SAME_TIME, Tree};
 use crate::values::{doubles, integers, singles};
 
 /// Samples of a motion that are read at most: three hours of frames.
 const MOST_SAMPLES: usize = 1 << 18;
 
-/// An archive to read hair, heads and motion from; everything comes in the archive's own unit, y up.
+/// An archive to read hair, heads and motion from. Alembic names no unit, and y is up.
 pub struct ArchiveReader<R = File> {
     tree: Tree<R>,
-}
-
-/// What an archive holds.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Contents {
-    /// Objects with curves: path, number of samples.
-    pub curves: Vec<(String, usize)>,
-    /// Objects with meshes.
-    pub meshes: Vec<String>,
-    /// Transforms: path, number of samples.
-    pub transforms: Vec<(String, usize)>,
-    /// Samples of the curves with the most: frames.
-    pub frames: usize,
-    /// Time of the first of them (s).
-    pub start: f64,
-    /// Frames a second, from the first two; 0 where there is one only.
-    pub frame_rate: f64,
+    /// Times of the frames, once they have been asked for (s).
+    frame_times: Option<Vec<f64>>,
 }
 
 impl ArchiveReader<File> {
@@ -54,66 +40,19 @@ impl<R: Read + Seek> ArchiveReader<R> {
     /// # Errors
     /// What is wrong with it.
     pub fn new(from: R) -> Result<Self, Problem> {
-        Ok(Self { tree: Tree::new(from)? })
+        Ok(Self { tree: Tree::new(from)?, frame_times: None })
     }
 
-    /// Lists what is in the archive.
-    ///
-    /// # Errors
-    /// What is wrong with it.
-    pub fn contents(&mut self) -> Result<Contents, Problem> {
-        let mut contents = Contents::default();
-        for i in 0..self.tree.objects.len() {
-            let path = self.tree.objects[i].path.clone();
-            if self.tree.objects[i].is("AbcGeom_Curve") {
-                let inside = self.schema(i)?;
-                let header = required(&inside, "P", &path)?;
-                if header.samples > contents.frames {
-                    let timing = &self.tree.timings[header.timing];
-                    contents.frames = header.samples;
-                    contents.start = timing.time(0);
-                    let step = timing.time(1) - timing.time(0);
-                    contents.frame_rate = if header.samples > 1 && step > 0.0 { 1.0 / step } else { 0.0 };
-                }
-                contents.curves.push((path, header.samples));
-            } else if self.tree.objects[i].is("AbcGeom_PolyMesh") {
-                contents.meshes.push(path);
-            } else if self.tree.objects[i].is("AbcGeom_Xform") {
-                let inside = self.schema(i)?;
-                let samples = inside.iter().find(|h| h.name == ".vals").map_or(1, |h| h.samples);
-                contents.transforms.push((path, samples));
-            }
-        }
-        Ok(contents)
-    }
-
-    /// All curves at sample `frame` (the nearest each has), one after another, with the transforms above them.
-    ///
-    /// `segments`: walks every curve into as many; `None` keeps polylines as they are. Curves in several objects
-    /// that have no groups of their own are grouped by object, under its name.
-    ///
-    /// # Errors
-    /// No curves, curves that are periodic or of mixed order, numbers that contradict each other or are not finite.
-    pub fn hair(&mut self, frame: usize, segments: Option<usize>) -> Result<Hair, Problem> {
-        let objects: Vec<usize> =
-            (0..self.tree.objects.len()).filter(|&i| self.tree.objects[i].is("AbcGeom_Curve")).collect();
-        if objects.is_empty() {
-            return Err(Problem::new("has no curves"));
-        }
-        let mut all = Gathered::default();
-        for (group, &object) in objects.iter().enumerate() {
-            let path = self.tree.objects[object].path.clone();
-            let name = path.rsplit('/').next().unwrap_or_default().to_owned();
-            let part = self.curves(object, frame, segments).map_err(|e| Problem(format!("curves {path}: {e}")))?;
-            all.append(part, (objects.len() > 1).then_some((group as i32, name)));
-        }
-        all.hair()
-    }
-
-    fn curves(&mut self, object: usize, frame: usize, segments: Option<usize>) -> Result<Hair, Problem> {
+    fn curves(
+        &mut self,
+        object: usize,
+        time: f64,
+        segments: Option<usize>,
+        attributes: bool,
+    ) -> Result<(Hair, Affine3A), Problem> {
         let inside = self.schema(object)?;
         let positions = required(&inside, "P", "")?;
-        let time = self.tree.timings[positions.timing].time(frame.min(positions.samples.saturating_sub(1)));
+        let (frame, _) = self.tree.timings[positions.timing].at(time, positions.samples);
         let points = self.tree.points(positions, frame)?;
         let counts = required(&inside, "nVertices", "")?;
         let counts = integers(counts.kind, &self.tree.sample(counts, frame)?)?;
@@ -122,90 +61,15 @@ impl<R: Read + Seek> ArchiveReader<R> {
             Some(header) => basis(&self.tree.sample(header, frame)?)?,
             None => return Err(Problem::new("do not say whether they are straight or cubic")),
         };
-        let walked = Shape { counts, basis, pinned: false }.walk(points, segments)?;
-        let attributes = walked.attributes(&mut Parameters::of(&mut self.tree, inside, frame)?)?;
-        let hair = Hair { strands: walked.strands, attributes };
-        let world = self.world(object, time)?;
-        Ok(if world == DMat4::IDENTITY { hair } else { hair.transformed(&Affine3A::from_mat4(world.as_mat4())) })
-    }
-
-    /// All polygon meshes at their first sample, cut into triangles, with the transforms above them, as one.
-    ///
-    /// # Errors
-    /// No mesh, or one whose numbers contradict each other.
-    pub fn mesh(&mut self) -> Result<Mesh, Problem> {
-        let mut mesh = Mesh::default();
-        for object in 0..self.tree.objects.len() {
-            if !self.tree.objects[object].is("AbcGeom_PolyMesh") {
-                continue;
-            }
-            let path = self.tree.objects[object].path.clone();
-            let inside = self.schema(object)?;
-            let world = self.world(object, 0.0)?;
-            let mut numbers = |name: &str| -> Result<(&Header, Vec<u8>), Problem> {
-                let header = required(&inside, name, &path)?;
-                let bytes = self.tree.sample(header, 0)?;
-                Ok((header, bytes))
-            };
-            let (header, bytes) = numbers("P")?;
-            let positions = singles(header.kind, &bytes)?;
-            let (header, bytes) = numbers(".faceCounts")?;
-            let counts = integers(header.kind, &bytes)?;
-            let (header, bytes) = numbers(".faceIndices")?;
-            let corners = integers(header.kind, &bytes)?;
-            let world = world.as_mat4();
-            let positions = positions.as_chunks::<3>().0.iter().map(|&p| world.transform_point3(Vec3::from(p)));
-            // Alembic winds faces clockwise.
-            let added = mesh.add_polygons(positions, &counts, &corners, true);
-            added.map_err(|e| Problem(format!("mesh {path}: {e}")))?;
+        let lines = Shape { counts, basis, pinned: false }.walk(points, segments)?;
+        let world = Affine3A::from_mat4(self.world(object, time)?.as_mat4());
+        if !attributes {
+            return Ok((Hair::from(lines.strands), world));
         }
-        match mesh.positions.iter().find(|p| !p.is_finite()) {
-            Some(p) => Err(Problem(format!("has a vertex at {p}"))),
-            None if mesh.triangles.is_empty() => Err(Problem::new("has no polygons")),
-            None => Ok(mesh),
-        }
-    }
-
-    /// World position and rotation of the object `path` (or of the first whose last name it is) at each sample of
-    /// its own transform, with their times (s).
-    ///
-    /// # Errors
-    /// No such object; a transform that flattens space.
-    pub fn motion(&mut self, path: &str) -> Result<Vec<(f64, DVec3, DQuat)>, Problem> {
-        let named = |o: &&crate::tree::Object| {
-            o.path == path || o.path.rsplit('/').next().is_some_and(|n| n.eq_ignore_ascii_case(path))
-        };
-        let Some(object) = self.tree.objects.iter().position(|o| named(&o) && !o.path.is_empty()) else {
-            let names: Vec<&str> = self.tree.objects.iter().skip(1).map(|o| o.path.as_str()).take(40).collect();
-            return Err(Problem(format!("has no object {path}: node can be {}", names.join(", "))));
-        };
-        // The samples of the nearest transform that moves say when to look.
-        let mut above = Some(object);
-        let mut times = vec![0.0];
-        while let Some(i) = above {
-            if self.tree.objects[i].is("AbcGeom_Xform") {
-                let inside = self.schema(i)?;
-                if let Some(values) = inside.iter().find(|h| h.name == ".vals").filter(|h| h.samples > 1) {
-                    let (timing, samples) = (&self.tree.timings[values.timing], values.different_samples());
-                    if samples > MOST_SAMPLES {
-                        return Err(Problem(format!("object {path}: moves over {samples} samples, more than is read")));
-                    }
-                    times = (0..samples).map(|n| timing.time(n)).collect();
-                    break;
-                }
-            }
-            above = self.tree.objects[i].parent;
-        }
-        let mut motion = Vec::with_capacity(times.len());
-        for time in times {
-            let world = self.world(object, time)?;
-            if !(world.is_finite() && world.determinant().abs() > 0.0) {
-                return Err(Problem(format!("object {path}: its transform at {time} s flattens space")));
-            }
-            let (_, rotation, position) = world.to_scale_rotation_translation();
-            motion.push((time, position, rotation));
-        }
-        Ok(motion)
+        let mut parameters = Parameters::of(&mut self.tree, inside, frame)?;
+        let mut attributes = lines.attributes(&mut parameters)?;
+        attributes.unread.extend(parameters.unread()?);
+        Ok((Hair { strands: lines.strands, attributes }, world))
     }
 
     /// The properties of an object's schema.
@@ -234,28 +98,23 @@ impl<R: Read + Seek> ArchiveReader<R> {
         Ok(world)
     }
 
-    /// A transform, and whether those above it count.
+    /// A transform, and whether those above it count. The numbers of its operations are interpolated between samples.
     fn local(&mut self, object: usize, time: f64) -> Result<(DMat4, bool), Problem> {
         let inside = self.schema(object)?;
-        let mut numbers = |name: &str| -> Result<Vec<f64>, Problem> {
+        let mut numbers = |name: &str, between: bool| -> Result<Vec<f64>, Problem> {
             let Some(header) = inside.iter().find(|h| h.name == name) else { return Ok(Vec::new()) };
-            let timing = &self.tree.timings[header.timing];
-            let most = header.samples.saturating_sub(1);
-            // The last sample at or before the time; a hair of it later counts as before.
-            let (mut low, mut high) = (0, most);
-            while low < high {
-                let middle = (low + high).div_ceil(2);
-                if timing.time(middle) <= time + 1e-6 {
-                    low = middle;
-                } else {
-                    high = middle - 1;
+            let (low, share) = self.tree.timings[header.timing].at(time, header.samples);
+            let mut numbers = doubles(header.kind, &self.tree.sample(header, low)?)?;
+            if between && share > 0.0 {
+                let next = doubles(header.kind, &self.tree.sample(header, low + 1)?)?;
+                if next.len() == numbers.len() {
+                    numbers.iter_mut().zip(next).for_each(|(a, b)| *a = (1.0 - share) * *a + share * b);
                 }
             }
-            let bytes = self.tree.sample(header, low)?;
-            doubles(header.kind, &bytes)
+            Ok(numbers)
         };
-        let inherits = numbers(".inherits")?.first().is_none_or(|&x| x != 0.0);
-        let (operations, values) = (numbers(".ops")?, numbers(".vals")?);
+        let inherits = numbers(".inherits", false)?.first().is_none_or(|&x| x != 0.0);
+        let (operations, values) = (numbers(".ops", false)?, numbers(".vals", true)?);
         let mut values = &values[..];
         let mut local = DMat4::IDENTITY;
         for operation in operations {
@@ -286,6 +145,220 @@ impl<R: Read + Seek> ArchiveReader<R> {
             };
         }
         Ok((local, inherits))
+    }
+
+    /// Paths of what can move a head, transforms that move first.
+    fn movers(&mut self) -> Result<Vec<String>, Problem> {
+        const MOST_NAMED: usize = 40;
+        let (mut moving, mut still) = (Vec::new(), Vec::new());
+        for i in 1..self.tree.objects.len() {
+            let moves = self.moving(i)?.is_some();
+            let list = if moves { &mut moving } else { &mut still };
+            list.push(self.tree.objects[i].path.clone());
+        }
+        moving.extend(still);
+        moving.truncate(MOST_NAMED);
+        Ok(moving)
+    }
+
+    /// Times of the frames: of the curves with the most samples, or of what moves them whole (s).
+    fn frame_times(&mut self) -> Result<Vec<f64>, Problem> {
+        let mut most = Vec::new();
+        for object in self.of_schema("AbcGeom_Curve") {
+            let inside = self.schema(object)?;
+            let header = required(&inside, "P", &self.tree.objects[object].path)?;
+            if header.samples > MOST_SAMPLES {
+                return Err(Problem(format!("its curves have {} samples, more than is read", header.samples)));
+            }
+            let timing = &self.tree.timings[header.timing];
+            let mut times: Vec<f64> = (0..header.samples).map(|n| timing.time(n)).collect();
+            if times.len() < 2 {
+                let above = self.times(object)?;
+                times = if above.len() > 1 { above } else { times };
+            }
+            if times.len() > most.len() {
+                most = times;
+            }
+        }
+        Ok(most)
+    }
+
+    /// When a frame is (s); the last after those there are.
+    fn time_of(&mut self, frame: usize) -> Result<f64, Problem> {
+        if self.frame_times.is_none() {
+            self.frame_times = Some(self.frame_times()?);
+        }
+        let times = self.frame_times.as_deref().unwrap_or_default();
+        Ok(times.get(frame).or(times.last()).copied().unwrap_or(0.0))
+    }
+
+    /// The objects of a schema.
+    fn of_schema(&self, schema: &str) -> Vec<usize> {
+        (0..self.tree.objects.len()).filter(|&i| self.tree.objects[i].is(schema)).collect()
+    }
+
+    /// The values of the transform `object`, if it is one that moves.
+    fn moving(&mut self, object: usize) -> Result<Option<Header>, Problem> {
+        if !self.tree.objects[object].is("AbcGeom_Xform") {
+            return Ok(None);
+        }
+        let inside = self.schema(object)?;
+        Ok(inside.into_iter().find(|h| h.name == ".vals" && h.different_samples() > 1))
+    }
+
+    /// The times at which `object` or one above it moves (s).
+    fn times(&mut self, object: usize) -> Result<Vec<f64>, Problem> {
+        let mut times = Vec::new();
+        let mut above = Some(object);
+        while let Some(i) = above {
+            if let Some(values) = self.moving(i)? {
+                let (timing, samples) = (&self.tree.timings[values.timing], values.different_samples());
+                if samples + times.len() > MOST_SAMPLES {
+                    let path = &self.tree.objects[i].path;
+                    return Err(Problem(format!("object {path}: moves over {samples} samples, more than is read")));
+                }
+                times.extend((0..samples).map(|n| timing.time(n)));
+            }
+            above = self.tree.objects[i].parent;
+        }
+        times.sort_by(f64::total_cmp);
+        times.dedup_by(|b, a| *b - *a <= SAME_TIME);
+        if times.is_empty() {
+            times.push(0.0);
+        }
+        Ok(times)
+    }
+
+    /// Values of an array property in its first sample.
+    fn count(&mut self, header: Option<&Header>) -> Result<usize, Problem> {
+        let Some(header) = header else { return Ok(0) };
+        let size = header.kind.pod.size() * usize::from(header.kind.extent);
+        Ok(self.tree.sample(header, 0)?.len() / size)
+    }
+}
+
+impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
+    fn contents(&mut self) -> Result<Contents, Problem> {
+        let paths = |reader: &Self, schema: &str| {
+            reader.of_schema(schema).into_iter().map(|i| reader.tree.objects[i].path.clone()).collect::<Vec<_>>()
+        };
+        let mut contents = Contents {
+            curves: paths(self, "AbcGeom_Curve"),
+            meshes: paths(self, "AbcGeom_PolyMesh"),
+            frame_rate: 24.0,
+            z_up: Some(false),
+            ..Contents::default()
+        };
+        contents.times = self.frame_times()?;
+        if let [first, .., last] = contents.times[..]
+            && last > first
+        {
+            contents.frame_rate = (contents.times.len() - 1) as f64 / (last - first);
+        }
+        // A rate that is a whole number but for the rounding of its period is that number.
+        let whole = contents.frame_rate.round();
+        if (contents.frame_rate - whole).abs() < 1e-9 * whole {
+            contents.frame_rate = whole;
+        }
+        Ok(contents)
+    }
+
+    fn prims(&mut self) -> Result<Vec<Prim>, Problem> {
+        let mut prims = Vec::new();
+        for i in 1..self.tree.objects.len() {
+            let object = &self.tree.objects[i];
+            let path = object.path.clone();
+            let schema = ["AbcGeom_Curve", "AbcGeom_PolyMesh", "AbcGeom_Xform"].into_iter().find(|s| object.is(s));
+            let Some(schema) = schema else {
+                let known = object.metadata.split(';').find_map(|entry| entry.strip_prefix("schema="));
+                let kind = PrimKind::Other(known.unwrap_or_default().to_owned());
+                prims.push(Prim { path, kind, samples: 0 });
+                continue;
+            };
+            let inside = self.schema(i)?;
+            let named = |name: &str| inside.iter().find(|h| h.name == name && h.form != Form::Compound);
+            let samples = |name: &str| named(name).map_or(0, Header::different_samples);
+            prims.push(match schema {
+                "AbcGeom_Xform" => Prim { path, kind: PrimKind::Transform, samples: samples(".vals") },
+                "AbcGeom_Curve" => {
+                    let (curves, points) = (self.count(named("nVertices"))?, self.count(named("P"))?);
+                    Prim { path, kind: PrimKind::Curves { curves, points }, samples: samples("P") }
+                }
+                _ => {
+                    let (faces, points) = (self.count(named(".faceCounts"))?, self.count(named("P"))?);
+                    Prim { path, kind: PrimKind::Mesh { faces, points }, samples: samples("P") }
+                }
+            });
+        }
+        Ok(prims)
+    }
+
+    fn hair_in_place(&mut self, frame: usize, segments: Option<usize>, attributes: bool) -> Result<InPlace, Problem> {
+        let objects = self.of_schema("AbcGeom_Curve");
+        if objects.is_empty() {
+            return Err(Problem::new("has no curves"));
+        }
+        let time = self.time_of(frame)?;
+        let mut all = Gathered::default();
+        for (group, &object) in objects.iter().enumerate() {
+            let path = self.tree.objects[object].path.clone();
+            let name = path.rsplit('/').next().unwrap_or_default().to_owned();
+            let part = self.curves(object, time, segments, attributes);
+            let (hair, world) = part.map_err(|e| Problem(format!("curves {path}: {e}")))?;
+            all.append(hair, world, (objects.len() > 1).then_some((group as i32, name)));
+        }
+        all.hair()
+    }
+
+    fn mesh(&mut self) -> Result<Mesh, Problem> {
+        let mut mesh = Mesh::default();
+        // Where the head stands as the hair's first frame finds it.
+        let time = self.time_of(0)?;
+        for object in self.of_schema("AbcGeom_PolyMesh") {
+            let path = self.tree.objects[object].path.clone();
+            let inside = self.schema(object)?;
+            let world = Affine3A::from_mat4(self.world(object, time)?.as_mat4());
+            let mut numbers = |name: &str| -> Result<(&Header, Vec<u8>), Problem> {
+                let header = required(&inside, name, &path)?;
+                let bytes = self.tree.sample(header, 0)?;
+                Ok((header, bytes))
+            };
+            let (header, bytes) = numbers("P")?;
+            let positions = singles(header.kind, &bytes)?;
+            let (header, bytes) = numbers(".faceCounts")?;
+            let counts = integers(header.kind, &bytes)?;
+            let (header, bytes) = numbers(".faceIndices")?;
+            let corners = integers(header.kind, &bytes)?;
+            let positions: Vec<Vec3> = positions.as_chunks::<3>().0.iter().map(|&p| Vec3::from(p)).collect();
+            // Alembic winds faces clockwise.
+            let added = add_polygons(&mut mesh, &positions, &counts, &corners, true, &world);
+            added.map_err(|e| Problem(format!("mesh {path}: {e}")))?;
+        }
+        match mesh.positions.iter().find(|p| !p.is_finite()) {
+            Some(p) => Err(Problem(format!("has a vertex at {p}"))),
+            None if mesh.triangles.is_empty() => Err(Problem::new("has no polygons")),
+            None => Ok(mesh),
+        }
+    }
+
+    fn motion(&mut self, node: &str) -> Result<Vec<Placed>, Problem> {
+        let named = |o: &crate::tree::Object| {
+            o.path == node || o.path.rsplit('/').next().is_some_and(|n| n.eq_ignore_ascii_case(node))
+        };
+        let Some(object) = self.tree.objects.iter().position(|o| named(o) && !o.path.is_empty()) else {
+            return Err(Problem(format!("has no object {node}: node can be {}", self.movers()?.join(", "))));
+        };
+        let times = self.times(object)?;
+        let mut motion = Vec::with_capacity(times.len());
+        for time in times {
+            let world = self.world(object, time)?;
+            if !(world.is_finite() && world.determinant().abs() > 0.0) {
+                return Err(Problem(format!("object {node}: its transform at {time} s flattens space")));
+            }
+            let (_, rotation, position) = world.to_scale_rotation_translation();
+            motion.push(Placed { time, position, rotation });
+        }
+        Ok(motion)
     }
 }
 

@@ -9,6 +9,9 @@ use crate::layout::{INLINE_METADATA, Kind, Pod, flags};
 use crate::ogawa::read::{Group, Reader, is_data};
 use crate::values::singles;
 
+/// Times apart by no more than this are the same (s).
+pub const SAME_TIME: f64 = 1e-6;
+
 /// Bytes of digest before the values of a sample.
 const DIGEST: usize = 16;
 /// Objects below objects; an archive that claims more refers to itself.
@@ -26,6 +29,22 @@ pub struct Timing {
 }
 
 impl Timing {
+    /// The last of `samples` at or before a time, and how far on to the one after it (0..1) the time is.
+    pub fn at(&self, time: f64, samples: usize) -> (usize, f64) {
+        let most = samples.saturating_sub(1);
+        let (mut low, mut high) = (0, most);
+        while low < high {
+            let middle = (low + high).div_ceil(2);
+            if self.time(middle) <= time + SAME_TIME {
+                low = middle;
+            } else {
+                high = middle - 1;
+            }
+        }
+        let (from, to) = (self.time(low), self.time(low + 1));
+        (low, if low < most && time > from + SAME_TIME && to > from { (time - from) / (to - from) } else { 0.0 })
+    }
+
     /// When sample `i` is (s).
     pub fn time(&self, i: usize) -> f64 {
         let n = self.times.len();
@@ -76,6 +95,8 @@ pub struct Header {
     pub form: Form,
     /// Type of its values (meaningless for compounds).
     pub kind: Kind,
+    /// What else is said of it: `geoScope=vtx;interpretation=rgb`.
+    pub metadata: String,
     /// Number of samples.
     pub samples: usize,
     first_change: usize,
@@ -87,6 +108,12 @@ pub struct Header {
 }
 
 impl Header {
+    /// What its metadata say of `key`.
+    pub fn detail(&self, key: &str) -> Option<&str> {
+        let mut entries = self.metadata.split(';').filter_map(|entry| entry.split_once('='));
+        entries.find(|(name, _)| *name == key).map(|(_, value)| value)
+    }
+
     /// Samples up to the last that differs from the one before it: all that need be looked at.
     pub fn different_samples(&self) -> usize {
         self.samples.min(self.last_change + 1)
@@ -227,11 +254,11 @@ impl<R: Read + Seek> Tree<R> {
         }
         let length = bytes.number(width)?;
         let name = bytes.text(length)?;
-        self.metadata((info >> flags::METADATA_SHIFT & 0xff) as usize, width, bytes)?;
+        let metadata = self.metadata((info >> flags::METADATA_SHIFT & 0xff) as usize, width, bytes)?;
         if timing >= self.timings.len() || kind.extent == 0 || first_change > last_change {
             return Err(Problem(format!("property {name}: its header contradicts itself")));
         }
-        Ok(Header { name, form, kind, samples, first_change, last_change, timing, place })
+        Ok(Header { name, form, kind, metadata, samples, first_change, last_change, timing, place })
     }
 
     /// Bytes of sample `i` of a property; the nearest one it has.

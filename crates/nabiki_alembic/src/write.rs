@@ -4,14 +4,16 @@
 //! and the transform have a sample a frame; all else is stored once. Alembic has no unit and no up axis: consumers
 //! take it as y up, and its unit for their own.
 
-use std::io::{self, BufWriter};
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::Path;
 
 use glam::{Affine3A, Vec3};
-use nabiki::export::{Export, FrameSink};
+use nabiki::hair::{Attributes, Other, Per, Role, Values};
 use nabiki::strands::bounds;
 use nabiki::{Mesh, Strands};
-use tempfile::NamedTempFile;
+use nabiki_exchange::attributes::names;
+use nabiki_exchange::{Export, FrameSink, Velocities};
+use nabiki_file::PartFile;
 
 use crate::layout::{Kind, Pod};
 use crate::ogawa::write::Writer;
@@ -21,6 +23,7 @@ const POINT: Kind = Kind { pod: Pod::F32, extent: 3 };
 const UV: Kind = Kind { pod: Pod::F32, extent: 2 };
 const NUMBER: Kind = Kind { pod: Pod::F32, extent: 1 };
 const INTEGER: Kind = Kind { pod: Pod::I32, extent: 1 };
+const LONG: Kind = Kind { pod: Pod::I64, extent: 1 };
 const TEXT: Kind = Kind { pod: Pod::Text, extent: 1 };
 const BOX: Kind = Kind { pod: Pod::F64, extent: 6 };
 const FLAG: Kind = Kind { pod: Pod::Bool, extent: 1 };
@@ -29,18 +32,20 @@ const BYTE: Kind = Kind { pod: Pod::U8, extent: 1 };
 /// Time samplings of the archive: 0 is the default every archive has, 1 that of the frames.
 const FRAMES: u32 = 1;
 
-type Archive = Writer<BufWriter<NamedTempFile>>;
+type Archive = Writer<PartFile>;
 
 /// An Alembic archive that takes the hair frame by frame.
 pub struct HairArchive<'a> {
     export: Export<'a>,
-    path: PathBuf,
     to: Archive,
     positions: Property,
     bounds: Property,
     transform: Property,
     moved_channels: [bool; 16],
     rest_transform: Option<[f64; 16]>,
+    velocities: Option<Velocities>,
+    /// The velocities of the frames.
+    moving: Property,
     points: Vec<Vec3>,
 }
 
@@ -51,17 +56,16 @@ impl<'a> HairArchive<'a> {
     /// Settings that [`Export::check`] refuses; what the disk says.
     pub fn create(path: &Path, export: Export<'a>) -> io::Result<Self> {
         export.check()?;
-        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let file = unnamed_in(folder)?;
         Ok(Self {
+            velocities: export.velocities.then(Velocities::default),
             export,
-            path: path.to_owned(),
-            to: Writer::new(BufWriter::with_capacity(1 << 20, file))?,
+            to: Writer::new(PartFile::create(path)?)?,
             positions: Property::array("P", "geoScope=vtx;interpretation=point", POINT, FRAMES),
             bounds: Property::scalar(".selfBnds", "interpretation=box", BOX, FRAMES),
             transform: Property::scalar(".vals", "", Kind { pod: Pod::F64, extent: 16 }, FRAMES),
             moved_channels: [false; 16],
             rest_transform: None,
+            moving: Property::array(".velocities", "interpretation=vector", POINT, FRAMES),
             points: Vec::new(),
         })
     }
@@ -70,13 +74,17 @@ impl<'a> HairArchive<'a> {
         if self.positions.samples() == 0 {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, "no frame was given"));
         }
+        if let Some(last) = self.velocities.as_ref().and_then(Velocities::of_last) {
+            self.moving.put(&mut self.to, bytemuck::cast_slice(last))?;
+        }
         let mut table = MetadataTable::default();
         let version = self.to.data(&[&0i32.to_le_bytes()])?;
         // The layout is that of Alembic 1.7 to 1.8; readers use the number to tell what they may meet.
         let library = self.to.data(&[&10_800i32.to_le_bytes()])?;
         let timing = self.timing();
         let to = &mut self.to;
-        let hair = curves(to, &mut table, &self.export, &self.positions, &self.bounds)?;
+        let moving = Some(&self.moving).filter(|m| m.samples() > 0);
+        let hair = curves(to, &mut table, &self.export, [Some(&self.bounds), Some(&self.positions), moving])?;
         let skin = self.export.head.map(|mesh| polygons(to, &mut table, mesh, &self.export)).transpose()?;
 
         let inside = transform(to, &mut table, &self.transform, &self.moved_channels)?;
@@ -95,9 +103,7 @@ impl<'a> HairArchive<'a> {
         let timing = to.data(&[&timing])?;
         let table = to.data(&[&table.bytes()])?;
         let root = to.group(&[version, library, top, metadata, timing, table])?;
-        let file = self.to.finish(root)?.into_inner().map_err(|e| e.into_error())?;
-        file.persist(&self.path).map_err(|e| e.error)?;
-        Ok(())
+        self.to.finish(root)?.finish()
     }
 
     /// Time samplings: the default, and a uniform one of the frames.
@@ -120,6 +126,11 @@ impl FrameSink for HairArchive<'_> {
         let points = self.export.points(strands, &mut self.points)?;
         self.positions.put(&mut self.to, bytemuck::cast_slice(points))?;
         self.bounds.put(&mut self.to, &box_of(points))?;
+        if let Some(velocities) = &mut self.velocities
+            && let Some(found) = velocities.before(points, self.export.frame_rate)?
+        {
+            self.moving.put(&mut self.to, bytemuck::cast_slice(found))?;
+        }
         // Alembic multiplies rows from the left.
         let parent = self.export.parent(world_from_head).to_cols_array().map(f64::from);
         let rest = self.rest_transform.get_or_insert(parent);
@@ -187,85 +198,154 @@ fn groom_properties(to: &mut Archive, table: &mut MetadataTable) -> io::Result<C
     Ok(inside)
 }
 
-/// The curves: the frames' positions and bounds, and everything that does not move.
+/// The curves: what the frames have put into `sampled`, and everything that does not move.
 fn curves(
     to: &mut Archive,
     table: &mut MetadataTable,
     export: &Export<'_>,
-    positions: &Property,
-    bounds: &Property,
+    sampled: [Option<&Property>; 3],
 ) -> io::Result<Object> {
     let mut inside = Compound::default();
-    inside.add(to, table, bounds)?;
-    inside.add(to, table, positions)?;
-    let mut once = |inside: &mut Compound, mut property: Property, value: &[u8]| {
-        property.put(to, value)?;
-        property.hold(if property.is_timed() { positions.samples() } else { 1 });
-        inside.add(to, table, &property)
-    };
+    let mut samples = 0;
+    for property in sampled.into_iter().flatten() {
+        inside.add(to, table, property)?;
+        samples = property.samples();
+    }
     let strands = &export.hair.strands;
-    let counts: Vec<i32> = strands.iter().map(|s| s.len() as i32).collect();
-    once(&mut inside, Property::array("nVertices", "", INTEGER, FRAMES), bytemuck::cast_slice(&counts))?;
-    // Linear, not periodic, no basis.
-    let shape = Property::scalar("curveBasisAndType", "", Kind { pod: Pod::U8, extent: 4 }, FRAMES);
-    once(&mut inside, shape, &[1, 0, 0, 0])?;
     let attributes = &export.hair.attributes;
+    let mut own = Held { to, table, inside: Compound::default(), samples };
+    own.inside = inside;
+    let counts: Vec<i32> = strands.iter().map(|s| s.len() as i32).collect();
+    own.put(Property::array("nVertices", "", INTEGER, FRAMES), bytemuck::cast_slice(&counts))?;
+    // Linear, not periodic, no basis.
+    own.put(Property::scalar("curveBasisAndType", "", Kind { pod: Pod::U8, extent: 4 }, FRAMES), &[1, 0, 0, 0])?;
     if let Some(uv) = &attributes.root_uv {
-        once(&mut inside, Property::attribute("uv", "uni", "vector", UV, FRAMES), bytemuck::cast_slice(uv))?;
+        own.put(Property::attribute("uv", "uni", "vector", UV, FRAMES), bytemuck::cast_slice(uv))?;
     }
     if let Some(widths) = export.widths() {
-        once(&mut inside, Property::attribute("width", "vtx", "", NUMBER, FRAMES), bytemuck::cast_slice(&widths))?;
+        own.put(Property::attribute("width", "vtx", "", NUMBER, FRAMES), bytemuck::cast_slice(&widths))?;
     }
-
-    let mut more = Compound::default();
-    if let Some(uv) = &attributes.root_uv {
-        let property = Property::attribute("groom_root_uv", "uni", "vector", UV, 0);
-        once(&mut more, property, bytemuck::cast_slice(uv))?;
-    }
-    if let Some(ids) = &attributes.id {
-        // Unreal's ids are 32-bit; others are kept whole under a name of our own.
-        match ids.iter().map(|&id| i32::try_from(id)).collect::<Result<Vec<_>, _>>() {
-            Ok(ids) => {
-                let property = Property::attribute("groom_id", "uni", "", INTEGER, 0);
-                once(&mut more, property, bytemuck::cast_slice(&ids))?;
-            }
-            Err(_) => {
-                let property = Property::attribute("id", "uni", "", Kind { pod: Pod::I64, extent: 1 }, 0);
-                once(&mut more, property, bytemuck::cast_slice(ids))?;
-            }
-        }
-    }
-    if let Some(groups) = &attributes.group {
-        let property = Property::attribute("groom_group_id", "uni", "", INTEGER, 0);
-        once(&mut more, property, bytemuck::cast_slice(groups))?;
-        if !attributes.group_names.is_empty() {
-            let empty = String::new();
-            let name = |g: &i32| attributes.group_names.get(g).unwrap_or(&empty).replace('\0', "") + "\0";
-            let names: String = groups.iter().map(name).collect();
-            once(&mut more, Property::attribute("groom_group_name", "uni", "", TEXT, 0), names.as_bytes())?;
-        }
-    }
-    if let Some(guides) = &attributes.guide {
-        let guides: Vec<i16> = guides.iter().map(|&g| i16::from(g)).collect();
-        let property = Property::attribute("groom_guide", "uni", "", Kind { pod: Pod::I16, extent: 1 }, 0);
-        once(&mut more, property, bytemuck::cast_slice(&guides))?;
-    }
-    let one_color = attributes.constant.color.map(|c| vec![c; strands.points().len()]);
-    if let Some(colors) = attributes.color.as_ref().or(one_color.as_ref()) {
-        let property = Property::attribute("groom_color", "vtx", "rgb", POINT, 0);
-        once(&mut more, property, bytemuck::cast_slice(colors))?;
-    }
-    if let Some(uv) = &attributes.point_uv {
-        once(&mut more, Property::attribute("point_uv", "vtx", "vector", UV, 0), bytemuck::cast_slice(uv))?;
-    }
-    if let Some(values) = export.transparency() {
-        once(&mut more, Property::attribute("transparency", "vtx", "", NUMBER, 0), bytemuck::cast_slice(&values))?;
-    }
-    if let Some(values) = &attributes.freedom {
-        once(&mut more, Property::attribute("freedom", "vtx", "", NUMBER, 0), bytemuck::cast_slice(values))?;
-    }
+    let mut inside = own.inside;
+    let mut more = Held { to, table, inside: Compound::default(), samples };
+    parameters(&mut more, export)?;
+    let more = more.inside;
     inside.nest(to, table, ".arbGeomParams", "", more)?;
     Object::with_schema(to, table, Schema::Curves, inside)
+}
+
+/// Properties with one value for all frames.
+struct Held<'a> {
+    to: &'a mut Archive,
+    table: &'a mut MetadataTable,
+    inside: Compound,
+    /// Number of frames.
+    samples: u32,
+}
+
+impl Held<'_> {
+    fn put(&mut self, mut property: Property, value: &[u8]) -> io::Result<()> {
+        property.put(self.to, value)?;
+        property.hold(if property.is_timed() { self.samples } else { 1 });
+        self.inside.add(self.to, self.table, &property)
+    }
+
+    /// A value for each strand.
+    fn by_strand(&mut self, name: &str, interpretation: &str, kind: Kind, value: &[u8]) -> io::Result<()> {
+        self.put(Property::attribute(name, "uni", interpretation, kind, 0), value)
+    }
+
+    /// A value for each point.
+    fn by_point(&mut self, name: &str, interpretation: &str, kind: Kind, value: &[u8]) -> io::Result<()> {
+        self.put(Property::attribute(name, "vtx", interpretation, kind, 0), value)
+    }
+}
+
+/// The geometry parameters. What was carried along goes before what is made here under the same name.
+fn parameters(more: &mut Held<'_>, export: &Export<'_>) -> io::Result<()> {
+    let at = &export.hair.attributes;
+    let made = |name: &str| at.other.iter().all(|other| other.name != name);
+    roots(more, at, &made)?;
+    let points = export.hair.strands.points().len();
+    let one_color = at.constant.color.or(export.default_color).map(|c| vec![c; points]);
+    if let Some(colors) = at.color.as_ref().or(one_color.as_ref()).filter(|_| made("groom_color")) {
+        more.by_point("groom_color", "rgb", POINT, bytemuck::cast_slice(colors))?;
+    }
+    if let Some(uv) = &at.point_uv {
+        more.by_point("point_uv", "vector", UV, bytemuck::cast_slice(uv))?;
+    }
+    if let Some(values) = export.transparency() {
+        more.by_point("transparency", "", NUMBER, bytemuck::cast_slice(&values))?;
+    }
+    if let Some(values) = &at.freedom {
+        more.by_point("freedom", "", NUMBER, bytemuck::cast_slice(values))?;
+    }
+    if export.rest && made(names::REST) {
+        more.by_point(names::REST, "point", POINT, bytemuck::cast_slice(&export.rest_points()))?;
+    }
+    at.other.iter().try_for_each(|other| carried(more, other))
+}
+
+/// What strands have one of each: UVs of their roots, ids, groups, guides.
+fn roots(more: &mut Held<'_>, at: &Attributes, made: &dyn Fn(&str) -> bool) -> io::Result<()> {
+    if let Some(uv) = &at.root_uv {
+        for name in ["groom_root_uv", "surface_uv_coordinate"].into_iter().filter(|name| made(name)) {
+            more.by_strand(name, "vector", UV, bytemuck::cast_slice(uv))?;
+        }
+    }
+    if let Some(ids) = &at.id {
+        // Unreal's ids are 32-bit; others are kept whole under a name of our own.
+        match ids.iter().map(|&id| i32::try_from(id)).collect::<Result<Vec<_>, _>>() {
+            Ok(ids) => more.by_strand("groom_id", "", INTEGER, bytemuck::cast_slice(&ids))?,
+            Err(_) => more.by_strand("id", "", LONG, bytemuck::cast_slice(ids))?,
+        }
+    }
+    if let Some(groups) = &at.group {
+        more.by_strand("groom_group_id", "", INTEGER, bytemuck::cast_slice(groups))?;
+        if !at.group_names.is_empty() {
+            let empty = String::new();
+            let name = |g: &i32| at.group_names.get(g).unwrap_or(&empty).replace('\0', "") + "\0";
+            let names: String = groups.iter().map(name).collect();
+            more.by_strand("groom_group_name", "", TEXT, names.as_bytes())?;
+        }
+    }
+    if let Some(guides) = &at.guide {
+        let guides: Vec<i16> = guides.iter().map(|&g| i16::from(g)).collect();
+        more.by_strand("groom_guide", "", Kind { pod: Pod::I16, extent: 1 }, bytemuck::cast_slice(&guides))?;
+    }
+    Ok(())
+}
+
+/// An attribute that is only passed on.
+fn carried(more: &mut Held<'_>, other: &Other) -> io::Result<()> {
+    let scope = match other.per {
+        Per::Groom => "con",
+        Per::Strand => "uni",
+        Per::Point => "vtx",
+    };
+    let interpretation = match (other.role, other.extent) {
+        (Role::Plain, _) => "",
+        (Role::Color, 4) => "rgba",
+        (Role::Color, _) => "rgb",
+        (Role::Point, _) => "point",
+        (Role::Vector | Role::TextureCoordinate, _) => "vector",
+        (Role::Normal, _) => "normal",
+    };
+    let extent = other.extent as u8;
+    let mut put = |pod: Pod, bytes: &[u8]| {
+        more.put(Property::attribute(&other.name, scope, interpretation, Kind { pod, extent }, 0), bytes)
+    };
+    match &other.values {
+        Values::Floats(v) => put(Pod::F32, bytemuck::cast_slice(v)),
+        Values::Doubles(v) => put(Pod::F64, bytemuck::cast_slice(v)),
+        Values::Integers(v) => match v.iter().map(|&x| i32::try_from(x)).collect::<Result<Vec<_>, _>>() {
+            Ok(v) => put(Pod::I32, bytemuck::cast_slice(&v)),
+            Err(_) => put(Pod::I64, bytemuck::cast_slice(v)),
+        },
+        Values::Words(v) => {
+            let words: String = v.iter().map(|word| word.replace('\0', "") + "\0").collect();
+            put(Pod::Text, words.as_bytes())
+        }
+    }
 }
 
 /// The head, which keeps its shape.
@@ -288,13 +368,4 @@ fn polygons(to: &mut Archive, table: &mut MetadataTable, mesh: &Mesh, export: &E
         inside.add(to, table, &property)?;
     }
     Object::with_schema(to, table, Schema::PolyMesh, inside)
-}
-
-/// A file in `folder` that goes away unless it is given a name, with the rights of any new file.
-fn unnamed_in(folder: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    // A temporary file is its owner's alone unless told otherwise; the user's mask still takes away from this.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
 }

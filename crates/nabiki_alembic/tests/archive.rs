@@ -4,10 +4,10 @@ use std::io::Cursor;
 use std::path::Path;
 
 use glam::{Affine3A, Quat, Vec3};
-use nabiki::export::{Export, FrameSink};
-use nabiki::hair::Attributes;
+use nabiki::hair::{Attributes, Other, Per, Role, Values};
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
+use nabiki_exchange::{Export, FrameSink, GroomReader, Placed};
 use proptest::prelude::*;
 
 const FRAMES: usize = 12;
@@ -74,7 +74,7 @@ fn every_frame_and_attribute_comes_back_to_the_bit() {
     let file = bytes(Export::new(&hair, 24.0), |_| Affine3A::IDENTITY);
     let mut archive = ArchiveReader::new(Cursor::new(&file)).unwrap();
     let contents = archive.contents().unwrap();
-    assert_eq!((contents.frames, contents.frame_rate), (FRAMES, 24.0));
+    assert_eq!((contents.times.len(), contents.frame_rate), (FRAMES, 24.0));
     for frame in 0..FRAMES {
         let read = archive.hair(frame, None).unwrap();
         assert_eq!(read.strands, strands(frame), "frame {frame}");
@@ -101,7 +101,7 @@ fn the_moving_head_carries_hair_and_skin() {
     export.first_frame = 10;
     let file = bytes(export, pose);
     let mut archive = ArchiveReader::new(Cursor::new(&file)).unwrap();
-    assert!((archive.contents().unwrap().start - 10.0 / 24.0).abs() < 1e-12);
+    assert!((archive.contents().unwrap().times[0] - 10.0 / 24.0).abs() < 1e-12);
     for frame in 0..FRAMES {
         let read = archive.hair(frame, None).unwrap();
         for (&p, &q) in read.strands.points().iter().zip(strands(frame).points()) {
@@ -110,7 +110,7 @@ fn the_moving_head_carries_hair_and_skin() {
     }
     let motion = archive.motion("head").unwrap();
     assert_eq!(motion.len(), FRAMES);
-    for (frame, (time, position, rotation)) in motion.into_iter().enumerate() {
+    for (frame, Placed { time, position, rotation }) in motion.into_iter().enumerate() {
         assert!((time - (10 + frame) as f64 / 24.0).abs() < 1e-12);
         assert_eq!(position.as_vec3(), Vec3::from(pose(frame).translation));
         let turn = Quat::from_rotation_y(0.1 * frame as f32);
@@ -122,6 +122,53 @@ fn the_moving_head_carries_hair_and_skin() {
     // Corners may begin anywhere, but which side is outside must stay.
     let [a, b, c] = skin.triangles[3].map(|v| skin.positions[v as usize]);
     assert!((b - a).cross(c - a).dot(Vec3::ONE) > 0.0, "the outside stays outside");
+}
+
+#[test]
+fn a_mirrored_mesh_keeps_its_outside_outside() {
+    let (hair, mesh) = (groom(), tetrahedron());
+    for scale in [Vec3::ONE, Vec3::new(-1.0, 1.0, 1.0), Vec3::NEG_ONE] {
+        let mut export = Export::new(&hair, 24.0);
+        export.head = Some(&mesh);
+        let file = bytes(export, |_| Affine3A::from_scale(scale));
+        let skin = ArchiveReader::new(Cursor::new(&file)).unwrap().mesh().unwrap();
+        let corners = skin.triangles.iter().map(|t| t.map(|v| skin.positions[v as usize]));
+        // Six times the volume that the faces enclose, above 0 where they look outwards.
+        assert_eq!(corners.map(|[a, b, c]| a.dot(b.cross(c))).sum::<f32>(), 1.0, "{scale}");
+    }
+}
+
+#[test]
+fn attributes_of_any_name_go_through() {
+    let mut hair = Hair::from(strands(0));
+    let (strands, points) = (hair.strands.len(), hair.strands.points().len());
+    let other = |name: &str, per, role, extent, values| Other { name: name.to_owned(), per, role, extent, values };
+    let numbers = |n: usize| (0..n).map(|i| i as f64 / 3.0);
+    hair.attributes.other = vec![
+        other("cell", Per::Strand, Role::Plain, 2, Values::Integers((0..2 * strands as i64).collect())),
+        other("far", Per::Strand, Role::Plain, 1, Values::Integers((0..strands as i64).map(|i| i << 40).collect())),
+        other("list", Per::Groom, Role::Plain, 1, Values::Floats(vec![1.0, 2.0, 3.0])),
+        other("mass", Per::Point, Role::Plain, 1, Values::Doubles(numbers(points).collect())),
+        other("mood", Per::Strand, Role::Plain, 1, Values::Words((0..strands).map(|s| format!("m{s}")).collect())),
+        other("normals", Per::Point, Role::Normal, 3, Values::Floats(numbers(3 * points).map(|x| x as f32).collect())),
+        other("tint", Per::Strand, Role::Color, 3, Values::Floats(numbers(3 * strands).map(|x| x as f32).collect())),
+    ];
+    let file = bytes(Export::new(&hair, 24.0), |_| Affine3A::IDENTITY);
+    let read = ArchiveReader::new(Cursor::new(&file)).unwrap().hair(0, None).unwrap();
+    assert_eq!(read.attributes, hair.attributes);
+}
+
+#[test]
+fn more_kinds_of_attributes_than_the_table_has_room_for_go_through() {
+    let mut hair = Hair::from(strands(0));
+    let of = |extent: usize| {
+        let values = Values::Floats(vec![0.5; extent * hair.strands.len()]);
+        Other { name: format!("a{extent:03}"), per: Per::Strand, role: Role::Plain, extent, values }
+    };
+    hair.attributes.other = (1..256).map(of).collect();
+    let file = bytes(Export::new(&hair, 24.0), |_| Affine3A::IDENTITY);
+    let read = ArchiveReader::new(Cursor::new(&file)).unwrap().hair(0, None).unwrap();
+    assert_eq!(read.attributes.other, hair.attributes.other);
 }
 
 #[test]

@@ -12,9 +12,9 @@ use std::time::Instant;
 
 use glam::{Affine3A, Vec3};
 use nabiki::Pose;
-use nabiki::export::{Export, FrameSink};
 use nabiki::{Hair, Strands};
 use nabiki_alembic::ArchiveReader;
+use nabiki_exchange::{Export, FrameSink, GroomReader};
 use nabiki_io::{SceneId, cache, exchange, hair};
 use nabiki_usd::StageReader;
 use peak_alloc::PeakAlloc;

@@ -1,11 +1,12 @@
-//! USD layers and Alembic archives, which their own crates read and write: hair, heads, motion, and the space that the
-//! files declare.
+//! USD layers and Alembic archives, which their own crates read and write: hair, heads, motion, and what the files say
+//! of unit and axes.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use nabiki::export::{Export, FrameSink};
-use nabiki::{Hair, Mesh};
+use glam::Affine3A;
+use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
+use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, PrimKind, Problem};
 use nabiki_usd::{Form, HairStage, StageReader};
 
 use crate::axis::Axis;
@@ -27,30 +28,62 @@ pub fn is_alembic(path: &Path) -> bool {
     extension(path) == "abc"
 }
 
-/// The unit and up axis that the file declares. Only USD layers say anything; Alembic is y up by agreement.
+/// A layer or archive that is open.
+pub(crate) struct Opened<'a> {
+    path: &'a Path,
+    reader: Box<dyn GroomReader>,
+}
+
+impl<'a> Opened<'a> {
+    pub fn new(path: &'a Path) -> Result<Self> {
+        let reader: std::result::Result<Box<dyn GroomReader>, Problem> = if is_alembic(path) {
+            ArchiveReader::open(path).map(|reader| Box::new(reader) as _)
+        } else {
+            StageReader::open(path).map(|reader| Box::new(reader) as _)
+        };
+        Ok(Self { path, reader: reader.map_err(|e| named(path, e))? })
+    }
+
+    pub fn ask<T>(
+        &mut self,
+        question: impl FnOnce(&mut dyn GroomReader) -> std::result::Result<T, Problem>,
+    ) -> Result<T> {
+        question(&mut *self.reader).map_err(|e| named(self.path, e))
+    }
+
+    pub fn declared_space(&mut self) -> Result<DeclaredSpace> {
+        let contents = self.ask(|r| r.contents())?;
+        let up = if contents.z_up == Some(true) { Axis::PlusZ } else { Axis::PlusY };
+        if is_alembic(self.path) {
+            return Ok(DeclaredSpace { unit: None, up: Some(up) });
+        }
+        // A layer that says nothing means centimetres and y, by USD's own rule.
+        let cm = (contents.meters_per_unit.unwrap_or(0.01) * 100.0) as f32;
+        if !(cm.is_finite() && cm > 0.0) {
+            let line = format!("metersPerUnit = {}: is too far from any unit", cm / 100.0);
+            return Err(Error::new(line).in_file(self.path));
+        }
+        Ok(DeclaredSpace { unit: Some(Unit { cm }), up: Some(up) })
+    }
+}
+
+fn meters_per_unit(declared: DeclaredSpace) -> f64 {
+    declared.unit.map_or(0.01, |unit| f64::from(unit.cm) / 100.0)
+}
+
+fn named(path: &Path, problem: Problem) -> Error {
+    Error::new(problem.to_string()).in_file(path)
+}
+
+/// What the file says. Only USD layers name a unit; Alembic is y up by agreement.
 ///
 /// # Errors
-/// A layer that cannot be read.
+/// A layer that cannot be read; a unit or an axis that is none.
 pub fn declared_space(path: &Path) -> Result<DeclaredSpace> {
     if is_alembic(path) {
         return Ok(DeclaredSpace { unit: None, up: Some(Axis::PlusY) });
     }
-    if !is_usd(path) {
-        return Ok(DeclaredSpace::default());
-    }
-    let contents = stage(path)?.contents().map_err(|e| Error::new(e.to_string()).in_file(path))?;
-    // A layer that says nothing means centimetres and y, by USD's own rule.
-    let cm = contents.meters_per_unit.unwrap_or(0.01) * 100.0;
-    let up = if contents.z_up == Some(true) { Axis::PlusZ } else { Axis::PlusY };
-    Ok(DeclaredSpace { unit: Some(Unit { cm: cm as f32 }), up: Some(up) })
-}
-
-pub(crate) fn stage(path: &Path) -> Result<StageReader> {
-    StageReader::open(path).map_err(|e| Error::new(e.to_string()).in_file(path))
-}
-
-pub(crate) fn archive(path: &Path) -> Result<ArchiveReader> {
-    ArchiveReader::open(path).map_err(|e| Error::new(e.to_string()).in_file(path))
+    if is_usd(path) { Opened::new(path)?.declared_space() } else { Ok(DeclaredSpace::default()) }
 }
 
 /// Reads the hair of frame `frame` (the last one after those there are), in the file's own unit and axes.
@@ -59,12 +92,7 @@ pub(crate) fn archive(path: &Path) -> Result<ArchiveReader> {
 /// # Errors
 /// What is wrong with the file.
 pub fn hair(path: &Path, frame: usize, segments: Option<usize>) -> Result<Hair> {
-    let named = |problem: String| Error::new(problem).in_file(path);
-    if is_alembic(path) {
-        archive(path)?.hair(frame, segments).map_err(|e| named(e.to_string()))
-    } else {
-        stage(path)?.hair(frame, segments).map_err(|e| named(e.to_string()))
-    }
+    Opened::new(path)?.ask(|r| r.hair(frame, segments))
 }
 
 /// Number of frames of the curves in a layer or archive; 1 for hair that stands still.
@@ -72,13 +100,7 @@ pub fn hair(path: &Path, frame: usize, segments: Option<usize>) -> Result<Hair> 
 /// # Errors
 /// What is wrong with the file.
 pub fn frames(path: &Path) -> Result<usize> {
-    let named = |problem: String| Error::new(problem).in_file(path);
-    let frames = if is_alembic(path) {
-        archive(path)?.contents().map_err(|e| named(e.to_string()))?.frames
-    } else {
-        stage(path)?.contents().map_err(|e| named(e.to_string()))?.times.len()
-    };
-    Ok(frames.max(1))
+    Ok(Opened::new(path)?.ask(|r| r.contents())?.times.len().max(1))
 }
 
 /// Reads all meshes, in the file's own unit and axes.
@@ -86,33 +108,90 @@ pub fn frames(path: &Path) -> Result<usize> {
 /// # Errors
 /// What is wrong with the file.
 pub fn mesh(path: &Path) -> Result<Mesh> {
-    let named = |problem: String| Error::new(problem).in_file(path);
-    if is_alembic(path) {
-        archive(path)?.mesh().map_err(|e| named(e.to_string()))
-    } else {
-        stage(path)?.mesh().map_err(|e| named(e.to_string()))
-    }
+    Opened::new(path)?.ask(|r| r.mesh())
 }
 
-/// Reads the way of the object or prim `node`.
+/// Reads the way of the object, prim or joint `node`.
 pub(crate) fn track(path: &Path, node: &str) -> Result<Track> {
-    let named = |problem: String| Error::new(problem).in_file(path);
-    let motion = if is_alembic(path) {
-        archive(path)?.motion(node).map_err(|e| named(e.to_string()))?
-    } else {
-        stage(path)?.motion(node).map_err(|e| named(e.to_string()))?
-    };
-    let declared = declared_space(path)?;
-    let (times, samples) =
-        motion.into_iter().map(|(time, position, rotation)| (time, Sample { position, rotation })).unzip();
-    let unit_cm = declared.unit.map(|unit| f64::from(unit.cm));
-    Ok(Track { times, samples, what: format!("object {node}"), unit_cm, up: declared.up })
+    let mut file = Opened::new(path)?;
+    let motion = file.ask(|r| r.motion(node))?;
+    let DeclaredSpace { unit, up } = file.declared_space()?;
+    let sample = |placed: Placed| (placed.time, Sample { position: placed.position, rotation: placed.rotation });
+    let (times, samples) = motion.into_iter().map(sample).unzip();
+    Ok(Track { times, samples, what: format!("object {node}"), unit_cm: unit.map(|unit| f64::from(unit.cm)), up })
+}
+
+/// Moving hair of a layer or archive, read one frame after another.
+pub struct MovingHair {
+    path: PathBuf,
+    reader: Box<dyn GroomReader>,
+    segments: Option<usize>,
+    contents: Contents,
+    declared: DeclaredSpace,
+    hair: Hair,
+}
+
+impl MovingHair {
+    /// Opens the file at `path` and reads its first frame. `segments`: as in [`hair`].
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn open(path: &Path, segments: Option<usize>) -> Result<Self> {
+        let mut file = Opened::new(path)?;
+        let declared = file.declared_space()?;
+        let contents = file.ask(|r| r.contents())?;
+        let hair = file.ask(|r| r.hair_in_place(0, segments, true))?.hair;
+        Ok(Self { path: path.to_owned(), reader: file.reader, segments, contents, declared, hair })
+    }
+
+    /// Number of frames; 1 for hair that stands still.
+    pub fn frames(&self) -> usize {
+        self.contents.times.len().max(1)
+    }
+
+    /// Frames a second.
+    pub fn frame_rate(&self) -> f64 {
+        self.contents.frame_rate
+    }
+
+    /// The first frame with its attributes, in the space of the file's moving transform, its unit and axes.
+    pub fn hair(&self) -> &Hair {
+        &self.hair
+    }
+
+    /// Unit and up axis, as far as the file says them.
+    pub fn declared_space(&self) -> DeclaredSpace {
+        self.declared
+    }
+
+    /// The points of a frame, and the transform above them. Nothing of other frames is kept.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn frame(&mut self, frame: usize) -> Result<(Strands, Affine3A)> {
+        let found = self.reader.hair_in_place(frame, self.segments, false);
+        let InPlace { hair, world_from_hair } = found.map_err(|e| named(&self.path, e))?;
+        Ok((hair.strands, world_from_hair))
+    }
+
+    /// What is told to a file that takes these frames as they are: same numbers, frame rate, unit and axes. `hair`: a
+    /// copy of [`hair`](Self::hair), so that frames can be read while the file is written.
+    pub fn export<'h>(&self, hair: &'h Hair) -> Export<'h> {
+        let mut export = Export::new(hair, self.contents.frame_rate);
+        export.first_frame = self.contents.first_frame();
+        export.meters_per_unit = meters_per_unit(self.declared);
+        export.z_up = self.declared.up == Some(Axis::PlusZ);
+        export.velocities = self.frames() > 1;
+        export
+    }
 }
 
 /// What is told to a file of moving hair: imported hair goes back into its own file's space, at its `placement`, hair
 /// grown here is in centimetres, y up.
 pub fn export<'a>(hair: &'a Hair, frame_rate: f64, placement: Option<&Placement>) -> Export<'a> {
     let mut export = Export::new(hair, frame_rate);
+    export.rest = true;
+    export.velocities = true;
     if let Some(placement) = placement {
         export.file_from_head = placement.file_from_head();
         export.meters_per_unit = f64::from(placement.unit.cm) / 100.0;
@@ -134,6 +213,31 @@ pub fn check_layer(in_file: Option<u64>, used: usize) -> Result<()> {
              out hair.strands and hair.segments, and take strands without extent out of the file"
         )),
         Some(_) => Ok(()),
+    }
+}
+
+/// Refuses to lay a layer over the prim `path` of the file `groom` where it is not the one that holds its curves.
+///
+/// # Errors
+/// One line with the paths that are; a file that cannot be read.
+pub fn check_layer_prim(groom: &Path, path: &str) -> Result<()> {
+    let prims = Opened::new(groom)?.ask(|r| r.prims())?;
+    let curves = prims.into_iter().filter_map(|prim| match prim.kind {
+        PrimKind::Curves { points, .. } => Some((prim.path, points)),
+        _ => None,
+    });
+    let curves: Vec<(String, usize)> = curves.collect();
+    let refuse = |why: String| Err(Error::new(why).in_file(groom));
+    let list: Vec<String> = curves.iter().take(8).map(|(path, points)| format!("{path} ({points} points)")).collect();
+    let list = list.join(", ");
+    match &curves[..] {
+        [(only, _)] if only == path => Ok(()),
+        [] => refuse(format!("--export-layer {path}: it has no curves over which a layer could lie")),
+        [_] => refuse(format!("--export-layer {path}: its curves are at {list}")),
+        several => {
+            let n = several.len();
+            refuse(format!("--export-layer {path}: its curves are in {n} prims ({list}), and a layer lies over one"))
+        }
     }
 }
 
@@ -161,21 +265,28 @@ pub fn sink<'a>(path: &Path, export: Export<'a>, layer: Option<&str>) -> Result<
 /// What the disk says.
 pub fn write(path: &Path, hair: &Hair, declared: DeclaredSpace) -> Result<()> {
     let mut export = Export::new(hair, 24.0);
-    export.meters_per_unit = declared.unit.map_or(0.01, |unit| f64::from(unit.cm) / 100.0);
+    export.meters_per_unit = meters_per_unit(declared);
     export.z_up = declared.up == Some(Axis::PlusZ);
     let mut sink = sink(path, export, None)?;
     let named = |e: std::io::Error| Error::from(e).in_file(path);
-    sink.frame(&hair.strands, &glam::Affine3A::IDENTITY).map_err(named)?;
+    sink.frame(&hair.strands, &Affine3A::IDENTITY).map_err(named)?;
     sink.finish().map_err(named)
 }
 
-/// What a layer or archive cannot hold of `hair`, a phrase each.
-pub fn losses(hair: &Hair) -> Vec<String> {
-    let groups = hair.attributes.group.as_deref().unwrap_or_default();
-    let names = &hair.attributes.group_names;
-    if names.keys().any(|number| !groups.contains(number)) {
-        vec!["names of groups without strands".to_owned()]
-    } else {
-        Vec::new()
+/// What the layer or archive `path` cannot hold of `hair`, and what was not read of the file it came from, a phrase each.
+pub fn losses(path: &Path, hair: &Hair) -> Vec<String> {
+    let at = &hair.attributes;
+    let groups = at.group.as_deref().unwrap_or_default();
+    let mut lost = at.unread.clone();
+    if at.group_names.keys().any(|number| !groups.contains(number)) {
+        lost.push("names of groups without strands".to_owned());
     }
+    for other in at.other.iter().filter(|_| is_usd(path)) {
+        if !nabiki_usd::has_type(other) {
+            lost.push(format!("{}: USD has no type for its values", other.name));
+        } else if nabiki_usd::valid_name(&other.name) != other.name {
+            lost.push(format!("the name {}: it is {} there", other.name, nabiki_usd::valid_name(&other.name)));
+        }
+    }
+    lost
 }

@@ -13,7 +13,7 @@ use serde::Serialize;
 pub use crate::motion::MotionInfo;
 pub use crate::short::Short;
 pub use cache::CacheInfo;
-pub use exchange::{ExchangeInfo, TransformInfo};
+pub use exchange::{ExchangeInfo, PrimSummary};
 pub use hair::HairInfo;
 pub use measure::{Box3, Guess, Spread};
 pub use mesh::{ClipInfo, MeshInfo};

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use glam::{Affine3A, Quat, Vec3};
-use nabiki::export::Export;
 use nabiki::{Hair, Mesh, Strands};
-use nabiki_io::exchange::{self, DeclaredSpace};
+use nabiki_exchange::Export;
+use nabiki_io::exchange::{self, DeclaredSpace, MovingHair};
+use nabiki_io::info::ExchangeInfo;
 use nabiki_io::motion::{self, Axis, MotionSource};
 use nabiki_io::placement::Unit;
 use nabiki_io::{hair, mesh};
@@ -79,6 +80,71 @@ fn unit_and_up_axis_are_what_the_layer_says() {
     let archive = folder.path().join("hair.abc");
     hair::write(&archive, &Hair::from(strands())).unwrap();
     assert_eq!(exchange::declared_space(&archive).unwrap(), DeclaredSpace { unit: None, up: Some(Axis::PlusY) });
+}
+
+#[test]
+fn moving_hair_goes_from_format_to_format_with_all_its_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let hair = Hair::from(strands());
+    let frame = |n: usize| {
+        let mut strands = strands();
+        strands.points_mut().iter_mut().for_each(|p| *p += Vec3::Y * (n as f32).sin());
+        strands
+    };
+    let first = folder.path().join("first.usdc");
+    let mut export = Export::new(&hair, 30.0);
+    export.first_frame = 5;
+    let mut sink = exchange::sink(&first, export, None).unwrap();
+    for n in 0..FRAMES {
+        sink.frame(&frame(n), &pose(n)).unwrap();
+    }
+    sink.finish().unwrap();
+    let mut from = first;
+    for name in ["second.abc", "third.usda", "fourth.abc", "fifth.usdc"] {
+        let to = folder.path().join(name);
+        let mut moving = MovingHair::open(&from, None).unwrap();
+        assert_eq!((moving.frames(), moving.frame_rate()), (FRAMES, 30.0), "{name}");
+        let hair = moving.hair().clone();
+        let mut sink = exchange::sink(&to, moving.export(&hair), None).unwrap();
+        for n in 0..FRAMES {
+            let (found, world_from_hair) = moving.frame(n).unwrap();
+            assert_eq!((found.points(), world_from_hair), (frame(n).points(), pose(n)), "{name}, frame {n}");
+            sink.frame(&found, &world_from_hair).unwrap();
+        }
+        sink.finish().unwrap();
+        from = to;
+    }
+}
+
+#[test]
+fn a_layer_goes_over_the_prim_of_the_curves_and_over_no_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let groom = write(folder.path(), "groom.usdc");
+    assert_eq!(exchange::check_layer_prim(&groom, "/head/hair").map_err(|e| e.to_string()), Ok(()));
+    for path in ["/head", "/head/skin", "/hair"] {
+        let refused = exchange::check_layer_prim(&groom, path).unwrap_err().to_string();
+        let line = format!("--export-layer {path}: its curves are at /head/hair (5 points)");
+        assert!(refused.ends_with(&line), "{refused}");
+    }
+}
+
+#[test]
+fn what_stands_in_a_file_is_listed_with_what_moves() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["list.usda", "list.usdc", "list.abc"] {
+        let info = ExchangeInfo::of_file(&write(folder.path(), name)).unwrap();
+        let mut found: Vec<_> = info.prims.iter().map(|p| (p.path.as_str(), p.what.as_str(), p.samples)).collect();
+        found.sort();
+        // Only Alembic sees that the hair's samples are all equal.
+        let hair = if name.ends_with("abc") { None } else { Some(FRAMES) };
+        let expected = [
+            ("/head", "transform", Some(FRAMES)),
+            ("/head/hair", "2 curves, 5 points", hair),
+            ("/head/skin", "mesh, 1 faces, 3 points", None),
+        ];
+        assert_eq!(found, expected, "{name}");
+        assert_eq!((info.frames, info.frame_rate), (FRAMES, Some(20.0)), "{name}");
+    }
 }
 
 #[test]

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use nabiki::export::FrameSink;
 use nabiki::{Pose, Strands};
+use nabiki_exchange::FrameSink;
 use nabiki_io::exchange;
 
 use crate::built::BuiltScene;

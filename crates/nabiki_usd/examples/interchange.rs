@@ -1,17 +1,18 @@
 //! The half of `tests/interchange/check.py` that is Rust.
 //!
 //! `interchange write DIR` writes a small moving groom in every form, and beside the files what they must hold, as
-//! bare numbers.
+//! bare numbers. `interchange motion LAYER NODE` prints where a prim or joint is: time (s), position, quaternion (x, y,
+//! z, w), a line each.
 
 use std::fs;
 use std::path::Path;
 
 use glam::{Affine3A, Quat, Vec3};
-use nabiki::export::{Export, FrameSink};
 use nabiki::hair::Attributes;
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::HairArchive;
-use nabiki_usd::{Form, HairStage};
+use nabiki_exchange::{Export, FrameSink, GroomReader, Placed};
+use nabiki_usd::{Form, HairStage, StageReader};
 
 const FRAMES: usize = 10;
 const STRANDS: usize = 50;
@@ -68,6 +69,7 @@ fn write(folder: &Path) -> std::io::Result<()> {
     let still = Export::new(&hair, 24.0);
     let mut with_head = still.clone();
     with_head.head = Some(&mesh);
+    (with_head.rest, with_head.velocities) = (true, true);
     for name in ["still.usda", "still.usdc"] {
         fill(Box::new(HairStage::create(&folder.join(name), still.clone(), Form::Stage)?), false)?;
     }
@@ -104,12 +106,21 @@ fn write(folder: &Path) -> std::io::Result<()> {
     fs::write(folder.join("counts.u32"), bytemuck::cast_slice(&counts))
 }
 
+fn motion(layer: &Path, node: &str) -> std::io::Result<()> {
+    let read = StageReader::open(layer).and_then(|mut stage| stage.motion(node));
+    for Placed { time, position: p, rotation: q } in read.map_err(std::io::Error::other)? {
+        println!("{time} {} {} {} {} {} {} {}", p.x, p.y, p.z, q.x, q.y, q.z, q.w);
+    }
+    Ok(())
+}
+
 fn main() -> std::io::Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match &arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["write", folder] => write(Path::new(folder)),
+        ["motion", layer, node] => motion(Path::new(layer), node),
         _ => {
-            eprintln!("usage: interchange write DIR");
+            eprintln!("usage: interchange write DIR | motion LAYER NODE");
             std::process::exit(2)
         }
     }

@@ -30,6 +30,8 @@ pub mod types {
     pub const DOUBLE: u8 = 9;
     pub const STRING: u8 = 10;
     pub const TOKEN: u8 = 11;
+    pub const MATRIX2D: u8 = 13;
+    pub const MATRIX3D: u8 = 14;
     pub const MATRIX4D: u8 = 15;
     pub const QUATD: u8 = 16;
     pub const QUATF: u8 = 17;
@@ -37,12 +39,15 @@ pub mod types {
     pub const VEC2D: u8 = 19;
     pub const VEC2F: u8 = 20;
     pub const VEC2H: u8 = 21;
+    pub const VEC2I: u8 = 22;
     pub const VEC3D: u8 = 23;
     pub const VEC3F: u8 = 24;
     pub const VEC3H: u8 = 25;
+    pub const VEC3I: u8 = 26;
     pub const VEC4D: u8 = 27;
     pub const VEC4F: u8 = 28;
     pub const VEC4H: u8 = 29;
+    pub const VEC4I: u8 = 30;
     pub const TOKEN_VECTOR: u8 = 41;
     pub const SPECIFIER: u8 = 42;
     pub const VARIABILITY: u8 = 44;
@@ -58,6 +63,8 @@ pub mod specs {
     pub const PRIM: u32 = 6;
     /// The layer itself.
     pub const LAYER: u32 = 7;
+    /// A property that names other prims.
+    pub const RELATIONSHIP: u32 = 8;
 }
 
 /// A value: itself or its place.

@@ -1,5 +1,7 @@
 //! What a layer says, apart from how it is written: prims, their attributes, and values.
 
+use std::borrow::Cow;
+
 /// A value of an attribute or of the layer.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
@@ -21,6 +23,12 @@ pub enum Value {
     Pairs(Vec<[f32; 2]>),
     /// `float3[]`, `point3f[]`, `color3f[]`
     Triples(Vec<[f32; 3]>),
+    /// Values of so many whole numbers each: `int2[]`
+    IntTuples(usize, Vec<i32>),
+    /// Values of so many singles each: `float4[]`
+    FloatTuples(usize, Vec<f32>),
+    /// Values of so many doubles each: `double[]`, `double3[]`; of 9 or 16 matrices
+    DoubleTuples(usize, Vec<f64>),
     /// `matrix4d`, row by row as USD multiplies rows from the left
     Matrix([f64; 16]),
 }
@@ -29,7 +37,7 @@ pub enum Value {
 #[derive(Clone, Debug)]
 pub struct Attribute<S> {
     /// Name with its namespace: `primvars:st`.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Type as text has it: `texCoord2f[]`.
     pub type_name: &'static str,
     /// Whether it can never vary over time.
@@ -44,23 +52,35 @@ pub struct Attribute<S> {
 
 impl<S> Attribute<S> {
     /// An attribute with one value.
-    pub fn new(name: &'static str, type_name: &'static str, value: Value) -> Self {
-        Self { name, type_name, uniform: false, value: Some(value), samples: Vec::new(), interpolation: None }
+    pub fn new(name: impl Into<Cow<'static, str>>, type_name: &'static str, value: Value) -> Self {
+        Self {
+            name: name.into(),
+            type_name,
+            uniform: false,
+            value: Some(value),
+            samples: Vec::new(),
+            interpolation: None,
+        }
     }
 
     /// The same, never varying.
-    pub fn uniform(name: &'static str, type_name: &'static str, value: Value) -> Self {
+    pub fn uniform(name: impl Into<Cow<'static, str>>, type_name: &'static str, value: Value) -> Self {
         Self { uniform: true, ..Self::new(name, type_name, value) }
     }
 
     /// The same with an interpolation.
-    pub fn primvar(name: &'static str, type_name: &'static str, interpolation: &'static str, value: Value) -> Self {
+    pub fn primvar(
+        name: impl Into<Cow<'static, str>>,
+        type_name: &'static str,
+        interpolation: &'static str,
+        value: Value,
+    ) -> Self {
         Self { interpolation: Some(interpolation), ..Self::new(name, type_name, value) }
     }
 
     /// An attribute with samples only.
-    pub fn sampled(name: &'static str, type_name: &'static str, samples: Vec<S>) -> Self {
-        Self { name, type_name, uniform: false, value: None, samples, interpolation: None }
+    pub fn sampled(name: impl Into<Cow<'static, str>>, type_name: &'static str, samples: Vec<S>) -> Self {
+        Self { name: name.into(), type_name, uniform: false, value: None, samples, interpolation: None }
     }
 }
 

@@ -10,13 +10,17 @@
 mod content;
 mod crate_file;
 mod layer;
+mod opened;
+mod primvars;
 mod read;
+mod skeleton;
 mod source;
 mod text;
 mod transform;
 mod write;
 
-pub use nabiki::error::Problem;
-pub use read::{Contents, StageReader};
+pub use content::{has_type, valid_name};
+pub use nabiki_exchange::{Contents, Problem};
+pub use read::StageReader;
 pub use source::Source;
 pub use write::{Form, HairStage};

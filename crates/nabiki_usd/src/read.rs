@@ -2,38 +2,28 @@
 
 use std::path::Path;
 
-use glam::{Affine3A, DMat4, DQuat, DVec3, Vec3};
-use nabiki::curves::{Basis, Carried, Gathered, Shape, checked_counts, indexed};
+use glam::{Affine3A, Vec3};
 use nabiki::{Hair, Mesh};
+use nabiki_exchange::curves::{Basis, Shape, checked_counts};
+use nabiki_exchange::{Contents, Gathered, GroomReader, InPlace, Placed, Prim, PrimKind, add_polygons};
 
 use crate::Problem;
-use crate::source::{Handle, Layer, Source};
+use crate::opened::Layer;
+use crate::primvars::Primvars;
+use crate::skeleton::{self, Joint};
+use crate::source::Source;
 use crate::transform;
 
-/// A layer to read hair, heads and motion from; everything comes in the layer's own unit and axes.
+/// A layer to read hair, heads and motion from.
 pub struct StageReader {
     layer: Layer,
 }
 
-/// What a layer holds.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Contents {
-    /// Paths of prims with curves.
-    pub curves: Vec<String>,
-    /// Paths of meshes.
-    pub meshes: Vec<String>,
-    /// Time codes at which the curves' points have samples.
-    pub times: Vec<f64>,
-    /// Time codes a second, 24 where the layer does not say.
-    pub frame_rate: f64,
-    /// Length of the unit (m), where the layer says it; USD takes 0.01 where not.
-    pub meters_per_unit: Option<f64>,
-    /// Whether z is up, where the layer says it; USD takes y where not.
-    pub z_up: Option<bool>,
-}
-
 /// Frames a layer may have: what more would be is no time.
 const MOST_SAMPLES: usize = 1 << 18;
+
+/// Time codes apart by less than this, as a share of a frame, are the same.
+const SAME_TIME: f64 = 1e-6;
 
 impl StageReader {
     /// Opens the layer in a file, text or binary.
@@ -52,69 +42,67 @@ impl StageReader {
         Ok(Self { layer: Layer::open(Box::new(from))? })
     }
 
-    /// Lists what is in the layer.
-    ///
-    /// # Errors
-    /// What is wrong with it.
-    pub fn contents(&mut self) -> Result<Contents, Problem> {
-        let up = match self.layer.metadata.get("upAxis").copied() {
-            Some(handle) => self.layer.words(handle)?.into_iter().next(),
-            None => None,
-        };
-        let rate = self.layer.metadata_number("timeCodesPerSecond")?;
-        let rate = rate.or(self.layer.metadata_number("framesPerSecond")?);
-        Ok(Contents {
-            curves: self.of_type("BasisCurves").into_iter().map(|i| self.layer.path(i)).collect(),
-            meshes: self.of_type("Mesh").into_iter().map(|i| self.layer.path(i)).collect(),
-            times: self.times(),
-            frame_rate: rate.filter(|r| r.is_finite() && *r > 0.0).unwrap_or(24.0),
-            meters_per_unit: self.layer.metadata_number("metersPerUnit")?.filter(|m| m.is_finite() && *m > 0.0),
-            z_up: up.map(|axis| axis.eq_ignore_ascii_case("z")),
-        })
+    /// A number that the layer says of itself, if it does.
+    fn positive(&mut self, name: &str, wanted: &str) -> Result<Option<f64>, Problem> {
+        match self.layer.metadata_number(name)? {
+            Some(x) if !(x.is_finite() && x > 0.0) => {
+                Err(Problem(format!("{name} = {x}: must be a finite number above 0, {wanted}")))
+            }
+            number => Ok(number),
+        }
     }
 
-    fn of_type(&self, wanted: &str) -> Vec<usize> {
-        (0..self.layer.prims.len()).filter(|&i| self.layer.prims[i].type_name == wanted).collect()
+    fn z_up(&mut self) -> Result<Option<bool>, Problem> {
+        let Some(handle) = self.layer.metadata.get("upAxis").copied() else { return Ok(None) };
+        let axis = self.layer.words(handle)?.into_iter().next().unwrap_or_default();
+        match axis.as_str() {
+            "Y" | "y" => Ok(Some(false)),
+            "Z" | "z" => Ok(Some(true)),
+            _ => Err(Problem(format!("upAxis = \"{axis}\": must be \"Y\" or \"Z\", as USD has it"))),
+        }
     }
 
-    /// Time codes of the points of the curves with the most.
-    fn times(&self) -> Vec<f64> {
+    fn codes_a_second(&mut self) -> Result<f64, Problem> {
+        let rate = self.positive("timeCodesPerSecond", "24, say")?;
+        let rate = rate.or(self.positive("framesPerSecond", "24, say")?);
+        Ok(rate.unwrap_or(24.0))
+    }
+
+    /// Time codes of the frames of the curves with the most samples, or of what moves them whole, and how far apart they
+    /// are. Samples at uneven times give way to whole codes, between which there is interpolation.
+    fn frame_codes(&self) -> Result<(Vec<f64>, f64), Problem> {
         let samples = |i: usize| self.layer.prims[i].attributes.get("points").map(|a| &a.samples[..]).unwrap_or(&[]);
-        let most = self.of_type("BasisCurves").into_iter().map(samples).max_by_key(|s| s.len());
-        most.unwrap_or_default().iter().map(|&(time, _)| time).collect()
+        let most = self.layer.of_type("BasisCurves").into_iter().map(samples).max_by_key(|s| s.len());
+        let mut codes: Vec<f64> = most.unwrap_or_default().iter().map(|&(time, _)| time).collect();
+        if codes.len() < 2 {
+            let above = self.layer.of_type("BasisCurves").into_iter().map(|i| transform::times(&self.layer, i));
+            let mut above = above.max_by_key(Vec::len).unwrap_or_default();
+            above.sort_by(f64::total_cmp);
+            above.dedup();
+            codes = if above.len() > 1 { above } else { codes };
+        }
+        let [first, second, ..] = codes[..] else { return Ok((codes, 1.0)) };
+        let (last, step) = (codes[codes.len() - 1], second - first);
+        let even = |(n, &code): (usize, &f64)| (code - (first + n as f64 * step)).abs() <= SAME_TIME * step;
+        if step > 0.0 && codes.iter().enumerate().all(even) {
+            return Ok((codes, step));
+        }
+        let frames = (last - first).floor();
+        if frames >= MOST_SAMPLES as f64 {
+            return Err(Problem(format!("its curves move from time code {first} to {last}, longer than is read")));
+        }
+        Ok(((0..=frames as usize).map(|n| first + n as f64).collect(), 1.0))
     }
 
-    /// All curves at the `frame`th time code that has points (the last one after those), one after another, with the
-    /// transforms above them.
-    ///
-    /// `segments`: walks every curve into as many; `None` keeps polylines as they are. Curves in several prims that
-    /// have no groups of their own are grouped by prim, under its name.
-    ///
-    /// # Errors
-    /// No curves, closed ones, numbers that contradict each other or are not finite.
-    pub fn hair(&mut self, frame: usize, segments: Option<usize>) -> Result<Hair, Problem> {
-        let times = self.times();
-        let time = times.get(frame).or(times.last()).copied().unwrap_or(0.0);
-        let prims = self.of_type("BasisCurves");
-        if prims.is_empty() {
-            return Err(Problem::new(
-                "has no BasisCurves: if they come by reference, flatten it first (usdcat --flatten IN -o OUT)",
-            ));
-        }
-        let mut all = Gathered::default();
-        for (group, &prim) in prims.iter().enumerate() {
-            let part = self.curves(prim, time, segments);
-            let part = part.map_err(|e| Problem(format!("curves {}: {e}", self.layer.path(prim))))?;
-            let name = self.layer.prims[prim].name.clone();
-            all.append(part, (prims.len() > 1).then_some((group as i32, name)));
-        }
-        all.hair()
+    /// The time code of a frame; that of the last after those there are.
+    fn code_of(&self, frame: usize) -> Result<f64, Problem> {
+        let (codes, _) = self.frame_codes()?;
+        Ok(codes.get(frame).or(codes.last()).copied().unwrap_or(0.0))
     }
 
-    fn curves(&mut self, prim: usize, time: f64, segments: Option<usize>) -> Result<Hair, Problem> {
+    fn curves(&mut self, prim: usize, time: f64, segments: Option<usize>, attributes: bool) -> Result<Hair, Problem> {
         let layer = &mut self.layer;
-        let points = layer.at(prim, "points", time).ok_or_else(|| Problem::new("have no points"))?;
-        let points = layer.points(points)?;
+        let points = layer.points_at(prim, "points", time)?.ok_or_else(|| Problem::new("have no points"))?;
         let counts = layer.at(prim, "curveVertexCounts", time);
         let counts = layer.integers(counts.ok_or_else(|| Problem::new("have no curveVertexCounts"))?)?;
         let counts = checked_counts(&counts, points.len())?;
@@ -132,34 +120,143 @@ impl StageReader {
             ("cubic", "catmullRom") => Basis::CatmullRom,
             (order, basis) => return Err(Problem(format!("are {order} of basis {basis}, which USD does not know"))),
         };
-        let walked = Shape { counts, basis, pinned: wrap == "pinned" }.walk(points, segments)?;
-        let attributes = walked.attributes(&mut Primvars { layer: &mut self.layer, prim, time })?;
-        let hair = Hair { strands: walked.strands, attributes };
-        let world = transform::world(&mut self.layer, prim, time)?;
-        Ok(if world == DMat4::IDENTITY { hair } else { hair.transformed(&Affine3A::from_mat4(world.as_mat4())) })
+        let lines = Shape { counts, basis, pinned: wrap == "pinned" }.walk(points, segments)?;
+        if !attributes {
+            return Ok(Hair::from(lines.strands));
+        }
+        let mut primvars = Primvars { layer: &mut self.layer, prim, time };
+        let mut attributes = lines.attributes(&mut primvars)?;
+        attributes.unread.extend(primvars.unread());
+        Ok(Hair { strands: lines.strands, attributes })
     }
 
-    /// All meshes at their first time code, cut into triangles, with the transforms above them, as one.
-    ///
-    /// # Errors
-    /// No mesh, or one whose numbers contradict each other.
-    pub fn mesh(&mut self) -> Result<Mesh, Problem> {
+    /// Number of values of an attribute at its first time code.
+    fn count(&mut self, prim: usize, name: &str) -> Result<usize, Problem> {
+        match self.layer.at(prim, name, f64::NEG_INFINITY) {
+            Some(handle) => Ok(self.layer.integers(handle)?.len()),
+            None => Ok(0),
+        }
+    }
+
+    fn point_count(&mut self, prim: usize) -> Result<usize, Problem> {
+        match self.layer.at(prim, "points", f64::NEG_INFINITY) {
+            Some(handle) => Ok(self.layer.points(handle)?.len()),
+            None => Ok(0),
+        }
+    }
+
+    /// The prim or joint that a node's name means.
+    fn mover(&mut self, node: &str) -> Result<Mover, Problem> {
+        let all = 0..self.layer.prims.len();
+        let found = all.clone().find(|&i| self.layer.path(i) == node);
+        let by_name = || all.clone().find(|&i| self.layer.prims[i].name.eq_ignore_ascii_case(node));
+        if let Some(prim) = found.or_else(by_name) {
+            return Ok(Mover::Prim(prim));
+        }
+        match skeleton::joint(&mut self.layer, node)? {
+            Some(joint) => Ok(Mover::Joint(joint)),
+            None => Err(Problem(format!("has no prim or joint {node}: node can be {}", self.movers()?.join(", ")))),
+        }
+    }
+
+    /// Paths of what can move a head: prims that move themselves first, then joints, then the rest.
+    fn movers(&mut self) -> Result<Vec<String>, Problem> {
+        const MOST_NAMED: usize = 40;
+        let moves = |i: &usize| {
+            let attributes = &self.layer.prims[*i].attributes;
+            attributes.iter().any(|(name, a)| name.starts_with("xformOp:") && a.samples.len() > 1)
+        };
+        let (moving, still): (Vec<usize>, Vec<usize>) = (0..self.layer.prims.len()).partition(moves);
+        let mut paths: Vec<String> = moving.into_iter().map(|i| self.layer.path(i)).collect();
+        for skeleton in self.layer.of_type("Skeleton") {
+            let path = self.layer.path(skeleton);
+            let joints = skeleton::joints(&mut self.layer, skeleton)?;
+            paths.extend(joints.into_iter().map(|joint| format!("{path}/{joint}")));
+        }
+        paths.extend(still.into_iter().map(|i| self.layer.path(i)));
+        paths.truncate(MOST_NAMED);
+        Ok(paths)
+    }
+}
+
+/// What can carry a head.
+enum Mover {
+    Prim(usize),
+    Joint(Joint),
+}
+
+impl GroomReader for StageReader {
+    fn contents(&mut self) -> Result<Contents, Problem> {
+        let paths = |layer: &Layer, kind: &str| layer.of_type(kind).into_iter().map(|i| layer.path(i)).collect();
+        let (codes, step) = self.frame_codes()?;
+        let codes_a_second = self.codes_a_second()?;
+        Ok(Contents {
+            curves: paths(&self.layer, "BasisCurves"),
+            meshes: paths(&self.layer, "Mesh"),
+            times: codes.into_iter().map(|code| code / codes_a_second).collect(),
+            frame_rate: codes_a_second / step,
+            meters_per_unit: self.positive("metersPerUnit", "0.01 for centimetres")?,
+            z_up: self.z_up()?,
+        })
+    }
+
+    fn prims(&mut self) -> Result<Vec<Prim>, Problem> {
+        let mut prims = Vec::with_capacity(self.layer.prims.len());
+        for i in 0..self.layer.prims.len() {
+            let type_name = self.layer.prims[i].type_name.clone();
+            let kind = match type_name.as_str() {
+                "BasisCurves" => {
+                    let curves = self.count(i, "curveVertexCounts")?;
+                    PrimKind::Curves { curves, points: self.point_count(i)? }
+                }
+                "Mesh" => {
+                    let faces = self.count(i, "faceVertexCounts")?;
+                    PrimKind::Mesh { faces, points: self.point_count(i)? }
+                }
+                "Xform" => PrimKind::Transform,
+                "Skeleton" => PrimKind::Skeleton { joints: skeleton::joints(&mut self.layer, i)? },
+                _ => PrimKind::Other(type_name),
+            };
+            let samples = self.layer.prims[i].attributes.values().map(|a| a.samples.len()).max().unwrap_or(0);
+            prims.push(Prim { path: self.layer.path(i), kind, samples });
+        }
+        Ok(prims)
+    }
+
+    fn hair_in_place(&mut self, frame: usize, segments: Option<usize>, attributes: bool) -> Result<InPlace, Problem> {
+        let time = self.code_of(frame)?;
+        let prims = self.layer.of_type("BasisCurves");
+        if prims.is_empty() {
+            return Err(Problem::new(
+                "has no BasisCurves: if they come by reference, flatten it first (usdcat --flatten IN -o OUT)",
+            ));
+        }
+        let mut all = Gathered::default();
+        for (group, &prim) in prims.iter().enumerate() {
+            let part = self.curves(prim, time, segments, attributes);
+            let part = part.map_err(|e| Problem(format!("curves {}: {e}", self.layer.path(prim))))?;
+            let name = self.layer.prims[prim].name.clone();
+            let world = transform::world(&mut self.layer, prim, time)?.as_mat4();
+            all.append(part, Affine3A::from_mat4(world), (prims.len() > 1).then_some((group as i32, name)));
+        }
+        all.hair()
+    }
+
+    fn mesh(&mut self) -> Result<Mesh, Problem> {
         let mut mesh = Mesh::default();
-        let first = f64::NEG_INFINITY;
-        for prim in self.of_type("Mesh") {
+        let time = self.code_of(0)?;
+        for prim in self.layer.of_type("Mesh") {
             let path = self.layer.path(prim);
             let problem = |what: &str| Problem(format!("mesh {path}: {what}"));
             let layer = &mut self.layer;
-            let points = layer.at(prim, "points", first).ok_or_else(|| problem("has no points"))?;
-            let points = layer.singles(points)?;
-            let counts = layer.at(prim, "faceVertexCounts", first).ok_or_else(|| problem("has no faces"))?;
+            let points: Vec<Vec3> = layer.points_at(prim, "points", time)?.ok_or_else(|| problem("has no points"))?;
+            let counts = layer.at(prim, "faceVertexCounts", time).ok_or_else(|| problem("has no faces"))?;
             let counts = layer.integers(counts)?;
-            let corners = layer.at(prim, "faceVertexIndices", first).ok_or_else(|| problem("has no faces"))?;
+            let corners = layer.at(prim, "faceVertexIndices", time).ok_or_else(|| problem("has no faces"))?;
             let corners = layer.integers(corners)?;
-            let left_handed = layer.word(prim, "orientation")?.as_deref() == Some("leftHanded");
-            let world = transform::world(&mut self.layer, prim, 0.0)?.as_mat4();
-            let positions = points.as_chunks::<3>().0.iter().map(|&p| world.transform_point3(Vec3::from(p)));
-            mesh.add_polygons(positions, &counts, &corners, left_handed).map_err(|e| problem(&e.0))?;
+            let clockwise = layer.word(prim, "orientation")?.as_deref() == Some("leftHanded");
+            let world = Affine3A::from_mat4(transform::world(&mut self.layer, prim, time)?.as_mat4());
+            add_polygons(&mut mesh, &points, &counts, &corners, clockwise, &world).map_err(|e| problem(&e.0))?;
         }
         match mesh.positions.iter().find(|p| !p.is_finite()) {
             Some(p) => Err(Problem(format!("has a vertex at {p}"))),
@@ -168,89 +265,33 @@ impl StageReader {
         }
     }
 
-    /// World position and rotation of the prim `path` (or of the first of that name) at each time code at which it or
-    /// a prim above it moves, with their times (s).
-    ///
-    /// # Errors
-    /// No such prim; a transform that flattens space.
-    pub fn motion(&mut self, path: &str) -> Result<Vec<(f64, DVec3, DQuat)>, Problem> {
-        let rate = self.contents()?.frame_rate;
-        let all = 0..self.layer.prims.len();
-        let found = all.clone().find(|&i| self.layer.path(i) == path);
-        let by_name = || all.clone().find(|&i| self.layer.prims[i].name.eq_ignore_ascii_case(path));
-        let prim = found.or_else(by_name).ok_or_else(|| {
-            let names: Vec<String> = all.clone().take(40).map(|i| self.layer.path(i)).collect();
-            Problem(format!("has no prim {path}: node can be {}", names.join(", ")))
-        })?;
-        let mut times = Vec::new();
-        let mut above = Some(prim);
-        while let Some(i) = above {
-            let moving = self.layer.prims[i].attributes.iter().filter(|(name, _)| name.starts_with("xformOp:"));
-            times.extend(moving.flat_map(|(_, a)| a.samples.iter().map(|&(t, _)| t)));
-            above = self.layer.prims[i].parent;
-        }
+    fn motion(&mut self, node: &str) -> Result<Vec<Placed>, Problem> {
+        let rate = self.codes_a_second()?;
+        let mover = self.mover(node)?;
+        let mut times = match &mover {
+            Mover::Prim(prim) => transform::times(&self.layer, *prim),
+            Mover::Joint(joint) => joint.times(&self.layer),
+        };
         times.sort_by(f64::total_cmp);
         times.dedup();
         if times.len() > MOST_SAMPLES {
-            return Err(Problem(format!("prim {path}: moves at {} time codes, more than is read", times.len())));
+            return Err(Problem(format!("{node}: moves at {} time codes, more than is read", times.len())));
         }
         if times.is_empty() {
             times.push(0.0);
         }
         let mut motion = Vec::with_capacity(times.len());
         for time in times {
-            let world = transform::world(&mut self.layer, prim, time)?;
+            let world = match &mover {
+                Mover::Prim(prim) => transform::world(&mut self.layer, *prim, time)?,
+                Mover::Joint(joint) => joint.world(&mut self.layer, time)?,
+            };
             if !(world.is_finite() && world.determinant().abs() > 0.0) {
-                return Err(Problem(format!("prim {path}: its transform at time code {time} flattens space")));
+                return Err(Problem(format!("{node}: its transform at time code {time} flattens space")));
             }
             let (_, rotation, position) = world.to_scale_rotation_translation();
-            motion.push((time / rate, position, rotation));
+            motion.push(Placed { time: time / rate, position, rotation });
         }
         Ok(motion)
-    }
-}
-
-/// What a prim carries at a time code: its primvars, and `widths`, which is an attribute of its own.
-struct Primvars<'a> {
-    layer: &'a mut Layer,
-    prim: usize,
-    time: f64,
-}
-
-impl Primvars<'_> {
-    fn named(&self, name: &str) -> Option<Handle> {
-        let plain = if name == "widths" { self.layer.at(self.prim, name, self.time) } else { None };
-        plain.or_else(|| self.layer.at(self.prim, &format!("primvars:{name}"), self.time))
-    }
-
-    /// Values, looked up where they are stored by index.
-    fn expanded<T: Clone>(&mut self, name: &str, values: Vec<T>) -> Result<Option<Vec<T>>, Problem> {
-        match self.layer.at(self.prim, &format!("primvars:{name}:indices"), self.time) {
-            Some(indices) => indexed(name, &values, &self.layer.integers(indices)?).map(Some),
-            None => Ok(Some(values)),
-        }
-    }
-}
-
-impl Carried for Primvars<'_> {
-    fn tuples<const N: usize>(&mut self, name: &str) -> Result<Option<Vec<[f32; N]>>, Problem> {
-        let Some(handle) = self.named(name) else { return Ok(None) };
-        let numbers = self.layer.singles(handle)?;
-        match numbers.as_chunks::<N>() {
-            (values, []) if !values.is_empty() => self.expanded(name, values.to_vec()),
-            _ => Ok(None),
-        }
-    }
-
-    fn integers(&mut self, name: &str) -> Result<Option<Vec<i64>>, Problem> {
-        let Some(handle) = self.named(name) else { return Ok(None) };
-        let values = self.layer.integers(handle)?;
-        self.expanded(name, values)
-    }
-
-    fn words(&mut self, name: &str) -> Result<Option<Vec<String>>, Problem> {
-        let Some(handle) = self.named(name) else { return Ok(None) };
-        let values = self.layer.words(handle)?;
-        self.expanded(name, values)
     }
 }

@@ -1,23 +1,30 @@
 //! Transforms of prims, from the operations that each lists.
 
-use glam::{DMat4, DQuat, DVec3};
+use glam::{DMat4, DVec3};
 
 use crate::Problem;
-use crate::source::Layer;
+use crate::opened::Layer;
 
-/// The product of all transforms from the top down to `prim` at a time code.
+/// The product of all transforms from the top down to `prim` at a time code. Between samples, each operation is
+/// interpolated before the product is taken, as USD does.
 pub fn world(layer: &mut Layer, prim: usize, time: f64) -> Result<DMat4, Problem> {
     let mut world = DMat4::IDENTITY;
-    let mut above = Some(prim);
-    while let Some(i) = above {
+    let upward: Vec<usize> = layer.upward(prim).collect();
+    for i in upward {
         let (local, resets) = local(layer, i, time)?;
         world = local * world;
         if resets {
             break;
         }
-        above = layer.prims[i].parent;
     }
     Ok(world)
+}
+
+/// The time codes at which `prim` or a prim above it moves.
+pub fn times(layer: &Layer, prim: usize) -> Vec<f64> {
+    let attributes = layer.upward(prim).flat_map(|i| &layer.prims[i].attributes);
+    let moving = attributes.filter(|(name, _)| name.starts_with("xformOp:"));
+    moving.flat_map(|(_, a)| a.samples.iter().map(|&(t, _)| t)).collect()
 }
 
 /// A prim's own transform, and whether those above it do not count.
@@ -34,20 +41,23 @@ fn local(layer: &mut Layer, prim: usize, time: f64) -> Result<(DMat4, bool), Pro
             Some(name) => (true, name),
             None => (false, word.as_str()),
         };
-        let path = || layer.path(prim);
-        let value = layer.at(prim, name, time).ok_or_else(|| Problem(format!("prim {}: has no {name}", path())))?;
-        let numbers = layer.numbers(value)?;
         let kind = name.strip_prefix("xformOp:").unwrap_or(name).split(':').next().unwrap_or_default();
-        let operation = operation(kind, &numbers, layer.real_first());
-        let operation =
-            operation.ok_or_else(|| Problem(format!("prim {}: {name} is no transform", layer.path(prim))))?;
+        let operation = if kind == "orient" {
+            let turn = layer.quaternions_at(prim, name, time)?;
+            turn.map(|turn| turn.first().map(|&turn| DMat4::from_quat(turn)))
+        } else {
+            layer.numbers_at(prim, name, time)?.map(|numbers| operation(kind, &numbers))
+        };
+        let problem = |what: &str| Problem(format!("prim {}: {what}", layer.path(prim)));
+        let operation = operation.ok_or_else(|| problem(&format!("has no {name}")))?;
+        let operation = operation.ok_or_else(|| problem(&format!("{name} is no transform")))?;
         local *= if inverted { operation.inverse() } else { operation };
     }
     Ok((local, resets))
 }
 
 /// One operation as a matrix that multiplies columns.
-fn operation(kind: &str, v: &[f64], real_first: bool) -> Option<DMat4> {
+fn operation(kind: &str, v: &[f64]) -> Option<DMat4> {
     let triple = || v.get(..3).map(DVec3::from_slice);
     let turn = |axes: &str| {
         let angles = triple()?;
@@ -71,11 +81,6 @@ fn operation(kind: &str, v: &[f64], real_first: bool) -> Option<DMat4> {
         "rotateY" => DMat4::from_rotation_y(v.first()?.to_radians()),
         "rotateZ" => DMat4::from_rotation_z(v.first()?.to_radians()),
         "rotateXYZ" | "rotateXZY" | "rotateYXZ" | "rotateYZX" | "rotateZXY" | "rotateZYX" => turn(&kind[6..])?,
-        "orient" => {
-            let &[a, b, c, d] = v else { return None };
-            let quaternion = if real_first { DQuat::from_xyzw(b, c, d, a) } else { DQuat::from_xyzw(a, b, c, d) };
-            DMat4::from_quat(if quaternion.length() > 0.0 { quaternion.normalize() } else { DQuat::IDENTITY })
-        }
         "transform" => DMat4::from_cols_array(v.try_into().ok()?),
         _ => return None,
     })

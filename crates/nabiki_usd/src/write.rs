@@ -1,12 +1,13 @@
 //! Moving hair into a USD layer, one frame at a time.
 
+use std::fs::File;
 use std::io::{self, BufWriter};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::{Affine3A, Vec3};
 use nabiki::Strands;
-use nabiki::export::{Export, FrameSink};
-use tempfile::NamedTempFile;
+use nabiki_exchange::{Export, FrameSink, Velocities};
+use nabiki_file::{PartFile, folder_of};
 
 use crate::content::{curves, extent, skin};
 use crate::crate_file::Rep;
@@ -27,7 +28,6 @@ pub enum Form {
 /// A USD layer that takes the hair frame by frame.
 pub struct HairStage<'a> {
     export: Export<'a>,
-    path: PathBuf,
     names: Vec<String>,
     form: Form,
     to: Encoding,
@@ -38,15 +38,15 @@ pub struct HairStage<'a> {
     transforms: Vec<Value>,
     points: Vec<Vec3>,
     last_points: Vec<Vec3>,
+    velocities: Option<Velocities>,
 }
 
-type Writer = BufWriter<NamedTempFile>;
-
 enum Encoding {
-    /// Samples stand where they were written.
-    Text(TextWriter<Writer>),
+    /// Samples stand where they were written: those of velocities, which come with those of points, wait in a file
+    /// without a name.
+    Text { to: TextWriter<PartFile>, velocities: TextWriter<BufWriter<File>> },
     /// Samples lie anywhere; an attribute lists where.
-    Binary { to: Box<CrateWriter<Writer>>, samples: Vec<Rep> },
+    Binary { to: Box<CrateWriter<PartFile>>, points: Vec<Rep>, velocities: Vec<Rep> },
 }
 
 fn invalid(problem: String) -> io::Error {
@@ -71,8 +71,7 @@ impl<'a> HairStage<'a> {
             Some("usdc" | "usd") => true,
             _ => return Err(invalid("a USD layer's name must end in .usda or .usdc".to_owned())),
         };
-        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let file = BufWriter::with_capacity(1 << 20, unnamed_in(folder)?);
+        let file = PartFile::create(path)?;
         let start = f64::from(export.first_frame);
         let metadata = Metadata {
             default_prim: names[0].clone(),
@@ -84,7 +83,7 @@ impl<'a> HairStage<'a> {
         };
         let widest = export.widths().unwrap_or_default().into_iter().fold(0.0, f32::max);
         let to = if binary {
-            Encoding::Binary { to: Box::new(CrateWriter::new(file)?), samples: Vec::new() }
+            Encoding::Binary { to: Box::new(CrateWriter::new(file)?), points: Vec::new(), velocities: Vec::new() }
         } else {
             let mut to = TextWriter::new(file, &metadata)?;
             let hair = names.len() - 1;
@@ -106,11 +105,13 @@ impl<'a> HairStage<'a> {
                 }
             }
             to.begin_samples("points", "point3f[]", hair + 1)?;
-            Encoding::Text(to)
+            let waiting = BufWriter::with_capacity(1 << 20, tempfile::tempfile_in(folder_of(path))?);
+            Encoding::Text { to, velocities: TextWriter::part(waiting) }
         };
+        // Over a groom lie its points alone.
+        let velocities = (export.velocities && form == Form::Stage).then(Velocities::default);
         Ok(Self {
             export,
-            path: path.to_owned(),
             names,
             form,
             to,
@@ -121,76 +122,130 @@ impl<'a> HairStage<'a> {
             transforms: Vec::new(),
             points: Vec::new(),
             last_points: Vec::new(),
+            velocities,
         })
     }
 
     fn complete(mut self) -> io::Result<()> {
         let Some(&end) = self.times.last() else { return Err(invalid("no frame was given".to_owned())) };
         self.metadata.end = end;
-        let still = self.transforms.iter().all(|t| *t == self.transforms[0]);
-        let order = Value::Tokens(vec!["xformOp:transform".to_owned()]);
-        let is_stage = self.form == Form::Stage;
-        let file = match self.to {
-            Encoding::Text(mut to) => {
-                let depth = self.names.len();
-                to.end_samples(depth)?;
-                let timed = |values: Vec<Value>| self.times.iter().copied().zip(values).collect::<Vec<_>>();
-                to.attribute(&Attribute::sampled("extent", "float3[]", timed(self.extents)), depth)?;
-                to.close(depth - 1)?;
-                if is_stage {
-                    let mut transform = Attribute::sampled("xformOp:transform", "matrix4d", Vec::new());
-                    if still {
-                        transform.value = Some(self.transforms[0].clone());
-                    } else {
-                        transform.samples = timed(self.transforms);
-                    }
-                    to.attribute(&transform, 1)?;
-                    to.attribute(&Attribute::uniform("xformOpOrder", "token[]", order), 1)?;
-                }
-                for depth in (0..depth - 1).rev() {
-                    to.close(depth)?;
-                }
-                to.finish(end)?
-            }
-            Encoding::Binary { mut to, samples } => {
-                let extents = self.extents.iter().map(|e| to.value(e)).collect::<io::Result<Vec<Rep>>>()?;
-                let mut hair = if is_stage {
-                    curves(&self.export, "hair")
-                } else {
-                    let name = self.names[self.names.len() - 1].clone();
-                    Prim { name, type_name: "", attributes: Vec::new(), children: Vec::new() }
-                };
-                match hair.attributes.iter_mut().find(|a| a.name == "points") {
-                    Some(attribute) => attribute.samples = samples,
-                    None => hair.attributes.push(Attribute::sampled("points", "point3f[]", samples)),
-                }
-                hair.attributes.push(Attribute::sampled("extent", "float3[]", extents));
-                let mut prim = hair;
-                for name in self.names[..self.names.len() - 1].iter().rev() {
-                    let type_name = if is_stage { "Xform" } else { "" };
-                    let name = name.clone();
-                    prim = Prim { name, type_name, attributes: Vec::new(), children: vec![prim] };
-                }
-                if is_stage {
-                    if let Some(mesh) = self.export.head {
-                        prim.children.insert(0, skin(mesh, &self.export));
-                    }
-                    let mut transform = Attribute::sampled("xformOp:transform", "matrix4d", Vec::new());
-                    if still {
-                        transform.value = Some(self.transforms[0].clone());
-                    } else {
-                        transform.samples =
-                            self.transforms.iter().map(|t| to.value(t)).collect::<io::Result<Vec<Rep>>>()?;
-                    }
-                    prim.attributes = vec![transform, Attribute::uniform("xformOpOrder", "token[]", order)];
-                }
-                to.finish(&self.metadata, &[prim], &self.times)?
+        if let Some(last) = self.velocities.as_ref().and_then(Velocities::of_last) {
+            self.to.velocities(end, last, self.names.len())?;
+        }
+        let Self { export, names, form, to, metadata, times, extents, transforms, .. } = self;
+        let rest = Rest { export: &export, names: &names, is_stage: form == Form::Stage, times: &times };
+        let file = match to {
+            Encoding::Text { to, velocities } => rest.text(to, velocities, extents, transforms)?,
+            Encoding::Binary { to, points, velocities } => {
+                rest.binary(*to, &metadata, points, velocities, &extents, &transforms)?
             }
         };
-        let file = file.into_inner().map_err(|e| e.into_error())?;
-        file.persist(&self.path).map_err(|e| e.error)?;
-        Ok(())
+        file.finish()
     }
+}
+
+impl Encoding {
+    /// Writes the velocities at a time code.
+    fn velocities(&mut self, time: f64, found: &[Vec3], depth: usize) -> io::Result<()> {
+        match self {
+            Self::Text { velocities, .. } => velocities.points(time, found, depth),
+            Self::Binary { to, velocities, .. } => {
+                velocities.push(to.points(found)?);
+                Ok(())
+            }
+        }
+    }
+}
+
+/// What is written once the last frame is known.
+struct Rest<'a> {
+    export: &'a Export<'a>,
+    names: &'a [String],
+    is_stage: bool,
+    times: &'a [f64],
+}
+
+impl Rest<'_> {
+    fn text(
+        &self,
+        mut to: TextWriter<PartFile>,
+        velocities: TextWriter<BufWriter<File>>,
+        extents: Vec<Value>,
+        transforms: Vec<Value>,
+    ) -> io::Result<PartFile> {
+        let depth = self.names.len();
+        let timed = |values: Vec<Value>| self.times.iter().copied().zip(values).collect::<Vec<_>>();
+        to.end_samples(depth)?;
+        to.attribute(&Attribute::sampled("extent", "float3[]", timed(extents)), depth)?;
+        if self.is_stage && self.export.velocities && self.times.len() > 1 {
+            to.begin_samples("velocities", "vector3f[]", depth)?;
+            to.append(velocities)?;
+            to.end_samples(depth)?;
+        }
+        to.close(depth - 1)?;
+        if self.is_stage {
+            for attribute in transform(transforms, |values| Ok(timed(values)))? {
+                to.attribute(&attribute, 1)?;
+            }
+        }
+        for depth in (0..depth - 1).rev() {
+            to.close(depth)?;
+        }
+        to.finish(self.times[self.times.len() - 1])
+    }
+
+    fn binary(
+        &self,
+        mut to: CrateWriter<PartFile>,
+        metadata: &Metadata,
+        points: Vec<Rep>,
+        velocities: Vec<Rep>,
+        extents: &[Value],
+        transforms: &[Value],
+    ) -> io::Result<PartFile> {
+        let mut reps = |values: &[Value]| values.iter().map(|v| to.value(v)).collect::<io::Result<Vec<Rep>>>();
+        let (name, above) = self.names.split_last().expect("a path has a name");
+        let mut hair = if self.is_stage {
+            curves(self.export, name)
+        } else {
+            Prim { name: name.clone(), type_name: "", attributes: Vec::new(), children: Vec::new() }
+        };
+        match hair.attributes.iter_mut().find(|a| a.name == "points") {
+            Some(attribute) => attribute.samples = points,
+            None => hair.attributes.push(Attribute::sampled("points", "point3f[]", points)),
+        }
+        hair.attributes.push(Attribute::sampled("extent", "float3[]", reps(extents)?));
+        if !velocities.is_empty() {
+            hair.attributes.push(Attribute::sampled("velocities", "vector3f[]", velocities));
+        }
+        let mut prim = hair;
+        for name in above.iter().rev() {
+            let type_name = if self.is_stage { "Xform" } else { "" };
+            prim = Prim { name: name.clone(), type_name, attributes: Vec::new(), children: vec![prim] };
+        }
+        if self.is_stage {
+            if let Some(mesh) = self.export.head {
+                prim.children.insert(0, skin(mesh, self.export));
+            }
+            prim.attributes = transform(transforms.to_vec(), |values| reps(&values))?;
+        }
+        to.finish(metadata, &[prim], self.times)
+    }
+}
+
+/// The attributes of a transform that is a matrix: one where all are equal, otherwise the samples that `timed` makes.
+fn transform<S>(
+    matrices: Vec<Value>,
+    timed: impl FnOnce(Vec<Value>) -> io::Result<Vec<S>>,
+) -> io::Result<Vec<Attribute<S>>> {
+    let mut transform = Attribute::sampled("xformOp:transform", "matrix4d", Vec::new());
+    if matrices.iter().all(|t| *t == matrices[0]) {
+        transform.value = Some(matrices[0].clone());
+    } else {
+        transform.samples = timed(matrices)?;
+    }
+    let order = Value::Tokens(vec!["xformOp:transform".to_owned()]);
+    Ok(vec![transform, Attribute::uniform("xformOpOrder", "token[]", order)])
 }
 
 impl FrameSink for HairStage<'_> {
@@ -199,8 +254,8 @@ impl FrameSink for HairStage<'_> {
         let time = self.metadata.start + self.times.len() as f64;
         self.extents.push(Value::Triples(extent(points, self.margin)));
         match &mut self.to {
-            Encoding::Text(to) => to.points(time, points, self.names.len())?,
-            Encoding::Binary { to, samples } => {
+            Encoding::Text { to, .. } => to.points(time, points, self.names.len())?,
+            Encoding::Binary { to, points: samples, .. } => {
                 let rep = match samples.last() {
                     // Hair that stands still is written once.
                     Some(&last) if points == self.last_points => last,
@@ -212,6 +267,11 @@ impl FrameSink for HairStage<'_> {
                 };
                 samples.push(rep);
             }
+        }
+        if let Some(velocities) = &mut self.velocities
+            && let Some(found) = velocities.before(points, self.export.frame_rate)?
+        {
+            self.to.velocities(time - 1.0, found, self.names.len())?;
         }
         // USD multiplies rows from the left.
         let parent = self.export.parent(world_from_head);
@@ -238,13 +298,4 @@ fn prim_names(path: &str) -> io::Result<Vec<String>> {
     } else {
         Err(invalid(format!("prim path \"{path}\": must be like /character/hair")))
     }
-}
-
-/// A file in `folder` that goes away unless it is given a name, with the rights of any new file.
-fn unnamed_in(folder: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    // A temporary file is its owner's alone unless told otherwise; the user's mask still takes away from this.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
 }

@@ -5,9 +5,9 @@ use std::io::Cursor;
 use std::path::Path;
 
 use glam::{Affine3A, Quat, Vec3};
-use nabiki::export::{Export, FrameSink};
 use nabiki::hair::Attributes;
 use nabiki::{Hair, Mesh, Strands};
+use nabiki_exchange::{Export, FrameSink, GroomReader, Placed};
 use nabiki_usd::{Form, HairStage, StageReader};
 use proptest::prelude::*;
 
@@ -80,7 +80,8 @@ fn every_frame_and_attribute_comes_back_to_the_bit() {
         let contents = stage.contents().unwrap();
         assert_eq!(contents.curves, ["/head/hair"]);
         assert_eq!((contents.meters_per_unit, contents.z_up, contents.frame_rate), (Some(0.01), Some(false), 30.0));
-        assert_eq!(contents.times, (-3..6).map(f64::from).collect::<Vec<_>>());
+        assert_eq!(contents.times, (-3..6).map(|n| f64::from(n) / 30.0).collect::<Vec<_>>());
+        assert_eq!(contents.first_frame(), -3);
         for frame in 0..FRAMES {
             let read = stage.hair(frame, None).unwrap();
             assert_eq!(read.strands, strands(frame), "{name}, frame {frame}");
@@ -124,7 +125,7 @@ fn the_moving_head_carries_hair_and_skin() {
         }
         let motion = stage.motion("head").unwrap();
         assert_eq!(motion.len(), FRAMES);
-        for (frame, (time, position, rotation)) in motion.into_iter().enumerate() {
+        for (frame, Placed { time, position, rotation }) in motion.into_iter().enumerate() {
             assert!((time - frame as f64 / 24.0).abs() < 1e-12);
             assert_eq!(position.as_vec3(), Vec3::from(pose(frame).translation));
             assert!(1.0 - rotation.as_quat().dot(Quat::from_rotation_y(0.1 * frame as f32)).abs() < 1e-6);
@@ -234,9 +235,9 @@ fn cubic_curves_are_walked_and_keep_what_they_carry() {
         }
     }
     let motion = stage.motion("/rig").unwrap();
-    let turned = motion[1].2 * glam::DVec3::X;
+    let turned = motion[1].rotation * glam::DVec3::X;
     // About x first, then about z: x goes to y.
-    assert!((motion[1].0 - 10.0 / 24.0).abs() < 1e-12 && turned.distance(glam::DVec3::Y) < 1e-9, "{turned}");
+    assert!((motion[1].time - 10.0 / 24.0).abs() < 1e-12 && turned.distance(glam::DVec3::Y) < 1e-9, "{turned}");
 }
 
 #[test]

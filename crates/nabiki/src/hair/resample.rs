@@ -34,10 +34,16 @@ impl Hair {
             transparency: scalars(&a.transparency, &places),
             point_uv: arrays(&a.point_uv, &places),
             freedom: scalars(&a.freedom, &places),
+            other: a.other.iter().map(|other| other.resampled(blends(&places, last))).collect(),
             ..a.clone()
         };
         Self { strands, attributes }
     }
+}
+
+/// The two points that each place lies between, with their weights.
+fn blends(places: &[Place], last: usize) -> impl Iterator<Item = [(usize, f64); 2]> {
+    places.iter().map(move |p| [(p.from, 1.0 - f64::from(p.t)), ((p.from + 1).min(last), f64::from(p.t))])
 }
 
 /// The ends are given as they are, without arithmetic.

@@ -2,32 +2,29 @@
 
 use std::{fmt, path::Path};
 
+use nabiki_exchange::{Prim, PrimKind};
 use serde::Serialize;
 
 use super::hair::HairInfo;
 use super::measure::Guess;
 use super::mesh::MeshInfo;
-use crate::error::{Error, Result};
-use crate::exchange::{archive, declared_space, hair, is_alembic, mesh, stage};
+use crate::error::Result;
+use crate::exchange::Opened;
 use crate::short::Short;
 use crate::unit::Unit;
 
 /// What is in a layer or archive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExchangeInfo {
-    /// Paths of the curves.
-    pub curves: Vec<String>,
-    /// Paths of the meshes.
-    pub meshes: Vec<String>,
-    /// Transforms that may carry a head.
-    pub transforms: Vec<TransformInfo>,
+    /// What stands in the file.
+    pub prims: Vec<PrimSummary>,
     /// The curves of the first frame, transforms applied.
     pub hair: Option<HairInfo>,
     /// The meshes, transforms applied.
     pub mesh: Option<MeshInfo>,
     /// Frames of the curves; 1 for a groom that stands still.
     pub frames: usize,
-    /// Frames a second, where there are several.
+    /// Frames a second, where anything moves.
     pub frame_rate: Option<f64>,
     /// Centimetres in the file's unit, where it says so.
     pub unit_cm: Option<f32>,
@@ -38,13 +35,29 @@ pub struct ExchangeInfo {
     pub guess: Option<Guess>,
 }
 
-/// A transform in a layer or archive.
+/// One object of a layer or archive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct TransformInfo {
+pub struct PrimSummary {
     /// Where it stands.
     pub path: String,
-    /// Samples over time; 1 for one that stands still.
-    pub samples: usize,
+    /// What it is, and how much of it.
+    pub what: String,
+    /// Samples over time; `None` for what does not move.
+    pub samples: Option<usize>,
+}
+
+impl From<Prim> for PrimSummary {
+    fn from(prim: Prim) -> Self {
+        let what = match prim.kind {
+            PrimKind::Curves { curves, points } => format!("{curves} curves, {points} points"),
+            PrimKind::Mesh { faces, points } => format!("mesh, {faces} faces, {points} points"),
+            PrimKind::Transform => "transform".to_owned(),
+            PrimKind::Skeleton { joints } => format!("skeleton, {} joints", joints.len()),
+            PrimKind::Other(name) if name.is_empty() => "no type".to_owned(),
+            PrimKind::Other(name) => name,
+        };
+        Self { path: prim.path, what, samples: (prim.samples > 1).then_some(prim.samples) }
+    }
 }
 
 impl ExchangeInfo {
@@ -53,23 +66,26 @@ impl ExchangeInfo {
     /// # Errors
     /// What is wrong with it.
     pub fn of_file(path: &Path) -> Result<Self> {
-        let outline = Outline::of_file(path)?;
-        let declared = declared_space(path)?;
-        let hair = if outline.curves.is_empty() { None } else { Some(HairInfo::of(&hair(path, 0, None)?)) };
-        let mesh = if outline.meshes.is_empty() { None } else { Some(MeshInfo::of(&mesh(path)?)) };
+        let mut file = Opened::new(path)?;
+        let contents = file.ask(|r| r.contents())?;
+        let declared = file.declared_space()?;
+        let prims: Vec<PrimSummary> = file.ask(|r| r.prims())?.into_iter().map(PrimSummary::from).collect();
+        let has = |paths: &[String]| !paths.is_empty();
+        let hair = has(&contents.curves).then(|| file.ask(|r| r.hair(0, None))).transpose()?;
+        let mesh = has(&contents.meshes).then(|| file.ask(|r| r.mesh())).transpose()?;
+        let (hair, mesh) = (hair.as_ref().map(HairInfo::of), mesh.as_ref().map(MeshInfo::of));
         // One guess for the whole file, and only of what it leaves open.
         let likely = hair.as_ref().map(|hair| hair.guess).or(mesh.as_ref().map(|mesh| mesh.guess)).flatten();
         let guess = likely
             .filter(|_| declared.unit.is_none())
             .map(|likely| Guess { likely_up: likely.likely_up.filter(|_| declared.up.is_none()), ..likely });
+        let moves = prims.iter().any(|prim| prim.samples.is_some());
         Ok(Self {
+            prims,
             hair: hair.map(|hair| HairInfo { guess: None, ..hair }),
             mesh: mesh.map(|mesh| MeshInfo { guess: None, ..mesh }),
-            frames: outline.frames.max(1),
-            frame_rate: (outline.frames > 1).then_some(outline.frame_rate),
-            curves: outline.curves,
-            meshes: outline.meshes,
-            transforms: outline.transforms,
+            frames: contents.times.len().max(1),
+            frame_rate: moves.then_some(contents.frame_rate),
             unit_cm: declared.unit.map(|unit| unit.cm),
             up: declared.up.map(|axis| axis.to_string()),
             guess,
@@ -77,59 +93,28 @@ impl ExchangeInfo {
     }
 }
 
-/// What the two formats' own contents have in common.
-struct Outline {
-    curves: Vec<String>,
-    meshes: Vec<String>,
-    transforms: Vec<TransformInfo>,
-    frames: usize,
-    frame_rate: f64,
-}
-
-impl Outline {
-    fn of_file(path: &Path) -> Result<Self> {
-        let named = |problem: String| Error::new(problem).in_file(path);
-        if is_alembic(path) {
-            let contents = archive(path)?.contents().map_err(|e| named(e.to_string()))?;
-            let transforms = contents.transforms.into_iter().map(|(path, samples)| TransformInfo { path, samples });
-            return Ok(Self {
-                curves: contents.curves.into_iter().map(|(path, _)| path).collect(),
-                meshes: contents.meshes,
-                transforms: transforms.collect(),
-                frames: contents.frames,
-                frame_rate: contents.frame_rate,
-            });
-        }
-        let contents = stage(path)?.contents().map_err(|e| named(e.to_string()))?;
-        Ok(Self {
-            curves: contents.curves,
-            meshes: contents.meshes,
-            transforms: Vec::new(),
-            frames: contents.times.len(),
-            frame_rate: contents.frame_rate,
-        })
-    }
-}
-
 impl fmt::Display for ExchangeInfo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // As many prims as fit a screen.
+        const MOST_LISTED: usize = 40;
         if let Some(hair) = &self.hair {
             writeln!(f, "{hair}")?;
         }
         if let Some(mesh) = &self.mesh {
             writeln!(f, "{mesh}")?;
         }
-        for (kind, paths) in [("curves", &self.curves), ("meshes", &self.meshes)] {
-            list(f, kind, paths.iter().map(String::clone))?;
-        }
-        let frames = |transform: &TransformInfo| match transform.samples {
-            0 | 1 => transform.path.clone(),
-            samples => format!("{} ({samples} frames)", transform.path),
-        };
-        list(f, "transforms", self.transforms.iter().map(frames))?;
         match self.frame_rate {
             Some(rate) => writeln!(f, "frames: {} at {} a second", self.frames, Short(rate as f32))?,
             None => writeln!(f, "frames: {}", self.frames)?,
+        }
+        for prim in self.prims.iter().take(MOST_LISTED) {
+            match prim.samples {
+                Some(samples) => writeln!(f, "{}: {}, {samples} samples", prim.path, prim.what)?,
+                None => writeln!(f, "{}: {}", prim.path, prim.what)?,
+            }
+        }
+        if self.prims.len() > MOST_LISTED {
+            writeln!(f, "and {} more", self.prims.len() - MOST_LISTED)?;
         }
         match self.unit_cm {
             Some(cm) => write!(f, "the file says: unit {}", Unit { cm })?,
@@ -144,16 +129,4 @@ impl fmt::Display for ExchangeInfo {
             _ => Ok(()),
         }
     }
-}
-
-/// A line of names, cut short where there are very many.
-fn list(f: &mut fmt::Formatter<'_>, kind: &str, names: impl ExactSizeIterator<Item = String>) -> fmt::Result {
-    const SHOWN: usize = 40;
-    let count = names.len();
-    if count == 0 {
-        return Ok(());
-    }
-    let shown: Vec<String> = names.take(SHOWN).collect();
-    let more = if count > SHOWN { format!(", and {} more", count - SHOWN) } else { String::new() };
-    writeln!(f, "{kind}: {}{more}", shown.join(", "))
 }

@@ -25,6 +25,7 @@ pub fn hair(counts: &[usize]) -> Hair {
         point_uv: Some(by_point(0.25).into_iter().map(|u| [u, 1.0]).collect()),
         freedom: Some(by_point(1.0).into_iter().map(|p| p.min(1.0)).collect()),
         constant: nabiki::hair::Constants { width: Some(0.01), color: Some([0.25, 0.5, 1.0]), transparency: Some(0.0) },
+        ..Attributes::default()
     };
     Hair { strands, attributes }
 }

@@ -57,7 +57,7 @@ pub fn convert(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
     let (hair, pose) = read(options)?;
     let mut losses = if to_tools {
         exchange::write(output, &hair, said(options)?)?;
-        exchange::losses(&hair)
+        exchange::losses(output, &hair)
     } else {
         hair::write(output, &hair)?
     };
@@ -205,7 +205,7 @@ fn all_frames(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
         sink.frame(&strands, &pose.world_from_head()).map_err(failed)
     })?;
     sink.finish().map_err(failed)?;
-    let losses = exchange::losses(&hair).into_iter().chain(unsaid(options)?).collect();
+    let losses = exchange::losses(output, &hair).into_iter().chain(unsaid(options)?).collect();
     finish(options, losses, format!("{frames} frames of {} strands", hair.strands.len()), watch);
     Ok(())
 }

@@ -2,8 +2,14 @@
 
 /// Most bytes that one LZ4 block holds here; longer data is packed in several.
 const CHUNK: usize = 127 * 1024 * 1024;
-/// Bytes one byte of LZ4 can stand for at most.
+/// Bytes one byte of LZ4 can stand for at most: a length goes on in bytes that each add up to 255 to it.
 const MOST_GROWTH: usize = 255;
+
+/// Integers that `bytes` can stand for at most: LZ4 stretches each byte to so many, and each of these is the code of four
+/// integers.
+pub fn most_integers(bytes: u64) -> u64 {
+    bytes.saturating_mul(4 * MOST_GROWTH as u64)
+}
 
 /// Packs bytes: a count of chunks (0 for one without a length of its own), then LZ4 blocks.
 pub fn pack(bytes: &[u8]) -> Vec<u8> {
@@ -22,25 +28,33 @@ pub fn pack(bytes: &[u8]) -> Vec<u8> {
     packed
 }
 
-/// Unpacks what must be `size` bytes at most.
+/// Unpacks what must be `size` bytes at most, and cannot be that many if it is packed in too few.
 pub fn unpack(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
+    unpack_between(packed, size, size)
+}
+
+/// Unpacks what holds `least` bytes or more and `most` bytes at most. No room is made for what so few packed bytes
+/// cannot hold.
+fn unpack_between(packed: &[u8], least: usize, most: usize) -> Result<Vec<u8>, String> {
     let too_short = || "a packed table that ends too early".to_owned();
     let (&chunks, mut rest) = packed.split_first().ok_or_else(too_short)?;
-    if size / MOST_GROWTH > packed.len() {
-        return Err(format!("{} packed bytes that claim to hold {size}", packed.len()));
+    let holds = packed.len().saturating_mul(MOST_GROWTH);
+    if least > holds {
+        return Err(format!("{} packed bytes that claim to hold {least}", packed.len()));
     }
     let block = |bytes: &[u8], room: usize| {
+        let room = room.min(bytes.len().saturating_mul(MOST_GROWTH));
         lz4_flex::block::decompress(bytes, room).map_err(|e| format!("a table that cannot be unpacked: {e}"))
     };
     if chunks == 0 {
-        return block(rest, size);
+        return block(rest, most);
     }
     let mut bytes = Vec::new();
     for _ in 0..chunks {
         let (length, after) = rest.split_first_chunk::<4>().ok_or_else(too_short)?;
         let length = usize::try_from(i32::from_le_bytes(*length)).map_err(|_| too_short())?;
         let (part, after) = after.split_at_checked(length).ok_or_else(too_short)?;
-        bytes.extend(block(part, size - bytes.len())?);
+        bytes.extend(block(part, most - bytes.len())?);
         rest = after;
     }
     Ok(bytes)
@@ -91,12 +105,14 @@ pub fn unpack_integers<const WIDTH: usize>(packed: &[u8], count: usize) -> Resul
     if count == 0 {
         return Ok(Vec::new());
     }
-    // A run of one difference is a byte for each four integers before LZ4, which can shorten it further.
-    if count / (4 * MOST_GROWTH) > packed.len() {
+    if count > most_integers(packed.len() as u64) as usize {
         return Err(format!("{} packed bytes that claim to hold {count} integers", packed.len()));
     }
+    // Differences that are all the commonest one take no more than their codes; all others are at most as wide as the
+    // integers.
     let codes_length = count.div_ceil(4);
-    let coded = unpack(packed, WIDTH + codes_length + WIDTH * count)?;
+    let least = WIDTH + codes_length;
+    let coded = unpack_between(packed, least, least + WIDTH * count)?;
     let (common, rest) = coded.split_at_checked(WIDTH).ok_or_else(too_short)?;
     let (codes, mut rest) = rest.split_at_checked(codes_length).ok_or_else(too_short)?;
     let common = signed(common);
@@ -139,6 +155,44 @@ mod tests {
         let values: Vec<u32> = vec![0, 1, 2, 3, 200, 100_000, 100_001, u32::MAX, 5, 5, 5, 1 << 31, 0];
         let back = unpack_integers::<4>(&pack_integers(&values), values.len()).unwrap();
         assert_eq!(back.iter().map(|&x| x as u32).collect::<Vec<_>>(), values);
+    }
+
+    #[test]
+    fn a_million_equal_integers_come_back_from_a_few_kilobytes() {
+        // Counts of strands that are alike, as every groom has them; and the same as 64-bit ones, by the same rules.
+        const COUNT: usize = 1_000_000;
+        for value in [0u32, 2, 17, u32::MAX] {
+            let packed = pack_integers(&vec![value; COUNT]);
+            assert!(packed.len() < COUNT / 4 / 200, "{} bytes", packed.len());
+            assert_eq!(unpack_integers::<4>(&packed, COUNT).unwrap(), vec![i64::from(value as i32); COUNT]);
+        }
+        let mut coded = 5i64.to_le_bytes().to_vec();
+        coded.extend(vec![0; COUNT.div_ceil(4)]);
+        let rising = unpack_integers::<8>(&pack(&coded), COUNT).unwrap();
+        assert!(rising.iter().enumerate().all(|(i, &x)| x == 5 * (i as i64 + 1)));
+    }
+
+    #[test]
+    fn every_length_of_a_run_comes_back() {
+        for count in (1..70).chain([1300, 5529, 20_000, 100_000]) {
+            let values = vec![19; count];
+            let back = unpack_integers::<4>(&pack_integers(&values), count).unwrap();
+            assert!(back.len() == count && back.iter().all(|&x| x == 19), "{count}");
+        }
+    }
+
+    #[test]
+    fn what_would_unpack_to_more_than_is_claimed_is_refused() {
+        let packed = pack(&vec![7; 1 << 20]);
+        assert!(unpack(&packed, 1 << 19).is_err());
+        // More zeros than codes and differences of so many integers can be.
+        assert!(unpack_integers::<4>(&pack(&vec![0; 1 << 20]), 1000).is_err());
+        // As many integers as the bytes could stand for at the very most, and one more.
+        let packed = pack_integers(&[1; 4000]);
+        let most = most_integers(packed.len() as u64) as usize;
+        for count in [most, most + 1, usize::MAX] {
+            assert!(unpack_integers::<4>(&packed, count).is_err(), "{count}");
+        }
     }
 
     #[test]

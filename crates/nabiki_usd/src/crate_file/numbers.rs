@@ -65,7 +65,12 @@ pub fn shape(kind: u8) -> Option<(Scalar, usize)> {
         types::HALF => (F16, 1),
         types::FLOAT => (F32, 1),
         types::DOUBLE | types::DOUBLE_VECTOR => (F64, 1),
+        types::MATRIX2D => (F64, 4),
+        types::MATRIX3D => (F64, 9),
         types::MATRIX4D => (F64, 16),
+        types::VEC2I => (I32, 2),
+        types::VEC3I => (I32, 3),
+        types::VEC4I => (I32, 4),
         types::QUATD | types::VEC4D => (F64, 4),
         types::QUATF | types::VEC4F => (F32, 4),
         types::QUATH | types::VEC4H => (F16, 4),
@@ -83,8 +88,9 @@ pub fn shape(kind: u8) -> Option<(Scalar, usize)> {
 pub fn inlined(rep: Rep, scalar: Scalar, extent: usize) -> Vec<f64> {
     let bits = rep.payload() as u32;
     let component = |i: usize| f64::from(bits.to_le_bytes()[i] as i8);
-    if rep.kind() == types::MATRIX4D {
-        return (0..16).map(|i| if i % 5 == 0 { component(i / 5) } else { 0.0 }).collect();
+    if let types::MATRIX2D..=types::MATRIX4D = rep.kind() {
+        let side = usize::from(rep.kind() - types::MATRIX2D) + 2;
+        return (0..extent).map(|i| if i % (side + 1) == 0 { component(i / (side + 1)) } else { 0.0 }).collect();
     }
     if extent > 1 {
         return (0..extent).map(component).collect();

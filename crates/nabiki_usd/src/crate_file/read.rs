@@ -5,7 +5,7 @@ use std::io::{Read, Seek, SeekFrom};
 
 use glam::Vec3;
 
-use super::integers::{unpack, unpack_integers};
+use super::integers::{most_integers, unpack, unpack_integers};
 use super::numbers::{Scalar, inlined, shape};
 use super::{END_OF_SET, HEADER, MAGIC, Rep, specs, types};
 use crate::Problem;
@@ -13,8 +13,6 @@ use crate::source::{AttributeInfo, Handle, PrimInfo};
 
 /// Arrays shorter than this are not packed even where they say so.
 const SHORTEST_PACKED: usize = 16;
-/// Table entries for each byte of the file, which packing can do at most in any honest file.
-const SLACK: u64 = 4096;
 
 /// The values of a binary layer.
 pub struct CrateReader<R> {
@@ -61,7 +59,7 @@ impl<R: Read + Seek> CrateReader<R> {
         }
         let mut section = |reader: &mut Self, name: &str| {
             let (start, length) = sections.remove(name).ok_or_else(|| Problem(format!("has no table {name}")))?;
-            Ok::<_, Problem>(Table { bytes: reader.bytes(start, length)?, at: 0, most: size.max(SLACK) })
+            Ok::<_, Problem>(Table { bytes: reader.bytes(start, length)?, at: 0, most: most_integers(size) })
         };
 
         let mut table = section(&mut reader, "TOKENS")?;
@@ -118,15 +116,21 @@ impl<R: Read + Seek> CrateReader<R> {
                     let parent = node.parent.and_then(|p| prim_of_node.get(&p).copied());
                     let type_name = word(field("typeName"));
                     prim_of_node.insert(i, layer.0.len());
-                    layer.0.push(PrimInfo { name, type_name, parent, attributes: HashMap::new() });
+                    layer.0.push(PrimInfo { name, type_name, parent, ..PrimInfo::default() });
                 }
                 specs::ATTRIBUTE => {
                     let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&p)) else { continue };
                     let default = field("default").map(|rep| (rep, 0));
+                    let type_name = word(field("typeName")).trim_end_matches("[]").to_owned();
+                    let interpolation = field("interpolation").map(|rep| (rep, 0));
                     let samples = field("timeSamples");
                     let samples = samples.map(|rep| reader.samples(Rep(rep))).transpose()?.unwrap_or_default();
                     let prim: &mut PrimInfo = &mut layer.0[prim];
-                    prim.attributes.insert(name, AttributeInfo { default, samples });
+                    prim.attributes.insert(name, AttributeInfo { type_name, default, samples, interpolation });
+                }
+                specs::RELATIONSHIP => {
+                    let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&p)) else { continue };
+                    layer.0[prim].relationships.push(name);
                 }
                 _ => {}
             }
@@ -267,7 +271,8 @@ impl<R: Read + Seek> CrateReader<R> {
             let bytes = self.bytes(place + skip, 4)?;
             (u64::from(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])), place + skip + 4)
         };
-        if count > self.size.max(SLACK) {
+        // Values that are not packed are read against the file's size.
+        if count > most_integers(self.size) {
             return Err(Problem(format!("claims {count} elements at byte {place}, more than it can hold")));
         }
         Ok((count as usize, start))
@@ -375,10 +380,7 @@ impl Table {
 fn tokens(table: &mut Table) -> Result<Vec<String>, Problem> {
     let count = table.count()?;
     let size = table.number()?;
-    if size > 64 * table.most {
-        return Err(Problem(format!("has words of {size} bytes, more than it can hold")));
-    }
-    let words = table.packed(size as usize)?;
+    let words = table.packed(usize::try_from(size).unwrap_or(usize::MAX))?;
     let tokens: Vec<String> =
         words.split(|&b| b == 0).take(count).map(|w| String::from_utf8_lossy(w).into_owned()).collect();
     if tokens.len() < count {

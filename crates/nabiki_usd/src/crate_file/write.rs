@@ -92,6 +92,22 @@ impl<W: Write + Seek> CrateWriter<W> {
             Value::Floats(values) => self.array(types::FLOAT, values),
             Value::Pairs(values) => self.array(types::VEC2F, values),
             Value::Triples(values) => self.array(types::VEC3F, values),
+            Value::IntTuples(extent, values) => {
+                let kind = [types::INT, types::VEC2I, types::VEC3I, types::VEC4I][extent - 1];
+                self.tuples(kind, *extent, values)
+            }
+            Value::FloatTuples(extent, values) => {
+                let kind = [types::FLOAT, types::VEC2F, types::VEC3F, types::VEC4F][extent - 1];
+                self.tuples(kind, *extent, values)
+            }
+            Value::DoubleTuples(extent, values) => {
+                let kind = match extent {
+                    9 => types::MATRIX3D,
+                    16 => types::MATRIX4D,
+                    _ => [types::DOUBLE, types::VEC2D, types::VEC3D, types::VEC4D][extent - 1],
+                };
+                self.tuples(kind, *extent, values)
+            }
             Value::Matrix(m) => {
                 let place = self.put(&[bytemuck::cast_slice(m)])?;
                 Ok(Rep::at(types::MATRIX4D, place))
@@ -143,7 +159,7 @@ impl<W: Write + Seek> CrateWriter<W> {
             fields.push(("typeName", Rep::inlined(types::TOKEN, self.token(prim.type_name))));
         }
         if !prim.attributes.is_empty() {
-            fields.push(("properties", self.names(prim.attributes.iter().map(|a| a.name))?));
+            fields.push(("properties", self.names(prim.attributes.iter().map(|a| &*a.name))?));
         }
         if !prim.children.is_empty() {
             fields.push(("primChildren", self.names(prim.children.iter().map(|p| &*p.name))?));
@@ -156,7 +172,7 @@ impl<W: Write + Seek> CrateWriter<W> {
         self.paths.jumps.push(0);
         for (i, attribute) in prim.attributes.iter().enumerate() {
             self.attribute(attribute, times)?;
-            let token = self.token(attribute.name) as i32;
+            let token = self.token(&attribute.name) as i32;
             self.paths.tokens.push(-token);
             self.paths.jumps.push(if i + 1 < children { 0 } else { -2 });
         }
@@ -225,10 +241,15 @@ impl<W: Write + Seek> CrateWriter<W> {
     }
 
     fn array<T: bytemuck::NoUninit>(&mut self, kind: u8, values: &[T]) -> io::Result<Rep> {
+        self.tuples(kind, 1, values)
+    }
+
+    /// An array whose elements are `extent` of `values` each.
+    fn tuples<T: bytemuck::NoUninit>(&mut self, kind: u8, extent: usize, values: &[T]) -> io::Result<Rep> {
         if values.is_empty() {
             return Ok(Rep::array(kind, 0));
         }
-        let count = (values.len() as u64).to_le_bytes();
+        let count = ((values.len() / extent) as u64).to_le_bytes();
         let place = self.put(&[&count, bytemuck::cast_slice(values)])?;
         Ok(Rep::array(kind, place))
     }

@@ -50,7 +50,7 @@ pub fn parse(from: &mut dyn Source, length: u64) -> Result<Parsed, Problem> {
                 if open.len() > DEEPEST {
                     return Err(text.problem("prims nested deeper than any scene is"));
                 }
-                prims.push(PrimInfo { name, type_name, parent, attributes: HashMap::new() });
+                prims.push(PrimInfo { name, type_name, parent, ..PrimInfo::default() });
             }
             "variantSet" => {
                 text.quoted()?;
@@ -118,7 +118,7 @@ fn property(text: &mut Scanner<'_>, first: String, prim: &mut PrimInfo) -> Resul
         }
     }
     let is_relation = words.iter().any(|w| w == "rel");
-    let [.., _, name] = &words[..] else {
+    let [.., type_name, name] = &words[..] else {
         return Err(text.problem(&format!("\"{:.40}\" where a property should stand", words[0])));
     };
     let (name, timed) = match name.strip_suffix(".timeSamples") {
@@ -130,16 +130,23 @@ fn property(text: &mut Scanner<'_>, first: String, prim: &mut PrimInfo) -> Resul
         text.pass();
         if is_relation || connection {
             text.skip_value()?;
-        } else if timed {
-            let found = samples(text)?;
-            prim.attributes.entry(name.to_owned()).or_default().samples = found;
+            if is_relation {
+                prim.relationships.push(name.to_owned());
+            }
         } else {
-            let value = text.skip_value()?;
-            prim.attributes.entry(name.to_owned()).or_default().default = Some(value);
+            let samples = if timed { Some(samples(text)?) } else { None };
+            let value = if timed { None } else { Some(text.skip_value()?) };
+            let attribute = prim.attributes.entry(name.to_owned()).or_default();
+            attribute.type_name.clone_from(type_name);
+            attribute.samples = samples.unwrap_or(std::mem::take(&mut attribute.samples));
+            attribute.default = value.or(attribute.default);
         }
     }
     if text.peek()? == Some(b'(') {
-        text.skip_brackets()?;
+        let details = text.skip_value()?;
+        if let Some(attribute) = prim.attributes.get_mut(name) {
+            attribute.interpolation = Some(details);
+        }
     }
     Ok(())
 }
@@ -204,6 +211,25 @@ pub fn numbers<T: Number>(from: &mut dyn Source, (start, length): Handle) -> Res
         window.drain(..whole);
     }
     numbers.all().map_err(|e| Problem(format!("byte {start}: {e}")))
+}
+
+/// The word that stands for `interpolation` among the details of an attribute.
+pub fn interpolation(from: &mut dyn Source, details: Handle) -> Result<Option<String>, Problem> {
+    let mut text = Scanner::new(from, details)?;
+    let mut asked = false;
+    while let Some(byte) = text.peek()? {
+        match byte {
+            b'"' | b'\'' => {
+                let word = text.quoted()?;
+                if asked {
+                    return Ok(Some(word));
+                }
+            }
+            b if b.is_ascii_alphabetic() => asked = text.word()? == "interpolation",
+            _ => text.pass(),
+        }
+    }
+    Ok(None)
 }
 
 /// Words in quotation marks of a value.

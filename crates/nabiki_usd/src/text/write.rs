@@ -1,6 +1,6 @@
 //! Writing of text layers.
 
-use std::io::{self, Seek, SeekFrom, Write};
+use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 
 use glam::Vec3;
 
@@ -34,6 +34,19 @@ impl<W: Write + Seek> TextWriter<W> {
         let end_at = to.stream_position()?;
         writeln!(to, "{:END_WIDTH$}\n)\n", metadata.end)?;
         Ok(Self { to, end_at })
+    }
+
+    /// A part of a layer that is written apart, to be [`append`](Self::append)ed.
+    pub fn part(to: W) -> Self {
+        Self { to, end_at: 0 }
+    }
+
+    /// Writes what has been written apart.
+    pub fn append<R: Read + Write + Seek>(&mut self, part: TextWriter<BufWriter<R>>) -> io::Result<()> {
+        let mut part = part.to.into_inner().map_err(|e| e.into_error())?;
+        part.seek(SeekFrom::Start(0))?;
+        io::copy(&mut part, &mut self.to)?;
+        Ok(())
     }
 
     /// Begins a prim; [`close`](Self::close) ends it.
@@ -129,6 +142,9 @@ impl<W: Write + Seek> TextWriter<W> {
             Value::Floats(values) => list(to, values, |line, &x| float(line, x)),
             Value::Pairs(values) => list(to, values, tuple),
             Value::Triples(values) => list(to, values, tuple),
+            Value::IntTuples(extent, values) => tuples(to, *extent, values, |line, &x| display(line, x)),
+            Value::FloatTuples(extent, values) => tuples(to, *extent, values, |line, &x| float(line, x)),
+            Value::DoubleTuples(extent, values) => tuples(to, *extent, values, |line, &x| display(line, x)),
             Value::Matrix(m) => {
                 let row = |i: usize| format!("({}, {}, {}, {})", m[4 * i], m[4 * i + 1], m[4 * i + 2], m[4 * i + 3]);
                 write!(to, "( {}, {}, {}, {} )", row(0), row(1), row(2), row(3))
@@ -150,6 +166,34 @@ fn tuple<const N: usize>(line: &mut Vec<u8>, numbers: &[f32; N]) {
         float(line, x);
     }
     line.push(b')');
+}
+
+/// Values of `extent` numbers each, those of 9 and 16 as matrices: rows within a pair of parentheses.
+fn tuples<W: Write, T>(to: &mut W, extent: usize, values: &[T], one: impl Fn(&mut Vec<u8>, &T)) -> io::Result<()> {
+    let row = |line: &mut Vec<u8>, numbers: &[T]| {
+        for (i, x) in numbers.iter().enumerate() {
+            line.extend_from_slice(if i == 0 { b"(" } else { b", " });
+            one(line, x);
+        }
+        line.push(b')');
+    };
+    let side = match extent {
+        9 => 3,
+        16 => 4,
+        other => other,
+    };
+    let all: Vec<&[T]> = values.chunks(extent).collect();
+    list(to, &all, |line, numbers| match numbers {
+        [x] => one(line, x),
+        _ if side == extent => row(line, numbers),
+        _ => {
+            for (i, numbers) in numbers.chunks(side).enumerate() {
+                line.extend_from_slice(if i == 0 { b"( " } else { b", " });
+                row(line, numbers);
+            }
+            line.extend_from_slice(b" )");
+        }
+    })
 }
 
 fn display(line: &mut Vec<u8>, value: impl std::fmt::Display) {

@@ -1,19 +1,13 @@
 //! Curves as other tools store them, turned into the polylines of strands.
 //!
-//! Cubic curves are walked by arc length into segments of equal length; polylines stay as they are unless another
+//! Cubic curves are lines by arc length into segments of equal length; polylines stay as they are unless another
 //! number of segments is asked for. What a curve carries at its control points goes the same way, blended by the
 //! weights that the curve's own basis gives.
 
-mod carried;
-mod gather;
-
 use glam::Vec3;
+use nabiki::Strands;
 
-use crate::Strands;
-use crate::error::Problem;
-
-pub use carried::{Carried, indexed};
-pub use gather::Gathered;
+use crate::Problem;
 
 /// How a curve runs between its control points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,7 +47,7 @@ pub struct Blend {
 
 /// Strands made from curves.
 #[derive(Clone, Debug)]
-pub struct Walked {
+pub struct Polylines {
     /// The strands.
     pub strands: Strands,
     /// Where each point came from; empty if the strands' points are the control points themselves.
@@ -93,7 +87,7 @@ impl Shape {
     ///
     /// # Panics
     /// If the counts do not add up to the number of points.
-    pub fn walk(self, points: Vec<Vec3>, segments: Option<usize>) -> Result<Walked, Problem> {
+    pub fn walk(self, points: Vec<Vec3>, segments: Option<usize>) -> Result<Polylines, Problem> {
         assert_eq!(self.counts.iter().sum::<usize>(), points.len(), "counts and points");
         if segments == Some(0) {
             return Err(Problem::new("0 segments: a strand needs one at least"));
@@ -109,7 +103,7 @@ impl Shape {
                 Some(*at)
             });
             let starts = std::iter::once(0).chain(ends).collect();
-            return Ok(Walked { strands: Strands::from_parts(starts, points), blends: Vec::new(), shape: self });
+            return Ok(Polylines { strands: Strands::from_parts(starts, points), blends: Vec::new(), shape: self });
         }
         let mut strands = Strands::with_capacity(self.counts.len(), 0);
         let mut blends = Vec::new();
@@ -121,7 +115,7 @@ impl Shape {
             blends.extend(of_curve.into_iter().map(|b| Blend { first: first + b.first, ..b }));
             first += count;
         }
-        Ok(Walked { strands, blends, shape: self })
+        Ok(Polylines { strands, blends, shape: self })
     }
 
     /// Number of segments between ends of pieces: straight lines or cubics.
@@ -210,9 +204,9 @@ impl Shape {
     }
 }
 
-impl Walked {
+impl Polylines {
     /// Number of control points of the curves.
-    fn control_points(&self) -> usize {
+    pub fn control_points(&self) -> usize {
         self.shape.counts.iter().sum()
     }
 
@@ -301,10 +295,10 @@ mod tests {
     fn evenly_spaced_points_on_a_line_stay_evenly_spaced_on_it() {
         let points: Vec<Vec3> = (0..7).map(|i| Vec3::new(1.0, -2.0, 0.5) * i as f32).collect();
         for (basis, pinned) in BASES {
-            let walked = Shape { counts: vec![7], basis, pinned }.walk(points.clone(), Some(9)).unwrap();
+            let lines = Shape { counts: vec![7], basis, pinned }.walk(points.clone(), Some(9)).unwrap();
             // Unpinned splines leave one segment at each end undrawn.
             let short = f32::from(u8::from(!pinned && matches!(basis, Basis::Bspline | Basis::CatmullRom)));
-            for (i, p) in walked.strands.strand(0).iter().enumerate() {
+            for (i, p) in lines.strands.strand(0).iter().enumerate() {
                 let expected = Vec3::new(1.0, -2.0, 0.5) * (short + (6.0 - 2.0 * short) * i as f32 / 9.0);
                 assert!(p.distance(expected) < 1e-5, "{basis:?} {pinned}: {p} {expected}");
             }
@@ -330,9 +324,9 @@ mod tests {
     fn a_bezier_quarter_circle_is_cut_into_equal_chords() {
         let k = 0.552_284_8;
         let points = vec![Vec3::X, Vec3::new(1.0, k, 0.0), Vec3::new(k, 1.0, 0.0), Vec3::Y];
-        let walked = Shape { counts: vec![4], basis: Basis::Bezier, pinned: false }.walk(points, Some(12));
-        let walked = walked.unwrap();
-        let strand = walked.strands.strand(0);
+        let lines = Shape { counts: vec![4], basis: Basis::Bezier, pinned: false }.walk(points, Some(12));
+        let lines = lines.unwrap();
+        let strand = lines.strands.strand(0);
         assert_eq!(strand[0], Vec3::X);
         assert!(strand[12].distance(Vec3::Y) < 1e-6);
         let chord = 2.0 * (std::f32::consts::FRAC_PI_2 / 24.0).sin();
@@ -346,9 +340,9 @@ mod tests {
     fn polylines_are_left_alone_and_cubics_keep_their_number_of_points() {
         let points: Vec<Vec3> = (0..9).map(|i| Vec3::new(0.1, 0.7, 0.3) * (i * i) as f32).collect();
         let linear = Shape { counts: vec![4, 5], basis: Basis::Linear, pinned: false };
-        let walked = linear.clone().walk(points.clone(), None).unwrap();
-        assert_eq!(walked.strands.points(), points);
-        assert!(walked.blends.is_empty());
+        let lines = linear.clone().walk(points.clone(), None).unwrap();
+        assert_eq!(lines.strands.points(), points);
+        assert!(lines.blends.is_empty());
         let spline = Shape { basis: Basis::Bspline, ..linear.clone() }.walk(points.clone(), None).unwrap();
         assert_eq!(spline.strands.starts(), [0, 4, 9]);
         let refused = Shape { basis: Basis::Bezier, ..linear }.walk(points, None).unwrap_err();
@@ -359,9 +353,9 @@ mod tests {
     fn values_at_the_control_points_follow_the_points() {
         let points: Vec<Vec3> = (0..8).map(|i| Vec3::new(i as f32, (i % 3) as f32, 0.5)).collect();
         for (basis, pinned) in [(Basis::Bspline, true), (Basis::CatmullRom, false), (Basis::Linear, false)] {
-            let walked = Shape { counts: vec![8], basis, pinned }.walk(points.clone(), Some(20)).unwrap();
+            let lines = Shape { counts: vec![8], basis, pinned }.walk(points.clone(), Some(20)).unwrap();
             let values: Vec<[f32; 3]> = points.iter().map(|p| p.to_array()).collect();
-            for (blend, p) in walked.blends.iter().zip(walked.strands.points()) {
+            for (blend, p) in lines.blends.iter().zip(lines.strands.points()) {
                 assert_eq!(blend.values(&values), p.to_array());
             }
         }

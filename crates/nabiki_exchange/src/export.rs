@@ -4,8 +4,8 @@ use std::io;
 
 use glam::{Affine3A, Mat4, Vec3};
 
-use crate::strands::not_finite;
-use crate::{Hair, Mesh, Strands};
+use nabiki::strands::not_finite;
+use nabiki::{Hair, Mesh, Strands};
 
 /// A groom at rest and the world in which its file is to show it.
 #[derive(Clone, Debug)]
@@ -17,6 +17,12 @@ pub struct Export<'a> {
     /// Diameter of hair that says nothing of its own (cm); `None` leaves widths out of the file, which readers then
     /// make up.
     pub default_width: Option<f32>,
+    /// Colour of hair that says nothing of its own (linear RGB); `None` leaves it out.
+    pub default_color: Option<[f32; 3]>,
+    /// Whether the points at rest go along under a name of their own, for programs that put the hair on another head.
+    pub rest: bool,
+    /// Whether velocities go along with the points of each frame, as much again.
+    pub velocities: bool,
     /// Frames a second.
     pub frame_rate: f64,
     /// Number of the first frame given.
@@ -36,6 +42,9 @@ impl<'a> Export<'a> {
             hair,
             head: None,
             default_width: None,
+            default_color: None,
+            rest: false,
+            velocities: false,
             frame_rate,
             first_frame: 0,
             file_from_head: Affine3A::IDENTITY,
@@ -54,6 +63,12 @@ impl<'a> Export<'a> {
         attributes.width.as_ref().map(|w| w.iter().map(|w| w * scale).collect()).or(one)
     }
 
+    /// The points at rest in the file's space.
+    pub fn rest_points(&self) -> Vec<[f32; 3]> {
+        let points = self.hair.strands.points().iter();
+        points.map(|&p| self.file_from_head.transform_point3(p).to_array()).collect()
+    }
+
     /// 0 opaque .. 1 invisible, by point; `None` where all is opaque.
     pub fn transparency(&self) -> Option<Vec<f32>> {
         let attributes = &self.hair.attributes;
@@ -63,7 +78,7 @@ impl<'a> Export<'a> {
     }
 
     /// Refuses attributes of a wrong length, strands that are no curves, a frame rate that is none, and a unit that is
-    /// none.
+    /// none, and a colour that is none.
     pub fn check(&self) -> io::Result<()> {
         let invalid = |problem: String| Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
         if let Err(e) = self.hair.check_lengths() {
@@ -81,6 +96,9 @@ impl<'a> Export<'a> {
         }
         if !(self.meters_per_unit.is_finite() && self.meters_per_unit > 0.0) {
             return invalid(format!("meters per unit {}: must be a finite number above 0", self.meters_per_unit));
+        }
+        if let Some(color) = self.default_color.filter(|c| !c.iter().all(|x| x.is_finite() && *x >= 0.0)) {
+            return invalid(format!("colour {color:?}: must be finite and not below 0"));
         }
         Ok(())
     }
@@ -115,6 +133,40 @@ impl<'a> Export<'a> {
             return Mat4::IDENTITY;
         }
         Mat4::from(self.file_from_head * *world_from_head * self.file_from_head.inverse())
+    }
+}
+
+/// Velocities by differences of frames, one frame late: those of a frame take its points exactly to the next frame's, as
+/// readers that move points along their velocities expect.
+#[derive(Debug, Default)]
+pub struct Velocities {
+    last: Vec<Vec3>,
+    found: Vec<Vec3>,
+}
+
+impl Velocities {
+    /// The velocities (units a second) of the frame before that of `points`; `None` at the first frame.
+    ///
+    /// # Errors
+    /// A velocity that is not finite.
+    pub fn before(&mut self, points: &[Vec3], frame_rate: f64) -> io::Result<Option<&[Vec3]>> {
+        let is_first = self.last.is_empty();
+        self.found.clear();
+        self.found.extend(points.iter().zip(&self.last).map(|(&p, &q)| (p - q) * frame_rate as f32));
+        self.last.clear();
+        self.last.extend_from_slice(points);
+        match not_finite(&self.found) {
+            Some(at) => {
+                let problem = format!("point {at} moves at {}: only finite velocities can be written", self.found[at]);
+                Err(io::Error::new(io::ErrorKind::InvalidInput, problem))
+            }
+            None => Ok((!is_first).then_some(&self.found)),
+        }
+    }
+
+    /// Those of the last frame, which goes on as it came; `None` for hair of a single frame.
+    pub fn of_last(&self) -> Option<&[Vec3]> {
+        (!self.found.is_empty()).then_some(&self.found)
     }
 }
 

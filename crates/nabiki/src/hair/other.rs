@@ -1,0 +1,166 @@
+//! Attributes that mean nothing to the method and are only passed on.
+
+/// An attribute kept under its source's own name, with its source's own values: they are neither scaled nor turned when
+/// the hair is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Other {
+    /// Name in its source.
+    pub name: String,
+    /// What has a value.
+    pub per: Per,
+    /// What its numbers stand for.
+    pub role: Role,
+    /// Numbers or words that make a value.
+    pub extent: usize,
+    /// The values, one after another.
+    pub values: Values,
+}
+
+/// What has a value of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Per {
+    /// The groom as a whole.
+    Groom,
+    /// Each strand.
+    Strand,
+    /// Each point.
+    Point,
+}
+
+/// What the numbers of a value stand for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Role {
+    /// Themselves.
+    #[default]
+    Plain,
+    /// A colour.
+    Color,
+    /// A place.
+    Point,
+    /// A direction with a length.
+    Vector,
+    /// A direction normal to a surface.
+    Normal,
+    /// Texture coordinates.
+    TextureCoordinate,
+}
+
+/// Values of one kind.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// Single precision.
+    Floats(Vec<f32>),
+    /// Double precision.
+    Doubles(Vec<f64>),
+    /// Whole numbers.
+    Integers(Vec<i64>),
+    /// Words.
+    Words(Vec<String>),
+}
+
+impl Values {
+    /// Numbers or words in all.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Floats(v) => v.len(),
+            Self::Doubles(v) => v.len(),
+            Self::Integers(v) => v.len(),
+            Self::Words(v) => v.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The values of `extent` parts each that `indices` name.
+    ///
+    /// # Panics
+    /// If an index lies past the values.
+    pub fn pick(&self, extent: usize, indices: &[usize]) -> Self {
+        fn of<T: Clone>(values: &[T], extent: usize, indices: &[usize]) -> Vec<T> {
+            indices.iter().flat_map(|&i| values[extent * i..extent * (i + 1)].iter().cloned()).collect()
+        }
+        match self {
+            Self::Floats(v) => Self::Floats(of(v, extent, indices)),
+            Self::Doubles(v) => Self::Doubles(of(v, extent, indices)),
+            Self::Integers(v) => Self::Integers(of(v, extent, indices)),
+            Self::Words(v) => Self::Words(of(v, extent, indices)),
+        }
+    }
+
+    /// Values blended from these, each of `extent` parts: `blends` names, for each, values and weights that add up to 1.
+    /// Whole numbers and words are those of the greatest weight.
+    ///
+    /// # Panics
+    /// If an index lies past the values.
+    pub fn blended<const N: usize>(&self, extent: usize, blends: impl Iterator<Item = [(usize, f64); N]>) -> Self {
+        let sum = |at: &dyn Fn(usize) -> f64, blend: &[(usize, f64); N], part: usize| {
+            let heavy = blend.iter().filter(|(_, w)| *w != 0.0);
+            heavy.map(|&(i, w)| w * at(extent * i + part)).sum::<f64>()
+        };
+        match self {
+            Self::Floats(v) => Self::Floats(
+                blends.flat_map(|b| (0..extent).map(move |part| sum(&|i| f64::from(v[i]), &b, part) as f32)).collect(),
+            ),
+            Self::Doubles(v) => {
+                Self::Doubles(blends.flat_map(|b| (0..extent).map(move |part| sum(&|i| v[i], &b, part))).collect())
+            }
+            Self::Integers(_) | Self::Words(_) => {
+                let heaviest = |b: [(usize, f64); N]| b.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |b| b.0);
+                self.pick(extent, &blends.map(heaviest).collect::<Vec<_>>())
+            }
+        }
+    }
+}
+
+impl Other {
+    /// How many numbers or words it must have for a number of strands and of points.
+    pub fn expected(&self, strands: usize, points: usize) -> usize {
+        match self.per {
+            // A groom may have a list of values.
+            Per::Groom => self.values.len().next_multiple_of(self.extent.max(1)),
+            Per::Strand => self.extent * strands,
+            Per::Point => self.extent * points,
+        }
+    }
+
+    /// Appends the values that further strands have; `false` where the two cannot be one.
+    pub fn append(&mut self, further: Self) -> bool {
+        if self.per == Per::Groom {
+            return *self == further;
+        }
+        match (&mut self.values, further.values) {
+            (Values::Floats(a), Values::Floats(b)) => a.extend(b),
+            (Values::Doubles(a), Values::Doubles(b)) => a.extend(b),
+            (Values::Integers(a), Values::Integers(b)) => a.extend(b),
+            (Values::Words(a), Values::Words(b)) => a.extend(b),
+            _ => return false,
+        }
+        true
+    }
+
+    /// That of the strands and points named, in that order.
+    pub(super) fn gather(&self, strands: &[usize], points: &[usize]) -> Self {
+        let values = match self.per {
+            Per::Groom => self.values.clone(),
+            Per::Strand => self.values.pick(self.extent, strands),
+            Per::Point => self.values.pick(self.extent, points),
+        };
+        Self { values, ..self.clone_without_values() }
+    }
+
+    /// That of points blended from those there are, each by two of them and their weights.
+    pub(super) fn resampled(&self, blends: impl Iterator<Item = [(usize, f64); 2]>) -> Self {
+        match self.per {
+            Per::Point => Self { values: self.values.blended(self.extent, blends), ..self.clone_without_values() },
+            _ => self.clone(),
+        }
+    }
+
+    fn clone_without_values(&self) -> Self {
+        let Self { per, role, extent, .. } = *self;
+        Self { name: self.name.clone(), per, role, extent, values: Values::Integers(Vec::new()) }
+    }
+}

@@ -1,0 +1,266 @@
+//! What curves of a file carry beside their points, by the names that programs give it.
+
+use std::collections::BTreeSet;
+
+use nabiki::hair::{Attributes, Other, Per, Role, Values};
+
+use crate::Problem;
+use crate::curves::Polylines;
+
+/// Where a file keeps what its curves carry: values by name, as many as there are.
+pub trait NamedValues {
+    /// The names of all there are.
+    fn names(&self) -> Vec<String>;
+
+    /// Values of `N` numbers each; `None` where there are none of that name and shape.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    fn tuples<const N: usize>(&mut self, name: &str) -> Result<Option<Vec<[f32; N]>>, Problem>;
+
+    /// Whole numbers; `None` where there are none of that name.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    fn integers(&mut self, name: &str) -> Result<Option<Vec<i64>>, Problem>;
+
+    /// Words; `None` where there are none of that name.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    fn words(&mut self, name: &str) -> Result<Option<Vec<String>>, Problem>;
+
+    /// The values of a name, whatever they are; `None` for a kind that is not known.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    fn whatever(&mut self, name: &str) -> Result<Option<Whatever>, Problem>;
+}
+
+/// Values of a file as they are stored.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Whatever {
+    /// What their numbers stand for.
+    pub role: Role,
+    /// Numbers or words that make a value.
+    pub extent: usize,
+    /// What has a value, where the file says so: otherwise their number tells.
+    pub per: Option<Per>,
+    /// The values.
+    pub values: Values,
+}
+
+/// Names under which files keep what hair has a place for: those of USD and Alembic, of Unreal's grooms (`groom_...`), of
+/// Blender (`surface_uv_coordinate`, `UVMap`) and of Houdini (`rootuv`, `id`). The first that has values counts.
+pub mod names {
+    #![allow(missing_docs)]
+    pub const WIDTH: &[&str] = &["widths", "width", "groom_width"];
+    pub const COLOR: &[&str] = &["displayColor", "groom_color", "color"];
+    pub const POINT_UV: &[&str] = &["point_uv"];
+    pub const FREEDOM: &[&str] = &["freedom"];
+    pub const TRANSPARENCY: &[&str] = &["transparency"];
+    pub const OPACITY: &[&str] = &["displayOpacity"];
+    pub const ID: &[&str] = &["groom_id", "id", "ids", "hairId"];
+    pub const ROOT_UV: &[&str] = &["st", "groom_root_uv", "root_uv", "surface_uv_coordinate", "rootuv", "uv", "UVMap"];
+    pub const GROUP: &[&str] = &["groom_group_id", "group_id", "group"];
+    pub const GROUP_NAME: &[&str] = &["groom_group_name", "group_name"];
+    pub const GUIDE: &[&str] = &["groom_guide", "guide"];
+    /// Root UVs under further names, which programs want beside their own.
+    pub const ROOT_UV_COPIES: &[&str] = &["st", "groom_root_uv", "surface_uv_coordinate", "uv"];
+    /// Where the points are at rest.
+    pub const REST: &str = "rest";
+}
+
+/// Values that are stored once for many, by `indices` into them.
+///
+/// # Errors
+/// An index past the values; `name` is theirs.
+pub fn indexed<T: Clone>(name: &str, values: &[T], indices: &[i64]) -> Result<Vec<T>, Problem> {
+    let pick = |&i: &i64| usize::try_from(i).ok().and_then(|i| values.get(i)).cloned();
+    let picked: Option<Vec<T>> = indices.iter().map(pick).collect();
+    picked.ok_or_else(|| Problem(format!("{name}: an index past its {} values", values.len())))
+}
+
+/// As [`indexed`], for values of `extent` parts each.
+///
+/// # Errors
+/// An index past the values; `name` is theirs.
+pub fn indexed_values(name: &str, values: &Values, extent: usize, indices: &[i64]) -> Result<Values, Problem> {
+    let all: Vec<usize> = (0..values.len() / extent.max(1)).collect();
+    Ok(values.pick(extent, &indexed(name, &all, indices)?))
+}
+
+impl Polylines {
+    /// What `file` says of the curves, at the points of the strands or at their roots. What has no place of its own is
+    /// carried along under its own name; what cannot be, is named among what is unread.
+    ///
+    /// # Errors
+    /// What is wrong with the file; numbers of values that fit neither curves nor points.
+    pub fn attributes(&self, file: &mut impl NamedValues) -> Result<Attributes, Problem> {
+        let mut search = Search { lines: self, file, used: BTreeSet::new(), unread: Vec::new() };
+        let one = |values: Vec<[f32; 1]>| values.into_iter().map(|[x]| x).collect::<Vec<f32>>();
+        let mut found = Attributes {
+            width: search.by_point(names::WIDTH)?.map(one),
+            color: search.by_point(names::COLOR)?,
+            point_uv: search.by_point(names::POINT_UV)?,
+            freedom: search.by_point(names::FREEDOM)?.map(one),
+            transparency: search.by_point(names::TRANSPARENCY)?.map(one),
+            id: search.by_strand(names::ID)?,
+            ..Attributes::default()
+        };
+        // What stands beside transparencies is the same said the other way.
+        search.used.extend(found.transparency.iter().map(|_| "displayOpacity"));
+        if found.transparency.is_none() {
+            let opacity = search.by_point::<1>(names::OPACITY)?;
+            found.transparency = opacity.map(|o| o.into_iter().map(|[x]| 1.0 - x).collect());
+        }
+        found.root_uv = search.root_uv()?;
+        found.group = search.by_strand(names::GROUP)?.map(|g| g.into_iter().map(|g| g as i32).collect());
+        let guide = search.by_strand(names::GUIDE)?;
+        found.guide = guide.map(|g| g.into_iter().map(|g| g != 0).collect());
+        search.group_names(&mut found)?;
+        found.other = search.others()?;
+        found.unread = search.unread;
+        Ok(found)
+    }
+
+    /// Values of any kind at the points of the strands, at their roots, or one for all, by what the file says or by how
+    /// many there are; `None` for a number that fits nothing.
+    fn placed(&self, name: &str, found: Whatever) -> Option<Other> {
+        let (extent, n) = (found.extent.max(1), found.values.len() / found.extent.max(1));
+        if found.values.is_empty() || !found.values.len().is_multiple_of(extent) {
+            return None;
+        }
+        let by_number = match n {
+            n if n == self.control_points() => Some(Per::Point),
+            n if n == self.shape.counts.len() => Some(Per::Strand),
+            1 => Some(Per::Groom),
+            _ => None,
+        };
+        let per = found.per.or(by_number)?;
+        let (strands, points) = (self.shape.counts.len(), self.control_points());
+        let mut other = Other { name: name.to_owned(), per, role: found.role, extent, values: found.values };
+        if other.values.len() != other.expected(strands, points) {
+            return None;
+        }
+        if per == Per::Point && !self.blends.is_empty() {
+            let most = self.control_points() - 1;
+            let blends = self.blends.iter();
+            let blends = blends.map(|b| std::array::from_fn::<_, 4, _>(|k| ((b.first + k).min(most), b.weights[k])));
+            other.values = other.values.blended(extent, blends);
+        }
+        Some(other)
+    }
+}
+
+/// The search of one file for what its curves carry.
+struct Search<'a, F> {
+    lines: &'a Polylines,
+    file: &'a mut F,
+    used: BTreeSet<&'static str>,
+    unread: Vec<String>,
+}
+
+impl<F: NamedValues> Search<'_, F> {
+    /// Values at the points of the strands, of the first of `names` that has any.
+    fn by_point<const N: usize>(&mut self, names: &[&'static str]) -> Result<Option<Vec<[f32; N]>>, Problem> {
+        for &name in names {
+            let Some(values) = self.file.tuples::<N>(name)?.filter(|values| !values.is_empty()) else { continue };
+            self.used.insert(name);
+            return match self.lines.at_points(&values) {
+                Some(found) => Ok(Some(found)),
+                None => Err(Problem(self.misfit(name, values.len()))),
+            };
+        }
+        Ok(None)
+    }
+
+    /// Whole numbers of the strands, of the first of `names` that has any.
+    fn by_strand(&mut self, names: &[&'static str]) -> Result<Option<Vec<i64>>, Problem> {
+        for &name in names {
+            if let Some(values) = self.file.integers(name)?.filter(|values| !values.is_empty()) {
+                self.used.insert(name);
+                return Ok(self.at_roots(name, &values));
+            }
+        }
+        Ok(None)
+    }
+
+    fn root_uv(&mut self) -> Result<Option<Vec<[f32; 2]>>, Problem> {
+        let mut root_uv = None;
+        for &name in names::ROOT_UV {
+            let Some(values) = self.file.tuples::<2>(name)?.filter(|values| !values.is_empty()) else { continue };
+            match &root_uv {
+                None => {
+                    self.used.insert(name);
+                    root_uv = self.at_roots(name, &values);
+                }
+                // A copy under another program's name says nothing new.
+                Some(uv) if self.lines.at_roots(&values).as_ref() == Some(uv) => {
+                    if values.len() == uv.len() {
+                        self.used.insert(name);
+                    }
+                }
+                Some(_) => {}
+            }
+        }
+        Ok(root_uv)
+    }
+
+    /// Names of groups; where a file has names only, they are numbered as they come.
+    fn group_names(&mut self, found: &mut Attributes) -> Result<(), Problem> {
+        for &name in names::GROUP_NAME {
+            let Some(words) = self.file.words(name)?.filter(|words| !words.is_empty()) else { continue };
+            self.used.insert(name);
+            let Some(words) = self.at_roots(name, &words) else { return Ok(()) };
+            let groups = found.group.get_or_insert_with(|| {
+                let mut numbers = std::collections::BTreeMap::new();
+                let number = |word: &String| {
+                    let next = numbers.len() as i32;
+                    *numbers.entry(word.clone()).or_insert(next)
+                };
+                words.iter().map(number).collect()
+            });
+            let named = groups.iter().copied().zip(words);
+            found.group_names = named.filter(|(_, name)| !name.is_empty()).collect();
+            return Ok(());
+        }
+        Ok(())
+    }
+
+    /// All that has no place of its own.
+    fn others(&mut self) -> Result<Vec<Other>, Problem> {
+        let mut others = Vec::new();
+        for name in self.file.names() {
+            if self.used.contains(&*name) {
+                continue;
+            }
+            match self.file.whatever(&name)? {
+                Some(found) if found.values.is_empty() => {}
+                Some(found) => {
+                    let count = found.values.len() / found.extent.max(1);
+                    match self.lines.placed(&name, found) {
+                        Some(other) => others.push(other),
+                        None => self.unread.push(self.misfit(&name, count)),
+                    }
+                }
+                None => self.unread.push(format!("{name}, which is of a kind that is not read")),
+            }
+        }
+        others.sort_by(|a, b| a.name.cmp(&b.name));
+        Ok(others)
+    }
+
+    fn at_roots<T: Clone>(&mut self, name: &str, values: &[T]) -> Option<Vec<T>> {
+        let found = self.lines.at_roots(values);
+        if found.is_none() {
+            self.unread.push(self.misfit(name, values.len()));
+        }
+        found
+    }
+
+    fn misfit(&self, name: &str, values: usize) -> String {
+        let (points, curves) = (self.lines.control_points(), self.lines.shape.counts.len());
+        format!("{name}: {values} values for {points} points of {curves} curves")
+    }
+}

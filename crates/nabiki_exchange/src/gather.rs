@@ -1,0 +1,108 @@
+//! Curves that lie in several objects of a file, as one groom.
+
+use std::collections::BTreeMap;
+
+use glam::Affine3A;
+use nabiki::Hair;
+use nabiki::hair::Other;
+
+use crate::Problem;
+use crate::in_place::{InPlace, check_extent};
+
+/// Hair from several objects.
+#[derive(Default)]
+pub struct Gathered {
+    all: Option<InPlace>,
+    /// Parts that were grouped by their object.
+    named: usize,
+}
+
+impl Gathered {
+    /// Appends a part that lies below the transform `world_from_part`; `group` names it where it has no groups of its
+    /// own. An attribute stays only if all parts have it, and is otherwise named among what is unread.
+    pub fn append(&mut self, mut part: Hair, world_from_part: Affine3A, group: Option<(i32, String)>) {
+        if let (Some((number, name)), None) = (group, &part.attributes.group) {
+            part.attributes.group = Some(vec![number; part.strands.len()]);
+            part.attributes.group_names = BTreeMap::from([(number, name)]);
+            self.named += 1;
+        }
+        let Some(mut all) = self.all.take() else {
+            self.all = Some(InPlace { hair: part, world_from_hair: world_from_part });
+            return;
+        };
+        if all.world_from_hair != world_from_part {
+            if all.world_from_hair != Affine3A::IDENTITY {
+                all.hair = all.hair.transformed(&all.world_from_hair);
+                all.world_from_hair = Affine3A::IDENTITY;
+            }
+            part = part.transformed(&world_from_part);
+        }
+        join(&mut all.hair, part);
+        self.all = Some(all);
+    }
+
+    /// The whole. Objects of one strand each, as some tools write them, are no groups.
+    ///
+    /// # Errors
+    /// A point that is not finite; points so far apart that their distance is not.
+    pub fn hair(self) -> Result<InPlace, Problem> {
+        let mut all = self.all.unwrap_or(InPlace { hair: Hair::default(), world_from_hair: Affine3A::IDENTITY });
+        if self.named >= all.hair.strands.len() {
+            all.hair.attributes.group = None;
+            all.hair.attributes.group_names.clear();
+        }
+        check_extent(all.hair.strands.points())?;
+        Ok(all)
+    }
+}
+
+fn join(all: &mut Hair, part: Hair) {
+    for strand in part.strands.iter() {
+        all.strands.push(strand.iter().copied());
+    }
+    let (a, b) = (&mut all.attributes, part.attributes);
+    let mut lost = Vec::new();
+    let mut both = |name: &str, joined: bool| {
+        if !joined {
+            lost.push(format!("{name}, which only some of its objects have"));
+        }
+    };
+    both("ids", extend(&mut a.id, b.id));
+    both("root UVs", extend(&mut a.root_uv, b.root_uv));
+    both("groups", extend(&mut a.group, b.group));
+    both("guides", extend(&mut a.guide, b.guide));
+    both("widths", extend(&mut a.width, b.width));
+    both("colours", extend(&mut a.color, b.color));
+    both("transparencies", extend(&mut a.transparency, b.transparency));
+    both("point UVs", extend(&mut a.point_uv, b.point_uv));
+    both("held points", extend(&mut a.freedom, b.freedom));
+    let mut others = b.other;
+    a.other.retain_mut(|mine| {
+        let found = others.iter().position(|theirs| same_kind(mine, theirs));
+        let joined = found.is_some_and(|i| mine.append(others.swap_remove(i)));
+        both(&mine.name, joined);
+        joined
+    });
+    others.iter().for_each(|theirs| both(&theirs.name, false));
+    a.group_names.extend(b.group_names);
+    lost.extend(b.unread);
+    lost.retain(|line| !a.unread.contains(line));
+    a.unread.extend(lost);
+}
+
+/// Whether both or neither had the attribute; one alone is dropped.
+fn extend<T>(a: &mut Option<Vec<T>>, b: Option<Vec<T>>) -> bool {
+    match (a.as_mut(), b) {
+        (Some(a), Some(b)) => a.extend(b),
+        (None, None) => {}
+        _ => {
+            *a = None;
+            return false;
+        }
+    }
+    true
+}
+
+fn same_kind(a: &Other, b: &Other) -> bool {
+    (&a.name, a.per, a.role, a.extent) == (&b.name, b.per, b.role, b.extent)
+}

@@ -1,0 +1,127 @@
+//! What every reader of grooms answers, whatever the format.
+
+use glam::{DQuat, DVec3};
+use nabiki::{Hair, Mesh};
+
+use crate::Problem;
+use crate::in_place::InPlace;
+
+/// A file of curves, meshes and transforms. Everything comes in the file's own unit and axes.
+pub trait GroomReader {
+    /// What the file holds and says of itself, without reading its values.
+    ///
+    /// # Errors
+    /// What is wrong with the file; a unit or an up axis that is none.
+    fn contents(&mut self) -> Result<Contents, Problem>;
+
+    /// What stands in the file, in its order, with the sizes of curves and meshes.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    fn prims(&mut self) -> Result<Vec<Prim>, Problem>;
+
+    /// All curves at frame `frame` of [`Contents::times`] (the last one after those), one after another, and the
+    /// transform above them.
+    ///
+    /// `segments`: walks every curve into as many; `None` keeps polylines as they are. `attributes`: whether what the
+    /// curves carry is read, too. Curves in several objects that have no groups of their own are grouped by object,
+    /// under its name.
+    ///
+    /// # Errors
+    /// No curves, closed ones, numbers that contradict each other or are not finite.
+    fn hair_in_place(&mut self, frame: usize, segments: Option<usize>, attributes: bool) -> Result<InPlace, Problem>;
+
+    /// All curves with their attributes at a frame, transforms applied.
+    ///
+    /// # Errors
+    /// As [`hair_in_place`](Self::hair_in_place); points that the transforms take out of the range of numbers.
+    fn hair(&mut self, frame: usize, segments: Option<usize>) -> Result<Hair, Problem> {
+        self.hair_in_place(frame, segments, true)?.in_world()
+    }
+
+    /// All meshes at the first frame, cut into triangles, transforms applied, as one.
+    ///
+    /// # Errors
+    /// No mesh, or one whose numbers contradict each other.
+    fn mesh(&mut self) -> Result<Mesh, Problem>;
+
+    /// The way of the object at the path `node`, or of the first of that name, at all times at which it moves.
+    ///
+    /// # Errors
+    /// No such object, with those that there are; a transform that flattens space.
+    fn motion(&mut self, node: &str) -> Result<Vec<Placed>, Problem>;
+}
+
+/// What a file holds and says of itself.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Contents {
+    /// Paths of objects with curves.
+    pub curves: Vec<String>,
+    /// Paths of meshes.
+    pub meshes: Vec<String>,
+    /// Times of the curves' frames (s); none for curves that stand still.
+    pub times: Vec<f64>,
+    /// Frames a second; 24 where nothing says so.
+    pub frame_rate: f64,
+    /// Length of the unit (m), where the file says it.
+    pub meters_per_unit: Option<f64>,
+    /// Whether z is up, where the file says it.
+    pub z_up: Option<bool>,
+}
+
+impl Contents {
+    /// Number of the first frame, as frames are counted from time 0.
+    pub fn first_frame(&self) -> i32 {
+        (self.times.first().unwrap_or(&0.0) * self.frame_rate).round() as i32
+    }
+}
+
+/// One object of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prim {
+    /// Where it stands.
+    pub path: String,
+    /// What it is.
+    pub kind: PrimKind,
+    /// Samples over time of what moves most in it; 0 or 1 where nothing does.
+    pub samples: usize,
+}
+
+/// What an object of a file is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PrimKind {
+    /// Curves.
+    Curves {
+        /// How many.
+        curves: usize,
+        /// Their control points.
+        points: usize,
+    },
+    /// A mesh of polygons.
+    Mesh {
+        /// How many polygons.
+        faces: usize,
+        /// Vertices.
+        points: usize,
+    },
+    /// A transform of what stands below it.
+    Transform,
+    /// Joints of a skeleton, by their own paths.
+    Skeleton {
+        /// The joints.
+        joints: Vec<String>,
+    },
+    /// Anything else, by the file's word.
+    Other(String),
+}
+
+/// Where an object is at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placed {
+    /// Time (s).
+    pub time: f64,
+    /// Origin of the object in the world (the file's unit).
+    pub position: DVec3,
+    /// Its axes in the world.
+    pub rotation: DQuat,
+}

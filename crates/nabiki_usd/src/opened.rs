@@ -1,0 +1,213 @@
+//! A layer being read, whether text or binary: values are fetched when they are asked for.
+
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::SeekFrom;
+
+use glam::{DQuat, Vec3};
+
+use crate::Problem;
+use crate::crate_file::MAGIC;
+use crate::crate_file::read::CrateReader;
+use crate::source::{Handle, PrimInfo, Source};
+use crate::text::read as text;
+
+/// A layer.
+pub struct Layer {
+    /// Prims, parents before their children.
+    pub prims: Vec<PrimInfo>,
+    /// What the layer says about itself.
+    pub metadata: HashMap<String, Handle>,
+    values: Values,
+}
+
+enum Values {
+    Text(Box<dyn Source>),
+    Binary(Box<CrateReader<Box<dyn Source>>>),
+}
+
+impl Layer {
+    /// Reads what prims a layer has; it is told by its first bytes whether it is text.
+    pub fn open(mut from: Box<dyn Source>) -> Result<Self, Problem> {
+        let mut first = [0; 8];
+        let length = from.seek(SeekFrom::End(0))?;
+        from.seek(SeekFrom::Start(0))?;
+        from.read_exact(&mut first[..length.min(8) as usize])?;
+        from.seek(SeekFrom::Start(0))?;
+        if first == *MAGIC {
+            let (reader, prims, metadata) = CrateReader::new(from, length)?;
+            return Ok(Self { prims, metadata, values: Values::Binary(Box::new(reader)) });
+        }
+        if first.starts_with(b"PK\x03\x04") {
+            return Err(Problem::new("is a .usdz package: unpack it and give the layer inside"));
+        }
+        if !first.starts_with(b"#usda") && !first.starts_with(b"#sdf") {
+            return Err(Problem::new("is no USD layer: it begins neither with #usda nor with PXR-USDC"));
+        }
+        let (prims, metadata) = text::parse(&mut *from, length)?;
+        Ok(Self { prims, metadata, values: Values::Text(from) })
+    }
+
+    /// Opens the layer in a file.
+    pub fn file(path: &std::path::Path) -> Result<Self, Problem> {
+        Self::open(Box::new(File::open(path)?))
+    }
+
+    /// All numbers of a value, in a row; nothing for text.
+    pub fn numbers(&mut self, handle: Handle) -> Result<Vec<f64>, Problem> {
+        match &mut self.values {
+            Values::Text(from) => text::numbers(&mut **from, handle),
+            Values::Binary(reader) => reader.numbers(handle.0),
+        }
+    }
+
+    /// All numbers of a value as singles.
+    pub fn singles(&mut self, handle: Handle) -> Result<Vec<f32>, Problem> {
+        match &mut self.values {
+            Values::Text(from) => text::numbers(&mut **from, handle),
+            Values::Binary(reader) => reader.singles(handle.0),
+        }
+    }
+
+    /// All numbers of a value as points.
+    pub fn points(&mut self, handle: Handle) -> Result<Vec<Vec3>, Problem> {
+        match &mut self.values {
+            Values::Text(from) => {
+                let numbers: Vec<f32> = text::numbers(&mut **from, handle)?;
+                Ok(numbers.as_chunks::<3>().0.iter().map(|&p| Vec3::from(p)).collect())
+            }
+            Values::Binary(reader) => reader.points(handle.0),
+        }
+    }
+
+    /// All numbers of a value as whole numbers.
+    pub fn integers(&mut self, handle: Handle) -> Result<Vec<i64>, Problem> {
+        match &mut self.values {
+            Values::Text(from) => text::numbers(&mut **from, handle),
+            Values::Binary(reader) => reader.integers(handle.0),
+        }
+    }
+
+    /// All words of a value: tokens or strings.
+    pub fn words(&mut self, handle: Handle) -> Result<Vec<String>, Problem> {
+        match &mut self.values {
+            Values::Text(from) => text::words(&mut **from, handle),
+            Values::Binary(reader) => reader.words(handle.0),
+        }
+    }
+
+    /// Path of a prim.
+    pub fn path(&self, prim: usize) -> String {
+        let names: Vec<&str> = self.upward(prim).map(|i| self.prims[i].name.as_str()).collect();
+        names.iter().rev().fold(String::new(), |path, name| path + "/" + name)
+    }
+
+    /// The value of an attribute at a time code: the last sample at or before it, or the first.
+    pub fn at(&self, prim: usize, name: &str, time: f64) -> Option<Handle> {
+        let attribute = self.prims[prim].attributes.get(name)?;
+        let after = attribute.samples.partition_point(|&(t, _)| t <= time + 1e-6);
+        match attribute.samples.get(after.saturating_sub(1)) {
+            Some(&(_, handle)) => Some(handle),
+            None => attribute.default,
+        }
+    }
+
+    /// The values between which an attribute stands at a time code: the sample at or before it, and the one after with
+    /// its share (0..1). Before the first sample and after the last, these hold.
+    fn between(&self, prim: usize, name: &str, time: f64) -> Option<(Handle, Option<(Handle, f64)>)> {
+        let attribute = self.prims[prim].attributes.get(name)?;
+        let after = attribute.samples.partition_point(|&(t, _)| t <= time);
+        let sample = |i: usize| attribute.samples.get(i).copied();
+        match (after.checked_sub(1).and_then(sample), sample(after)) {
+            (Some((from, low)), Some((to, high))) if time > from => {
+                Some((low, Some((high, (time - from) / (to - from)))))
+            }
+            (Some((_, value)), _) | (None, Some((_, value))) => Some((value, None)),
+            (None, None) => attribute.default.map(|value| (value, None)),
+        }
+    }
+
+    /// All numbers of an attribute at a time code, interpolated linearly between its samples as USD does; samples of
+    /// different length are held.
+    pub fn numbers_at(&mut self, prim: usize, name: &str, time: f64) -> Result<Option<Vec<f64>>, Problem> {
+        let Some((low, high)) = self.between(prim, name, time) else { return Ok(None) };
+        let mut numbers = self.numbers(low)?;
+        if let Some((high, share)) = high {
+            let next = self.numbers(high)?;
+            if next.len() == numbers.len() {
+                numbers.iter_mut().zip(next).for_each(|(a, b)| *a = (1.0 - share) * *a + share * b);
+            }
+        }
+        Ok(Some(numbers))
+    }
+
+    /// As [`numbers_at`](Self::numbers_at) for points.
+    pub fn points_at(&mut self, prim: usize, name: &str, time: f64) -> Result<Option<Vec<Vec3>>, Problem> {
+        let Some((low, high)) = self.between(prim, name, time) else { return Ok(None) };
+        let mut points = self.points(low)?;
+        if let Some((high, share)) = high {
+            let next = self.points(high)?;
+            if next.len() == points.len() {
+                points.iter_mut().zip(next).for_each(|(a, b)| *a = a.lerp(b, share as f32));
+            }
+        }
+        Ok(Some(points))
+    }
+
+    /// The quaternions of an attribute at a time code, turned at a constant rate between samples as USD does.
+    pub fn quaternions_at(&mut self, prim: usize, name: &str, time: f64) -> Result<Option<Vec<DQuat>>, Problem> {
+        let Some((low, high)) = self.between(prim, name, time) else { return Ok(None) };
+        let mut turns = self.quaternions(low)?;
+        if let Some((high, share)) = high {
+            let next = self.quaternions(high)?;
+            if next.len() == turns.len() {
+                turns.iter_mut().zip(next).for_each(|(a, b)| *a = a.slerp(b, share));
+            }
+        }
+        Ok(Some(turns))
+    }
+
+    fn quaternions(&mut self, handle: Handle) -> Result<Vec<DQuat>, Problem> {
+        let real_first = matches!(self.values, Values::Text(_));
+        let turn = |&[a, b, c, d]: &[f64; 4]| {
+            let turn = if real_first { DQuat::from_xyzw(b, c, d, a) } else { DQuat::from_xyzw(a, b, c, d) };
+            if turn.length() > 0.0 { turn.normalize() } else { DQuat::IDENTITY }
+        };
+        Ok(self.numbers(handle)?.as_chunks::<4>().0.iter().map(turn).collect())
+    }
+
+    /// How many values an attribute has, by its own word: `uniform`, `vertex`.
+    pub fn interpolation(&mut self, prim: usize, name: &str) -> Result<Option<String>, Problem> {
+        let Some(handle) = self.prims[prim].attributes.get(name).and_then(|a| a.interpolation) else { return Ok(None) };
+        match &mut self.values {
+            Values::Text(from) => text::interpolation(&mut **from, handle),
+            Values::Binary(reader) => Ok(reader.words(handle.0)?.into_iter().next()),
+        }
+    }
+
+    /// Prims of a type.
+    pub fn of_type(&self, wanted: &str) -> Vec<usize> {
+        (0..self.prims.len()).filter(|&i| self.prims[i].type_name == wanted).collect()
+    }
+
+    /// A prim and those above it, from below.
+    pub fn upward(&self, prim: usize) -> impl Iterator<Item = usize> {
+        std::iter::successors(Some(prim), |&i| self.prims[i].parent)
+    }
+
+    /// The first word of a token attribute.
+    pub fn word(&mut self, prim: usize, name: &str) -> Result<Option<String>, Problem> {
+        match self.at(prim, name, f64::NEG_INFINITY) {
+            Some(handle) => Ok(self.words(handle)?.into_iter().next()),
+            None => Ok(None),
+        }
+    }
+
+    /// A number the layer says about itself.
+    pub fn metadata_number(&mut self, name: &str) -> Result<Option<f64>, Problem> {
+        match self.metadata.get(name).copied() {
+            Some(handle) => Ok(self.numbers(handle)?.first().copied()),
+            None => Ok(None),
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! What a prim of curves carries, and what of it is not read.
+
+use nabiki::hair::{Per, Role, Values};
+use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values};
+
+use crate::Problem;
+use crate::opened::Layer;
+use crate::source::Handle;
+
+/// What a prim carries at a time code: its primvars, and `widths`, which is an attribute of its own.
+pub struct Primvars<'a> {
+    /// The layer.
+    pub layer: &'a mut Layer,
+    /// The prim.
+    pub prim: usize,
+    /// The time code.
+    pub time: f64,
+}
+
+/// Attributes of curves that are read elsewhere, or say nothing of the hair.
+const KNOWN: [&str; 11] = [
+    "points",
+    "curveVertexCounts",
+    "type",
+    "basis",
+    "wrap",
+    "widths",
+    "extent",
+    "velocities",
+    "visibility",
+    "purpose",
+    "xformOpOrder",
+];
+
+impl Primvars<'_> {
+    /// What the prim says of itself that is not read, a phrase each.
+    pub fn unread(&self) -> Vec<String> {
+        let prim = &self.layer.prims[self.prim];
+        let other = |name: &&String| {
+            !KNOWN.contains(&name.as_str()) && !name.starts_with("primvars:") && !name.starts_with("xformOp:")
+        };
+        let mut unread: Vec<String> =
+            prim.attributes.keys().filter(other).map(|name| format!("attribute {name}")).collect();
+        let moving = prim
+            .attributes
+            .iter()
+            .filter(|(name, a)| (name.starts_with("primvars:") || name.as_str() == "widths") && a.samples.len() > 1);
+        unread.extend(moving.map(|(name, _)| format!("motion of {name}: its first value is kept")));
+        for above in self.layer.upward(self.prim) {
+            for name in &self.layer.prims[above].relationships {
+                unread.push(format!("{name} of {}", self.layer.path(above)));
+            }
+        }
+        unread.sort();
+        unread
+    }
+
+    fn named(&self, name: &str) -> Option<Handle> {
+        let plain = if name == "widths" { self.layer.at(self.prim, name, self.time) } else { None };
+        plain.or_else(|| self.layer.at(self.prim, &format!("primvars:{name}"), self.time))
+    }
+
+    fn indices(&mut self, name: &str) -> Result<Option<Vec<i64>>, Problem> {
+        let indices = self.layer.at(self.prim, &format!("primvars:{name}:indices"), self.time);
+        indices.map(|indices| self.layer.integers(indices)).transpose()
+    }
+
+    /// Values, looked up where they are stored by index.
+    fn expanded<T: Clone>(&mut self, name: &str, values: Vec<T>) -> Result<Option<Vec<T>>, Problem> {
+        match self.indices(name)? {
+            Some(indices) => indexed(name, &values, &indices).map(Some),
+            None => Ok(Some(values)),
+        }
+    }
+}
+
+impl NamedValues for Primvars<'_> {
+    fn names(&self) -> Vec<String> {
+        let names = self.layer.prims[self.prim].attributes.keys().filter_map(|name| name.strip_prefix("primvars:"));
+        names.filter(|name| !name.ends_with(":indices")).map(str::to_owned).collect()
+    }
+
+    fn tuples<const N: usize>(&mut self, name: &str) -> Result<Option<Vec<[f32; N]>>, Problem> {
+        let Some(handle) = self.named(name) else { return Ok(None) };
+        let numbers = self.layer.singles(handle)?;
+        match numbers.as_chunks::<N>() {
+            (values, []) if !values.is_empty() => self.expanded(name, values.to_vec()),
+            _ => Ok(None),
+        }
+    }
+
+    fn integers(&mut self, name: &str) -> Result<Option<Vec<i64>>, Problem> {
+        let Some(handle) = self.named(name) else { return Ok(None) };
+        let values = self.layer.integers(handle)?;
+        self.expanded(name, values)
+    }
+
+    fn words(&mut self, name: &str) -> Result<Option<Vec<String>>, Problem> {
+        let Some(handle) = self.named(name) else { return Ok(None) };
+        let values = self.layer.words(handle)?;
+        self.expanded(name, values)
+    }
+
+    fn whatever(&mut self, name: &str) -> Result<Option<Whatever>, Problem> {
+        let whole = format!("primvars:{name}");
+        let Some(handle) = self.layer.at(self.prim, &whole, self.time) else { return Ok(None) };
+        let type_name = self.layer.prims[self.prim].attributes[&whole].type_name.clone();
+        let Some((form, role, extent)) = kind(&type_name) else { return Ok(None) };
+        let mut values = match form {
+            Form::Float => Values::Floats(self.layer.singles(handle)?),
+            Form::Double => Values::Doubles(self.layer.numbers(handle)?),
+            Form::Integer => Values::Integers(self.layer.integers(handle)?),
+            Form::Word => Values::Words(self.layer.words(handle)?),
+        };
+        if let Some(indices) = self.indices(name)? {
+            values = indexed_values(name, &values, extent, &indices)?;
+        }
+        let per = match self.layer.interpolation(self.prim, &whole)?.as_deref() {
+            Some("constant") => Some(Per::Groom),
+            Some("uniform") => Some(Per::Strand),
+            Some("vertex") => Some(Per::Point),
+            _ => None,
+        };
+        Ok(Some(Whatever { role, extent, per, values }))
+    }
+}
+
+enum Form {
+    Float,
+    Double,
+    Integer,
+    Word,
+}
+
+/// What a type is made of: `color3f` is three floats that make a colour. `None` for a type that is not read.
+fn kind(type_name: &str) -> Option<(Form, Role, usize)> {
+    let split = type_name.find(|c: char| c.is_ascii_digit()).unwrap_or(type_name.len());
+    let (base, rest) = match type_name {
+        // Digits of which these two are the width and not the extent.
+        "int64" | "uint64" => (type_name, ""),
+        _ => type_name.split_at(split),
+    };
+    let extent = rest.trim_end_matches(['f', 'h', 'd']).parse().unwrap_or(1);
+    let form = if rest.ends_with('d') { Form::Double } else { Form::Float };
+    Some(match base {
+        "bool" | "uchar" | "int" | "uint" | "int64" | "uint64" => (Form::Integer, Role::Plain, extent),
+        "half" | "float" => (Form::Float, Role::Plain, extent),
+        "double" => (Form::Double, Role::Plain, extent),
+        "string" | "token" => (Form::Word, Role::Plain, 1),
+        "color" => (form, Role::Color, extent),
+        "point" => (form, Role::Point, extent),
+        "vector" => (form, Role::Vector, extent),
+        "normal" => (form, Role::Normal, extent),
+        "texCoord" => (form, Role::TextureCoordinate, extent),
+        "matrix" => (Form::Double, Role::Plain, extent * extent),
+        _ => return None,
+    })
+}

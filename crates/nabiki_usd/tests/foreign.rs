@@ -1,0 +1,269 @@
+//! Layers as other programs write them: what their transforms, skeletons and attributes mean.
+//! That usd-core reads the same numbers is `tests/interchange`.
+
+use std::io::Cursor;
+
+use glam::{Affine3A, DQuat, DVec3, Vec3};
+use nabiki::Mesh;
+use nabiki::hair::{Per, Role, Values};
+use nabiki_exchange::{Export, FrameSink, GroomReader, PrimKind};
+use nabiki_usd::{Form, HairStage, StageReader};
+
+fn reader(text: impl Into<String>) -> StageReader {
+    StageReader::new(Cursor::new(text.into().into_bytes())).unwrap()
+}
+
+/// Six times the volume that a mesh encloses: positive where its faces look outwards.
+fn six_volumes(mesh: &Mesh) -> f32 {
+    mesh.triangles.iter().map(|t| t.map(|v| mesh.positions[v as usize])).map(|[a, b, c]| a.dot(b.cross(c))).sum()
+}
+
+#[test]
+fn mirrored_and_left_handed_meshes_come_in_with_their_outside_outside() {
+    for mirrored in [false, true] {
+        for left_handed in [false, true] {
+            let scale = if mirrored { "(-2, 1, 1)" } else { "(2, 1, 1)" };
+            // A left-handed mesh is listed the other way round.
+            let corners =
+                if left_handed { "0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2" } else { "0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3" };
+            let orientation = if left_handed { "leftHanded" } else { "rightHanded" };
+            let mut stage = reader(format!(
+                "#usda 1.0\ndef Xform \"a\" {{ double3 xformOp:scale = {scale}\n uniform token[] xformOpOrder = [\"xformOp:scale\"]\n\
+                 def Mesh \"m\" {{ point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]\n\
+                 int[] faceVertexCounts = [3, 3, 3, 3]\n int[] faceVertexIndices = [{corners}]\n\
+                 uniform token orientation = \"{orientation}\" }} }}\n"
+            ));
+            let mesh = stage.mesh().unwrap();
+            assert_eq!(six_volumes(&mesh), 2.0, "mirrored {mirrored}, left-handed {left_handed}");
+        }
+    }
+}
+
+#[test]
+fn transforms_are_interpolated_each_at_its_own_times() {
+    let mut stage = reader(
+        "#usda 1.0\n( timeCodesPerSecond = 10 )\ndef Xform \"a\" { double3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 8: (16, 0, 0) }\n\
+         uniform token[] xformOpOrder = [\"xformOp:translate\"]\n\
+         def Xform \"b\" { float xformOp:rotateZ.timeSamples = { 2: 0, 6: 80 }\n uniform token[] xformOpOrder = [\"xformOp:rotateZ\"]\n\
+         def Xform \"c\" { quatf xformOp:orient.timeSamples = { 0: (1, 0, 0, 0), 4: (0, 0, 0, 1) }\n\
+         uniform token[] xformOpOrder = [\"xformOp:orient\"]\n\
+         def BasisCurves \"h\" { uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n\
+         point3f[] points.timeSamples = { 1: [(0, 0, 0), (1, 0, 0)], 4: [(0, 0, 0), (7, 0, 0)] } } } } }\n",
+    );
+    // What each says at a time code by itself: a line from 0 to 8, a line from 2 to 6, a turn at a constant rate.
+    let known = |t: f64| {
+        let turn = (20.0 * (t - 2.0)).clamp(0.0, 80.0) + 45.0 * t.min(4.0);
+        (DVec3::new(2.0 * t.min(8.0), 0.0, 0.0), DQuat::from_rotation_z(turn.to_radians()))
+    };
+    let motion = stage.motion("/a/b/c").unwrap();
+    let times: Vec<f64> = motion.iter().map(|p| 10.0 * p.time).collect();
+    assert_eq!(times, [0.0, 2.0, 4.0, 6.0, 8.0]);
+    for placed in motion {
+        let (position, rotation) = known(10.0 * placed.time);
+        assert!(placed.position.distance(position) < 1e-12);
+        assert!(1.0 - placed.rotation.dot(rotation).abs() < 1e-12, "at {} s", placed.time);
+    }
+    // Frames at uneven times give way to whole codes: 1, 2, 3, 4. (Two samples are even: 1 and 4.)
+    let frames = stage.contents().unwrap();
+    assert_eq!((frames.times, frames.frame_rate), (vec![0.1, 0.4], 10.0 / 3.0));
+}
+
+#[test]
+fn frames_at_uneven_times_are_read_at_whole_codes_between_their_samples() {
+    let mut stage = reader(
+        "#usda 1.0\ndef BasisCurves \"h\" { uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n\
+         point3f[] points.timeSamples = { 1: [(0, 0, 0), (1, 0, 0)], 4: [(0, 0, 0), (7, 0, 0)], 5: [(0, 0, 0), (8, 0, 0)] } }\n",
+    );
+    assert_eq!(stage.contents().unwrap().times, [1.0, 2.0, 3.0, 4.0, 5.0].map(|t| t / 24.0));
+    for (frame, x) in [1.0f32, 3.0, 5.0, 7.0, 8.0].into_iter().enumerate() {
+        let tip = stage.hair(frame, None).unwrap().strands.strand(0)[1];
+        // Shares of a third are rounded once, the blend of two numbers twice more.
+        assert!((tip.x - x).abs() <= 4.0 * f32::EPSILON * x, "frame {frame}: {tip}");
+    }
+}
+
+#[test]
+fn hair_that_only_its_transform_moves_has_the_frames_of_that() {
+    let mut stage = reader(
+        "#usda 1.0\ndef Xform \"a\" { double xformOp:translateX.timeSamples = { 0: 0, 1: 5, 2: 7 }\n\
+         uniform token[] xformOpOrder = [\"xformOp:translateX\"]\n def BasisCurves \"h\" { uniform token type = \"linear\"\n\
+         int[] curveVertexCounts = [2]\n point3f[] points = [(0, 0, 0), (1, 0, 0)] } }\n",
+    );
+    assert_eq!(stage.contents().unwrap().times, [0.0, 1.0, 2.0].map(|t| t / 24.0));
+    for (frame, x) in [0.0, 5.0, 7.0].into_iter().enumerate() {
+        let placed = stage.hair_in_place(frame, None, false).unwrap();
+        assert_eq!(placed.world_from_hair, Affine3A::from_translation(Vec3::X * x));
+        assert_eq!(stage.hair(frame, None).unwrap().strands.strand(0)[0], Vec3::X * x);
+    }
+}
+
+#[test]
+fn units_axes_and_rates_that_are_none_are_refused_in_one_line() {
+    for (metadata, line) in [
+        ("metersPerUnit = 0", "metersPerUnit = 0: must be a finite number above 0, 0.01 for centimetres"),
+        ("metersPerUnit = -1", "metersPerUnit = -1: must be a finite number above 0, 0.01 for centimetres"),
+        ("metersPerUnit = nan", "metersPerUnit = NaN: must be a finite number above 0, 0.01 for centimetres"),
+        ("upAxis = \"X\"", "upAxis = \"X\": must be \"Y\" or \"Z\", as USD has it"),
+        ("timeCodesPerSecond = 0", "timeCodesPerSecond = 0: must be a finite number above 0, 24, say"),
+    ] {
+        let refused = reader(format!("#usda 1.0\n( {metadata} )\n")).contents().unwrap_err();
+        assert_eq!(refused.to_string(), line);
+    }
+}
+
+#[test]
+fn hair_without_a_finite_size_is_refused() {
+    for (scale, points) in
+        [("1e30", "(0, 0, 0), (1e20, 0, 0)"), ("1", "(0, 0, 0), (1e25, 0, 0)"), ("1e24", "(0, 0, 0), (1, 0, 0)")]
+    {
+        let mut stage = reader(format!(
+            "#usda 1.0\ndef BasisCurves \"h\" {{ uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n\
+             point3f[] points = [{points}]\n double xformOp:scaleX = {scale}\n\
+             uniform token[] xformOpOrder = [\"xformOp:scaleX\"] }}\n"
+        ));
+        assert!(stage.hair(0, None).is_err(), "{points} times {scale}");
+    }
+}
+
+const CARRIED: &str = "#usda 1.0
+def Xform \"head\" {
+    rel material:binding = </looks/black>
+    def BasisCurves \"h\" (
+        prepend apiSchemas = [\"MaterialBindingAPI\"]
+    )
+    {
+        uniform token type = \"linear\"
+        int[] curveVertexCounts = [2, 3]
+        point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (2, 1, 0)]
+        int[] primvars:groom_id = [1, 2, 3] ( interpolation = \"uniform\" )
+        texCoord2f[] primvars:st = [(0, 0.5), (1, 0.25)] ( interpolation = \"uniform\" )
+        float2[] primvars:surface_uv_coordinate = [(0, 0.5), (1, 0.25)] ( interpolation = \"uniform\" )
+        texCoord2f[] primvars:UVMap = [(9, 9), (8, 8)] ( interpolation = \"uniform\" )
+        float primvars:stiffness = 0.25 ( interpolation = \"constant\" )
+        double[] primvars:mass = [0.1, 0.2] ( interpolation = \"uniform\" )
+        color3f[] primvars:tint = [(1, 0, 0), (0, 1, 0)] (
+            doc = \"says nothing of interpolation\"
+            interpolation = \"uniform\"
+        )
+        int[] primvars:tint:indices = [1, 1]
+        normal3f[] primvars:nearby = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 0), (0, 1, 0)] ( interpolation = \"vertex\" )
+        string[] primvars:mood = [\"calm\", \"wild\"] ( interpolation = \"uniform\" )
+        int2[] primvars:cell = [(1, 2), (3, 4)] ( interpolation = \"uniform\" )
+        matrix4d[] primvars:frame = [( (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (5, 6, 7, 1) )] ( interpolation = \"constant\" )
+        asset primvars:map = @skin.png@
+        float3[] accelerations = [(0, 0, 0)]
+    }
+}
+";
+
+#[test]
+fn what_a_groom_carries_goes_through_and_what_does_not_is_named() {
+    let hair = reader(CARRIED).hair(0, None).unwrap();
+    let at = &hair.attributes;
+    assert_eq!(at.root_uv, Some(vec![[0.0, 0.5], [1.0, 0.25]]));
+    assert_eq!(at.id, None);
+    let names: Vec<&str> = at.other.iter().map(|o| o.name.as_str()).collect();
+    assert_eq!(names, ["UVMap", "cell", "frame", "mass", "mood", "nearby", "stiffness", "tint"]);
+    let of = |name: &str| at.other.iter().find(|o| o.name == name).unwrap();
+    assert_eq!((of("tint").per, of("tint").role), (Per::Strand, Role::Color));
+    assert_eq!(of("tint").values, Values::Floats(vec![0.0, 1.0, 0.0, 0.0, 1.0, 0.0]));
+    assert_eq!((of("stiffness").per, &of("stiffness").values), (Per::Groom, &Values::Floats(vec![0.25])));
+    assert_eq!(of("mass").values, Values::Doubles(vec![0.1, 0.2]));
+    assert_eq!((of("cell").extent, &of("cell").values), (2, &Values::Integers(vec![1, 2, 3, 4])));
+    assert_eq!((of("nearby").per, of("nearby").role, of("nearby").extent), (Per::Point, Role::Normal, 3));
+    for said in [
+        "groom_id: 3 values for 5 points of 2 curves",
+        "map, which is of a kind that is not read",
+        "material:binding of /head",
+        "attribute accelerations",
+    ] {
+        assert!(at.unread.iter().any(|line| line == said), "{said} is not in {:?}", at.unread);
+    }
+    // And so through both forms of layers.
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["again.usda", "again.usdc"] {
+        let path = folder.path().join(name);
+        let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), Form::Stage).unwrap());
+        sink.frame(&hair.strands, &Affine3A::IDENTITY).unwrap();
+        sink.finish().unwrap();
+        let again = StageReader::open(&path).unwrap().hair(0, None).unwrap();
+        assert_eq!(again.attributes.other, at.other, "{name}");
+        assert_eq!((again.attributes.root_uv, again.attributes.unread), (at.root_uv.clone(), Vec::new()), "{name}");
+    }
+}
+
+const SKELETON: &str = "#usda 1.0
+( timeCodesPerSecond = 10 )
+def SkelRoot \"man\" {
+    double3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 4: (0, 0, 4) }
+    uniform token[] xformOpOrder = [\"xformOp:translate\"]
+    def Skeleton \"rig\" {
+        uniform token[] joints = [\"hips\", \"hips/neck\", \"hips/neck/head\"]
+        uniform matrix4d[] restTransforms = [
+            ( (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 90, 0, 1) ),
+            ( (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 50, 0, 1) ),
+            ( (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 10, 0, 1) )]
+        def SkelAnimation \"walk\" {
+            uniform token[] joints = [\"hips/neck\", \"hips\"]
+            float3[] translations.timeSamples = { 0: [(0, 50, 0), (0, 90, 0)], 2: [(0, 50, 0), (0, 100, 0)] }
+            quatf[] rotations.timeSamples = { 0: [(1, 0, 0, 0), (1, 0, 0, 0)], 2: [(0, 0, 0, 1), (1, 0, 0, 0)] }
+            half3[] scales = [(1, 1, 1), (1, 1, 1)]
+        }
+    }
+}
+";
+
+#[test]
+fn a_joint_of_a_skeleton_drives_the_head() {
+    for node in ["head", "hips/neck/head", "/man/rig/hips/neck/head"] {
+        let motion = reader(SKELETON).motion(node).unwrap();
+        assert_eq!(motion.iter().map(|p| (10.0 * p.time).round() as i32).collect::<Vec<_>>(), [0, 2, 4]);
+        for placed in motion {
+            let t = 10.0 * placed.time;
+            // The neck turns by half a turn about z in two codes; the head, 10 above it, is not animated.
+            let turn = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2 * t.min(2.0));
+            let position = DVec3::new(0.0, 140.0 + 5.0 * t.min(2.0), t) + turn * DVec3::new(0.0, 10.0, 0.0);
+            assert!(placed.position.distance(position) < 1e-9, "{node}: {} at {t}", placed.position);
+            assert!(1.0 - placed.rotation.dot(turn).abs() < 1e-12);
+        }
+    }
+    let unknown = reader(SKELETON).motion("hat").unwrap_err().to_string();
+    assert_eq!(
+        unknown,
+        "has no prim or joint hat: node can be /man, /man/rig/hips, /man/rig/hips/neck, /man/rig/hips/neck/head, /man/rig, /man/rig/walk"
+    );
+    let prims = reader(SKELETON).prims().unwrap();
+    assert!(matches!(&prims[1].kind, PrimKind::Skeleton { joints } if joints.len() == 3));
+}
+
+#[test]
+fn velocities_take_the_points_of_a_frame_to_those_of_the_next() {
+    let hair = reader(CARRIED).hair(0, None).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["moving.usda", "moving.usdc"] {
+        let path = folder.path().join(name);
+        let mut export = Export::new(&hair, 8.0);
+        (export.velocities, export.rest, export.default_color) = (true, true, Some([0.25, 0.5, 1.0]));
+        let mut sink = Box::new(HairStage::create(&path, export, Form::Stage).unwrap());
+        for frame in 0..3 {
+            let mut strands = hair.strands.clone();
+            strands.points_mut().iter_mut().for_each(|p| *p += Vec3::Y * (frame * frame) as f32);
+            sink.frame(&strands, &Affine3A::IDENTITY).unwrap();
+        }
+        sink.finish().unwrap();
+        let again = StageReader::open(&path).unwrap().hair(2, None).unwrap();
+        let rest = again.attributes.other.iter().find(|o| o.name == "rest").unwrap();
+        assert_eq!((rest.per, rest.role), (Per::Point, Role::Point));
+        let points = hair.strands.points().iter().flat_map(|p| p.to_array()).collect();
+        assert_eq!(rest.values, Values::Floats(points), "{name}");
+        assert_eq!(again.attributes.color, Some(vec![[0.25, 0.5, 1.0]; 5]));
+        if name.ends_with("usda") {
+            let text = std::fs::read_to_string(&path).unwrap();
+            let (_, velocities) = text.split_once("vector3f[] velocities.timeSamples = {").unwrap();
+            // 1 and 3 units a frame, 8 frames a second; the last goes on as it came.
+            for line in ["0: [(0, 8, 0), ", "1: [(0, 24, 0), ", "2: [(0, 24, 0), "] {
+                assert!(velocities.contains(line), "{line}");
+            }
+        }
+    }
+}
