@@ -6,6 +6,9 @@ use crate::digest::digest;
 use crate::layout::{INLINE_METADATA, Kind, Pod, flags};
 use crate::ogawa::write::{Child, EMPTY_DATA, Writer};
 
+/// Properties leave the rest of the table to objects and compounds.
+const LAST_OF_PROPERTIES: u8 = 200;
+
 /// The archive's table of metadata, which headers name by number.
 #[derive(Default)]
 pub struct MetadataTable {
@@ -13,21 +16,26 @@ pub struct MetadataTable {
 }
 
 impl MetadataTable {
+    /// The number of an entry of objects and compounds, of which this crate has some ten.
     fn index(&mut self, metadata: &str) -> u8 {
+        self.index_below(metadata, INLINE_METADATA)
+    }
+
+    /// The number of an entry, if it is or comes to be below `end`: what the table has no room for stands behind its
+    /// header.
+    fn index_below(&mut self, metadata: &str, end: u8) -> u8 {
         if metadata.is_empty() {
             return 0;
         }
-        let found = self.entries.iter().position(|e| e == metadata).unwrap_or_else(|| {
-            self.entries.push(metadata.to_owned());
-            self.entries.len() - 1
-        });
-        // What the table has no room for stands behind its header.
-        match u8::try_from(found + 1) {
-            Ok(index) if index < INLINE_METADATA => index,
-            _ => {
-                self.entries.truncate(found);
-                INLINE_METADATA
+        let found = self.entries.iter().position(|e| e == metadata);
+        match u8::try_from(found.unwrap_or(self.entries.len()) + 1) {
+            Ok(index) if index < end => {
+                if found.is_none() {
+                    self.entries.push(metadata.to_owned());
+                }
+                index
             }
+            _ => INLINE_METADATA,
         }
     }
 
@@ -170,7 +178,7 @@ impl Property {
         let mut info = if self.array { 2 | u32::from(self.one_value) } else { 1 };
         info |= (self.kind.pod as u32) << flags::POD_SHIFT;
         info |= u32::from(self.kind.extent) << flags::EXTENT_SHIFT;
-        let metadata = table.index(&self.metadata);
+        let metadata = table.index_below(&self.metadata, LAST_OF_PROPERTIES);
         info |= u32::from(metadata) << flags::METADATA_SHIFT;
         info |= if self.homogeneous { flags::HOMOGENEOUS } else { 0 };
         info |= if self.timing > 0 { flags::TIMED } else { 0 };
