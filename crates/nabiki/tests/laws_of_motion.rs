@@ -222,7 +222,7 @@ fn a_field_too_strong_for_the_step_is_refused_with_the_largest_that_holds() {
 
 /// What both twins refuse, in the same words.
 fn refusal(hair: &Strands, dynamics: &Dynamics, field: &dyn Field) -> SettingError {
-    let refused = Simulation::new(hair, dynamics, field).err().expect("the fast twin refuses");
+    let refused = Simulation::new(hair, dynamics, field).expect_err("the fast twin refuses");
     assert_eq!(Reference::new(hair, dynamics, field).err().as_ref(), Some(&refused));
     let timeline = Timeline::new(hair, dynamics, Arc::new(wind()), Vec::new(), 100);
     // Stepping is the same, so the refusals are, but for the field of this one.
@@ -249,7 +249,8 @@ fn strands_that_cannot_be_moved_are_refused_by_number() {
 #[test]
 fn settings_that_cannot_be_stepped_are_refused_by_name() {
     let off = |over| Some(Disturbance { over, ..Default::default() });
-    let cases: [(&dyn Fn(&mut Dynamics), &str); 12] = [
+    type Spoil<'a> = &'a dyn Fn(&mut Dynamics);
+    let cases: [(Spoil, &str); 12] = [
         (&|d| d.motion.time_step = 0.0, "motion.time_step"),
         (&|d| d.motion.frame_rate = f64::INFINITY, "motion.frame_rate"),
         (&|d| d.motion.linear_density = -0.05, "motion.linear_density"),

@@ -23,7 +23,8 @@ pub(super) fn write_points(rows: &[PointRow], first: usize, counts: &[u32; LANES
             *strand = &mut mine[wanted];
             rest = others;
         }
-        let squares = strands.iter().map(|strand| strand.len()).min().unwrap_or(0) / FOUR;
+        let [a, b, c, d] = &strands;
+        let squares = a.len().min(b.len()).min(c.len()).min(d.len()) / FOUR;
         write_squares(&rows[..FOUR * squares], group * FOUR, &mut strands);
         for (lane, strand) in strands.into_iter().enumerate() {
             for (number, row) in strand.iter_mut().zip(rows).skip(FOUR * squares) {
@@ -34,17 +35,28 @@ pub(super) fn write_points(rows: &[PointRow], first: usize, counts: &[u32; LANES
 }
 
 /// Writes the first numbers of four strands, which lie in `rows` from `lane` on: four of each at a time.
+#[allow(clippy::needless_range_loop, reason = "five iterators in one another are not inlined")]
 #[inline(always)]
 fn write_squares(rows: &[Row], lane: usize, strands: &mut [&mut [f32]; FOUR]) {
-    let [a, b, c, d] = strands.each_mut().map(|strand| strand.as_chunks_mut::<FOUR>().0);
-    for ((((rows, a), b), c), d) in rows.as_chunks::<FOUR>().0.iter().zip(a).zip(b).zip(c).zip(d) {
-        let [x, y, z, w] = rows.each_ref().map(|row| Vec4::from_slice(&row.0[lane..lane + FOUR]));
-        let square = Mat4::from_cols(x, y, z, w).transpose();
-        *a = square.x_axis.to_array();
-        *b = square.y_axis.to_array();
-        *c = square.z_axis.to_array();
-        *d = square.w_axis.to_array();
+    let rows = rows.as_chunks::<FOUR>().0;
+    let [a, b, c, d] = strands;
+    let a = &mut a.as_chunks_mut::<FOUR>().0[..rows.len()];
+    let b = &mut b.as_chunks_mut::<FOUR>().0[..rows.len()];
+    let c = &mut c.as_chunks_mut::<FOUR>().0[..rows.len()];
+    let d = &mut d.as_chunks_mut::<FOUR>().0[..rows.len()];
+    for i in 0..rows.len() {
+        let [x, y, z, w] = &rows[i];
+        let square = Mat4::from_cols(four(x, lane), four(y, lane), four(z, lane), four(w, lane)).transpose();
+        a[i] = square.x_axis.to_array();
+        b[i] = square.y_axis.to_array();
+        c[i] = square.z_axis.to_array();
+        d[i] = square.w_axis.to_array();
     }
+}
+
+#[inline(always)]
+fn four(row: &Row, lane: usize) -> Vec4 {
+    Vec4::from_slice(&row.0[lane..lane + FOUR])
 }
 
 #[cfg(test)]

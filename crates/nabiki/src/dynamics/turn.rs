@@ -20,7 +20,7 @@ pub(super) type Turn = [f32; 2];
 #[inline(always)]
 pub(super) fn turn_little([sin, cos]: Turn, angle: f32) -> Turn {
     let square = angle * angle;
-    let s = (angle * square).mul_add(square.mul_add(0.008_300_574, -0.166_665_41), angle);
+    let s = (angle * square).mul_add(square.mul_add(0.008_300_574, -0.166_665_4), angle);
     // cos(angle) - 1, which keeps the digits that the 1 would take.
     let c = square * square.mul_add(square.mul_add(-0.001_384_600_4, 0.041_666_49), -0.5);
     bring_back([cos.mul_add(s, sin.mul_add(c, sin)), sin.mul_add(-s, cos.mul_add(c, cos))])

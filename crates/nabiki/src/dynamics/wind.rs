@@ -78,9 +78,9 @@ impl Force {
         let in_polar = rotate(&surroundings.polar_from_head, in_head);
         let [x, _, z] = in_polar;
         let level = x.mul_add(x, z * z).sqrt();
-        let along = |component: f32| if level > 0.0 { component / level } else { 0.0 };
+        let azimuth = if level > 0.0 { [x / level, z / level] } else { [0.0; 2] };
         let threshold = surroundings.alpha_squared * dot(in_head, in_head);
-        Self { in_head, in_polar, azimuth: [along(x), along(z)], threshold }
+        Self { in_head, in_polar, azimuth, threshold }
     }
 
     #[inline(always)]
@@ -126,20 +126,21 @@ pub(super) struct LocalWind<'a> {
 }
 
 impl Wind for LocalWind<'_> {
+    #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernel")]
     #[inline(always)]
     fn at(&self, points: &PointRow, surroundings: &Surroundings) -> impl Forces {
         let mut there = [[0.0; LANES]; 3];
         for lane in 0..LANES {
-            let turned = rotate(&self.field_from_head, [0, 1, 2].map(|axis| points[axis].0[lane]));
-            for axis in 0..3 {
-                there[axis][lane] = turned[axis] + self.head_origin[axis];
-            }
+            let [x, y, z] = rotate(&self.field_from_head, [points[0].0[lane], points[1].0[lane], points[2].0[lane]]);
+            there[0][lane] = x + self.head_origin[0];
+            there[1][lane] = y + self.head_origin[1];
+            there[2][lane] = z + self.head_origin[2];
         }
         let mut force = [[0.0; LANES]; 3];
         self.field.at_row(&there, self.frame, &mut force);
         let mut row = ForceRow::default();
         for lane in 0..LANES {
-            let in_head = rotate(&self.head_from_field, [0, 1, 2].map(|axis| force[axis][lane]));
+            let in_head = rotate(&self.head_from_field, [force[0][lane], force[1][lane], force[2][lane]]);
             row.set(lane, Force::new(in_head, surroundings));
         }
         row
@@ -213,7 +214,11 @@ impl<'a> AnyWind<'a> {
 /// A rotation, given by its columns, of `v`.
 #[inline(always)]
 fn rotate([x, y, z]: &[[f32; 3]; 3], v: [f32; 3]) -> [f32; 3] {
-    [0, 1, 2].map(|i| x[i].mul_add(v[0], y[i].mul_add(v[1], z[i] * v[2])))
+    [
+        x[0].mul_add(v[0], y[0].mul_add(v[1], z[0] * v[2])),
+        x[1].mul_add(v[0], y[1].mul_add(v[1], z[1] * v[2])),
+        x[2].mul_add(v[0], y[2].mul_add(v[1], z[2] * v[2])),
+    ]
 }
 
 #[inline(always)]
