@@ -18,7 +18,7 @@ pub enum Info {
     /// A scene file.
     Scene(SceneInfo),
     /// A file of hair, a mesh, motion.
-    File(nabiki_io::info::Info),
+    File(Box<nabiki_io::info::Info>),
 }
 
 impl fmt::Display for Info {
@@ -38,6 +38,6 @@ pub fn info(path: &Path) -> Result<Info> {
     if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
         Ok(Info::Scene(SceneInfo::of(&Scene::load(path, &[])?)))
     } else {
-        nabiki_io::info::info(path).map(Info::File)
+        nabiki_io::info::info(path).map(|info| Info::File(Box::new(info)))
     }
 }
