@@ -54,7 +54,7 @@ use tree::{Unwritable, table_of};
 /// assert_eq!(scene.to_toml()?, text.replace("-100", "-80"));
 /// # Ok::<(), nabiki_scene::scene::SceneError>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// `[head]`
     pub head: HeadSettings,
@@ -75,23 +75,6 @@ pub struct Scene {
     /// The text it was read from, empty if it was made in code.
     text: String,
     origins: tree::Origins,
-}
-
-impl Default for Scene {
-    fn default() -> Self {
-        Self {
-            head: HeadSettings::default(),
-            hair: HairSettings::default(),
-            motion: Motion::default(),
-            pseudo_force: PseudoForce::default(),
-            field: Vec::new(),
-            disturbance: None,
-            picture: Picture::default(),
-            output: Output::default(),
-            text: String::new(),
-            origins: tree::Origins::default(),
-        }
-    }
 }
 
 impl PartialEq for Scene {
@@ -205,7 +188,7 @@ impl Scene {
     /// A refused setting as an error that names the file and the line, or the override, that set it.
     pub fn refusal(&self, refused: SettingError) -> SceneError {
         let SceneError { key, problem, .. } = refused.into();
-        self.origins.error(&key, problem)
+        self.origins.error(&key, *problem)
     }
 
     /// The scene file; empty for a scene made in code.
@@ -321,5 +304,5 @@ impl Scene {
 }
 
 fn file_error(path: &Path, what: String) -> SceneError {
-    SceneError { file: path.to_owned(), line: None, set: None, key: String::new(), problem: Problem::File(what) }
+    SceneError { file: path.to_owned(), line: None, set: None, key: String::new(), problem: Box::new(Problem::File(what)) }
 }

@@ -239,7 +239,7 @@ fn a_saved_scene_is_the_file_from_then_on() {
     let line = 1 + written.lines().position(|line| line.starts_with("alpha")).unwrap();
     assert_eq!((refused.file, refused.line), (path, Some(line)));
     let error = sample().save(&folder.path().join("no/folder.toml")).unwrap_err();
-    assert!(matches!(error.problem, Problem::File(_)), "{error}");
+    assert!(matches!(*error.problem, Problem::File(_)), "{error}");
 }
 
 #[test]

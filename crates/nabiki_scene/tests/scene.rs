@@ -120,7 +120,7 @@ fn errors_are_values() {
     assert_eq!((kind.key.as_str(), kind.value(), kind.line), ("motion.frames", Some("string \"many\""), Some(5)));
     assert_eq!(kind.remedy(), "must be a whole number, 0 or more");
     let unknown = error("time_step", "time_stpe");
-    assert!(matches!(unknown.problem, Problem::UnknownKey { near: Some(near), .. } if near == "motion.time_step"));
+    assert!(matches!(*unknown.problem, Problem::UnknownKey { near: Some(ref near), .. } if near == "motion.time_step"));
     let set = parse(GUST, &[("motion.time_step", "-1")]).unwrap_err();
     assert_eq!((set.line, set.set.as_deref()), (None, Some("motion.time_step=-1")));
 }

@@ -17,7 +17,7 @@ pub struct SceneError {
     /// The setting as a scene file spells it, `force[1].vector`; empty where the file as a whole is meant.
     pub key: String,
     /// What is wrong.
-    pub problem: Problem,
+    pub problem: Box<Problem>,
 }
 
 /// What is wrong with a setting, or with the file.
@@ -64,7 +64,7 @@ pub enum Problem {
 impl SceneError {
     /// The refused value, where there is one.
     pub fn value(&self) -> Option<&str> {
-        match &self.problem {
+        match &*self.problem {
             Problem::Kind { found: value, .. } | Problem::Range { value, .. } => Some(value),
             _ => None,
         }
@@ -72,7 +72,7 @@ impl SceneError {
 
     /// The range allowed, or the way out.
     pub fn remedy(&self) -> String {
-        match &self.problem {
+        match &*self.problem {
             Problem::Kind { wanted, .. } => format!("must be {wanted}"),
             Problem::Range { remedy, .. } => remedy.clone(),
             Problem::UnknownKey { near: Some(near), .. } => format!("did you mean {near}?"),
@@ -102,13 +102,13 @@ impl fmt::Display for SceneError {
             write!(f, "--set {set}: ")?;
         }
         f.write_str(&self.key)?;
-        match &self.problem {
+        match &*self.problem {
             Problem::Range { value, .. } => write!(f, " = {value}: ")?,
             _ if self.key.is_empty() => {}
             _ => write!(f, ": ")?,
         }
         let remedy = self.remedy();
-        match &self.problem {
+        match &*self.problem {
             Problem::NotToml(_) => write!(f, "not TOML: {remedy}"),
             Problem::UnknownKey { .. } => write!(f, "unknown key; {remedy}"),
             Problem::Missing => write!(f, "is missing: {remedy}"),
@@ -121,7 +121,7 @@ impl fmt::Display for SceneError {
 impl From<SettingError> for SceneError {
     fn from(refused: SettingError) -> Self {
         let SettingError { thing, value, remedy } = refused;
-        let problem = Problem::Range { value, remedy };
+        let problem = Box::new(Problem::Range { value, remedy });
         Self { file: PathBuf::new(), line: None, set: None, key: thing, problem }
     }
 }

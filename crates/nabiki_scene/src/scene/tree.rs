@@ -28,6 +28,7 @@ pub(super) struct Origins {
 impl Origins {
     /// An error about the value at `path` (dotted, or with indices in brackets): its file and line, or its override.
     pub fn error(&self, path: &str, problem: Problem) -> SceneError {
+        let problem = Box::new(problem);
         let whole = SceneError { file: self.file.clone(), line: None, set: None, key: path.to_owned(), problem };
         let dotted = dotted(path).join(".");
         let mut at = dotted.as_str();
@@ -66,7 +67,7 @@ pub(super) fn parse(text: &str, file: &Path, overrides: &[(String, String)]) -> 
     let syntax = |e: toml::de::Error| {
         let line = e.span().map(|span| line_at(span.start));
         let message = e.message().split_whitespace().collect::<Vec<_>>().join(" ");
-        let problem = Problem::NotToml(message);
+        let problem = Box::new(Problem::NotToml(message));
         SceneError { file: file.to_owned(), line, set: None, key: String::new(), problem }
     };
     let spanned = DeTable::parse(text).map_err(syntax)?;
@@ -79,7 +80,7 @@ pub(super) fn parse(text: &str, file: &Path, overrides: &[(String, String)]) -> 
             line: None,
             set: Some(text.clone()),
             key: String::new(),
-            problem: Problem::Other(what),
+            problem: Box::new(Problem::Other(what)),
         })?;
         origins.overrides.insert(dotted(path).join("."), text);
     }
