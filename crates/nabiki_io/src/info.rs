@@ -36,7 +36,7 @@ pub enum Info {
     /// Moving strands.
     Cache(CacheInfo),
     /// A USD layer or an Alembic archive.
-    Exchange(ExchangeInfo),
+    Exchange(Box<ExchangeInfo>),
     /// Motion of a head.
     Motion(MotionInfo),
 }
@@ -61,7 +61,7 @@ impl fmt::Display for Info {
 pub fn info(path: &Path) -> Result<Info> {
     match extension(path).as_str() {
         "hair" | "tfx" | "tfxbone" => Ok(Info::Hair(HairInfo::of(&crate::hair::read(path)?))),
-        "usd" | "usda" | "usdc" | "abc" => Ok(Info::Exchange(ExchangeInfo::of_file(path)?)),
+        "usd" | "usda" | "usdc" | "abc" => Ok(Info::Exchange(Box::new(ExchangeInfo::of_file(path)?))),
         "bvh" | "csv" | "amc" | "asf" | "tof" => Ok(Info::Motion(motion::survey(path)?)),
         "glb" | "gltf" | "ply" | "tfxmesh" => Ok(Info::Mesh(MeshInfo::of_file(path)?)),
         "obj" => {

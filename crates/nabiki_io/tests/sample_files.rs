@@ -242,3 +242,56 @@ fn what_a_layer_states_is_not_guessed_and_the_rest_is_guessed_once() {
     assert!(json("groom.usda")["mesh"].get("likely_unit").is_none());
     assert_eq!(json("groom.usda")["curves"][0], "/groom/hair");
 }
+
+/// All that a file may be asked for, by whatever kind it is.
+fn read_whatever(path: &Path, folder: &Path) -> Vec<nabiki_io::Error> {
+    let mut errors = Vec::new();
+    errors.extend(info(path).err());
+    errors.extend(hair::read(path).err());
+    errors.extend(mesh::read(path, &[]).err());
+    let skeletons = ["nod.asf", "nod_skeleton.tof"].map(|name| folder.join(name));
+    for skeleton in [None].into_iter().chain(skeletons.map(Some)) {
+        let source = MotionSource {
+            file: path.to_owned(),
+            skeleton,
+            unit_cm: Some(1.0),
+            up: Some(Axis::PlusY),
+            facing: Some(Axis::PlusX),
+            ..MotionSource::default()
+        };
+        errors.extend(motion::read(&source, 24.0).err());
+    }
+    errors
+}
+
+#[test]
+fn damage_to_any_sample_is_said_in_one_line_that_names_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let samples: Vec<PathBuf> = std::fs::read_dir(file("")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    for name in ["nod.asf", "nod_skeleton.tof"] {
+        std::fs::copy(file(name), folder.path().join(name)).unwrap();
+    }
+    let mut refused = 0;
+    for sample in samples {
+        let bytes = std::fs::read(&sample).unwrap();
+        let name = sample.file_name().unwrap().to_str().unwrap();
+        let path = folder.path().join(format!("damaged_{name}"));
+        for step in 0..50 {
+            let at = step * bytes.len() / 50;
+            let mut flipped = bytes.clone();
+            flipped[at] ^= 0xff;
+            let mut larger = bytes.clone();
+            larger[at] = b'9';
+            for damaged in [&bytes[..at], &flipped, &larger] {
+                std::fs::write(&path, damaged).unwrap();
+                for error in read_whatever(&path, folder.path()) {
+                    let said = error.to_string();
+                    let named = said.starts_with(folder.path().to_str().unwrap());
+                    assert!(named && !said.contains('\n') && said.len() < 1000, "{name}, {at}: {said}");
+                    refused += 1;
+                }
+            }
+        }
+    }
+    assert!(refused > 1000, "only {refused} errors");
+}
