@@ -150,22 +150,35 @@ fn parts() {
     measure("oversampled 4 x 4", 20_000, |p| p.antialiasing = Antialiasing::Oversample);
 }
 
+/// Milliseconds a frame on each stage after the first frame, of hair that swings.
+fn profile_of(title: &str, strands: usize, picture: &Picture) {
+    let view = view(picture);
+    let mut renderer = Renderer::new(picture, &ball()).expect("settings");
+    let swing: Vec<Strands> = (0..8).map(|i| hair(strands, (i as f32 * 0.6).sin())).collect();
+    renderer.draw(&FrameToDraw::at_rest(&swing[0], view)).expect("draws");
+    let first = *renderer.timing();
+    for strands in &swing {
+        renderer.draw(&FrameToDraw::at_rest(strands, view)).expect("draws");
+    }
+    let frames = swing.len() as f64;
+    println!("\nProfile: {title} (ms a frame, mean of {frames}; the first frame)");
+    for stage in Stage::ALL {
+        let mean = (renderer.timing().of(stage) - first.of(stage)).as_secs_f64() * 1e3 / frames;
+        println!("{:<12} {mean:>8.2} {:>8.1}", format!("{stage:?}"), first.of(stage).as_secs_f64() * 1e3);
+    }
+}
+
 fn profile() {
     let picture = Picture { size: [1024, 1024], ..Picture::default() };
-    let view = view(&picture);
-    let mut renderer = Renderer::new(&picture, &ball()).expect("settings");
-    let strands = hair(20_000, 0.0);
-    renderer.draw(&FrameToDraw::at_rest(&strands, view)).expect("draws");
-    let first = *renderer.timing();
-    let frames = 8;
-    for _ in 0..frames {
-        renderer.draw(&FrameToDraw::at_rest(&strands, view)).expect("draws");
-    }
-    println!("\nProfile: 20,000 x 20 segments, 1024 x 1024 (ms a frame, mean of {frames}; the first frame)");
-    for stage in Stage::ALL {
-        let mean = (renderer.timing().of(stage) - first.of(stage)).as_secs_f64() * 1e3 / f64::from(frames);
-        println!("{:<12} {mean:>8.1} {:>8.1}", format!("{stage:?}"), first.of(stage).as_secs_f64() * 1e3);
-    }
+    profile_of("20,000 x 20 segments, 1024 x 1024", 20_000, &picture);
+    profile_of("a preview, 300 x 20 segments, 480 x 270", 300, &preview());
+}
+
+/// The picture of a preview: small, its few hairs eight times as thick.
+fn preview() -> Picture {
+    let mut picture = Picture { size: [480, 270], ..Picture::default() };
+    picture.hair.width *= 8.0;
+    picture
 }
 
 /// Root of the mean square difference in sRGB steps of 255.
@@ -204,14 +217,18 @@ fn error() {
 }
 
 fn movie() {
-    let picture = Picture { size: [1280, 720], ..Picture::default() };
-    let view = view(&picture);
-    let tone_mapping = ToneMapping::new(&picture);
-    let mut renderer = Renderer::new(&picture, &ball()).expect("settings");
+    movie_of(19_330, &Picture { size: [1280, 720], ..Picture::default() });
+    movie_of(300, &preview());
+}
+
+fn movie_of(strands: usize, picture: &Picture) {
+    let view = view(picture);
+    let tone_mapping = ToneMapping::new(picture);
+    let mut renderer = Renderer::new(picture, &ball()).expect("settings");
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("movie.mp4");
-    let mut movie = Movie::create(&path, &picture, 24.0).expect("a movie");
-    let frames: Vec<Strands> = (0..10).map(|i| hair(19_330, (i as f32 * 0.6).sin())).collect();
+    let mut movie = Movie::create(&path, picture, 24.0).expect("a movie");
+    let frames: Vec<Strands> = (0..10).map(|i| hair(strands, (i as f32 * 0.6).sin())).collect();
     let start = Instant::now();
     let mut encoding = 0.0;
     for frame in &frames {
@@ -222,7 +239,9 @@ fn movie() {
     }
     movie.finish().expect("finishes");
     let wall = start.elapsed().as_secs_f64() / frames.len() as f64;
-    println!("\nMovie: 19,330 strands, 1280 x 720: {wall:.3} s a frame, {:.3} s of it encoding", encoding / 10.0);
+    let [width, height] = picture.size;
+    let encoding = encoding / frames.len() as f64;
+    println!("\nMovie: {strands} strands, {width} x {height}: {wall:.4} s a frame, {encoding:.4} s of it encoding");
 }
 
 fn main() {

@@ -67,9 +67,9 @@ impl SkyMap {
     pub fn at(&self, p: Vec3) -> Arriving {
         let last = self.size.as_vec3() - 1.001;
         let c = ((p - self.low) / self.cell - 0.5).clamp(Vec3::ZERO, last.max(Vec3::ZERO));
-        let base = c.floor();
-        let f = c - base;
-        let b = base.as_uvec3();
+        // Toward zero is down: there is nothing below.
+        let b = c.as_uvec3();
+        let f = c - b.as_vec3();
         let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
         let at = self.index(b);
         let mix = |a: Arriving, b: Arriving, t: f32| Arriving {
@@ -94,9 +94,10 @@ impl SkyMap {
             }
             let length = pair[0].position.distance(pair[1].position);
             let c = (0.5 * (pair[0].position + pair[1].position) - self.low) / self.cell - 0.5;
-            let base = c.floor();
-            let f = c - base;
-            let at = self.index(base.as_uvec3());
+            // Toward zero is down: the border keeps it above.
+            let base = c.as_uvec3();
+            let f = c - base.as_vec3();
+            let at = self.index(base);
             let amount = 2.0 * radius[i] * length * per_area;
             let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
             for (z, wz) in [(0, 1.0 - f.z), (slice, f.z)] {

@@ -1,6 +1,8 @@
 //! Movies: H.264 in MP4, encoded in this process, streamed to disk.
 
 use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread::JoinHandle;
 
 use nabiki::error::check_range;
 use nabiki_file::PartFile;
@@ -26,14 +28,20 @@ const INTRA_PERIOD: u32 = 48;
 ///
 /// Colour is Rec. 709, studio range, 4:2:0. An odd side loses its last row or column, which H.264's halved
 /// colour cannot hold. A transparent frame is shown on black.
+///
+/// Frames are coded on a thread of their own, one after another, while the next are drawn; at most one waits.
 pub struct Movie {
     path: PathBuf,
     size: [usize; 2],
-    encoder: Encoder,
-    track: Track,
-    coded: PartFile,
-    scratch: Vec<u8>,
+    planes: Option<SyncSender<Planes>>,
+    coding: Option<JoinHandle<Result<Coder, RenderError>>>,
 }
+
+/// Luma and the two colour differences of a frame.
+type Planes = [Vec<u8>; 3];
+
+/// Frames that may wait for the one being coded.
+const WAITING: usize = 1;
 
 impl Movie {
     /// Starts a movie at `path` with the size and quality of `picture`, of `frame_rate` frames a second (1..240).
@@ -72,45 +80,100 @@ impl Movie {
             .vui(VuiConfig::bt709());
         let encoder = Encoder::with_api_config(OpenH264API::from_source(), config)
             .map_err(|e| RenderError::write(path, e.to_string()))?;
-        let coded = create_part(path)?;
-        Ok(Self {
+        let coder = Coder {
             path: path.to_owned(),
             size,
             encoder,
             track: Track::new(size.map(|s| s as u16), frame_rate),
-            coded,
+            coded: create_part(path)?,
             scratch: Vec::new(),
-        })
+        };
+        let (planes, waiting) = sync_channel(WAITING);
+        let coding = std::thread::Builder::new()
+            .name("movie".to_owned())
+            .spawn(move || coder.code_all(&waiting))
+            .map_err(|e| RenderError::write(path, e))?;
+        Ok(Self { path: path.to_owned(), size, planes: Some(planes), coding: Some(coding) })
     }
 
-    /// Appends a frame.
+    /// Appends a frame. It is coded while the next is drawn: what goes wrong then is said by a later call.
+    ///
+    /// # Errors
+    /// What the encoder or the disk says.
     ///
     /// # Panics
     /// If the frame's size is not that of the picture the movie was created for.
     pub fn push(&mut self, frame: &Frame, tone_mapping: &ToneMapping) -> Result<(), RenderError> {
         assert_eq!(frame.size.map(|s| s as usize & !1), self.size, "every frame has the movie's size");
         let planes = planes(frame, self.size, tone_mapping);
-        let [width, _] = self.size;
+        match self.planes.as_ref().map(|waiting| waiting.send(planes)) {
+            Some(Ok(())) => Ok(()),
+            // It takes no more because it has failed.
+            _ => self.join().map(drop),
+        }
+    }
+
+    /// Codes what is left, writes the index and gives the file its name.
+    ///
+    /// # Errors
+    /// What the encoder or the disk says.
+    pub fn finish(mut self) -> Result<(), RenderError> {
+        let mut coder = self.join()?;
+        let Coder { path, track, coded, .. } = &mut coder;
+        write_whole(path, |file| Ok(track.finish(coded, file)?))
+    }
+
+    /// Waits until all frames are coded.
+    fn join(&mut self) -> Result<Coder, RenderError> {
+        self.planes = None;
+        let Some(coding) = self.coding.take() else {
+            return Err(RenderError::write(&self.path, "the movie has failed already"));
+        };
+        coding.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    }
+}
+
+impl Drop for Movie {
+    fn drop(&mut self) {
+        self.planes = None;
+        if let Some(coding) = self.coding.take() {
+            // What it says is of a movie that nobody wants any more.
+            let _ = coding.join();
+        }
+    }
+}
+
+/// The thread that codes frames, in their order.
+struct Coder {
+    path: PathBuf,
+    size: [usize; 2],
+    encoder: Encoder,
+    track: Track,
+    coded: PartFile,
+    scratch: Vec<u8>,
+}
+
+impl Coder {
+    fn code_all(mut self, waiting: &Receiver<Planes>) -> Result<Self, RenderError> {
+        for planes in waiting {
+            self.code(&planes)?;
+        }
+        Ok(self)
+    }
+
+    fn code(&mut self, planes: &Planes) -> Result<(), RenderError> {
+        let [width, height] = self.size;
         let source =
-            YUVSlices::new((&planes[0], &planes[1], &planes[2]), (width, self.size[1]), (width, width / 2, width / 2));
+            YUVSlices::new((&planes[0], &planes[1], &planes[2]), (width, height), (width, width / 2, width / 2));
         let bits = self.encoder.encode(&source).map_err(|e| RenderError::write(&self.path, e.to_string()))?;
         self.scratch.clear();
         bits.write_vec(&mut self.scratch);
         self.track.append(&self.scratch, &mut self.coded).map_err(|e| RenderError::write(&self.path, e))
     }
-
-    /// Writes the index and gives the file its name.
-    ///
-    /// # Errors
-    /// What the disk says.
-    pub fn finish(mut self) -> Result<(), RenderError> {
-        let Self { path, track, coded, .. } = &mut self;
-        write_whole(path, |file| Ok(track.finish(coded, file)?))
-    }
 }
 
 /// Studio-range Rec. 709 planes: luma of full size, the two colour differences averaged over 2 x 2 pixels.
-fn planes(frame: &Frame, [width, height]: [usize; 2], tone_mapping: &ToneMapping) -> [Vec<u8>; 3] {
+fn planes(frame: &Frame, [width, height]: [usize; 2], tone_mapping: &ToneMapping) -> Planes {
     let mut luma = vec![0; width * height];
     let mut blue = vec![0; width * height / 4];
     let mut red = vec![0; width * height / 4];

@@ -123,6 +123,11 @@ impl Row {
         })
     }
 
+    /// Whether nothing touches a tile of the row.
+    pub fn is_empty(&self, column: usize) -> bool {
+        self.starts[column] == self.starts[column + 1]
+    }
+
     /// Turns the counts in `starts` into places, brings the entries there and sorts those of each tile.
     fn sort(&mut self) {
         let mut sum = 0;

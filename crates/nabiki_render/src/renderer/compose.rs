@@ -40,6 +40,10 @@ impl Renderer {
                 let pieces = hair.tile(column);
                 let range = still.skin.tile(tile);
                 let pixels = &still.skin.pixels[range.clone()];
+                if pixels.is_empty() && hair.is_empty(column) {
+                    out.put(column, size[0], |_, y| (backdrop.behind([0.0; 4], row * TILE + y), NO_DEPTH, None));
+                    continue;
+                }
                 let light = |i: usize| skin_light.at(range.start + i, &pixels[i]);
                 let skin = (pixels, skin_visible.then_some(light));
                 let mut watch = LayerWatch {
