@@ -73,12 +73,13 @@ impl Refusal {
 }
 
 /// What settings were called in earlier versions, and what they are called now.
-const RENAMED: [(&str, &str); 5] = [
+const RENAMED: [(&str, &str); 6] = [
     ("hair.style.locks", "hair.style.clumps"),
     ("motion.friction_length", "motion.inertia_length_floor"),
     ("picture.video.fps", "motion.frame_rate"),
     ("picture.hair.color", "picture.hair.colour"),
     ("picture.head.color", "picture.head.colour"),
+    ("picture.tone", "picture.tone_mapping"),
 ];
 
 fn join<'a>(steps: impl Iterator<Item = &'a String>) -> String {
