@@ -8,13 +8,13 @@ use nabiki::Head;
 use nabiki::dynamics::{Dynamics, Motion, Reference, Simulation, Stepper};
 use nabiki::field::{Field, Keyframe};
 use nabiki::groom::{Style, groom};
-use nabiki::pores::{Hairline, spread};
 use nabiki::pseudo_force::PseudoForce;
+use nabiki::roots::{Hairline, spread};
 
 fn main() {
     let head = Head::builtin();
-    let pores = spread(&head, &Hairline::default(), 19_330, 1).expect("a hairline in range");
-    let hair = groom(&head, &pores, &Style::default(), 18, 1.0, 1).expect("a style in range");
+    let roots = spread(&head, &Hairline::default(), 19_330, 1).expect("a hairline in range");
+    let hair = groom(&head, &roots, &Style::default(), 18, 1.0, 1).expect("a style in range");
     let key = |through, vector| Keyframe { through, vector };
     let field = [key(50, Vec3::new(-100.0, 0.0, 0.0)), key(100, Vec3::new(-15.0, -150.0, 0.0))];
     println!("{:>18} {:>12} {:>12} {:>12} {:>12}", "pseudo-force", "median", "99 %", "99.9 %", "largest");

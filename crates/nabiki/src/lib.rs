@@ -22,9 +22,9 @@ pub mod groom;
 pub mod hair;
 pub mod head;
 pub mod mesh;
-pub mod pores;
 pub mod pose;
 pub mod pseudo_force;
+pub mod roots;
 pub mod strands;
 pub mod subset;
 

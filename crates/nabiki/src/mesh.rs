@@ -1,9 +1,14 @@
 //! Triangle meshes of heads and bodies.
 
-use glam::Vec3;
+mod outward;
+
+use std::collections::HashMap;
+
+use glam::{Vec2, Vec3};
 
 use crate::curves::checked_counts;
 use crate::error::Problem;
+pub use outward::Orientation;
 
 /// An indexed triangle mesh, counter-clockwise seen from outside (head space, cm, unless said otherwise).
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -12,6 +17,8 @@ pub struct Mesh {
     pub positions: Vec<Vec3>,
     /// Indices into `positions`, three for each triangle.
     pub triangles: Vec<[u32; 3]>,
+    /// Texture coordinates, one for each of `positions`; `None` where the source has none.
+    pub uvs: Option<Vec<Vec2>>,
 }
 
 impl Mesh {
@@ -44,6 +51,14 @@ impl Mesh {
         }
         self.positions.extend(positions);
         Ok(())
+    }
+
+    /// For each vertex the first one at the very same place: itself, but where a seam doubles vertices.
+    pub(crate) fn first_at_place(&self) -> Vec<u32> {
+        let mut first_at: HashMap<[u32; 3], u32> = HashMap::with_capacity(self.positions.len());
+        // Adding 0 turns -0 into +0, which lies at the same place.
+        let place = |p: &Vec3| (*p + 0.0).to_array().map(f32::to_bits);
+        self.positions.iter().enumerate().map(|(v, p)| *first_at.entry(place(p)).or_insert(v as u32)).collect()
     }
 
     /// Unit normals at the vertices: the mean of the adjoining triangles' normals, weighted by area.

@@ -13,6 +13,11 @@ pub fn open(args: &SceneArgs, strands: Option<usize>) -> Result<Take, Failure> {
     Ok(Take::new(scene(args, strands)?.build()?)?)
 }
 
+/// Reads the scene and builds it with `shown` of its strands, which move as they do in the whole.
+pub fn open_first(args: &SceneArgs, shown: usize) -> Result<Take, Failure> {
+    Ok(Take::new(scene(args, None)?.build_first(shown)?)?)
+}
+
 /// The scene with its overrides.
 pub fn scene(args: &SceneArgs, strands: Option<usize>) -> Result<Scene, Failure> {
     let mut overrides = Vec::new();

@@ -1,6 +1,7 @@
 //! A scene with everything in its place: the head, the hair, what moves them.
 
-use nabiki::{Hair, Head, SettingError, Strands, dynamics::Dynamics, groom::groom, pores, subset};
+use nabiki::groom::{Growth, grow};
+use nabiki::{Hair, Head, SettingError, dynamics::Dynamics, subset};
 
 use nabiki_io::{
     Error, Result,
@@ -26,8 +27,10 @@ pub struct Stage {
     pub placement: Placement,
     /// What the head's file held; `None` for the built-in head.
     pub mesh_report: Option<MeshReport>,
-    /// The hair at rest.
+    /// The hair at rest: all of it, or the strands that [`Scene::build_first`] was asked for.
     pub hair: Hair,
+    /// Strands of the whole.
+    pub whole: usize,
     /// How the hair's file lies in head space; `None` for hair grown here.
     pub hair_placement: Option<Placement>,
     /// What the hair's file held; `None` for hair grown here.
@@ -42,35 +45,47 @@ impl Scene {
     /// # Errors
     /// One line: file, thing, value and the way out.
     pub fn build(self) -> Result<Stage> {
-        self.build_with(hair::import)
+        self.build_with(hair::import, None)
+    }
+
+    /// The same of `shown` strands only, those that come first in the farthest-first order of the roots: to the bit as
+    /// they are in the whole.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build).
+    pub fn build_first(self, shown: usize) -> Result<Stage> {
+        self.build_with(hair::import, Some(shown))
     }
 
     /// The same, with a reader of hair files that may know more formats than this crate.
     pub fn build_with(
         self,
         import: impl Fn(&std::path::Path, &Placement, &hair::Cleaning) -> Result<(Hair, ImportReport)>,
+        shown: Option<usize>,
     ) -> Result<Stage> {
         let (head, placement, mesh_report) = load_head(&self)?;
         let dynamics = dynamics(&self, &head)?;
-        let (hair, hair_placement, import_report) = match &self.hair.file {
-            None => (grow(&self, &head)?.into(), None, None),
+        let (hair, whole, hair_placement, import_report) = match &self.hair.file {
+            None => {
+                let hair = grown(&self, &head, shown)?;
+                (hair, self.hair.strands.unwrap_or(HairSettings::STRANDS), None, None)
+            }
             Some(file) => {
                 let said = exchange::said(&self.resolve(file))?;
                 let placement = hair_placement(&self.hair, &placement, said);
                 placement.check("hair").map_err(|refused| self.refusal(refused))?;
                 let (hair, report) = import(&self.resolve(file), &placement, &self.hair.cleaning())?;
-                let chosen = match self.hair.strands {
-                    Some(count) if count < hair.strands.len() => choose(&hair, count),
-                    _ => hair,
-                };
+                let whole = hair.strands.len().min(self.hair.strands.unwrap_or(usize::MAX));
+                let count = shown.unwrap_or(whole).min(whole);
+                let chosen = if count < hair.strands.len() { choose(&hair, count) } else { hair };
                 let chosen = match self.hair.segments {
                     Some(segments) => cut_anew(&chosen, segments).map_err(|refused| self.refusal(refused))?,
                     None => chosen,
                 };
-                (chosen, Some(placement), Some(report))
+                (chosen, whole, Some(placement), Some(report))
             }
         };
-        Ok(Stage { scene: self, head, placement, mesh_report, hair, hair_placement, import_report, dynamics })
+        Ok(Stage { scene: self, head, placement, mesh_report, hair, whole, hair_placement, import_report, dynamics })
     }
 }
 
@@ -142,7 +157,7 @@ fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshReport>)> {
     if settings.is_builtin() {
         let head = match given {
             None => Head::builtin(),
-            Some(_) => Head::from_mesh(Head::builtin().mesh, given).map_err(|refused| scene.refusal(refused))?,
+            Some(given) => Head::builtin().with_ellipsoid(given).map_err(|refused| scene.refusal(refused))?,
         };
         return Ok((head, Placement::default(), None));
     }
@@ -183,13 +198,17 @@ fn hair_placement(settings: &HairSettings, head: &Placement, said: Said) -> Plac
     Placement { origin, ..unmoved }
 }
 
-fn grow(scene: &Scene, head: &Head) -> Result<Strands> {
+fn grown(scene: &Scene, head: &Head, shown: Option<usize>) -> Result<Hair> {
     let HairSettings { hairline, style, segments, segment_length, seed, .. } = &scene.hair;
-    let count = scene.hair.strands.unwrap_or(HairSettings::STRANDS);
-    let segments = segments.unwrap_or(HairSettings::SEGMENTS);
-    pores::spread(head, hairline, count, *seed)
-        .and_then(|pores| groom(head, &pores, style, segments, *segment_length, *seed))
-        .map_err(|refused| scene.refusal(refused))
+    let growth = Growth {
+        hairline,
+        style,
+        strands: scene.hair.strands.unwrap_or(HairSettings::STRANDS),
+        segments: segments.unwrap_or(HairSettings::SEGMENTS),
+        segment_length: *segment_length,
+        seed: *seed,
+    };
+    grow(head, &growth, shown.unwrap_or(growth.strands)).map_err(|refused| scene.refusal(refused))
 }
 
 /// The same strands in `segments` equally long segments each.

@@ -45,9 +45,16 @@ impl Take {
 
     /// The same with `count` strands chosen evenly over the scalp, which move exactly as they do in the whole.
     pub fn thinned(&self, count: usize) -> Self {
-        let roots: Vec<Vec3> = self.stage.hair.strands.iter().map(|strand| strand[0]).collect();
-        let mut chosen = subset::evenly(&roots, count);
-        chosen.sort_unstable();
+        let hair = &self.stage.hair;
+        let chosen: Vec<usize> = if self.stage.hair_placement.is_none() {
+            // Grown hair is in that order.
+            (0..count.min(hair.strands.len())).collect()
+        } else {
+            let roots: Vec<Vec3> = hair.strands.iter().map(|strand| strand[0]).collect();
+            let mut chosen = subset::evenly(&roots, count);
+            chosen.sort_unstable();
+            chosen
+        };
         let mut thinned = self.clone();
         thinned.stage.hair = self.stage.hair.select(&chosen);
         thinned.ids = chosen.iter().map(|&s| self.ids[s]).collect();

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::Vec3;
 use nabiki_scene::{
-    Scene, Stage,
+    Scene, Stage, Take,
     scene::{EllipsoidChoice, HairSettings},
 };
 
@@ -97,6 +97,18 @@ fn an_unknown_key_is_refused_with_the_nearest_known_one() {
     assert!(nothing_near.starts_with(beginning), "{nothing_near}");
     let deep = refused("strands = 100", "style.comb.swep = [1, 0, 0]");
     assert_eq!(deep, "scenes/gust.toml:2: hair.style.comb.swep: unknown key; did you mean hair.style.comb.sweep?");
+    // Its name until it became the field's word, which is spelled quite differently.
+    let old = refused("strands = 100", "style.locks.size = 1.0");
+    assert_eq!(old, "scenes/gust.toml:2: hair.style.locks: unknown key; did you mean hair.style.clumps?");
+}
+
+#[test]
+fn fewer_strands_than_the_scene_has_are_the_first_of_them() {
+    let whole = parse(GUST, &[]).unwrap().build().unwrap();
+    let first: Vec<usize> = (0..30).collect();
+    let some = parse(GUST, &[]).unwrap().build_first(30).unwrap();
+    assert_eq!((some.whole, some.hair), (100, whole.hair.select(&first)));
+    assert_eq!(Take::new(whole.clone()).unwrap().thinned(30).stage.hair, whole.hair.select(&first));
 }
 
 #[test]

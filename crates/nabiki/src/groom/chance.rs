@@ -4,13 +4,18 @@ use glam::{DVec3, IVec3, Vec3};
 
 /// The chance of one place, usually a root: the same numbers whatever other strands there are.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Chance(u64);
+pub(crate) struct Chance(u64);
 
 /// The finaliser of SplitMix64 (Steele, Lea and Flood, 2014).
-fn mix(z: u64) -> u64 {
+pub(crate) fn mix(z: u64) -> u64 {
     let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
     z ^ (z >> 31)
+}
+
+/// The upper bits of a hash as a number in [0, 1).
+pub(crate) fn unit(hash: u64) -> f64 {
+    (hash >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 fn hash(seed: u64, words: [u32; 3]) -> u64 {
@@ -33,7 +38,7 @@ impl Chance {
 
     /// Uniform in 0..1, one number a channel.
     pub(super) fn unit(self, channel: u64) -> f64 {
-        (mix(self.0.wrapping_add(channel.wrapping_mul(0xD134_2543_DE82_EF95))) >> 11) as f64 / (1u64 << 53) as f64
+        unit(mix(self.0.wrapping_add(channel.wrapping_mul(0xD134_2543_DE82_EF95))))
     }
 
     /// Bell-shaped (the sum of three uniform draws), mean 0, standard deviation 1, within -3..3.

@@ -5,7 +5,7 @@ use nabiki_render::Picture;
 use crate::args::Preview;
 use crate::failure::Failure;
 use crate::film::{Film, Simulated};
-use crate::opening::open;
+use crate::opening::open_first;
 use crate::place::Folders;
 use crate::reel::Reel;
 use crate::report::Report;
@@ -14,11 +14,10 @@ use crate::report::Report;
 const LONGER_SIDE: u32 = 480;
 
 pub fn preview(args: &Preview, quiet: bool) -> Result<(), Failure> {
-    let whole = open(&args.scene, None)?;
-    let take = whole.thinned(args.strands);
-    let [all, shown] = [&whole, &take].map(|take| take.stage.hair.strands.len() as f32);
+    let take = open_first(&args.scene, args.strands)?;
+    let (all, shown) = (take.stage.whole, take.stage.hair.strands.len());
     let scene = &take.stage.scene;
-    let picture = small(&scene.picture, all / shown);
+    let picture = small(&scene.picture, all as f32 / shown as f32);
     let mut folders = Folders::default();
     let mut reel = Reel::begin(&take, &picture, &args.out, &format!("{}_preview", scene.name()), &mut folders)?;
     let report = Report::new(&take, quiet);

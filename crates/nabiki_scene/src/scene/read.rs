@@ -99,7 +99,8 @@ impl de::Error for Refusal {
     }
 
     fn unknown_field(found: &str, known: &'static [&'static str]) -> Self {
-        let near = nearest(found, known.iter().copied()).map(str::to_owned);
+        let renamed = RENAMED.iter().find(|(old, new)| *old == found && known.contains(new)).map(|(_, new)| *new);
+        let near = renamed.or_else(|| nearest(found, known.iter().copied())).map(str::to_owned);
         Self { outward: vec![found.to_owned()], problem: Problem::UnknownKey { near, known } }
     }
 
@@ -111,6 +112,9 @@ impl de::Error for Refusal {
         Self::text("is given twice").below(name)
     }
 }
+
+/// Keys that had another name once, with the one they have now.
+const RENAMED: [(&str, &str); 1] = [("locks", "clumps")];
 
 /// Type names of the language as words of the user's.
 fn plain(wanted: &dyn Expected) -> String {

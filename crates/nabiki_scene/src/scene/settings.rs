@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use glam::Vec3;
-use nabiki::{Ellipsoid, SettingError, error::check_positive, groom::Style, pores::Hairline};
+use nabiki::{Ellipsoid, SettingError, error::check_positive, groom::Style, roots::Hairline};
 use serde::{Deserialize, Serialize};
 
 use nabiki_io::{
