@@ -10,8 +10,8 @@ use glam::{DVec3, Vec3};
 use nabiki::dynamics::{Dynamics, FrameInput, Motion, Reference, Simulation, Stepper};
 use nabiki::field::{Keyframe, KeyframedField};
 use nabiki::groom::{Style, groom};
-use nabiki::pores::{Hairline, spread};
 use nabiki::pseudo_force::PseudoForce;
+use nabiki::roots::{Hairline, spread};
 use nabiki::{Head, Pose, Strands};
 
 const HORIZONS: [u32; 3] = [100, 400, 800];
@@ -19,8 +19,8 @@ const HORIZONS: [u32; 3] = [100, 400, 800];
 fn main() {
     let strands = std::env::args().filter_map(|arg| arg.parse().ok()).next().unwrap_or(19_330);
     let head = Head::builtin();
-    let pores = spread(&head, &Hairline::default(), strands, 1).expect("a hairline in range");
-    let hair = groom(&head, &pores, &Style::default(), 18, 1.0, 1).expect("a style in range");
+    let roots = spread(&head, &Hairline::default(), strands, 1).expect("a hairline in range");
+    let hair = groom(&head, &roots, &Style::default(), 18, 1.0, 1).expect("a style in range");
     let key = |through, vector| Keyframe { through, vector };
     let field = [key(50, Vec3::new(-100.0, 0.0, 0.0)), key(100, Vec3::new(-15.0, -150.0, 0.0))];
     let field = KeyframedField::new(&field).expect("two keyframes");

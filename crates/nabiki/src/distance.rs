@@ -6,8 +6,10 @@
 //! sampled once: coarsely through a box about the head, and four times finer in the cells that the skin passes
 //! through or comes near. A reading is one trilinear interpolation; beyond the box the tree answers.
 
-mod rims;
+pub(crate) mod rims;
 mod tree;
+
+use std::sync::OnceLock;
 
 use glam::{IVec3, UVec3, Vec3};
 use rayon::prelude::*;
@@ -18,24 +20,39 @@ use tree::Tree;
 /// Fine steps along one coarse cell.
 const FINE: usize = 4;
 /// Fine samples along one edge of a block, both ends included.
-const EDGE: usize = FINE + 1;
+pub(crate) const EDGE: usize = FINE + 1;
 /// Share by which a distance far from the skin may come out too large.
 const SLACK: f32 = 0.05;
 /// Marks a coarse cell without a fine block.
-const COARSE: u32 = u32::MAX;
+pub(crate) const COARSE: u32 = u32::MAX;
 
 /// Signed distance to a surface, negative inside, in the mesh's unit.
 #[derive(Clone, Debug)]
 pub struct SkinDistance {
-    tree: Tree,
-    low: Vec3,
-    cell: f32,
-    nodes: UVec3,
+    /// Made when it is first asked, of samples that are there without it.
+    tree: OnceLock<Tree>,
+    /// What it is made of then.
+    mesh: Mesh,
+    samples: Samples,
+}
+
+/// Signed distance at the nodes of two grids, one four times finer near the skin.
+#[derive(Clone, Debug)]
+pub(crate) struct Samples {
+    /// The first node.
+    pub low: Vec3,
+    /// Edge of a coarse cell.
+    pub cell: f32,
+    /// Coarse nodes along each axis.
+    pub nodes: UVec3,
+    /// Whether they stand for their mirror images at z < 0, too.
+    pub mirrored: bool,
     /// Distance at the coarse nodes, x fastest.
-    coarse: Vec<f32>,
+    pub coarse: Vec<f32>,
     /// For each coarse cell its block in `fine`, or [`COARSE`].
-    block_of: Vec<u32>,
-    fine: Vec<[f32; EDGE * EDGE * EDGE]>,
+    pub block_of: Vec<u32>,
+    /// The blocks, x fastest.
+    pub fine: Vec<[f32; EDGE * EDGE * EDGE]>,
 }
 
 impl SkinDistance {
@@ -130,35 +147,52 @@ impl SkinDistance {
                 block
             })
             .collect();
-        Self { tree, low, cell, nodes, coarse, block_of, fine }
+        let samples = Samples { low, cell, nodes, mirrored: false, coarse, block_of, fine };
+        Self { tree: OnceLock::from(tree), mesh: Mesh::default(), samples }
+    }
+
+    /// The distance to `mesh`, where it was sampled before.
+    pub(crate) fn from_samples(mesh: &Mesh, samples: Samples) -> Self {
+        Self { tree: OnceLock::new(), mesh: mesh.clone(), samples }
+    }
+
+    /// Signed distance at `p`, without sampling: about a hundred times dearer than [`at`](Self::at).
+    pub fn exact(&self, p: Vec3) -> f32 {
+        self.tree().signed(p)
+    }
+
+    fn tree(&self) -> &Tree {
+        self.tree.get_or_init(|| Tree::new(&rims::closed(&self.mesh)))
     }
 
     /// Signed distance at `p`. Within two fine steps h of the skin it is that of the mesh but for the interpolation's
     /// error, h^2 / 8 times the sum of the curvatures; farther off it may be too large by a twentieth; beyond the
     /// sampled box it is exact, and about a hundred times dearer.
     pub fn at(&self, p: Vec3) -> f32 {
-        let q = (p - self.low) / self.cell;
-        let cells = (self.nodes - 1).as_ivec3();
+        let Samples { low, cell, nodes, mirrored, coarse, block_of, fine } = &self.samples;
+        let p = if *mirrored { p.with_z(p.z.abs()) } else { p };
+        let q = (p - low) / cell;
+        let cells = (nodes - 1).as_ivec3();
         let c = q.floor().as_ivec3();
         if !(q.is_finite() && c.cmpge(IVec3::ZERO).all() && c.cmplt(cells).all()) {
-            return self.tree.signed(p);
+            return self.exact(p);
         }
         let (c, t) = (c.as_uvec3(), q - c.as_vec3());
         let (i, j, k) = (c.x as usize, c.y as usize, c.z as usize);
-        let block = self.block_of[(k * cells.y as usize + j) * cells.x as usize + i];
+        let block = block_of[(k * cells.y as usize + j) * cells.x as usize + i];
         if block == COARSE {
-            let (nx, ny) = (self.nodes.x as usize, self.nodes.y as usize);
-            return trilinear(&self.coarse, (k * ny + j) * nx + i, nx, nx * ny, t);
+            let (nx, ny) = (nodes.x as usize, nodes.y as usize);
+            return trilinear(coarse, (k * ny + j) * nx + i, nx, nx * ny, t);
         }
         let t = t * FINE as f32;
         let f = t.floor().min(Vec3::splat((FINE - 1) as f32));
         let (i, j, k) = (f.x as usize, f.y as usize, f.z as usize);
-        trilinear(&self.fine[block as usize], (k * EDGE + j) * EDGE + i, EDGE, EDGE * EDGE, t - f)
+        trilinear(&fine[block as usize], (k * EDGE + j) * EDGE + i, EDGE, EDGE * EDGE, t - f)
     }
 
     /// The gradient at `p` by central differences over one fine step: of unit length but for the sampling.
     pub fn gradient(&self, p: Vec3) -> Vec3 {
-        let h = 0.5 * self.cell / FINE as f32;
+        let h = 0.5 * self.samples.cell / FINE as f32;
         let along = |e: Vec3| self.at(p + e) - self.at(p - e);
         Vec3::new(along(Vec3::X * h), along(Vec3::Y * h), along(Vec3::Z * h)) / (2.0 * h)
     }

@@ -1,6 +1,8 @@
 //! The head ellipsoid E of the paper (section 3.1) and the ellipsoids similar to it.
 
-use glam::Vec3;
+use std::f32::consts::{PI, TAU};
+
+use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{SettingError, check_positive};
@@ -33,6 +35,14 @@ impl Ellipsoid {
     /// D(p) = grad E(p), the outward normal direction, not of unit length.
     pub fn gradient(&self, p: Vec3) -> Vec3 {
         2.0 * (p - self.center) / (self.half_axes * self.half_axes)
+    }
+
+    /// Longitude and latitude as texture coordinates, each in 0..1: (1/2, 1/2) where the face looks (+x), u growing
+    /// toward +z with its seam at the back, v from the bottom to the top. For a point off the surface, those of the
+    /// similar ellipsoid through it.
+    pub fn uv(&self, p: Vec3) -> Vec2 {
+        let q = ((p - self.center) / self.half_axes).normalize_or(Vec3::Y);
+        Vec2::new(0.5 + q.z.atan2(q.x) / TAU, 0.5 + q.y.clamp(-1.0, 1.0).asin() / PI)
     }
 
     /// The similar ellipsoid about the same centre: C of the paper, for a `factor` above 1.

@@ -1,13 +1,13 @@
-//! The hairstyle: how a strand leaves its pore, bends, lies on the head, hangs and is cut (method section 4).
+//! The hairstyle: how a strand leaves its root, bends, lies on the head, hangs and is cut (method section 4).
 //!
-//! Every strand is styled alone, from its pore, the style and the seed: any subset of pores, in any order, gives the
+//! Every strand is styled alone, from its root, the style and the seed: any subset of roots, in any order, gives the
 //! same strands to the bit, as does any number of threads.
 
-mod chance;
-mod course;
+pub(crate) mod chance;
 mod cut;
 mod drape;
 mod ears;
+mod strand_style;
 
 pub mod cantilever;
 pub mod style;
@@ -17,15 +17,63 @@ use rayon::prelude::*;
 pub use style::Style;
 
 use crate::error::check_positive;
-use crate::pores::Pore;
-use crate::{Head, SettingError, Strands};
+use crate::hair::Attributes;
+use crate::roots::Root;
+use crate::roots::{self, Hairline};
+use crate::{Hair, Head, SettingError, Strands};
 use drape::{Draping, Ground};
 use ears::EarHills;
+use style::Region;
 
 /// Strands styled by one task.
 const STRANDS_A_TASK: usize = 64;
 
-/// Styles one strand a pore, in the order of the pores: nodes from root to tip (head space, cm).
+/// So many strands, first of the farthest-first order of the roots, are guides: whatever number of them is grown.
+pub const GUIDES: usize = 256;
+
+/// Everything that decides which hair grows on a head.
+#[derive(Clone, Copy, Debug)]
+pub struct Growth<'a> {
+    /// Where it grows.
+    pub hairline: &'a Hairline,
+    /// How it is styled.
+    pub style: &'a Style,
+    /// Strands of the whole.
+    pub strands: usize,
+    /// Most segments of a strand.
+    pub segments: usize,
+    /// Longest segment (cm).
+    pub segment_length: f32,
+    /// Seed of all that is random.
+    pub seed: u64,
+}
+
+/// Grows the first `shown` strands of the whole (all of them if it has no more), in the farthest-first order of their
+/// roots: to the bit those of the whole, but only they cost time.
+///
+/// They carry what grooms are expected to have: as `id` the number in that order, which does not depend on how many are
+/// shown; `root_uv`; as `group` the region of the style ([`Region::ALL`]) with its name; and the first [`GUIDES`] are
+/// marked as guides.
+///
+/// # Errors
+/// If a setting is out of its range, or the hairline leaves nothing of the scalp.
+pub fn grow(head: &Head, growth: &Growth<'_>, shown: usize) -> Result<Hair, SettingError> {
+    let &Growth { hairline, style, strands, segments, segment_length, seed } = growth;
+    let roots = roots::spread_first(head, hairline, strands, shown, seed)?;
+    let strands = groom(head, &roots, style, segments, segment_length, seed)?;
+    let group = |root: &Root| strand_style::region(head, style, root, seed) as i32;
+    let attributes = Attributes {
+        id: Some((0..roots.len() as i64).collect()),
+        root_uv: Some(roots.iter().map(|root| root.uv.to_array()).collect()),
+        group: Some(roots.iter().map(group).collect()),
+        group_names: Region::ALL.iter().map(|&region| (region as i32, region.name().to_owned())).collect(),
+        guide: Some((0..roots.len()).map(|strand| strand < GUIDES).collect()),
+        ..Attributes::default()
+    };
+    Ok(Hair { strands, attributes })
+}
+
+/// Styles one strand a root, in the order of the roots: nodes from root to tip (head space, cm).
 ///
 /// A strand of length L is made of the fewest equal segments that are not longer than `segment_length` (cm), so at
 /// most `segments` of them: the style may ask for no length beyond `segments` x `segment_length`.
@@ -34,7 +82,7 @@ const STRANDS_A_TASK: usize = 64;
 /// If a setting is out of its range, or a length is greater than that.
 pub fn groom(
     head: &Head,
-    pores: &[Pore],
+    roots: &[Root],
     style: &Style,
     segments: usize,
     segment_length: f32,
@@ -60,23 +108,23 @@ pub fn groom(
         ears: ears.as_ref(),
         volume: style.volume,
         lever_arms: style.lever_arms,
-        wave_length: f64::from(style.locks.wave_length),
+        wave_length: f64::from(style.clumps.wave_length),
         segment: f64::from(segment_length),
     };
-    let parts: Vec<Strands> = pores
+    let parts: Vec<Strands> = roots
         .par_chunks(STRANDS_A_TASK)
-        .map_init(Draping::default, |draping, pores| {
-            let mut strands = Strands::with_capacity(pores.len(), pores.len() * (segments + 1));
-            for pore in pores {
-                let course = course::course(head, style, pore, seed);
-                cut::drape_and_cut(&ground, &style.cuts, &course, draping);
+        .map_init(Draping::default, |draping, roots| {
+            let mut strands = Strands::with_capacity(roots.len(), roots.len() * (segments + 1));
+            for root in roots {
+                let styled = strand_style::strand_style(head, style, root, seed);
+                cut::drape_and_cut(&ground, &style.cuts, &styled, draping);
                 strands.push(draping.nodes.iter().map(|p| p.as_vec3()));
             }
             strands
         })
         .collect();
     let points = parts.iter().map(|part| part.points().len()).sum();
-    let mut strands = Strands::with_capacity(pores.len(), points);
+    let mut strands = Strands::with_capacity(roots.len(), points);
     for strand in parts.iter().flat_map(Strands::iter) {
         strands.push(strand.iter().copied());
     }

@@ -3,9 +3,13 @@
 mod bust;
 mod fit;
 
+use std::fmt::Display;
+
 use glam::Vec3;
 
 use crate::distance::SkinDistance;
+use crate::mesh::Orientation;
+use crate::strands::bounds;
 use crate::{Ellipsoid, Mesh, SettingError};
 
 /// A head (and what of neck and shoulders comes with it) in head space, cm.
@@ -15,29 +19,53 @@ pub struct Head {
     pub mesh: Mesh,
     /// E: lies on the part of the head where hair grows, not on the face.
     pub ellipsoid: Ellipsoid,
+    /// How the triangles lay in the mesh that it was made of.
+    pub orientation: Orientation,
     skin: SkinDistance,
 }
 
 impl Head {
-    /// The project's own bust, made in code: head, neck and shoulders of a calm adult, eyes closed, no hair.
+    /// The project's own bust: head, neck and shoulders of a calm adult, eyes closed, no hair. The same on every
+    /// machine, and on both sides of z = 0, to the bit.
     pub fn builtin() -> Self {
-        Self::assemble(bust::mesh(), bust::ELLIPSOID)
+        let (mesh, skin) = bust::read(bust::BAKED);
+        let orientation = Orientation { turned: 0, open_edges: 0, has_inside: true };
+        Self { mesh, ellipsoid: bust::ELLIPSOID, orientation, skin }
+    }
+
+    /// The same head with another ellipsoid.
+    ///
+    /// # Errors
+    /// If it is not an ellipsoid.
+    pub fn with_ellipsoid(self, ellipsoid: Ellipsoid) -> Result<Self, SettingError> {
+        check_ellipsoid(&ellipsoid)?;
+        Ok(Self { ellipsoid, ..self })
     }
 
     /// Any head from its mesh, face toward +x. Without an `ellipsoid`, E is fitted to the skull above the ears and
     /// behind the face, whatever the size of the head and where the origin lies.
     ///
+    /// Triangles that face inward are turned ([`Mesh::turn_outward`]), and [`orientation`](Self::orientation) says how
+    /// many.
+    ///
     /// # Errors
-    /// If there are no triangles, an index names no vertex, a coordinate is not finite, E is not an ellipsoid, or
-    /// nothing like a skull is found at the top of the mesh.
-    pub fn from_mesh(mesh: Mesh, ellipsoid: Option<Ellipsoid>) -> Result<Self, SettingError> {
+    /// If there are no triangles, an index names no vertex, a coordinate is not finite, E is not an ellipsoid, nothing
+    /// like a skull is found at the top of the mesh, or it is a sheet that encloses nothing. The refused thing is then
+    /// `head.mesh` or a part of `head.ellipsoid`, the value says what of it: naming the file is left to the caller.
+    pub fn from_mesh(mut mesh: Mesh, ellipsoid: Option<Ellipsoid>) -> Result<Self, SettingError> {
         check_mesh(&mesh)?;
+        let orientation = mesh.turn_outward();
         let ellipsoid = match ellipsoid {
             Some(given) => given,
             None => fit::scalp(&mesh)?,
         };
         check_ellipsoid(&ellipsoid)?;
-        Ok(Self::assemble(mesh, ellipsoid))
+        if !orientation.has_inside {
+            let remedy = "encloses no space, so nothing can be told to be inside it: give a head that is closed, or \
+                          open only where it is cut off";
+            return Err(refused_mesh(&mesh, "a sheet", remedy));
+        }
+        Ok(Self::assemble(mesh, ellipsoid, orientation))
     }
 
     /// The ellipsoid E that [`from_mesh`](Self::from_mesh) would fit to this mesh.
@@ -46,12 +74,13 @@ impl Head {
     /// As there.
     pub fn fit(mesh: &Mesh) -> Result<Ellipsoid, SettingError> {
         check_mesh(mesh)?;
-        fit::scalp(mesh)
+        let mut mesh = mesh.clone();
+        mesh.turn_outward();
+        fit::scalp(&mesh)
     }
 
-    fn assemble(mesh: Mesh, ellipsoid: Ellipsoid) -> Self {
-        let low = mesh.positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
-        let high = mesh.positions.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+    fn assemble(mesh: Mesh, ellipsoid: Ellipsoid, orientation: Orientation) -> Self {
+        let [low, high] = bounds(&mesh.positions);
         // Hair is met near the skin; of a whole body only what is within its reach is sampled.
         let spacing = ellipsoid.half_axes.min_element() / 24.0;
         let reach = 4.0 * ellipsoid.half_axes.max_element();
@@ -59,12 +88,17 @@ impl Head {
         let low = (low - margin).max(ellipsoid.center - reach);
         let high = (high + margin).min(ellipsoid.center + reach);
         let skin = SkinDistance::new(&mesh, low, high, spacing);
-        Self { mesh, ellipsoid, skin }
+        Self { mesh, ellipsoid, orientation, skin }
     }
 
     /// Signed distance from `p` to the skin (cm), negative inside. Open rims of the mesh count as closed.
     pub fn distance(&self, p: Vec3) -> f32 {
         self.skin.at(p)
+    }
+
+    /// The same, not read from samples but from the mesh: about a hundred times dearer.
+    pub fn exact_distance(&self, p: Vec3) -> f32 {
+        self.skin.exact(p)
     }
 
     /// Whether `p` lies inside the skin.
@@ -76,6 +110,21 @@ impl Head {
     pub fn outward(&self, p: Vec3) -> Vec3 {
         self.skin.gradient(p).try_normalize().unwrap_or_else(|| self.ellipsoid.gradient(p).normalize_or(Vec3::Y))
     }
+}
+
+/// Mesh and distance of a bust as `nabiki_bust` writes it; anything else may panic.
+#[doc(hidden)]
+pub fn read_bust(baked: &[u8]) -> (Mesh, SkinDistance) {
+    bust::read(baked)
+}
+
+/// `what` is wrong with a mesh: its size tells a wrong unit, its extent along each axis a wrong axis up.
+fn refused_mesh(mesh: &Mesh, what: impl Display, remedy: &str) -> SettingError {
+    let [low, high] = bounds(&mesh.positions);
+    let size = high - low;
+    let triangles = mesh.triangles.len();
+    let value = format!("{what}, {triangles} triangles, {:.3} x {:.3} x {:.3} cm", size.x, size.y, size.z);
+    SettingError::new("head.mesh", value, remedy)
 }
 
 fn check_mesh(mesh: &Mesh) -> Result<(), SettingError> {

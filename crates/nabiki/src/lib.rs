@@ -20,10 +20,10 @@ pub mod groom;
 pub mod hair;
 pub mod head;
 pub mod mesh;
-pub mod pores;
 pub mod pose;
 pub mod pseudo_force;
 mod random;
+pub mod roots;
 pub mod strands;
 pub mod subset;
 

@@ -1,6 +1,12 @@
 //! Triangle meshes of heads and bodies.
 
-use glam::Vec3;
+mod outward;
+
+use std::collections::HashMap;
+
+use glam::{Vec2, Vec3};
+
+pub use outward::Orientation;
 
 /// An indexed triangle mesh, counter-clockwise seen from outside (head space, cm, unless said otherwise).
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -9,9 +15,19 @@ pub struct Mesh {
     pub positions: Vec<Vec3>,
     /// Indices into `positions`, three for each triangle.
     pub triangles: Vec<[u32; 3]>,
+    /// Texture coordinates, one for each of `positions`; `None` where the source has none.
+    pub uvs: Option<Vec<Vec2>>,
 }
 
 impl Mesh {
+    /// For each vertex the first one at the very same place: itself, but where a seam doubles vertices.
+    pub(crate) fn first_at_place(&self) -> Vec<u32> {
+        let mut first_at: HashMap<[u32; 3], u32> = HashMap::with_capacity(self.positions.len());
+        // Adding 0 turns -0 into +0, which lies at the same place.
+        let place = |p: &Vec3| (*p + 0.0).to_array().map(f32::to_bits);
+        self.positions.iter().enumerate().map(|(v, p)| *first_at.entry(place(p)).or_insert(v as u32)).collect()
+    }
+
     /// Unit normals at the vertices: the mean of the adjoining triangles' normals, weighted by area.
     /// A vertex without any gets +y.
     pub fn vertex_normals(&self) -> Vec<Vec3> {

@@ -16,6 +16,11 @@ pub(crate) fn finalise(z: u64) -> u64 {
     z ^ (z >> 31)
 }
 
+/// The upper bits of a random number as one in [0, 1).
+pub(crate) fn unit(random: u64) -> f64 {
+    (random >> 11) as f64 / (1_u64 << 53) as f64
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

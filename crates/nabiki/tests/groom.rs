@@ -2,11 +2,12 @@
 
 use std::sync::LazyLock;
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use nabiki::groom::cantilever::{Beam, Hold, Workspace};
 use nabiki::groom::style::{Cut, Length, LeverArms, Lift, Region, Stiffness};
-use nabiki::groom::{Style, groom};
-use nabiki::pores::{Hairline, Pore, spread};
+use nabiki::groom::{GUIDES, Growth, Style, groom, grow};
+use nabiki::hair::Attributes;
+use nabiki::roots::{Hairline, Root, spread};
 use nabiki::{Head, Strands};
 use proptest::prelude::*;
 use serde::Deserialize;
@@ -35,7 +36,7 @@ const SCENES: [(&str, &str); 3] = [
 struct Styled {
     name: &'static str,
     hair: Hair,
-    pores: Vec<Pore>,
+    roots: Vec<Root>,
     strands: Strands,
 }
 
@@ -44,16 +45,16 @@ static HEAD: LazyLock<Head> = LazyLock::new(Head::builtin);
 static STYLES: LazyLock<Vec<Styled>> = LazyLock::new(|| {
     let styled = |(name, text)| {
         let hair = toml::from_str::<Scene>(text).unwrap_or_else(|e| panic!("{name}: {e}")).hair;
-        let pores = spread(&HEAD, &hair.hairline, 1500, 5).unwrap();
-        let strands = groom(&HEAD, &pores, &hair.style, hair.segments, hair.segment_length, 5).unwrap();
-        Styled { name, hair, pores, strands }
+        let roots = spread(&HEAD, &hair.hairline, 1500, 5).unwrap();
+        let strands = groom(&HEAD, &roots, &hair.style, hair.segments, hair.segment_length, 5).unwrap();
+        Styled { name, hair, roots, strands }
     };
     SCENES.into_iter().map(styled).collect()
 });
 
 impl Styled {
-    fn groom(&self, pores: &[Pore], seed: u64) -> Strands {
-        groom(&HEAD, pores, &self.hair.style, self.hair.segments, self.hair.segment_length, seed).unwrap()
+    fn groom(&self, roots: &[Root], seed: u64) -> Strands {
+        groom(&HEAD, roots, &self.hair.style, self.hair.segments, self.hair.segment_length, seed).unwrap()
     }
 }
 
@@ -61,18 +62,18 @@ fn style_named(name: &str) -> &'static Styled {
     STYLES.iter().find(|styled| styled.name == name).unwrap()
 }
 
-/// A style without chance, without locks and without a comb: hair leaves along the normal and falls.
+/// A style without chance, without clumps and without a comb: hair leaves along the normal and falls.
 fn plain() -> Style {
     let mut style =
         Style { lift_degrees: Lift { top: 90.0, sides: 90.0, back: 90.0, fringe: 90.0 }, ..Style::default() };
     (style.comb.away, style.parting.wobble) = (0.0, 0.0);
-    let (variation, locks) = (&mut style.variation, &mut style.locks);
+    let (variation, clumps) = (&mut style.variation, &mut style.clumps);
     (variation.length, variation.stiffness, variation.direction_degrees, variation.cut) = (0.0, 0.0, 0.0, 0.0);
-    (locks.gather, locks.direction_degrees, locks.wave) = (0.0, 0.0, 0.0);
+    (clumps.gather, clumps.direction_degrees, clumps.wave) = (0.0, 0.0, 0.0);
     style
 }
 
-/// A node keeps `volume.gap` from the skin as the distance is sampled; the roots lie on the skin, as the pores do.
+/// A node keeps `volume.gap` from the skin as the distance is sampled; the roots lie on the skin, as the roots do.
 /// So do the middles of segments. Rounding a node to f32 moves it by less than 2e-6 cm, its distance by no more.
 #[test]
 fn no_node_lies_inside_the_head() {
@@ -107,11 +108,11 @@ fn segments_of_a_strand_are_equal_to_rounding_and_no_longer_than_asked() {
 }
 
 #[test]
-fn strand_by_strand_they_start_at_their_pores() {
-    for Styled { name, pores, strands, .. } in STYLES.iter() {
-        assert_eq!(strands.len(), pores.len());
-        for (strand, pore) in strands.iter().zip(pores) {
-            assert_eq!(strand[0], pore.position, "{name}");
+fn strand_by_strand_they_start_at_their_roots() {
+    for Styled { name, roots, strands, .. } in STYLES.iter() {
+        assert_eq!(strands.len(), roots.len());
+        for (strand, root) in strands.iter().zip(roots) {
+            assert_eq!(strand[0], root.position, "{name}");
         }
     }
 }
@@ -120,14 +121,57 @@ fn strand_by_strand_they_start_at_their_pores() {
 fn same_seed_same_bits_for_any_threads_and_any_subset() {
     for styled in STYLES.iter() {
         let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-        let again = alone.install(|| styled.groom(&styled.pores, 5));
+        let again = alone.install(|| styled.groom(&styled.roots, 5));
         assert_eq!(styled.strands, again, "{}", styled.name);
 
-        let chosen: Vec<usize> = (0..styled.pores.len()).rev().step_by(7).collect();
-        let some: Vec<Pore> = chosen.iter().map(|&i| styled.pores[i]).collect();
+        let chosen: Vec<usize> = (0..styled.roots.len()).rev().step_by(7).collect();
+        let some: Vec<Root> = chosen.iter().map(|&i| styled.roots[i]).collect();
         assert_eq!(styled.strands.select(&chosen), styled.groom(&some, 5), "{}", styled.name);
 
-        assert_ne!(styled.strands, styled.groom(&styled.pores, 6), "{}: the seed changes nothing", styled.name);
+        assert_ne!(styled.strands, styled.groom(&styled.roots, 6), "{}: the seed changes nothing", styled.name);
+    }
+}
+
+#[test]
+fn the_first_strands_of_the_whole_grow_alone_to_the_bit() {
+    for Styled { name, hair, .. } in STYLES.iter() {
+        let Hair { segments, segment_length, hairline, style } = hair;
+        let growth =
+            Growth { hairline, style, strands: 1200, segments: *segments, segment_length: *segment_length, seed: 9 };
+        let whole = grow(&HEAD, &growth, 1200).unwrap();
+        for shown in [0, 1, 300, 1200] {
+            let first: Vec<usize> = (0..shown).collect();
+            assert_eq!(grow(&HEAD, &growth, shown).unwrap(), whole.select(&first), "{name}: {shown} of 1200");
+        }
+        assert_eq!(grow(&HEAD, &growth, 5000).unwrap(), whole, "{name}: there are no more than all");
+    }
+}
+
+#[test]
+fn grown_hair_carries_what_grooms_carry() {
+    let bob = style_named("bob");
+    let Hair { segments, segment_length, hairline, style } = &bob.hair;
+    let growth =
+        Growth { hairline, style, strands: 1500, segments: *segments, segment_length: *segment_length, seed: 5 };
+    let hair = grow(&HEAD, &growth, 1500).unwrap();
+    hair.check_lengths().unwrap();
+    let Attributes { id, root_uv, group, group_names, guide, .. } = hair.attributes;
+    assert_eq!(id.unwrap(), (0..1500).collect::<Vec<i64>>());
+    let guide = guide.unwrap();
+    assert!(guide[..GUIDES].iter().all(|&guide| guide) && !guide[GUIDES..].iter().any(|&guide| guide));
+    for ((strand, uv), group) in hair.strands.iter().zip(root_uv.unwrap()).zip(group.unwrap()) {
+        assert!(uv.iter().all(|share| (0.0..=1.0).contains(share)), "{uv:?}");
+        // u is 1/2 at the front and runs toward +z.
+        assert_eq!(uv[0] > 0.5, strand[0].z > 0.0, "{uv:?} at {}", strand[0]);
+        let in_fringe = strand[0].z.abs() < style.fringe.half_width && strand[0].x > style.fringe.from;
+        match group_names[&group].as_str() {
+            "top" => assert!(strand[0].y > 0.45 * 11.0, "{}", strand[0]),
+            "sides" => assert!(strand[0].x > -0.3 * 9.5, "{}", strand[0]),
+            "back" => assert!(strand[0].x < 0.1 * 9.5, "{}", strand[0]),
+            "fringe" => {}
+            other => panic!("{other}"),
+        }
+        assert!(!in_fringe || group_names[&group] == "fringe", "{}", strand[0]);
     }
 }
 
@@ -149,12 +193,12 @@ fn hair_is_finite_and_within_its_length_of_the_root() {
 fn a_strand_off_the_head_is_the_cantilever() {
     let style = plain();
     for normal in [Vec3::X, Vec3::new(0.6, 0.8, 0.0), Vec3::new(0.0, -0.6, 0.8)] {
-        let pore = Pore { position: Vec3::new(60.0, 40.0, -50.0), normal };
-        let strands = groom(&HEAD, &[pore], &style, 18, 1.0, 1).unwrap();
+        let root = Root { position: Vec3::new(60.0, 40.0, -50.0), normal, uv: Vec2::ZERO };
+        let strands = groom(&HEAD, &[root], &style, 18, 1.0, 1).unwrap();
         let beam = Beam { stiffness: 8.0, segment: 1.0, clamp: normal.as_dvec3().normalize(), hold: Hold::Clamped };
         let mut directions = Vec::new();
         beam.settle(&[DVec3::NEG_Y; 18], 1e-12, false, &mut directions, &mut Workspace::default());
-        let mut p = pore.position.as_dvec3();
+        let mut p = root.position.as_dvec3();
         for (i, direction) in directions.iter().enumerate() {
             p += *direction;
             assert!((p - strands.strand(0)[i + 1].as_dvec3()).length() < 1e-3, "node {} from {normal}", i + 1);
@@ -168,8 +212,8 @@ fn a_cut_takes_off_what_lies_beyond_its_plane() {
     let mut style = plain();
     let (point, normal) = (Vec3::new(0.0, -4.0, 0.0), Vec3::new(0.0, -2.0, 0.5));
     style.cuts.push(Cut { point, normal, region: None, shortest: 2.5 });
-    let pores = &style_named("gust").pores;
-    let strands = groom(&HEAD, pores, &style, 18, 1.0, 1).unwrap();
+    let roots = &style_named("gust").roots;
+    let strands = groom(&HEAD, roots, &style, 18, 1.0, 1).unwrap();
     let (mut ends_there, mut short) = (0, 0);
     for strand in strands.iter() {
         let length: f32 = strand.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
@@ -186,8 +230,8 @@ fn a_cut_takes_off_what_lies_beyond_its_plane() {
     assert!(short < strands.len() / 4, "{short} strands are left short");
 
     style.cuts[0].region = Some(Region::Fringe);
-    let uncut = groom(&HEAD, pores, &style, 18, 1.0, 1).unwrap();
-    assert_eq!(uncut.segment_count(), 18 * pores.len(), "a cut of the fringe cut something else");
+    let uncut = groom(&HEAD, roots, &style, 18, 1.0, 1).unwrap();
+    assert_eq!(uncut.segment_count(), 18 * roots.len(), "a cut of the fringe cut something else");
 }
 
 #[test]
@@ -196,7 +240,7 @@ fn a_strand_has_the_fewest_segments_not_longer_than_asked() {
     for (length, segment, expected) in [(18.0, 1.0, 18), (17.3, 1.0, 18), (6.0, 0.5, 12), (0.7, 1.0, 1), (0.3, 0.1, 3)]
     {
         style.length = Length { top: length, sides: length, back: length, fringe: length };
-        let strands = groom(&HEAD, &style_named("gust").pores[..40], &style, 18, segment, 1).unwrap();
+        let strands = groom(&HEAD, &style_named("gust").roots[..40], &style, 18, segment, 1).unwrap();
         for strand in strands.iter() {
             assert_eq!(strand.len() - 1, expected, "{length} cm in segments of {segment} cm");
         }
@@ -258,7 +302,7 @@ fn what_cannot_be_styled_is_refused_by_its_key() {
         ("comb = { sweep = [0.0, nan, 0.0] }", "hair.style.comb.sweep (y)"),
         ("volume = { thickness = -1.0 }", "hair.style.volume.thickness"),
         ("variation = { length = 1.0 }", "hair.style.variation.length"),
-        ("locks = { wave = 4.0, wave_length = 8.0 }", "hair.style.locks.wave"),
+        ("clumps = { wave = 4.0, wave_length = 8.0 }", "hair.style.clumps.wave"),
         ("cuts = [{ point = [0, 0, 0], normal = [0, 0, 0] }]", "hair.style.cuts[0].normal"),
         ("length = { top = 18.5 }", "hair.style.length.top"),
     ];
@@ -292,12 +336,12 @@ proptest! {
         (style.comb.away, style.comb.sweep, style.comb.decay) = (away, Vec3::from(sweep), decay);
         style.fringe.half_width = 4.0;
         style.volume.thickness = thickness;
-        style.locks.wave = wave * style.locks.wave_length;
+        style.clumps.wave = wave * style.clumps.wave_length;
         style.variation.direction_degrees = direction;
         style.lever_arms = if straight { LeverArms::Straight } else { LeverArms::Deformed };
         style.cuts.push(Cut { point: Vec3::Y * level, normal: Vec3::NEG_Y, region: None, shortest: 1.0 });
-        let pores = &style_named("gust").pores[..40];
-        let strands = groom(&HEAD, pores, &style, 200, segment, 3).unwrap();
+        let roots = &style_named("gust").roots[..40];
+        let strands = groom(&HEAD, roots, &style, 200, segment, 3).unwrap();
         for strand in strands.iter() {
             let d = strand[0].distance(strand[1]);
             for pair in strand.windows(2) {

@@ -54,7 +54,8 @@ fn fits(path: &Path, unit: &str, groups: &[&str]) {
 fn asks_for_an_ellipsoid(path: &Path, unit: &str) {
     let mesh = import(path, unit, &[]);
     let refused = Head::from_mesh(mesh.clone(), None).unwrap_err().to_string();
-    assert_eq!(refused, "head.ellipsoid = fit: found no skull: give center and half_axes", "{}", path.display());
+    assert!(refused.starts_with("head.mesh = no skull, "), "{}: {refused}", path.display());
+    assert!(refused.contains("or give head.ellipsoid"), "{}: {refused}", path.display());
     let low = mesh.positions.iter().copied().reduce(Vec3::min).unwrap();
     let high = mesh.positions.iter().copied().reduce(Vec3::max).unwrap();
     let ellipsoid = Ellipsoid { center: 0.5 * (low + high), half_axes: 0.5 * (high - low) };

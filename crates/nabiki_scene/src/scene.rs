@@ -304,5 +304,11 @@ impl Scene {
 }
 
 fn file_error(path: &Path, what: String) -> SceneError {
-    SceneError { file: path.to_owned(), line: None, set: None, key: String::new(), problem: Box::new(Problem::File(what)) }
+    SceneError {
+        file: path.to_owned(),
+        line: None,
+        set: None,
+        key: String::new(),
+        problem: Box::new(Problem::File(what)),
+    }
 }

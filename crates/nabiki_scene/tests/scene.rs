@@ -97,10 +97,26 @@ fn an_unknown_key_is_refused_with_the_nearest_known_one() {
     let beginning = "scenes/gust.toml:6: motion.quality: unknown key; the keys here are frames, frame_rate, time_step";
     assert!(nothing_near.starts_with(beginning), "{nothing_near}");
     let renamed = refused("time_step = ", "friction_length = ");
-    let now = "scenes/gust.toml:6: motion.friction_length: is now called motion.inertia_length_floor";
+    let now = "scenes/gust.toml:6: motion.friction_length: is now called motion.inertia_length_floor: rename it";
     assert_eq!(renamed, now);
     let deep = refused("strands = 100", "style.comb.swep = [1, 0, 0]");
     assert_eq!(deep, "scenes/gust.toml:2: hair.style.comb.swep: unknown key; did you mean hair.style.comb.sweep?");
+    // Its name until it became the field's word, which is spelled quite differently.
+    let old = refused("strands = 100", "style.locks.size = 1.0");
+    assert_eq!(old, "scenes/gust.toml:2: hair.style.locks: is now called hair.style.clumps: rename it");
+}
+
+#[test]
+fn fewer_strands_than_the_scene_has_are_the_first_of_them() {
+    let build = |shown| parse(GUST, &[]).unwrap().build(shown);
+    let whole = build(Shown::All).unwrap();
+    let first: Vec<usize> = (0..30).collect();
+    for shown in [Shown::First(30), Shown::AtMost(30)] {
+        let some = build(shown).unwrap();
+        assert_eq!((some.strands_of_scene, some.hair), (100, whole.hair.select(&first)));
+    }
+    assert_eq!(build(Shown::AtMost(200)).unwrap().hair, whole.hair);
+    assert!(build(Shown::First(200)).unwrap_err().to_string().contains("the scene has 100"));
 }
 
 #[test]

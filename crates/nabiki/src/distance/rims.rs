@@ -8,20 +8,14 @@ use crate::Mesh;
 
 /// The mesh with doubled vertices joined (those at the very same place, as texture seams leave them) and a fan of
 /// triangles from the middle of each open rim.
-pub(super) fn closed(mesh: &Mesh) -> Mesh {
-    let mut first_at: HashMap<[u32; 3], u32> = HashMap::with_capacity(mesh.positions.len());
-    let joined: Vec<u32> = mesh
-        .positions
-        .iter()
-        .enumerate()
-        // Adding 0 turns -0 into +0, which lies at the same place.
-        .map(|(v, p)| *first_at.entry((*p + 0.0).to_array().map(f32::to_bits)).or_insert(v as u32))
-        .collect();
+pub(crate) fn closed(mesh: &Mesh) -> Mesh {
+    let joined = mesh.first_at_place();
     let mut closed = Mesh {
         positions: mesh.positions.clone(),
         triangles: (mesh.triangles.iter().map(|t| t.map(|v| joined[v as usize])))
             .filter(|[a, b, c]| a != b && b != c && c != a)
             .collect(),
+        uvs: None,
     };
 
     let mut balance: HashMap<(u32, u32), i32> = HashMap::with_capacity(closed.triangles.len() * 2);

@@ -25,7 +25,7 @@ const STEEPEST_START: f64 = 0.5;
 /// What holds the near end of a beam.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hold {
-    /// A pore: the first joint is half a segment from the clamp, so it turns by half its curvature.
+    /// A root: the first joint is half a segment from the clamp, so it turns by half its curvature.
     Clamped,
     /// An earlier segment of the same strand: a joint like any other.
     Continued,
@@ -38,7 +38,7 @@ pub struct Beam {
     pub stiffness: f64,
     /// Length d of every segment (cm).
     pub segment: f64,
-    /// a0 of the first segment: the direction of the pore or of the segment before (unit vector).
+    /// a0 of the first segment: the direction of the root or of the segment before (unit vector).
     pub clamp: DVec3,
     /// What holds it.
     pub hold: Hold,

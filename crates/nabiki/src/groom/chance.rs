@@ -2,21 +2,15 @@
 
 use glam::{DVec3, IVec3, Vec3};
 
+use crate::random::{GOLDEN_GAMMA, finalise, unit};
+
 /// The chance of one place, usually a root: the same numbers whatever other strands there are.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Chance(u64);
-
-/// The finaliser of SplitMix64 (Steele, Lea and Flood, 2014).
-fn mix(z: u64) -> u64 {
-    let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^ (z >> 31)
-}
+pub(crate) struct Chance(u64);
 
 fn hash(seed: u64, words: [u32; 3]) -> u64 {
-    words.iter().fold(mix(seed ^ 0x9E37_79B9_7F4A_7C15), |h, &word| {
-        mix(h.wrapping_add(0x9E37_79B9_7F4A_7C15) ^ (u64::from(word) << 17))
-    })
+    let word = |h: u64, &word: &u32| finalise(h.wrapping_add(GOLDEN_GAMMA) ^ (u64::from(word) << 17));
+    words.iter().fold(finalise(seed ^ GOLDEN_GAMMA), word)
 }
 
 impl Chance {
@@ -33,7 +27,7 @@ impl Chance {
 
     /// Uniform in 0..1, one number a channel.
     pub(super) fn unit(self, channel: u64) -> f64 {
-        (mix(self.0.wrapping_add(channel.wrapping_mul(0xD134_2543_DE82_EF95))) >> 11) as f64 / (1u64 << 53) as f64
+        unit(finalise(self.0.wrapping_add(channel.wrapping_mul(0xD134_2543_DE82_EF95))))
     }
 
     /// Bell-shaped (the sum of three uniform draws), mean 0, standard deviation 1, within -3..3.

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::course::Course;
 use super::drape::{Draping, Ground};
+use super::strand_style::StrandStyle;
 use super::style::Cut;
 
 /// A strand is cut anew this many times at most, since what is left, being lighter, hangs differently.
@@ -12,15 +12,15 @@ const TRIMS: usize = 6;
 const NEAR: f64 = 0.01;
 
 /// How far `p` lies beyond the plane, on the side that is cut off (cm).
-fn beyond(cut: &Cut, course: &Course, p: DVec3) -> f64 {
-    (p - cut.point.as_dvec3()).dot(cut.normal.as_dvec3().normalize()) - course.cut_offset
+fn beyond(cut: &Cut, styled: &StrandStyle, p: DVec3) -> f64 {
+    (p - cut.point.as_dvec3()).dot(cut.normal.as_dvec3().normalize()) - styled.cut_offset
 }
 
 /// Arc length at which the nodes first pass the plane.
-fn crossing(cut: &Cut, course: &Course, nodes: &[DVec3]) -> Option<f64> {
+fn crossing(cut: &Cut, styled: &StrandStyle, nodes: &[DVec3]) -> Option<f64> {
     let mut s = 0.0;
     for pair in nodes.windows(2) {
-        let (a, b) = (beyond(cut, course, pair[0]), beyond(cut, course, pair[1]));
+        let (a, b) = (beyond(cut, styled, pair[0]), beyond(cut, styled, pair[1]));
         let d = pair[0].distance(pair[1]);
         if a > 0.0 {
             return Some(s);
@@ -34,18 +34,18 @@ fn crossing(cut: &Cut, course: &Course, nodes: &[DVec3]) -> Option<f64> {
 }
 
 /// Drapes a strand, cutting it wherever a plane that concerns it says so.
-pub(super) fn drape_and_cut(ground: &Ground<'_>, cuts: &[Cut], course: &Course, draping: &mut Draping) {
-    let mut length = course.length;
-    ground.drape(course, length, draping);
-    for cut in cuts.iter().filter(|cut| cut.region.is_none_or(|region| region == course.region)) {
-        let Some(at) = crossing(cut, course, &draping.nodes) else { continue };
+pub(super) fn drape_and_cut(ground: &Ground<'_>, cuts: &[Cut], styled: &StrandStyle, draping: &mut Draping) {
+    let mut length = styled.length;
+    ground.drape(styled, length, draping);
+    for cut in cuts.iter().filter(|cut| cut.region.is_none_or(|region| region == styled.region)) {
+        let Some(at) = crossing(cut, styled, &draping.nodes) else { continue };
         // The tip passes the plane at `long`, and not at `short`, if at any length that is allowed.
         let (mut short, mut long) = (f64::from(cut.shortest).min(length), length);
         length = at.max(short);
         for trim in 0.. {
-            ground.drape(course, length, draping);
+            ground.drape(styled, length, draping);
             let [.., before, tip] = draping.nodes[..] else { break };
-            let left = beyond(cut, course, tip);
+            let left = beyond(cut, styled, tip);
             if left.abs() < NEAR || length <= short {
                 break;
             }
@@ -56,7 +56,7 @@ pub(super) fn drape_and_cut(ground: &Ground<'_>, cuts: &[Cut], course: &Course, 
                 continue;
             }
             // Per cm of hair the tip moves on by about the last segment's direction.
-            let rate = (left - beyond(cut, course, before)) / before.distance(tip);
+            let rate = (left - beyond(cut, styled, before)) / before.distance(tip);
             length -= left / rate.max(0.3);
             if !(short..long).contains(&length) {
                 length = 0.5 * (short + long);

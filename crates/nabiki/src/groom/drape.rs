@@ -7,8 +7,8 @@
 use glam::DVec3;
 
 use super::cantilever::{Beam, Hold, Workspace};
-use super::course::Course;
 use super::ears::EarHills;
+use super::strand_style::StrandStyle;
 use super::style::{LeverArms, Volume};
 use crate::Head;
 
@@ -60,26 +60,26 @@ pub(super) struct Ground<'a> {
 }
 
 impl Ground<'_> {
-    /// Distance to the skin that hair keeps at arc length `s`: none at the pore, then the more the farther up the
+    /// Distance to the skin that hair keeps at arc length `s`: none at the root, then the more the farther up the
     /// strand comes from, so that upper hair lies over lower hair.
-    fn clearance(&self, course: &Course, s: f64) -> f64 {
-        let layers = f64::from(self.volume.thickness) * course.depth;
+    fn clearance(&self, styled: &StrandStyle, s: f64) -> f64 {
+        let layers = f64::from(self.volume.thickness) * styled.depth;
         let gap = f64::from(self.volume.gap);
         gap + layers * (1.0 - (-s / f64::from(self.volume.reach)).exp())
     }
 
     /// What the segment from `p` that ends at `s` keeps. It rises toward that by no more than `RISE`.
-    fn keep(&self, course: &Course, over_ears: Option<f64>, p: DVec3, s: f64, d: f64) -> Keep {
+    fn keep(&self, styled: &StrandStyle, over_ears: Option<f64>, p: DVec3, s: f64, d: f64) -> Keep {
         let here = self.distance(p).max(0.0);
-        let end = self.clearance(course, s).min((here + RISE * d).max(f64::from(self.volume.gap)));
+        let end = self.clearance(styled, s).min((here + RISE * d).max(f64::from(self.volume.gap)));
         // The first segment starts on the skin.
         let halfway = if s < 1.5 * d { 0.0 } else { 0.7 * here.min(end) };
         Keep { end, halfway, over_ears }
     }
 
     /// How far above the hills over the ears a strand stays: none, if it is rooted under one.
-    fn over_ears(&self, course: &Course) -> Option<f64> {
-        let root = self.ears?.above(course.root);
+    fn over_ears(&self, styled: &StrandStyle) -> Option<f64> {
+        let root = self.ears?.above(styled.root);
         (root > -ON_HILL).then_some(root.min(0.0))
     }
 
@@ -148,33 +148,33 @@ impl Ground<'_> {
     }
 
     /// Lays out a strand of `length` (cm) in equal segments: its nodes end up in `draping.nodes`.
-    pub(super) fn drape(&self, course: &Course, length: f64, draping: &mut Draping) {
+    pub(super) fn drape(&self, styled: &StrandStyle, length: f64, draping: &mut Draping) {
         let Draping { nodes, directions, loads, free, beam: workspace } = draping;
         let k = segments(length, self.segment);
         let d = length / k as f64;
         loads.clear();
-        loads.extend((0..k).map(|j| course.load((j as f64 + 0.5) * d)));
+        loads.extend((0..k).map(|j| styled.load((j as f64 + 0.5) * d)));
         nodes.clear();
-        nodes.push(course.root);
+        nodes.push(styled.root);
         directions.clear();
 
-        let over_ears = self.over_ears(course);
-        let mut beam = Beam { stiffness: course.bend.powi(3), segment: d, clamp: course.clamp, hold: Hold::Clamped };
+        let over_ears = self.over_ears(styled);
+        let mut beam = Beam { stiffness: styled.bend.powi(3), segment: d, clamp: styled.clamp, hold: Hold::Clamped };
         // The free piece starts at this segment.
         let mut from = 0;
         self.hang(&beam, loads, false, free, workspace);
-        let (mut p, mut lies, mut touched) = (course.root, false, false);
+        let (mut p, mut lies, mut touched) = (styled.root, false, false);
         for i in 0..k {
             let s = (i + 1) as f64 * d;
-            let wave = wave_at(course, self.wave_length, s - 0.5 * d);
-            let keep = self.keep(course, over_ears, p, s, d);
+            let wave = wave_at(styled, self.wave_length, s - 0.5 * d);
+            let keep = self.keep(styled, over_ears, p, s, d);
             let hanging = (free[i - from] + wave).normalize();
             let taken = if self.spare(p, hanging * d, &keep) >= 0.0 {
                 lies = false;
                 hanging
             } else {
                 // Lying hair carries about as much as hangs over one length of its stiffness: kappa = |w_perp| / bend.
-                let along = if lies { beam.clamp + loads[i] * (d / course.bend) } else { free[i - from] };
+                let along = if lies { beam.clamp + loads[i] * (d / styled.bend) } else { free[i - from] };
                 let along = (along.try_normalize().unwrap_or(beam.clamp) + wave).normalize();
                 let along = self.turned_onto(p, along, d, &keep);
                 lies = true;
@@ -197,14 +197,21 @@ impl Ground<'_> {
         }
         if touched {
             for _ in 0..ROUNDINGS {
-                self.round(course, over_ears, d, directions, nodes);
+                self.round(styled, over_ears, d, directions, nodes);
             }
         }
     }
 
     /// Rounds the bends of a strand that lies on something, as its own stiffness and the hair around it do: over an
     /// ear it lifts off above and comes down below. Nodes still keep their clearance.
-    fn round(&self, course: &Course, over_ears: Option<f64>, d: f64, directions: &mut [DVec3], nodes: &mut [DVec3]) {
+    fn round(
+        &self,
+        styled: &StrandStyle,
+        over_ears: Option<f64>,
+        d: f64,
+        directions: &mut [DVec3],
+        nodes: &mut [DVec3],
+    ) {
         let mut before = directions[0];
         for i in 1..directions.len() {
             let t = directions[i];
@@ -214,7 +221,7 @@ impl Ground<'_> {
         }
         for (i, t) in directions.iter_mut().enumerate().skip(1) {
             let (p, s) = (nodes[i], (i + 1) as f64 * d);
-            let keep = self.keep(course, over_ears, p, s, d);
+            let keep = self.keep(styled, over_ears, p, s, d);
             if self.spare(p, *t * d, &keep) < 0.0 {
                 *t = self.turned_onto(p, *t, d, &keep);
             }
@@ -238,7 +245,7 @@ pub(super) fn segments(length: f64, longest: f64) -> usize {
     ((length / longest - 1e-5).ceil() as usize).max(1)
 }
 
-fn wave_at(course: &Course, wave_length: f64, s: f64) -> DVec3 {
+fn wave_at(styled: &StrandStyle, wave_length: f64, s: f64) -> DVec3 {
     let turns = std::f64::consts::TAU * s / wave_length;
-    course.wave * ((turns + course.wave_phase).cos() * (s / wave_length).min(1.0))
+    styled.wave * ((turns + styled.wave_phase).cos() * (s / wave_length).min(1.0))
 }

@@ -30,7 +30,7 @@ pub struct Style {
     /// How much the strands differ.
     pub variation: Variation,
     /// How strands keep together.
-    pub locks: Locks,
+    pub clumps: Clumps,
     /// Planes beyond which hair is cut off, in any number.
     pub cuts: Vec<Cut>,
     /// Which lever arms bend a strand that hangs free (default "deformed").
@@ -49,6 +49,21 @@ pub enum Region {
     Back,
     /// What [`Fringe`] says.
     Fringe,
+}
+
+impl Region {
+    /// All of them; a region's place here is its number as a group of strands.
+    pub const ALL: [Self; 4] = [Self::Top, Self::Sides, Self::Back, Self::Fringe];
+
+    /// Its name in scenes and as a group of strands.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Top => "top",
+            Self::Sides => "sides",
+            Self::Back => "back",
+            Self::Fringe => "fringe",
+        }
+    }
 }
 
 macro_rules! by_region {
@@ -109,7 +124,7 @@ pub struct Parting {
     pub front: Vec2,
     /// Its end at the crown, (x, z) (cm, default (-4, 0)).
     pub crown: Vec2,
-    /// How far it strays from the straight line, locks and single strands alike: what grows nearer falls to either
+    /// How far it strays from the straight line, clumps and single strands alike: what grows nearer falls to either
     /// side, which keeps the line from being bare (cm, default 0.3).
     pub wobble: f32,
 }
@@ -203,15 +218,15 @@ impl Default for Variation {
     }
 }
 
-/// Locks: neighbours that fall together, and wave together.
+/// Clumps: neighbours that fall together, and wave together.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Locks {
-    /// Width of a lock at the scalp (cm, default 1.2).
+pub struct Clumps {
+    /// Width of a clump at the scalp (cm, default 1.2).
     pub size: f32,
     /// How far its tips draw together: 0 not at all, 1 to a point (default 0.4).
     pub gather: f32,
-    /// Deviation of a lock's direction as a whole (degrees, default 2).
+    /// Deviation of a clump's direction as a whole (degrees, default 2).
     pub direction_degrees: f32,
     /// Height of its waves (cm, default 0.1).
     pub wave: f32,
@@ -219,7 +234,7 @@ pub struct Locks {
     pub wave_length: f32,
 }
 
-impl Default for Locks {
+impl Default for Clumps {
     fn default() -> Self {
         Self { size: 1.2, gather: 0.4, direction_degrees: 2.0, wave: 0.1, wave_length: 8.0 }
     }
@@ -296,12 +311,12 @@ impl Style {
         range("variation.direction_degrees", self.variation.direction_degrees, 0.0, 45.0)?;
         range("variation.strays", self.variation.strays, 0.0, 1.0)?;
         range("variation.cut", self.variation.cut, 0.0, 10.0)?;
-        check_positive("hair.style.locks.size", self.locks.size)?;
-        range("locks.gather", self.locks.gather, 0.0, 1.0)?;
-        range("locks.direction_degrees", self.locks.direction_degrees, 0.0, 45.0)?;
-        check_positive("hair.style.locks.wave_length", self.locks.wave_length)?;
+        check_positive("hair.style.clumps.size", self.clumps.size)?;
+        range("clumps.gather", self.clumps.gather, 0.0, 1.0)?;
+        range("clumps.direction_degrees", self.clumps.direction_degrees, 0.0, 45.0)?;
+        check_positive("hair.style.clumps.wave_length", self.clumps.wave_length)?;
         // Steeper than this a wave would turn hair back on itself.
-        range("locks.wave", self.locks.wave, 0.0, 0.16 * self.locks.wave_length)?;
+        range("clumps.wave", self.clumps.wave, 0.0, 0.16 * self.clumps.wave_length)?;
         for (i, cut) in self.cuts.iter().enumerate() {
             let key = |field: &str| format!("hair.style.cuts[{i}].{field}");
             if !cut.point.is_finite() {

@@ -24,11 +24,14 @@ struct Sample {
 
 /// The ellipsoid through the scalp of a mesh that [`super::check_mesh`] accepts (the mesh's unit).
 pub(super) fn scalp(mesh: &Mesh) -> Result<Ellipsoid, SettingError> {
-    let none = || SettingError::new("head.ellipsoid", "fit", "found no skull: give center and half_axes");
+    let none = || {
+        let remedy = "found no skull at its top (+y): mend head.unit, head.up or head.groups, or give head.ellipsoid";
+        super::refused_mesh(mesh, "no skull", remedy)
+    };
     let samples = samples(mesh);
     let mut guess = first_guess(mesh).ok_or_else(none)?;
     for pass in 0..PASSES {
-        // The net is drawn in from 20 % of the size to 6 %, which leaves hardly more than the scalp's own shape.
+        // The net is drawn in from 30 % of the mean half axis to 20 %.
         let tolerance = (0.3 * 0.85_f64.powi(pass as i32)).max(0.2);
         guess = refit(&samples, &guess, tolerance).ok_or_else(none)?;
     }

@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 use nabiki::dynamics::{Dynamics, straightened};
-use nabiki::{Hair, Head, SettingError, Strands, groom::groom, pores, subset};
+use nabiki::groom::{Growth, grow};
+use nabiki::{Hair, Head, SettingError, subset};
 use nabiki_io::{
     DeclaredSpace, exchange,
     hair::{self, ImportReport},
@@ -56,7 +57,7 @@ fn load_hair(scene: &Scene, head: &Head, head_placement: &Placement, shown: Show
     match &scene.hair.source {
         HairSource::Grown(settings) => {
             let count = shown.of(settings.strands)?;
-            let hair = grow(scene, settings, head, count)?.into();
+            let hair = grown(scene, settings, head, count)?;
             let ids = (0..count as u32).collect();
             Ok(Loaded { hair, ids, of_scene: settings.strands, placement: None, report: None })
         }
@@ -125,7 +126,7 @@ pub(super) fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshRe
     let HeadSource::Imported(imported) = &settings.source else {
         let head = match given {
             None => Head::builtin(),
-            Some(_) => Head::from_mesh(Head::builtin().mesh, given).map_err(|refused| scene.refusal(refused))?,
+            Some(given) => Head::builtin().with_ellipsoid(given).map_err(|refused| scene.refusal(refused))?,
         };
         return Ok((head, Placement::default(), None));
     };
@@ -166,11 +167,17 @@ fn hair_placement(settings: &ImportedHair, head: &Placement, declared: DeclaredS
 }
 
 /// The first `count` strands of the scene's.
-fn grow(scene: &Scene, settings: &GrownHair, head: &Head, count: usize) -> Result<Strands> {
+fn grown(scene: &Scene, settings: &GrownHair, head: &Head, count: usize) -> Result<Hair> {
     let GrownHair { strands, segments, seed, hairline, style } = settings;
-    pores::spread(head, hairline, *strands, *seed)
-        .and_then(|pores| groom(head, &pores[..count], style, *segments, scene.hair.segment_length, *seed))
-        .map_err(|refused| scene.refusal(refused).into())
+    let growth = Growth {
+        hairline,
+        style,
+        strands: *strands,
+        segments: *segments,
+        segment_length: scene.hair.segment_length,
+        seed: *seed,
+    };
+    grow(head, &growth, count).map_err(|refused| scene.refusal(refused).into())
 }
 
 /// The same strands in `segments` equally long segments each.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use glam::Vec3;
-use nabiki::{SettingError, error::check_positive, groom::Style, pores::Hairline};
+use nabiki::{SettingError, error::check_positive, groom::Style, roots::Hairline};
 use nabiki_io::Axis;
 use nabiki_io::Unit;
 use nabiki_io::hair::Cleaning;

@@ -2,10 +2,10 @@
 
 use glam::Vec3;
 
-use super::shapes::{capsule, ellipsoid, join, swell};
+use crate::shapes::{capsule, ellipsoid, join, swell};
 
 /// Joins the shoulders to the neck.
-pub(super) fn add(p: Vec3, skin: f32) -> f32 {
+pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
     if p.y > -8.0 {
         return skin;
     }
@@ -21,7 +21,7 @@ pub(super) fn add(p: Vec3, skin: f32) -> f32 {
 }
 
 /// Cuts the bust off below along a bowl, rim rounded.
-pub(super) fn cut_off(p: Vec3, skin: f32) -> f32 {
+pub(crate) fn cut_off(p: Vec3, skin: f32) -> f32 {
     if p.y > -16.0 {
         return skin;
     }

@@ -2,10 +2,10 @@
 
 use glam::{Quat, Vec3};
 
-use super::shapes::{capsule, ellipsoid, join, swell, turned_ellipsoid};
+use crate::shapes::{capsule, ellipsoid, join, swell, turned_ellipsoid};
 
 /// Joins the face to the skull.
-pub(super) fn add(p: Vec3, skin: f32) -> f32 {
+pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
     if p.x < -6.0 || p.y < -16.0 {
         return skin;
     }

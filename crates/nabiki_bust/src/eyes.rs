@@ -2,13 +2,13 @@
 
 use glam::{Quat, Vec3};
 
-use super::shapes::{chain, join, ridge, swell, turned_ellipsoid};
+use crate::shapes::{chain, join, ridge, swell, turned_ellipsoid};
 
 /// Middle of the eyeball.
 const EYE: Vec3 = Vec3::new(7.1, -0.8, 3.15);
 
 /// Sinks the sockets, sets the lidded eyes into them and raises the brows.
-pub(super) fn add(p: Vec3, skin: f32) -> f32 {
+pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
     if p.x < 2.0 || p.y.abs() > 6.0 {
         return skin;
     }

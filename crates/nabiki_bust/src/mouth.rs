@@ -2,10 +2,10 @@
 
 use glam::Vec3;
 
-use super::shapes::{chain, join, ridge, swell};
+use crate::shapes::{chain, join, ridge, swell};
 
 /// Joins the lips to the face and parts them with a line.
-pub(super) fn add(p: Vec3, skin: f32) -> f32 {
+pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
     if p.x < 5.0 || p.y > -4.0 || p.y < -11.0 {
         return skin;
     }

@@ -2,10 +2,10 @@
 
 use glam::Vec3;
 
-use super::shapes::{capsule, carve, ellipsoid, join, swell};
+use crate::shapes::{capsule, carve, ellipsoid, join, swell};
 
 /// Joins the nose to the face.
-pub(super) fn add(p: Vec3, skin: f32) -> f32 {
+pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
     if p.x < 5.0 || p.y > 4.0 || p.y < -9.0 {
         return skin;
     }

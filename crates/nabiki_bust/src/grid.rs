@@ -1,14 +1,13 @@
-//! Meshing of the bust's field: surface nets on a grid, then Newton steps onto the zero set.
+//! Meshing of the bust's field: one vertex a cell of a grid, as surface nets have it (Gibson, 1998), then Newton steps
+//! onto the zero set.
 //!
 //! The grid's planes stand close together where the face and the ears are and wider elsewhere, which keeps the mesh
 //! in one piece. Blocks of it that the skin cannot reach are filled without looking at each node.
 
-use fast_surface_nets::ndshape::RuntimeShape;
-use fast_surface_nets::{SurfaceNetsBuffer, surface_nets};
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::Mesh;
+use crate::layout::{self, POSITION, Quantised};
 
 /// Stretches of an axis: from the first number on (cm), the second is the step (cm). The last ends the axis.
 type Axis = &'static [(f32, f32)];
@@ -33,7 +32,7 @@ const ALONG_Y: Axis = &[
     (2.9, 0.4),
     (12.4, 0.0),
 ];
-/// From the middle outward, on both sides.
+/// From the middle outward; the first plane lies as far from the middle as its mirror image.
 const ALONG_Z: Axis = &[(0.09, 0.18), (5.4, 0.26), (10.0, 0.5), (20.6, 0.0)];
 /// Nodes along a block's edge.
 const BLOCK: usize = 8;
@@ -50,25 +49,53 @@ fn planes(axis: Axis) -> Vec<f32> {
     planes
 }
 
-pub(super) fn mesh(field: &(impl Fn(Vec3) -> f32 + Sync)) -> Mesh {
-    let (xs, ys, right) = (planes(ALONG_X), planes(ALONG_Y), planes(ALONG_Z));
-    let zs: Vec<f32> = right.iter().rev().map(|z| -z).chain(right.iter().copied()).collect();
+/// Cuts the bust out of the grid: planes, nodes inside, and a vertex on the skin in each cell that it passes.
+pub(crate) fn cut(field: &(impl Fn(Vec3) -> f32 + Sync)) -> Quantised {
+    let quantised = |axis| planes(axis).into_iter().map(quantum).collect();
+    let planes: [Vec<i32>; 3] = [ALONG_X, ALONG_Y, ALONG_Z].map(quantised);
+    let [xs, ys, zs] =
+        planes.each_ref().map(|planes| planes.iter().map(|&i| i as f32 * POSITION).collect::<Vec<f32>>());
     let samples = sample(field, &xs, &ys, &zs);
-    let shape = RuntimeShape::<u32, 3>::new([xs.len() as u32, ys.len() as u32, zs.len() as u32]);
-    let mut net = SurfaceNetsBuffer::default();
-    let last = [xs.len() as u32 - 1, ys.len() as u32 - 1, zs.len() as u32 - 1];
-    surface_nets(&samples, &shape, [0; 3], last, &mut net);
-    let between = |planes: &[f32], at: f32| {
-        let i = (at as usize).min(planes.len() - 2);
-        planes[i] + (planes[i + 1] - planes[i]) * (at - i as f32)
+    let inside: Vec<bool> = samples.iter().map(|&value| value < 0.0).collect();
+    let counts = [xs.len(), ys.len(), zs.len()];
+    let at_border = |at: usize| {
+        let [i, j, k] = layout::place(at, counts);
+        i == 0 || j == 0 || i + 1 == xs.len() || j + 1 == ys.len() || k + 1 == zs.len()
     };
-    let positions = net
-        .positions
-        .par_iter()
-        .map(|&[x, y, z]| onto_skin(field, Vec3::new(between(&xs, x), between(&ys, y), between(&zs, z))))
+    assert!(!(0..inside.len()).any(|at| inside[at] && at_border(at)), "the grid ends within the bust");
+    let vertices = layout::skin_cells(counts, &inside)
+        .into_par_iter()
+        .map(|[i, j, layer]| {
+            let corner = |c: usize| {
+                let (i, j) = (i + (c & 1), j + (c >> 1 & 1));
+                // The innermost layer lies between the first plane and its mirror image.
+                let (k, side) =
+                    if layer == 0 { (0, if c < 4 { -1.0 } else { 1.0 }) } else { (layer - 1 + (c >> 2), 1.0) };
+                (Vec3::new(xs[i], ys[j], side * zs[k]), samples[(k * ys.len() + j) * xs.len() + i])
+            };
+            onto_skin(field, middle_of_crossings(&std::array::from_fn(corner))).to_array().map(quantum)
+        })
         .collect();
-    let triangles = net.indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
-    Mesh { positions, triangles }
+    Quantised { planes, inside, vertices, ..Quantised::default() }
+}
+
+fn quantum(cm: f32) -> i32 {
+    (cm / POSITION).round() as i32
+}
+
+/// The mean of the places where the edges of a cell, from its eight corners with the field there, pass the skin.
+fn middle_of_crossings(corners: &[(Vec3, f32); 8]) -> Vec3 {
+    let (mut sum, mut count) = (Vec3::ZERO, 0.0);
+    for from in 0..8 {
+        for to in [1, 2, 4].map(|axis| from | axis).into_iter().filter(|&to| to != from) {
+            let ((p, a), (q, b)) = (corners[from], corners[to]);
+            if (a < 0.0) != (b < 0.0) {
+                sum += p.lerp(q, a / (a - b));
+                count += 1.0;
+            }
+        }
+    }
+    sum / count
 }
 
 /// The field at every node, x fastest; where a block is out of the skin's reach, its middle stands for all of it.

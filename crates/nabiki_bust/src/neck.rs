@@ -2,10 +2,10 @@
 
 use glam::Vec3;
 
-use super::shapes::{capsule, join, swell};
+use crate::shapes::{capsule, join, swell};
 
 /// Joins the neck to the head.
-pub(super) fn add(p: Vec3, skin: f32) -> f32 {
+pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
     if p.y > 3.0 {
         return skin;
     }

@@ -1,70 +1,94 @@
-//! Pores: where hair grows out of the scalp (the paper, section 3.1).
+//! Roots: where hair grows out of the scalp; the paper's pores (section 3.1).
 //!
-//! The paper sets the pores on the head ellipsoid E, which stands for the scalp. A real scalp differs from E by some
-//! millimetres, and a root beside the skin shows; so the pores are set on the skin itself: outside E where the skin
-//! stands outside, inside where it lies inside. E says which part of the skin is scalp. The pores are blue noise, and
+//! The paper sets them on the head ellipsoid E, which stands for the scalp. A real scalp differs from E by some
+//! millimetres, and a root beside the skin shows; so the roots are set on the skin itself: outside E where the skin
+//! stands outside, inside where it lies inside. E says which part of the skin is scalp. The roots are blue noise, and
 //! in an order whose every beginning is blue noise too: the first 300 of 20,000 are a preview of them.
 
 mod hairline;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
+use crate::random::{GOLDEN_GAMMA, finalise, unit};
 use crate::subset::farthest_first;
 use crate::{Head, SettingError};
 
 pub use hairline::Hairline;
 
-/// One pore: the root of a strand.
+/// The root of a strand.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pore {
+pub struct Root {
     /// On the skin (head space, cm).
     pub position: Vec3,
     /// Outward normal of the skin there, of unit length.
     pub normal: Vec3,
+    /// Texture coordinates of the skin there: the mesh's own, else [`Ellipsoid::uv`](crate::Ellipsoid::uv) of E.
+    pub uv: Vec2,
 }
 
-/// Candidates for each pore asked for: with more the spacing gains little, with fewer it shows.
+/// Candidates for each root asked for: with more the spacing gains little, with fewer it shows.
 const CANDIDATES: usize = 5;
 /// Places drawn at most for each candidate kept; a hairline that keeps less leaves no scalp to speak of.
 const TRIES: u64 = 64;
 
-/// Spreads `count` pores evenly within `hairline`; the same `seed` gives the same pores to the bit.
+/// A triangle smaller than this (mean half axes of E) bears no hair where none of its corners does.
+const LARGE: f32 = 0.1;
+/// So far below the hairline, in its unit, a corner still counts: farther than a small triangle reaches.
+const BELOW: f32 = 0.15;
+
+/// Spreads `count` roots evenly within `hairline`, in farthest-first order; the same `seed` gives the same roots to the
+/// bit.
 ///
 /// # Errors
 /// If the hairline is out of range, or leaves nothing of the scalp.
-pub fn spread(head: &Head, hairline: &Hairline, count: usize, seed: u64) -> Result<Vec<Pore>, SettingError> {
+pub fn spread(head: &Head, hairline: &Hairline, count: usize, seed: u64) -> Result<Vec<Root>, SettingError> {
+    spread_first(head, hairline, count, count, seed)
+}
+
+/// The first `shown` of the roots that [`spread`] gives, to the bit, at less than the cost of all.
+///
+/// # Errors
+/// As there.
+pub fn spread_first(
+    head: &Head,
+    hairline: &Hairline,
+    count: usize,
+    shown: usize,
+    seed: u64,
+) -> Result<Vec<Root>, SettingError> {
     hairline.check()?;
     let bald = || SettingError::new("hair.hairline", "no scalp", "leaves hardly a place for hair: widen it");
     let scalp = Scalp::new(head, hairline);
     if scalp.upto.is_empty() {
         return Err(bald());
     }
+    // They depend on the count and the seed only, so that the order is the same whatever part of it is wanted.
     let wanted = count.saturating_mul(CANDIDATES);
-    let mut candidates: Vec<Pore> = Vec::with_capacity(wanted);
+    let mut candidates: Vec<Root> = Vec::with_capacity(wanted);
     let mut drawn = 0_u64;
     while candidates.len() < wanted {
         if drawn > (wanted as u64).saturating_mul(TRIES).max(100_000) {
             return Err(bald());
         }
         let batch = (2 * (wanted - candidates.len())).max(1024) as u64;
-        let found: Vec<Pore> = (drawn..drawn + batch).into_par_iter().filter_map(|i| scalp.draw(seed, i)).collect();
+        let found: Vec<Root> = (drawn..drawn + batch).into_par_iter().filter_map(|i| scalp.draw(seed, i)).collect();
         candidates.extend(found.into_iter().take(wanted - candidates.len()));
         drawn += batch;
     }
-    let places: Vec<Vec3> = candidates.iter().map(|pore| pore.position).collect();
-    let chosen = farthest_first(&places, count);
+    let places: Vec<Vec3> = candidates.iter().map(|root| root.position).collect();
+    let chosen = farthest_first(&places, count.min(shown));
     Ok(chosen.into_par_iter().map(|i| onto_sampled_skin(head, candidates[i])).collect())
 }
 
-/// The same pore where the sampled distance is zero, some hundredths of a millimetre from the triangle: so that no
+/// The same root where the sampled distance is zero, some hundredths of a millimetre from the triangle: so that no
 /// root lies inside the head by the measure that the groom goes by.
-fn onto_sampled_skin(head: &Head, pore: Pore) -> Pore {
-    let mut position = pore.position;
+fn onto_sampled_skin(head: &Head, root: Root) -> Root {
+    let mut position = root.position;
     for _ in 0..3 {
-        position -= head.distance(position) * pore.normal;
+        position -= head.distance(position) * root.normal;
     }
-    Pore { position, ..pore }
+    Root { position, ..root }
 }
 
 /// The triangles that may bear hair, and how to draw from them.
@@ -79,13 +103,24 @@ struct Scalp<'a> {
 
 impl<'a> Scalp<'a> {
     fn new(head: &'a Head, hairline: &'a Hairline) -> Self {
+        let normals = head.mesh.vertex_normals();
+        let mut scalp = Self { head, hairline, normals, triangles: vec![], upto: vec![] };
         let near = head.ellipsoid.scaled(1.6);
-        let mut scalp = Self { head, hairline, normals: head.mesh.vertex_normals(), triangles: vec![], upto: vec![] };
+        let may_grow: Vec<bool> = (head.mesh.positions.par_iter().zip(&scalp.normals))
+            .map(|(&p, &normal)| {
+                near.value(p) < 0.0 && hairline.above(&head.ellipsoid, p) > -BELOW && scalp.is_skull(p, normal)
+            })
+            .collect();
+        let large = LARGE * head.ellipsoid.half_axes.element_sum() / 3.0;
         let mut sum = 0.0;
         for &triangle in &head.mesh.triangles {
             let [a, b, c] = triangle.map(|v| head.mesh.positions[v as usize]);
+            let extent = a.max(b).max(c) - a.min(b).min(c);
+            let any = |test: &dyn Fn(u32) -> bool| triangle.iter().any(|&v| test(v));
+            let wanted = any(&|v| may_grow[v as usize])
+                || extent.max_element() > large && any(&|v| near.value(head.mesh.positions[v as usize]) < 0.0);
             let area = f64::from((b - a).cross(c - a).length());
-            if area > 0.0 && [a, b, c].iter().any(|&p| near.value(p) < 0.0) {
+            if area > 0.0 && wanted {
                 sum += area;
                 scalp.triangles.push(triangle);
                 scalp.upto.push(sum);
@@ -95,14 +130,11 @@ impl<'a> Scalp<'a> {
     }
 
     /// The `i`-th draw of the seed: a place uniform over the triangles' area, kept if hair grows there.
-    fn draw(&self, seed: u64, i: u64) -> Option<Pore> {
-        let mut state = seed.wrapping_mul(0xD134_2543_DE82_EF95) ^ i.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    fn draw(&self, seed: u64, i: u64) -> Option<Root> {
+        let mut state = seed.wrapping_mul(0xD134_2543_DE82_EF95) ^ i.wrapping_mul(GOLDEN_GAMMA);
         let mut uniform = || {
-            // SplitMix64 (Steele, Lea and Flood, 2014), its upper bits as a number in [0, 1).
-            state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-            let z = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-            let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-            ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+            state = state.wrapping_add(GOLDEN_GAMMA);
+            unit(finalise(state))
         };
         let area = uniform() * self.upto[self.upto.len() - 1];
         let t = self.upto.partition_point(|&upto| upto <= area).min(self.upto.len() - 1);
@@ -114,7 +146,16 @@ impl<'a> Scalp<'a> {
         let position = mix(self.triangles[t].map(|w| self.head.mesh.positions[w as usize]));
         let normal = mix(self.triangles[t].map(|w| self.normals[w as usize])).try_normalize()?;
         let grows = self.hairline.grows(&self.head.ellipsoid, position, chance) && self.is_skull(position, normal);
-        grows.then_some(Pore { position, normal })
+        grows.then(|| {
+            let uv = match &self.head.mesh.uvs {
+                Some(uvs) => {
+                    let [a, b, c] = self.triangles[t].map(|w| uvs[w as usize]);
+                    a + (b - a) * u + (c - a) * v
+                }
+                None => self.head.ellipsoid.uv(position),
+            };
+            Root { position, normal, uv }
+        })
     }
 
     /// Whether a place of the skin is the skull's outside: turned as E is there, and neither far within E, as the

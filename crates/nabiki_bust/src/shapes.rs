@@ -3,49 +3,49 @@
 use glam::{Quat, Vec3};
 
 /// An axis-aligned ellipsoid; the distance is right on the surface and of first order near it.
-pub(super) fn ellipsoid(p: Vec3, center: Vec3, half_axes: Vec3) -> f32 {
+pub(crate) fn ellipsoid(p: Vec3, center: Vec3, half_axes: Vec3) -> f32 {
     let q = (p - center) / half_axes;
     let (k0, k1) = (q.length(), (q / half_axes).length());
     if k1 > 0.0 { k0 * (k0 - 1.0) / k1 } else { -half_axes.min_element() }
 }
 
 /// An ellipsoid whose axes are turned by `turn`.
-pub(super) fn turned_ellipsoid(p: Vec3, center: Vec3, half_axes: Vec3, turn: Quat) -> f32 {
+pub(crate) fn turned_ellipsoid(p: Vec3, center: Vec3, half_axes: Vec3, turn: Quat) -> f32 {
     ellipsoid(turn.inverse() * (p - center), Vec3::ZERO, half_axes)
 }
 
 /// A capsule from `a` to `b` whose radius runs from `ra` to `rb`.
-pub(super) fn capsule(p: Vec3, a: Vec3, b: Vec3, ra: f32, rb: f32) -> f32 {
+pub(crate) fn capsule(p: Vec3, a: Vec3, b: Vec3, ra: f32, rb: f32) -> f32 {
     let (ap, ab) = (p - a, b - a);
     let t = (ap.dot(ab) / ab.length_squared()).clamp(0.0, 1.0);
     (ap - ab * t).length() - (ra + (rb - ra) * t)
 }
 
 /// Capsules end to end: points with the radius there.
-pub(super) fn chain(p: Vec3, links: &[(Vec3, f32)]) -> f32 {
+pub(crate) fn chain(p: Vec3, links: &[(Vec3, f32)]) -> f32 {
     links.windows(2).map(|w| capsule(p, w[0].0, w[1].0, w[0].1, w[1].1)).fold(f32::INFINITY, f32::min)
 }
 
 /// The union of two shapes, rounded where they meet over about the length `k`.
-pub(super) fn join(a: f32, b: f32, k: f32) -> f32 {
+pub(crate) fn join(a: f32, b: f32, k: f32) -> f32 {
     let h = (k - (a - b).abs()).max(0.0) / k;
     a.min(b) - h * h * k * 0.25
 }
 
 /// What of `a` lies outside `b`, the edge rounded over about the length `k`.
-pub(super) fn carve(a: f32, b: f32, k: f32) -> f32 {
+pub(crate) fn carve(a: f32, b: f32, k: f32) -> f32 {
     -join(-a, b, k)
 }
 
 /// 1 at `center`, falling smoothly to 0 on the ellipsoid of these half axes and beyond: by how much of its height
 /// a swelling or hollow moves the skin.
-pub(super) fn swell(p: Vec3, center: Vec3, half_axes: Vec3) -> f32 {
+pub(crate) fn swell(p: Vec3, center: Vec3, half_axes: Vec3) -> f32 {
     let left = 1.0 - ((p - center) / half_axes).length_squared();
     if left > 0.0 { left * left * left } else { 0.0 }
 }
 
 /// 1 on a line, falling smoothly to 0 at the distance `width` from it and beyond, of a place `off` it.
-pub(super) fn ridge(off: f32, width: f32) -> f32 {
+pub(crate) fn ridge(off: f32, width: f32) -> f32 {
     let left = 1.0 - (off / width) * (off / width);
     if left > 0.0 { left * left * left } else { 0.0 }
 }

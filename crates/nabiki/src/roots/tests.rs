@@ -2,12 +2,12 @@ use std::sync::LazyLock;
 
 use glam::Vec3;
 
-use super::{Hairline, Pore, spread};
+use super::{Hairline, Root, spread, spread_first};
 use crate::Head;
 
 static BUST: LazyLock<Head> = LazyLock::new(Head::builtin);
 
-fn pores(count: usize, seed: u64) -> Vec<Pore> {
+fn roots(count: usize, seed: u64) -> Vec<Root> {
     spread(&BUST, &Hairline::default(), count, seed).unwrap()
 }
 
@@ -22,41 +22,41 @@ fn scalp_area() -> f32 {
         .sum()
 }
 
-fn nearest_spacings(pores: &[Pore]) -> Vec<f32> {
-    pores
+fn nearest_spacings(roots: &[Root]) -> Vec<f32> {
+    roots
         .iter()
         .enumerate()
         .map(|(i, p)| {
-            let others = pores.iter().enumerate().filter(|(j, _)| *j != i);
+            let others = roots.iter().enumerate().filter(|(j, _)| *j != i);
             others.map(|(_, q)| p.position.distance_squared(q.position)).fold(f32::INFINITY, f32::min).sqrt()
         })
         .collect()
 }
 
 #[test]
-fn pores_lie_on_the_skin_and_point_out_of_it() {
-    for pore in pores(2000, 1) {
-        assert!(BUST.distance(pore.position).abs() < 1e-3);
-        assert!((pore.normal.length() - 1.0).abs() < 1e-5);
-        assert!(BUST.outward(pore.position).dot(pore.normal) > 0.95);
+fn roots_lie_on_the_skin_and_point_out_of_it() {
+    for root in roots(2000, 1) {
+        assert!(BUST.distance(root.position).abs() < 1e-3);
+        assert!((root.normal.length() - 1.0).abs() < 1e-5);
+        assert!(BUST.outward(root.position).dot(root.normal) > 0.95);
     }
 }
 
 #[test]
-fn the_same_seed_gives_the_same_pores_and_another_gives_others() {
-    let (first, other) = (pores(500, 7), pores(500, 8));
-    assert_eq!(first, pores(500, 7));
+fn the_same_seed_gives_the_same_roots_and_another_gives_others() {
+    let (first, other) = (roots(500, 7), roots(500, 8));
+    assert_eq!(first, roots(500, 7));
     assert!(first.iter().zip(&other).filter(|(a, b)| a == b).count() < 5);
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    assert_eq!(first, one_thread.install(|| pores(500, 7)));
+    assert_eq!(first, one_thread.install(|| roots(500, 7)));
 }
 
 // n points that keep the distance r on an area A cannot do better than the hexagonal lattice, r^2 = 2 A / (sqrt(3) n).
-// Poisson discs drawn at random come to 0.7 of that r, the farthest of five candidates a pore to a little more; points
+// Poisson discs drawn at random come to 0.7 of that r, the farthest of five candidates a root to a little more; points
 // thrown independently to nothing.
 #[test]
 fn every_beginning_of_the_order_is_blue_noise() {
-    let all = pores(3000, 3);
+    let all = roots(3000, 3);
     let area = scalp_area();
     for n in [50, 300, 1000, 3000] {
         let spacings = nearest_spacings(&all[..n]);
@@ -64,14 +64,14 @@ fn every_beginning_of_the_order_is_blue_noise() {
         let least = spacings.iter().copied().fold(f32::INFINITY, f32::min) / hexagonal;
         let mean = spacings.iter().sum::<f32>() / n as f32 / hexagonal;
         println!("{n}: least {least}, mean {mean}");
-        assert!((0.6..1.0).contains(&least), "{n} pores: least spacing {least} of the hexagonal");
-        assert!(mean > 0.7, "{n} pores: mean spacing {mean} of the hexagonal");
+        assert!((0.6..1.0).contains(&least), "{n} roots: least spacing {least} of the hexagonal");
+        assert!(mean > 0.7, "{n} roots: mean spacing {mean} of the hexagonal");
     }
 }
 
 #[test]
 fn face_ears_and_nape_are_free() {
-    for Pore { position: p, .. } in pores(5000, 2) {
+    for Root { position: p, .. } in roots(5000, 2) {
         let on_face = p.x > 4.5 && p.y < 5.0 && p.z.abs() < 5.5;
         let on_ear = p.z.abs() > 8.05 || (p.x > -3.0 && p.x < 0.0 && p.y < 0.8);
         assert!(!on_face && !on_ear && p.y > -8.0, "{p}");
@@ -80,7 +80,7 @@ fn face_ears_and_nape_are_free() {
 
 #[test]
 fn hair_grows_over_the_forehead_at_the_back_and_before_the_ears() {
-    let all = pores(5000, 2);
+    let all = roots(5000, 2);
     let any = |test: &dyn Fn(Vec3) -> bool| all.iter().any(|p| test(p.position));
     assert!(any(&|p| p.x > 7.0 && p.z.abs() < 1.0));
     assert!(any(&|p| p.x < -6.0 && p.y < -6.0));
@@ -89,11 +89,11 @@ fn hair_grows_over_the_forehead_at_the_back_and_before_the_ears() {
     assert!(any(&|p| p.y > 10.5));
 }
 
-// Left and right of the parting differ by a boundary effect only: pores within half a spacing of the middle, which is
+// Left and right of the parting differ by a boundary effect only: roots within half a spacing of the middle, which is
 // 20 cm long and 0.3 cm wide of 600 cm2.
 #[test]
 fn both_sides_get_the_same_share() {
-    let all = pores(4000, 11);
+    let all = roots(4000, 11);
     let right = all.iter().filter(|p| p.position.z > 0.0).count() as f32 / all.len() as f32;
     assert!((right - 0.5).abs() < 0.01, "{right}");
 }
@@ -124,7 +124,32 @@ fn settings_off_the_head_are_refused_by_name() {
 }
 
 #[test]
-fn no_pores_are_no_trouble() {
-    assert!(pores(0, 1).is_empty());
-    assert_eq!(pores(1, 1).len(), 1);
+fn no_roots_are_no_trouble() {
+    assert!(roots(0, 1).is_empty());
+    assert_eq!(roots(1, 1).len(), 1);
+}
+
+// Candidates depend on the count alone, and the order of choice on the candidates.
+#[test]
+fn the_first_of_the_whole_are_the_first_alone() {
+    let (all, line) = (roots(3000, 4), Hairline::default());
+    for shown in [0, 1, 300, 3000, 9000] {
+        let first = spread_first(&BUST, &line, 3000, shown, 4).unwrap();
+        assert_eq!(first, all[..shown.min(3000)], "{shown} of 3000");
+    }
+}
+
+#[test]
+fn texture_coordinates_are_those_of_the_mesh_where_it_has_them() {
+    for root in roots(500, 6) {
+        assert!((root.uv - BUST.ellipsoid.uv(root.position)).abs().max_element() < 1e-3, "{root:?}");
+    }
+    // Linear over each triangle, a linear function of the place is met but for rounding and for the step onto the
+    // sampled skin.
+    let linear = |p: Vec3| glam::Vec2::new(0.02 * p.x + 0.5, 0.01 * p.y - 0.015 * p.z);
+    let mut head = Head::builtin();
+    head.mesh.uvs = Some(head.mesh.positions.iter().map(|&p| linear(p)).collect());
+    for root in spread(&head, &Hairline::default(), 500, 6).unwrap() {
+        assert!((root.uv - linear(root.position)).abs().max_element() < 1e-3, "{root:?}");
+    }
 }

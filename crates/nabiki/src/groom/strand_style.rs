@@ -1,10 +1,10 @@
-//! What a style asks of one strand: from its pore to the direction, length, stiffness and loads it starts with.
+//! What a style asks of one strand: from its root to the direction, length, stiffness and loads it starts with.
 
 use glam::{DVec2, DVec3, IVec3, Vec3};
 
 use super::chance::Chance;
 use super::style::{Region, Style};
-use crate::pores::Pore;
+use crate::roots::Root;
 use crate::{Ellipsoid, Head};
 
 /// Channels of chance, one use each.
@@ -25,10 +25,10 @@ mod channel {
 
 /// One strand's share of the style (head space, cm; loads in units of its own weight).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Course {
-    /// The pore.
+pub(super) struct StrandStyle {
+    /// The root.
     pub root: DVec3,
-    /// Direction of the hair at the pore (unit vector).
+    /// Direction of the hair at the root (unit vector).
     pub clamp: DVec3,
     /// (E I / w)^(1/3) (cm).
     pub bend: f64,
@@ -52,7 +52,7 @@ pub(super) struct Course {
     pub cut_offset: f64,
 }
 
-impl Course {
+impl StrandStyle {
     /// The load per unit length at arc length `s` (cm).
     pub(super) fn load(&self, s: f64) -> DVec3 {
         self.weight + self.comb * (-s / self.comb_decay).exp()
@@ -79,13 +79,31 @@ fn shares(ellipsoid: &Ellipsoid, style: &Style, root: Vec3, strand: Chance) -> [
     [top, (1.0 - top) * (1.0 - back), (1.0 - top) * back, 0.0]
 }
 
+/// The region that has the greatest share.
+fn region_of([top, sides, back, fringe]: [f32; 4]) -> Region {
+    if fringe > 0.0 {
+        Region::Fringe
+    } else if top >= 0.5 {
+        Region::Top
+    } else if sides > back {
+        Region::Sides
+    } else {
+        Region::Back
+    }
+}
+
+/// The region that the style counts a root to.
+pub(super) fn region(head: &Head, style: &Style, root: &Root, seed: u64) -> Region {
+    region_of(shares(&head.ellipsoid, style, root.position, Chance::at_point(seed, root.position)))
+}
+
 fn mean(values: [(&'static str, f32); 4], shares: [f32; 4]) -> f64 {
     values.iter().zip(shares).map(|(&(_, value), share)| f64::from(value * share)).sum()
 }
 
-/// Middle of the lock that a root belongs to, and the lock's own chance: the nearest of the points scattered one to a
+/// Middle of the clump that a root belongs to, and the clump's own chance: the nearest of the points scattered one to a
 /// cell through a grid.
-fn lock_of(root: Vec3, size: f32, seed: u64) -> (Vec3, Chance) {
+fn clump_of(root: Vec3, size: f32, seed: u64) -> (Vec3, Chance) {
     let home = (root / size).floor().as_ivec3();
     let mut nearest = (f32::INFINITY, root, Chance::at_cell(seed, home));
     for n in 0..27 {
@@ -106,12 +124,12 @@ fn lock_of(root: Vec3, size: f32, seed: u64) -> (Vec3, Chance) {
 const SLANTED: f32 = 2.5;
 
 /// The direction, level, in which hair is combed at `root`: away from the nearest point of the parting.
-fn away_from_parting(style: &Style, root: DVec3, strand: Chance, lock: Chance) -> DVec3 {
+fn away_from_parting(style: &Style, root: DVec3, strand: Chance, clump: Chance) -> DVec3 {
     let plane = |chance: Chance| DVec2::new(chance.bell(channel::WOBBLE), chance.bell(channel::WOBBLE + 1));
     let [front, crown] = [style.parting.front, style.parting.crown].map(|end| end.as_dvec2());
     let line = front - crown;
     let strays = f64::from(style.parting.wobble);
-    let here = DVec2::new(root.x, root.z) + strays * (plane(lock) + plane(strand)) * 0.7;
+    let here = DVec2::new(root.x, root.z) + strays * (plane(clump) + plane(strand)) * 0.7;
     let share = ((here - crown).dot(line) / line.length_squared().max(1e-12)).clamp(0.0, 1.0);
     let away = here - (crown + line * share);
     let away = DVec3::new(away.x, 0.0, away.y);
@@ -122,35 +140,31 @@ fn away_from_parting(style: &Style, root: DVec3, strand: Chance, lock: Chance) -
     back.lerp(away, 0.3 + 0.7 * apart)
 }
 
-/// Draws up the course of the strand at `pore`.
-pub(super) fn course(head: &Head, style: &Style, pore: &Pore, seed: u64) -> Course {
-    let root = pore.position.as_dvec3();
-    let normal = pore.normal.as_dvec3();
-    let strand = Chance::at_point(seed, pore.position);
-    let (lock_middle, lock) = lock_of(pore.position, style.locks.size, seed);
-    let shares = shares(&head.ellipsoid, style, pore.position, strand);
-    let region = if shares[3] > 0.0 {
-        Region::Fringe
-    } else if shares[0] >= 0.5 {
-        Region::Top
-    } else if shares[1] > shares[2] {
-        Region::Sides
-    } else {
-        Region::Back
-    };
+/// What the style asks of the strand at `root`.
+pub(super) fn strand_style(
+    head: &Head,
+    style: &Style,
+    &Root { position, normal, .. }: &Root,
+    seed: u64,
+) -> StrandStyle {
+    let (root, normal) = (position.as_dvec3(), normal.as_dvec3());
+    let strand = Chance::at_point(seed, position);
+    let (clump_middle, clump) = clump_of(position, style.clumps.size, seed);
+    let shares = shares(&head.ellipsoid, style, position, strand);
+    let region = region_of(shares);
 
     let comb = if region == Region::Fringe {
         DVec3::new(f64::from(style.fringe.forward), 0.0, f64::from(style.fringe.aside))
     } else {
-        let away = away_from_parting(style, root, strand, lock);
-        let front = (pore.position.x - head.ellipsoid.center.x) / head.ellipsoid.half_axes.x;
+        let away = away_from_parting(style, root, strand, clump);
+        let front = (position.x - head.ellipsoid.center.x) / head.ellipsoid.half_axes.x;
         let off_face = f64::from(style.comb.off_face * smooth((front - 0.3) / 0.5));
         away * f64::from(style.comb.away) + style.comb.sweep.as_dvec3() + DVec3::NEG_X * off_face
     };
     let variation = &style.variation;
     let stray = if strand.unit(channel::STRAY) < f64::from(variation.strays) { 4.0 } else { 1.0 };
     let own = f64::from(variation.direction_degrees).to_radians() * stray;
-    let shared = f64::from(style.locks.direction_degrees).to_radians();
+    let shared = f64::from(style.clumps.direction_degrees).to_radians();
 
     // Along the scalp: as combed on top, where that says little (on the sides) as the hair falls.
     let wanted = comb + DVec3::NEG_Y * (1.0 + comb.length() * (1.0 - normal.y).clamp(0.0, 1.0).powi(2));
@@ -158,18 +172,18 @@ pub(super) fn course(head: &Head, style: &Style, pore: &Pore, seed: u64) -> Cour
     let along = along.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
     let lift = mean(style.lift_degrees.each(), shares).to_radians();
     let clamp = along * lift.cos() + normal * lift.sin();
-    let clamp = (clamp + strand.vector(channel::ROOT) * own + lock.vector(channel::ROOT) * shared).normalize();
+    let clamp = (clamp + strand.vector(channel::ROOT) * own + clump.vector(channel::ROOT) * shared).normalize();
     // Chance must not lead a root into the skin.
     let clamp = (clamp + normal * (0.05 - clamp.dot(normal)).max(0.0)).normalize();
 
     let length = mean(style.length.each(), shares) * (1.0 - f64::from(variation.length) * strand.unit(channel::LENGTH));
     let level = |v: DVec3| DVec3::new(v.x, 0.0, v.z);
-    let gather = level((lock_middle - pore.position).as_dvec3()) * (f64::from(style.locks.gather) / length);
-    let tilt = level(strand.vector(channel::TILT) * (0.5 * own) + lock.vector(channel::TILT) * shared) + gather;
+    let gather = level((clump_middle - position).as_dvec3()) * (f64::from(style.clumps.gather) / length);
+    let tilt = level(strand.vector(channel::TILT) * (0.5 * own) + clump.vector(channel::TILT) * shared) + gather;
 
-    let wave_slope = std::f64::consts::TAU * f64::from(style.locks.wave) / f64::from(style.locks.wave_length);
-    let across = lock.vector(channel::PHASE).try_normalize().unwrap_or(DVec3::Z);
-    Course {
+    let wave_slope = std::f64::consts::TAU * f64::from(style.clumps.wave) / f64::from(style.clumps.wave_length);
+    let across = clump.vector(channel::PHASE).try_normalize().unwrap_or(DVec3::Z);
+    StrandStyle {
         root,
         clamp,
         bend: mean(style.stiffness.each(), shares)
@@ -180,7 +194,7 @@ pub(super) fn course(head: &Head, style: &Style, pore: &Pore, seed: u64) -> Cour
         comb_decay: f64::from(style.comb.decay),
         depth: strand.unit(channel::DEPTH),
         wave: across * wave_slope * (0.8 + 0.4 * strand.unit(channel::PHASE)),
-        wave_phase: std::f64::consts::TAU * lock.unit(channel::PHASE) + 0.5 * strand.bell(channel::PHASE),
+        wave_phase: std::f64::consts::TAU * clump.unit(channel::PHASE) + 0.5 * strand.bell(channel::PHASE),
         region,
         cut_offset: f64::from(variation.cut) * strand.bell(channel::CUT),
     }

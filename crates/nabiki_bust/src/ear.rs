@@ -2,10 +2,10 @@
 
 use glam::{Mat3, Quat, Vec2, Vec3};
 
-use super::shapes::{carve, ellipsoid, join};
+use crate::shapes::{carve, ellipsoid, join};
 
 /// Joins the ear to the head.
-pub(super) fn add(p: Vec3, skin: f32) -> f32 {
+pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
     let center = Vec3::new(-1.7, -1.6, 7.75);
     if p.distance_squared(center) > 36.0 {
         return skin;

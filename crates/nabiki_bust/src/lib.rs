@@ -1,0 +1,54 @@
+//! The built-in bust as it is sculpted: blended shapes, meshed, measured and written in few bytes.
+//!
+//! Measures follow adult anthropometry: 22.7 cm from chin to crown, 15.4 cm broad, 19 cm deep, eyes at half the
+//! height, nose and ears between there and the chin. One shape a file; each takes the skin so far and gives it back
+//! with its own part blended in.
+
+#![forbid(unsafe_code)]
+
+mod ear;
+mod eyes;
+mod face;
+mod grid;
+// How the numbers follow each other is known to the reader, too, and written down there.
+#[path = "../../nabiki/src/head/bust/layout.rs"]
+#[allow(dead_code, reason = "a part concerns the reader alone")]
+mod layout;
+mod measure;
+mod mouth;
+mod neck;
+mod nose;
+#[path = "../../nabiki/src/head/bust/numbers.rs"]
+#[allow(dead_code, reason = "a part concerns the reader alone")]
+mod numbers;
+mod shapes;
+mod skull;
+mod torso;
+mod write;
+
+use glam::Vec3;
+
+/// The content of `bust.bin`.
+pub fn bake() -> Vec<u8> {
+    let mut bust = grid::cut(&field);
+    // The distance is that of the mesh as it will be read.
+    let mesh = nabiki::head::read_bust(&write::all(&mut bust)).0;
+    measure::distance(&mut bust, mesh);
+    write::all(&mut bust)
+}
+
+/// The bust as one function of the place: negative inside, zero on the skin, and near it about the distance (cm).
+/// The same on both sides of z = 0, to the bit.
+pub fn field(p: Vec3) -> f32 {
+    // Rounding |z| off at the middle keeps what both halves share smooth there.
+    let p = Vec3::new(p.x, p.y, (p.z * p.z + 0.01).sqrt());
+    let mut skin = skull::add(p);
+    skin = face::add(p, skin);
+    skin = neck::add(p, skin);
+    skin = torso::add(p, skin);
+    skin = eyes::add(p, skin);
+    skin = nose::add(p, skin);
+    skin = mouth::add(p, skin);
+    skin = ear::add(p, skin);
+    torso::cut_off(p, skin)
+}
