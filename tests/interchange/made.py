@@ -142,7 +142,7 @@ def compare(folder):
     motions = [("motion.usda", "/body/neck/head"), ("motion.usdc", "/body/neck/head"), ("skeleton.usdc", "hips/neck/head")]
     for name, node in motions:
         rows = np.loadtxt(folder / f"{name}.motion")
-        assert len(rows) >= 5, name
+        assert len(rows) >= 3, name
         for time, x, y, z, qx, qy, qz, qw in rows:
             world = known_world(folder, name, node, round(time * CODES_A_SECOND, 9)).RemoveScaleShear()
             at, turn = world.ExtractTranslation(), world.ExtractRotationQuat()
