@@ -27,7 +27,8 @@ pub(super) fn write_points(rows: &[PointRow], first: usize, counts: &[u32; LANES
         let squares = a.len().min(b.len()).min(c.len()).min(d.len()) / FOUR;
         write_squares(&rows[..FOUR * squares], group * FOUR, &mut strands);
         for (lane, strand) in strands.into_iter().enumerate() {
-            for (number, row) in strand.iter_mut().zip(rows).skip(FOUR * squares) {
+            let (strand, rows) = (&mut strand[FOUR * squares..], &rows[FOUR * squares..]);
+            for (number, row) in strand.iter_mut().zip(rows) {
                 *number = row.0[group * FOUR + lane];
             }
         }
