@@ -87,10 +87,14 @@ impl Default for Motion {
 }
 
 impl Motion {
-    /// Refuses no frames, and rates, steps and densities that are not above 0.
+    /// The most frames: days of film, and more is a mistyped number.
+    pub const MOST_FRAMES: u32 = 10_000_000;
+
+    /// Refuses no frames or more than [`MOST_FRAMES`](Self::MOST_FRAMES), and rates, steps and densities that are not above 0.
     pub fn check(&self) -> Result<(), SettingError> {
-        if self.frames == 0 {
-            return Err(SettingError::new("motion.frames", 0, "must be at least 1"));
+        if !(1..=Self::MOST_FRAMES).contains(&self.frames) {
+            let remedy = format!("must lie in 1..{}", Self::MOST_FRAMES);
+            return Err(SettingError::new("motion.frames", self.frames, remedy));
         }
         if !(self.frame_rate.is_finite() && self.frame_rate > 0.0) {
             let remedy = "must be a finite number of frames a second, above 0";

@@ -1,4 +1,4 @@
-//! A setting that cannot be simulated, and a file that cannot be read.
+//! A setting that cannot be simulated.
 
 use std::fmt::{self, Display};
 
@@ -25,24 +25,6 @@ impl SettingError {
 impl fmt::Display for SettingError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} = {}: {}", self.thing, self.value, self.remedy)
-    }
-}
-
-/// What is wrong with a file, in one line without the file's name.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct Problem(pub String);
-
-impl Problem {
-    /// A line that says it.
-    pub fn new(text: &str) -> Self {
-        Self(text.to_owned())
-    }
-}
-
-impl From<std::io::Error> for Problem {
-    fn from(error: std::io::Error) -> Self {
-        Self(error.to_string())
     }
 }
 

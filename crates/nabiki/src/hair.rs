@@ -40,13 +40,13 @@ pub struct Attributes {
     /// Diameter, by point (same unit as the points).
     pub width: Option<Vec<f32>>,
     /// Linear RGB, by point.
-    pub color: Option<Vec<[f32; 3]>>,
+    pub colour: Option<Vec<[f32; 3]>>,
     /// 0 opaque .. 1 invisible, by point.
     pub transparency: Option<Vec<f32>>,
     /// Texture coordinates, by point.
     pub point_uv: Option<Vec<[f32; 2]>>,
     /// TressFX's w: 0 where a point is held by the skin, 1 where it is free, by point.
-    pub freedom: Option<Vec<f32>>,
+    pub inverse_mass: Option<Vec<f32>>,
     /// Whatever else the source carries, under its own names.
     pub other: Vec<Other>,
     /// What the source says of its strands that could not be kept, a phrase each.
@@ -61,7 +61,7 @@ pub struct Constants {
     /// Diameter (same unit as the points).
     pub width: Option<f32>,
     /// Linear RGB.
-    pub color: Option<[f32; 3]>,
+    pub colour: Option<[f32; 3]>,
     /// 0 opaque .. 1 invisible.
     pub transparency: Option<f32>,
 }
@@ -108,10 +108,10 @@ impl Hair {
         check("group", &a.group, strands)?;
         check("guide", &a.guide, strands)?;
         check("width", &a.width, points)?;
-        check("color", &a.color, points)?;
+        check("color", &a.colour, points)?;
         check("transparency", &a.transparency, points)?;
         check("point_uv", &a.point_uv, points)?;
-        check("freedom", &a.freedom, points)?;
+        check("freedom", &a.inverse_mass, points)?;
         for other in &a.other {
             let (found, expected) = (other.values.len(), other.expected(strands, points));
             if found != expected {
@@ -190,10 +190,10 @@ impl Attributes {
             group_names: self.group_names.clone(),
             guide: pick(&self.guide, strands),
             width: pick(&self.width, points),
-            color: pick(&self.color, points),
+            colour: pick(&self.colour, points),
             transparency: pick(&self.transparency, points),
             point_uv: pick(&self.point_uv, points),
-            freedom: pick(&self.freedom, points),
+            inverse_mass: pick(&self.inverse_mass, points),
             other: self.other.iter().map(|other| other.gather(strands, points)).collect(),
             unread: self.unread.clone(),
             constant: self.constant,

@@ -266,8 +266,8 @@ fn parameters(more: &mut Held<'_>, export: &Export<'_>) -> io::Result<()> {
     let made = |name: &str| at.other.iter().all(|other| other.name != name);
     roots(more, at, &made)?;
     let points = export.hair.strands.points().len();
-    let one_color = at.constant.color.or(export.default_color).map(|c| vec![c; points]);
-    if let Some(colors) = at.color.as_ref().or(one_color.as_ref()).filter(|_| made("groom_color")) {
+    let one_color = at.constant.colour.or(export.default_colour).map(|c| vec![c; points]);
+    if let Some(colors) = at.colour.as_ref().or(one_color.as_ref()).filter(|_| made("groom_color")) {
         more.by_point("groom_color", "rgb", POINT, bytemuck::cast_slice(colors))?;
     }
     if let Some(uv) = &at.point_uv {
@@ -276,7 +276,7 @@ fn parameters(more: &mut Held<'_>, export: &Export<'_>) -> io::Result<()> {
     if let Some(values) = export.transparency() {
         more.by_point("transparency", "", NUMBER, bytemuck::cast_slice(&values))?;
     }
-    if let Some(values) = &at.freedom {
+    if let Some(values) = &at.inverse_mass {
         more.by_point("freedom", "", NUMBER, bytemuck::cast_slice(values))?;
     }
     if export.rest && made(names::REST) {

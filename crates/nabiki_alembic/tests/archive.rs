@@ -32,10 +32,10 @@ fn groom() -> Hair {
         group_names: [(0, "fringe".to_owned()), (2, "back".to_owned())].into(),
         guide: Some((0..n).map(|s| s % 7 == 0).collect()),
         width: Some((0..points).map(|p| 0.008 + 1e-5 * p as f32).collect()),
-        color: Some((0..points).map(|p| [0.1, 0.001 * p as f32, 0.02]).collect()),
+        colour: Some((0..points).map(|p| [0.1, 0.001 * p as f32, 0.02]).collect()),
         point_uv: Some((0..points).map(|p| [0.5, p as f32]).collect()),
         transparency: Some((0..points).map(|p| 1.0 / (1.0 + p as f32)).collect()),
-        freedom: Some((0..points).map(|p| f32::from(u8::from(p % 2 == 0))).collect()),
+        inverse_mass: Some((0..points).map(|p| f32::from(u8::from(p % 2 == 0))).collect()),
         ..Attributes::default()
     };
     hair

@@ -143,6 +143,46 @@ fn the_pose_of_a_moving_head_is_not_dropped_without_a_word() {
 }
 
 #[test]
+fn moving_hair_goes_on_moving_in_every_format_that_can_hold_it() {
+    let folder = folder();
+    succeed(&folder, &format!("simulate scene.toml -o a.usdc {FEW}"));
+    for words in ["convert a.usdc b.abc", "convert b.abc c.usda --unit cm", "convert c.usda d.usdc"] {
+        let said = succeed(&folder, words);
+        assert!(said.contains("4 frames of 40 strands") && !said.contains("motion"), "{words}: {said}");
+    }
+    let still = succeed(&folder, "convert a.usdc e.hair");
+    assert!(still.contains("cannot hold motion: it is frame 0 of the 4"), "{still}");
+    for frame in [0, 3] {
+        for name in ["a.usdc", "d.usdc"] {
+            succeed(&folder, &format!("convert {name} {name}.hair --frame {frame}"));
+        }
+        assert!(bytes(&folder, "a.usdc.hair") == bytes(&folder, "d.usdc.hair"), "frame {frame}");
+    }
+}
+
+#[test]
+fn frames_beyond_any_film_are_refused_at_once() {
+    let folder = folder();
+    for command in ["run scene.toml", "preview scene.toml", "simulate scene.toml -o m.nabiki"] {
+        let line = refuse(&folder, &format!("{command} --frames 1000000000"));
+        assert!(line.contains("motion.frames = 1000000000: must lie in 1..10000000"), "{command}: {line}");
+    }
+}
+
+#[test]
+fn a_layer_over_what_is_not_the_groom_is_refused_with_the_paths_that_are() {
+    let folder = folder();
+    succeed(&folder, "groom scene.toml --strands 40 -o groom.usdc");
+    let scene = "[hair]\nfile = \"groom.usdc\"\njoin_within = 0.0\n[motion]\nframes = 2\n[[force]]\nthrough = 2\n\
+                 vector = [0, -1, 0]\n";
+    fs::write(folder.path().join("own.toml"), scene).unwrap();
+    let prim = |line: &str| line[line.find("at /").unwrap() + 3..line.find(" (").unwrap()].to_owned();
+    let line = refuse(&folder, "simulate own.toml -o m.nabiki --export l.usda --export-layer /nowhere");
+    assert!(line.contains("--export-layer /nowhere: its curves are at /"), "{line}");
+    succeed(&folder, &format!("simulate own.toml -o m.nabiki --export l.usda --export-layer {}", prim(&line)));
+}
+
+#[test]
 fn any_number_of_strands_is_the_beginning_of_the_whole() {
     let folder = folder();
     let count = |name: &str| nabiki_io::hair::read(&folder.path().join(name)).unwrap().strands;

@@ -101,9 +101,9 @@ impl Polylines {
         let one = |values: Vec<[f32; 1]>| values.into_iter().map(|[x]| x).collect::<Vec<f32>>();
         let mut found = Attributes {
             width: search.by_point(names::WIDTH)?.map(one),
-            color: search.by_point(names::COLOR)?,
+            colour: search.by_point(names::COLOR)?,
             point_uv: search.by_point(names::POINT_UV)?,
-            freedom: search.by_point(names::FREEDOM)?.map(one),
+            inverse_mass: search.by_point(names::FREEDOM)?.map(one),
             transparency: search.by_point(names::TRANSPARENCY)?.map(one),
             id: search.by_strand(names::ID)?,
             ..Attributes::default()

@@ -18,7 +18,7 @@ pub struct Export<'a> {
     /// make up.
     pub default_width: Option<f32>,
     /// Colour of hair that says nothing of its own (linear RGB); `None` leaves it out.
-    pub default_color: Option<[f32; 3]>,
+    pub default_colour: Option<[f32; 3]>,
     /// Whether the points at rest go along under a name of their own, for programs that put the hair on another head.
     pub rest: bool,
     /// Whether velocities go along with the points of each frame, as much again.
@@ -42,7 +42,7 @@ impl<'a> Export<'a> {
             hair,
             head: None,
             default_width: None,
-            default_color: None,
+            default_colour: None,
             rest: false,
             velocities: false,
             frame_rate,
@@ -97,7 +97,7 @@ impl<'a> Export<'a> {
         if !(self.meters_per_unit.is_finite() && self.meters_per_unit > 0.0) {
             return invalid(format!("meters per unit {}: must be a finite number above 0", self.meters_per_unit));
         }
-        if let Some(color) = self.default_color.filter(|c| !c.iter().all(|x| x.is_finite() && *x >= 0.0)) {
+        if let Some(color) = self.default_colour.filter(|c| !c.iter().all(|x| x.is_finite() && *x >= 0.0)) {
             return invalid(format!("colour {color:?}: must be finite and not below 0"));
         }
         Ok(())

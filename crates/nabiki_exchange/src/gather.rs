@@ -72,10 +72,10 @@ fn join(all: &mut Hair, part: Hair) {
     both("groups", extend(&mut a.group, b.group));
     both("guides", extend(&mut a.guide, b.guide));
     both("widths", extend(&mut a.width, b.width));
-    both("colours", extend(&mut a.color, b.color));
+    both("colours", extend(&mut a.colour, b.colour));
     both("transparencies", extend(&mut a.transparency, b.transparency));
     both("point UVs", extend(&mut a.point_uv, b.point_uv));
-    both("held points", extend(&mut a.freedom, b.freedom));
+    both("held points", extend(&mut a.inverse_mass, b.inverse_mass));
     let mut others = b.other;
     a.other.retain_mut(|mine| {
         let found = others.iter().position(|theirs| same_kind(mine, theirs));

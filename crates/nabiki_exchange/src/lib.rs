@@ -12,11 +12,12 @@ pub mod export;
 mod gather;
 mod in_place;
 mod polygons;
+mod problem;
 mod reader;
 
 pub use export::{Export, FrameSink, Velocities};
 pub use gather::Gathered;
 pub use in_place::InPlace;
-pub use nabiki::error::Problem;
 pub use polygons::add_polygons;
+pub use problem::Problem;
 pub use reader::{Contents, GroomReader, Placed, Prim, PrimKind};

@@ -57,14 +57,14 @@ pub(crate) fn from_source<R: Read + Seek>(source: &mut Bytes<R>) -> Result<Hair>
         attributes.transparency = Some(finite::values("transparency", source.array(count, "transparency")?)?);
     }
     if arrays & COLORS != 0 {
-        attributes.color = Some(finite::tuples("colours", source.array(count, "colours")?)?);
+        attributes.colour = Some(finite::tuples("colours", source.array(count, "colours")?)?);
     }
     finite::widths("default thickness", vec![thickness])?;
     finite::values("default transparency", vec![transparency])?;
     finite::tuples("default colour", vec![color])?;
     attributes.constant.width = (thickness != 0.0).then_some(thickness);
     attributes.constant.transparency = Some(transparency);
-    attributes.constant.color = Some(color);
+    attributes.constant.colour = Some(color);
     Ok(Hair { strands, attributes })
 }
 
@@ -117,7 +117,7 @@ pub fn losses(hair: &Hair) -> Vec<String> {
     lose(a.group.is_some() || !a.group_names.is_empty(), "groups");
     lose(a.guide.is_some(), "guide flags");
     lose(a.point_uv.is_some(), "point UVs");
-    lose(a.freedom.is_some(), "which points are held");
+    lose(a.inverse_mass.is_some(), "which points are held");
     lost
 }
 
@@ -140,12 +140,12 @@ pub fn to_writer(hair: &Hair, comment: &str, out: &mut dyn Write) -> Result<()> 
         | bit(!uniform, SEGMENTS)
         | bit(a.width.is_some(), THICKNESS)
         | bit(a.transparency.is_some(), TRANSPARENCY)
-        | bit(a.color.is_some(), COLORS);
+        | bit(a.colour.is_some(), COLORS);
     let default_segments = if uniform { u32::from(first) } else { 0 };
     out.write_all(b"HAIR")?;
     put(out, &[strand_count, strands.points().len() as u32, arrays, default_segments])?;
     put(out, &[a.constant.width.unwrap_or(0.0), a.constant.transparency.unwrap_or(0.0)])?;
-    put(out, &a.constant.color.unwrap_or([1.0; 3]))?;
+    put(out, &a.constant.colour.unwrap_or([1.0; 3]))?;
     let mut text = [0u8; 88];
     for (to, from) in text.iter_mut().zip(comment.bytes()) {
         *to = from;
@@ -157,5 +157,5 @@ pub fn to_writer(hair: &Hair, comment: &str, out: &mut dyn Write) -> Result<()> 
     put(out, strands.points())?;
     put(out, a.width.as_deref().unwrap_or_default())?;
     put(out, a.transparency.as_deref().unwrap_or_default())?;
-    put(out, a.color.as_deref().unwrap_or_default())
+    put(out, a.colour.as_deref().unwrap_or_default())
 }

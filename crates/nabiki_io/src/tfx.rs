@@ -68,7 +68,7 @@ fn version_4<R: Read + Seek>(source: &mut Bytes<R>, version: f32) -> Result<Hair
     let strands = Strands::from_parts((0..=strands).map(|s| s * points).collect(), positions);
     finite::points(&strands)?;
     let mut attributes = attributes(source, &strands, &offsets, HEADER_BYTES)?;
-    attributes.freedom = Some(finite::values("w of points", freedom)?);
+    attributes.inverse_mass = Some(finite::values("w of points", freedom)?);
     Ok(Hair { strands, attributes })
 }
 
@@ -87,7 +87,7 @@ fn version_3<R: Read + Seek>(source: &mut Bytes<R>) -> Result<Hair> {
     finite::points(&strands)?;
     let mut attributes = attributes(source, &strands, &offsets, HEADER_BYTES)?;
     let held = |p: u32| p == 0 || (both_ends != 0 && p + 1 == points);
-    attributes.freedom = Some((0..count as u32).map(|p| if held(p % points) { 0.0 } else { 1.0 }).collect());
+    attributes.inverse_mass = Some((0..count as u32).map(|p| if held(p % points) { 0.0 } else { 1.0 }).collect());
     Ok(Hair { strands, attributes })
 }
 
@@ -134,7 +134,7 @@ fn attributes<R: Read + Seek>(
     if offsets.point_color != 0 {
         seek(source, offsets.point_color, header, "point colours")?;
         let rgba: Vec<[f32; 4]> = finite::tuples("point colours", source.array(point_count, "point colours")?)?;
-        a.color = Some(rgba.iter().map(|&[r, g, b, _]| [r, g, b]).collect());
+        a.colour = Some(rgba.iter().map(|&[r, g, b, _]| [r, g, b]).collect());
         a.transparency = Some(rgba.iter().map(|&[.., alpha]| 1.0 - alpha).collect());
     }
     Ok(a)
@@ -185,9 +185,9 @@ pub fn to_writer(hair: &Hair, out: &mut dyn Write) -> Result<()> {
         (None, None) => None,
     };
     // TressFX has no colour for all points at once; white and opaque it takes for granted.
-    let tinted = a.constant.color.is_some_and(|rgb| rgb != [1.0; 3]);
+    let tinted = a.constant.colour.is_some_and(|rgb| rgb != [1.0; 3]);
     let clear = a.constant.transparency.is_some_and(|t| t != 0.0);
-    let has_color = a.color.is_some() || a.transparency.is_some() || tinted || clear;
+    let has_color = a.colour.is_some() || a.transparency.is_some() || tinted || clear;
     let mut end = u64::from(HEADER_BYTES);
     let mut place = |there: bool, bytes: usize| -> Result<u32> {
         let at = end;
@@ -209,7 +209,7 @@ pub fn to_writer(hair: &Hair, out: &mut dyn Write) -> Result<()> {
     put(out, &offsets)?;
     put(out, &[0u32; 32])?;
     let root_held = |p: usize| if p.is_multiple_of(points) { 0.0 } else { 1.0 };
-    let w = |p: usize| a.freedom.as_ref().map_or_else(|| root_held(p), |freedom| freedom[p]);
+    let w = |p: usize| a.inverse_mass.as_ref().map_or_else(|| root_held(p), |freedom| freedom[p]);
     put_mapped(out, count, |p| strands.points()[p].extend(w(p)).to_array())?;
     put(out, a.root_uv.as_deref().unwrap_or_default())?;
     put(out, a.point_uv.as_deref().unwrap_or_default())?;
@@ -218,7 +218,7 @@ pub fn to_writer(hair: &Hair, out: &mut dyn Write) -> Result<()> {
         put(out, &[0u32])?;
     }
     if has_color {
-        let rgb = |p: usize| a.color.as_ref().map_or(a.constant.color.unwrap_or([1.0; 3]), |color| color[p]);
+        let rgb = |p: usize| a.colour.as_ref().map_or(a.constant.colour.unwrap_or([1.0; 3]), |color| color[p]);
         let clear = |p: usize| a.transparency.as_ref().map_or(a.constant.transparency.unwrap_or(0.0), |t| t[p]);
         put_mapped(out, count, |p| {
             let [r, g, b] = rgb(p);

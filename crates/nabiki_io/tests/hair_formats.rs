@@ -13,7 +13,7 @@ fn a_hair_file_keeps_points_widths_colours_and_transparencies_and_names_the_rest
     assert_eq!(read.strands, original.strands);
     let kept = Attributes {
         width: original.attributes.width.clone(),
-        color: original.attributes.color.clone(),
+        colour: original.attributes.colour.clone(),
         transparency: original.attributes.transparency.clone(),
         constant: original.attributes.constant,
         ..Attributes::default()
@@ -35,7 +35,7 @@ fn a_tfx_file_keeps_uvs_colours_and_held_points() {
     let (a, b) = (read.attributes, original.attributes);
     assert_eq!((a.root_uv, a.point_uv, a.width), (b.root_uv, b.point_uv, b.width));
     // The sample's transparencies are multiples of 1/32, which 1 - (1 - t) keeps.
-    assert_eq!((a.color, a.transparency, a.freedom), (b.color, b.transparency, b.freedom));
+    assert_eq!((a.colour, a.transparency, a.inverse_mass), (b.colour, b.transparency, b.inverse_mass));
     assert_eq!(tfx::losses(&samples::hair(&[4])).len(), 4, "ids, groups, guides and the taper");
 }
 
@@ -44,7 +44,7 @@ fn version_3_gives_guides_and_holds_both_ends_where_it_says_so() {
     let hair = tfx::from_bytes(&samples::tfx_3_bytes()).unwrap();
     assert_eq!(hair.strands.starts(), [0, 3, 6], "five strands follow each guide and are not in the file");
     assert_eq!(hair.strands.strand(1)[2], glam::Vec3::new(1.0, 2.0, 0.5));
-    assert_eq!(hair.attributes.freedom, Some(vec![0.0, 1.0, 0.0, 0.0, 1.0, 0.0]));
+    assert_eq!(hair.attributes.inverse_mass, Some(vec![0.0, 1.0, 0.0, 0.0, 1.0, 0.0]));
     assert_eq!(hair.attributes.width, Some(vec![0.01, 0.01, 0.01, 0.02, 0.02, 0.02]));
     assert_eq!(hair.attributes.root_uv, Some(vec![[0.25, 0.5], [0.75, 1.0]]));
 }

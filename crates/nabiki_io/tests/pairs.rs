@@ -51,13 +51,13 @@ fn losses(format: &str, hair: &Hair) -> Vec<String> {
 /// The same hair with everything said at every point: what is not said is white, opaque, held at the root.
 fn spelled_out(hair: &Hair) -> Hair {
     let points = hair.strands.points().len();
-    let Attributes { width, color, transparency, freedom, constant, .. } = hair.attributes.clone();
+    let Attributes { width, colour, transparency, inverse_mass, constant, .. } = hair.attributes.clone();
     let held = || hair.strands.iter().flat_map(|s| (0..s.len()).map(|p| if p == 0 { 0.0 } else { 1.0 })).collect();
     let attributes = Attributes {
         width: width.or(constant.width.map(|w| vec![w; points])),
-        color: Some(color.unwrap_or_else(|| vec![constant.color.unwrap_or([1.0; 3]); points])),
+        colour: Some(colour.unwrap_or_else(|| vec![constant.colour.unwrap_or([1.0; 3]); points])),
         transparency: Some(transparency.unwrap_or_else(|| vec![constant.transparency.unwrap_or(0.0); points])),
-        freedom: Some(freedom.unwrap_or_else(held)),
+        inverse_mass: Some(inverse_mass.unwrap_or_else(held)),
         constant: Constants::default(),
         ..hair.attributes.clone()
     };
@@ -84,13 +84,13 @@ fn grooms() -> Vec<(&'static str, Hair)> {
         ),
         ("guides", Attributes { guide: a.guide.clone(), ..nothing() }),
         ("widths", Attributes { width: a.width.clone(), ..nothing() }),
-        ("colours", Attributes { color: a.color.clone(), ..nothing() }),
+        ("colours", Attributes { colour: a.colour.clone(), ..nothing() }),
         ("transparencies", Attributes { transparency: a.transparency.clone(), ..nothing() }),
         ("thirds of transparency", Attributes { transparency: Some(third), ..nothing() }),
         ("point UVs", Attributes { point_uv: a.point_uv.clone(), ..nothing() }),
-        ("freedom", Attributes { freedom: Some((0..20).map(|p| (p % 3) as f32 * 0.5).collect()), ..nothing() }),
+        ("freedom", Attributes { inverse_mass: Some((0..20).map(|p| (p % 3) as f32 * 0.5).collect()), ..nothing() }),
         ("one width", constant(Constants { width: Some(0.0123), ..Constants::default() })),
-        ("one colour", constant(Constants { color: Some([0.1, 0.2, 0.3]), ..Constants::default() })),
+        ("one colour", constant(Constants { colour: Some([0.1, 0.2, 0.3]), ..Constants::default() })),
         ("one transparency", constant(Constants { transparency: Some(0.25), ..Constants::default() })),
         ("everything", a),
     ];

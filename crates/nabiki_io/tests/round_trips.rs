@@ -30,7 +30,7 @@ fn hair(counts: impl Strategy<Value = Vec<usize>>) -> impl Strategy<Value = Hair
                 for &count in &counts {
                     strands.push(points.by_ref().take(count));
                 }
-                let attributes = Attributes { width: Some(width), color: Some(color), ..Attributes::default() };
+                let attributes = Attributes { width: Some(width), colour: Some(color), ..Attributes::default() };
                 Hair { strands, attributes }
             })
     })
@@ -53,7 +53,7 @@ proptest! {
         hair_file::to_writer(&hair, "", &mut bytes).unwrap();
         let read = hair_file::from_bytes(&bytes).unwrap();
         prop_assert_eq!(bits(&read), bits(&hair));
-        prop_assert_eq!(read.attributes.color, hair.attributes.color);
+        prop_assert_eq!(read.attributes.colour, hair.attributes.colour);
     }
 
     #[test]
@@ -64,7 +64,7 @@ proptest! {
         tfx::to_writer(&hair, &mut bytes).unwrap();
         let read = tfx::from_bytes(&bytes).unwrap();
         prop_assert_eq!((bits(&read).0, bits(&read).1), (bits(&hair).0, bits(&hair).1));
-        prop_assert_eq!(read.attributes.color, hair.attributes.color);
+        prop_assert_eq!(read.attributes.colour, hair.attributes.colour);
     }
 
     #[test]

@@ -32,9 +32,9 @@ fn every_hair_format_holds_the_groom() {
     }
     let at = |name: &str| hair::read(&file(name)).unwrap().attributes;
     let header = at("groom.hair").constant;
-    assert_eq!((header.width, header.transparency, header.color), (Some(0.0001), Some(0.25), Some([1.0, 0.5, 0.25])));
+    assert_eq!((header.width, header.transparency, header.colour), (Some(0.0001), Some(0.25), Some([1.0, 0.5, 0.25])));
     let both_ends = Some([0.0, 1.0, 1.0, 0.0].repeat(3));
-    assert_eq!((at("groom_3.tfx").freedom, at("groom_4.tfx").freedom), (both_ends.clone(), both_ends));
+    assert_eq!((at("groom_3.tfx").inverse_mass, at("groom_4.tfx").inverse_mass), (both_ends.clone(), both_ends));
     assert_eq!(at("groom_3.tfx").width, Some([0.0001, 0.0002, 0.0003].iter().flat_map(|&w| [w; 4]).collect()));
     assert_eq!(at("groom_4.tfx").root_uv, Some(vec![[0.0, 0.5], [0.25, 0.5], [0.5, 0.5]]));
 }

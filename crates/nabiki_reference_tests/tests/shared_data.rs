@@ -20,7 +20,7 @@ fn sintel_has_11400_strands_of_16_points_in_both_formats() {
     assert!(tfx.strands.iter().all(|s| s.len() == 16));
     assert_eq!(tfx.strands, hair.strands, "positions unchanged");
     assert_eq!(hair.attributes.constant.width, Some(7e-5));
-    let freedom = tfx.attributes.freedom.unwrap();
+    let freedom = tfx.attributes.inverse_mass.unwrap();
     assert!(freedom.iter().enumerate().all(|(p, &w)| w == if p % 16 == 0 { 0.0 } else { 1.0 }), "roots are held");
 }
 

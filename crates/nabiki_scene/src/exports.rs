@@ -55,8 +55,12 @@ impl<'a> Exports<'a> {
             let frame_rate = built.scene.frame_rate();
             let mut export = exchange::export(&built.hair, frame_rate, built.hair_placement.as_ref());
             export.default_width = Some(built.scene.picture.hair.width);
+            export.default_colour = Some(built.scene.picture.hair.mass_colour());
             export.head = (!exchange::is_alembic(path) || options.head).then_some(&built.head.mesh);
-            if options.layer.is_some() {
+            if let Some(prim) = &options.layer {
+                if let Some(imported) = built.scene.hair.imported() {
+                    exchange::check_layer_prim(&built.scene.resolve(&imported.file), prim)?;
+                }
                 let in_file = built.import_report.map(|report| report.points_in_file as u64);
                 let used = built.hair.strands.points().len();
                 exchange::check_layer(in_file, used).map_err(|e| e.in_file(path))?;

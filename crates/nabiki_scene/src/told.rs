@@ -82,6 +82,8 @@ pub struct SceneSummary {
     pub head: String,
     /// Half axes of the head ellipsoid E (cm).
     pub half_axes: [f32; 3],
+    /// Triangles of the head's mesh that faced inward and were turned.
+    pub turned_triangles: usize,
     /// How the head's motion was read and converted.
     pub motion: Option<String>,
     /// Strands built.
@@ -104,6 +106,7 @@ impl SceneSummary {
             file: built.scene.file().to_owned(),
             head: built.scene.head.mesh(),
             half_axes: built.head.ellipsoid.half_axes.to_array(),
+            turned_triangles: built.head.orientation.turned,
             motion: built.motion_report.clone(),
             strands: strands.len(),
             strands_of_scene: built.strands_of_scene,
@@ -119,6 +122,9 @@ impl fmt::Display for SceneSummary {
         writeln!(f, "{}", self.file.display())?;
         let [x, y, z] = self.half_axes;
         writeln!(f, "  head    {}, ellipsoid {x:.1} x {y:.1} x {z:.1} cm", self.head)?;
+        if self.turned_triangles > 0 {
+            writeln!(f, "          {} triangles that faced inward were turned", self.turned_triangles)?;
+        }
         if let Some(motion) = &self.motion {
             writeln!(f, "          {motion}")?;
         }

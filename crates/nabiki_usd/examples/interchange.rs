@@ -38,7 +38,7 @@ fn groom() -> Hair {
         group_names: [(0, "fringe".to_owned()), (4, "back \"of\" head".to_owned())].into(),
         guide: Some((0..STRANDS).map(|s| s % 7 == 2).collect()),
         width: Some((0..points).map(|p| 0.008 + 0.0001 * p as f32).collect()),
-        color: Some((0..points).map(|p| [0.1, 0.05 + 0.001 * p as f32, 0.02]).collect()),
+        colour: Some((0..points).map(|p| [0.1, 0.05 + 0.001 * p as f32, 0.02]).collect()),
         ..Attributes::default()
     };
     hair

@@ -34,7 +34,7 @@ pub fn curves<S>(export: &Export<'_>, name: &str) -> Prim<S> {
         let value = Value::Pairs(uv.clone());
         attributes.push(Attribute::primvar("primvars:point_uv", "texCoord2f[]", "vertex", value));
     }
-    if let Some(freedom) = &at.freedom {
+    if let Some(freedom) = &at.inverse_mass {
         let value = Value::Floats(freedom.clone());
         attributes.push(Attribute::primvar("primvars:freedom", "float[]", "vertex", value));
     }
@@ -48,10 +48,10 @@ pub fn curves<S>(export: &Export<'_>, name: &str) -> Prim<S> {
 /// Colours and transparencies.
 fn appearance<S>(export: &Export<'_>, attributes: &mut Vec<Attribute<S>>) {
     let at = &export.hair.attributes;
-    if let Some(color) = &at.color {
+    if let Some(color) = &at.colour {
         let value = Value::Triples(color.clone());
         attributes.push(Attribute::primvar("primvars:displayColor", "color3f[]", "vertex", value));
-    } else if let Some(color) = at.constant.color.or(export.default_color) {
+    } else if let Some(color) = at.constant.colour.or(export.default_colour) {
         let value = Value::Triples(vec![color]);
         attributes.push(Attribute::primvar("primvars:displayColor", "color3f[]", "constant", value));
     }

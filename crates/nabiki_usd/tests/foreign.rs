@@ -243,7 +243,7 @@ fn velocities_take_the_points_of_a_frame_to_those_of_the_next() {
     for name in ["moving.usda", "moving.usdc"] {
         let path = folder.path().join(name);
         let mut export = Export::new(&hair, 8.0);
-        (export.velocities, export.rest, export.default_color) = (true, true, Some([0.25, 0.5, 1.0]));
+        (export.velocities, export.rest, export.default_colour) = (true, true, Some([0.25, 0.5, 1.0]));
         let mut sink = Box::new(HairStage::create(&path, export, Form::Stage).unwrap());
         for frame in 0..3 {
             let mut strands = hair.strands.clone();
@@ -256,7 +256,7 @@ fn velocities_take_the_points_of_a_frame_to_those_of_the_next() {
         assert_eq!((rest.per, rest.role), (Per::Point, Role::Point));
         let points = hair.strands.points().iter().flat_map(|p| p.to_array()).collect();
         assert_eq!(rest.values, Values::Floats(points), "{name}");
-        assert_eq!(again.attributes.color, Some(vec![[0.25, 0.5, 1.0]; 5]));
+        assert_eq!(again.attributes.colour, Some(vec![[0.25, 0.5, 1.0]; 5]));
         if name.ends_with("usda") {
             let text = std::fs::read_to_string(&path).unwrap();
             let (_, velocities) = text.split_once("vector3f[] velocities.timeSamples = {").unwrap();

@@ -29,7 +29,7 @@ impl KeyframedField {
     /// Names the keyframe as `force[j]`, counted from 0 as the scene file's overrides count them.
     pub fn new(keyframes: &[Keyframe]) -> Result<Self, SettingError> {
         if keyframes.is_empty() {
-            return Err(SettingError::new("force", "none", "give at least one [[force]] with through and vector"));
+            return Err(SettingError::new("force", "none", "a field has at least one keyframe"));
         }
         let mut previous = 0;
         for (j, key) in keyframes.iter().enumerate() {

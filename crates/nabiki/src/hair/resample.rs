@@ -30,10 +30,10 @@ impl Hair {
         let a = &self.attributes;
         let attributes = Attributes {
             width: scalars(&a.width, &places),
-            color: arrays(&a.color, &places),
+            colour: arrays(&a.colour, &places),
             transparency: scalars(&a.transparency, &places),
             point_uv: arrays(&a.point_uv, &places),
-            freedom: scalars(&a.freedom, &places),
+            inverse_mass: scalars(&a.inverse_mass, &places),
             other: a.other.iter().map(|other| other.resampled(blends(&places, last))).collect(),
             ..a.clone()
         };
@@ -138,13 +138,13 @@ mod tests {
     fn values_by_point_go_along_and_values_by_strand_stay() {
         let mut original = hair(&[&[Vec3::ZERO, Vec3::X, 2.0 * Vec3::X]]);
         original.attributes.width = Some(vec![0.4, 0.2, 0.0]);
-        original.attributes.color = Some(vec![[0.0, 1.0, 0.5], [1.0, 0.0, 0.5], [1.0, 1.0, 0.5]]);
+        original.attributes.colour = Some(vec![[0.0, 1.0, 0.5], [1.0, 0.0, 0.5], [1.0, 1.0, 0.5]]);
         original.attributes.id = Some(vec![7]);
         let resampled = original.resampled(5);
         assert_eq!(resampled.check_lengths(), Ok(()));
         let width = resampled.attributes.width.unwrap();
         assert!(width.iter().enumerate().all(|(i, w)| (w - (0.4 - 0.1 * i as f32)).abs() <= f32::EPSILON));
-        assert_eq!(resampled.attributes.color.unwrap()[1], [0.5, 0.5, 0.5]);
+        assert_eq!(resampled.attributes.colour.unwrap()[1], [0.5, 0.5, 0.5]);
         assert_eq!(resampled.attributes.id, Some(vec![7]));
         assert_eq!(original.resampled(3).strands, original.strands, "even strands stay as they are");
     }

@@ -28,12 +28,12 @@ pub(super) fn write(out: &mut Vec<u8>, a: &Attributes) -> Result<()> {
     let guide: Option<Vec<u8>> = a.guide.as_ref().map(|guide| guide.iter().map(|&g| u8::from(g)).collect());
     block(out, b"guide   ", guide.as_deref())?;
     block(out, b"width   ", a.width.as_deref())?;
-    block(out, b"color   ", a.color.as_deref())?;
+    block(out, b"color   ", a.colour.as_deref())?;
     block(out, b"transpar", a.transparency.as_deref())?;
     block(out, b"point_uv", a.point_uv.as_deref())?;
-    block(out, b"freedom ", a.freedom.as_deref())?;
+    block(out, b"freedom ", a.inverse_mass.as_deref())?;
     block(out, b"c_width ", a.constant.width.as_ref().map(std::slice::from_ref))?;
-    block(out, b"c_color ", a.constant.color.as_ref().map(std::slice::from_ref))?;
+    block(out, b"c_color ", a.constant.colour.as_ref().map(std::slice::from_ref))?;
     block(out, b"c_transp", a.constant.transparency.as_ref().map(std::slice::from_ref))?;
     for (number, name) in &a.group_names {
         let mut text = number.to_le_bytes().to_vec();
@@ -67,12 +67,12 @@ pub(super) fn read<R: Read + Seek>(
             b"group   " => a.group = Some(block.values(strands)?),
             b"guide   " => a.guide = Some(block.values::<u8>(strands)?.iter().map(|&g| g != 0).collect()),
             b"width   " => a.width = Some(finite::widths(&name, block.values(points)?)?),
-            b"color   " => a.color = Some(finite::tuples(&name, block.values(points)?)?),
+            b"color   " => a.colour = Some(finite::tuples(&name, block.values(points)?)?),
             b"transpar" => a.transparency = Some(finite::values(&name, block.values(points)?)?),
             b"point_uv" => a.point_uv = Some(finite::tuples(&name, block.values(points)?)?),
-            b"freedom " => a.freedom = Some(finite::values(&name, block.values(points)?)?),
+            b"freedom " => a.inverse_mass = Some(finite::values(&name, block.values(points)?)?),
             b"c_width " => a.constant.width = finite::widths(&name, block.values(1)?)?.pop(),
-            b"c_color " => a.constant.color = finite::tuples(&name, block.values(1)?)?.pop(),
+            b"c_color " => a.constant.colour = finite::tuples(&name, block.values(1)?)?.pop(),
             b"c_transp" => a.constant.transparency = finite::values(&name, block.values(1)?)?.pop(),
             b"grp_name" => {
                 let text: Vec<u8> = block.values(length as usize)?;

@@ -72,12 +72,12 @@ fn attributes(hair: &Hair) -> Vec<&'static str> {
         (a.group.is_some(), "groups"),
         (a.guide.is_some(), "guide flags"),
         (a.width.is_some(), "widths"),
-        (a.color.is_some(), "colours"),
+        (a.colour.is_some(), "colours"),
         (a.transparency.is_some(), "transparencies"),
         (a.point_uv.is_some(), "point UVs"),
-        (a.freedom.is_some(), "held points"),
+        (a.inverse_mass.is_some(), "held points"),
         (a.constant.width.is_some(), "one width"),
-        (a.constant.color.is_some(), "one colour"),
+        (a.constant.colour.is_some(), "one colour"),
         (a.constant.transparency.is_some(), "one transparency"),
     ];
     all.into_iter().filter(|&(there, _)| there).map(|(_, name)| name).collect()

@@ -20,11 +20,15 @@ pub fn hair(counts: &[usize]) -> Hair {
         group_names: [(0, "fringe".to_owned()), (1, "crown".to_owned())].into(),
         guide: Some((0..counts.len()).map(|s| s == 0).collect()),
         width: Some(by_point(0.001)),
-        color: Some(by_point(0.03125).into_iter().map(|c| [c, 0.5, 1.0 - c]).collect()),
+        colour: Some(by_point(0.03125).into_iter().map(|c| [c, 0.5, 1.0 - c]).collect()),
         transparency: Some(by_point(0.03125)),
         point_uv: Some(by_point(0.25).into_iter().map(|u| [u, 1.0]).collect()),
-        freedom: Some(by_point(1.0).into_iter().map(|p| p.min(1.0)).collect()),
-        constant: nabiki::hair::Constants { width: Some(0.01), color: Some([0.25, 0.5, 1.0]), transparency: Some(0.0) },
+        inverse_mass: Some(by_point(1.0).into_iter().map(|p| p.min(1.0)).collect()),
+        constant: nabiki::hair::Constants {
+            width: Some(0.01),
+            colour: Some([0.25, 0.5, 1.0]),
+            transparency: Some(0.0),
+        },
         ..Attributes::default()
     };
     Hair { strands, attributes }

@@ -135,9 +135,13 @@ pub(super) fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshRe
     let mut placement = imported.placement(declared.unit, declared.up);
     placement.check("head").map_err(|refused| scene.refusal(refused))?;
     let (mut mesh, report) = mesh::import(&file, &placement, &imported.groups)?;
+    let refused = |refused: SettingError| {
+        let value = format!("{}, {}", imported.file.display(), refused.value);
+        scene.refusal(if refused.thing == "head.mesh" { SettingError { value, ..refused } } else { refused })
+    };
     let mut ellipsoid = given;
     if imported.origin.is_none() && given.is_none() {
-        let mut fitted = Head::fit(&mesh).map_err(|refused| scene.refusal(refused))?;
+        let mut fitted = Head::fit(&mesh).map_err(refused)?;
         placement.origin = placement.file_from_head().transform_point3(fitted.center);
         for p in &mut mesh.positions {
             *p -= fitted.center;
@@ -145,7 +149,7 @@ pub(super) fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshRe
         fitted.center = glam::Vec3::ZERO;
         ellipsoid = Some(fitted);
     }
-    let head = Head::from_mesh(mesh, ellipsoid).map_err(|refused| scene.refusal(refused))?;
+    let head = Head::from_mesh(mesh, ellipsoid).map_err(refused)?;
     Ok((head, placement, Some(report)))
 }
 

@@ -27,5 +27,9 @@ pub(super) fn keyframes(sources: &[FieldSource]) -> Result<&[Keyframe], SettingE
 /// # Errors
 /// No force at all, or keyframes that are no field.
 pub(super) fn build(sources: &[FieldSource]) -> Result<KeyframedField, SettingError> {
-    KeyframedField::new(keyframes(sources)?)
+    let keyframes = keyframes(sources)?;
+    if keyframes.is_empty() {
+        return Err(SettingError::new("force", "none", "give at least one [[force]] with through and vector"));
+    }
+    KeyframedField::new(keyframes)
 }

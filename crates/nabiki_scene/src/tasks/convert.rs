@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use nabiki::{Hair, Pose};
 use nabiki_io::Axis;
 use nabiki_io::cache::Reader;
+use nabiki_io::exchange::{self, DeclaredSpace, MovingHair};
 use nabiki_io::hair;
-use nabiki_io::{DeclaredSpace, exchange};
 use nabiki_io::{Placement, Unit};
 
 use crate::error::{Error, Result};
@@ -48,11 +48,14 @@ pub fn convert(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
     }
     let to_tools = exchange::is_usd(output) || exchange::is_alembic(output);
     if is_cache(options) && options.frame.is_none() && to_tools {
-        return all_frames(options, watch);
+        return cached_frames(options, watch);
     }
     if options.layer.is_some() {
         let line = "--export-layer is for all frames of a motion cache, into .usda or .usdc";
         return Err(Error::refused(format!("{}: {line}", options.input.display())));
+    }
+    if options.frame.is_none() && to_tools && frames_of(&options.input)? > 1 {
+        return exchanged_frames(options, watch);
     }
     let (hair, pose) = read(options)?;
     let mut losses = if to_tools {
@@ -83,6 +86,11 @@ fn finish(options: &ConvertOptions, losses: Vec<String>, holds: String, watch: &
         watch.told(Told::Lost { file: options.output.clone(), what });
     }
     watch.told(Told::Wrote { file: options.output.clone(), holds: Some(holds) });
+}
+
+/// Frames of a layer or archive; 1 for any other file.
+fn frames_of(input: &Path) -> Result<usize> {
+    if exchange::is_usd(input) || exchange::is_alembic(input) { Ok(exchange::frames(input)?) } else { Ok(1) }
 }
 
 fn is_cache(options: &ConvertOptions) -> bool {
@@ -135,23 +143,27 @@ fn read(options: &ConvertOptions) -> Result<(Hair, Pose)> {
 
 /// What the input says beside its hair and the output cannot: frames, unit and up axis.
 fn unsaid(options: &ConvertOptions) -> Result<Vec<String>> {
-    let (input, output) = (options.input.as_path(), options.output.as_path());
+    let input = options.input.as_path();
     let mut lost = Vec::new();
-    if exchange::is_usd(input) || exchange::is_alembic(input) {
-        let frames = exchange::frames(input)?;
-        if frames > 1 {
-            let kept = options.frame.unwrap_or(0);
-            lost.push(format!("motion: it is frame {kept} of the {frames} in {}", input.display()));
-        }
+    let frames = frames_of(input)?;
+    if frames > 1 {
+        let kept = options.frame.unwrap_or(0);
+        lost.push(format!("motion: it is frame {kept} of the {frames} in {}", input.display()));
     }
-    let DeclaredSpace { unit, up } = if is_cache(options) { said(options)? } else { exchange::declared_space(input)? };
-    if let Some(unit) = unit.filter(|unit| unit.cm != 1.0 && !exchange::is_usd(output)) {
-        lost.push(format!("its unit: give hair.unit = {} where it is read", unit.cm));
-    }
-    if let Some(up) = up.filter(|&up| up != Axis::PlusY && !exchange::is_usd(output)) {
-        lost.push(format!("its up axis: give hair.up = \"{up}\" where it is read"));
-    }
+    let declared = if is_cache(options) { said(options)? } else { exchange::declared_space(input)? };
+    lost.extend(unsaid_space(options, declared));
     Ok(lost)
+}
+
+/// Unit and up axis, where the output says nothing of them.
+fn unsaid_space(options: &ConvertOptions, DeclaredSpace { unit, up }: DeclaredSpace) -> Vec<String> {
+    if exchange::is_usd(&options.output) {
+        return Vec::new();
+    }
+    let unit = unit.filter(|unit| unit.cm != 1.0);
+    let up = up.filter(|&up| up != Axis::PlusY);
+    let unit = unit.map(|unit| format!("its unit: give hair.unit = {} where it is read", unit.cm));
+    unit.into_iter().chain(up.map(|up| format!("its up axis: give hair.up = \"{up}\" where it is read"))).collect()
 }
 
 /// Unit and up axis of the input: as it says itself, or else as the options do.
@@ -182,7 +194,7 @@ fn placement(cache: &Reader) -> Option<Placement> {
 
 /// Every frame of a cache below the moving head, in the space of the file that the hair came from; hair that was grown
 /// is in centimetres, y up.
-fn all_frames(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
+fn cached_frames(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
     let output = options.output.as_path();
     let mut cache = Reader::open(&options.input)?;
     let hair = cache.hair(0)?;
@@ -205,7 +217,29 @@ fn all_frames(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
         sink.frame(&strands, &pose.world_from_head()).map_err(failed)
     })?;
     sink.finish().map_err(failed)?;
-    let losses = exchange::losses(output, &hair).into_iter().chain(unsaid(options)?).collect();
+    let losses = exchange::losses(output, &hair).into_iter().chain(unsaid_space(options, said(options)?)).collect();
+    finish(options, losses, format!("{frames} frames of {} strands", hair.strands.len()), watch);
+    Ok(())
+}
+
+/// Every frame of a layer or archive as it is, in its own unit and axes.
+fn exchanged_frames(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
+    let output = options.output.as_path();
+    let mut moving = MovingHair::open(&options.input, options.segments)?;
+    let (hair, declared) = (moving.hair().clone(), said(options)?);
+    let mut export = moving.export(&hair);
+    export.meters_per_unit = declared.unit.map_or(export.meters_per_unit, |unit| f64::from(unit.cm) / 100.0);
+    export.z_up = declared.up == Some(Axis::PlusZ);
+    let failed = |e: std::io::Error| Error::from(nabiki_io::Error::from(e).in_file(output));
+    let frames = moving.frames() as u32;
+    place::room(output, u64::from(frames) * hair.strands.points().len() as u64 * 12, watch)?;
+    let mut sink = exchange::sink(output, export, None)?;
+    each_frame(watch, "converting", 0..=frames - 1, |frame| {
+        let (strands, world_from_hair) = moving.frame(frame as usize)?;
+        sink.frame(&strands, &world_from_hair).map_err(failed)
+    })?;
+    sink.finish().map_err(failed)?;
+    let losses = exchange::losses(output, &hair).into_iter().chain(unsaid_space(options, declared)).collect();
     finish(options, losses, format!("{frames} frames of {} strands", hair.strands.len()), watch);
     Ok(())
 }
