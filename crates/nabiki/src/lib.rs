@@ -7,6 +7,43 @@
 //! lies within the skull (the centre of the head ellipsoid unless said otherwise). Lengths are centimetres, angles
 //! radians, time is counted in frames. Forces are directions with a strength, not newtons: only their product with
 //! the gain c_i of equation (8) moves hair.
+//!
+//! # A program
+//!
+//! ```
+//! use std::sync::Arc;
+//!
+//! use glam::Vec3;
+//! use nabiki::dynamics::{Dynamics, Motion, Timeline};
+//! use nabiki::field::{Keyframe, KeyframedField};
+//! use nabiki::groom::{Growth, Style, grow};
+//! use nabiki::pseudo_force::PseudoForce;
+//! use nabiki::roots::Hairline;
+//! use nabiki::{Head, SettingError};
+//!
+//! fn main() -> Result<(), SettingError> {
+//!     let head = Head::builtin();
+//!     let (hairline, style) = (Hairline::default(), Style::default());
+//!     let growth =
+//!         Growth { hairline: &hairline, style: &style, strands: 2_000, segments: 18, segment_length: 1.0, seed: 1 };
+//!     let hair = grow(&head, &growth, 20)?;
+//!     let dynamics = Dynamics {
+//!         motion: Motion { inertia_length_floor: 18.0, ..Motion::default() },
+//!         segment_length: 1.0,
+//!         pseudo_force: PseudoForce::default(),
+//!         ellipsoid: head.ellipsoid,
+//!         shell: 1.25,
+//!         polar_axis: Vec3::Y,
+//!         disturbance: None,
+//!     };
+//!     let gust = KeyframedField::new(&[Keyframe { through: 50, vector: Vec3::new(-100.0, 0.0, 0.0) }])?;
+//!     let mut timeline = Timeline::new(&hair.strands, &dynamics, Arc::new(gust), Vec::new(), 50)?;
+//!     let film = timeline.play();
+//!     let tip = |frame: u32| film.strand(frame, 0)[film.strand(frame, 0).len() - 1];
+//!     assert!(tip(50).x < tip(0).x, "hair goes where the wind blows");
+//!     Ok(())
+//! }
+//! ```
 
 #![forbid(unsafe_code)]
 

@@ -5,6 +5,26 @@
 //! lines. The layout was learnt from archives that Alembic 1.8 writes, and the proof is that its own reader, Blender
 //! and others open ours (`tests/interchange`). What is not written: HDF5 archives (obsolete since 2013), materials,
 //! cameras, and all schemas but transform, curves and polygon mesh.
+//!
+//! ```
+//! use glam::{Affine3A, Vec3};
+//! use nabiki::{Hair, Strands};
+//! use nabiki_exchange::{Export, FrameSink, GroomReader, Problem};
+//! use nabiki_alembic::{ArchiveReader, HairArchive};
+//!
+//! fn main() -> Result<(), Problem> {
+//!     let mut strands = Strands::default();
+//!     strands.push([Vec3::ZERO, Vec3::Y, 2.0 * Vec3::Y]);
+//!     let hair = Hair::from(strands);
+//!     let path = std::env::temp_dir().join(format!("nabiki_alembic_{}.abc", std::process::id()));
+//!     let mut file = Box::new(HairArchive::create(&path, Export::new(&hair, 24.0))?);
+//!     file.frame(&hair.strands, &Affine3A::IDENTITY)?;
+//!     file.finish()?;
+//!     let read = ArchiveReader::open(&path)?.hair(0, None)?;
+//!     assert_eq!(read.strands, hair.strands);
+//!     Ok(std::fs::remove_file(&path)?)
+//! }
+//! ```
 
 #![forbid(unsafe_code)]
 

@@ -3,6 +3,21 @@
 //! [`curves`] turns curves into strands, [`attributes`] knows the names by which programs call what curves carry,
 //! [`Gathered`] joins curves of several objects, [`export`] is what a writer of moving hair is told, and
 //! [`GroomReader`] what a reader answers.
+//!
+//! ```
+//! use glam::Vec3;
+//! use nabiki_exchange::Problem;
+//! use nabiki_exchange::curves::{Basis, Shape};
+//!
+//! fn main() -> Result<(), Problem> {
+//!     let curve = Shape { counts: vec![4], basis: Basis::Bezier, pinned: false };
+//!     let points = vec![Vec3::ZERO, Vec3::Y, Vec3::new(1.0, 2.0, 0.0), Vec3::new(2.0, 2.0, 0.0)];
+//!     let walked = curve.walk(points, Some(8))?;
+//!     assert_eq!((walked.strands.len(), walked.strands.points().len()), (1, 9));
+//!     assert_eq!(walked.strands.strand(0)[8], Vec3::new(2.0, 2.0, 0.0));
+//!     Ok(())
+//! }
+//! ```
 
 #![forbid(unsafe_code)]
 

@@ -4,6 +4,22 @@
 //! unfinished, it is removed; [`remove_unfinished`] removes all that a program has open, for a handler of signals. What a
 //! killed program left behind is removed by the next one that writes to the same place: the part files of programs that
 //! run are locked.
+//!
+//! ```
+//! use std::io::Write;
+//!
+//! use nabiki_file::PartFile;
+//!
+//! fn main() -> std::io::Result<()> {
+//!     let path = std::env::temp_dir().join(format!("nabiki_file_{}.txt", std::process::id()));
+//!     let mut file = PartFile::create(&path)?;
+//!     file.write_all(b"whole or not at all")?;
+//!     assert!(!path.exists());
+//!     file.finish()?;
+//!     assert_eq!(std::fs::read(&path)?, b"whole or not at all");
+//!     std::fs::remove_file(&path)
+//! }
+//! ```
 
 #![forbid(unsafe_code)]
 

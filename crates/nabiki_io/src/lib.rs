@@ -1,4 +1,20 @@
 //! What goes in and out of Nabiki: hair, heads, motion of the head, motion caches. It knows no scene and no picture.
+//!
+//! ```
+//! use glam::Vec3;
+//! use nabiki::{Hair, Strands};
+//! use nabiki_io::{Error, hair};
+//!
+//! fn main() -> Result<(), Error> {
+//!     let mut strands = Strands::default();
+//!     strands.push([Vec3::ZERO, Vec3::Y, 2.0 * Vec3::Y]);
+//!     let path = std::env::temp_dir().join(format!("nabiki_io_{}.hair", std::process::id()));
+//!     let lost = hair::write(&path, &Hair::from(strands.clone()))?;
+//!     assert_eq!(lost, Vec::<String>::new());
+//!     assert_eq!(hair::read(&path)?.strands, strands);
+//!     Ok(std::fs::remove_file(&path)?)
+//! }
+//! ```
 
 #![forbid(unsafe_code)]
 

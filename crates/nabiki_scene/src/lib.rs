@@ -3,6 +3,30 @@
 //!
 //! A shell (the command line, a window, a script) reads or makes a [`Scene`], hands it to one of the [`tasks`] or
 //! [builds](Scene::build) it and steps it itself, and shows what a [`Watch`] hears.
+//!
+//! Open a scene, change the wind, simulate, read points in the world:
+//!
+//! ```
+//! # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).expect("the project's folder");
+//! use glam::Vec3;
+//! use nabiki::field::Keyframe;
+//! use nabiki_scene::scene::FieldSource;
+//! use nabiki_scene::{Result, Scene, Shown};
+//!
+//! fn main() -> Result<()> {
+//!     let mut scene = Scene::load("scenes/gust.toml".as_ref(), &[])?;
+//!     let down = Keyframe { through: 100, vector: Vec3::new(-15.0, -300.0, 0.0) };
+//!     scene.field = vec![FieldSource::Keyframes(vec![down])];
+//!     let built = scene.build(Shown::First(300))?;
+//!     let mut timeline = built.timeline()?;
+//!     let film = timeline.play();
+//!     for frame in 0..=built.frames() {
+//!         let tip = film.strand(frame, 0).last().copied().unwrap_or_default();
+//!         println!("{frame}: {}", built.pose(frame).world_from_head().transform_point3(tip));
+//!     }
+//!     Ok(())
+//! }
+//! ```
 
 #![forbid(unsafe_code)]
 

@@ -4,6 +4,26 @@
 //! takes 200 s to build on two cores and keeps a layer in memory, where a hundred frames of hair are half a gigabyte;
 //! what is needed of the format is small. Layers are not composed: references, payloads, sublayers and variants must
 //! be flattened first (`usdcat --flatten`).
+//!
+//! ```
+//! use glam::{Affine3A, Vec3};
+//! use nabiki::{Hair, Strands};
+//! use nabiki_exchange::{Export, FrameSink, GroomReader, Problem};
+//! use nabiki_usd::{Form, HairStage, StageReader};
+//!
+//! fn main() -> Result<(), Problem> {
+//!     let mut strands = Strands::default();
+//!     strands.push([Vec3::ZERO, Vec3::Y, 2.0 * Vec3::Y]);
+//!     let hair = Hair::from(strands);
+//!     let path = std::env::temp_dir().join(format!("nabiki_usd_{}.usdc", std::process::id()));
+//!     let mut file = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), Form::Stage)?);
+//!     file.frame(&hair.strands, &Affine3A::IDENTITY)?;
+//!     file.finish()?;
+//!     let read = StageReader::open(&path)?.hair(0, None)?;
+//!     assert_eq!(read.strands, hair.strands);
+//!     Ok(std::fs::remove_file(&path)?)
+//! }
+//! ```
 
 #![forbid(unsafe_code)]
 
