@@ -29,6 +29,11 @@ pub fn albedo(absorption: [f32; 3], azimuthal_roughness: f32) -> [f32; 3] {
     absorption.map(|a| (-a.sqrt() * depth).exp())
 }
 
+/// Colour (linear red, green, blue) that a thick mass of this hair shows in even light.
+pub fn of_mass(look: &HairLook) -> [f32; 3] {
+    albedo(absorption(look), look.azimuthal_roughness)
+}
+
 fn albedo_depth(b: f32) -> f32 {
     5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + b * 0.245))))
 }

@@ -23,7 +23,7 @@
 
 mod backdrop;
 pub mod camera;
-mod colour;
+pub mod colour;
 mod curve;
 mod error;
 pub mod frame;

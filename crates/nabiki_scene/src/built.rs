@@ -18,8 +18,6 @@ use nabiki_io::placement::Placement;
 use crate::advice::{Advice, advice};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
-use crate::told::{SceneSummary, SwingTable, Told};
-use crate::watch::Watch;
 
 /// All that a scene names, loaded and in head space, ready to be stepped.
 #[derive(Clone, Debug)]
@@ -151,13 +149,6 @@ impl BuiltScene {
     /// What looks wrong about the size and place of head and hair.
     pub fn advice(&self) -> Vec<Advice> {
         advice(&self.scene, &self.head, &self.placement, &self.hair.strands, self.hair_placement.as_ref())
-    }
-
-    /// Tells what there is to move, what looks wrong about it, and how long its swings will take.
-    pub(crate) fn introduce(&self, watch: &mut dyn Watch) {
-        watch.told(Told::Scene(SceneSummary::of(self)));
-        self.advice().into_iter().for_each(|advice| watch.told(Told::Advice(advice)));
-        watch.told(Told::Swing(SwingTable::of(self)));
     }
 
     /// Whether the head moves.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use nabiki::{Pose, Strands};
 use nabiki_exchange::FrameSink;
 use nabiki_io::exchange;
+use nabiki_render::colour;
 
 use crate::built::BuiltScene;
 use crate::error::{Error, Result};
@@ -55,7 +56,7 @@ impl<'a> Exports<'a> {
             let frame_rate = built.scene.frame_rate();
             let mut export = exchange::export(&built.hair, frame_rate, built.hair_placement.as_ref());
             export.default_width = Some(built.scene.picture.hair.width);
-            export.default_colour = Some(built.scene.picture.hair.mass_colour());
+            export.default_colour = Some(colour::of_mass(&built.scene.picture.hair));
             export.head = (!exchange::is_alembic(path) || options.head).then_some(&built.head.mesh);
             if let Some(prim) = &options.layer {
                 if let Some(imported) = built.scene.hair.imported() {

@@ -19,8 +19,21 @@ pub use simulate::{SimulateOptions, Twin, simulate};
 
 use std::path::PathBuf;
 
-use crate::told::Told;
+use crate::built::BuiltScene;
+use crate::told::{SceneSummary, SwingTable, Told};
 use crate::watch::Watch;
+
+/// Tells what there is to move, and what looks wrong about it.
+fn present(built: &BuiltScene, watch: &mut dyn Watch) {
+    watch.told(Told::Scene(SceneSummary::of(built)));
+    built.advice().into_iter().for_each(|advice| watch.told(Told::Advice(advice)));
+}
+
+/// The same, and how long its swings will take.
+fn introduce(built: &BuiltScene, watch: &mut dyn Watch) {
+    present(built, watch);
+    watch.told(Told::Swing(SwingTable::of(built)));
+}
 
 /// Says which files now exist.
 fn wrote(files: Vec<PathBuf>, watch: &mut dyn Watch) {

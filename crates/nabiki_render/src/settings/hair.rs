@@ -108,11 +108,6 @@ impl Default for HairLook {
 }
 
 impl HairLook {
-    /// Colour (linear red, green, blue) that a thick mass of this hair shows in even light.
-    pub fn mass_colour(&self) -> [f32; 3] {
-        crate::colour::albedo(crate::colour::absorption(self), self.azimuthal_roughness)
-    }
-
     pub(crate) fn check(&self) -> Result<(), SettingError> {
         check_range("picture.hair.width", self.width, 1e-5, 5.0)?;
         check_range("picture.hair.tip", self.tip, 0.0, 1.0)?;

@@ -8,7 +8,7 @@ use crate::built::Shown;
 use crate::error::Result;
 use crate::place;
 use crate::scene::Scene;
-use crate::told::{SceneSummary, Told};
+use crate::told::Told;
 use crate::watch::Watch;
 
 /// Grows or imports the hair of a scene and writes it into a hair file.
@@ -21,8 +21,7 @@ pub fn groom(scene: Scene, shown: Shown, output: &Path, watch: &mut dyn Watch) -
     hair::losses(output, &nabiki::Hair::default())?;
     place::not_inputs(&[output], &scene.inputs())?;
     let built = scene.build(shown)?;
-    watch.told(Told::Scene(SceneSummary::of(&built)));
-    built.advice().into_iter().for_each(|advice| watch.told(Told::Advice(advice)));
+    super::present(&built, watch);
     for what in hair::write(output, &built.hair)? {
         watch.told(Told::Lost { file: output.to_owned(), what });
     }

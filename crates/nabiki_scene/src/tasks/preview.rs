@@ -35,7 +35,7 @@ pub fn preview(scene: Scene, strands: usize, folder: &Path, cache: Option<&Path>
     let mut folders = Folders::default();
     let name = format!("{}_preview", scene.name());
     let mut outputs = PictureOutputs::begin(&built, &picture, folder, &name, &built.inputs(), &mut folders)?;
-    built.introduce(watch);
+    super::introduce(&built, watch);
     let mut film = Film::new(&built, &picture, &mut simulated.again(), watch)?;
     let mut frames = simulated.again();
     let inside = film.shoot(&mut frames, &mut outputs, watch)?;

@@ -31,7 +31,7 @@ pub fn run(scene: Scene, shown: Shown, folder: &Path, exports: &ExportOptions, w
     let mut folders = Folders::default();
     let mut outputs =
         PictureOutputs::begin(&built, &scene.picture, folder, &scene.name(), &built.inputs(), &mut folders)?;
-    built.introduce(watch);
+    super::introduce(&built, watch);
     let mut exports = Exports::begin(exports, &built, watch)?;
     let mut rehearsal = simulated.again();
     let mut frames = Exported { frames: simulated, built: &built, exports: &mut exports };

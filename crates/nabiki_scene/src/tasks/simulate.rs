@@ -57,7 +57,7 @@ pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &m
         Twin::Fast => Box::new(Simulated::new(&built)?),
         Twin::Reference => Box::new(Simulated::by(&built, built.reference()?)),
     };
-    built.introduce(watch);
+    super::introduce(&built, watch);
     let mut exports = Exports::begin(&exports, &built, watch)?;
     let mut scene_cache = cache.map(|cache| SceneCache::begin(&built, cache, watch)).transpose()?;
     let mut inside = Inside::default();
