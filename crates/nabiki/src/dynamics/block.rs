@@ -56,7 +56,7 @@ impl Block {
             for ((row, along), shape) in shapes[rows.clone()].iter_mut().zip(&mut along[rows.clone()]).zip(strand) {
                 row.length.0[lane] = shape.length as f32;
                 row.gain.0[lane] = shape.gain as f32;
-                row.gain_in_gamma.0[lane] = shape.gain_in_gamma as f32;
+                row.eps.0[lane] = (shape.gain_in_gamma / shape.gain) as f32;
                 along.0[lane] = shape.along as f32;
             }
         }

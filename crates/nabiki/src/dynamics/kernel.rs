@@ -60,8 +60,8 @@ pub(super) struct ShapeRow {
     pub length: Row,
     /// c_i.
     pub gain: Row,
-    /// eps_i c_i.
-    pub gain_in_gamma: Row,
+    /// eps_i.
+    pub eps: Row,
 }
 
 /// A point for each strand of a block: rows of x, y, z (cm).
@@ -85,7 +85,9 @@ pub(super) fn step_segment<const TILTED: bool>(
     for lane in 0..LANES {
         let force = forces.lane(lane);
         let p = [before[0].0[lane], before[1].0[lane], before[2].0[lane]];
-        let c = if surroundings.weaken(p, &force) { shape.gain_in_gamma.0[lane] } else { shape.gain.0[lane] };
+        // Not a choice between two rows, which the compiler would make a gather.
+        let eps = if surroundings.weaken(p, &force) { shape.eps.0[lane] } else { 1.0 };
+        let c = eps * shape.gain.0[lane];
 
         let (theta, phi) = (state.theta.lane(lane), freed(state, lane, &force));
         let ([sin_theta, cos_theta], [sin_phi, cos_phi]) = (theta, phi);
