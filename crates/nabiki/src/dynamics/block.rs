@@ -84,7 +84,8 @@ impl Block {
         wind: &impl Wind,
         points: Option<&mut [Vec3]>,
     ) {
-        let before = self.roots;
+        // Copies, which nothing that is written can change: they need not be read again at every segment.
+        let (surroundings, wind, before) = (*surroundings, *wind, self.roots);
         self.walk(states, shapes, points, Step::<TILTED, _> { surroundings, wind, before });
     }
 
@@ -151,16 +152,16 @@ trait Pass {
     fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, after: &mut PointRow);
 }
 
-struct Step<'a, const TILTED: bool, W> {
-    surroundings: &'a Surroundings,
-    wind: &'a W,
+struct Step<const TILTED: bool, W> {
+    surroundings: Surroundings,
+    wind: W,
     before: PointRow,
 }
 
-impl<const TILTED: bool, W: Wind> Pass for Step<'_, TILTED, W> {
+impl<const TILTED: bool, W: Wind> Pass for Step<TILTED, W> {
     #[inline(always)]
     fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, after: &mut PointRow) {
-        step_segment::<TILTED>(state, shape, self.surroundings, self.wind, &mut self.before, after);
+        step_segment::<TILTED>(state, shape, &self.surroundings, &self.wind, &mut self.before, after);
     }
 }
 

@@ -9,7 +9,7 @@ use crate::ellipsoid::Ellipsoid;
 use crate::field::Field;
 
 /// What lies around the hair in every frame: Gamma but for the force, and the polar axis.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Surroundings {
     center: [f32; 3],
     /// 1 / half axis.
@@ -90,7 +90,7 @@ impl Force {
 }
 
 /// Where forces come from in one frame.
-pub(super) trait Wind {
+pub(super) trait Wind: Copy {
     /// The forces on sixteen segments that end at `points` (head space).
     fn at(&self, points: &PointRow, surroundings: &Surroundings) -> impl Forces;
 }
