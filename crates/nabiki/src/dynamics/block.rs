@@ -56,7 +56,7 @@ impl Block {
             for ((row, along), shape) in shapes[rows.clone()].iter_mut().zip(&mut along[rows.clone()]).zip(strand) {
                 row.length.0[lane] = shape.length as f32;
                 row.gain.0[lane] = shape.gain as f32;
-                row.gain_in_gamma.0[lane] = shape.gain_in_gamma as f32;
+                row.eps.0[lane] = (shape.gain_in_gamma / shape.gain) as f32;
                 along.0[lane] = shape.along as f32;
             }
         }
@@ -84,7 +84,8 @@ impl Block {
         wind: &impl Wind,
         points: Option<&mut [Vec3]>,
     ) {
-        let before = self.roots;
+        // Copies, which nothing that is written can change: they need not be read again at every segment.
+        let (surroundings, wind, before) = (*surroundings, *wind, self.roots);
         self.walk(states, shapes, points, Step::<TILTED, _> { surroundings, wind, before });
     }
 
@@ -151,16 +152,16 @@ trait Pass {
     fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, after: &mut PointRow);
 }
 
-struct Step<'a, const TILTED: bool, W> {
-    surroundings: &'a Surroundings,
-    wind: &'a W,
+struct Step<const TILTED: bool, W> {
+    surroundings: Surroundings,
+    wind: W,
     before: PointRow,
 }
 
-impl<const TILTED: bool, W: Wind> Pass for Step<'_, TILTED, W> {
+impl<const TILTED: bool, W: Wind> Pass for Step<TILTED, W> {
     #[inline(always)]
     fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, after: &mut PointRow) {
-        step_segment::<TILTED>(state, shape, self.surroundings, self.wind, &mut self.before, after);
+        step_segment::<TILTED>(state, shape, &self.surroundings, &self.wind, &mut self.before, after);
     }
 }
 

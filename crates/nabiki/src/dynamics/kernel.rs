@@ -60,8 +60,8 @@ pub(super) struct ShapeRow {
     pub length: Row,
     /// c_i.
     pub gain: Row,
-    /// eps_i c_i.
-    pub gain_in_gamma: Row,
+    /// eps_i.
+    pub eps: Row,
 }
 
 /// A point for each strand of a block: rows of x, y, z (cm).
@@ -78,14 +78,17 @@ pub(super) fn step_segment<const TILTED: bool>(
     before: &mut PointRow,
     after: &mut PointRow,
 ) {
-    extend::<TILTED>(before, state, shape, surroundings);
-    let forces = wind.at(before, surroundings);
-    let mut next = SegmentState::default();
-    let mut far = 0;
+    let forces = wind.at::<TILTED>(before, state, shape, surroundings);
+    let (start, mut next, mut far) = (*after, SegmentState::default(), 0);
+    // One loop, and no other between it and the points of the segment before: rows that one loop writes by halves
+    // and the next one reads whole hold the machine up for longer than a step takes.
     for lane in 0..LANES {
-        let force = forces.lane(lane);
-        let p = [before[0].0[lane], before[1].0[lane], before[2].0[lane]];
-        let c = if surroundings.weaken(p, &force) { shape.gain_in_gamma.0[lane] } else { shape.gain.0[lane] };
+        let (force, length) = (forces.lane(lane), shape.length.0[lane]);
+        let direction = surroundings.direction::<TILTED>(state.theta.lane(lane), state.phi.lane(lane));
+        let p = extend_lane(before, lane, length, direction);
+        // Not a choice between two rows, which the compiler would make a gather.
+        let eps = if surroundings.weaken(p, &force) { shape.eps.0[lane] } else { 1.0 };
+        let c = eps * shape.gain.0[lane];
 
         let (theta, phi) = (state.theta.lane(lane), freed(state, lane, &force));
         let ([sin_theta, cos_theta], [sin_phi, cos_phi]) = (theta, phi);
@@ -97,10 +100,12 @@ pub(super) fn step_segment<const TILTED: bool>(
         let phi_increment = c.mul_add(sin_theta * around, state.phi_increment.0[lane]);
         far |= u32::from((theta_increment.abs() > LITTLE) | (phi_increment.abs() > LITTLE));
 
-        next.theta.set(lane, turn_little(theta, theta_increment));
-        next.phi.set(lane, turn_little(phi, phi_increment));
+        let (theta, phi) = (turn_little(theta, theta_increment), turn_little(phi, phi_increment));
+        next.theta.set(lane, theta);
+        next.phi.set(lane, phi);
         next.theta_increment.0[lane] = theta_increment;
         next.phi_increment.0[lane] = phi_increment;
+        extend_lane(after, lane, length, surroundings.direction::<TILTED>(theta, phi));
     }
     if far != 0 {
         // Lanes that turn little have what they need; each lane's bits are its own whichever way its block goes.
@@ -111,8 +116,9 @@ pub(super) fn step_segment<const TILTED: bool>(
             next.theta.set(lane, if theta_increment.abs() > LITTLE { theta } else { next.theta.lane(lane) });
             next.phi.set(lane, if phi_increment.abs() > LITTLE { phi } else { next.phi.lane(lane) });
         }
+        *after = start;
+        extend::<TILTED>(after, &next, shape, surroundings);
     }
-    extend::<TILTED>(after, &next, shape, surroundings);
     *state = next;
 }
 
@@ -145,9 +151,17 @@ pub(super) fn extend<const TILTED: bool>(
 ) {
     for lane in 0..LANES {
         let direction = surroundings.direction::<TILTED>(state.theta.lane(lane), state.phi.lane(lane));
-        for axis in 0..3 {
-            let point = &mut points[axis].0[lane];
-            *point = shape.length.0[lane].mul_add(direction[axis], *point);
-        }
+        extend_lane(points, lane, shape.length.0[lane], direction);
     }
+}
+
+#[inline(always)]
+fn extend_lane([x, y, z]: &mut PointRow, lane: usize, length: f32, direction: [f32; 3]) -> [f32; 3] {
+    let p = [
+        length.mul_add(direction[0], x.0[lane]),
+        length.mul_add(direction[1], y.0[lane]),
+        length.mul_add(direction[2], z.0[lane]),
+    ];
+    [x.0[lane], y.0[lane], z.0[lane]] = p;
+    p
 }

@@ -2,14 +2,14 @@
 
 use glam::{Mat3, Vec3};
 
-use super::kernel::{LANES, PointRow, Row};
+use super::kernel::{LANES, PointRow, Row, SegmentState, ShapeRow, extend};
 use super::polar::PolarAxis;
 use super::{Dynamics, ForceSpace, FrameInput};
 use crate::ellipsoid::Ellipsoid;
 use crate::field::Field;
 
 /// What lies around the hair in every frame: Gamma but for the force, and the polar axis.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Surroundings {
     center: [f32; 3],
     /// 1 / half axis.
@@ -90,9 +90,18 @@ impl Force {
 }
 
 /// Where forces come from in one frame.
-pub(super) trait Wind {
-    /// The forces on sixteen segments that end at `points` (head space).
-    fn at(&self, points: &PointRow, surroundings: &Surroundings) -> impl Forces;
+pub(super) trait Wind: Copy {
+    /// The forces on a segment of each strand of a block.
+    type Forces: Forces;
+
+    /// The forces on a segment of each strand of a block, which begins at `start` (head space).
+    fn at<const TILTED: bool>(
+        &self,
+        start: &PointRow,
+        state: &SegmentState,
+        shape: &ShapeRow,
+        surroundings: &Surroundings,
+    ) -> Self::Forces;
 }
 
 /// The force on each of sixteen segments.
@@ -101,8 +110,10 @@ pub(super) trait Forces {
 }
 
 impl Wind for Force {
+    type Forces = Self;
+
     #[inline(always)]
-    fn at(&self, _: &PointRow, _: &Surroundings) -> impl Forces {
+    fn at<const TILTED: bool>(&self, _: &PointRow, _: &SegmentState, _: &ShapeRow, _: &Surroundings) -> Self::Forces {
         *self
     }
 }
@@ -126,9 +137,19 @@ pub(super) struct LocalWind<'a> {
 }
 
 impl Wind for LocalWind<'_> {
+    type Forces = ForceRow;
+
     #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernel")]
     #[inline(always)]
-    fn at(&self, points: &PointRow, surroundings: &Surroundings) -> impl Forces {
+    fn at<const TILTED: bool>(
+        &self,
+        start: &PointRow,
+        state: &SegmentState,
+        shape: &ShapeRow,
+        surroundings: &Surroundings,
+    ) -> Self::Forces {
+        let mut points = *start;
+        extend::<TILTED>(&mut points, state, shape, surroundings);
         let mut there = [[0.0; LANES]; 3];
         for lane in 0..LANES {
             let [x, y, z] = rotate(&self.field_from_head, [points[0].0[lane], points[1].0[lane], points[2].0[lane]]);
@@ -147,8 +168,9 @@ impl Wind for LocalWind<'_> {
     }
 }
 
-#[derive(Clone, Copy, Default)]
-struct ForceRow {
+/// The force on each of sixteen segments.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ForceRow {
     in_head: PointRow,
     in_polar: PointRow,
     azimuth: [Row; 2],
