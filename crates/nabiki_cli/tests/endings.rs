@@ -16,7 +16,7 @@ fn names(folder: &Path) -> Vec<PathBuf> {
 /// A simulation into `cache` that goes on until it is stopped, and has begun to write.
 fn begun(cache: &Path) -> Child {
     let mut child = Command::new(env!("CARGO_BIN_EXE_nabiki"))
-        .args(["simulate", GUST, "--strands", "50", "--frames", "4000000", "-o"])
+        .args(["simulate", GUST, "--strands", "2", "--frames", "9000000", "-o"])
         .arg(cache)
         .stdout(Stdio::null())
         .stderr(Stdio::null())

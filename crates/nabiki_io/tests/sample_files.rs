@@ -233,14 +233,16 @@ fn what_a_layer_states_is_not_guessed_and_the_rest_is_guessed_once() {
         assert_eq!(found["unit_cm"].as_f64(), unit, "{name}");
         assert_eq!(found.get("likely_unit").and_then(Value::as_str), guess, "{name}");
         assert_eq!((found["frames"].as_u64(), found["up"].as_str()), (Some(1), Some("+y")), "{name}");
-        assert_eq!(found["curves"].as_array().map(Vec::len), Some(1), "{name}: {found}");
+        let curves = found["prims"].as_array().unwrap().iter().filter(|prim| prim["what"] == "3 curves, 12 points");
+        assert_eq!(curves.count(), 1, "{name}: {found}");
         assert!(found["hair"]["strands"] == 3 && found["hair"].get("likely_unit").is_none(), "{name}: {found}");
         let text = info(&file(name)).unwrap().to_string();
         assert_eq!(text.matches("guess").count(), usize::from(guess.is_some()), "{text}");
         assert!(unit.is_none() || text.contains("the file says: unit m, up +y"), "{text}");
     }
     assert!(json("groom.usda")["mesh"].get("likely_unit").is_none());
-    assert_eq!(json("groom.usda")["curves"][0], "/groom/hair");
+    assert_eq!(json("groom.usda")["prims"][1]["path"], "/groom/hair");
+    assert_eq!(json("groom.usda")["prims"][4]["samples"], 25, "a transform's frames");
 }
 
 /// All that a file may be asked for, by whatever kind it is.
