@@ -21,6 +21,8 @@ pub struct Head {
     pub ellipsoid: Ellipsoid,
     /// How the triangles lay in the mesh that it was made of.
     pub orientation: Orientation,
+    /// Lowest and highest corner of the mesh: beyond it nothing is inside.
+    bounds: [Vec3; 2],
     skin: SkinDistance,
 }
 
@@ -30,7 +32,7 @@ impl Head {
     pub fn builtin() -> Self {
         let (mesh, skin) = bust::read(bust::BAKED);
         let orientation = Orientation { turned: 0, open_edges: 0, has_inside: true };
-        Self { mesh, ellipsoid: bust::ELLIPSOID, orientation, skin }
+        Self { bounds: bounds(&mesh.positions), mesh, ellipsoid: bust::ELLIPSOID, orientation, skin }
     }
 
     /// The same head with another ellipsoid.
@@ -88,7 +90,7 @@ impl Head {
         let low = (low - margin).max(ellipsoid.center - reach);
         let high = (high + margin).min(ellipsoid.center + reach);
         let skin = SkinDistance::new(&mesh, low, high, spacing);
-        Self { mesh, ellipsoid, orientation, skin }
+        Self { bounds: bounds(&mesh.positions), mesh, ellipsoid, orientation, skin }
     }
 
     /// Signed distance from `p` to the skin (cm), negative inside. Open rims of the mesh count as closed.
@@ -101,9 +103,16 @@ impl Head {
         self.skin.exact(p)
     }
 
+    /// How deep `p` lies inside the skin (cm); 0 outside. Cheap anywhere, unlike the distance of points far away.
+    pub fn depth(&self, p: Vec3) -> f32 {
+        let [low, high] = self.bounds;
+        let may_be_inside = p.cmpge(low).all() && p.cmple(high).all();
+        if may_be_inside { (-self.skin.at(p)).max(0.0) } else { 0.0 }
+    }
+
     /// Whether `p` lies inside the skin.
     pub fn contains(&self, p: Vec3) -> bool {
-        self.skin.at(p) < 0.0
+        self.depth(p) > 0.0
     }
 
     /// The unit direction in which the distance to the skin grows fastest at `p`: on the skin, its outward normal.

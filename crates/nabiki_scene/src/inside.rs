@@ -22,7 +22,7 @@ impl InsideFrame {
         let strand = |s: usize| {
             strands.strand(s)[1..]
                 .iter()
-                .map(|&p| -head.distance(p))
+                .map(|&p| head.depth(p))
                 .filter(|&depth| depth > 0.0)
                 .fold((0_u64, 0.0_f32), |(count, deepest), depth| (count + 1, deepest.max(depth)))
         };

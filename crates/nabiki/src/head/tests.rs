@@ -183,3 +183,13 @@ proptest::proptest! {
         }
     }
 }
+
+#[test]
+fn depth_is_the_distance_within_and_nothing_without() {
+    let head = Head::builtin();
+    for i in 0..4000 {
+        let share = [0.618_034, 0.754_878, 0.569_84].map(|g: f32| 2.0 * (i as f32 * g).fract() - 1.0);
+        let p = Vec3::from_array(share) * vec3(30.0, 40.0, 40.0);
+        assert_eq!(head.depth(p), (-head.distance(p)).max(0.0), "{p}");
+    }
+}
