@@ -108,7 +108,7 @@ fn weld(mesh: Mesh) -> Mesh {
         .collect();
     let renumbered = mesh.triangles.iter().map(|t| t.map(|v| number[v as usize]));
     let triangles = renumbered.filter(|[a, b, c]| a != b && b != c && c != a).collect();
-    Mesh { positions, triangles, uvs: None }
+    Mesh { positions, triangles, corner_uvs: None }
 }
 
 #[cfg(test)]

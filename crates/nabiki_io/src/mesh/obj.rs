@@ -70,5 +70,5 @@ fn only_used(positions: Vec<Vec3>, mut triangles: Vec<[u32; 3]>) -> Mesh {
         *v = number[*v as usize];
     }
     let kept = positions.iter().zip(&number).filter(|&(_, &n)| n != u32::MAX);
-    Mesh { positions: kept.map(|(p, _)| *p).collect(), triangles, uvs: None }
+    Mesh { positions: kept.map(|(p, _)| *p).collect(), triangles, corner_uvs: None }
 }
