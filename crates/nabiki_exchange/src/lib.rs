@@ -18,5 +18,5 @@ pub use export::{Export, FrameSink, Velocities};
 pub use gather::Gathered;
 pub use in_place::InPlace;
 pub use nabiki::error::Problem;
-pub use polygons::add_polygons;
+pub use polygons::{Polygons, Uvs, add_polygons};
 pub use reader::{Contents, GroomReader, Placed, Prim, PrimKind};

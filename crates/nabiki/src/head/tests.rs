@@ -157,7 +157,8 @@ fn what_is_no_mesh_is_refused_by_name() {
     torn.positions[7].y = f32::NAN;
     assert!(refused(torn, None).starts_with("head.mesh = vertex 7 at"));
 
-    let uvs = |count: usize, uv: f32| Mesh { corner_uvs: Some(vec![[glam::Vec2::splat(uv); 3]; count]), ..sound.clone() };
+    let uvs =
+        |count: usize, uv: f32| Mesh { corner_uvs: Some(vec![[glam::Vec2::splat(uv); 3]; count]), ..sound.clone() };
     let text = refused(uvs(7, 0.0), None);
     assert!(text.starts_with("head.mesh = texture coordinates of 7 triangles"), "{text}");
     let text = refused(uvs(sound.triangles.len(), f32::NAN), None);
