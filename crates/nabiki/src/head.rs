@@ -5,7 +5,7 @@ mod fit;
 
 use std::fmt::Display;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use crate::distance::SkinDistance;
 use crate::mesh::Orientation;
@@ -51,9 +51,10 @@ impl Head {
     /// many.
     ///
     /// # Errors
-    /// If there are no triangles, an index names no vertex, a coordinate is not finite, E is not an ellipsoid, nothing
-    /// like a skull is found at the top of the mesh, or it is a sheet that encloses nothing. The refused thing is then
-    /// `head.mesh` or a part of `head.ellipsoid`, the value says what of it: naming the file is left to the caller.
+    /// If there are no triangles, an index names no vertex, a coordinate (of texture, too) is not finite, not all
+    /// triangles of a mesh with texture coordinates have them, E is not an ellipsoid, nothing like a skull is found at
+    /// the top of the mesh, or it is a sheet that encloses nothing. The refused thing is then `head.mesh` or a part of
+    /// `head.ellipsoid`, the value says what of it: naming the file is left to the caller.
     pub fn from_mesh(mut mesh: Mesh, ellipsoid: Option<Ellipsoid>) -> Result<Self, SettingError> {
         check_mesh(&mesh)?;
         let orientation = mesh.turn_outward();
@@ -147,6 +148,16 @@ fn check_mesh(mesh: &Mesh) -> Result<(), SettingError> {
     if let Some(v) = mesh.positions.iter().position(|p| !p.is_finite()) {
         let value = format!("vertex {v} at {}", mesh.positions[v]);
         return Err(SettingError::new("head.mesh", value, "must have finite coordinates"));
+    }
+    let triangles = mesh.triangles.len();
+    if let Some(uvs) = mesh.corner_uvs.as_ref().filter(|uvs| uvs.len() != triangles) {
+        let value = format!("texture coordinates of {} triangles", uvs.len());
+        return Err(SettingError::new("head.mesh", value, format!("must have them for all its {triangles} or none")));
+    }
+    let finite = |uvs: &[Vec2; 3]| uvs.iter().all(|uv| uv.is_finite());
+    if let Some(t) = mesh.corner_uvs.iter().flatten().position(|uvs| !finite(uvs)) {
+        let value = format!("triangle {t} with texture coordinates that are not finite");
+        return Err(SettingError::new("head.mesh", value, "must have finite ones, or none"));
     }
     let has_area = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|v| mesh.positions[v as usize]);

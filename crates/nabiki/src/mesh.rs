@@ -15,11 +15,24 @@ pub struct Mesh {
     pub positions: Vec<Vec3>,
     /// Indices into `positions`, three for each triangle.
     pub triangles: Vec<[u32; 3]>,
-    /// Texture coordinates, one for each of `positions`; `None` where the source has none.
-    pub uvs: Option<Vec<Vec2>>,
+    /// Texture coordinates of the corners of each of `triangles`, v upward; `None` where the source lacks any of them.
+    /// By corner and not by vertex: at a seam the triangles on its two sides have the vertex at two places of the texture.
+    pub corner_uvs: Option<Vec<[Vec2; 3]>>,
 }
 
 impl Mesh {
+    /// Appends a triangle with the texture coordinates of its corners. One without any leaves the whole mesh without.
+    pub fn push(&mut self, triangle: [u32; 3], uvs: Option<[Vec2; 3]>) {
+        if self.triangles.is_empty() {
+            self.corner_uvs = uvs.map(|_| Vec::new());
+        }
+        match (&mut self.corner_uvs, uvs) {
+            (Some(all), Some(uvs)) => all.push(uvs),
+            _ => self.corner_uvs = None,
+        }
+        self.triangles.push(triangle);
+    }
+
     /// For each vertex the first one at the very same place: itself, but where a seam doubles vertices.
     pub(crate) fn first_at_place(&self) -> Vec<u32> {
         let mut first_at: HashMap<[u32; 3], u32> = HashMap::with_capacity(self.positions.len());

@@ -23,7 +23,7 @@ pub struct Root {
     pub position: Vec3,
     /// Outward normal of the skin there, of unit length.
     pub normal: Vec3,
-    /// Texture coordinates of the skin there: the mesh's own, else [`Ellipsoid::uv`](crate::Ellipsoid::uv) of E.
+    /// Texture coordinates of the skin there, v upward: the mesh's own, else [`Ellipsoid::uv`](crate::Ellipsoid::uv) of E.
     pub uv: Vec2,
 }
 
@@ -96,7 +96,8 @@ struct Scalp<'a> {
     head: &'a Head,
     hairline: &'a Hairline,
     normals: Vec<Vec3>,
-    triangles: Vec<[u32; 3]>,
+    /// Numbers of the head's triangles.
+    triangles: Vec<usize>,
     /// Area of the triangles up to and including each.
     upto: Vec<f64>,
 }
@@ -113,7 +114,7 @@ impl<'a> Scalp<'a> {
             .collect();
         let large = LARGE * head.ellipsoid.half_axes.element_sum() / 3.0;
         let mut sum = 0.0;
-        for &triangle in &head.mesh.triangles {
+        for (t, &triangle) in head.mesh.triangles.iter().enumerate() {
             let [a, b, c] = triangle.map(|v| head.mesh.positions[v as usize]);
             let extent = a.max(b).max(c) - a.min(b).min(c);
             let any = |test: &dyn Fn(u32) -> bool| triangle.iter().any(|&v| test(v));
@@ -122,7 +123,7 @@ impl<'a> Scalp<'a> {
             let area = f64::from((b - a).cross(c - a).length());
             if area > 0.0 && wanted {
                 sum += area;
-                scalp.triangles.push(triangle);
+                scalp.triangles.push(t);
                 scalp.upto.push(sum);
             }
         }
@@ -137,19 +138,20 @@ impl<'a> Scalp<'a> {
             unit(finalise(state))
         };
         let area = uniform() * self.upto[self.upto.len() - 1];
-        let t = self.upto.partition_point(|&upto| upto <= area).min(self.upto.len() - 1);
+        let t = self.triangles[self.upto.partition_point(|&upto| upto <= area).min(self.upto.len() - 1)];
+        let triangle = self.head.mesh.triangles[t];
         let (mut u, mut v, chance) = (uniform() as f32, uniform() as f32, uniform() as f32);
         if u + v > 1.0 {
             (u, v) = (1.0 - u, 1.0 - v);
         }
         let mix = |[a, b, c]: [Vec3; 3]| a + (b - a) * u + (c - a) * v;
-        let position = mix(self.triangles[t].map(|w| self.head.mesh.positions[w as usize]));
-        let normal = mix(self.triangles[t].map(|w| self.normals[w as usize])).try_normalize()?;
+        let position = mix(triangle.map(|w| self.head.mesh.positions[w as usize]));
+        let normal = mix(triangle.map(|w| self.normals[w as usize])).try_normalize()?;
         let grows = self.hairline.grows(&self.head.ellipsoid, position, chance) && self.is_skull(position, normal);
         grows.then(|| {
-            let uv = match &self.head.mesh.uvs {
+            let uv = match &self.head.mesh.corner_uvs {
                 Some(uvs) => {
-                    let [a, b, c] = self.triangles[t].map(|w| uvs[w as usize]);
+                    let [a, b, c] = uvs[t];
                     a + (b - a) * u + (c - a) * v
                 }
                 None => self.head.ellipsoid.uv(position),

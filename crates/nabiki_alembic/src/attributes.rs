@@ -71,6 +71,18 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
         Ok(unread)
     }
 
+    /// The texture coordinates of a mesh, and whether they are its corners' or its vertices'. `None` where it has none,
+    /// or one for all or for each face, which say nothing of a place.
+    pub fn texture_coordinates(&mut self) -> Result<Option<(bool, Vec<[f32; 2]>)>, Problem> {
+        let scope = self.headers.iter().find(|h| h.name == "uv").and_then(|h| h.detail("geoScope"));
+        let by_corner = match scope {
+            Some("fvr") => true,
+            Some("vtx" | "var") => false,
+            _ => return Ok(None),
+        };
+        Ok(self.tuples::<2>("uv")?.map(|uvs| (by_corner, uvs)))
+    }
+
     fn stored(&mut self, name: &str) -> Result<Option<Stored>, Problem> {
         let Some(header) = self.headers.iter().find(|h| h.name == name) else { return Ok(None) };
         let (role, per) = (role(header), per(header));

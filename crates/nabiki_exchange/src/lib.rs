@@ -33,6 +33,6 @@ mod reader;
 pub use export::{Export, FrameSink, Velocities};
 pub use gather::Gathered;
 pub use in_place::InPlace;
-pub use polygons::add_polygons;
+pub use polygons::{Polygons, Uvs, add_polygons};
 pub use problem::Problem;
 pub use reader::{Contents, GroomReader, Placed, Prim, PrimKind};

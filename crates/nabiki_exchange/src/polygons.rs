@@ -1,43 +1,142 @@
 //! Polygons as files store them, cut into the triangles of a mesh.
 
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, Vec2, Vec3};
 use nabiki::Mesh;
 
 use crate::Problem;
 use crate::curves::checked_counts;
 
-/// Appends polygons to `mesh`, cut into triangles from their first corners.
-///
-/// `positions`: in the polygons' own space, which `to` takes to the mesh's. `counts`: corners of each; `corners`:
-/// indices into `positions`, polygon after polygon; `clockwise`: how they run, seen from outside. A `to` that mirrors
-/// turns them round.
+/// Polygons as they are stored.
+#[derive(Clone, Copy, Debug)]
+pub struct Polygons<'a> {
+    /// Vertices, in the polygons' own space.
+    pub positions: &'a [Vec3],
+    /// Corners of each polygon.
+    pub counts: &'a [i64],
+    /// Indices into `positions`, polygon after polygon.
+    pub corners: &'a [i64],
+    /// How they run, seen from outside.
+    pub clockwise: bool,
+    /// Texture coordinates, v upward, if there are any.
+    pub uvs: Option<Uvs<'a>>,
+}
+
+/// Texture coordinates, and what has them.
+#[derive(Clone, Copy, Debug)]
+pub enum Uvs<'a> {
+    /// Each of the positions.
+    OfVertices(&'a [[f32; 2]]),
+    /// Each of the corners.
+    OfCorners(&'a [[f32; 2]]),
+}
+
+/// The texture coordinates of each corner.
+fn at_corners(uvs: Uvs<'_>, positions: usize, corners: &[i64]) -> Result<Vec<Vec2>, Problem> {
+    let (all, what, expected) = match uvs {
+        Uvs::OfVertices(all) => (all, "vertices", positions),
+        Uvs::OfCorners(all) => (all, "corners", corners.len()),
+    };
+    if all.len() != expected {
+        return Err(Problem(format!("{} texture coordinates for {expected} {what}", all.len())));
+    }
+    if let Some(i) = all.iter().position(|uv| !(uv[0].is_finite() && uv[1].is_finite())) {
+        return Err(Problem(format!("texture coordinates {i} are {:?}: they must be finite", all[i])));
+    }
+    Ok(match uvs {
+        Uvs::OfCorners(all) => all.iter().map(|&uv| uv.into()).collect(),
+        // A corner past the positions is refused with the polygons.
+        Uvs::OfVertices(all) => corners
+            .iter()
+            .map(|&c| usize::try_from(c).ok().and_then(|c| all.get(c)).map_or(Vec2::ZERO, |&uv| uv.into()))
+            .collect(),
+    })
+}
+
+/// Appends polygons to `mesh`, cut into triangles from their first corners; `to` takes their space to the mesh's, and
+/// turns them round where it mirrors. Where any polygons have no texture coordinates, `mesh` has none.
 ///
 /// # Errors
-/// Counts that do not fit the corners, a corner past the positions.
+/// Counts that do not fit the corners, a corner past the positions, texture coordinates that fit neither or are not
+/// finite.
 pub fn add_polygons(
     mesh: &mut Mesh,
-    positions: &[Vec3],
-    counts: &[i64],
-    corners: &[i64],
-    clockwise: bool,
+    Polygons { positions, counts, corners, clockwise, uvs }: Polygons<'_>,
     to: &Affine3A,
 ) -> Result<(), Problem> {
+    let uvs = uvs.map(|uvs| at_corners(uvs, positions.len(), corners)).transpose()?;
     let (base, own) = (mesh.positions.len(), positions.len());
     let turned = clockwise != (to.matrix3.determinant() < 0.0);
-    let mut rest = corners;
+    let mut first = 0;
     for count in checked_counts(counts, corners.len())? {
-        let (polygon, after) = rest.split_at(count);
-        rest = after;
+        let these = first..first + count;
+        first += count;
         let corner = |&c: &i64| match usize::try_from(c) {
             Ok(i) if i < own => Ok((base + i) as u32),
             _ => Err(Problem(format!("corner {c} of {own} vertices"))),
         };
-        let polygon = polygon.iter().map(corner).collect::<Result<Vec<u32>, _>>()?;
-        mesh.triangles.extend((2..count).map(|k| {
-            let (b, c) = if turned { (k, k - 1) } else { (k - 1, k) };
-            [polygon[0], polygon[b], polygon[c]]
-        }));
+        let polygon = corners[these.clone()].iter().map(corner).collect::<Result<Vec<u32>, _>>()?;
+        for k in 2..count {
+            let triangle = if turned { [0, k, k - 1] } else { [0, k - 1, k] };
+            let uvs = uvs.as_ref().map(|uvs| triangle.map(|c| uvs[these.start + c]));
+            mesh.push(triangle.map(|c| polygon[c]), uvs);
+        }
     }
     mesh.positions.extend(positions.iter().map(|&p| to.transform_point3(p)));
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square whose corner at (x, y) has (x, y) of the texture, and a mesh that it is added to.
+    fn added(mesh: &mut Mesh, clockwise: bool, by_vertex: bool, to: Vec3) -> Result<(), Problem> {
+        let positions = [Vec3::ZERO, Vec3::Y, Vec3::ONE.with_z(0.0), Vec3::X];
+        let corners = [2, 3, 0, 1];
+        let of_vertices = positions.map(|p| [p.x, p.y]);
+        let of_corners = corners.map(|c| of_vertices[c as usize]);
+        let uvs = Some(if by_vertex { Uvs::OfVertices(&of_vertices) } else { Uvs::OfCorners(&of_corners) });
+        let polygons = Polygons { positions: &positions, counts: &[4], corners: &corners, clockwise, uvs };
+        add_polygons(mesh, polygons, &Affine3A::from_scale(to))
+    }
+
+    #[test]
+    fn corners_keep_their_texture_coordinates_however_they_are_turned() {
+        for (clockwise, by_vertex, mirror) in
+            (0..8).map(|i| (i & 1 == 1, i & 2 == 2, if i & 4 == 4 { Vec3::new(1.0, 1.0, -1.0) } else { Vec3::ONE }))
+        {
+            let mut mesh = Mesh::default();
+            added(&mut mesh, clockwise, by_vertex, mirror).unwrap();
+            added(&mut mesh, clockwise, by_vertex, mirror).unwrap();
+            let of = |t: &[u32; 3]| t.map(|v| mesh.positions[v as usize].truncate());
+            let expected: Vec<[Vec2; 3]> = mesh.triangles.iter().map(of).collect();
+            assert_eq!((mesh.triangles.len(), &mesh.corner_uvs), (4, &Some(expected)));
+        }
+    }
+
+    #[test]
+    fn polygons_without_texture_coordinates_leave_none_to_the_whole() {
+        let positions = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        let bare = Polygons { positions: &positions, counts: &[3], corners: &[0, 1, 2], clockwise: false, uvs: None };
+        for bare_first in [true, false] {
+            let mut mesh = Mesh::default();
+            for is_bare in [bare_first, !bare_first] {
+                if is_bare {
+                    add_polygons(&mut mesh, bare, &Affine3A::IDENTITY).unwrap();
+                } else {
+                    added(&mut mesh, false, true, Vec3::ONE).unwrap();
+                }
+            }
+            assert_eq!((mesh.triangles.len(), mesh.corner_uvs), (3, None));
+        }
+        for (uvs, why) in [
+            (Uvs::OfVertices(&[[0.0; 2]; 2]), "2 texture coordinates for 3 vertices"),
+            (Uvs::OfCorners(&[[0.0; 2]; 4]), "4 texture coordinates for 3 corners"),
+            (Uvs::OfCorners(&[[0.0, f32::NAN]; 3]), "texture coordinates 0 are [0.0, NaN]: they must be finite"),
+        ] {
+            let wrong = Polygons { uvs: Some(uvs), ..bare };
+            let refused = add_polygons(&mut Mesh::default(), wrong, &Affine3A::IDENTITY).unwrap_err();
+            assert_eq!(refused.to_string(), why);
+        }
+    }
 }

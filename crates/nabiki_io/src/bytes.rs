@@ -22,7 +22,7 @@ pub(crate) trait Scalar: AnyBitPattern + NoUninit {
 macro_rules! scalars {
     ($($t:ty: $word:expr),*) => { $(impl Scalar for $t { const WORD: usize = $word; })* };
 }
-scalars!(u8: 1, u16: 2, u32: 4, i32: 4, f32: 4, i64: 8, u64: 8, f64: 8, [u32; 3]: 4, [u8; 4]: 1, [u8; 8]: 1, [u8; 16]: 1, [u32; 4]: 4, [f32; 2]: 4, [f32; 3]: 4, [f32; 4]: 4, glam::Vec3: 4);
+scalars!(u8: 1, u16: 2, u32: 4, i32: 4, f32: 4, i64: 8, u64: 8, f64: 8, [u32; 3]: 4, [u8; 4]: 1, [u8; 8]: 1, [u8; 16]: 1, [u32; 4]: 4, [u32; 6]: 4, [f32; 2]: 4, [f32; 3]: 4, [f32; 4]: 4, glam::Vec3: 4);
 
 /// Turns native values into little-endian ones and back: nothing on most machines.
 pub(crate) fn swap_if_big_endian<T: Scalar>(values: &mut [T]) {

@@ -3,6 +3,7 @@
 
 mod attributes;
 mod origin;
+mod other;
 
 use std::{
     fs::File,

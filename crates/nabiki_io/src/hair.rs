@@ -163,15 +163,15 @@ pub(crate) use nabiki::strands::length;
 /// What the format of `path` cannot hold of `hair`, a phrase each.
 pub fn losses(path: &Path, hair: &Hair) -> Result<Vec<String>> {
     match Format::of(path)? {
-        Format::Hair => Ok([hair_file::losses(hair), passed_on(hair)].concat()),
-        Format::Tfx => Ok([tfx::losses(hair), passed_on(hair)].concat()),
+        Format::Hair => Ok(hair_file::losses(hair)),
+        Format::Tfx => Ok(tfx::losses(hair)),
         Format::Usd | Format::Alembic => Ok(exchange::losses(path, hair)),
         Format::ObjLines => Err(Error::new("hair is not written as .obj: write .hair or .tfx").in_file(path)),
     }
 }
 
 /// What only formats with attributes of any name pass on, and what was not read.
-fn passed_on(hair: &Hair) -> Vec<String> {
+pub(crate) fn passed_on(hair: &Hair) -> Vec<String> {
     let names = hair.attributes.other.iter().map(|other| other.name.clone());
     names.chain(hair.attributes.unread.iter().cloned()).collect()
 }

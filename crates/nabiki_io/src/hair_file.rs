@@ -14,6 +14,7 @@ use crate::{
     bytes::{Bytes, product, put},
     error::{Error, Result},
     finite,
+    hair::passed_on,
 };
 
 const SEGMENTS: u32 = 1;
@@ -103,7 +104,7 @@ fn starts<R: Read + Seek>(
     }
 }
 
-/// What a .hair file cannot hold of `hair`, a phrase each.
+/// What a .hair file cannot hold of `hair`, and what was not read of the file it came from, a phrase each.
 pub fn losses(hair: &Hair) -> Vec<String> {
     let a = &hair.attributes;
     let mut lost = Vec::new();
@@ -118,6 +119,9 @@ pub fn losses(hair: &Hair) -> Vec<String> {
     lose(a.guide.is_some(), "guide flags");
     lose(a.point_uv.is_some(), "point UVs");
     lose(a.inverse_mass.is_some(), "which points are held");
+    let no_width = a.width.is_none() && a.constant.width == Some(0.0);
+    lose(no_width, "the width 0 of all points (there it stands for none)");
+    lost.extend(passed_on(hair));
     lost
 }
 

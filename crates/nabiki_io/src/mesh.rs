@@ -8,6 +8,7 @@ mod tfxmesh;
 
 use std::{collections::HashMap, path::Path};
 
+use glam::Vec2;
 use nabiki::Mesh;
 use serde::Serialize;
 
@@ -90,7 +91,20 @@ pub fn place_and_weld(mesh: Mesh, placement: &Placement) -> Result<(Mesh, MeshRe
     Ok((welded, report))
 }
 
-/// Joins vertices at the very same place (the first of them stays) and drops triangles with coinciding corners.
+/// Appends a polygon, cut into triangles from its first corner: the vertex and the texture coordinates of each.
+fn push_fan(mesh: &mut Mesh, polygon: &[(u32, Option<Vec2>)]) {
+    for k in 2..polygon.len() {
+        let corners = [polygon[0], polygon[k - 1], polygon[k]];
+        let uvs = match corners.map(|(_, uv)| uv) {
+            [Some(a), Some(b), Some(c)] => Some([a, b, c]),
+            _ => None,
+        };
+        mesh.push(corners.map(|(vertex, _)| vertex), uvs);
+    }
+}
+
+/// Joins vertices at the very same place (the first of them stays) and drops triangles with coinciding corners. What
+/// is left keeps the texture coordinates of its own corners, so that seams stay.
 fn weld(mesh: Mesh) -> Mesh {
     let mut numbers: HashMap<[u32; 3], u32> = HashMap::with_capacity(mesh.positions.len());
     let mut positions = Vec::new();
@@ -106,9 +120,14 @@ fn weld(mesh: Mesh) -> Mesh {
             })
         })
         .collect();
-    let renumbered = mesh.triangles.iter().map(|t| t.map(|v| number[v as usize]));
-    let triangles = renumbered.filter(|[a, b, c]| a != b && b != c && c != a).collect();
-    Mesh { positions, triangles, uvs: None }
+    let mut welded = Mesh { positions, ..Mesh::default() };
+    for (t, triangle) in mesh.triangles.iter().enumerate() {
+        let [a, b, c] = triangle.map(|v| number[v as usize]);
+        if a != b && b != c && c != a {
+            welded.push([a, b, c], mesh.corner_uvs.as_ref().map(|uvs| uvs[t]));
+        }
+    }
+    welded
 }
 
 #[cfg(test)]
@@ -144,6 +163,26 @@ mod tests {
     }
 
     #[test]
+    fn a_fan_keeps_the_texture_coordinates_of_its_corners_on_both_sides_of_a_seam() {
+        let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nvt 1 0 0\nvt 1 1\nvt 0.5\n\
+                    f 1/1 2/2 3/3 4/4\nf 5/-1 7/-2/1 6/2/2\nf 5/1 1/1 2/2\n";
+        let mesh = from_bytes(text.as_bytes(), "obj", &[]).unwrap();
+        let (mesh, report) = place_and_weld(mesh, &Placement::default()).unwrap();
+        assert_eq!(report, MeshReport { vertices_in_file: 7, joined_vertices: 2, dropped_triangles: 1 });
+        let [a, b, c, d] = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::new(0.5, 0.0)];
+        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [0, 4, 1]]);
+        assert_eq!(mesh.corner_uvs, Some(vec![[a, b, c], [a, c, d], [d, c, b]]));
+    }
+
+    #[test]
+    fn a_mesh_has_texture_coordinates_for_all_its_faces_or_none() {
+        let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\no a\nf 1/1 2/1 3/1\no b\nf 1/1 3//1 2/1\n";
+        let uvs = |groups: &[String]| from_bytes(text.as_bytes(), "obj", groups).unwrap().corner_uvs;
+        assert_eq!((uvs(&[]), uvs(&["b".to_owned()])), (None, None));
+        assert_eq!(uvs(&["a".to_owned()]), Some(vec![[Vec2::ZERO; 3]]));
+    }
+
+    #[test]
     fn what_cannot_be_a_mesh_is_refused() {
         let refused = |text: &str| from_bytes(text.as_bytes(), "obj", &[]).unwrap_err().to_string();
         assert_eq!(refused("v 0 0 0\n"), "holds 1 vertices but no faces: not a head");
@@ -155,6 +194,13 @@ mod tests {
         );
         assert_eq!(refused("v 0 0 0\nf 1 1\n"), "\"f 1 1\": a face has three vertices or more");
         // Found by fuzzing.
-        assert!(refused("v 1 0 0\nv 2 3 4\nf -1/23/-2 //4 1\n").contains("\"//4\" is not one of the 2 vertices"));
+        assert!(refused("v 1 0 0\nv 2 3 4\nf -1//-2 //4 1\n").contains("\"//4\" is not one of the 2 vertices"));
+        assert_eq!(
+            refused("v 1 0 0\nv 2 3 4\nvt 0 0\nf 1/1 2/2 1\n"),
+            "\"f 1/1 2/2 1\": \"2/2\" names none of the 1 texture coordinates that stand before this line"
+        );
+        assert_eq!(refused("vt 0 x\n"), "\"vt 0 x\": texture coordinates are one to three numbers");
+        let nan = refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 nan\nf 1/1 2/1 3/1\n");
+        assert_eq!(nan, "triangle 0: its texture coordinates (0, NaN) must be finite");
     }
 }

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use crate::error::{Error, Result};
 
@@ -20,16 +20,41 @@ pub(crate) fn place<'a>(mut words: impl Iterator<Item = &'a str>, line: &str, nu
     }
 }
 
+/// The texture coordinates that follow a `vt`; v is 0 where it is left out, the third is of no surface.
+pub(crate) fn texture_coordinates<'a>(
+    mut words: impl Iterator<Item = &'a str>,
+    line: &str,
+    number: usize,
+) -> Result<Vec2> {
+    let u = words.next().and_then(|word| word.parse().ok());
+    let v = words.next().map_or(Some(0.0), |word| word.parse().ok());
+    match (u, v) {
+        (Some(u), Some(v)) => Ok(Vec2::new(u, v)),
+        _ => Err(refusal(line, number, "texture coordinates are one to three numbers")),
+    }
+}
+
 /// The vertex that `word` (`7`, `-1`, `7/3/2`) names, of `count` so far, from 0.
 pub(crate) fn vertex(word: &str, count: usize, line: &str, number: usize) -> Result<u32> {
-    let index = || {
-        let named: i64 = word.split('/').next()?.parse().ok()?;
-        let index = if named < 0 { named.checked_add(i64::try_from(count).ok()?)? } else { named.checked_sub(1)? };
-        u32::try_from(index).ok().filter(|&i| (i as usize) < count)
-    };
-    index().ok_or_else(|| {
+    word.split('/').next().and_then(|named| index(named, count)).ok_or_else(|| {
         refusal(line, number, &format!("\"{word}\" is not one of the {count} vertices that stand before this line"))
     })
+}
+
+/// The texture coordinates that `word` names beside its vertex, of `count` so far, from 0; `None` where it names none
+/// (`7`, `7//2`).
+pub(crate) fn texture(word: &str, count: usize, line: &str, number: usize) -> Result<Option<usize>> {
+    let Some(named) = word.split('/').nth(1).filter(|named| !named.is_empty()) else { return Ok(None) };
+    let found = index(named, count).map(|i| i as usize);
+    let why = || format!("\"{word}\" names none of the {count} texture coordinates that stand before this line");
+    found.map(Some).ok_or_else(|| refusal(line, number, &why()))
+}
+
+/// What a number from 1 on, or one back from the last, stands for, from 0.
+fn index(named: &str, count: usize) -> Option<u32> {
+    let named: i64 = named.parse().ok()?;
+    let index = if named < 0 { named.checked_add(i64::try_from(count).ok()?)? } else { named.checked_sub(1)? };
+    u32::try_from(index).ok().filter(|&i| (i as usize) < count)
 }
 
 /// An error about a line, of which it shows the beginning.

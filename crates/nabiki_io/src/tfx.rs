@@ -19,6 +19,7 @@ use crate::{
     bytes::{Bytes, product, put},
     error::{Error, Result},
     finite,
+    hair::passed_on,
 };
 
 const HEADER_BYTES: u32 = 160;
@@ -140,7 +141,7 @@ fn attributes<R: Read + Seek>(
     Ok(a)
 }
 
-/// What a .tfx file cannot hold of `hair`, a phrase each.
+/// What a .tfx file cannot hold of `hair`, and what was not read of the file it came from, a phrase each.
 pub fn losses(hair: &Hair) -> Vec<String> {
     let a = &hair.attributes;
     let mut lost = Vec::new();
@@ -163,6 +164,7 @@ pub fn losses(hair: &Hair) -> Vec<String> {
     if !loads {
         lost.push(format!("{points} points a strand as TressFX itself wants them: 4, 8, 16, 32 or 64"));
     }
+    lost.extend(passed_on(hair));
     lost
 }
 

@@ -11,7 +11,8 @@ use peak_alloc::PeakAlloc;
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng a\nf 1 2 3 4\ng b\nf -1/2/3 -2//4 1\nl 1 2 3\nl 3/1 4\n";
+const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\ng a\nf 1 2/2 3/-2/1 4\n\
+    g b\nf -1/2/3 -2//4 1\nl 1 2 3\nl 3/1 4\n";
 
 const TFXMESH: &str = "numOfBones 1\n# bone index, bone name\n0 root\nnumOfVertices 3\n0 0 0 0 0 0 1 0 0 0 0 1 0 0 0\n\
     1 1 0 0 0 0 1 0 0 0 0 1 0 0 0\n2 0 1 0 0 0 1 0 0 0 0 1 0 0 0\nnumOfTriangles 1\n0 0 1 2\n";

@@ -3,7 +3,8 @@
 #[allow(dead_code, reason = "shared by several test programs, each of which uses a part")]
 mod samples;
 
-use nabiki::hair::Attributes;
+use nabiki::Hair;
+use nabiki::hair::{Attributes, Constants};
 use nabiki_io::{hair, hair_file, tfx};
 
 #[test]
@@ -37,6 +38,62 @@ fn a_tfx_file_keeps_uvs_colours_and_held_points() {
     // The sample's transparencies are multiples of 1/32, which 1 - (1 - t) keeps.
     assert_eq!((a.colour, a.transparency, a.inverse_mass), (b.colour, b.transparency, b.inverse_mass));
     assert_eq!(tfx::losses(&samples::hair(&[4])).len(), 4, "ids, groups, guides and the taper");
+}
+
+#[test]
+fn every_attribute_is_kept_or_said_to_be_lost() {
+    let mut whole = samples::whole(&[4, 4, 4]);
+    whole.attributes.unread = vec!["the relationship skel:skeleton".to_owned()];
+    let Attributes {
+        id: Some(_),
+        root_uv: Some(_),
+        group: Some(_),
+        group_names,
+        guide: Some(_),
+        width: Some(_),
+        colour: Some(_),
+        transparency: Some(_),
+        point_uv: Some(_),
+        inverse_mass: Some(_),
+        other,
+        unread,
+        constant: Constants { width: Some(_), colour: Some(_), transparency: Some(_) },
+    } = &whole.attributes
+    else {
+        panic!("an attribute is missing from the sample")
+    };
+    assert_eq!((group_names.len(), other.len(), unread.len()), (2, 4, 1));
+    let further = ["P_rest", "clump", "map", "seed of the groom", "the relationship skel:skeleton"];
+    let own = ["strand ids", "root UVs", "groups", "guide flags", "point UVs", "which points are held"];
+    assert_eq!(hair_file::losses(&whole), [&own[..], &further[..]].concat());
+    let own = ["strand ids", "groups", "guide flags", "width along a strand (each strand gets that of its root)"];
+    assert_eq!(tfx::losses(&whole), [&own[..], &further[..]].concat());
+    // Each by itself, too: no loss hides behind another.
+    let strands = &whole.strands;
+    let alone = |attributes| Hair { strands: strands.clone(), attributes };
+    for other in other {
+        let hair = alone(Attributes { other: vec![other.clone()], ..Attributes::default() });
+        assert_eq!(
+            (hair_file::losses(&hair), tfx::losses(&hair)),
+            (vec![other.name.clone()], vec![other.name.clone()])
+        );
+    }
+    let group_names = group_names.clone();
+    let hair = alone(Attributes { group_names, ..Attributes::default() });
+    assert_eq!((hair_file::losses(&hair), tfx::losses(&hair)), (vec!["groups".to_owned()], vec!["groups".to_owned()]));
+}
+
+#[test]
+fn a_width_of_0_for_all_points_is_said_to_be_lost_where_it_stands_for_none() {
+    let mut hair = samples::hair(&[4, 4]);
+    hair.attributes =
+        Attributes { constant: Constants { width: Some(0.0), ..Constants::default() }, ..Attributes::default() };
+    assert_eq!(hair_file::losses(&hair), ["the width 0 of all points (there it stands for none)"]);
+    let (mut to_hair, mut to_tfx) = (Vec::new(), Vec::new());
+    hair_file::to_writer(&hair, "", &mut to_hair).unwrap();
+    assert_eq!(hair_file::from_bytes(&to_hair).unwrap().attributes.constant.width, None);
+    tfx::to_writer(&hair, &mut to_tfx).unwrap();
+    assert_eq!((tfx::losses(&hair), tfx::from_bytes(&to_tfx).unwrap().attributes.width), (vec![], Some(vec![0.0; 8])));
 }
 
 #[test]

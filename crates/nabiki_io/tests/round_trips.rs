@@ -2,7 +2,8 @@
 
 use glam::{Quat, Vec3};
 use nabiki::Pose;
-use nabiki::{Hair, Strands, hair::Attributes};
+use nabiki::hair::{Attributes, Other, Per, Role, Values};
+use nabiki::{Hair, Strands};
 use nabiki_io::{
     SceneId,
     cache::{Header, Reader, Writer},
@@ -34,6 +35,29 @@ fn hair(counts: impl Strategy<Value = Vec<usize>>) -> impl Strategy<Value = Hair
                 Hair { strands, attributes }
             })
     })
+}
+
+/// Attributes of any name, kind and values for so many strands and points.
+fn others(strands: usize, points: usize) -> impl Strategy<Value = Vec<Other>> {
+    let per = prop_oneof![Just(Per::Groom), Just(Per::Strand), Just(Per::Point)];
+    let roles = [Role::Plain, Role::Color, Role::Point, Role::Vector, Role::Normal, Role::TextureCoordinate];
+    let other = (".*", per, proptest::sample::select(roles.to_vec()), 0usize..5, 0usize..3, 0usize..4);
+    let other = other.prop_flat_map(move |(name, per, role, extent, list, kind)| {
+        let count = extent
+            * match per {
+                Per::Groom => list,
+                Per::Strand => strands,
+                Per::Point => points,
+            };
+        let values = match kind {
+            0 => vec(number(), count).prop_map(Values::Floats).boxed(),
+            1 => vec(-1e300..1e300, count).prop_map(Values::Doubles).boxed(),
+            2 => vec(any::<i64>(), count).prop_map(Values::Integers).boxed(),
+            _ => vec(".*", count).prop_map(Values::Words).boxed(),
+        };
+        values.prop_map(move |values| Other { name: name.clone(), per, role, extent, values })
+    });
+    vec(other, 0..4)
 }
 
 /// All that decides a hair's bits: comparing floats would let -0 pass for 0.
@@ -69,7 +93,12 @@ proptest! {
 
     #[test]
     fn any_frames_come_back_from_a_cache(
-        hair in hair(vec(1usize..9, 1..12)),
+        hair in hair(vec(1usize..9, 1..12)).prop_flat_map(|hair| {
+            others(hair.strands.len(), hair.strands.points().len()).prop_map(move |other| {
+                let attributes = Attributes { other, ..hair.attributes.clone() };
+                Hair { strands: hair.strands.clone(), attributes }
+            })
+        }),
         scene: u128,
         head in ([number(), number(), number()], [number(), number(), number(), number()]),
     ) {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec2, Vec3, vec3};
 use nabiki::{Hair, Mesh};
 use nabiki_io::info::{Info, info};
 use nabiki_io::motion::{self, Axis, MotionSource};
@@ -52,6 +52,16 @@ fn hair_held_at_both_ends_is_said_where_it_is_read() {
     }
 }
 
+/// The vertices of the solid, as `files/make.py` has them (m).
+const CORNERS: [Vec3; 6] = [
+    vec3(0.25, 1.5, 0.0),
+    vec3(-0.25, 1.5, 0.0),
+    vec3(0.0, 1.75, 0.0),
+    vec3(0.0, 1.25, 0.0),
+    vec3(0.0, 1.5, 0.25),
+    vec3(0.0, 1.5, -0.25),
+];
+
 /// Volume within the triangles: above 0 where they run counter-clockwise seen from outside.
 fn volume(mesh: &Mesh) -> f32 {
     let corners = mesh.triangles.iter().map(|t| t.map(|v| mesh.positions[v as usize] - Vec3::new(0.0, 1.5, 0.0)));
@@ -72,6 +82,11 @@ fn every_mesh_format_holds_the_solid_outside_out() {
     ] {
         let read = mesh::read(&file(name), &[]).unwrap();
         assert_eq!((read.positions.len(), read.triangles.len()), (6, 8), "{name}");
+        // Vertex i has (i, 8 - i) / 8 of the texture, whatever numbers the format gives its vertices.
+        let corner = |place: Vec3| CORNERS.iter().position(|&corner| corner == place).unwrap() as f32;
+        let uv = |v: u32| corner(read.positions[v as usize]);
+        let uvs = read.triangles.iter().map(|t| t.map(|v| Vec2::new(uv(v), 8.0 - uv(v)) / 8.0)).collect();
+        assert_eq!(read.corner_uvs, (name != "solid.tfxmesh").then_some(uvs), "{name}");
         let low = read.positions.iter().copied().reduce(Vec3::min).unwrap();
         let high = read.positions.iter().copied().reduce(Vec3::max).unwrap();
         assert_eq!((low, high), (Vec3::new(-0.25, 1.25, -0.25), Vec3::new(0.25, 1.75, 0.25)), "{name}");
@@ -90,6 +105,32 @@ fn every_mesh_format_holds_the_solid_outside_out() {
             .sum();
         assert!(far > 0.0, "{name}: {far}");
     }
+}
+
+#[test]
+fn texture_coordinates_of_a_layer_are_read_by_what_has_them() {
+    let whole = std::fs::read_to_string(file("groom.usda")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let (line, indices) = ("(interpolation = \"faceVarying\")", "        int[] primvars:st:indices = [");
+    let at = whole.find(indices).unwrap();
+    let end = at + whole[at..].find('\n').unwrap() + 1;
+    let direct = [&whole[..at], &whole[end..]].concat();
+    let uvs = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        mesh::read(&path, &[]).map(|mesh| mesh.corner_uvs).map_err(|e| e.to_string())
+    };
+    let expected = mesh::read(&file("groom.usda"), &[]).unwrap().corner_uvs;
+    assert!(expected.is_some());
+    for interpolation in ["vertex", "varying"] {
+        let line_of = format!("(interpolation = \"{interpolation}\")");
+        assert_eq!(uvs("direct.usda", &direct.replace(line, &line_of)), Ok(expected.clone()), "{interpolation}");
+    }
+    assert_eq!(uvs("one.usda", &direct.replace(line, "(interpolation = \"uniform\")")), Ok(None));
+    let short = uvs("short.usda", &direct).unwrap_err();
+    assert!(short.ends_with("mesh /groom/skin: 6 texture coordinates for 24 corners"), "{short}");
+    let past = uvs("past.usda", &whole.replacen(&whole[at..at + indices.len() + 1], &format!("{indices}9"), 1));
+    assert!(past.unwrap_err().contains("st: an index past its 6 values"));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Real heads: the fitted ellipsoid lies on each scalp, and the distance agrees with a published grid.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use nabiki::{Ellipsoid, Head, Mesh};
 use nabiki_reference_tests::shared;
 
@@ -210,7 +210,7 @@ fn a_sheet_is_refused() {
     let positions = (0..100).map(at).collect();
     let cells = (0..90).filter(|i| i % 10 < 9);
     let triangles = cells.flat_map(|i| [[i, i + 1, i + 11], [i, i + 11, i + 10]]).collect();
-    let flat = Mesh { positions, triangles, uvs: None };
+    let flat = Mesh { positions, triangles, corner_uvs: None };
     let mut folded = flat.clone();
     folded.positions.iter_mut().for_each(|p| p.x = (p.x - 4.5).abs());
     let ellipsoid = Ellipsoid { center: Vec3::new(4.5, 4.5, 0.0), half_axes: Vec3::splat(9.0) };
@@ -237,4 +237,51 @@ fn roots_keep_off_the_faces_and_ears_of_real_heads() {
             assert!(!(q.x > 0.5 && q.y < 0.2 && q.z.abs() < 0.7), "{path}: a root on the face, {q}");
         }
     }
+}
+
+/// The texture coordinates of the triangles of an .obj file, or of one group of it.
+fn texture(path: &str, group: Option<&str>) -> Vec<[Vec2; 3]> {
+    let text = std::fs::read_to_string(shared(path)).expect("readable");
+    let (mut all, mut corners) = (Vec::new(), Vec::new());
+    let mut wanted = group.is_none();
+    for line in text.lines() {
+        let mut words = line.split_whitespace();
+        match words.next() {
+            Some("vt") => {
+                let uv: Vec<f32> = words.map(|w| w.parse().expect("a coordinate")).collect();
+                all.push(Vec2::new(uv[0], uv[1]));
+            }
+            Some("g") => wanted = group.is_none_or(|g| words.next() == Some(g)),
+            Some("f") if wanted => {
+                let uv = |w: &str| all[w.split('/').nth(1).expect("an index").parse::<usize>().expect("a number") - 1];
+                let face: Vec<Vec2> = words.map(uv).collect();
+                corners.extend((2..face.len()).map(|i| [face[0], face[i - 1], face[i]]));
+            }
+            _ => {}
+        }
+    }
+    corners
+}
+
+#[test]
+#[cfg_attr(not(shared_data), ignore = "needs the shared reference data beside the project")]
+fn both_sides_of_the_seams_of_real_heads_are_kept() {
+    for (path, group) in [("heads/sintel_bust.obj", None), ("heads/makehuman_base.obj", Some("body"))] {
+        let groups: Vec<String> = group.map(str::to_owned).into_iter().collect();
+        let placement = nabiki_io::Placement::default();
+        let (mesh, report) = nabiki_io::mesh::import(&shared(path), &placement, &groups).expect("a mesh");
+        assert_eq!(report.dropped_triangles, 0, "{path}");
+        assert_eq!(mesh.corner_uvs, Some(texture(path, group)), "{path}");
+        let mut at: Vec<Vec<Vec2>> = vec![Vec::new(); mesh.positions.len()];
+        for (&v, &uv) in mesh.triangles.iter().flatten().zip(mesh.corner_uvs.iter().flatten().flatten()) {
+            if !at[v as usize].contains(&uv) {
+                at[v as usize].push(uv);
+            }
+        }
+        let on_seams = at.iter().filter(|uvs| uvs.len() > 1).count();
+        println!("{path}: {on_seams} of {} vertices lie on seams", at.len());
+        assert!(on_seams > 20, "{path}: {on_seams}");
+    }
+    let without = nabiki_io::mesh::read(&shared("heads/lps_head.obj"), &[]).expect("a mesh");
+    assert_eq!(without.corner_uvs, None);
 }

@@ -4,8 +4,9 @@ use std::path::Path;
 
 use glam::{Affine3A, Vec3};
 use nabiki::{Hair, Mesh};
+use nabiki_exchange::attributes::NamedValues;
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
-use nabiki_exchange::{Contents, Gathered, GroomReader, InPlace, Placed, Prim, PrimKind, add_polygons};
+use nabiki_exchange::{Contents, Gathered, GroomReader, InPlace, Placed, Polygons, Prim, PrimKind, Uvs, add_polygons};
 
 use crate::Problem;
 use crate::opened::Layer;
@@ -159,6 +160,18 @@ impl StageReader {
         }
     }
 
+    /// The texture coordinates of a mesh, and whether they are its corners' or its vertices'. `None` where it has none,
+    /// or one for all or for each face, which say nothing of a place.
+    fn texture_coordinates(&mut self, prim: usize, time: f64) -> Result<Option<(bool, Vec<[f32; 2]>)>, Problem> {
+        let by_corner = match self.layer.interpolation(prim, "primvars:st")?.as_deref() {
+            Some("faceVarying") => true,
+            Some("vertex" | "varying") => false,
+            _ => return Ok(None),
+        };
+        let uvs = Primvars { layer: &mut self.layer, prim, time }.tuples::<2>("st")?;
+        Ok(uvs.map(|uvs| (by_corner, uvs)))
+    }
+
     /// Paths of what can move a head: prims that move themselves first, then joints, then the rest.
     fn movers(&mut self) -> Result<Vec<String>, Problem> {
         const MOST_NAMED: usize = 40;
@@ -256,7 +269,13 @@ impl GroomReader for StageReader {
             let corners = layer.integers(corners)?;
             let clockwise = layer.word(prim, "orientation")?.as_deref() == Some("leftHanded");
             let world = Affine3A::from_mat4(transform::world(&mut self.layer, prim, time)?.as_mat4());
-            add_polygons(&mut mesh, &points, &counts, &corners, clockwise, &world).map_err(|e| problem(&e.0))?;
+            let stored = self.texture_coordinates(prim, time)?;
+            let uvs = stored.as_ref().map(|(by_corner, uvs)| match by_corner {
+                true => Uvs::OfCorners(uvs),
+                false => Uvs::OfVertices(uvs),
+            });
+            let polygons = Polygons { positions: &points, counts: &counts, corners: &corners, clockwise, uvs };
+            add_polygons(&mut mesh, polygons, &world).map_err(|e| problem(&e.0))?;
         }
         match mesh.positions.iter().find(|p| !p.is_finite()) {
             Some(p) => Err(Problem(format!("has a vertex at {p}"))),

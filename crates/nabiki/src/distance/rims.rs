@@ -15,7 +15,7 @@ pub(crate) fn closed(mesh: &Mesh) -> Mesh {
         triangles: (mesh.triangles.iter().map(|t| t.map(|v| joined[v as usize])))
             .filter(|[a, b, c]| a != b && b != c && c != a)
             .collect(),
-        uvs: None,
+        corner_uvs: None,
     };
 
     let mut balance: HashMap<(u32, u32), i32> = HashMap::with_capacity(closed.triangles.len() * 2);

@@ -130,7 +130,7 @@ fn mesh(bust: &Quantised) -> Mesh {
         let [a, b, c] = triangles[t].map(|v| mirrored[v as usize]);
         triangles.push([a, c, b]);
     }
-    Mesh { positions, triangles, uvs: None }
+    Mesh { positions, triangles, corner_uvs: None }
 }
 
 /// A quadrilateral as two triangles, cut along its shorter diagonal.

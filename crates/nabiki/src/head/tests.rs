@@ -132,6 +132,18 @@ fn distance_gradient_and_inside_agree_on_an_egg() {
 }
 
 #[test]
+fn a_triangle_that_is_turned_takes_its_texture_with_it() {
+    let mut mesh = egg(Ellipsoid { center: vec3(0.0, 1.0, 2.0), half_axes: vec3(9.0, 11.0, 8.0) }, 12);
+    let at = |positions: &[Vec3], t: &[u32; 3]| t.map(|v| positions[v as usize].truncate());
+    mesh.triangles.iter_mut().step_by(3).for_each(|t| t.swap(1, 2));
+    mesh.corner_uvs = Some(mesh.triangles.iter().map(|t| at(&mesh.positions, t)).collect());
+    assert!(mesh.turn_outward().turned > 10);
+    for (t, uvs) in mesh.triangles.iter().zip(mesh.corner_uvs.as_ref().unwrap()) {
+        assert_eq!(at(&mesh.positions, t), *uvs);
+    }
+}
+
+#[test]
 fn what_is_no_mesh_is_refused_by_name() {
     let sound = egg(Ellipsoid { center: Vec3::ZERO, half_axes: vec3(9.0, 10.0, 8.0) }, 12);
     assert!(refused(Mesh::default(), None).starts_with("head.mesh = no triangles"));
@@ -144,6 +156,13 @@ fn what_is_no_mesh_is_refused_by_name() {
     let mut torn = sound.clone();
     torn.positions[7].y = f32::NAN;
     assert!(refused(torn, None).starts_with("head.mesh = vertex 7 at"));
+
+    let uvs =
+        |count: usize, uv: f32| Mesh { corner_uvs: Some(vec![[glam::Vec2::splat(uv); 3]; count]), ..sound.clone() };
+    let text = refused(uvs(7, 0.0), None);
+    assert!(text.starts_with("head.mesh = texture coordinates of 7 triangles"), "{text}");
+    let text = refused(uvs(sound.triangles.len(), f32::NAN), None);
+    assert!(text.starts_with("head.mesh = triangle 0 with texture coordinates that are not finite"), "{text}");
     let mut flat = sound.clone();
     flat.positions.iter_mut().for_each(|p| p.y = 0.0);
     assert!(refused(flat, None).starts_with("head.mesh = no skull, 576 triangles, 18.000 x 0.000 x 16.000 cm"));
@@ -175,7 +194,7 @@ proptest::proptest! {
         let positions: Vec<Vec3> = corners.iter().map(|&(x, y, z)| vec3(x, lift * y, z)).collect();
         let count = positions.len() as u32;
         let triangles = picks.iter().map(|&(a, b, c)| [a, b % count, c % count]).collect();
-        let mesh = Mesh { positions, triangles, uvs: None };
+        let mesh = Mesh { positions, triangles, corner_uvs: None };
         let given = Ellipsoid { center: Vec3::ZERO, half_axes: vec3(9.0, 10.0, 8.0) };
         if let Ok(head) = Head::from_mesh(mesh, (!fit).then_some(given)) {
             proptest::prop_assert!(head.distance(Vec3::ZERO).is_finite());

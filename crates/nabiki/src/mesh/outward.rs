@@ -58,6 +58,9 @@ impl Mesh {
         for (triangle, _) in self.triangles.iter_mut().zip(which).filter(|(_, turned)| **turned) {
             triangle.swap(1, 2);
         }
+        for (uvs, _) in self.corner_uvs.iter_mut().flatten().zip(which).filter(|(_, turned)| **turned) {
+            uvs.swap(1, 2);
+        }
     }
 
     /// Volume and area of each piece, its openings closed.

@@ -4,7 +4,10 @@ use std::io::{Read, Seek};
 
 use nabiki::hair::Attributes;
 
-use super::origin::{self, Origin, TAG};
+use super::{
+    origin::{self, Origin},
+    other,
+};
 use crate::{
     bytes::{Bytes, Scalar, put},
     error::{Error, Result},
@@ -40,6 +43,11 @@ pub(super) fn write(out: &mut Vec<u8>, a: &Attributes) -> Result<()> {
         text.extend_from_slice(name.as_bytes());
         block(out, b"grp_name", Some(&text))?;
     }
+    for other in &a.other {
+        block(out, other::TAG, Some(&other::bytes(other)?))?;
+    }
+    // `unread` is not written: it names what the source has and this hair has not, and is told when the source is read.
+    // The cache holds all of the hair that it was given.
     Ok(())
 }
 
@@ -81,7 +89,8 @@ pub(super) fn read<R: Read + Seek>(
                 let text = std::str::from_utf8(text).map_err(|_| damaged())?;
                 a.group_names.insert(i32::from_le_bytes(*number), text.to_owned());
             }
-            TAG => origin = Some(Origin::from_bytes(&block.values(origin::BYTES)?)?),
+            origin::TAG => origin = Some(Origin::from_bytes(&block.values(origin::BYTES)?)?),
+            other::TAG => a.other.push(other::read(source, length, strands, points)?),
             _ => {}
         }
         source.seek(next)?;

@@ -12,6 +12,12 @@ pub(super) fn check(mesh: Mesh) -> Result<Mesh> {
         let place = format!("({}, {}, {})", p.x, p.y, p.z);
         return Err(Error::new(format!("vertex {v}: {place} is not a place: coordinates must be finite")));
     }
+    for (t, uvs) in mesh.corner_uvs.iter().flatten().enumerate() {
+        if let Some(uv) = uvs.iter().find(|uv| !uv.is_finite()) {
+            let line = format!("triangle {t}: its texture coordinates ({}, {}) must be finite", uv.x, uv.y);
+            return Err(Error::new(line));
+        }
+    }
     if mesh.triangles.is_empty() {
         return Err(Error::new("holds no triangles"));
     }

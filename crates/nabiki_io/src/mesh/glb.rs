@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use glam::{Mat4, Vec3};
+use glam::{Mat4, Vec2, Vec3};
 use gltf::{
     accessor::{DataType, Dimensions},
     mesh::Mode,
@@ -99,11 +99,30 @@ fn append(mesh: &mut Mesh, primitive: &gltf::Primitive, buffers: &[Vec<u8>], sce
     }
     // A mirroring transform would turn the surface inside out.
     let mirrored = scene_from_node.determinant() < 0.0;
-    mesh.triangles.extend(indices.chunks_exact(3).map(|t| {
-        let [a, b, c] = [first + t[0], first + t[1], first + t[2]];
-        if mirrored { [a, c, b] } else { [a, b, c] }
-    }));
+    let uvs = texture_coordinates(primitive, buffers, count)?;
+    for &[a, b, c] in indices.as_chunks::<3>().0 {
+        let corners = if mirrored { [a, c, b] } else { [a, b, c] };
+        mesh.push(corners.map(|v| first + v), uvs.as_ref().map(|uvs| corners.map(|v| uvs[v as usize])));
+    }
     Ok(())
+}
+
+/// The first texture coordinates of each of `count` vertices, v upward: that of glTF runs down.
+fn texture_coordinates(primitive: &gltf::Primitive, buffers: &[Vec<u8>], count: usize) -> Result<Option<Vec<Vec2>>> {
+    let Some(accessor) = primitive.get(&gltf::Semantic::TexCoords(0)) else { return Ok(None) };
+    let (kind, found) = (accessor.data_type(), accessor.count());
+    if found != count {
+        return Err(Error::new(format!("{found} texture coordinates for {count} vertices")));
+    }
+    // Whole numbers stand for shares of their type's largest, as glTF 2.0 has it (section 3.7.2.1).
+    let (width, number): (usize, fn(&[u8]) -> f32) = match (kind, accessor.dimensions()) {
+        (DataType::F32, Dimensions::Vec2) => (4, |b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])),
+        (DataType::U8, Dimensions::Vec2) => (1, |b| f32::from(b[0]) / 255.0),
+        (DataType::U16, Dimensions::Vec2) => (2, |b| f32::from(u16::from_le_bytes([b[0], b[1]])) / 65535.0),
+        (kind, _) => return Err(Error::new(format!("texture coordinates of type {kind:?} are not read"))),
+    };
+    let uvs = items(&accessor, buffers, 2 * width)?;
+    Ok(Some(uvs.map(|item| Vec2::new(number(item), 1.0 - number(&item[width..]))).collect()))
 }
 
 /// The items of an accessor, each of `size` bytes, all within their buffer.
@@ -130,4 +149,55 @@ fn items<'a>(
     let slice =
         slice().ok_or_else(|| Error::new(format!("accessor {index}: {count} items reach beyond their buffer")))?;
     Ok(slice.chunks(stride).map(move |chunk| &chunk[..size]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A .glb of one triangle with texture coordinates of a component type, and, if so wanted, once more without any.
+    fn glb(component: u32, normalised: bool, uvs: &[u8], without: bool) -> Vec<u8> {
+        let bare = if without { r#",{"attributes":{"POSITION":0}}"# } else { "" };
+        let (count, bytes, whole) = (3, uvs.len(), 36 + uvs.len());
+        let mut json = format!(
+            r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"TEXCOORD_0":1}}}}{bare}]}}],
+            "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}},
+            {{"bufferView":1,"componentType":{component},"normalized":{normalised},"count":{count},"type":"VEC2"}}],
+            "bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":{bytes}}}],
+            "buffers":[{{"byteLength":{whole}}}]}}"#
+        )
+        .into_bytes();
+        json.resize(json.len().next_multiple_of(4), b' ');
+        let mut binary = [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes).concat();
+        binary.extend(uvs);
+        binary.resize(binary.len().next_multiple_of(4), 0);
+        let mut glb = b"glTF".to_vec();
+        let mut words = |words: &[u32], bytes: &[u8]| {
+            glb.extend(words.iter().flat_map(|w| w.to_le_bytes()));
+            glb.extend(bytes);
+        };
+        words(&[2, (28 + json.len() + binary.len()) as u32, json.len() as u32, 0x4E4F_534A], &json);
+        words(&[binary.len() as u32, 0x004E_4942], &binary);
+        glb
+    }
+
+    #[test]
+    fn texture_coordinates_of_every_component_type_are_shares_with_v_upward() {
+        let bytes = [0u8, 255, 51, 0, 255, 102];
+        let shorts: Vec<u8> = bytes.iter().flat_map(|&b| (u16::from(b) * 257).to_le_bytes()).collect();
+        let floats: Vec<u8> = bytes.iter().flat_map(|&b| (f32::from(b) / 255.0).to_le_bytes()).collect();
+        // 51 / 255 and 102 / 255 are a fifth and two fifths.
+        let expected = [Vec2::new(0.0, 0.0), Vec2::new(0.2, 1.0), Vec2::new(1.0, 1.0 - 0.4)];
+        for (component, uvs) in [(5121, &bytes[..]), (5123, &shorts), (5126, &floats)] {
+            let mesh = from_bytes(&glb(component, component != 5126, uvs, false), None, &[]).unwrap();
+            assert_eq!(mesh.corner_uvs, Some(vec![expected]), "{component}");
+        }
+        let bare = from_bytes(&glb(5121, true, &bytes, true), None, &[]).unwrap();
+        assert_eq!((bare.triangles.len(), bare.corner_uvs), (2, None));
+        let signed = from_bytes(&glb(5122, true, &shorts, false), None, &[]).unwrap_err().to_string();
+        assert_eq!(signed, "mesh 0: texture coordinates of type I16 are not read");
+        let short = from_bytes(&glb(5126, false, &floats[..20], false), None, &[]).unwrap_err().to_string();
+        assert!(short.starts_with("mesh 0: accessor 1: 3 items reach beyond"), "{short}");
+    }
 }

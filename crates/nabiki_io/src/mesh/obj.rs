@@ -2,10 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use glam::Vec3;
+use glam::Vec2;
 use nabiki::Mesh;
 
-use super::check::{check, check_groups};
+use super::{
+    check::{check, check_groups},
+    push_fan,
+};
 use crate::{
     error::{Error, Result},
     obj_text,
@@ -13,8 +16,9 @@ use crate::{
 
 /// `groups`: names that follow a `g` or an `o`; faces under any of them are kept, all where there are none.
 pub(super) fn from_bytes(bytes: &[u8], groups: &[String]) -> Result<Mesh> {
-    let mut positions: Vec<Vec3> = Vec::new();
-    let mut triangles: Vec<[u32; 3]> = Vec::new();
+    let mut mesh = Mesh::default();
+    let mut uvs: Vec<Vec2> = Vec::new();
+    let mut face: Vec<(u32, Option<Vec2>)> = Vec::new();
     let text = obj_text::text(bytes);
     let mut names: BTreeSet<&str> = BTreeSet::new();
     let wanted = |name: &str| groups.iter().any(|group| group == name);
@@ -22,20 +26,19 @@ pub(super) fn from_bytes(bytes: &[u8], groups: &[String]) -> Result<Mesh> {
     for (i, line) in text.lines().enumerate() {
         let mut words = line.split_ascii_whitespace();
         match words.next() {
-            Some("v") => positions.push(obj_text::place(words, line, i + 1)?),
+            Some("v") => mesh.positions.push(obj_text::place(words, line, i + 1)?),
+            Some("vt") => uvs.push(obj_text::texture_coordinates(words, line, i + 1)?),
             Some("f") if groups.is_empty() || in_object || in_group => {
-                let mut vertex = || words.next().map(|word| obj_text::vertex(word, positions.len(), line, i + 1));
-                let (Some(first), Some(second)) = (vertex().transpose()?, vertex().transpose()?) else {
-                    return Err(obj_text::refusal(line, i + 1, "a face has three vertices or more"));
-                };
-                let (mut previous, before) = (second, triangles.len());
-                while let Some(next) = vertex().transpose()? {
-                    triangles.push([first, previous, next]);
-                    previous = next;
+                face.clear();
+                for word in words {
+                    let vertex = obj_text::vertex(word, mesh.positions.len(), line, i + 1)?;
+                    let uv = obj_text::texture(word, uvs.len(), line, i + 1)?;
+                    face.push((vertex, uv.map(|uv| uvs[uv])));
                 }
-                if triangles.len() == before {
+                if face.len() < 3 {
                     return Err(obj_text::refusal(line, i + 1, "a face has three vertices or more"));
                 }
+                push_fan(&mut mesh, &face);
             }
             Some("o") => {
                 let name = line.trim_start()[1..].trim();
@@ -51,14 +54,14 @@ pub(super) fn from_bytes(bytes: &[u8], groups: &[String]) -> Result<Mesh> {
     }
     let names: Vec<&str> = names.into_iter().collect();
     check_groups(groups, &names)?;
-    if triangles.is_empty() {
-        return Err(Error::new(format!("holds {} vertices but no faces: not a head", positions.len())));
+    if mesh.triangles.is_empty() {
+        return Err(Error::new(format!("holds {} vertices but no faces: not a head", mesh.positions.len())));
     }
-    check(only_used(positions, triangles))
+    check(only_used(mesh))
 }
 
 /// Leaves out the vertices of other groups, and those of no face.
-fn only_used(positions: Vec<Vec3>, mut triangles: Vec<[u32; 3]>) -> Mesh {
+fn only_used(Mesh { positions, mut triangles, corner_uvs }: Mesh) -> Mesh {
     let mut number = vec![u32::MAX; positions.len()];
     for &v in triangles.iter().flatten() {
         number[v as usize] = 0;
@@ -70,5 +73,5 @@ fn only_used(positions: Vec<Vec3>, mut triangles: Vec<[u32; 3]>) -> Mesh {
         *v = number[*v as usize];
     }
     let kept = positions.iter().zip(&number).filter(|&(_, &n)| n != u32::MAX);
-    Mesh { positions: kept.map(|(p, _)| *p).collect(), triangles, uvs: None }
+    Mesh { positions: kept.map(|(p, _)| *p).collect(), triangles, corner_uvs }
 }

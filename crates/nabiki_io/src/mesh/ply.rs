@@ -1,9 +1,9 @@
 //! Stanford .ply: a text header that names elements and their properties, then those, as text or binary.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use nabiki::Mesh;
 
-use super::check::check;
+use super::{check::check, push_fan};
 use crate::error::{Error, Result};
 
 /// How the body is written.
@@ -56,42 +56,52 @@ struct Element {
     properties: Vec<Property>,
 }
 
-/// Reads the vertices and faces; larger polygons become fans, other elements are passed over.
+/// Names that programs give the texture coordinates of a vertex.
+const UV: [[&str; 2]; 3] = [["s", "t"], ["u", "v"], ["texture_u", "texture_v"]];
+
+/// Reads the vertices and faces; larger polygons become fans, other elements are passed over. Texture coordinates are
+/// those that the faces list for their corners (`texcoord`), else those of the vertices.
 pub fn from_bytes(bytes: &[u8]) -> Result<Mesh> {
     let (encoding, elements, body) = header(bytes)?;
     let mut body = Body { encoding, rest: body };
     let mut mesh = Mesh::default();
+    let mut uvs: Vec<Vec2> = Vec::new();
     for element in &elements {
         let place = |name: &str| element.properties.iter().position(|p| p.name == name && p.list.is_none());
-        let axes = [place("x"), place("y"), place("z")];
+        let [u, v] = UV.map(|names| names.map(place)).into_iter().find(|uv| !uv.contains(&None)).unwrap_or_default();
+        let wanted = [place("x"), place("y"), place("z"), u, v];
         let is_face = element.name == "face";
         for i in 0..element.count {
-            let mut position = [0.0f32; 3];
+            let mut vertex = [0.0f32; 5];
+            let (mut face, mut texcoord) = (Vec::new(), Vec::new());
             for (p, property) in element.properties.iter().enumerate() {
                 let short = || Error::new(format!("ends within {} {i} of {}", element.name, element.count));
                 let length = match property.list {
                     Some(kind) => body.number(kind).ok_or_else(short)?,
                     None => 1.0,
                 };
-                let corners = is_face && matches!(property.name.as_str(), "vertex_indices" | "vertex_index");
-                let mut face = Vec::new();
+                let mut list = match property.name.as_str() {
+                    "vertex_indices" | "vertex_index" if is_face => Some(&mut face),
+                    "texcoord" if is_face && property.list.is_some() => Some(&mut texcoord),
+                    _ => None,
+                };
                 let mut n = 0.0;
                 while n < length {
                     let value = body.number(property.kind).ok_or_else(short)?;
-                    if let Some(axis) = axes.iter().position(|&a| a == Some(p)) {
-                        position[axis] = value as f32;
+                    if let Some(part) = wanted.iter().position(|&w| w == Some(p)) {
+                        vertex[part] = value as f32;
                     }
-                    if corners {
-                        face.push(value);
+                    if let Some(list) = &mut list {
+                        list.push(value);
                     }
                     n += 1.0;
                 }
-                for k in 2..face.len() {
-                    mesh.triangles.push([corner(face[0])?, corner(face[k - 1])?, corner(face[k])?]);
-                }
             }
+            push_fan(&mut mesh, &polygon(i, &face, &texcoord)?);
             if element.name == "vertex" {
-                mesh.positions.push(Vec3::from(position));
+                let [x, y, z, s, t] = vertex;
+                mesh.positions.push(Vec3::new(x, y, z));
+                uvs.extend(u.map(|_| Vec2::new(s, t)));
             }
         }
     }
@@ -99,7 +109,21 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Mesh> {
     if let Some(v) = mesh.triangles.iter().flatten().find(|&&v| v as usize >= vertices) {
         return Err(Error::new(format!("a face names vertex {v} of {vertices}")));
     }
+    if mesh.corner_uvs.is_none() && uvs.len() == vertices {
+        mesh.corner_uvs = Some(mesh.triangles.iter().map(|t| t.map(|v| uvs[v as usize])).collect());
+    }
     check(mesh)
+}
+
+/// The corners of face `i`, with their texture coordinates if it lists any.
+fn polygon(i: usize, face: &[f64], texcoord: &[f64]) -> Result<Vec<(u32, Option<Vec2>)>> {
+    let (uvs, corners) = (texcoord.as_chunks::<2>().0, face.len());
+    if !texcoord.is_empty() && texcoord.len() != 2 * corners {
+        let found = texcoord.len();
+        return Err(Error::new(format!("face {i}: {found} numbers are no texture coordinates of {corners} corners")));
+    }
+    let uv = |k: usize| uvs.get(k).map(|&[u, v]| Vec2::new(u as f32, v as f32));
+    face.iter().enumerate().map(|(k, &v)| Ok((corner(v)?, uv(k)))).collect()
 }
 
 fn corner(value: f64) -> Result<u32> {
@@ -235,6 +259,34 @@ mod tests {
         assert_eq!(mesh.positions[2], Vec3::new(1.0, 1.0, 0.5));
         assert_eq!(from_bytes(&binary(false)).unwrap(), mesh);
         assert_eq!(from_bytes(&binary(true)).unwrap(), mesh);
+    }
+
+    #[test]
+    fn texture_coordinates_of_corners_go_before_those_of_vertices() {
+        let text = |names: [&str; 2], list: &str, faces: &str| {
+            format!(
+                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float {}\nproperty float y\n\
+                 property float z\nproperty float {}\nelement face 2\nproperty list uchar int vertex_index\n{list}\
+                 end_header\n0 0 0 0 0.5\n1 0.25 0 0 0.5\n0 0 1 0 0.75\n{faces}",
+                names[0], names[1]
+            )
+        };
+        let uvs = |names: [&str; 2], list: &str, faces: &str| {
+            from_bytes(text(names, list, faces).as_bytes()).map(|mesh| mesh.corner_uvs).map_err(|e| e.to_string())
+        };
+        let [a, b, c] = [Vec2::new(0.0, 0.5), Vec2::new(0.25, 0.5), Vec2::new(0.0, 0.75)];
+        for names in UV {
+            assert_eq!(uvs(names, "", "3 0 1 2\n3 0 2 1\n"), Ok(Some(vec![[a, b, c], [a, c, b]])));
+        }
+        assert_eq!(uvs(["s", "v"], "", "3 0 1 2\n3 0 2 1\n"), Ok(None));
+        let list = "property list uchar float texcoord\n";
+        let own = "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 1 6 0.5 0.5 0.5 0.5 0.5 0.5\n";
+        let expected = vec![[Vec2::ZERO, Vec2::X, Vec2::ONE], [Vec2::splat(0.5); 3]];
+        assert_eq!(uvs(["s", "t"], list, own), Ok(Some(expected)));
+        let some = "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 1 0\n";
+        assert_eq!(uvs(["s", "t"], list, some), Ok(Some(vec![[a, b, c], [a, c, b]])));
+        let short = uvs(["s", "t"], list, "3 0 1 2 4 0 0 1 0\n3 0 2 1 0\n").unwrap_err();
+        assert_eq!(short, "face 0: 4 numbers are no texture coordinates of 3 corners");
     }
 
     #[test]

@@ -100,6 +100,8 @@ def hair():
         "        int[] faceVertexCounts = [%s]" % ", ".join("3" for _ in FACES),
         "        int[] faceVertexIndices = [%s]" % ", ".join(str(v) for v in flat(FACES)),
         "        point3f[] points = [%s]" % ", ".join("(%g, %g, %g)" % corner for corner in CORNERS),
+        "        texCoord2f[] primvars:st = [%s] (interpolation = \"faceVarying\")" % ", ".join("(%g, %g)" % uv for uv in UVS),
+        "        int[] primvars:st:indices = [%s]" % ", ".join(str(v) for v in flat(FACES)),
         "    }",
         "}",
         "",
@@ -152,7 +154,9 @@ def meshes():
 
     # Seen in the mirror, and mirrored back by its node.
     mirrored = [(-x, y, z) for x, y, z in CORNERS]
-    blob = pack("f", flat(mirrored)) + pack("f", flat(UVS)) + pack("H", flat((a, c, b) for a, b, c in FACES))
+    # glTF counts v from the top.
+    down = [(u, 1 - v) for u, v in UVS]
+    blob = pack("f", flat(mirrored)) + pack("f", flat(down)) + pack("H", flat((a, c, b) for a, b, c in FACES))
     times = [time for time, _, _ in SAMPLES]
     at = len(blob)
     blob += pack("f", times) + pack("f", flat(hips for _, hips, _ in SAMPLES))

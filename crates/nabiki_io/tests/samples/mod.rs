@@ -2,7 +2,8 @@
 
 use glam::{Quat, Vec3};
 use nabiki::Pose;
-use nabiki::{Hair, Strands, hair::Attributes};
+use nabiki::hair::{Attributes, Other, Per, Role, Values};
+use nabiki::{Hair, Strands};
 use nabiki_io::{SceneId, cache, hair_file, tfx};
 
 /// Strands of `counts` points with every attribute that any format holds.
@@ -32,6 +33,24 @@ pub fn hair(counts: &[usize]) -> Hair {
         ..Attributes::default()
     };
     Hair { strands, attributes }
+}
+
+/// The same with attributes of every kind that mean nothing to the method.
+pub fn whole(counts: &[usize]) -> Hair {
+    let mut hair = hair(counts);
+    let (strands, points) = (hair.strands.len(), hair.strands.points().len());
+    let words = (0..strands).map(|s| "clump ".repeat(s)).collect();
+    let places = (0..3 * points).map(|i| i as f64 / 3.0).collect();
+    let numbers = (0..2 * points).map(|i| i as f32 / 7.0).collect();
+    let others = [
+        ("P_rest", Per::Point, Role::Point, 3, Values::Doubles(places)),
+        ("clump", Per::Strand, Role::Plain, 1, Values::Words(words)),
+        ("map", Per::Point, Role::TextureCoordinate, 2, Values::Floats(numbers)),
+        ("seed of the groom", Per::Groom, Role::Plain, 1, Values::Integers(vec![-1, i64::MAX])),
+    ];
+    let other = |(name, per, role, extent, values)| Other { name: String::from(name), per, role, extent, values };
+    hair.attributes.other = others.map(other).into();
+    hair
 }
 
 /// A .hair file with a segments array and every other array.
@@ -76,7 +95,7 @@ pub fn frame_points(hair: &Hair, frame: usize) -> Vec<Vec3> {
 
 /// Writes a cache of three frames with every attribute.
 pub fn write_cache(path: &std::path::Path) -> cache::Header {
-    let hair = hair(&[3, 2, 4]);
+    let hair = whole(&[3, 2, 4]);
     let header = cache::Header::new(SceneId(0x0123_4567_89ab_cdef), 24.0, &hair);
     let mut writer = cache::Writer::create(path, &header).unwrap();
     for frame in 0..3 {

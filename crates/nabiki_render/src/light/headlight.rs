@@ -214,7 +214,7 @@ mod tests {
         let plate = Mesh {
             positions: corners.map(|[x, z]| Vec3::new(x, 0.0, z)).to_vec(),
             triangles: vec![[0, 1, 2], [0, 2, 3]],
-            uvs: None,
+            corner_uvs: None,
         };
         let lamp = Lamp { toward: Vec3::Y, strength: [1.0; 3], spread: 0.03 };
         let shadow = HeadShadow::new(&lamp, &plate);
