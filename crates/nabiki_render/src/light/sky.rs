@@ -4,7 +4,7 @@
 //! carried from cell to cell, losing what each cell takes; what arrives is kept as two numbers a cell: the light from the
 //! upper and from the lower half of the sky.
 
-use glam::{UVec3, Vec3};
+use glam::{IVec3, UVec3, Vec3};
 use nabiki::Mesh;
 use rayon::prelude::*;
 
@@ -33,8 +33,10 @@ pub struct SkyMap {
     taken: Vec<f32>,
     carried: Vec<Vec<f32>>,
     arriving: Vec<Arriving>,
-    skin: Vec<(u32, f32)>,
-    skin_of: Option<(Vec3, f32, UVec3)>,
+    /// What the skin takes of the light in each cell, by the cell's place on the lattice through the origin.
+    skin: Vec<(IVec3, f32)>,
+    /// Edge of those cells.
+    skin_of: Option<f32>,
 }
 
 impl SkyMap {
@@ -110,38 +112,20 @@ impl SkyMap {
         }
     }
 
-    /// Marks the cells that skin passes through. The head stands still: this is worked out once.
+    /// Marks the cells that skin passes through. The head stands still: which they are is worked out once for each size
+    /// of cell.
     fn lay_skin(&mut self, head: &Mesh) {
-        let grid = (self.low, self.cell, self.size);
-        if self.skin_of != Some(grid) {
-            let mut marked = vec![0.0_f32; self.taken.len()];
-            for triangle in &head.triangles {
-                let [a, b, c] = triangle.map(|v| head.positions[v as usize]);
-                let area = 0.5 * (b - a).cross(c - a).length();
-                let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-                let steps = (2.0 * longest / self.cell).ceil().clamp(1.0, 64.0) as usize;
-                let share = area / (steps * steps) as f32 / (self.cell * self.cell);
-                for i in 0..steps {
-                    for j in 0..steps {
-                        // Points of a lattice on the unit square, folded onto the triangle.
-                        let (mut u, mut v) = ((i as f32 + 0.5) / steps as f32, (j as f32 + 0.5) / steps as f32);
-                        if u + v > 1.0 {
-                            (u, v) = (1.0 - u, 1.0 - v);
-                        }
-                        let p = (a + (b - a) * u + (c - a) * v - self.low) / self.cell;
-                        if p.cmpge(Vec3::ZERO).all() && p.cmplt(self.size.as_vec3()).all() {
-                            marked[self.index(p.as_uvec3())] += share;
-                        }
-                    }
-                }
-            }
-            self.skin.clear();
-            let some = marked.iter().enumerate().filter(|(_, m)| **m > 0.0);
-            self.skin.extend(some.map(|(i, m)| (i as u32, SKIN * m.min(1.5))));
-            self.skin_of = Some(grid);
+        if self.skin_of != Some(self.cell) {
+            self.skin = skin_cells(head, self.cell);
+            self.skin_of = Some(self.cell);
         }
-        for &(i, depth) in &self.skin {
-            self.taken[i as usize] += depth;
+        let low = (self.low / self.cell).round().as_ivec3();
+        for &(cell, depth) in &self.skin {
+            let c = cell - low;
+            if c.cmpge(IVec3::ZERO).all() && c.cmplt(self.size.as_ivec3()).all() {
+                let at = self.index(c.as_uvec3());
+                self.taken[at] += depth;
+            }
         }
     }
 
@@ -177,6 +161,38 @@ impl SkyMap {
             }
         });
     }
+}
+
+/// Cells of edge `cell` that the head's surface passes through, each with the optical depth of what lies in it.
+fn skin_cells(head: &Mesh, cell: f32) -> Vec<(IVec3, f32)> {
+    let mut shares: Vec<([i32; 3], f32)> = Vec::new();
+    for triangle in &head.triangles {
+        let [a, b, c] = triangle.map(|v| head.positions[v as usize]);
+        let area = 0.5 * (b - a).cross(c - a).length();
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        let steps = (2.0 * longest / cell).ceil().clamp(1.0, 64.0) as usize;
+        let share = area / (steps * steps) as f32 / (cell * cell);
+        for i in 0..steps {
+            for j in 0..steps {
+                // Points of a lattice on the unit square, folded onto the triangle.
+                let (mut u, mut v) = ((i as f32 + 0.5) / steps as f32, (j as f32 + 0.5) / steps as f32);
+                if u + v > 1.0 {
+                    (u, v) = (1.0 - u, 1.0 - v);
+                }
+                let p = (a + (b - a) * u + (c - a) * v) / cell;
+                shares.push((p.floor().as_ivec3().to_array(), share));
+            }
+        }
+    }
+    // Stable, so that the shares of a cell are always added in one order.
+    shares.sort_by_key(|&(cell, _)| cell);
+    let of_cells = shares.chunk_by(|a, b| a.0 == b.0);
+    of_cells
+        .map(|of_cell| {
+            let marked: f32 = of_cell.iter().map(|(_, share)| share).sum();
+            (IVec3::from(of_cell[0].0), SKIN * marked.min(1.5))
+        })
+        .collect()
 }
 
 /// Light that arrives in each cell from direction `-d`, before the cell takes its own part; `through` is what a cell
