@@ -108,10 +108,10 @@ impl Hair {
         check("group", &a.group, strands)?;
         check("guide", &a.guide, strands)?;
         check("width", &a.width, points)?;
-        check("color", &a.colour, points)?;
+        check("colour", &a.colour, points)?;
         check("transparency", &a.transparency, points)?;
         check("point_uv", &a.point_uv, points)?;
-        check("freedom", &a.inverse_mass, points)?;
+        check("inverse_mass", &a.inverse_mass, points)?;
         for other in &a.other {
             let (found, expected) = (other.values.len(), other.expected(strands, points));
             if found != expected {

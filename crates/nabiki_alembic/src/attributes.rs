@@ -117,7 +117,7 @@ impl Stored {
 
 fn role(header: &Header) -> Role {
     match (header.detail("interpretation"), header.kind.extent) {
-        (Some("rgb" | "rgba"), _) => Role::Color,
+        (Some("rgb" | "rgba"), _) => Role::Colour,
         (Some("point"), _) => Role::Point,
         (Some("normal"), _) => Role::Normal,
         (Some("vector"), 2) => Role::TextureCoordinate,

@@ -324,8 +324,8 @@ fn carried(more: &mut Held<'_>, other: &Other) -> io::Result<()> {
     };
     let interpretation = match (other.role, other.extent) {
         (Role::Plain, _) => "",
-        (Role::Color, 4) => "rgba",
-        (Role::Color, _) => "rgb",
+        (Role::Colour, 4) => "rgba",
+        (Role::Colour, _) => "rgb",
         (Role::Point, _) => "point",
         (Role::Vector | Role::TextureCoordinate, _) => "vector",
         (Role::Normal, _) => "normal",

@@ -152,7 +152,7 @@ fn attributes_of_any_name_go_through() {
         other("mass", Per::Point, Role::Plain, 1, Values::Doubles(numbers(points).collect())),
         other("mood", Per::Strand, Role::Plain, 1, Values::Words((0..strands).map(|s| format!("m{s}")).collect())),
         other("normals", Per::Point, Role::Normal, 3, Values::Floats(numbers(3 * points).map(|x| x as f32).collect())),
-        other("tint", Per::Strand, Role::Color, 3, Values::Floats(numbers(3 * strands).map(|x| x as f32).collect())),
+        other("tint", Per::Strand, Role::Colour, 3, Values::Floats(numbers(3 * strands).map(|x| x as f32).collect())),
     ];
     let file = bytes(Export::new(&hair, 24.0), |_| Affine3A::IDENTITY);
     let read = ArchiveReader::new(Cursor::new(&file)).unwrap().hair(0, None).unwrap();

@@ -40,7 +40,7 @@ fn hair(counts: impl Strategy<Value = Vec<usize>>) -> impl Strategy<Value = Hair
 /// Attributes of any name, kind and values for so many strands and points.
 fn others(strands: usize, points: usize) -> impl Strategy<Value = Vec<Other>> {
     let per = prop_oneof![Just(Per::Groom), Just(Per::Strand), Just(Per::Point)];
-    let roles = [Role::Plain, Role::Color, Role::Point, Role::Vector, Role::Normal, Role::TextureCoordinate];
+    let roles = [Role::Plain, Role::Colour, Role::Point, Role::Vector, Role::Normal, Role::TextureCoordinate];
     let other = (".*", per, proptest::sample::select(roles.to_vec()), 0usize..5, 0usize..3, 0usize..4);
     let other = other.prop_flat_map(move |(name, per, role, extent, list, kind)| {
         let count = extent

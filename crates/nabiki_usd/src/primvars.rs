@@ -147,7 +147,7 @@ fn kind(type_name: &str) -> Option<(Form, Role, usize)> {
         "half" | "float" => (Form::Float, Role::Plain, extent),
         "double" => (Form::Double, Role::Plain, extent),
         "string" | "token" => (Form::Word, Role::Plain, 1),
-        "color" => (form, Role::Color, extent),
+        "color" => (form, Role::Colour, extent),
         "point" => (form, Role::Point, extent),
         "vector" => (form, Role::Vector, extent),
         "normal" => (form, Role::Normal, extent),

@@ -165,7 +165,7 @@ fn what_a_groom_carries_goes_through_and_what_does_not_is_named() {
     let names: Vec<&str> = at.other.iter().map(|o| o.name.as_str()).collect();
     assert_eq!(names, ["UVMap", "cell", "frame", "mass", "mood", "nearby", "stiffness", "tint"]);
     let of = |name: &str| at.other.iter().find(|o| o.name == name).unwrap();
-    assert_eq!((of("tint").per, of("tint").role), (Per::Strand, Role::Color));
+    assert_eq!((of("tint").per, of("tint").role), (Per::Strand, Role::Colour));
     assert_eq!(of("tint").values, Values::Floats(vec![0.0, 1.0, 0.0, 0.0, 1.0, 0.0]));
     assert_eq!((of("stiffness").per, &of("stiffness").values), (Per::Groom, &Values::Floats(vec![0.25])));
     assert_eq!(of("mass").values, Values::Doubles(vec![0.1, 0.2]));

@@ -34,7 +34,7 @@ pub enum Role {
     #[default]
     Plain,
     /// A colour.
-    Color,
+    Colour,
     /// A place.
     Point,
     /// A direction with a length.

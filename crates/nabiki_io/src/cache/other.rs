@@ -14,7 +14,7 @@ pub(super) const TAG: &[u8; 8] = b"other   ";
 const HEAD_BYTES: u64 = 24;
 /// What has a value, and roles, by the numbers that the block gives them.
 const PER: [Per; 3] = [Per::Groom, Per::Strand, Per::Point];
-const ROLES: [Role; 6] = [Role::Plain, Role::Color, Role::Point, Role::Vector, Role::Normal, Role::TextureCoordinate];
+const ROLES: [Role; 6] = [Role::Plain, Role::Colour, Role::Point, Role::Vector, Role::Normal, Role::TextureCoordinate];
 const FLOATS: u32 = 0;
 const DOUBLES: u32 = 1;
 const INTEGERS: u32 = 2;
