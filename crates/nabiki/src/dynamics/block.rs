@@ -10,7 +10,7 @@ use super::transpose::write_points;
 use super::wind::{Surroundings, Wind};
 
 /// Rows of points kept on the stack before they are written out strand by strand.
-const ROWS: usize = 8;
+const ROWS: usize = 16;
 
 /// Up to sixteen consecutive strands. Shorter ones are filled up with segments of no length, and missing ones with
 /// strands of such segments: they go through the motions and are not written.
@@ -122,20 +122,21 @@ impl Block {
         mut points: Option<&mut [Vec3]>,
         mut pass: impl Pass,
     ) {
-        let mut after = self.roots;
         let mut rows = [[Row::default(); 3]; ROWS];
-        rows[0] = after;
+        rows[0] = self.roots;
         let (mut filled, mut written) = (1, 0);
         for (state, shape) in states.iter_mut().zip(shapes) {
             if filled == ROWS {
                 if let Some(points) = &mut points {
                     write_points(&rows, written, &self.points, points);
                 }
-                written += ROWS;
-                filled = 0;
+                // The last row is the first of the next ones, and written once more.
+                rows[0] = rows[ROWS - 1];
+                written += ROWS - 1;
+                filled = 1;
             }
-            pass.segment(state, shape, &mut after);
-            rows[filled] = after;
+            let (done, next) = rows.split_at_mut(filled);
+            pass.segment(state, shape, &done[filled - 1], &mut next[0]);
             filled += 1;
         }
         if let Some(points) = &mut points {
@@ -144,12 +145,12 @@ impl Block {
     }
 }
 
-/// What is done to each segment on the way to the tips: takes the points p_(i-1) of the new frame to p_i.
+/// What is done to each segment on the way to the tips: takes the points p_(i-1) of the new frame, `from`, to p_i.
 ///
 /// A trait where a closure would do: only a named function can be forced into its caller, and so be compiled for
 /// the vectors chosen there.
 trait Pass {
-    fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, after: &mut PointRow);
+    fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, from: &PointRow, to: &mut PointRow);
 }
 
 struct Step<const TILTED: bool, W> {
@@ -160,8 +161,8 @@ struct Step<const TILTED: bool, W> {
 
 impl<const TILTED: bool, W: Wind> Pass for Step<TILTED, W> {
     #[inline(always)]
-    fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, after: &mut PointRow) {
-        step_segment::<TILTED>(state, shape, &self.surroundings, &self.wind, &mut self.before, after);
+    fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, from: &PointRow, to: &mut PointRow) {
+        step_segment::<TILTED>(state, shape, &self.surroundings, &self.wind, &mut self.before, from, to);
     }
 }
 
@@ -171,7 +172,7 @@ struct Place<'a, const TILTED: bool> {
 
 impl<const TILTED: bool> Pass for Place<'_, TILTED> {
     #[inline(always)]
-    fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, after: &mut PointRow) {
-        extend::<TILTED>(after, state, shape, self.surroundings);
+    fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, from: &PointRow, to: &mut PointRow) {
+        extend::<TILTED>(from, to, state, shape, self.surroundings);
     }
 }

@@ -4,7 +4,7 @@
 //! name, never at the compiler's choice: so the bits do not depend on the vector width, nor on the other lanes.
 
 use super::angles;
-use super::turn::{LITTLE, Turn, turn_far, turn_little};
+use super::turn::{Turn, is_far, turn_far, turn_little};
 use super::wind::{Force, Forces, Surroundings, Wind};
 
 /// Strands in a block: two vectors of eight, or one of sixteen.
@@ -67,8 +67,8 @@ pub(super) struct ShapeRow {
 /// A point for each strand of a block: rows of x, y, z (cm).
 pub(super) type PointRow = [Row; 3];
 
-/// Moves segment i of every strand of a block from frame n to n + 1. `before` and `after` hold the points p_(i-1)
-/// of the two frames on entry, and p_i on return. `TILTED`: whether the polar axis is not y.
+/// Moves segment i of every strand of a block from frame n to n + 1. `before` holds the points p_(i-1) of frame n on
+/// entry, and p_i on return; `from` and `to` are those of frame n + 1. `TILTED`: whether the polar axis is not y.
 #[inline(always)]
 pub(super) fn step_segment<const TILTED: bool>(
     state: &mut SegmentState,
@@ -76,50 +76,51 @@ pub(super) fn step_segment<const TILTED: bool>(
     surroundings: &Surroundings,
     wind: &impl Wind,
     before: &mut PointRow,
-    after: &mut PointRow,
+    from: &PointRow,
+    to: &mut PointRow,
 ) {
     let forces = wind.at::<TILTED>(before, state, shape, surroundings);
-    let (start, mut next, mut far) = (*after, SegmentState::default(), 0);
+    let (was, mut far) = (*state, 0);
     // One loop, and no other between it and the points of the segment before: rows that one loop writes by halves
     // and the next one reads whole hold the machine up for longer than a step takes.
     for lane in 0..LANES {
         let (force, length) = (forces.lane(lane), shape.length.0[lane]);
-        let direction = surroundings.direction::<TILTED>(state.theta.lane(lane), state.phi.lane(lane));
-        let p = extend_lane(before, lane, length, direction);
+        let direction = surroundings.direction::<TILTED>(was.theta.lane(lane), was.phi.lane(lane));
+        let p = beyond(before, lane, length, direction);
+        [before[0].0[lane], before[1].0[lane], before[2].0[lane]] = p;
         // Not a choice between two rows, which the compiler would make a gather.
         let eps = if surroundings.weaken(p, &force) { shape.eps.0[lane] } else { 1.0 };
         let c = eps * shape.gain.0[lane];
 
-        let (theta, phi) = (state.theta.lane(lane), freed(state, lane, &force));
+        let (theta, phi) = (was.theta.lane(lane), freed(&was, lane, &force));
         let ([sin_theta, cos_theta], [sin_phi, cos_phi]) = (theta, phi);
         let [fx, fy, fz] = force.in_polar;
         let outward = fx.mul_add(sin_phi, fz * cos_phi);
         let around = fx.mul_add(cos_phi, -(fz * sin_phi));
         let f_theta = cos_theta.mul_add(outward, -(fy * sin_theta));
-        let theta_increment = c.mul_add(f_theta, state.theta_increment.0[lane]);
-        let phi_increment = c.mul_add(sin_theta * around, state.phi_increment.0[lane]);
-        far |= u32::from((theta_increment.abs() > LITTLE) | (phi_increment.abs() > LITTLE));
+        let theta_increment = c.mul_add(f_theta, was.theta_increment.0[lane]);
+        let phi_increment = c.mul_add(sin_theta * around, was.phi_increment.0[lane]);
+        far |= u32::from(is_far(theta_increment) | is_far(phi_increment));
 
         let (theta, phi) = (turn_little(theta, theta_increment), turn_little(phi, phi_increment));
-        next.theta.set(lane, theta);
-        next.phi.set(lane, phi);
-        next.theta_increment.0[lane] = theta_increment;
-        next.phi_increment.0[lane] = phi_increment;
-        extend_lane(after, lane, length, surroundings.direction::<TILTED>(theta, phi));
+        state.theta.set(lane, theta);
+        state.phi.set(lane, phi);
+        state.theta_increment.0[lane] = theta_increment;
+        state.phi_increment.0[lane] = phi_increment;
+        let p = beyond(from, lane, length, surroundings.direction::<TILTED>(theta, phi));
+        [to[0].0[lane], to[1].0[lane], to[2].0[lane]] = p;
     }
     if far != 0 {
         // Lanes that turn little have what they need; each lane's bits are its own whichever way its block goes.
         for lane in 0..LANES {
-            let (theta, phi) = (state.theta.lane(lane), freed(state, lane, &forces.lane(lane)));
-            let (theta_increment, phi_increment) = (next.theta_increment.0[lane], next.phi_increment.0[lane]);
+            let (theta, phi) = (was.theta.lane(lane), freed(&was, lane, &forces.lane(lane)));
+            let (theta_increment, phi_increment) = (state.theta_increment.0[lane], state.phi_increment.0[lane]);
             let (theta, phi) = (turn_far(theta, theta_increment), turn_far(phi, phi_increment));
-            next.theta.set(lane, if theta_increment.abs() > LITTLE { theta } else { next.theta.lane(lane) });
-            next.phi.set(lane, if phi_increment.abs() > LITTLE { phi } else { next.phi.lane(lane) });
+            state.theta.set(lane, if is_far(theta_increment) { theta } else { state.theta.lane(lane) });
+            state.phi.set(lane, if is_far(phi_increment) { phi } else { state.phi.lane(lane) });
         }
-        *after = start;
-        extend::<TILTED>(after, &next, shape, surroundings);
+        extend::<TILTED>(from, to, state, shape, surroundings);
     }
-    *state = next;
 }
 
 /// phi of one segment: the force's azimuth where the segment rests parallel to the polar axis (section 4.2).
@@ -141,27 +142,28 @@ pub(super) fn disturb_segment(state: &mut SegmentState, theta: &Row, phi: &Row, 
     }
 }
 
-/// Puts segment i of every strand of a block on its p_(i-1), which becomes p_i.
+/// Puts segment i of every strand of a block on its p_(i-1), which gives p_i.
 #[inline(always)]
 pub(super) fn extend<const TILTED: bool>(
-    points: &mut PointRow,
+    from: &PointRow,
+    to: &mut PointRow,
     state: &SegmentState,
     shape: &ShapeRow,
     surroundings: &Surroundings,
 ) {
     for lane in 0..LANES {
         let direction = surroundings.direction::<TILTED>(state.theta.lane(lane), state.phi.lane(lane));
-        extend_lane(points, lane, shape.length.0[lane], direction);
+        let p = beyond(from, lane, shape.length.0[lane], direction);
+        [to[0].0[lane], to[1].0[lane], to[2].0[lane]] = p;
     }
 }
 
+/// The point of one strand that lies `length` beyond its point in a row.
 #[inline(always)]
-fn extend_lane([x, y, z]: &mut PointRow, lane: usize, length: f32, direction: [f32; 3]) -> [f32; 3] {
-    let p = [
+fn beyond([x, y, z]: &PointRow, lane: usize, length: f32, direction: [f32; 3]) -> [f32; 3] {
+    [
         length.mul_add(direction[0], x.0[lane]),
         length.mul_add(direction[1], y.0[lane]),
         length.mul_add(direction[2], z.0[lane]),
-    ];
-    [x.0[lane], y.0[lane], z.0[lane]] = p;
-    p
+    ]
 }

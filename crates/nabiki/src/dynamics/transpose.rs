@@ -24,10 +24,17 @@ pub(super) fn write_points(rows: &[PointRow], first: usize, counts: &[u32; LANES
             rest = others;
         }
         let [a, b, c, d] = &strands;
-        let squares = a.len().min(b.len()).min(c.len()).min(d.len()) / FOUR;
-        write_squares(&rows[..FOUR * squares], group * FOUR, &mut strands);
+        let shared = a.len().min(b.len()).min(c.len()).min(d.len());
+        write_squares(&rows[..shared / FOUR * FOUR], group * FOUR, &mut strands);
+        let mut done = shared / FOUR * FOUR;
+        if done > 0 && done < shared {
+            // Numbers that the last square holds already are written again: fewer writes than one by one.
+            let last = shared - FOUR..shared;
+            write_squares(&rows[last.clone()], group * FOUR, &mut strands.each_mut().map(|s| &mut s[last.clone()]));
+            done = shared;
+        }
         for (lane, strand) in strands.into_iter().enumerate() {
-            let (strand, rows) = (&mut strand[FOUR * squares..], &rows[FOUR * squares..]);
+            let (strand, rows) = (&mut strand[done..], &rows[done..]);
             for (number, row) in strand.iter_mut().zip(rows) {
                 *number = row.0[group * FOUR + lane];
             }

@@ -6,39 +6,48 @@
 use super::trigonometry::sin_cos;
 
 /// The largest turn that the short polynomials of [`turn_little`] are made for (rad).
-pub(super) const LITTLE: f32 = 1.0 / 3.0;
+const LITTLE: f32 = 1.0 / 3.0;
 
-/// How far sin^2 + cos^2 may stray from 1 before it is brought back. Twice what rounding an exact pair does, so that
-/// what rests is left as it is.
+/// How far sin^2 + cos^2 may stray from 1 before the next turn brings it back. Twice what rounding an exact pair does,
+/// so that what rests is left as it is.
 const DRIFT: f32 = 2e-7;
 
 /// (sin, cos) of an angle.
 pub(super) type Turn = [f32; 2];
 
+/// Whether an angle is too large for [`turn_little`].
+#[inline(always)]
+pub(super) fn is_far(angle: f32) -> bool {
+    angle * angle > LITTLE * LITTLE
+}
+
 /// The pair of the angle plus `angle`, of which only -[`LITTLE`]..[`LITTLE`] is exact (within 3e-9 before rounding).
-/// By an angle of 0 the pair keeps its bits.
+/// By an angle of 0 a pair that has not drifted keeps its bits.
 #[inline(always)]
 pub(super) fn turn_little([sin, cos]: Turn, angle: f32) -> Turn {
     let square = angle * angle;
     let s = (angle * square).mul_add(square.mul_add(0.008_300_574, -0.166_665_4), angle);
-    // cos(angle) - 1, which keeps the digits that the 1 would take.
-    let c = square * square.mul_add(square.mul_add(-0.001_384_600_4, 0.041_666_49), -0.5);
-    bring_back([cos.mul_add(s, sin.mul_add(c, sin)), sin.mul_add(-s, cos.mul_add(c, cos))])
+    // cos(angle) - 1, which keeps the digits that the 1 would take, and with it what the pair lacks. That of s, at most
+    // a third of it, is less than a rounding. How far the pair has drifted is known long before the angle is: nothing
+    // waits for it.
+    let c = square.mul_add(square.mul_add(square.mul_add(-0.001_384_600_4, 0.041_666_49), -0.5), drift([sin, cos]));
+    [cos.mul_add(s, sin.mul_add(c, sin)), sin.mul_add(-s, cos.mul_add(c, cos))]
 }
 
 /// The same for angles of up to 1000 rad, within 2e-7.
 #[inline(always)]
 pub(super) fn turn_far([sin, cos]: Turn, angle: f32) -> Turn {
+    let share = drift([sin, cos]);
+    let (sin, cos) = (share.mul_add(sin, sin), share.mul_add(cos, cos));
     let (s, c) = sin_cos(angle);
-    bring_back([cos.mul_add(s, sin * c), sin.mul_add(-s, cos * c)])
+    [cos.mul_add(s, sin * c), sin.mul_add(-s, cos * c)]
 }
 
-/// Gives a pair that has drifted its length of 1 back, by one step of Newton's method.
+/// The share of itself that a pair lacks of its length of 1, by one step of Newton's method; 0 if it has not drifted.
 #[inline(always)]
-fn bring_back([sin, cos]: Turn) -> Turn {
+fn drift([sin, cos]: Turn) -> f32 {
     let excess = sin.mul_add(sin, cos.mul_add(cos, -1.0));
-    let share = if excess.abs() > DRIFT { -0.5 * excess } else { 0.0 };
-    [share.mul_add(sin, sin), share.mul_add(cos, cos)]
+    if excess.abs() > DRIFT { -0.5 * excess } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -80,14 +89,16 @@ mod tests {
 
     #[test]
     fn a_million_turns_keep_the_length_and_lose_the_angle_by_no_more_than_their_roundings() {
-        let (mut turn, mut angle) = (pair(0.3), 0.3_f64);
+        let (mut turn, mut far, mut angle) = (pair(0.3), pair(0.3), 0.3_f64);
         for i in 0..1_000_000 {
             let step = 0.1 * (i as f32 * 0.01).sin();
             turn = turn_little(turn, step);
+            far = turn_far(far, 3.0 + step);
             angle += f64::from(step);
-            let length = f64::from(turn[0]).hypot(f64::from(turn[1]));
-            // Half of DRIFT, and the roundings of one correction.
-            assert!((length - 1.0).abs() < 2e-7, "turn {i}: length {length}");
+            let length = |turn: Turn| f64::from(turn[0]).hypot(f64::from(turn[1]));
+            // Half of DRIFT, and the roundings of one turn: of its sine and cosine too where it is far.
+            assert!((length(turn) - 1.0).abs() < 2e-7, "turn {i}: length {}", length(turn));
+            assert!((length(far) - 1.0).abs() < 3.5e-7, "far turn {i}: length {}", length(far));
         }
         // A million errors of at most 6e-8 that do not conspire: a random walk is 6e-5 long, the polynomials' own
         // 3e-9 a turn may add up to 3e-3.

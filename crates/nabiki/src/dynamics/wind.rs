@@ -11,9 +11,12 @@ use crate::field::Field;
 /// What lies around the hair in every frame: Gamma but for the force, and the polar axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Surroundings {
-    center: [f32; 3],
     /// 1 / half axis.
     inverse: [f32; 3],
+    /// Its square.
+    inverse_squared: [f32; 3],
+    /// The centre of E in units of its half axes.
+    center: [f32; 3],
     /// C as a squared radius, where E's is 1.
     shell_squared: f32,
     /// alpha |alpha|: (4) with both sides multiplied by their own size, which spares the roots.
@@ -29,8 +32,9 @@ impl Surroundings {
         let alpha = dynamics.pseudo_force.alpha;
         let polar_from_head = axis.polar_from_head().as_mat3();
         Self {
-            center: center.to_array(),
             inverse: half_axes.recip().to_array(),
+            inverse_squared: (half_axes * half_axes).recip().to_array(),
+            center: (center / half_axes).to_array(),
             shell_squared: dynamics.shell * dynamics.shell,
             alpha_squared: alpha * alpha.abs(),
             polar_from_head: polar_from_head.to_cols_array_2d(),
@@ -41,14 +45,14 @@ impl Surroundings {
     /// Equation (4), see [`Gamma::contains`](crate::pseudo_force::Gamma::contains).
     #[inline(always)]
     pub fn weaken(&self, p: [f32; 3], force: &Force) -> bool {
-        let [ix, iy, iz] = self.inverse;
-        let q = [(p[0] - self.center[0]) * ix, (p[1] - self.center[1]) * iy, (p[2] - self.center[2]) * iz];
-        let normal = [q[0] * ix, q[1] * iy, q[2] * iz];
-        let radius_squared = dot(q, q);
-        let against = dot(normal, force.in_head);
+        // In units of the half axes, where the normal of the ellipsoid is q over them once more.
+        let q = [0, 1, 2].map(|axis| p[axis].mul_add(self.inverse[axis], -self.center[axis]));
+        let squares = q.map(|v| v * v);
+        let radius_squared = squares[0] + squares[1] + squares[2];
+        let against = dot(q, force.in_half_axes);
         (radius_squared > 1.0)
             & (radius_squared <= self.shell_squared)
-            & (against * against.abs() <= force.threshold * dot(normal, normal))
+            & (against * against.abs() <= force.threshold * dot(squares, self.inverse_squared))
     }
 
     /// The direction of given sines and cosines in head space. `TILTED`: whether the polar axis is not y.
@@ -62,8 +66,8 @@ impl Surroundings {
 /// F(n+1) at one place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Force {
-    /// For Gamma.
-    in_head: [f32; 3],
+    /// For Gamma: over the half axes of E, in head space.
+    in_half_axes: [f32; 3],
     /// For the equations: the space whose y is the polar axis.
     pub in_polar: [f32; 3],
     /// Sine and cosine of its azimuth about the polar axis; (0, 0) where it has none.
@@ -80,7 +84,8 @@ impl Force {
         let level = x.mul_add(x, z * z).sqrt();
         let azimuth = if level > 0.0 { [x / level, z / level] } else { [0.0; 2] };
         let threshold = surroundings.alpha_squared * dot(in_head, in_head);
-        Self { in_head, in_polar, azimuth, threshold }
+        let in_half_axes = [0, 1, 2].map(|axis| in_head[axis] * surroundings.inverse[axis]);
+        Self { in_half_axes, in_polar, azimuth, threshold }
     }
 
     #[inline(always)]
@@ -148,8 +153,8 @@ impl Wind for LocalWind<'_> {
         shape: &ShapeRow,
         surroundings: &Surroundings,
     ) -> Self::Forces {
-        let mut points = *start;
-        extend::<TILTED>(&mut points, state, shape, surroundings);
+        let mut points = PointRow::default();
+        extend::<TILTED>(start, &mut points, state, shape, surroundings);
         let mut there = [[0.0; LANES]; 3];
         for lane in 0..LANES {
             let [x, y, z] = rotate(&self.field_from_head, [points[0].0[lane], points[1].0[lane], points[2].0[lane]]);
@@ -171,7 +176,7 @@ impl Wind for LocalWind<'_> {
 /// The force on each of sixteen segments.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ForceRow {
-    in_head: PointRow,
+    in_half_axes: PointRow,
     in_polar: PointRow,
     azimuth: [Row; 2],
     threshold: Row,
@@ -181,7 +186,7 @@ impl ForceRow {
     #[inline(always)]
     fn set(&mut self, lane: usize, force: Force) {
         for axis in 0..3 {
-            self.in_head[axis].0[lane] = force.in_head[axis];
+            self.in_half_axes[axis].0[lane] = force.in_half_axes[axis];
             self.in_polar[axis].0[lane] = force.in_polar[axis];
         }
         self.azimuth[0].0[lane] = force.azimuth[0];
@@ -195,7 +200,7 @@ impl Forces for ForceRow {
     fn lane(&self, lane: usize) -> Force {
         let at = |row: &PointRow| [row[0].0[lane], row[1].0[lane], row[2].0[lane]];
         Force {
-            in_head: at(&self.in_head),
+            in_half_axes: at(&self.in_half_axes),
             in_polar: at(&self.in_polar),
             azimuth: [self.azimuth[0].0[lane], self.azimuth[1].0[lane]],
             threshold: self.threshold.0[lane],
