@@ -125,15 +125,15 @@ pub fn has_type(other: &Other) -> bool {
 }
 
 fn typed(other: &Other) -> Option<(&'static str, Value)> {
-    use Role::{Color, Normal, Plain, Point, TextureCoordinate, Vector};
+    use Role::{Colour, Normal, Plain, Point, TextureCoordinate, Vector};
     Some(match (&other.values, other.role, other.extent) {
         (Values::Floats(v), role, extent) => {
             let type_name = match (role, extent) {
                 (_, 1) => "float[]",
                 (TextureCoordinate, 2) => "texCoord2f[]",
                 (TextureCoordinate, 3) => "texCoord3f[]",
-                (Color, 3) => "color3f[]",
-                (Color, 4) => "color4f[]",
+                (Colour, 3) => "color3f[]",
+                (Colour, 4) => "color4f[]",
                 (Point, 3) => "point3f[]",
                 (Vector, 3) => "vector3f[]",
                 (Normal, 3) => "normal3f[]",
