@@ -11,7 +11,7 @@ mod tree;
 
 use std::sync::OnceLock;
 
-use glam::{IVec3, UVec3, Vec3};
+use glam::{UVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::Mesh;
@@ -172,12 +172,13 @@ impl SkinDistance {
         let Samples { low, cell, nodes, mirrored, coarse, block_of, fine } = &self.samples;
         let p = if *mirrored { p.with_z(p.z.abs()) } else { p };
         let q = (p - low) / cell;
-        let cells = (nodes - 1).as_ivec3();
-        let c = q.floor().as_ivec3();
-        if !(q.is_finite() && c.cmpge(IVec3::ZERO).all() && c.cmplt(cells).all()) {
+        let cells = nodes - 1;
+        if !(q.cmpge(Vec3::ZERO).all() && q.cmplt(cells.as_vec3()).all()) {
             return self.exact(p);
         }
-        let (c, t) = (c.as_uvec3(), q - c.as_vec3());
+        // Toward zero is down from here on, and spares the rounding that plain x86-64 has no instruction for.
+        let c = q.as_uvec3();
+        let t = q - c.as_vec3();
         let (i, j, k) = (c.x as usize, c.y as usize, c.z as usize);
         let block = block_of[(k * cells.y as usize + j) * cells.x as usize + i];
         if block == COARSE {
@@ -185,9 +186,9 @@ impl SkinDistance {
             return trilinear(coarse, (k * ny + j) * nx + i, nx, nx * ny, t);
         }
         let t = t * FINE as f32;
-        let f = t.floor().min(Vec3::splat((FINE - 1) as f32));
+        let f = t.as_uvec3().min(UVec3::splat(FINE as u32 - 1));
         let (i, j, k) = (f.x as usize, f.y as usize, f.z as usize);
-        trilinear(&fine[block as usize], (k * EDGE + j) * EDGE + i, EDGE, EDGE * EDGE, t - f)
+        trilinear(&fine[block as usize], (k * EDGE + j) * EDGE + i, EDGE, EDGE * EDGE, t - f.as_vec3())
     }
 
     /// The gradient at `p` by central differences over one fine step: of unit length but for the sampling.
