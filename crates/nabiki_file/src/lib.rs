@@ -23,15 +23,15 @@
 
 #![forbid(unsafe_code)]
 
-use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::TempPath;
 
-/// Between the final name and the random end of a part file's name.
+/// How the name of every part file begins.
 const MARK: &str = ".nabiki-part-";
 
 /// Bytes gathered before they are written.
@@ -163,11 +163,11 @@ fn behind_links(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("too many links in a row"))
 }
 
-fn prefix_of(target: &Path) -> OsString {
-    let mut prefix = OsString::from(".");
-    prefix.push(target.file_name().unwrap_or(OsStr::new("result")));
-    prefix.push(MARK);
-    prefix
+/// How the names of all part files of `target` begin. Its own name may be as long as names can be, so it is not in it.
+fn prefix_of(target: &Path) -> String {
+    let mut hasher = DefaultHasher::new();
+    target.file_name().hash(&mut hasher);
+    format!("{MARK}{:016x}-", hasher.finish())
 }
 
 /// Removes the part files of `target` that no running program holds.
@@ -175,7 +175,7 @@ fn remove_stale(folder: &Path, target: &Path) {
     let prefix = prefix_of(target);
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.flatten() {
-        if !entry.file_name().as_encoded_bytes().starts_with(prefix.as_encoded_bytes()) {
+        if !entry.file_name().as_encoded_bytes().starts_with(prefix.as_bytes()) {
             continue;
         }
         let path = entry.path();

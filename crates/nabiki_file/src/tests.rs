@@ -29,8 +29,9 @@ fn a_file_has_its_name_only_when_it_is_finished() {
 fn what_a_killed_program_left_is_removed_and_what_another_writes_is_not() {
     let folder = folder();
     let target = folder.path().join("motion.nabiki");
-    fs::write(folder.path().join(".motion.nabiki.nabiki-part-killed"), "half").unwrap();
-    let held = folder.path().join(".motion.nabiki.nabiki-part-held");
+    let part = |end: &str| folder.path().join(prefix_of(&target) + end);
+    fs::write(part("killed"), "half").unwrap();
+    let held = part("held");
     let holder = File::create(&held).unwrap();
     holder.try_lock().unwrap();
     let first = PartFile::create(&target).unwrap();
@@ -38,7 +39,7 @@ fn what_a_killed_program_left_is_removed_and_what_another_writes_is_not() {
     assert!(held.exists());
     assert_eq!(names(folder.path()).len(), 3, "one of another program and two of this");
     drop((first, second));
-    assert_eq!(names(folder.path()), [".motion.nabiki.nabiki-part-held"]);
+    assert_eq!(names(folder.path()), [held.file_name().unwrap().to_str().unwrap()]);
 }
 
 #[cfg(unix)]
@@ -74,4 +75,12 @@ fn a_finished_file_has_the_mode_of_any_other_new_file() {
     File::create(&other).unwrap();
     let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode();
     assert_eq!(mode(&ours), mode(&other));
+}
+
+#[test]
+fn a_name_may_be_as_long_as_the_disk_takes() {
+    let folder = folder();
+    let target = folder.path().join("n".repeat(255));
+    PartFile::create(&target).unwrap().finish().unwrap();
+    assert!(target.exists());
 }

@@ -11,6 +11,7 @@ use nabiki_usd::{Form, HairStage, StageReader};
 
 use crate::axis::Axis;
 use crate::error::{Error, Result};
+use crate::input;
 use crate::kind::extension;
 use crate::motion::track::{Sample, Track};
 use crate::placement::Placement;
@@ -36,6 +37,8 @@ pub(crate) struct Opened<'a> {
 
 impl<'a> Opened<'a> {
     pub fn new(path: &'a Path) -> Result<Self> {
+        // Opening a pipe would wait for someone to write into it.
+        input::open(path)?;
         let reader: std::result::Result<Box<dyn GroomReader>, Problem> = if is_alembic(path) {
             ArchiveReader::open(path).map(|reader| Box::new(reader) as _)
         } else {

@@ -56,11 +56,19 @@ pub fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
 /// # Errors
 /// As [`read`]; a byte that is not text.
 pub fn read_text(path: &Path, most: u64) -> Result<String> {
-    String::from_utf8(read(path, most)?).map_err(|e| {
+    let mut bytes = read(path, most)?;
+    // A mark that some editors put before UTF-8; it is no part of the text.
+    if bytes.starts_with(BYTE_ORDER_MARK) {
+        bytes.drain(..BYTE_ORDER_MARK.len());
+    }
+    String::from_utf8(bytes).map_err(|e| {
         let at = e.utf8_error().valid_up_to();
         Error::new(format!("byte {at} is not text (UTF-8): is this the file that was meant?")).in_file(path)
     })
 }
+
+/// What some editors put before UTF-8.
+pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// A number of bytes in whole units of 1024 each.
 struct Size(u64);

@@ -5,10 +5,11 @@ use std::borrow::Cow;
 use glam::{Vec2, Vec3};
 
 use crate::error::{Error, Result};
+use crate::input::BYTE_ORDER_MARK;
 
 /// The lines of a file with their numbers from 1. Names in other encodings than UTF-8 do no harm.
 pub(crate) fn text(bytes: &[u8]) -> Cow<'_, str> {
-    String::from_utf8_lossy(bytes)
+    String::from_utf8_lossy(bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes))
 }
 
 /// The place that follows a `v`.

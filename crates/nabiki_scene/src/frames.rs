@@ -69,7 +69,8 @@ impl Cached {
         let (file, scene) = (cache.display(), built.scene.file().display());
         if reader.header().scene != built.identity()? {
             return Err(Error::refused(format!(
-                "{file}: its motion was not made from {scene} as it is now; make it again with nabiki simulate"
+                "{file}: its motion was not made from {scene} as it is now; give the --strands and --set that it was made \
+                 with, or make it again with nabiki simulate"
             )));
         }
         let (last, given) = (u64::from(built.frames()), reader.frame_count());

@@ -70,8 +70,10 @@ impl StageReader {
     }
 
     /// Time codes of the frames of the curves with the most samples, or of what moves them whole, and how far apart they
-    /// are. Samples at uneven times give way to whole codes, between which there is interpolation.
-    fn frame_codes(&self) -> Result<(Vec<f64>, f64), Problem> {
+    /// are. Samples at uneven times, or farther apart than frames, give way to the frames, between which there is
+    /// interpolation.
+    fn frame_codes(&mut self) -> Result<(Vec<f64>, f64), Problem> {
+        let a_frame = self.codes_a_frame()?;
         let samples = |i: usize| self.layer.prims[i].attributes.get("points").map(|a| &a.samples[..]).unwrap_or(&[]);
         let most = self.layer.of_type("BasisCurves").into_iter().map(samples).max_by_key(|s| s.len());
         let mut codes: Vec<f64> = most.unwrap_or_default().iter().map(|&(time, _)| time).collect();
@@ -85,18 +87,28 @@ impl StageReader {
         let [first, second, ..] = codes[..] else { return Ok((codes, 1.0)) };
         let (last, step) = (codes[codes.len() - 1], second - first);
         let even = |(n, &code): (usize, &f64)| (code - (first + n as f64 * step)).abs() <= SAME_TIME * step;
-        if step > 0.0 && codes.iter().enumerate().all(even) {
+        let sparse = step > a_frame * (1.0 + SAME_TIME);
+        if step > 0.0 && !sparse && codes.iter().enumerate().all(even) {
             return Ok((codes, step));
         }
-        let frames = (last - first).floor();
+        let frames = ((last - first) / a_frame + SAME_TIME).floor();
         if frames >= MOST_SAMPLES as f64 {
             return Err(Problem(format!("its curves move from time code {first} to {last}, longer than is read")));
         }
-        Ok(((0..=frames as usize).map(|n| first + n as f64).collect(), 1.0))
+        Ok(((0..=frames as usize).map(|n| first + n as f64 * a_frame).collect(), a_frame))
+    }
+
+    /// Time codes from one frame to the next.
+    fn codes_a_frame(&mut self) -> Result<f64, Problem> {
+        // Codes so close that they are no frames of any film, in a layer that does not say how many make one.
+        const MOST_A_SECOND: f64 = 240.0;
+        let codes = self.codes_a_second()?;
+        let frames = self.positive("framesPerSecond", "24, say")?;
+        Ok(codes / frames.unwrap_or(if codes > MOST_A_SECOND { 24.0 } else { codes }))
     }
 
     /// The time code of a frame; that of the last after those there are.
-    fn code_of(&self, frame: usize) -> Result<f64, Problem> {
+    fn code_of(&mut self, frame: usize) -> Result<f64, Problem> {
         let (codes, _) = self.frame_codes()?;
         Ok(codes.get(frame).or(codes.last()).copied().unwrap_or(0.0))
     }
@@ -293,6 +305,15 @@ impl GroomReader for StageReader {
         };
         times.sort_by(f64::total_cmp);
         times.dedup();
+        // Between two keys each operation goes its own way, a parent's turn about another: whole codes follow it.
+        if let [first, .., last] = times[..] {
+            if last - first > MOST_SAMPLES as f64 {
+                return Err(Problem(format!("{node}: moves from time code {first} to {last}, longer than is read")));
+            }
+            times.extend((first.ceil() as i64..=last.floor() as i64).map(|code| code as f64));
+            times.sort_by(f64::total_cmp);
+            times.dedup_by(|a, b| (*a - *b).abs() <= SAME_TIME);
+        }
         if times.len() > MOST_SAMPLES {
             return Err(Problem(format!("{node}: moves at {} time codes, more than is read", times.len())));
         }

@@ -57,15 +57,16 @@ fn transforms_are_interpolated_each_at_its_own_times() {
     };
     let motion = stage.motion("/a/b/c").unwrap();
     let times: Vec<f64> = motion.iter().map(|p| 10.0 * p.time).collect();
-    assert_eq!(times, [0.0, 2.0, 4.0, 6.0, 8.0]);
+    // At every whole code, since the three go their own ways between their keys.
+    assert_eq!(times, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
     for placed in motion {
         let (position, rotation) = known(10.0 * placed.time);
         assert!(placed.position.distance(position) < 1e-12);
         assert!(1.0 - placed.rotation.dot(rotation).abs() < 1e-12, "at {} s", placed.time);
     }
-    // Frames at uneven times give way to whole codes: 1, 2, 3, 4. (Two samples are even: 1 and 4.)
+    // Samples farther apart than frames give way to these: 1, 2, 3, 4.
     let frames = stage.contents().unwrap();
-    assert_eq!((frames.times, frames.frame_rate), (vec![0.1, 0.4], 10.0 / 3.0));
+    assert_eq!((frames.times, frames.frame_rate), (vec![0.1, 0.2, 0.3, 0.4], 10.0));
 }
 
 #[test]
@@ -217,7 +218,7 @@ def SkelRoot \"man\" {
 fn a_joint_of_a_skeleton_drives_the_head() {
     for node in ["head", "hips/neck/head", "/man/rig/hips/neck/head"] {
         let motion = reader(SKELETON).motion(node).unwrap();
-        assert_eq!(motion.iter().map(|p| (10.0 * p.time).round() as i32).collect::<Vec<_>>(), [0, 2, 4]);
+        assert_eq!(motion.iter().map(|p| (10.0 * p.time).round() as i32).collect::<Vec<_>>(), [0, 1, 2, 3, 4]);
         for placed in motion {
             let t = 10.0 * placed.time;
             // The neck turns by half a turn about z in two codes; the head, 10 above it, is not animated.
@@ -265,5 +266,17 @@ fn velocities_take_the_points_of_a_frame_to_those_of_the_next() {
                 assert!(velocities.contains(line), "{line}");
             }
         }
+    }
+}
+
+#[test]
+fn a_whole_turn_between_two_keys_is_a_turn() {
+    let mut stage = reader(
+        "#usda 1.0\ndef Xform \"a\" { float xformOp:rotateY.timeSamples = { 0: 0, 24: 360 }\n\
+         uniform token[] xformOpOrder = [\"xformOp:rotateY\"]\n def Xform \"b\" {} }\n",
+    );
+    for placed in stage.motion("/a/b").unwrap() {
+        let turn = DQuat::from_rotation_y((360.0 * placed.time).to_radians());
+        assert!(1.0 - placed.rotation.dot(turn).abs() < 1e-12, "at {} s", placed.time);
     }
 }

@@ -12,6 +12,8 @@ use nabiki_io::{
     placement::Placement,
 };
 
+use nabiki_render::colour;
+
 use super::{BuiltScene, Shown};
 use crate::error::Result;
 use crate::scene::{EllipsoidChoice, GrownHair, HairSource, HeadSource, ImportedHair, Scene};
@@ -57,7 +59,10 @@ fn load_hair(scene: &Scene, head: &Head, head_placement: &Placement, shown: Show
     match &scene.hair.source {
         HairSource::Grown(settings) => {
             let count = shown.of(settings.strands)?;
-            let hair = grown(scene, settings, head, count)?;
+            let mut hair = grown(scene, settings, head, count)?;
+            // As it is drawn, so that it goes out as it looks.
+            hair.attributes.constant.width = Some(scene.picture.hair.width);
+            hair.attributes.constant.colour = Some(colour::of_mass(&scene.picture.hair));
             let ids = (0..count as u32).collect();
             Ok(Loaded { hair, ids, of_scene: settings.strands, placement: None, report: None })
         }

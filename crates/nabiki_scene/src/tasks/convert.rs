@@ -173,6 +173,16 @@ fn said(options: &ConvertOptions) -> Result<DeclaredSpace> {
         return Ok(DeclaredSpace { unit: Some(unit), up: Some(up) });
     }
     let in_file = exchange::declared_space(&options.input)?;
+    if let (Some(given), Some(stated)) = (options.unit, in_file.unit)
+        && (given.cm - stated.cm).abs() > 1e-6 * stated.cm
+    {
+        return Err(Error::refused(format!(
+            "{}: --unit {}: the file itself says {}; leave --unit out",
+            options.input.display(),
+            given.cm,
+            stated.cm
+        )));
+    }
     let said = DeclaredSpace {
         unit: options.unit.or(in_file.unit),
         up: if options.z_up { Some(Axis::PlusZ) } else { in_file.up.or(Some(Axis::PlusY)) },
