@@ -38,6 +38,8 @@ pub struct BuiltScene {
     pub hair_placement: Option<Placement>,
     /// What the hair's file held; `None` for hair grown here.
     pub import_report: Option<ImportReport>,
+    /// Frames of the hair's file, of which the first is taken; 1 for hair that stands still.
+    pub frames_in_file: usize,
     /// How the hair answers a force.
     pub dynamics: Dynamics,
     /// The force.

@@ -84,6 +84,10 @@ pub struct SceneSummary {
     pub half_axes: [f32; 3],
     /// Triangles of the head's mesh that faced inward and were turned.
     pub turned_triangles: usize,
+    /// Edges of the head's openings, which count as closed.
+    pub open_edges: usize,
+    /// Frames of the hair's file, of which the first is taken; 1 for hair that stands still.
+    pub frames_in_file: usize,
     /// How the head's motion was read and converted.
     pub motion: Option<String>,
     /// Strands built.
@@ -107,6 +111,8 @@ impl SceneSummary {
             head: built.scene.head.mesh(),
             half_axes: built.head.ellipsoid.half_axes.to_array(),
             turned_triangles: built.head.orientation.turned,
+            open_edges: built.head.orientation.open_edges,
+            frames_in_file: built.frames_in_file,
             motion: built.motion_report.clone(),
             strands: strands.len(),
             strands_of_scene: built.strands_of_scene,
@@ -125,6 +131,13 @@ impl fmt::Display for SceneSummary {
         if self.turned_triangles > 0 {
             writeln!(f, "          {} triangles that faced inward were turned", self.turned_triangles)?;
         }
+        if self.open_edges > 0 {
+            writeln!(
+                f,
+                "          it is open along {} edges; an opening counts as closed straight across",
+                self.open_edges
+            )?;
+        }
         if let Some(motion) = &self.motion {
             writeln!(f, "          {motion}")?;
         }
@@ -142,6 +155,13 @@ impl fmt::Display for SceneSummary {
                  short",
                 import.strands_in_file
             )?;
+            if self.frames_in_file > 1 {
+                write!(
+                    f,
+                    "\n          taken from the first of the file's {} frames; its own motion is left out",
+                    self.frames_in_file
+                )?;
+            }
             if let Some(warning) = import.warning() {
                 write!(f, "\n          {warning}")?;
             }

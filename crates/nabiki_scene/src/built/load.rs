@@ -24,7 +24,7 @@ pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
     let mut dynamics = dynamics(&scene, &head)?;
     dynamics.polar_axis = poses.first().copied().unwrap_or_default().up_in_head();
     let field = scene.field().map_err(|refused| scene.refusal(refused))?.into();
-    let Loaded { mut hair, ids, of_scene, placement: hair_placement, report } =
+    let Loaded { mut hair, ids, of_scene, placement: hair_placement, report, frames } =
         load_hair(&scene, &head, &placement, shown)?;
     hair.strands = straightened(&hair.strands, &dynamics.motion, dynamics.polar_axis);
     Ok(BuiltScene {
@@ -36,6 +36,7 @@ pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
         strands_of_scene: of_scene,
         hair_placement,
         import_report: report,
+        frames_in_file: frames,
         dynamics,
         field,
         motion_report,
@@ -53,6 +54,8 @@ struct Loaded {
     of_scene: usize,
     placement: Option<Placement>,
     report: Option<ImportReport>,
+    /// Frames of the file.
+    frames: usize,
 }
 
 fn load_hair(scene: &Scene, head: &Head, head_placement: &Placement, shown: Shown) -> Result<Loaded> {
@@ -64,7 +67,7 @@ fn load_hair(scene: &Scene, head: &Head, head_placement: &Placement, shown: Show
             hair.attributes.constant.width = Some(scene.picture.hair.width);
             hair.attributes.constant.colour = Some(colour::of_mass(&scene.picture.hair));
             let ids = (0..count as u32).collect();
-            Ok(Loaded { hair, ids, of_scene: settings.strands, placement: None, report: None })
+            Ok(Loaded { hair, ids, of_scene: settings.strands, placement: None, report: None, frames: 1 })
         }
         HairSource::Imported(settings) => import(scene, settings, head_placement, shown),
     }
@@ -91,7 +94,9 @@ fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, sh
         Some(segments) => cut_anew(&hair, segments).map_err(|refused| scene.refusal(refused))?,
         None => hair,
     };
-    Ok(Loaded { hair, ids, of_scene, placement: Some(placement), report: Some(report) })
+    let moving = exchange::is_usd(&file) || exchange::is_alembic(&file);
+    let frames = if moving { exchange::frames(&file)? } else { 1 };
+    Ok(Loaded { hair, ids, of_scene, placement: Some(placement), report: Some(report), frames })
 }
 
 /// `count` strands of the farthest-first order of the roots, in the order of the file.
