@@ -184,7 +184,7 @@ impl StageReader {
         Ok(uvs.map(|uvs| (by_corner, uvs)))
     }
 
-    /// Paths of what can move a head: prims that move themselves first, then joints, then the rest.
+    /// Paths of what can move a head: prims that move themselves, then joints; where there are none, any prim.
     fn movers(&mut self) -> Result<Vec<String>, Problem> {
         const MOST_NAMED: usize = 40;
         let moves = |i: &usize| {
@@ -198,7 +198,9 @@ impl StageReader {
             let joints = skeleton::joints(&mut self.layer, skeleton)?;
             paths.extend(joints.into_iter().map(|joint| format!("{path}/{joint}")));
         }
-        paths.extend(still.into_iter().map(|i| self.layer.path(i)));
+        if paths.is_empty() {
+            paths.extend(still.into_iter().map(|i| self.layer.path(i)));
+        }
         paths.truncate(MOST_NAMED);
         Ok(paths)
     }

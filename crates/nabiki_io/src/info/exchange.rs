@@ -103,9 +103,11 @@ impl fmt::Display for ExchangeInfo {
         if let Some(mesh) = &self.mesh {
             writeln!(f, "{mesh}")?;
         }
-        match self.frame_rate {
-            Some(rate) => writeln!(f, "frames: {} at {} a second", self.frames, Short(rate as f32))?,
-            None => writeln!(f, "frames: {}", self.frames)?,
+        match (&self.hair, self.frame_rate) {
+            (Some(_), Some(rate)) => writeln!(f, "frames: {} at {} a second", self.frames, Short(rate as f32))?,
+            (Some(_), None) => writeln!(f, "frames: {}", self.frames)?,
+            (None, Some(rate)) => writeln!(f, "frames a second: {}", Short(rate as f32))?,
+            (None, None) => {}
         }
         for prim in self.prims.iter().take(MOST_LISTED) {
             match prim.samples {
