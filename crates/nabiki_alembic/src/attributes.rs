@@ -3,6 +3,7 @@
 use std::io::{Read, Seek};
 
 use nabiki::hair::{Per, Role, Values};
+use nabiki_exchange::Uvs;
 use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values};
 
 use crate::Problem;
@@ -71,16 +72,16 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
         Ok(unread)
     }
 
-    /// The texture coordinates of a mesh, and whether they are its corners' or its vertices'. `None` where it has none,
-    /// or one for all or for each face, which say nothing of a place.
-    pub fn texture_coordinates(&mut self) -> Result<Option<(bool, Vec<[f32; 2]>)>, Problem> {
+    /// The texture coordinates of a mesh. `None` where it has none, or one for all or for each face, which say nothing of a
+    /// place.
+    pub fn texture_coordinates(&mut self) -> Result<Option<Uvs>, Problem> {
         let scope = self.headers.iter().find(|h| h.name == "uv").and_then(|h| h.detail("geoScope"));
-        let by_corner = match scope {
-            Some("fvr") => true,
-            Some("vtx" | "var") => false,
+        let of = match scope {
+            Some("fvr") => Uvs::OfCorners,
+            Some("vtx" | "var") => Uvs::OfVertices,
             _ => return Ok(None),
         };
-        Ok(self.tuples::<2>("uv")?.map(|uvs| (by_corner, uvs)))
+        Ok(self.tuples::<2>("uv")?.map(of))
     }
 
     fn stored(&mut self, name: &str) -> Result<Option<Stored>, Problem> {

@@ -7,7 +7,7 @@ use std::path::Path;
 use glam::{Affine3A, DMat4, DVec3, Vec3};
 use nabiki::{Hair, Mesh};
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
-use nabiki_exchange::{Contents, Gathered, GroomReader, InPlace, Placed, Polygons, Prim, PrimKind, Uvs, add_polygons};
+use nabiki_exchange::{Contents, Gathered, GroomReader, InPlace, Placed, Polygons, Prim, PrimKind, add_polygons};
 
 use crate::Problem;
 use crate::attributes::Parameters;
@@ -331,11 +331,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
             let corners = integers(header.kind, &bytes)?;
             let positions: Vec<Vec3> = positions.as_chunks::<3>().0.iter().map(|&p| Vec3::from(p)).collect();
             // Alembic winds faces clockwise.
-            let stored = Parameters::of(&mut self.tree, inside, 0)?.texture_coordinates()?;
-            let uvs = stored.as_ref().map(|(by_corner, uvs)| match by_corner {
-                true => Uvs::OfCorners(uvs),
-                false => Uvs::OfVertices(uvs),
-            });
+            let uvs = Parameters::of(&mut self.tree, inside, 0)?.texture_coordinates()?;
             let polygons = Polygons { positions: &positions, counts: &counts, corners: &corners, clockwise: true, uvs };
             let added = add_polygons(&mut mesh, polygons, &world);
             added.map_err(|e| Problem(format!("mesh {path}: {e}")))?;

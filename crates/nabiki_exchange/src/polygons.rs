@@ -7,7 +7,7 @@ use crate::Problem;
 use crate::curves::checked_counts;
 
 /// Polygons as they are stored.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Polygons<'a> {
     /// Vertices, in the polygons' own space.
     pub positions: &'a [Vec3],
@@ -18,20 +18,20 @@ pub struct Polygons<'a> {
     /// How they run, seen from outside.
     pub clockwise: bool,
     /// Texture coordinates, v upward, if there are any.
-    pub uvs: Option<Uvs<'a>>,
+    pub uvs: Option<Uvs>,
 }
 
 /// Texture coordinates, and what has them.
-#[derive(Clone, Copy, Debug)]
-pub enum Uvs<'a> {
+#[derive(Clone, Debug)]
+pub enum Uvs {
     /// Each of the positions.
-    OfVertices(&'a [[f32; 2]]),
+    OfVertices(Vec<[f32; 2]>),
     /// Each of the corners.
-    OfCorners(&'a [[f32; 2]]),
+    OfCorners(Vec<[f32; 2]>),
 }
 
 /// The texture coordinates of each corner.
-fn at_corners(uvs: Uvs<'_>, positions: usize, corners: &[i64]) -> Result<Vec<Vec2>, Problem> {
+fn at_corners(uvs: &Uvs, positions: usize, corners: &[i64]) -> Result<Vec<Vec2>, Problem> {
     let (all, what, expected) = match uvs {
         Uvs::OfVertices(all) => (all, "vertices", positions),
         Uvs::OfCorners(all) => (all, "corners", corners.len()),
@@ -63,7 +63,7 @@ pub fn add_polygons(
     Polygons { positions, counts, corners, clockwise, uvs }: Polygons<'_>,
     to: &Affine3A,
 ) -> Result<(), Problem> {
-    let uvs = uvs.map(|uvs| at_corners(uvs, positions.len(), corners)).transpose()?;
+    let uvs = uvs.map(|uvs| at_corners(&uvs, positions.len(), corners)).transpose()?;
     let (base, own) = (mesh.positions.len(), positions.len());
     let turned = clockwise != (to.matrix3.determinant() < 0.0);
     let mut first = 0;
@@ -95,7 +95,8 @@ mod tests {
         let corners = [2, 3, 0, 1];
         let of_vertices = positions.map(|p| [p.x, p.y]);
         let of_corners = corners.map(|c| of_vertices[c as usize]);
-        let uvs = Some(if by_vertex { Uvs::OfVertices(&of_vertices) } else { Uvs::OfCorners(&of_corners) });
+        let uvs =
+            Some(if by_vertex { Uvs::OfVertices(of_vertices.to_vec()) } else { Uvs::OfCorners(of_corners.to_vec()) });
         let polygons = Polygons { positions: &positions, counts: &[4], corners: &corners, clockwise, uvs };
         add_polygons(mesh, polygons, &Affine3A::from_scale(to))
     }
@@ -122,7 +123,7 @@ mod tests {
             let mut mesh = Mesh::default();
             for is_bare in [bare_first, !bare_first] {
                 if is_bare {
-                    add_polygons(&mut mesh, bare, &Affine3A::IDENTITY).unwrap();
+                    add_polygons(&mut mesh, bare.clone(), &Affine3A::IDENTITY).unwrap();
                 } else {
                     added(&mut mesh, false, true, Vec3::ONE).unwrap();
                 }
@@ -130,9 +131,12 @@ mod tests {
             assert_eq!((mesh.triangles.len(), mesh.corner_uvs), (3, None));
         }
         for (uvs, why) in [
-            (Uvs::OfVertices(&[[0.0; 2]; 2]), "2 texture coordinates for 3 vertices"),
-            (Uvs::OfCorners(&[[0.0; 2]; 4]), "4 texture coordinates for 3 corners"),
-            (Uvs::OfCorners(&[[0.0, f32::NAN]; 3]), "texture coordinates 0 are [0.0, NaN]: they must be finite"),
+            (Uvs::OfVertices([[0.0; 2]; 2].to_vec()), "2 texture coordinates for 3 vertices"),
+            (Uvs::OfCorners([[0.0; 2]; 4].to_vec()), "4 texture coordinates for 3 corners"),
+            (
+                Uvs::OfCorners([[0.0, f32::NAN]; 3].to_vec()),
+                "texture coordinates 0 are [0.0, NaN]: they must be finite",
+            ),
         ] {
             let wrong = Polygons { uvs: Some(uvs), ..bare };
             let refused = add_polygons(&mut Mesh::default(), wrong, &Affine3A::IDENTITY).unwrap_err();

@@ -172,16 +172,16 @@ impl StageReader {
         }
     }
 
-    /// The texture coordinates of a mesh, and whether they are its corners' or its vertices'. `None` where it has none,
-    /// or one for all or for each face, which say nothing of a place.
-    fn texture_coordinates(&mut self, prim: usize, time: f64) -> Result<Option<(bool, Vec<[f32; 2]>)>, Problem> {
-        let by_corner = match self.layer.interpolation(prim, "primvars:st")?.as_deref() {
-            Some("faceVarying") => true,
-            Some("vertex" | "varying") => false,
+    /// The texture coordinates of a mesh. `None` where it has none, or one for all or for each face, which say nothing of a
+    /// place.
+    fn texture_coordinates(&mut self, prim: usize, time: f64) -> Result<Option<Uvs>, Problem> {
+        let of = match self.layer.interpolation(prim, "primvars:st")?.as_deref() {
+            Some("faceVarying") => Uvs::OfCorners,
+            Some("vertex" | "varying") => Uvs::OfVertices,
             _ => return Ok(None),
         };
         let uvs = Primvars { layer: &mut self.layer, prim, time }.tuples::<2>("st")?;
-        Ok(uvs.map(|uvs| (by_corner, uvs)))
+        Ok(uvs.map(of))
     }
 
     /// Paths of what can move a head: prims that move themselves, then joints; where there are none, any prim.
@@ -283,11 +283,7 @@ impl GroomReader for StageReader {
             let corners = layer.integers(corners)?;
             let clockwise = layer.word(prim, "orientation")?.as_deref() == Some("leftHanded");
             let world = Affine3A::from_mat4(transform::world(&mut self.layer, prim, time)?.as_mat4());
-            let stored = self.texture_coordinates(prim, time)?;
-            let uvs = stored.as_ref().map(|(by_corner, uvs)| match by_corner {
-                true => Uvs::OfCorners(uvs),
-                false => Uvs::OfVertices(uvs),
-            });
+            let uvs = self.texture_coordinates(prim, time)?;
             let polygons = Polygons { positions: &points, counts: &counts, corners: &corners, clockwise, uvs };
             add_polygons(&mut mesh, polygons, &world).map_err(|e| problem(&e.0))?;
         }

@@ -22,7 +22,7 @@ const LONGER_SIDE: u32 = 480;
 /// named.
 ///
 /// # Errors
-/// As [`run`](super::run).
+/// As [`run`](super::run()).
 pub fn preview(scene: Scene, strands: usize, folder: &Path, cache: Option<&Path>, watch: &mut dyn Watch) -> Result<()> {
     if let Some(cache) = cache {
         place::cache(cache, &scene.inputs())?;

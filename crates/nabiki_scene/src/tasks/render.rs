@@ -24,7 +24,7 @@ pub struct RenderOptions {
 /// Draws all frames of a scene, or one, into `folder`.
 ///
 /// # Errors
-/// As [`run`](super::run); a cache of another motion, a frame that the scene does not reach.
+/// As [`run`](super::run()); a cache of another motion, a frame that the scene does not reach.
 pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path, watch: &mut dyn Watch) -> Result<()> {
     let last = scene.motion.frames;
     if let Some(frame) = options.frame.filter(|&frame| frame > last) {
