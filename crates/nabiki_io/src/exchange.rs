@@ -98,11 +98,14 @@ pub fn hair(path: &Path, frame: usize, segments: Option<usize>) -> Result<Hair> 
     Opened::new(path)?.ask(|r| r.hair(frame, segments))
 }
 
-/// Number of frames of the curves in a layer or archive; 1 for hair that stands still.
+/// Number of frames of the curves in a layer or archive; 1 for hair that stands still, and for any other file.
 ///
 /// # Errors
 /// What is wrong with the file.
 pub fn frames(path: &Path) -> Result<usize> {
+    if !(is_usd(path) || is_alembic(path)) {
+        return Ok(1);
+    }
     Ok(Opened::new(path)?.ask(|r| r.contents())?.times.len().max(1))
 }
 

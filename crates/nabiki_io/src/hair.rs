@@ -83,9 +83,9 @@ impl ImportReport {
 
 /// Strands whose tips are held, by TressFX's flag or weight, as well as their roots.
 pub(crate) fn held_at_both_ends(hair: &Hair) -> usize {
-    let Some(freedom) = &hair.attributes.inverse_mass else { return 0 };
+    let Some(inverse_mass) = &hair.attributes.inverse_mass else { return 0 };
     let ranges = (0..hair.strands.len()).map(|s| hair.strands.range(s)).filter(|range| range.len() > 1);
-    ranges.filter(|range| freedom[range.start] == 0.0 && freedom[range.end - 1] == 0.0).count()
+    ranges.filter(|range| inverse_mass[range.start] == 0.0 && inverse_mass[range.end - 1] == 0.0).count()
 }
 
 /// What of imported hair is not worth moving.

@@ -3,7 +3,6 @@
 mod identity;
 mod load;
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::Vec3;
@@ -162,11 +161,6 @@ impl BuiltScene {
     pub fn hair_origin(&self) -> Option<Origin> {
         let (placement, report) = (self.hair_placement?, self.import_report?);
         Some(Origin { placement, points: report.points_in_file as u64 })
-    }
-
-    /// Every file that was read for this: the scene's own, and those that it names.
-    pub fn inputs(&self) -> Vec<PathBuf> {
-        self.scene.inputs()
     }
 
     /// A refused setting as an error that names the scene's file and line.

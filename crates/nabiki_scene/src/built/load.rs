@@ -94,8 +94,7 @@ fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, sh
         Some(segments) => cut_anew(&hair, segments).map_err(|refused| scene.refusal(refused))?,
         None => hair,
     };
-    let moving = exchange::is_usd(&file) || exchange::is_alembic(&file);
-    let frames = if moving { exchange::frames(&file)? } else { 1 };
+    let frames = exchange::frames(&file)?;
     Ok(Loaded { hair, ids, of_scene, placement: Some(placement), report: Some(report), frames })
 }
 

@@ -54,7 +54,7 @@ pub fn convert(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
         let line = "--export-layer is for all frames of a motion cache, into .usda or .usdc";
         return Err(Error::refused(format!("{}: {line}", options.input.display())));
     }
-    if options.frame.is_none() && to_tools && frames_of(&options.input)? > 1 {
+    if options.frame.is_none() && to_tools && exchange::frames(&options.input)? > 1 {
         return exchanged_frames(options, watch);
     }
     let (hair, pose) = read(options)?;
@@ -86,11 +86,6 @@ fn finish(options: &ConvertOptions, losses: Vec<String>, holds: String, watch: &
         watch.told(Told::Lost { file: options.output.clone(), what });
     }
     watch.told(Told::Wrote { file: options.output.clone(), holds: Some(holds) });
-}
-
-/// Frames of a layer or archive; 1 for any other file.
-fn frames_of(input: &Path) -> Result<usize> {
-    if exchange::is_usd(input) || exchange::is_alembic(input) { Ok(exchange::frames(input)?) } else { Ok(1) }
 }
 
 fn is_cache(options: &ConvertOptions) -> bool {
@@ -145,7 +140,7 @@ fn read(options: &ConvertOptions) -> Result<(Hair, Pose)> {
 fn unsaid(options: &ConvertOptions) -> Result<Vec<String>> {
     let input = options.input.as_path();
     let mut lost = Vec::new();
-    let frames = frames_of(input)?;
+    let frames = exchange::frames(input)?;
     if frames > 1 {
         let kept = options.frame.unwrap_or(0);
         lost.push(format!("motion: it is frame {kept} of the {frames} in {}", input.display()));

@@ -34,7 +34,7 @@ pub fn preview(scene: Scene, strands: usize, folder: &Path, cache: Option<&Path>
     let picture = small(&scene.picture, share);
     let mut folders = Folders::default();
     let name = format!("{}_preview", scene.name());
-    let mut outputs = PictureOutputs::begin(&built, &picture, folder, &name, &built.inputs(), &mut folders)?;
+    let mut outputs = PictureOutputs::begin(&built, &picture, folder, &name, &scene.inputs(), &mut folders)?;
     super::introduce(&built, watch);
     let mut film = Film::new(&built, &picture, &mut simulated.again(), watch)?;
     let mut frames = simulated.again();

@@ -33,7 +33,7 @@ pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path
     let built = scene.build(shown)?;
     let scene = &built.scene;
     let mut folders = Folders::default();
-    let mut inputs = built.inputs();
+    let mut inputs = scene.inputs();
     inputs.extend(options.motion.clone());
     let written = match options.frame {
         None => {

@@ -30,7 +30,7 @@ pub fn run(scene: Scene, shown: Shown, folder: &Path, exports: &ExportOptions, w
     let scene = &built.scene;
     let mut folders = Folders::default();
     let mut outputs =
-        PictureOutputs::begin(&built, &scene.picture, folder, &scene.name(), &built.inputs(), &mut folders)?;
+        PictureOutputs::begin(&built, &scene.picture, folder, &scene.name(), &scene.inputs(), &mut folders)?;
     super::introduce(&built, watch);
     let mut exports = Exports::begin(exports, &built, watch)?;
     let mut rehearsal = simulated.again();
