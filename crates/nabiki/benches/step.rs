@@ -10,10 +10,10 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use glam::Vec3;
-use nabiki::dynamics::{Dynamics, FrameInput, Motion, Simulation, Stepper};
+use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Simulation, Stepper};
 use nabiki::field::{Keyframe, KeyframedField};
 use nabiki::pseudo_force::PseudoForce;
-use nabiki::{Ellipsoid, Pose, Strands};
+use nabiki::{Ellipsoid, Strands};
 use rayon::prelude::*;
 
 const ROUNDS: usize = 41;
@@ -30,7 +30,7 @@ fn main() {
         let hair = hair(strands, segments, mixed);
         let field = wind();
         let mut simulation = Simulation::new(&hair, &gust(), &field).expect("settings in range");
-        let input = FrameInput { frame: 1, pose: Pose::STILL, field: &field };
+        let input = FrameInput::new(1, &[], &field);
         let mut bytes = Bytes::new(strands, segments);
         let per_segment = 1e9 / (hair.segment_count() * frames) as f64;
         let mut times = [const { Vec::new() }; 3];
@@ -73,6 +73,7 @@ fn gust() -> Dynamics {
         shell: 1.25,
         polar_axis: Vec3::Y,
         disturbance: None,
+        form: Form::Paper,
     }
 }
 

@@ -9,10 +9,10 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use glam::Vec3;
-use nabiki::dynamics::{Dynamics, FrameInput, Motion, Simulation, Stepper, Timeline};
+use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Simulation, Stepper, Timeline};
 use nabiki::field::{Keyframe, KeyframedField};
 use nabiki::pseudo_force::PseudoForce;
-use nabiki::{Ellipsoid, Pose, Strands};
+use nabiki::{Ellipsoid, Strands};
 
 const STRANDS: usize = 300;
 const SEGMENTS: usize = 18;
@@ -48,7 +48,7 @@ fn step_all(simulation: &mut Simulation, field: &KeyframedField, film: &mut [Vec
     let points = simulation.strands().points().len();
     for (frame, page) in film.chunks_exact_mut(points).enumerate() {
         if frame > 0 {
-            simulation.step_frame(&FrameInput { frame: frame as u32, pose: Pose::STILL, field });
+            simulation.step_frame(&FrameInput::new(frame as u32, &[], field));
         }
         page.copy_from_slice(simulation.strands().points());
     }
@@ -82,6 +82,7 @@ fn gust() -> Dynamics {
         shell: 1.25,
         polar_axis: Vec3::Y,
         disturbance: None,
+        form: Form::Paper,
     }
 }
 

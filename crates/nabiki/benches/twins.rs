@@ -7,12 +7,12 @@
 //! two part is the doing of the motion alone.
 
 use glam::{DVec3, Vec3};
-use nabiki::dynamics::{Dynamics, FrameInput, Motion, Reference, Simulation, Stepper};
+use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Reference, Simulation, Stepper};
 use nabiki::field::{Keyframe, KeyframedField};
 use nabiki::groom::{Style, groom};
 use nabiki::pseudo_force::PseudoForce;
 use nabiki::roots::{Hairline, spread};
-use nabiki::{Head, Pose, Strands};
+use nabiki::{Head, Strands};
 
 const HORIZONS: [u32; 3] = [100, 400, 800];
 
@@ -37,13 +37,14 @@ fn main() {
             shell: 1.25,
             polar_axis: Vec3::Y,
             disturbance: None,
+            form: Form::Paper,
         };
         let mut reference = Reference::new(&hair, &dynamics, &field).expect("a stable field");
         let mut other = Reference::new(&nudged(&hair), &dynamics, &field).expect("a stable field");
         let mut fast = Simulation::new(&hair, &dynamics, &field).expect("a stable field");
         let (mut twin, mut chaos) = (Distances::new(), Distances::new());
         for frame in 1..=HORIZONS[2] {
-            let input = FrameInput { frame, pose: Pose::STILL, field: &field };
+            let input = FrameInput::new(frame, &[], &field);
             reference.step_frame(&input);
             other.step_frame(&input);
             fast.step_frame(&input);

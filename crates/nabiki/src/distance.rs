@@ -7,6 +7,7 @@
 //! through or comes near. A reading is one trilinear interpolation; beyond the box the tree answers.
 
 pub(crate) mod rims;
+mod sample;
 mod tree;
 
 use std::sync::OnceLock;

@@ -4,19 +4,19 @@
 //! f32, sixteen strands to a block, all cores. Both take the same [`Dynamics`] and [`FrameInput`]s and give the same
 //! frames. [`Timeline`] is the fast twin with all its frames at hand.
 
-mod angles;
 mod block;
+mod free;
 mod gain;
-mod kernel;
-mod packed;
-mod polar;
+mod paper;
 mod reference;
+mod row;
+mod runner;
 mod simulation;
 mod straighten;
+mod sweep;
 mod timeline;
 mod transpose;
 mod trigonometry;
-mod turn;
 mod wind;
 
 use glam::Vec3;
@@ -26,6 +26,7 @@ use crate::disturbance::Disturbance;
 use crate::ellipsoid::Ellipsoid;
 use crate::error::{SettingError, check_positive, check_range};
 use crate::field::Field;
+use crate::free_form::FreeMotion;
 use crate::pose::Pose;
 use crate::pseudo_force::{Gamma, PseudoForce};
 use crate::strands::Strands;
@@ -128,8 +129,20 @@ pub struct Dynamics {
     /// it goes along with the head from there on. [`Pose::up_in_head`] of the first pose gives it; y for a head that
     /// starts upright.
     pub polar_axis: Vec3,
-    /// Disturbance of the segments, if any.
+    /// Disturbance of the segments, if any; of the paper's form only.
     pub disturbance: Option<Disturbance>,
+    /// Which equations hair moves by.
+    pub form: Form,
+}
+
+/// The equations that hair moves by.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Form {
+    /// The paper's: two angles a segment, equation (7).
+    #[default]
+    Paper,
+    /// The free form: a direction and an increment a segment, see docs/motion-forms.md.
+    Free(FreeMotion),
 }
 
 impl Dynamics {
@@ -148,7 +161,16 @@ impl Dynamics {
             let remedy = "the vertical of frame 0 in head space must be a direction";
             return Err(SettingError::new("head.motion", self.polar_axis, remedy));
         }
-        self.disturbance.as_ref().map_or(Ok(()), Disturbance::check)
+        match (&self.form, &self.disturbance) {
+            (Form::Paper, None) => Ok(()),
+            (Form::Paper, Some(disturbance)) => disturbance.check(),
+            (Form::Free(free), None) => free.check(self.motion.frames),
+            (Form::Free(_), Some(disturbance)) => {
+                let remedy =
+                    "disturbances turn the angles of the paper's form; in the free form use turbulence, or a gust";
+                Err(SettingError::new("disturbance.every", disturbance.every, remedy))
+            }
+        }
     }
 
     fn gamma(&self) -> Gamma {
@@ -164,8 +186,24 @@ pub struct FrameInput<'a> {
     /// Where the head is in that frame. Forces given in the world act on the hair as it would stand if it only went
     /// along with the head: F(n + 1) is asked for at p_i of frame n, carried by this pose.
     pub pose: Pose,
+    /// Where it was in the two frames before, the later one first: the free form feels turns and accelerations.
+    pub before: [Pose; 2],
     /// What pulls. Its strength is bounded when a stepper is built, and taken as it is here.
     pub field: &'a dyn Field,
+}
+
+impl<'a> FrameInput<'a> {
+    /// A frame from 1 on of a head whose `poses` are given from frame 0 on; none for a head that stands still, and the last
+    /// one holds for good. Before frame 0 the head went as it goes from there on.
+    pub fn new(frame: u32, poses: &[Pose], field: &'a dyn Field) -> Self {
+        let pose = |n: u32| poses.get(n as usize).or(poses.last()).copied().unwrap_or_default();
+        let before = frame.saturating_sub(1);
+        let earlier = match before.checked_sub(1) {
+            Some(earlier) => pose(earlier),
+            None => pose(0).continued_back_from(&pose(1)),
+        };
+        Self { frame, pose: pose(frame), before: [pose(before), earlier], field }
+    }
 }
 
 /// Hair that moves a frame at a time: the two twins, behind one interface.

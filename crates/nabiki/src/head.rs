@@ -4,6 +4,7 @@ mod bust;
 mod fit;
 
 use std::fmt::Display;
+use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
@@ -23,7 +24,7 @@ pub struct Head {
     pub orientation: Orientation,
     /// Lowest and highest corner of the mesh: beyond it nothing is inside.
     bounds: [Vec3; 2],
-    skin: SkinDistance,
+    skin: Arc<SkinDistance>,
 }
 
 impl Head {
@@ -32,7 +33,7 @@ impl Head {
     pub fn builtin() -> Self {
         let (mesh, skin) = bust::read(bust::BAKED);
         let orientation = Orientation { turned: 0, open_edges: 0, has_inside: true };
-        Self { bounds: bounds(&mesh.positions), mesh, ellipsoid: bust::ELLIPSOID, orientation, skin }
+        Self { bounds: bounds(&mesh.positions), mesh, ellipsoid: bust::ELLIPSOID, orientation, skin: Arc::new(skin) }
     }
 
     /// The same head with another ellipsoid.
@@ -90,7 +91,7 @@ impl Head {
         let margin = 0.6 * ellipsoid.half_axes.max_element();
         let low = (low - margin).max(ellipsoid.center - reach);
         let high = (high + margin).min(ellipsoid.center + reach);
-        let skin = SkinDistance::new(&mesh, low, high, spacing);
+        let skin = Arc::new(SkinDistance::new(&mesh, low, high, spacing));
         Self { bounds: bounds(&mesh.positions), mesh, ellipsoid, orientation, skin }
     }
 
@@ -99,7 +100,12 @@ impl Head {
         self.skin.at(p)
     }
 
-    /// The same, not read from samples but from the mesh: about a hundred times dearer.
+    /// The distance to the skin, to be shared with a [`Body`](crate::body::Body) that hair does not enter.
+    pub fn skin(&self) -> &Arc<SkinDistance> {
+        &self.skin
+    }
+
+    /// The same as [`distance`](Self::distance), not read from samples but from the mesh: about a hundred times dearer.
     pub fn exact_distance(&self, p: Vec3) -> f32 {
         self.skin.exact(p)
     }

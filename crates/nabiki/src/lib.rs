@@ -14,7 +14,7 @@
 //! use std::sync::Arc;
 //!
 //! use glam::Vec3;
-//! use nabiki::dynamics::{Dynamics, Motion, Timeline};
+//! use nabiki::dynamics::{Dynamics, Form, Motion, Timeline};
 //! use nabiki::field::{Keyframe, KeyframedField};
 //! use nabiki::groom::{Growth, Style, grow};
 //! use nabiki::pseudo_force::PseudoForce;
@@ -35,6 +35,7 @@
 //!         shell: 1.25,
 //!         polar_axis: Vec3::Y,
 //!         disturbance: None,
+//!         form: Form::Paper,
 //!     };
 //!     let gust = KeyframedField::new(&[Keyframe { through: 50, vector: Vec3::new(-100.0, 0.0, 0.0) }])?;
 //!     let mut timeline = Timeline::new(&hair.strands, &dynamics, Arc::new(gust), Vec::new(), 50)?;
@@ -47,17 +48,20 @@
 
 #![forbid(unsafe_code)]
 
+pub mod body;
 pub mod distance;
 pub mod disturbance;
 pub mod dynamics;
 pub mod ellipsoid;
 pub mod error;
 pub mod field;
+pub mod free_form;
 pub mod groom;
 pub mod hair;
 pub mod head;
 pub mod mesh;
 pub mod pose;
+pub mod profile;
 pub mod pseudo_force;
 mod random;
 pub mod roots;
@@ -70,6 +74,7 @@ pub use hair::Hair;
 pub use head::Head;
 pub use mesh::Mesh;
 pub use pose::Pose;
+pub use profile::Profile;
 pub use strands::Strands;
 
 /// What the method computes, by number. It is raised when the same scene moves otherwise than before, be it by a bit:

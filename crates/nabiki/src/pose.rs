@@ -25,6 +25,16 @@ impl Pose {
         self.rotation.inverse() * Vec3::Y
     }
 
+    /// Where the head was before this pose, if it came here as it goes on to `next`. The pose itself where it stands still.
+    pub fn continued_back_from(&self, next: &Self) -> Self {
+        if self == next {
+            return *self;
+        }
+        let turn = self.rotation * next.rotation.inverse();
+        let position_cm = 2.0 * self.position_cm - next.position_cm;
+        Self { position_cm, rotation: (turn * self.rotation).normalize() }
+    }
+
     /// Takes points of head space into the world (cm).
     pub fn world_from_head(&self) -> Affine3A {
         Affine3A::from_rotation_translation(self.rotation, self.position_cm)

@@ -36,8 +36,7 @@ fn stepped(hair: &Strands, dynamics: &Dynamics, field: &dyn Field, poses: &[Pose
     let mut simulation = fast(hair, dynamics, field);
     let mut frames = vec![bits(simulation.strands())];
     for frame in 1..=FRAMES {
-        let pose = poses.get(frame as usize).copied().unwrap_or_default();
-        simulation.step_frame(&FrameInput { frame, pose, field });
+        simulation.step_frame(&FrameInput::new(frame, poses, field));
         frames.push(bits(simulation.strands()));
     }
     frames

@@ -31,7 +31,7 @@ fn distances(dynamics: &Dynamics, field: &dyn Field, poses: &[Pose], hair: &Stra
     let (mut reference, mut fast) = (exact(hair, dynamics, field), fast(hair, dynamics, field));
     let mut distances = Vec::new();
     for frame in 1..=HORIZON {
-        let input = FrameInput { frame, pose: poses.get(frame as usize).copied().unwrap_or_default(), field };
+        let input = FrameInput::new(frame, poses, field);
         reference.step_frame(&input);
         fast.step_frame(&input);
         let pairs = reference.positions().iter().zip(fast.strands().points());
@@ -132,10 +132,11 @@ fn running() -> Dynamics {
 
 /// Under a field that differs from place to place, one too strong for the short way of some lanes, a head that turns.
 fn run_all(stepper: &mut dyn Stepper, frames: u32) -> Strands {
-    for (frame, pose) in way_of_a_head(frames).into_iter().enumerate().skip(1) {
+    let poses = way_of_a_head(frames);
+    for frame in 1..=frames {
         let field: [&dyn Field; 2] = [&Whirl, &field(&[(1, [-2000.0, 500.0, 300.0])])];
         let field = field[usize::from(frame % 7 == 0)];
-        stepper.step_frame(&FrameInput { frame: frame as u32, pose, field });
+        stepper.step_frame(&FrameInput::new(frame, &poses, field));
     }
     stepper.strands().clone()
 }

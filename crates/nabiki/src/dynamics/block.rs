@@ -1,13 +1,11 @@
-//! Sixteen consecutive strands, packed side by side, and their way through the frames.
+//! Sixteen consecutive strands, packed side by side, and the way along them.
 
 use std::ops::Range;
 
 use glam::Vec3;
 
-use super::gain::SegmentShape;
-use super::kernel::{LANES, PointRow, Row, SegmentState, ShapeRow, disturb_segment, extend, step_segment};
+use super::row::{LANES, PointRow, Row};
 use super::transpose::write_points;
-use super::wind::{Surroundings, Wind};
 
 /// Rows of points kept on the stack before they are written out strand by strand.
 const ROWS: usize = 16;
@@ -16,7 +14,7 @@ const ROWS: usize = 16;
 /// strands of such segments: they go through the motions and are not written.
 #[derive(Clone, Debug)]
 pub(super) struct Block {
-    roots: PointRow,
+    pub roots: PointRow,
     /// Points of each strand; 0 for a missing one.
     points: [u32; LANES],
     /// Segments of the longest strand.
@@ -28,37 +26,21 @@ pub(super) struct Block {
 }
 
 impl Block {
-    /// Packs strands given by root and shapes, at most sixteen, behind the rows of other blocks. `along`: for each
-    /// segment, how far along its strand it ends.
-    pub fn pack(
-        first_strand: usize,
-        roots: &[Vec3],
-        strands: &[Vec<SegmentShape>],
-        shapes: &mut Vec<ShapeRow>,
-        along: &mut Vec<Row>,
-    ) -> Self {
-        let segments = strands.iter().map(Vec::len).max().unwrap_or(0);
+    /// Packs strands given by root and number of segments, at most sixteen, behind `first_segment` rows of others.
+    pub fn new(first_strand: usize, first_segment: usize, strands: impl Iterator<Item = (Vec3, usize)>) -> Self {
         let mut block = Self {
             roots: [Row::default(); 3],
             points: [0; LANES],
-            segments: segments as u32,
-            first_segment: shapes.len() as u32,
+            segments: 0,
+            first_segment: first_segment as u32,
             first_strand: first_strand as u32,
         };
-        shapes.resize(shapes.len() + segments, ShapeRow::default());
-        along.resize(along.len() + segments, Row::default());
-        let rows = block.rows();
-        for (lane, (root, strand)) in roots.iter().zip(strands).enumerate() {
+        for (lane, (root, segments)) in strands.enumerate() {
             for axis in 0..3 {
                 block.roots[axis].0[lane] = root[axis];
             }
-            block.points[lane] = strand.len() as u32 + 1;
-            for ((row, along), shape) in shapes[rows.clone()].iter_mut().zip(&mut along[rows.clone()]).zip(strand) {
-                row.length.0[lane] = shape.length as f32;
-                row.gain.0[lane] = shape.gain as f32;
-                row.eps.0[lane] = (shape.gain_in_gamma / shape.gain) as f32;
-                along.0[lane] = shape.along as f32;
-            }
+            block.points[lane] = segments as u32 + 1;
+            block.segments = block.segments.max(segments as u32);
         }
         block
     }
@@ -74,56 +56,19 @@ impl Block {
         self.points.iter().map(|&n| n as usize).sum()
     }
 
-    /// Moves the block by one frame, and writes its points where they are wanted.
+    /// Goes from `start`, which is `roots` but for walks through another space, to the tips, and writes the points where
+    /// they are wanted.
     #[inline(always)]
-    pub fn step<const TILTED: bool>(
+    pub fn walk<State, Shape>(
         &self,
-        states: &mut [SegmentState],
-        shapes: &[ShapeRow],
-        surroundings: &Surroundings,
-        wind: &impl Wind,
-        points: Option<&mut [Vec3]>,
-    ) {
-        // Copies, which nothing that is written can change: they need not be read again at every segment.
-        let (surroundings, wind, before) = (*surroundings, *wind, self.roots);
-        self.walk(states, shapes, points, Step::<TILTED, _> { surroundings, wind, before });
-    }
-
-    /// Writes the points of the angles as they are.
-    #[inline(always)]
-    pub fn place<const TILTED: bool>(
-        &self,
-        states: &mut [SegmentState],
-        shapes: &[ShapeRow],
-        surroundings: &Surroundings,
-        points: &mut [Vec3],
-    ) {
-        self.walk(states, shapes, Some(points), Place::<TILTED> { surroundings });
-    }
-
-    /// Turns every strand by its own angles (rad at the tip, less toward the root).
-    #[inline(always)]
-    pub fn disturb(&self, states: &mut [SegmentState], along: &[Row], turns: impl Iterator<Item = [f32; 2]>) {
-        let (mut theta, mut phi) = (Row::default(), Row::default());
-        for (lane, turn) in turns.take(LANES).enumerate() {
-            (theta.0[lane], phi.0[lane]) = (turn[0], turn[1]);
-        }
-        for (state, along) in states.iter_mut().zip(along) {
-            disturb_segment(state, &theta, &phi, along);
-        }
-    }
-
-    /// Goes from the roots to the tips.
-    #[inline(always)]
-    fn walk(
-        &self,
-        states: &mut [SegmentState],
-        shapes: &[ShapeRow],
+        start: &PointRow,
+        states: &mut [State],
+        shapes: &[Shape],
         mut points: Option<&mut [Vec3]>,
-        mut pass: impl Pass,
+        mut pass: impl Pass<State, Shape>,
     ) {
         let mut rows = [[Row::default(); 3]; ROWS];
-        rows[0] = self.roots;
+        rows[0] = *start;
         let (mut filled, mut written) = (1, 0);
         for (state, shape) in states.iter_mut().zip(shapes) {
             if filled == ROWS {
@@ -149,30 +94,6 @@ impl Block {
 ///
 /// A trait where a closure would do: only a named function can be forced into its caller, and so be compiled for
 /// the vectors chosen there.
-trait Pass {
-    fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, from: &PointRow, to: &mut PointRow);
-}
-
-struct Step<const TILTED: bool, W> {
-    surroundings: Surroundings,
-    wind: W,
-    before: PointRow,
-}
-
-impl<const TILTED: bool, W: Wind> Pass for Step<TILTED, W> {
-    #[inline(always)]
-    fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, from: &PointRow, to: &mut PointRow) {
-        step_segment::<TILTED>(state, shape, &self.surroundings, &self.wind, &mut self.before, from, to);
-    }
-}
-
-struct Place<'a, const TILTED: bool> {
-    surroundings: &'a Surroundings,
-}
-
-impl<const TILTED: bool> Pass for Place<'_, TILTED> {
-    #[inline(always)]
-    fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, from: &PointRow, to: &mut PointRow) {
-        extend::<TILTED>(from, to, state, shape, self.surroundings);
-    }
+pub(super) trait Pass<State, Shape> {
+    fn segment(&mut self, state: &mut State, shape: &Shape, from: &PointRow, to: &mut PointRow);
 }

@@ -7,7 +7,7 @@
 //! which is i itself for segments as long as d. So 16 and 32 points of one strand move alike, up to the square of
 //! the segment's length.
 
-use super::Dynamics;
+use super::{Dynamics, Form};
 use crate::error::SettingError;
 use crate::field::Field;
 use crate::strands::{Strands, length};
@@ -94,51 +94,79 @@ pub fn check_field(strands: &Strands, dynamics: &Dynamics, field: &dyn Field) ->
     Stability::of(strands, dynamics)?.check(field)
 }
 
-/// What decides whether a field is stable: the segment that is moved most easily.
+/// What decides whether a field is stable: the segment for which the least force is too much.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stability {
     /// c_i.
     gain: f64,
+    /// What pulls on it besides the field: K + H and twice the weight in the free form.
+    own: f64,
     /// Its strand, and the length of that (cm).
     strand: usize,
     length: f32,
+    free: bool,
 }
 
 impl Stability {
-    /// The gain grows along a strand, so its tip decides. Refuses no strands, and those that cannot be moved.
+    /// Refuses no strands, and those that cannot be moved.
     pub fn of(strands: &Strands, dynamics: &Dynamics) -> Result<Self, SettingError> {
         if strands.is_empty() {
             return Err(SettingError::new("hair", "0 strands", "there is nothing to move; give at least one strand"));
         }
-        let mut worst = (0.0, 0);
+        let (mut worst, mut least) = ((0.0, 0.0, 0), f64::INFINITY);
         for (s, strand) in strands.iter().enumerate() {
-            let tip = segment_shapes(dynamics, strand, s)?.last().map_or(0.0, |shape| shape.gain);
-            if tip > worst.0 {
-                worst = (tip, s);
+            for shape in segment_shapes(dynamics, strand, s)? {
+                let own = own_strength(dynamics, shape.along);
+                let force = 4.0 / shape.gain - own;
+                if force < least {
+                    (worst, least) = ((shape.gain, own, s), force);
+                }
             }
         }
-        let (gain, strand) = worst;
-        Ok(Self { gain, strand, length: length(strands.strand(strand)) })
+        let (gain, own, strand) = worst;
+        let free = matches!(dynamics.form, Form::Free(_));
+        Ok(Self { gain, own, strand, length: length(strands.strand(strand)), free })
     }
 
-    /// Refuses fields under which the scheme (7) is unstable.
+    /// Refuses fields under which the scheme is unstable.
     pub fn check(&self, field: &dyn Field) -> Result<(), SettingError> {
-        let Self { gain, strand, length } = *self;
+        let Self { gain, own, strand, length, free } = *self;
         let strongest = f64::from(field.strongest());
-        if gain * strongest < 4.0 {
+        if gain * (strongest + own) < 4.0 {
             return Ok(());
         }
-        let largest = 4.0 / gain;
+        let (largest, reached) = (4.0 / gain - own, gain * (strongest + own));
+        let what = if free { "c_i (|F| + K + H + 2 gravity)" } else { "c_i |F|" };
+        let ways = "make motion.time_step smaller, or set motion.inertia_length_floor so that short hair is held by its \
+                    neighbours";
+        if largest <= 0.0 {
+            let remedy = format!(
+                "unstable without any force: {what} reaches {:.3} at strand {strand} ({length:.2} cm long), and must \
+                 stay below 4; keep stiffness + hold + 2 gravity below {:.4}, {ways}",
+                gain * own,
+                4.0 / gain
+            );
+            return Err(SettingError::new("free.stiffness + hold + 2 gravity", own, remedy));
+        }
         // A force of exactly the largest is one too strong.
         let below = largest.next_down();
         let (thing, value) =
             field.first_above(below).unwrap_or_else(|| ("force".to_owned(), field.strongest().to_string()));
         let remedy = format!(
-            "unstable: c_i |F| reaches {:.3} at the tip of strand {strand} ({length:.2} cm long), and must stay below 4; \
-             keep |F| below {largest:.4}, make motion.time_step smaller, or set motion.inertia_length_floor so that \
-             short hair is held by its neighbours",
-            gain * strongest
+            "unstable: {what} reaches {reached:.3} at the tip of strand {strand} ({length:.2} cm long), and must stay \
+             below 4; keep |F| below {largest:.4}, {ways}"
         );
         Err(SettingError::new(thing, value, remedy))
+    }
+}
+
+/// What pulls on a segment besides the field, at the most.
+fn own_strength(dynamics: &Dynamics, along: f64) -> f64 {
+    match &dynamics.form {
+        Form::Paper => 0.0,
+        Form::Free(free) => {
+            let form = &free.form;
+            form.stiffness.at(along) + form.hold.at(along) + 2.0 * f64::from(form.gravity)
+        }
     }
 }

@@ -1,7 +1,6 @@
 //! The fast stepper: f32, blocks of sixteen strands, the widest vectors of the machine, all cores.
 
-use super::kernel::SegmentState;
-use super::packed::{Packed, Pages, Plan};
+use super::runner::Runner;
 use super::{Dynamics, FrameInput, Stepper};
 use crate::error::SettingError;
 use crate::field::Field;
@@ -24,8 +23,7 @@ pub enum VectorWidth {
 /// Nothing is allocated in a step. Threads are those of the rayon pool that calls.
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    packed: Packed,
-    states: Vec<SegmentState>,
+    runner: Runner,
     width: VectorWidth,
     frame: u32,
     strands: Strands,
@@ -56,10 +54,8 @@ impl Simulation {
         dynamics: &Dynamics,
         field: &dyn Field,
     ) -> Result<Self, SettingError> {
-        let packed = Packed::new(strands, ids, dynamics)?;
-        packed.check_field(field)?;
-        let mut simulation =
-            Self { states: packed.states(), packed, width: VectorWidth::default(), frame: 0, strands: strands.clone() };
+        let runner = Runner::new(strands, ids, dynamics, field)?;
+        let mut simulation = Self { runner, width: VectorWidth::default(), frame: 0, strands: strands.clone() };
         simulation.rewind();
         Ok(simulation)
     }
@@ -72,19 +68,14 @@ impl Simulation {
 
     /// Puts the hair back to rest, at frame 0.
     pub fn rewind(&mut self) {
-        self.sweep(&[Plan::Rest]);
+        self.runner.rewind(self.width, self.strands.points_mut());
         self.frame = 0;
-    }
-
-    fn sweep(&mut self, plans: &[Plan]) {
-        self.packed.sweep(plans, self.width, &mut self.states, Pages::Last(self.strands.points_mut()));
     }
 }
 
 impl Stepper for Simulation {
     fn step_frame(&mut self, input: &FrameInput) {
-        let plan = self.packed.plan(input);
-        self.sweep(&[plan]);
+        self.runner.step(input, self.width, self.strands.points_mut());
         self.frame = input.frame;
     }
 

@@ -4,16 +4,15 @@
 //! cache, and nothing is built anew between two runs. The frames are, to the bit, those of
 //! [`Simulation`](super::Simulation).
 //!
-//! Hair that feels its neighbours will need one order more: the few strands that carry the density move first, frame by
-//! frame, and what they leave in a grid is then a field like any other to all the rest, which go block by block as
-//! here.
+//! Hair that feels its neighbours has one order more: the few strands that carry the density move first, frame by frame,
+//! and what they leave in a grid is then a field like any other to all the rest, which go block by block.
 
 use std::sync::Arc;
 
 use glam::Vec3;
 
-use super::kernel::SegmentState;
-use super::packed::{Packed, Pages, Plan};
+use super::runner::Runner;
+use super::sweep::Pages;
 use super::{Dynamics, FrameInput, VectorWidth};
 use crate::error::SettingError;
 use crate::field::Field;
@@ -29,14 +28,13 @@ use crate::strands::Strands;
 pub struct Timeline {
     /// The hair at rest as it was given.
     hair: Strands,
-    packed: Packed,
+    runner: Runner,
     field: Arc<dyn Field>,
     /// Of every frame; none for a head that stands still.
     poses: Vec<Pose>,
     frames: u32,
     width: VectorWidth,
     frame: u32,
-    states: Vec<SegmentState>,
     strands: Strands,
     /// The points of frame 0, then those of frame 1, ...
     film: Vec<Vec3>,
@@ -76,12 +74,10 @@ impl Timeline {
         frames: u32,
     ) -> Result<Self, SettingError> {
         check_poses(&poses, frames)?;
-        let packed = Packed::new(strands, ids, dynamics)?;
-        packed.check_field(&*field)?;
+        let runner = Runner::new(strands, ids, dynamics, &*field)?;
         let mut timeline = Self {
             hair: strands.clone(),
-            states: packed.states(),
-            packed,
+            runner,
             field,
             poses,
             frames,
@@ -123,7 +119,7 @@ impl Timeline {
 
     /// How it moves.
     pub fn dynamics(&self) -> &Dynamics {
-        self.packed.dynamics()
+        self.runner.dynamics()
     }
 
     /// Where the head is in a frame.
@@ -177,7 +173,7 @@ impl Timeline {
     /// # Errors
     /// A field too strong for the step; the timeline is then as it was.
     pub fn set_field(&mut self, field: Arc<dyn Field>) -> Result<(), SettingError> {
-        self.packed.check_field(&*field)?;
+        self.runner.check_field(&*field)?;
         self.field = field;
         self.forget();
         Ok(())
@@ -188,9 +184,7 @@ impl Timeline {
     /// # Errors
     /// As [`new`](Self::new); the timeline is then as it was.
     pub fn set_dynamics(&mut self, dynamics: &Dynamics) -> Result<(), SettingError> {
-        let packed = Packed::new(&self.hair, self.packed.ids(), dynamics)?;
-        packed.check_field(&*self.field)?;
-        self.packed = packed;
+        self.runner = Runner::new(&self.hair, self.runner.ids(), dynamics, &*self.field)?;
         self.forget();
         Ok(())
     }
@@ -221,16 +215,11 @@ impl Timeline {
 
     /// Takes the hair through some frames, of which 0 is rest.
     fn sweep(&mut self, frames: std::ops::RangeInclusive<u32>, pages: Pages) {
-        let Self { packed, field, poses, states, .. } = self;
-        let plan = |frame: u32| match frame {
-            0 => Plan::Rest,
-            frame => {
-                let pose = poses.get(frame as usize).copied().unwrap_or_default();
-                packed.plan(&FrameInput { frame, pose, field: &**field })
-            }
-        };
-        let plans: Vec<Plan> = frames.map(plan).collect();
-        packed.sweep(&plans, self.width, states, pages);
+        let Self { runner, field, poses, .. } = self;
+        let (from_rest, last) = (*frames.start() == 0, *frames.end());
+        let first = (*frames.start()).max(1);
+        let inputs: Vec<FrameInput> = (first..=last).map(|frame| FrameInput::new(frame, poses, &**field)).collect();
+        runner.run(from_rest, &inputs, self.width, pages);
     }
 }
 

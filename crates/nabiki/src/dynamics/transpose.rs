@@ -4,7 +4,7 @@
 
 use glam::{Mat4, Vec3, Vec4};
 
-use super::kernel::{LANES, PointRow, Row};
+use super::row::{LANES, PointRow, Row};
 
 /// Strands turned at once.
 const FOUR: usize = 4;

@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
 use glam::{EulerRot, Quat, Vec3, Vec3Swizzles};
-use nabiki::dynamics::{Dynamics, FrameInput, Motion, Reference, Simulation, Stepper};
+use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Reference, Simulation, Stepper};
 use nabiki::field::{Field, Keyframe, KeyframedField};
 use nabiki::pseudo_force::PseudoForce;
 use nabiki::{Ellipsoid, Pose, Strands};
@@ -30,6 +30,7 @@ pub fn gust() -> Dynamics {
         shell: 1.25,
         polar_axis: Vec3::Y,
         disturbance: None,
+        form: Form::Paper,
     }
 }
 
@@ -103,7 +104,7 @@ pub fn exact(hair: &Strands, dynamics: &Dynamics, field: &dyn Field) -> Referenc
 /// One frame, of a head that stands still.
 pub fn step(stepper: &mut dyn Stepper, field: &dyn Field) {
     let frame = stepper.frame() + 1;
-    stepper.step_frame(&FrameInput { frame, pose: Pose::STILL, field });
+    stepper.step_frame(&FrameInput::new(frame, &[], field));
 }
 
 pub fn run(stepper: &mut dyn Stepper, field: &dyn Field, frames: u32) -> Strands {
@@ -116,8 +117,8 @@ pub fn run(stepper: &mut dyn Stepper, field: &dyn Field, frames: u32) -> Strands
 
 /// Frames 1 .. of a stepper, under a head that goes its way.
 pub fn run_under(stepper: &mut dyn Stepper, field: &dyn Field, poses: &[Pose]) -> Strands {
-    for (frame, &pose) in poses.iter().enumerate().skip(1) {
-        stepper.step_frame(&FrameInput { frame: frame as u32, pose, field });
+    for frame in 1..poses.len() as u32 {
+        stepper.step_frame(&FrameInput::new(frame, poses, field));
     }
     stepper.strands().clone()
 }

@@ -3,7 +3,7 @@
 //! Carried so, an angle loses nothing by growing: a strand that has swung round a hundred times is as exact as at rest,
 //! and its sines are at hand when the next frame begins.
 
-use super::trigonometry::sin_cos;
+use crate::dynamics::trigonometry::sin_cos;
 
 /// The largest turn that the short polynomials of [`turn_little`] are made for (rad).
 const LITTLE: f32 = 1.0 / 3.0;

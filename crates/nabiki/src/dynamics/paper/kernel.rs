@@ -6,14 +6,8 @@
 use super::angles;
 use super::turn::{Turn, is_far, turn_far, turn_little};
 use super::wind::{Force, Forces, Surroundings, Wind};
-
-/// Strands in a block: two vectors of eight, or one of sixteen.
-pub(super) const LANES: usize = 16;
-
-/// One number for each strand of a block.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[repr(C, align(64))]
-pub(super) struct Row(pub [f32; LANES]);
+use crate::dynamics::gain::SegmentShape;
+use crate::dynamics::row::{LANES, PointRow, Row, beyond};
 
 /// Sine and cosine of one angle of every strand of a block.
 #[derive(Clone, Copy, Debug)]
@@ -64,8 +58,14 @@ pub(super) struct ShapeRow {
     pub eps: Row,
 }
 
-/// A point for each strand of a block: rows of x, y, z (cm).
-pub(super) type PointRow = [Row; 3];
+impl ShapeRow {
+    /// Sets what moves the segment of one strand.
+    pub fn set(&mut self, lane: usize, shape: &SegmentShape) {
+        self.length.0[lane] = shape.length as f32;
+        self.gain.0[lane] = shape.gain as f32;
+        self.eps.0[lane] = (shape.gain_in_gamma / shape.gain) as f32;
+    }
+}
 
 /// Moves segment i of every strand of a block from frame n to n + 1. `before` holds the points p_(i-1) of frame n on
 /// entry, and p_i on return; `from` and `to` are those of frame n + 1. `TILTED`: whether the polar axis is not y.
@@ -156,14 +156,4 @@ pub(super) fn extend<const TILTED: bool>(
         let p = beyond(from, lane, shape.length.0[lane], direction);
         [to[0].0[lane], to[1].0[lane], to[2].0[lane]] = p;
     }
-}
-
-/// The point of one strand that lies `length` beyond its point in a row.
-#[inline(always)]
-fn beyond([x, y, z]: &PointRow, lane: usize, length: f32, direction: [f32; 3]) -> [f32; 3] {
-    [
-        length.mul_add(direction[0], x.0[lane]),
-        length.mul_add(direction[1], y.0[lane]),
-        length.mul_add(direction[2], z.0[lane]),
-    ]
 }

@@ -1,0 +1,118 @@
+//! What a step of the free form costs beside the paper's: `cargo bench -p nabiki --bench free_form`.
+//!
+//! Both forms, with the same hair, wind and threads, are measured in turn; so is a loop that only reads and writes the
+//! bytes of the free form's step. The figures are the fastest of the rounds, in ns a segment and frame, all points
+//! written. Bodies and neighbours are met by hair that the wind blows against and over the built-in head, at the frames that
+//! stand in the table.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use glam::Vec3;
+use nabiki::Head;
+use nabiki::body::{Body, BodyWay, Contact};
+use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Simulation, Stepper};
+use nabiki::field::{Keyframe, KeyframedField};
+use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours};
+use nabiki::groom::{Growth, Style, grow};
+use nabiki::pseudo_force::PseudoForce;
+use nabiki::roots::Hairline;
+use rayon::prelude::*;
+
+const ROUNDS: usize = 15;
+const FRAMES: u32 = 60;
+
+fn main() {
+    println!("threads: {}", rayon::current_num_threads());
+    let (head, strands) = (Head::builtin(), 20_000);
+    let (hairline, style) = (Hairline::default(), Style::default());
+    let growth = Growth { hairline: &hairline, style: &style, strands, segments: 20, segment_length: 0.9, seed: 1 };
+    let hair = grow(&head, &growth, strands).expect("settings in range").strands;
+    let form = FreeForm::default();
+    let bodies = vec![Body {
+        name: "head".to_owned(),
+        distance: head.skin().clone(),
+        way: BodyWay::WithHead,
+        contact: Contact::default(),
+    }];
+    let carriers = Arc::new(hair.select(&(0..256).collect::<Vec<_>>()));
+    let neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers });
+    let bare = FreeMotion { form, ..Default::default() };
+    let forms = [
+        ("the paper's form", Form::Paper),
+        ("free", Form::Free(bare.clone())),
+        ("free, head", Form::Free(FreeMotion { bodies: bodies.clone(), ..bare.clone() })),
+        ("free, head, neighbours", Form::Free(FreeMotion { bodies, neighbours, ..bare })),
+    ];
+    let wind = KeyframedField::new(&[
+        Keyframe { through: 30, vector: Vec3::new(-100.0, 0.0, 0.0) },
+        Keyframe { through: FRAMES, vector: Vec3::new(-15.0, -150.0, 0.0) },
+    ])
+    .expect("two keyframes");
+    let mut times = vec![f64::INFINITY; forms.len() + 1];
+    let mut bytes = Bytes::new(strands, 20);
+    for _ in 0..ROUNDS {
+        for ((_, form), time) in forms.iter().zip(&mut times) {
+            let mut simulation =
+                Simulation::new(&hair, &dynamics(&head, form.clone()), &wind).expect("settings in range");
+            let start = Instant::now();
+            for frame in 1..=FRAMES {
+                simulation.step_frame(&FrameInput::new(frame, &[], &wind));
+            }
+            *time = time.min(start.elapsed().as_secs_f64());
+        }
+        let start = Instant::now();
+        (0..FRAMES).for_each(|_| bytes.pass());
+        let last = times.len() - 1;
+        times[last] = times[last].min(start.elapsed().as_secs_f64());
+    }
+    let per_segment = 1e9 / (hair.segment_count() as f64 * f64::from(FRAMES));
+    println!("{} strands, {} segments, frames 1 to {FRAMES}", hair.len(), hair.segment_count());
+    for (name, time) in forms.iter().map(|(name, _)| *name).chain(["bytes of the free form only"]).zip(&times) {
+        println!("{name:>28} {:>6.2} ns, {:>5.2} of the paper's form", time * per_segment, time / times[0]);
+    }
+}
+
+fn dynamics(head: &Head, form: Form) -> Dynamics {
+    Dynamics {
+        motion: Motion { inertia_length_floor: 18.0, ..Motion::default() },
+        segment_length: 1.0,
+        pseudo_force: if form == Form::Paper { PseudoForce::default() } else { PseudoForce::off() },
+        ellipsoid: head.ellipsoid,
+        shell: 1.25,
+        polar_axis: Vec3::Y,
+        disturbance: None,
+        form,
+    }
+}
+
+/// The bytes of a step without its work: 24 read and written, 20 read, 12 written, for each segment.
+struct Bytes {
+    states: Vec<[[f32; 16]; 6]>,
+    shapes: Vec<[[f32; 16]; 5]>,
+    points: Vec<f32>,
+    segments: usize,
+}
+
+impl Bytes {
+    fn new(strands: usize, segments: usize) -> Self {
+        let rows = strands.div_ceil(16) * segments;
+        let (states, shapes) = (vec![[[1e-3; 16]; 6]; rows], vec![[[1e-3; 16]; 5]; rows]);
+        Self { states, shapes, points: vec![0.0; rows * 48], segments }
+    }
+
+    fn pass(&mut self) {
+        let rows = 8 * self.segments;
+        let states = self.states.par_chunks_mut(rows).zip(self.shapes.par_chunks(rows));
+        states.zip(self.points.par_chunks_mut(rows * 48)).for_each(|((states, shapes), points)| {
+            for ((row, shape), out) in states.iter_mut().zip(shapes).zip(points.as_chunks_mut::<48>().0) {
+                for (quantity, shape) in row.iter_mut().zip(shape.iter().cycle()) {
+                    quantity.iter_mut().zip(shape).for_each(|(v, s)| *v = s - *v);
+                }
+                out[..16].copy_from_slice(&row[0]);
+                out[16..32].copy_from_slice(&row[1]);
+                out[32..].copy_from_slice(&row[2]);
+            }
+        });
+    }
+}

@@ -1,0 +1,16 @@
+//! The free form of the motion: a direction and an increment a segment, in head space.
+//!
+//! The equations, with the functions that hold them, are in docs/motion-forms.md.
+
+mod contact;
+mod grid;
+mod head_frame;
+mod kernel;
+mod packed;
+mod reference;
+mod runner;
+mod segment;
+
+use contact::{PUSHES, TOLERANCE_CM};
+pub(super) use reference::Reference;
+pub(super) use runner::Runner;

@@ -1,0 +1,209 @@
+//! The fast step of the free form for one block of strands: sixteen at a time, f32.
+//!
+//! As in the paper's kernel every lane does the same operations whatever the machine's vectors hold, and multiplies and
+//! adds are fused by name: the bits do not depend on the vector width, nor on the other lanes.
+
+use super::segment::FreeSegment;
+use crate::dynamics::row::{
+    LANES, PointRow, Row, add, beyond, cross, dot, lane as lane_of, scale, scale_add, set_lane, subtract,
+};
+use crate::dynamics::trigonometry::sin_cos;
+use crate::free_form::FreeForm;
+
+/// Direction and increment (rad a frame) of one segment of every strand of a block, in head space.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
+pub(super) struct FreeState {
+    pub direction: PointRow,
+    pub increment: PointRow,
+    /// How far at least the segment's end is from touching a body (cm). Unused where there is none.
+    pub gap: Row,
+}
+
+/// One segment of every strand of a block. All 0 where a strand has no such segment.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
+pub(super) struct FreeRow {
+    /// cm.
+    pub length: Row,
+    /// c_i.
+    pub gain: Row,
+    /// r_i.
+    pub rest: PointRow,
+}
+
+/// Strengths of one segment of every strand of a block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub(super) struct StrengthRow {
+    /// K.
+    pub stiffness: Row,
+    /// H.
+    pub hold: Row,
+    /// What is left of an increment after a frame.
+    pub decay: Row,
+}
+
+impl FreeRow {
+    pub fn set(&mut self, lane: usize, segment: &FreeSegment) {
+        self.length.0[lane] = segment.shape.length as f32;
+        self.gain.0[lane] = segment.shape.gain as f32;
+        set_lane(&mut self.rest, lane, segment.rest.as_vec3().to_array());
+    }
+}
+
+impl StrengthRow {
+    /// That of lanes without a segment: as all others, where all others are alike.
+    pub fn of(form: &FreeForm) -> Self {
+        let [stiffness, hold] = [&form.stiffness, &form.hold].map(|profile| Row([profile.at(0.0) as f32; LANES]));
+        Self { stiffness, hold, decay: Row([form.decay(0.0) as f32; LANES]) }
+    }
+
+    pub fn set(&mut self, lane: usize, segment: &FreeSegment) {
+        self.stiffness.0[lane] = segment.stiffness as f32;
+        self.hold.0[lane] = segment.hold as f32;
+        self.decay.0[lane] = segment.decay as f32;
+    }
+}
+
+/// R_(i-1) of every strand of a block, a quaternion of about length 1: it has carried the segments before this one from
+/// their rest to where they are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FrameRow {
+    vector: PointRow,
+    scalar: Row,
+}
+
+impl FrameRow {
+    pub const AT_REST: Self = Self { vector: [Row([0.0; LANES]); 3], scalar: Row([1.0; LANES]) };
+}
+
+/// Forces on a segment of every strand of a block, but for those that come from its shape.
+pub(super) trait Forces: Copy {
+    fn lane(&self, lane: usize) -> [f32; 3];
+}
+
+impl Forces for [f32; 3] {
+    #[inline(always)]
+    fn lane(&self, _: usize) -> [f32; 3] {
+        *self
+    }
+}
+
+impl Forces for PointRow {
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> [f32; 3] {
+        lane_of(self, lane)
+    }
+}
+
+/// The head's weight now and at rest, in the unit of the force.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Weight {
+    pub now: [f32; 3],
+    pub at_rest: [f32; 3],
+}
+
+/// What a step carries along a block from root to tip.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Walk {
+    /// p_(i-1) at frame n.
+    pub before: PointRow,
+    pub frame: FrameRow,
+}
+
+/// Moves segment i of every strand of a block from frame n to n + 1, as if nothing were in its way. `from` and `to` are
+/// p_(i-1) and p_i at frame n + 1.
+#[inline(always)]
+pub(super) fn step_segment(
+    state: &mut FreeState,
+    row: &FreeRow,
+    strength: &StrengthRow,
+    forces: &impl Forces,
+    weight: &Weight,
+    walk: &mut Walk,
+    from: &PointRow,
+    to: &mut PointRow,
+) {
+    for lane in 0..LANES {
+        let (d, w) = (lane_of(&state.direction, lane), lane_of(&state.increment, lane));
+        let (rest, length) = (lane_of(&row.rest, lane), row.length.0[lane]);
+        let (stiffness, hold) = (strength.stiffness.0[lane], strength.hold.0[lane]);
+        let end = beyond(&walk.before, lane, length, d);
+        set_lane(&mut walk.before, lane, end);
+
+        // K t - g' is one vector of the rest shape, carried as one; at rest K d - g is the same to the bit.
+        let (u, s) = (lane_of(&walk.frame.vector, lane), walk.frame.scalar.0[lane]);
+        // Not 0 even where many kinks have left nothing of its length.
+        let over_length = 2.0 / s.mul_add(s, dot(u, u)).max(1e-30);
+        let light = scale(-1.0, weight.at_rest);
+        let carried = turned(u, s, over_length, scale_add(stiffness, rest, light));
+        let carried_rest = turned(u, s, over_length, rest);
+        let bent = subtract(carried, scale_add(stiffness, d, light));
+        let swung = scale_add(hold, subtract(rest, d), subtract(weight.now, weight.at_rest));
+        let f = add(forces.lane(lane), add(bent, swung));
+
+        let (gain, decay) = (row.gain.0[lane], strength.decay.0[lane]);
+        let across = scale_add(-dot(f, d), d, f);
+        let w = scale(decay, scale_add(gain, across, w));
+        let speed_squared = dot(w, w);
+        let sum = add(d, w);
+        // What rests keeps its bits: a length of 1 but for its rounding is not brought back to 1.
+        let shorter = if speed_squared > 0.0 { 1.0 / dot(sum, sum).sqrt() } else { 1.0 };
+        let e = scale(shorter, sum);
+        set_lane(&mut state.direction, lane, e);
+        set_lane(&mut state.increment, lane, scale(shorter, scale_add(-speed_squared, d, w)));
+        set_lane(to, lane, beyond(from, lane, length, e));
+
+        // The turn from where the segment before it would carry it to where it is, as it was in frame n.
+        let bend = cross(carried_rest, subtract(d, carried_rest));
+        let (u, s) = after(u, s, bend, (1.0 + dot(carried_rest, d)).max(1e-12));
+        set_lane(&mut walk.frame.vector, lane, u);
+        walk.frame.scalar.0[lane] = s;
+    }
+}
+
+/// `v` turned by the quaternion (u, s), 2 / whose squared length is `over_length`. Without a turn, u = 0, it keeps its
+/// bits.
+#[inline(always)]
+fn turned(u: [f32; 3], s: f32, over_length: f32, v: [f32; 3]) -> [f32; 3] {
+    let once = cross(u, v);
+    let twice = cross(u, once);
+    scale_add(over_length, scale_add(s, once, twice), v)
+}
+
+/// The turn (v, t) after the turn (u, s). It is brought near to length 1, not to it: whoever turns by it divides by its
+/// length.
+#[inline(always)]
+fn after(u: [f32; 3], s: f32, v: [f32; 3], t: f32) -> ([f32; 3], f32) {
+    // |(v, t)|^2 is 2 t for directions of length 1; half of it, x, is near 1 unless hair is kinked, and (3 - x) / 4 is
+    // near 1 / (2 sqrt x) there.
+    let shorter = t.mul_add(-0.125, 0.75);
+    let (v, t) = (scale(shorter, v), t * shorter);
+    (scale_add(t, u, scale_add(s, v, cross(v, u))), t.mul_add(s, -dot(v, u)))
+}
+
+/// Where the ends of a segment of every strand are at frame n.
+#[inline(always)]
+pub(super) fn ends(state: &FreeState, row: &FreeRow, from: &PointRow) -> PointRow {
+    let mut to = PointRow::default();
+    for lane in 0..LANES {
+        set_lane(&mut to, lane, beyond(from, lane, row.length.0[lane], lane_of(&state.direction, lane)));
+    }
+    to
+}
+
+/// Turns a segment of every strand back by the part of the head's turn that it lags behind: `axis` of length 1, `angle`
+/// in rad.
+#[inline(always)]
+pub(super) fn lag_behind(state: &mut FreeState, axis: [f32; 3], angle: f32, lag: &Row) {
+    for lane in 0..LANES {
+        let (sin, cos) = sin_cos(-0.5 * (angle * lag.0[lane]));
+        let u = scale(sin, axis);
+        let over_length = 2.0 / cos.mul_add(cos, dot(u, u));
+        let direction = turned(u, cos, over_length, lane_of(&state.direction, lane));
+        set_lane(&mut state.direction, lane, direction);
+        let increment = turned(u, cos, over_length, lane_of(&state.increment, lane));
+        set_lane(&mut state.increment, lane, increment);
+    }
+}

@@ -1,0 +1,419 @@
+//! Hair packed into blocks for the free form, and what a frame does to a block.
+
+use std::ops::Range;
+
+use glam::Vec3;
+
+use super::contact::{Going, Obstacle, Touch, clearance};
+use super::grid::Crowd;
+use super::head_frame::{HeadFrame, weight};
+use super::kernel::{FrameRow, FreeRow, FreeState, StrengthRow, Walk, Weight, ends, lag_behind, step_segment};
+use super::segment::{FreeSegment, free_segments};
+use crate::dynamics::block::{Block, Pass};
+use crate::dynamics::gain::Stability;
+use crate::dynamics::paper::{Force, Surroundings};
+use crate::dynamics::row::{LANES, PointRow, Row, add, beyond, lane as lane_of, rotate, scale, scale_add, set_lane};
+use crate::dynamics::sweep::Form;
+use crate::dynamics::wind::FieldFrame;
+use crate::dynamics::{Dynamics, FrameInput};
+use crate::error::SettingError;
+use crate::field::Field;
+use crate::free_form::FreeMotion;
+use crate::strands::{Strands, bounds};
+
+/// Everything about hair that no frame changes.
+#[derive(Clone, Debug)]
+pub(super) struct Packed {
+    dynamics: Dynamics,
+    free: FreeMotion,
+    stability: Stability,
+    blocks: Vec<Block>,
+    rows: Vec<FreeRow>,
+    /// Of every row, or a single one where they are all alike.
+    strengths: Vec<StrengthRow>,
+    /// The part of the head's turn that segments lag behind.
+    lags: Vec<Row>,
+    /// eps_i, where the scene has a pseudo-force.
+    weakening: Option<(Surroundings, Vec<Row>)>,
+    /// For each body, how far the ends of the segments are kept from its skin (cm).
+    clearances: Vec<Vec<Row>>,
+    rest: Vec<FreeState>,
+    weight_at_rest: [f32; 3],
+    /// A ball that hair does not leave (head space, cm), and the length of the longest strand.
+    center: Vec3,
+    radius: f32,
+    longest: f32,
+}
+
+impl Packed {
+    /// Packs hair at rest in the given shape, whose settings have been checked.
+    pub fn new(strands: &Strands, dynamics: &Dynamics, free: &FreeMotion) -> Result<Self, SettingError> {
+        let stability = Stability::of(strands, dynamics)?;
+        let [low, high] = bounds(strands.points());
+        let longest = strands.lengths().fold(0.0, f32::max);
+        let weakens = dynamics.pseudo_force.coefficients.iter().any(|&eps| eps != 1.0);
+        let mut packed = Self {
+            weakening: weakens.then(|| (Surroundings::upright(dynamics), Vec::new())),
+            dynamics: dynamics.clone(),
+            free: free.clone(),
+            stability,
+            blocks: Vec::with_capacity(strands.len().div_ceil(LANES)),
+            rows: Vec::new(),
+            strengths: Vec::new(),
+            lags: Vec::new(),
+            clearances: Vec::new(),
+            rest: Vec::new(),
+            weight_at_rest: weight(&free.rest_pose, f64::from(free.form.gravity)).as_vec3().to_array(),
+            center: 0.5 * (low + high),
+            radius: 0.5 * low.distance(high) + 2.0 * longest,
+            longest,
+        };
+        for first in (0..strands.len()).step_by(LANES) {
+            packed.pack(strands, first..strands.len().min(first + LANES))?;
+        }
+        if packed.strengths.iter().all(|strength| *strength == packed.strengths[0]) {
+            packed.strengths.truncate(1);
+        }
+        packed.clearances = free.bodies.iter().map(|body| packed.clearances_of(body)).collect();
+        Ok(packed)
+    }
+
+    fn pack(&mut self, strands: &Strands, range: Range<usize>) -> Result<(), SettingError> {
+        let segments: Vec<Vec<FreeSegment>> = range
+            .clone()
+            .map(|s| free_segments(&self.dynamics, &self.free.form, strands.strand(s), s))
+            .collect::<Result<_, _>>()?;
+        let of_block = range.clone().zip(&segments).map(|(s, segments)| (strands.strand(s)[0], segments.len()));
+        let block = Block::new(range.start, self.rows.len(), of_block);
+        let rows = block.rows();
+        self.rows.resize(rows.end, FreeRow::default());
+        self.strengths.resize(rows.end, StrengthRow::of(&self.free.form));
+        self.lags.resize(rows.end, Row::default());
+        self.rest.resize(rows.end, FreeState::default());
+        if let Some((_, eps)) = &mut self.weakening {
+            eps.resize(rows.end, Row::default());
+        }
+        for (lane, segments) in segments.iter().enumerate() {
+            for (row, segment) in rows.clone().zip(segments) {
+                self.rows[row].set(lane, segment);
+                self.strengths[row].set(lane, segment);
+                self.lags[row].0[lane] = segment.lag as f32;
+                self.rest[row].direction = self.rows[row].rest;
+                if let Some((_, eps)) = &mut self.weakening {
+                    eps[row].0[lane] = (segment.shape.gain_in_gamma / segment.shape.gain) as f32;
+                }
+            }
+        }
+        self.blocks.push(block);
+        Ok(())
+    }
+
+    /// From the very points that the step puts together, so that what rests does not touch.
+    fn clearances_of(&self, body: &crate::body::Body) -> Vec<Row> {
+        let mut clearances = vec![Row::default(); self.rows.len()];
+        for block in &self.blocks {
+            let mut from = block.roots;
+            for at in block.rows() {
+                let to = ends(&self.rest[at], &self.rows[at], &from);
+                for lane in 0..LANES {
+                    clearances[at].0[lane] = clearance(body, &self.free.rest_pose, Vec3::from(lane_of(&to, lane)));
+                }
+                from = to;
+            }
+        }
+        clearances
+    }
+
+    /// Refuses a field under which this hair cannot be stepped.
+    pub fn check_field(&self, field: &dyn Field) -> Result<(), SettingError> {
+        self.stability.check(field)
+    }
+
+    pub fn dynamics(&self) -> &Dynamics {
+        &self.dynamics
+    }
+
+    /// Room for the state of every segment.
+    pub fn states(&self) -> Vec<FreeState> {
+        self.rest.clone()
+    }
+
+    /// The state of every segment at rest.
+    pub fn at_rest(&self) -> &[FreeState] {
+        &self.rest
+    }
+
+    /// The bodies in a frame.
+    pub fn obstacles(&self, input: &FrameInput, obstacles: &mut Vec<Obstacle>) {
+        obstacles.clear();
+        obstacles.extend(self.free.bodies.iter().map(|body| Obstacle::new(body, input)));
+    }
+
+    /// What a frame does to every block. `crowd`: what the carriers left in the frame before.
+    pub fn plan<'a>(&self, input: &FrameInput<'a>, obstacles: &'a [Obstacle], crowd: Option<&'a Crowd>) -> Plan<'a> {
+        let gravity = f64::from(self.free.form.gravity);
+        let head = HeadFrame::new(input, gravity, self.dynamics.motion.frame_rate);
+        let field = FieldFrame::new(input, self.dynamics.motion.force_space);
+        let turned_by = head.turn.map_or(0.0, |(_, angle)| angle.abs() as f32);
+        let of_bodies = obstacles.iter().map(|o| o.farthest_moved(self.center, self.radius)).fold(0.0, f32::max);
+        let felt = head.felt.map(|felt| Felt {
+            columns: felt.matrix3.as_mat3().to_cols_array_2d(),
+            constant: felt.translation.as_vec3().to_array(),
+        });
+        let uniform = field.uniform();
+        let everywhere = uniform.filter(|_| felt.is_none() && crowd.is_none() && self.weakening.is_none());
+        Plan::Step(Step {
+            field,
+            uniform,
+            everywhere,
+            turn: head.turn.map(|(axis, angle)| (axis.as_vec3().to_array(), angle as f32)),
+            weight: Weight { now: head.weight.as_vec3().to_array(), at_rest: self.weight_at_rest },
+            felt,
+            obstacles,
+            closer: of_bodies + turned_by * self.longest,
+            crowd,
+        })
+    }
+
+    /// What the increments alone move every point by in a frame (cm).
+    pub fn velocities(&self, states: &mut [FreeState], velocities: &mut [Vec3]) {
+        let (mut states, mut velocities) = (states, velocities);
+        for block in &self.blocks {
+            let (mine, others) = states.split_at_mut(block.segments as usize);
+            let (page, rest) = velocities.split_at_mut(block.point_count());
+            (states, velocities) = (others, rest);
+            block.walk(&PointRow::default(), mine, &self.rows[block.rows()], Some(page), Velocities);
+        }
+    }
+}
+
+/// What becomes of the hair in one frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Plan<'a> {
+    /// It is put back to rest.
+    Rest,
+    /// It moves.
+    Step(Step<'a>),
+}
+
+/// What a frame does to every block.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Step<'a> {
+    field: FieldFrame<'a>,
+    /// The field's force, where that is the same everywhere (head space).
+    uniform: Option<[f32; 3]>,
+    /// All forces, where they are.
+    everywhere: Option<[f32; 3]>,
+    /// The head's turn: axis and angle (rad).
+    turn: Option<([f32; 3], f32)>,
+    weight: Weight,
+    felt: Option<Felt>,
+    obstacles: &'a [Obstacle],
+    /// How much closer nodes and bodies may have come but by the nodes' own motion (cm).
+    closer: f32,
+    crowd: Option<&'a Crowd>,
+}
+
+/// The force of the head's acceleration at a point: columns of a matrix, and what it has in the origin.
+#[derive(Clone, Copy, Debug)]
+struct Felt {
+    columns: [[f32; 3]; 3],
+    constant: [f32; 3],
+}
+
+impl Form for Packed {
+    type State = FreeState;
+    type Plan<'a> = Plan<'a>;
+
+    fn blocks(&self) -> &[Block] {
+        &self.blocks
+    }
+
+    #[inline(always)]
+    fn frame(&self, block: &Block, plan: &Plan<'_>, states: &mut [FreeState], page: Option<&mut [Vec3]>) {
+        let rows = &self.rows[block.rows()];
+        match plan {
+            Plan::Rest => {
+                states.copy_from_slice(&self.rest[block.rows()]);
+                block.walk(&block.roots, states, rows, page, Place);
+            }
+            Plan::Step(step) => {
+                if let Some((axis, angle)) = step.turn {
+                    for (state, lag) in states.iter_mut().zip(&self.lags[block.rows()]) {
+                        lag_behind(state, axis, angle, lag);
+                    }
+                }
+                let walk = Walk { before: block.roots, frame: FrameRow::AT_REST };
+                match step.everywhere {
+                    Some(force) if step.obstacles.is_empty() => {
+                        let (weight, at) = (step.weight, block.rows().start);
+                        let pass = Free { packed: self, force, weight, walk, at };
+                        block.walk(&block.roots, states, rows, page, pass);
+                    }
+                    _ => {
+                        let pass =
+                            Among { packed: self, step, walk, velocity: PointRow::default(), at: block.rows().start };
+                        block.walk(&block.roots, states, rows, page, pass);
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Packed {
+    #[inline(always)]
+    fn strength(&self, at: usize) -> &StrengthRow {
+        &self.strengths[if self.strengths.len() == 1 { 0 } else { at }]
+    }
+}
+
+/// A step under the same force everywhere, with nothing in the way.
+struct Free<'a> {
+    packed: &'a Packed,
+    force: [f32; 3],
+    weight: Weight,
+    walk: Walk,
+    /// Number of the row among those of all blocks.
+    at: usize,
+}
+
+impl Pass<FreeState, FreeRow> for Free<'_> {
+    #[inline(always)]
+    fn segment(&mut self, state: &mut FreeState, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
+        let Self { packed, force, weight, walk, at } = self;
+        step_segment(state, row, packed.strength(*at), force, weight, walk, from, to);
+        *at += 1;
+    }
+}
+
+/// A step among fields, bodies and other hair.
+struct Among<'a, 's> {
+    packed: &'a Packed,
+    step: &'a Step<'s>,
+    walk: Walk,
+    /// Of p_(i-1), by the increments of frame n (cm a frame).
+    velocity: PointRow,
+    /// Number of the row among those of all blocks.
+    at: usize,
+}
+
+impl Pass<FreeState, FreeRow> for Among<'_, '_> {
+    #[inline(always)]
+    fn segment(&mut self, state: &mut FreeState, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
+        let (strength, weight) = (self.packed.strength(self.at), &self.step.weight);
+        match self.step.everywhere {
+            Some(force) => step_segment(state, row, strength, &force, weight, &mut self.walk, from, to),
+            None => {
+                let forces = self.forces(state, row);
+                step_segment(state, row, strength, &forces, weight, &mut self.walk, from, to);
+            }
+        }
+        if !self.step.obstacles.is_empty() {
+            self.keep_out(state, row, from, to);
+        }
+        self.at += 1;
+    }
+}
+
+impl Among<'_, '_> {
+    /// All forces on a segment of every strand, at p_i of frame n, but for those that come from its shape.
+    #[inline(always)]
+    fn forces(&mut self, state: &FreeState, row: &FreeRow) -> PointRow {
+        let points = ends(state, row, &self.walk.before);
+        let mut forces = match self.step.uniform {
+            Some([x, y, z]) => [Row([x; LANES]), Row([y; LANES]), Row([z; LANES])],
+            None => self.step.field.at_row(&points),
+        };
+        if let Some((surroundings, eps)) = &self.packed.weakening {
+            for lane in 0..LANES {
+                let force = lane_of(&forces, lane);
+                let weakened = surroundings.weaken(lane_of(&points, lane), &Force::new(force, surroundings));
+                let eps = if weakened { eps[self.at].0[lane] } else { 1.0 };
+                set_lane(&mut forces, lane, scale(eps, force));
+            }
+        }
+        if let Some(Felt { columns, constant }) = &self.step.felt {
+            for lane in 0..LANES {
+                let felt = add(rotate(columns, lane_of(&points, lane)), *constant);
+                let force = add(lane_of(&forces, lane), felt);
+                set_lane(&mut forces, lane, force);
+            }
+        }
+        if let Some(crowd) = self.step.crowd {
+            for lane in 0..LANES {
+                let velocity = beyond(&self.velocity, lane, row.length.0[lane], lane_of(&state.increment, lane));
+                set_lane(&mut self.velocity, lane, velocity);
+                let [x, y, z, drag] = crowd.at(Vec3::from(lane_of(&points, lane))).to_array();
+                let force = add(lane_of(&forces, lane), scale_add(-drag, velocity, [x, y, z]));
+                set_lane(&mut forces, lane, force);
+            }
+        }
+        forces
+    }
+
+    /// Turns segments out of the bodies.
+    #[inline(always)]
+    fn keep_out(&self, state: &mut FreeState, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
+        let mut near = 0;
+        for lane in 0..LANES {
+            let (now, before) = (lane_of(to, lane), lane_of(&self.walk.before, lane));
+            // At least the way that the node has gone.
+            let way = (now[0] - before[0]).abs() + (now[1] - before[1]).abs() + (now[2] - before[2]).abs();
+            let gap = state.gap.0[lane] - (way + self.step.closer);
+            state.gap.0[lane] = gap;
+            near |= u32::from(gap < 0.0);
+        }
+        if near != 0 {
+            for lane in 0..LANES {
+                if state.gap.0[lane] < 0.0 && row.length.0[lane] > 0.0 {
+                    self.keep_one_out(state, row, from, to, lane);
+                }
+            }
+        }
+    }
+
+    #[inline(never)]
+    fn keep_one_out(&self, state: &mut FreeState, row: &FreeRow, from: &PointRow, to: &mut PointRow, lane: usize) {
+        let at = |row: &PointRow| Vec3::from(lane_of(row, lane));
+        let mut going = Going { direction: at(&state.direction), increment: at(&state.increment) };
+        let (from, length) = (at(from), row.length.0[lane]);
+        let end_before = at(&self.walk.before);
+        let mut gap = f32::INFINITY;
+        for (b, obstacle) in self.step.obstacles.iter().enumerate() {
+            let clearance = self.packed.clearances[b][self.at].0[lane];
+            let touch = Touch { from, end_before, length, clearance };
+            let beside;
+            (going, beside) = obstacle.stop(&self.packed.free.bodies[b].distance, going, &touch);
+            gap = gap.min(beside);
+        }
+        if gap == 0.0 {
+            set_lane(&mut state.direction, lane, going.direction.to_array());
+            set_lane(&mut state.increment, lane, going.increment.to_array());
+            set_lane(to, lane, (from + length * going.direction).to_array());
+        }
+        state.gap.0[lane] = gap;
+    }
+}
+
+/// Puts strands together as they are.
+struct Place;
+
+impl Pass<FreeState, FreeRow> for Place {
+    #[inline(always)]
+    fn segment(&mut self, state: &mut FreeState, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
+        *to = ends(state, row, from);
+    }
+}
+
+/// Adds up what the increments move each point by, from a root that stands still.
+struct Velocities;
+
+impl Pass<FreeState, FreeRow> for Velocities {
+    #[inline(always)]
+    fn segment(&mut self, state: &mut FreeState, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
+        for lane in 0..LANES {
+            set_lane(to, lane, beyond(from, lane, row.length.0[lane], lane_of(&state.increment, lane)));
+        }
+    }
+}

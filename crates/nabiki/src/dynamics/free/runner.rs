@@ -1,0 +1,131 @@
+//! The free form on its way through the frames: hair, and the carriers that go before it.
+
+use glam::Vec3;
+
+use super::contact::Obstacle;
+use super::grid::Crowd;
+use super::kernel::FreeState;
+use super::packed::{Packed, Plan};
+use crate::dynamics::sweep::{Pages, sweep};
+use crate::dynamics::{Dynamics, FrameInput, VectorWidth};
+use crate::error::SettingError;
+use crate::field::Field;
+use crate::free_form::FreeMotion;
+use crate::strands::Strands;
+
+/// Some hair, what moves before it, and the frame that both are at.
+#[derive(Clone, Debug)]
+pub(in crate::dynamics) struct Runner {
+    packed: Packed,
+    states: Vec<FreeState>,
+    carriers: Option<Carriers>,
+    /// Room for the bodies in one frame.
+    obstacles: Vec<Obstacle>,
+}
+
+impl Runner {
+    /// Hair at rest in the given shape, whose settings have been checked.
+    pub fn new(strands: &Strands, dynamics: &Dynamics, free: &FreeMotion) -> Result<Self, SettingError> {
+        let packed = Packed::new(strands, dynamics, free)?;
+        let carriers = match &free.neighbours {
+            None => None,
+            Some(neighbours) => Some(Carriers::new(Packed::new(&neighbours.carriers, dynamics, free)?, neighbours)?),
+        };
+        let obstacles = Vec::with_capacity(free.bodies.len());
+        Ok(Self { states: packed.states(), packed, carriers, obstacles })
+    }
+
+    /// Refuses a field under which this hair, or its carriers, cannot be stepped.
+    pub fn check_field(&self, field: &dyn Field) -> Result<(), SettingError> {
+        self.packed.check_field(field)?;
+        self.carriers.as_ref().map_or(Ok(()), |carriers| carriers.packed.check_field(field))
+    }
+
+    pub fn dynamics(&self) -> &Dynamics {
+        self.packed.dynamics()
+    }
+
+    /// Puts the hair back to rest.
+    pub fn rewind(&mut self, width: VectorWidth, page: &mut [Vec3]) {
+        sweep(&self.packed, &[Plan::Rest], width, &mut self.states, Pages::Last(page));
+        if let Some(carriers) = &mut self.carriers {
+            carriers.rewind();
+        }
+    }
+
+    /// Moves the hair by one frame.
+    pub fn step(&mut self, input: &FrameInput, width: VectorWidth, page: &mut [Vec3]) {
+        let Self { packed, states, carriers, obstacles } = self;
+        packed.obstacles(input, obstacles);
+        let crowd = carriers.as_ref().map(|carriers| &carriers.crowd);
+        let plan = packed.plan(input, obstacles, crowd);
+        sweep(&*packed, &[plan], width, states, Pages::Last(page));
+        if let Some(carriers) = carriers {
+            carriers.step(input, obstacles, width);
+        }
+    }
+
+    /// Moves the hair through many frames, the first of them rest itself if `from_rest`.
+    pub fn run(&mut self, from_rest: bool, inputs: &[FrameInput], width: VectorWidth, pages: Pages) {
+        let Self { packed, states, carriers, .. } = self;
+        let obstacles: Vec<Vec<Obstacle>> = (inputs.iter())
+            .map(|input| {
+                let mut of_frame = Vec::new();
+                packed.obstacles(input, &mut of_frame);
+                of_frame
+            })
+            .collect();
+        let crowds: Vec<Crowd> = match carriers {
+            None => Vec::new(),
+            Some(carriers) => {
+                if from_rest {
+                    carriers.rewind();
+                }
+                let before = |(input, obstacles): (&FrameInput, &Vec<Obstacle>)| {
+                    let crowd = carriers.crowd.clone();
+                    carriers.step(input, obstacles, width);
+                    crowd
+                };
+                inputs.iter().zip(&obstacles).map(before).collect()
+            }
+        };
+        let steps = inputs.iter().zip(&obstacles).enumerate();
+        let steps = steps.map(|(n, (input, obstacles))| packed.plan(input, obstacles, crowds.get(n)));
+        let plans: Vec<Plan> = from_rest.then_some(Plan::Rest).into_iter().chain(steps).collect();
+        sweep(&*packed, &plans, width, states, pages);
+    }
+}
+
+/// The strands that carry density and velocity.
+#[derive(Clone, Debug)]
+struct Carriers {
+    packed: Packed,
+    states: Vec<FreeState>,
+    points: Vec<Vec3>,
+    velocities: Vec<Vec3>,
+    crowd: Crowd,
+    crowd_at_rest: Crowd,
+}
+
+impl Carriers {
+    fn new(packed: Packed, neighbours: &crate::free_form::Neighbours) -> Result<Self, SettingError> {
+        let (mut states, mut points) = (packed.states(), neighbours.carriers.points().to_vec());
+        sweep(&packed, &[Plan::Rest], VectorWidth::default(), &mut states, Pages::Last(&mut points));
+        let crowd = Crowd::new(neighbours, &points)?;
+        let velocities = vec![Vec3::ZERO; points.len()];
+        Ok(Self { states, packed, points, velocities, crowd_at_rest: crowd.clone(), crowd })
+    }
+
+    fn rewind(&mut self) {
+        self.states.copy_from_slice(self.packed.at_rest());
+        self.crowd.clone_from(&self.crowd_at_rest);
+    }
+
+    /// Moves by one frame under what they left in the frame before, and leaves what they are then.
+    fn step(&mut self, input: &FrameInput, obstacles: &[Obstacle], width: VectorWidth) {
+        let plan = self.packed.plan(input, obstacles, Some(&self.crowd));
+        sweep(&self.packed, &[plan], width, &mut self.states, Pages::Last(&mut self.points));
+        self.packed.velocities(&mut self.states, &mut self.velocities);
+        self.crowd.fill(&self.points, &self.velocities);
+    }
+}

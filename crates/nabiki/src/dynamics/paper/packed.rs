@@ -1,0 +1,225 @@
+//! Hair packed into blocks for the paper's form, and what a frame does to a block.
+
+use std::ops::Range;
+
+use glam::Vec3;
+
+use super::angles::direction_turns;
+use super::kernel::{SegmentState, ShapeRow, disturb_segment, extend, step_segment};
+use super::polar::PolarAxis;
+use super::wind::{AnyWind, Surroundings, Wind};
+use crate::disturbance::Part;
+use crate::dynamics::block::{Block, Pass};
+use crate::dynamics::gain::{SegmentShape, Stability, segment_shapes};
+use crate::dynamics::row::{LANES, PointRow, Row};
+use crate::dynamics::sweep::Form;
+use crate::dynamics::{Dynamics, FrameInput};
+use crate::error::SettingError;
+use crate::field::Field;
+use crate::strands::Strands;
+
+/// Everything about hair that no frame changes.
+#[derive(Clone, Debug)]
+pub(super) struct Packed {
+    dynamics: Dynamics,
+    ids: Vec<u32>,
+    surroundings: Surroundings,
+    tilted: bool,
+    stability: Stability,
+    blocks: Vec<Block>,
+    shapes: Vec<ShapeRow>,
+    along: Vec<Row>,
+    rest: Vec<SegmentState>,
+}
+
+impl Packed {
+    /// Packs hair at rest in the given shape; `ids` are the strands' numbers in the set they are some of.
+    pub fn new(strands: &Strands, ids: &[u32], dynamics: &Dynamics) -> Result<Self, SettingError> {
+        let stability = Stability::of(strands, dynamics)?;
+        let axis = PolarAxis::new(dynamics.polar_axis);
+        let mut packed = Self {
+            dynamics: dynamics.clone(),
+            ids: ids.to_vec(),
+            surroundings: Surroundings::new(dynamics, &axis),
+            tilted: axis.is_tilted(),
+            stability,
+            blocks: Vec::with_capacity(strands.len().div_ceil(LANES)),
+            shapes: Vec::new(),
+            along: Vec::new(),
+            rest: Vec::new(),
+        };
+        for first in (0..strands.len()).step_by(LANES) {
+            packed.pack(strands, first..strands.len().min(first + LANES), &axis)?;
+        }
+        Ok(packed)
+    }
+
+    fn pack(&mut self, strands: &Strands, range: Range<usize>, axis: &PolarAxis) -> Result<(), SettingError> {
+        let shapes: Vec<Vec<SegmentShape>> =
+            range.clone().map(|s| segment_shapes(&self.dynamics, strands.strand(s), s)).collect::<Result<_, _>>()?;
+        let of_block = range.clone().zip(&shapes).map(|(s, shapes)| (strands.strand(s)[0], shapes.len()));
+        let block = Block::new(range.start, self.shapes.len(), of_block);
+        let rows = block.rows();
+        self.shapes.resize(rows.end, ShapeRow::default());
+        self.along.resize(rows.end, Row::default());
+        self.rest.resize(rows.end, SegmentState::default());
+        for (lane, (s, shapes)) in range.zip(&shapes).enumerate() {
+            for (row, (shape, w)) in rows.clone().zip(shapes.iter().zip(strands.strand(s).windows(2))) {
+                self.shapes[row].set(lane, shape);
+                self.along[row].0[lane] = shape.along as f32;
+                let direction = axis.polar_from_head() * (w[1].as_dvec3() - w[0].as_dvec3());
+                let [theta, phi] = direction_turns(direction);
+                self.rest[row].theta.set(lane, theta.map(|value| value as f32));
+                self.rest[row].phi.set(lane, phi.map(|value| value as f32));
+            }
+        }
+        self.blocks.push(block);
+        Ok(())
+    }
+
+    /// Refuses a field under which this hair cannot be stepped.
+    pub fn check_field(&self, field: &dyn Field) -> Result<(), SettingError> {
+        self.stability.check(field)
+    }
+
+    pub fn dynamics(&self) -> &Dynamics {
+        &self.dynamics
+    }
+
+    /// Room for the state of every segment.
+    pub fn states(&self) -> Vec<SegmentState> {
+        self.rest.clone()
+    }
+
+    /// What a frame does to every block.
+    pub fn plan<'a>(&self, input: &FrameInput<'a>) -> Plan<'a> {
+        let wind = AnyWind::new(input, self.dynamics.motion.force_space, &self.surroundings);
+        let disturbance = self.dynamics.disturbance.as_ref().and_then(|d| d.part(input.frame));
+        Plan::Step { wind, disturbance }
+    }
+}
+
+/// What becomes of the hair in one frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Plan<'a> {
+    /// It is put back to rest.
+    Rest,
+    /// It moves.
+    Step { wind: AnyWind<'a>, disturbance: Option<Part> },
+}
+
+impl Form for Packed {
+    type State = SegmentState;
+    type Plan<'a> = Plan<'a>;
+
+    fn blocks(&self) -> &[Block] {
+        &self.blocks
+    }
+
+    #[inline(always)]
+    fn frame(&self, block: &Block, plan: &Plan<'_>, states: &mut [SegmentState], page: Option<&mut [Vec3]>) {
+        if self.tilted {
+            self.frame_about::<true>(block, plan, states, page);
+        } else {
+            self.frame_about::<false>(block, plan, states, page);
+        }
+    }
+}
+
+impl Packed {
+    /// `TILTED`: whether the polar axis is not y.
+    #[inline(always)]
+    fn frame_about<const TILTED: bool>(
+        &self,
+        block: &Block,
+        plan: &Plan,
+        states: &mut [SegmentState],
+        mut page: Option<&mut [Vec3]>,
+    ) {
+        match plan {
+            Plan::Rest => {
+                states.copy_from_slice(&self.rest[block.rows()]);
+                if let Some(page) = page {
+                    self.place::<TILTED>(block, states, page);
+                }
+            }
+            Plan::Step { wind, disturbance } => {
+                let undisturbed = page.as_deref_mut().filter(|_| disturbance.is_none());
+                match wind {
+                    AnyWind::Uniform(wind) => self.step::<TILTED>(block, wind, states, undisturbed),
+                    AnyWind::Local(wind) => self.step::<TILTED>(block, wind, states, undisturbed),
+                }
+                if let Some(part) = disturbance {
+                    self.disturb(block, part, states);
+                    if let Some(page) = page {
+                        self.place::<TILTED>(block, states, page);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Moves a block by one frame, and writes its points where they are wanted.
+    #[inline(always)]
+    fn step<const TILTED: bool>(
+        &self,
+        block: &Block,
+        wind: &impl Wind,
+        states: &mut [SegmentState],
+        page: Option<&mut [Vec3]>,
+    ) {
+        // Copies, which nothing that is written can change: they need not be read again at every segment.
+        let (surroundings, wind, before) = (self.surroundings, *wind, block.roots);
+        block.walk(
+            &block.roots,
+            states,
+            &self.shapes[block.rows()],
+            page,
+            Step::<TILTED, _> { surroundings, wind, before },
+        );
+    }
+
+    /// Turns every strand by its own angles (rad at the tip, less toward the root).
+    #[inline(always)]
+    fn disturb(&self, block: &Block, part: &Part, states: &mut [SegmentState]) {
+        let Some(disturbance) = &self.dynamics.disturbance else { return };
+        let (mut theta, mut phi) = (Row::default(), Row::default());
+        for (lane, &id) in self.ids.iter().skip(block.first_strand as usize).take(LANES).enumerate() {
+            [theta.0[lane], phi.0[lane]] = disturbance.turn(id, part);
+        }
+        for (state, along) in states.iter_mut().zip(&self.along[block.rows()]) {
+            disturb_segment(state, &theta, &phi, along);
+        }
+    }
+
+    /// Writes the points of the angles as they are.
+    #[inline(always)]
+    fn place<const TILTED: bool>(&self, block: &Block, states: &mut [SegmentState], page: &mut [Vec3]) {
+        let surroundings = &self.surroundings;
+        block.walk(&block.roots, states, &self.shapes[block.rows()], Some(page), Place::<TILTED> { surroundings });
+    }
+}
+
+struct Step<const TILTED: bool, W> {
+    surroundings: Surroundings,
+    wind: W,
+    before: PointRow,
+}
+
+impl<const TILTED: bool, W: Wind> Pass<SegmentState, ShapeRow> for Step<TILTED, W> {
+    #[inline(always)]
+    fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, from: &PointRow, to: &mut PointRow) {
+        step_segment::<TILTED>(state, shape, &self.surroundings, &self.wind, &mut self.before, from, to);
+    }
+}
+
+struct Place<'a, const TILTED: bool> {
+    surroundings: &'a Surroundings,
+}
+
+impl<const TILTED: bool> Pass<SegmentState, ShapeRow> for Place<'_, TILTED> {
+    #[inline(always)]
+    fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, from: &PointRow, to: &mut PointRow) {
+        extend::<TILTED>(from, to, state, shape, self.surroundings);
+    }
+}

@@ -1,0 +1,54 @@
+//! The paper's form on its way through the frames.
+
+use glam::Vec3;
+
+use super::kernel::SegmentState;
+use super::packed::{Packed, Plan};
+use crate::dynamics::sweep::{Pages, sweep};
+use crate::dynamics::{Dynamics, FrameInput, VectorWidth};
+use crate::error::SettingError;
+use crate::field::Field;
+use crate::strands::Strands;
+
+/// Some hair, and the frame that it is at.
+#[derive(Clone, Debug)]
+pub(in crate::dynamics) struct Runner {
+    packed: Packed,
+    states: Vec<SegmentState>,
+}
+
+impl Runner {
+    /// Hair at rest in the given shape, whose settings have been checked; `ids` are the strands' numbers in the set they
+    /// are some of.
+    pub fn new(strands: &Strands, ids: &[u32], dynamics: &Dynamics) -> Result<Self, SettingError> {
+        let packed = Packed::new(strands, ids, dynamics)?;
+        Ok(Self { states: packed.states(), packed })
+    }
+
+    /// Refuses a field under which this hair cannot be stepped.
+    pub fn check_field(&self, field: &dyn Field) -> Result<(), SettingError> {
+        self.packed.check_field(field)
+    }
+
+    pub fn dynamics(&self) -> &Dynamics {
+        self.packed.dynamics()
+    }
+
+    /// Puts the hair back to rest.
+    pub fn rewind(&mut self, width: VectorWidth, page: &mut [Vec3]) {
+        sweep(&self.packed, &[Plan::Rest], width, &mut self.states, Pages::Last(page));
+    }
+
+    /// Moves the hair by one frame.
+    pub fn step(&mut self, input: &FrameInput, width: VectorWidth, page: &mut [Vec3]) {
+        let plan = self.packed.plan(input);
+        sweep(&self.packed, &[plan], width, &mut self.states, Pages::Last(page));
+    }
+
+    /// Moves the hair through many frames, the first of them rest itself if `from_rest`.
+    pub fn run(&mut self, from_rest: bool, inputs: &[FrameInput], width: VectorWidth, pages: Pages) {
+        let steps = inputs.iter().map(|input| self.packed.plan(input));
+        let plans: Vec<Plan> = from_rest.then_some(Plan::Rest).into_iter().chain(steps).collect();
+        sweep(&self.packed, &plans, width, &mut self.states, pages);
+    }
+}

@@ -1,0 +1,79 @@
+//! Numbers of sixteen strands, side by side, and vectors of three numbers.
+//!
+//! No closure stands in what the kernels call: only a named function can be forced into its caller, and so be compiled for
+//! the vectors chosen there.
+
+/// Strands in a block: two vectors of eight, or one of sixteen.
+pub(super) const LANES: usize = 16;
+
+/// One number for each strand of a block.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C, align(64))]
+pub(super) struct Row(pub [f32; LANES]);
+
+/// A point or vector for each strand of a block: rows of x, y, z (cm).
+pub(super) type PointRow = [Row; 3];
+
+/// That of one strand.
+#[inline(always)]
+pub(super) fn lane([x, y, z]: &PointRow, lane: usize) -> [f32; 3] {
+    [x.0[lane], y.0[lane], z.0[lane]]
+}
+
+/// Puts one strand's in its place.
+#[inline(always)]
+pub(super) fn set_lane(row: &mut PointRow, lane: usize, [x, y, z]: [f32; 3]) {
+    (row[0].0[lane], row[1].0[lane], row[2].0[lane]) = (x, y, z);
+}
+
+/// The point of one strand that lies `length` beyond its point in a row.
+#[inline(always)]
+pub(super) fn beyond([x, y, z]: &PointRow, lane: usize, length: f32, direction: [f32; 3]) -> [f32; 3] {
+    scale_add(length, direction, [x.0[lane], y.0[lane], z.0[lane]])
+}
+
+/// A rotation, given by its columns, of `v`.
+#[inline(always)]
+pub(super) fn rotate([x, y, z]: &[[f32; 3]; 3], v: [f32; 3]) -> [f32; 3] {
+    [
+        x[0].mul_add(v[0], y[0].mul_add(v[1], z[0] * v[2])),
+        x[1].mul_add(v[0], y[1].mul_add(v[1], z[1] * v[2])),
+        x[2].mul_add(v[0], y[2].mul_add(v[1], z[2] * v[2])),
+    ]
+}
+
+/// a . b
+#[inline(always)]
+pub(super) fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
+}
+
+/// a x b; exactly 0 where one of them is.
+#[inline(always)]
+pub(super) fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[1].mul_add(b[2], -(a[2] * b[1])), a[2].mul_add(b[0], -(a[0] * b[2])), a[0].mul_add(b[1], -(a[1] * b[0]))]
+}
+
+/// a + b
+#[inline(always)]
+pub(super) fn add(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+/// a - b
+#[inline(always)]
+pub(super) fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// s a
+#[inline(always)]
+pub(super) fn scale(s: f32, a: [f32; 3]) -> [f32; 3] {
+    [s * a[0], s * a[1], s * a[2]]
+}
+
+/// s a + b, each number rounded once.
+#[inline(always)]
+pub(super) fn scale_add(s: f32, a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [s.mul_add(a[0], b[0]), s.mul_add(a[1], b[1]), s.mul_add(a[2], b[2])]
+}

@@ -1,0 +1,80 @@
+//! Hair of either form on its way through the frames.
+
+use glam::Vec3;
+
+use super::sweep::Pages;
+use super::{Dynamics, Form, FrameInput, VectorWidth, free, paper};
+use crate::error::SettingError;
+use crate::field::Field;
+use crate::strands::Strands;
+
+/// Some hair, and the frame that it is at.
+#[derive(Clone, Debug)]
+pub(super) struct Runner {
+    form: OfForm,
+    ids: Vec<u32>,
+}
+
+#[derive(Clone, Debug)]
+enum OfForm {
+    Paper(paper::Runner),
+    Free(Box<free::Runner>),
+}
+
+impl Runner {
+    /// Hair at rest in the given shape; `ids` are the strands' numbers in the set they are some of.
+    pub fn new(strands: &Strands, ids: &[u32], dynamics: &Dynamics, field: &dyn Field) -> Result<Self, SettingError> {
+        assert_eq!(ids.len(), strands.len(), "one id for each strand");
+        dynamics.check()?;
+        let form = match &dynamics.form {
+            Form::Paper => OfForm::Paper(paper::Runner::new(strands, ids, dynamics)?),
+            Form::Free(free) => OfForm::Free(Box::new(free::Runner::new(strands, dynamics, free)?)),
+        };
+        let runner = Self { form, ids: ids.to_vec() };
+        runner.check_field(field)?;
+        Ok(runner)
+    }
+
+    /// Refuses a field under which this hair cannot be stepped.
+    pub fn check_field(&self, field: &dyn Field) -> Result<(), SettingError> {
+        match &self.form {
+            OfForm::Paper(runner) => runner.check_field(field),
+            OfForm::Free(runner) => runner.check_field(field),
+        }
+    }
+
+    pub fn dynamics(&self) -> &Dynamics {
+        match &self.form {
+            OfForm::Paper(runner) => runner.dynamics(),
+            OfForm::Free(runner) => runner.dynamics(),
+        }
+    }
+
+    pub fn ids(&self) -> &[u32] {
+        &self.ids
+    }
+
+    /// Puts the hair back to rest.
+    pub fn rewind(&mut self, width: VectorWidth, page: &mut [Vec3]) {
+        match &mut self.form {
+            OfForm::Paper(runner) => runner.rewind(width, page),
+            OfForm::Free(runner) => runner.rewind(width, page),
+        }
+    }
+
+    /// Moves the hair by one frame.
+    pub fn step(&mut self, input: &FrameInput, width: VectorWidth, page: &mut [Vec3]) {
+        match &mut self.form {
+            OfForm::Paper(runner) => runner.step(input, width, page),
+            OfForm::Free(runner) => runner.step(input, width, page),
+        }
+    }
+
+    /// Moves the hair through many frames, the first of them rest itself if `from_rest`.
+    pub fn run(&mut self, from_rest: bool, inputs: &[FrameInput], width: VectorWidth, pages: Pages) {
+        match &mut self.form {
+            OfForm::Paper(runner) => runner.run(from_rest, inputs, width, pages),
+            OfForm::Free(runner) => runner.run(from_rest, inputs, width, pages),
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! The free form of the motion: what it takes beyond the paper's settings. Its equations are in docs/motion-forms.md.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::body::Body;
+use crate::error::{SettingError, check_range};
+use crate::pose::Pose;
+use crate::profile::Profile;
+use crate::strands::Strands;
+
+/// Acceleration of the earth's gravity (cm/s^2), which [`FreeForm::gravity`] stands for.
+pub const EARTH_CM_PER_S2: f64 = 981.0;
+
+/// What holds hair in shape and calms it. Strengths are in the unit of the force F: a segment settles along
+/// F + K t + H r, so a wind of 100 against a stiffness of 50 is a matter of reckoning.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct FreeForm {
+    /// K: what turns a segment toward its rest direction as carried by the segment before it, at least 0.
+    pub stiffness: Profile,
+    /// H: what turns a segment toward its rest direction in the head's frame (hair spray), at least 0.
+    pub hold: Profile,
+    /// Frames in which a small swing dies to 1/e, at least 0; 0: never.
+    pub settle: Profile,
+    /// The weight of hair, at least 0. Hair at rest does not sag: only what has been moved feels it. It also gives
+    /// accelerations of the head their scale, for it stands for 981 cm/s^2.
+    pub gravity: f32,
+    /// The share of the head's turn that hair follows at once is (1 - m/L)^`lag` at the distance m from the root of
+    /// a strand of length L; the rest of the turn is felt as lag. 0..8; at 0 hair is carried rigidly.
+    pub lag: f32,
+}
+
+impl Default for FreeForm {
+    fn default() -> Self {
+        Self {
+            stiffness: Profile::Even(120.0),
+            hold: Profile::Even(10.0),
+            settle: Profile::Even(50.0),
+            gravity: 100.0,
+            lag: 1.0,
+        }
+    }
+}
+
+impl FreeForm {
+    /// Refuses lists of no or too many numbers, and numbers out of range.
+    pub fn check(&self) -> Result<(), SettingError> {
+        self.stiffness.check("free.stiffness")?;
+        self.hold.check("free.hold")?;
+        self.settle.check("free.settle")?;
+        if !(self.gravity.is_finite() && self.gravity >= 0.0) {
+            return Err(SettingError::new("free.gravity", self.gravity, "must be a finite number of at least 0"));
+        }
+        check_range("free.lag", self.lag, 0.0, 8.0)
+    }
+
+    /// What is left of an increment after a frame. Friction that leaves lambda of a speed leaves the square root of
+    /// lambda of a swing's amplitude, so that after `settle` frames 1/e is left of that.
+    pub fn decay(&self, along: f64) -> f64 {
+        let settle = self.settle.at(along);
+        if settle > 0.0 { (-2.0 / settle).exp() } else { 1.0 }
+    }
+
+    /// The share of the head's turn that a segment follows at once, by the place of its middle.
+    pub fn share_of_turn(&self, along: f64) -> f64 {
+        (1.0 - along).max(0.0).powf(f64::from(self.lag))
+    }
+}
+
+/// Hair against hair: forces from a grid that a few strands, the carriers, fill as they move.
+///
+/// Carriers move first and write density and mean velocity; every strand, carriers too, reads what they left in the frame
+/// before. So a strand depends on itself and on the carriers only, and any subset of the hair moves as within the whole.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct NeighbourForces {
+    /// How many strands are carriers: the first so many of the farthest-first order, 1..=4096.
+    pub carriers: u32,
+    /// Strength of what pushes hair out of places fuller than at rest, at least 0, in the unit of F where the density
+    /// falls by that of the hair at rest over one cell.
+    pub pressure: f32,
+    /// Strength of what pulls a node toward the mean velocity about it, at least 0, in the unit of F for each cm a frame.
+    pub cohesion: f32,
+    /// Edge of a cell of the grid (cm), 0.5..=20.
+    pub cell: f32,
+}
+
+impl Default for NeighbourForces {
+    fn default() -> Self {
+        Self { carriers: 256, pressure: 40.0, cohesion: 40.0, cell: 2.0 }
+    }
+}
+
+impl NeighbourForces {
+    /// Refuses numbers out of range.
+    pub fn check(&self) -> Result<(), SettingError> {
+        if !(1..=4096).contains(&self.carriers) {
+            return Err(SettingError::new("neighbours.carriers", self.carriers, "must lie in 1..4096"));
+        }
+        for (thing, value) in [("neighbours.pressure", self.pressure), ("neighbours.cohesion", self.cohesion)] {
+            if !(value.is_finite() && value >= 0.0) {
+                return Err(SettingError::new(thing, value, "must be a finite number of at least 0"));
+            }
+        }
+        check_range("neighbours.cell", self.cell, 0.5, 20.0)
+    }
+}
+
+/// Hair against hair, with the hair that carries it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Neighbours {
+    /// Strengths.
+    pub forces: NeighbourForces,
+    /// The carriers at rest (head space, cm), whichever strands are stepped.
+    pub carriers: Arc<Strands>,
+}
+
+/// The free form with all that surrounds the hair.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FreeMotion {
+    /// What holds hair in shape and calms it.
+    pub form: FreeForm,
+    /// What hair does not enter.
+    pub bodies: Vec<Body>,
+    /// Hair against hair, if it is felt.
+    pub neighbours: Option<Neighbours>,
+    /// Where the head is at rest, in frame 0: the weight of hair that lies in that pose is in balance.
+    pub rest_pose: Pose,
+}
+
+impl FreeMotion {
+    /// Refuses settings out of range, and bodies without a pose in one of `frames` frames after the first.
+    pub fn check(&self, frames: u32) -> Result<(), SettingError> {
+        self.form.check()?;
+        self.bodies.iter().try_for_each(|body| body.check(frames))?;
+        if !self.rest_pose.is_valid() {
+            let remedy = "must be a finite position (cm) and a rotation of length 1";
+            return Err(SettingError::new("head.motion frame 0", format!("{:?}", self.rest_pose), remedy));
+        }
+        match &self.neighbours {
+            None => Ok(()),
+            Some(Neighbours { forces, carriers }) => {
+                forces.check()?;
+                if carriers.is_empty() {
+                    let remedy = "neighbours need at least one strand to carry them";
+                    return Err(SettingError::new("neighbours.carriers", "0 strands", remedy));
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_out_of_range_are_refused_by_name() {
+        let refused = |change: fn(&mut FreeForm)| {
+            let mut form = FreeForm::default();
+            change(&mut form);
+            form.check().unwrap_err().thing
+        };
+        assert_eq!(refused(|f| f.stiffness = Profile::Even(-1.0)), "free.stiffness");
+        assert_eq!(refused(|f| f.hold = Profile::RootToTip(vec![1.0, f32::INFINITY])), "free.hold[1]");
+        assert_eq!(refused(|f| f.settle = Profile::RootToTip(Vec::new())), "free.settle");
+        assert_eq!(refused(|f| f.gravity = f32::NAN), "free.gravity");
+        assert_eq!(refused(|f| f.lag = -0.5), "free.lag");
+        let refused = |forces: NeighbourForces| forces.check().unwrap_err().thing;
+        assert_eq!(refused(NeighbourForces { carriers: 0, ..Default::default() }), "neighbours.carriers");
+        assert_eq!(refused(NeighbourForces { pressure: -1.0, ..Default::default() }), "neighbours.pressure");
+        assert_eq!(refused(NeighbourForces { cohesion: f32::NAN, ..Default::default() }), "neighbours.cohesion");
+        assert_eq!(refused(NeighbourForces { cell: 0.1, ..Default::default() }), "neighbours.cell");
+    }
+
+    #[test]
+    fn a_swing_that_never_settles_keeps_its_speed_and_hair_without_lag_takes_the_whole_turn() {
+        let form = FreeForm { settle: Profile::Even(0.0), lag: 0.0, ..Default::default() };
+        assert_eq!(form.decay(0.5), 1.0);
+        assert_eq!(form.share_of_turn(1.0), 1.0);
+        assert_eq!(FreeForm::default().share_of_turn(1.0), 0.0);
+        assert_eq!(FreeForm::default().share_of_turn(0.0), 1.0);
+    }
+}
