@@ -29,12 +29,7 @@ fn main() {
     let growth = Growth { hairline: &hairline, style: &style, strands, segments: 20, segment_length: 0.9, seed: 1 };
     let hair = grow(&head, &growth, strands).expect("settings in range").strands;
     let form = FreeForm::default();
-    let bodies = vec![Body {
-        name: "head".to_owned(),
-        distance: head.skin().clone(),
-        way: BodyWay::WithHead,
-        contact: Contact::default(),
-    }];
+    let bodies = vec![Body::head(&head, Contact::default())];
     let carriers = Arc::new(hair.select(&(0..256).collect::<Vec<_>>()));
     let neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers });
     let bare = FreeMotion { form, ..Default::default() };

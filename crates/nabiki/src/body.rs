@@ -2,12 +2,15 @@
 
 use std::sync::Arc;
 
-use glam::Affine3A;
+use glam::{Affine3A, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::distance::SkinDistance;
 use crate::error::SettingError;
+use crate::head::Head;
+use crate::mesh::Mesh;
 use crate::pose::Pose;
+use crate::strands::bounds;
 
 /// How hair and a body touch.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
@@ -41,6 +44,15 @@ impl Contact {
     }
 }
 
+/// A surface of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Surface {
+    /// Its skin.
+    Skin,
+    /// Its skin with the folds filled.
+    Filled,
+}
+
 /// Where a body is, frame by frame.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BodyWay {
@@ -57,13 +69,80 @@ pub struct Body {
     pub name: String,
     /// The distance to its skin, in its own space (cm).
     pub distance: Arc<SkinDistance>,
+    /// The same with its folds filled, for a body that hair lies on: nodes that rest outside of it keep outside of it, and
+    /// are not caught behind an ear.
+    pub filled: Option<Arc<SkinDistance>>,
     /// Where it is.
     pub way: BodyWay,
     /// How it is touched.
     pub contact: Contact,
 }
 
+/// Radius of the ball that does not reach into the folds of a head that [`Body::head`] fills (cm).
+const FOLD_CM: f32 = 3.0;
+/// Steps with which the filled head is sampled (cm).
+const FILLED_CM: f32 = 0.5;
+
+/// Coarsest steps with which the distance to a body is sampled near its skin (cm).
+const COARSEST_CM: f32 = 0.4;
+
+/// The distance to a body's skin, from its mesh (its own space, cm). Triangles that face inward are turned.
+///
+/// # Errors
+/// Meshes without a triangle, with corners that are none, and sheets that enclose nothing; `thing` is what the mesh is
+/// called.
+pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError> {
+    let count = mesh.positions.len();
+    let refused = |what: &str, remedy: &str| Err(SettingError::new(thing, what, remedy));
+    if mesh.triangles.is_empty() || mesh.triangles.iter().flatten().any(|&v| v as usize >= count) {
+        return refused("no triangles", "give a mesh of triangles");
+    }
+    if mesh.positions.iter().any(|p| !p.is_finite()) {
+        return refused("a vertex that is no point", "every coordinate must be a finite number");
+    }
+    if !mesh.turn_outward().has_inside {
+        return refused("a sheet", "encloses no space, so nothing can be told to be inside it: give it a thickness");
+    }
+    let [low, high] = bounds(&mesh.positions);
+    let spacing = ((high - low).min_element() / 12.0).min(COARSEST_CM);
+    if !(spacing > 0.0) {
+        return refused("a sheet", "encloses no space, so nothing can be told to be inside it: give it a thickness");
+    }
+    // Hair is kept out from the margin on, which is 5 cm at the most.
+    let around = 6.0;
+    Ok(SkinDistance::new(&mesh, low - around, high + around, spacing))
+}
+
 impl Body {
+    /// The head itself, its folds filled.
+    pub fn head(head: &Head, contact: Contact) -> Self {
+        Self {
+            name: "contact".to_owned(),
+            distance: head.skin().clone(),
+            filled: Some(Arc::new(head.skin().filled(FOLD_CM, FILLED_CM))),
+            way: BodyWay::WithHead,
+            contact,
+        }
+    }
+
+    /// The surface that a point which rests here (the body's space, cm) keeps out of, and how far from it: the margin, or
+    /// as far as it lies at rest where that is less.
+    pub fn kept_from(&self, at_rest: Vec3) -> (Surface, f32) {
+        let distance = |skin: &SkinDistance| skin.sample(at_rest).map_or(self.contact.margin, |(distance, _)| distance);
+        match self.filled.as_deref().map(distance) {
+            Some(distance) if distance >= 0.0 => (Surface::Filled, distance.min(self.contact.margin)),
+            _ => (Surface::Skin, distance(&self.distance).min(self.contact.margin)),
+        }
+    }
+
+    /// The distance to one of its surfaces.
+    pub fn surface(&self, surface: Surface) -> &SkinDistance {
+        match (surface, &self.filled) {
+            (Surface::Filled, Some(filled)) => filled,
+            _ => &self.distance,
+        }
+    }
+
     /// Refuses contacts out of range, and a way that ends before `frames` or leads through places that are none.
     pub fn check(&self, frames: u32) -> Result<(), SettingError> {
         self.contact.check(&self.name)?;

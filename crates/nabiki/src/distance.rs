@@ -6,6 +6,7 @@
 //! sampled once: coarsely through a box about the head, and four times finer in the cells that the skin passes
 //! through or comes near. A reading is one trilinear interpolation; beyond the box the tree answers.
 
+mod filled;
 pub(crate) mod rims;
 mod sample;
 mod tree;

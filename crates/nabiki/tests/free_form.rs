@@ -69,12 +69,7 @@ fn hair_at_rest_keeps_its_bits() {
 }
 
 fn head_body(margin: f32) -> Body {
-    Body {
-        name: "head".into(),
-        distance: Head::builtin().skin().clone(),
-        way: BodyWay::WithHead,
-        contact: Contact { margin, ..Contact::default() },
-    }
+    Body::head(&Head::builtin(), Contact { margin, ..Contact::default() })
 }
 
 proptest! {

@@ -139,7 +139,7 @@ impl BuiltScene {
 
     /// What a step to a frame needs to know of it.
     pub fn input(&self, frame: u32) -> FrameInput<'_> {
-        FrameInput { frame, pose: self.pose(frame), field: &*self.field }
+        FrameInput::new(frame, &self.poses, &*self.field)
     }
 
     /// F(n), in the space that the scene gives its forces in.

@@ -1,13 +1,15 @@
 //! The scene: everything that decides a movie, built in code or read from TOML, and written back.
 //!
-//! Tables of the file: `[head]`, `[hair]` with `[hair.style]` and `[hair.hairline]`, `[motion]`, `[pseudo_force]`, one
-//! `[[force]]` for each interval of the field, `[disturbance]`, `[picture]`, `[output]`. All but `[[force]]` may be left
+//! Tables of the file: `[head]`, `[hair]` with `[hair.style]` and `[hair.hairline]`, `[motion]`, `[free]`, `[contact]`, one
+//! `[[body]]` for each, `[neighbours]`, `[pseudo_force]`, one `[[force]]` for each interval of the field, `[disturbance]`,
+//! `[picture]`, `[output]`. All but `[[force]]` may be left
 //! out: the defaults are the paper's. Paths are relative to the scene file.
 
 mod edit;
 mod error;
 mod field;
 mod flat;
+mod free;
 mod hair;
 mod head;
 mod output;
@@ -18,9 +20,11 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use nabiki::SettingError;
+use nabiki::body::Contact;
 use nabiki::disturbance::Disturbance;
 use nabiki::dynamics::Motion;
 use nabiki::field::{Keyframe, KeyframedField};
+use nabiki::free_form::NeighbourForces;
 use nabiki::pseudo_force::PseudoForce;
 use nabiki_file::PartFile;
 use nabiki_io::motion::MotionSource;
@@ -33,6 +37,7 @@ use toml_edit::DocumentMut;
 
 pub use error::{Problem, SceneError};
 pub use field::FieldSource;
+pub use free::{BodySettings, FormChoice, FreeSettings, Gravity};
 pub use hair::{GrownHair, HairSettings, HairSource, ImportedHair};
 pub use head::{EllipsoidChoice, HeadSettings, HeadSource, ImportedHead};
 pub use output::Output;
@@ -62,6 +67,16 @@ pub struct Scene {
     pub hair: HairSettings,
     /// `[motion]`
     pub motion: Motion,
+    /// `motion.form`: the equations that hair moves by.
+    pub form: FormChoice,
+    /// `[free]`: what holds hair in shape and calms it, in the free form.
+    pub free: FreeSettings,
+    /// `[contact]`: how hair and head touch, in the free form.
+    pub contact: Contact,
+    /// `[[body]]`: what else hair does not enter, in the free form.
+    pub bodies: Vec<BodySettings>,
+    /// `[neighbours]`: hair against hair, in the free form.
+    pub neighbours: Option<NeighbourForces>,
     /// `[pseudo_force]`
     pub pseudo_force: PseudoForce,
     /// What pushes the hair: `[[force]]`. A scene made in code has none until it is given some.
@@ -79,10 +94,16 @@ pub struct Scene {
 
 impl PartialEq for Scene {
     fn eq(&self, other: &Self) -> bool {
-        let Self { head, hair, motion, pseudo_force, field, disturbance, picture, output, .. } = self;
+        let Self { head, hair, motion, form, free, contact, .. } = self;
+        let Self { bodies, neighbours, pseudo_force, field, disturbance, picture, output, .. } = self;
         *head == other.head
             && *hair == other.hair
             && *motion == other.motion
+            && *form == other.form
+            && *free == other.free
+            && *contact == other.contact
+            && *bodies == other.bodies
+            && *neighbours == other.neighbours
             && *pseudo_force == other.pseudo_force
             && *field == other.field
             && *disturbance == other.disturbance
@@ -98,7 +119,11 @@ impl PartialEq for Scene {
 struct Tables {
     head: Table,
     hair: Table,
-    motion: Motion,
+    motion: Table,
+    free: FreeSettings,
+    contact: Contact,
+    body: Vec<BodySettings>,
+    neighbours: Option<NeighbourForces>,
     pseudo_force: PseudoForce,
     force: Vec<Keyframe>,
     disturbance: Option<Disturbance>,
@@ -133,10 +158,16 @@ impl Scene {
         let (table, origins) = tree::parse(text, path, overrides)?;
         let read = || -> Result<Self, Refusal> {
             let tables = Tables::deserialize(Node(&Value::Table(table)))?;
+            let (motion, form) = free::read_motion(&tables.motion).map_err(|e| e.below("motion"))?;
             Ok(Self {
                 head: HeadSettings::read(&tables.head).map_err(|e| e.below("head"))?,
                 hair: HairSettings::read(&tables.hair).map_err(|e| e.below("hair"))?,
-                motion: tables.motion,
+                motion,
+                form,
+                free: tables.free,
+                contact: tables.contact,
+                bodies: tables.body,
+                neighbours: tables.neighbours,
                 pseudo_force: tables.pseudo_force,
                 field: if tables.force.is_empty() { vec![] } else { vec![FieldSource::Keyframes(tables.force)] },
                 disturbance: tables.disturbance,
@@ -163,6 +194,10 @@ impl Scene {
         self.head.check()?;
         self.hair.check()?;
         self.motion.check()?;
+        self.free.check()?;
+        self.contact.check("contact")?;
+        self.bodies.iter().enumerate().try_for_each(|(i, body)| body.check(i))?;
+        self.neighbours.as_ref().map_or(Ok(()), NeighbourForces::check)?;
         self.pseudo_force.check()?;
         self.field()?;
         if let Some(disturbance) = &self.disturbance {
@@ -218,6 +253,13 @@ impl Scene {
         if let Some(motion) = &self.head.motion {
             named.push(&motion.file);
             named.extend(motion.skeleton.as_deref());
+        }
+        for body in &self.bodies {
+            named.push(&body.mesh);
+            if let Some(motion) = &body.motion {
+                named.push(&motion.file);
+                named.extend(motion.skeleton.as_deref());
+            }
         }
         let mut inputs = vec![self.file().to_owned()];
         inputs.extend(named.into_iter().map(|path| self.resolve(path)));
@@ -278,7 +320,14 @@ impl Scene {
         let mut tree = Table::new();
         tree.insert("head".to_owned(), self.head.table()?.into());
         tree.insert("hair".to_owned(), self.hair.table()?.into());
-        tree.insert("motion".to_owned(), table_of(&self.motion)?.into());
+        tree.insert("motion".to_owned(), free::motion_table(&self.motion, self.form)?.into());
+        tree.insert("free".to_owned(), table_of(&self.free)?.into());
+        tree.insert("contact".to_owned(), table_of(&self.contact)?.into());
+        let bodies = self.bodies.iter().map(|body| table_of(body).map(Value::Table)).collect::<Result<_, _>>()?;
+        tree.insert("body".to_owned(), Value::Array(bodies));
+        if let Some(neighbours) = &self.neighbours {
+            tree.insert("neighbours".to_owned(), table_of(neighbours)?.into());
+        }
         tree.insert("pseudo_force".to_owned(), table_of(&self.pseudo_force)?.into());
         tree.insert("force".to_owned(), Value::Array(force));
         if let Some(disturbance) = &self.disturbance {
@@ -298,6 +347,7 @@ impl Scene {
     fn with_optional_tables(mut self) -> Self {
         self.head.motion = Some(MotionSource::default());
         self.disturbance = Some(Disturbance::default());
+        self.neighbours = Some(NeighbourForces::default());
         self.picture.camera = Camera { to: Some(CameraKey::default()), ..self.picture.camera };
         self
     }

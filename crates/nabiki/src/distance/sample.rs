@@ -42,6 +42,11 @@ impl SkinDistance {
         (low - p).max(p - high).max(Vec3::ZERO).length()
     }
 
+    /// What was sampled coarsely, through the whole box: as good as the name of a surface.
+    pub fn samples(&self) -> &[f32] {
+        &self.samples.coarse
+    }
+
     /// The corners of the box that was sampled.
     pub fn sampled_box(&self) -> [Vec3; 2] {
         let Samples { low, cell, nodes, mirrored, .. } = &self.samples;

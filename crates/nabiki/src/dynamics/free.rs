@@ -11,6 +11,6 @@ mod reference;
 mod runner;
 mod segment;
 
-use contact::{PUSHES, TOLERANCE_CM};
+use contact::{NEAR, PUSHES, TOLERANCE_CM};
 pub(super) use reference::Reference;
 pub(super) use runner::Runner;

@@ -1,6 +1,9 @@
 //! What a motion cache of a scene is marked with.
 
-use nabiki::dynamics::Motion;
+use nabiki::Pose;
+use nabiki::body::BodyWay;
+use nabiki::dynamics::{Form, Motion};
+use nabiki::free_form::FreeMotion;
 use nabiki_io::identity::{Digest, SceneId};
 
 use super::BuiltScene;
@@ -15,9 +18,7 @@ impl BuiltScene {
     pub fn identity(&self) -> Result<SceneId> {
         let mut digest = Digest::new();
         digest.bytes("starts", bytemuck::cast_slice(&little_endian(self.hair.strands.starts())));
-        let points: &[f32] = bytemuck::cast_slice(self.hair.strands.points());
-        let bits: Vec<u32> = points.iter().map(|x| x.to_bits()).collect();
-        digest.bytes("points", bytemuck::cast_slice(&little_endian(&bits)));
+        add_numbers(&mut digest, "points", bytemuck::cast_slice(self.hair.strands.points()));
         // The rate counts where it says which poses the head has, which are taken in below.
         let motion = Motion { frames: 1, frame_rate: 24.0, ..self.dynamics.motion.clone() };
         digest.settings("motion", &motion)?;
@@ -29,14 +30,43 @@ impl BuiltScene {
             digest.settings("disturbance", disturbance)?;
             digest.bytes("ids", bytemuck::cast_slice(&little_endian(&self.ids)));
         }
+        if let Form::Free(free) = &self.dynamics.form {
+            self.add_free(&mut digest, free)?;
+        }
         for frame in 0..self.poses.len() {
-            let pose = self.poses[frame];
-            let numbers = [pose.position_cm.to_array().as_slice(), pose.rotation.to_array().as_slice()].concat();
-            let bits: Vec<u32> = numbers.iter().map(|x| x.to_bits()).collect();
-            digest.bytes("pose", bytemuck::cast_slice(&little_endian(&bits)));
+            add_pose(&mut digest, &self.poses[frame]);
         }
         Ok(digest.finish())
     }
+
+    /// What the free form takes besides. A body is known by the samples of its distance, a crowd by its carriers.
+    fn add_free(&self, digest: &mut Digest, free: &FreeMotion) -> Result<()> {
+        digest.settings("free", &free.form)?;
+        // Accelerations are felt by the second.
+        digest.settings("frame_rate", &[self.dynamics.motion.frame_rate])?;
+        for body in &free.bodies {
+            digest.settings("contact", &body.contact)?;
+            add_numbers(digest, "distance", body.distance.samples());
+            if let BodyWay::InWorld(poses) = &body.way {
+                poses.iter().for_each(|pose| add_pose(digest, pose));
+            }
+        }
+        if let Some(neighbours) = &free.neighbours {
+            digest.settings("neighbours", &neighbours.forces)?;
+            add_numbers(digest, "carriers", bytemuck::cast_slice(neighbours.carriers.points()));
+        }
+        Ok(())
+    }
+}
+
+fn add_pose(digest: &mut Digest, pose: &Pose) {
+    let numbers = [pose.position_cm.to_array().as_slice(), pose.rotation.to_array().as_slice()].concat();
+    add_numbers(digest, "pose", &numbers);
+}
+
+fn add_numbers(digest: &mut Digest, name: &str, numbers: &[f32]) {
+    let bits: Vec<u32> = numbers.iter().map(|x| x.to_bits()).collect();
+    digest.bytes(name, bytemuck::cast_slice(&little_endian(&bits)));
 }
 
 fn little_endian(values: &[u32]) -> Vec<u32> {

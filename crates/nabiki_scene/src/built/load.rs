@@ -1,9 +1,11 @@
 //! What a scene names, read and put into head space.
 
+mod free;
+
 use glam::Vec3;
-use nabiki::dynamics::{Dynamics, straightened};
+use nabiki::dynamics::{Dynamics, Form, straightened};
 use nabiki::groom::{Growth, grow};
-use nabiki::{Hair, Head, SettingError, subset};
+use nabiki::{Hair, Head, SettingError, Strands, subset};
 use nabiki_io::{
     DeclaredSpace, exchange,
     hair::{self, ImportReport},
@@ -16,17 +18,22 @@ use nabiki_render::colour;
 
 use super::{BuiltScene, Shown};
 use crate::error::Result;
-use crate::scene::{EllipsoidChoice, GrownHair, HairSource, HeadSource, ImportedHair, Scene};
+use crate::scene::{EllipsoidChoice, FormChoice, GrownHair, HairSource, HeadSource, ImportedHair, Scene};
 
 pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
     let (head, placement, mesh_report) = load_head(&scene)?;
     let (poses, motion_report) = head_motion(&scene)?.map_or_else(Default::default, |m| (m.poses, Some(m.report)));
     let mut dynamics = dynamics(&scene, &head)?;
-    dynamics.polar_axis = poses.first().copied().unwrap_or_default().up_in_head();
+    let rest_pose = poses.first().copied().unwrap_or_default();
+    dynamics.polar_axis = rest_pose.up_in_head();
     let field = scene.field().map_err(|refused| scene.refusal(refused))?.into();
-    let Loaded { mut hair, ids, of_scene, placement: hair_placement, report, frames } =
+    let Loaded { mut hair, ids, of_scene, first, placement: hair_placement, report, frames } =
         load_hair(&scene, &head, &placement, shown)?;
     hair.strands = straightened(&hair.strands, &dynamics.motion, dynamics.polar_axis);
+    if scene.form == FormChoice::Free {
+        let first = straightened(&first, &dynamics.motion, dynamics.polar_axis);
+        free::set(&mut dynamics, &scene, &head, &first, rest_pose)?;
+    }
     Ok(BuiltScene {
         scene,
         head,
@@ -52,6 +59,8 @@ struct Loaded {
     ids: Vec<u32>,
     /// Strands of the whole.
     of_scene: usize,
+    /// The first strands of the farthest-first order of the whole, whichever are shown: those that the free form asks of.
+    first: Strands,
     placement: Option<Placement>,
     report: Option<ImportReport>,
     /// Frames of the file.
@@ -62,12 +71,17 @@ fn load_hair(scene: &Scene, head: &Head, head_placement: &Placement, shown: Show
     match &scene.hair.source {
         HairSource::Grown(settings) => {
             let count = shown.of(settings.strands)?;
-            let mut hair = grown(scene, settings, head, count)?;
+            let first = free::first_wanted(scene).min(settings.strands);
+            let mut hair = grown(scene, settings, head, count.max(first))?;
+            let first = hair.strands.select(&(0..first).collect::<Vec<_>>());
+            if hair.strands.len() > count {
+                hair = hair.select(&(0..count).collect::<Vec<_>>());
+            }
             // As it is drawn, so that it goes out as it looks.
             hair.attributes.constant.width = Some(scene.picture.hair.width);
             hair.attributes.constant.colour = Some(colour::of_mass(&scene.picture.hair));
             let ids = (0..count as u32).collect();
-            Ok(Loaded { hair, ids, of_scene: settings.strands, placement: None, report: None, frames: 1 })
+            Ok(Loaded { hair, ids, of_scene: settings.strands, first, placement: None, report: None, frames: 1 })
         }
         HairSource::Imported(settings) => import(scene, settings, head_placement, shown),
     }
@@ -83,6 +97,8 @@ fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, sh
         _ => hair,
     };
     let of_scene = hair.strands.len();
+    let first = free::first_wanted(scene).min(of_scene);
+    let first = if first == 0 { Hair::default() } else { hair.select(&evenly(&hair, first)) };
     let (hair, ids) = match shown.of(of_scene)? {
         count if count < of_scene => {
             let chosen = evenly(&hair, count);
@@ -90,12 +106,13 @@ fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, sh
         }
         _ => (hair, (0..of_scene as u32).collect()),
     };
-    let hair = match settings.segments {
-        Some(segments) => cut_anew(&hair, segments).map_err(|refused| scene.refusal(refused))?,
-        None => hair,
+    let cut = |hair: Hair| match settings.segments {
+        Some(segments) => cut_anew(&hair, segments).map_err(|refused| scene.refusal(refused)),
+        None => Ok(hair),
     };
+    let (hair, first) = (cut(hair)?, cut(first)?.strands);
     let frames = exchange::frames(&file)?;
-    Ok(Loaded { hair, ids, of_scene, placement: Some(placement), report: Some(report), frames })
+    Ok(Loaded { hair, ids, of_scene, first, placement: Some(placement), report: Some(report), frames })
 }
 
 /// `count` strands of the farthest-first order of the roots, in the order of the file.
@@ -109,12 +126,7 @@ fn evenly(hair: &Hair, count: usize) -> Vec<usize> {
 /// Where the head is in each frame; `None` for a head that stands still.
 fn head_motion(scene: &Scene) -> Result<Option<HeadMotion>> {
     let Some(source) = &scene.head.motion else { return Ok(None) };
-    let source = motion::MotionSource {
-        file: scene.resolve(&source.file),
-        skeleton: source.skeleton.as_ref().map(|skeleton| scene.resolve(skeleton)),
-        ..source.clone()
-    };
-    let motion = motion::read(&source, scene.frame_rate())?;
+    let motion = read_motion(scene, source)?;
     let (frames, given) = (scene.motion.frames as usize, motion.poses.len());
     if given > frames {
         return Ok(Some(motion));
@@ -124,6 +136,16 @@ fn head_motion(scene: &Scene) -> Result<Option<HeadMotion>> {
         given.saturating_sub(1)
     );
     Err(nabiki_io::Error::new(remedy).in_file(scene.file()).into())
+}
+
+/// A motion that the scene names, at its frame rate.
+fn read_motion(scene: &Scene, source: &motion::MotionSource) -> Result<HeadMotion> {
+    let source = motion::MotionSource {
+        file: scene.resolve(&source.file),
+        skeleton: source.skeleton.as_ref().map(|skeleton| scene.resolve(skeleton)),
+        ..source.clone()
+    };
+    Ok(motion::read(&source, scene.frame_rate())?)
 }
 
 pub(super) fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshReport>)> {
@@ -212,6 +234,7 @@ fn dynamics(scene: &Scene, head: &Head) -> Result<Dynamics> {
             shell: scene.head.shell,
             polar_axis: Vec3::Y,
             disturbance: scene.disturbance.clone(),
+            form: Form::Paper,
         };
         dynamics.check()?;
         Ok(dynamics)

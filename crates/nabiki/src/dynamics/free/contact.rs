@@ -2,16 +2,19 @@
 
 use glam::{Affine3A, Vec3};
 
-use crate::body::Body;
+use crate::body::{Body, Surface};
 use crate::distance::SkinDistance;
 use crate::dynamics::FrameInput;
 use crate::pose::Pose;
 
 /// Times that a segment is turned along the gradient before another way is tried.
-pub(in crate::dynamics) const PUSHES: usize = 4;
+pub(in crate::dynamics) const PUSHES: usize = 6;
 
 /// How much deeper than its clearance a node may stay (cm): some roundings of a distance.
 pub(in crate::dynamics) const TOLERANCE_CM: f32 = 1e-4;
+
+/// Cosine of the largest turn that a push may make of a segment in a frame, where it can do with less (half a radian).
+pub(in crate::dynamics) const NEAR: f32 = 0.877_582_6;
 
 /// Distances between nodes of the samples may come out too large by a twentieth, see [`SkinDistance::at`].
 const SURE: f32 = 0.95;
@@ -28,16 +31,16 @@ pub(super) struct Obstacle {
     moves: bool,
 }
 
-/// The end of a segment on its way from one frame to the next (head space, cm).
+/// The end of a segment that turns about its beginning (head space, cm).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touch {
     /// p_(i-1), where it is now.
     pub from: Vec3,
-    /// p_i, where it was.
-    pub end_before: Vec3,
     pub length: f32,
     /// How far p_i is kept from the skin.
     pub clearance: f32,
+    /// d at frame n.
+    pub was: Vec3,
 }
 
 /// Direction and increment of a segment.
@@ -47,11 +50,9 @@ pub(super) struct Going {
     pub increment: Vec3,
 }
 
-/// How far a point is kept from the skin of a body (cm): its margin, or as far as it lies at rest where that is less.
-pub(super) fn clearance(body: &Body, rest_pose: &Pose, p: Vec3) -> f32 {
-    let body_from_head = body.head_from_body(0, rest_pose).inverse();
-    let margin = body.contact.margin;
-    body.distance.sample(body_from_head.transform_point3(p)).map_or(margin, |(distance, _)| distance.min(margin))
+/// What a point of head space is kept out of, and how far from it (cm).
+pub(super) fn kept_from(body: &Body, rest_pose: &Pose, p: Vec3) -> (Surface, f32) {
+    body.kept_from(body.head_from_body(0, rest_pose).inverse().transform_point3(p))
 }
 
 impl Obstacle {
@@ -81,7 +82,7 @@ impl Obstacle {
 
     /// Keeps a segment out of the body, and says how far its end then is from touching it (cm, a lower bound).
     pub fn stop(&self, skin: &SkinDistance, going: Going, touch: &Touch) -> (Going, f32) {
-        let &Touch { from, end_before, length, clearance } = touch;
+        let &Touch { from, length, clearance, .. } = touch;
         let end = from + length * going.direction;
         let (distance, normal) = match self.read(skin, end) {
             Ok(read) => read,
@@ -91,8 +92,8 @@ impl Obstacle {
             return (going, SURE * (distance - clearance));
         }
         let of_body = if self.moves { end - self.before_from_now.transform_point3(end) } else { Vec3::ZERO };
-        let change = self.slowed((end - end_before) - of_body, normal);
-        let direction = (end + change - from).normalize_or(normal);
+        let change = self.slowed(length * going.increment - of_body, normal);
+        let direction = (length * going.direction + change).normalize_or(normal);
         let increment = going.increment + change / length;
         let direction = self.pushed_out(skin, direction, touch);
         (Going { direction, increment: increment - increment.dot(direction) * direction }, 0.0)
@@ -111,22 +112,31 @@ impl Obstacle {
         inward * normal - lost * along
     }
 
-    /// Turns a segment until its end keeps its clearance; along the gradient where no turn does that.
-    fn pushed_out(&self, skin: &SkinDistance, mut direction: Vec3, touch: &Touch) -> Vec3 {
+    /// The direction nearest to where a segment would go in which its end keeps its clearance. In a fold of the skin, behind
+    /// an ear, that may be far off or not be found: then the one nearest to where the segment was, for it was free there.
+    fn pushed_out(&self, skin: &SkinDistance, direction: Vec3, touch: &Touch) -> Vec3 {
+        let (pushed, depth) = self.pushed_from(skin, direction, touch);
+        if depth <= TOLERANCE_CM && pushed.dot(touch.was) > NEAR {
+            return pushed;
+        }
+        let (stayed, depth_there) = self.pushed_from(skin, touch.was, touch);
+        if depth_there <= TOLERANCE_CM || depth_there < depth { stayed } else { pushed }
+    }
+
+    /// Turns a segment along the gradient until its end keeps its clearance; how deep it then is.
+    fn pushed_from(&self, skin: &SkinDistance, mut direction: Vec3, touch: &Touch) -> (Vec3, f32) {
         let &Touch { from, length, clearance, .. } = touch;
-        for _ in 0..PUSHES {
+        let mut depth = 0.0;
+        for _ in 0..=PUSHES {
             let end = from + length * direction;
-            let Ok((distance, normal)) = self.read(skin, end) else { return direction };
-            if distance >= clearance - TOLERANCE_CM {
-                return direction;
+            let Ok((distance, normal)) = self.read(skin, end) else { return (direction, 0.0) };
+            depth = clearance - distance;
+            if depth <= TOLERANCE_CM {
+                return (direction, depth);
             }
-            direction = (end + (clearance - distance) * normal - from).normalize_or(normal);
+            direction = (end + depth * normal - from).normalize_or(normal);
         }
-        let depth = |direction: Vec3| self.read(skin, from + length * direction).map_or(f32::INFINITY, |(d, _)| d);
-        match self.read(skin, from + length * direction) {
-            Ok((distance, normal)) if distance < clearance - TOLERANCE_CM && depth(normal) > distance => normal,
-            _ => direction,
-        }
+        (direction, depth)
     }
 
     /// Distance and outward normal at a point of head space, or how far away at least it is where nothing was sampled.

@@ -4,11 +4,12 @@ use std::ops::Range;
 
 use glam::Vec3;
 
-use super::contact::{Going, Obstacle, Touch, clearance};
+use super::contact::{Going, Obstacle, Touch, kept_from};
 use super::grid::Crowd;
 use super::head_frame::{HeadFrame, weight};
 use super::kernel::{FrameRow, FreeRow, FreeState, StrengthRow, Walk, Weight, ends, lag_behind, step_segment};
 use super::segment::{FreeSegment, free_segments};
+use crate::body::{Body, Surface};
 use crate::dynamics::block::{Block, Pass};
 use crate::dynamics::gain::Stability;
 use crate::dynamics::paper::{Force, Surroundings};
@@ -35,8 +36,8 @@ pub(super) struct Packed {
     lags: Vec<Row>,
     /// eps_i, where the scene has a pseudo-force.
     weakening: Option<(Surroundings, Vec<Row>)>,
-    /// For each body, how far the ends of the segments are kept from its skin (cm).
-    clearances: Vec<Vec<Row>>,
+    /// For each body, what the ends of the segments are kept out of.
+    kept_from: Vec<Vec<KeptRow>>,
     rest: Vec<FreeState>,
     weight_at_rest: [f32; 3],
     /// A ball that hair does not leave (head space, cm), and the length of the longest strand.
@@ -61,7 +62,7 @@ impl Packed {
             rows: Vec::new(),
             strengths: Vec::new(),
             lags: Vec::new(),
-            clearances: Vec::new(),
+            kept_from: Vec::new(),
             rest: Vec::new(),
             weight_at_rest: weight(&free.rest_pose, f64::from(free.form.gravity)).as_vec3().to_array(),
             center: 0.5 * (low + high),
@@ -74,7 +75,7 @@ impl Packed {
         if packed.strengths.iter().all(|strength| *strength == packed.strengths[0]) {
             packed.strengths.truncate(1);
         }
-        packed.clearances = free.bodies.iter().map(|body| packed.clearances_of(body)).collect();
+        packed.kept_from = free.bodies.iter().map(|body| packed.kept_from(body)).collect();
         Ok(packed)
     }
 
@@ -109,19 +110,21 @@ impl Packed {
     }
 
     /// From the very points that the step puts together, so that what rests does not touch.
-    fn clearances_of(&self, body: &crate::body::Body) -> Vec<Row> {
-        let mut clearances = vec![Row::default(); self.rows.len()];
+    fn kept_from(&self, body: &Body) -> Vec<KeptRow> {
+        let mut kept = vec![KeptRow::default(); self.rows.len()];
         for block in &self.blocks {
             let mut from = block.roots;
             for at in block.rows() {
                 let to = ends(&self.rest[at], &self.rows[at], &from);
                 for lane in 0..LANES {
-                    clearances[at].0[lane] = clearance(body, &self.free.rest_pose, Vec3::from(lane_of(&to, lane)));
+                    let (surface, clearance) = kept_from(body, &self.free.rest_pose, Vec3::from(lane_of(&to, lane)));
+                    kept[at].clearance.0[lane] = clearance;
+                    kept[at].filled |= u16::from(surface == Surface::Filled) << lane;
                 }
                 from = to;
             }
         }
-        clearances
+        kept
     }
 
     /// Refuses a field under which this hair cannot be stepped.
@@ -185,6 +188,15 @@ impl Packed {
             block.walk(&PointRow::default(), mine, &self.rows[block.rows()], Some(page), Velocities);
         }
     }
+}
+
+/// What a body keeps the end of a segment of every strand of a block out of.
+#[derive(Clone, Copy, Debug, Default)]
+struct KeptRow {
+    /// How far from it they are kept (cm).
+    clearance: Row,
+    /// A bit for each strand: whether that is the skin with its folds filled.
+    filled: u16,
 }
 
 /// What becomes of the hair in one frame.
@@ -301,7 +313,7 @@ struct Among<'a, 's> {
 impl Pass<FreeState, FreeRow> for Among<'_, '_> {
     #[inline(always)]
     fn segment(&mut self, state: &mut FreeState, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
-        let (strength, weight) = (self.packed.strength(self.at), &self.step.weight);
+        let (strength, weight, was) = (self.packed.strength(self.at), &self.step.weight, state.direction);
         match self.step.everywhere {
             Some(force) => step_segment(state, row, strength, &force, weight, &mut self.walk, from, to),
             None => {
@@ -310,7 +322,7 @@ impl Pass<FreeState, FreeRow> for Among<'_, '_> {
             }
         }
         if !self.step.obstacles.is_empty() {
-            self.keep_out(state, row, from, to);
+            self.keep_out(state, &was, row, from, to);
         }
         self.at += 1;
     }
@@ -354,7 +366,7 @@ impl Among<'_, '_> {
 
     /// Turns segments out of the bodies.
     #[inline(always)]
-    fn keep_out(&self, state: &mut FreeState, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
+    fn keep_out(&self, state: &mut FreeState, was: &PointRow, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
         let mut near = 0;
         for lane in 0..LANES {
             let (now, before) = (lane_of(to, lane), lane_of(&self.walk.before, lane));
@@ -367,24 +379,34 @@ impl Among<'_, '_> {
         if near != 0 {
             for lane in 0..LANES {
                 if state.gap.0[lane] < 0.0 && row.length.0[lane] > 0.0 {
-                    self.keep_one_out(state, row, from, to, lane);
+                    self.keep_one_out(state, was, row, from, to, lane);
                 }
             }
         }
     }
 
     #[inline(never)]
-    fn keep_one_out(&self, state: &mut FreeState, row: &FreeRow, from: &PointRow, to: &mut PointRow, lane: usize) {
+    fn keep_one_out(
+        &self,
+        state: &mut FreeState,
+        was: &PointRow,
+        row: &FreeRow,
+        from: &PointRow,
+        to: &mut PointRow,
+        lane: usize,
+    ) {
         let at = |row: &PointRow| Vec3::from(lane_of(row, lane));
         let mut going = Going { direction: at(&state.direction), increment: at(&state.increment) };
         let (from, length) = (at(from), row.length.0[lane]);
-        let end_before = at(&self.walk.before);
+        let was = at(was);
         let mut gap = f32::INFINITY;
         for (b, obstacle) in self.step.obstacles.iter().enumerate() {
-            let clearance = self.packed.clearances[b][self.at].0[lane];
-            let touch = Touch { from, end_before, length, clearance };
+            let kept = &self.packed.kept_from[b][self.at];
+            let surface = if kept.filled >> lane & 1 == 1 { Surface::Filled } else { Surface::Skin };
+            let clearance = kept.clearance.0[lane];
+            let touch = Touch { from, length, clearance, was };
             let beside;
-            (going, beside) = obstacle.stop(&self.packed.free.bodies[b].distance, going, &touch);
+            (going, beside) = obstacle.stop(self.packed.free.bodies[b].surface(surface), going, &touch);
             gap = gap.min(beside);
         }
         if gap == 0.0 {

@@ -8,6 +8,7 @@ use self::obstacle::{Obstacle, Touch};
 use super::grid::Crowd;
 use super::head_frame::{HeadFrame, weight};
 use super::segment::{FreeSegment, free_segments};
+use crate::body::Surface;
 use crate::dynamics::gain::Stability;
 use crate::dynamics::{Dynamics, ForceSpace, FrameInput, Stepper};
 use crate::error::SettingError;
@@ -31,8 +32,8 @@ struct Hair {
     gamma: Gamma,
     rest_weight: DVec3,
     segments: Vec<Segment>,
-    /// For each body, how far every point is kept from its skin (cm).
-    clearances: Vec<Vec<f64>>,
+    /// For each body, what every point is kept out of, and how far from it (cm).
+    kept_from: Vec<Vec<(Surface, f64)>>,
     positions: Vec<DVec3>,
     strands: Strands,
 }
@@ -138,13 +139,13 @@ impl Hair {
             dynamics: dynamics.clone(),
             free: free.clone(),
             segments,
-            clearances: Vec::new(),
+            kept_from: Vec::new(),
             positions: strands.points().iter().map(|p| p.as_dvec3()).collect(),
             strands: strands.clone(),
         };
         hair.place();
-        hair.clearances =
-            free.bodies.iter().map(|body| obstacle::clearances(body, &free.rest_pose, &hair.positions)).collect();
+        hair.kept_from =
+            free.bodies.iter().map(|body| obstacle::kept_from(body, &free.rest_pose, &hair.positions)).collect();
         Ok(hair)
     }
 
@@ -187,10 +188,11 @@ impl Hair {
             let carried_rest = frame * rest;
             segment.drive(eps * field + felt + others, frame, shape.gain, head.weight, self.rest_weight);
             frame = smallest_turn(carried_rest, segment.direction) * frame;
+            let was = segment.direction;
             let (mut direction, mut increment) = segment.turned();
-            for (obstacle, clearances) in obstacles.iter().zip(&self.clearances) {
-                let clearance = clearances[points.start + i + 1];
-                let touch = Touch { from, end_before: end, length: shape.length, clearance };
+            for (obstacle, kept_from) in obstacles.iter().zip(&self.kept_from) {
+                let (surface, clearance) = kept_from[points.start + i + 1];
+                let touch = Touch { from, length: shape.length, clearance, was, surface };
                 (direction, increment) = obstacle.stop(direction, increment, &touch);
             }
             (segment.direction, segment.increment) = (direction, increment);

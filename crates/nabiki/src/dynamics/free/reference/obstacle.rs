@@ -2,63 +2,61 @@
 
 use glam::{DAffine3, DVec3};
 
-use crate::body::{Body, Contact};
-use crate::distance::SkinDistance;
+use crate::body::{Body, Contact, Surface};
 use crate::dynamics::FrameInput;
-use crate::dynamics::free::{PUSHES, TOLERANCE_CM};
+use crate::dynamics::free::{NEAR, PUSHES, TOLERANCE_CM};
 use crate::pose::Pose;
 
-/// How far each point is kept from the skin of a body (cm): its margin, or as far as it lies at rest where that is less.
-pub fn clearances(body: &Body, rest_pose: &Pose, positions: &[DVec3]) -> Vec<f64> {
-    let margin = f64::from(body.contact.margin);
+/// What each point is kept out of, and how far from it (cm).
+pub fn kept_from(body: &Body, rest_pose: &Pose, positions: &[DVec3]) -> Vec<(Surface, f64)> {
     let body_from_head = exact(body.head_from_body(0, rest_pose)).inverse();
-    let distance = |p: &DVec3| read(&body.distance, body_from_head.transform_point3(*p)).map_or(margin, |(d, _)| d);
-    positions.iter().map(|p| distance(p).min(margin)).collect()
+    let kept = |p: &DVec3| {
+        let (surface, clearance) = body.kept_from(body_from_head.transform_point3(*p).as_vec3());
+        (surface, f64::from(clearance))
+    };
+    positions.iter().map(kept).collect()
 }
 
 /// A body in one frame.
 pub struct Obstacle<'a> {
-    distance: &'a SkinDistance,
+    body: &'a Body,
     contact: Contact,
     body_from_head: DAffine3,
     /// Takes points of the body from where they are to where they were in the frame before, in head space.
     before_from_now: DAffine3,
 }
 
-/// The end of a segment on its way from one frame to the next (head space, cm).
+/// The end of a segment that turns about its beginning (head space, cm).
 pub struct Touch {
     /// p_(i-1), where it is now.
     pub from: DVec3,
-    /// p_i, where it was.
-    pub end_before: DVec3,
     pub length: f64,
     /// How far p_i is kept from the skin.
     pub clearance: f64,
+    /// d at frame n.
+    pub was: DVec3,
+    /// What p_i is kept out of.
+    pub surface: Surface,
 }
 
 impl<'a> Obstacle<'a> {
     pub fn new(body: &'a Body, input: &FrameInput) -> Self {
         let now = exact(body.head_from_body(input.frame, &input.pose));
         let before = exact(body.head_from_body(input.frame - 1, &input.before[0]));
-        Self {
-            distance: &body.distance,
-            contact: body.contact,
-            body_from_head: now.inverse(),
-            before_from_now: before * now.inverse(),
-        }
+        Self { body, contact: body.contact, body_from_head: now.inverse(), before_from_now: before * now.inverse() }
     }
 
     /// Keeps a segment that would go along `direction`, with this `increment`, out of the body.
     pub fn stop(&self, mut direction: DVec3, mut increment: DVec3, touch: &Touch) -> (DVec3, DVec3) {
-        let &Touch { from, end_before, length, clearance } = touch;
+        let &Touch { from, length, clearance, .. } = touch;
         let end = from + length * direction;
-        let Some((distance, normal)) = self.read(end) else { return (direction, increment) };
+        let Some((distance, normal)) = self.read(end, touch.surface) else { return (direction, increment) };
         if distance >= clearance {
             return (direction, increment);
         }
         let of_body = end - self.before_from_now.transform_point3(end);
-        let change = self.slowed((end - end_before) - of_body, normal);
-        direction = (end + change - from).normalize_or(normal);
+        let change = self.slowed(length * increment - of_body, normal);
+        direction = (length * direction + change).normalize_or(normal);
         increment += change / length;
         direction = self.pushed_out(direction, touch);
         (direction, increment - increment.dot(direction) * direction)
@@ -77,36 +75,40 @@ impl<'a> Obstacle<'a> {
         inward * normal - lost * along
     }
 
-    /// Turns a segment until its end keeps its clearance; along the gradient where no turn does that.
-    fn pushed_out(&self, mut direction: DVec3, touch: &Touch) -> DVec3 {
+    /// The direction nearest to where a segment would go in which its end keeps its clearance. In a fold of the skin, behind
+    /// an ear, that may be far off or not be found: then the one nearest to where the segment was, for it was free there.
+    fn pushed_out(&self, direction: DVec3, touch: &Touch) -> DVec3 {
+        let (pushed, depth) = self.pushed_from(direction, touch);
+        if depth <= f64::from(TOLERANCE_CM) && pushed.dot(touch.was) > f64::from(NEAR) {
+            return pushed;
+        }
+        let (stayed, depth_there) = self.pushed_from(touch.was, touch);
+        if depth_there <= f64::from(TOLERANCE_CM) || depth_there < depth { stayed } else { pushed }
+    }
+
+    /// Turns a segment along the gradient until its end keeps its clearance; how deep it then is.
+    fn pushed_from(&self, mut direction: DVec3, touch: &Touch) -> (DVec3, f64) {
         let &Touch { from, length, clearance, .. } = touch;
-        for _ in 0..PUSHES {
+        let mut depth = 0.0;
+        for _ in 0..=PUSHES {
             let end = from + length * direction;
-            let Some((distance, normal)) = self.read(end) else { return direction };
-            if distance >= clearance - f64::from(TOLERANCE_CM) {
-                return direction;
+            let Some((distance, normal)) = self.read(end, touch.surface) else { return (direction, 0.0) };
+            depth = clearance - distance;
+            if depth <= f64::from(TOLERANCE_CM) {
+                return (direction, depth);
             }
-            direction = (end + (clearance - distance) * normal - from).normalize_or(normal);
+            direction = (end + depth * normal - from).normalize_or(normal);
         }
-        let depth = |direction: DVec3| self.read(from + length * direction).map_or(f64::INFINITY, |(d, _)| d);
-        match self.read(from + length * direction) {
-            Some((distance, normal)) if distance < clearance - f64::from(TOLERANCE_CM) && depth(normal) > distance => {
-                normal
-            }
-            _ => direction,
-        }
+        (direction, depth)
     }
 
     /// Distance and outward normal at a point of head space; `None` far away.
-    fn read(&self, p: DVec3) -> Option<(f64, DVec3)> {
-        let (distance, normal) = read(self.distance, self.body_from_head.transform_point3(p))?;
-        Some((distance, self.body_from_head.matrix3.transpose() * normal))
+    fn read(&self, p: DVec3, surface: Surface) -> Option<(f64, DVec3)> {
+        let in_body = self.body_from_head.transform_point3(p);
+        let (distance, gradient) = self.body.surface(surface).sample(in_body.as_vec3())?;
+        let normal = gradient.as_dvec3().normalize_or(DVec3::Y);
+        Some((f64::from(distance), self.body_from_head.matrix3.transpose() * normal))
     }
-}
-
-fn read(distance: &SkinDistance, p: DVec3) -> Option<(f64, DVec3)> {
-    let (distance, gradient) = distance.sample(p.as_vec3())?;
-    Some((f64::from(distance), gradient.as_dvec3().normalize_or(DVec3::Y)))
 }
 
 fn exact(affine: glam::Affine3A) -> DAffine3 {
