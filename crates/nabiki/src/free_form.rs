@@ -14,12 +14,14 @@ use crate::strands::Strands;
 /// Acceleration of the earth's gravity (cm/s^2), which [`FreeForm::gravity`] stands for.
 pub const EARTH_CM_PER_S2: f64 = 981.0;
 
-/// What holds hair in shape and calms it. Strengths are in the unit of the force F: a segment settles along
-/// F + K t + H r, so a wind of 100 against a stiffness of 50 is a matter of reckoning.
+/// What holds hair in shape and calms it. Strengths are in the unit of the force F, so a wind of 100 against a stiffness of
+/// 4000 is a matter of reckoning: it bends hair within d sqrt(K / F) = 6 segment lengths d.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct FreeForm {
-    /// K: what turns a segment toward its rest direction as carried by the segment before it, at least 0.
+    /// K: the moment with which the joint of two segments of `hair.segment_length` turns them toward one another's rest
+    /// shape, each as much as the other, at least 0. Joints of finer cuts are stiffer by the square of that, and bend
+    /// alike.
     pub stiffness: Profile,
     /// H: what turns a segment toward its rest direction in the head's frame (hair spray), at least 0.
     pub hold: Profile,
@@ -36,9 +38,9 @@ pub struct FreeForm {
 impl Default for FreeForm {
     fn default() -> Self {
         Self {
-            stiffness: Profile::Even(120.0),
-            hold: Profile::Even(10.0),
-            settle: Profile::Even(50.0),
+            stiffness: Profile::RootToTip(vec![6000.0, 600.0]),
+            hold: Profile::Even(15.0),
+            settle: Profile::Even(30.0),
             gravity: 100.0,
             lag: 1.0,
         }

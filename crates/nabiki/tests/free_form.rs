@@ -51,9 +51,9 @@ fn directions(strands: &Strands) -> Vec<DVec3> {
 fn hair_at_rest_keeps_its_bits() {
     let carriers = Arc::new(hair(24, 18));
     for strands in [hair(40, 18), mixed_hair(40)] {
-        let mut dynamics = free(form(120.0, 30.0, 20.0, 100.0));
+        let mut dynamics = free(form(2000.0, 30.0, 20.0, 100.0));
         if let Form::Free(free) = &mut dynamics.form {
-            free.form.stiffness = Profile::RootToTip(vec![200.0, 50.0, 70.0]);
+            free.form.stiffness = Profile::RootToTip(vec![4000.0, 500.0, 700.0]);
             free.bodies = vec![head_body(0.3)];
             free.neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers: carriers.clone() });
         }
@@ -75,10 +75,10 @@ fn head_body(margin: f32) -> Body {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// A segment without another one before it settles along F + K r + H r: weight is in balance at rest, and r is t.
+    /// A segment without another one settles along F + K r + H r: weight is in balance at rest, and r is t.
     #[test]
     fn a_segment_settles_along_the_sum_of_what_pulls_on_it(
-        force in prop::array::uniform3(-150.0_f32..150.0), stiffness in 0.0_f32..200.0, hold in 1.0_f32..100.0, gravity in 0.0_f32..50.0,
+        force in prop::array::uniform3(-150.0_f32..150.0), stiffness in 0.0_f32..16_000.0, hold in 1.0_f32..100.0, gravity in 0.0_f32..50.0,
     ) {
         let strands = single_segments(16);
         let dynamics = free(form(stiffness, hold, 20.0, gravity));
@@ -87,9 +87,9 @@ proptest! {
         for mut stepper in both(&strands, &dynamics, &blows) {
             let settled = directions(&run(&mut *stepper, &blows, 1500));
             for (d, r) in settled.iter().zip(&rest) {
-                let along = Vec3::from(force).as_dvec3() + f64::from(stiffness + hold) * *r;
+                let along = Vec3::from(force).as_dvec3() + (joint(stiffness) + f64::from(hold)) * *r;
                 // Near the point where nothing pulls, hair does not know where to go.
-                prop_assume!(along.length() > 0.2 * f64::from(stiffness + hold));
+                prop_assume!(along.length() > 0.2 * (joint(stiffness) + f64::from(hold)));
                 prop_assume!(r.dot(along.normalize()) > -0.95);
                 // Points of 20 cm in f32 give a direction of 9 cm to 3e-7; e-folds of 20 frames leave nothing else.
                 prop_assert!((*d - along.normalize()).length() < 2e-6, "{d} is not {along}");
@@ -102,6 +102,11 @@ proptest! {
 fn gain_of_single(dynamics: &Dynamics) -> f64 {
     let d = f64::from(dynamics.segment_length);
     gain(dynamics, 4.5 / d + 0.5, 9.0 / d)
+}
+
+/// K of a joint of segments of 9 cm, where that of segments of 1 cm is given.
+fn joint(stiffness: f32) -> f64 {
+    f64::from(stiffness) / 81.0
 }
 
 /// Angles to the rest direction of a single segment that swings back from a small push.
@@ -121,10 +126,10 @@ fn swing(stepper: &mut dyn Stepper, push: &dyn Field, frames: u32) -> Vec<f64> {
 fn small_swings_have_their_period_and_die_to_1_over_e_when_they_should() {
     let mut strands = Strands::default();
     strands.push([Vec3::new(0.0, 12.0, 0.0), Vec3::new(9.0, 12.0, 0.0)]);
-    for (stiffness, hold) in [(80.0, 20.0), (0.0, 60.0), (200.0, 0.0)] {
+    for (stiffness, hold) in [(6000.0, 20.0), (0.0, 60.0), (16_000.0, 0.0)] {
         let dynamics = free(form(stiffness, hold, 0.0, 0.0));
         let c = gain_of_single(&dynamics);
-        let period = nabiki::dynamics::period(c * f64::from(stiffness + hold));
+        let period = nabiki::dynamics::period(c * (joint(stiffness) + f64::from(hold)));
         let push = field(&[(1, [0.0, 0.0, -20.0])]);
         let frames = (5.0 * period) as u32;
         for mut stepper in both(&strands, &dynamics, &push) {
@@ -162,7 +167,7 @@ fn small_swings_have_their_period_and_die_to_1_over_e_when_they_should() {
 #[test]
 fn quarter_turns_and_mirrors_of_all_turn_the_result_to_the_bit() {
     let strands = hair(48, 18);
-    let dynamics = free(form(60.0, 10.0, 40.0, 80.0));
+    let dynamics = free(form(2000.0, 10.0, 40.0, 80.0));
     let mirror = |v: Vec3| v * Vec3::new(1.0, 1.0, -1.0);
     let wind: [(u32, Vec3); 2] = [(30, Vec3::new(-100.0, 20.0, 35.0)), (60, Vec3::new(-15.0, -150.0, -60.0))];
     let blows = field(&wind.map(|(through, v)| (through, v.to_array())));
@@ -186,7 +191,7 @@ fn any_turn_of_head_hair_and_field_turns_the_result() {
     let strands = hair(48, 18);
     let rotation = Quat::from_axis_angle(Vec3::new(0.6, -0.3, 0.74).normalize(), 1.234);
     let turn = |v: Vec3| rotation * v;
-    let dynamics = free(form(60.0, 10.0, 40.0, 0.0));
+    let dynamics = free(form(2000.0, 10.0, 40.0, 0.0));
     let blows = field(&[(40, [-100.0, 20.0, 35.0])]);
     let turned = field(&[(40, turn(Vec3::new(-100.0, 20.0, 35.0)).to_array())]);
     let expected = map(&run(&mut exact(&strands, &dynamics, &blows), &blows, 40), turn);
@@ -201,14 +206,14 @@ fn any_turn_of_head_hair_and_field_turns_the_result() {
 fn hair_without_lag_is_carried_rigidly_by_a_head_that_turns() {
     let strands = hair(40, 18);
     let mut poses = way_of_a_head(60);
-    let dynamics = free(FreeForm { lag: 0.0, ..form(100.0, 10.0, 30.0, 0.0) });
+    let dynamics = free(FreeForm { lag: 0.0, ..form(1000.0, 10.0, 30.0, 0.0) });
     for mut stepper in both(&strands, &dynamics, &calm()) {
         let rest = bits(stepper.strands());
         assert!(bits(&run_under(&mut *stepper, &calm(), &poses)) == rest);
     }
     // With lag it swings, but for its roots.
     poses.truncate(30);
-    let lagging = free(form(100.0, 10.0, 30.0, 0.0));
+    let lagging = free(form(1000.0, 10.0, 30.0, 0.0));
     let moved = run_under(&mut fast(&strands, &lagging, &calm()), &calm(), &poses);
     let way = |i: usize| moved.iter().zip(strands.iter()).map(|(a, b)| a[i].distance(b[i])).fold(0.0, f32::max);
     assert!(way(18) > 0.5 && way(1) < 0.1 * way(18), "{} and {}", way(18), way(1));
@@ -219,7 +224,7 @@ fn the_twins_agree() {
     let strands = hair(160, 18);
     let poses = way_of_a_head(100);
     let mut distances = Vec::new();
-    let dynamics = free(form(120.0, 10.0, 40.0, 100.0));
+    let dynamics = free(form(3000.0, 10.0, 40.0, 100.0));
     let wind = common::wind();
     let (mut reference, mut simulation) = (exact(&strands, &dynamics, &wind), fast(&strands, &dynamics, &wind));
     for frame in 1..=100 {

@@ -70,7 +70,9 @@ impl Block {
         let mut rows = [[Row::default(); 3]; ROWS];
         rows[0] = *start;
         let (mut filled, mut written) = (1, 0);
-        for (state, shape) in states.iter_mut().zip(shapes) {
+        let mut rest = &mut states[..shapes.len()];
+        for (i, shape) in shapes.iter().enumerate() {
+            let Some((state, after)) = std::mem::take(&mut rest).split_first_mut() else { break };
             if filled == ROWS {
                 if let Some(points) = &mut points {
                     write_points(&rows, written, &self.points, points);
@@ -81,8 +83,9 @@ impl Block {
                 filled = 1;
             }
             let (done, next) = rows.split_at_mut(filled);
-            pass.segment(state, shape, &done[filled - 1], &mut next[0]);
+            pass.segment(state, shape, after.first().zip(shapes.get(i + 1)), &done[filled - 1], &mut next[0]);
             filled += 1;
+            rest = after;
         }
         if let Some(points) = &mut points {
             write_points(&rows[..filled], written, &self.points, points);
@@ -90,10 +93,18 @@ impl Block {
     }
 }
 
-/// What is done to each segment on the way to the tips: takes the points p_(i-1) of the new frame, `from`, to p_i.
+/// What is done to each segment on the way to the tips: takes the points p_(i-1) of the new frame, `from`, to p_i. `next`
+/// is the segment after it, which has not been moved yet.
 ///
 /// A trait where a closure would do: only a named function can be forced into its caller, and so be compiled for
 /// the vectors chosen there.
 pub(super) trait Pass<State, Shape> {
-    fn segment(&mut self, state: &mut State, shape: &Shape, from: &PointRow, to: &mut PointRow);
+    fn segment(
+        &mut self,
+        state: &mut State,
+        shape: &Shape,
+        next: Option<(&State, &Shape)>,
+        from: &PointRow,
+        to: &mut PointRow,
+    );
 }

@@ -14,3 +14,4 @@ mod segment;
 use contact::{NEAR, PUSHES, TOLERANCE_CM};
 pub(super) use reference::Reference;
 pub(super) use runner::Runner;
+pub(super) use segment::free_segments;

@@ -7,6 +7,7 @@
 //! which is i itself for segments as long as d. So 16 and 32 points of one strand move alike, up to the square of
 //! the segment's length.
 
+use super::free::free_segments;
 use super::{Dynamics, Form};
 use crate::error::SettingError;
 use crate::field::Field;
@@ -99,7 +100,7 @@ pub fn check_field(strands: &Strands, dynamics: &Dynamics, field: &dyn Field) ->
 pub(super) struct Stability {
     /// c_i.
     gain: f64,
-    /// What pulls on it besides the field: K + H and twice the weight in the free form.
+    /// What pulls on it besides the field in the free form.
     own: f64,
     /// Its strand, and the length of that (cm).
     strand: usize,
@@ -115,8 +116,8 @@ impl Stability {
         }
         let (mut worst, mut least) = ((0.0, 0.0, 0), f64::INFINITY);
         for (s, strand) in strands.iter().enumerate() {
-            for shape in segment_shapes(dynamics, strand, s)? {
-                let own = own_strength(dynamics, shape.along);
+            let own = own_strengths(dynamics, strand, s)?;
+            for (shape, own) in segment_shapes(dynamics, strand, s)?.iter().zip(own) {
                 let force = 4.0 / shape.gain - own;
                 if force < least {
                     (worst, least) = ((shape.gain, own, s), force);
@@ -136,17 +137,17 @@ impl Stability {
             return Ok(());
         }
         let (largest, reached) = (4.0 / gain - own, gain * (strongest + own));
-        let what = if free { "c_i (|F| + K + H + 2 gravity)" } else { "c_i |F|" };
+        let what = if free { "c_i (|F| + 4 K + H + 2 gravity)" } else { "c_i |F|" };
         let ways = "make motion.time_step smaller, or set motion.inertia_length_floor so that short hair is held by its \
                     neighbours";
         if largest <= 0.0 {
             let remedy = format!(
                 "unstable without any force: {what} reaches {:.3} at strand {strand} ({length:.2} cm long), and must \
-                 stay below 4; keep stiffness + hold + 2 gravity below {:.4}, {ways}",
+                 stay below 4; keep 4 stiffness + hold + 2 gravity below {:.4}, {ways}",
                 gain * own,
                 4.0 / gain
             );
-            return Err(SettingError::new("free.stiffness + hold + 2 gravity", own, remedy));
+            return Err(SettingError::new("free.stiffness", own, remedy));
         }
         // A force of exactly the largest is one too strong.
         let below = largest.next_down();
@@ -160,13 +161,16 @@ impl Stability {
     }
 }
 
-/// What pulls on a segment besides the field, at the most.
-fn own_strength(dynamics: &Dynamics, along: f64) -> f64 {
-    match &dynamics.form {
-        Form::Paper => 0.0,
-        Form::Free(free) => {
-            let form = &free.form;
-            form.stiffness.at(along) + form.hold.at(along) + 2.0 * f64::from(form.gravity)
-        }
-    }
+/// What pulls on each segment of a strand besides the field, at the most: by Gershgorin's circles twice the stiffness of
+/// both of its joints, H, and twice the weight.
+fn own_strengths(dynamics: &Dynamics, strand: &[glam::Vec3], s: usize) -> Result<Vec<f64>, SettingError> {
+    let Form::Free(free) = &dynamics.form else { return Ok(vec![0.0; strand.len() - 1]) };
+    let segments = free_segments(dynamics, &free.form, strand, s)?;
+    let after = segments.iter().skip(1).map(|segment| segment.stiffness).chain([0.0]);
+    let weight = 2.0 * f64::from(free.form.gravity);
+    Ok(segments
+        .iter()
+        .zip(after)
+        .map(|(segment, after)| 2.0 * (segment.stiffness + after) + segment.hold + weight)
+        .collect())
 }

@@ -28,6 +28,8 @@ pub(super) struct FreeRow {
     pub length: Row,
     /// c_i.
     pub gain: Row,
+    /// K of the joint at its beginning.
+    pub stiffness: Row,
     /// r_i.
     pub rest: PointRow,
 }
@@ -36,8 +38,6 @@ pub(super) struct FreeRow {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(super) struct StrengthRow {
-    /// K.
-    pub stiffness: Row,
     /// H.
     pub hold: Row,
     /// What is left of an increment after a frame.
@@ -48,6 +48,7 @@ impl FreeRow {
     pub fn set(&mut self, lane: usize, segment: &FreeSegment) {
         self.length.0[lane] = segment.shape.length as f32;
         self.gain.0[lane] = segment.shape.gain as f32;
+        self.stiffness.0[lane] = segment.stiffness as f32;
         set_lane(&mut self.rest, lane, segment.rest.as_vec3().to_array());
     }
 }
@@ -55,12 +56,10 @@ impl FreeRow {
 impl StrengthRow {
     /// That of lanes without a segment: as all others, where all others are alike.
     pub fn of(form: &FreeForm) -> Self {
-        let [stiffness, hold] = [&form.stiffness, &form.hold].map(|profile| Row([profile.at(0.0) as f32; LANES]));
-        Self { stiffness, hold, decay: Row([form.decay(0.0) as f32; LANES]) }
+        Self { hold: Row([form.hold.at(0.0) as f32; LANES]), decay: Row([form.decay(0.0) as f32; LANES]) }
     }
 
     pub fn set(&mut self, lane: usize, segment: &FreeSegment) {
-        self.stiffness.0[lane] = segment.stiffness as f32;
         self.hold.0[lane] = segment.hold as f32;
         self.decay.0[lane] = segment.decay as f32;
     }
@@ -69,13 +68,13 @@ impl StrengthRow {
 /// R_(i-1) of every strand of a block, a quaternion of about length 1: it has carried the segments before this one from
 /// their rest to where they are.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FrameRow {
+struct FrameRow {
     vector: PointRow,
     scalar: Row,
 }
 
 impl FrameRow {
-    pub const AT_REST: Self = Self { vector: [Row([0.0; LANES]); 3], scalar: Row([1.0; LANES]) };
+    const AT_REST: Self = Self { vector: [Row([0.0; LANES]); 3], scalar: Row([1.0; LANES]) };
 }
 
 /// Forces on a segment of every strand of a block, but for those that come from its shape.
@@ -109,7 +108,52 @@ pub(super) struct Weight {
 pub(super) struct Walk {
     /// p_(i-1) at frame n.
     pub before: PointRow,
-    pub frame: FrameRow,
+    frame: FrameRow,
+    /// Where R_(i-1) carries r_i to.
+    carried_rest: PointRow,
+    /// The moment of the joint between segment i - 1 and i.
+    moment: PointRow,
+}
+
+impl Walk {
+    /// At the root: the first joint holds the first segment to the head.
+    #[inline(always)]
+    pub fn new(roots: &PointRow, first: Option<(&FreeState, &FreeRow)>) -> Self {
+        let mut walk = Self {
+            before: *roots,
+            frame: FrameRow::AT_REST,
+            carried_rest: PointRow::default(),
+            moment: PointRow::default(),
+        };
+        if let Some((state, row)) = first {
+            walk.carried_rest = row.rest;
+            for lane in 0..LANES {
+                let (rest, d) = (lane_of(&row.rest, lane), lane_of(&state.direction, lane));
+                set_lane(&mut walk.moment, lane, scale(row.stiffness.0[lane], cross(rest, subtract(d, rest))));
+            }
+        }
+        walk
+    }
+}
+
+/// The segment after the one that is stepped, as it is at frame n. All 0 beyond the last one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Next<'a> {
+    pub direction: &'a PointRow,
+    pub rest: &'a PointRow,
+    /// K of the joint between the two.
+    pub stiffness: &'a Row,
+}
+
+impl<'a> Next<'a> {
+    #[inline(always)]
+    pub fn of(next: Option<(&'a FreeState, &'a FreeRow)>) -> Self {
+        static BEYOND: (PointRow, Row) = ([Row([0.0; LANES]); 3], Row([0.0; LANES]));
+        match next {
+            Some((state, row)) => Self { direction: &state.direction, rest: &row.rest, stiffness: &row.stiffness },
+            None => Self { direction: &BEYOND.0, rest: &BEYOND.0, stiffness: &BEYOND.1 },
+        }
+    }
 }
 
 /// Moves segment i of every strand of a block from frame n to n + 1, as if nothing were in its way. `from` and `to` are
@@ -121,6 +165,7 @@ pub(super) fn step_segment(
     strength: &StrengthRow,
     forces: &impl Forces,
     weight: &Weight,
+    next: &Next,
     walk: &mut Walk,
     from: &PointRow,
     to: &mut PointRow,
@@ -128,23 +173,33 @@ pub(super) fn step_segment(
     for lane in 0..LANES {
         let (d, w) = (lane_of(&state.direction, lane), lane_of(&state.increment, lane));
         let (rest, length) = (lane_of(&row.rest, lane), row.length.0[lane]);
-        let (stiffness, hold) = (strength.stiffness.0[lane], strength.hold.0[lane]);
+        let hold = strength.hold.0[lane];
         let end = beyond(&walk.before, lane, length, d);
         set_lane(&mut walk.before, lane, end);
 
-        // K t - g' is one vector of the rest shape, carried as one; at rest K d - g is the same to the bit.
         let (u, s) = (lane_of(&walk.frame.vector, lane), walk.frame.scalar.0[lane]);
         // Not 0 even where many kinks have left nothing of its length.
         let over_length = 2.0 / s.mul_add(s, dot(u, u)).max(1e-30);
-        let light = scale(-1.0, weight.at_rest);
-        let carried = turned(u, s, over_length, scale_add(stiffness, rest, light));
-        let carried_rest = turned(u, s, over_length, rest);
-        let bent = subtract(carried, scale_add(stiffness, d, light));
-        let swung = scale_add(hold, subtract(rest, d), subtract(weight.now, weight.at_rest));
-        let f = add(forces.lane(lane), add(bent, swung));
+        let heavy = subtract(weight.now, turned(u, s, over_length, weight.at_rest));
+        let held = scale(hold, subtract(rest, d));
+        let f = add(forces.lane(lane), add(heavy, held));
+
+        // The turn from where the segment before it would carry it to where it is, which carries the next one.
+        let carried_rest = lane_of(&walk.carried_rest, lane);
+        let bend = cross(carried_rest, subtract(d, carried_rest));
+        let (u, s) = after(u, s, bend, (1.0 + dot(carried_rest, d)).max(1e-12));
+        set_lane(&mut walk.frame.vector, lane, u);
+        walk.frame.scalar.0[lane] = s;
+        let over_length = 2.0 / s.mul_add(s, dot(u, u)).max(1e-30);
+        let next_rest = turned(u, s, over_length, lane_of(next.rest, lane));
+        let next_bend = cross(next_rest, subtract(lane_of(next.direction, lane), next_rest));
+        let next_moment = scale(next.stiffness.0[lane], next_bend);
+        let moment = subtract(lane_of(&walk.moment, lane), next_moment);
+        set_lane(&mut walk.carried_rest, lane, next_rest);
+        set_lane(&mut walk.moment, lane, next_moment);
 
         let (gain, decay) = (row.gain.0[lane], strength.decay.0[lane]);
-        let across = scale_add(-dot(f, d), d, f);
+        let across = add(scale_add(-dot(f, d), d, f), cross(d, moment));
         let w = scale(decay, scale_add(gain, across, w));
         let speed_squared = dot(w, w);
         let sum = add(d, w);
@@ -154,12 +209,6 @@ pub(super) fn step_segment(
         set_lane(&mut state.direction, lane, e);
         set_lane(&mut state.increment, lane, scale(shorter, scale_add(-speed_squared, d, w)));
         set_lane(to, lane, beyond(from, lane, length, e));
-
-        // The turn from where the segment before it would carry it to where it is, as it was in frame n.
-        let bend = cross(carried_rest, subtract(d, carried_rest));
-        let (u, s) = after(u, s, bend, (1.0 + dot(carried_rest, d)).max(1e-12));
-        set_lane(&mut walk.frame.vector, lane, u);
-        walk.frame.scalar.0[lane] = s;
     }
 }
 

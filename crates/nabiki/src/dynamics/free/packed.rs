@@ -7,7 +7,7 @@ use glam::Vec3;
 use super::contact::{Going, Obstacle, Touch, kept_from};
 use super::grid::Crowd;
 use super::head_frame::{HeadFrame, weight};
-use super::kernel::{FrameRow, FreeRow, FreeState, StrengthRow, Walk, Weight, ends, lag_behind, step_segment};
+use super::kernel::{FreeRow, FreeState, Next, StrengthRow, Walk, Weight, ends, lag_behind, step_segment};
 use super::segment::{FreeSegment, free_segments};
 use crate::body::{Body, Surface};
 use crate::dynamics::block::{Block, Pass};
@@ -255,7 +255,7 @@ impl Form for Packed {
                         lag_behind(state, axis, angle, lag);
                     }
                 }
-                let walk = Walk { before: block.roots, frame: FrameRow::AT_REST };
+                let walk = Walk::new(&block.roots, states.first().zip(rows.first()));
                 match step.everywhere {
                     Some(force) if step.obstacles.is_empty() => {
                         let (weight, at) = (step.weight, block.rows().start);
@@ -292,9 +292,16 @@ struct Free<'a> {
 
 impl Pass<FreeState, FreeRow> for Free<'_> {
     #[inline(always)]
-    fn segment(&mut self, state: &mut FreeState, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
+    fn segment(
+        &mut self,
+        state: &mut FreeState,
+        row: &FreeRow,
+        next: Option<(&FreeState, &FreeRow)>,
+        from: &PointRow,
+        to: &mut PointRow,
+    ) {
         let Self { packed, force, weight, walk, at } = self;
-        step_segment(state, row, packed.strength(*at), force, weight, walk, from, to);
+        step_segment(state, row, packed.strength(*at), force, weight, &Next::of(next), walk, from, to);
         *at += 1;
     }
 }
@@ -312,13 +319,21 @@ struct Among<'a, 's> {
 
 impl Pass<FreeState, FreeRow> for Among<'_, '_> {
     #[inline(always)]
-    fn segment(&mut self, state: &mut FreeState, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
+    fn segment(
+        &mut self,
+        state: &mut FreeState,
+        row: &FreeRow,
+        next: Option<(&FreeState, &FreeRow)>,
+        from: &PointRow,
+        to: &mut PointRow,
+    ) {
         let (strength, weight, was) = (self.packed.strength(self.at), &self.step.weight, state.direction);
+        let next = Next::of(next);
         match self.step.everywhere {
-            Some(force) => step_segment(state, row, strength, &force, weight, &mut self.walk, from, to),
+            Some(force) => step_segment(state, row, strength, &force, weight, &next, &mut self.walk, from, to),
             None => {
                 let forces = self.forces(state, row);
-                step_segment(state, row, strength, &forces, weight, &mut self.walk, from, to);
+                step_segment(state, row, strength, &forces, weight, &next, &mut self.walk, from, to);
             }
         }
         if !self.step.obstacles.is_empty() {
@@ -423,7 +438,14 @@ struct Place;
 
 impl Pass<FreeState, FreeRow> for Place {
     #[inline(always)]
-    fn segment(&mut self, state: &mut FreeState, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
+    fn segment(
+        &mut self,
+        state: &mut FreeState,
+        row: &FreeRow,
+        _: Option<(&FreeState, &FreeRow)>,
+        from: &PointRow,
+        to: &mut PointRow,
+    ) {
         *to = ends(state, row, from);
     }
 }
@@ -433,7 +455,14 @@ struct Velocities;
 
 impl Pass<FreeState, FreeRow> for Velocities {
     #[inline(always)]
-    fn segment(&mut self, state: &mut FreeState, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
+    fn segment(
+        &mut self,
+        state: &mut FreeState,
+        row: &FreeRow,
+        _: Option<(&FreeState, &FreeRow)>,
+        from: &PointRow,
+        to: &mut PointRow,
+    ) {
         for lane in 0..LANES {
             set_lane(to, lane, beyond(from, lane, row.length.0[lane], lane_of(&state.increment, lane)));
         }

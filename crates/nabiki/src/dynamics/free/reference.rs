@@ -53,14 +53,21 @@ impl Segment {
         self.increment = lag * self.increment;
     }
 
-    /// w(n+1), before it turns d. `force`: all that does not come from the segment's shape; `frame`: R_(i-1), which has
-    /// carried the segments before this one from their rest to where they are.
-    fn drive(&mut self, force: DVec3, frame: DQuat, gain: f64, weight: DVec3, rest_weight: DVec3) {
-        let FreeSegment { rest, stiffness, hold, decay, .. } = self.moved_by;
+    /// The moment of the joint at its beginning: what turns d toward where the segment before it carries its rest
+    /// direction, and that one back. `frame`: R_(i-1), which has carried the segments before this one from their rest to
+    /// where they are.
+    fn moment(&self, frame: DQuat) -> DVec3 {
+        self.moved_by.stiffness * (frame * self.moved_by.rest).cross(self.direction)
+    }
+
+    /// w(n+1), before it turns d. `force`: all that does not come from the segment's shape; `moment`: of both of its
+    /// joints.
+    fn drive(&mut self, force: DVec3, moment: DVec3) {
+        let FreeSegment { shape, rest, hold, decay, .. } = self.moved_by;
         let d = self.direction;
-        let shape = stiffness * (frame * rest - d) + hold * (rest - d);
-        let f = force + (weight - frame * rest_weight) + shape;
-        self.increment = decay * (self.increment + gain * (f - f.dot(d) * d));
+        let f = force + hold * (rest - d);
+        let across = (f - f.dot(d) * d) + d.cross(moment);
+        self.increment = decay * (self.increment + shape.gain * across);
     }
 
     /// d + w, brought back to length 1, and w as it is carried along that way: its length stays. What rests keeps its bits.
@@ -176,18 +183,23 @@ impl Hair {
         let points = self.strands.range(s);
         let mut frame = DQuat::IDENTITY;
         let mut velocity = DVec3::ZERO;
+        let mut moment = self.segments[points.start - s].moment(frame);
         for i in 0..points.len() - 1 {
             let (from, end) = (self.positions[points.start + i], self.positions[points.start + i + 1]);
             let (field, weakened) = self.field(end, input);
-            let segment = &mut self.segments[points.start - s + i];
+            let segment = &self.segments[points.start - s + i];
             let FreeSegment { shape, rest, .. } = segment.moved_by;
             velocity += shape.length * segment.increment;
             let eps = if weakened { shape.gain_in_gamma / shape.gain } else { 1.0 };
             let felt = head.felt.map_or(DVec3::ZERO, |felt| felt.transform_point3(end));
             let others = crowd.map_or(DVec3::ZERO, |crowd| crowd.force(end, velocity));
-            let carried_rest = frame * rest;
-            segment.drive(eps * field + felt + others, frame, shape.gain, head.weight, self.rest_weight);
-            frame = smallest_turn(carried_rest, segment.direction) * frame;
+            let weight = head.weight - frame * self.rest_weight;
+            frame = smallest_turn(frame * rest, segment.direction) * frame;
+            let last = i + 2 == points.len();
+            let next = if last { DVec3::ZERO } else { self.segments[points.start - s + i + 1].moment(frame) };
+            let segment = &mut self.segments[points.start - s + i];
+            segment.drive(eps * field + felt + others + weight, moment - next);
+            moment = next;
             let was = segment.direction;
             let (mut direction, mut increment) = segment.turned();
             for (obstacle, kept_from) in obstacles.iter().zip(&self.kept_from) {

@@ -9,11 +9,11 @@ use crate::free_form::FreeForm;
 
 /// What moves one segment; strengths in the unit of the force, directions in head space.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FreeSegment {
+pub(in crate::dynamics) struct FreeSegment {
     pub shape: SegmentShape,
     /// r_i, of length 1.
     pub rest: DVec3,
-    /// K.
+    /// K of the joint at its beginning, for its length.
     pub stiffness: f64,
     /// H.
     pub hold: f64,
@@ -27,7 +27,7 @@ pub(super) struct FreeSegment {
 ///
 /// # Errors
 /// As [`segment_shapes`].
-pub(super) fn free_segments(
+pub(in crate::dynamics) fn free_segments(
     dynamics: &Dynamics,
     form: &FreeForm,
     strand: &[Vec3],
@@ -35,12 +35,19 @@ pub(super) fn free_segments(
 ) -> Result<Vec<FreeSegment>, SettingError> {
     let shapes = segment_shapes(dynamics, strand, s)?;
     let total: f64 = shapes.iter().map(|shape| shape.length).sum();
+    let mut before = shapes[0].length;
     let segments = shapes.into_iter().zip(strand.windows(2)).map(|(shape, w)| {
+        // Curvature is an angle for the length between two middles, and it is its change over such a length that pulls:
+        // finer cuts bend as coarse ones do.
+        let between = 0.5 * (before + shape.length);
+        before = shape.length;
+        let cut = (f64::from(dynamics.segment_length) / between).powi(2);
+        let begin = shape.along - shape.length / total;
         let middle = shape.along - 0.5 * shape.length / total;
         FreeSegment {
             shape,
             rest: (w[1].as_dvec3() - w[0].as_dvec3()).normalize(),
-            stiffness: form.stiffness.at(middle),
+            stiffness: cut * form.stiffness.at(begin),
             hold: form.hold.at(middle),
             decay: form.decay(middle),
             lag: 1.0 - form.share_of_turn(middle),

@@ -208,7 +208,14 @@ struct Step<const TILTED: bool, W> {
 
 impl<const TILTED: bool, W: Wind> Pass<SegmentState, ShapeRow> for Step<TILTED, W> {
     #[inline(always)]
-    fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, from: &PointRow, to: &mut PointRow) {
+    fn segment(
+        &mut self,
+        state: &mut SegmentState,
+        shape: &ShapeRow,
+        _: Option<(&SegmentState, &ShapeRow)>,
+        from: &PointRow,
+        to: &mut PointRow,
+    ) {
         step_segment::<TILTED>(state, shape, &self.surroundings, &self.wind, &mut self.before, from, to);
     }
 }
@@ -219,7 +226,14 @@ struct Place<'a, const TILTED: bool> {
 
 impl<const TILTED: bool> Pass<SegmentState, ShapeRow> for Place<'_, TILTED> {
     #[inline(always)]
-    fn segment(&mut self, state: &mut SegmentState, shape: &ShapeRow, from: &PointRow, to: &mut PointRow) {
+    fn segment(
+        &mut self,
+        state: &mut SegmentState,
+        shape: &ShapeRow,
+        _: Option<(&SegmentState, &ShapeRow)>,
+        from: &PointRow,
+        to: &mut PointRow,
+    ) {
         extend::<TILTED>(from, to, state, shape, self.surroundings);
     }
 }
