@@ -51,9 +51,11 @@ fn directions(strands: &Strands) -> Vec<DVec3> {
 fn hair_at_rest_keeps_its_bits() {
     let carriers = Arc::new(hair(24, 18));
     for strands in [hair(40, 18), mixed_hair(40)] {
-        let mut dynamics = free(form(2000.0, 30.0, 20.0, 100.0));
+        // Strands of 5 cm would swing too fast.
+        let mut dynamics = free(form(400.0, 30.0, 20.0, 100.0));
+        dynamics.motion.inertia_length_floor = 12.0;
         if let Form::Free(free) = &mut dynamics.form {
-            free.form.stiffness = Profile::RootToTip(vec![4000.0, 500.0, 700.0]);
+            free.form.stiffness = Profile::RootToTip(vec![900.0, 100.0, 200.0]);
             free.bodies = vec![head_body(0.3)];
             free.neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers: carriers.clone() });
         }
@@ -86,10 +88,10 @@ proptest! {
         let rest = directions(&strands);
         for mut stepper in both(&strands, &dynamics, &blows) {
             let settled = directions(&run(&mut *stepper, &blows, 1500));
-            for (d, r) in settled.iter().zip(&rest) {
-                let along = Vec3::from(force).as_dvec3() + (joint(stiffness) + f64::from(hold)) * *r;
+            for ((d, r), length) in settled.iter().zip(&rest).zip(strands.lengths()) {
+                let along = Vec3::from(force).as_dvec3() + (joint(stiffness, length) + f64::from(hold)) * *r;
                 // Near the point where nothing pulls, hair does not know where to go.
-                prop_assume!(along.length() > 0.2 * (joint(stiffness) + f64::from(hold)));
+                prop_assume!(along.length() > 0.2 * (joint(stiffness, length) + f64::from(hold)));
                 prop_assume!(r.dot(along.normalize()) > -0.95);
                 // Points of 20 cm in f32 give a direction of 9 cm to 3e-7; e-folds of 20 frames leave nothing else.
                 prop_assert!((*d - along.normalize()).length() < 2e-6, "{d} is not {along}");
@@ -104,9 +106,9 @@ fn gain_of_single(dynamics: &Dynamics) -> f64 {
     gain(dynamics, 4.5 / d + 0.5, 9.0 / d)
 }
 
-/// K of a joint of segments of 9 cm, where that of segments of 1 cm is given.
-fn joint(stiffness: f32) -> f64 {
-    f64::from(stiffness) / 81.0
+/// K of a joint of segments of this length (cm), where that of segments of 1 cm is given.
+fn joint(stiffness: f32, length: f32) -> f64 {
+    f64::from(stiffness) / f64::from(length).powi(2)
 }
 
 /// Angles to the rest direction of a single segment that swings back from a small push.
@@ -129,7 +131,7 @@ fn small_swings_have_their_period_and_die_to_1_over_e_when_they_should() {
     for (stiffness, hold) in [(6000.0, 20.0), (0.0, 60.0), (16_000.0, 0.0)] {
         let dynamics = free(form(stiffness, hold, 0.0, 0.0));
         let c = gain_of_single(&dynamics);
-        let period = nabiki::dynamics::period(c * (joint(stiffness) + f64::from(hold)));
+        let period = nabiki::dynamics::period(c * (joint(stiffness, 9.0) + f64::from(hold)));
         let push = field(&[(1, [0.0, 0.0, -20.0])]);
         let frames = (5.0 * period) as u32;
         for mut stepper in both(&strands, &dynamics, &push) {

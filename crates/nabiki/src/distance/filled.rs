@@ -106,7 +106,8 @@ mod tests {
                 farthest = farthest.max(-distance);
             }
         }
-        assert!(deepest < 0.01, "{deepest}");
+        // The rim of an ear is rounder than what is allowed for: h^2 / 8 times 2 or 3 in a centimetre, less that once.
+        assert!(deepest < 2.0 * spacing * spacing / 8.0, "{deepest}");
         assert!(farthest < 0.4 * spacing, "the crown is convex, and yet filled by {farthest} cm");
         let behind_the_ear = Vec3::new(-3.2, -0.5, 7.4);
         assert!(head.distance(behind_the_ear) > 0.0, "a place of the fold, not of the head");
