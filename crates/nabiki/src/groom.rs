@@ -62,11 +62,13 @@ pub fn grow(head: &Head, growth: &Growth<'_>, shown: usize) -> Result<Hair, Sett
     let roots = roots::spread_first(head, hairline, strands, shown, seed)?;
     let strands = groom(head, &roots, style, segments, segment_length, seed)?;
     let group = |root: &Root| strand_style::region(head, style, root, seed) as i32;
+    let groups: Vec<i32> = roots.iter().map(group).collect();
+    let grown = Region::ALL.iter().filter(|&&region| groups.contains(&(region as i32)));
     let attributes = Attributes {
         id: Some((0..roots.len() as i64).collect()),
         root_uv: Some(roots.iter().map(|root| root.uv.to_array()).collect()),
-        group: Some(roots.iter().map(group).collect()),
-        group_names: Region::ALL.iter().map(|&region| (region as i32, region.name().to_owned())).collect(),
+        group_names: grown.map(|&region| (region as i32, region.name().to_owned())).collect(),
+        group: Some(groups),
         guide: Some((0..roots.len()).map(|strand| strand < GUIDES).collect()),
         ..Attributes::default()
     };

@@ -3,13 +3,13 @@
 mod other;
 mod resample;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{Affine3A, Vec3};
 
 use crate::Strands;
 
-pub use other::{Other, Per, Role, Values};
+pub use other::{Other, Per, Role, Stored, Values};
 
 /// Strands and what a file carries beside their points.
 ///
@@ -178,16 +178,28 @@ impl Hair {
 }
 
 impl Attributes {
+    /// Strands whose id a strand before them has.
+    pub fn repeated_ids(&self) -> usize {
+        let ids = self.id.as_deref().unwrap_or_default();
+        ids.len() - ids.iter().collect::<BTreeSet<_>>().len()
+    }
+
     /// The attributes of the strands and points named, in that order.
     fn gather(&self, strands: &[usize], points: &[usize]) -> Self {
         fn pick<T: Copy>(values: &Option<Vec<T>>, indices: &[usize]) -> Option<Vec<T>> {
             values.as_ref().map(|v| indices.iter().map(|&i| v[i]).collect())
         }
+        let group = pick(&self.group, strands);
+        // A name goes with the last strand of its group; one that had none stays.
+        let all = self.group.as_deref().unwrap_or_default();
+        let left: BTreeSet<i32> = group.iter().flatten().copied().collect();
+        let gone: BTreeSet<i32> = all.iter().copied().filter(|number| !left.contains(number)).collect();
+        let named = self.group_names.iter().filter(|(number, _)| !gone.contains(number));
         Self {
             id: pick(&self.id, strands),
             root_uv: pick(&self.root_uv, strands),
-            group: pick(&self.group, strands),
-            group_names: self.group_names.clone(),
+            group,
+            group_names: named.map(|(&number, name)| (number, name.clone())).collect(),
             guide: pick(&self.guide, strands),
             width: pick(&self.width, points),
             colour: pick(&self.colour, points),
@@ -235,6 +247,28 @@ mod tests {
         assert_eq!(chosen.attributes.id, Some(vec![12, 10]));
         assert_eq!(chosen.attributes.width, Some(vec![6.0, 7.0, 0.0, 1.0, 2.0]));
         assert_eq!(chosen.check_lengths(), Ok(()));
+    }
+
+    #[test]
+    fn names_of_groups_go_with_their_last_strands() {
+        let mut hair = mixed();
+        hair.attributes.group = Some(vec![1, 2, 1]);
+        hair.attributes.group_names =
+            [(1, "fringe"), (2, "nape"), (7, "of no strand")].map(|(g, n)| (g, n.into())).into();
+        let names = |hair: Hair| hair.attributes.group_names.into_keys().collect::<Vec<_>>();
+        assert_eq!(names(hair.select(&[0, 2])), [1, 7]);
+        assert_eq!(names(hair.select(&[1, 0])), [1, 2, 7]);
+    }
+
+    /// Repeated: the same number as a strand before.
+    #[test]
+    fn ids_that_tell_no_strands_apart_are_counted() {
+        let mut hair = mixed();
+        assert_eq!(hair.attributes.repeated_ids(), 0);
+        hair.attributes.id = Some(vec![4, 4, 4]);
+        assert_eq!(hair.attributes.repeated_ids(), 2);
+        hair.attributes.id = None;
+        assert_eq!(hair.attributes.repeated_ids(), 0);
     }
 
     #[test]

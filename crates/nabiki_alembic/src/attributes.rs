@@ -7,7 +7,7 @@ use nabiki_exchange::Uvs;
 use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values};
 
 use crate::Problem;
-use crate::layout::{Kind, Pod};
+use crate::layout::{Kind, Pod, stored};
 use crate::tree::{Form, Header, Tree};
 use crate::values::{doubles, integers, singles, words};
 
@@ -35,7 +35,7 @@ const KNOWN: [&str; 8] = [
 const OF_SCHEMA: [&str; 2] = ["uv", "width"];
 
 /// Values as they are stored.
-struct Stored {
+struct Sample {
     kind: Kind,
     role: Role,
     per: Option<Per>,
@@ -84,12 +84,12 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
         Ok(self.tuples::<2>("uv")?.map(of))
     }
 
-    fn stored(&mut self, name: &str) -> Result<Option<Stored>, Problem> {
+    fn stored(&mut self, name: &str) -> Result<Option<Sample>, Problem> {
         let Some(header) = self.headers.iter().find(|h| h.name == name) else { return Ok(None) };
         let (role, per) = (role(header), per(header));
         if header.form != Form::Compound {
             let bytes = self.tree.sample(header, self.frame)?;
-            return Ok(Some(Stored { kind: header.kind, role, per, bytes, indices: None }));
+            return Ok(Some(Sample { kind: header.kind, role, per, bytes, indices: None }));
         }
         let inside = self.tree.properties(header.place)?;
         let part = |part: &str| {
@@ -99,11 +99,11 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
         let (values, indices) = (part(".vals")?, part(".indices")?);
         let bytes = self.tree.sample(values, self.frame)?;
         let indices = integers(indices.kind, &self.tree.sample(indices, self.frame)?)?;
-        Ok(Some(Stored { kind: values.kind, role, per, bytes, indices: Some(indices) }))
+        Ok(Some(Sample { kind: values.kind, role, per, bytes, indices: Some(indices) }))
     }
 }
 
-impl Stored {
+impl Sample {
     fn is_text(&self) -> bool {
         matches!(self.kind.pod, Pod::Text | Pod::WideText)
     }
@@ -144,7 +144,7 @@ impl<R: Read + Seek> NamedValues for Parameters<'_, R> {
     }
 
     fn whatever(&mut self, name: &str) -> Result<Option<Whatever>, Problem> {
-        let Some(Stored { kind, role, per, bytes, indices }) = self.stored(name)? else { return Ok(None) };
+        let Some(Sample { kind, role, per, bytes, indices }) = self.stored(name)? else { return Ok(None) };
         let mut values = match kind.pod {
             Pod::F16 | Pod::F32 => Values::Floats(singles(kind, &bytes)?),
             Pod::F64 => Values::Doubles(doubles(kind, &bytes)?),
@@ -156,7 +156,9 @@ impl<R: Read + Seek> NamedValues for Parameters<'_, R> {
         if let Some(indices) = indices {
             values = indexed_values(name, &values, extent, &indices)?;
         }
-        Ok(Some(Whatever { role, extent, per, values }))
+        // Alembic has lists only: one value for all is as good as a value that is none.
+        let single = per == Some(Per::Groom) && values.len() == extent;
+        Ok(Some(Whatever { role, extent, stored: stored(kind.pod), single, per, values }))
     }
 
     fn tuples<const N: usize>(&mut self, name: &str) -> Result<Option<Vec<[f32; N]>>, Problem> {

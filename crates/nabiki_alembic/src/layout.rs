@@ -5,6 +5,8 @@
 //! the values, and the dimensions (left empty for one-dimensional arrays of numbers); a scalar property has the
 //! former only.
 
+use nabiki::hair::Stored;
+
 /// Kind of one number of a sample, as a header stores it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pod {
@@ -74,6 +76,33 @@ impl Pod {
             Self::WideText => "wstring",
         }
     }
+}
+
+/// Kinds as an attribute that is passed on knows them.
+const KINDS: [(Pod, Stored); 13] = [
+    (Pod::Bool, Stored::Bool),
+    (Pod::U8, Stored::U8),
+    (Pod::I8, Stored::I8),
+    (Pod::U16, Stored::U16),
+    (Pod::I16, Stored::I16),
+    (Pod::U32, Stored::U32),
+    (Pod::I32, Stored::I32),
+    (Pod::U64, Stored::U64),
+    (Pod::I64, Stored::I64),
+    (Pod::F16, Stored::F16),
+    (Pod::F32, Stored::F32),
+    (Pod::F64, Stored::F64),
+    (Pod::Text, Stored::Text),
+];
+
+/// What a kind of number or text is to an attribute that is passed on.
+pub fn stored(pod: Pod) -> Stored {
+    KINDS.iter().find(|(known, _)| *known == pod).map_or(Stored::Text, |&(_, stored)| stored)
+}
+
+/// The kind that stores it; tokens are text here.
+pub fn pod(stored: Stored) -> Pod {
+    KINDS.iter().find(|(_, known)| *known == stored).map_or(Pod::Text, |&(pod, _)| pod)
 }
 
 /// Type of numbers and how many make one value.

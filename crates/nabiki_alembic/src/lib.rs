@@ -29,6 +29,7 @@
 #![forbid(unsafe_code)]
 
 mod attributes;
+mod carried;
 mod digest;
 mod layout;
 mod ogawa;
@@ -38,6 +39,7 @@ mod tree;
 mod values;
 mod write;
 
+pub use carried::changes;
 pub use nabiki_exchange::{Contents, Problem};
 pub use read::ArchiveReader;
 pub use write::HairArchive;

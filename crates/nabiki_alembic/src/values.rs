@@ -37,7 +37,8 @@ pub fn singles(kind: Kind, bytes: &[u8]) -> Result<Vec<f32>, Problem> {
 pub fn integers(kind: Kind, bytes: &[u8]) -> Result<Vec<i64>, Problem> {
     match kind.pod {
         Pod::I32 => Ok(bytes.as_chunks::<4>().0.iter().map(|&b| i64::from(i32::from_le_bytes(b))).collect()),
-        Pod::I64 => Ok(bytes.as_chunks::<8>().0.iter().map(|&b| i64::from_le_bytes(b)).collect()),
+        // Unsigned ones from 2^63 on keep their bits.
+        Pod::I64 | Pod::U64 => Ok(bytes.as_chunks::<8>().0.iter().map(|&b| i64::from_le_bytes(b)).collect()),
         _ => Ok(doubles(kind, bytes)?.into_iter().map(|x| x as i64).collect()),
     }
 }

@@ -7,14 +7,15 @@
 use std::io;
 use std::path::Path;
 
-use glam::{Affine3A, Vec3};
-use nabiki::hair::{Attributes, Other, Per, Role, Values};
+use glam::{Affine3A, Vec2, Vec3};
+use nabiki::hair::Attributes;
 use nabiki::strands::bounds;
 use nabiki::{Mesh, Strands};
 use nabiki_exchange::attributes::names;
 use nabiki_exchange::{Export, FrameSink, Velocities};
 use nabiki_file::PartFile;
 
+use crate::carried;
 use crate::layout::{Kind, Pod};
 use crate::ogawa::write::Writer;
 use crate::property::{Compound, MetadataTable, Object, Property, Schema};
@@ -282,7 +283,7 @@ fn parameters(more: &mut Held<'_>, export: &Export<'_>) -> io::Result<()> {
     if export.rest && made(names::REST) {
         more.by_point(names::REST, "point", POINT, bytemuck::cast_slice(&export.rest_points()))?;
     }
-    at.other.iter().try_for_each(|other| carried(more, other))
+    at.other.iter().try_for_each(|other| more.put(carried::property(other), &carried::bytes(other)))
 }
 
 /// What strands have one of each: UVs of their roots, ids, groups, guides.
@@ -296,7 +297,10 @@ fn roots(more: &mut Held<'_>, at: &Attributes, made: &dyn Fn(&str) -> bool) -> i
         // Unreal's ids are 32-bit; others are kept whole under a name of our own.
         match ids.iter().map(|&id| i32::try_from(id)).collect::<Result<Vec<_>, _>>() {
             Ok(ids) => more.by_strand("groom_id", "", INTEGER, bytemuck::cast_slice(&ids))?,
-            Err(_) => more.by_strand("id", "", LONG, bytemuck::cast_slice(ids))?,
+            Err(_) => {
+                let name = if made("id") { "id" } else { "groom_id" };
+                more.by_strand(name, "", LONG, bytemuck::cast_slice(ids))?;
+            }
         }
     }
     if let Some(groups) = &at.group {
@@ -313,39 +317,6 @@ fn roots(more: &mut Held<'_>, at: &Attributes, made: &dyn Fn(&str) -> bool) -> i
         more.by_strand("groom_guide", "", Kind { pod: Pod::I16, extent: 1 }, bytemuck::cast_slice(&guides))?;
     }
     Ok(())
-}
-
-/// An attribute that is only passed on.
-fn carried(more: &mut Held<'_>, other: &Other) -> io::Result<()> {
-    let scope = match other.per {
-        Per::Groom => "con",
-        Per::Strand => "uni",
-        Per::Point => "vtx",
-    };
-    let interpretation = match (other.role, other.extent) {
-        (Role::Plain, _) => "",
-        (Role::Colour, 4) => "rgba",
-        (Role::Colour, _) => "rgb",
-        (Role::Point, _) => "point",
-        (Role::Vector | Role::TextureCoordinate, _) => "vector",
-        (Role::Normal, _) => "normal",
-    };
-    let extent = other.extent as u8;
-    let mut put = |pod: Pod, bytes: &[u8]| {
-        more.put(Property::attribute(&other.name, scope, interpretation, Kind { pod, extent }, 0), bytes)
-    };
-    match &other.values {
-        Values::Floats(v) => put(Pod::F32, bytemuck::cast_slice(v)),
-        Values::Doubles(v) => put(Pod::F64, bytemuck::cast_slice(v)),
-        Values::Integers(v) => match v.iter().map(|&x| i32::try_from(x)).collect::<Result<Vec<_>, _>>() {
-            Ok(v) => put(Pod::I32, bytemuck::cast_slice(&v)),
-            Err(_) => put(Pod::I64, bytemuck::cast_slice(v)),
-        },
-        Values::Words(v) => {
-            let words: String = v.iter().map(|word| word.replace('\0', "") + "\0").collect();
-            put(Pod::Text, words.as_bytes())
-        }
-    }
 }
 
 /// The head, which keeps its shape.
@@ -365,6 +336,13 @@ fn polygons(to: &mut Archive, table: &mut MetadataTable, mesh: &Mesh, export: &E
     ] {
         let mut property = property;
         property.put(to, value)?;
+        inside.add(to, table, &property)?;
+    }
+    if let Some(uvs) = &mesh.corner_uvs {
+        let wound = |&[a, b, c]: &[Vec2; 3]| if mirrored { [a, b, c] } else { [c, b, a] };
+        let uvs: Vec<Vec2> = uvs.iter().flat_map(wound).collect();
+        let mut property = Property::attribute("uv", "fvr", "vector", UV, 0);
+        property.put(to, bytemuck::cast_slice(&uvs))?;
         inside.add(to, table, &property)?;
     }
     Object::with_schema(to, table, Schema::PolyMesh, inside)

@@ -3,8 +3,8 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use glam::{Affine3A, Quat, Vec3};
-use nabiki::hair::{Attributes, Other, Per, Role, Values};
+use glam::{Affine3A, Quat, Vec2, Vec3};
+use nabiki::hair::{Attributes, Other, Per, Role, Stored, Values};
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
 use nabiki_exchange::{Export, FrameSink, GroomReader, Placed};
@@ -66,6 +66,37 @@ fn tetrahedron() -> Mesh {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z],
         triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
         corner_uvs: None,
+    }
+}
+
+/// A place of the texture for each corner, which differs from face to face as along a seam.
+fn textured() -> Mesh {
+    let mut mesh = tetrahedron();
+    let at = |t: usize, v: u32| Vec2::new(0.125 * t as f32, 0.25 * v as f32);
+    mesh.corner_uvs = Some(mesh.triangles.iter().enumerate().map(|(t, vs)| vs.map(|v| at(t, v))).collect());
+    mesh
+}
+
+/// Of every corner its vertex and its place of the texture, triangle by triangle, however these begin.
+fn corners(mesh: &Mesh) -> Vec<Vec<(u32, [u32; 2])>> {
+    let uvs = mesh.corner_uvs.as_ref().unwrap().iter();
+    let of = |(vs, uvs): (&[u32; 3], &[Vec2; 3])| {
+        let mut corners: Vec<_> = vs.iter().zip(uvs).map(|(&v, uv)| (v, uv.to_array().map(f32::to_bits))).collect();
+        corners.sort_unstable();
+        corners
+    };
+    mesh.triangles.iter().zip(uvs).map(of).collect()
+}
+
+#[test]
+fn the_skin_keeps_its_texture_coordinates_also_where_it_is_mirrored() {
+    let (hair, mesh) = (groom(), textured());
+    for scale in [Vec3::ONE, Vec3::new(-1.0, 1.0, 1.0)] {
+        let mut export = Export::new(&hair, 24.0);
+        (export.head, export.file_from_head) = (Some(&mesh), Affine3A::from_scale(scale));
+        let file = bytes(export, |_| Affine3A::IDENTITY);
+        let skin = ArchiveReader::new(Cursor::new(&file)).unwrap().mesh().unwrap();
+        assert_eq!(corners(&skin), corners(&mesh), "{scale}");
     }
 }
 
@@ -143,8 +174,9 @@ fn a_mirrored_mesh_keeps_its_outside_outside() {
 fn attributes_of_any_name_go_through() {
     let mut hair = Hair::from(strands(0));
     let (strands, points) = (hair.strands.len(), hair.strands.points().len());
-    let other = |name: &str, per, role, extent, values| Other { name: name.to_owned(), per, role, extent, values };
+    let other = |name: &str, per, role, extent, values| Other::new(name, per, role, extent, values);
     let numbers = |n: usize| (0..n).map(|i| i as f64 / 3.0);
+    let alternating = |n: usize, pair: [i64; 2]| Values::Integers((0..n).map(|i| pair[i % 2]).collect());
     hair.attributes.other = vec![
         other("cell", Per::Strand, Role::Plain, 2, Values::Integers((0..2 * strands as i64).collect())),
         other("far", Per::Strand, Role::Plain, 1, Values::Integers((0..strands as i64).map(|i| i << 40).collect())),
@@ -152,11 +184,34 @@ fn attributes_of_any_name_go_through() {
         other("mass", Per::Point, Role::Plain, 1, Values::Doubles(numbers(points).collect())),
         other("mood", Per::Strand, Role::Plain, 1, Values::Words((0..strands).map(|s| format!("m{s}")).collect())),
         other("normals", Per::Point, Role::Normal, 3, Values::Floats(numbers(3 * points).map(|x| x as f32).collect())),
+        Other { stored: Stored::Bool, ..other("loose", Per::Strand, Role::Plain, 1, alternating(strands, [0, 1])) },
+        Other { stored: Stored::I8, ..other("small", Per::Strand, Role::Plain, 1, alternating(strands, [-128, 127])) },
+        Other {
+            stored: Stored::U16,
+            ..other("word", Per::Strand, Role::Plain, 2, alternating(2 * strands, [0, 65535]))
+        },
+        Other {
+            stored: Stored::U64,
+            ..other("hash", Per::Strand, Role::Plain, 1, alternating(strands, [-1, 1 << 53 | 1]))
+        },
+        Other { stored: Stored::F16, ..other("age", Per::Strand, Role::Plain, 1, Values::Floats(vec![0.5; strands])) },
+        Other { single: true, ..other("one", Per::Groom, Role::Plain, 1, Values::Floats(vec![0.1])) },
         other("tint", Per::Strand, Role::Colour, 3, Values::Floats(numbers(3 * strands).map(|x| x as f32).collect())),
     ];
     let file = bytes(Export::new(&hair, 24.0), |_| Affine3A::IDENTITY);
     let read = ArchiveReader::new(Cursor::new(&file)).unwrap().hair(0, None).unwrap();
+    hair.attributes.other.sort_by(|a, b| a.name.cmp(&b.name));
     assert_eq!(read.attributes, hair.attributes);
+    for other in &hair.attributes.other {
+        assert_eq!(nabiki_alembic::changes(other), Vec::<String>::new());
+    }
+    let list = Other { single: false, ..other("one", Per::Groom, Role::Plain, 1, Values::Floats(vec![0.1])) };
+    assert_eq!(nabiki_alembic::changes(&list), ["that one is a list of one value: it is that value there"]);
+    let token = Other {
+        stored: Stored::Token,
+        ..other("side", Per::Groom, Role::Plain, 1, Values::Words(vec!["l".into(), "r".into()]))
+    };
+    assert_eq!(nabiki_alembic::changes(&token), ["the type of side: token becomes string"]);
 }
 
 #[test]
@@ -164,7 +219,7 @@ fn more_kinds_of_attributes_than_the_table_has_room_for_go_through() {
     let mut hair = Hair::from(strands(0));
     let of = |extent: usize| {
         let values = Values::Floats(vec![0.5; extent * hair.strands.len()]);
-        Other { name: format!("a{extent:03}"), per: Per::Strand, role: Role::Plain, extent, values }
+        Other::new(format!("a{extent:03}"), Per::Strand, Role::Plain, extent, values)
     };
     hair.attributes.other = (1..256).map(of).collect();
     let file = bytes(Export::new(&hair, 24.0), |_| Affine3A::IDENTITY);

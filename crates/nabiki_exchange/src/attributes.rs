@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use nabiki::hair::{Attributes, Other, Per, Role, Values};
+use nabiki::hair::{Attributes, Other, Per, Role, Stored, Values};
 
 use crate::Problem;
 use crate::curves::Polylines;
@@ -44,6 +44,10 @@ pub struct Whatever {
     pub role: Role,
     /// Numbers or words that make a value.
     pub extent: usize,
+    /// How the file stores a number or word.
+    pub stored: Stored,
+    /// Whether it is one value rather than a list of one.
+    pub single: bool,
     /// What has a value, where the file says so: otherwise their number tells.
     pub per: Option<Per>,
     /// The values.
@@ -65,8 +69,25 @@ pub mod names {
     pub const GROUP: &[&str] = &["groom_group_id", "group_id", "group"];
     pub const GROUP_NAME: &[&str] = &["groom_group_name", "group_name"];
     pub const GUIDE: &[&str] = &["groom_guide", "guide"];
-    /// Root UVs under further names, which programs want beside their own.
-    pub const ROOT_UV_COPIES: &[&str] = &["st", "groom_root_uv", "surface_uv_coordinate", "uv"];
+    /// Those under which our writers write them. What is found under any other name also stays under that name.
+    pub const WRITTEN: &[&str] = &[
+        "widths",
+        "width",
+        "displayColor",
+        "groom_color",
+        "point_uv",
+        "freedom",
+        "transparency",
+        "displayOpacity",
+        "groom_id",
+        "st",
+        "uv",
+        "groom_root_uv",
+        "surface_uv_coordinate",
+        "groom_group_id",
+        "groom_group_name",
+        "groom_guide",
+    ];
     /// Where the points are at rest.
     pub const REST: &str = "rest";
 }
@@ -90,12 +111,54 @@ pub fn indexed_values(name: &str, values: &Values, extent: usize, indices: &[i64
     Ok(values.pick(extent, &indexed(name, &all, indices)?))
 }
 
+/// What becomes of the type of an attribute that a format holds as `stored`, with the role `role`; `None` where both are
+/// its own.
+pub fn type_change(other: &Other, stored: Stored, role: Role) -> Option<String> {
+    let name = &other.name;
+    if stored != other.stored {
+        return Some(format!("the type of {name}: {} becomes {}", type_name(other.stored), type_name(stored)));
+    }
+    (role != other.role)
+        .then(|| format!("what the numbers of {name} stand for: {} become plain ones", plural(other.role)))
+}
+
+/// The name of a type of numbers or words.
+pub fn type_name(stored: Stored) -> &'static str {
+    match stored {
+        Stored::Bool => "bool",
+        Stored::I8 => "int8",
+        Stored::U8 => "uint8",
+        Stored::I16 => "int16",
+        Stored::U16 => "uint16",
+        Stored::I32 => "int",
+        Stored::U32 => "uint",
+        Stored::I64 => "int64",
+        Stored::U64 => "uint64",
+        Stored::F16 => "half",
+        Stored::F32 => "float",
+        Stored::F64 => "double",
+        Stored::Text => "string",
+        Stored::Token => "token",
+    }
+}
+
+fn plural(role: Role) -> &'static str {
+    match role {
+        Role::Plain => "plain numbers",
+        Role::Colour => "colours",
+        Role::Point => "points",
+        Role::Vector => "vectors",
+        Role::Normal => "normals",
+        Role::TextureCoordinate => "texture coordinates",
+    }
+}
+
 impl Polylines {
     /// What `file` says of the curves, at the points of the strands or at their roots. What has no place of its own is
     /// carried along under its own name; what cannot be, is named among what is unread.
     ///
     /// # Errors
-    /// What is wrong with the file; numbers of values that fit neither curves nor points.
+    /// What is wrong with the file.
     pub fn attributes(&self, file: &mut impl NamedValues) -> Result<Attributes, Problem> {
         let mut search = Search { lines: self, file, used: BTreeSet::new(), unread: Vec::new() };
         let one = |values: Vec<[f32; 1]>| values.into_iter().map(|[x]| x).collect::<Vec<f32>>();
@@ -137,9 +200,11 @@ impl Polylines {
             1 => Some(Per::Groom),
             _ => None,
         };
-        let per = found.per.or(by_number)?;
+        let one = found.single.then_some(Per::Groom);
+        let per = one.or(found.per).or(by_number)?;
         let (strands, points) = (self.shape.counts.len(), self.control_points());
-        let mut other = Other { name: name.to_owned(), per, role: found.role, extent, values: found.values };
+        let Whatever { role, stored, single, values, .. } = found;
+        let mut other = Other { name: name.to_owned(), per, role, extent, stored, single, values };
         if other.values.len() != other.expected(strands, points) {
             return None;
         }
@@ -167,10 +232,11 @@ impl<F: NamedValues> Search<'_, F> {
         for &name in names {
             let Some(values) = self.file.tuples::<N>(name)?.filter(|values| !values.is_empty()) else { continue };
             self.used.insert(name);
-            return match self.lines.at_points(&values) {
-                Some(found) => Ok(Some(found)),
-                None => Err(Problem(self.misfit(name, values.len()))),
-            };
+            let found = self.lines.at_points(&values);
+            if found.is_none() {
+                self.unread.push(self.misfit(name, values.len()));
+            }
+            return Ok(found);
         }
         Ok(None)
     }
@@ -232,7 +298,7 @@ impl<F: NamedValues> Search<'_, F> {
     fn others(&mut self) -> Result<Vec<Other>, Problem> {
         let mut others = Vec::new();
         for name in self.file.names() {
-            if self.used.contains(&*name) {
+            if self.used.contains(&*name) && names::WRITTEN.contains(&&*name) {
                 continue;
             }
             match self.file.whatever(&name)? {

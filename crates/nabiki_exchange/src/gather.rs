@@ -51,6 +51,11 @@ impl Gathered {
             all.hair.attributes.group = None;
             all.hair.attributes.group_names.clear();
         }
+        let repeated = all.hair.attributes.repeated_ids();
+        if repeated > 0 {
+            let line = format!("ids that tell its strands apart: {repeated} strands have the id of another");
+            all.hair.attributes.unread.push(line);
+        }
         check_extent(all.hair.strands.points())?;
         Ok(all)
     }
@@ -61,7 +66,7 @@ fn join(all: &mut Hair, part: Hair) {
         all.strands.push(strand.iter().copied());
     }
     let (a, b) = (&mut all.attributes, part.attributes);
-    let mut lost = Vec::new();
+    let (mut lost, mut retyped) = (Vec::new(), Vec::new());
     let mut both = |name: &str, joined: bool| {
         if !joined {
             lost.push(format!("{name}, which only some of its objects have"));
@@ -79,12 +84,17 @@ fn join(all: &mut Hair, part: Hair) {
     let mut others = b.other;
     a.other.retain_mut(|mine| {
         let found = others.iter().position(|theirs| same_kind(mine, theirs));
+        let stored = mine.stored;
         let joined = found.is_some_and(|i| mine.append(others.swap_remove(i)));
         both(&mine.name, joined);
+        if joined && mine.stored != stored {
+            retyped.push(format!("the types of {}, which its objects store in several", mine.name));
+        }
         joined
     });
     others.iter().for_each(|theirs| both(&theirs.name, false));
     a.group_names.extend(b.group_names);
+    lost.append(&mut retyped);
     lost.extend(b.unread);
     lost.retain(|line| !a.unread.contains(line));
     a.unread.extend(lost);

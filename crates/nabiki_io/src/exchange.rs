@@ -287,12 +287,7 @@ pub fn losses(path: &Path, hair: &Hair) -> Vec<String> {
     if at.group_names.keys().any(|number| !groups.contains(number)) {
         lost.push("names of groups without strands".to_owned());
     }
-    for other in at.other.iter().filter(|_| is_usd(path)) {
-        if !nabiki_usd::has_type(other) {
-            lost.push(format!("{}: USD has no type for its values", other.name));
-        } else if nabiki_usd::valid_name(&other.name) != other.name {
-            lost.push(format!("the name {}: it is {} there", other.name, nabiki_usd::valid_name(&other.name)));
-        }
-    }
+    let changes = if is_usd(path) { nabiki_usd::changes } else { nabiki_alembic::changes };
+    lost.extend(at.other.iter().flat_map(changes));
     lost
 }

@@ -55,7 +55,7 @@ fn others(strands: usize, points: usize) -> impl Strategy<Value = Vec<Other>> {
             2 => vec(any::<i64>(), count).prop_map(Values::Integers).boxed(),
             _ => vec(".*", count).prop_map(Values::Words).boxed(),
         };
-        values.prop_map(move |values| Other { name: name.clone(), per, role, extent, values })
+        values.prop_map(move |values| Other::new(name.clone(), per, role, extent, values))
     });
     vec(other, 0..4)
 }

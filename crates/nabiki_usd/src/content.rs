@@ -2,11 +2,12 @@
 
 use glam::Vec3;
 use nabiki::Mesh;
-use nabiki::hair::{Attributes, Other, Per, Role, Values};
+use nabiki::hair::Attributes;
 use nabiki::strands::bounds;
 use nabiki_exchange::Export;
 use nabiki_exchange::attributes::names;
 
+use crate::carried::carried;
 use crate::layer::{Attribute, Prim, Value};
 
 /// The moving curves without their samples: topology, and everything that does not move.
@@ -94,90 +95,9 @@ fn roots<S>(at: &Attributes, attributes: &mut Vec<Attribute<S>>) {
     }
 }
 
-fn primvar(name: &str) -> String {
+/// The property that holds a primvar.
+pub fn primvar(name: &str) -> String {
     format!("primvars:{name}")
-}
-
-/// An attribute that is only passed on; `None` for values of a shape that USD has no type for.
-fn carried<S>(other: &Other) -> Option<Attribute<S>> {
-    let (type_name, value) = typed(other)?;
-    let interpolation = match other.per {
-        Per::Groom => "constant",
-        Per::Strand => "uniform",
-        Per::Point => "vertex",
-    };
-    Some(Attribute::primvar(primvar(&valid_name(&other.name)), type_name, interpolation, value))
-}
-
-/// The name with what USD allows in one: letters, digits, underscores, and colons between.
-pub fn valid_name(name: &str) -> String {
-    let mut valid: String =
-        name.chars().map(|c| if c.is_ascii_alphanumeric() || matches!(c, '_' | ':') { c } else { '_' }).collect();
-    if valid.starts_with(|c: char| c.is_ascii_digit()) {
-        valid.insert(0, '_');
-    }
-    valid
-}
-
-/// Whether USD has a type for values of this shape.
-pub fn has_type(other: &Other) -> bool {
-    typed(other).is_some()
-}
-
-fn typed(other: &Other) -> Option<(&'static str, Value)> {
-    use Role::{Colour, Normal, Plain, Point, TextureCoordinate, Vector};
-    Some(match (&other.values, other.role, other.extent) {
-        (Values::Floats(v), role, extent) => {
-            let type_name = match (role, extent) {
-                (_, 1) => "float[]",
-                (TextureCoordinate, 2) => "texCoord2f[]",
-                (TextureCoordinate, 3) => "texCoord3f[]",
-                (Colour, 3) => "color3f[]",
-                (Colour, 4) => "color4f[]",
-                (Point, 3) => "point3f[]",
-                (Vector, 3) => "vector3f[]",
-                (Normal, 3) => "normal3f[]",
-                (_, 2) => "float2[]",
-                (_, 3) => "float3[]",
-                (_, 4) => "float4[]",
-                (Plain, 9 | 16) => {
-                    let v = v.iter().copied().map(f64::from).collect();
-                    return Some((
-                        if extent == 9 { "matrix3d[]" } else { "matrix4d[]" },
-                        Value::DoubleTuples(extent, v),
-                    ));
-                }
-                _ => return None,
-            };
-            (type_name, Value::FloatTuples(extent, v.clone()))
-        }
-        (Values::Doubles(v), role, extent) => {
-            let type_name = match (role, extent) {
-                (_, 1) => "double[]",
-                (TextureCoordinate, 2) => "texCoord2d[]",
-                (TextureCoordinate, 3) => "texCoord3d[]",
-                (Colour, 3) => "color3d[]",
-                (Colour, 4) => "color4d[]",
-                (Point, 3) => "point3d[]",
-                (Vector, 3) => "vector3d[]",
-                (Normal, 3) => "normal3d[]",
-                (_, 2) => "double2[]",
-                (_, 3) => "double3[]",
-                (_, 4) => "double4[]",
-                (_, 9) => "matrix3d[]",
-                (_, 16) => "matrix4d[]",
-                _ => return None,
-            };
-            (type_name, Value::DoubleTuples(extent, v.clone()))
-        }
-        (Values::Integers(v), _, extent @ 1..=4) => match v.iter().map(|&x| i32::try_from(x)).collect() {
-            Ok(v) => (["int[]", "int2[]", "int3[]", "int4[]"][extent - 1], Value::IntTuples(extent, v)),
-            Err(_) if extent == 1 => ("int64[]", Value::Longs(v.clone())),
-            Err(_) => return None,
-        },
-        (Values::Words(v), _, 1) => ("string[]", Value::Texts(v.clone())),
-        _ => return None,
-    })
 }
 
 /// The head.
@@ -185,13 +105,18 @@ pub fn skin<S>(mesh: &Mesh, export: &Export<'_>) -> Prim<S> {
     let points: Vec<Vec3> = mesh.positions.iter().map(|&p| export.file_from_head.transform_point3(p)).collect();
     let mirrored = export.file_from_head.matrix3.determinant() < 0.0;
     let corners = mesh.triangles.iter().flat_map(|&[a, b, c]| if mirrored { [c, b, a] } else { [a, b, c] });
-    let attributes = vec![
+    let mut attributes = vec![
         Attribute::uniform("subdivisionScheme", "token", Value::Token("none".to_owned())),
         Attribute::new("faceVertexCounts", "int[]", Value::Ints(vec![3; mesh.triangles.len()])),
         Attribute::new("faceVertexIndices", "int[]", Value::Ints(corners.map(|v| v as i32).collect())),
         Attribute::new("extent", "float3[]", Value::Triples(extent(&points, 0.0))),
         Attribute::new("points", "point3f[]", Value::Triples(points.iter().map(|p| p.to_array()).collect())),
     ];
+    if let Some(uvs) = &mesh.corner_uvs {
+        let corners = uvs.iter().flat_map(|&[a, b, c]| if mirrored { [c, b, a] } else { [a, b, c] });
+        let value = Value::Pairs(corners.map(|uv| uv.to_array()).collect());
+        attributes.push(Attribute::primvar(primvar("st"), "texCoord2f[]", "faceVarying", value));
+    }
     Prim { name: "skin".to_owned(), type_name: "Mesh", attributes, children: Vec::new() }
 }
 

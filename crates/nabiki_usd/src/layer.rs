@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use half::f16;
+
 /// A value of an attribute or of the layer.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
@@ -29,6 +31,18 @@ pub enum Value {
     FloatTuples(usize, Vec<f32>),
     /// Values of so many doubles each: `double[]`, `double3[]`; of 9 or 16 matrices
     DoubleTuples(usize, Vec<f64>),
+    /// Values of so many halves each: `half[]`, `color3h[]`
+    HalfTuples(usize, Vec<f16>),
+    /// `bool[]`, 1 for true
+    Bools(Vec<u8>),
+    /// `uchar[]`
+    Bytes(Vec<u8>),
+    /// `uint[]`
+    Unsigned(Vec<u32>),
+    /// `uint64[]`
+    UnsignedLongs(Vec<u64>),
+    /// The one value of a list, without the list: `float`
+    One(Box<Value>),
     /// `matrix4d`, row by row as USD multiplies rows from the left
     Matrix([f64; 16]),
 }

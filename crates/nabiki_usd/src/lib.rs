@@ -27,6 +27,7 @@
 
 #![forbid(unsafe_code)]
 
+mod carried;
 mod content;
 mod crate_file;
 mod layer;
@@ -39,7 +40,7 @@ mod text;
 mod transform;
 mod write;
 
-pub use content::{has_type, valid_name};
+pub use carried::changes;
 pub use nabiki_exchange::{Contents, Problem};
 pub use read::StageReader;
 pub use source::Source;

@@ -1,6 +1,6 @@
 //! What a prim of curves carries, and what of it is not read.
 
-use nabiki::hair::{Per, Role, Values};
+use nabiki::hair::{Per, Role, Stored, Values};
 use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values};
 
 use crate::Problem;
@@ -104,13 +104,14 @@ impl NamedValues for Primvars<'_> {
     fn whatever(&mut self, name: &str) -> Result<Option<Whatever>, Problem> {
         let whole = format!("primvars:{name}");
         let Some(handle) = self.layer.at(self.prim, &whole, self.time) else { return Ok(None) };
-        let type_name = self.layer.prims[self.prim].attributes[&whole].type_name.clone();
-        let Some((form, role, extent)) = kind(&type_name) else { return Ok(None) };
-        let mut values = match form {
-            Form::Float => Values::Floats(self.layer.singles(handle)?),
-            Form::Double => Values::Doubles(self.layer.numbers(handle)?),
-            Form::Integer => Values::Integers(self.layer.integers(handle)?),
-            Form::Word => Values::Words(self.layer.words(handle)?),
+        let attribute = &self.layer.prims[self.prim].attributes[&whole];
+        let single = !attribute.is_array;
+        let Some(Kind { stored, role, extent }) = kind(&attribute.type_name) else { return Ok(None) };
+        let mut values = match stored {
+            Stored::F16 | Stored::F32 => Values::Floats(self.layer.singles(handle)?),
+            Stored::F64 => Values::Doubles(self.layer.numbers(handle)?),
+            Stored::Text | Stored::Token => Values::Words(self.layer.words(handle)?),
+            _ => Values::Integers(self.layer.integers(handle)?),
         };
         if let Some(indices) = self.indices(name)? {
             values = indexed_values(name, &values, extent, &indices)?;
@@ -121,38 +122,55 @@ impl NamedValues for Primvars<'_> {
             Some("vertex") => Some(Per::Point),
             _ => None,
         };
-        Ok(Some(Whatever { role, extent, per, values }))
+        Ok(Some(Whatever { role, extent, stored, single, per, values }))
     }
 }
 
-enum Form {
-    Float,
-    Double,
-    Integer,
-    Word,
+/// What a value of a type is made of.
+pub struct Kind {
+    /// How a number or word is stored.
+    pub stored: Stored,
+    /// What the numbers stand for.
+    pub role: Role,
+    /// Numbers or words that make a value.
+    pub extent: usize,
 }
 
 /// What a type is made of: `color3f` is three floats that make a colour. `None` for a type that is not read.
-fn kind(type_name: &str) -> Option<(Form, Role, usize)> {
+pub fn kind(type_name: &str) -> Option<Kind> {
+    use Stored::{Bool, F16, F32, F64, I32, I64, Text, Token, U8, U32, U64};
     let split = type_name.find(|c: char| c.is_ascii_digit()).unwrap_or(type_name.len());
     let (base, rest) = match type_name {
         // Digits of which these two are the width and not the extent.
         "int64" | "uint64" => (type_name, ""),
         _ => type_name.split_at(split),
     };
-    let extent = rest.trim_end_matches(['f', 'h', 'd']).parse().unwrap_or(1);
-    let form = if rest.ends_with('d') { Form::Double } else { Form::Float };
-    Some(match base {
-        "bool" | "uchar" | "int" | "uint" | "int64" | "uint64" => (Form::Integer, Role::Plain, extent),
-        "half" | "float" => (Form::Float, Role::Plain, extent),
-        "double" => (Form::Double, Role::Plain, extent),
-        "string" | "token" => (Form::Word, Role::Plain, 1),
-        "color" => (form, Role::Colour, extent),
-        "point" => (form, Role::Point, extent),
-        "vector" => (form, Role::Vector, extent),
-        "normal" => (form, Role::Normal, extent),
-        "texCoord" => (form, Role::TextureCoordinate, extent),
-        "matrix" => (Form::Double, Role::Plain, extent * extent),
+    let extent: usize = rest.trim_end_matches(['f', 'h', 'd']).parse().unwrap_or(1);
+    let precision = match rest.chars().last() {
+        Some('d') => F64,
+        Some('h') => F16,
+        _ => F32,
+    };
+    let (stored, role, extent) = match base {
+        "bool" => (Bool, Role::Plain, extent),
+        "uchar" => (U8, Role::Plain, extent),
+        "int" => (I32, Role::Plain, extent),
+        "uint" => (U32, Role::Plain, extent),
+        "int64" => (I64, Role::Plain, extent),
+        "uint64" => (U64, Role::Plain, extent),
+        "half" => (F16, Role::Plain, extent),
+        "float" => (F32, Role::Plain, extent),
+        "double" => (F64, Role::Plain, extent),
+        "string" => (Text, Role::Plain, 1),
+        "token" => (Token, Role::Plain, 1),
+        "color" => (precision, Role::Colour, extent),
+        "point" => (precision, Role::Point, extent),
+        "vector" => (precision, Role::Vector, extent),
+        "normal" => (precision, Role::Normal, extent),
+        "texCoord" => (precision, Role::TextureCoordinate, extent),
+        // Four numbers in a row would come back as a double4.
+        "matrix" if extent > 2 => (F64, Role::Plain, extent * extent),
         _ => return None,
-    })
+    };
+    Some(Kind { stored, role, extent })
 }

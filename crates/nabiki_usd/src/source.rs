@@ -26,6 +26,8 @@ pub struct PrimInfo {
 pub struct AttributeInfo {
     /// Type without the brackets of an array: `color3f`.
     pub type_name: String,
+    /// Whether it had these.
+    pub is_array: bool,
     /// Value without a time.
     pub default: Option<Handle>,
     /// Time codes and values, times growing.

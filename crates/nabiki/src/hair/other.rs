@@ -12,8 +12,58 @@ pub struct Other {
     pub role: Role,
     /// Numbers or words that make a value.
     pub extent: usize,
+    /// How its source stores a number or word, which may be narrower than `values`.
+    pub stored: Stored,
+    /// Whether it is one value of the groom rather than a list of one.
+    pub single: bool,
     /// The values, one after another.
     pub values: Values,
+}
+
+/// How a source stores a number or word of an [`Other`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stored {
+    /// True (1) or false (0).
+    Bool,
+    /// Signed, 8 bits.
+    I8,
+    /// Unsigned, 8 bits.
+    U8,
+    /// Signed, 16 bits.
+    I16,
+    /// Unsigned, 16 bits.
+    U16,
+    /// Signed, 32 bits.
+    I32,
+    /// Unsigned, 32 bits.
+    U32,
+    /// Signed, 64 bits.
+    I64,
+    /// Unsigned, 64 bits; those from 2^63 on are held as the negative numbers of the same bits.
+    U64,
+    /// Half precision.
+    F16,
+    /// Single precision.
+    F32,
+    /// Double precision.
+    F64,
+    /// Any text.
+    Text,
+    /// A word of a fixed vocabulary.
+    Token,
+}
+
+impl Stored {
+    /// The way to store all of `values`: whole numbers in 32 bits where these hold them.
+    pub fn of(values: &Values) -> Self {
+        match values {
+            Values::Floats(_) => Self::F32,
+            Values::Doubles(_) => Self::F64,
+            Values::Integers(v) if v.iter().all(|&x| i32::try_from(x).is_ok()) => Self::I32,
+            Values::Integers(_) => Self::I64,
+            Values::Words(_) => Self::Text,
+        }
+    }
 }
 
 /// What has a value of its own.
@@ -116,6 +166,11 @@ impl Values {
 }
 
 impl Other {
+    /// An attribute that is stored as its values are, whole numbers in 32 bits where these hold them.
+    pub fn new(name: impl Into<String>, per: Per, role: Role, extent: usize, values: Values) -> Self {
+        Self { name: name.into(), per, role, extent, stored: Stored::of(&values), single: false, values }
+    }
+
     /// How many numbers or words it must have for a number of strands and of points.
     pub fn expected(&self, strands: usize, points: usize) -> usize {
         match self.per {
@@ -137,6 +192,9 @@ impl Other {
             (Values::Integers(a), Values::Integers(b)) => a.extend(b),
             (Values::Words(a), Values::Words(b)) => a.extend(b),
             _ => return false,
+        }
+        if self.stored != further.stored {
+            self.stored = Stored::of(&self.values);
         }
         true
     }
@@ -160,7 +218,7 @@ impl Other {
     }
 
     fn clone_without_values(&self) -> Self {
-        let Self { per, role, extent, .. } = *self;
-        Self { name: self.name.clone(), per, role, extent, values: Values::Integers(Vec::new()) }
+        let Self { per, role, extent, stored, single, .. } = *self;
+        Self { name: self.name.clone(), per, role, extent, stored, single, values: Values::Integers(Vec::new()) }
     }
 }

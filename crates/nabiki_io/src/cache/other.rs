@@ -2,7 +2,7 @@
 
 use std::io::{Read, Seek};
 
-use nabiki::hair::{Other, Per, Role, Values};
+use nabiki::hair::{Other, Per, Role, Stored, Values};
 
 use crate::{
     bytes::{Bytes, Scalar, put},
@@ -10,7 +10,7 @@ use crate::{
 };
 
 pub(super) const TAG: &[u8; 8] = b"other   ";
-/// Six numbers: what has a value, role, kind, extent, bytes of the name, 0.
+/// Six numbers: what has a value, role, kind, extent, bytes of the name, how it was stored.
 const HEAD_BYTES: u64 = 24;
 /// What has a value, and roles, by the numbers that the block gives them.
 const PER: [Per; 3] = [Per::Groom, Per::Strand, Per::Point];
@@ -19,6 +19,25 @@ const FLOATS: u32 = 0;
 const DOUBLES: u32 = 1;
 const INTEGERS: u32 = 2;
 const WORDS: u32 = 3;
+/// How the source stores a number or word, from 1 on by the numbers that the block gives it; 0 where it does not say.
+const STORED: [Stored; 14] = [
+    Stored::Bool,
+    Stored::I8,
+    Stored::U8,
+    Stored::I16,
+    Stored::U16,
+    Stored::I32,
+    Stored::U32,
+    Stored::I64,
+    Stored::U64,
+    Stored::F16,
+    Stored::F32,
+    Stored::F64,
+    Stored::Text,
+    Stored::Token,
+];
+/// Added for a single value, which is no list.
+const SINGLE: u32 = 0x100;
 
 /// The values of a block.
 pub(super) fn bytes(other: &Other) -> Result<Vec<u8>> {
@@ -35,7 +54,9 @@ pub(super) fn bytes(other: &Other) -> Result<Vec<u8>> {
     };
     let (extent, name) = (whole(other.extent, "an extent")?, whole(other.name.len(), "a name")?);
     let mut out = Vec::new();
-    put(&mut out, &[per, role, kind, extent, name, 0])?;
+    let stored = STORED.iter().position(|&stored| stored == other.stored).map_or(0, |at| at as u32 + 1);
+    let stored = stored | if other.single { SINGLE } else { 0 };
+    put(&mut out, &[per, role, kind, extent, name, stored])?;
     out.extend_from_slice(other.name.as_bytes());
     out.resize(out.len().next_multiple_of(8), 0);
     match &other.values {
@@ -58,7 +79,7 @@ pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, length: u64, strands: 
     if length < HEAD_BYTES {
         return Err(damaged("too short"));
     }
-    let [per, role, kind, extent, name_bytes, _]: [u32; 6] = source.value("attribute other")?;
+    let [per, role, kind, extent, name_bytes, stored]: [u32; 6] = source.value("attribute other")?;
     let per = *PER.get(per as usize).ok_or_else(|| damaged("of neither groom, strands nor points"))?;
     let role = *ROLES.get(role as usize).ok_or_else(|| damaged("a role beyond the sixth"))?;
     let name_room = u64::from(name_bytes).next_multiple_of(8);
@@ -83,7 +104,12 @@ pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, length: u64, strands: 
         let hair = format!("{extent} a value, {strands} strands, {points} points");
         return Err(Error::new(format!("attribute {name}: {found} numbers or words do not fit ({hair})")));
     }
-    Ok(Other { name, per, role, extent, values })
+    let single = stored & SINGLE != 0;
+    let stored = match (stored & !SINGLE) as usize {
+        0 => Stored::of(&values),
+        number => *STORED.get(number - 1).ok_or_else(|| damaged("stored in a way beyond the fourteenth"))?,
+    };
+    Ok(Other { name, per, role, extent, stored, single, values })
 }
 
 fn numbers<T: Scalar, R: Read + Seek>(source: &mut Bytes<R>, bytes: u64, name: &str) -> Result<Vec<T>> {

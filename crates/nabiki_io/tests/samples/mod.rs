@@ -48,7 +48,7 @@ pub fn whole(counts: &[usize]) -> Hair {
         ("map", Per::Point, Role::TextureCoordinate, 2, Values::Floats(numbers)),
         ("seed of the groom", Per::Groom, Role::Plain, 1, Values::Integers(vec![-1, i64::MAX])),
     ];
-    let other = |(name, per, role, extent, values)| Other { name: String::from(name), per, role, extent, values };
+    let other = |(name, per, role, extent, values)| Other::new(name, per, role, extent, values);
     hair.attributes.other = others.map(other).into();
     hair
 }

@@ -121,12 +121,15 @@ impl<R: Read + Seek> CrateReader<R> {
                 specs::ATTRIBUTE => {
                     let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&p)) else { continue };
                     let default = field("default").map(|rep| (rep, 0));
-                    let type_name = word(field("typeName")).trim_end_matches("[]").to_owned();
+                    let type_name = word(field("typeName"));
+                    let is_array = type_name.ends_with("[]");
+                    let type_name = type_name.trim_end_matches("[]").to_owned();
                     let interpolation = field("interpolation").map(|rep| (rep, 0));
                     let samples = field("timeSamples");
                     let samples = samples.map(|rep| reader.samples(Rep(rep))).transpose()?.unwrap_or_default();
                     let prim: &mut PrimInfo = &mut layer.0[prim];
-                    prim.attributes.insert(name, AttributeInfo { type_name, default, samples, interpolation });
+                    prim.attributes
+                        .insert(name, AttributeInfo { type_name, is_array, default, samples, interpolation });
                 }
                 specs::RELATIONSHIP => {
                     let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&p)) else { continue };
@@ -213,16 +216,19 @@ impl<R: Read + Seek> CrateReader<R> {
         Ok(points)
     }
 
-    /// As [`numbers`](Self::numbers) in whole numbers; 64-bit ones stay exact where they are not packed.
+    /// As [`numbers`](Self::numbers) in whole numbers; those of 64 bits keep these, signed or not.
     pub fn integers(&mut self, rep: u64) -> Result<Vec<i64>, Problem> {
         let found = Rep(rep);
-        let plain = found.is_array() && !found.is_inlined() && !found.is_compressed() && found.payload() != 0;
-        if plain && found.kind() == types::INT64 {
-            let (count, place) = self.array_count(found)?;
-            let bytes = self.bytes(place, (count as u64).saturating_mul(8))?;
-            return Ok(bytes.as_chunks::<8>().0.iter().map(|&b| i64::from_le_bytes(b)).collect());
+        let is_wide = matches!(found.kind(), types::INT64 | types::UINT64);
+        if !is_wide || found.is_inlined() || (found.is_array() && found.payload() == 0) {
+            return Ok(self.numbers(rep)?.into_iter().map(|x| x as i64).collect());
         }
-        Ok(self.numbers(rep)?.into_iter().map(|x| x as i64).collect())
+        let (count, place) = if found.is_array() { self.array_count(found)? } else { (1, found.payload()) };
+        if found.is_compressed() && count >= SHORTEST_PACKED {
+            return unpack_integers::<8>(&self.sized(place)?, count).map_err(Problem);
+        }
+        let bytes = self.bytes(place, (count as u64).saturating_mul(8))?;
+        Ok(bytes.as_chunks::<8>().0.iter().map(|&b| i64::from_le_bytes(b)).collect())
     }
 
     /// All words of a value; nothing for values that are not words.

@@ -108,11 +108,42 @@ impl<W: Write + Seek> CrateWriter<W> {
                 };
                 self.tuples(kind, *extent, values)
             }
+            Value::HalfTuples(extent, values) => {
+                let kind = [types::HALF, types::VEC2H, types::VEC3H, types::VEC4H][extent - 1];
+                let bits: Vec<u16> = values.iter().map(|x| x.to_bits()).collect();
+                self.tuples(kind, *extent, &bits)
+            }
+            Value::Bools(values) => self.array(types::BOOL, values),
+            Value::Bytes(values) => self.array(types::UCHAR, values),
+            Value::Unsigned(values) => self.array(types::UINT, values),
+            Value::UnsignedLongs(values) => self.array(types::UINT64, values),
+            Value::One(list) => self.one(list),
             Value::Matrix(m) => {
                 let place = self.put(&[bytemuck::cast_slice(m)])?;
                 Ok(Rep::at(types::MATRIX4D, place))
             }
         }
+    }
+
+    /// Writes the one value of a list: in the name itself where it has four bytes at most.
+    fn one(&mut self, list: &Value) -> io::Result<Rep> {
+        let (kind, small) = match list {
+            Value::Texts(words) => (types::STRING, Some(self.string(&words[0]))),
+            Value::Tokens(words) => (types::TOKEN, Some(self.token(&words[0]))),
+            Value::Bools(v) => (types::BOOL, Some(v[0].into())),
+            Value::Bytes(v) => (types::UCHAR, Some(v[0].into())),
+            Value::IntTuples(1, v) => (types::INT, Some(v[0].cast_unsigned())),
+            Value::Unsigned(v) => (types::UINT, Some(v[0])),
+            Value::HalfTuples(1, v) => (types::HALF, Some(v[0].to_bits().into())),
+            Value::FloatTuples(1, v) => (types::FLOAT, Some(v[0].to_bits())),
+            _ => (0, None),
+        };
+        if let Some(bits) = small {
+            return Ok(Rep::inlined(kind, bits));
+        }
+        // An array is its number of elements, eight bytes, and then these.
+        let array = self.value(list)?;
+        Ok(Rep::at(array.kind(), array.payload() + 8))
     }
 
     /// Writes an array of points.

@@ -17,6 +17,15 @@ const MOST_DIGITS: usize = 19;
 pub trait Number: FromStr {
     /// `digits` times ten to the `tens`, rounded once; `None` where that is not known to come out so.
     fn scaled(negative: bool, digits: u64, tens: i32) -> Option<Self>;
+
+    /// What a word stands for that is neither a plain decimal number nor one to the standard library.
+    fn from_word(word: &str) -> Option<Self> {
+        match word {
+            "true" => Self::scaled(false, 1, 0),
+            "false" => Self::scaled(false, 0, 0),
+            _ => None,
+        }
+    }
 }
 
 impl Number for f64 {
@@ -47,6 +56,15 @@ impl Number for i64 {
         let size = i64::try_from(digits).ok().filter(|_| tens == 0)?;
         Some(if negative { -size } else { size })
     }
+
+    /// Numbers from 2^63 on keep their 64 bits.
+    fn from_word(word: &str) -> Option<Self> {
+        match word {
+            "true" => Some(1),
+            "false" => Some(0),
+            _ => word.parse().ok().map(u64::cast_signed),
+        }
+    }
 }
 
 /// Numbers being read out of a value that comes in parts.
@@ -69,7 +87,8 @@ impl<T: Number> Numbers<T> {
         Self { found: Vec::new(), open: 0, in_comment: false }
     }
 
-    /// Reads on in text that neither begins nor ends within a number. `inf` and `nan` count, other words do not.
+    /// Reads on in text that neither begins nor ends within a number. `inf`, `nan`, `true` and `false` count, other words
+    /// do not.
     pub fn read(&mut self, text: &[u8]) -> Result<(), Problem> {
         let mut at = 0;
         while let Some(&byte) = text.get(at) {
@@ -95,7 +114,10 @@ impl<T: Number> Numbers<T> {
                 match word.parse() {
                     Ok(number) => self.found.push(number),
                     Err(_) if word == "None" => {}
-                    Err(_) => return Err(Problem(format!("\"{word:.40}\" among numbers"))),
+                    Err(_) => {
+                        let number = T::from_word(word);
+                        self.found.push(number.ok_or_else(|| Problem(format!("\"{word:.40}\" among numbers")))?);
+                    }
                 }
             }
         }

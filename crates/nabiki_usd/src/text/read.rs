@@ -102,11 +102,13 @@ fn layer_metadata(text: &mut Scanner<'_>, into: &mut HashMap<String, Handle>) ->
 /// A property of `prim` whose first word was `first`.
 fn property(text: &mut Scanner<'_>, first: String, prim: &mut PrimInfo) -> Result<(), Problem> {
     let mut words = vec![first];
+    let mut is_array = false;
     loop {
         match text.peek()? {
             Some(b'[') => {
                 text.pass();
                 text.expect(b']')?;
+                is_array = true;
             }
             Some(b'=' | b'(' | b'}' | b';') | None => break,
             // A property without a value ends where the next line begins.
@@ -138,6 +140,7 @@ fn property(text: &mut Scanner<'_>, first: String, prim: &mut PrimInfo) -> Resul
             let value = if timed { None } else { Some(text.skip_value()?) };
             let attribute = prim.attributes.entry(name.to_owned()).or_default();
             attribute.type_name.clone_from(type_name);
+            attribute.is_array = is_array;
             attribute.samples = samples.unwrap_or(std::mem::take(&mut attribute.samples));
             attribute.default = value.or(attribute.default);
         }

@@ -132,8 +132,19 @@ impl<W: Write + Seek> TextWriter<W> {
     }
 
     fn value(&mut self, value: &Value) -> io::Result<()> {
+        if let Value::One(list) = value {
+            let mut line = Vec::new();
+            TextWriter { to: io::Cursor::new(&mut line), end_at: 0 }.value(list)?;
+            // What stands between the brackets of a list of one.
+            return self.to.write_all(&line[1..line.len() - 1]);
+        }
         let to = &mut self.to;
         match value {
+            Value::One(_) => Ok(()),
+            Value::HalfTuples(extent, values) => tuples(to, *extent, values, |line, x| float(line, x.to_f32())),
+            Value::Bools(values) | Value::Bytes(values) => list(to, values, |line, &x| display(line, x)),
+            Value::Unsigned(values) => list(to, values, |line, &x| display(line, x)),
+            Value::UnsignedLongs(values) => list(to, values, |line, &x| display(line, x)),
             Value::Token(word) => write!(to, "{}", Quoted(word)),
             Value::Tokens(words) | Value::Texts(words) => list(to, words, |line, word| display(line, Quoted(word))),
             Value::Double(x) => write!(to, "{x}"),
