@@ -1,5 +1,6 @@
 //! The files that the pictures of a scene go into: a movie, a contact sheet, stills, the field.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
@@ -10,6 +11,9 @@ use nabiki_render::{ContactSheet, Frame, Movie, Picture, RenderError, ToneMappin
 use crate::built::BuiltScene;
 use crate::error::Result;
 use crate::place::{self, Folders};
+use crate::scene::Output;
+use crate::told::Told;
+use crate::watch::Watch;
 
 /// What is said of any place that a picture cannot use.
 pub const WAY_OUT: &str = "choose another folder with --out";
@@ -38,6 +42,7 @@ impl<'a> PictureOutputs<'a> {
         name: &str,
         inputs: &[PathBuf],
         folders: &mut Folders,
+        watch: &mut dyn Watch,
     ) -> Result<Self> {
         let (output, last) = (&built.scene.output, built.frames());
         let at = |ending: &str| folder.join(format!("{name}{ending}"));
@@ -57,16 +62,10 @@ impl<'a> PictureOutputs<'a> {
         place::not_inputs(&files, inputs)?;
         if let Some(stills) = &stills {
             folders.make(stills, WAY_OUT)?;
-            // What is there is looked through, rather than every name that will be: frames may be many.
-            let asked = |ending: &str| (output.png_frames && ending == "png") || (output.exr_frames && ending == "exr");
-            for there in std::fs::read_dir(stills).into_iter().flatten().flatten() {
-                let path = there.path();
-                let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
-                let number = path.file_stem().and_then(|s| s.to_str()).and_then(|s| s.parse().ok());
-                if number.is_some_and(|n| n <= last && asked(ending) && still(stills, n, ending) == path) {
-                    place::free(&path, WAY_OUT)?;
-                }
-            }
+            let mut replaced = numbered(stills, output).into_iter().filter(|(n, _)| *n <= last);
+            replaced.try_for_each(|(_, file)| place::free(&file, WAY_OUT))?;
+            let frames = u64::from(last) + 1;
+            place::room(stills, frames.saturating_mul(least_bytes(output, picture.size)), watch)?;
         }
         let movie = match movie_file {
             Some(file) => {
@@ -101,8 +100,11 @@ impl<'a> PictureOutputs<'a> {
         Ok(())
     }
 
-    /// Completes the files. Returns what was written.
-    pub fn finish(self) -> Result<Vec<PathBuf>> {
+    /// Completes the files, and removes the frames that a longer run left beyond the last. Returns what was written.
+    pub fn finish(self, watch: &mut dyn Watch) -> Result<Vec<PathBuf>> {
+        if let Some(stills) = &self.stills {
+            remove_beyond(self.built.frames(), stills, &self.built.scene.output, watch)?;
+        }
         let mut written = Vec::new();
         if let Some((file, movie)) = self.movie {
             movie.finish()?;
@@ -121,6 +123,40 @@ impl<'a> PictureOutputs<'a> {
         }
         Ok(written)
     }
+}
+
+/// The files among stills that have the name of a frame of a kind that is written, and its number. What is there is looked
+/// through, rather than every name that will be: frames may be many.
+fn numbered(stills: &Path, output: &Output) -> Vec<(u32, PathBuf)> {
+    let written = |ending: &str| (output.png_frames && ending == "png") || (output.exr_frames && ending == "exr");
+    let frame = |path: PathBuf| {
+        let ending = path.extension()?.to_str()?;
+        let number = path.file_stem()?.to_str()?.parse().ok()?;
+        (written(ending) && still(stills, number, ending) == path).then_some((number, path))
+    };
+    fs::read_dir(stills).into_iter().flatten().flatten().filter_map(|there| frame(there.path())).collect()
+}
+
+/// Removes the frames after `last`, so that the folder holds one motion. Whatever has another name, or is no ordinary
+/// file, stays.
+fn remove_beyond(last: u32, stills: &Path, output: &Output, watch: &mut dyn Watch) -> Result<()> {
+    let is_file = |file: &Path| fs::symlink_metadata(file).is_ok_and(|about| about.is_file());
+    let beyond: Vec<_> = numbered(stills, output).into_iter().filter(|(n, file)| *n > last && is_file(file)).collect();
+    for (_, file) in &beyond {
+        fs::remove_file(file).map_err(|e| nabiki_io::Error::from(e).in_file(file))?;
+    }
+    if !beyond.is_empty() {
+        watch.told(Told::Removed { folder: stills.to_owned(), frames: beyond.len(), last });
+    }
+    Ok(())
+}
+
+/// Bytes that the stills of a frame take at least. A bald head before an empty ground takes a twelfth of a byte for a pixel
+/// of a PNG file of 8 bits and two bytes for one of an EXR file; these are somewhat less.
+fn least_bytes(output: &Output, [width, height]: [u32; 2]) -> u64 {
+    let pixels = u64::from(width) * u64::from(height);
+    let png = if output.png_frames { pixels * u64::from(output.png_bits) / 128 } else { 0 };
+    png + if output.exr_frames { pixels } else { 0 }
 }
 
 /// The file of frame `n` among stills.

@@ -37,6 +37,15 @@ pub enum Told {
         /// Bytes that it will take at least.
         bytes: u64,
     },
+    /// Frames of an earlier, longer run that are gone.
+    Removed {
+        /// The folder that they were in.
+        folder: PathBuf,
+        /// How many.
+        frames: usize,
+        /// The last frame of this run, after which they came.
+        last: u32,
+    },
     /// A file that now exists.
     Wrote {
         /// The file or folder.
@@ -57,6 +66,13 @@ impl fmt::Display for Told {
             Self::Lost { file, what } => write!(f, "  lost    {} cannot hold {what}", file.display()),
             Self::Large { file, bytes } => {
                 write!(f, "  large   {} will take {} at least", file.display(), size(*bytes))
+            }
+            Self::Removed { folder, frames, last } => {
+                write!(
+                    f,
+                    "  removed {frames} files of frames after {last} from {}, left by a longer run",
+                    folder.display()
+                )
             }
             Self::Wrote { file, holds: None } => write!(f, "  wrote   {}", file.display()),
             Self::Wrote { file, holds: Some(what) } => write!(f, "  wrote   {}: {what}", file.display()),

@@ -34,13 +34,13 @@ pub fn preview(scene: Scene, strands: usize, folder: &Path, cache: Option<&Path>
     let picture = small(&scene.picture, share);
     let mut folders = Folders::default();
     let name = format!("{}_preview", scene.name());
-    let mut outputs = PictureOutputs::begin(&built, &picture, folder, &name, &scene.inputs(), &mut folders)?;
+    let mut outputs = PictureOutputs::begin(&built, &picture, folder, &name, &scene.inputs(), &mut folders, watch)?;
     super::introduce(&built, watch);
     let mut film = Film::new(&built, &picture, &mut simulated.again(), watch)?;
     let mut frames = simulated.again();
     let inside = film.shoot(&mut frames, &mut outputs, watch)?;
     watch.told(Told::Inside(inside));
-    let mut written = outputs.finish()?;
+    let mut written = outputs.finish(watch)?;
     if let Some(cache) = cache {
         write_cache(&built, cache, &mut simulated.again(), watch)?;
         written.push(cache.to_owned());

@@ -38,11 +38,11 @@ pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path
     let written = match options.frame {
         None => {
             let mut outputs =
-                PictureOutputs::begin(&built, &scene.picture, folder, &scene.name(), &inputs, &mut folders)?;
+                PictureOutputs::begin(&built, &scene.picture, folder, &scene.name(), &inputs, &mut folders, watch)?;
             let mut film = Film::new(&built, &scene.picture, source(&built, options)?.as_mut(), watch)?;
             let inside = film.shoot(source(&built, options)?.as_mut(), &mut outputs, watch)?;
             watch.told(Told::Inside(inside));
-            outputs.finish()?
+            outputs.finish(watch)?
         }
         Some(frame) => {
             let path = folder.join(format!("{}_{frame:04}.png", scene.name()));

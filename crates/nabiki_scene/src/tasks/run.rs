@@ -30,14 +30,14 @@ pub fn run(scene: Scene, shown: Shown, folder: &Path, exports: &ExportOptions, w
     let scene = &built.scene;
     let mut folders = Folders::default();
     let mut outputs =
-        PictureOutputs::begin(&built, &scene.picture, folder, &scene.name(), &scene.inputs(), &mut folders)?;
+        PictureOutputs::begin(&built, &scene.picture, folder, &scene.name(), &scene.inputs(), &mut folders, watch)?;
     super::introduce(&built, watch);
     let mut exports = Exports::begin(exports, &built, watch)?;
     let mut rehearsal = simulated.again();
     let mut frames = Exported { frames: simulated, built: &built, exports: &mut exports };
     let inside = Film::new(&built, &scene.picture, &mut rehearsal, watch)?.shoot(&mut frames, &mut outputs, watch)?;
     watch.told(Told::Inside(inside));
-    let mut written = outputs.finish()?;
+    let mut written = outputs.finish(watch)?;
     written.extend(exports.finish()?);
     super::wrote(written, watch);
     Ok(())
