@@ -147,6 +147,23 @@ def made_elsewhere(nabiki, interchange, python):
     print(f"usd-core's grooms: {len(grooms)} of up to 100,000 strands that are alike, the same bits")
 
 
+def types_stay(nabiki, python):
+    """Primvars of every type, through each format and back, as usd-core sees them."""
+    folder = WORK / "carried"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    for source in ["all.usdc", "all.usda"]:
+        run(python, HERE / "carried.py", "write", folder / source)
+        for ending in ["usda", "usdc", "abc"]:
+            there = folder / f"{source}.{ending}"
+            run(nabiki, "convert", folder / source, there, "--quiet")
+            for last in ["usda", "usdc"]:
+                back = folder / f"{there.name}.{last}"
+                run(nabiki, "convert", there, back, "--unit", "cm", "--quiet")
+                run(python, HERE / "carried.py", "compare", folder / source, back)
+    print("primvars: 20 types through .usda, .usdc and .abc, the same types and values")
+
+
 def there_and_back(nabiki, samples):
     """A groom of another tool gets wind, and comes back as a layer over itself."""
     scene = WORK / "trip.toml"
@@ -172,6 +189,7 @@ def main():
     round_trips(nabiki, samples)
     there_and_back(nabiki, samples)
     python = environment()
+    types_stay(nabiki, python)
     made_elsewhere(nabiki, built / "examples" / "interchange", python)
     run(python, HERE / "usd.py", samples)
     run(python, HERE / "alembic.py", samples)

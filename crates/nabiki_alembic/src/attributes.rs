@@ -4,7 +4,7 @@ use std::io::{Read, Seek};
 
 use nabiki::hair::{Per, Role, Values};
 use nabiki_exchange::Uvs;
-use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values};
+use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values, past};
 
 use crate::Problem;
 use crate::layout::{Kind, Pod, stored};
@@ -137,6 +137,14 @@ fn per(header: &Header) -> Option<Per> {
 }
 
 impl<R: Read + Seek> NamedValues for Parameters<'_, R> {
+    fn misindexed(&mut self, name: &str) -> Result<bool, Problem> {
+        let compound = self.headers.iter().any(|h| h.name == name && h.form == Form::Compound);
+        let Some(sample) = (if compound { self.stored(name)? } else { None }) else { return Ok(false) };
+        let size = sample.kind.pod.size() * usize::from(sample.kind.extent);
+        let count = if sample.is_text() { words(sample.kind, &sample.bytes).len() } else { sample.bytes.len() / size };
+        Ok(sample.indices.is_some_and(|indices| past(&indices, count)))
+    }
+
     fn names(&self) -> Vec<String> {
         let (schema, parameters) = self.headers.split_at(self.of_schema);
         let of_schema = schema.iter().filter(|h| OF_SCHEMA.contains(&&*h.name));

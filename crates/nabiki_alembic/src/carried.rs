@@ -10,7 +10,7 @@ use crate::property::Property;
 /// What an archive cannot keep of an attribute that is passed on, a phrase each.
 pub fn changes(other: &Other) -> Vec<String> {
     let list = (other.per == Per::Groom && !other.single && other.values.len() == other.extent)
-        .then(|| format!("that {} is a list of one value: it is that value there", other.name));
+        .then(|| format!("{} as a list of one value: it is that value there", other.name));
     // Of two numbers, texture coordinates are vectors, and of others the other way round.
     let role = match (other.role, other.extent) {
         (Role::Vector, 2) => Role::TextureCoordinate,

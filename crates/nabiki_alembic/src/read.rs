@@ -272,21 +272,33 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
             let Some(schema) = schema else {
                 let known = object.metadata.split(';').find_map(|entry| entry.strip_prefix("schema="));
                 let kind = PrimKind::Other(known.unwrap_or_default().to_owned());
-                prims.push(Prim { path, kind, samples: 0 });
+                prims.push(Prim { path, kind, samples: 0, relationships: Vec::new() });
                 continue;
             };
             let inside = self.schema(i)?;
             let named = |name: &str| inside.iter().find(|h| h.name == name && h.form != Form::Compound);
             let samples = |name: &str| named(name).map_or(0, Header::different_samples);
             prims.push(match schema {
-                "AbcGeom_Xform" => Prim { path, kind: PrimKind::Transform, samples: samples(".vals") },
+                "AbcGeom_Xform" => {
+                    Prim { path, kind: PrimKind::Transform, samples: samples(".vals"), relationships: Vec::new() }
+                }
                 "AbcGeom_Curve" => {
                     let (curves, points) = (self.count(named("nVertices"))?, self.count(named("P"))?);
-                    Prim { path, kind: PrimKind::Curves { curves, points }, samples: samples("P") }
+                    Prim {
+                        path,
+                        kind: PrimKind::Curves { curves, points },
+                        samples: samples("P"),
+                        relationships: Vec::new(),
+                    }
                 }
                 _ => {
                     let (faces, points) = (self.count(named(".faceCounts"))?, self.count(named("P"))?);
-                    Prim { path, kind: PrimKind::Mesh { faces, points }, samples: samples("P") }
+                    Prim {
+                        path,
+                        kind: PrimKind::Mesh { faces, points },
+                        samples: samples("P"),
+                        relationships: Vec::new(),
+                    }
                 }
             });
         }

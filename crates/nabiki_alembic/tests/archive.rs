@@ -206,7 +206,7 @@ fn attributes_of_any_name_go_through() {
         assert_eq!(nabiki_alembic::changes(other), Vec::<String>::new());
     }
     let list = Other { single: false, ..other("one", Per::Groom, Role::Plain, 1, Values::Floats(vec![0.1])) };
-    assert_eq!(nabiki_alembic::changes(&list), ["that one is a list of one value: it is that value there"]);
+    assert_eq!(nabiki_alembic::changes(&list), ["one as a list of one value: it is that value there"]);
     let token = Other {
         stored: Stored::Token,
         ..other("side", Per::Groom, Role::Plain, 1, Values::Words(vec!["l".into(), "r".into()]))

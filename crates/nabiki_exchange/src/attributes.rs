@@ -12,6 +12,12 @@ pub trait NamedValues {
     /// The names of all there are.
     fn names(&self) -> Vec<String>;
 
+    /// Whether the values of a name are stored by index, and some index lies past them, as an absent value's does.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    fn misindexed(&mut self, name: &str) -> Result<bool, Problem>;
+
     /// Values of `N` numbers each; `None` where there are none of that name and shape.
     ///
     /// # Errors
@@ -92,6 +98,11 @@ pub mod names {
     pub const REST: &str = "rest";
 }
 
+/// Whether an index lies outside of `count` values.
+pub fn past(indices: &[i64], count: usize) -> bool {
+    indices.iter().any(|&i| usize::try_from(i).map_or(true, |i| i >= count))
+}
+
 /// Values that are stored once for many, by `indices` into them.
 ///
 /// # Errors
@@ -160,7 +171,9 @@ impl Polylines {
     /// # Errors
     /// What is wrong with the file.
     pub fn attributes(&self, file: &mut impl NamedValues) -> Result<Attributes, Problem> {
-        let mut search = Search { lines: self, file, used: BTreeSet::new(), unread: Vec::new() };
+        let mut search =
+            Search { lines: self, file, used: BTreeSet::new(), misindexed: BTreeSet::new(), unread: Vec::new() };
+        search.indices()?;
         let one = |values: Vec<[f32; 1]>| values.into_iter().map(|[x]| x).collect::<Vec<f32>>();
         let mut found = Attributes {
             width: search.by_point(names::WIDTH)?.map(one),
@@ -223,13 +236,33 @@ struct Search<'a, F> {
     lines: &'a Polylines,
     file: &'a mut F,
     used: BTreeSet<&'static str>,
+    /// Names whose values cannot be looked up.
+    misindexed: BTreeSet<String>,
     unread: Vec<String>,
 }
 
 impl<F: NamedValues> Search<'_, F> {
+    /// Sets aside what is stored by index and cannot be looked up.
+    fn indices(&mut self) -> Result<(), Problem> {
+        let mut names = self.file.names();
+        names.sort();
+        for name in names {
+            if self.file.misindexed(&name)? {
+                self.unread.push(format!("{name}: some of its indices name no value"));
+                self.misindexed.insert(name);
+            }
+        }
+        Ok(())
+    }
+
+    /// The names that can be looked up.
+    fn readable(&self, names: &[&'static str]) -> Vec<&'static str> {
+        names.iter().copied().filter(|name| !self.misindexed.contains(*name)).collect()
+    }
+
     /// Values at the points of the strands, of the first of `names` that has any.
     fn by_point<const N: usize>(&mut self, names: &[&'static str]) -> Result<Option<Vec<[f32; N]>>, Problem> {
-        for &name in names {
+        for name in self.readable(names) {
             let Some(values) = self.file.tuples::<N>(name)?.filter(|values| !values.is_empty()) else { continue };
             self.used.insert(name);
             let found = self.lines.at_points(&values);
@@ -243,7 +276,7 @@ impl<F: NamedValues> Search<'_, F> {
 
     /// Whole numbers of the strands, of the first of `names` that has any.
     fn by_strand(&mut self, names: &[&'static str]) -> Result<Option<Vec<i64>>, Problem> {
-        for &name in names {
+        for name in self.readable(names) {
             if let Some(values) = self.file.integers(name)?.filter(|values| !values.is_empty()) {
                 self.used.insert(name);
                 return Ok(self.at_roots(name, &values));
@@ -254,7 +287,7 @@ impl<F: NamedValues> Search<'_, F> {
 
     fn root_uv(&mut self) -> Result<Option<Vec<[f32; 2]>>, Problem> {
         let mut root_uv = None;
-        for &name in names::ROOT_UV {
+        for name in self.readable(names::ROOT_UV) {
             let Some(values) = self.file.tuples::<2>(name)?.filter(|values| !values.is_empty()) else { continue };
             match &root_uv {
                 None => {
@@ -275,7 +308,7 @@ impl<F: NamedValues> Search<'_, F> {
 
     /// Names of groups; where a file has names only, they are numbered as they come.
     fn group_names(&mut self, found: &mut Attributes) -> Result<(), Problem> {
-        for &name in names::GROUP_NAME {
+        for name in self.readable(names::GROUP_NAME) {
             let Some(words) = self.file.words(name)?.filter(|words| !words.is_empty()) else { continue };
             self.used.insert(name);
             let Some(words) = self.at_roots(name, &words) else { return Ok(()) };
@@ -297,7 +330,12 @@ impl<F: NamedValues> Search<'_, F> {
     /// All that has no place of its own.
     fn others(&mut self) -> Result<Vec<Other>, Problem> {
         let mut others = Vec::new();
-        for name in self.file.names() {
+        let mut names = self.file.names();
+        names.sort();
+        for name in names {
+            if self.misindexed.contains(&name) {
+                continue;
+            }
             if self.used.contains(&*name) && names::WRITTEN.contains(&&*name) {
                 continue;
             }

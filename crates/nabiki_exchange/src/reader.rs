@@ -85,6 +85,8 @@ pub struct Prim {
     pub kind: PrimKind,
     /// Samples over time of what moves most in it; 0 or 1 where nothing does.
     pub samples: usize,
+    /// What it is bound to, by the file's word: `material:binding`.
+    pub relationships: Vec<String>,
 }
 
 /// What an object of a file is.

@@ -44,4 +44,5 @@ pub use carried::changes;
 pub use nabiki_exchange::{Contents, Problem};
 pub use read::StageReader;
 pub use source::Source;
+pub use text::write::text_bytes;
 pub use write::{Form, HairStage};

@@ -185,9 +185,15 @@ impl Layer {
         }
     }
 
-    /// Prims of a type.
+    /// Prims of a type that are on the stage.
     pub fn of_type(&self, wanted: &str) -> Vec<usize> {
-        (0..self.prims.len()).filter(|&i| self.prims[i].type_name == wanted).collect()
+        let all = 0..self.prims.len();
+        all.filter(|&i| self.prims[i].type_name == wanted && self.is_on_stage(i)).collect()
+    }
+
+    /// Whether neither a prim nor any above it is inactive or a class.
+    pub fn is_on_stage(&self, prim: usize) -> bool {
+        self.upward(prim).all(|i| !self.prims[i].is_off_stage)
     }
 
     /// A prim and those above it, from below.

@@ -1,7 +1,7 @@
 //! What a prim of curves carries, and what of it is not read.
 
 use nabiki::hair::{Per, Role, Stored, Values};
-use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values};
+use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values, past};
 
 use crate::Problem;
 use crate::opened::Layer;
@@ -34,7 +34,14 @@ const KNOWN: [&str; 11] = [
 
 impl Primvars<'_> {
     /// What the prim says of itself that is not read, a phrase each.
-    pub fn unread(&self) -> Vec<String> {
+    pub fn unread(&mut self) -> Result<Vec<String>, Problem> {
+        let hidden = [("visibility", "invisible"), ("purpose", "guide"), ("purpose", "proxy")];
+        let mut marks = Vec::new();
+        for (name, mark) in hidden {
+            if self.layer.word(self.prim, name)?.as_deref() == Some(mark) {
+                marks.push(format!("{name} of {}: it is \"{mark}\" there", self.layer.path(self.prim)));
+            }
+        }
         let prim = &self.layer.prims[self.prim];
         let other = |name: &&String| {
             !KNOWN.contains(&name.as_str()) && !name.starts_with("primvars:") && !name.starts_with("xformOp:")
@@ -46,13 +53,19 @@ impl Primvars<'_> {
             .iter()
             .filter(|(name, a)| (name.starts_with("primvars:") || name.as_str() == "widths") && a.samples.len() > 1);
         unread.extend(moving.map(|(name, _)| format!("motion of {name}: its first value is kept")));
+        unread.append(&mut marks);
+        for above in self.layer.upward(self.prim).skip(1) {
+            let names = self.layer.prims[above].attributes.keys();
+            let inherited = names.filter(|name| name.starts_with("primvars:") && !name.ends_with(":indices"));
+            unread.extend(inherited.map(|name| format!("{name} of {}, which is above it", self.layer.path(above))));
+        }
         for above in self.layer.upward(self.prim) {
             for name in &self.layer.prims[above].relationships {
                 unread.push(format!("{name} of {}", self.layer.path(above)));
             }
         }
         unread.sort();
-        unread
+        Ok(unread)
     }
 
     fn named(&self, name: &str) -> Option<Handle> {
@@ -75,6 +88,17 @@ impl Primvars<'_> {
 }
 
 impl NamedValues for Primvars<'_> {
+    fn misindexed(&mut self, name: &str) -> Result<bool, Problem> {
+        let (Some(indices), Some(handle)) = (self.indices(name)?, self.named(name)) else { return Ok(false) };
+        let type_name = &self.layer.prims[self.prim].attributes.get(&format!("primvars:{name}")).map(|a| &a.type_name);
+        let count = match type_name.and_then(|name| kind(name)) {
+            Some(Kind { stored: Stored::Text | Stored::Token, .. }) => self.layer.words(handle)?.len(),
+            Some(Kind { extent, .. }) => self.layer.numbers(handle)?.len() / extent,
+            None => return Ok(false),
+        };
+        Ok(past(&indices, count))
+    }
+
     fn names(&self) -> Vec<String> {
         let names = self.layer.prims[self.prim].attributes.keys().filter_map(|name| name.strip_prefix("primvars:"));
         names.filter(|name| !name.ends_with(":indices")).map(str::to_owned).collect()

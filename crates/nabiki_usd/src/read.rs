@@ -139,7 +139,7 @@ impl StageReader {
         }
         let mut primvars = Primvars { layer: &mut self.layer, prim, time };
         let mut attributes = lines.attributes(&mut primvars)?;
-        attributes.unread.extend(primvars.unread());
+        attributes.unread.extend(primvars.unread()?);
         Ok(Hair { strands: lines.strands, attributes })
     }
 
@@ -232,6 +232,9 @@ impl GroomReader for StageReader {
         for i in 0..self.layer.prims.len() {
             let type_name = self.layer.prims[i].type_name.clone();
             let kind = match type_name.as_str() {
+                _ if !self.layer.is_on_stage(i) => {
+                    PrimKind::Other(format!("{type_name} (inactive or of a class)").trim_start().to_owned())
+                }
                 "BasisCurves" => {
                     let curves = self.count(i, "curveVertexCounts")?;
                     PrimKind::Curves { curves, points: self.point_count(i)? }
@@ -245,7 +248,8 @@ impl GroomReader for StageReader {
                 _ => PrimKind::Other(type_name),
             };
             let samples = self.layer.prims[i].attributes.values().map(|a| a.samples.len()).max().unwrap_or(0);
-            prims.push(Prim { path: self.layer.path(i), kind, samples });
+            let relationships = self.layer.prims[i].relationships.clone();
+            prims.push(Prim { path: self.layer.path(i), kind, samples, relationships });
         }
         Ok(prims)
     }
@@ -254,6 +258,10 @@ impl GroomReader for StageReader {
         let time = self.code_of(frame)?;
         let prims = self.layer.of_type("BasisCurves");
         if prims.is_empty() {
+            const OTHERS: [&str; 3] = ["HermiteCurves", "NurbsCurves", "Points"];
+            if let Some(found) = OTHERS.into_iter().find(|name| !self.layer.of_type(name).is_empty()) {
+                return Err(Problem(format!("has {found} and no BasisCurves, which alone are read: convert them")));
+            }
             return Err(Problem::new(
                 "has no BasisCurves: if they come by reference, flatten it first (usdcat --flatten IN -o OUT)",
             ));

@@ -13,6 +13,8 @@ pub struct PrimInfo {
     pub name: String,
     /// Type; empty for an `over` or a prim of no type.
     pub type_name: String,
+    /// Whether it is a class or inactive: neither it nor what is below it is on the stage then.
+    pub is_off_stage: bool,
     /// The prim above it in the list.
     pub parent: Option<usize>,
     /// Attributes by name.

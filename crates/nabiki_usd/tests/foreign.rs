@@ -350,3 +350,30 @@ fn a_whole_turn_between_two_keys_is_a_turn() {
         assert!(1.0 - placed.rotation.dot(turn).abs() < 1e-12, "at {} s", placed.time);
     }
 }
+
+/// Flattened stages keep what is switched off; values that are absent are stored as index -1.
+#[test]
+fn classes_and_inactive_prims_are_no_hair_and_absent_values_are_said() {
+    let curves =
+        "uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n point3f[] points = [(0, 0, 0), (1, 0, 0)]\n";
+    let mut stage = reader(format!(
+        "#usda 1.0\nclass \"_c\" {{ def BasisCurves \"h\" {{ {curves} }} }}\n\
+         def Xform \"off\" ( active = false ) {{ def BasisCurves \"h\" {{ {curves} }} }}\n\
+         def Xform \"on\" ( customData = {{ bool active = false }}\n kind = \"group\"\n active = true ) {{\n\
+         float primvars:above = 3\n\
+         def BasisCurves \"h\" {{ {curves} token visibility = \"invisible\"\n\
+         color3f[] primvars:palette = [(1, 0, 0)] ( interpolation = \"uniform\" )\n int[] primvars:palette:indices = [-1] }} }}\n"
+    ));
+    assert_eq!(stage.contents().unwrap().curves, ["/on/h"]);
+    let hair = stage.hair(0, None).unwrap();
+    assert_eq!(hair.strands.len(), 1);
+    let said = [
+        "palette: some of its indices name no value",
+        "primvars:above of /on, which is above it",
+        "visibility of /on/h: it is \"invisible\" there",
+    ];
+    assert_eq!(hair.attributes.unread, said);
+    let mut hermite = reader("#usda 1.0\ndef HermiteCurves \"h\" {}\n");
+    let refused = hermite.hair(0, None).unwrap_err().to_string();
+    assert_eq!(refused, "has HermiteCurves and no BasisCurves, which alone are read: convert them");
+}

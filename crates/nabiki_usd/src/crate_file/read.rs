@@ -116,7 +116,10 @@ impl<R: Read + Seek> CrateReader<R> {
                     let parent = node.parent.and_then(|p| prim_of_node.get(&p).copied());
                     let type_name = word(field("typeName"));
                     prim_of_node.insert(i, layer.0.len());
-                    layer.0.push(PrimInfo { name, type_name, parent, ..PrimInfo::default() });
+                    const CLASS: u64 = 2;
+                    let is = |name: &str, value: u64| field(name).is_some_and(|rep| Rep(rep).payload() == value);
+                    let is_off_stage = is("specifier", CLASS) || is("active", 0);
+                    layer.0.push(PrimInfo { name, type_name, is_off_stage, parent, ..PrimInfo::default() });
                 }
                 specs::ATTRIBUTE => {
                     let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&p)) else { continue };

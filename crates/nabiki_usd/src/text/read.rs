@@ -21,6 +21,8 @@ pub fn parse(from: &mut dyn Source, length: u64) -> Result<Parsed, Problem> {
     let mut prims: Vec<PrimInfo> = Vec::new();
     // Prims whose braces are open.
     let mut open: Vec<usize> = Vec::new();
+    // What stands in parentheses behind the names of prims.
+    let mut details: Vec<(usize, Handle)> = Vec::new();
     if text.peek()? == Some(b'(') {
         layer_metadata(&mut text, &mut metadata)?;
     }
@@ -42,7 +44,7 @@ pub fn parse(from: &mut dyn Source, length: u64) -> Result<Parsed, Problem> {
                 let type_name = if text.peek()? == Some(b'"') { String::new() } else { text.word()? };
                 let name = text.quoted()?;
                 if text.peek()? == Some(b'(') {
-                    text.skip_brackets()?;
+                    details.push((prims.len(), text.skip_value()?));
                 }
                 text.expect(b'{')?;
                 let parent = open.last().copied();
@@ -50,7 +52,8 @@ pub fn parse(from: &mut dyn Source, length: u64) -> Result<Parsed, Problem> {
                 if open.len() > DEEPEST {
                     return Err(text.problem("prims nested deeper than any scene is"));
                 }
-                prims.push(PrimInfo { name, type_name, parent, ..PrimInfo::default() });
+                let is_off_stage = word == "class";
+                prims.push(PrimInfo { name, type_name, is_off_stage, parent, ..PrimInfo::default() });
             }
             "variantSet" => {
                 text.quoted()?;
@@ -66,10 +69,36 @@ pub fn parse(from: &mut dyn Source, length: u64) -> Result<Parsed, Problem> {
             _ => property(&mut text, word, &mut prims[open[open.len() - 1]])?,
         }
     }
-    match open.last() {
-        Some(&prim) => Err(Problem(format!("ends within prim {}: is it whole?", prims[prim].name))),
-        None => Ok((prims, metadata)),
+    if let Some(&prim) = open.last() {
+        return Err(Problem(format!("ends within prim {}: is it whole?", prims[prim].name)));
     }
+    for (prim, details) in details {
+        prims[prim].is_off_stage |= is_inactive(from, details)?;
+    }
+    Ok((prims, metadata))
+}
+
+/// Whether `active = false` stands among the details of a prim.
+fn is_inactive(from: &mut dyn Source, details: Handle) -> Result<bool, Problem> {
+    let mut text = Scanner::new(from, details)?;
+    text.expect(b'(')?;
+    let mut asked = false;
+    while let Some(byte) = text.peek()? {
+        match byte {
+            b'"' | b'\'' | b'@' | b'<' | b'[' | b'(' | b'{' => {
+                text.skip_value()?;
+            }
+            b if b.is_ascii_alphanumeric() => {
+                let word = text.word()?;
+                if asked && matches!(word.as_str(), "false" | "0") {
+                    return Ok(true);
+                }
+                asked = word == "active";
+            }
+            _ => text.pass(),
+        }
+    }
+    Ok(false)
 }
 
 /// Passes over the layer's metadata in parentheses, noting `name = value`.

@@ -179,6 +179,21 @@ fn tuple<const N: usize>(line: &mut Vec<u8>, numbers: &[f32; N]) {
     line.push(b')');
 }
 
+/// Bytes that points take in a list.
+pub fn text_bytes(points: &[[f32; 3]]) -> u64 {
+    // Of many points some tell enough: strands lie in any order of places, not of digits.
+    const MOST_WRITTEN: usize = 10_000;
+    let step = points.len().div_ceil(MOST_WRITTEN).max(1);
+    let mut line = Vec::new();
+    let mut written = 0;
+    for point in points.iter().step_by(step) {
+        tuple(&mut line, point);
+        line.extend_from_slice(b", ");
+        written += 1;
+    }
+    (line.len() as u64 * points.len() as u64).checked_div(written).unwrap_or(0)
+}
+
 /// Values of `extent` numbers each, those of 9 and 16 as matrices: rows within a pair of parentheses.
 fn tuples<W: Write, T>(to: &mut W, extent: usize, values: &[T], one: impl Fn(&mut Vec<u8>, &T)) -> io::Result<()> {
     let row = |line: &mut Vec<u8>, numbers: &[T]| {
