@@ -131,7 +131,7 @@ pub struct ExportArgs {
     pub export: Vec<PathBuf>,
 
     /// Write samples alone, to be laid over the groom at this prim path of the USD stage that the hair came from
-    #[arg(long, value_name = "PRIM", requires = "export")]
+    #[arg(long, value_name = "PRIM", num_args = 0..=1, default_missing_value = "", value_parser = prim_path)]
     pub export_layer: Option<String>,
 
     /// Put the head into .abc files too; Unreal then takes them for a mesh, not for a groom
@@ -265,7 +265,8 @@ pub struct Convert {
 
     /// Write samples of a motion cache alone, to be laid over the groom at this prim path of the USD stage that the
     /// hair came from
-    #[arg(long, value_name = "PRIM", conflicts_with = "frame")]
+    #[arg(long, value_name = "PRIM", conflicts_with = "frame", num_args = 0..=1, default_missing_value = "",
+          value_parser = prim_path)]
     pub export_layer: Option<String>,
 }
 
@@ -277,6 +278,16 @@ pub struct Info {
     /// Write JSON, for programs to read
     #[arg(long)]
     pub json: bool,
+}
+
+/// What no prim path is is refused with what one looks like.
+fn prim_path(text: &str) -> Result<String, String> {
+    if text.starts_with('/') {
+        return Ok(text.to_owned());
+    }
+    Err("give the path of the groom's curves in its USD stage, like /character/hair; nabiki info on the groom's file lists \
+         them"
+        .into())
 }
 
 fn positive(text: &str) -> Result<usize, String> {

@@ -183,6 +183,89 @@ fn a_layer_over_what_is_not_the_groom_is_refused_with_the_paths_that_are() {
 }
 
 #[test]
+fn a_layer_out_of_a_cache_is_checked_against_the_groom_that_the_cache_remembers() {
+    let folder = folder();
+    succeed(&folder, "groom scene.toml --strands 40 -o groom.usdc");
+    let scene = "[hair]\nfile = \"groom.usdc\"\njoin_within = 0.0\n[motion]\nframes = 2\n[[force]]\nthrough = 2\n\
+                 vector = [0, -1, 0]\n";
+    fs::write(folder.path().join("own.toml"), scene).unwrap();
+    succeed(&folder, "simulate own.toml -o m.nabiki");
+    // The cache alone says where the curves were.
+    fs::remove_file(folder.path().join("groom.usdc")).unwrap();
+    let line = refuse(&folder, "convert m.nabiki l.usda --export-layer /nowhere");
+    assert!(line.contains("groom.usdc: --export-layer /nowhere: its curves are at /head/hair ("), "{line}");
+    succeed(&folder, "convert m.nabiki l.usda --export-layer /head/hair");
+    succeed(&folder, &format!("simulate scene.toml -o grown.nabiki {FEW}"));
+    let line = refuse(&folder, "convert grown.nabiki g.usda --export-layer /head/hair");
+    assert!(line.contains("its hair is grown here; leave out --export-layer"), "{line}");
+    let line = refuse(&folder, "simulate own.toml -o m.nabiki --export-layer /head/hair");
+    assert!(line.contains("--export-layer /head/hair: give the layer's file, too"), "{line}");
+    let wordless = nabiki(&folder, "simulate own.toml -o i.usdc --export-layer");
+    let said = String::from_utf8(wordless.stderr).unwrap();
+    assert!(wordless.status.code() == Some(2) && said.contains("give the path of the groom's curves"), "{said}");
+}
+
+#[test]
+fn what_is_not_read_of_a_groom_is_said_wherever_it_goes() {
+    let folder = folder();
+    let groom = "#usda 1.0\n( metersPerUnit = 0.01\n upAxis = \"Y\" )\ndef BasisCurves \"h\" { rel material:binding = </m>\n\
+                 uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n point3f[] points = [(9, 1, 0), (12, 1, 0)]\n\
+                 int[] primvars:groom_group_id = [4] ( interpolation = \"uniform\" ) }\n";
+    fs::write(folder.path().join("groom.usda"), groom).unwrap();
+    let scene = "[hair]\nfile = \"groom.usda\"\n[motion]\nframes = 2\n[[force]]\nthrough = 2\nvector = [0, -1, 0]\n";
+    fs::write(folder.path().join("own.toml"), scene).unwrap();
+    for (words, name) in [
+        ("groom own.toml -o", "still.abc"),
+        ("simulate own.toml -o", "m.nabiki"),
+        ("simulate own.toml -o", "moving.usdc"),
+        ("convert groom.usda", "other.hair"),
+    ] {
+        let said = succeed(&folder, &format!("{words} {name}"));
+        assert!(said.contains(&format!("lost    {name} cannot hold material:binding of /h")), "{words} {name}: {said}");
+    }
+    let line = refuse(&folder, "convert groom.usda c.nabiki");
+    assert!(line.contains("name it in a scene as hair.file and run nabiki simulate"), "{line}");
+    // A part of a groom has lost nothing but strands.
+    let said = succeed(&folder, "groom scene.toml --strands 2 -o few.usdc");
+    assert!(!said.contains("lost"), "{said}");
+}
+
+#[test]
+fn a_groom_that_stands_still_has_its_points_at_rest() {
+    let folder = folder();
+    for name in ["groom.usdc", "groom.abc"] {
+        succeed(&folder, &format!("groom scene.toml --strands 3 -o {name}"));
+        let hair = nabiki_io::hair::read(&folder.path().join(name)).unwrap();
+        let rest = hair.attributes.other.iter().find(|other| other.name == "rest").unwrap();
+        let points = hair.strands.points().iter().flat_map(|p| p.to_array()).collect();
+        assert_eq!(rest.values, nabiki::hair::Values::Floats(points), "{name}");
+    }
+}
+
+#[test]
+fn a_shorter_run_leaves_no_frames_of_a_longer_one() {
+    let folder = folder();
+    let frames = folder.path().join("out/scene_frames");
+    let run = |frames: u32, kind: &str| {
+        let sets = "--set picture.size=[32,32] --set output.movie=false --set output.sheet=[0]";
+        succeed(&folder, &format!("run scene.toml --strands 5 --frames {frames} {sets} --set output.{kind}=true"))
+    };
+    run(3, "png_frames");
+    run(2, "exr_frames");
+    for name in ["4.png", "0004.png.old", "0005.tiff"] {
+        fs::write(frames.join(name), "mine").unwrap();
+    }
+    fs::create_dir(frames.join("0009.png")).unwrap();
+    let said = run(1, "png_frames");
+    assert!(said.contains("removed 2 files of frames after 1 from out/scene_frames"), "{said}");
+    let mut left: Vec<_> = fs::read_dir(&frames).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    left.sort();
+    let expected =
+        ["0000.exr", "0000.png", "0001.exr", "0001.png", "0002.exr", "0004.png.old", "0005.tiff", "0009.png", "4.png"];
+    assert_eq!(left, expected);
+}
+
+#[test]
 fn any_number_of_strands_is_the_beginning_of_the_whole() {
     let folder = folder();
     let count = |name: &str| nabiki_io::hair::read(&folder.path().join(name)).unwrap().strands;
@@ -217,5 +300,8 @@ fn what_no_disk_holds_is_refused_at_once() {
     let folder = folder();
     let line = refuse(&folder, "simulate scene.toml -o m.nabiki --frames 9000000 --set output.sheet=[0]");
     assert!(line.contains("TiB at least, and the disk has"), "{line}");
+    let stills = "--set picture.size=[8192,8192] --set output.movie=false --set output.exr_frames=true";
+    let line = refuse(&folder, &format!("run scene.toml --strands 5 --frames 9000000 --set output.sheet=[0] {stills}"));
+    assert!(line.contains("scene_frames: will take") && line.contains("TiB at least"), "{line}");
     assert!(!folder.path().join("m.nabiki").exists());
 }

@@ -140,6 +140,8 @@ fn write_header(out: &mut dyn Write, header: &Header) -> Result<()> {
     attributes::write(&mut blocks, &header.attributes)?;
     if let Some(origin) = &header.origin {
         attributes::block(&mut blocks, origin::TAG, Some(&origin.bytes()))?;
+        let groom = origin.groom.as_ref().map(origin::groom_bytes).transpose()?;
+        attributes::block(&mut blocks, origin::GROOM_TAG, groom.as_deref())?;
     }
     out.write_all(MAGIC)?;
     put(out, &[VERSION, header.strand_count() as u32, header.point_count() as u32, 0])?;

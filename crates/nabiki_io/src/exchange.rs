@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use glam::Affine3A;
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
-use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, PrimKind, Problem};
+use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, Problem};
 use nabiki_usd::{Form, HairStage, StageReader};
 
 use crate::axis::Axis;
@@ -30,41 +30,40 @@ pub fn is_alembic(path: &Path) -> bool {
 }
 
 /// A layer or archive that is open.
-pub(crate) struct Opened<'a> {
-    path: &'a Path,
+pub(crate) struct Opened {
+    path: PathBuf,
     reader: Box<dyn GroomReader>,
 }
 
-impl<'a> Opened<'a> {
-    pub fn new(path: &'a Path) -> Result<Self> {
-        // Opening a pipe would wait for someone to write into it.
-        input::open(path)?;
+impl Opened {
+    pub fn new(path: &Path) -> Result<Self> {
+        let file = input::open(path)?;
         let reader: std::result::Result<Box<dyn GroomReader>, Problem> = if is_alembic(path) {
-            ArchiveReader::open(path).map(|reader| Box::new(reader) as _)
+            ArchiveReader::new(file).map(|reader| Box::new(reader) as _)
         } else {
-            StageReader::open(path).map(|reader| Box::new(reader) as _)
+            StageReader::new(file).map(|reader| Box::new(reader) as _)
         };
-        Ok(Self { path, reader: reader.map_err(|e| named(path, e))? })
+        Ok(Self { path: path.to_owned(), reader: reader.map_err(|e| named(path, e))? })
     }
 
     pub fn ask<T>(
         &mut self,
         question: impl FnOnce(&mut dyn GroomReader) -> std::result::Result<T, Problem>,
     ) -> Result<T> {
-        question(&mut *self.reader).map_err(|e| named(self.path, e))
+        question(&mut *self.reader).map_err(|e| named(&self.path, e))
     }
 
     pub fn declared_space(&mut self) -> Result<DeclaredSpace> {
         let contents = self.ask(|r| r.contents())?;
         let up = if contents.z_up == Some(true) { Axis::PlusZ } else { Axis::PlusY };
-        if is_alembic(self.path) {
+        if is_alembic(&self.path) {
             return Ok(DeclaredSpace { unit: None, up: Some(up) });
         }
         // A layer that says nothing means centimetres and y, by USD's own rule.
         let cm = (contents.meters_per_unit.unwrap_or(0.01) * 100.0) as f32;
         if !(cm.is_finite() && cm > 0.0) {
             let line = format!("metersPerUnit = {}: is too far from any unit", cm / 100.0);
-            return Err(Error::new(line).in_file(self.path));
+            return Err(Error::new(line).in_file(&self.path));
         }
         Ok(DeclaredSpace { unit: Some(Unit { cm }), up: Some(up) })
     }
@@ -129,8 +128,7 @@ pub(crate) fn track(path: &Path, node: &str) -> Result<Track> {
 
 /// Moving hair of a layer or archive, read one frame after another.
 pub struct MovingHair {
-    path: PathBuf,
-    reader: Box<dyn GroomReader>,
+    file: Opened,
     segments: Option<usize>,
     contents: Contents,
     declared: DeclaredSpace,
@@ -143,11 +141,14 @@ impl MovingHair {
     /// # Errors
     /// What is wrong with the file.
     pub fn open(path: &Path, segments: Option<usize>) -> Result<Self> {
-        let mut file = Opened::new(path)?;
+        Self::of(Opened::new(path)?, segments)
+    }
+
+    pub(crate) fn of(mut file: Opened, segments: Option<usize>) -> Result<Self> {
         let declared = file.declared_space()?;
         let contents = file.ask(|r| r.contents())?;
         let hair = file.ask(|r| r.hair_in_place(0, segments, true))?.hair;
-        Ok(Self { path: path.to_owned(), reader: file.reader, segments, contents, declared, hair })
+        Ok(Self { file, segments, contents, declared, hair })
     }
 
     /// Number of frames; 1 for hair that stands still.
@@ -175,8 +176,8 @@ impl MovingHair {
     /// # Errors
     /// What is wrong with the file.
     pub fn frame(&mut self, frame: usize) -> Result<(Strands, Affine3A)> {
-        let found = self.reader.hair_in_place(frame, self.segments, false);
-        let InPlace { hair, world_from_hair } = found.map_err(|e| named(&self.path, e))?;
+        let segments = self.segments;
+        let InPlace { hair, world_from_hair } = self.file.ask(|r| r.hair_in_place(frame, segments, false))?;
         Ok((hair.strands, world_from_hair))
     }
 
@@ -222,29 +223,17 @@ pub fn check_layer(in_file: Option<u64>, used: usize) -> Result<()> {
     }
 }
 
-/// Refuses to lay a layer over the prim `path` of the file `groom` where it is not the one that holds its curves.
-///
-/// # Errors
-/// One line with the paths that are; a file that cannot be read.
-pub fn check_layer_prim(groom: &Path, path: &str) -> Result<()> {
-    let prims = Opened::new(groom)?.ask(|r| r.prims())?;
-    let curves = prims.into_iter().filter_map(|prim| match prim.kind {
-        PrimKind::Curves { points, .. } => Some((prim.path, points)),
-        _ => None,
-    });
-    let curves: Vec<(String, usize)> = curves.collect();
-    let refuse = |why: String| Err(Error::new(why).in_file(groom));
-    let list: Vec<String> = curves.iter().take(8).map(|(path, points)| format!("{path} ({points} points)")).collect();
-    let list = list.join(", ");
-    match &curves[..] {
-        [(only, _)] if only == path => Ok(()),
-        [] => refuse(format!("--export-layer {path}: it has no curves over which a layer could lie")),
-        [_] => refuse(format!("--export-layer {path}: its curves are at {list}")),
-        several => {
-            let n = several.len();
-            refuse(format!("--export-layer {path}: its curves are in {n} prims ({list}), and a layer lies over one"))
-        }
-    }
+/// Bytes that a file of so many frames takes at least. `layer`: whether it is to hold samples alone.
+pub fn least_bytes(path: &Path, export: &Export<'_>, frames: u64, layer: bool) -> u64 {
+    let points = export.hair.strands.points().len() as u64;
+    // A point of text is as long as it is at rest, a velocity at least a row of noughts.
+    let (point, velocity) = match extension(path).as_str() {
+        "usda" => (nabiki_usd::text_bytes(&export.rest_points()), 11 * points),
+        _ => (12 * points, 12 * points),
+    };
+    let velocity = if export.velocities && frames > 1 && !layer { velocity } else { 0 };
+    let rest = if export.rest && !layer { point } else { 0 };
+    frames.saturating_mul(point + velocity).saturating_add(rest)
 }
 
 /// Begins a file that takes moving hair frame by frame: .usda, .usdc or .abc. `layer`: the prim path of a groom over
@@ -265,14 +254,28 @@ pub fn sink<'a>(path: &Path, export: Export<'a>, layer: Option<&str>) -> Result<
     }
 }
 
+/// What is told to a file of hair that stands still, in the unit and axes it has.
+pub fn still(hair: &Hair, declared: DeclaredSpace) -> Export<'_> {
+    let mut export = Export::new(hair, 24.0);
+    export.meters_per_unit = meters_per_unit(declared);
+    export.z_up = declared.up == Some(Axis::PlusZ);
+    export
+}
+
 /// Writes hair that stands still, in the unit and axes it has.
 ///
 /// # Errors
 /// What the disk says.
 pub fn write(path: &Path, hair: &Hair, declared: DeclaredSpace) -> Result<()> {
-    let mut export = Export::new(hair, 24.0);
-    export.meters_per_unit = meters_per_unit(declared);
-    export.z_up = declared.up == Some(Axis::PlusZ);
+    write_still(path, still(hair, declared))
+}
+
+/// Writes hair that stands still, as `export` says.
+///
+/// # Errors
+/// What the disk says.
+pub fn write_still(path: &Path, export: Export<'_>) -> Result<()> {
+    let hair = export.hair;
     let mut sink = sink(path, export, None)?;
     let named = |e: std::io::Error| Error::from(e).in_file(path);
     sink.frame(&hair.strands, &Affine3A::IDENTITY).map_err(named)?;

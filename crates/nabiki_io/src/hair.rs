@@ -7,12 +7,11 @@ use nabiki_file::PartFile;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    bytes::Bytes,
     error::{Error, Result},
-    exchange, hair_file,
-    input::{self, MOST_TEXT_BYTES},
+    exchange,
+    groom_file::GroomFile,
+    hair_file,
     kind::extension,
-    obj_lines,
     placement::Placement,
     tfx,
 };
@@ -114,21 +113,25 @@ impl Cleaning {
 
 /// Reads a file as it is: its own unit and axes, every strand.
 pub fn read(path: &Path) -> Result<Hair> {
-    let named = |e: Error| e.in_file(path);
-    match Format::of(path)? {
-        Format::Hair => hair_file::from_source(&mut Bytes::open(path)?).map_err(named),
-        Format::Tfx => tfx::from_source(&mut Bytes::open(path)?).map_err(named),
-        Format::ObjLines => obj_lines::from_bytes(&input::read(path, MOST_TEXT_BYTES)?).map_err(named),
-        Format::Usd | Format::Alembic => exchange::hair(path, 0, None),
-    }
+    GroomFile::open(path)?.hair(0, None)
 }
 
 /// Reads a file into head space, without its degenerate parts, which are counted.
 pub fn import(path: &Path, placement: &Placement, cleaning: &Cleaning) -> Result<(Hair, ImportReport)> {
+    import_from(&mut GroomFile::open(path)?, path, placement, cleaning)
+}
+
+/// The same from a file that is open; `path` names it in errors.
+pub fn import_from(
+    file: &mut GroomFile,
+    path: &Path,
+    placement: &Placement,
+    cleaning: &Cleaning,
+) -> Result<(Hair, ImportReport)> {
     let named = |e: Error| e.in_file(path);
     placement.check("hair").map_err(|e| Error::from(e).in_file(path))?;
     cleaning.check().map_err(|e| Error::from(e).in_file(path))?;
-    place_and_clean(read(path)?, placement, cleaning).map_err(named)
+    place_and_clean(file.hair(0, None)?, placement, cleaning).map_err(named)
 }
 
 /// The same for hair already read, by this crate or another.
@@ -174,6 +177,32 @@ pub fn losses(path: &Path, hair: &Hair) -> Result<Vec<String>> {
 pub(crate) fn passed_on(hair: &Hair) -> Vec<String> {
     let names = hair.attributes.other.iter().map(|other| other.name.clone());
     names.chain(hair.attributes.unread.iter().cloned()).collect()
+}
+
+/// Bytes that `hair` takes at least as the format of `path`.
+///
+/// # Errors
+/// Another ending.
+pub fn least_bytes(path: &Path, hair: &Hair) -> Result<u64> {
+    let a = &hair.attributes;
+    let points = hair.strands.points().len() as u64;
+    // Arrays of singles by point: three coordinates, in .tfx a weight too, and what the hair has of these.
+    let arrays = match Format::of(path)? {
+        Format::Usd | Format::Alembic => {
+            return Ok(exchange::least_bytes(
+                path,
+                &exchange::still(hair, exchange::DeclaredSpace::default()),
+                1,
+                false,
+            ));
+        }
+        Format::Tfx => 4 + 4 * u64::from(a.colour.is_some()) + 2 * u64::from(a.point_uv.is_some()),
+        _ => {
+            let [width, transparency] = [&a.width, &a.transparency].map(|values| u64::from(values.is_some()));
+            3 + width + transparency + 3 * u64::from(a.colour.is_some())
+        }
+    };
+    Ok(4 * points * arrays)
 }
 
 /// Writes `hair` in the unit and axes it has, and says what the format could not hold. The file appears when whole.

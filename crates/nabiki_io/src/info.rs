@@ -14,7 +14,7 @@ pub use crate::motion::MotionInfo;
 pub use crate::short::Short;
 pub use cache::CacheInfo;
 pub use exchange::{ExchangeInfo, PrimSummary};
-pub use hair::HairInfo;
+pub use hair::{Carried, HairInfo};
 pub use measure::{Box3, Guess, Spread};
 pub use mesh::{ClipInfo, MeshInfo};
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use glam::{Affine3A, Quat, Vec3};
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_exchange::Export;
+use nabiki_io::GroomFile;
 use nabiki_io::exchange::{self, DeclaredSpace, MovingHair};
 use nabiki_io::info::ExchangeInfo;
 use nabiki_io::motion::{self, Axis, MotionSource};
@@ -120,9 +121,10 @@ fn moving_hair_goes_from_format_to_format_with_all_its_frames() {
 fn a_layer_goes_over_the_prim_of_the_curves_and_over_no_other() {
     let folder = tempfile::tempdir().unwrap();
     let groom = write(folder.path(), "groom.usdc");
-    assert_eq!(exchange::check_layer_prim(&groom, "/head/hair").map_err(|e| e.to_string()), Ok(()));
+    let groom = GroomFile::open(&groom).unwrap().curves(&groom).unwrap();
+    assert_eq!(groom.check_layer("/head/hair").map_err(|e| e.to_string()), Ok(()));
     for path in ["/head", "/head/skin", "/hair"] {
-        let refused = exchange::check_layer_prim(&groom, path).unwrap_err().to_string();
+        let refused = groom.check_layer(path).unwrap_err().to_string();
         let line = format!("--export-layer {path}: its curves are at /head/hair (5 points)");
         assert!(refused.ends_with(&line), "{refused}");
     }

@@ -10,7 +10,7 @@ use glam::{Quat, Vec3};
 use nabiki::Hair;
 use nabiki::Pose;
 use nabiki::hair::{Attributes, Constants};
-use nabiki_io::{SceneId, cache, hair};
+use nabiki_io::{SceneId, cache, exchange, hair};
 
 const FORMATS: [&str; 6] = ["hair", "tfx", "usda", "usdc", "abc", "nabiki"];
 
@@ -162,4 +162,34 @@ fn strands_of_one_point_are_no_curves() {
     let path = folder.path().join("hair.usda");
     let refused = hair::write(&path, &samples::hair(&[3, 1])).unwrap_err().to_string();
     assert!(refused.ends_with("strand 1 has 1 points: a curve has two at least; leave it out"), "{refused}");
+}
+
+#[test]
+fn no_file_is_smaller_than_it_is_said_to_be_at_least() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, groom) in grooms() {
+        for format in FORMATS.into_iter().filter(|f| *f != "nabiki") {
+            let path = folder.path().join("hair").with_extension(format);
+            write(&path, &groom);
+            let (bytes, least) = (std::fs::metadata(&path).unwrap().len(), hair::least_bytes(&path, &groom).unwrap());
+            assert!(least <= bytes, "{name} in .{format}: {bytes} bytes, {least} at least");
+            // A text of a digit a number is the shortest that points can be.
+            assert!(least >= 11 * groom.strands.points().len() as u64, "{name} in .{format}: {least}");
+        }
+    }
+    // Of moving text each frame is as long as the first: points of as many digits, and velocities of none.
+    let groom = samples::hair(&[40; 40]);
+    let path = folder.path().join("moving.usda");
+    let mut export = exchange::still(&groom, exchange::DeclaredSpace::default());
+    (export.velocities, export.rest) = (true, true);
+    let least = exchange::least_bytes(&path, &export, 5, false);
+    let mut sink = exchange::sink(&path, export, None).unwrap();
+    for _ in 0..5 {
+        sink.frame(&groom.strands, &glam::Affine3A::IDENTITY).unwrap();
+    }
+    sink.finish().unwrap();
+    let text = std::fs::read_to_string(&path).unwrap();
+    let (_, samples) = text.split_once("points.timeSamples = {\n").unwrap();
+    let frame = samples.lines().next().unwrap().trim().trim_start_matches("0: [").trim_end_matches("],");
+    assert!(least <= text.len() as u64 && least >= 5 * frame.len() as u64, "{} bytes, {least} at least", text.len());
 }

@@ -192,7 +192,7 @@ fn the_cache_is_read_as_its_page_says() {
     let mut reader = cache::Reader::open(&file("motion.nabiki")).unwrap();
     assert_eq!((reader.frame_count(), reader.header().frame_rate), (25, 48.0));
     assert_eq!(reader.header().scene.to_string(), "0f0e0d0c0b0a09080706050403020100");
-    let origin = reader.header().origin.unwrap();
+    let origin = reader.header().origin.clone().unwrap();
     let placement = origin.placement;
     assert_eq!((placement.unit.cm, placement.up, placement.facing), (100.0, Axis::PlusY, Axis::PlusZ));
     assert_eq!((placement.origin, origin.points), (Vec3::new(0.0, 1.5, 0.0), 12));

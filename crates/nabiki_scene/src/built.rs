@@ -9,6 +9,7 @@ use glam::Vec3;
 use nabiki::dynamics::{Dynamics, FrameInput, Reference, Simulation, Timeline};
 use nabiki::field::{Field, KeyframedField};
 use nabiki::{Hair, Head, Pose, SettingError};
+use nabiki_io::GroomCurves;
 use nabiki_io::cache::Origin;
 use nabiki_io::hair::ImportReport;
 use nabiki_io::mesh::MeshReport;
@@ -35,6 +36,8 @@ pub struct BuiltScene {
     pub strands_of_scene: usize,
     /// How the hair's file lies in head space; `None` for hair grown here.
     pub hair_placement: Option<Placement>,
+    /// The hair's file and where its curves are in it; `None` for hair grown here.
+    pub groom: Option<GroomCurves>,
     /// What the hair's file held; `None` for hair grown here.
     pub import_report: Option<ImportReport>,
     /// Frames of the hair's file, of which the first is taken; 1 for hair that stands still.
@@ -160,7 +163,7 @@ impl BuiltScene {
     /// How imported hair lay in its file, for a motion cache to remember.
     pub fn hair_origin(&self) -> Option<Origin> {
         let (placement, report) = (self.hair_placement?, self.import_report?);
-        Some(Origin { placement, points: report.points_in_file as u64 })
+        Some(Origin { placement, points: report.points_in_file as u64, groom: self.groom.clone() })
     }
 
     /// A refused setting as an error that names the scene's file and line.

@@ -24,6 +24,7 @@ impl<'a> SceneCache<'a> {
         place::room(path, (u64::from(built.frames()) + 1) * (28 + 12 * points), watch)?;
         let mut header = Header::new(built.identity()?, built.scene.frame_rate(), &built.hair);
         header.origin = built.hair_origin();
+        super::tasks::lost(path, built.hair.attributes.unread.clone(), watch);
         Ok(Self { built, writer: Writer::create(path, &header)? })
     }
 

@@ -29,6 +29,11 @@ impl ExportOptions {
     /// # Errors
     /// An ending that is not of a format of moving hair; a layer of Alembic, which has none.
     pub fn check(&self) -> Result<()> {
+        if let (Some(prim), []) = (&self.layer, &self.files[..]) {
+            return Err(Error::refused(format!(
+                "--export-layer {prim}: give the layer's file, too: --export FILE.usdc"
+            )));
+        }
         self.files.iter().try_for_each(|file| {
             let way_out = match (exchange::is_usd(file), exchange::is_alembic(file), &self.layer) {
                 (true, _, _) | (_, true, None) => return place::file(file),
@@ -51,20 +56,23 @@ impl<'a> Exports<'a> {
     pub fn begin(options: &ExportOptions, built: &'a BuiltScene, watch: &mut dyn Watch) -> Result<Self> {
         let mut sinks = Vec::new();
         for path in &options.files {
-            // Three coordinates of four bytes; a text layer takes more.
-            place::room(path, (u64::from(built.frames()) + 1) * built.hair.strands.points().len() as u64 * 12, watch)?;
             let frame_rate = built.scene.frame_rate();
             let mut export = exchange::export(&built.hair, frame_rate, built.hair_placement.as_ref());
             export.default_width = Some(built.scene.picture.hair.width);
             export.default_colour = Some(colour::of_mass(&built.scene.picture.hair));
             export.head = (!exchange::is_alembic(path) || options.head).then_some(&built.head.mesh);
             if let Some(prim) = &options.layer {
-                if let Some(imported) = built.scene.hair.imported() {
-                    exchange::check_layer_prim(&built.scene.resolve(&imported.file), prim)?;
+                if let Some(groom) = &built.groom {
+                    groom.check_layer(prim)?;
                 }
                 let in_file = built.import_report.map(|report| report.points_in_file as u64);
                 let used = built.hair.strands.points().len();
                 exchange::check_layer(in_file, used).map_err(|e| e.in_file(path))?;
+            }
+            let bytes = exchange::least_bytes(path, &export, u64::from(built.frames()) + 1, options.layer.is_some());
+            place::room(path, bytes, watch)?;
+            if options.layer.is_none() {
+                super::tasks::lost(path, exchange::losses(path, &built.hair), watch);
             }
             sinks.push((path.clone(), exchange::sink(path, export, options.layer.as_deref())?));
         }

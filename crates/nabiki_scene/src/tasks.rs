@@ -17,7 +17,7 @@ pub use render::{RenderOptions, render};
 pub use run::run;
 pub use simulate::{SimulateOptions, Twin, simulate};
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::built::BuiltScene;
 use crate::told::{SceneSummary, SwingTable, Told};
@@ -33,6 +33,11 @@ fn present(built: &BuiltScene, watch: &mut dyn Watch) {
 fn introduce(built: &BuiltScene, watch: &mut dyn Watch) {
     present(built, watch);
     watch.told(Told::Swing(SwingTable::of(built)));
+}
+
+/// Says what a file cannot hold of the hair.
+pub(crate) fn lost(file: &Path, losses: Vec<String>, watch: &mut dyn Watch) {
+    losses.into_iter().for_each(|what| watch.told(Told::Lost { file: file.to_owned(), what }));
 }
 
 /// Says which files now exist.

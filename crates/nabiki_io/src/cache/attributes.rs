@@ -59,7 +59,7 @@ pub(super) fn read<R: Read + Seek>(
     points: usize,
 ) -> Result<(Attributes, Option<Origin>)> {
     let mut a = Attributes::default();
-    let mut origin = None;
+    let (mut origin, mut groom) = (None, None);
     while source.at() < end {
         let tag: [u8; 8] = source.value("attribute tag")?;
         let length: u64 = source.value("attribute length")?;
@@ -90,12 +90,13 @@ pub(super) fn read<R: Read + Seek>(
                 a.group_names.insert(i32::from_le_bytes(*number), text.to_owned());
             }
             origin::TAG => origin = Some(Origin::from_bytes(&block.values(origin::BYTES)?)?),
+            origin::GROOM_TAG => groom = Some(origin::groom_from_bytes(&block.values(length as usize)?)?),
             other::TAG => a.other.push(other::read(source, length, strands, points)?),
             _ => {}
         }
         source.seek(next)?;
     }
-    Ok((a, origin))
+    Ok((a, origin.map(|origin| Origin { groom, ..origin })))
 }
 
 /// The values of one block.

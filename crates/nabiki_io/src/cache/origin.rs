@@ -4,23 +4,29 @@ use glam::Vec3;
 
 use crate::{
     axis::Axis,
+    bytes::put,
     error::{Error, Result},
+    groom_file::{CurvePrim, GroomCurves},
     placement::Placement,
     unit::Unit,
 };
 
 pub(super) const TAG: &[u8; 8] = b"origin  ";
 pub(super) const BYTES: usize = 32;
+/// The block that names the file and its curves.
+pub(super) const GROOM_TAG: &[u8; 8] = b"groom   ";
 /// Axes by the numbers that the block gives them.
 const AXES: [Axis; 6] = [Axis::PlusX, Axis::MinusX, Axis::PlusY, Axis::MinusY, Axis::PlusZ, Axis::MinusZ];
 
 /// How imported hair lay in its file.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Origin {
     /// Unit, axes and origin of the file.
     pub placement: Placement,
     /// Points in the file, of which the import may have left some out.
     pub points: u64,
+    /// The file and where its curves are in it; `None` in a cache of before that was kept.
+    pub groom: Option<GroomCurves>,
 }
 
 impl Origin {
@@ -50,8 +56,48 @@ impl Origin {
         };
         placement.check("origin").map_err(|e| damaged(&e.to_string()))?;
         let points = u64::from(u32::from_le_bytes(low)) | u64::from(u32::from_le_bytes(high)) << 32;
-        Ok(Self { placement, points })
+        Ok(Self { placement, points, groom: None })
     }
+}
+
+/// Two numbers, of the name's bytes and of the curves, the name, then of each curves' points, its path's bytes, and it.
+pub(super) fn groom_bytes(groom: &GroomCurves) -> Result<Vec<u8>> {
+    let whole = |n: usize| u32::try_from(n).map_err(|_| Error::new("the groom's file: a name of 2^32 bytes or more"));
+    let mut out = Vec::new();
+    put(&mut out, &[whole(groom.file.len())?, whole(groom.curves.len())?])?;
+    out.extend_from_slice(groom.file.as_bytes());
+    for CurvePrim { path, points } in &groom.curves {
+        put(&mut out, &[*points])?;
+        put(&mut out, &[whole(path.len())?])?;
+        out.extend_from_slice(path.as_bytes());
+    }
+    Ok(out)
+}
+
+pub(super) fn groom_from_bytes(bytes: &[u8]) -> Result<GroomCurves> {
+    let damaged = || Error::new("attribute groom: does not fill its block: the file is damaged");
+    fn number<const N: usize>(rest: &mut &[u8]) -> Option<[u8; N]> {
+        let (number, after) = rest.split_first_chunk()?;
+        *rest = after;
+        Some(*number)
+    }
+    fn text(rest: &mut &[u8], length: [u8; 4]) -> Option<String> {
+        let (text, after) = rest.split_at_checked(u32::from_le_bytes(length) as usize)?;
+        *rest = after;
+        Some(std::str::from_utf8(text).ok()?.to_owned())
+    }
+    let mut rest = bytes;
+    let mut read = || {
+        let (length, count) = (number(&mut rest)?, u32::from_le_bytes(number(&mut rest)?));
+        let file = text(&mut rest, length)?;
+        let mut curves = Vec::new();
+        for _ in 0..count {
+            let (points, length) = (u64::from_le_bytes(number(&mut rest)?), number(&mut rest)?);
+            curves.push(CurvePrim { points, path: text(&mut rest, length)? });
+        }
+        rest.is_empty().then_some(GroomCurves { file, curves })
+    };
+    read().ok_or_else(damaged)
 }
 
 #[cfg(test)]
@@ -64,12 +110,12 @@ mod tests {
             for facing in AXES.into_iter().filter(|a| a.vector().dot(up.vector()) == 0.0) {
                 let unit = Unit { cm: 2.54 };
                 let placement = Placement { unit, up, facing, origin: Vec3::new(1.0, -2.0, 3e-7) };
-                let origin = Origin { placement, points: (1 << 40) + 5 };
+                let origin = Origin { placement, points: (1 << 40) + 5, groom: None };
                 assert_eq!(origin.bytes().len(), BYTES);
                 assert_eq!(Origin::from_bytes(&origin.bytes()).unwrap(), origin);
             }
         }
-        let sound = Origin { placement: Placement::default(), points: 9 }.bytes();
+        let sound = Origin { placement: Placement::default(), points: 9, groom: None }.bytes();
         for (at, byte) in [(3, 0xff), (4, 6), (4, 0), (8, 3), (15, 0x7f)] {
             let mut bytes = sound.clone();
             bytes[at] = byte;
@@ -79,5 +125,18 @@ mod tests {
             let refused = Origin::from_bytes(&bytes).unwrap_err().to_string();
             assert!(refused.starts_with("attribute origin: ") && refused.ends_with("damaged"), "{at}: {refused}");
         }
+    }
+
+    #[test]
+    fn the_curves_of_a_groom_come_back_and_a_damaged_list_is_refused() {
+        let prim = |path: &str, points| CurvePrim { path: path.to_owned(), points };
+        let curves = vec![prim("/head/hair", 1 << 40), prim("/head/\u{30d2}\u{30b2}", 3)];
+        let groom = GroomCurves { file: "grooms/a b.usdc".to_owned(), curves };
+        let bytes = groom_bytes(&groom).unwrap();
+        assert_eq!(groom_from_bytes(&bytes).unwrap(), groom);
+        for length in 0..bytes.len() {
+            assert!(groom_from_bytes(&bytes[..length]).is_err(), "{length} bytes");
+        }
+        assert!(groom_from_bytes(&[&bytes[..], &[0]].concat()).is_err());
     }
 }

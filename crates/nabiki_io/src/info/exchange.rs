@@ -44,19 +44,49 @@ pub struct PrimSummary {
     pub what: String,
     /// Samples over time; `None` for what does not move.
     pub samples: Option<usize>,
+    /// What it is bound to, by the file's word: `material:binding`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub relationships: Vec<String>,
+    /// The joints of a skeleton, by their paths in it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub joints: Vec<String>,
 }
 
 impl From<Prim> for PrimSummary {
     fn from(prim: Prim) -> Self {
+        let mut named = Vec::new();
         let what = match prim.kind {
             PrimKind::Curves { curves, points } => format!("{curves} curves, {points} points"),
             PrimKind::Mesh { faces, points } => format!("mesh, {faces} faces, {points} points"),
             PrimKind::Transform => "transform".to_owned(),
-            PrimKind::Skeleton { joints } => format!("skeleton, {} joints", joints.len()),
+            PrimKind::Skeleton { joints } => {
+                named = joints;
+                format!("skeleton, {} joints", named.len())
+            }
             PrimKind::Other(name) if name.is_empty() => "no type".to_owned(),
             PrimKind::Other(name) => name,
         };
-        Self { path: prim.path, what, samples: (prim.samples > 1).then_some(prim.samples) }
+        let samples = (prim.samples > 1).then_some(prim.samples);
+        Self { path: prim.path, what, samples, relationships: prim.relationships, joints: named }
+    }
+}
+
+impl fmt::Display for PrimSummary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // As many joints as fit a line or two: a face alone may have hundreds.
+        const MOST_JOINTS: usize = 8;
+        write!(f, "{}: {}", self.path, self.what)?;
+        if !self.joints.is_empty() {
+            let more = if self.joints.len() > MOST_JOINTS { ", ..." } else { "" };
+            write!(f, " ({}{more})", self.joints[..self.joints.len().min(MOST_JOINTS)].join(", "))?;
+        }
+        if let Some(samples) = self.samples {
+            write!(f, ", {samples} samples")?;
+        }
+        for relationship in &self.relationships {
+            write!(f, ", {relationship}")?;
+        }
+        Ok(())
     }
 }
 
@@ -110,10 +140,7 @@ impl fmt::Display for ExchangeInfo {
             (None, None) => {}
         }
         for prim in self.prims.iter().take(MOST_LISTED) {
-            match prim.samples {
-                Some(samples) => writeln!(f, "{}: {}, {samples} samples", prim.path, prim.what)?,
-                None => writeln!(f, "{}: {}", prim.path, prim.what)?,
-            }
+            writeln!(f, "{prim}")?;
         }
         if self.prims.len() > MOST_LISTED {
             writeln!(f, "and {} more", self.prims.len() - MOST_LISTED)?;

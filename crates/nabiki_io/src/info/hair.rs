@@ -4,6 +4,8 @@ use std::fmt;
 
 use glam::Vec3;
 use nabiki::Hair;
+use nabiki::hair::{Other, Per, Role};
+use nabiki_exchange::attributes::type_name;
 use serde::Serialize;
 
 use super::measure::{Box3, Guess, Spread, guess_unit};
@@ -32,6 +34,10 @@ pub struct HairInfo {
     pub held_at_both_ends: usize,
     /// Names of what the file carries beside its points.
     pub attributes: Vec<&'static str>,
+    /// What it carries that is only passed on.
+    pub carried: Vec<Carried>,
+    /// What it says of the strands that is not read, a phrase each.
+    pub unread: Vec<String>,
     /// Unit and axis that would make it a person's hair; `None` where they are known.
     #[serde(flatten)]
     pub guess: Option<Guess>,
@@ -57,10 +63,64 @@ impl HairInfo {
             segment_length: Spread::of(segments),
             held_at_both_ends: held_at_both_ends(hair),
             attributes: attributes(hair),
+            carried: hair.attributes.other.iter().map(Carried::of).collect(),
+            unread: hair.attributes.unread.clone(),
             // A crop to hair down to the knees.
             guess: Some(Guess { likely_unit: guess_unit(bounds.diagonal(), 15.0, 140.0), likely_up: up(hair) }),
             bounds,
         }
+    }
+}
+
+/// An attribute that is only passed on, as the file has it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Carried {
+    /// Its name there.
+    pub name: String,
+    /// Its type, with the number of numbers in a value where they are several: `half`, `float3`.
+    #[serde(rename = "type")]
+    pub type_name: String,
+    /// What its numbers stand for, where it is more than numbers: `colour`.
+    pub role: Option<&'static str>,
+    /// What has a value: `constant` the groom, `uniform` each strand, `vertex` each point.
+    pub interpolation: &'static str,
+    /// How many values there are.
+    pub length: usize,
+}
+
+impl Carried {
+    fn of(other: &Other) -> Self {
+        let name = type_name(other.stored);
+        let role = match other.role {
+            Role::Plain => None,
+            Role::Colour => Some("colour"),
+            Role::Point => Some("point"),
+            Role::Vector => Some("vector"),
+            Role::Normal => Some("normal"),
+            Role::TextureCoordinate => Some("texture coordinates"),
+        };
+        let interpolation = match other.per {
+            Per::Groom => "constant",
+            Per::Strand => "uniform",
+            Per::Point => "vertex",
+        };
+        Self {
+            name: other.name.clone(),
+            type_name: if other.extent == 1 { name.to_owned() } else { format!("{name}{}", other.extent) },
+            role,
+            interpolation,
+            length: other.values.len() / other.extent.max(1),
+        }
+    }
+}
+
+impl fmt::Display for Carried {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.name, self.type_name)?;
+        if let Some(role) = self.role {
+            write!(f, " ({role})")?;
+        }
+        write!(f, ", {}, {} values", self.interpolation, self.length)
     }
 }
 
@@ -108,6 +168,12 @@ impl fmt::Display for HairInfo {
         }
         let carried = if self.attributes.is_empty() { "nothing".to_owned() } else { self.attributes.join(", ") };
         write!(f, "beside the points: {carried}")?;
+        for carried in &self.carried {
+            write!(f, "\npassed on: {carried}")?;
+        }
+        for unread in &self.unread {
+            write!(f, "\nnot read: {unread}")?;
+        }
         match self.guess {
             Some(guess) => write!(f, "\n{guess}"),
             None => Ok(()),

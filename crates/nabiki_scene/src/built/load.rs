@@ -7,7 +7,7 @@ use nabiki::dynamics::{Dynamics, Form, straightened};
 use nabiki::groom::{Growth, grow};
 use nabiki::{Hair, Head, SettingError, Strands, subset};
 use nabiki_io::{
-    DeclaredSpace, exchange,
+    DeclaredSpace, GroomCurves, GroomFile, exchange,
     hair::{self, ImportReport},
     mesh::{self, MeshReport},
     motion::{self, HeadMotion},
@@ -27,7 +27,7 @@ pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
     let rest_pose = poses.first().copied().unwrap_or_default();
     dynamics.polar_axis = rest_pose.up_in_head();
     let field = scene.field().map_err(|refused| scene.refusal(refused))?.into();
-    let Loaded { mut hair, ids, of_scene, first, placement: hair_placement, report, frames } =
+    let Loaded { mut hair, ids, of_scene, first, placement: hair_placement, groom, report, frames } =
         load_hair(&scene, &head, &placement, shown)?;
     hair.strands = straightened(&hair.strands, &dynamics.motion, dynamics.polar_axis);
     if scene.form == FormChoice::Free {
@@ -42,6 +42,7 @@ pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
         hair,
         strands_of_scene: of_scene,
         hair_placement,
+        groom,
         import_report: report,
         frames_in_file: frames,
         dynamics,
@@ -62,6 +63,7 @@ struct Loaded {
     /// The first strands of the farthest-first order of the whole, whichever are shown: those that the free form asks of.
     first: Strands,
     placement: Option<Placement>,
+    groom: Option<GroomCurves>,
     report: Option<ImportReport>,
     /// Frames of the file.
     frames: usize,
@@ -81,7 +83,8 @@ fn load_hair(scene: &Scene, head: &Head, head_placement: &Placement, shown: Show
             hair.attributes.constant.width = Some(scene.picture.hair.width);
             hair.attributes.constant.colour = Some(colour::of_mass(&scene.picture.hair));
             let ids = (0..count as u32).collect();
-            Ok(Loaded { hair, ids, of_scene: settings.strands, first, placement: None, report: None, frames: 1 })
+            let of_scene = settings.strands;
+            Ok(Loaded { hair, ids, of_scene, first, placement: None, groom: None, report: None, frames: 1 })
         }
         HairSource::Imported(settings) => import(scene, settings, head_placement, shown),
     }
@@ -89,9 +92,10 @@ fn load_hair(scene: &Scene, head: &Head, head_placement: &Placement, shown: Show
 
 fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, shown: Shown) -> Result<Loaded> {
     let file = scene.resolve(&settings.file);
-    let placement = hair_placement(settings, head_placement, exchange::declared_space(&file)?);
+    let mut groom = GroomFile::open(&file)?;
+    let placement = hair_placement(settings, head_placement, groom.declared_space()?);
     placement.check("hair").map_err(|refused| scene.refusal(refused))?;
-    let (hair, report) = hair::import(&file, &placement, &settings.cleaning())?;
+    let (hair, report) = hair::import_from(&mut groom, &file, &placement, &settings.cleaning())?;
     let hair = match settings.strands {
         Some(count) if count < hair.strands.len() => hair.select(&evenly(&hair, count)),
         _ => hair,
@@ -111,8 +115,8 @@ fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, sh
         None => Ok(hair),
     };
     let (hair, first) = (cut(hair)?, cut(first)?.strands);
-    let frames = exchange::frames(&file)?;
-    Ok(Loaded { hair, ids, of_scene, first, placement: Some(placement), report: Some(report), frames })
+    let (frames, groom) = (groom.frames()?, Some(groom.curves(&settings.file)?));
+    Ok(Loaded { hair, ids, of_scene, first, placement: Some(placement), groom, report: Some(report), frames })
 }
 
 /// `count` strands of the farthest-first order of the roots, in the order of the file.

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use nabiki::{Hair, Pose};
 use nabiki_io::Axis;
 use nabiki_io::cache::Reader;
-use nabiki_io::exchange::{self, DeclaredSpace, MovingHair};
+use nabiki_io::exchange::{self, DeclaredSpace};
 use nabiki_io::hair;
-use nabiki_io::{Placement, Unit};
+use nabiki_io::{GroomFile, Placement, Unit};
 
 use crate::error::{Error, Result};
 use crate::place;
@@ -39,57 +39,112 @@ pub struct ConvertOptions {
 /// # Errors
 /// An input that cannot be read, an output that cannot be written or would take the input's place.
 pub fn convert(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
+    check_output(options)?;
+    let to_tools = exchange::is_usd(&options.output) || exchange::is_alembic(&options.output);
+    let moves = options.frame.is_none() && to_tools;
+    let mut input = Input::open(&options.input)?;
+    let frames = input.frames()?;
+    if options.layer.is_some() && !(moves && matches!(input, Input::Cache(_))) {
+        let line = "--export-layer is for all frames of a motion cache, into .usda or .usdc";
+        return Err(Error::refused(format!("{}: {line}", options.input.display())));
+    }
+    match input {
+        Input::Cache(cache) if moves => cached_frames(options, *cache, watch),
+        Input::Groom(groom) if moves && frames > 1 => exchanged_frames(options, groom, watch),
+        input => one_frame(options, input, watch),
+    }
+}
+
+/// Refuses what nothing can be written as, or over, before the input is opened.
+fn check_output(options: &ConvertOptions) -> Result<()> {
     let output = options.output.as_path();
     place::file(output)?;
     place::not_inputs(&[output], std::slice::from_ref(&options.input))?;
+    if is_cache(output) {
+        return Err(Error::refused(format!(
+            "{}: a motion cache holds what a scene has moved; to move hair of a file, name it in a scene as hair.file and \
+             run nabiki simulate; to hand on motion that it has already, write .usdc, .usda or .abc",
+            output.display()
+        )));
+    }
     hair::losses(output, &Hair::default())?;
     if let Some(segments) = options.segments {
         HairSettings::check_segments("--segments", segments).map_err(|e| Error::refused(e.to_string()))?;
     }
-    let to_tools = exchange::is_usd(output) || exchange::is_alembic(output);
-    if is_cache(options) && options.frame.is_none() && to_tools {
-        return cached_frames(options, watch);
-    }
-    if options.layer.is_some() {
-        let line = "--export-layer is for all frames of a motion cache, into .usda or .usdc";
-        return Err(Error::refused(format!("{}: {line}", options.input.display())));
-    }
-    if options.frame.is_none() && to_tools && exchange::frames(&options.input)? > 1 {
-        return exchanged_frames(options, watch);
-    }
-    let (hair, pose) = read(options)?;
-    let mut losses = if to_tools {
-        exchange::write(output, &hair, said(options)?)?;
-        exchange::losses(output, &hair)
-    } else {
-        hair::write(output, &hair)?
-    };
-    losses.extend(unsaid(options)?);
-    if pose != Pose::STILL {
-        let [x, y, z] = pose.position_cm.to_array();
-        let (axis, angle) = pose.rotation.to_axis_angle();
-        losses.push(format!(
-            "the head's pose: the points are those of a head that stands still at the origin; in this frame it is at \
-             ({x}, {y}, {z}) cm, turned by {:.2} degrees about ({:.3}, {:.3}, {:.3})",
-            angle.to_degrees(),
-            axis.x,
-            axis.y,
-            axis.z
-        ));
-    }
-    finish(options, losses, format!("{} strands", hair.strands.len()), watch);
     Ok(())
 }
 
-fn finish(options: &ConvertOptions, losses: Vec<String>, holds: String, watch: &mut dyn Watch) {
-    for what in losses {
-        watch.told(Told::Lost { file: options.output.clone(), what });
-    }
-    watch.told(Told::Wrote { file: options.output.clone(), holds: Some(holds) });
+fn is_cache(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("nabiki"))
 }
 
-fn is_cache(options: &ConvertOptions) -> bool {
-    options.input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("nabiki"))
+/// What is converted, opened once.
+enum Input {
+    Cache(Box<Reader>),
+    Groom(GroomFile),
+}
+
+impl Input {
+    fn open(path: &Path) -> Result<Self> {
+        Ok(if is_cache(path) {
+            Self::Cache(Box::new(Reader::open(path)?))
+        } else {
+            Self::Groom(GroomFile::open(path)?)
+        })
+    }
+
+    fn frames(&mut self) -> Result<u64> {
+        match self {
+            Self::Cache(cache) => Ok(cache.frame_count()),
+            Self::Groom(groom) => Ok(groom.frames()? as u64),
+        }
+    }
+
+    /// Unit and up axis of its points, as far as it says them.
+    fn declared_space(&mut self) -> Result<DeclaredSpace> {
+        match self {
+            Self::Cache(cache) => Ok(space_of(cache)),
+            Self::Groom(groom) => Ok(groom.declared_space()?),
+        }
+    }
+
+    /// The hair of one frame, and where the head is in it.
+    fn read(&mut self, options: &ConvertOptions) -> Result<(Hair, Pose)> {
+        let input = options.input.as_path();
+        match self {
+            Self::Cache(cache) => {
+                let Some(frame) = options.frame else {
+                    let line =
+                        "a motion cache holds many frames; say which with --frame N, or write .usdc, .usda or .abc";
+                    return Err(Error::refused(format!("{}: {line}", input.display())));
+                };
+                check_frame(input, frame, cache.frame_count())?;
+                let pose = cache.read(frame.into(), &mut cache.header().strands())?;
+                let hair = cache.hair(frame.into())?;
+                let hair = match placement(cache) {
+                    Some(placement) => hair.transformed(&placement.file_from_head()),
+                    None => hair,
+                };
+                Ok(match options.segments {
+                    Some(segments) => (hair.resampled(segments + 1), pose),
+                    None => (hair, pose),
+                })
+            }
+            Self::Groom(groom) => {
+                let frame = options.frame.unwrap_or(0);
+                check_frame(input, frame, groom.frames()? as u64)?;
+                Ok((groom.hair(frame as usize, options.segments)?, Pose::STILL))
+            }
+        }
+    }
+
+    /// Its motion, where one frame is all that is kept of it.
+    fn lost_motion(&mut self, options: &ConvertOptions) -> Result<Option<String>> {
+        let Self::Groom(groom) = self else { return Ok(None) };
+        let (frames, kept) = (groom.frames()?, options.frame.unwrap_or(0));
+        let input = options.input.display();
+        Ok((frames > 1).then(|| format!("motion: it is frame {kept} of the {frames} in {input}")))
+    }
 }
 
 /// Refuses a frame that the input does not reach.
@@ -104,50 +159,44 @@ fn check_frame(input: &Path, frame: u32, frames: u64) -> Result<()> {
     Err(Error::refused(format!("{}: --frame {frame}: {has}", input.display())))
 }
 
-/// The hair of one frame, and where the head is in it.
-fn read(options: &ConvertOptions) -> Result<(Hair, Pose)> {
-    let input = options.input.as_path();
-    let (hair, pose) = if is_cache(options) {
-        let Some(frame) = options.frame else {
-            let line = "a motion cache holds many frames; say which with --frame N, or write .usdc, .usda or .abc";
-            return Err(Error::refused(format!("{}: {line}", input.display())));
-        };
-        let mut cache = Reader::open(input)?;
-        check_frame(input, frame, cache.frame_count())?;
-        let pose = cache.read(frame.into(), &mut cache.header().strands())?;
-        let hair = cache.hair(frame.into())?;
-        let hair = match placement(&cache) {
-            Some(placement) => hair.transformed(&placement.file_from_head()),
-            None => hair,
-        };
-        (hair, pose)
-    } else if exchange::is_usd(input) || exchange::is_alembic(input) {
-        let frame = options.frame.unwrap_or(0);
-        check_frame(input, frame, exchange::frames(input)? as u64)?;
-        return Ok((exchange::hair(input, frame as usize, options.segments)?, Pose::STILL));
+/// Hair that stands still, or one frame of it.
+fn one_frame(options: &ConvertOptions, mut input: Input, watch: &mut dyn Watch) -> Result<()> {
+    let output = options.output.as_path();
+    let (hair, pose) = input.read(options)?;
+    place::room(output, hair::least_bytes(output, &hair)?, watch)?;
+    let declared = input.declared_space()?;
+    let mut losses = if exchange::is_usd(output) || exchange::is_alembic(output) {
+        let said = if let Input::Cache(_) = input { declared } else { said(options, declared)? };
+        exchange::write(output, &hair, said)?;
+        exchange::losses(output, &hair)
     } else {
-        check_frame(input, options.frame.unwrap_or(0), 1)?;
-        (hair::read(input)?, Pose::STILL)
+        hair::write(output, &hair)?
     };
-    let hair = match options.segments {
-        Some(segments) => hair.resampled(segments + 1),
-        None => hair,
-    };
-    Ok((hair, pose))
+    losses.extend(input.lost_motion(options)?);
+    losses.extend(unsaid_space(options, declared));
+    if pose != Pose::STILL {
+        losses.push(lost_pose(&pose));
+    }
+    finish(options, losses, format!("{} strands", hair.strands.len()), watch);
+    Ok(())
 }
 
-/// What the input says beside its hair and the output cannot: frames, unit and up axis.
-fn unsaid(options: &ConvertOptions) -> Result<Vec<String>> {
-    let input = options.input.as_path();
-    let mut lost = Vec::new();
-    let frames = exchange::frames(input)?;
-    if frames > 1 {
-        let kept = options.frame.unwrap_or(0);
-        lost.push(format!("motion: it is frame {kept} of the {frames} in {}", input.display()));
-    }
-    let declared = if is_cache(options) { said(options)? } else { exchange::declared_space(input)? };
-    lost.extend(unsaid_space(options, declared));
-    Ok(lost)
+fn lost_pose(pose: &Pose) -> String {
+    let [x, y, z] = pose.position_cm.to_array();
+    let (axis, angle) = pose.rotation.to_axis_angle();
+    format!(
+        "the head's pose: the points are those of a head that stands still at the origin; in this frame it is at ({x}, {y}, \
+         {z}) cm, turned by {:.2} degrees about ({:.3}, {:.3}, {:.3})",
+        angle.to_degrees(),
+        axis.x,
+        axis.y,
+        axis.z
+    )
+}
+
+fn finish(options: &ConvertOptions, losses: Vec<String>, holds: String, watch: &mut dyn Watch) {
+    super::lost(&options.output, losses, watch);
+    watch.told(Told::Wrote { file: options.output.clone(), holds: Some(holds) });
 }
 
 /// Unit and up axis, where the output says nothing of them.
@@ -162,12 +211,7 @@ fn unsaid_space(options: &ConvertOptions, DeclaredSpace { unit, up }: DeclaredSp
 }
 
 /// Unit and up axis of the input: as it says itself, or else as the options do.
-fn said(options: &ConvertOptions) -> Result<DeclaredSpace> {
-    if is_cache(options) {
-        let Placement { unit, up, .. } = placement(&Reader::open(&options.input)?).unwrap_or_default();
-        return Ok(DeclaredSpace { unit: Some(unit), up: Some(up) });
-    }
-    let in_file = exchange::declared_space(&options.input)?;
+fn said(options: &ConvertOptions, in_file: DeclaredSpace) -> Result<DeclaredSpace> {
     if let (Some(given), Some(stated)) = (options.unit, in_file.unit)
         && (given.cm - stated.cm).abs() > 1e-6 * stated.cm
     {
@@ -194,25 +238,45 @@ fn said(options: &ConvertOptions) -> Result<DeclaredSpace> {
 
 /// Where imported hair came from, and goes back to.
 fn placement(cache: &Reader) -> Option<Placement> {
-    cache.header().origin.map(|origin| origin.placement)
+    cache.header().origin.as_ref().map(|origin| origin.placement)
+}
+
+/// The space of that file; of hair that was grown, centimetres, y up.
+fn space_of(cache: &Reader) -> DeclaredSpace {
+    let Placement { unit, up, .. } = placement(cache).unwrap_or_default();
+    DeclaredSpace { unit: Some(unit), up: Some(up) }
+}
+
+/// Refuses a layer over what is not known to be the groom that the cache was made from.
+fn check_layer(options: &ConvertOptions, prim: &str, cache: &Reader) -> Result<()> {
+    let header = cache.header();
+    let points = header.starts.last().map_or(0, |&n| n as usize);
+    let in_file = header.origin.as_ref().map(|origin| origin.points);
+    exchange::check_layer(in_file, points).map_err(|e| e.in_file(&options.output))?;
+    match header.origin.as_ref().and_then(|origin| origin.groom.as_ref()) {
+        Some(groom) => Ok(groom.check_layer(prim)?),
+        None => Err(Error::refused(format!(
+            "{}: --export-layer {prim}: this cache is older than the note of where its groom's curves are; make it again \
+             with nabiki simulate, or leave out --export-layer for a complete stage",
+            options.input.display()
+        ))),
+    }
 }
 
 /// Every frame of a cache below the moving head, in the space of the file that the hair came from; hair that was grown
 /// is in centimetres, y up.
-fn cached_frames(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
+fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Watch) -> Result<()> {
     let output = options.output.as_path();
-    let mut cache = Reader::open(&options.input)?;
+    let layer = options.layer.as_deref();
+    if let Some(prim) = layer {
+        check_layer(options, prim, &cache)?;
+    }
     let hair = cache.hair(0)?;
     let placement = placement(&cache);
     let export = exchange::export(&hair, cache.header().frame_rate, placement.as_ref());
-    let layer = options.layer.as_deref();
-    if layer.is_some() {
-        let in_file = cache.header().origin.map(|origin| origin.points);
-        exchange::check_layer(in_file, hair.strands.points().len()).map_err(|e| e.in_file(output))?;
-    }
     let failed = |e: std::io::Error| Error::from(nabiki_io::Error::from(e).in_file(output));
     let frames = cache.frame_count();
-    place::room(output, frames * hair.strands.points().len() as u64 * 12, watch)?;
+    place::room(output, exchange::least_bytes(output, &export, frames, layer.is_some()), watch)?;
     let mut sink = exchange::sink(output, export, layer)?;
     let mut strands = cache.header().strands();
     // The header of a cache holds fewer frames than that.
@@ -222,22 +286,24 @@ fn cached_frames(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> 
         sink.frame(&strands, &pose.world_from_head()).map_err(failed)
     })?;
     sink.finish().map_err(failed)?;
-    let losses = exchange::losses(output, &hair).into_iter().chain(unsaid_space(options, said(options)?)).collect();
+    let losses = exchange::losses(output, &hair).into_iter().chain(unsaid_space(options, space_of(&cache))).collect();
     finish(options, losses, format!("{frames} frames of {} strands", hair.strands.len()), watch);
     Ok(())
 }
 
 /// Every frame of a layer or archive as it is, in its own unit and axes.
-fn exchanged_frames(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
+fn exchanged_frames(options: &ConvertOptions, mut groom: GroomFile, watch: &mut dyn Watch) -> Result<()> {
     let output = options.output.as_path();
-    let mut moving = MovingHair::open(&options.input, options.segments)?;
-    let (hair, declared) = (moving.hair().clone(), said(options)?);
+    let in_file = groom.declared_space()?;
+    let mut moving = groom.moving(options.segments)?;
+    let hair = moving.hair().clone();
+    let declared = said(options, in_file)?;
     let mut export = moving.export(&hair);
     export.meters_per_unit = declared.unit.map_or(export.meters_per_unit, |unit| f64::from(unit.cm) / 100.0);
     export.z_up = declared.up == Some(Axis::PlusZ);
     let failed = |e: std::io::Error| Error::from(nabiki_io::Error::from(e).in_file(output));
     let frames = moving.frames() as u32;
-    place::room(output, u64::from(frames) * hair.strands.points().len() as u64 * 12, watch)?;
+    place::room(output, exchange::least_bytes(output, &export, frames.into(), false), watch)?;
     let mut sink = exchange::sink(output, export, None)?;
     each_frame(watch, "converting", 0..=frames - 1, |frame| {
         let (strands, world_from_hair) = moving.frame(frame as usize)?;

@@ -2,16 +2,17 @@
 
 use std::path::Path;
 
+use nabiki_io::exchange::{self, DeclaredSpace};
 use nabiki_io::hair;
 
 use crate::built::Shown;
 use crate::error::Result;
 use crate::place;
 use crate::scene::Scene;
-use crate::told::Told;
 use crate::watch::Watch;
 
-/// Grows or imports the hair of a scene and writes it into a hair file.
+/// Grows or imports the hair of a scene and writes it into a hair file; into a layer or archive with its points at rest
+/// under a name of their own, for programs that move it on.
 ///
 /// # Errors
 /// A scene that cannot be built, a place or format that cannot be written.
@@ -22,9 +23,17 @@ pub fn groom(scene: Scene, shown: Shown, output: &Path, watch: &mut dyn Watch) -
     place::not_inputs(&[output], &scene.inputs())?;
     let built = scene.build(shown)?;
     super::present(&built, watch);
-    for what in hair::write(output, &built.hair)? {
-        watch.told(Told::Lost { file: output.to_owned(), what });
-    }
+    let losses = if exchange::is_usd(output) || exchange::is_alembic(output) {
+        let mut export = exchange::still(&built.hair, DeclaredSpace::default());
+        export.rest = true;
+        place::room(output, exchange::least_bytes(output, &export, 1, false), watch)?;
+        exchange::write_still(output, export)?;
+        exchange::losses(output, &built.hair)
+    } else {
+        place::room(output, hair::least_bytes(output, &built.hair)?, watch)?;
+        hair::write(output, &built.hair)?
+    };
+    super::lost(output, losses, watch);
     super::wrote(vec![output.to_owned()], watch);
     Ok(())
 }

@@ -1,0 +1,153 @@
+//! A hair file that is open: what it says of itself and its hair, from one opening.
+
+use std::path::{Path, PathBuf};
+
+use nabiki::Hair;
+use nabiki_exchange::PrimKind;
+
+use crate::bytes::Bytes;
+use crate::declared::DeclaredSpace;
+use crate::error::{Error, Result};
+use crate::exchange::{MovingHair, Opened};
+use crate::hair::Format;
+use crate::input::{self, MOST_TEXT_BYTES};
+use crate::{hair_file, obj_lines, tfx};
+
+/// A hair file of any format.
+pub struct GroomFile {
+    path: PathBuf,
+    kind: Kind,
+}
+
+enum Kind {
+    /// Of hair alone, read when it is asked for.
+    Plain(Format),
+    /// A layer or archive, which says more.
+    Exchange(Opened),
+}
+
+/// Curves of a layer or archive.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CurvePrim {
+    /// Where they stand in it.
+    pub path: String,
+    /// Their control points.
+    pub points: u64,
+}
+
+/// The file that a groom came from, and where its curves are in it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GroomCurves {
+    /// The file, as it was named.
+    pub file: String,
+    /// Its curves, in their order; none in a file of hair alone.
+    pub curves: Vec<CurvePrim>,
+}
+
+impl GroomFile {
+    /// Opens the file at `path`.
+    ///
+    /// # Errors
+    /// A name that is none of a hair file; a layer or archive that cannot be read.
+    pub fn open(path: &Path) -> Result<Self> {
+        let kind = match Format::of(path)? {
+            Format::Usd | Format::Alembic => Kind::Exchange(Opened::new(path)?),
+            format => Kind::Plain(format),
+        };
+        Ok(Self { path: path.to_owned(), kind })
+    }
+
+    /// What the file says of its space.
+    ///
+    /// # Errors
+    /// A unit or an axis that is none.
+    pub fn declared_space(&mut self) -> Result<DeclaredSpace> {
+        match &mut self.kind {
+            Kind::Plain(_) => Ok(DeclaredSpace::default()),
+            Kind::Exchange(file) => file.declared_space(),
+        }
+    }
+
+    /// Number of frames; 1 for hair that stands still.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn frames(&mut self) -> Result<usize> {
+        match &mut self.kind {
+            Kind::Plain(_) => Ok(1),
+            Kind::Exchange(file) => Ok(file.ask(|r| r.contents())?.times.len().max(1)),
+        }
+    }
+
+    /// Reads the hair of frame `frame` (the last one after those there are), in the file's own unit and axes.
+    /// `segments`: walks every curve of a layer or archive into as many, and cuts other strands anew; `None` keeps
+    /// polylines as they are.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn hair(&mut self, frame: usize, segments: Option<usize>) -> Result<Hair> {
+        let path = self.path.as_path();
+        let named = |e: Error| e.in_file(path);
+        let hair = match &mut self.kind {
+            Kind::Exchange(file) => return file.ask(|r| r.hair(frame, segments)),
+            Kind::Plain(Format::Tfx) => tfx::from_source(&mut Bytes::open(path)?).map_err(named)?,
+            Kind::Plain(Format::ObjLines) => {
+                obj_lines::from_bytes(&input::read(path, MOST_TEXT_BYTES)?).map_err(named)?
+            }
+            Kind::Plain(_) => hair_file::from_source(&mut Bytes::open(path)?).map_err(named)?,
+        };
+        Ok(match segments {
+            Some(segments) => hair.resampled(segments + 1),
+            None => hair,
+        })
+    }
+
+    /// Where the curves are, for a layer to be laid over them. `file`: the name that is remembered.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn curves(&mut self, file: &Path) -> Result<GroomCurves> {
+        let prims = match &mut self.kind {
+            Kind::Plain(_) => Vec::new(),
+            Kind::Exchange(opened) => opened.ask(|r| r.prims())?,
+        };
+        let curves = prims.into_iter().filter_map(|prim| match prim.kind {
+            PrimKind::Curves { points, .. } => Some(CurvePrim { path: prim.path, points: points as u64 }),
+            _ => None,
+        });
+        Ok(GroomCurves { file: file.display().to_string(), curves: curves.collect() })
+    }
+
+    /// Its frames, one after another. `segments`: as for [`hair`](Self::hair).
+    ///
+    /// # Errors
+    /// A file of hair alone, which does not move; what is wrong with the file.
+    pub fn moving(self, segments: Option<usize>) -> Result<MovingHair> {
+        match self.kind {
+            Kind::Plain(_) => Err(Error::new("holds no moving hair").in_file(&self.path)),
+            Kind::Exchange(file) => MovingHair::of(file, segments),
+        }
+    }
+}
+
+impl GroomCurves {
+    /// Refuses to lay a layer over the prim `path` where it is not the one that holds the groom's curves.
+    ///
+    /// # Errors
+    /// One line with the paths that are.
+    pub fn check_layer(&self, path: &str) -> Result<()> {
+        let refuse =
+            |why: String| Err(Error::new(format!("--export-layer {path}: {why}")).in_file(Path::new(&self.file)));
+        let listed = self.curves.iter().take(8).map(|prim| format!("{} ({} points)", prim.path, prim.points));
+        let list = listed.collect::<Vec<_>>().join(", ");
+        match &self.curves[..] {
+            [only] if only.path == path => Ok(()),
+            [] => refuse("it has no curves over which a layer could lie".to_owned()),
+            [_] => refuse(format!("its curves are at {list}")),
+            several => {
+                let n = several.len();
+                refuse(format!("its curves are in {n} prims ({list}), and a layer lies over one"))
+            }
+        }
+    }
+}
