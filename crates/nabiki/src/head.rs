@@ -2,16 +2,26 @@
 
 mod bust;
 mod fit;
+mod openings;
 
 use std::fmt::Display;
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
+pub use openings::Opening;
+
 use crate::distance::SkinDistance;
 use crate::mesh::Orientation;
 use crate::strands::bounds;
 use crate::{Ellipsoid, Mesh, SettingError};
+
+/// Fine samples of the distance that the box about a head may hold, were it filled with them: three times as many as that
+/// about a whole body of a person has.
+const MOST_SAMPLES: f32 = 2e7;
+
+/// Mean half axis of the heads that can be worked with (cm).
+const HALF_AXES: [f32; 2] = [1e-3, 1e5];
 
 /// A head (and what of neck and shoulders comes with it) in head space, cm.
 #[derive(Clone, Debug)]
@@ -22,6 +32,8 @@ pub struct Head {
     pub ellipsoid: Ellipsoid,
     /// How the triangles lay in the mesh that it was made of.
     pub orientation: Orientation,
+    /// Where its surface is open.
+    pub openings: Vec<Opening>,
     /// Lowest and highest corner of the mesh: beyond it nothing is inside.
     bounds: [Vec3; 2],
     skin: Arc<SkinDistance>,
@@ -33,7 +45,8 @@ impl Head {
     pub fn builtin() -> Self {
         let (mesh, skin) = bust::read(bust::BAKED);
         let orientation = Orientation { turned: 0, open_edges: 0, has_inside: true };
-        Self { bounds: bounds(&mesh.positions), mesh, ellipsoid: bust::ELLIPSOID, orientation, skin: Arc::new(skin) }
+        let (bounds, skin) = (bounds(&mesh.positions), Arc::new(skin));
+        Self { bounds, mesh, ellipsoid: bust::ELLIPSOID, orientation, openings: Vec::new(), skin }
     }
 
     /// The same head with another ellipsoid.
@@ -64,6 +77,14 @@ impl Head {
             None => fit::scalp(&mesh)?,
         };
         check_ellipsoid(&ellipsoid)?;
+        let size = ellipsoid.half_axes.as_dvec3().element_product().cbrt() as f32;
+        if !(HALF_AXES[0]..=HALF_AXES[1]).contains(&size) {
+            let remedy = format!(
+                "its ellipsoid's half axes must lie in {} cm to {} cm, a person's are about 9: mend head.unit",
+                HALF_AXES[0], HALF_AXES[1]
+            );
+            return Err(refused_mesh(&mesh, format!("a head of {size:.3e} cm"), &remedy));
+        }
         if !orientation.has_inside {
             let remedy = "encloses no space, so nothing can be told to be inside it: give a head that is closed, or \
                           open only where it is cut off";
@@ -86,13 +107,16 @@ impl Head {
     fn assemble(mesh: Mesh, ellipsoid: Ellipsoid, orientation: Orientation) -> Self {
         let [low, high] = bounds(&mesh.positions);
         // Hair is met near the skin; of a whole body only what is within its reach is sampled.
-        let spacing = ellipsoid.half_axes.min_element() / 24.0;
+        let finest = ellipsoid.half_axes.min_element() / 24.0;
         let reach = 4.0 * ellipsoid.half_axes.max_element();
         let margin = 0.6 * ellipsoid.half_axes.max_element();
         let low = (low - margin).max(ellipsoid.center - reach);
         let high = (high + margin).min(ellipsoid.center + reach);
+        // A flat ellipsoid on a large mesh asks for samples without end.
+        let spacing = finest.max(((high - low).element_product() / MOST_SAMPLES).cbrt());
         let skin = Arc::new(SkinDistance::new(&mesh, low, high, spacing));
-        Self { bounds: bounds(&mesh.positions), mesh, ellipsoid, orientation, skin }
+        let openings = openings::of(&mesh, &ellipsoid, &skin);
+        Self { bounds: bounds(&mesh.positions), mesh, ellipsoid, orientation, openings, skin }
     }
 
     /// Signed distance from `p` to the skin (cm), negative inside. Open rims of the mesh count as closed.
@@ -139,7 +163,12 @@ fn refused_mesh(mesh: &Mesh, what: impl Display, remedy: &str) -> SettingError {
     let [low, high] = bounds(&mesh.positions);
     let size = high - low;
     let triangles = mesh.triangles.len();
-    let value = format!("{what}, {triangles} triangles, {:.3} x {:.3} x {:.3} cm", size.x, size.y, size.z);
+    let [x, y, z] = size.to_array();
+    let value = if (0.01..1e6).contains(&size.max_element()) {
+        format!("{what}, {triangles} triangles, {x:.3} x {y:.3} x {z:.3} cm")
+    } else {
+        format!("{what}, {triangles} triangles, {x:.1e} x {y:.1e} x {z:.1e} cm")
+    };
     SettingError::new("head.mesh", value, remedy)
 }
 

@@ -9,17 +9,39 @@ use crate::Mesh;
 /// The mesh with doubled vertices joined (those at the very same place, as texture seams leave them) and a fan of
 /// triangles from the middle of each open rim.
 pub(crate) fn closed(mesh: &Mesh) -> Mesh {
-    let joined = mesh.first_at_place();
-    let mut closed = Mesh {
-        positions: mesh.positions.clone(),
-        triangles: (mesh.triangles.iter().map(|t| t.map(|v| joined[v as usize])))
-            .filter(|[a, b, c]| a != b && b != c && c != a)
-            .collect(),
-        corner_uvs: None,
-    };
+    let mut closed = Mesh { positions: mesh.positions.clone(), triangles: joined(mesh), corner_uvs: None };
+    for rim in rims(&closed.triangles) {
+        let middle = middle(&rim, &closed.positions);
+        let hub = closed.positions.len() as u32;
+        closed.positions.push(middle);
+        for (i, &v) in rim.iter().enumerate() {
+            closed.triangles.push([v, rim[(i + 1) % rim.len()], hub]);
+        }
+    }
+    closed
+}
 
-    let mut balance: HashMap<(u32, u32), i32> = HashMap::with_capacity(closed.triangles.len() * 2);
-    for &[a, b, c] in &closed.triangles {
+/// The rims of a mesh's openings, doubled vertices joined: the vertices of each, in order.
+pub(crate) fn of(mesh: &Mesh) -> Vec<Vec<u32>> {
+    rims(&joined(mesh))
+}
+
+/// The triangles with doubled vertices joined, without those of which two corners then coincide.
+fn joined(mesh: &Mesh) -> Vec<[u32; 3]> {
+    let first = mesh.first_at_place();
+    let triangles = mesh.triangles.iter().map(|t| t.map(|v| first[v as usize]));
+    triangles.filter(|[a, b, c]| a != b && b != c && c != a).collect()
+}
+
+/// The mean of a rim's vertices: the hub of the fan that closes it.
+pub(crate) fn middle(rim: &[u32], positions: &[Vec3]) -> Vec3 {
+    rim.iter().map(|&v| positions[v as usize]).sum::<Vec3>() / rim.len() as f32
+}
+
+/// The chains of edges that belong to more triangles on one side than on the other, against the way these run.
+fn rims(triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
+    let mut balance: HashMap<(u32, u32), i32> = HashMap::with_capacity(triangles.len() * 2);
+    for &[a, b, c] in triangles {
         for (from, to) in [(a, b), (b, c), (c, a)] {
             let (key, sign) = if from < to { ((from, to), 1) } else { ((to, from), -1) };
             *balance.entry(key).or_default() += sign;
@@ -35,6 +57,7 @@ pub(crate) fn closed(mesh: &Mesh) -> Mesh {
     for &(from, to) in &open {
         onward.entry(from).or_default().push(to);
     }
+    let mut rims = Vec::new();
     for (start, _) in open {
         let Some(mut at) = onward.get_mut(&start).and_then(Vec::pop) else { continue };
         let mut rim = vec![start];
@@ -44,12 +67,7 @@ pub(crate) fn closed(mesh: &Mesh) -> Mesh {
             let Some(next) = onward.get_mut(&at).and_then(Vec::pop) else { break };
             at = next;
         }
-        let middle = rim.iter().map(|&v| closed.positions[v as usize]).sum::<Vec3>() / rim.len() as f32;
-        let hub = closed.positions.len() as u32;
-        closed.positions.push(middle);
-        for (i, &v) in rim.iter().enumerate() {
-            closed.triangles.push([v, rim[(i + 1) % rim.len()], hub]);
-        }
+        rims.push(rim);
     }
-    closed
+    rims
 }

@@ -95,7 +95,7 @@ fn first_guess(mesh: &Mesh) -> Option<Guess> {
 }
 
 /// Where hair grows, by the direction from the centre in units of the half axes.
-fn is_scalp(u: DVec3) -> bool {
+pub(super) fn is_scalp(u: DVec3) -> bool {
     let u = u.normalize_or_zero();
     let forehead_free = u.y > 0.45 || u.x < 0.6;
     let above_ears = if u.x < -0.35 { -0.4 } else { 0.1 };

@@ -212,3 +212,48 @@ fn depth_is_the_distance_within_and_nothing_without() {
         assert_eq!(head.depth(p), (-head.distance(p)).max(0.0), "{p}");
     }
 }
+
+/// A ball with its cap cut off along a circle of 40 degrees: the sagitta of the cap is what is missing.
+#[test]
+fn a_hole_where_hair_grows_is_told_from_one_below() {
+    let ball = Ellipsoid { center: vec3(3.0, -2.0, 1.0), half_axes: Vec3::splat(10.0) };
+    let whole = egg(ball, 90);
+    let cos = (40.0_f32).to_radians().cos();
+    let without = |axis: Vec3| {
+        let mut mesh = whole.clone();
+        mesh.triangles
+            .retain(|t| t.iter().any(|&v| (whole.positions[v as usize] - ball.center).dot(axis) < 10.0 * cos));
+        let mut openings = Head::from_mesh(mesh, Some(ball)).unwrap().openings;
+        // The lowest corners of the egg lie apart by the rounding of pi.
+        openings.retain(|hole| hole.radius > 1e-4);
+        openings
+    };
+    for (axis, on_scalp) in [
+        (Vec3::Y, true),
+        (vec3(-0.8, 0.6, 0.0), true),
+        (vec3(0.0, 0.8, 0.6), true),
+        (Vec3::NEG_Y, false),
+        (vec3(0.9, -0.436, 0.0), false),
+    ] {
+        let [hole] = without(axis)[..] else { panic!("{axis}: one hole") };
+        assert_eq!(hole.missing.is_some(), on_scalp, "{axis}: {hole:?}");
+        // About the egg's own axis the rim is a circle; elsewhere its corners lie closer on one side than on the other.
+        if axis.y.abs() < 1.0 {
+            continue;
+        }
+        // Triangles are 2 degrees high and wide, and go as a whole.
+        let (low, high) = ((40.0_f32 - 3.0).to_radians(), 40.0_f32.to_radians());
+        assert!((10.0 * low.sin()..=10.0 * high.sin() + 1e-3).contains(&hole.radius), "{axis}: {hole:?}");
+        let sagitta = (10.0 * (1.0 - low.cos()), 10.0 * (1.0 - high.cos()) + 1e-3);
+        assert!(hole.missing.is_none_or(|missing| (sagitta.0..=sagitta.1).contains(&missing)), "{axis}: {hole:?}");
+    }
+}
+
+#[test]
+fn a_head_beyond_any_size_is_refused() {
+    for (size, said) in [(1e-9, "a head of 1.000e-9 cm"), (1e20, "a head of 1.000e20 cm")] {
+        let ball = Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::splat(size) };
+        let line = refused(egg(ball, 12), Some(ball));
+        assert!(line.starts_with("head.mesh = ") && line.contains(said) && line.ends_with("mend head.unit"), "{line}");
+    }
+}
