@@ -150,7 +150,10 @@ pub fn folder_of(path: &Path) -> &Path {
 }
 
 /// What `path` leads to, where it is a link; a link that leads nowhere names the file to be made.
-fn behind_links(path: &Path) -> io::Result<PathBuf> {
+///
+/// # Errors
+/// Links that lead in a circle.
+pub fn behind_links(path: &Path) -> io::Result<PathBuf> {
     // As many as Linux follows.
     const MOST_LINKS: usize = 40;
     let mut path = path.to_owned();

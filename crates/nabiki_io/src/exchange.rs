@@ -60,11 +60,13 @@ impl Opened {
             return Ok(DeclaredSpace { unit: None, up: Some(up) });
         }
         // A layer that says nothing means centimetres and y, by USD's own rule.
-        let cm = (contents.meters_per_unit.unwrap_or(0.01) * 100.0) as f32;
-        if !(cm.is_finite() && cm > 0.0) {
-            let line = format!("metersPerUnit = {}: is too far from any unit", cm / 100.0);
+        let metres = contents.meters_per_unit.unwrap_or(0.01);
+        // From nanometres to a thousand kilometres: beyond, the numbers of a head leave what f32 can hold.
+        if !(1e-9..=1e6).contains(&metres) {
+            let line = format!("metersPerUnit = {metres:e}: must lie in 1e-9..1e6; 0.01 stands for centimetres");
             return Err(Error::new(line).in_file(&self.path));
         }
+        let cm = (metres * 100.0) as f32;
         Ok(DeclaredSpace { unit: Some(Unit { cm }), up: Some(up) })
     }
 }

@@ -13,6 +13,7 @@ use crate::input::{self, MOST_BINARY_BYTES};
 pub(crate) fn open(bytes: &[u8]) -> Result<(gltf::Document, Option<Vec<u8>>)> {
     let unreadable = |e: gltf::Error| Error::new(format!("is not a readable glTF: {e}"));
     let (text, blob) = if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (bytes, None) };
+    let text = text.strip_prefix(input::BYTE_ORDER_MARK).unwrap_or(text);
     if text.trim_ascii_start().first() != Some(&b'{') {
         return Err(Error::new("is not a glTF: it does not start with glTF or {"));
     }

@@ -134,12 +134,19 @@ pub fn import_from(
     place_and_clean(file.hair(0, None)?, placement, cleaning).map_err(named)
 }
 
+/// Coordinates of hair beyond this are a wrong unit: ten thousand kilometres (cm).
+const FARTHEST: f32 = 1e9;
+
 /// The same for hair already read, by this crate or another.
 pub fn place_and_clean(hair: Hair, placement: &Placement, cleaning: &Cleaning) -> Result<(Hair, ImportReport)> {
     let (strands_in_file, points_in_file) = (hair.strands.len(), hair.strands.points().len());
     let placed = hair.transformed(&placement.head_from_file());
     if let Some(p) = not_finite(placed.strands.points()) {
         return Err(Error::new(format!("point {p} leaves the range of f32 when converted to cm: check hair.unit")));
+    }
+    if let Some(p) = placed.strands.points().iter().position(|p| p.abs().max_element() > FARTHEST) {
+        let far = placed.strands.points()[p].abs().max_element();
+        return Err(Error::new(format!("point {p} lies {far:e} cm away, more than {FARTHEST:e}: check hair.unit")));
     }
     let (mut hair, degenerate) = placed.without_degenerate(cleaning.join_within);
     let long_enough: Vec<usize> = match cleaning.drop_shorter_than {

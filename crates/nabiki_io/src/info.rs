@@ -16,6 +16,7 @@ pub use cache::CacheInfo;
 pub use exchange::{ExchangeInfo, PrimSummary};
 pub use hair::{Carried, HairInfo};
 pub use measure::{Box3, Guess, Spread};
+pub use mesh::likely_unit;
 pub use mesh::{ClipInfo, MeshInfo};
 
 use crate::{
@@ -54,7 +55,7 @@ impl fmt::Display for Info {
 }
 
 /// Looks into a file, told by its name's ending: .hair, .tfx, .obj, .glb, .gltf, .ply, .tfxmesh, .usd, .usda, .usdc,
-/// .abc, .bvh, .csv, .amc, .asf, .tof or .nabiki.
+/// .abc, .bvh, .csv, .amc, .asf, .tof or .nabiki. (Scenes, .toml, are for `nabiki_scene`.)
 ///
 /// # Errors
 /// Another ending; what is wrong with the file, in one line.
@@ -75,8 +76,8 @@ pub fn info(path: &Path) -> Result<Info> {
         }
         "nabiki" => Ok(Info::Cache(CacheInfo::of(crate::cache::Reader::open(path)?)?)),
         other => {
-            let known = ".hair, .tfx, .obj, .glb, .gltf, .ply, .tfxmesh, .usd, .usda, .usdc, .abc, .bvh, .csv, .amc, .asf, .tof \
-                         or .nabiki";
+            let known = ".hair, .tfx, .obj, .glb, .gltf, .ply, .tfxmesh, .usd, .usda, .usdc, .abc, .bvh, .csv, .amc, .asf, .tof, \
+                         .nabiki or .toml";
             Err(Error::new(format!("ending \"{other}\" is not one of {known}")).in_file(path))
         }
     }

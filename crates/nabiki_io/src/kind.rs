@@ -78,6 +78,7 @@ impl FileKind {
             (b"\xff\xd8\xff", FileKind::Jpeg),
             (b"\x76\x2f\x31\x01", FileKind::Exr),
         ];
+        let first = first.strip_prefix(input::BYTE_ORDER_MARK).unwrap_or(first);
         if first.get(4..8) == Some(b"ftyp") {
             return Some(Self::Movie);
         }

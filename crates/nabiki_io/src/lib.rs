@@ -44,7 +44,7 @@ pub mod tfx;
 mod unit;
 
 pub use axis::Axis;
-pub use declared::DeclaredSpace;
+pub use declared::{DeclaredSpace, declared_space};
 pub use error::{Error, Result};
 pub use groom_file::{CurvePrim, GroomCurves, GroomFile};
 pub use identity::SceneId;

@@ -40,7 +40,7 @@ pub fn read(path: &Path, groups: &[String]) -> Result<Mesh> {
     match extension(path).as_str() {
         "obj" => obj::from_bytes(&text()?, groups).map_err(named),
         "glb" | "gltf" => glb::from_bytes(&binary()?, path.parent(), groups).map_err(named),
-        "ply" => ply::from_bytes(&binary()?).map_err(named),
+        "ply" => ply::from_bytes(without_mark(&binary()?)).map_err(named),
         "tfxmesh" => tfxmesh::from_bytes(&text()?).map_err(named),
         "abc" | "usd" | "usda" | "usdc" => exchange::mesh(path),
         other => {
@@ -48,6 +48,26 @@ pub fn read(path: &Path, groups: &[String]) -> Result<Mesh> {
             Err(named(Error::new(format!("ending \"{other}\" is not a mesh format: {known}"))))
         }
     }
+}
+
+/// What some editors put before a text is no part of it.
+fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(input::BYTE_ORDER_MARK).unwrap_or(bytes)
+}
+
+/// Names by which parts of a mesh file can be chosen, with the number of faces under each, most faces first: groups and
+/// objects of a .obj, nodes of a glTF that have a mesh of their own. None for other formats.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn groups(path: &Path) -> Result<Vec<(String, usize)>> {
+    let mut groups = match extension(path).as_str() {
+        "obj" => obj::groups(&input::read(path, MOST_TEXT_BYTES)?),
+        "glb" | "gltf" => glb::groups(&input::read(path, MOST_BINARY_BYTES)?).map_err(|e| e.in_file(path))?,
+        _ => Vec::new(),
+    };
+    groups.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
+    Ok(groups)
 }
 
 /// The same from memory; `extension`: `obj`, `ply`, `tfxmesh`, `glb` or `gltf`. Buffers in files of their own are refused.
@@ -86,7 +106,9 @@ pub fn place_and_weld(mesh: Mesh, placement: &Placement) -> Result<(Mesh, MeshRe
         dropped_triangles: triangles_in_file - welded.triangles.len(),
     };
     if welded.triangles.is_empty() {
-        return Err(Error::new("holds no triangle with an area"));
+        return Err(Error::new(
+            "holds no triangle with an area: is a transform's scale 0, or head.unit far too small?",
+        ));
     }
     Ok((welded, report))
 }

@@ -242,7 +242,13 @@ fn the_json_of_every_kind_has_its_kind_and_its_fields() {
         assert_eq!(mesh["kind"], "mesh", "{name}");
         assert_eq!((mesh["vertices"].as_u64(), mesh["triangles"].as_u64()), (Some(6), Some(8)), "{name}");
         assert_eq!((mesh["open_edges"].as_u64(), mesh["crowded_edges"].as_u64()), (Some(0), Some(0)), "{name}");
-        assert_eq!(mesh["likely_unit"], "m", "{name}");
+        // The format of a glTF states what the others leave to be guessed.
+        let states = name.starts_with("solid.gl");
+        assert_eq!(mesh.get("likely_unit").and_then(Value::as_str), (!states).then_some("m"), "{name}");
+        assert_eq!(mesh["unit_cm"].as_f64(), states.then_some(100.0), "{name}");
+        assert_eq!(mesh["up"].as_str(), states.then_some("+y"), "{name}");
+        let text = info(&file(name)).unwrap().to_string();
+        assert_eq!(text.contains("a guess"), !states, "{text}");
     }
     assert_eq!(json("solid.glb")["clips"][0], serde_json::json!({ "name": "nod", "end": 0.5 }));
     assert_eq!(json("solid.glb")["nodes"], serde_json::json!(["solid", "Hips", "Head"]));
@@ -337,4 +343,103 @@ fn damage_to_any_sample_is_said_in_one_line_that_names_a_file() {
         }
     }
     assert!(refused > 1000, "only {refused} errors");
+}
+
+#[test]
+fn what_a_format_states_is_declared() {
+    let space = |name: &str| nabiki_io::declared_space(&file(name)).unwrap();
+    let (metres, y) = (Some("m".parse().unwrap()), Some(Axis::PlusY));
+    for name in ["solid.glb", "solid.gltf", "groom.usda"] {
+        assert_eq!((space(name).unit, space(name).up), (metres, y), "{name}");
+    }
+    assert_eq!((space("groom.abc").unit, space("groom.abc").up), (None, y));
+    for name in ["solid.obj", "solid.tfxmesh", "solid_text.ply", "groom.hair", "groom_4.tfx"] {
+        assert_eq!((space(name).unit, space(name).up), (None, None), "{name}");
+    }
+}
+
+#[test]
+fn a_unit_or_an_axis_of_a_layer_that_is_none_is_refused_and_a_small_letter_is_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("groom.usda");
+    let text = std::fs::read_to_string(file("groom.usda")).unwrap();
+    let space = |from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        std::fs::write(&path, text.replacen(from, to, 1)).unwrap();
+        nabiki_io::declared_space(&path).map_err(|e| e.to_string())
+    };
+    for (metres, said) in [("1e-30", "1e-30"), ("1e300", "1e300"), ("1e7", "1e7"), ("nan", "NaN"), ("-1", "-1")] {
+        let refused = space("metersPerUnit = 1", &format!("metersPerUnit = {metres}")).unwrap_err();
+        assert!(refused.contains(&format!("metersPerUnit = {said}: must ")) && refused.contains("0.01"), "{refused}");
+    }
+    for (axis, up) in [("y", Axis::PlusY), ("z", Axis::PlusZ), ("Z", Axis::PlusZ)] {
+        assert_eq!(space("upAxis = \"Y\"", &format!("upAxis = \"{axis}\"")).unwrap().up, Some(up));
+    }
+    assert!(space("upAxis = \"Y\"", "upAxis = \"X\"").unwrap_err().contains("must be \"Y\" or \"Z\""));
+}
+
+#[test]
+fn a_byte_order_mark_before_a_text_is_passed_over_or_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let marked = |name: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, [b"\xef\xbb\xbf".to_vec(), std::fs::read(file(name)).unwrap()].concat()).unwrap();
+        path
+    };
+    for name in ["solid.obj", "solid_text.ply", "solid.gltf", "solid.tfxmesh"] {
+        assert_eq!(mesh::read(&marked(name), &[]).unwrap(), mesh::read(&file(name), &[]).unwrap(), "{name}");
+    }
+    for name in ["nod.bvh", "nod.amc", "nod.asf", "nod.tof", "nod.csv"] {
+        assert_eq!(info(&marked(name)).unwrap(), info(&file(name)).unwrap(), "{name}");
+    }
+    let refused = hair::read(&marked("groom.usda")).unwrap_err().to_string();
+    assert!(refused.contains("begins with a byte order mark, which USD does not read: save it as UTF-8"), "{refused}");
+    let kind = nabiki_io::kind::FileKind::of(&marked("nod.tof")).unwrap();
+    assert_eq!(kind, Some(nabiki_io::kind::FileKind::ObjectStream));
+}
+
+#[test]
+fn a_table_whose_times_do_not_grow_is_refused_by_info_as_by_a_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("back.csv");
+    let row = |t: u32| format!("{t},0,0,0,0,0,0,1\n");
+    let write = |times: &[u32]| {
+        let rows: String = times.iter().map(|&t| row(t)).collect();
+        std::fs::write(&path, format!("t_s,px_m,py_m,pz_m,qx,qy,qz,qw\n{rows}")).unwrap();
+        info(&path).map(|info| info.to_string()).map_err(|e| e.to_string())
+    };
+    for times in [[1, 0], [1, 1]] {
+        assert!(write(&times).unwrap_err().contains("s follows 1 s, but times must grow"));
+    }
+    assert!(write(&[3]).unwrap().starts_with("motion: 1 samples, too few to move anything\n"));
+    assert!(write(&[]).unwrap().starts_with("motion: 0 samples, too few to move anything\n"));
+    assert!(write(&[1, 3]).unwrap().starts_with("motion: 2 samples over 2.000 s, 0.50 a second\n"));
+}
+
+#[test]
+fn the_parts_of_a_mesh_file_are_listed_the_largest_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("parts.obj");
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no one\nf 1 2 3\ng a b\nf 1 2 3\ng a\nf 3 2 1\n";
+    std::fs::write(&path, text).unwrap();
+    let parts = [("one", 3), ("a", 2), ("b", 1)].map(|(name, faces)| (name.to_owned(), faces));
+    assert_eq!(mesh::groups(&path).unwrap(), parts);
+    assert_eq!(mesh::groups(&file("solid.glb")).unwrap(), [("solid".to_owned(), 8)]);
+    assert_eq!(mesh::groups(&file("solid_text.ply")).unwrap(), []);
+}
+
+#[test]
+fn hair_beyond_any_size_is_refused() {
+    let huge = Placement { unit: nabiki_io::Unit { cm: 1e30 }, ..Placement::default() };
+    let refused = hair::import(&file("groom.hair"), &huge, &hair::Cleaning::default()).unwrap_err().to_string();
+    assert!(refused.contains("cm away, more than 1e9: check hair.unit"), "{refused}");
+}
+
+#[test]
+fn the_endings_that_info_knows_name_scenes_too() {
+    let refused = info(Path::new("a.xyz")).unwrap_err().to_string();
+    assert!(
+        refused.contains("ending \"xyz\" is not one of .hair, ") && refused.ends_with(".nabiki or .toml"),
+        "{refused}"
+    );
 }

@@ -41,6 +41,11 @@ impl Layer {
         if first.starts_with(b"PK\x03\x04") {
             return Err(Problem::new("is a .usdz package: unpack it and give the layer inside"));
         }
+        if first.starts_with(b"\xef\xbb\xbf") {
+            return Err(Problem::new(
+                "begins with a byte order mark, which USD does not read: save it as UTF-8 without one",
+            ));
+        }
         if !first.starts_with(b"#usda") && !first.starts_with(b"#sdf") {
             return Err(Problem::new("is no USD layer: it begins neither with #usda nor with PXR-USDC"));
         }

@@ -7,12 +7,14 @@ use serde::Serialize;
 
 use super::measure::{Box3, Guess, guess_unit};
 use crate::{
+    declared::DeclaredSpace,
     error::Result,
     gltf_file,
     input::{self, MOST_BINARY_BYTES},
     kind::extension,
     mesh::{self, place_and_weld},
     placement::Placement,
+    unit::Unit,
 };
 
 /// Triangles and what is known of them, in the file's own unit.
@@ -35,6 +37,10 @@ pub struct MeshInfo {
     /// Unit that would make it a person's head, bust or body, if y is up; `None` where it is known.
     #[serde(flatten)]
     pub guess: Option<Guess>,
+    /// Centimetres in the file's unit, where its format says so.
+    pub unit_cm: Option<f32>,
+    /// Axis that points up, where its format says so.
+    pub up: Option<String>,
     /// Animations of a .glb that may move a head.
     pub clips: Vec<ClipInfo>,
     /// Names of the nodes that these may move.
@@ -61,6 +67,8 @@ impl MeshInfo {
         let (document, _) = gltf_file::open(&bytes).map_err(|e| e.in_file(path))?;
         let clips: Vec<ClipInfo> = document.animations().map(|animation| clip(&animation)).collect();
         let names = document.nodes().filter_map(|node| node.name().map(str::to_owned));
+        let DeclaredSpace { unit, up } = DeclaredSpace::GLTF;
+        let info = Self { guess: None, unit_cm: unit.map(|unit| unit.cm), up: up.map(|up| up.to_string()), ..info };
         Ok(Self { nodes: if clips.is_empty() { Vec::new() } else { names.collect() }, clips, ..info })
     }
 
@@ -84,13 +92,21 @@ impl MeshInfo {
             degenerate_triangles,
             open_edges: edges.values().filter(|&&n| n == 1).count(),
             crowded_edges: edges.values().filter(|&&n| n > 2).count(),
-            // A small head to a tall body.
-            guess: Some(Guess { likely_unit: guess_unit(bounds.max[1] - bounds.min[1], 18.0, 220.0), likely_up: None }),
+            guess: Some(Guess { likely_unit: likely_unit(bounds.max[1] - bounds.min[1]), likely_up: None }),
             bounds,
+            unit_cm: None,
+            up: None,
             clips: Vec::new(),
             nodes: Vec::new(),
         }
     }
+}
+
+/// The unit in which a mesh so tall (file units) is most likely a person's head, bust or body; `None` where no unit of
+/// the metric system makes it one.
+pub fn likely_unit(height: f32) -> Option<&'static str> {
+    // A small head to a tall body.
+    guess_unit(height, 18.0, 220.0)
 }
 
 fn clip(animation: &gltf::Animation<'_>) -> ClipInfo {
@@ -113,8 +129,10 @@ impl fmt::Display for MeshInfo {
             });
             write!(f, "\nnodes: {}", self.nodes.join(", "))?;
             write!(f, "\nclips: {}", clips.collect::<Vec<_>>().join(", "))?;
-            let way = "as motion: unit m, up +y, facing +z, as glTF has it; to be given in the scene: node, clip";
-            write!(f, "\n{way}")?;
+            write!(f, "\nas motion: facing +z; to be given in the scene: node, clip")?;
+        }
+        if let (Some(cm), Some(up)) = (self.unit_cm, &self.up) {
+            write!(f, "\nits format says: unit {}, up {up}; facing: unknown", Unit { cm })?;
         }
         match self.guess {
             Some(Guess { likely_unit: Some(unit), .. }) => {

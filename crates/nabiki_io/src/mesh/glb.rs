@@ -62,6 +62,20 @@ pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String])
     check(mesh)
 }
 
+/// The named nodes that have a mesh, with its triangles.
+pub(super) fn groups(bytes: &[u8]) -> Result<Vec<(String, usize)>> {
+    let (document, _) = open(bytes)?;
+    let corners = |primitive: gltf::Primitive| {
+        let counted = primitive.indices().or_else(|| primitive.get(&gltf::Semantic::Positions));
+        counted.map_or(0, |accessor| accessor.count())
+    };
+    let group = |node: gltf::Node| {
+        let (name, mesh) = (node.name()?.to_owned(), node.mesh()?);
+        Some((name, mesh.primitives().map(corners).sum::<usize>() / 3))
+    };
+    Ok(document.nodes().filter_map(group).collect())
+}
+
 /// Adds one primitive's triangles.
 fn append(mesh: &mut Mesh, primitive: &gltf::Primitive, buffers: &[Vec<u8>], scene_from_node: Mat4) -> Result<()> {
     if primitive.mode() != Mode::Triangles {

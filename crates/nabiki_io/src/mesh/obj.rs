@@ -1,6 +1,6 @@
 //! Faces of a Wavefront .obj. (Its words are few; the reader of the crate tobj panics on faces without positions.)
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::Vec2;
 use nabiki::Mesh;
@@ -58,6 +58,23 @@ pub(super) fn from_bytes(bytes: &[u8], groups: &[String]) -> Result<Mesh> {
         return Err(Error::new(format!("holds {} vertices but no faces: not a head", mesh.positions.len())));
     }
     check(only_used(mesh))
+}
+
+/// Every name that follows a `g` or an `o`, with the faces under it.
+pub(super) fn groups(bytes: &[u8]) -> Vec<(String, usize)> {
+    let text = obj_text::text(bytes);
+    let mut faces: BTreeMap<&str, usize> = BTreeMap::new();
+    let (mut object, mut groups) = (None, Vec::new());
+    for line in text.lines() {
+        let mut words = line.split_ascii_whitespace();
+        match words.next() {
+            Some("f") => groups.iter().copied().chain(object).for_each(|name| *faces.entry(name).or_default() += 1),
+            Some("o") => object = Some(line.trim_start()[1..].trim()),
+            Some("g") => groups = words.collect(),
+            _ => {}
+        }
+    }
+    faces.into_iter().map(|(name, faces)| (name.to_owned(), faces)).collect()
 }
 
 /// Leaves out the vertices of other groups, and those of no face.

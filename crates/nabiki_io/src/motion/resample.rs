@@ -19,11 +19,7 @@ impl Track {
         }
         self.times.drain(..source.skip);
         self.samples.drain(..source.skip);
-        if let Some(i) = self.times.windows(2).position(|w| !(w[0] < w[1] && w[0].is_finite() && w[1].is_finite())) {
-            let (a, b) = (self.times[i], self.times[i + 1]);
-            let problem = format!("sample {}: time {b} s follows {a} s, but times must grow", i + 1);
-            return Err(named(Error::new(problem)));
-        }
+        self.check_times().map_err(named)?;
         let (unit_cm, up) = (source.unit_cm.or(self.unit_cm), source.up.or(self.up));
         let world_from_file = WorldFromFile::new(unit_cm, up, source.facing).map_err(named)?;
         let duration = self.times[self.times.len() - 1] - self.times[0];

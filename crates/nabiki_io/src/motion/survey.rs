@@ -35,7 +35,12 @@ pub fn survey(file: &Path) -> Result<MotionInfo> {
     let text = input::read_text(file, MOST_TEXT_BYTES)?;
     let named = |e: Error| e.in_file(file);
     match extension(file).as_str() {
-        "csv" => csv::track(&text).map(|track| of_track(&track, Vec::new(), vec!["up", "facing"])).map_err(named),
+        "csv" => csv::track(&text)
+            .and_then(|track| {
+                track.check_times()?;
+                Ok(of_track(&track, Vec::new(), vec!["up", "facing"]))
+            })
+            .map_err(named),
         "amc" => amc(&text).map_err(named),
         "asf" => asf(&text).map_err(named),
         "tof" => object_stream(&text).map_err(named),
@@ -86,6 +91,7 @@ impl fmt::Display for MotionInfo {
         match (self.samples, self.duration) {
             (0, None) => writeln!(f, "skeleton: {} joints", self.joints.len())?,
             (samples, None) => writeln!(f, "motion: {samples} samples; rate: unknown")?,
+            (samples @ 0..2, Some(_)) => writeln!(f, "motion: {samples} samples, too few to move anything")?,
             (samples, Some(duration)) => {
                 let rate = samples.saturating_sub(1) as f64 / duration.max(f64::MIN_POSITIVE);
                 writeln!(f, "motion: {samples} samples over {duration:.3} s, {rate:.2} a second")?;

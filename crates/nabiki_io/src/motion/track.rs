@@ -4,6 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::source::Interpolation;
 use crate::axis::Axis;
+use crate::error::{Error, Result};
 
 /// A joint in its file's own world and unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +31,18 @@ pub struct Track {
 }
 
 impl Track {
+    /// Refuses times that do not grow.
+    pub(super) fn check_times(&self) -> Result<()> {
+        let grows = |w: &[f64]| w[0] < w[1] && w[0].is_finite() && w[1].is_finite();
+        match self.times.windows(2).position(|w| !grows(w)) {
+            None => Ok(()),
+            Some(i) => {
+                let (a, b) = (self.times[i], self.times[i + 1]);
+                Err(Error::new(format!("sample {}: time {b} s follows {a} s, but times must grow", i + 1)))
+            }
+        }
+    }
+
     /// The pose at `time`, which lies between sample `key` and the next, or beyond the end by rounding.
     pub(super) fn at(&self, key: usize, time: f64, positions: Interpolation) -> Sample {
         let (t, s) = (&self.times, &self.samples);
