@@ -305,3 +305,27 @@ fn what_no_disk_holds_is_refused_at_once() {
     assert!(line.contains("scene_frames: will take") && line.contains("TiB at least"), "{line}");
     assert!(!folder.path().join("m.nabiki").exists());
 }
+
+#[test]
+fn what_a_file_says_of_its_space_is_not_overridden() {
+    let folder = folder();
+    for unit in ["-1", "nan", "inf", "0", "1e39"] {
+        let line = refuse(&folder, &format!("convert hair.hair out.usda --unit={unit}"));
+        assert!(line.contains("--unit = ") && line.contains("must be a finite number above 0"), "{line}");
+    }
+    succeed(&folder, "convert hair.hair y.usda --unit cm");
+    succeed(&folder, "convert hair.hair z.usda --unit cm --z-up");
+    let line = refuse(&folder, "convert y.usda out.usdc --z-up");
+    assert_eq!(line, "nabiki: y.usda: --z-up: the file itself says +y; leave --z-up out\n");
+    // What agrees says nothing new.
+    succeed(&folder, "convert z.usda same.usdc --z-up");
+    // An archive does not say.
+    succeed(&folder, "convert hair.hair still.abc");
+    succeed(&folder, "convert still.abc z.usdc --unit cm --z-up");
+    succeed(&folder, &format!("simulate scene.toml -o m.nabiki {FEW}"));
+    for option in ["--z-up", "--unit=m"] {
+        let line = refuse(&folder, &format!("convert m.nabiki out.usdc {option}"));
+        assert!(line.contains("a motion cache knows its unit and axes; leave --"), "{line}");
+    }
+    assert!(!folder.path().join("out.usdc").exists());
+}

@@ -190,3 +190,17 @@ fn a_reader_that_has_gone() {
     }
     assert!(Path::new(&groom).exists());
 }
+
+#[cfg(unix)]
+#[test]
+fn a_link_into_a_folder_that_is_not_there_says_so_at_once() {
+    let folder = TempDir::new().unwrap();
+    for (name, to) in [("link.nabiki", "nowhere/m.nabiki"), ("link.usdc", "nowhere/m.usdc")] {
+        std::os::unix::fs::symlink(to, folder.path().join(name)).unwrap();
+        let link = at(&folder, name);
+        let line = refuse(&["simulate", GUST, "-o", &link], &folder);
+        let nowhere = at(&folder, "nowhere");
+        let said = format!("{link}: is a link to {nowhere}/m.{}, and there is no folder {nowhere}; ", &name[5..]);
+        assert!(line.contains(&said), "{line}");
+    }
+}

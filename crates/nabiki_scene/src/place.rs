@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use nabiki_file::folder_of;
+use nabiki_file::{behind_links, folder_of};
 
 use crate::error::{Error, Result};
 use crate::told::{Told, size};
@@ -51,7 +51,16 @@ impl Drop for Folders {
 /// Refuses a file that cannot be written: in its place is what a file cannot replace, or its folder takes none.
 pub fn file(path: &Path) -> Result<()> {
     free(path, "choose another name")?;
-    let folder = folder_of(path);
+    let target = behind_links(path).map_err(|e| refused(path, "cannot be written there", e, "choose another name"))?;
+    let folder = folder_of(&target);
+    if target != path && !folder.exists() {
+        return Err(Error::refused(format!(
+            "{}: is a link to {}, and there is no folder {}; make it, or choose another name",
+            path.display(),
+            target.display(),
+            folder.display()
+        )));
+    }
     match writable(folder) {
         Ok(()) => Ok(()),
         Err(_) if !folder.exists() => Err(Error::refused(format!(

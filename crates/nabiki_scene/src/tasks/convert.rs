@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use nabiki::{Hair, Pose};
+use nabiki::{Hair, Pose, error::check_positive};
 use nabiki_io::Axis;
 use nabiki_io::cache::Reader;
 use nabiki_io::exchange::{self, DeclaredSpace};
@@ -28,7 +28,7 @@ pub struct ConvertOptions {
     pub segments: Option<usize>,
     /// Unit of the input, for a USD layer to name.
     pub unit: Option<Unit>,
-    /// Whether z is up in the input, for a USD layer to name.
+    /// Whether z is up in the input, for a USD layer to name; refused where the input says otherwise.
     pub z_up: bool,
     /// Prim path of the groom over which samples alone are laid.
     pub layer: Option<String>,
@@ -68,10 +68,26 @@ fn check_output(options: &ConvertOptions) -> Result<()> {
         )));
     }
     hair::losses(output, &Hair::default())?;
+    check_space(options)?;
     if let Some(segments) = options.segments {
         HairSettings::check_segments("--segments", segments).map_err(|e| Error::refused(e.to_string()))?;
     }
     Ok(())
+}
+
+/// Refuses a unit that is none, and a space for a cache, which knows its own.
+fn check_space(options: &ConvertOptions) -> Result<()> {
+    if let Some(unit) = options.unit {
+        check_positive("--unit", unit.cm).map_err(|e| Error::refused(e.to_string()))?;
+    }
+    let useless = [(options.unit.is_some(), "--unit"), (options.z_up, "--z-up")];
+    match useless.into_iter().find(|&(given, _)| given && is_cache(&options.input)) {
+        None => Ok(()),
+        Some((_, option)) => {
+            let (input, why) = (options.input.display(), "a motion cache knows its unit and axes");
+            Err(Error::refused(format!("{input}: {option}: {why}; leave {option} out")))
+        }
+    }
 }
 
 fn is_cache(path: &Path) -> bool {
@@ -221,6 +237,12 @@ fn said(options: &ConvertOptions, in_file: DeclaredSpace) -> Result<DeclaredSpac
             given.cm,
             stated.cm
         )));
+    }
+    // That of an archive is an agreement, and is not in the file.
+    let stated_up = in_file.up.filter(|_| exchange::is_usd(&options.input));
+    if let Some(up) = stated_up.filter(|&up| options.z_up && up != Axis::PlusZ) {
+        let input = options.input.display();
+        return Err(Error::refused(format!("{input}: --z-up: the file itself says {up}; leave --z-up out")));
     }
     let said = DeclaredSpace {
         unit: options.unit.or(in_file.unit),
