@@ -118,20 +118,10 @@ pub fn read(path: &Path) -> Result<Hair> {
 
 /// Reads a file into head space, without its degenerate parts, which are counted.
 pub fn import(path: &Path, placement: &Placement, cleaning: &Cleaning) -> Result<(Hair, ImportReport)> {
-    import_from(&mut GroomFile::open(path)?, path, placement, cleaning)
-}
-
-/// The same from a file that is open; `path` names it in errors.
-pub fn import_from(
-    file: &mut GroomFile,
-    path: &Path,
-    placement: &Placement,
-    cleaning: &Cleaning,
-) -> Result<(Hair, ImportReport)> {
     let named = |e: Error| e.in_file(path);
     placement.check("hair").map_err(|e| Error::from(e).in_file(path))?;
     cleaning.check().map_err(|e| Error::from(e).in_file(path))?;
-    place_and_clean(file.hair(0, None)?, placement, cleaning).map_err(named)
+    place_and_clean(read(path)?, placement, cleaning).map_err(named)
 }
 
 /// Coordinates of hair beyond this are a wrong unit: ten thousand kilometres (cm).

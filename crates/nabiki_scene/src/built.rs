@@ -8,16 +8,19 @@ use std::sync::Arc;
 use glam::Vec3;
 use nabiki::dynamics::{Dynamics, FrameInput, Reference, Simulation, Timeline};
 use nabiki::field::{Field, KeyframedField};
-use nabiki::{Hair, Head, Pose, SettingError};
-use nabiki_io::GroomCurves;
+use nabiki::{Hair, Head, Pose, SettingError, Strands};
 use nabiki_io::cache::Origin;
 use nabiki_io::hair::ImportReport;
 use nabiki_io::mesh::MeshReport;
 use nabiki_io::placement::Placement;
+use nabiki_io::{DeclaredSpace, GroomCurves};
 
 use crate::advice::{Advice, advice};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
+use crate::seat::Seat;
+
+pub(crate) use load::hair_placement;
 
 /// All that a scene names, loaded and in head space, ready to be stepped.
 #[derive(Clone, Debug)]
@@ -46,6 +49,12 @@ pub struct BuiltScene {
     pub dynamics: Dynamics,
     /// The force.
     pub field: Arc<KeyframedField>,
+    /// What the head's file says of its own space.
+    pub(crate) head_declared: DeclaredSpace,
+    /// What the hair's file says of its own space.
+    hair_declared: DeclaredSpace,
+    /// Strands by which imported hair is judged, as they are in the file.
+    judged: Strands,
     /// How the head's motion was read and converted, in one line.
     pub motion_report: Option<String>,
     /// Number of each strand in the whole hair.
@@ -68,7 +77,7 @@ impl Scene {
     /// # Errors
     /// As [`build`](Self::build).
     pub fn load_head(&self) -> Result<Head> {
-        load::load_head(self).map(|(head, ..)| head)
+        load::load_head(self).map(|loaded| loaded.head)
     }
 }
 
@@ -152,7 +161,18 @@ impl BuiltScene {
 
     /// What looks wrong about the size and place of head and hair.
     pub fn advice(&self) -> Vec<Advice> {
-        advice(&self.scene, &self.head, &self.placement, &self.hair.strands, self.hair_placement.as_ref())
+        advice(self)
+    }
+
+    /// Where imported hair sits.
+    pub(crate) fn seat(&self) -> Option<Seat<'_>> {
+        self.scene.hair.imported().map(|settings| Seat {
+            head: &self.head,
+            strands: &self.judged,
+            settings,
+            head_placement: &self.placement,
+            declared: self.hair_declared,
+        })
     }
 
     /// Whether the head moves.

@@ -42,6 +42,8 @@ pub mod inside;
 mod outputs;
 mod place;
 pub mod scene;
+mod seat;
+mod size;
 pub mod tasks;
 pub mod template;
 pub mod told;

@@ -3,14 +3,12 @@
 use std::path::Path;
 
 use glam::Vec3;
-use nabiki::{Ellipsoid, Head, Mesh};
-use nabiki_io::Axis;
-use nabiki_io::{DeclaredSpace, Error, Result, exchange, hair, mesh};
-use nabiki_io::{Placement, Unit};
+use nabiki::{Ellipsoid, Head, Mesh, Strands};
+use nabiki_io::{Axis, DeclaredSpace, Error, Placement, Result, Unit, declared_space, hair, info, mesh};
 
-use crate::advice::{
-    AFLOAT, HALF_AXIS, SPREAD, above_centre, mean_half_axis, median_distance, middle, spread, unit_for, vector,
-};
+use crate::scene::ImportedHair;
+use crate::seat::{self, Mended, Seat, centimetres};
+use crate::size::{HALF_AXIS, decimal, mean_half_axis, middle, named_unit, spread, vector};
 
 /// A scene to begin with.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +26,8 @@ pub struct Template {
 /// A file that cannot be read, or a head on which no skull is found.
 pub fn template(scene: &Path, head: Option<&Path>, groups: &[String], hair: Option<&Path>) -> Result<Template> {
     let mut guesses = Vec::new();
-    let roots = hair.map(roots_of).transpose()?;
+    let strands = hair.map(strands_of).transpose()?;
+    let roots: Option<Vec<Vec3>> = strands.as_ref().map(|strands| strands.iter().map(|strand| strand[0]).collect());
     let (of_head, head_text) = match head {
         None => (
             None,
@@ -37,12 +36,12 @@ pub fn template(scene: &Path, head: Option<&Path>, groups: &[String], hair: Opti
         Some(file) => {
             let found = look_at_head(file, groups, roots.as_deref())?;
             guesses.extend(found.guesses.iter().cloned());
-            let text = found.text(scene, file, groups)?;
+            let text = found.text(scene, file)?;
             (Some(found), text)
         }
     };
-    let hair_text = match (hair, &roots) {
-        (Some(file), Some(roots)) => imported_hair(scene, file, roots, of_head.as_ref(), &mut guesses)?,
+    let hair_text = match (hair, &strands) {
+        (Some(file), Some(strands)) => imported_hair(scene, file, strands, of_head.as_ref(), &mut guesses)?,
         _ => GROWN.to_owned(),
     };
     let text = format!("{INTRODUCTION}\n{head_text}{SHELL}\n{hair_text}{REST}");
@@ -102,6 +101,9 @@ struct Looked {
     head: Head,
     placement: Placement,
     declared: DeclaredSpace,
+    /// Groups of the file that are kept; all if empty.
+    groups: Vec<String>,
+    /// The unit, in TOML.
     unit_text: String,
     /// Whether the ellipsoid could not be fitted, and was drawn about the mesh instead.
     boxed: Option<Ellipsoid>,
@@ -109,11 +111,11 @@ struct Looked {
 }
 
 impl Looked {
-    fn text(&self, scene: &Path, file: &Path, groups: &[String]) -> Result<String> {
+    fn text(&self, scene: &Path, file: &Path) -> Result<String> {
         let mut text = format!("[head]\nmesh = {}\n", quoted(scene, file)?);
-        if !groups.is_empty() {
+        if !self.groups.is_empty() {
             let names: Vec<String> =
-                groups.iter().map(|group| toml::Value::String(group.clone()).to_string()).collect();
+                self.groups.iter().map(|group| toml::Value::String(group.clone()).to_string()).collect();
             text += &format!("groups = [{}]\n", names.join(", "));
         }
         if self.declared.unit.is_none() {
@@ -129,10 +131,15 @@ impl Looked {
         match self.boxed {
             None => text += "ellipsoid = \"fit\"\n",
             Some(Ellipsoid { center, half_axes }) => {
+                let size = mean_half_axis(&self.head.ellipsoid);
                 let origin = self.placement.file_from_head().transform_point3(center);
+                let origin = seat::rounded(origin, size / self.placement.unit.cm);
                 text += &format!("origin = {}\n", vector(origin));
                 text += "# No skull was found to fit it to: it is drawn about what there is.\n";
-                text += &format!("ellipsoid = {{ center = [0.0, 0.0, 0.0], half_axes = {} }}\n", vector(half_axes));
+                text += &format!(
+                    "ellipsoid = {{ center = [0.0, 0.0, 0.0], half_axes = {} }}\n",
+                    vector(seat::rounded(half_axes, size))
+                );
             }
         }
         Ok(text)
@@ -140,39 +147,26 @@ impl Looked {
 }
 
 fn look_at_head(file: &Path, groups: &[String], roots: Option<&[Vec3]>) -> Result<Looked> {
-    let declared = exchange::declared_space(file)?;
-    let mesh = mesh::read(file, groups)?;
+    let declared = declared_space(file)?;
     let mut guesses = Vec::new();
-    let up = declared.up.unwrap_or_else(|| {
-        let up = up_of(&mesh);
-        guesses.push(format!("head.up = \"{up}\", by the shape of its box"));
-        up
-    });
-    let front = if matches!(up, Axis::PlusZ) { Axis::MinusY } else { Axis::PlusZ };
+    let Chosen { mesh, groups, up, skull } = chosen(file, groups, &declared, &mut guesses)?;
+    // Hair of another head, or in another unit, says nothing of this one.
+    let roots = roots.filter(|roots| grow_on(roots, &mesh));
+    let front = front_of(up);
     let as_is = Placement { unit: Unit { cm: 1.0 }, up, facing: front, origin: Vec3::ZERO };
-    // The fit does not know the unit, so that the unit can be told by the fit.
-    let fit = |facing| {
-        let turn = Placement { facing, ..as_is }.head_from_file();
-        let positions = mesh.positions.iter().map(|&p| turn.transform_point3(p)).collect();
-        let turned = Mesh { positions, ..mesh.clone() };
-        Head::fit(&turned).map(|ellipsoid| (ellipsoid, turned))
-    };
-    let facing = match roots {
-        Some(roots) => facing_of(roots, &mesh, &as_is).unwrap_or(front),
-        None => front,
-    };
+    let facing = roots.and_then(|roots| facing_of(roots, &mesh, &as_is)).unwrap_or(front);
     let how = if facing != front { "away from most of the roots" } else { "as most files have it" };
     guesses.push(format!("head.facing = \"{facing}\", {how}"));
     let placed = Placement { facing, ..as_is };
-    let (ellipsoid, boxed) = match fit(facing) {
-        Ok((ellipsoid, _)) => (ellipsoid, false),
-        Err(_) => (about(roots.unwrap_or(&mesh.positions), &placed), true),
-    };
+    // The fit does not know the unit, so that the unit can be told by the fit.
+    let fitted = if facing == front { skull } else { skull_of(&mesh, &placed) };
+    let boxed = fitted.is_none();
+    let ellipsoid = fitted.unwrap_or_else(|| about(roots.unwrap_or(&mesh.positions), &placed));
     let (cm, unit_text) = match declared.unit {
         Some(unit) => (unit.cm, String::new()),
         None => {
-            let text = unit_for(mean_half_axis(&ellipsoid), HALF_AXIS);
-            guesses.push(format!("head.unit = {text}, by the size of the head"));
+            let (text, guess) = unit_of(&mesh, &ellipsoid, boxed, up).map_err(|e| e.in_file(file))?;
+            guesses.push(guess);
             (centimetres(&text), text)
         }
     };
@@ -182,13 +176,113 @@ fn look_at_head(file: &Path, groups: &[String], roots: Option<&[Vec3]>) -> Resul
     let origin = unmoved.file_from_head().transform_point3(scaled.center);
     let placement = Placement { origin, ..unmoved };
     let centred = Ellipsoid { center: Vec3::ZERO, ..scaled };
-    let (in_head, _) = mesh::place_and_weld(mesh.clone(), &placement).map_err(|e| e.in_file(file))?;
+    let (in_head, _) = mesh::place_and_weld(mesh, &placement).map_err(|e| e.in_file(file))?;
     let head = Head::from_mesh(in_head, Some(centred)).map_err(|e| Error::from(e).in_file(file))?;
     if boxed {
         let what = if roots.is_some() { "the roots" } else { "the whole mesh" };
         guesses.push(format!("head.ellipsoid, about {what}: no skull was found"));
     }
-    Ok(Looked { head, placement, declared, unit_text, boxed: boxed.then_some(centred), guesses })
+    Ok(Looked { head, placement, declared, groups, unit_text, boxed: boxed.then_some(centred), guesses })
+}
+
+/// The part of a file that is taken for the head.
+struct Chosen {
+    mesh: Mesh,
+    groups: Vec<String>,
+    up: Axis,
+    /// The ellipsoid fitted to its skull, facing as most files do (the file's unit); `None` where none was found.
+    skull: Option<Ellipsoid>,
+}
+
+/// What the file holds, or of its groups the largest that has a skull where all of it together has none: files of bodies
+/// hold clothes and helpers beside them.
+fn chosen(file: &Path, groups: &[String], declared: &DeclaredSpace, guesses: &mut Vec<String>) -> Result<Chosen> {
+    // More than these have never been a body among other things.
+    const MOST_TRIED: usize = 5;
+    let look = |groups: Vec<String>| -> Result<Chosen> {
+        let mesh = mesh::read(file, &groups)?;
+        let up = declared.up.unwrap_or_else(|| up_of(&mesh));
+        let as_is = Placement { unit: Unit { cm: 1.0 }, up, facing: front_of(up), origin: Vec3::ZERO };
+        let skull = skull_of(&mesh, &as_is);
+        Ok(Chosen { mesh, groups, up, skull })
+    };
+    let mut found = look(groups.to_vec())?;
+    if found.skull.is_none() && groups.is_empty() {
+        for (group, _) in mesh::groups(file)?.into_iter().take(MOST_TRIED) {
+            let part = look(vec![group.clone()])?;
+            if part.skull.is_some() {
+                guesses.push(format!("head.groups = [\"{group}\"], the largest with a skull"));
+                found = part;
+                break;
+            }
+        }
+    }
+    if declared.up.is_none() {
+        guesses.push(format!("head.up = \"{}\", by the shape of its box", found.up));
+    }
+    Ok(found)
+}
+
+/// Where the face of most files looks that stand along `up`.
+fn front_of(up: Axis) -> Axis {
+    if matches!(up, Axis::PlusZ) { Axis::MinusY } else { Axis::PlusZ }
+}
+
+/// The ellipsoid of a mesh's skull, placed.
+fn skull_of(mesh: &Mesh, placement: &Placement) -> Option<Ellipsoid> {
+    let turn = placement.head_from_file();
+    let positions = mesh.positions.iter().map(|&p| turn.transform_point3(p)).collect();
+    Head::fit(&Mesh { positions, ..mesh.clone() }).ok()
+}
+
+/// The unit of a file that states none, in TOML, and how it was told: by its skull, or else by how tall it is.
+fn unit_of(mesh: &Mesh, ellipsoid: &Ellipsoid, boxed: bool, up: Axis) -> Result<(String, String)> {
+    // Units from a micrometre to a kilometre (cm).
+    const UNITS: std::ops::RangeInclusive<f32> = 1e-4..=1e5;
+    let size = mean_half_axis(ellipsoid);
+    if !UNITS.contains(&(HALF_AXIS / size)) {
+        let line = "of its units is its mean half axis, and no unit of length makes that a person's";
+        return Err(Error::new(format!("{size:e} {line}: scale it in the file, to metres or centimetres")));
+    }
+    Ok(if !boxed {
+        match named_unit(size, HALF_AXIS) {
+            Some(name) => (format!("\"{name}\""), format!("head.unit = \"{name}\", by the size of the head")),
+            None => {
+                let cm = decimal(HALF_AXIS / size, 2);
+                let guess = format!(
+                    "head.unit = {cm} (cm): in no unit that has a name is it of a person's size; give the file's own"
+                );
+                (cm, guess)
+            }
+        }
+    } else {
+        by_height(mesh, up)
+    })
+}
+
+/// The unit of a mesh without a skull, in TOML, and how it was told.
+fn by_height(mesh: &Mesh, up: Axis) -> (String, String) {
+    let (low, high) = bounds(&mesh.positions);
+    let height = (high - low).dot(up.vector().as_vec3()).abs();
+    match info::likely_unit(height) {
+        Some(name) => (format!("\"{name}\""), format!("head.unit = \"{name}\", by how tall the mesh is")),
+        None => {
+            let guess = "head.unit = \"cm\": in no unit is it as tall as a person's head or body; give the file's own";
+            ("\"cm\"".to_owned(), guess.to_owned())
+        }
+    }
+}
+
+/// Whether roots lie on a mesh: half of them nearer to one of its vertices than a part of how far they spread.
+fn grow_on(roots: &[Vec3], mesh: &Mesh) -> bool {
+    // A coarse mesh has vertices a tenth of a scalp apart, and its roots lie between them.
+    const NEAR: f32 = 0.15;
+    const JUDGED: usize = 100;
+    let step = roots.len().div_ceil(JUDGED).max(1);
+    let near = (NEAR * spread(roots)).powi(2);
+    let judged: Vec<Vec3> = roots.iter().copied().step_by(step).collect();
+    let on = judged.iter().filter(|root| mesh.positions.iter().any(|p| p.distance_squared(**root) <= near)).count();
+    2 * on >= judged.len()
 }
 
 /// The axis along which a mesh that does not say it stands: z where it is clearly taller that way, else y.
@@ -233,71 +327,51 @@ fn about(points: &[Vec3], placement: &Placement) -> Ellipsoid {
     Ellipsoid { center: 0.5 * (low + high), half_axes: half_axes.max(Vec3::splat(half_axes.max_element() / 3.0)) }
 }
 
-fn roots_of(file: &Path) -> Result<Vec<Vec3>> {
-    let hair = hair::read(file)?;
-    let roots: Vec<Vec3> = hair.strands.iter().filter_map(|strand| strand.first().copied()).collect();
-    if roots.is_empty() { Err(Error::new("holds no strands").in_file(file)) } else { Ok(roots) }
+/// The strands by which a hair file is judged.
+fn strands_of(file: &Path) -> Result<Strands> {
+    let strands = seat::judged(&hair::read(file)?);
+    if strands.is_empty() { Err(Error::new("holds no strands").in_file(file)) } else { Ok(strands) }
 }
 
 fn imported_hair(
     scene: &Path,
     file: &Path,
-    roots: &[Vec3],
+    strands: &Strands,
     head: Option<&Looked>,
     guesses: &mut Vec<String>,
 ) -> Result<String> {
-    let declared = exchange::declared_space(file)?;
+    let declared = declared_space(file)?;
     let mut text = format!("[hair]\nfile = {}\n", quoted(scene, file)?);
+    let mut settings = ImportedHair { file: file.to_owned(), ..ImportedHair::default() };
     let built_in;
-    let (skin, beside) = match head {
+    let (skin, head_placement) = match head {
         Some(looked) => (&looked.head, looked.placement),
         None => {
             built_in = Head::builtin();
             (&built_in, Placement::default())
         }
     };
-    let mut placement =
-        Placement { unit: declared.unit.unwrap_or(beside.unit), up: declared.up.unwrap_or(beside.up), ..beside };
     if head.is_none() {
-        placement.facing = if matches!(placement.up, Axis::PlusZ) { Axis::MinusY } else { Axis::PlusZ };
-        text += &format!("facing = \"{}\"              # guessed: where the face looks\n", placement.facing);
-        guesses.push(format!("hair.facing = \"{}\", as most files have it", placement.facing));
+        let facing = front_of(declared.up.unwrap_or(head_placement.up));
+        settings.facing = Some(facing);
+        text += &format!("facing = \"{facing}\"              # guessed: where the face looks\n");
+        guesses.push(format!("hair.facing = \"{facing}\", as most files have it"));
     }
-    let size = mean_half_axis(&skin.ellipsoid);
-    let placed = |placement: &Placement| -> Vec<Vec3> {
-        let place = placement.head_from_file();
-        roots.iter().map(|&root| place.transform_point3(root)).collect()
-    };
-    let grows =
-        |placement: &Placement| median_distance(skin, &placed(placement)).is_some_and(|off| off <= AFLOAT * size);
-    if head.is_some() && placement.up == beside.up {
-        // The head's origin is a place that both files share, whatever their units.
-        placement.origin = beside.origin * (beside.unit.cm / placement.unit.cm);
-    }
-    if !grows(&placement) && declared.unit.is_none() {
-        let unit = unit_for(spread(roots), SPREAD * size);
-        let cm = centimetres(&unit);
-        placement.origin *= placement.unit.cm / cm;
-        placement.unit = Unit { cm };
-        text += &format!("unit = {unit:<20} # guessed\n");
-        guesses.push(format!("hair.unit = {unit}, by how far the roots spread"));
-    }
-    if !grows(&placement) {
-        let now = middle(&placed(&placement));
-        placement.origin = placement.file_from_head().transform_point3(now - above_centre(&skin.ellipsoid));
-        let origin = vector(placement.origin);
-        text += &format!("origin = {origin}   # guessed: the point of the file that is the middle of the head\n");
-        guesses.push(format!("hair.origin = {origin}, which brings the roots onto the scalp"));
+    let seat = Seat { head: skin, strands, settings: &settings, head_placement: &head_placement, declared };
+    if let Some((Mended { unit, origin }, _)) = seat.mended() {
+        if let Some(unit) = unit {
+            text += &format!("unit = {unit:<20} # guessed\n");
+            guesses.push(format!("hair.unit = {unit}, by how the roots spread and lie on the head"));
+        }
+        if let Some(origin) = origin.map(vector) {
+            text += &format!("origin = {origin}   # guessed: the point of the file that is the middle of the head\n");
+            guesses.push(format!("hair.origin = {origin}, which brings the roots onto the scalp"));
+        }
     }
     text += "# strands = 5000           # an even choice of the file's\n";
     text += "# segments = 20            # cuts every strand anew into equal segments\n";
     text += "segment_length = 1.0       # the paper's d (cm), which its k and i are counted in\n";
     Ok(text)
-}
-
-/// Centimetres of a unit as a scene spells it.
-fn centimetres(text: &str) -> f32 {
-    text.trim_matches('"').parse().map_or(1.0, |unit: Unit| unit.cm)
 }
 
 /// A file as a scene beside it names it, in quotes.
@@ -308,19 +382,4 @@ fn quoted(scene: &Path, file: &Path) -> Result<String> {
     let named = file.strip_prefix(&folder).unwrap_or(&file);
     let text = named.to_str().ok_or_else(|| Error::new("a scene is text, and this name is not").in_file(&file))?;
     Ok(toml::Value::String(text.to_owned()).to_string())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::advice::rounded;
-
-    #[test]
-    fn units_are_told_by_the_size_of_a_head() {
-        for (name, cm) in crate::advice::UNITS {
-            assert_eq!(unit_for(HALF_AXIS / cm, HALF_AXIS), format!("\"{name}\""));
-        }
-        // 1.85 of a unit are a head: no unit has that name.
-        assert_eq!(unit_for(1.85, HALF_AXIS), rounded(HALF_AXIS / 1.85));
-    }
 }

@@ -102,6 +102,8 @@ pub struct SceneSummary {
     pub turned_triangles: usize,
     /// Edges of the head's openings, which count as closed.
     pub open_edges: usize,
+    /// Whether one of them lies where hair grows.
+    pub skull_is_open: bool,
     /// Frames of the hair's file, of which the first is taken; 1 for hair that stands still.
     pub frames_in_file: usize,
     /// How the head's motion was read and converted.
@@ -128,6 +130,7 @@ impl SceneSummary {
             half_axes: built.head.ellipsoid.half_axes.to_array(),
             turned_triangles: built.head.orientation.turned,
             open_edges: built.head.orientation.open_edges,
+            skull_is_open: built.head.openings.iter().any(|opening| opening.missing.is_some()),
             frames_in_file: built.frames_in_file,
             motion: built.motion_report.clone(),
             strands: strands.len(),
@@ -148,9 +151,10 @@ impl fmt::Display for SceneSummary {
             writeln!(f, "          {} triangles that faced inward were turned", self.turned_triangles)?;
         }
         if self.open_edges > 0 {
+            let place = if self.skull_is_open { "some of them in the skull" } else { "none of them in the skull" };
             writeln!(
                 f,
-                "          it is open along {} edges; an opening counts as closed straight across",
+                "          it is open along {} edges, {place}; an opening counts as closed straight across",
                 self.open_edges
             )?;
         }

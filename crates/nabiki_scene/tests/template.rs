@@ -7,22 +7,36 @@ use glam::Vec3;
 use nabiki::{Hair, Head};
 use nabiki_io::motion::Axis;
 use nabiki_io::placement::{Placement, Unit};
-use nabiki_scene::advice::{Advice, advice};
+use nabiki_scene::advice::Advice;
 use nabiki_scene::template::template;
 use nabiki_scene::{BuiltScene, Scene, Shown};
 
 const FORCE: &str = "[[force]]\nthrough = 1\nvector = [0, -1, 0]\n";
 
 fn built(text: &str, path: &Path) -> BuiltScene {
+    showing(text, path, Shown::All)
+}
+
+fn showing(text: &str, path: &Path, shown: Shown) -> BuiltScene {
     let few = [("hair.strands".to_owned(), "60".to_owned())];
     Scene::parse(text, path, &few)
         .unwrap_or_else(|e| panic!("{e}\n{text}"))
-        .build(Shown::All)
+        .build(shown)
         .unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
 fn advised(stage: &BuiltScene) -> Vec<Advice> {
-    advice(&stage.scene, &stage.head, &stage.placement, &stage.hair.strands, stage.hair_placement.as_ref())
+    stage.advice()
+}
+
+/// The settings that it gives, a line of a table each.
+fn settings(advice: &[Advice], table: &str) -> Vec<String> {
+    let all = advice.iter().flat_map(|advice| &advice.settings);
+    let line = |setting: &nabiki_scene::advice::Setting| {
+        let key = setting.key.strip_prefix(table).unwrap_or_else(|| panic!("{} of {table}", setting.key));
+        format!("{} = {}", &key[1..], setting.value)
+    };
+    all.map(line).collect()
 }
 
 /// The built-in head and some hair of it.
@@ -110,14 +124,52 @@ fn a_head_of_no_person_s_size_is_said_with_the_unit_that_mends_it() {
         advised(&built(&text, &scene))
     };
     // Hair that goes with the head is not spoken of beside it.
-    std::fs::write(folder.path().join("hair.obj"), "v 0 170 0\nv 0 171 0\nl 1 2\n").unwrap();
+    std::fs::write(folder.path().join("hair.obj"), "v 0 172 0\nv 0 173 0\nl 1 2\n").unwrap();
     for wrong in ["\"m\"", "\"mm\"", "\"ft\""] {
-        let [Advice { key: "head.unit", value: Some(unit), .. }] = &with(wrong)[..] else {
-            panic!("{:?}", with(wrong))
-        };
-        assert_eq!(unit, "\"cm\"");
+        assert_eq!(settings(&with(wrong), "head"), ["unit = \"cm\""], "{wrong}");
     }
     assert_eq!(with("\"cm\""), []);
+}
+
+/// Hair as a file of the built-in head's: all of it, that of the middle line alone, or that of one side.
+fn parts_of(hair: &Hair) -> [(&'static str, Hair); 3] {
+    let part = |wanted: &dyn Fn(Vec3) -> bool| {
+        let strands: Vec<usize> = (0..hair.strands.len()).filter(|&s| wanted(hair.strands.strand(s)[0])).collect();
+        hair.select(&strands)
+    };
+    [("all", hair.clone()), ("the middle", part(&|p| p.z.abs() < 1.5)), ("a side", part(&|p| p.z > 4.0))]
+}
+
+#[test]
+fn advice_that_is_followed_is_the_last_of_its_kind_whatever_is_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    let many = [("hair.strands".to_owned(), "700".to_owned())];
+    let bust = Scene::parse(FORCE, Path::new("bust.toml"), &many).unwrap().build(Shown::All).unwrap();
+    let aside = Vec3::new(0.0, 160.0, 30.0);
+    let placements = [
+        ("aside", Placement { origin: aside, ..Placement::default() }),
+        ("in inches", Placement { unit: Unit { cm: 2.54 }, ..Placement::default() }),
+        ("in inches, aside", Placement { unit: Unit { cm: 2.54 }, origin: aside, ..Placement::default() }),
+        ("in a unit without a name", Placement { unit: Unit { cm: 37.0 }, origin: aside, ..Placement::default() }),
+        ("of a smaller head", Placement { unit: Unit { cm: 1.12 }, ..Placement::default() }),
+        ("of a larger head", Placement { unit: Unit { cm: 0.8 }, ..Placement::default() }),
+    ];
+    for (part, hair) in parts_of(&bust.hair) {
+        for (how, placement) in placements.iter().filter(|(how, _)| part == "all" || how.contains("aside")) {
+            let what = format!("{part} {how}, {} strands", hair.strands.len());
+            std::fs::write(folder.path().join("hair.obj"), hair_text(&hair, placement)).unwrap();
+            let with = |more: &str, shown| {
+                let text = format!("[hair]\nfile = \"hair.obj\"\n{more}\n{FORCE}");
+                Scene::parse(&text, &scene, &[]).unwrap().build(shown).unwrap().advice()
+            };
+            let first = with("", Shown::All);
+            assert_eq!(with("", Shown::AtMost(7)), first, "{what}: does not depend on what is shown");
+            let followed = settings(&first, "hair").join("\n");
+            let then = with(&followed, Shown::All);
+            assert_eq!(settings(&then, "hair"), Vec::<String>::new(), "{what}\nfirst {first:?}\nthen {then:?}");
+        }
+    }
 }
 
 #[test]
@@ -131,9 +183,124 @@ fn hair_beside_the_head_is_said_with_what_mends_it() {
     };
     assert_eq!(with(&Placement::default(), ""), []);
     let inches = Placement { unit: Unit { cm: 2.54 }, ..Placement::default() };
-    let [Advice { key: "hair.unit", value: Some(unit), .. }] = &with(&inches, "")[..] else { panic!("in inches") };
-    assert_eq!(with(&inches, &format!("unit = {unit}")), [], "{unit}");
+    assert_eq!(settings(&with(&inches, ""), "hair"), ["unit = \"in\""]);
+    assert_eq!(with(&inches, "unit = \"in\""), []);
     let aside = Placement { origin: Vec3::new(0.0, 160.0, 30.0), ..Placement::default() };
-    let [Advice { key: "hair.origin", value: Some(origin), .. }] = &with(&aside, "")[..] else { panic!("aside") };
-    assert_eq!(with(&aside, &format!("origin = {origin}")), [], "{origin}");
+    let origin = settings(&with(&aside, ""), "hair").join("\n");
+    assert!(origin.starts_with("origin = "), "{origin}");
+    assert_eq!(with(&aside, &origin), []);
+}
+
+#[test]
+fn hair_within_the_head_is_said_with_what_mends_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    let bust = bust();
+    // A tenth smaller than the head: roots within a centimetre of the skin, and most of the hair below it.
+    let smaller = Placement { unit: Unit { cm: 1.1 }, ..Placement::default() };
+    std::fs::write(folder.path().join("hair.obj"), hair_text(&bust.hair, &smaller)).unwrap();
+    let with = |more: &str| advised(&built(&format!("[hair]\nfile = \"hair.obj\"\n{more}\n{FORCE}"), &scene));
+    let said = with("");
+    assert!(said.len() == 1 && said[0].seen.contains("% of the hair's points are inside the head at rest"), "{said:?}");
+    let followed = settings(&said, "hair").join("\n");
+    assert!(followed.contains("unit = 1."), "{followed}");
+    assert_eq!(with(&followed), [], "{followed}");
+}
+
+#[test]
+fn what_a_format_states_is_not_guessed() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("new.toml");
+    // An octahedron of half a metre, which has no skull.
+    let files = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../nabiki_io/tests/files"));
+    for name in ["solid.glb", "solid.gltf"] {
+        let new = template(&scene, Some(&files.join(name)), &[], None).unwrap();
+        assert!(!new.guesses.iter().any(|said| said.contains("head.unit") || said.contains("head.up")), "{new:?}");
+        assert!(!new.text.contains("\nunit =") && !new.text.contains("\nup ="), "{}", new.text);
+        let placement = built(&new.text, &scene).placement;
+        assert_eq!((placement.unit, placement.up), (Unit { cm: 100.0 }, Axis::PlusY), "{name}");
+    }
+}
+
+#[test]
+fn a_mesh_of_no_size_of_a_person_s_is_guessed_by_its_height_or_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let [scene, head] = ["new.toml", "head.obj"].map(|name| folder.path().join(name));
+    let solid =
+        std::fs::read_to_string(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../nabiki_io/tests/files/solid.obj")));
+    std::fs::write(&head, solid.unwrap()).unwrap();
+    let guess = |head: &Path| template(&scene, Some(head), &[], None).unwrap().guesses.join("\n");
+    assert!(guess(&head).contains("head.unit = \"m\", by how tall the mesh is"), "{}", guess(&head));
+    // A tenth of a unit: no unit up to the metre makes that a head or a body.
+    std::fs::write(&head, "v 0 0 0\nv .1 0 0\nv 0 .1 0\nv 0 0 .1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n").unwrap();
+    assert!(guess(&head).contains("head.unit = \"cm\": in no unit is it as tall"), "{}", guess(&head));
+    assert!(guess(&head).contains("give the file's own"), "{}", guess(&head));
+    for scale in ["1e-9", "1e20"] {
+        let unit = Unit { cm: scale.parse::<f32>().unwrap().recip() };
+        std::fs::write(&head, mesh_text(&bust().head, &Placement { unit, ..Placement::default() })).unwrap();
+        let refused = template(&scene, Some(&head), &[], None).unwrap_err().to_string();
+        assert!(refused.contains("head.obj: ") && refused.contains("scale it in the file"), "{refused}");
+    }
+}
+
+#[test]
+fn of_a_body_among_other_things_the_part_with_a_skull_is_taken() {
+    let folder = tempfile::tempdir().unwrap();
+    let [scene, head] = ["new.toml", "head.obj"].map(|name| folder.path().join(name));
+    // A plate high above the head, so that there is no skull at the top.
+    let plate =
+        "v -90 90 -90\nv 90 90 -90\nv 0 90 90\nv 0 91 0\ng helper\nf -4 -3 -2\nf -4 -3 -1\nf -3 -2 -1\nf -2 -4 -1\n";
+    let text = mesh_text(&bust().head, &standing(1.0, Axis::PlusY, Axis::PlusZ));
+    let body = text.replacen("\nf ", "\ng body\nf ", 1);
+    std::fs::write(&head, format!("{body}{}", plate.replace("90", "290").replace("91", "291"))).unwrap();
+    let new = template(&scene, Some(&head), &[], None).unwrap();
+    assert!(
+        new.guesses.contains(&"head.groups = [\"body\"], the largest with a skull".to_owned()),
+        "{:?}",
+        new.guesses
+    );
+    assert!(new.text.contains("groups = [\"body\"]"), "{}", new.text);
+    assert_eq!(advised(&built(&new.text, &scene)), []);
+}
+
+#[test]
+fn a_hole_in_the_skull_is_said_and_one_at_the_neck_is_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let [scene, head] = ["scene.toml", "head.obj"].map(|name| folder.path().join(name));
+    let bust = bust().head;
+    let without = |gone: &dyn Fn(Vec3) -> bool| {
+        let mut open = bust.clone();
+        open.mesh.triangles.retain(|t| !t.iter().any(|&v| gone(bust.mesh.positions[v as usize])));
+        std::fs::write(&head, mesh_text(&open, &standing(1.0, Axis::PlusY, Axis::PlusZ))).unwrap();
+        let ellipsoid = "ellipsoid = { center = [0.0, 0.0, 0.0], half_axes = [9.5, 11.0, 7.8] }\norigin = [0, 160, 0]";
+        advised(&built(&format!("[head]\nmesh = \"head.obj\"\nfacing = \"+z\"\n{ellipsoid}\n{FORCE}"), &scene))
+    };
+    assert_eq!(without(&|_| false), []);
+    // The neck and what is below it.
+    assert_eq!(without(&|p| p.y < -16.0), []);
+    // A hole of 12 cm on the crown, about a third of a ball of 9 cm: 9 - sqrt(81 - 36) = 2.3 cm are missing.
+    let said = without(&|p| p.y > 0.0 && p.with_y(0.0).length() < 6.0);
+    assert!(
+        said.len() == 1 && said[0].seen.starts_with("the skull has a hole") && said[0].settings.is_empty(),
+        "{said:?}"
+    );
+}
+
+#[test]
+fn a_file_that_is_not_there_is_said_with_the_scene_s_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    let motion = "[head.motion]\nunit_cm = 1.0\nup = \"+y\"\nfacing = \"+z\"\n";
+    for (table, key, file, line) in [
+        ("[head]\n".to_owned(), "mesh", "no/head.obj", 2),
+        ("[hair]\nsegment_length = 2.0\n".to_owned(), "file", "hair.tfx", 3),
+        (motion.to_owned(), "file", "walk.bvh", 5),
+        (format!("{motion}file = \"scene.toml\"\n"), "skeleton", "one.asf", 6),
+    ] {
+        let text = format!("{table}{key} = \"{file}\"\n{FORCE}");
+        std::fs::write(&scene, &text).unwrap();
+        let said = Scene::load(&scene, &[]).unwrap().build(Shown::All).unwrap_err().to_string();
+        let (start, end) = (format!("{}:{line}: ", scene.display()), format!("{key} = \"{file}\": there is no "));
+        assert!(said.starts_with(&start) && said.contains(&end), "{said}");
+    }
 }

@@ -2,12 +2,15 @@
 
 mod free;
 
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
 use glam::Vec3;
 use nabiki::dynamics::{Dynamics, Form, straightened};
 use nabiki::groom::{Growth, grow};
 use nabiki::{Hair, Head, SettingError, Strands, subset};
 use nabiki_io::{
-    DeclaredSpace, GroomCurves, GroomFile, exchange,
+    DeclaredSpace, GroomCurves, GroomFile, declared_space,
     hair::{self, ImportReport},
     mesh::{self, MeshReport},
     motion::{self, HeadMotion},
@@ -19,16 +22,19 @@ use nabiki_render::colour;
 use super::{BuiltScene, Shown};
 use crate::error::Result;
 use crate::scene::{EllipsoidChoice, FormChoice, GrownHair, HairSource, HeadSource, ImportedHair, Scene};
+use crate::seat;
 
 pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
-    let (head, placement, mesh_report) = load_head(&scene)?;
+    let LoadedHead { head, placement, report: mesh_report, declared: head_declared } = load_head(&scene)?;
     let (poses, motion_report) = head_motion(&scene)?.map_or_else(Default::default, |m| (m.poses, Some(m.report)));
     let mut dynamics = dynamics(&scene, &head)?;
     let rest_pose = poses.first().copied().unwrap_or_default();
     dynamics.polar_axis = rest_pose.up_in_head();
     let field = scene.field().map_err(|refused| scene.refusal(refused))?.into();
-    let Loaded { mut hair, ids, of_scene, first, placement: hair_placement, groom, report, frames } =
-        load_hair(&scene, &head, &placement, shown)?;
+    let Loaded { mut hair, ids, of_scene, first, imported, frames } = load_hair(&scene, &head, &placement, shown)?;
+    let (hair_placement, report) = imported.as_ref().map(|found| (found.placement, found.report)).unzip();
+    let imported = imported.map(|found| (Some(found.groom), found.declared, found.judged));
+    let (groom, hair_declared, judged) = imported.unwrap_or_default();
     hair.strands = straightened(&hair.strands, &dynamics.motion, dynamics.polar_axis);
     if scene.form == FormChoice::Free {
         let first = straightened(&first, &dynamics.motion, dynamics.polar_axis);
@@ -47,6 +53,9 @@ pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
         frames_in_file: frames,
         dynamics,
         field,
+        head_declared,
+        hair_declared,
+        judged,
         motion_report,
         ids,
         poses,
@@ -62,11 +71,21 @@ struct Loaded {
     of_scene: usize,
     /// The first strands of the farthest-first order of the whole, whichever are shown: those that the free form asks of.
     first: Strands,
-    placement: Option<Placement>,
-    groom: Option<GroomCurves>,
-    report: Option<ImportReport>,
+    /// What its file was; `None` for hair grown here.
+    imported: Option<Imported>,
     /// Frames of the file.
     frames: usize,
+}
+
+/// What there is to know of a hair file.
+struct Imported {
+    placement: Placement,
+    /// Where its curves are.
+    groom: GroomCurves,
+    report: ImportReport,
+    declared: DeclaredSpace,
+    /// Strands by which it is judged (the file's unit and axes).
+    judged: Strands,
 }
 
 fn load_hair(scene: &Scene, head: &Head, head_placement: &Placement, shown: Shown) -> Result<Loaded> {
@@ -83,19 +102,22 @@ fn load_hair(scene: &Scene, head: &Head, head_placement: &Placement, shown: Show
             hair.attributes.constant.width = Some(scene.picture.hair.width);
             hair.attributes.constant.colour = Some(colour::of_mass(&scene.picture.hair));
             let ids = (0..count as u32).collect();
-            let of_scene = settings.strands;
-            Ok(Loaded { hair, ids, of_scene, first, placement: None, groom: None, report: None, frames: 1 })
+            Ok(Loaded { hair, ids, of_scene: settings.strands, first, imported: None, frames: 1 })
         }
         HairSource::Imported(settings) => import(scene, settings, head_placement, shown),
     }
 }
 
 fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, shown: Shown) -> Result<Loaded> {
-    let file = scene.resolve(&settings.file);
+    let file = there(scene, "hair.file", &settings.file)?;
     let mut groom = GroomFile::open(&file)?;
-    let placement = hair_placement(settings, head_placement, groom.declared_space()?);
+    let declared = groom.declared_space()?;
+    let placement = hair_placement(settings, head_placement, declared);
     placement.check("hair").map_err(|refused| scene.refusal(refused))?;
-    let (hair, report) = hair::import_from(&mut groom, &file, &placement, &settings.cleaning())?;
+    let in_file = groom.hair(0, None)?;
+    let judged = seat::judged(&in_file);
+    let placed = hair::place_and_clean(in_file, &placement, &settings.cleaning());
+    let (hair, report) = placed.map_err(|e| e.in_file(&file))?;
     let hair = match settings.strands {
         Some(count) if count < hair.strands.len() => hair.select(&evenly(&hair, count)),
         _ => hair,
@@ -115,8 +137,9 @@ fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, sh
         None => Ok(hair),
     };
     let (hair, first) = (cut(hair)?, cut(first)?.strands);
-    let (frames, groom) = (groom.frames()?, Some(groom.curves(&settings.file)?));
-    Ok(Loaded { hair, ids, of_scene, first, placement: Some(placement), groom, report: Some(report), frames })
+    let (frames, groom) = (groom.frames()?, groom.curves(&settings.file)?);
+    let imported = Some(Imported { placement, groom, report, declared, judged });
+    Ok(Loaded { hair, ids, of_scene, first, imported, frames })
 }
 
 /// `count` strands of the farthest-first order of the roots, in the order of the file.
@@ -130,7 +153,7 @@ fn evenly(hair: &Hair, count: usize) -> Vec<usize> {
 /// Where the head is in each frame; `None` for a head that stands still.
 fn head_motion(scene: &Scene) -> Result<Option<HeadMotion>> {
     let Some(source) = &scene.head.motion else { return Ok(None) };
-    let motion = read_motion(scene, source)?;
+    let motion = read_motion(scene, source, "head.motion")?;
     let (frames, given) = (scene.motion.frames as usize, motion.poses.len());
     if given > frames {
         return Ok(Some(motion));
@@ -142,17 +165,41 @@ fn head_motion(scene: &Scene) -> Result<Option<HeadMotion>> {
     Err(nabiki_io::Error::new(remedy).in_file(scene.file()).into())
 }
 
-/// A motion that the scene names, at its frame rate.
-fn read_motion(scene: &Scene, source: &motion::MotionSource) -> Result<HeadMotion> {
+/// The motion that the scene names under `key`, at its frame rate.
+fn read_motion(scene: &Scene, source: &motion::MotionSource, key: &str) -> Result<HeadMotion> {
+    let there = |part: &str, file: &Path| there(scene, &format!("{key}.{part}"), file);
     let source = motion::MotionSource {
-        file: scene.resolve(&source.file),
-        skeleton: source.skeleton.as_ref().map(|skeleton| scene.resolve(skeleton)),
+        file: there("file", &source.file)?,
+        skeleton: source.skeleton.as_ref().map(|file| there("skeleton", file)).transpose()?,
         ..source.clone()
     };
     Ok(motion::read(&source, scene.frame_rate())?)
 }
 
-pub(super) fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshReport>)> {
+/// A head in its place.
+pub(super) struct LoadedHead {
+    pub head: Head,
+    placement: Placement,
+    report: Option<MeshReport>,
+    declared: DeclaredSpace,
+}
+
+/// The file that the scene names under `key`; that it is not there is said with the scene's line.
+fn there(scene: &Scene, key: &str, file: &Path) -> Result<PathBuf> {
+    let path = scene.resolve(file);
+    match std::fs::metadata(&path) {
+        Err(e) if matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
+            let remedy = match path == file {
+                true => "there is no such file".to_owned(),
+                false => format!("there is no {}; paths are relative to the scene's folder", path.display()),
+            };
+            Err(scene.refusal(SettingError::new(key, format!("\"{}\"", file.display()), remedy)).into())
+        }
+        _ => Ok(path),
+    }
+}
+
+pub(super) fn load_head(scene: &Scene) -> Result<LoadedHead> {
     let settings = &scene.head;
     let given = match settings.ellipsoid {
         EllipsoidChoice::Fit => None,
@@ -163,10 +210,11 @@ pub(super) fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshRe
             None => Head::builtin(),
             Some(given) => Head::builtin().with_ellipsoid(given).map_err(|refused| scene.refusal(refused))?,
         };
-        return Ok((head, Placement::default(), None));
+        let (placement, declared) = (Placement::default(), DeclaredSpace::default());
+        return Ok(LoadedHead { head, placement, report: None, declared });
     };
-    let file = scene.resolve(&imported.file);
-    let declared = exchange::declared_space(&file)?;
+    let file = there(scene, "head.mesh", &imported.file)?;
+    let declared = declared_space(&file)?;
     let mut placement = imported.placement(declared.unit, declared.up);
     placement.check("head").map_err(|refused| scene.refusal(refused))?;
     let (mut mesh, report) = mesh::import(&file, &placement, &imported.groups)?;
@@ -185,11 +233,11 @@ pub(super) fn load_head(scene: &Scene) -> Result<(Head, Placement, Option<MeshRe
         ellipsoid = Some(fitted);
     }
     let head = Head::from_mesh(mesh, ellipsoid).map_err(refused)?;
-    Ok((head, placement, Some(report)))
+    Ok(LoadedHead { head, placement, report: Some(report), declared })
 }
 
 /// How the hair's file lies in head space: as the head's file does, but for what the scene or the file itself says.
-fn hair_placement(settings: &ImportedHair, head: &Placement, declared: DeclaredSpace) -> Placement {
+pub(crate) fn hair_placement(settings: &ImportedHair, head: &Placement, declared: DeclaredSpace) -> Placement {
     let unmoved = Placement {
         unit: settings.unit.or(declared.unit).unwrap_or(head.unit),
         up: settings.up.or(declared.up).unwrap_or(head.up),

@@ -45,9 +45,9 @@ pub struct ImportedHead {
     pub file: PathBuf,
     /// Groups, objects or nodes of the file to keep (default: all).
     pub groups: Vec<String>,
-    /// Unit of the file (default: what the file says, or cm).
+    /// Unit of the file (default: what the file or its format says, or cm).
     pub unit: Option<Unit>,
-    /// Axis of the file that points up (default: what the file says, or +y).
+    /// Axis of the file that points up (default: what the file or its format says, or +y).
     pub up: Option<Axis>,
     /// Axis of the file along which the face looks (default +x).
     pub facing: Option<Axis>,

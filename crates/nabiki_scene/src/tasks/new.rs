@@ -44,7 +44,8 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     let inputs: Vec<PathBuf> = options.head.iter().chain(&options.hair).cloned().collect();
     place::not_inputs(&[path], &inputs)?;
     let template = template(path, options.head.as_deref(), &options.groups, options.hair.as_deref())?;
-    Scene::parse(&template.text, path, &[])?.build(Shown::AtMost(TRIED))?.simulation()?;
+    let built = Scene::parse(&template.text, path, &[])?.build(Shown::AtMost(TRIED))?;
+    built.simulation()?;
     let write = || {
         let mut file = PartFile::create(path)?;
         file.write_all(template.text.as_bytes())?;
@@ -52,6 +53,7 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     };
     write().map_err(|e| nabiki_io::Error::from(e).in_file(path))?;
     template.guesses.into_iter().for_each(|guess| watch.told(Told::Guessed(guess)));
+    built.advice().into_iter().for_each(|advice| watch.told(Told::Advice(advice)));
     super::wrote(vec![path.to_owned()], watch);
     Ok(())
 }

@@ -7,9 +7,9 @@ use nabiki::dynamics::{Dynamics, Form};
 use nabiki::free_form::{FreeMotion, Neighbours, earth_gravity};
 use nabiki::pseudo_force::PseudoForce;
 use nabiki::{Head, Pose, Strands};
-use nabiki_io::{exchange, mesh};
+use nabiki_io::{declared_space, mesh};
 
-use super::read_motion;
+use super::{read_motion, there};
 use crate::error::Result;
 use crate::scene::{BodySettings, FormChoice, Gravity, Scene};
 
@@ -51,8 +51,8 @@ pub(super) fn set(dynamics: &mut Dynamics, scene: &Scene, head: &Head, first: &S
 
 fn body(scene: &Scene, settings: &BodySettings, i: usize) -> Result<Body> {
     let name = format!("body[{i}]");
-    let file = scene.resolve(&settings.mesh);
-    let declared = exchange::declared_space(&file)?;
+    let file = there(scene, &format!("{name}.mesh"), &settings.mesh)?;
+    let declared = declared_space(&file)?;
     let placement = settings.placement(declared.unit, declared.up);
     placement.check(&name).map_err(|refused| scene.refusal(refused))?;
     let (mesh, _) = mesh::import(&file, &placement, &settings.groups)?;
@@ -60,7 +60,7 @@ fn body(scene: &Scene, settings: &BodySettings, i: usize) -> Result<Body> {
     let way = match &settings.motion {
         _ if settings.with_head => BodyWay::WithHead,
         None => BodyWay::InWorld(Arc::new([Pose::STILL])),
-        Some(source) => BodyWay::InWorld(read_motion(scene, source)?.poses.into()),
+        Some(source) => BodyWay::InWorld(read_motion(scene, source, &format!("{name}.motion"))?.poses.into()),
     };
     Ok(Body { name, distance: Arc::new(distance), filled: None, way, contact: settings.contact() })
 }

@@ -1,0 +1,246 @@
+//! Where imported hair sits on a head: how well it lies there, and where it would lie better.
+//!
+//! All is told by an even choice of the file's own strands, whatever number of them is shown, and what is found depends on
+//! the file, the head, the axes and the unit alone. So what is advised, once followed, is not advised away.
+
+use glam::{Mat3, Vec3};
+use nabiki::{Ellipsoid, Head, Strands};
+use nabiki_io::{DeclaredSpace, Placement, Unit};
+
+use crate::built::hair_placement;
+use crate::scene::ImportedHair;
+use crate::size::{decimal, mean_half_axis, middle, spread, unit_for};
+
+/// Roots whose median lies farther than this from the skin do not grow on it (share of the mean half axis).
+const AFLOAT: f32 = 0.15;
+
+/// Hair of which more than this share of the points is inside the head was made for another. (Hair that fits has 0.2 to
+/// 1.5 %, as its lowest layers meet a skin between whose vertices they were modelled.)
+const INSIDE: f32 = 0.05;
+
+/// Strands of a file by which it is judged.
+const JUDGED: usize = 600;
+
+/// Roots by which a place is found.
+const FITTED: usize = 200;
+
+/// Root mean square distance of a scalp's roots from their middle, in mean half axes.
+const SPREAD: f32 = 0.95;
+
+/// Spreads that may be a scalp's, or a good part of one, in mean half axes.
+const SPREADS: std::ops::RangeInclusive<f32> = 0.5..=2.0;
+
+/// How hair lies on a head.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Lie {
+    /// Median distance of the roots from the skin (cm).
+    pub off: f32,
+    /// Share of the other points that are inside the head.
+    pub inside: f32,
+    /// How deep the deepest of them is (cm).
+    pub depth: f32,
+    /// Whether the roots are on the skin.
+    pub on_skin: bool,
+}
+
+impl Lie {
+    /// Whether the hair may be this head's.
+    pub fn is_good(&self) -> bool {
+        self.on_skin && self.inside <= INSIDE
+    }
+
+    /// Whether this is clearly better than `other`.
+    fn is_better_than(&self, other: &Self) -> bool {
+        let clearly = |a: f32, b: f32| a < 0.8 * b;
+        self.is_good()
+            || if other.on_skin {
+                self.on_skin && clearly(self.inside, other.inside)
+            } else {
+                self.on_skin || clearly(self.off, other.off)
+            }
+    }
+}
+
+/// Settings of `[hair]` that would seat it better; `None` leaves one as it is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Mended {
+    /// `hair.unit`, in TOML.
+    pub unit: Option<String>,
+    /// `hair.origin` (the file's unit).
+    pub origin: Option<Vec3>,
+}
+
+/// An even choice of a file's strands, as they are in it.
+pub(crate) fn judged(hair: &nabiki::Hair) -> Strands {
+    let step = hair.strands.len().div_ceil(JUDGED).max(1);
+    let mut strands = Strands::default();
+    hair.strands.iter().step_by(step).filter(|strand| !strand.is_empty()).for_each(|s| strands.push(s.iter().copied()));
+    strands
+}
+
+/// Hair of a file on a head.
+pub(crate) struct Seat<'a> {
+    pub head: &'a Head,
+    /// As [`judged`] chooses them (the file's unit and axes).
+    pub strands: &'a Strands,
+    /// What the scene says of the file.
+    pub settings: &'a ImportedHair,
+    pub head_placement: &'a Placement,
+    /// What the file says itself.
+    pub declared: DeclaredSpace,
+}
+
+impl Seat<'_> {
+    /// How the hair lies as the scene has it.
+    pub fn lie(&self) -> Lie {
+        self.lie_at(&self.placement(&Mended::default()))
+    }
+
+    /// What would make it lie clearly better, and how it would lie then.
+    pub fn mended(&self) -> Option<(Mended, Lie)> {
+        let now = self.lie();
+        if now.is_good() {
+            return None;
+        }
+        let mended = self.best();
+        let then = self.lie_at(&self.placement(&mended));
+        then.is_better_than(&now).then_some((mended, then))
+    }
+
+    fn placement(&self, mended: &Mended) -> Placement {
+        let unit = mended.unit.as_deref().map(|text| Unit { cm: centimetres(text) });
+        let settings = ImportedHair {
+            unit: unit.or(self.settings.unit),
+            origin: mended.origin.or(self.settings.origin),
+            ..self.settings.clone()
+        };
+        hair_placement(&settings, self.head_placement, self.declared)
+    }
+
+    fn lie_at(&self, placement: &Placement) -> Lie {
+        let place = placement.head_from_file();
+        let mut off: Vec<f32> =
+            self.strands.iter().map(|s| self.head.distance(place.transform_point3(s[0])).abs()).collect();
+        off.sort_by(f32::total_cmp);
+        let off = off.get(off.len() / 2).copied().unwrap_or(0.0);
+        let mut points = 0;
+        let (mut inside, mut depth) = (0, 0.0_f32);
+        for &p in self.strands.iter().flat_map(|strand| &strand[1..]) {
+            let deep = self.head.depth(place.transform_point3(p));
+            points += 1;
+            inside += usize::from(deep > 0.0);
+            depth = depth.max(deep);
+        }
+        let on_skin = off <= AFLOAT * mean_half_axis(&self.head.ellipsoid);
+        Lie { off, inside: inside as f32 / points.max(1) as f32, depth, on_skin }
+    }
+
+    /// The unit by how far the roots spread, where no unit is stated and the scene's makes it no scalp; then the origin;
+    /// then a unit a little larger, if too much of the hair is inside.
+    fn best(&self) -> Mended {
+        let size = mean_half_axis(&self.head.ellipsoid);
+        let mut best = Mended::default();
+        let unit_is_open = self.declared.unit.is_none();
+        let spread = spread(&self.roots());
+        let placement = self.placement(&best);
+        if unit_is_open && spread > 0.0 && !SPREADS.contains(&(spread * placement.unit.cm / size)) {
+            best.unit = Some(unit_for(spread, SPREAD * size));
+        }
+        if !self.lie_at(&self.placement(&best)).on_skin {
+            best.origin = Some(self.found_origin(&self.placement(&best)));
+        }
+        let lie = self.lie_at(&self.placement(&best));
+        if unit_is_open && lie.on_skin && lie.inside > INSIDE {
+            best = self.enlarged(&self.placement(&best)).unwrap_or(best);
+        }
+        best
+    }
+
+    fn roots(&self) -> Vec<Vec3> {
+        self.strands.iter().map(|strand| strand[0]).collect()
+    }
+
+    /// The point of the file to put at the origin, so that the roots come as near to the skin as they can: the least sum of
+    /// distances, from several places of the scalp on.
+    fn found_origin(&self, placement: &Placement) -> Vec3 {
+        let turn = Placement { origin: Vec3::ZERO, ..*placement }.head_from_file();
+        let roots: Vec<Vec3> = self.roots().iter().map(|&root| turn.transform_point3(root)).collect();
+        let step = roots.len().div_ceil(FITTED).max(1);
+        let some: Vec<Vec3> = roots.iter().copied().step_by(step).collect();
+        let sum = |shift: Vec3| some.iter().map(|&root| self.head.distance(root + shift).abs()).sum::<f32>();
+        let mut best: Option<(f32, Vec3)> = None;
+        for start in starts(&self.head.ellipsoid) {
+            let shift = settled(self.head, &some, start - middle(&roots));
+            let off = sum(shift);
+            // The first stands for a whole scalp, and gives way to what is clearly better.
+            if best.is_none_or(|(least, _)| off < 0.8 * least) {
+                best = Some((off, shift));
+            }
+        }
+        let shift = best.map_or(Vec3::ZERO, |(_, shift)| shift);
+        self.rounded(turn.inverse().transform_point3(-shift), placement.unit)
+    }
+
+    /// The least enlargement about the middle of the head that brings the hair out of it and leaves its roots on the skin.
+    fn enlarged(&self, placement: &Placement) -> Option<Mended> {
+        let center = self.head.ellipsoid.center;
+        let middle = placement.file_from_head().transform_point3(center);
+        (1..=15).find_map(|step| {
+            let text = decimal(placement.unit.cm * (1.0 + 0.02 * step as f32), 3);
+            let unit = Unit { cm: centimetres(&text) };
+            let turn = Placement { unit, origin: Vec3::ZERO, ..*placement };
+            let origin = self.rounded(middle - turn.file_from_head().transform_vector3(center), unit);
+            let mended = Mended { unit: Some(text), origin: Some(origin) };
+            self.lie_at(&self.placement(&mended)).is_good().then_some(mended)
+        })
+    }
+
+    /// A point of the file as a scene spells it.
+    fn rounded(&self, p: Vec3, unit: Unit) -> Vec3 {
+        rounded(p, mean_half_axis(&self.head.ellipsoid) / unit.cm)
+    }
+}
+
+/// Where the middle of some roots may be: of a whole scalp, of its top, its back, its sides.
+fn starts(ellipsoid: &Ellipsoid) -> [Vec3; 5] {
+    [[-0.2, 0.35, 0.0], [0.0, 0.9, 0.0], [-0.8, 0.3, 0.0], [-0.1, 0.4, 0.8], [-0.1, 0.4, -0.8]]
+        .map(|[x, y, z]| ellipsoid.center + ellipsoid.half_axes * Vec3::new(x, y, z))
+}
+
+/// The shift near `shift` that makes the sum of the points' distances to the skin least: Gauss and Newton's steps, each
+/// point weighted by the inverse of its distance.
+fn settled(head: &Head, points: &[Vec3], mut shift: Vec3) -> Vec3 {
+    // Points this near to the skin count alike (share of the mean half axis).
+    const NEAR: f32 = 0.01;
+    const STEPS: usize = 40;
+    let size = mean_half_axis(&head.ellipsoid);
+    for _ in 0..STEPS {
+        let (mut matrix, mut right) = (Mat3::from_diagonal(Vec3::splat(1e-3)), Vec3::ZERO);
+        for &point in points {
+            let (off, out) = (head.distance(point + shift), head.outward(point + shift));
+            let weight = (off.abs() / size + NEAR).recip() / points.len() as f32;
+            matrix += Mat3::from_cols(out * out.x, out * out.y, out * out.z) * weight;
+            right += out * (off * weight);
+        }
+        let step = (matrix.inverse() * right).clamp_length_max(0.3 * size);
+        if !step.is_finite() {
+            break;
+        }
+        shift -= step;
+        if step.length() < 1e-4 * size {
+            break;
+        }
+    }
+    shift
+}
+
+/// A point of a file to a thousandth of the size of its head at least (the file's unit): finer than any guess.
+pub(crate) fn rounded(p: Vec3, size: f32) -> Vec3 {
+    let decimals = (3.0 - size.log10()).ceil().clamp(0.0, 9.0) as usize;
+    Vec3::from(p.to_array().map(|x| format!("{x:.decimals$}").parse::<f32>().unwrap_or(x) + 0.0))
+}
+
+/// Centimetres of a unit as a scene spells it.
+pub(crate) fn centimetres(text: &str) -> f32 {
+    text.trim_matches('"').parse().map_or(1.0, |unit: Unit| unit.cm)
+}
