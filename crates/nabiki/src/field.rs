@@ -1,14 +1,36 @@
-//! Force fields: what pulls at a point in a frame.
+//! Force fields: what pulls at a point in a frame. `docs/fields.md` says how to choose among them.
 
+mod body_wind;
+mod falloff;
+mod fan;
+mod flow;
+mod gust;
+mod head_track;
 mod keyframed;
+mod lanes;
+mod local;
+mod point;
+mod sine;
 mod sum;
+mod turbulence;
+mod vortex;
 
 use std::fmt::Debug;
 
 use glam::Vec3;
 
-pub use keyframed::{Keyframe, KeyframedField};
+use crate::error::SettingError;
+
+pub use body_wind::{BodyWind, BodyWindField};
+pub use falloff::{EnvelopeKey, Falloff, FalloffLaw};
+pub use fan::{Fan, FanField};
+pub use flow::{Flow, FlowField};
+pub use gust::{Gust, GustField};
+pub use keyframed::{Ease, Keyframe, KeyframedField, Wind};
+pub use point::{Point, PointField};
 pub use sum::FieldSum;
+pub use turbulence::{Turbulence, TurbulenceField};
+pub use vortex::{Vortex, VortexField};
 
 /// Points or vectors of a [row](Field::at_row).
 pub const ROW: usize = 16;
@@ -48,5 +70,47 @@ pub trait Field: Debug + Send + Sync {
             let force = self.at(Vec3::new(points[0][i], points[1][i], points[2][i]), frame);
             [forces[0][i], forces[1][i], forces[2][i]] = force.to_array();
         }
+    }
+}
+
+/// Refuses a strength that is not finite or below 0.
+fn check_strength(thing: &str, strength: f32) -> Result<(), SettingError> {
+    check_at_least_0(thing, strength, "strength")
+}
+
+/// Refuses a number that is not finite or below 0; `what` it is.
+fn check_at_least_0(thing: &str, value: f32, what: &str) -> Result<(), SettingError> {
+    if value.is_finite() && value >= 0.0 {
+        Ok(())
+    } else {
+        Err(SettingError::new(thing, value, format!("must be a finite {what} of at least 0")))
+    }
+}
+
+/// Rows and their points, for tests.
+#[cfg(test)]
+mod rows {
+    use glam::Vec3;
+
+    use super::{Field, ROW, VectorRow};
+
+    pub fn row(points: [Vec3; ROW]) -> VectorRow {
+        [0, 1, 2].map(|axis| points.map(|p| p[axis]))
+    }
+
+    pub fn points(row: &VectorRow) -> [Vec3; ROW] {
+        std::array::from_fn(|i| Vec3::new(row[0][i], row[1][i], row[2][i]))
+    }
+
+    /// The forces of a row, each of which has the bits of the force at its point.
+    pub fn forces(field: &dyn Field, at: [Vec3; ROW], frame: u32) -> [Vec3; ROW] {
+        let mut forces = VectorRow::default();
+        field.at_row(&row(at), frame, &mut forces);
+        let forces = points(&forces);
+        let bits = |force: Vec3| force.to_array().map(f32::to_bits);
+        for (p, force) in at.into_iter().zip(forces) {
+            assert_eq!(bits(force), bits(field.at(p, frame)), "{field:?} at {p} in frame {frame}");
+        }
+        forces
     }
 }

@@ -1,4 +1,4 @@
-//! The force field of the paper: a few vectors over a few frames, equation (5).
+//! The force field of the paper: a few vectors over a few frames, equation (5), or the same eased from one to the next.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -16,14 +16,42 @@ pub struct Keyframe {
     pub vector: Vec3,
 }
 
-/// A force uniform in space and constant between keyframes.
+/// How the force goes from one vector to the next.
+///
+/// Eased, vector j is reached in the middle m_j of its interval, halfway between the first and the last frame that
+/// feel it in the stepped field: the force is F_1 up to m_1, F_j + e(t) (F_(j+1) - F_j) at the part t of the way from m_j
+/// to m_(j+1), and the last vector from its middle on. Where two intervals of the same length meet it is halfway between
+/// their vectors, so that nothing comes earlier or later than stepped, and a field with a keyframe for every frame is the
+/// same with any ease.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Ease {
+    /// Each vector holds through its interval: the paper's way (the default).
+    #[default]
+    Stepped,
+    /// e(t) = t.
+    Linear,
+    /// e(t) = 3 t^2 - 2 t^3: it sets out and arrives gently.
+    Smooth,
+}
+
+/// How the vectors of a [`KeyframedField`] follow one another.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Wind {
+    /// From one vector to the next (default: stepped).
+    pub ease: Ease,
+}
+
+/// A force uniform in space, by keyframes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeyframedField {
     keyframes: Vec<Keyframe>,
+    ease: Ease,
 }
 
 impl KeyframedField {
-    /// Checks that there is a keyframe, that their frames ascend from 1 and that every vector is finite.
+    /// The paper's field, constant between keyframes. Checks that there is a keyframe, that their frames ascend from 1 and that every vector is finite.
     ///
     /// # Errors
     /// Names the keyframe as `force[j]`, counted from 0 as the scene file's overrides count them.
@@ -46,13 +74,48 @@ impl KeyframedField {
             }
             previous = key.through;
         }
-        Ok(Self { keyframes: keyframes.to_vec() })
+        Ok(Self { keyframes: keyframes.to_vec(), ease: Ease::Stepped })
     }
 
-    /// F(n), equation (5). At a shared frame k_j the earlier vector holds; the last vector holds for good.
+    /// The same vectors, from one to the next as `ease` says.
+    #[must_use]
+    pub fn eased(self, ease: Ease) -> Self {
+        Self { ease, ..self }
+    }
+
+    /// F(n). Stepped it is equation (5): at a shared frame k_j the earlier vector holds; the last vector holds for good.
     pub fn vector(&self, frame: u32) -> Vec3 {
-        let j = self.keyframes.partition_point(|key| key.through < frame);
-        self.keyframes[j.min(self.keyframes.len() - 1)].vector
+        match self.ease {
+            Ease::Stepped => {
+                let j = self.keyframes.partition_point(|key| key.through < frame);
+                self.keyframes[j.min(self.keyframes.len() - 1)].vector
+            }
+            Ease::Linear => self.between(frame, |t| t),
+            Ease::Smooth => self.between(frame, |t| t * t * (3.0 - 2.0 * t)),
+        }
+    }
+
+    /// The vector in a frame, `ease` being the part of the way at a part of the time.
+    fn between(&self, frame: u32, ease: fn(f64) -> f64) -> Vec3 {
+        let next = self.keyframes.partition_point(|key| key.through < frame).min(self.keyframes.len() - 1);
+        let time = f64::from(frame);
+        // The frame lies in interval `next`: before its middle, or after.
+        let next = if time > self.middle(next) { next + 1 } else { next };
+        let Some(to) = self.keyframes.get(next) else { return self.keyframes[next - 1].vector };
+        let Some(from) = next.checked_sub(1) else { return to.vector };
+        let t = (time - self.middle(from)) / (self.middle(next) - self.middle(from));
+        self.keyframes[from].vector.lerp(to.vector, ease(t) as f32)
+    }
+
+    /// Halfway between the first and the last frame of an interval.
+    fn middle(&self, j: usize) -> f64 {
+        let first = 1 + j.checked_sub(1).map_or(0, |before| self.keyframes[before].through);
+        (f64::from(first) + f64::from(self.keyframes[j].through)) / 2.0
+    }
+
+    /// How it goes from one vector to the next.
+    pub fn ease(&self) -> Ease {
+        self.ease
     }
 
     /// The intervals, in order.
@@ -66,6 +129,7 @@ impl Field for KeyframedField {
         self.vector(frame)
     }
 
+    /// What is eased lies between two vectors.
     fn strongest(&self) -> f32 {
         self.keyframes.iter().map(|key| key.vector.length()).fold(0.0, f32::max)
     }
@@ -94,6 +158,37 @@ mod tests {
         let field = KeyframedField::new(&[key(50, 1.0), key(100, 2.0)]).unwrap();
         for (frame, x) in [(1, 1.0), (50, 1.0), (51, 2.0), (100, 2.0), (101, 2.0), (u32::MAX, 2.0)] {
             assert_eq!(field.vector(frame).x, x, "frame {frame}");
+        }
+    }
+
+    #[test]
+    fn eased_fields_meet_their_vectors_in_the_middle_and_each_other_halfway() {
+        let keys = [key(10, 0.0), key(20, 8.0), key(40, 4.0)];
+        let at = |ease, frame| KeyframedField::new(&keys).unwrap().eased(ease).vector(frame).x;
+        // The middles are 5.5, 15.5 and 30.5.
+        for ease in [Ease::Linear, Ease::Smooth] {
+            for (frame, x) in
+                [(0, 0.0), (1, 0.0), (5, 0.0), (23, 6.0), (31, 4.0), (40, 4.0), (41, 4.0), (u32::MAX, 4.0)]
+            {
+                assert_eq!(at(ease, frame), x, "{ease:?}, frame {frame}");
+            }
+            // Symmetrical about the frame and a half where two intervals of ten frames meet.
+            for i in 0..5 {
+                assert!((at(ease, 10 - i) + at(ease, 11 + i) - 8.0).abs() < 1e-6, "{ease:?}, {i}");
+            }
+        }
+        assert_eq!(at(Ease::Linear, 8), 2.0);
+        // 3/16 - 2/64 of 8.
+        assert_eq!(at(Ease::Smooth, 8), 1.25);
+    }
+
+    #[test]
+    fn keyframes_in_every_frame_leave_nothing_to_ease() {
+        let keys: Vec<Keyframe> = (1..30).map(|n| key(n, (n * n % 17) as f32)).collect();
+        let field = KeyframedField::new(&keys).unwrap();
+        for ease in [Ease::Linear, Ease::Smooth] {
+            let eased = field.clone().eased(ease);
+            assert!((0..40).all(|n| eased.vector(n) == field.vector(n)));
         }
     }
 

@@ -1,0 +1,225 @@
+//! The wind that a body makes for itself by moving.
+
+use glam::{DVec3, Vec3};
+use serde::{Deserialize, Serialize};
+
+use super::head_track::check_poses;
+use super::{Field, check_at_least_0};
+use crate::dynamics::ForceSpace;
+use crate::error::SettingError;
+use crate::pose::Pose;
+
+/// The settings of the wind from the head's own motion, uniform in space.
+///
+/// With the head's velocity v (cm/s) and acceleration a (cm/s^2), from the poses and the frame rate:
+/// F = -drag v - footfall (0, a_y, 0).
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct BodyWind {
+    /// Force for each cm/s of the head, against its way, at least 0 (default 0.3).
+    pub drag: f32,
+    /// Force for each cm/s^2 by which the head is lifted, downward, at least 0 (default 0). Where gravity is G, hair that
+    /// is lifted with the head feels G / 981.
+    pub footfall: f32,
+    /// Deviation of the bell by which the head's places are averaged beforehand (frames), 0..240 (default 0: as they are).
+    /// Recorded places tremble, and accelerations many times more.
+    pub smoothing: f32,
+}
+
+impl Default for BodyWind {
+    fn default() -> Self {
+        Self { drag: 0.3, footfall: 0.0, smoothing: 0.0 }
+    }
+}
+
+impl BodyWind {
+    /// Refuses what is out of its range.
+    ///
+    /// # Errors
+    /// Names the first such setting.
+    pub fn check(&self) -> Result<(), SettingError> {
+        check_at_least_0("body_wind.drag", self.drag, "force by velocity (per cm/s)")?;
+        check_at_least_0("body_wind.footfall", self.footfall, "force by acceleration (per cm/s^2)")?;
+        crate::error::check_range("body_wind.smoothing", self.smoothing, 0.0, 240.0)
+    }
+}
+
+/// The wind of a head on its way: a force for each frame.
+#[derive(Clone, Debug)]
+pub struct BodyWindField {
+    forces: Vec<Vec3>,
+}
+
+impl BodyWindField {
+    /// `poses`: where the head is in the world, one a frame from frame 0 on; after the last it stands still. `frame_rate`:
+    /// frames a second. In [`ForceSpace::Head`] the force is given as the head has it.
+    ///
+    /// # Errors
+    /// Settings out of range, poses that are none, a rate that is not above 0.
+    pub fn new(settings: &BodyWind, poses: &[Pose], frame_rate: f64, space: ForceSpace) -> Result<Self, SettingError> {
+        settings.check()?;
+        check_poses(poses)?;
+        if !(frame_rate.is_finite() && frame_rate > 0.0) {
+            let remedy = "must be a finite number of frames a second, above 0";
+            return Err(SettingError::new("motion.frame_rate", frame_rate, remedy));
+        }
+        let places: Vec<DVec3> = poses.iter().map(|pose| pose.position_cm.as_dvec3()).collect();
+        let places = smoothed(&places, f64::from(settings.smoothing));
+        let force = |n: usize| {
+            let (velocity, acceleration) = moving(&places, n, frame_rate);
+            let felt = DVec3::new(0.0, acceleration.y, 0.0) * f64::from(settings.footfall);
+            let force = (-f64::from(settings.drag) * velocity - felt).as_vec3();
+            match space {
+                ForceSpace::World => force,
+                ForceSpace::Head => poses[n].rotation.inverse() * force,
+            }
+        };
+        let forces: Vec<Vec3> = (0..places.len()).map(force).collect();
+        if let Some(n) = forces.iter().position(|force| !force.is_finite()) {
+            let remedy = "the head moves too fast for numbers: look at head.motion";
+            return Err(SettingError::new(format!("body_wind in frame {n}"), forces[n], remedy));
+        }
+        Ok(Self { forces })
+    }
+}
+
+/// The places averaged by a bell, of which what lies beyond either end is left out.
+fn smoothed(places: &[DVec3], deviation: f64) -> Vec<DVec3> {
+    if deviation == 0.0 {
+        return places.to_vec();
+    }
+    // Four parabolas in a row make a bell: the binomial weights of a wide enough row, (1 + x)^(2 k), whose variance is k / 2.
+    let rounds = (2.0 * deviation * deviation).ceil().max(1.0);
+    // A part of a round keeps the deviation exact: its weights are b, 1 - 2 b, b with variance 2 b.
+    let b = deviation * deviation / rounds / 2.0;
+    let mut now = places.to_vec();
+    let mut next = now.clone();
+    for _ in 0..rounds as u64 {
+        for n in 0..now.len() {
+            let (before, after) = (now[n.saturating_sub(1)], now[(n + 1).min(now.len() - 1)]);
+            next[n] = now[n] + b * (before - now[n] + (after - now[n]));
+        }
+        std::mem::swap(&mut now, &mut next);
+    }
+    now
+}
+
+/// Velocity and acceleration in a frame, by central differences; at the ends, those beside them.
+fn moving(places: &[DVec3], n: usize, frame_rate: f64) -> (DVec3, DVec3) {
+    let last = places.len() - 1;
+    if last == 0 {
+        return (DVec3::ZERO, DVec3::ZERO);
+    }
+    let (before, after) = (n.saturating_sub(1), (n + 1).min(last));
+    let velocity = (places[after] - places[before]) * frame_rate / (after - before) as f64;
+    if last == 1 {
+        return (velocity, DVec3::ZERO);
+    }
+    let middle = n.clamp(1, last - 1);
+    let step = places[middle + 1] - places[middle] - (places[middle] - places[middle - 1]);
+    (velocity, step * frame_rate * frame_rate)
+}
+
+impl Field for BodyWindField {
+    fn at(&self, _point: Vec3, frame: u32) -> Vec3 {
+        self.forces.get(frame as usize).copied().unwrap_or_default()
+    }
+
+    fn strongest(&self) -> f32 {
+        self.forces.iter().map(|force| force.length()).fold(0.0, f32::max)
+    }
+
+    fn first_above(&self, limit: f64) -> Option<(String, String)> {
+        let n = self.forces.iter().position(|force| f64::from(force.length()) > limit)?;
+        Some(("body_wind".to_owned(), format!("{} in frame {n}", self.forces[n])))
+    }
+
+    fn uniform(&self, frame: u32) -> Option<Vec3> {
+        Some(self.at(Vec3::ZERO, frame))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Quat;
+
+    fn track(place: impl Fn(f32) -> Vec3) -> Vec<Pose> {
+        (0..60)
+            .map(|n| Pose { position_cm: place(n as f32), rotation: Quat::from_rotation_y(0.3 * n as f32) })
+            .collect()
+    }
+
+    fn wind(settings: &BodyWind, poses: &[Pose]) -> BodyWindField {
+        BodyWindField::new(settings, poses, 24.0, ForceSpace::World).unwrap()
+    }
+
+    #[test]
+    fn a_head_that_goes_evenly_has_an_even_wind_against_it() {
+        let poses = track(|n| Vec3::new(10.0 * n, 160.0, -2.5 * n));
+        for smoothing in [0.0, 0.4, 3.0] {
+            let field = wind(&BodyWind { smoothing, ..BodyWind::default() }, &poses);
+            // Averages reach beyond the ends: those are left out.
+            for frame in 20..40 {
+                let expected = -0.3 * 24.0 * Vec3::new(10.0, 0.0, -2.5);
+                assert!((field.at(Vec3::ONE, frame) - expected).length() < 1e-4, "{smoothing}");
+            }
+        }
+        let field = wind(&BodyWind::default(), &poses);
+        assert_eq!(field.uniform(0), field.uniform(30));
+        assert_eq!(field.uniform(60), Some(Vec3::ZERO));
+        assert_eq!(field.strongest(), field.at(Vec3::ZERO, 3).length());
+    }
+
+    #[test]
+    fn a_head_that_is_thrown_up_presses_its_hair_down() {
+        // y = n^2 / 4 cm: 1/2 cm a frame and frame, 288 cm/s^2.
+        let poses = track(|n| Vec3::new(0.0, 0.25 * n * n, 0.0));
+        let field = wind(&BodyWind { drag: 0.0, footfall: 0.1, smoothing: 0.0 }, &poses);
+        for frame in 0..60 {
+            assert!((field.at(Vec3::ZERO, frame) - Vec3::new(0.0, -28.8, 0.0)).length() < 1e-2);
+        }
+    }
+
+    #[test]
+    fn smoothing_weakens_a_sway_as_a_bell_does() {
+        // exp(-(omega sigma)^2 / 2) in the limit; each round is 1 - 2 b (1 - cos omega).
+        let omega = 0.5_f32;
+        let poses = track(|n| Vec3::new(5.0 * (omega * n).sin(), 0.0, 0.0));
+        let swing = |smoothing: f32| {
+            let field = wind(&BodyWind { smoothing, ..BodyWind::default() }, &poses);
+            (25..38).map(|n| field.at(Vec3::ZERO, n).length()).fold(0.0, f32::max)
+        };
+        for sigma in [0.5_f32, 1.0, 2.0] {
+            let rounds = (2.0 * sigma * sigma).ceil();
+            let expected = (1.0 - sigma * sigma / rounds * (1.0 - omega.cos())).powf(rounds);
+            assert!((swing(sigma) / swing(0.0) / expected - 1.0).abs() < 1e-3, "{sigma}");
+            assert!((expected / (-0.5 * (omega * sigma).powi(2)).exp() - 1.0).abs() < 0.03, "{sigma}");
+        }
+    }
+
+    #[test]
+    fn in_head_space_it_turns_against_the_head() {
+        let poses = track(|n| Vec3::new(10.0 * n, 0.0, 0.0));
+        let world = wind(&BodyWind::default(), &poses);
+        let head = BodyWindField::new(&BodyWind::default(), &poses, 24.0, ForceSpace::Head).unwrap();
+        for (n, pose) in poses.iter().enumerate() {
+            let turned = pose.rotation * head.at(Vec3::ZERO, n as u32);
+            assert!((turned - world.at(Vec3::ZERO, n as u32)).length() < 1e-4);
+        }
+    }
+
+    #[test]
+    fn few_poses_and_bad_settings() {
+        let one = wind(&BodyWind::default(), &[Pose::STILL]);
+        assert_eq!((one.uniform(0), one.strongest()), (Some(Vec3::ZERO), 0.0));
+        assert_eq!(wind(&BodyWind::default(), &[]).uniform(3), Some(Vec3::ZERO));
+        let refused = |settings: BodyWind| settings.check().unwrap_err().thing;
+        assert_eq!(refused(BodyWind { drag: -1.0, ..BodyWind::default() }), "body_wind.drag");
+        assert_eq!(refused(BodyWind { footfall: f32::INFINITY, ..BodyWind::default() }), "body_wind.footfall");
+        assert_eq!(refused(BodyWind { smoothing: 241.0, ..BodyWind::default() }), "body_wind.smoothing");
+        let broken = [Pose { position_cm: Vec3::NAN, ..Pose::STILL }];
+        let refused = BodyWindField::new(&BodyWind::default(), &broken, 24.0, ForceSpace::World).unwrap_err();
+        assert_eq!(refused.thing, "pose of frame 0");
+    }
+}

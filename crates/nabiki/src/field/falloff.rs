@@ -1,0 +1,167 @@
+//! How a local force weakens with distance, and how it comes and goes with time.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{SettingError, check_positive};
+
+/// How a force weakens with the distance from its place.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Falloff {
+    /// The law (default: smooth).
+    pub law: FalloffLaw,
+    /// R (cm), above 0 (default 30).
+    pub radius: f32,
+}
+
+/// The part of the strength that is left at the distance r.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FalloffLaw {
+    /// All, at any distance; R counts only for the core.
+    None,
+    /// 1 - r / R, and nothing beyond R.
+    Linear,
+    /// 1 - 3 (r / R)^2 + 2 (r / R)^3, and nothing beyond R (the default).
+    #[default]
+    Smooth,
+    /// 1 / (1 + r / R): half of it at R.
+    Inverse,
+    /// 1 / (1 + (r / R)^2): half of it at R.
+    InverseSquare,
+}
+
+impl Default for Falloff {
+    fn default() -> Self {
+        Self { law: FalloffLaw::default(), radius: 30.0 }
+    }
+}
+
+impl Falloff {
+    /// Part of the radius within which the direction of a force that has none at its centre is let go to 0.
+    pub(super) const CORE: f32 = 0.05;
+
+    /// Refuses a radius that is not above 0. `name` is what the falloff is called.
+    ///
+    /// # Errors
+    /// Names the radius.
+    pub fn check(&self, name: &str) -> Result<(), SettingError> {
+        check_positive(&format!("{name}.radius"), self.radius)
+    }
+
+    /// The part of the strength that is left at a distance (cm), 0..1.
+    pub fn at(&self, distance: f32) -> f32 {
+        let [part] = self.at_roots(&[distance * distance]);
+        part
+    }
+
+    /// The same at distances given by their squares.
+    #[inline(always)]
+    pub(super) fn at_roots<const N: usize>(&self, squares: &[f32; N]) -> [f32; N] {
+        let mut x = *squares;
+        for x in &mut x {
+            *x = x.sqrt() / self.radius;
+        }
+        // One law for all lanes: a choice in each would keep them from being one vector.
+        match self.law {
+            FalloffLaw::None => x = [1.0; N],
+            FalloffLaw::Linear => x.iter_mut().for_each(|x| *x = within(*x)),
+            FalloffLaw::Smooth => {
+                for x in &mut x {
+                    // 3 w^2 - 2 w^3 of what is left of the way.
+                    let left = within(*x);
+                    *x = left * left * left.mul_add(-2.0, 3.0);
+                }
+            }
+            FalloffLaw::Inverse => x.iter_mut().for_each(|x| *x = (1.0 + *x).recip()),
+            FalloffLaw::InverseSquare => {
+                for x in &mut x {
+                    *x = x.mul_add(*x, 1.0).recip();
+                }
+            }
+        }
+        x
+    }
+}
+
+/// What is left of the way to the radius.
+#[inline(always)]
+fn within(x: f32) -> f32 {
+    (1.0 - x).max(0.0)
+}
+
+/// A part of the strength at one frame.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct EnvelopeKey {
+    /// The frame.
+    pub frame: u32,
+    /// Part of the strength, any finite number.
+    pub factor: f32,
+}
+
+/// The part of the strength in a frame: on straight lines from key to key, the first before them and the last after them;
+/// all of it without keys.
+pub(super) fn envelope(keys: &[EnvelopeKey], frame: u32) -> f32 {
+    let next = keys.partition_point(|key| key.frame < frame);
+    match (next.checked_sub(1).map(|i| keys[i]), keys.get(next)) {
+        (None, None) => 1.0,
+        (None, Some(key)) => key.factor,
+        (Some(key), None) => key.factor,
+        (Some(a), Some(b)) => {
+            let t = f64::from(frame - a.frame) / f64::from(b.frame - a.frame);
+            (f64::from(a.factor) * (1.0 - t) + f64::from(b.factor) * t) as f32
+        }
+    }
+}
+
+/// Largest size of [`envelope`] in any frame.
+pub(super) fn largest(keys: &[EnvelopeKey]) -> f32 {
+    if keys.is_empty() { 1.0 } else { keys.iter().map(|key| key.factor.abs()).fold(0.0, f32::max) }
+}
+
+/// Refuses keys whose frames do not ascend and factors that are not finite.
+pub(super) fn check_envelope(name: &str, keys: &[EnvelopeKey]) -> Result<(), SettingError> {
+    for (i, key) in keys.iter().enumerate() {
+        if !key.factor.is_finite() {
+            return Err(SettingError::new(
+                format!("{name}.envelope[{i}].factor"),
+                key.factor,
+                "must be a finite number",
+            ));
+        }
+        if i > 0 && key.frame <= keys[i - 1].frame {
+            let remedy = format!("must come after frame {}, that of the key before it", keys[i - 1].frame);
+            return Err(SettingError::new(format!("{name}.envelope[{i}].frame"), key.frame, remedy));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_law_begins_with_all_and_never_grows() {
+        let laws =
+            [FalloffLaw::None, FalloffLaw::Linear, FalloffLaw::Smooth, FalloffLaw::Inverse, FalloffLaw::InverseSquare];
+        for (law, at_radius) in laws.into_iter().zip([1.0, 0.0, 0.0, 0.5, 0.5]) {
+            let falloff = Falloff { law, radius: 20.0 };
+            assert_eq!((falloff.at(0.0), falloff.at(20.0)), (1.0, at_radius));
+            let parts: Vec<f32> = (0..200).map(|i| falloff.at(0.3 * i as f32)).collect();
+            assert!(parts.windows(2).all(|w| (0.0..=w[0]).contains(&w[1])), "{law:?}");
+        }
+    }
+
+    #[test]
+    fn an_envelope_goes_straight_from_key_to_key() {
+        let keys = [(10, 0.0), (20, 2.0), (40, -1.0)].map(|(frame, factor)| EnvelopeKey { frame, factor });
+        for (frame, factor) in [(0, 0.0), (10, 0.0), (15, 1.0), (20, 2.0), (30, 0.5), (40, -1.0), (99, -1.0)] {
+            assert_eq!(envelope(&keys, frame), factor, "frame {frame}");
+        }
+        assert_eq!((envelope(&[], 7), largest(&[]), largest(&keys)), (1.0, 1.0, 2.0));
+        let twice = [keys[0], keys[0]];
+        assert_eq!(check_envelope("fan[0]", &twice).unwrap_err().thing, "fan[0].envelope[1].frame");
+    }
+}

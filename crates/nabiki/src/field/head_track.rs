@@ -1,0 +1,62 @@
+//! Where the head ellipsoid is in each frame, for fields that go round it.
+
+use glam::{Mat3, Vec3};
+
+use crate::ellipsoid::Ellipsoid;
+use crate::error::SettingError;
+use crate::pose::Pose;
+
+/// The head ellipsoid on its way through the space of the field.
+#[derive(Clone, Debug)]
+pub(super) struct HeadTrack {
+    pub ellipsoid: Ellipsoid,
+    places: Vec<Place>,
+}
+
+/// Where the ellipsoid is in one frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    /// Its centre (cm).
+    pub center: [f32; 3],
+    /// Rows of the rotation from the space of the field to the axes of the ellipsoid.
+    pub axes: [[f32; 3]; 3],
+}
+
+impl HeadTrack {
+    /// `poses`: one a frame from frame 0 on, the last of which holds for good; none for a head that stands still.
+    ///
+    /// # Errors
+    /// An ellipsoid or a pose that is none.
+    pub fn new(ellipsoid: Ellipsoid, poses: &[Pose]) -> Result<Self, SettingError> {
+        ellipsoid.check("head.ellipsoid")?;
+        check_poses(poses)?;
+        let still = [Pose::STILL];
+        let poses = if poses.is_empty() { &still } else { poses };
+        let place = |pose: &Pose| Place {
+            center: (pose.rotation * ellipsoid.center + pose.position_cm).to_array(),
+            // The columns of a rotation are the rows of its inverse.
+            axes: Mat3::from_quat(pose.rotation).to_cols_array_2d(),
+        };
+        Ok(Self { ellipsoid, places: poses.iter().map(place).collect() })
+    }
+
+    pub fn place(&self, frame: u32) -> &Place {
+        &self.places[(frame as usize).min(self.places.len() - 1)]
+    }
+
+    /// The centre of the ellipsoid in a frame.
+    pub fn center(&self, frame: u32) -> Vec3 {
+        Vec3::from_array(self.place(frame).center)
+    }
+}
+
+/// Refuses poses that are none.
+pub(super) fn check_poses(poses: &[Pose]) -> Result<(), SettingError> {
+    match poses.iter().position(|pose| !pose.is_valid()) {
+        None => Ok(()),
+        Some(n) => {
+            let remedy = "a pose is a finite place and a rotation";
+            Err(SettingError::new(format!("pose of frame {n}"), format!("{:?}", poses[n]), remedy))
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! A point that blows hair away from itself, or draws it in.
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+use super::falloff::{self, EnvelopeKey, Falloff};
+use super::lanes::{self, Lanes, dot, get, minus, scaled, set};
+use super::local::{self, check_place};
+use super::{Field, VectorRow};
+use crate::error::SettingError;
+
+/// The settings of a point: F = strength falloff(r) r^, away from it.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Point {
+    /// Where it is (cm; the space of the forces).
+    pub position: Vec3,
+    /// |F| beside the point; negative draws in (default 50).
+    #[serde(default = "local::strength")]
+    pub strength: f32,
+    /// How it weakens with the distance. Within a twentieth of its radius the direction, which has no meaning at the
+    /// centre, is let go to 0.
+    #[serde(default)]
+    pub falloff: Falloff,
+    /// Parts of the strength over time (default: all of it always).
+    #[serde(default)]
+    pub envelope: Vec<EnvelopeKey>,
+}
+
+impl Point {
+    /// Refuses what is out of its range. `name` is what the point is called.
+    ///
+    /// # Errors
+    /// Names the first such setting.
+    pub fn check(&self, name: &str) -> Result<(), SettingError> {
+        check_place(name, self.position, self.strength, &self.falloff, &self.envelope)
+    }
+}
+
+/// A point as a field.
+#[derive(Clone, Debug)]
+pub struct PointField {
+    name: String,
+    settings: Point,
+}
+
+impl PointField {
+    /// The field of a point that is called `name` in refusals.
+    ///
+    /// # Errors
+    /// As [`Point::check`].
+    pub fn new(settings: &Point, name: &str) -> Result<Self, SettingError> {
+        settings.check(name)?;
+        Ok(Self { name: name.to_owned(), settings: settings.clone() })
+    }
+
+    fn in_frame(&self, frame: u32) -> InFrame {
+        let Point { position, strength, falloff, envelope } = &self.settings;
+        let core = Falloff::CORE * falloff.radius;
+        InFrame {
+            position: position.to_array(),
+            strength: strength * falloff::envelope(envelope, frame),
+            falloff: *falloff,
+            core_squared: core * core,
+        }
+    }
+}
+
+struct InFrame {
+    position: [f32; 3],
+    strength: f32,
+    falloff: Falloff,
+    core_squared: f32,
+}
+
+impl Lanes for InFrame {
+    #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernel")]
+    #[inline(always)]
+    fn forces<const N: usize>(&self, points: &[[f32; N]; 3]) -> [[f32; N]; 3] {
+        let mut forces = [[0.0; N]; 3];
+        let mut squares = [0.0; N];
+        for lane in 0..N {
+            let r = minus(get(points, lane), self.position);
+            squares[lane] = dot(r, r);
+            set(&mut forces, lane, r);
+        }
+        let parts = self.falloff.at_roots(&squares);
+        for lane in 0..N {
+            let size = self.strength * parts[lane] / (squares[lane] + self.core_squared).sqrt();
+            let force = scaled(size, get(&forces, lane));
+            set(&mut forces, lane, force);
+        }
+        forces
+    }
+}
+
+impl Field for PointField {
+    fn at(&self, point: Vec3, frame: u32) -> Vec3 {
+        lanes::at(&self.in_frame(frame), point)
+    }
+
+    fn at_row(&self, points: &VectorRow, frame: u32, forces: &mut VectorRow) {
+        lanes::at_row(&self.in_frame(frame), points, forces);
+    }
+
+    fn strongest(&self) -> f32 {
+        local::strongest(self.settings.strength, &self.settings.envelope)
+    }
+
+    fn first_above(&self, limit: f64) -> Option<(String, String)> {
+        local::first_above(&self.name, self.settings.strength, &self.settings.envelope, limit)
+    }
+
+    fn uniform(&self, frame: u32) -> Option<Vec3> {
+        (self.in_frame(frame).strength == 0.0).then_some(Vec3::ZERO)
+    }
+}

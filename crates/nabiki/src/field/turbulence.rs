@@ -1,0 +1,312 @@
+//! Turbulence: curl noise (R. Bridson, J. Houriham, M. Nordenstam, "Curl-noise for procedural fluid flow", SIGGRAPH 2007).
+
+#[cfg(test)]
+mod tests;
+mod waves;
+
+use std::fmt;
+
+use glam::{DVec3, Vec3};
+use serde::{Deserialize, Serialize};
+
+use self::waves::{LOOP, Octave, Phases};
+use super::head_track::{HeadTrack, Place};
+use super::lanes::{self, Lanes, by_part, cross, dot, get, minus, scaled, scaled_plus, set, times, transposed_times};
+use super::{Field, VectorRow, check_at_least_0, check_strength};
+use crate::ellipsoid::Ellipsoid;
+use crate::error::{SettingError, check_positive, check_range};
+use crate::pose::Pose;
+use crate::random;
+
+/// The settings of turbulence: a random force without sources, which drifts with the wind and changes on its way.
+///
+/// It is the curl of a random vector potential, a sum of octaves each half as large as the one before. Near the head the
+/// potential is let go to 0 by Bridson's ramp, so that the force runs along the head.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Turbulence {
+    /// Root mean square of |F| over space, far from the head, at least 0 (default 30).
+    pub strength: f32,
+    /// Size of the largest swirls (cm), half of the wavelengths that they are made of, above 0 (default 10).
+    pub swirl_size: f32,
+    /// Frames in which a swirl turns into its opposite and back, about; 0: swirls drift and never change (default 48).
+    /// Without drift the whole pattern comes again after 16 times as many.
+    pub pulse_length: f32,
+    /// Strength of each octave by that of the one before, 0..1 (default 0.5; 0.79 is Kolmogorov's).
+    pub roughness: f32,
+    /// Octaves, 1..8 (default 2). Time is spent on each.
+    pub octaves: u32,
+    /// Way that the swirls go in a frame for each unit of the wind (cm), at least 0 (default 0.02).
+    pub drift: f32,
+    /// Distance from the head ellipsoid within which the force is turned along it (cm, default 4): that which E's own
+    /// measure gives, (|q| - 1) times the mean half axis, where q is the point in half axes from the centre. 0: the force
+    /// knows nothing of the head. At most the mean half axis.
+    pub near_head: f32,
+    /// Seed of the random vectors.
+    pub seed: u64,
+}
+
+impl Default for Turbulence {
+    fn default() -> Self {
+        Self {
+            strength: 30.0,
+            swirl_size: 10.0,
+            pulse_length: 48.0,
+            roughness: 0.5,
+            octaves: 2,
+            drift: 0.02,
+            near_head: 4.0,
+            seed: 1,
+        }
+    }
+}
+
+impl Turbulence {
+    /// Most octaves: the eighth is 1/128 of the first.
+    const MOST_OCTAVES: u32 = 8;
+
+    /// Refuses what is out of its range.
+    ///
+    /// # Errors
+    /// Names the first such setting.
+    pub fn check(&self) -> Result<(), SettingError> {
+        check_strength("turbulence.strength", self.strength)?;
+        check_positive("turbulence.swirl_size", self.swirl_size)?;
+        check_at_least_0("turbulence.pulse_length", self.pulse_length, "number of frames")?;
+        check_range("turbulence.roughness", self.roughness, 0.0, 1.0)?;
+        if !(1..=Self::MOST_OCTAVES).contains(&self.octaves) {
+            let remedy = format!("must lie in 1..{}", Self::MOST_OCTAVES);
+            return Err(SettingError::new("turbulence.octaves", self.octaves, remedy));
+        }
+        check_at_least_0("turbulence.drift", self.drift, "length (cm a frame and unit of force)")?;
+        check_at_least_0("turbulence.near_head", self.near_head, "distance (cm)")
+    }
+}
+
+/// Turbulence as a field.
+#[derive(Clone)]
+pub struct TurbulenceField {
+    settings: Turbulence,
+    octaves: Vec<Octave>,
+    head: HeadTrack,
+    /// Where the pattern has drifted to by each frame (cm).
+    drifted: Vec<DVec3>,
+    /// The phases of every octave in the first frames, so that they are not worked out for every row.
+    first_phases: Vec<Phases>,
+}
+
+impl TurbulenceField {
+    /// Frames whose phases are worked out beforehand.
+    const FIRST_FRAMES: u32 = 4096;
+
+    /// Turbulence about the head ellipsoid on its way: `poses` in the space of the field, one a frame from frame 0 on, the
+    /// last for good (none: it stands still). `wind`: the wind that swirls drift with, one vector a frame from frame 0 on,
+    /// the last for good.
+    ///
+    /// # Errors
+    /// Settings out of range, `near_head` beyond the mean half axis, poses and winds that are not finite.
+    pub fn new(
+        settings: &Turbulence,
+        ellipsoid: Ellipsoid,
+        poses: &[Pose],
+        wind: &[Vec3],
+    ) -> Result<Self, SettingError> {
+        settings.check()?;
+        let head = HeadTrack::new(ellipsoid, poses)?;
+        let mean = mean_half_axis(&ellipsoid);
+        if settings.near_head > mean {
+            let remedy = format!("must be at most {mean:.3}, the mean half axis of the head ellipsoid");
+            return Err(SettingError::new("turbulence.near_head", settings.near_head, remedy));
+        }
+        let drifted = drifted(settings.drift, wind)?;
+        let octaves = octaves(settings);
+        let mut field = Self { settings: settings.clone(), octaves, head, drifted, first_phases: Vec::new() };
+        let frames = if settings.strength > 0.0 { Self::FIRST_FRAMES } else { 0 };
+        let octaves = 0..field.octaves.len();
+        let phases = (0..frames).flat_map(|n| octaves.clone().map(move |octave| (octave, n)));
+        field.first_phases = phases.map(|(octave, n)| field.phases(octave, n)).collect();
+        Ok(field)
+    }
+
+    /// Where the pattern has drifted to by a frame (cm).
+    fn drifted(&self, frame: u32) -> DVec3 {
+        let last = self.drifted.len() - 1;
+        match (frame as usize).checked_sub(last) {
+            None | Some(0) => self.drifted[frame as usize],
+            // The last wind goes on.
+            Some(beyond) => {
+                let step = if last > 0 { self.drifted[last] - self.drifted[last - 1] } else { DVec3::ZERO };
+                self.drifted[last] + step * beyond as f64
+            }
+        }
+    }
+
+    /// The phases of an octave.
+    fn phases(&self, octave: usize, frame: u32) -> Phases {
+        let pulse = f64::from(self.settings.pulse_length);
+        let pulses = if pulse > 0.0 { (f64::from(frame) / pulse) % LOOP } else { 0.0 };
+        self.octaves[octave].phases(self.drifted(frame), pulses)
+    }
+
+    /// Does something with the field in one frame.
+    fn in_frame(&self, frame: u32, act: impl FnOnce(&InFrame)) {
+        let ramp = Ramp::new(self, frame);
+        let first = frame as usize * self.octaves.len();
+        let in_frame = |phases| InFrame { octaves: &self.octaves, phases, ramp };
+        match self.first_phases.get(first..first + self.octaves.len()) {
+            Some(phases) => act(&in_frame(phases)),
+            None => {
+                let phases: [Phases; Turbulence::MOST_OCTAVES as usize] =
+                    std::array::from_fn(
+                        |i| if i < self.octaves.len() { self.phases(i, frame) } else { Phases::default() },
+                    );
+                act(&in_frame(&phases));
+            }
+        }
+    }
+}
+
+/// Sum of the steps by each frame.
+fn drifted(drift: f32, wind: &[Vec3]) -> Result<Vec<DVec3>, SettingError> {
+    if let Some(n) = wind.iter().position(|w| !w.is_finite()) {
+        return Err(SettingError::new(format!("wind of frame {n}"), wind[n], "must be finite numbers"));
+    }
+    // A wind that stays as it is to the end need not be kept.
+    let end = wind.iter().rev().zip(wind.iter().rev().skip(1)).take_while(|(a, b)| a == b).count();
+    let kept = &wind[..wind.len() - end];
+    let mut place = DVec3::ZERO;
+    let mut places = vec![place];
+    for step in kept.iter().skip(1).chain(kept.last()) {
+        place += f64::from(drift) * step.as_dvec3();
+        places.push(place);
+    }
+    Ok(places)
+}
+
+fn octaves(settings: &Turbulence) -> Vec<Octave> {
+    let roughness = f64::from(settings.roughness);
+    let gains: Vec<f64> =
+        std::iter::successors(Some(1.0), |gain| Some(gain * roughness)).take(settings.octaves as usize).collect();
+    let whole = gains.iter().map(|gain| gain * gain).sum::<f64>().sqrt();
+    let octave = |(i, gain): (usize, &f64)| {
+        let swirl_size = f64::from(settings.swirl_size) / f64::from(1_u32 << i);
+        let seed = random::mix(settings.seed.wrapping_add((i as u64).wrapping_mul(random::GOLDEN_GAMMA)));
+        Octave::new(f64::from(settings.strength) * gain / whole, swirl_size, (i + 1) as f64, seed)
+    };
+    gains.iter().enumerate().map(octave).collect()
+}
+
+fn mean_half_axis(ellipsoid: &Ellipsoid) -> f32 {
+    ellipsoid.half_axes.element_sum() / 3.0
+}
+
+/// What turns the force along the head: the potential times Bridson's ramp of the distance.
+#[derive(Clone, Copy, Debug)]
+struct Ramp {
+    place: Place,
+    /// 1 / half axis.
+    inverse: [f32; 3],
+    /// Mean half axis over the distance at which the ramp ends; 0 without a ramp.
+    steepness: f32,
+}
+
+impl Ramp {
+    fn new(field: &TurbulenceField, frame: u32) -> Self {
+        let ellipsoid = &field.head.ellipsoid;
+        let near = field.settings.near_head;
+        let steepness = if near > 0.0 { mean_half_axis(ellipsoid) / near } else { 0.0 };
+        Self { place: *field.head.place(frame), inverse: ellipsoid.half_axes.recip().to_array(), steepness }
+    }
+
+    /// The curl of ramp times potential: ramp v + grad ramp x psi.
+    #[inline(always)]
+    fn curl(&self, p: [f32; 3], velocity: [f32; 3], potential: [f32; 3]) -> [f32; 3] {
+        let q = by_part(times(&self.place.axes, minus(p, self.place.center)), self.inverse);
+        // Where |q| is small the slope of the ramp is 0.
+        let radius = dot(q, q).sqrt().max(1e-6);
+        let x = ((radius - 1.0) * self.steepness).clamp(-1.0, 1.0);
+        let x2 = x * x;
+        let ramp = x * x2.mul_add(x2.mul_add(0.375, -1.25), 1.875);
+        let slope = 1.875 * (1.0 - x2) * (1.0 - x2) * self.steepness / radius;
+        let gradient = transposed_times(&self.place.axes, by_part(q, self.inverse));
+        scaled_plus(ramp, velocity, scaled(slope, cross(gradient, potential)))
+    }
+}
+
+/// The field in one frame.
+struct InFrame<'a> {
+    octaves: &'a [Octave],
+    phases: &'a [Phases],
+    ramp: Ramp,
+}
+
+impl Lanes for InFrame<'_> {
+    #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernel")]
+    #[inline(always)]
+    fn forces<const N: usize>(&self, points: &[[f32; N]; 3]) -> [[f32; N]; 3] {
+        let mut velocity = [[0.0; N]; 3];
+        let mut potential = [[0.0; N]; 3];
+        for (octave, phases) in self.octaves.iter().zip(self.phases) {
+            for lane in 0..N {
+                let (mut v, mut psi) = (get(&velocity, lane), get(&potential, lane));
+                octave.add(phases, get(points, lane), &mut v, &mut psi);
+                set(&mut velocity, lane, v);
+                set(&mut potential, lane, psi);
+            }
+        }
+        if self.ramp.steepness == 0.0 {
+            return velocity;
+        }
+        let mut forces = [[0.0; N]; 3];
+        for lane in 0..N {
+            let force = self.ramp.curl(get(points, lane), get(&velocity, lane), get(&potential, lane));
+            set(&mut forces, lane, force);
+        }
+        forces
+    }
+}
+
+impl Field for TurbulenceField {
+    fn at(&self, point: Vec3, frame: u32) -> Vec3 {
+        let mut force = Vec3::ZERO;
+        self.in_frame(frame, |in_frame| force = lanes::at(in_frame, point));
+        force
+    }
+
+    fn at_row(&self, points: &VectorRow, frame: u32, forces: &mut VectorRow) {
+        self.in_frame(frame, |in_frame| lanes::at_row(in_frame, points, forces));
+    }
+
+    /// The sum over waves of what each, and within the ramp its potential, can reach: |ramp| <= 1, and |grad ramp| is at
+    /// most 15/8 over `near_head`, times mean by smallest half axis.
+    fn strongest(&self) -> f32 {
+        let near = f64::from(self.settings.near_head);
+        let axes = &self.head.ellipsoid.half_axes;
+        let uneven = f64::from(mean_half_axis(&self.head.ellipsoid) / axes.min_element());
+        let slope = if near > 0.0 { 1.875 / near * uneven } else { 0.0 };
+        let of_octave = |octave: &Octave| {
+            let [velocity, potential] = octave.largest();
+            velocity + slope * potential
+        };
+        // A little more than the sum, for what rounding adds to the force itself.
+        (self.octaves.iter().map(of_octave).sum::<f64>() * (1.0 + 1e-5)) as f32
+    }
+
+    fn first_above(&self, limit: f64) -> Option<(String, String)> {
+        let above = f64::from(self.strongest()) > limit;
+        above.then(|| {
+            let value = format!("{} (at most {})", self.settings.strength, self.strongest());
+            ("turbulence.strength".to_owned(), value)
+        })
+    }
+
+    fn uniform(&self, _frame: u32) -> Option<Vec3> {
+        (self.settings.strength == 0.0).then_some(Vec3::ZERO)
+    }
+}
+
+impl fmt::Debug for TurbulenceField {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("TurbulenceField").field("settings", &self.settings).finish_non_exhaustive()
+    }
+}

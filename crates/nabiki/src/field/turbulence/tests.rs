@@ -1,0 +1,171 @@
+//! Laws of the turbulence.
+
+use glam::{Mat3, Quat};
+use proptest::prelude::*;
+
+use super::*;
+use crate::field::rows::forces;
+
+const HEAD: Ellipsoid = Ellipsoid { center: Vec3::new(1.0, 2.0, -1.0), half_axes: Vec3::new(9.5, 11.0, 8.0) };
+
+fn field(settings: &Turbulence) -> TurbulenceField {
+    TurbulenceField::new(settings, HEAD, &[], &[]).unwrap()
+}
+
+fn settings() -> impl Strategy<Value = Turbulence> {
+    (1.0_f32..60.0, 2.0_f32..20.0, 0.0_f32..90.0, 0.0_f32..=1.0, 1_u32..4, 0.0_f32..0.1, 0.0_f32..9.0, any::<u64>())
+        .prop_map(|(strength, swirl_size, pulse_length, roughness, octaves, drift, near_head, seed)| Turbulence {
+            strength,
+            swirl_size,
+            pulse_length,
+            roughness,
+            octaves,
+            drift,
+            near_head,
+            seed,
+        })
+}
+
+fn points(reach: f32) -> impl Strategy<Value = Vec3> {
+    [-reach..reach, -reach..reach, -reach..reach].prop_map(Vec3::from)
+}
+
+/// A head that goes about, and a wind that changes.
+fn on_the_way(settings: &Turbulence) -> TurbulenceField {
+    let pose = |n: u32| Pose {
+        position_cm: Vec3::new(3.0 * n as f32, 150.0, -2.0 * n as f32),
+        rotation: Quat::from_rotation_y(0.1 * n as f32) * Quat::from_rotation_x(0.05 * n as f32),
+    };
+    let wind: Vec<Vec3> = (0..30).map(|n| Vec3::new(-60.0, n as f32, 5.0)).collect();
+    TurbulenceField::new(settings, HEAD, &(0..20).map(pose).collect::<Vec<_>>(), &wind).unwrap()
+}
+
+proptest! {
+    #[test]
+    fn rows_are_points_and_never_above_the_bound(settings in settings(), frame in 0_u32..9000, at in points(40.0), way in points(3.0)) {
+        let field = on_the_way(&settings);
+        let n = frame.min(19) as f32;
+        let along = std::array::from_fn(|i| at + way * i as f32 + Vec3::new(3.0 * n, 150.0, -2.0 * n));
+        for force in forces(&field, along, frame) {
+            prop_assert!(force.is_finite() && force.length() <= field.strongest());
+        }
+    }
+
+    #[test]
+    fn there_is_no_source(settings in settings(), frame in 0_u32..200, p in points(20.0)) {
+        let field = field(&settings);
+        // Far from 1/2, where z goes round, and from the ends of the ramp, each term is a polynomial; over them its second
+        // derivative jumps. So central differences err by the length of the step times the largest second derivative, of
+        // which for one wave the first derivative is s' |kappa| = 8 |kappa| |e|, the second 32 |kappa|^2 |e|, the ramp's
+        // of the order of its own length. The smallest wave is 2^-(octaves - 1) of the largest.
+        let h = 1.0 / 256.0;
+        let slope = |axis: Vec3| (field.at(p + h * axis, frame) - field.at(p - h * axis, frame)).dot(axis) / (2.0 * h);
+        let divergence = slope(Vec3::X) + slope(Vec3::Y) + slope(Vec3::Z);
+        let finest = settings.swirl_size / (1 << (settings.octaves - 1)) as f32;
+        let kappa = 1.25 / (2.0 * finest);
+        let ramp = if settings.near_head > 0.0 { settings.near_head } else { f32::INFINITY };
+        let second = field.strongest() * (32.0 * kappa * kappa + 16.0 * kappa / ramp + 8.0 / (ramp * ramp));
+        // Points are rounded by 4e-6 cm and the force by some 1e-6 of its size.
+        let rounding = field.strongest() * (1e-6 + 4e-6 * 8.0 * (kappa + 1.0 / ramp)) / h;
+        prop_assert!(divergence.abs() < 3.0 * h * second + 3.0 * rounding, "{divergence}, {} {}", h * second, rounding);
+    }
+
+    #[test]
+    fn it_runs_along_the_head(settings in settings(), frame in 0_u32..200, d in points(1.0)) {
+        let settings = Turbulence { near_head: settings.near_head.max(0.5), ..settings };
+        let field = field(&settings);
+        let on = HEAD.center + d.normalize_or(Vec3::X) * HEAD.half_axes;
+        // The distance from the surface is rounded to 1e-6 of the half axes; the ramp rises by 1.875 over near_head.
+        let left = 2.0 * 1.875 * 11e-6 / settings.near_head + 2e-6;
+        prop_assert!(field.at(on, frame).dot(HEAD.gradient(on).normalize()).abs() < left * field.strongest());
+    }
+
+    #[test]
+    fn it_drifts_with_the_wind_and_comes_again(settings in settings(), frame in 0_u32..50, p in points(20.0)) {
+        let free = Turbulence { near_head: 0.0, ..settings };
+        let pulse_length = free.pulse_length.round();
+        let free = Turbulence { pulse_length, ..free };
+        let wind = Vec3::new(40.0, -10.0, 25.0);
+        let still = field(&free);
+        let drifting = TurbulenceField::new(&free, HEAD, &[], &[wind]).unwrap();
+        let way = free.drift * wind * frame as f32;
+        let finest = free.swirl_size / (1 << (free.octaves - 1)) as f32;
+        // The way of up to 240 cm is rounded to 2e-5 cm, and the phase to 1e-6 turns; a turn of 1.25 / 2 swirls.
+        let tolerance = still.strongest() * 8.0 * (0.625 / finest * 6e-5 + 4e-6);
+        prop_assert!((drifting.at(p + way, frame) - still.at(p, frame)).length() < tolerance);
+        let again = frame + 16 * pulse_length as u32;
+        prop_assert!((still.at(p, again) - still.at(p, frame)).length() < tolerance);
+    }
+}
+
+#[test]
+fn its_root_mean_square_is_the_strength_in_every_direction() {
+    // Means over points a swirl and more apart of a box of 1000 cm, over seeds.
+    for octaves in [1, 2, 4] {
+        let (seeds, count) = (60, 400);
+        let mut squares = Mat3::ZERO;
+        let mut mean = Vec3::ZERO;
+        for seed in 0..seeds {
+            let settings = Turbulence { octaves, near_head: 0.0, seed, ..Turbulence::default() };
+            let field = field(&settings);
+            for i in 0..count {
+                let p = Vec3::new(0.618_034, 0.754_878, 0.569_840) * (i as f32 + 0.5);
+                let force = field.at(1000.0 * p.fract() - 500.0, 7) / settings.strength;
+                squares += Mat3::from_cols(force * force.x, force * force.y, force * force.z);
+                mean += force;
+            }
+        }
+        let number = (seeds * count) as f32;
+        let (squares, mean) = (squares * (1.0 / number), mean / number);
+        // A seed's waves keep their strength and lie evenly in direction: what is left to chance is which way each e points
+        // across its kappa, about 1/3 / sqrt(8) of the mean square for a seed, and the points.
+        let tolerance = 5.0 * (1.0 / 3.0) * (1.0 / (8.0 * seeds as f32) + 1.0 / number).sqrt();
+        for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)] {
+            let expected = if i == j { 1.0 / 3.0 } else { 0.0 };
+            assert!((squares.col(i)[j] - expected).abs() < tolerance, "{octaves}: {squares} +- {tolerance}");
+        }
+        assert!(mean.length() < 5.0 / number.sqrt(), "{mean}");
+    }
+}
+
+#[test]
+fn seeds_differ_and_strength_scales() {
+    let one = field(&Turbulence::default());
+    let two = field(&Turbulence { seed: 2, ..Turbulence::default() });
+    let twice = field(&Turbulence { strength: 60.0, ..Turbulence::default() });
+    let p = Vec3::new(14.0, 3.0, 2.0);
+    assert!((one.at(p, 3) - two.at(p, 3)).length() > 1.0);
+    assert!((twice.at(p, 3) - 2.0 * one.at(p, 3)).length() < 60.0 * 1e-5);
+    let calm = field(&Turbulence { strength: 0.0, ..Turbulence::default() });
+    assert_eq!((calm.uniform(3), calm.at(p, 3), calm.strongest()), (Some(Vec3::ZERO), Vec3::ZERO, 0.0));
+    assert_eq!(one.uniform(3), None);
+}
+
+#[test]
+fn frames_worked_out_beforehand_are_those_worked_out_when_asked() {
+    let field = on_the_way(&Turbulence::default());
+    let mut bare = field.clone();
+    bare.first_phases.clear();
+    for frame in [0, 1, 19, 29, 30, 31, 700] {
+        let p = Vec3::new(60.0, 155.0, -40.0);
+        assert_eq!(field.at(p, frame), bare.at(p, frame));
+    }
+}
+
+#[test]
+fn settings_out_of_range_are_refused_by_name() {
+    let thing = |settings: Turbulence| TurbulenceField::new(&settings, HEAD, &[], &[]).unwrap_err().thing;
+    let default = Turbulence::default;
+    assert_eq!(thing(Turbulence { strength: -1.0, ..default() }), "turbulence.strength");
+    assert_eq!(thing(Turbulence { swirl_size: 0.0, ..default() }), "turbulence.swirl_size");
+    assert_eq!(thing(Turbulence { pulse_length: f32::NAN, ..default() }), "turbulence.pulse_length");
+    assert_eq!(thing(Turbulence { roughness: 1.1, ..default() }), "turbulence.roughness");
+    assert_eq!(thing(Turbulence { octaves: 0, ..default() }), "turbulence.octaves");
+    assert_eq!(thing(Turbulence { octaves: 9, ..default() }), "turbulence.octaves");
+    assert_eq!(thing(Turbulence { drift: -0.1, ..default() }), "turbulence.drift");
+    assert_eq!(thing(Turbulence { near_head: 9.6, ..default() }), "turbulence.near_head");
+    let refused = TurbulenceField::new(&default(), HEAD, &[], &[Vec3::NAN]).unwrap_err();
+    assert_eq!(refused.thing, "wind of frame 0");
+    let blamed = field(&default()).first_above(10.0).unwrap();
+    assert_eq!(blamed.0, "turbulence.strength");
+}
