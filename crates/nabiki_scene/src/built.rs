@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use nabiki::dynamics::{Dynamics, FrameInput, Reference, Simulation, Timeline};
-use nabiki::field::{Field, KeyframedField};
+use nabiki::field::Field;
 use nabiki::{Hair, Head, Pose, SettingError, Strands};
 use nabiki_io::cache::Origin;
 use nabiki_io::hair::ImportReport;
@@ -17,7 +17,7 @@ use nabiki_io::{DeclaredSpace, GroomCurves};
 
 use crate::advice::{Advice, advice};
 use crate::error::{Error, Result};
-use crate::scene::Scene;
+use crate::scene::{FieldBound, FieldParts, Scene};
 use crate::seat::Seat;
 
 pub(crate) use load::hair_placement;
@@ -47,8 +47,8 @@ pub struct BuiltScene {
     pub frames_in_file: usize,
     /// How the hair answers a force.
     pub dynamics: Dynamics,
-    /// The force.
-    pub field: Arc<KeyframedField>,
+    /// What pushes the hair: all fields of the scene together.
+    pub field: Arc<dyn Field>,
     /// What the head's file says of its own space.
     pub(crate) head_declared: DeclaredSpace,
     /// What the hair's file says of its own space.
@@ -70,6 +70,16 @@ impl Scene {
     /// One line: file, thing, value and the way out.
     pub fn build(self, shown: Shown) -> Result<BuiltScene> {
         load::build(self, shown)
+    }
+
+    /// What each of the scene's fields can reach, and last `all` of them together; head and motion are loaded for it.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build).
+    pub fn field_bounds(&self) -> Result<Vec<FieldBound>> {
+        let FieldParts { field, mut bounds } = load::load_field(self)?;
+        bounds.push(FieldBound { name: "all".to_owned(), at_most: field.strongest() });
+        Ok(bounds)
     }
 
     /// Loads the head alone.
@@ -133,9 +143,9 @@ impl BuiltScene {
     /// # Errors
     /// As [`simulation`](Self::simulation).
     pub fn timeline(&self) -> Result<Timeline> {
-        let field: Arc<dyn Field> = self.field.clone();
         let poses = if self.head_moves() { self.poses[..=self.frames() as usize].to_vec() } else { Vec::new() };
-        let built = Timeline::with_ids(&self.hair.strands, &self.ids, &self.dynamics, field, poses, self.frames());
+        let built =
+            Timeline::with_ids(&self.hair.strands, &self.ids, &self.dynamics, self.field.clone(), poses, self.frames());
         built.map_err(|refused| self.refusal(refused))
     }
 
@@ -154,9 +164,9 @@ impl BuiltScene {
         FrameInput::new(frame, &self.poses, &*self.field)
     }
 
-    /// F(n), in the space that the scene gives its forces in.
-    pub fn force(&self, frame: u32) -> Vec3 {
-        self.field.vector(frame)
+    /// The force at a point (cm) in a frame, both in the space that the scene gives its forces in.
+    pub fn force_at(&self, point: Vec3, frame: u32) -> Vec3 {
+        self.field.at(point, frame)
     }
 
     /// What looks wrong about the size and place of head and hair.

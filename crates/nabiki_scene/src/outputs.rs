@@ -94,8 +94,8 @@ impl<'a> PictureOutputs<'a> {
             }
         }
         if self.on_sheet.contains(&n) {
-            let force: Vec3 = self.built.force(n.max(1));
-            self.sheet.add(frame, &self.tone_mapping, n, Some(force), view);
+            let force: Option<Vec3> = self.built.field.uniform(n.max(1));
+            self.sheet.add(frame, &self.tone_mapping, n, force, view);
         }
         Ok(())
     }
@@ -115,7 +115,7 @@ impl<'a> PictureOutputs<'a> {
             written.push(self.sheet_file);
         }
         written.extend(self.stills);
-        let force = self.built.scene.keyframes();
+        let force = &self.built.scene.field.force;
         let intervals: Vec<_> = force.iter().map(|k| Interval { through: k.through, vector: k.vector }).collect();
         for (file, write) in self.fields {
             write(&file, &intervals)?;

@@ -1,9 +1,9 @@
 //! The scene: everything that decides a movie, built in code or read from TOML, and written back.
 //!
 //! Tables of the file: `[head]`, `[hair]` with `[hair.style]` and `[hair.hairline]`, `[motion]`, `[free]`, `[contact]`, one
-//! `[[body]]` for each, `[neighbours]`, `[pseudo_force]`, one `[[force]]` for each interval of the field, `[disturbance]`,
-//! `[picture]`, `[output]`. All but `[[force]]` may be left
-//! out: the defaults are the paper's. Paths are relative to the scene file.
+//! `[[body]]` for each, `[neighbours]`, `[pseudo_force]`, one `[[force]]` for each interval of the paper's field, the other
+//! fields ([`FieldSettings`]), `[disturbance]`, `[picture]`, `[output]`. All may be left out, but for a field in the paper's
+//! form: the defaults are the paper's. Paths are relative to the scene file.
 
 mod edit;
 mod error;
@@ -23,7 +23,7 @@ use nabiki::SettingError;
 use nabiki::body::Contact;
 use nabiki::disturbance::Disturbance;
 use nabiki::dynamics::Motion;
-use nabiki::field::{Keyframe, KeyframedField};
+use nabiki::field::{BodyWind, Fan, Flow, Gust, Keyframe, Point, Turbulence, Vortex, Wind};
 use nabiki::free_form::NeighbourForces;
 use nabiki::pseudo_force::PseudoForce;
 use nabiki_file::PartFile;
@@ -36,7 +36,8 @@ use toml::{Table, Value};
 use toml_edit::DocumentMut;
 
 pub use error::{Problem, SceneError};
-pub use field::FieldSource;
+pub use field::{FieldBound, FieldSettings};
+pub(crate) use field::{FieldParts, FieldPlace};
 pub use free::{BodySettings, FormChoice, FreeSettings, Gravity};
 pub use hair::{GrownHair, HairSettings, HairSource, ImportedHair};
 pub use head::{EllipsoidChoice, HeadSettings, HeadSource, ImportedHead};
@@ -51,11 +52,10 @@ use tree::{Unwritable, table_of};
 /// use glam::Vec3;
 /// use nabiki::field::Keyframe;
 /// use nabiki_scene::Scene;
-/// use nabiki_scene::scene::FieldSource;
 ///
 /// let text = "[[force]]          # the gust\nthrough = 50\nvector = [-100, 0, 0]\n";
 /// let mut scene = Scene::parse(text, "gust.toml".as_ref(), &[])?;
-/// scene.field = vec![FieldSource::Keyframes(vec![Keyframe { through: 50, vector: Vec3::new(-80.0, 0.0, 0.0) }])];
+/// scene.field.force = vec![Keyframe { through: 50, vector: Vec3::new(-80.0, 0.0, 0.0) }];
 /// assert_eq!(scene.to_toml()?, text.replace("-100", "-80"));
 /// # Ok::<(), nabiki_scene::scene::SceneError>(())
 /// ```
@@ -79,8 +79,8 @@ pub struct Scene {
     pub neighbours: Option<NeighbourForces>,
     /// `[pseudo_force]`
     pub pseudo_force: PseudoForce,
-    /// What pushes the hair: `[[force]]`. A scene made in code has none until it is given some.
-    pub field: Vec<FieldSource>,
+    /// What pushes the hair: `[[force]]` and other fields. A scene made in code has none until it is given some.
+    pub field: FieldSettings,
     /// `[disturbance]`
     pub disturbance: Option<Disturbance>,
     /// `[picture]`
@@ -126,6 +126,14 @@ struct Tables {
     neighbours: Option<NeighbourForces>,
     pseudo_force: PseudoForce,
     force: Vec<Keyframe>,
+    wind: Wind,
+    gust: Option<Gust>,
+    body_wind: Option<BodyWind>,
+    flow: Option<Flow>,
+    turbulence: Option<Turbulence>,
+    point: Vec<Point>,
+    vortex: Vec<Vortex>,
+    fan: Vec<Fan>,
     disturbance: Option<Disturbance>,
     picture: Picture,
     output: Output,
@@ -169,7 +177,17 @@ impl Scene {
                 bodies: tables.body,
                 neighbours: tables.neighbours,
                 pseudo_force: tables.pseudo_force,
-                field: if tables.force.is_empty() { vec![] } else { vec![FieldSource::Keyframes(tables.force)] },
+                field: FieldSettings {
+                    force: tables.force,
+                    wind: tables.wind,
+                    gust: tables.gust,
+                    body_wind: tables.body_wind,
+                    flow: tables.flow,
+                    turbulence: tables.turbulence,
+                    point: tables.point,
+                    vortex: tables.vortex,
+                    fan: tables.fan,
+                },
                 disturbance: tables.disturbance,
                 picture: tables.picture,
                 output: tables.output,
@@ -199,25 +217,12 @@ impl Scene {
         self.bodies.iter().enumerate().try_for_each(|(i, body)| body.check(i))?;
         self.neighbours.as_ref().map_or(Ok(()), NeighbourForces::check)?;
         self.pseudo_force.check()?;
-        self.field()?;
+        self.field.check(self.head.motion.is_some(), self.form == FormChoice::Free)?;
         if let Some(disturbance) = &self.disturbance {
             disturbance.check()?;
         }
         self.picture.check()?;
         self.output.check(self.motion.frames)
-    }
-
-    /// What pushes the hair, ready to be asked.
-    ///
-    /// # Errors
-    /// No force at all, or keyframes that are no field.
-    pub fn field(&self) -> Result<KeyframedField, SettingError> {
-        field::build(&self.field)
-    }
-
-    /// The intervals of `[[force]]`; none where nothing of the field is given so.
-    pub fn keyframes(&self) -> &[Keyframe] {
-        field::keyframes(&self.field).unwrap_or_default()
     }
 
     /// A refused setting as an error that names the file and the line, or the override, that set it.
@@ -275,7 +280,7 @@ impl Scene {
     /// were. A setting that is at its default and not in the text stays out of it.
     ///
     /// # Errors
-    /// A setting that TOML cannot hold: a whole number beyond 2^63, a path that is not text, two lists of keyframes.
+    /// A setting that TOML cannot hold: a whole number beyond 2^63, a path that is not text.
     pub fn to_toml(&self) -> Result<String, SceneError> {
         let unwritable = |Unwritable(why): Unwritable| self.origins.error("", Problem::Other(why));
         let held = Self::read(&self.text, self.file(), &[])?.tree().map_err(unwritable)?;
@@ -315,8 +320,6 @@ impl Scene {
 
     /// The settings as the tree that they are read from.
     fn tree(&self) -> Result<Table, Unwritable> {
-        let keyframes = field::keyframes(&self.field).map_err(|e| Unwritable(e.to_string()))?;
-        let force = keyframes.iter().map(|key| table_of(key).map(Value::Table)).collect::<Result<_, _>>()?;
         let mut tree = Table::new();
         tree.insert("head".to_owned(), self.head.table()?.into());
         tree.insert("hair".to_owned(), self.hair.table()?.into());
@@ -329,7 +332,7 @@ impl Scene {
             tree.insert("neighbours".to_owned(), table_of(neighbours)?.into());
         }
         tree.insert("pseudo_force".to_owned(), table_of(&self.pseudo_force)?.into());
-        tree.insert("force".to_owned(), Value::Array(force));
+        tree.extend(self.field.tables()?);
         if let Some(disturbance) = &self.disturbance {
             tree.insert("disturbance".to_owned(), table_of(disturbance)?.into());
         }
@@ -346,6 +349,7 @@ impl Scene {
     /// The same with every optional table there, at its own defaults.
     fn with_optional_tables(mut self) -> Self {
         self.head.motion = Some(MotionSource::default());
+        self.field = self.field.with_optional_tables();
         self.disturbance = Some(Disturbance::default());
         self.neighbours = Some(NeighbourForces::default());
         self.picture.camera = Camera { to: Some(CameraKey::default()), ..self.picture.camera };

@@ -196,8 +196,10 @@ impl fmt::Display for SceneSummary {
 pub struct SwingTable {
     /// Length of the strand, the median of the hair's (cm).
     pub length: f32,
-    /// A row for each interval of the field.
+    /// A row for each interval of `[[force]]`.
     pub rows: Vec<SwingRow>,
+    /// What the bound of all fields together would do, where there is more than `[[force]]`, stepped.
+    pub at_most: Option<SwingRow>,
 }
 
 /// The swings of one interval.
@@ -218,25 +220,34 @@ impl SwingTable {
         lengths.sort_by(f32::total_cmp);
         let length = lengths[lengths.len() / 2];
         let count = f64::from(length) / f64::from(built.dynamics.segment_length);
+        let row = |frames: [u32; 2], force: f32| {
+            let force = f64::from(force);
+            let swing = |position: f64| period(gain(&built.dynamics, position, count) * force);
+            SwingRow { frames, force, periods: [1.0, (count + 1.0) / 2.0, count].map(swing) }
+        };
         let mut first = 1;
-        let rows = built.field.keyframes().iter().map(|key| {
-            let force = f64::from(key.vector.length());
-            let frames = |position: f64| period(gain(&built.dynamics, position, count) * force);
-            let periods = [1.0, (count + 1.0) / 2.0, count].map(frames);
-            let row = SwingRow { frames: [first, key.through], force, periods };
+        let field = &built.scene.field;
+        let rows = field.force.iter().map(|key| {
+            let row = row([first, key.through], key.vector.length());
             first = key.through + 1;
             row
         });
-        Self { length, rows: rows.collect() }
+        let rows = rows.collect();
+        let at_most = (!field.is_the_papers()).then(|| row([1, built.frames()], built.field.strongest()));
+        Self { length, rows, at_most }
     }
 }
 
 impl fmt::Display for SwingTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "  swing   frames of one swing of a strand of {:.1} cm: at its root, middle, tip", self.length)?;
-        for SwingRow { frames: [first, last], force, periods: [root, middle, tip] } in &self.rows {
+        let told = self.rows.iter().map(|row| ('=', row)).chain(self.at_most.iter().map(|row| ('<', row)));
+        for (sign, SwingRow { frames: [first, last], force, periods: [root, middle, tip] }) in told {
             let interval = format!("{first} to {last}");
-            write!(f, "\n          frames {interval:<11} |F| = {force:<8.2} {root:>8.0} {middle:>8.0} {tip:>8.0}")?;
+            write!(
+                f,
+                "\n          frames {interval:<11} |F| {sign} {force:<8.2} {root:>8.0} {middle:>8.0} {tip:>8.0}"
+            )?;
         }
         Ok(())
     }

@@ -67,8 +67,8 @@ fn overrides_are_put_in_before_anything_is_read() {
     ];
     let scene = parse(GUST, &overrides).unwrap();
     assert_eq!((scene.motion.time_step, scene.picture.size), (0.05, [320, 200]));
-    assert_eq!(scene.keyframes()[1].vector, Vec3::new(0.0, -100.0, 0.0));
-    assert_eq!((scene.keyframes()[2].through, scene.keyframes()[2].vector), (120, Vec3::new(1.0, 2.5, 3.0)));
+    assert_eq!(scene.field.force[1].vector, Vec3::new(0.0, -100.0, 0.0));
+    assert_eq!((scene.field.force[2].through, scene.field.force[2].vector), (120, Vec3::new(1.0, 2.5, 3.0)));
     assert!(matches!(scene.head.ellipsoid, EllipsoidChoice::Given(e) if e.half_axes.y == 11.0));
     assert_eq!(scene.disturbance.unwrap().every, 7);
     let HairSource::Imported(hair) = &scene.hair.source else { panic!("hair.file is given") };
@@ -206,7 +206,7 @@ fn values_out_of_range_are_refused_by_their_owners_with_the_line() {
     );
     assert_eq!(
         parse("[motion]\nframes = 3\n", &[]).unwrap_err().to_string(),
-        "scenes/gust.toml: force = none: give at least one [[force]] with through and vector"
+        "scenes/gust.toml: force = none: give at least one [[force]] with through and vector, or another field"
     );
     assert_eq!(
         refused("[motion]", "[head]\nshell = 1\n[motion]"),

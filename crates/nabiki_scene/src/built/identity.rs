@@ -25,7 +25,12 @@ impl BuiltScene {
         digest.settings("segment_length", &[self.dynamics.segment_length, self.dynamics.shell])?;
         digest.settings("ellipsoid", &self.dynamics.ellipsoid)?;
         digest.settings("pseudo_force", &self.dynamics.pseudo_force)?;
-        digest.settings("force", &self.field.keyframes())?;
+        digest.settings("force", &self.scene.field.force)?;
+        if !self.scene.field.is_the_papers() {
+            digest.settings("fields", &self.scene.field)?;
+            // Gusts and the head's velocity are those of seconds.
+            digest.settings("frame_rate", &[self.dynamics.motion.frame_rate])?;
+        }
         if let Some(disturbance) = &self.dynamics.disturbance {
             digest.settings("disturbance", disturbance)?;
             digest.bytes("ids", bytemuck::cast_slice(&little_endian(&self.ids)));

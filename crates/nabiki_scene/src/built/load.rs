@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use glam::Vec3;
 use nabiki::dynamics::{Dynamics, Form, straightened};
 use nabiki::groom::{Growth, grow};
-use nabiki::{Hair, Head, SettingError, Strands, subset};
+use nabiki::{Hair, Head, Pose, SettingError, Strands, subset};
 use nabiki_io::{
     DeclaredSpace, GroomCurves, GroomFile, declared_space,
     hair::{self, ImportReport},
@@ -21,7 +21,9 @@ use nabiki_render::colour;
 
 use super::{BuiltScene, Shown};
 use crate::error::Result;
-use crate::scene::{EllipsoidChoice, FormChoice, GrownHair, HairSource, HeadSource, ImportedHair, Scene};
+use crate::scene::{
+    EllipsoidChoice, FieldParts, FieldPlace, FormChoice, GrownHair, HairSource, HeadSource, ImportedHair, Scene,
+};
 use crate::seat;
 
 pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
@@ -30,7 +32,7 @@ pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
     let mut dynamics = dynamics(&scene, &head)?;
     let rest_pose = poses.first().copied().unwrap_or_default();
     dynamics.polar_axis = rest_pose.up_in_head();
-    let field = scene.field().map_err(|refused| scene.refusal(refused))?.into();
+    let field = field(&scene, &head, &poses)?.field;
     let Loaded { mut hair, ids, of_scene, first, imported, frames } = load_hair(&scene, &head, &placement, shown)?;
     let (hair_placement, report) = imported.as_ref().map(|found| (found.placement, found.report)).unzip();
     let imported = imported.map(|found| (Some(found.groom), found.declared, found.judged));
@@ -60,6 +62,24 @@ pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
         ids,
         poses,
     })
+}
+
+/// What pushes the hair, about a head on its way.
+fn field(scene: &Scene, head: &Head, poses: &[Pose]) -> Result<FieldParts> {
+    let place = FieldPlace {
+        ellipsoid: head.ellipsoid,
+        poses,
+        frame_rate: scene.frame_rate(),
+        frames: scene.motion.frames,
+        space: scene.motion.force_space,
+    };
+    scene.field.build(&place).map_err(|refused| scene.refusal(refused).into())
+}
+
+/// What pushes the hair, once the head and its motion are loaded.
+pub(crate) fn load_field(scene: &Scene) -> Result<FieldParts> {
+    let poses = head_motion(scene)?.map_or_else(Vec::new, |motion| motion.poses);
+    field(scene, &load_head(scene)?.0, &poses)
 }
 
 /// Hair at rest, some or all of the scene's.

@@ -3,10 +3,10 @@
 use std::fmt;
 
 use nabiki::Ellipsoid;
-use nabiki::field::Keyframe;
+use nabiki::field::{Ease, Keyframe};
 use serde::Serialize;
 
-use crate::scene::{GrownHair, HairSource, ImportedHair, Scene};
+use crate::scene::{FieldBound, FieldSettings, GrownHair, HairSource, ImportedHair, Scene};
 use nabiki_io::info::Short;
 
 /// The outline of a scene; of what it names the head alone is loaded.
@@ -30,8 +30,16 @@ pub struct SceneInfo {
     pub linear_density: f32,
     /// alpha.
     pub alpha: f32,
-    /// The field.
+    /// The vectors of the field.
     pub force: Vec<Keyframe>,
+    /// How they follow one another.
+    pub ease: Ease,
+    /// The other fields in words, each by its table.
+    pub fields: Vec<(String, String)>,
+    /// What each field can reach, where head and motion can be loaded; none where there is nothing but `force`, stepped.
+    pub bounds: Vec<FieldBound>,
+    /// Why that is unknown, where it is.
+    pub bounds_problem: Option<String>,
     /// Frames from one disturbance to the next.
     pub disturbed_every: Option<u32>,
     /// Width and height of the pictures (pixels).
@@ -51,6 +59,7 @@ impl SceneInfo {
             }
         };
         let head = scene.load_head();
+        let bounds = if scene.field.is_the_papers() { Ok(Vec::new()) } else { scene.field_bounds() };
         Self {
             head: scene.head.mesh(),
             ellipsoid: head.as_ref().ok().map(|head| head.ellipsoid),
@@ -61,7 +70,11 @@ impl SceneInfo {
             time_step: scene.motion.time_step,
             linear_density: scene.motion.linear_density,
             alpha: scene.pseudo_force.alpha,
-            force: scene.keyframes().to_vec(),
+            force: scene.field.force.clone(),
+            ease: scene.field.wind.ease,
+            fields: in_words(&scene.field),
+            bounds: bounds.as_ref().cloned().unwrap_or_default(),
+            bounds_problem: bounds.err().map(|problem| problem.to_string()),
             disturbed_every: scene.disturbance.as_ref().map(|d| d.every),
             picture: scene.picture.size,
         }
@@ -92,6 +105,68 @@ impl fmt::Display for SceneInfo {
             write!(f, "\nforce: ({x}, {y}, {z}) in frames {first} to {}", key.through)?;
             first = key.through + 1;
         }
-        Ok(())
+        match self.ease {
+            Ease::Stepped => {}
+            Ease::Linear => write!(f, "\nwind: eased linearly from one to the next")?,
+            Ease::Smooth => write!(f, "\nwind: eased smoothly from one to the next")?,
+        }
+        for (name, words) in &self.fields {
+            write!(f, "\n{name}: {words}")?;
+            match self.bounds.iter().find(|bound| bound.name == *name) {
+                Some(FieldBound { at_most, .. }) if name == "gust" || name == "flow" => {
+                    write!(f, ", at most {} times the wind", Short(*at_most))?;
+                }
+                Some(FieldBound { at_most, .. }) => write!(f, ", |F| at most {}", Short(*at_most))?,
+                None => {}
+            }
+        }
+        match (self.bounds.iter().find(|bound| bound.name == "all"), &self.bounds_problem) {
+            (Some(all), _) => write!(f, "\nall fields: |F| at most {}", Short(all.at_most)),
+            (None, Some(problem)) => write!(f, "\nall fields: bound unknown, {problem}"),
+            (None, None) => Ok(()),
+        }
     }
+}
+
+/// The fields beside `[[force]]`, each by its table.
+fn in_words(field: &FieldSettings) -> Vec<(String, String)> {
+    let FieldSettings { force: _, wind: _, gust, body_wind, flow, turbulence, point, vortex, fan } = field;
+    let mut words = Vec::new();
+    let mut say = |name: String, text: String| words.push((name, text));
+    if let Some(gust) = gust {
+        let (part, time) = (Short(100.0 * gust.intensity), Short(gust.time_scale));
+        say("gust".to_owned(), format!("{part} % of the wind, time scale {time} s, up to {} Hz", Short(gust.highest)));
+    }
+    if let Some(body_wind) = body_wind {
+        let (drag, footfall) = (Short(body_wind.drag), Short(body_wind.footfall));
+        say("body_wind".to_owned(), format!("{drag} per cm/s of the head, {footfall} per cm/s^2 upward"));
+    }
+    if let Some(flow) = flow {
+        say("flow".to_owned(), format!("round the head ellipsoid and {} cm of hair", Short(flow.thickness)));
+    }
+    if let Some(turbulence) = turbulence {
+        let (strength, size) = (Short(turbulence.strength), Short(turbulence.swirl_size));
+        let text = format!("strength {strength}, swirls of {size} cm and {} octaves", turbulence.octaves);
+        say("turbulence".to_owned(), text);
+    }
+    let place = |position: glam::Vec3| {
+        let [x, y, z] = position.to_array().map(Short);
+        format!("at ({x}, {y}, {z})")
+    };
+    for (i, point) in point.iter().enumerate() {
+        say(format!("point[{i}]"), format!("strength {} {}", Short(point.strength), place(point.position)));
+    }
+    for (i, vortex) in vortex.iter().enumerate() {
+        say(format!("vortex[{i}]"), format!("strength {} {}", Short(vortex.strength), place(vortex.position)));
+    }
+    for (i, fan) in fan.iter().enumerate() {
+        let text = format!(
+            "strength {} {}, {} degrees wide",
+            Short(fan.strength),
+            place(fan.position),
+            Short(2.0 * fan.spread)
+        );
+        say(format!("fan[{i}]"), text);
+    }
+    words
 }

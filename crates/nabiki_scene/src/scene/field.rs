@@ -1,35 +1,247 @@
-//! Where forces come from. The file's spelling of the one source there is, the paper's vectors, is `[[force]]`.
+//! Where forces come from: `[[force]]` with `[wind]`, `[gust]`, `[body_wind]`, `[flow]`, `[turbulence]`, `[[point]]`,
+//! `[[vortex]]`, `[[fan]]`.
 
-use nabiki::SettingError;
-use nabiki::field::{Keyframe, KeyframedField};
+use std::sync::Arc;
 
-/// A source of force. Sources add up.
-#[derive(Clone, Debug, PartialEq)]
-pub enum FieldSource {
-    /// Vectors uniform in space, each over some frames: equation (5). Keys: `[[force]]`.
-    Keyframes(Vec<Keyframe>),
+use glam::Vec3;
+use nabiki::dynamics::ForceSpace;
+use nabiki::field::{
+    BodyWind, BodyWindField, Ease, Fan, FanField, Field, FieldSum, Flow, FlowField, Gust, GustField, Keyframe,
+    KeyframedField, Point, PointField, Turbulence, TurbulenceField, Vortex, VortexField, Wind,
+};
+use nabiki::{Ellipsoid, Pose, SettingError};
+use serde::{Deserialize, Serialize};
+use toml::{Table, Value};
+
+use super::tree::{Unwritable, table_of};
+
+/// What pushes the hair. The wind is the sum of `[[force]]`, which `[gust]` makes stronger and weaker, and `[body_wind]`;
+/// `[flow]` leads it round the head. Turbulence and local fields are added to it.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct FieldSettings {
+    /// Vectors uniform in space, each over some frames: equation (5). `[[force]]`
+    pub force: Vec<Keyframe>,
+    /// How they follow one another. `[wind]`
+    pub wind: Wind,
+    /// A random factor on them. `[gust]`
+    pub gust: Option<Gust>,
+    /// The wind that the head makes by moving. `[body_wind]`
+    pub body_wind: Option<BodyWind>,
+    /// The way of the wind round the head. `[flow]`
+    pub flow: Option<Flow>,
+    /// Random swirls. `[turbulence]`
+    pub turbulence: Option<Turbulence>,
+    /// Points that blow or draw. `[[point]]`
+    pub point: Vec<Point>,
+    /// Whirls. `[[vortex]]`
+    pub vortex: Vec<Vortex>,
+    /// Winds in a cone. `[[fan]]`
+    pub fan: Vec<Fan>,
 }
 
-/// The keyframes among `sources`.
-///
-/// # Errors
-/// More than one list of them.
-pub(super) fn keyframes(sources: &[FieldSource]) -> Result<&[Keyframe], SettingError> {
-    match sources {
-        [] => Ok(&[]),
-        [FieldSource::Keyframes(keyframes)] => Ok(keyframes),
-        lists => Err(SettingError::new("force", format!("{} lists", lists.len()), "a scene has one list of keyframes")),
+/// What fields are about.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FieldPlace<'a> {
+    /// E.
+    pub ellipsoid: Ellipsoid,
+    /// Where the head is in the world from frame 0 on; none for a head that stands still.
+    pub poses: &'a [Pose],
+    /// Frames a second.
+    pub frame_rate: f64,
+    /// Frames after the rest frame.
+    pub frames: u32,
+    /// The space of the forces.
+    pub space: ForceSpace,
+}
+
+/// Fields ready to be asked.
+pub(crate) struct FieldParts {
+    /// All of them.
+    pub field: Arc<dyn Field>,
+    /// What each can reach.
+    pub bounds: Vec<FieldBound>,
+}
+
+/// What one of the fields of a scene can reach.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FieldBound {
+    /// Its table, `turbulence`, or `fan[1]`.
+    pub name: String,
+    /// Bound on |F|; of `gust` and `flow`, on what they multiply the wind by.
+    pub at_most: f32,
+}
+
+impl FieldSettings {
+    /// A field of keyframes alone: the paper's.
+    pub fn keyframes(force: Vec<Keyframe>) -> Self {
+        Self { force, ..Self::default() }
+    }
+
+    /// Whether it is the paper's, of `[[force]]` alone, stepped.
+    pub fn is_the_papers(&self) -> bool {
+        let Self { force, wind, gust, body_wind, flow, turbulence, point, vortex, fan } = self;
+        let alone = gust.is_none() && body_wind.is_none() && flow.is_none() && turbulence.is_none();
+        let local = point.is_empty() && vortex.is_empty() && fan.is_empty();
+        !force.is_empty() && wind.ease == Ease::Stepped && alone && local
+    }
+
+    /// Refuses what is out of its range, no field at all, and tables that have nothing to act on. `head_moves`: whether the
+    /// head has a motion.
+    ///
+    /// # Errors
+    /// Names the first such setting.
+    pub fn check(&self, head_moves: bool, may_be_none: bool) -> Result<(), SettingError> {
+        let Self { force, wind, gust, body_wind, flow, turbulence, point, vortex, fan } = self;
+        let local = point.len() + vortex.len() + fan.len();
+        let none = force.is_empty() && body_wind.is_none() && turbulence.is_none() && local == 0;
+        if none && !may_be_none {
+            let remedy = "give at least one [[force]] with through and vector, or another field";
+            return Err(SettingError::new("force", "none", remedy));
+        }
+        if force.is_empty() && wind.ease != Ease::Stepped {
+            let remedy = "there is no [[force]] to ease: give one, or remove it";
+            return Err(SettingError::new("wind.ease", format!("{:?}", wind.ease).to_lowercase(), remedy));
+        }
+        if !force.is_empty() {
+            KeyframedField::new(force)?;
+        }
+        if let Some(gust) = gust {
+            gust.check()?;
+            if force.is_empty() {
+                let remedy = "it makes [[force]] stronger and weaker: give one, or remove [gust]";
+                return Err(SettingError::new("gust", "without force", remedy));
+            }
+        }
+        if let Some(body_wind) = body_wind {
+            body_wind.check()?;
+            if !head_moves {
+                let remedy = "it comes from the head's way: give head.motion, or remove [body_wind]";
+                return Err(SettingError::new("body_wind", "without motion", remedy));
+            }
+        }
+        if let Some(flow) = flow {
+            flow.check()?;
+            if force.is_empty() && body_wind.is_none() {
+                let remedy = "it leads [[force]] and [body_wind] round the head: give one, or remove [flow]";
+                return Err(SettingError::new("flow", "without wind", remedy));
+            }
+        }
+        turbulence.iter().try_for_each(Turbulence::check)?;
+        let named = |kind: &str, i: usize| format!("{kind}[{i}]");
+        point.iter().enumerate().try_for_each(|(i, point)| point.check(&named("point", i)))?;
+        vortex.iter().enumerate().try_for_each(|(i, vortex)| vortex.check(&named("vortex", i)))?;
+        fan.iter().enumerate().try_for_each(|(i, fan)| fan.check(&named("fan", i)))
+    }
+
+    /// The fields, ready to be asked.
+    ///
+    /// # Errors
+    /// As [`check`](Self::check), and what only shows about this head: an ellipsoid too flat for the flow.
+    pub(crate) fn build(&self, place: &FieldPlace) -> Result<FieldParts, SettingError> {
+        self.check(!place.poses.is_empty())?;
+        let mut bounds = Vec::new();
+        let mut bound = |name: String, at_most: f32| bounds.push(FieldBound { name, at_most });
+        let mut winds: Vec<Arc<dyn Field>> = Vec::new();
+        if !self.force.is_empty() {
+            let keyframed = KeyframedField::new(&self.force)?.eased(self.wind.ease);
+            bound("force".to_owned(), keyframed.strongest());
+            winds.push(Arc::new(keyframed));
+        }
+        if let Some(gust) = &self.gust {
+            let gusty = GustField::new(gust, sum(std::mem::take(&mut winds)), place.frame_rate)?;
+            bound("gust".to_owned(), gusty.largest_factor());
+            winds.push(Arc::new(gusty));
+        }
+        if let Some(body_wind) = &self.body_wind {
+            let body_wind = BodyWindField::new(body_wind, place.poses, place.frame_rate, place.space)?;
+            bound("body_wind".to_owned(), body_wind.strongest());
+            winds.push(Arc::new(body_wind));
+        }
+        let wind = sum(winds);
+        // In head space the head stands still.
+        let poses = match place.space {
+            ForceSpace::World => place.poses,
+            ForceSpace::Head => &[],
+        };
+        let mut parts = vec![wind.clone()];
+        if let Some(flow) = &self.flow {
+            let flow = FlowField::new(flow, wind.clone(), place.ellipsoid, poses)?;
+            bound("flow".to_owned(), flow.largest_part());
+            parts = vec![Arc::new(flow)];
+        }
+        if self.force.is_empty() && self.body_wind.is_none() {
+            parts.clear();
+        }
+        if let Some(turbulence) = &self.turbulence {
+            let drift: Vec<Vec3> = (0..=place.frames).filter_map(|n| wind.uniform(n)).collect();
+            let turbulence = TurbulenceField::new(turbulence, place.ellipsoid, poses, &drift)?;
+            bound("turbulence".to_owned(), turbulence.strongest());
+            parts.push(Arc::new(turbulence));
+        }
+        let mut local = |name: String, field: Arc<dyn Field>| {
+            bound(name, field.strongest());
+            parts.push(field);
+        };
+        for (i, settings) in self.point.iter().enumerate() {
+            let name = format!("point[{i}]");
+            local(name.clone(), Arc::new(PointField::new(settings, &name)?));
+        }
+        for (i, settings) in self.vortex.iter().enumerate() {
+            let name = format!("vortex[{i}]");
+            local(name.clone(), Arc::new(VortexField::new(settings, &name)?));
+        }
+        for (i, settings) in self.fan.iter().enumerate() {
+            let name = format!("fan[{i}]");
+            local(name.clone(), Arc::new(FanField::new(settings, &name)?));
+        }
+        Ok(FieldParts { field: sum(parts), bounds })
+    }
+
+    /// The tables, to be written.
+    pub(super) fn tables(&self) -> Result<Table, Unwritable> {
+        let Self { force, wind, gust, body_wind, flow, turbulence, point, vortex, fan } = self;
+        let mut tree = Table::new();
+        tree.insert("force".to_owned(), list(force)?);
+        tree.insert("wind".to_owned(), table_of(wind)?.into());
+        let mut optional = |name: &str, table: Option<Table>| {
+            if let Some(table) = table {
+                tree.insert(name.to_owned(), table.into());
+            }
+        };
+        optional("gust", gust.as_ref().map(table_of).transpose()?);
+        optional("body_wind", body_wind.as_ref().map(table_of).transpose()?);
+        optional("flow", flow.as_ref().map(table_of).transpose()?);
+        optional("turbulence", turbulence.as_ref().map(table_of).transpose()?);
+        for (name, list) in [("point", list(point)?), ("vortex", list(vortex)?), ("fan", list(fan)?)] {
+            if list.as_array().is_some_and(|list| !list.is_empty()) {
+                tree.insert(name.to_owned(), list);
+            }
+        }
+        Ok(tree)
+    }
+
+    /// The same with every optional table there, at its own defaults.
+    pub(super) fn with_optional_tables(self) -> Self {
+        Self {
+            gust: Some(Gust::default()),
+            body_wind: Some(BodyWind::default()),
+            flow: Some(Flow::default()),
+            turbulence: Some(Turbulence::default()),
+            ..self
+        }
     }
 }
 
-/// The field that `sources` make.
-///
-/// # Errors
-/// No force at all, or keyframes that are no field.
-pub(super) fn build(sources: &[FieldSource]) -> Result<KeyframedField, SettingError> {
-    let keyframes = keyframes(sources)?;
-    if keyframes.is_empty() {
-        return Err(SettingError::new("force", "none", "give at least one [[force]] with through and vector"));
+/// A list of tables.
+fn list<T: Serialize>(entries: &[T]) -> Result<Value, Unwritable> {
+    entries.iter().map(|entry| table_of(entry).map(Value::Table)).collect::<Result<_, _>>().map(Value::Array)
+}
+
+/// The sum of fields; one alone as it is.
+fn sum(mut parts: Vec<Arc<dyn Field>>) -> Arc<dyn Field> {
+    match parts.len() {
+        1 => parts.remove(0),
+        _ => Arc::new(FieldSum::new(parts)),
     }
-    KeyframedField::new(keyframes)
 }

@@ -1,0 +1,248 @@
+//! Fields of a scene: read, refused, added up, told.
+
+use std::path::Path;
+
+use glam::Vec3;
+use nabiki::field::Ease;
+use nabiki_scene::info::info;
+use nabiki_scene::scene::{Scene, SceneError};
+use nabiki_scene::{BuiltScene, Shown};
+
+const FIELDS: &str = "\
+[hair]
+strands = 20
+seed = 1
+[motion]
+frames = 10
+[[force]]
+through = 10
+vector = [-40, 0, 0]
+[wind]
+ease = \"smooth\"
+[gust]
+intensity = 0.2
+[flow]
+[turbulence]
+strength = 12
+[[point]]
+position = [20, 0, 0]
+[[vortex]]
+position = [0, 0, 0]
+strength = -20
+[[fan]]
+position = [40, 0, 0]
+direction = [-1, 0, 0]
+envelope = [{ frame = 2, factor = 0 }, { frame = 6, factor = 1 }]
+";
+
+fn parse(text: &str, overrides: &[(&str, &str)]) -> Result<Scene, SceneError> {
+    let overrides: Vec<_> = overrides.iter().map(|&(key, value)| (key.to_owned(), value.to_owned())).collect();
+    Scene::parse(text, Path::new("fields.toml"), &overrides)
+}
+
+fn built(text: &str, overrides: &[(&str, &str)]) -> BuiltScene {
+    parse(text, overrides).unwrap().build(Shown::All).unwrap()
+}
+
+fn refused(text: &str) -> String {
+    match parse(text, &[]) {
+        Err(refused) => refused.to_string(),
+        Ok(_) => panic!("{text}"),
+    }
+}
+
+/// The scene without the lines from the one that begins with `from` to the one before `to`.
+fn without(from: &str, to: &str) -> String {
+    let (first, last) = (FIELDS.find(from).unwrap(), FIELDS.find(to).unwrap_or(FIELDS.len()));
+    format!("{}{}", &FIELDS[..first], &FIELDS[last..])
+}
+
+#[test]
+fn a_scene_of_every_field_is_read_and_stays_as_it_stands() {
+    let scene = parse(FIELDS, &[]).unwrap();
+    assert_eq!(scene.to_toml().unwrap(), FIELDS);
+    assert_eq!(scene.field.wind.ease, Ease::Smooth);
+    assert_eq!((scene.field.fan[0].spread, scene.field.fan[0].envelope[1].frame), (30.0, 6));
+    let over =
+        parse(FIELDS, &[("turbulence.strength", "3"), ("fan.0.strength", "7"), ("flow.thickness", "1")]).unwrap();
+    let field = &over.field;
+    let set =
+        (field.turbulence.as_ref().unwrap().strength, field.fan[0].strength, field.flow.as_ref().unwrap().thickness);
+    assert_eq!(set, (3.0, 7.0, 1.0));
+    let one_more = parse(FIELDS, &[("point.1.position", "[1, 2, 3]")]).unwrap();
+    assert_eq!(one_more.field.point[1].position, Vec3::new(1.0, 2.0, 3.0));
+}
+
+#[test]
+fn any_field_alone_moves_the_hair_and_all_add_up() {
+    let with = |tables: &str| format!("[hair]\nstrands = 20\nseed = 1\n[motion]\nframes = 10\n{tables}");
+    let p = Vec3::new(17.0, 3.0, 5.0);
+    let mut sum = Vec3::ZERO;
+    for tables in [
+        &FIELDS[FIELDS.find("[[force]]").unwrap()..FIELDS.find("[turbulence]").unwrap()],
+        "[[point]]\nposition = [20, 0, 0]\n",
+        "[[vortex]]\nposition = [0, 0, 0]\nstrength = -20\n",
+        &FIELDS[FIELDS.find("[[fan]]").unwrap()..],
+    ] {
+        let built = built(&with(tables), &[]);
+        let force = built.force_at(p, 5);
+        assert!(force != Vec3::ZERO && force.length() <= built.field.strongest(), "{tables}");
+        built.simulation().unwrap();
+        sum += force;
+    }
+    // Turbulence drifts with the wind of its scene.
+    let all = built(FIELDS, &[]);
+    let calm = built(&without("[turbulence]", "[[point]]"), &[]);
+    let alone = built(&with("[turbulence]\nstrength = 12\ndrift = 0\n"), &[]);
+    assert!((calm.force_at(p, 5) - sum).length() < 1e-4);
+    assert_ne!(all.force_at(p, 5), calm.force_at(p, 5));
+    assert!(alone.force_at(p, 5).length() <= alone.field.strongest());
+    assert_eq!(built(FIELDS, &[("turbulence.strength", "0")]).force_at(p, 5), calm.force_at(p, 5));
+}
+
+#[test]
+fn the_papers_field_is_the_papers() {
+    let built = built("[hair]\nstrands = 20\n[[force]]\nthrough = 5\nvector = [-1, 2, 3]\n", &[]);
+    assert!(built.scene.field.is_the_papers());
+    assert_eq!(built.field.uniform(3), Some(Vec3::new(-1.0, 2.0, 3.0)));
+}
+
+#[test]
+fn fields_without_anything_to_act_on_are_refused() {
+    assert_eq!(
+        refused(&without("[[force]]", "[wind]")),
+        "fields.toml:7: wind.ease = smooth: there is no [[force]] to ease: give one, or remove it"
+    );
+    let bare = "[turbulence]\n";
+    assert_eq!(
+        refused(&format!("{bare}[gust]\n")),
+        "fields.toml:2: gust = without force: it makes [[force]] stronger and weaker: give one, or remove [gust]"
+    );
+    assert_eq!(
+        refused(&format!("{bare}[flow]\n")),
+        "fields.toml:2: flow = without wind: it leads [[force]] and [body_wind] round the head: give one, or remove [flow]"
+    );
+    assert_eq!(
+        refused(&format!("{bare}[body_wind]\n")),
+        "fields.toml:2: body_wind = without motion: it comes from the head's way: give head.motion, or remove [body_wind]"
+    );
+}
+
+#[test]
+fn settings_out_of_range_are_refused_with_their_line() {
+    let change = |from: &str, to: &str| refused(&FIELDS.replacen(from, to, 1));
+    assert_eq!(
+        change("intensity = 0.2", "intensity = -1"),
+        "fields.toml:12: gust.intensity = -1: must be a finite part of the wind of at least 0"
+    );
+    assert_eq!(
+        change("[flow]", "[flow]\nthickness = nan"),
+        "fields.toml:14: flow.thickness = NaN: must be a finite length (cm) of at least 0"
+    );
+    assert_eq!(change("strength = 12", "octaves = 9"), "fields.toml:15: turbulence.octaves = 9: must lie in 1..8");
+    assert_eq!(
+        change("position = [20, 0, 0]", ""),
+        "fields.toml:16: point[0].position: is missing: write position = ..."
+    );
+    assert_eq!(
+        change("strength = -20", "axis = [0, 0, 0]"),
+        "fields.toml:20: vortex[0].axis = [0, 0, 0]: must be a direction, not (0, 0, 0)"
+    );
+    assert_eq!(
+        change("direction = [-1, 0, 0]", "direction = [-1, 0, 0]\nspread = 120"),
+        "fields.toml:24: fan[0].spread = 120: must lie in 1..90"
+    );
+    assert_eq!(
+        change("frame = 6", "frame = 1"),
+        "fields.toml:24: fan[0].envelope[1].frame = 1: must come after frame 2, that of the key before it"
+    );
+    assert_eq!(
+        change("\"smooth\"", "\"smoot\""),
+        "fields.toml:10: wind.ease: found \"smoot\", must be one of \"stepped\", \"linear\", \"smooth\"; did you mean \"smooth\"?"
+    );
+    let law = change("[[vortex]]", "falloff = { law = \"cubic\" }\n[[vortex]]");
+    assert!(law.starts_with("fields.toml:18: point[0].falloff.law: found \"cubic\", must be one of \"none\""), "{law}");
+    let near = match parse(FIELDS, &[("turbulence.near_head", "30")]).unwrap().build(Shown::All) {
+        Err(refused) => refused.to_string(),
+        Ok(_) => panic!("wider than the head"),
+    };
+    assert!(
+        near.starts_with("fields.toml: --set turbulence.near_head=30: turbulence.near_head = 30: must be at most"),
+        "{near}"
+    );
+}
+
+#[test]
+fn a_field_too_strong_is_blamed_by_its_table() {
+    for (key, thing) in
+        [("turbulence.strength", "turbulence"), ("fan.0.strength", "fan[0]"), ("force.0.vector", "force[0]")]
+    {
+        let value = if key.ends_with("vector") { "[1e9, 0, 0]" } else { "1e9" };
+        let refused = built(FIELDS, &[(key, value)]).simulation().err().unwrap().to_string();
+        assert!(
+            refused.contains(&format!("--set {key}={value}: {thing}")) && refused.contains("unstable"),
+            "{refused}"
+        );
+    }
+}
+
+#[test]
+fn every_field_counts_in_the_identity() {
+    let identity = |overrides: &[(&str, &str)]| built(FIELDS, overrides).identity().unwrap();
+    let whole = identity(&[]);
+    assert_eq!(identity(&[("vortex.0.axis", "[0, 1, 0]")]), whole, "the default written out");
+    for change in [
+        ("wind.ease", "linear"),
+        ("gust.seed", "2"),
+        ("flow.thickness", "1"),
+        ("turbulence.octaves", "1"),
+        ("point.0.strength", "3"),
+        ("vortex.0.strength", "3"),
+        ("fan.0.spread", "20"),
+        ("motion.frame_rate", "25"),
+    ] {
+        assert_ne!(identity(&[change]), whole, "{change:?}");
+    }
+}
+
+#[test]
+fn info_tells_every_field_and_what_it_can_reach() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("fields.toml");
+    std::fs::write(&path, FIELDS).unwrap();
+    let said = info(&path).unwrap().to_string();
+    for line in [
+        "force: (-40, 0, 0) in frames 1 to 10",
+        "wind: eased smoothly from one to the next",
+        "gust: 20 % of the wind",
+        "flow: round the head ellipsoid",
+        "turbulence: strength 12, swirls of 10 cm and 2 octaves, |F| at most ",
+        "point[0]: strength 50 at (20, 0, 0), |F| at most 50",
+        "vortex[0]: strength -20 at (0, 0, 0), |F| at most 20",
+        "fan[0]: strength 50 at (40, 0, 0), 60 degrees wide, |F| at most 50",
+        "all fields: |F| at most ",
+    ] {
+        assert!(said.lines().any(|told| told.starts_with(line)), "{line}\n{said}");
+    }
+}
+
+#[test]
+fn the_wind_of_a_recorded_head_is_against_its_way() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = "t_s,px_m,py_m,pz_m,qx,qy,qz,qw\n0,0,1.6,0,0,0,0,1\n1,2,1.6,0,0,0,0,1\n";
+    std::fs::write(folder.path().join("run.csv"), table).unwrap();
+    let text = "[hair]\nstrands = 20\n[motion]\nframes = 20\n[head.motion]\nfile = \"run.csv\"\nup = \"+y\"\n\
+                facing = \"+x\"\n[body_wind]\n[flow]\n";
+    let build = |space: &str| {
+        let over = [("motion.force_space".to_owned(), space.to_owned())];
+        Scene::parse(text, &folder.path().join("run.toml"), &over).unwrap().build(Shown::All).unwrap()
+    };
+    // 2 m a second along x; far from the head.
+    let world = build("world");
+    let force = world.force_at(Vec3::new(0.0, 5000.0, 0.0), 10);
+    assert!((force - Vec3::new(-60.0, 0.0, 0.0)).length() < 0.01, "{force}");
+    world.simulation().unwrap();
+    // The head looks along x, so head space is the world turned no way.
+    let force = build("head").force_at(Vec3::new(0.0, 5000.0, 0.0), 10);
+    assert!((force - Vec3::new(-60.0, 0.0, 0.0)).length() < 0.01, "{force}");
+}
