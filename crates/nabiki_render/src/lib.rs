@@ -45,7 +45,7 @@ pub use error::RenderError;
 pub use frame::Frame;
 pub use moment::{FrameToDraw, Moment};
 pub use output::canvas::Canvas;
-pub use output::sheet::ContactSheet;
+pub use output::sheet::{ContactSheet, ForceArrow};
 #[cfg(feature = "video")]
 pub use output::video::Movie;
 pub use renderer::Renderer;

@@ -2,9 +2,12 @@
 
 use glam::Vec3;
 use nabiki::{Mesh, Pose, Strands};
+use nabiki_render::output::field_plot;
 use nabiki_render::output::png::{self, Depth};
 use nabiki_render::settings::{Antialiasing, Background};
-use nabiki_render::{Bounds, ContactSheet, FrameToDraw, Moment, Movie, Picture, Renderer, ToneMapping, View};
+use nabiki_render::{
+    Bounds, ContactSheet, ForceArrow, FrameToDraw, Moment, Movie, Picture, Renderer, ToneMapping, View,
+};
 
 fn scene() -> (Strands, Mesh) {
     let mut strands = Strands::default();
@@ -147,12 +150,17 @@ fn contact_sheets_hold_every_picture_and_its_arrow() {
     let frame = renderer.draw(&FrameToDraw::at_rest(&strands, view)).unwrap();
     let mut sheet = ContactSheet::new(2);
     let mut plain = ContactSheet::new(2);
+    let mut many = ContactSheet::new(2);
+    let at = |x| ForceArrow { point: Vec3::new(0.0, 0.0, x), force: Vec3::new(0.0, x, 0.0) };
     for number in [0, 30, 60] {
         sheet.add(&frame, &tone_mapping, number, Some(Vec3::new(-100.0, 0.0, 0.0)), &view);
         plain.add(&frame, &tone_mapping, number, None, &view);
+        many.add_arrows(&frame, &tone_mapping, number, &[at(-5.0), at(0.0), at(8.0)], &view);
     }
     assert_eq!(sheet.canvas().size(), [2 * (96 + 12) + 12, 2 * (64 + 12) + 12]);
     assert_ne!(sheet.canvas(), plain.canvas());
+    assert_eq!(many.canvas().size(), plain.canvas().size());
+    assert_ne!(many.canvas(), plain.canvas());
 }
 
 #[test]
@@ -229,7 +237,7 @@ fn pictures_and_movies_are_as_readable_as_other_new_files() {
     std::fs::write(at("plain"), "").unwrap();
     png::write(&at("frame.png"), &frame, &tone_mapping, Depth::Eight).unwrap();
     nabiki_render::output::exr::write(&at("frame.exr"), &frame).unwrap();
-    nabiki_render::output::field_plot::write_svg(&at("field.svg"), &[]).unwrap();
+    field_plot::write_svg(&at("field.svg"), &field_plot::FieldPlot::default()).unwrap();
     std::os::unix::fs::symlink(at("elsewhere.mp4"), at("link.mp4")).unwrap();
     let mut movie = Movie::create(&at("link.mp4"), &picture, 24.0).unwrap();
     movie.push(&frame, &tone_mapping).unwrap();

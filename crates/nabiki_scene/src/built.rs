@@ -49,6 +49,9 @@ pub struct BuiltScene {
     pub dynamics: Dynamics,
     /// What pushes the hair: all fields of the scene together.
     pub field: Arc<dyn Field>,
+    /// The wind before it meets the head, which is the same everywhere; none where the scene has neither `[[force]]` nor
+    /// `[body_wind]`.
+    pub wind: Arc<dyn Field>,
     /// What the head's file says of its own space.
     pub(crate) head_declared: DeclaredSpace,
     /// What the hair's file says of its own space.
@@ -77,7 +80,7 @@ impl Scene {
     /// # Errors
     /// As [`build`](Self::build).
     pub fn field_bounds(&self) -> Result<Vec<FieldBound>> {
-        let FieldParts { field, mut bounds } = load::load_field(self)?;
+        let FieldParts { field, mut bounds, .. } = load::load_field(self)?;
         bounds.push(FieldBound { name: "all".to_owned(), at_most: field.strongest() });
         Ok(bounds)
     }

@@ -111,7 +111,10 @@ impl<'a> Film<'a> {
         }
         let view = match self.built.dynamics.motion.force_space {
             ForceSpace::World => now.view,
-            ForceSpace::Head => turned(now.view, now.pose.rotation.inverse()),
+            ForceSpace::Head => {
+                let eye = now.view.eye - now.pose.position_cm;
+                turned(View { eye, ..now.view }, now.pose.rotation.inverse())
+            }
         };
         Ok((frame, view))
     }

@@ -34,6 +34,7 @@ pub mod built;
 mod cache_file;
 pub mod error;
 pub mod exports;
+mod field_picture;
 mod film;
 pub mod frames;
 pub mod info;

@@ -3,13 +3,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use glam::Vec3;
-use nabiki_render::output::field_plot::{self, Interval};
+use nabiki_render::output::field_plot::{self, FieldPlot};
 use nabiki_render::output::{exr, png};
 use nabiki_render::{ContactSheet, Frame, Movie, Picture, RenderError, ToneMapping, View};
 
 use crate::built::BuiltScene;
 use crate::error::Result;
+use crate::field_picture;
 use crate::place::{self, Folders};
 use crate::scene::Output;
 use crate::told::Told;
@@ -18,7 +18,7 @@ use crate::watch::Watch;
 /// What is said of any place that a picture cannot use.
 pub const WAY_OUT: &str = "choose another folder with --out";
 
-type WriteField = fn(&Path, &[Interval]) -> Result<(), RenderError>;
+type WriteField = fn(&Path, &FieldPlot) -> Result<(), RenderError>;
 
 /// Takes frames one by one, and writes of them what the scene asks for.
 pub(crate) struct PictureOutputs<'a> {
@@ -94,8 +94,13 @@ impl<'a> PictureOutputs<'a> {
             }
         }
         if self.on_sheet.contains(&n) {
-            let force: Option<Vec3> = self.built.field.uniform(n.max(1));
-            self.sheet.add(frame, &self.tone_mapping, n, force, view);
+            match self.built.field.uniform(n.max(1)) {
+                Some(force) => self.sheet.add(frame, &self.tone_mapping, n, Some(force), view),
+                None => {
+                    let arrows = field_picture::arrows(self.built, n.max(1), view);
+                    self.sheet.add_arrows(frame, &self.tone_mapping, n, &arrows, view);
+                }
+            }
         }
         Ok(())
     }
@@ -115,10 +120,8 @@ impl<'a> PictureOutputs<'a> {
             written.push(self.sheet_file);
         }
         written.extend(self.stills);
-        let force = &self.built.scene.field.force;
-        let intervals: Vec<_> = force.iter().map(|k| Interval { through: k.through, vector: k.vector }).collect();
         for (file, write) in self.fields {
-            write(&file, &intervals)?;
+            write(&file, &field_picture::plot(self.built))?;
             written.push(file);
         }
         Ok(written)

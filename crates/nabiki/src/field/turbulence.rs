@@ -277,19 +277,14 @@ impl Field for TurbulenceField {
         self.in_frame(frame, |in_frame| lanes::at_row(in_frame, points, forces));
     }
 
-    /// The sum over waves of what each, and within the ramp its potential, can reach: |ramp| <= 1, and |grad ramp| is at
-    /// most 15/8 over `near_head`, times mean by smallest half axis.
+    /// The sum over waves of what each can reach; |grad ramp| is at most 15/8 over `near_head`, times mean by smallest half axis.
     fn strongest(&self) -> f32 {
         let near = f64::from(self.settings.near_head);
         let axes = &self.head.ellipsoid.half_axes;
         let uneven = f64::from(mean_half_axis(&self.head.ellipsoid) / axes.min_element());
         let slope = if near > 0.0 { 1.875 / near * uneven } else { 0.0 };
-        let of_octave = |octave: &Octave| {
-            let [velocity, potential] = octave.largest();
-            velocity + slope * potential
-        };
-        // A little more than the sum, for what rounding adds to the force itself.
-        (self.octaves.iter().map(of_octave).sum::<f64>() * (1.0 + 1e-5)) as f32
+        // The bound of the profile leaves room for what rounding adds to the force itself.
+        self.octaves.iter().map(|octave| octave.largest(slope)).sum::<f64>() as f32
     }
 
     fn first_above(&self, limit: f64) -> Option<(String, String)> {

@@ -1,5 +1,5 @@
 //! A force field over time, drawn as Figure 10 of the paper draws it: its vectors as a polyline, projected on the yz and
-//! zx planes.
+//! zx planes. Where the force differs from place to place, two slices through the head in one frame stand below.
 
 use std::io::Write;
 use std::path::Path;
@@ -17,6 +17,32 @@ pub struct Interval {
     pub through: u32,
     /// The force.
     pub vector: Vec3,
+}
+
+/// A field to be drawn.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FieldPlot {
+    /// The vectors of the uniform part and how long each holds.
+    pub intervals: Vec<Interval>,
+    /// The uniform part in every frame from 1 on, where it does not go straight from vector to vector; empty where it does.
+    pub path: Vec<Vec3>,
+    /// The force around the head in one frame, where it differs from place to place.
+    pub slices: Option<Slices>,
+}
+
+/// A force in the two planes through a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slices {
+    /// The frame.
+    pub frame: u32,
+    /// Half the side of each slice (cm).
+    pub reach: f32,
+    /// Half axes of the ellipsoid about the point, which is drawn as an outline (cm).
+    pub half_axes: Vec3,
+    /// Places from the point (cm) and forces in the yz plane.
+    pub yz: Vec<[Vec3; 2]>,
+    /// The same in the zx plane.
+    pub zx: Vec<[Vec3; 2]>,
 }
 
 /// Side of each of the two drawings, and the border around it (pixels or SVG units).
@@ -38,31 +64,47 @@ enum Mark {
     Text(String, [f32; 2]),
 }
 
-/// Both projections: z to the right and y up; then x to the right and z down, seen from above with the face to the right.
-fn marks(field: &[Interval]) -> Vec<Mark> {
-    let largest = field.iter().fold(0.0_f32, |m, i| m.max(i.vector.abs().max_element()));
+/// A drawing: how vectors lie in it, the names of its axes, its title.
+type Plane = (fn(Vec3) -> [f32; 2], &'static str, &'static str, &'static str);
+
+/// z to the right and y up; then x to the right and z down, seen from above with the face to the right.
+const PLANES: [Plane; 2] = [(|v| [v.z, -v.y], "z", "y", "yz plane"), (|v| [v.x, v.z], "x", "z", "zx plane")];
+
+/// The axes of drawing `p` of a row whose upper edge is at `top`, and its middle.
+fn axes(p: usize, top: f32, marks: &mut Vec<Mark>) -> [f32; 2] {
+    let (_, across, upright, _) = PLANES[p];
+    let origin = [BORDER + SIDE / 2.0 + p as f32 * (SIDE + BORDER), top + SIDE / 2.0];
+    let half = SIDE / 2.0;
+    marks.push(Mark::Axis([origin[0] - half, origin[1]], [origin[0] + half, origin[1]]));
+    marks.push(Mark::Axis([origin[0], origin[1] - half], [origin[0], origin[1] + half]));
+    marks.push(Mark::Text(across.into(), [origin[0] + half - 12.0, origin[1] - 6.0]));
+    // The vertical axis of the second drawing points down: its end is at the bottom.
+    let end = if p == 0 { origin[1] - half + 10.0 } else { origin[1] + half };
+    marks.push(Mark::Text(upright.into(), [origin[0] + 6.0, end]));
+    origin
+}
+
+/// Both projections, the legend, and the slices if there are any.
+fn marks(plot: &FieldPlot) -> Vec<Mark> {
+    let field = &plot.intervals;
+    let vectors = field.iter().map(|i| i.vector).chain(plot.path.iter().copied());
+    let largest = vectors.fold(0.0_f32, |m, v| m.max(v.abs().max_element()));
     let scale = if largest > 0.0 { 0.44 * SIDE / largest } else { 1.0 };
-    type Plane = (fn(Vec3) -> [f32; 2], &'static str, &'static str, &'static str);
-    let planes: [Plane; 2] = [(|v| [v.z, -v.y], "z", "y", "yz plane"), (|v| [v.x, v.z], "x", "z", "zx plane")];
     let mut marks = Vec::new();
-    for (p, (project, across, upright, title)) in planes.into_iter().enumerate() {
-        let origin = [BORDER + SIDE / 2.0 + p as f32 * (SIDE + BORDER), BORDER + SIDE / 2.0];
+    for (p, (project, _, _, title)) in PLANES.into_iter().enumerate() {
+        let origin = axes(p, BORDER, &mut marks);
         let at = |v: Vec3| {
             let [x, y] = project(v);
             [origin[0] + scale * x, origin[1] + scale * y]
         };
-        let half = SIDE / 2.0;
-        marks.push(Mark::Axis([origin[0] - half, origin[1]], [origin[0] + half, origin[1]]));
-        marks.push(Mark::Axis([origin[0], origin[1] - half], [origin[0], origin[1] + half]));
-        marks.push(Mark::Text(across.into(), [origin[0] + half - 12.0, origin[1] - 6.0]));
-        // The vertical axis of the second drawing points down: its end is at the bottom.
-        let end = if p == 0 { origin[1] - half + 10.0 } else { origin[1] + half };
-        marks.push(Mark::Text(upright.into(), [origin[0] + 6.0, end]));
-        marks.push(Mark::Text(title.into(), [origin[0] - half, BORDER - 14.0]));
+        marks.push(Mark::Text(title.into(), [origin[0] - SIDE / 2.0, BORDER - 14.0]));
         for interval in field {
             marks.push(Mark::Arrow(origin, at(interval.vector)));
         }
-        marks.push(Mark::Path(field.iter().map(|i| at(i.vector)).collect()));
+        marks.push(Mark::Path(match plot.path.as_slice() {
+            [] => field.iter().map(|i| at(i.vector)).collect(),
+            path => path.iter().map(|&v| at(v)).collect(),
+        }));
         // Vectors with the same projection share one caption: the numbers of their intervals.
         let mut captions: Vec<([f32; 2], Vec<usize>)> = Vec::new();
         for (i, interval) in field.iter().enumerate() {
@@ -83,12 +125,49 @@ fn marks(field: &[Interval]) -> Vec<Mark> {
     for (row, text) in legend(field).into_iter().enumerate() {
         marks.push(Mark::Text(text, [BORDER, SIDE + 2.0 * BORDER - 12.0 + row as f32 * LINE]));
     }
+    if let Some(slices) = &plot.slices {
+        slice_marks(slices, above_slices(plot) + BORDER, &mut marks);
+    }
     marks
 }
 
-/// Width and height of the whole drawing: the legend takes the lines it needs.
-fn size(field: &[Interval]) -> [f32; 2] {
-    [WIDTH, SIDE + 2.0 * BORDER + (legend(field).len() - 1) as f32 * LINE]
+/// The slices in a row whose upper edge is at `top`: the largest arrow reaches to the next.
+fn slice_marks(slices: &Slices, top: f32, marks: &mut Vec<Mark>) {
+    let Slices { frame, reach, half_axes, yz, zx } = slices;
+    let per_cm = SIDE / 2.0 / reach;
+    let forces = || yz.iter().chain(zx).map(|[_, force]| force.length());
+    let largest = forces().fold(0.0, f32::max);
+    let step = SIDE / (yz.len().max(1) as f32).sqrt().max(1.0);
+    let per_force = if largest > 0.0 { step / largest } else { 0.0 };
+    for (p, places) in [yz, zx].into_iter().enumerate() {
+        let origin = axes(p, top, marks);
+        let (project, _, _, title) = PLANES[p];
+        let text = format!("{title}, frame {frame}, largest F = {largest:.1}");
+        marks.push(Mark::Text(text, [origin[0] - SIDE / 2.0, top - 14.0]));
+        let outline = (0..=64).map(|i| {
+            let (sin, cos) = (std::f32::consts::TAU * i as f32 / 64.0).sin_cos();
+            let on = if p == 0 { Vec3::new(0.0, sin, cos) } else { Vec3::new(sin, 0.0, cos) };
+            let [x, y] = project(on * *half_axes);
+            [origin[0] + per_cm * x, origin[1] + per_cm * y]
+        });
+        marks.push(Mark::Path(outline.collect()));
+        for &[place, force] in places {
+            let ([x, y], [dx, dy]) = (project(place), project(force));
+            let from = [origin[0] + per_cm * x, origin[1] + per_cm * y];
+            marks.push(Mark::Arrow(from, [from[0] + per_force * dx, from[1] + per_force * dy]));
+        }
+    }
+}
+
+/// Height of what stands above the slices: the legend takes the lines it needs.
+fn above_slices(plot: &FieldPlot) -> f32 {
+    SIDE + 2.0 * BORDER + (legend(&plot.intervals).len() - 1) as f32 * LINE
+}
+
+/// Width and height of the whole drawing.
+fn size(plot: &FieldPlot) -> [f32; 2] {
+    let slices = if plot.slices.is_some() { SIDE + 2.0 * BORDER } else { 0.0 };
+    [WIDTH, above_slices(plot) + slices]
 }
 
 /// Width of a text in the PNG, whose letters are wider than those of common fonts in the SVG.
@@ -118,6 +197,9 @@ fn caption(numbers: &[usize]) -> String {
 
 /// Which frames each interval holds, in lines as wide as both drawings.
 fn legend(field: &[Interval]) -> Vec<String> {
+    if field.is_empty() {
+        return vec![String::new()];
+    }
     let mut from = 1;
     let mut lines = vec!["frames".to_owned()];
     for (i, interval) in field.iter().enumerate() {
@@ -143,9 +225,9 @@ fn legend(field: &[Interval]) -> Vec<String> {
 }
 
 /// Writes the projections as a PNG file.
-pub fn write_png(path: &Path, field: &[Interval]) -> Result<(), RenderError> {
-    let mut canvas = Canvas::new(size(field).map(|s| s as usize), [255; 3]);
-    for mark in marks(field) {
+pub fn write_png(path: &Path, plot: &FieldPlot) -> Result<(), RenderError> {
+    let mut canvas = Canvas::new(size(plot).map(|s| s as usize), [255; 3]);
+    for mark in marks(plot) {
         match mark {
             Mark::Axis(a, b) => canvas.stroke(&[a, b], 1.0, [170; 3]),
             Mark::Path(line) => canvas.stroke(&line, 1.6, [30, 90, 170]),
@@ -158,19 +240,19 @@ pub fn write_png(path: &Path, field: &[Interval]) -> Result<(), RenderError> {
 }
 
 /// Writes the projections as an SVG file.
-pub fn write_svg(path: &Path, field: &[Interval]) -> Result<(), RenderError> {
-    write_whole(path, |file| Ok(file.write_all(svg(field).as_bytes())?))
+pub fn write_svg(path: &Path, plot: &FieldPlot) -> Result<(), RenderError> {
+    write_whole(path, |file| Ok(file.write_all(svg(plot).as_bytes())?))
 }
 
-fn svg(field: &[Interval]) -> String {
-    let [width, height] = size(field);
+fn svg(plot: &FieldPlot) -> String {
+    let [width, height] = size(plot);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n\
          <defs><marker id=\"head\" viewBox=\"0 0 10 10\" refX=\"10\" refY=\"5\" markerWidth=\"7\" markerHeight=\"7\" \
          orient=\"auto\"><path d=\"M0 0L10 5L0 10z\" fill=\"#cd6e1e\"/></marker></defs>\n\
          <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n"
     );
-    for mark in marks(field) {
+    for mark in marks(plot) {
         let line = match mark {
             Mark::Axis(a, b) => {
                 format!("<path d=\"M{:.1} {:.1}L{:.1} {:.1}\" stroke=\"#aaa\"/>", a[0], a[1], b[0], b[1])
@@ -204,12 +286,13 @@ mod tests {
     use super::*;
 
     /// The field of the running scene: 20 frames each.
-    fn running() -> Vec<Interval> {
-        [[-50, -30, -50], [-50, -100, -25], [-30, -100, 0], [-50, -100, 30], [-50, -100, 50]]
+    fn running() -> FieldPlot {
+        let intervals = [[-50, -30, -50], [-50, -100, -25], [-30, -100, 0], [-50, -100, 30], [-50, -100, 50]]
             .iter()
             .enumerate()
             .map(|(i, v)| Interval { through: 20 * (i as u32 + 1), vector: Vec3::from_array(v.map(|c| c as f32)) })
-            .collect()
+            .collect();
+        FieldPlot { intervals, ..FieldPlot::default() }
     }
 
     #[test]
@@ -230,12 +313,44 @@ mod tests {
 
     #[test]
     fn a_field_without_force_is_drawn_as_dots() {
-        let still = [Interval { through: 10, vector: Vec3::ZERO }];
+        let intervals = vec![Interval { through: 10, vector: Vec3::ZERO }];
+        let still = FieldPlot { intervals, ..FieldPlot::default() };
         assert!(svg(&still).contains("<circle"));
-        assert!(!svg(&[]).contains("NaN"));
+        assert!(!svg(&FieldPlot::default()).contains("NaN"));
         let folder = tempfile::tempdir().unwrap();
         write_png(&folder.path().join("f.png"), &still).unwrap();
         write_svg(&folder.path().join("f.svg"), &running()).unwrap();
+    }
+
+    /// A force away from the middle.
+    fn sliced() -> Slices {
+        let yz = (0..9).map(|i| [Vec3::new(0.0, (i / 3 - 1) as f32, (i % 3 - 1) as f32); 2]);
+        let zx = (0..9).map(|i| [Vec3::new((i / 3 - 1) as f32, 0.0, (i % 3 - 1) as f32); 2]);
+        Slices { frame: 7, reach: 20.0, half_axes: Vec3::new(9.0, 11.0, 8.0), yz: yz.collect(), zx: zx.collect() }
+    }
+
+    #[test]
+    fn slices_stand_below_with_an_arrow_for_each_place_and_the_outline_of_the_head() {
+        let bare = running();
+        let with = FieldPlot { slices: Some(sliced()), ..running() };
+        let count = |plot: &FieldPlot, what: &str| svg(plot).matches(what).count();
+        assert_eq!(count(&with, "marker-end") - count(&bare, "marker-end"), 18);
+        assert_eq!(count(&with, "<polyline") - count(&bare, "<polyline"), 2);
+        assert_eq!(size(&with)[1] - size(&bare)[1], SIDE + 2.0 * BORDER);
+        // Half of the outline's width: 8 cm of the 20 cm that half of the side is.
+        let right = BORDER + SIDE / 2.0 + 8.0 / 20.0 * SIDE / 2.0;
+        assert!(svg(&with).contains(&format!("{right:.1},")), "{right}");
+    }
+
+    #[test]
+    fn a_path_takes_the_place_of_straight_lines() {
+        let eased = FieldPlot { path: vec![Vec3::X, Vec3::Y, Vec3::Z], ..running() };
+        let corners = |plot: &FieldPlot| -> Vec<usize> {
+            let svg = svg(plot);
+            let lines = svg.lines().filter(|line| line.starts_with("<polyline"));
+            lines.map(|line| line.split('"').nth(1).unwrap().split(' ').count()).collect()
+        };
+        assert_eq!((corners(&running()), corners(&eased)), (vec![5, 5], vec![3, 3]));
     }
 
     /// `count` intervals whose forces turn about a slanted axis, or stay the same.
@@ -252,8 +367,10 @@ mod tests {
     #[test]
     fn text_stays_inside_however_many_intervals_there_are() {
         for field in [0, 1, 5, 12, 40, 130, 2000].into_iter().flat_map(|n| [many(n, true), many(n, false)]) {
-            let [across, down] = size(&field);
-            for mark in marks(&field) {
+            let slices = field.len().is_multiple_of(2).then(sliced);
+            let plot = FieldPlot { intervals: field.clone(), path: vec![Vec3::ONE], slices };
+            let [across, down] = size(&plot);
+            for mark in marks(&plot) {
                 if let Mark::Text(text, [x, y]) = mark {
                     assert!(x >= 0.0 && x + width(&text) <= across, "{} intervals: {text}", field.len());
                     // Letters reach up by their height, and a comma down by a third of it.
@@ -276,7 +393,7 @@ mod tests {
             assert_eq!(named + left, count, "{legend}");
             assert!(left == 0 || count > 60, "{legend}");
         }
-        assert_eq!(legend(&running()).len(), 1);
+        assert_eq!(legend(&running().intervals).len(), 1);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use super::canvas::Canvas;
 use crate::RenderError;
-use crate::camera::View;
+use crate::camera::{NEAR, View};
 use crate::frame::Frame;
 use crate::tone_mapping::ToneMapping;
 
@@ -16,6 +16,15 @@ const GAP: usize = 12;
 const PAPER: [u8; 3] = [24, 25, 28];
 const INK: [u8; 3] = [235, 235, 230];
 const ARROW: [u8; 3] = [255, 176, 64];
+
+/// A force at a point, to be drawn as an arrow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceArrow {
+    /// Where it begins (cm).
+    pub point: Vec3,
+    /// The force.
+    pub force: Vec3,
+}
 
 /// Pictures gathered for a sheet, as Figure 6 of the paper shows them: only the small ones are kept.
 pub struct ContactSheet {
@@ -52,6 +61,34 @@ impl ContactSheet {
             }
         }
         self.pictures.push(picture);
+    }
+
+    /// Adds a frame with its number and arrows of a force that differs from place to place: each begins at its point, as
+    /// `view` sees it, and the largest is a tenth of the picture long. Its size stands below.
+    pub fn add_arrows(
+        &mut self,
+        frame: &Frame,
+        tone_mapping: &ToneMapping,
+        number: u32,
+        arrows: &[ForceArrow],
+        view: &View,
+    ) {
+        self.add(frame, tone_mapping, number, None, view);
+        let Some(picture) = self.pictures.last_mut() else { return };
+        let [width, height] = picture.size().map(|s| s as f32);
+        let shrunk = width / view.size[0] as f32;
+        let largest = arrows.iter().map(|arrow| arrow.force.length()).fold(0.0, f32::max);
+        let reach = 0.1 * width.min(height) / largest.max(f32::MIN_POSITIVE);
+        for ForceArrow { point, force } in arrows {
+            let at = view.project(*point);
+            if at.z > NEAR && *force != Vec3::ZERO {
+                let from = [at.x * shrunk, at.y * shrunk];
+                let to = [from[0] + reach * force.dot(view.right), from[1] - reach * force.dot(view.up)];
+                picture.arrow(from, to, (height / 300.0).max(1.0), ARROW);
+            }
+        }
+        let text = (height / 28.0).clamp(6.0, 18.0);
+        picture.caption(&format!("largest F = {largest:.1}"), [text, height - text], 0.8 * text, INK);
     }
 
     /// Whether nothing was added yet.

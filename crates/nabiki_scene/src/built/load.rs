@@ -32,7 +32,7 @@ pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
     let mut dynamics = dynamics(&scene, &head)?;
     let rest_pose = poses.first().copied().unwrap_or_default();
     dynamics.polar_axis = rest_pose.up_in_head();
-    let field = field(&scene, &head, &poses)?.field;
+    let FieldParts { field, wind, .. } = field(&scene, &head, &poses)?;
     let Loaded { mut hair, ids, of_scene, first, imported, frames } = load_hair(&scene, &head, &placement, shown)?;
     let (hair_placement, report) = imported.as_ref().map(|found| (found.placement, found.report)).unzip();
     let imported = imported.map(|found| (Some(found.groom), found.declared, found.judged));
@@ -55,6 +55,7 @@ pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
         frames_in_file: frames,
         dynamics,
         field,
+        wind,
         head_declared,
         hair_declared,
         judged,

@@ -59,6 +59,8 @@ pub(crate) struct FieldPlace<'a> {
 pub(crate) struct FieldParts {
     /// All of them.
     pub field: Arc<dyn Field>,
+    /// The wind before it meets the head: uniform, and none without `[[force]]` and `[body_wind]`.
+    pub wind: Arc<dyn Field>,
     /// What each can reach.
     pub bounds: Vec<FieldBound>,
 }
@@ -195,7 +197,7 @@ impl FieldSettings {
             let name = format!("fan[{i}]");
             local(name.clone(), Arc::new(FanField::new(settings, &name)?));
         }
-        Ok(FieldParts { field: sum(parts), bounds })
+        Ok(FieldParts { field: sum(parts), wind, bounds })
     }
 
     /// The tables, to be written.

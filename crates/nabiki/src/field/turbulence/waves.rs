@@ -24,8 +24,8 @@ pub(super) const WAVES: usize = 8;
 /// Mean of s^2: the integral of 64 z^2 (1 - 2 |z|)^2.
 const MEAN_SQUARE: f64 = 8.0 / 15.0;
 
-/// Largest |S|; the largest |s| is 1.
-const LARGEST_POTENTIAL: f64 = 1.0 / 6.0;
+/// More than the root of the largest s^2 + (6 S)^2, which would be 1 for a sine. The test looks for it.
+const LARGEST_PROFILE: f64 = 1.02;
 
 /// Pulses after which every wave is as it was.
 pub(super) const LOOP: f64 = 16.0;
@@ -109,12 +109,14 @@ impl Octave {
         })
     }
 
-    /// Bounds on the velocity and on the potential.
-    pub fn largest(&self) -> [f64; 2] {
-        let sum = |vector: fn(&Wave) -> [f32; 3]| -> f64 {
-            self.waves.iter().map(|wave| DVec3::from_array(vector(wave).map(f64::from)).length()).sum()
-        };
-        [sum(|wave| wave.velocity), LARGEST_POTENTIAL * sum(|wave| wave.potential)]
+    /// Bound on |ramp v + grad ramp x psi|, where `slope` bounds |grad ramp| / (1 - x^2)^2.
+    ///
+    /// For each wave this is at most the root of (ramp |e|)^2 + (slope (1 - x^2)^2 |e x kappa| / 6 |kappa|^2)^2, times that of
+    /// s^2 + (6 S)^2; and ramp^2 + (1 - x^2)^4 is at most 1.
+    pub fn largest(&self, slope: f64) -> f64 {
+        let length = |vector: [f32; 3]| DVec3::from_array(vector.map(f64::from)).length();
+        let of_wave = |wave: &Wave| length(wave.velocity).max(slope * length(wave.potential) / 6.0);
+        LARGEST_PROFILE * self.waves.iter().map(of_wave).sum::<f64>()
     }
 
     /// Adds velocity and potential at a point (cm).
@@ -141,4 +143,26 @@ impl Octave {
 fn rotation([a, b, c]: [f64; 3]) -> DQuat {
     let (r, s) = ((1.0 - a).sqrt(), a.sqrt());
     DQuat::from_xyzw(sin_turns(b) * r, cos_turns(b) * r, sin_turns(c) * s, cos_turns(c) * s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_profile_and_the_ramp_are_as_large_as_the_bound_has_them() {
+        // Slopes of both are below 64: between two of the places looked at they rise by no more than 64 / 20,000 / 2.
+        let looked_at = |i: u32| f64::from(i) / 20_000.0;
+        for i in 0..=10_000 {
+            let z = looked_at(i);
+            let (s, big_s) = (8.0 * z * (1.0 - 2.0 * z), z * z * (4.0 - 16.0 / 3.0 * z) - 1.0 / 6.0);
+            assert!(s * s + 36.0 * big_s * big_s + 0.0016 < LARGEST_PROFILE * LARGEST_PROFILE, "{z}");
+        }
+        for i in 0..=20_000 {
+            let x = looked_at(i);
+            let ramp = x * (1.875 - x * x * (1.25 - 0.375 * x * x));
+            // 1 at both ends, and less between: 1 - x^2 / 2 near 0.
+            assert!(ramp * ramp + (1.0 - x * x).powi(4) <= 1.0 + 1e-15, "{x}");
+        }
+    }
 }
