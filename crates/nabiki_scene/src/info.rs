@@ -14,7 +14,7 @@ use crate::{Result, Scene};
 #[derive(Clone, Debug, PartialEq)]
 pub enum Info {
     /// A scene file.
-    Scene(SceneInfo),
+    Scene(Box<SceneInfo>),
     /// A file of hair, a mesh, motion.
     File(Box<nabiki_io::info::Info>),
 }
@@ -49,7 +49,7 @@ impl Serialize for Info {
 /// What is wrong with the file.
 pub fn info(path: &Path) -> Result<Info> {
     if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
-        Ok(Info::Scene(SceneInfo::of(&Scene::load(path, &[])?)))
+        Ok(Info::Scene(Box::new(SceneInfo::of(&Scene::load(path, &[])?))))
     } else {
         Ok(Info::File(Box::new(nabiki_io::info::info(path)?)))
     }
