@@ -265,7 +265,11 @@ impl Renderer {
         self.sweeps.resize_with(lamps.len(), Sweep::default);
         let (sweeps, sky_map) = (&mut self.sweeps, &mut self.sky_map);
         let sky = &self.picture.sky;
-        let cast = || sweeps.par_iter_mut().zip(lamps).for_each(|(sweep, lamp)| sweep.run(lamp, &scene, SHADOW_CELL));
+        // As many tasks as there are threads, and no more: each looks through all nodes.
+        let strips = rayon::current_num_threads().div_ceil(lamps.len().max(1));
+        let cast = || {
+            sweeps.par_iter_mut().zip(lamps).for_each(|(sweep, lamp)| sweep.run(lamp, &scene, SHADOW_CELL, strips));
+        };
         let cover = || {
             if sky.is_occluded() {
                 sky_map.fill(nodes, &self.radius, &self.head, self.zenith);

@@ -13,13 +13,13 @@ use rayon::prelude::*;
 use super::lamps::Lamp;
 use crate::curve::CurveNode;
 
-/// Strips of a map, each walked by one task.
-const STRIPS: usize = 4;
 /// Distances are told apart in slabs so thick (cm): a few fibres. Within a slab the order is that of the nodes.
 const SLAB: f32 = 0.05;
 const MOST_SLABS: f32 = 2048.0;
 /// Hair farther than this from the origin of head space (cm) is not told apart, lest one lost strand spoil the order of all.
 const FARTHEST: f32 = 200.0;
+/// Most steps in which a node's fibre is laid down.
+const MOST_STEPS: i32 = 8;
 /// Largest side of a map (cells).
 const LARGEST: f32 = 4096.0;
 
@@ -97,8 +97,9 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Counts the fibres before every node and place. `fineness`: side of a cell (cm) for a lamp that is a point.
-    pub fn run(&mut self, lamp: &Lamp, scene: &Scene, fineness: f32) {
+    /// Counts the fibres before every node and place. `fineness`: side of a cell (cm) for a lamp that is a point. The map is
+    /// walked in `strips`, a task each: every one looks through all nodes for its own, and none changes a bit.
+    pub fn run(&mut self, lamp: &Lamp, scene: &Scene, fineness: f32, strips: usize) {
         let total = scene.nodes.len() + scene.skin.len();
         self.crossings.counts.clear();
         self.crossings.counts.resize_with(total, Default::default);
@@ -110,9 +111,9 @@ impl Sweep {
             .collect_into_vec(&mut self.places);
 
         let (places, counts) = (&self.places, &self.crossings.counts);
-        self.strips.resize_with(STRIPS, Strip::default);
+        self.strips.resize_with(strips, Strip::default);
         self.strips.par_iter_mut().enumerate().for_each(|(s, strip)| {
-            strip.rows = s * map.size[1] / STRIPS..(s + 1) * map.size[1] / STRIPS;
+            strip.rows = s * map.size[1] / strips..(s + 1) * map.size[1] / strips;
             strip.sort(places, &map, scene);
             strip.sweep(map.size[0], counts);
         });
@@ -235,65 +236,126 @@ impl Strip {
     }
 
     fn sweep(&mut self, width: usize, counts: &[AtomicU32]) {
-        let rows = self.rows.end + 1 - self.rows.start;
-        let top = self.rows.start as f32;
-        let own = (self.rows.end - self.rows.start) as f32;
         self.cells.clear();
-        self.cells.resize(rows * width, 0.0);
+        self.cells.resize((self.rows.len() + 1) * width, 0.0);
+        let mut cells = Cells { first_row: self.rows.start, width, cells: &mut self.cells };
         for n in &self.seen {
-            let (x, y) = (n.at[0], n.at[1] - top);
-            if y >= 0.0 && y < own {
-                let count = read(&self.cells, x, y, width);
-                counts[n.receiver as usize].store(count.to_bits(), Ordering::Relaxed);
+            // Toward zero is down: what lies above the map is in no strip.
+            if n.at[1] >= 0.0 && self.rows.contains(&(n.at[1] as usize)) {
+                counts[n.receiver as usize].store(cells.read(n.at).to_bits(), Ordering::Relaxed);
             }
             if n.fibres > 0.0 {
-                lay(&mut self.cells, n, [x, y], width, rows);
+                cells.lay(n);
             }
         }
     }
 }
 
-#[inline(always)]
-fn read(cells: &[f32], x: f32, y: f32, width: usize) -> f32 {
-    let (column, row) = (x as i32, y as i32);
-    if x < 0.0 || column as usize + 1 >= width {
-        return 0.0;
-    }
-    let (u, v) = (x - column as f32, y - row as f32);
-    let at = row as usize * width + column as usize;
-    let (upper, lower) = (&cells[at..at + 2], &cells[at + width..at + width + 2]);
-    let upper = upper[0] + (upper[1] - upper[0]) * u;
-    let lower = lower[0] + (lower[1] - lower[0]) * u;
-    upper + (lower - upper) * v
+/// Fibres laid down so far in a strip of the map, row after row. Places are counted from the corner of the whole map, so that
+/// they round alike in whatever strip.
+struct Cells<'a> {
+    first_row: usize,
+    width: usize,
+    cells: &'a mut [f32],
 }
 
-/// Lays down a node's fibre, in steps of a cell at most.
-#[inline(always)]
-fn lay(cells: &mut [f32], n: &Seen, at: [f32; 2], width: usize, rows: usize) {
-    let longer = n.extent[0].abs().max(n.extent[1].abs());
-    let steps = (longer as i32).min(7) + 1;
-    let part = 1.0 / steps as f32;
-    let share = n.fibres * part;
-    for k in 0..steps {
-        let t = (k as f32 + 0.5) * part - 0.5;
-        // One cell more, so that rounding toward zero is rounding down within the border.
-        let (x, y) = (at[0] + n.extent[0] * t + 1.0, at[1] + n.extent[1] * t + 1.0);
-        if !(x >= 1.0 && x < width as f32 && y >= 0.0 && y < rows as f32 + 1.0) {
-            continue;
+impl Cells<'_> {
+    /// Fibres at a place within the strip.
+    #[inline(always)]
+    fn read(&self, [x, y]: [f32; 2]) -> f32 {
+        let (column, row) = (x as usize, y as usize);
+        if x < 0.0 || column + 1 >= self.width {
+            return 0.0;
         }
-        let (column, row) = (x as i32, y as i32);
         let (u, v) = (x - column as f32, y - row as f32);
-        let (column, row) = (column as usize, row as usize);
-        let (left, right) = (share * (1.0 - u), share * u);
-        if row >= 1 {
-            let upper = &mut cells[(row - 1) * width + column - 1..][..2];
-            upper[0] += left * (1.0 - v);
-            upper[1] += right * (1.0 - v);
+        let from = &self.cells[(row - self.first_row) * self.width + column..];
+        let (upper, lower) = (&from[..2], &from[self.width..self.width + 2]);
+        let upper = upper[0] + (upper[1] - upper[0]) * u;
+        let lower = lower[0] + (lower[1] - lower[0]) * u;
+        upper + (lower - upper) * v
+    }
+
+    /// Lays down a node's fibre, in steps of a cell at most.
+    #[inline(always)]
+    fn lay(&mut self, n: &Seen) {
+        let longer = n.extent[0].abs().max(n.extent[1].abs());
+        let steps = (longer as i32).min(MOST_STEPS - 1) + 1;
+        let part = 1.0 / steps as f32;
+        let share = n.fibres * part;
+        // One cell more, so that rounding toward zero is rounding down within the border.
+        let middle = n.at.map(|c| c + 1.0);
+        let last_row = self.first_row + self.cells.len() / self.width;
+        let within = |axis: usize, first: usize, end: usize| {
+            let half = 0.5 * n.extent[axis].abs();
+            middle[axis] - half >= first as f32 && middle[axis] + half < end as f32
+        };
+        if within(0, 1, self.width) && within(1, self.first_row + 1, last_row) {
+            for k in 0..steps {
+                let (column, row, shares) = spread(middle, n.extent, (k as f32 + 0.5) * part - 0.5, share);
+                let at = (row - 1 - self.first_row) * self.width + column - 1;
+                let [a, b, c, d] = shares;
+                let from = &mut self.cells[at..at + self.width + 2];
+                from[0] += a;
+                from[1] += b;
+                from[self.width] += c;
+                from[self.width + 1] += d;
+            }
+        } else {
+            for k in 0..steps {
+                let t = (k as f32 + 0.5) * part - 0.5;
+                let (x, y) = (middle[0] + n.extent[0] * t, middle[1] + n.extent[1] * t);
+                if x >= 1.0 && x < self.width as f32 && y >= 0.0 {
+                    let (column, row, shares) = spread(middle, n.extent, t, share);
+                    for (row, pair) in [(row.checked_sub(1), &shares[..2]), (Some(row), &shares[2..])] {
+                        let own = row.and_then(|row| row.checked_sub(self.first_row));
+                        if let Some(row) = own.filter(|row| row * self.width < self.cells.len()) {
+                            self.cells[row * self.width + column - 1] += pair[0];
+                            self.cells[row * self.width + column] += pair[1];
+                        }
+                    }
+                }
+            }
         }
-        if row < rows {
-            let lower = &mut cells[row * width + column - 1..][..2];
-            lower[0] += left * v;
-            lower[1] += right * v;
+    }
+}
+
+/// The part of a node's fibre that lies `t` of its extent from the middle, in proportion over four cells: the column and row
+/// of the last of them, and their shares.
+#[inline(always)]
+fn spread(middle: [f32; 2], extent: [f32; 2], t: f32, share: f32) -> (usize, usize, [f32; 4]) {
+    let (x, y) = (middle[0] + extent[0] * t, middle[1] + extent[1] * t);
+    let (column, row) = (x as i32, y as i32);
+    let (u, v) = (x - column as f32, y - row as f32);
+    let (left, right) = (share * (1.0 - u), share * u);
+    (column as usize, row as usize, [left * (1.0 - v), right * (1.0 - v), left * v, right * v])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bits_do_not_depend_on_the_number_of_strips() {
+        let nodes: Vec<CurveNode> = (0..3000_u32)
+            .map(|i| {
+                let turn = crate::camera::direction(i as f32 * 137.508, i as f32 * 0.06 - 90.0);
+                let position = (4.0 + 0.002 * i as f32) * turn;
+                CurveNode { position, tangent: turn.cross(Vec3::X).normalize_or(Vec3::Y), ..CurveNode::default() }
+            })
+            .collect();
+        let lamp = Lamp { toward: crate::camera::direction(30.0, 42.0), strength: [1.0; 3], spread: 0.03 };
+        let skin = [Vec3::ZERO, Vec3::new(0.3, -20.0, 0.1)];
+        let (length, radius) = (vec![1.3; nodes.len()], vec![0.05; nodes.len()]);
+        let scene = Scene { nodes: &nodes, length: &length, radius: &radius, skin: &skin };
+        let counted = |strips: usize| -> Vec<u32> {
+            let mut sweep = Sweep::default();
+            sweep.run(&lamp, &scene, 0.2, strips);
+            (0..nodes.len() + skin.len()).map(|i| sweep.crossings.at(i).to_bits()).collect()
+        };
+        let whole = counted(1);
+        assert!(whole.iter().filter(|&&bits| bits != 0).count() > nodes.len() / 2);
+        for strips in [2, 3, 7] {
+            assert_eq!(counted(strips), whole, "{strips} strips");
         }
     }
 }
