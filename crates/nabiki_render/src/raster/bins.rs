@@ -11,8 +11,8 @@ use rayon::prelude::*;
 use super::{Node, Piece, TILE};
 use crate::prefetch::prefetch;
 
-/// Rows of tiles in one band: each row reads the list of its band.
-const BAND: usize = 8;
+/// Nodes whose pieces one task brings to their rows.
+const CHUNK: usize = 32_768;
 /// Pieces between one whose nodes are asked for and the one that is prepared.
 const AHEAD: usize = 12;
 /// The rectangle of a piece that cannot be seen.
@@ -26,14 +26,14 @@ pub struct Bins {
     margin: f32,
     /// First and last tiles (left, top, right, bottom) of the piece that starts at each node.
     rectangles: Vec<[u16; 4]>,
-    /// Pieces within each band of rows, by the index of their first node.
-    bands: Vec<Vec<u32>>,
+    /// The pieces of each row of tiles, row after row, by the index of their first node; and where each row ends.
+    listed: Vec<u32>,
+    ends: Vec<usize>,
 }
 
 /// The pieces of one row of tiles; kept from row to row for its memory.
 #[derive(Default)]
 pub struct Row {
-    numbers: Vec<u32>,
     pieces: Vec<Piece>,
     entries: Vec<(u16, u64)>,
     starts: Vec<u32>,
@@ -57,19 +57,54 @@ impl Bins {
         let bounds = size.map(|s| s as f32);
         self.tiles = tiles;
         self.margin = margin;
-        (0..nodes.len().saturating_sub(1))
-            .into_par_iter()
-            .with_min_len(8192)
-            .map(|i| rectangle(&nodes[i], &nodes[i + 1], bounds, tiles, margin))
-            .collect_into_vec(&mut self.rectangles);
-        self.bands.resize_with(tiles[1].div_ceil(BAND), Vec::new);
-        let rectangles = &self.rectangles;
-        self.bands.par_iter_mut().enumerate().for_each(|(b, band)| {
-            let (first, end) = ((b * BAND) as u16, ((b + 1) * BAND) as u16);
-            band.clear();
-            let inside = |r: &[u16; 4]| r[1] < end && r[3] >= first;
-            band.extend(rectangles.iter().enumerate().filter(|(_, r)| inside(r)).map(|(i, _)| i as u32));
-        });
+        let count = nodes.len().saturating_sub(1);
+        self.rectangles.resize(count, NOWHERE);
+        let in_rows: Vec<Vec<usize>> = self
+            .rectangles
+            .par_chunks_mut(CHUNK)
+            .enumerate()
+            .map(|(chunk, rectangles)| {
+                let mut in_rows = vec![0; tiles[1]];
+                for (rectangle, pair) in rectangles.iter_mut().zip(nodes[chunk * CHUNK..].windows(2)) {
+                    *rectangle = rectangle_of(&pair[0], &pair[1], bounds, tiles, margin);
+                    rows_of(rectangle).for_each(|row| in_rows[row] += 1);
+                }
+                in_rows
+            })
+            .collect();
+        self.list(&in_rows);
+    }
+
+    /// Lists the pieces of each row in the order of their nodes; `in_rows` holds their number from each chunk in each row.
+    fn list(&mut self, in_rows: &[Vec<usize>]) {
+        self.ends.clear();
+        let mut sum = 0;
+        self.ends.extend((0..self.tiles[1]).map(|row| {
+            sum += in_rows.iter().map(|in_rows| in_rows[row]).sum::<usize>();
+            sum
+        }));
+        self.listed.resize(sum, 0);
+        // To each chunk its own part of every row.
+        let mut rest = &mut self.listed[..];
+        let mut parts: Vec<Vec<&mut [u32]>> = in_rows.iter().map(|in_rows| Vec::with_capacity(in_rows.len())).collect();
+        for row in 0..self.tiles[1] {
+            for (parts, in_rows) in parts.iter_mut().zip(in_rows) {
+                let (part, after) = std::mem::take(&mut rest).split_at_mut(in_rows[row]);
+                parts.push(part);
+                rest = after;
+            }
+        }
+        parts.into_par_iter().zip(self.rectangles.par_chunks(CHUNK)).enumerate().for_each(
+            |(chunk, (mut parts, rectangles))| {
+                let mut filled = vec![0; parts.len()];
+                for (i, rectangle) in rectangles.iter().enumerate() {
+                    for row in rows_of(rectangle) {
+                        parts[row][filled[row]] = (chunk * CHUNK + i) as u32;
+                        filled[row] += 1;
+                    }
+                }
+            },
+        );
     }
 
     /// Collects the pieces of a row of tiles. `in_parts`: whether thick hair is to be sorted part by part.
@@ -78,12 +113,10 @@ impl Bins {
         out.entries.clear();
         out.starts.clear();
         out.starts.resize(self.tiles[0] + 1, 0);
-        let inside = |r: [u16; 4]| usize::from(r[1]) <= row && usize::from(r[3]) >= row;
-        out.numbers.clear();
-        out.numbers.extend(self.bands[row / BAND].iter().filter(|&&i| inside(self.rectangles[i as usize])));
-        for (n, &i) in out.numbers.iter().enumerate() {
+        let numbers = &self.listed[row.checked_sub(1).map_or(0, |above| self.ends[above])..self.ends[row]];
+        for (n, &i) in numbers.iter().enumerate() {
             // Nodes come from all over memory: asking for those of later pieces now hides most of the wait.
-            let later = out.numbers[(n + AHEAD).min(out.numbers.len() - 1)] as usize;
+            let later = numbers[(n + AHEAD).min(numbers.len() - 1)] as usize;
             prefetch(&nodes[later]);
             prefetch(&nodes[later + 1]);
             let [left, top, right, bottom] = self.rectangles[i as usize];
@@ -162,9 +195,15 @@ fn parts(piece: &Piece) -> Range<usize> {
     }
 }
 
+/// The rows of tiles that a rectangle reaches; none of [`NOWHERE`].
+#[inline]
+fn rows_of(rectangle: &[u16; 4]) -> Range<usize> {
+    usize::from(rectangle[1])..usize::from(rectangle[3]) + 1
+}
+
 /// The tiles within reach of the piece between two nodes.
 #[inline]
-fn rectangle(a: &Node, b: &Node, bounds: [f32; 2], tiles: [usize; 2], margin: f32) -> [u16; 4] {
+fn rectangle_of(a: &Node, b: &Node, bounds: [f32; 2], tiles: [usize; 2], margin: f32) -> [u16; 4] {
     let moved = |n: &Node| n.motion[0].abs().max(n.motion[1].abs());
     let reach = 1.42 * a.radius.max(b.radius) + margin + moved(a).max(moved(b));
     let low = [0, 1].map(|i| a.at[i].min(b.at[i]) - reach);
