@@ -114,6 +114,16 @@ impl Curves {
     }
 }
 
+/// Lowest and highest corner of the box about all nodes (head space, cm): infinite, the lowest above the highest, without any.
+pub fn bounds(nodes: &[CurveNode]) -> [Vec3; 2] {
+    let none = [Vec3::INFINITY, Vec3::NEG_INFINITY];
+    nodes
+        .par_iter()
+        .with_min_len(8192)
+        .fold(|| none, |[low, high], n| [low.min(n.position), high.max(n.position)])
+        .reduce(|| none, |a, b| [a[0].min(b[0]), a[1].max(b[1])])
+}
+
 /// Cuts a slice into consecutive parts of the given lengths.
 fn split<T>(mut slice: &mut [T], lengths: impl Iterator<Item = usize>) -> Vec<&mut [T]> {
     lengths

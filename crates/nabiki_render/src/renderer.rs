@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use crate::RenderError;
 use crate::camera::{NEAR, View};
 use crate::colour;
-use crate::curve::{Curves, drawable};
+use crate::curve::{Curves, bounds, drawable};
 use crate::frame::Frame;
 use crate::light::fibre::Fibre;
 use crate::light::headlight::HeadShadow;
@@ -223,7 +223,7 @@ impl Renderer {
                 let eye = view.toward_eye(n.position);
                 let seen = n.tangent - eye * eye.dot(n.tangent);
                 let across = [seen.dot(view.right), -seen.dot(view.up)];
-                let length = across[0].hypot(across[1]);
+                let length = (across[0] * across[0] + across[1] * across[1]).sqrt();
                 let motion = curve.velocities.get(i).map_or(Vec3::ZERO, |&v| shot.motion(n.position, v));
                 let behind_head = |p: Vec3| {
                     let beside = p.x < 0.0 || p.y < 0.0 || p.x >= width || p.y >= height;
@@ -261,7 +261,8 @@ impl Renderer {
         if !lamps.is_empty() {
             shadow::lengths(nodes, &mut self.length);
         }
-        let scene = Scene { nodes, length: &self.length, radius: &self.radius, skin: &still.skin_places };
+        let bounds = bounds(nodes);
+        let scene = Scene { nodes, length: &self.length, radius: &self.radius, skin: &still.skin_places, bounds };
         self.sweeps.resize_with(lamps.len(), Sweep::default);
         let (sweeps, sky_map) = (&mut self.sweeps, &mut self.sky_map);
         let sky = &self.picture.sky;
@@ -272,7 +273,7 @@ impl Renderer {
         };
         let cover = || {
             if sky.is_occluded() {
-                sky_map.fill(nodes, &self.radius, &self.head, self.zenith);
+                sky_map.fill(nodes, bounds, &self.radius, &self.head, self.zenith);
             }
         };
         // Parts of each run on one core only; side by side they fill each other's gaps.

@@ -35,8 +35,11 @@ pub struct HeadShadow {
     distance: Vec<f32>,
     /// Distance up to which the head hides nothing (cm).
     clear: f32,
-    /// In each cell: the part of its surroundings that the head covers, and the head's mean distance there (cm).
-    cells: Vec<[f32; 2]>,
+    /// The blurred map, in as fine cells as show in it: the part of its surroundings that the head covers, and the head's mean
+    /// distance there (cm).
+    blurred: Vec<[f32; 2]>,
+    blurred_cell: f32,
+    blurred_size: [usize; 2],
     /// Where skin looks from, around a place (cm), and each one's share for red, green and blue.
     taps: [([f32; 2], [f32; 3]); TAPS],
 }
@@ -72,12 +75,15 @@ impl HeadShadow {
                 cells = blurred(&cells, size, axis, radius);
             }
         }
-        for c in &mut cells {
-            c[1] /= c[0].max(1e-6);
-        }
+        // Half of the blur's radius apart, what is kept holds all that is to be seen of it.
+        let step = radius.div_ceil(2).max(1);
+        let kept = (0..size[1]).step_by(step).flat_map(|y| (0..size[0]).step_by(step).map(move |x| y * size[0] + x));
+        let blurred: Vec<[f32; 2]> = kept.map(|i| [cells[i][0], cells[i][1] / cells[i][0].max(1e-6)]).collect();
+        let (blurred_cell, blurred_size) = (cell * step as f32, size.map(|s| s.div_ceil(step)));
         let penumbra = 2.5 * lamp.spread.tan();
-        let clear = cells.iter().filter(|c| c[0] > 0.0).map(|c| c[1]).fold(f32::INFINITY, f32::min) + SOFT;
-        Self { toward: lamp.toward, axes, low, cell, size, distance, clear, cells, taps: taps(penumbra) }
+        let clear = blurred.iter().filter(|c| c[0] > 0.0).map(|c| c[1]).fold(f32::INFINITY, f32::min) + SOFT;
+        let taps = taps(penumbra);
+        Self { toward: lamp.toward, axes, low, cell, size, distance, clear, blurred, blurred_cell, blurred_size, taps }
     }
 
     /// Part of the lamp (red, green, blue) that the head leaves to a place on its own skin with this unit normal, 0..1. Light that
@@ -111,7 +117,6 @@ impl HeadShadow {
     }
 
     /// The cell below and left of a place on the map (cm), and how far into the next it lies.
-    #[inline(always)]
     fn cell_at(&self, at: [f32; 2]) -> Option<(usize, [f32; 2])> {
         let [x, y] = [0, 1].map(|i| (at[i] - self.low[i]) / self.cell);
         let [width, height] = self.size;
@@ -122,19 +127,46 @@ impl HeadShadow {
         Some((row * width + column, [x - column as f32, y - row as f32]))
     }
 
-    /// Part of the lamp that the head leaves visible from a place, 0..1.
-    #[inline]
-    pub fn visible(&self, p: Vec3) -> f32 {
-        let distance = -p.dot(self.toward);
-        if distance <= self.clear {
-            return 1.0;
+    /// Part of the lamp that the head leaves visible from places (x, y and z of all of them), 0..1.
+    #[inline(always)]
+    pub fn visible<const N: usize>(&self, [px, py, pz]: &[[f32; N]; 3]) -> [f32; N] {
+        let along = |axis: Vec3, n: usize| px[n] * axis.x + py[n] * axis.y + pz[n] * axis.z;
+        let distance: [f32; N] = std::array::from_fn(|n| -along(self.toward, n));
+        if distance.iter().all(|&d| d <= self.clear) {
+            return [1.0; N];
         }
-        let Some((at, [u, v])) = self.cell_at(self.axes.map(|a| p.dot(a))) else { return 1.0 };
-        let width = self.size[0];
-        let hidden = |cell: [f32; 2]| cell[0] * ((distance - cell[1]) / SOFT - 1.0).clamp(0.0, 1.0);
-        let upper = hidden(self.cells[at]) * (1.0 - u) + hidden(self.cells[at + 1]) * u;
-        let lower = hidden(self.cells[at + width]) * (1.0 - u) + hidden(self.cells[at + width + 1]) * u;
-        1.0 - (upper + (lower - upper) * v)
+        let [width, height] = self.blurred_size;
+        let per_cell = 1.0 / self.blurred_cell;
+        let [x, y]: [[f32; N]; 2] =
+            [0, 1].map(|i| std::array::from_fn(|n| (along(self.axes[i], n) - self.low[i]) * per_cell));
+        let (most_x, most_y) = (width as f32 - 1.0, height as f32 - 1.0);
+        let beside: [bool; N] =
+            std::array::from_fn(|n| !(x[n] >= 0.0 && y[n] >= 0.0 && x[n] < most_x && y[n] < most_y));
+        if beside.iter().all(|&b| b) {
+            return [1.0; N];
+        }
+        let place = |c: f32, beside: bool| if beside { 0.0 } else { c };
+        let [x, y] = [x, y].map(|c| std::array::from_fn::<f32, N, _>(|n| place(c[n], beside[n])));
+        let [column, row] = [x, y].map(|c| c.map(|c| c as i32));
+        // All that is read first, so that the waits for memory go on side by side.
+        let mut corners = [[[0.0; N]; 2]; 4];
+        for n in 0..N {
+            let at = row[n] as usize * width + column[n] as usize;
+            let (upper, lower) = (&self.blurred[at..at + 2], &self.blurred[at + width..at + width + 2]);
+            for (corner, cell) in corners.iter_mut().zip([upper[0], upper[1], lower[0], lower[1]]) {
+                corner[0][n] = cell[0];
+                corner[1][n] = cell[1];
+            }
+        }
+        std::array::from_fn(|n| {
+            let hidden =
+                |c: usize| corners[c][0][n] * ((distance[n] - corners[c][1][n]) * (1.0 / SOFT) - 1.0).clamp(0.0, 1.0);
+            let (u, v) = (x[n] - column[n] as f32, y[n] - row[n] as f32);
+            let upper = hidden(0) * (1.0 - u) + hidden(1) * u;
+            let lower = hidden(2) * (1.0 - u) + hidden(3) * u;
+            let open = 1.0 - (upper + (lower - upper) * v);
+            if beside[n] { 1.0 } else { open }
+        })
     }
 }
 
@@ -218,13 +250,13 @@ mod tests {
         };
         let lamp = Lamp { toward: Vec3::Y, strength: [1.0; 3], spread: 0.03 };
         let shadow = HeadShadow::new(&lamp, &plate);
-        let visible = |x: f32, y: f32| shadow.visible(Vec3::new(x, y, 0.3));
+        let visible = |x: f32, y: f32| shadow.visible(&[[x], [y], [0.3]])[0];
         assert_eq!(visible(0.0, 2.0), 1.0);
         assert!(visible(0.0, -2.0) < 1e-5);
         assert_eq!(visible(20.0, -2.0), 1.0);
         // At the edge, half of the blurred plate: within a cell of 1/3 of the blur's slope.
         assert!((visible(6.0, -2.0) - 0.5).abs() < 0.25);
-        assert_eq!(HeadShadow::new(&lamp, &Mesh::default()).visible(Vec3::ZERO), 1.0);
+        assert_eq!(HeadShadow::new(&lamp, &Mesh::default()).visible(&[[0.0]; 3]), [1.0]);
     }
 
     #[test]

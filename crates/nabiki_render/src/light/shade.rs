@@ -9,7 +9,6 @@
 
 use std::f32::consts::PI;
 
-use glam::Vec3;
 use rayon::prelude::*;
 
 use super::approx::{arccos, exp_of_negative, ln};
@@ -112,22 +111,22 @@ impl HairLight<'_> {
         });
     }
 
-    fn sky_above_below(&self, p: Vec3) -> (f32, f32) {
-        self.sky_map.map_or((1.0, 1.0), |s| {
-            let a = s.at(p);
-            (a.above, a.below)
-        })
+    /// The share of the sky that arrives from above and from below.
+    #[inline(always)]
+    fn sky_above_below<const N: usize>(&self, places: &[[f32; N]; 3]) -> [[f32; N]; 2] {
+        self.sky_map.map_or([[1.0; N]; 2], |s| s.at(places))
     }
 
     fn kajiya(&self, model: &KajiyaKay, i: usize, node: &CurveNode) -> [f32; 3] {
         let eye = self.view.toward_eye(node.position);
-        let (above, below) = self.sky_above_below(node.position);
+        let place = node.position.to_array().map(|c| [c]);
+        let [[above], [below]] = self.sky_above_below(&place);
         let mut light: [f32; 3] = std::array::from_fn(|c| {
             0.5 * self.sky.strength * model.colour[c] * (self.sky.above[c] * above + self.sky.below[c] * below)
         });
         for (l, lamp) in self.lamps.iter().enumerate() {
             let hair = self.crossings.get(l).map_or(1.0, |c| (-c.at(i)).exp());
-            let head = self.head_shadows.get(l).map_or(1.0, |s| s.visible(node.position));
+            let head = self.head_shadows.get(l).map_or(1.0, |s| s.visible(&place)[0]);
             let part = model.reflected(node.tangent, lamp.toward, eye);
             light = std::array::from_fn(|c| light[c] + part[c] * lamp.strength[c] * hair * head);
         }
@@ -137,6 +136,7 @@ impl HairLight<'_> {
     #[inline(always)]
     fn fibre(&self, fibre: &Fibre, batch: &[usize; LANES], curve: &[CurveNode]) -> [[f32; 3]; LANES] {
         let wide = Longitudinal::new(WIDE);
+        let mut place = [[0.0_f32; LANES]; 3];
         let mut tangent = [[0.0_f32; LANES]; 3];
         let mut eye = [[0.0_f32; LANES]; 3];
         let mut tilt = [0.0_f32; LANES];
@@ -145,6 +145,7 @@ impl HairLight<'_> {
             let node = &curve[batch[lane]];
             let toward = self.view.toward_eye(node.position);
             for c in 0..3 {
+                place[c][lane] = node.position[c];
                 tangent[c][lane] = node.tangent[c];
                 eye[c][lane] = toward[c];
             }
@@ -171,8 +172,7 @@ impl HairLight<'_> {
         }
 
         let mut rows = Rows::default();
-        let mut above = [1.0_f32; LANES];
-        let mut below = [1.0_f32; LANES];
+        let [above, below] = self.sky_above_below(&place);
         for lane in 0..LANES {
             let row = tables[lane].row(sin_eye[lane].abs() * (ROWS - 1) as f32);
             for c in 0..3 {
@@ -180,7 +180,6 @@ impl HairLight<'_> {
                 rows.back[c][lane] = row.back[c];
                 rows.rest[c][lane] = row.rest[c];
             }
-            (above[lane], below[lane]) = self.sky_above_below(curve[batch[lane]].position);
         }
         let mut light = [[0.0_f32; LANES]; 3];
         for c in 0..3 {
@@ -219,13 +218,12 @@ impl HairLight<'_> {
                 }
                 along[3][lane] = wide.at(s, c, sin_eye[lane], cos_eye[lane]);
             }
-            let mut reached = [1.0_f32; LANES];
+            let visible = self.head_shadows.get(l).map_or([1.0; LANES], |s| s.visible(&place));
             let mut crossed = [0.0_f32; LANES];
             let mut lobes = [[0.0_f32; LANES]; 8];
             for lane in 0..LANES {
                 let i = batch[lane];
                 crossed[lane] = self.crossings.get(l).map_or(0.0, |c| c.at(i));
-                reached[lane] = PI * self.head_shadows.get(l).map_or(1.0, |s| s.visible(curve[i].position));
                 let mixed = tables[lane].lobes(sin_eye[lane].abs() * (ROWS - 1) as f32, column[lane]);
                 for i in 0..8 {
                     lobes[i][lane] = mixed[i];
@@ -244,7 +242,7 @@ impl HairLight<'_> {
                     let straight = straight[lane];
                     let passed = exp_of_negative(-crossed[lane] * (1.0 - forward).max(0.0)) - straight;
                     let part = straight * (once + back) + DENSITY * passed.max(0.0) * (many + back);
-                    light[c][lane] += reached[lane] * lamp.strength[c] * part;
+                    light[c][lane] += PI * visible[lane] * lamp.strength[c] * part;
                 }
             }
         }

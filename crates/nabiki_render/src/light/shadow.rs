@@ -57,6 +57,8 @@ pub struct Scene<'a> {
     /// Half thickness of the hair at each node (cm).
     pub radius: &'a [f32],
     pub skin: &'a [Vec3],
+    /// Lowest and highest corner of the box about the nodes.
+    pub bounds: [Vec3; 2],
 }
 
 /// One node or place as the lamp sees it.
@@ -103,7 +105,10 @@ impl Sweep {
         let total = scene.nodes.len() + scene.skin.len();
         self.crossings.counts.clear();
         self.crossings.counts.resize_with(total, Default::default);
-        let Some(map) = Map::new(lamp, scene.nodes, fineness) else { return };
+        if scene.nodes.is_empty() {
+            return;
+        }
+        let map = Map::new(lamp, scene.bounds, fineness);
         (0..total)
             .into_par_iter()
             .with_min_len(4096)
@@ -139,34 +144,25 @@ struct Map {
 }
 
 impl Map {
-    fn new(lamp: &Lamp, nodes: &[CurveNode], fineness: f32) -> Option<Self> {
+    fn new(lamp: &Lamp, [low, high]: [Vec3; 2], fineness: f32) -> Self {
         let toward = lamp.toward;
         let right = toward.any_orthonormal_vector();
         let up = toward.cross(right);
         // A wide lamp blurs what lies some centimetres behind the occluder by so much.
         let cells_per_cm = 1.0 / fineness.max(5.0 * lamp.spread.tan());
-        let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        let (low, high) = nodes
-            .par_iter()
-            .with_min_len(8192)
-            .fold(
-                || none,
-                |(low, high), n| {
-                    let p = n.position;
-                    let c = Vec3::new(p.dot(right) * cells_per_cm, p.dot(up) * cells_per_cm, -p.dot(toward));
-                    (low.min(c), high.max(c))
-                },
-            )
-            .reduce(|| none, |a, b| (a.0.min(b.0), a.1.max(b.1)));
-        if low.x > high.x {
-            return None;
-        }
+        // The box as the lamp sees it.
+        let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+        let [x, y, z] = [cells_per_cm * right, cells_per_cm * up, -toward].map(|axis| {
+            let (middle, half) = (middle.dot(axis), half.dot(axis.abs()));
+            [middle - half, middle + half]
+        });
+        let (low, high) = (Vec3::new(x[0], y[0], z[0]), Vec3::new(x[1], y[1], z[1]));
         // Beyond the largest map, far outliers are left without shadow rather than all hair with a coarse one.
         let middle = 0.5 * (low + high);
         let side = (high - low).min(Vec3::splat(LARGEST));
         let (near, far) = (low.z.clamp(-FARTHEST, FARTHEST), high.z.clamp(-FARTHEST, FARTHEST));
         let slabs = ((far - near) / SLAB).ceil().clamp(1.0, MOST_SLABS);
-        Some(Self {
+        Self {
             right,
             up,
             toward,
@@ -176,7 +172,7 @@ impl Map {
             near,
             slabs_per_cm: slabs / (far - near).max(SLAB),
             slabs: slabs as usize,
-        })
+        }
     }
 
     #[inline(always)]
@@ -333,6 +329,7 @@ fn spread(middle: [f32; 2], extent: [f32; 2], t: f32, share: f32) -> (usize, usi
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::curve::bounds;
 
     #[test]
     fn the_bits_do_not_depend_on_the_number_of_strips() {
@@ -346,7 +343,7 @@ mod tests {
         let lamp = Lamp { toward: crate::camera::direction(30.0, 42.0), strength: [1.0; 3], spread: 0.03 };
         let skin = [Vec3::ZERO, Vec3::new(0.3, -20.0, 0.1)];
         let (length, radius) = (vec![1.3; nodes.len()], vec![0.05; nodes.len()]);
-        let scene = Scene { nodes: &nodes, length: &length, radius: &radius, skin: &skin };
+        let scene = Scene { nodes: &nodes, length: &length, radius: &radius, skin: &skin, bounds: bounds(&nodes) };
         let counted = |strips: usize| -> Vec<u32> {
             let mut sweep = Sweep::default();
             sweep.run(&lamp, &scene, 0.2, strips);

@@ -18,10 +18,10 @@ const MOST_CELLS: f32 = 1_000_000.0;
 const SKIN: f32 = 4.0;
 
 /// Share of the sky that arrives: from above and from below, each 0..1 of its half.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Arriving {
-    pub above: f32,
-    pub below: f32,
+#[derive(Clone, Copy, Default)]
+struct Arriving {
+    above: f32,
+    below: f32,
 }
 
 /// The share of the sky that arrives in each cell about hair and head.
@@ -40,14 +40,16 @@ pub struct SkyMap {
 }
 
 impl SkyMap {
-    /// Carries the sky's light through the hair (half thicknesses `radius`, cm) and past the head; `zenith` is above (unit).
-    pub fn fill(&mut self, nodes: &[CurveNode], radius: &[f32], head: &Mesh, zenith: Vec3) {
-        let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        let (mut low, mut high) = nodes
-            .par_iter()
-            .with_min_len(8192)
-            .fold(|| none, |(low, high), n| (low.min(n.position), high.max(n.position)))
-            .reduce(|| none, |a, b| (a.0.min(b.0), a.1.max(b.1)));
+    /// Carries the sky's light through the hair (its box and half thicknesses `radius`, cm) and past the head; `zenith` is above
+    /// (unit).
+    pub fn fill(
+        &mut self,
+        nodes: &[CurveNode],
+        [mut low, mut high]: [Vec3; 2],
+        radius: &[f32],
+        head: &Mesh,
+        zenith: Vec3,
+    ) {
         if !low.is_finite() {
             (low, high) = (Vec3::ZERO, Vec3::ZERO);
         }
@@ -64,23 +66,43 @@ impl SkyMap {
         self.carry(zenith);
     }
 
-    /// What arrives at a place; outside of the cells, what arrives at their border.
-    #[inline]
-    pub fn at(&self, p: Vec3) -> Arriving {
-        let last = self.size.as_vec3() - 1.001;
-        let c = ((p - self.low) / self.cell - 0.5).clamp(Vec3::ZERO, last.max(Vec3::ZERO));
+    /// What arrives at places (x, y and z of all of them) from above and from below; outside of the cells, what arrives at their
+    /// border.
+    #[inline(always)]
+    pub fn at<const N: usize>(&self, places: &[[f32; N]; 3]) -> [[f32; N]; 2] {
+        let last = (self.size.as_vec3() - 1.001).max(Vec3::ZERO);
+        let per_cell = 1.0 / self.cell;
+        let c: [[f32; N]; 3] = std::array::from_fn(|axis| {
+            let (low, last) = (self.low[axis], last[axis]);
+            places[axis].map(|p| ((p - low) * per_cell - 0.5).max(0.0).min(last))
+        });
         // Toward zero is down: there is nothing below.
-        let b = c.as_uvec3();
-        let f = c - b.as_vec3();
+        let base = c.map(|c| c.map(|c| c as i32));
         let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
-        let at = self.index(b);
-        let mix = |a: Arriving, b: Arriving, t: f32| Arriving {
-            above: a.above + (b.above - a.above) * t,
-            below: a.below + (b.below - a.below) * t,
-        };
-        let line = |i: usize| mix(self.arriving[i], self.arriving[i + 1], f.x);
-        let plane = |i: usize| mix(line(i), line(i + row), f.y);
-        mix(plane(at), plane(at + slice), f.z)
+        // All that is read first, so that the waits for memory go on side by side.
+        let mut corners = [[[0.0; N]; 2]; 8];
+        for n in 0..N {
+            let [x, y, z] = [0, 1, 2].map(|axis| base[axis][n] as usize);
+            let at = x + row * y + slice * z;
+            for (line, pair) in [0, row, slice, slice + row].into_iter().zip(corners.chunks_exact_mut(2)) {
+                let cells = &self.arriving[at + line..at + line + 2];
+                for (corner, cell) in pair.iter_mut().zip(cells) {
+                    corner[0][n] = cell.above;
+                    corner[1][n] = cell.below;
+                }
+            }
+        }
+        std::array::from_fn(|half| {
+            std::array::from_fn(|n| {
+                let [u, v, w] = [0, 1, 2].map(|axis| c[axis][n] - base[axis][n] as f32);
+                let line = |i: usize| {
+                    let (a, b) = (corners[i][half][n], corners[i + 1][half][n]);
+                    a + (b - a) * u
+                };
+                let plane = |i: usize| line(i) + (line(i + 2) - line(i)) * v;
+                plane(0) + (plane(4) - plane(0)) * w
+            })
+        })
     }
 
     fn index(&self, c: UVec3) -> usize {
@@ -278,12 +300,11 @@ mod tests {
         }
         let radius = vec![0.05; nodes.len()];
         let mut sky = SkyMap::default();
-        sky.fill(&nodes, &radius, &Mesh::default(), Vec3::Y);
-        let middle = sky.at(Vec3::ZERO);
-        assert!(middle.above < 0.05 && middle.below < 0.05, "{middle:?}");
-        let top = sky.at(Vec3::new(0.0, 5.4, 0.0));
-        assert!(top.above > 0.6 && top.above > 2.0 * top.below, "{top:?}");
-        let outside = sky.at(Vec3::splat(100.0));
-        assert!(outside.above > 0.8 && outside.below > 0.5, "{outside:?}");
+        sky.fill(&nodes, crate::curve::bounds(&nodes), &radius, &Mesh::default(), Vec3::Y);
+        let [above, below] = sky.at(&[[0.0, 0.0, 100.0], [0.0, 5.4, 100.0], [0.0, 0.0, 100.0]]);
+        let [middle, top, outside] = [0, 1, 2].map(|n| (above[n], below[n]));
+        assert!(middle.0 < 0.05 && middle.1 < 0.05, "{middle:?}");
+        assert!(top.0 > 0.6 && top.0 > 2.0 * top.1, "{top:?}");
+        assert!(outside.0 > 0.8 && outside.1 > 0.5, "{outside:?}");
     }
 }

@@ -84,9 +84,10 @@ impl SkinLight<'_> {
                 sheen[c] += lamp.strength[c] * lit[c] * (gloss + 0.5 * rim);
             }
         }
-        let arriving = self.sky_map.map(|s| s.at(p.position + 0.9 * normal));
+        let arriving = self.sky_map.map(|s| s.at(&(p.position + 0.9 * normal).to_array().map(|c| [c])));
         let open = |part: f32| if part < 1.0 { self.through(-part.max(1e-6).ln()) } else { [1.0; 3] };
-        let (open_above, open_below) = arriving.map_or(([1.0; 3], [1.0; 3]), |a| (open(a.above), open(a.below)));
+        let (open_above, open_below) =
+            arriving.map_or(([1.0; 3], [1.0; 3]), |[[above], [below]]| (open(above), open(below)));
         let up = 0.5 + 0.5 * normal.dot(self.zenith);
         for (c, diffuse) in diffuse.iter_mut().enumerate() {
             let sky = self.sky.above[c] * up * open_above[c] + self.sky.below[c] * (1.0 - up) * open_below[c];
