@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use glam::Vec3;
 use nabiki::Head;
-use nabiki::body::{Body, BodyWay, Contact};
+use nabiki::body::{Body, Contact};
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Simulation, Stepper};
 use nabiki::field::{Keyframe, KeyframedField};
 use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours};

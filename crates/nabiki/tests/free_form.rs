@@ -9,7 +9,7 @@ use common::{
     bits, exact, fast, field, gust, hair, map, mixed_hair, quarter_turn, run, run_under, step, way_of_a_head,
 };
 use glam::{DVec3, Quat, Vec3};
-use nabiki::body::{Body, BodyWay, Contact};
+use nabiki::body::{Body, Contact};
 use nabiki::dynamics::{Dynamics, Form, Stepper, gain};
 use nabiki::field::Field;
 use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours};

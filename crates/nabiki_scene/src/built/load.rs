@@ -73,6 +73,7 @@ fn field(scene: &Scene, head: &Head, poses: &[Pose]) -> Result<FieldParts> {
         frame_rate: scene.frame_rate(),
         frames: scene.motion.frames,
         space: scene.motion.force_space,
+        may_be_none: scene.form == FormChoice::Free,
     };
     scene.field.build(&place).map_err(|refused| scene.refusal(refused).into())
 }
@@ -80,7 +81,7 @@ fn field(scene: &Scene, head: &Head, poses: &[Pose]) -> Result<FieldParts> {
 /// What pushes the hair, once the head and its motion are loaded.
 pub(crate) fn load_field(scene: &Scene) -> Result<FieldParts> {
     let poses = head_motion(scene)?.map_or_else(Vec::new, |motion| motion.poses);
-    field(scene, &load_head(scene)?.0, &poses)
+    field(scene, &load_head(scene)?.head, &poses)
 }
 
 /// Hair at rest, some or all of the scene's.

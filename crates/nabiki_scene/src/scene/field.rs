@@ -53,6 +53,8 @@ pub(crate) struct FieldPlace<'a> {
     pub frames: u32,
     /// The space of the forces.
     pub space: ForceSpace,
+    /// Whether there may be no field at all.
+    pub may_be_none: bool,
 }
 
 /// Fields ready to be asked.
@@ -89,7 +91,7 @@ impl FieldSettings {
     }
 
     /// Refuses what is out of its range, no field at all, and tables that have nothing to act on. `head_moves`: whether the
-    /// head has a motion.
+    /// head has a motion; `may_be_none`: whether the form of the motion has something to do without a field.
     ///
     /// # Errors
     /// Names the first such setting.
@@ -141,7 +143,7 @@ impl FieldSettings {
     /// # Errors
     /// As [`check`](Self::check), and what only shows about this head: an ellipsoid too flat for the flow.
     pub(crate) fn build(&self, place: &FieldPlace) -> Result<FieldParts, SettingError> {
-        self.check(!place.poses.is_empty())?;
+        self.check(!place.poses.is_empty(), place.may_be_none)?;
         let mut bounds = Vec::new();
         let mut bound = |name: String, at_most: f32| bounds.push(FieldBound { name, at_most });
         let mut winds: Vec<Arc<dyn Field>> = Vec::new();
