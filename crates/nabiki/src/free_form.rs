@@ -38,9 +38,9 @@ pub struct FreeForm {
 impl Default for FreeForm {
     fn default() -> Self {
         Self {
-            stiffness: Profile::RootToTip(vec![6000.0, 600.0]),
-            hold: Profile::Even(15.0),
-            settle: Profile::Even(30.0),
+            stiffness: Profile::RootToTip(vec![12_000.0, 1000.0]),
+            hold: Profile::Even(30.0),
+            settle: Profile::Even(20.0),
             gravity: 100.0,
             lag: 1.0,
         }

@@ -9,7 +9,7 @@ use common::{
     bits, exact, fast, field, gust, hair, map, mixed_hair, quarter_turn, run, run_under, step, way_of_a_head,
 };
 use glam::{DVec3, Quat, Vec3};
-use nabiki::body::{Body, Contact};
+use nabiki::body::{Body, BodyWay, Contact};
 use nabiki::dynamics::{Dynamics, Form, Stepper, gain};
 use nabiki::field::Field;
 use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours};
@@ -244,4 +244,192 @@ fn the_twins_agree() {
         distances[distances.len() - 1]
     );
     assert!(distances[distances.len() - 1] < 1e-3);
+}
+
+/// Kinetic energy over 2 c, and the work against force, hold and the first joint, of strands of one segment each; from what
+/// a stepper shows in three frames, as its increments are its own.
+fn energy(dynamics: &Dynamics, force: DVec3, rest: &[DVec3], frames: [&[DVec3]; 2], lengths: &[f32]) -> Vec<f64> {
+    let Form::Free(free) = &dynamics.form else { unreachable!() };
+    let hold = free.form.hold.at(0.5);
+    (0..rest.len())
+        .map(|i| {
+            let length = lengths[i];
+            let d = f64::from(dynamics.segment_length);
+            let c = gain(dynamics, f64::from(length) / 2.0 / d + 0.5, f64::from(length) / d);
+            let joint = joint(free.form.stiffness.at(0.0) as f32, length);
+            // The scheme turns by w along e = (d + w) / |d + w|, so that |w| is the tangent of the angle.
+            let tangent = frames[0][i].cross(frames[1][i]).length() / frames[0][i].dot(frames[1][i]);
+            tangent * tangent / (2.0 * c) - (force + (hold + joint) * rest[i]).dot(frames[1][i])
+        })
+        .collect()
+}
+
+#[test]
+fn energy_does_not_grow_under_a_constant_force() {
+    let strands = single_segments(24);
+    let force = DVec3::new(-90.0, 20.0, 60.0);
+    let blows = field(&[(10_000, force.as_vec3().to_array())]);
+    let dynamics = free(form(4000.0, 20.0, 60.0, 0.0));
+    let rest = directions(&strands);
+    let lengths: Vec<f32> = strands.lengths().collect();
+    for mut stepper in both(&strands, &dynamics, &blows) {
+        let mut frames = vec![rest.clone()];
+        for _ in 0..400 {
+            step(&mut *stepper, &blows);
+            frames.push(directions(stepper.strands()));
+        }
+        let energies: Vec<Vec<f64>> =
+            frames.windows(2).map(|w| energy(&dynamics, force, &rest, [&w[0], &w[1]], &lengths)).collect();
+        for i in 0..rest.len() {
+            let scale = force.length() + 20.0 + joint(4000.0, lengths[i]);
+            // Speeds are those between frames, so within a swing the sum wavers by half of what the force adds to a speed
+            // in a frame, c S^2 / 2 at the most; from one swing to the next it falls.
+            let d = f64::from(dynamics.segment_length);
+            let c = gain(&dynamics, f64::from(lengths[i]) / 2.0 / d + 0.5, f64::from(lengths[i]) / d);
+            let swing = nabiki::dynamics::period(c * scale).ceil() as usize;
+            let highest =
+                |from: usize| energies[from..from + swing].iter().map(|e| e[i]).fold(f64::NEG_INFINITY, f64::max);
+            let waver = 2.0 * c * scale * scale;
+            for n in (0..400 - 2 * swing).step_by(swing) {
+                assert!(highest(n + swing) <= highest(n) + 1e-3 * waver, "segment {i}, frame {n}");
+            }
+        }
+    }
+}
+
+/// A ball of mesh.
+fn ball(radius: f32) -> nabiki::Mesh {
+    let (rings, sides) = (16, 24);
+    let mut mesh = nabiki::Mesh::default();
+    for i in 0..=rings {
+        for j in 0..sides {
+            let (polar, azimuth) = (PI as f32 * i as f32 / rings as f32, TAU as f32 * j as f32 / sides as f32);
+            let ring = Vec3::new(polar.sin() * azimuth.cos(), polar.cos(), polar.sin() * azimuth.sin());
+            mesh.positions.push(radius * ring);
+        }
+    }
+    let at = |i: u32, j: u32| i * sides + j % sides;
+    for i in 0..rings as u32 {
+        for j in 0..sides {
+            mesh.triangles.push([at(i, j), at(i, j + 1), at(i + 1, j)]);
+            mesh.triangles.push([at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)]);
+        }
+    }
+    mesh
+}
+
+/// A ball that comes from behind, passes through the hair beside the jaw and goes on, without touching the head.
+fn passing_ball() -> Body {
+    let way = |n: u32| Vec3::new(-20.0 + 0.4 * n as f32, -9.0, 12.5);
+    let poses: Vec<_> = (0..=100)
+        .map(|n| nabiki::Pose { position_cm: way(n), rotation: Quat::from_rotation_x(0.01 * n as f32) })
+        .collect();
+    Body {
+        name: "body[0]".to_owned(),
+        distance: Arc::new(nabiki::body::skin_of(ball(4.0), "body[0].mesh").unwrap()),
+        filled: None,
+        way: BodyWay::InWorld(poses.into()),
+        contact: Contact { margin: 0.2, friction: 0.3, static_friction: 0.5 },
+    }
+}
+
+/// Grown hair, which lies on the head, and the head and a ball as bodies.
+fn among_bodies(settle: f32) -> (Strands, Dynamics) {
+    let head = Head::builtin();
+    let growth = nabiki::groom::Growth {
+        hairline: &nabiki::roots::Hairline::default(),
+        style: &nabiki::groom::Style::default(),
+        strands: 300,
+        segments: 18,
+        segment_length: 1.0,
+        seed: 1,
+    };
+    let hair = nabiki::groom::grow(&head, &growth, 300).unwrap().strands;
+    let mut dynamics = free(FreeForm { settle: settle.into(), ..FreeForm::default() });
+    dynamics.motion.inertia_length_floor = 18.0;
+    if let Form::Free(free) = &mut dynamics.form {
+        free.bodies = vec![Body::head(&head, Contact::default()), passing_ball()];
+    }
+    (hair, dynamics)
+}
+
+#[test]
+fn no_node_enters_a_body_in_any_frame() {
+    let (hair, dynamics) = among_bodies(20.0);
+    let Form::Free(free) = dynamics.form.clone() else { unreachable!() };
+    let blows = field(&[(30, [-150.0, 30.0, 60.0]), (60, [0.0, -100.0, -150.0]), (100, [0.0; 3])]);
+    for mut stepper in both(&hair, &dynamics, &blows) {
+        let inside = |strands: &Strands, frame: u32| {
+            let deepest = |body: &Body| {
+                let body_from_head = body.head_from_body(frame, &nabiki::Pose::STILL).inverse();
+                let depth =
+                    |p: &Vec3| -body.distance.sample(body_from_head.transform_point3(*p)).map_or(1.0, |(d, _)| d);
+                strands.iter().flat_map(|strand| &strand[1..]).map(depth).fold(0.0, f32::max)
+            };
+            free.bodies.iter().map(deepest).fold(0.0, f32::max)
+        };
+        let at_rest = inside(stepper.strands(), 0);
+        for frame in 1..=100 {
+            step(&mut *stepper, &blows);
+            let deepest = inside(stepper.strands(), frame);
+            assert!(deepest <= at_rest + 0.01, "{deepest} cm deep in frame {frame}, {at_rest} at rest");
+        }
+    }
+}
+
+#[test]
+fn a_body_carries_hair_along_and_lets_it_go() {
+    let (hair, dynamics) = among_bodies(20.0);
+    let calm_field = field(&[(1000, [0.0; 3])]);
+    let mut frames = 0.0_f32;
+    let mut simulation = fast(&hair, &dynamics, &calm_field);
+    for _ in 1..=60 {
+        step(&mut simulation, &calm_field);
+        let moved = hair.points().iter().zip(simulation.strands().points()).map(|(a, b)| a.distance(*b));
+        frames = frames.max(moved.fold(0.0, f32::max));
+    }
+    assert!(frames > 2.0, "the ball moved no hair by more than {frames} cm");
+}
+
+#[test]
+fn hair_comes_to_rest_where_it_was_when_the_wind_stops() {
+    let (hair, mut dynamics) = among_bodies(20.0);
+    if let Form::Free(free) = &mut dynamics.form {
+        free.bodies.truncate(1);
+    }
+    dynamics.motion.frames = 400;
+    let blows = field(&[(50, [-100.0, 0.0, 0.0]), (400, [0.0; 3])]);
+    let mut simulation = fast(&hair, &dynamics, &blows);
+    let mut before = simulation.strands().clone();
+    for _ in 1..=290 {
+        before = simulation.strands().clone();
+        step(&mut simulation, &blows);
+    }
+    let farthest =
+        |a: &Strands, b: &Strands| a.points().iter().zip(b.points()).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+    let (off, speed) = (farthest(simulation.strands(), &hair), farthest(simulation.strands(), &before));
+    assert!(off < 0.05, "{off} cm off its rest shape ten seconds after the wind");
+    // Of the tip of a strand of 18 cm: 1e-6 rad a frame of each of its segments, and the rounding of points 30 cm off.
+    assert!(speed < 18.0 * 18.0 * 0.5 * 1e-6 + 4e-6, "{speed} cm a frame");
+}
+
+#[test]
+fn any_subset_moves_as_within_the_whole_with_its_carriers() {
+    let (hair, mut dynamics) = among_bodies(20.0);
+    if let Form::Free(free) = &mut dynamics.form {
+        let carriers = Arc::new(hair.select(&(0..64).collect::<Vec<_>>()));
+        free.neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers });
+    }
+    let blows = field(&[(30, [-150.0, 30.0, 60.0])]);
+    let all = run(&mut fast(&hair, &dynamics, &blows), &blows, 30);
+    let some: Vec<usize> = (0..300).step_by(7).rev().collect();
+    let few = run(&mut fast(&hair.select(&some), &dynamics, &blows), &blows, 30);
+    assert!(bits(&few) == bits(&all.select(&some)));
+    let without = {
+        if let Form::Free(free) = &mut dynamics.form {
+            free.neighbours = None;
+        }
+        run(&mut fast(&hair, &dynamics, &blows), &blows, 30)
+    };
+    assert!(bits(&without) != bits(&all), "neighbours are felt");
 }

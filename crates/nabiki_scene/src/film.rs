@@ -11,7 +11,7 @@ use nabiki_render::{Bounds, Frame, FrameToDraw, Moment, Picture, Renderer, ToneM
 use crate::built::BuiltScene;
 use crate::error::Result;
 use crate::frames::FrameSource;
-use crate::inside::{Inside, InsideFrame};
+use crate::motion_summary::MotionSummary;
 use crate::outputs::PictureOutputs;
 use crate::watch::{Watch, each_frame};
 
@@ -60,22 +60,22 @@ impl<'a> Film<'a> {
         })
     }
 
-    /// Draws all frames into `outputs`, and counts what of the hair is inside the head.
+    /// Draws all frames into `outputs`, and says what the motion is like.
     pub fn shoot(
         &mut self,
         frames: &mut dyn FrameSource,
         outputs: &mut PictureOutputs,
         watch: &mut dyn Watch,
-    ) -> Result<Inside> {
-        let mut inside = Inside::default();
+    ) -> Result<MotionSummary> {
+        let mut summary = MotionSummary::default();
         let built = self.built;
         each_frame(watch, "drawing", 0..=built.frames(), |n| {
             let strands = frames.frame(n)?;
-            inside.add(InsideFrame::of(n, &built.head, strands));
+            summary.add(built, n, strands);
             let (frame, view) = self.draw(n, strands)?;
             outputs.push(n, &frame, &view)
         })?;
-        Ok(inside)
+        Ok(summary)
     }
 
     /// Draws frame `n` alone, as a PNG at `path`.

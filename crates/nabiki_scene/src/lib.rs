@@ -38,7 +38,7 @@ mod field_picture;
 mod film;
 pub mod frames;
 pub mod info;
-pub mod inside;
+pub mod motion_summary;
 mod outputs;
 mod place;
 pub mod scene;

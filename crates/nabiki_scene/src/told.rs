@@ -8,7 +8,7 @@ use nabiki_io::hair::ImportReport;
 
 use crate::advice::Advice;
 use crate::built::BuiltScene;
-use crate::inside::Inside;
+use crate::motion_summary::MotionSummary;
 
 /// Something said by a task.
 #[derive(Clone, Debug)]
@@ -17,8 +17,8 @@ pub enum Told {
     Scene(SceneSummary),
     /// How long swings take.
     Swing(SwingTable),
-    /// How much of the hair is inside the head.
-    Inside(Inside),
+    /// What the motion is like.
+    Motion(MotionSummary),
     /// What looks wrong about the size or place of head and hair.
     Advice(Advice),
     /// What no file says and a new scene takes for granted.
@@ -60,7 +60,7 @@ impl fmt::Display for Told {
         match self {
             Self::Scene(summary) => summary.fmt(f),
             Self::Swing(table) => table.fmt(f),
-            Self::Inside(inside) => inside.fmt(f),
+            Self::Motion(summary) => summary.fmt(f),
             Self::Advice(advice) => write!(f, "  look    {advice}"),
             Self::Guessed(what) => write!(f, "  guessed {what}"),
             Self::Lost { file, what } => write!(f, "  lost    {} cannot hold {what}", file.display()),

@@ -11,7 +11,7 @@ mod reference;
 mod runner;
 mod segment;
 
-use contact::{NEAR, PUSHES, TOLERANCE_CM};
+use contact::{FAN, NEAR, PUSHES, TOLERANCE_CM};
 pub(super) use reference::Reference;
 pub(super) use runner::Runner;
 pub(super) use segment::free_segments;

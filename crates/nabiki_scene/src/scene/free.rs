@@ -53,11 +53,11 @@ pub(super) fn motion_table(motion: &Motion, form: FormChoice) -> Result<Table, U
 #[serde(deny_unknown_fields, default)]
 pub struct FreeSettings {
     /// K: the moment with which a joint turns its two segments toward one another's rest shape; one number, or a list from
-    /// root to tip (default [6000, 600]).
+    /// root to tip (default [12000, 1000]).
     pub stiffness: Profile,
-    /// H: what turns a segment toward its rest direction in the head's frame; one number, or a list (default 15).
+    /// H: what turns a segment toward its rest direction in the head's frame; one number, or a list (default 30).
     pub hold: Profile,
-    /// Frames in which a swing dies to 1/e, 0: never; one number, or a list (default 30).
+    /// Frames in which a swing dies to 1/e, 0: never; one number, or a list (default 20).
     pub settle: Profile,
     /// The weight of hair that has been moved: a strength, or "earth" for that of the earth at `motion.frame_rate`
     /// (default 100).

@@ -38,8 +38,8 @@ pub fn preview(scene: Scene, strands: usize, folder: &Path, cache: Option<&Path>
     super::introduce(&built, watch);
     let mut film = Film::new(&built, &picture, &mut simulated.again(), watch)?;
     let mut frames = simulated.again();
-    let inside = film.shoot(&mut frames, &mut outputs, watch)?;
-    watch.told(Told::Inside(inside));
+    let summary = film.shoot(&mut frames, &mut outputs, watch)?;
+    watch.told(Told::Motion(summary));
     let mut written = outputs.finish(watch)?;
     if let Some(cache) = cache {
         write_cache(&built, cache, &mut simulated.again(), watch)?;

@@ -40,8 +40,8 @@ pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path
             let mut outputs =
                 PictureOutputs::begin(&built, &scene.picture, folder, &scene.name(), &inputs, &mut folders, watch)?;
             let mut film = Film::new(&built, &scene.picture, source(&built, options)?.as_mut(), watch)?;
-            let inside = film.shoot(source(&built, options)?.as_mut(), &mut outputs, watch)?;
-            watch.told(Told::Inside(inside));
+            let summary = film.shoot(source(&built, options)?.as_mut(), &mut outputs, watch)?;
+            watch.told(Told::Motion(summary));
             outputs.finish(watch)?
         }
         Some(frame) => {

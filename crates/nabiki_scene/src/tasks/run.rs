@@ -35,8 +35,8 @@ pub fn run(scene: Scene, shown: Shown, folder: &Path, exports: &ExportOptions, w
     let mut exports = Exports::begin(exports, &built, watch)?;
     let mut rehearsal = simulated.again();
     let mut frames = Exported { frames: simulated, built: &built, exports: &mut exports };
-    let inside = Film::new(&built, &scene.picture, &mut rehearsal, watch)?.shoot(&mut frames, &mut outputs, watch)?;
-    watch.told(Told::Inside(inside));
+    let summary = Film::new(&built, &scene.picture, &mut rehearsal, watch)?.shoot(&mut frames, &mut outputs, watch)?;
+    watch.told(Told::Motion(summary));
     let mut written = outputs.finish(watch)?;
     written.extend(exports.finish()?);
     super::wrote(written, watch);

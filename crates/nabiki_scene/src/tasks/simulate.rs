@@ -9,7 +9,7 @@ use crate::cache_file::SceneCache;
 use crate::error::Result;
 use crate::exports::{ExportOptions, Exports};
 use crate::frames::{FrameSource, Simulated};
-use crate::inside::{Inside, InsideFrame};
+use crate::motion_summary::MotionSummary;
 use crate::place;
 use crate::scene::Scene;
 use crate::told::Told;
@@ -60,17 +60,17 @@ pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &m
     super::introduce(&built, watch);
     let mut exports = Exports::begin(&exports, &built, watch)?;
     let mut scene_cache = cache.map(|cache| SceneCache::begin(&built, cache, watch)).transpose()?;
-    let mut inside = Inside::default();
+    let mut summary = MotionSummary::default();
     each_frame(watch, "simulating", 0..=built.frames(), |n| {
         let strands = frames.frame(n)?;
-        inside.add(InsideFrame::of(n, &built.head, strands));
+        summary.add(&built, n, strands);
         if let Some(cache) = &mut scene_cache {
             cache.push(n, strands)?;
         }
         exports.frame(n, strands, &built.pose(n))
     })?;
     scene_cache.map_or(Ok(()), SceneCache::finish)?;
-    watch.told(Told::Inside(inside));
+    watch.told(Told::Motion(summary));
     let written = cache.map(Path::to_owned).into_iter().chain(exports.finish()?);
     super::wrote(written.collect(), watch);
     Ok(())

@@ -10,6 +10,9 @@ use crate::pose::Pose;
 /// Times that a segment is turned along the gradient before another way is tried.
 pub(in crate::dynamics) const PUSHES: usize = 6;
 
+/// Directions that are tried from there to the gradient where no turn along it is found.
+pub(in crate::dynamics) const FAN: usize = 4;
+
 /// How much deeper than its clearance a node may stay (cm): some roundings of a distance.
 pub(in crate::dynamics) const TOLERANCE_CM: f32 = 1e-4;
 
@@ -120,7 +123,20 @@ impl Obstacle {
             return pushed;
         }
         let (stayed, depth_there) = self.pushed_from(skin, touch.was, touch);
-        if depth_there <= TOLERANCE_CM || depth_there < depth { stayed } else { pushed }
+        let (mut best, mut least) = if depth_there < depth { (stayed, depth_there) } else { (pushed, depth) };
+        // Where no turn is found so, a fan of directions from there outward.
+        let normal = self.read(skin, touch.from + touch.length * best).map_or(best, |(_, normal)| normal);
+        for step in 1..=FAN {
+            if least <= TOLERANCE_CM {
+                break;
+            }
+            let aside = best.lerp(normal, step as f32 / FAN as f32).normalize_or(normal);
+            let (direction, depth) = self.pushed_from(skin, aside, touch);
+            if depth < least {
+                (best, least) = (direction, depth);
+            }
+        }
+        best
     }
 
     /// Turns a segment along the gradient until its end keeps its clearance; how deep it then is.

@@ -424,7 +424,7 @@ impl Among<'_, '_> {
             (going, beside) = obstacle.stop(self.packed.free.bodies[b].surface(surface), going, &touch);
             gap = gap.min(beside);
         }
-        if gap == 0.0 {
+        if going.direction != at(&state.direction) || going.increment != at(&state.increment) {
             set_lane(&mut state.direction, lane, going.direction.to_array());
             set_lane(&mut state.increment, lane, going.increment.to_array());
             set_lane(to, lane, (from + length * going.direction).to_array());

@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3};
 
 use crate::body::{Body, Contact, Surface};
 use crate::dynamics::FrameInput;
-use crate::dynamics::free::{NEAR, PUSHES, TOLERANCE_CM};
+use crate::dynamics::free::{FAN, NEAR, PUSHES, TOLERANCE_CM};
 use crate::pose::Pose;
 
 /// What each point is kept out of, and how far from it (cm).
@@ -83,7 +83,20 @@ impl<'a> Obstacle<'a> {
             return pushed;
         }
         let (stayed, depth_there) = self.pushed_from(touch.was, touch);
-        if depth_there <= f64::from(TOLERANCE_CM) || depth_there < depth { stayed } else { pushed }
+        let (mut best, mut least) = if depth_there < depth { (stayed, depth_there) } else { (pushed, depth) };
+        // Where no turn is found so, a fan of directions from there outward.
+        let normal = self.read(touch.from + touch.length * best, touch.surface).map_or(best, |(_, normal)| normal);
+        for step in 1..=FAN {
+            if least <= f64::from(TOLERANCE_CM) {
+                break;
+            }
+            let aside = best.lerp(normal, step as f64 / FAN as f64).normalize_or(normal);
+            let (direction, depth) = self.pushed_from(aside, touch);
+            if depth < least {
+                (best, least) = (direction, depth);
+            }
+        }
+        best
     }
 
     /// Turns a segment along the gradient until its end keeps its clearance; how deep it then is.
