@@ -5,6 +5,7 @@ use std::io::{Read, Seek};
 use std::path::Path;
 
 use glam::{Affine3A, DMat4, DVec3, Vec3};
+use nabiki::hair::Stored;
 use nabiki::{Hair, Mesh};
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
 use nabiki_exchange::{Contents, Gathered, GroomReader, InPlace, Placed, Polygons, Prim, PrimKind, add_polygons};
@@ -69,6 +70,9 @@ impl<R: Read + Seek> ArchiveReader<R> {
         let mut parameters = Parameters::of(&mut self.tree, inside, frame)?;
         let mut attributes = lines.attributes(&mut parameters)?;
         attributes.unread.extend(parameters.unread()?);
+        // Our own name for ids beyond 32 bits.
+        let long = attributes.id.as_ref().is_some_and(|ids| ids.iter().any(|&id| i32::try_from(id).is_err()));
+        attributes.other.retain(|other| !(long && other.name == "id" && other.stored == Stored::I64));
         Ok((Hair { strands: lines.strands, attributes }, world))
     }
 
