@@ -7,7 +7,7 @@ use crate::error::SettingError;
 /// A setting along a strand: one number, or a few from root to tip, evenly spread over the strand's length and joined by
 /// straight lines.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "must be a number, or a list of numbers from root to tip")]
 pub enum Profile {
     /// The same from root to tip.
     Even(f32),

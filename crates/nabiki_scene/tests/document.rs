@@ -1,17 +1,27 @@
 //! The scene as a document: what is written is what is read, and what is not changed stays as it stands.
 
+mod common;
+
 use std::path::{Path, PathBuf};
 
 use glam::{Vec2, Vec3};
+use nabiki::Profile;
+use nabiki::body::Contact;
 use nabiki::disturbance::Disturbance;
 use nabiki::field::{Ease, EnvelopeKey, Falloff, FalloffLaw, Fan, Flow, Gust, Keyframe, Point, Turbulence};
+use nabiki::free_form::NeighbourForces;
 use nabiki::groom::style::{Cut, Region};
 use nabiki_io::Unit;
 use nabiki_io::motion::{Axis, MotionSource};
 use nabiki_render::settings::{CameraKey, HairColour, Light};
 use nabiki_scene::Scene;
-use nabiki_scene::scene::{EllipsoidChoice, GrownHair, HairSource, HeadSource, ImportedHair, ImportedHead, Problem};
+use nabiki_scene::scene::{
+    BodySettings, EllipsoidChoice, FormChoice, FreeSettings, Gravity, GrownHair, HairSource, HeadSource, ImportedHair,
+    ImportedHead, Problem,
+};
 use proptest::prelude::*;
+
+use common::{changed_lines, lines, reread};
 
 fn shipped() -> Vec<PathBuf> {
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes"));
@@ -19,20 +29,6 @@ fn shipped() -> Vec<PathBuf> {
     let scenes: Vec<PathBuf> = entries.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
     assert!(!scenes.is_empty());
     scenes
-}
-
-fn reread(scene: &Scene) -> Scene {
-    let text = scene.to_toml().unwrap();
-    Scene::parse(&text, Path::new("again.toml"), &[]).unwrap_or_else(|e| panic!("{e}\n{text}"))
-}
-
-/// The lines of `old` that `new` has not, and those of `new` that `old` has not, what is common at both ends set aside.
-fn changed_lines(old: &str, new: &str) -> (Vec<String>, Vec<String>) {
-    let (old, new): (Vec<&str>, Vec<&str>) = (old.lines().collect(), new.lines().collect());
-    let first = old.iter().zip(&new).take_while(|(a, b)| a == b).count();
-    let last = old[first..].iter().rev().zip(new[first..].iter().rev()).take_while(|(a, b)| a == b).count();
-    let middle = |lines: &[&str]| lines[first..lines.len() - last].iter().map(|&line| line.to_owned()).collect();
-    (middle(&old), middle(&new))
 }
 
 fn keyframe(through: u32, vector: [f32; 3]) -> Keyframe {
@@ -73,10 +69,6 @@ fn change(edit: impl FnOnce(&mut Scene)) -> (Vec<String>, Vec<String>) {
     let text = scene.to_toml().unwrap();
     assert_eq!(Scene::parse(&text, Path::new("again.toml"), &[]).unwrap(), scene, "{text}");
     changed_lines(TEXT, &text)
-}
-
-fn lines(wanted: &[&str]) -> Vec<String> {
-    wanted.iter().map(|&line| line.to_owned()).collect()
 }
 
 #[test]
@@ -283,6 +275,33 @@ enum Edit {
     Lights(usize, f32),
     Colour(bool, f32),
     Sheet(Option<Vec<u32>>),
+    Form(bool),
+    Free { stiffness: Profile, gravity: Option<f32>, lag: f32, pseudo_force: bool },
+    Contact { margin: f32, friction: f32 },
+    Bodies(Vec<BodySettings>),
+    Neighbours(Option<u32>),
+}
+
+fn profile() -> impl Strategy<Value = Profile> {
+    prop_oneof![
+        (0.0f32..500.0).prop_map(Profile::Even),
+        prop::collection::vec(0.0f32..500.0, 1..5).prop_map(Profile::RootToTip)
+    ]
+}
+
+/// A body that goes with the head, moves on its own or stands still.
+fn body() -> impl Strategy<Value = BodySettings> {
+    (any::<Option<bool>>(), 0.0f32..5.0, prop::option::of(vector()), prop::option::of(0.01f32..99.0)).prop_map(
+        |(worn, margin, origin, unit)| BodySettings {
+            mesh: "body.obj".into(),
+            unit: unit.map(|cm| Unit { cm }),
+            origin,
+            motion: (worn == Some(false)).then(|| MotionSource { file: "hand.csv".into(), ..MotionSource::default() }),
+            with_head: worn == Some(true),
+            margin,
+            ..BodySettings::default()
+        },
+    )
 }
 
 fn any_edit() -> impl Strategy<Value = Edit> {
@@ -326,6 +345,12 @@ fn any_edit() -> impl Strategy<Value = Edit> {
         (0usize..4, 0.1f32..3.0).prop_map(|(n, x)| Edit::Lights(n, x)),
         (any::<bool>(), 0.0f32..1.0).prop_map(|(named, x)| Edit::Colour(named, x)),
         prop::option::of(prop::collection::vec(0u32..10, 0..4)).prop_map(Edit::Sheet),
+        any::<bool>().prop_map(Edit::Form),
+        (profile(), prop::option::of(0.0f32..500.0), 0.0f32..8.0, any::<bool>())
+            .prop_map(|(stiffness, gravity, lag, pseudo_force)| Edit::Free { stiffness, gravity, lag, pseudo_force }),
+        (0.0f32..5.0, 0.0f32..1.0).prop_map(|(margin, friction)| Edit::Contact { margin, friction }),
+        prop::collection::vec(body(), 0..3).prop_map(Edit::Bodies),
+        prop::option::of(1u32..4096).prop_map(Edit::Neighbours),
     ]
 }
 
@@ -428,6 +453,18 @@ fn apply(edit: &Edit, scene: &mut Scene) {
                 if named { HairColour::Grey } else { HairColour::Melanin { eumelanin: x, pheomelanin: 0.5 * x } };
         }
         Edit::Sheet(sheet) => scene.output.sheet = sheet,
+        Edit::Form(free) => scene.form = if free { FormChoice::Free } else { FormChoice::Paper },
+        Edit::Free { stiffness, gravity, lag, pseudo_force } => {
+            let gravity = gravity.map_or(Gravity::Earth, Gravity::Strength);
+            scene.free = FreeSettings { stiffness, gravity, lag, pseudo_force, ..FreeSettings::default() };
+        }
+        Edit::Contact { margin, friction } => {
+            scene.contact = Contact { margin, friction, static_friction: friction + 0.25 };
+        }
+        Edit::Bodies(bodies) => scene.bodies = bodies,
+        Edit::Neighbours(carriers) => {
+            scene.neighbours = carriers.map(|carriers| NeighbourForces { carriers, ..NeighbourForces::default() });
+        }
     }
 }
 

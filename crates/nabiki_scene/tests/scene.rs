@@ -94,7 +94,8 @@ fn an_unknown_key_is_refused_with_the_nearest_known_one() {
         "scenes/gust.toml:11: force[0].vectr: unknown key; did you mean force[0].vector?"
     );
     let nothing_near = refused("time_step", "quality");
-    let beginning = "scenes/gust.toml:6: motion.quality: unknown key; the keys here are frames, frame_rate, time_step";
+    let beginning =
+        "scenes/gust.toml:6: motion.quality: unknown key; the keys here are form, frames, frame_rate, time_step";
     assert!(nothing_near.starts_with(beginning), "{nothing_near}");
     let renamed = refused("time_step = ", "friction_length = ");
     let now = "scenes/gust.toml:6: motion.friction_length: is now called motion.inertia_length_floor: rename it";

@@ -49,6 +49,19 @@ impl Refusal {
         Self { outward: vec![found.to_owned()], problem: Problem::UnknownKey { near, known } }
     }
 
+    /// The same with the value, where a choice of kinds says only what must be.
+    fn found(self, value: &Value) -> Self {
+        match &self.problem {
+            Problem::Other(text) if self.outward.is_empty() => match text.strip_prefix("must be ") {
+                Some(wanted) => {
+                    Self::new(Problem::Kind { found: unexpected(value).to_string(), wanted: wanted.to_owned() })
+                }
+                None => self,
+            },
+            _ => self,
+        }
+    }
+
     /// The same of a value that stands below `key`.
     pub fn below(mut self, key: impl Into<String>) -> Self {
         self.outward.push(key.into());
@@ -152,6 +165,18 @@ fn plain(wanted: &dyn Expected) -> String {
         text if text.starts_with("struct ") => "a table".to_owned(),
         text if text.starts_with("a sequence of 3 f32") => "three numbers, [x, y, z]".to_owned(),
         text => text.to_owned(),
+    }
+}
+
+fn unexpected(value: &Value) -> Unexpected<'_> {
+    match value {
+        Value::String(text) => Unexpected::Str(text),
+        Value::Integer(number) => Unexpected::Signed(*number),
+        Value::Float(number) => Unexpected::Float(*number),
+        Value::Boolean(flag) => Unexpected::Bool(*flag),
+        Value::Datetime(_) => Unexpected::Other("a date"),
+        Value::Array(_) => Unexpected::Seq,
+        Value::Table(_) => Unexpected::Map,
     }
 }
 
@@ -260,7 +285,7 @@ impl<'de> MapAccess<'de> for Keys<'_> {
 
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Refusal> {
         let (key, value) = self.value.take().ok_or_else(|| Refusal::text("a value without a key"))?;
-        seed.deserialize(Node(value)).map_err(|e| e.below(key))
+        seed.deserialize(Node(value)).map_err(|e| e.found(value).below(key))
     }
 }
 

@@ -1,0 +1,211 @@
+//! Scenes of the free form: their tables as they are written, and one line for everything that is refused of them.
+
+mod common;
+
+use std::path::Path;
+
+use nabiki::Profile;
+use nabiki_scene::scene::{FormChoice, Gravity};
+use nabiki_scene::{Scene, Shown};
+
+use common::{changed_lines, lines, reread};
+
+const FREE: &str = "\
+[hair]
+strands = 20
+[motion]
+form = \"free\"
+frames = 3
+[free]
+stiffness = [120, 60]
+gravity = 50
+[contact]
+margin = 0.1
+[[body]]
+mesh = \"solid.obj\"
+[neighbours]
+carriers = 8
+[[force]]
+through = 3
+vector = [-40, 0, 0]
+";
+
+const WRITTEN: &str = "\
+[motion]
+form = \"free\"   # what new scenes use
+frames = 30
+
+[free]           # how it holds
+stiffness = [120, 60.5, 10]
+gravity = \"earth\"
+
+[contact]
+margin = 0.2     # cm
+
+# A hand.
+[[body]]
+mesh = \"hand.obj\"
+motion = { file = \"hand.csv\", up = \"+y\", facing = \"+x\" }
+[[body]]         # a hat
+mesh = \"hat.glb\"
+with_head = true
+
+[neighbours]
+carriers = 64    # few
+
+[[force]]
+through = 30
+vector = [-100, 0, 0]
+";
+
+#[test]
+fn the_tables_of_the_free_form_are_changed_line_by_line() {
+    let scene = Scene::parse(WRITTEN, Path::new("free.toml"), &[]).unwrap();
+    assert_eq!(scene.to_toml().unwrap(), WRITTEN, "nobody changed it");
+    let change = |edit: &dyn Fn(&mut Scene)| {
+        let mut scene = scene.clone();
+        edit(&mut scene);
+        assert_eq!(reread(&scene), scene);
+        changed_lines(WRITTEN, &scene.to_toml().unwrap())
+    };
+    let one =
+        |edit: &dyn Fn(&mut Scene), old: &str, new: &str| assert_eq!(change(edit), (lines(&[old]), lines(&[new])));
+    one(
+        &|scene| scene.free.stiffness = Profile::RootToTip(vec![120.0, 80.0, 10.0]),
+        "stiffness = [120, 60.5, 10]",
+        "stiffness = [120, 80.0, 10]",
+    );
+    one(&|scene| scene.free.stiffness = Profile::Even(90.0), "stiffness = [120, 60.5, 10]", "stiffness = 90.0");
+    one(&|scene| scene.free.gravity = Gravity::Strength(12.5), "gravity = \"earth\"", "gravity = 12.5");
+    one(&|scene| scene.contact.margin = 0.3, "margin = 0.2     # cm", "margin = 0.3     # cm");
+    one(
+        &|scene| scene.form = FormChoice::Paper,
+        "form = \"free\"   # what new scenes use",
+        "form = \"paper\"   # what new scenes use",
+    );
+    one(&|scene| scene.bodies[1].mesh = "cap.glb".into(), "mesh = \"hat.glb\"", "mesh = \"cap.glb\"");
+    let (old, new) = change(&|scene| scene.neighbours = None);
+    assert_eq!(
+        old.iter().filter(|line| !line.is_empty()).collect::<Vec<_>>(),
+        ["[neighbours]", "carriers = 64    # few"]
+    );
+    assert!(new.is_empty(), "{new:?}");
+    let (old, new) = change(&|scene| drop(scene.bodies.remove(0)));
+    assert!(
+        old.contains(&"mesh = \"hand.obj\"".to_owned()) && !old.contains(&"mesh = \"hat.glb\"".to_owned()),
+        "{old:?}"
+    );
+    assert!(new.is_empty(), "{new:?}");
+}
+
+/// The line for a scene with one line changed, which names the scene and the changed line.
+fn refused(from: &str, to: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let files = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../nabiki_io/tests/files"));
+    std::fs::copy(files.join("solid.obj"), folder.path().join("solid.obj")).unwrap();
+    std::fs::write(folder.path().join("sheet.obj"), "v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3\nf 1 3 4\n").unwrap();
+    let columns = "t_s,px_m,py_m,pz_m,qx,qy,qz,qw";
+    let short = format!("{columns}\n0,0,1.6,0,0,0,0,1\n0.09,0.5,1.6,0,0,0,0,1\n");
+    std::fs::write(folder.path().join("short.csv"), short).unwrap();
+    assert_eq!(FREE.matches(from).count(), 1, "the sample has one {from:?}");
+    let path = folder.path().join("free.toml");
+    let built = Scene::parse(&FREE.replacen(from, to, 1), &path, &[]).map_err(nabiki_scene::Error::from);
+    let refused = built.and_then(|scene| scene.build(Shown::All)).map(drop).unwrap_err();
+    let said = refused.to_string();
+    assert_eq!(said.lines().count(), 1, "{said}");
+    said.replace(&format!("{}/", folder.path().display()), "")
+}
+
+#[test]
+fn the_sample_itself_is_built() {
+    let from = "strands = 20";
+    assert_eq!(refused(from, "strands = 0"), "free.toml:2: hair.strands = 0: must be at least 1");
+}
+
+#[test]
+fn keys_that_are_none_are_refused_with_the_nearest() {
+    assert_eq!(refused("gravity", "gravty"), "free.toml:8: free.gravty: unknown key; did you mean free.gravity?");
+    assert_eq!(refused("margin", "margn"), "free.toml:10: contact.margn: unknown key; did you mean contact.margin?");
+    assert_eq!(refused("mesh = ", "msh = "), "free.toml:12: body[0].msh: unknown key; did you mean body[0].mesh?");
+    assert_eq!(
+        refused("carriers", "cariers"),
+        "free.toml:14: neighbours.cariers: unknown key; did you mean neighbours.carriers?"
+    );
+    assert_eq!(
+        refused("form = \"free\"", "form = \"fre\""),
+        "free.toml:4: motion.form: found \"fre\", must be one of \"paper\", \"free\"; did you mean \"free\"?"
+    );
+}
+
+#[test]
+fn strengths_that_are_none_are_refused_where_they_stand() {
+    let finite = "must be a finite number of at least 0";
+    for (value, place) in
+        [("-1", "free.stiffness = -1"), ("nan", "free.stiffness = NaN"), ("inf", "free.stiffness = inf")]
+    {
+        assert_eq!(
+            refused("stiffness = [120, 60]", &format!("stiffness = {value}")),
+            format!("free.toml:7: {place}: {finite}")
+        );
+    }
+    assert_eq!(refused("[120, 60]", "[120, -60]"), format!("free.toml:7: free.stiffness[1] = -60: {finite}"));
+    assert_eq!(refused("[120, 60]", "[nan, 60]"), format!("free.toml:7: free.stiffness[0] = NaN: {finite}"));
+    assert_eq!(
+        refused("[120, 60]", "[]"),
+        "free.toml:7: free.stiffness = a list of 0: give one number, or 2 to 64 from root to tip"
+    );
+    assert_eq!(
+        refused("[120, 60]", &format!("{:?}", [1.0; 65])),
+        "free.toml:7: free.stiffness = a list of 65: give one number, or 2 to 64 from root to tip"
+    );
+    assert_eq!(refused("gravity = 50", "gravity = -50"), format!("free.toml:8: free.gravity = -50: {finite}"));
+    assert_eq!(refused("gravity = 50", "gravity = nan"), format!("free.toml:8: free.gravity = NaN: {finite}"));
+    assert_eq!(
+        refused("gravity = 50", "hold = \"hairspray\""),
+        "free.toml:8: free.hold: found string \"hairspray\", must be a number, or a list of numbers from root to tip"
+    );
+    assert_eq!(
+        refused("gravity = 50", "gravity = \"moon\""),
+        "free.toml:8: free.gravity: found string \"moon\", must be a number of at least 0, or \"earth\""
+    );
+    assert_eq!(refused("margin = 0.1", "margin = -1"), "free.toml:10: contact.margin = -1: must lie in 0..5");
+    assert_eq!(refused("margin = 0.1", "friction = nan"), "free.toml:10: contact.friction = NaN: must lie in 0..10");
+    assert_eq!(refused("carriers = 8", "pressure = -1"), format!("free.toml:14: neighbours.pressure = -1: {finite}"));
+    assert_eq!(refused("carriers = 8", "carriers = 0"), "free.toml:14: neighbours.carriers = 0: must lie in 1..4096");
+}
+
+#[test]
+fn bodies_that_are_none_are_refused() {
+    assert_eq!(
+        refused("mesh = \"solid.obj\"", "margin = 0.2"),
+        "free.toml:11: body[0].mesh = nothing: give the file of its mesh"
+    );
+    assert_eq!(
+        refused("mesh = \"solid.obj\"", "mesh = \"solid.obj\"\nwith_head = true\nmotion = { file = \"short.csv\" }"),
+        "free.toml:13: body[0].with_head = true: a body that goes with the head has no motion of its own: remove one of the \
+         two"
+    );
+    assert_eq!(
+        refused(
+            "mesh = \"solid.obj\"",
+            "mesh = \"solid.obj\"\nmotion = { file = \"short.csv\", up = \"+y\", facing = \"+x\" }"
+        ),
+        "free.toml:13: body[0].motion = frame 3: the body has a pose in 3 frames; give one, or one for every frame from 0 on"
+    );
+    assert_eq!(
+        refused("solid.obj", "sheet.obj"),
+        "free.toml:12: body[0].mesh = a sheet: encloses no space, so nothing can be told to be inside it: give it a thickness"
+    );
+    assert_eq!(
+        refused("solid.obj", "no/hand.obj"),
+        "free.toml:12: body[0].mesh = \"no/hand.obj\": there is no no/hand.obj; paths are relative to the scene's folder"
+    );
+    assert_eq!(
+        refused("mesh = \"solid.obj\"", "mesh = \"solid.obj\"\nmotion = { file = \"none.csv\" }"),
+        "free.toml:13: body[0].motion.file = \"none.csv\": there is no none.csv; paths are relative to the scene's folder"
+    );
+    assert_eq!(
+        refused("mesh = \"solid.obj\"", "mesh = \"solid.obj\"\nunit = 0"),
+        "free.toml:13: body[0].unit = 0: must be a finite number above 0"
+    );
+}
