@@ -19,9 +19,24 @@ pub use simulate::{SimulateOptions, Twin, simulate};
 
 use std::path::{Path, PathBuf};
 
-use crate::built::BuiltScene;
+use crate::built::{BuiltScene, Shown};
+use crate::error::Result;
+use crate::scene::Scene;
 use crate::told::{SceneSummary, SwingTable, Told};
 use crate::watch::Watch;
+
+/// Builds a scene, and says before which files are read for it.
+fn build(scene: Scene, shown: Shown, watch: &mut dyn Watch) -> Result<BuiltScene> {
+    reading(scene.inputs().split_off(1), watch);
+    scene.build(shown)
+}
+
+/// Says which files are about to be read, if any.
+fn reading(files: Vec<PathBuf>, watch: &mut dyn Watch) {
+    if !files.is_empty() {
+        watch.told(Told::Reading(files));
+    }
+}
 
 /// Tells what there is to move, and what looks wrong about it.
 fn present(built: &BuiltScene, watch: &mut dyn Watch) {

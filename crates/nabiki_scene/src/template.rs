@@ -44,17 +44,13 @@ pub fn template(scene: &Path, head: Option<&Path>, groups: &[String], hair: Opti
         (Some(file), Some(strands)) => imported_hair(scene, file, strands, of_head.as_ref(), &mut guesses)?,
         _ => GROWN.to_owned(),
     };
-    let text = format!("{INTRODUCTION}\n{head_text}{SHELL}\n{hair_text}{REST}");
+    let text = format!("{INTRODUCTION}\n{head_text}\n{hair_text}{REST}");
     Ok(Template { text, guesses })
 }
 
 const INTRODUCTION: &str = "\
 # A scene of hair in the wind. Lengths are centimetres, y is up and the face looks along +x, whatever the files have.
 # Every setting may be changed for one try: nabiki preview SCENE --set motion.time_step=0.05
-";
-
-const SHELL: &str = "\
-shell = 1.6                # how far the pseudo-force reaches: the head's ellipsoid, so much larger
 ";
 
 const GROWN: &str = "\
@@ -72,24 +68,39 @@ comb = { away = 1.0, sweep = [-0.3, 0.0, 0.0], off_face = 2.8, decay = 3.5 }
 
 const REST: &str = "
 [motion]
+form = \"free\"              # \"paper\": the equations of 1993, in which hair neither stops at the head nor calms down
 frames = 100
 frame_rate = 24
 inertia_length_floor = 14.0   # shorter hair is held by the longer hair beside it (cm)
-straighten = 3.0           # hair that hangs within so many degrees of straight goes with any wind
 
-# The wind is weakened where it would press hair into the head: by these factors, from the root on.
-[pseudo_force]
-alpha = 0.2
-coefficients = [0.005, 0.005, 0.01, 0.01, 0.03, 0.03, 0.05, 0.05, 0.1, 0.1, 0.15, 0.15, 0.3, 0.3, 0.5, 0.5, 0.7, 1.0]
+# What holds hair in shape and calms it, in the unit of the forces below: a wind of 100 against a stiffness of 120.
+# The first three may be lists from root to tip: stiffness = [120, 90, 60]
+[free]
+stiffness = 120.0          # keeps each segment in line with the one before it, as at rest
+hold = 10.0                # keeps it where it is on the head, as hair spray does
+settle = 50.0              # frames in which a swing dies to 1/e; 0: never
+gravity = 100.0            # weight of hair that has been moved; \"earth\": as on the earth at this frame_rate
+lag = 1.0                  # how far the tips fall behind a head that turns; 0: not at all
 
-# Where the hair shall go: a direction with a strength, up to a frame. Four times the force halves the time of a swing.
+# Hair stays out of the head, and of every [[body]] with a mesh and a motion, or one that goes with_head.
+[contact]
+margin = 0.1               # how far from the skin (cm)
+friction = 0.1             # share of a push that sliding hair loses of its speed
+static_friction = 0.15     # the same for hair that lies still
+
+# Hair against hair, felt where the table is there:
+# [neighbours]
+# pressure = 40.0            # keeps the volume that the hair has at rest
+# cohesion = 40.0            # hair takes the hair beside it along
+
+# Where the hair shall go: a direction with a strength, up to a frame.
 [[force]]
 through = 50
-vector = [-40, 0, 0]       # backward
+vector = [-100, 0, 0]      # backward
 
 [[force]]
 through = 100
-vector = [-5, -50, 0]      # and down
+vector = [-10, 0, 0]       # a breeze, in which hair comes back by itself
 
 # The camera frames all that moves; distance (cm) and target fix it.
 [picture]

@@ -13,6 +13,8 @@ use crate::motion_summary::MotionSummary;
 /// Something said by a task.
 #[derive(Clone, Debug)]
 pub enum Told {
+    /// Files that are about to be read; sampling the distance to a large head takes seconds.
+    Reading(Vec<PathBuf>),
     /// What the scene holds.
     Scene(SceneSummary),
     /// How long swings take.
@@ -58,6 +60,10 @@ pub enum Told {
 impl fmt::Display for Told {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Reading(files) => {
+                let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
+                write!(f, "  reading {}", names.join(", "))
+            }
             Self::Scene(summary) => summary.fmt(f),
             Self::Swing(table) => table.fmt(f),
             Self::Motion(summary) => summary.fmt(f),

@@ -4,10 +4,13 @@ use std::fmt::Write;
 use std::path::Path;
 
 use glam::Vec3;
+use nabiki::body::Contact;
+use nabiki::free_form::NeighbourForces;
 use nabiki::{Hair, Head};
 use nabiki_io::motion::Axis;
 use nabiki_io::placement::{Placement, Unit};
 use nabiki_scene::advice::Advice;
+use nabiki_scene::scene::{FormChoice, FreeSettings};
 use nabiki_scene::template::template;
 use nabiki_scene::{BuiltScene, Scene, Shown};
 
@@ -107,9 +110,18 @@ fn a_new_scene_finds_unit_and_axes_of_a_head_and_its_hair() {
 }
 
 #[test]
-fn a_new_scene_without_files_runs() {
-    let new = template(Path::new("new.toml"), None, &[], None).unwrap();
-    assert_eq!((new.guesses.len(), advised(&built(&new.text, Path::new("new.toml")))), (0, vec![]));
+fn a_new_scene_without_files_runs_in_the_free_form_with_its_defaults() {
+    let path = Path::new("new.toml");
+    let new = template(path, None, &[], None).unwrap();
+    let stage = built(&new.text, path);
+    assert_eq!((new.guesses.len(), advised(&stage)), (0, vec![]));
+    let Scene { form, free, contact, neighbours, .. } = &stage.scene;
+    assert_eq!((form, free, contact), (&FormChoice::Free, &FreeSettings::default(), &Contact::default()));
+    assert_eq!(neighbours, &None);
+    // What it comments out is what it says.
+    let more = ["[neighbours]", "pressure", "cohesion"];
+    let text = more.iter().fold(new.text, |text, line| text.replace(&format!("# {line}"), line));
+    assert_eq!(Scene::parse(&text, path, &[]).unwrap().neighbours, Some(NeighbourForces::default()), "{text}");
 }
 
 #[test]
@@ -296,6 +308,7 @@ fn a_file_that_is_not_there_is_said_with_the_scene_s_line() {
         ("[hair]\nsegment_length = 2.0\n".to_owned(), "file", "hair.tfx", 3),
         (motion.to_owned(), "file", "walk.bvh", 5),
         (format!("{motion}file = \"scene.toml\"\n"), "skeleton", "one.asf", 6),
+        ("[motion]\nform = \"free\"\n[[body]]\n".to_owned(), "mesh", "no/hand.obj", 4),
     ] {
         let text = format!("{table}{key} = \"{file}\"\n{FORCE}");
         std::fs::write(&scene, &text).unwrap();

@@ -21,7 +21,7 @@ pub fn groom(scene: Scene, shown: Shown, output: &Path, watch: &mut dyn Watch) -
     // Of no hair nothing is lost, but a name that no hair is written under is refused.
     hair::losses(output, &nabiki::Hair::default())?;
     place::not_inputs(&[output], &scene.inputs())?;
-    let built = scene.build(shown)?;
+    let built = super::build(scene, shown, watch)?;
     super::present(&built, watch);
     let losses = if exchange::is_usd(output) || exchange::is_alembic(output) {
         let mut export = exchange::still(&built.hair, DeclaredSpace::default());

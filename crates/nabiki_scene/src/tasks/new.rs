@@ -43,6 +43,7 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     place::file(path)?;
     let inputs: Vec<PathBuf> = options.head.iter().chain(&options.hair).cloned().collect();
     place::not_inputs(&[path], &inputs)?;
+    super::reading(inputs, watch);
     let template = template(path, options.head.as_deref(), &options.groups, options.hair.as_deref())?;
     let built = Scene::parse(&template.text, path, &[])?.build(Shown::AtMost(TRIED))?;
     built.simulation()?;

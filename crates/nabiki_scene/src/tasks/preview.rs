@@ -27,7 +27,7 @@ pub fn preview(scene: Scene, strands: usize, folder: &Path, cache: Option<&Path>
     if let Some(cache) = cache {
         place::cache(cache, &scene.inputs())?;
     }
-    let built = scene.build(Shown::AtMost(strands))?;
+    let built = super::build(scene, Shown::AtMost(strands), watch)?;
     let simulated = Simulated::new(&built)?;
     let scene = &built.scene;
     let share = built.strands_of_scene as f32 / built.hair.strands.len() as f32;

@@ -30,7 +30,7 @@ pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path
     if let Some(frame) = options.frame.filter(|&frame| frame > last) {
         return Err(Error::refused(format!("--frame {frame}: the last frame is motion.frames = {last}")));
     }
-    let built = scene.build(shown)?;
+    let built = super::build(scene, shown, watch)?;
     let scene = &built.scene;
     let mut folders = Folders::default();
     let mut inputs = scene.inputs();

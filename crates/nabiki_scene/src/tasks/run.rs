@@ -25,7 +25,7 @@ pub fn run(scene: Scene, shown: Shown, folder: &Path, exports: &ExportOptions, w
     let files: Vec<&Path> = exports.files.iter().map(|file| file.as_path()).collect();
     place::distinct(&files)?;
     place::not_inputs(&files, &scene.inputs())?;
-    let built = scene.build(shown)?;
+    let built = super::build(scene, shown, watch)?;
     let simulated = Simulated::new(&built)?;
     let scene = &built.scene;
     let mut folders = Folders::default();

@@ -52,7 +52,7 @@ pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &m
     let files: Vec<&Path> = cache.into_iter().chain(exports.files.iter().map(PathBuf::as_path)).collect();
     place::distinct(&files)?;
     place::not_inputs(&files, &scene.inputs())?;
-    let built = scene.build(shown)?;
+    let built = super::build(scene, shown, watch)?;
     let mut frames: Box<dyn FrameSource + '_> = match options.twin {
         Twin::Fast => Box::new(Simulated::new(&built)?),
         Twin::Reference => Box::new(Simulated::by(&built, built.reference()?)),
