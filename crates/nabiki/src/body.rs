@@ -105,7 +105,7 @@ pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError
     }
     let [low, high] = bounds(&mesh.positions);
     let spacing = ((high - low).min_element() / 12.0).min(COARSEST_CM);
-    if !(spacing > 0.0) {
+    if spacing <= 0.0 {
         return refused("a sheet", "encloses no space, so nothing can be told to be inside it: give it a thickness");
     }
     // Hair is kept out from the margin on, which is 5 cm at the most.

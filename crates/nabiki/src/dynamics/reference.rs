@@ -11,8 +11,8 @@ use crate::strands::Strands;
 pub struct Reference(Twin);
 
 enum Twin {
-    Paper(paper::Reference),
-    Free(free::Reference),
+    Paper(Box<paper::Reference>),
+    Free(Box<free::Reference>),
 }
 
 impl Reference {
@@ -41,8 +41,8 @@ impl Reference {
         assert_eq!(ids.len(), strands.len(), "one id for each strand");
         dynamics.check()?;
         Ok(Self(match &dynamics.form {
-            Form::Paper => Twin::Paper(paper::Reference::new(strands, ids, dynamics, field)?),
-            Form::Free(free) => Twin::Free(free::Reference::new(strands, dynamics, free, field)?),
+            Form::Paper => Twin::Paper(Box::new(paper::Reference::new(strands, ids, dynamics, field)?)),
+            Form::Free(free) => Twin::Free(Box::new(free::Reference::new(strands, dynamics, free, field)?)),
         }))
     }
 

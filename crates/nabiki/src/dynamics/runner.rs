@@ -17,7 +17,7 @@ pub(super) struct Runner {
 
 #[derive(Clone, Debug)]
 enum OfForm {
-    Paper(paper::Runner),
+    Paper(Box<paper::Runner>),
     Free(Box<free::Runner>),
 }
 
@@ -27,7 +27,7 @@ impl Runner {
         assert_eq!(ids.len(), strands.len(), "one id for each strand");
         dynamics.check()?;
         let form = match &dynamics.form {
-            Form::Paper => OfForm::Paper(paper::Runner::new(strands, ids, dynamics)?),
+            Form::Paper => OfForm::Paper(Box::new(paper::Runner::new(strands, ids, dynamics)?)),
             Form::Free(free) => OfForm::Free(Box::new(free::Runner::new(strands, dynamics, free)?)),
         };
         let runner = Self { form, ids: ids.to_vec() };

@@ -201,6 +201,7 @@ struct KeptRow {
 
 /// What becomes of the hair in one frame.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there is one for each frame")]
 pub(super) enum Plan<'a> {
     /// It is put back to rest.
     Rest,
