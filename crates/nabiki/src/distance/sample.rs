@@ -1,38 +1,53 @@
 //! Distance and gradient in one reading, for collisions.
 
-use glam::{UVec3, Vec3};
+use glam::Vec3;
 
 use super::{COARSE, EDGE, FINE, Samples, SkinDistance};
+
+/// 1.5 times 2^23: what is added to it is rounded to a whole number, which the lowest bits of the sum then hold.
+const ROUNDS: f32 = 12_582_912.0;
 
 impl SkinDistance {
     /// Signed distance at `p` and its gradient there, that of the interpolation itself (of unit length but for the
     /// sampling; it jumps by that much from cell to cell). `None` beyond the sampled box.
     pub fn sample(&self, p: Vec3) -> Option<(f32, Vec3)> {
-        let Samples { low, cell, nodes, mirrored, coarse, block_of, fine } = &self.samples;
-        let flip = *mirrored && p.z < 0.0;
-        let p = if *mirrored { p.with_z(p.z.abs()) } else { p };
-        let q = (p - *low) / *cell;
-        let cells = *nodes - 1;
-        if !(q.cmpge(Vec3::ZERO).all() && q.cmplt(cells.as_vec3()).all()) {
-            return None;
+        let reading = self.read(p)?;
+        Some((reading.distance(), reading.gradient()))
+    }
+
+    /// What [`sample`](Self::sample) makes its answer of, for whoever may need but a part of it.
+    #[inline(always)]
+    pub(crate) fn read(&self, p: Vec3) -> Option<Reading> {
+        self.samples.read(p)
+    }
+
+    /// Where some points lie among the fine samples.
+    #[inline(always)]
+    pub(crate) fn places<const N: usize>(&self, [xs, ys, zs]: [&[f32; N]; 3]) -> Places<N> {
+        let Samples { low, cell, nodes, mirrored, .. } = &self.samples;
+        let (cells, fine, steps) = (*nodes - 1, FINE as f32 / *cell, FINE as u32);
+        let counts = FINE as f32 * cells.as_vec3();
+        let mut places = Places { cells: [0; N], first: [0; N], t: [[0.0; N]; 3] };
+        for n in 0..N {
+            let z = if *mirrored { zs[n].abs() } else { zs[n] };
+            let (x, y, z) = ((xs[n] - low.x) * fine, (ys[n] - low.y) * fine, (z - low.z) * fine);
+            let above = (x >= 0.0) & (y >= 0.0) & (z >= 0.0);
+            let inside = above & (x < counts.x) & (y < counts.y) & (z < counts.z);
+            let ((i, x), (j, y), (k, z)) = (whole(x), whole(y), whole(z));
+            let at = ((k / steps) * cells.y + j / steps) * cells.x + i / steps;
+            places.cells[n] = if inside { at } else { u32::MAX };
+            places.first[n] = ((k % steps) * EDGE as u32 + j % steps) * EDGE as u32 + i % steps;
+            (places.t[0][n], places.t[1][n], places.t[2][n]) = (x, y, z);
         }
-        let c = q.as_uvec3();
-        let t = q - c.as_vec3();
-        let block = block_of[((c.z * cells.y + c.y) * cells.x + c.x) as usize];
-        let (value, slope, edge) = if block == COARSE {
-            let (nx, ny) = (nodes.x as usize, nodes.y as usize);
-            let at = (c.z as usize * ny + c.y as usize) * nx + c.x as usize;
-            let (value, slope) = trilinear(coarse, at, nx, nx * ny, t);
-            (value, slope, *cell)
-        } else {
-            let t = t * FINE as f32;
-            let f = t.as_uvec3().min(UVec3::splat(FINE as u32 - 1));
-            let at = ((f.z as usize) * EDGE + f.y as usize) * EDGE + f.x as usize;
-            let (value, slope) = trilinear(&fine[block as usize], at, EDGE, EDGE * EDGE, t - f.as_vec3());
-            (value, slope, *cell / FINE as f32)
-        };
-        let gradient = slope / edge;
-        Some((value, if flip { gradient.with_z(-gradient.z) } else { gradient }))
+        places
+    }
+
+    /// The distance at one of them, to the bit as [`read`](Self::read) has it; `None` where it was not sampled finely.
+    #[inline(always)]
+    pub(crate) fn fine_distance<const N: usize>(&self, places: &Places<N>, n: usize) -> Option<f32> {
+        let block = *self.samples.block_of.get(places.cells[n] as usize)?;
+        let corners = block_corners(self.samples.fine.get(block as usize)?, places.first[n] as usize)?;
+        Some(interpolated(corners, Vec3::new(places.t[0][n], places.t[1][n], places.t[2][n])))
     }
 
     /// How far `p` lies beyond the sampled box (cm); 0 within. Where what was sampled lies `inset` within its box, the
@@ -55,14 +70,106 @@ impl SkinDistance {
     }
 }
 
-/// The value between the eight samples of a cell whose first is `at`, and its slope for each edge of the cell; rows and
-/// slices lie `row` and `slice` apart.
-fn trilinear(samples: &[f32], at: usize, row: usize, slice: usize, t: Vec3) -> (f32, Vec3) {
-    let along_x = |i: usize| (samples[i] + (samples[i + 1] - samples[i]) * t.x, samples[i + 1] - samples[i]);
-    let along_y = |i: usize| {
-        let ((a, ax), (b, bx)) = (along_x(i), along_x(i + row));
-        (a + (b - a) * t.y, ax + (bx - ax) * t.y, b - a)
-    };
-    let ((a, ax, ay), (b, bx, by)) = (along_y(at), along_y(at + slice));
-    (a + (b - a) * t.z, Vec3::new(ax + (bx - ax) * t.z, ay + (by - ay) * t.z, b - a))
+/// Where some points lie among the fine samples: the cells about them, which are [`u32::MAX`] beyond the sampled box,
+/// the first sample there in a block, and where between two samples.
+pub(crate) struct Places<const N: usize> {
+    cells: [u32; N],
+    first: [u32; N],
+    t: [[f32; N]; 3],
+}
+
+/// The samples about a point.
+pub(crate) struct Reading {
+    /// Those at the corners, x fastest.
+    corners: [f32; 8],
+    /// Where in the cell the point lies, 0..=1.
+    t: Vec3,
+    /// Edge of the cell.
+    edge: f32,
+    /// Whether they stand for their mirror images.
+    flipped: bool,
+}
+
+impl Samples {
+    #[inline(always)]
+    fn read(&self, p: Vec3) -> Option<Reading> {
+        let Self { low, cell, nodes, mirrored, coarse, block_of, fine } = self;
+        let flipped = *mirrored && p.z < 0.0;
+        let p = if *mirrored { p.with_z(p.z.abs()) } else { p };
+        let cells = *nodes - 1;
+        // In fine steps: how many of them, and what is left.
+        let q = (p - *low) * (FINE as f32 / *cell);
+        if !(q.cmpge(Vec3::ZERO).all() && q.cmplt(FINE as f32 * cells.as_vec3()).all()) {
+            return None;
+        }
+        let ((i, x), (j, y), (k, z)) = (whole(q.x), whole(q.y), whole(q.z));
+        let (t, steps) = (Vec3::new(x, y, z), FINE as u32);
+        let [ci, cj, ck] = [i / steps, j / steps, k / steps];
+        let block = block_of[((ck * cells.y + cj) * cells.x + ci) as usize];
+        let [i, j, k] = [i % steps, j % steps, k % steps];
+        if block == COARSE {
+            let (row, slice) = (nodes.x as usize, (nodes.x * nodes.y) as usize);
+            let at = ck as usize * slice + cj as usize * row + ci as usize;
+            let ([a, b, c, d], [e, f, g, h]) = (square(coarse, at, row), square(coarse, at + slice, row));
+            let t = (Vec3::new(i as f32, j as f32, k as f32) + t) / FINE as f32;
+            return Some(Reading { corners: [a, b, c, d, e, f, g, h], t, edge: *cell, flipped });
+        }
+        let at = ((k as usize * EDGE) + j as usize) * EDGE + i as usize;
+        Some(Reading { corners: block_corners(&fine[block as usize], at)?, t, edge: *cell / FINE as f32, flipped })
+    }
+}
+
+/// From one layer of a block to the next.
+const SLICE: usize = EDGE * EDGE;
+
+/// Four samples from `at` on, x fastest; rows lie `row` apart.
+#[inline(always)]
+fn square(samples: &[f32], at: usize, row: usize) -> [f32; 4] {
+    [samples[at], samples[at + 1], samples[at + row], samples[at + row + 1]]
+}
+
+/// The eight samples of a block about a cell, whose first is `at`, x fastest.
+#[inline(always)]
+fn block_corners(block: &[f32; EDGE * EDGE * EDGE], at: usize) -> Option<[f32; 8]> {
+    let about: &[f32; SLICE + EDGE + 2] = block.get(at..)?.first_chunk()?;
+    let ([a, b, c, d], [e, f, g, h]) = (square(about, 0, EDGE), square(about, SLICE, EDGE));
+    Some([a, b, c, d, e, f, g, h])
+}
+
+/// The whole part of a number from 0 to 2^21, and what is left, 0..=1: a whole number may count as the end of the cell
+/// before it. Plain x86-64 has no instruction that rounds down.
+#[inline(always)]
+fn whole(x: f32) -> (u32, f32) {
+    let shifted = (x - 0.5) + ROUNDS;
+    (shifted.to_bits() & 0x3f_ffff, x - (shifted - ROUNDS))
+}
+
+impl Reading {
+    #[inline(always)]
+    pub fn distance(&self) -> f32 {
+        interpolated(self.corners, self.t)
+    }
+
+    #[inline(always)]
+    pub fn gradient(&self) -> Vec3 {
+        let Self { corners: [a, b, c, d, e, f, g, h], t, edge, flipped } = *self;
+        let along_x = between(between(b - a, d - c, t.y), between(f - e, h - g, t.y), t.z);
+        let (low, high) = (between(a, b, t.x), between(c, d, t.x));
+        let (far_low, far_high) = (between(e, f, t.x), between(g, h, t.x));
+        let along_y = between(high - low, far_high - far_low, t.z);
+        let along_z = between(far_low, far_high, t.y) - between(low, high, t.y);
+        Vec3::new(along_x, along_y, if flipped { -along_z } else { along_z }) / edge
+    }
+}
+
+#[inline(always)]
+fn interpolated([a, b, c, d, e, f, g, h]: [f32; 8], t: Vec3) -> f32 {
+    let low = between(between(a, b, t.x), between(c, d, t.x), t.y);
+    let high = between(between(e, f, t.x), between(g, h, t.x), t.y);
+    between(low, high, t.z)
+}
+
+#[inline(always)]
+fn between(a: f32, b: f32, t: f32) -> f32 {
+    a + (b - a) * t
 }

@@ -3,8 +3,9 @@
 use glam::{Affine3A, Vec3};
 
 use crate::body::{Body, Surface};
-use crate::distance::SkinDistance;
+use crate::distance::{Places, Reading, SkinDistance};
 use crate::dynamics::FrameInput;
+use crate::dynamics::row::{LANES, PointRow};
 use crate::pose::Pose;
 
 /// Times that a segment is turned along the gradient before another way is tried.
@@ -29,6 +30,8 @@ pub(super) struct Obstacle {
     friction: f32,
     margin: f32,
     body_from_head: Affine3A,
+    /// Whether that changes nothing.
+    with_head: bool,
     /// Takes points of the body from where they are to where they were in the frame before, in head space.
     before_from_now: Affine3A,
     moves: bool,
@@ -58,6 +61,12 @@ pub(super) fn kept_from(body: &Body, rest_pose: &Pose, p: Vec3) -> (Surface, f32
     body.kept_from(body.head_from_body(0, rest_pose).inverse().transform_point3(p))
 }
 
+/// How far at least a point at a sampled distance is from touching what it keeps clear of.
+#[inline(always)]
+pub(super) fn gap(distance: f32, clearance: f32) -> f32 {
+    SURE * (distance - clearance)
+}
+
 impl Obstacle {
     pub fn new(body: &Body, input: &FrameInput) -> Self {
         let now = body.head_from_body(input.frame, &input.pose);
@@ -67,6 +76,7 @@ impl Obstacle {
             friction: body.contact.friction,
             margin: body.contact.margin,
             body_from_head: now.inverse(),
+            with_head: now == Affine3A::IDENTITY,
             before_from_now: before * now.inverse(),
             moves: now != before,
         }
@@ -83,31 +93,42 @@ impl Obstacle {
         (self.before_from_now.transform_point3(center) - center).length() + norm * radius
     }
 
-    /// Keeps a segment out of the body, and says how far its end then is from touching it (cm, a lower bound).
-    pub fn stop(&self, skin: &SkinDistance, going: Going, touch: &Touch) -> (Going, f32) {
+    /// Where sixteen points of head space lie among the samples of a body that goes with the head.
+    #[inline(always)]
+    pub fn places(&self, skin: &SkinDistance, [x, y, z]: &PointRow) -> Option<Places<LANES>> {
+        if self.with_head { Some(skin.places([&x.0, &y.0, &z.0])) } else { None }
+    }
+
+    /// How far at least the end of a segment (head space, cm) is from touching the body; below 0 where it does.
+    pub fn gap(&self, skin: &SkinDistance, end: Vec3, clearance: f32) -> f32 {
+        let in_body = self.in_body(end);
+        match skin.read(in_body) {
+            Some(reading) => gap(reading.distance(), clearance),
+            None => skin.beyond_box(in_body) - self.margin,
+        }
+    }
+
+    /// Keeps a segment out of the body; `None` where it touches nothing.
+    pub fn stop(&self, skin: &SkinDistance, going: Going, touch: &Touch) -> Option<Going> {
         let &Touch { from, length, clearance, .. } = touch;
         let end = from + length * going.direction;
-        let (distance, normal) = match self.read(skin, end) {
-            Ok(read) => read,
-            Err(beyond) => return (going, beyond - self.margin),
-        };
-        if distance >= clearance {
-            return (going, SURE * (distance - clearance));
+        let reading = skin.read(self.in_body(end))?;
+        if reading.distance() >= clearance {
+            return None;
         }
+        let normal = self.normal(&reading);
         let of_body = if self.moves { end - self.before_from_now.transform_point3(end) } else { Vec3::ZERO };
         let change = self.slowed(length * going.increment - of_body, normal);
         let direction = (length * going.direction + change).normalize_or(normal);
         let increment = going.increment + change / length;
         let direction = self.pushed_out(skin, direction, touch);
-        (Going { direction, increment: increment - increment.dot(direction) * direction }, 0.0)
+        Some(Going { direction, increment: increment - increment.dot(direction) * direction })
     }
 
     /// What contact takes of a motion against the body: all of it that goes inward, and of the rest what friction takes.
     fn slowed(&self, moved: Vec3, normal: Vec3) -> Vec3 {
-        let inward = -moved.dot(normal);
-        if inward <= 0.0 {
-            return Vec3::ZERO;
-        }
+        // A motion outward loses nothing: of 0 all that follows is 0.
+        let inward = (-moved.dot(normal)).max(0.0);
         let along = moved + inward * normal;
         let speed = along.length();
         let held = speed <= self.static_friction * inward;
@@ -145,22 +166,30 @@ impl Obstacle {
         let mut depth = 0.0;
         for _ in 0..=PUSHES {
             let end = from + length * direction;
-            let Ok((distance, normal)) = self.read(skin, end) else { return (direction, 0.0) };
-            depth = clearance - distance;
+            let Some(reading) = skin.read(self.in_body(end)) else { return (direction, 0.0) };
+            depth = clearance - reading.distance();
             if depth <= TOLERANCE_CM {
                 return (direction, depth);
             }
+            let normal = self.normal(&reading);
             direction = (end + depth * normal - from).normalize_or(normal);
         }
         (direction, depth)
     }
 
-    /// Distance and outward normal at a point of head space, or how far away at least it is where nothing was sampled.
-    fn read(&self, skin: &SkinDistance, p: Vec3) -> Result<(f32, Vec3), f32> {
-        let in_body = self.body_from_head.transform_point3(p);
-        let (distance, gradient) = skin.sample(in_body).ok_or_else(|| skin.beyond_box(in_body))?;
-        let normal = gradient.normalize_or(Vec3::Y);
+    #[inline(always)]
+    fn in_body(&self, p: Vec3) -> Vec3 {
+        if self.with_head { p } else { self.body_from_head.transform_point3(p) }
+    }
+
+    /// Outward, of length 1, in head space.
+    #[inline(always)]
+    fn normal(&self, reading: &Reading) -> Vec3 {
+        let normal = reading.gradient().normalize_or(Vec3::Y);
+        if self.with_head {
+            return normal;
+        }
         // The transpose turns back.
-        Ok((distance, Vec3::from(self.body_from_head.matrix3.transpose() * glam::Vec3A::from(normal))))
+        Vec3::from(self.body_from_head.matrix3.transpose() * glam::Vec3A::from(normal))
     }
 }

@@ -1,7 +1,10 @@
 //! Hair against hair: what the carriers leave in a grid, and what every strand feels of it.
 
+use std::ops::Range;
+
 use glam::{DVec3, UVec3, Vec3, Vec4};
 
+use crate::dynamics::row::{LANES, PointRow, Row};
 use crate::error::SettingError;
 use crate::free_form::{NeighbourForces, Neighbours};
 use crate::strands::bounds;
@@ -16,6 +19,8 @@ pub(super) struct Crowd {
     /// The first node (head space, cm).
     low: Vec3,
     nodes: UVec3,
+    /// The nodes about which there is hair, from the first to the last along each axis, and those of the frame before.
+    filled: [[UVec3; 2]; 2],
     /// Of every point of the carriers: the length of hair that it stands for (cm).
     masses: Vec<f32>,
     /// Of every node: density at rest, in the mean of the places where there is hair.
@@ -27,7 +32,7 @@ pub(super) struct Crowd {
     /// Of every node: density above that at rest.
     excess: Vec<f32>,
     /// Of every node: a force (x, y, z), and w, the drag in the unit of the force for each cm a frame.
-    pull: Vec<Vec4>,
+    pull: Vec<[f32; 4]>,
 }
 
 impl Crowd {
@@ -59,12 +64,13 @@ impl Crowd {
             forces: forces.clone(),
             low,
             nodes,
+            filled: [[UVec3::ZERO, nodes - 1]; 2],
             masses: carriers.iter().flat_map(masses).collect(),
             rest: vec![0.0; count],
             unit: 1.0,
             content: vec![Vec4::ZERO; count],
             excess: vec![0.0; count],
-            pull: vec![Vec4::ZERO; count],
+            pull: vec![[0.0; 4]; count],
         };
         crowd.settle(points);
         Ok(crowd)
@@ -91,77 +97,145 @@ impl Crowd {
 
     /// Spreads every point over the eight nodes about it, one after another: the sums do not depend on threads.
     fn splat(&mut self, points: &[Vec3], velocities: &[Vec3]) {
-        self.content.fill(Vec4::ZERO);
+        for row in rows(self.nodes, self.filled[0]) {
+            self.content[row].fill(Vec4::ZERO);
+        }
+        let (row, slice) = self.strides();
+        let (mut first_filled, mut last_filled) = (self.nodes - 1, UVec3::ZERO);
         for ((&p, &velocity), &mass) in points.iter().zip(velocities).zip(&self.masses) {
-            let Some((first, t)) = self.cell(p) else { continue };
+            let (first, t) = self.cell(p.to_array());
             let content = mass * velocity.extend(1.0);
-            let (row, slice) = self.strides();
-            for (corner, weight) in [(0, 1.0 - t.z), (slice, t.z)] {
-                for (corner, weight) in [(corner, weight * (1.0 - t.y)), (corner + row, weight * t.y)] {
-                    self.content[first + corner] += content * (weight * (1.0 - t.x));
-                    self.content[first + corner + 1] += content * (weight * t.x);
+            for (corner, weight) in [(0, 1.0 - t[2]), (slice, t[2])] {
+                for (corner, weight) in [(corner, weight * (1.0 - t[1])), (corner + row, weight * t[1])] {
+                    self.content[first + corner] += content * (weight * (1.0 - t[0]));
+                    self.content[first + corner + 1] += content * (weight * t[0]);
                 }
             }
+            let cell = UVec3::new((first % row) as u32, (first % slice / row) as u32, (first / slice) as u32);
+            (first_filled, last_filled) = (first_filled.min(cell), last_filled.max(cell + 1));
         }
+        self.filled = [[first_filled, last_filled], self.filled[0]];
     }
 
-    /// From density and momentum to forces.
+    /// From density and momentum to forces, wherever there is hair, or was, and one node beyond: elsewhere both are 0.
     fn pull(&mut self) {
-        let Self { forces, rest, unit, content, excess, pull, .. } = self;
-        for (((content, rest), excess), pull) in content.iter().zip(&*rest).zip(&mut *excess).zip(&mut *pull) {
-            let density = content.w * *unit;
-            let drag = forces.cohesion * density.min(1.0);
-            // Momentum over mass is the mean velocity; no hair, no drag.
-            let of_momentum = if content.w > 0.0 { drag / content.w } else { 0.0 };
-            *excess = (density - rest).max(0.0);
-            *pull = (content.truncate() * of_momentum).extend(drag);
+        let [[a, b], [c, d]] = self.filled;
+        // Hair does not reach the outermost nodes, so those have no neighbours to ask.
+        let around = [a.min(c).max(UVec3::splat(2)) - 1, (b.max(d) + 1).min(self.nodes - 2)];
+        let Self { forces, nodes, rest, unit, content, excess, pull, .. } = self;
+        for row in rows(*nodes, around) {
+            let (content, rest) = (&content[row.clone()], &rest[row.clone()]);
+            let (excess, pull) = (&mut excess[row.clone()], &mut pull[row]);
+            for (((content, rest), excess), pull) in content.iter().zip(rest).zip(excess).zip(pull) {
+                let density = content.w * *unit;
+                let drag = forces.cohesion * density.min(1.0);
+                // Momentum over mass is the mean velocity; no hair, no drag.
+                let of_momentum = if content.w > 0.0 { drag / content.w } else { 0.0 };
+                *excess = (density - rest).max(0.0);
+                *pull = (content.truncate() * of_momentum).extend(drag).to_array();
+            }
         }
         let half = 0.5 * forces.pressure;
-        let (row, slice) = self.strides();
+        let (along_y, along_z) = self.strides();
         let Self { excess, pull, nodes, .. } = self;
-        // Hair does not reach the outermost nodes, so those have no neighbours to ask.
-        for k in 1..nodes.z as usize - 1 {
-            for j in 1..nodes.y as usize - 1 {
-                let first = k * slice + j * row;
-                for at in first + 1..first + nodes.x as usize - 1 {
-                    let rise = |stride: usize| excess[at + stride] - excess[at - stride];
-                    pull[at] -= (half * Vec3::new(rise(1), rise(row), rise(slice))).extend(0.0);
-                }
+        for row in rows(*nodes, around) {
+            for at in row {
+                let [x, y, z, drag] = pull[at];
+                pull[at] = [
+                    x - half * (excess[at + 1] - excess[at - 1]),
+                    y - half * (excess[at + along_y] - excess[at - along_y]),
+                    z - half * (excess[at + along_z] - excess[at - along_z]),
+                    drag,
+                ];
             }
         }
     }
 
-    /// The force on a point of hair and its drag (head space); none beyond the grid.
-    pub fn at(&self, p: Vec3) -> Vec4 {
-        let Some((first, t)) = self.cell(p) else { return Vec4::ZERO };
+    /// The forces on sixteen points and their drag (head space); none beyond the grid.
+    #[inline(always)]
+    pub fn at_row(&self, points: &PointRow) -> (PointRow, Row) {
+        let (mut firsts, mut places) = ([0; LANES], [[0.0; LANES]; 3]);
+        for lane in 0..LANES {
+            let (first, t) = self.cell([points[0].0[lane], points[1].0[lane], points[2].0[lane]]);
+            firsts[lane] = first;
+            (places[0][lane], places[1][lane], places[2][lane]) = (t[0], t[1], t[2]);
+        }
+        let mut pulls = [[0.0; 4]; LANES];
+        for lane in 0..LANES {
+            pulls[lane] = self.between(firsts[lane], [places[0][lane], places[1][lane], places[2][lane]]);
+        }
+        let (mut forces, mut drag) = (PointRow::default(), Row::default());
+        for lane in 0..LANES {
+            let [x, y, z, w] = pulls[lane];
+            (forces[0].0[lane], forces[1].0[lane], forces[2].0[lane], drag.0[lane]) = (x, y, z, w);
+        }
+        (forces, drag)
+    }
+
+    /// The force on a point of the cell of this first node, and its drag.
+    #[inline(always)]
+    fn between(&self, first: usize, [x, y, z]: [f32; 3]) -> [f32; 4] {
         let (row, slice) = self.strides();
-        let along_x = |i: usize| self.pull[i] + (self.pull[i + 1] - self.pull[i]) * t.x;
-        let along_y = |i: usize| {
-            let (a, b) = (along_x(i), along_x(i + row));
-            a + (b - a) * t.y
-        };
-        let (a, b) = (along_y(first), along_y(first + slice));
-        a + (b - a) * t.z
+        let (a, b) = (self.pair(first), self.pair(first + row));
+        let (c, d) = (self.pair(first + slice), self.pair(first + slice + row));
+        let pair = lerp(lerp(a, b, y), lerp(c, d, y), z);
+        let ([low, high], mut pull) = (pair, [0.0; 4]);
+        for i in 0..4 {
+            pull[i] = low[i] + (high[i] - low[i]) * x;
+        }
+        pull
+    }
+
+    /// What is at a node and at the next one along x.
+    #[inline(always)]
+    fn pair(&self, at: usize) -> [[f32; 4]; 2] {
+        let pull = &self.pull[at..at + 2];
+        [pull[0], pull[1]]
     }
 
     /// The force on a point that goes along at `velocity` (cm a frame; head space).
     pub fn force(&self, p: DVec3, velocity: DVec3) -> DVec3 {
-        let pull = self.at(p.as_vec3()).as_dvec4();
-        pull.truncate() - pull.w * velocity
+        let (first, t) = self.cell(p.as_vec3().to_array());
+        let [x, y, z, drag] = self.between(first, t).map(f64::from);
+        DVec3::new(x, y, z) - drag * velocity
     }
 
+    #[inline(always)]
     fn strides(&self) -> (usize, usize) {
         (self.nodes.x as usize, (self.nodes.x * self.nodes.y) as usize)
     }
 
-    /// The first node of the cell of a point, and where in it the point lies, 0..1.
-    fn cell(&self, p: Vec3) -> Option<(usize, Vec3)> {
-        let q = (p - self.low) / self.forces.cell;
-        let inside = q.cmpge(Vec3::ZERO).all() && q.cmplt((self.nodes - 1).as_vec3()).all();
-        let c = q.as_uvec3();
-        let (row, slice) = self.strides();
-        inside.then(|| (c.z as usize * slice + c.y as usize * row + c.x as usize, q - c.as_vec3()))
+    /// The first node of the cell of a point, and where in it the point lies, 0..1; for points beyond the grid a place
+    /// that no hair reaches.
+    #[inline(always)]
+    fn cell(&self, p: [f32; 3]) -> (usize, [f32; 3]) {
+        let (size, nodes) = (1.0 / self.forces.cell, self.nodes);
+        let q = [(p[0] - self.low.x) * size, (p[1] - self.low.y) * size, (p[2] - self.low.z) * size];
+        let cells = [(nodes.x - 1) as f32, (nodes.y - 1) as f32, (nodes.z - 1) as f32];
+        let above = (q[0] >= 0.0) & (q[1] >= 0.0) & (q[2] >= 0.0);
+        let inside = above & (q[0] < cells[0]) & (q[1] < cells[1]) & (q[2] < cells[2]);
+        let q = if inside { q } else { [0.0; 3] };
+        let (i, j, k) = (q[0] as i32, q[1] as i32, q[2] as i32);
+        let first = (k as u32 * nodes.y + j as u32) * nodes.x + i as u32;
+        (first as usize, [q[0] - i as f32, q[1] - j as f32, q[2] - k as f32])
     }
+}
+
+#[inline(always)]
+fn lerp(a: [[f32; 4]; 2], b: [[f32; 4]; 2], t: f32) -> [[f32; 4]; 2] {
+    let mut sum = [[0.0; 4]; 2];
+    for i in 0..2 {
+        for j in 0..4 {
+            sum[i][j] = a[i][j] + (b[i][j] - a[i][j]) * t;
+        }
+    }
+    sum
+}
+
+/// The rows of a box of nodes, from the first to the last along each axis, among all of the grid.
+fn rows(nodes: UVec3, [first, last]: [UVec3; 2]) -> impl Iterator<Item = Range<usize>> {
+    let rows = (first.z..=last.z).flat_map(move |k| (first.y..=last.y).map(move |j| (k * nodes.y + j) * nodes.x));
+    rows.map(move |row| (row + first.x) as usize..(row + last.x + 1) as usize)
 }
 
 /// The length of hair that each point of a strand stands for: half of the segments that meet there (cm).

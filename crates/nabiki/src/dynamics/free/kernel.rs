@@ -71,10 +71,13 @@ impl StrengthRow {
 struct FrameRow {
     vector: PointRow,
     scalar: Row,
+    /// 2 / its squared length, worked out beside it: the next segment waits for both.
+    over_length: Row,
 }
 
 impl FrameRow {
-    const AT_REST: Self = Self { vector: [Row([0.0; LANES]); 3], scalar: Row([1.0; LANES]) };
+    const AT_REST: Self =
+        Self { vector: [Row([0.0; LANES]); 3], scalar: Row([1.0; LANES]), over_length: Row([2.0; LANES]) };
 }
 
 /// Forces on a segment of every strand of a block, but for those that come from its shape.
@@ -179,8 +182,7 @@ pub(super) fn step_segment(
         set_lane(&mut walk.before, lane, end);
 
         let (u, s) = (lane_of(&walk.frame.vector, lane), walk.frame.scalar.0[lane]);
-        // Not 0 even where many kinks have left nothing of its length.
-        let over_length = 2.0 / s.mul_add(s, dot(u, u)).max(1e-30);
+        let over_length = walk.frame.over_length.0[lane];
         let heavy = subtract(weight.now, turned(u, s, over_length, weight.at_rest));
         let held = scale(hold, subtract(rest, d));
         let f = add(forces.lane(lane), add(heavy, held));
@@ -188,10 +190,13 @@ pub(super) fn step_segment(
         // The turn from where the segment before it would carry it to where it is, which carries the next one.
         let carried_rest = lane_of(&walk.carried_rest, lane);
         let bend = cross(carried_rest, subtract(d, carried_rest));
-        let (u, s) = after(u, s, bend, (1.0 + dot(carried_rest, d)).max(1e-12));
+        let (v, t) = shortened(bend, (1.0 + dot(carried_rest, d)).max(1e-12));
+        let (u, s) = after(u, s, v, t);
+        // The length of a product is that of its factors; finite even where many kinks have left nothing of it.
+        let over_length = (over_length / t.mul_add(t, dot(v, v))).min(2e30);
         set_lane(&mut walk.frame.vector, lane, u);
         walk.frame.scalar.0[lane] = s;
-        let over_length = 2.0 / s.mul_add(s, dot(u, u)).max(1e-30);
+        walk.frame.over_length.0[lane] = over_length;
         let next_rest = turned(u, s, over_length, lane_of(next.rest, lane));
         let next_bend = cross(next_rest, subtract(lane_of(next.direction, lane), next_rest));
         let next_moment = scale(next.stiffness.0[lane], next_bend);
@@ -222,14 +227,19 @@ fn turned(u: [f32; 3], s: f32, over_length: f32, v: [f32; 3]) -> [f32; 3] {
     scale_add(over_length, scale_add(s, once, twice), v)
 }
 
-/// The turn (v, t) after the turn (u, s). It is brought near to length 1, not to it: whoever turns by it divides by its
-/// length.
+/// The turn (v, t) from one direction to another, of which t is 1 + their cosine, brought near to length 1, not to it:
+/// whoever turns by it divides by its length.
 #[inline(always)]
-fn after(u: [f32; 3], s: f32, v: [f32; 3], t: f32) -> ([f32; 3], f32) {
+fn shortened(v: [f32; 3], t: f32) -> ([f32; 3], f32) {
     // |(v, t)|^2 is 2 t for directions of length 1; half of it, x, is near 1 unless hair is kinked, and (3 - x) / 4 is
     // near 1 / (2 sqrt x) there.
     let shorter = t.mul_add(-0.125, 0.75);
-    let (v, t) = (scale(shorter, v), t * shorter);
+    (scale(shorter, v), t * shorter)
+}
+
+/// The turn (v, t) after the turn (u, s).
+#[inline(always)]
+fn after(u: [f32; 3], s: f32, v: [f32; 3], t: f32) -> ([f32; 3], f32) {
     (scale_add(t, u, scale_add(s, v, cross(v, u))), t.mul_add(s, -dot(v, u)))
 }
 

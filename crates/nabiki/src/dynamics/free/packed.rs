@@ -4,16 +4,17 @@ use std::ops::Range;
 
 use glam::Vec3;
 
-use super::contact::{Going, Obstacle, Touch, kept_from};
+use super::contact::{Going, Obstacle, Touch, gap, kept_from};
 use super::grid::Crowd;
 use super::head_frame::{HeadFrame, weight};
 use super::kernel::{FreeRow, FreeState, Next, StrengthRow, Walk, Weight, ends, lag_behind, step_segment};
 use super::segment::{FreeSegment, free_segments};
 use crate::body::{Body, Surface};
+use crate::distance::SkinDistance;
 use crate::dynamics::block::{Block, Pass};
 use crate::dynamics::gain::Stability;
 use crate::dynamics::paper::{Force, Surroundings};
-use crate::dynamics::row::{LANES, PointRow, Row, add, beyond, lane as lane_of, rotate, scale, scale_add, set_lane};
+use crate::dynamics::row::{LANES, PointRow, Row, add, beyond, dot, lane as lane_of, rotate, scale, scale_add, set_lane, subtract};
 use crate::dynamics::sweep::Form;
 use crate::dynamics::wind::FieldFrame;
 use crate::dynamics::{Dynamics, FrameInput};
@@ -177,17 +178,6 @@ impl Packed {
             crowd,
         })
     }
-
-    /// What the increments alone move every point by in a frame (cm).
-    pub fn velocities(&self, states: &mut [FreeState], velocities: &mut [Vec3]) {
-        let (mut states, mut velocities) = (states, velocities);
-        for block in &self.blocks {
-            let (mine, others) = states.split_at_mut(block.segments as usize);
-            let (page, rest) = velocities.split_at_mut(block.point_count());
-            (states, velocities) = (others, rest);
-            block.walk(&PointRow::default(), mine, &self.rows[block.rows()], Some(page), Velocities);
-        }
-    }
 }
 
 /// What a body keeps the end of a segment of every strand of a block out of.
@@ -207,6 +197,8 @@ pub(super) enum Plan<'a> {
     Rest,
     /// It moves.
     Step(Step<'a>),
+    /// It stays, and the points are what the increments alone move them by (cm a frame).
+    Velocities,
 }
 
 /// What a frame does to every block.
@@ -250,6 +242,7 @@ impl Form for Packed {
                 states.copy_from_slice(&self.rest[block.rows()]);
                 block.walk(&block.roots, states, rows, page, Place);
             }
+            Plan::Velocities => block.walk(&PointRow::default(), states, rows, page, Velocities),
             Plan::Step(step) => {
                 if let Some((axis, angle)) = step.turn {
                     for (state, lag) in states.iter_mut().zip(&self.lags[block.rows()]) {
@@ -275,6 +268,14 @@ impl Form for Packed {
 }
 
 impl Packed {
+    /// What body `b` keeps the end of a segment of row `at` out of, and how far from it (cm).
+    #[inline(always)]
+    fn kept_out_of(&self, b: usize, at: usize, lane: usize) -> (&SkinDistance, f32) {
+        let kept = &self.kept_from[b][at];
+        let surface = if kept.filled >> lane & 1 == 1 { Surface::Filled } else { Surface::Skin };
+        (self.free.bodies[b].surface(surface), kept.clearance.0[lane])
+    }
+
     #[inline(always)]
     fn strength(&self, at: usize) -> &StrengthRow {
         &self.strengths[if self.strengths.len() == 1 { 0 } else { at }]
@@ -369,38 +370,84 @@ impl Among<'_, '_> {
             }
         }
         if let Some(crowd) = self.step.crowd {
+            let (pull, drag) = crowd.at_row(&points);
             for lane in 0..LANES {
                 let velocity = beyond(&self.velocity, lane, row.length.0[lane], lane_of(&state.increment, lane));
                 set_lane(&mut self.velocity, lane, velocity);
-                let [x, y, z, drag] = crowd.at(Vec3::from(lane_of(&points, lane))).to_array();
-                let force = add(lane_of(&forces, lane), scale_add(-drag, velocity, [x, y, z]));
+                let felt = scale_add(-drag.0[lane], velocity, lane_of(&pull, lane));
+                let force = add(lane_of(&forces, lane), felt);
                 set_lane(&mut forces, lane, force);
             }
         }
         forces
     }
 
-    /// Turns segments out of the bodies.
+    /// Turns segments out of the bodies: of sixteen nodes a few may have come near, and fewer touch.
     #[inline(always)]
     fn keep_out(&self, state: &mut FreeState, was: &PointRow, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
-        let mut near = 0;
-        for lane in 0..LANES {
-            let (now, before) = (lane_of(to, lane), lane_of(&self.walk.before, lane));
-            // At least the way that the node has gone.
-            let way = (now[0] - before[0]).abs() + (now[1] - before[1]).abs() + (now[2] - before[2]).abs();
-            let gap = state.gap.0[lane] - (way + self.step.closer);
-            state.gap.0[lane] = gap;
-            near |= u32::from(gap < 0.0);
+        let near = self.near(state, row, to);
+        if near == 0 {
+            return;
         }
-        if near != 0 {
-            for lane in 0..LANES {
-                if state.gap.0[lane] < 0.0 && row.length.0[lane] > 0.0 {
-                    self.keep_one_out(state, was, row, from, to, lane);
-                }
-            }
+        let mut gaps = [f32::INFINITY; LANES];
+        for b in 0..self.step.obstacles.len() {
+            self.read_gaps(b, near, to, &mut gaps);
+        }
+        let mut touching = 0;
+        for lane in 0..LANES {
+            let read = near >> lane & 1 == 1;
+            state.gap.0[lane] = if read { gaps[lane].max(0.0) } else { state.gap.0[lane] };
+            touching |= u32::from(gaps[lane] < 0.0) << lane;
+        }
+        while touching != 0 {
+            let lane = next_lane(&mut touching);
+            self.keep_one_out(state, was, row, from, to, lane);
         }
     }
 
+    /// Takes from the gaps what nodes and bodies may have come closer, and says which may touch: a bit for each strand.
+    #[inline(always)]
+    fn near(&self, state: &mut FreeState, row: &FreeRow, to: &PointRow) -> u32 {
+        let (mut near, closer) = (0, self.step.closer);
+        for lane in 0..LANES {
+            let way = subtract(lane_of(to, lane), lane_of(&self.walk.before, lane));
+            let gap = state.gap.0[lane] - (dot(way, way).sqrt() + closer);
+            state.gap.0[lane] = gap;
+            near |= u32::from((gap < 0.0) & (row.length.0[lane] > 0.0)) << lane;
+        }
+        near
+    }
+
+    /// How far at least the ends of some segments are from touching body `b`, where that is less than `gaps`.
+    #[inline(always)]
+    fn read_gaps(&self, b: usize, mut near: u32, to: &PointRow, gaps: &mut [f32; LANES]) {
+        let (packed, obstacle) = (self.packed, &self.step.obstacles[b]);
+        let (body, kept) = (&packed.free.bodies[b], &packed.kept_from[b][self.at]);
+        // Nearly all that lies on a body with filled folds keeps out of those.
+        let (usual, unusual) = match body.filled.as_deref() {
+            Some(filled) => (filled, !kept.filled),
+            None => (&*body.distance, 0),
+        };
+        let places = obstacle.places(usual, to);
+        while near != 0 {
+            let lane = next_lane(&mut near);
+            let clearance = kept.clearance.0[lane];
+            let distance = match &places {
+                Some(places) if unusual >> lane & 1 == 0 => usual.fine_distance(places, lane),
+                _ => None,
+            };
+            let found = match distance {
+                Some(distance) => gap(distance, clearance),
+                None => {
+                    let (skin, clearance) = packed.kept_out_of(b, self.at, lane);
+                    obstacle.gap(skin, Vec3::from(lane_of(to, lane)), clearance)
+                }
+            };
+            gaps[lane] = gaps[lane].min(found);
+        }
+    }
+
+    /// Turns a segment out of the bodies that its end touches.
     #[inline(never)]
     fn keep_one_out(
         &self,
@@ -413,25 +460,24 @@ impl Among<'_, '_> {
     ) {
         let at = |row: &PointRow| Vec3::from(lane_of(row, lane));
         let mut going = Going { direction: at(&state.direction), increment: at(&state.increment) };
-        let (from, length) = (at(from), row.length.0[lane]);
-        let was = at(was);
-        let mut gap = f32::INFINITY;
+        let (from, length, was) = (at(from), row.length.0[lane], at(was));
         for (b, obstacle) in self.step.obstacles.iter().enumerate() {
-            let kept = &self.packed.kept_from[b][self.at];
-            let surface = if kept.filled >> lane & 1 == 1 { Surface::Filled } else { Surface::Skin };
-            let clearance = kept.clearance.0[lane];
+            let (skin, clearance) = self.packed.kept_out_of(b, self.at, lane);
             let touch = Touch { from, length, clearance, was };
-            let beside;
-            (going, beside) = obstacle.stop(self.packed.free.bodies[b].surface(surface), going, &touch);
-            gap = gap.min(beside);
+            going = obstacle.stop(skin, going, &touch).unwrap_or(going);
         }
-        if going.direction != at(&state.direction) || going.increment != at(&state.increment) {
-            set_lane(&mut state.direction, lane, going.direction.to_array());
-            set_lane(&mut state.increment, lane, going.increment.to_array());
-            set_lane(to, lane, (from + length * going.direction).to_array());
-        }
-        state.gap.0[lane] = gap;
+        set_lane(&mut state.direction, lane, going.direction.to_array());
+        set_lane(&mut state.increment, lane, going.increment.to_array());
+        set_lane(to, lane, (from + length * going.direction).to_array());
     }
+}
+
+/// Takes the first lane out of a set of them, a bit for each.
+#[inline(always)]
+fn next_lane(set: &mut u32) -> usize {
+    let lane = set.trailing_zeros() as usize;
+    *set &= *set - 1;
+    lane
 }
 
 /// Puts strands together as they are.

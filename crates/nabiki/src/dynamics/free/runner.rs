@@ -125,7 +125,7 @@ impl Carriers {
     fn step(&mut self, input: &FrameInput, obstacles: &[Obstacle], width: VectorWidth) {
         let plan = self.packed.plan(input, obstacles, Some(&self.crowd));
         sweep(&self.packed, &[plan], width, &mut self.states, Pages::Last(&mut self.points));
-        self.packed.velocities(&mut self.states, &mut self.velocities);
+        sweep(&self.packed, &[Plan::Velocities], width, &mut self.states, Pages::Last(&mut self.velocities));
         self.crowd.fill(&self.points, &self.velocities);
     }
 }
