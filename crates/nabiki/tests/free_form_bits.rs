@@ -10,7 +10,7 @@ use std::sync::Arc;
 use common::{Whirl, bits, fast, field, gust, hair, mixed_hair, step, way_of_a_head, wind};
 use glam::Vec3;
 use nabiki::body::{Body, BodyWay, Contact};
-use nabiki::dynamics::{Dynamics, Form, FrameInput, Simulation, Stepper, Timeline, VectorWidth};
+use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Simulation, Stepper, Timeline, VectorWidth};
 use nabiki::field::Field;
 use nabiki::free_form::{FreeMotion, NeighbourForces, Neighbours};
 use nabiki::pseudo_force::PseudoForce;
@@ -29,7 +29,8 @@ fn crowded() -> Dynamics {
     let mut free = FreeMotion { bodies: vec![head, another], rest_pose: way_of_a_head(0)[0], ..Default::default() };
     free.form.stiffness = Profile::RootToTip(vec![150.0, 40.0, 60.0]);
     free.neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers: Arc::new(hair(24, 18)) });
-    Dynamics { pseudo_force: PseudoForce::off(), form: Form::Free(free), ..gust() }
+    let motion = Motion { frames: FRAMES, ..Motion::default() };
+    Dynamics { motion, pseudo_force: PseudoForce::off(), form: Form::Free(free), ..gust() }
 }
 
 /// Under a field that differs from place to place, and a strong one now and then, a head that turns.

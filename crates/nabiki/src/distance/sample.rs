@@ -22,6 +22,7 @@ impl SkinDistance {
     }
 
     /// Where some points lie among the fine samples.
+    #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernels")]
     #[inline(always)]
     pub(crate) fn places<const N: usize>(&self, [xs, ys, zs]: [&[f32; N]; 3]) -> Places<N> {
         let Samples { low, cell, nodes, mirrored, .. } = &self.samples;

@@ -152,6 +152,7 @@ impl Crowd {
     }
 
     /// The forces on sixteen points and their drag (head space); none beyond the grid.
+    #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernels")]
     #[inline(always)]
     pub fn at_row(&self, points: &PointRow) -> (PointRow, Row) {
         let (mut firsts, mut places) = ([0; LANES], [[0.0; LANES]; 3]);
@@ -173,6 +174,7 @@ impl Crowd {
     }
 
     /// The force on a point of the cell of this first node, and its drag.
+    #[allow(clippy::needless_range_loop, reason = "one vector of four numbers")]
     #[inline(always)]
     fn between(&self, first: usize, [x, y, z]: [f32; 3]) -> [f32; 4] {
         let (row, slice) = self.strides();

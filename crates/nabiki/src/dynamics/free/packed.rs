@@ -14,7 +14,9 @@ use crate::distance::SkinDistance;
 use crate::dynamics::block::{Block, Pass};
 use crate::dynamics::gain::Stability;
 use crate::dynamics::paper::{Force, Surroundings};
-use crate::dynamics::row::{LANES, PointRow, Row, add, beyond, dot, lane as lane_of, rotate, scale, scale_add, set_lane, subtract};
+use crate::dynamics::row::{
+    LANES, PointRow, Row, add, beyond, dot, lane as lane_of, rotate, scale, scale_add, set_lane, subtract,
+};
 use crate::dynamics::sweep::Form;
 use crate::dynamics::wind::FieldFrame;
 use crate::dynamics::{Dynamics, FrameInput};
@@ -383,6 +385,7 @@ impl Among<'_, '_> {
     }
 
     /// Turns segments out of the bodies: of sixteen nodes a few may have come near, and fewer touch.
+    #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernels")]
     #[inline(always)]
     fn keep_out(&self, state: &mut FreeState, was: &PointRow, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
         let near = self.near(state, row, to);
