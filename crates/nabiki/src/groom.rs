@@ -4,6 +4,7 @@
 //! same strands to the bit, as does any number of threads.
 
 pub(crate) mod chance;
+mod curl;
 mod cut;
 mod drape;
 mod ears;
@@ -92,6 +93,7 @@ pub fn groom(
 ) -> Result<Strands, SettingError> {
     style.check()?;
     check_positive("hair.segment_length", segment_length)?;
+    style.curl.check_segment_length(segment_length)?;
     if segments == 0 {
         return Err(SettingError::new("hair.segments", segments, "must be at least 1"));
     }

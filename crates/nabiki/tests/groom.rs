@@ -27,10 +27,11 @@ struct Hair {
     style: Style,
 }
 
-const SCENES: [(&str, &str); 3] = [
+const SCENES: [(&str, &str); 4] = [
     ("gust", include_str!("../../../scenes/gust.toml")),
     ("bob", include_str!("../../../scenes/bob.toml")),
     ("short", include_str!("../../../scenes/short.toml")),
+    ("curls", include_str!("../../../scenes/curls.toml")),
 ];
 
 struct Styled {

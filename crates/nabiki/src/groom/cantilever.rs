@@ -198,11 +198,9 @@ impl Beam {
         let mut a0 = self.clamp;
         let mut u = self.clamp.any_orthonormal_vector();
         for (i, &t) in directions.iter().enumerate() {
-            let cosine = a0.dot(t);
-            u -= (a0 + t) * (u.dot(t) / (1.0 + cosine));
-            u = (u - t * u.dot(t)).normalize();
+            u = carried(u, a0, t);
             frame.push([u, t.cross(u)]);
-            joint.push(self.joint(i) / cosine);
+            joint.push(self.joint(i) / a0.dot(t));
             a0 = t;
         }
         for i in 0..k {
@@ -248,6 +246,12 @@ impl Workspace {
             beyond += w;
         }
     }
+}
+
+/// `u`, normal to `from`, after the smallest turn that takes `from` to `to` (unit vectors, not opposite).
+pub(super) fn carried(u: DVec3, from: DVec3, to: DVec3) -> DVec3 {
+    let u = u - (from + to) * (u.dot(to) / (1.0 + from.dot(to)));
+    (u - to * u.dot(to)).normalize()
 }
 
 /// Pivots of the tridiagonal matrix of turns; false if it is not positive definite.

@@ -33,9 +33,19 @@ fn crossing(cut: &Cut, styled: &StrandStyle, nodes: &[DVec3]) -> Option<f64> {
     None
 }
 
-/// Drapes a strand, cutting it wherever a plane that concerns it says so.
+/// Drapes a strand, cutting it wherever a plane that concerns it says so, and winds it, if it curls.
 pub(super) fn drape_and_cut(ground: &Ground<'_>, cuts: &[Cut], styled: &StrandStyle, draping: &mut Draping) {
-    let mut length = styled.length;
+    let whole = styled.line_length(ground.segment);
+    let line = line_cut(ground, cuts, styled, whole, draping);
+    let Some(curl) = &styled.curl else { return };
+    let most = styled.length;
+    let length = if line < whole { curl.length_along(line, most, ground.segment) } else { most };
+    ground.wind(styled, curl, length, draping);
+}
+
+/// Drapes the strand, or the line that it will be wound about, which is `length` long (cm) before any cut; returns the
+/// length that is left.
+fn line_cut(ground: &Ground<'_>, cuts: &[Cut], styled: &StrandStyle, mut length: f64, draping: &mut Draping) -> f64 {
     ground.drape(styled, length, draping);
     for cut in cuts.iter().filter(|cut| cut.region.is_none_or(|region| region == styled.region)) {
         let Some(at) = crossing(cut, styled, &draping.nodes) else { continue };
@@ -63,4 +73,5 @@ pub(super) fn drape_and_cut(ground: &Ground<'_>, cuts: &[Cut], styled: &StrandSt
             }
         }
     }
+    length
 }

@@ -7,6 +7,7 @@
 use glam::DVec3;
 
 use super::cantilever::{Beam, Hold, Workspace};
+use super::curl::StrandCurl;
 use super::ears::EarHills;
 use super::strand_style::StrandStyle;
 use super::style::{LeverArms, Volume};
@@ -65,7 +66,7 @@ impl Ground<'_> {
     fn clearance(&self, styled: &StrandStyle, s: f64) -> f64 {
         let layers = f64::from(self.volume.thickness) * styled.depth;
         let gap = f64::from(self.volume.gap);
-        gap + layers * (1.0 - (-s / f64::from(self.volume.reach)).exp())
+        gap + layers * (1.0 - (-s / f64::from(self.volume.reach)).exp()) + styled.curl_reach(s)
     }
 
     /// What the segment from `p` that ends at `s` keeps. It rises toward that by no more than `RISE`.
@@ -74,7 +75,7 @@ impl Ground<'_> {
         let end = self.clearance(styled, s).min((here + RISE * d).max(f64::from(self.volume.gap)));
         // The first segment starts on the skin.
         let halfway = if s < 1.5 * d { 0.0 } else { 0.7 * here.min(end) };
-        Keep { end, halfway, over_ears }
+        Keep { end, halfway, over_ears: over_ears.map(|least| least + styled.curl_reach(s)) }
     }
 
     /// How far above the hills over the ears a strand stays: none, if it is rooted under one.
@@ -199,6 +200,24 @@ impl Ground<'_> {
             for _ in 0..ROUNDINGS {
                 self.round(styled, over_ears, d, directions, nodes);
             }
+        }
+    }
+
+    /// Winds a strand of `length` (cm) about the line that it has been draped in; what would lie in the skin is turned out
+    /// of it.
+    pub(super) fn wind(&self, styled: &StrandStyle, curl: &StrandCurl, length: f64, draping: &mut Draping) {
+        let Draping { nodes, directions, .. } = draping;
+        let between = nodes[0].distance(nodes[1]);
+        let d = length / segments(length, self.segment) as f64;
+        let gap = f64::from(self.volume.gap);
+        nodes.truncate(1);
+        let mut p = styled.root;
+        for (i, along) in curl.wound(length, self.segment, directions, between).enumerate() {
+            let halfway = if i == 0 { 0.0 } else { 0.7 * self.distance(p).clamp(0.0, gap) };
+            let keep = Keep { end: gap, halfway, over_ears: None };
+            let clear = self.spare(p, along * d, &keep) >= 0.0;
+            p += d * if clear { along } else { self.turned_onto(p, along, d, &keep) };
+            nodes.push(p);
         }
     }
 

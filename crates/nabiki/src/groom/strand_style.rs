@@ -3,12 +3,13 @@
 use glam::{DVec2, DVec3, IVec3, Vec3};
 
 use super::chance::Chance;
+use super::curl::{Clump, StrandCurl};
 use super::style::{Region, Style};
 use crate::roots::Root;
 use crate::{Ellipsoid, Head};
 
 /// Channels of chance, one use each.
-mod channel {
+pub(super) mod channel {
     pub const LENGTH: u64 = 0;
     pub const STRAY: u64 = 1;
     pub const DEPTH: u64 = 2;
@@ -21,6 +22,8 @@ mod channel {
     /// Two of them.
     pub const WOBBLE: u64 = 9;
     pub const EDGE: u64 = 11;
+    /// Radius, pitch, turn and hand of a clump's curls; radius and turn of a strand's.
+    pub const CURL: u64 = 12;
 }
 
 /// One strand's share of the style (head space, cm; loads in units of its own weight).
@@ -50,9 +53,22 @@ pub(super) struct StrandStyle {
     pub region: Region,
     /// How far beyond its plane a cut is made (cm).
     pub cut_offset: f64,
+    /// How it curls, if the style has curls.
+    pub curl: Option<StrandCurl>,
 }
 
 impl StrandStyle {
+    /// How far it reaches from its line at the distance `s` along that (cm).
+    pub(super) fn curl_reach(&self, s: f64) -> f64 {
+        self.curl.map_or(0.0, |curl| curl.reach(s))
+    }
+
+    /// Length of the line about which the whole strand winds, in segments no longer than `longest` (cm): its own length,
+    /// if it does not curl.
+    pub(super) fn line_length(&self, longest: f64) -> f64 {
+        self.curl.map_or(self.length, |curl| curl.line_length(self.length, longest))
+    }
+
     /// The load per unit length at arc length `s` (cm).
     pub(super) fn load(&self, s: f64) -> DVec3 {
         self.weight + self.comb * (-s / self.comb_decay).exp()
@@ -183,6 +199,12 @@ pub(super) fn strand_style(
 
     let wave_slope = std::f64::consts::TAU * f64::from(style.clumps.wave) / f64::from(style.clumps.wave_length);
     let across = clump.vector(channel::PHASE).try_normalize().unwrap_or(DVec3::Z);
+
+    let out = (clump_middle - head.ellipsoid.center).as_dvec3().try_normalize().unwrap_or(normal);
+    let of_curls = Clump { middle: clump_middle, chance: clump, outward: out };
+    let curl = StrandCurl::new(&style.curl, length, root, clamp, strand, &of_curls);
+    // A lock lies in one layer.
+    let depth = curl.map_or(strand, |_| clump).unit(channel::DEPTH);
     StrandStyle {
         root,
         clamp,
@@ -192,10 +214,11 @@ pub(super) fn strand_style(
         weight: DVec3::NEG_Y + tilt,
         comb,
         comb_decay: f64::from(style.comb.decay),
-        depth: strand.unit(channel::DEPTH),
+        depth,
         wave: across * wave_slope * (0.8 + 0.4 * strand.unit(channel::PHASE)),
         wave_phase: std::f64::consts::TAU * clump.unit(channel::PHASE) + 0.5 * strand.bell(channel::PHASE),
         region,
         cut_offset: f64::from(variation.cut) * strand.bell(channel::CUT),
+        curl,
     }
 }

@@ -31,6 +31,8 @@ pub struct Style {
     pub variation: Variation,
     /// How strands keep together.
     pub clumps: Clumps,
+    /// Curls and waves; none by default.
+    pub curl: Curl,
     /// Planes beyond which hair is cut off, in any number.
     pub cuts: Vec<Cut>,
     /// Which lever arms bend a strand that hangs free (default "deformed").
@@ -240,6 +242,80 @@ impl Default for Clumps {
     }
 }
 
+/// Curls: every strand winds about the line in which it would hang without them, alike within a clump.
+///
+/// `hair.style.length` is the hair's own, so a strand reaches the less far the more it curls, and has the same segments.
+/// Stiffness and loads are those of the curled strand as a whole, and cuts are made where its line meets the plane: its
+/// end lies within the curl's radius of that.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Curl {
+    /// Distance between a strand and its line (cm, default 0: no curls), at most `pitch`.
+    pub radius: f32,
+    /// Length of the line in one turn (cm, default 2.5).
+    pub pitch: f32,
+    /// Distance from the root at which curls are whole, as a share of the strand's length: from there on they have their
+    /// radius, before they grow to it (default 0.25).
+    pub from: f32,
+    /// 0 winds to a helix, 1 waves in a plane; between them the helix is flat (default 0).
+    pub flatness: f32,
+    /// How far the hair of a clump closes to one lock by `from`: 0 not at all, 1 onto one line (default 0.7).
+    pub gather: f32,
+    /// Largest share by which radius and pitch differ from clump to clump (default 0.2).
+    pub variation: f32,
+    /// The same for the radius of single strands within a clump, and for the half turn by which they may be ahead or
+    /// behind (default 0.15).
+    pub frizz: f32,
+}
+
+impl Default for Curl {
+    fn default() -> Self {
+        Self { radius: 0.0, pitch: 2.5, from: 0.25, flatness: 0.0, gather: 0.7, variation: 0.2, frizz: 0.15 }
+    }
+}
+
+impl Curl {
+    /// A turn is made of at least so many segments: those of a circle meet at 45 degrees then.
+    pub const SEGMENTS_A_TURN: f32 = 8.0;
+
+    fn check(&self) -> Result<(), SettingError> {
+        check_positive("hair.style.curl.pitch", self.pitch)?;
+        let range = |key: &str, value, low, high| check_range(&format!("hair.style.curl.{key}"), value, low, high);
+        range("radius", self.radius, 0.0, self.pitch)?;
+        range("from", self.from, 0.01, 1.0)?;
+        range("flatness", self.flatness, 0.0, 1.0)?;
+        range("gather", self.gather, 0.0, 1.0)?;
+        range("variation", self.variation, 0.0, 0.6)?;
+        range("frizz", self.frizz, 0.0, 0.6)
+    }
+
+    /// Refuses segments (cm) that are too long to draw the tightest turn that chance may make.
+    ///
+    /// # Errors
+    /// Names `hair.segment_length` and the longest that will do.
+    pub fn check_segment_length(&self, segment_length: f32) -> Result<(), SettingError> {
+        if self.radius == 0.0 {
+            return Ok(());
+        }
+        let pitch = self.pitch * (1.0 - self.variation);
+        let around = std::f32::consts::TAU * self.radius * (1.0 - self.variation) * (1.0 - self.frizz);
+        // An ellipse is no shorter than the circle of its area, nor than there and back.
+        let round = (1.0 - self.flatness).sqrt().max(std::f32::consts::FRAC_2_PI);
+        let turn = pitch.hypot(around * round);
+        let longest = turn / Self::SEGMENTS_A_TURN;
+        if segment_length <= longest {
+            return Ok(());
+        }
+        let remedy = format!(
+            "must be at most {:.3}: the tightest turn of hair.style.curl takes {turn:.3} cm of hair, and no fewer than {} \
+             segments show its shape",
+            (longest * 1000.0).floor() / 1000.0,
+            Self::SEGMENTS_A_TURN
+        );
+        Err(SettingError::new("hair.segment_length", segment_length, remedy))
+    }
+}
+
 /// A cut: hair on the side of the plane that `normal` points to is taken off.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -317,6 +393,7 @@ impl Style {
         check_positive("hair.style.clumps.wave_length", self.clumps.wave_length)?;
         // Steeper than this a wave would turn hair back on itself.
         range("clumps.wave", self.clumps.wave, 0.0, 0.16 * self.clumps.wave_length)?;
+        self.curl.check()?;
         for (i, cut) in self.cuts.iter().enumerate() {
             let key = |field: &str| format!("hair.style.cuts[{i}].{field}");
             if !cut.point.is_finite() {
