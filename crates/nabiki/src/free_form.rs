@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
+use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use crate::body::Body;
 use crate::dynamics::{Dynamics, gain};
-use crate::error::{SettingError, check_range};
+use crate::error::{SettingError, check_positive, check_range};
 use crate::pose::Pose;
 use crate::profile::Profile;
 use crate::strands::Strands;
@@ -33,6 +34,28 @@ pub struct FreeForm {
     /// The share of the head's turn that hair follows at once is (1 - m/L)^`lag` at the distance m from the root of
     /// a strand of length L; the rest of the turn is felt as lag. 0..8; at 0 hair is carried rigidly.
     pub lag: f32,
+    /// What ties the hair, if anything does.
+    pub tie: Option<Tie>,
+}
+
+/// A band that ties hair: a strand that passes it at rest does not move before it, but goes with the head. Its segments up
+/// to the node nearest to the band have no gain, as points of no inverse mass have.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tie {
+    /// Its middle (head space, cm).
+    pub at: Vec3,
+    /// How near a strand passes that is tied (cm), above 0.
+    pub within: f32,
+}
+
+impl Tie {
+    /// How many segments of a strand are held: those before its node nearest to the band, if that is near enough.
+    pub fn held(&self, strand: &[Vec3]) -> usize {
+        let far = |p: &Vec3| p.distance_squared(self.at);
+        let nearest = strand.iter().enumerate().min_by(|a, b| far(a.1).total_cmp(&far(b.1)));
+        nearest.filter(|(_, p)| far(p) <= self.within * self.within).map_or(0, |(i, _)| i)
+    }
 }
 
 impl Default for FreeForm {
@@ -43,6 +66,7 @@ impl Default for FreeForm {
             settle: Profile::Even(20.0),
             gravity: 100.0,
             lag: 1.0,
+            tie: None,
         }
     }
 }
@@ -65,7 +89,12 @@ impl FreeForm {
         if !(self.gravity.is_finite() && self.gravity >= 0.0) {
             return Err(SettingError::new("free.gravity", self.gravity, "must be a finite number of at least 0"));
         }
-        check_range("free.lag", self.lag, 0.0, 8.0)
+        check_range("free.lag", self.lag, 0.0, 8.0)?;
+        let Some(Tie { at, within }) = self.tie else { return Ok(()) };
+        if !at.is_finite() {
+            return Err(SettingError::new("free.tie.at", at, "must have finite coordinates"));
+        }
+        check_positive("free.tie.within", within)
     }
 
     /// What is left of an increment after a frame. Friction that leaves lambda of a speed leaves the square root of

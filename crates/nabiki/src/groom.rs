@@ -94,6 +94,7 @@ pub fn groom(
     style.check()?;
     check_positive("hair.segment_length", segment_length)?;
     style.curl.check_segment_length(segment_length)?;
+    style.ponytail.map_or(Ok(()), |tail| tail.check_place(head))?;
     if segments == 0 {
         return Err(SettingError::new("hair.segments", segments, "must be at least 1"));
     }

@@ -12,7 +12,7 @@ use glam::{DVec3, Quat, Vec3};
 use nabiki::body::{Body, BodyWay, Contact};
 use nabiki::dynamics::{Dynamics, Form, Stepper, gain};
 use nabiki::field::Field;
-use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours};
+use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours, Tie};
 use nabiki::pseudo_force::PseudoForce;
 use nabiki::{Head, Profile, Strands};
 use proptest::prelude::*;
@@ -67,6 +67,48 @@ fn hair_at_rest_keeps_its_bits() {
                 assert_eq!(moved, None, "twin {twin}, frame {frame}");
             }
         }
+    }
+}
+
+/// A strand that passes a band keeps its bits up to there, under any wind and on a head that turns; from there on it moves,
+/// and so does all of a strand that passes farther off, as without a band.
+#[test]
+fn tied_hair_does_not_move_before_its_band() {
+    let strands = hair(40, 18);
+    let at = strands.strand(7)[9];
+    let near = |strand: &[Vec3]| strand.iter().any(|p| p.distance(at) <= 1.5);
+    let tied = strands.iter().filter(|strand| near(strand)).count();
+    assert!((1..40).contains(&tied), "{tied} of 40 pass the band");
+    let loose = free(form(120.0, 30.0, 20.0, 100.0));
+    let mut dynamics = loose.clone();
+    if let Form::Free(free) = &mut dynamics.form {
+        free.form.tie = Some(Tie { at, within: 1.5 });
+    }
+    let blows = field(&[(1000, [-60.0, 10.0, 40.0])]);
+    let poses = way_of_a_head(30);
+    let moved = both(&strands, &dynamics, &blows).map(|mut stepper| run_under(&mut *stepper, &blows, &poses));
+    let moved_loose = both(&strands, &loose, &blows).map(|mut stepper| run_under(&mut *stepper, &blows, &poses));
+    for (moved, moved_loose) in moved.iter().zip(&moved_loose) {
+        for (s, rest) in strands.iter().enumerate() {
+            if near(rest) {
+                let held = (0..rest.len()).min_by(|&i, &j| rest[i].distance(at).total_cmp(&rest[j].distance(at))).unwrap();
+                assert_eq!(rest[..=held], moved.strand(s)[..=held], "strand {s}");
+                assert!(held + 1 == rest.len() || rest[held + 1] != moved.strand(s)[held + 1], "strand {s}");
+            } else {
+                assert_eq!(moved.strand(s), moved_loose.strand(s), "strand {s}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_band_out_of_range_is_refused_by_name() {
+    for (tie, thing) in [
+        (Tie { at: Vec3::new(f32::NAN, 0.0, 0.0), within: 1.0 }, "free.tie.at"),
+        (Tie { at: Vec3::ZERO, within: 0.0 }, "free.tie.within"),
+    ] {
+        let form = FreeForm { tie: Some(tie), ..FreeForm::default() };
+        assert_eq!(form.check().unwrap_err().thing, thing);
     }
 }
 

@@ -27,11 +27,12 @@ struct Hair {
     style: Style,
 }
 
-const SCENES: [(&str, &str); 4] = [
+const SCENES: [(&str, &str); 5] = [
     ("gust", include_str!("../../../scenes/gust.toml")),
     ("bob", include_str!("../../../scenes/bob.toml")),
     ("short", include_str!("../../../scenes/short.toml")),
     ("curls", include_str!("../../../scenes/curls.toml")),
+    ("ponytail", include_str!("../../../scenes/ponytail.toml")),
 ];
 
 struct Styled {

@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::cantilever::{Beam, Hold, Workspace};
 use super::curl::StrandCurl;
 use super::ears::EarHills;
-use super::strand_style::StrandStyle;
+use super::strand_style::{StrandStyle, Tie};
 use super::style::{LeverArms, Volume};
 use crate::Head;
 
@@ -21,6 +21,11 @@ const ROUNDINGS: usize = 5;
 
 /// A turn (rad) beyond which a segment had rather lie closer than the layers want.
 const SHARP: f64 = 0.9;
+
+/// How much of its direction hair keeps from segment to segment on its way to a band, beside that toward the band; and
+/// the distance from the band within which it keeps none (cm).
+const EASE: f64 = 0.8;
+const NEAR_BAND: f64 = 3.0;
 
 /// Steepest rise of lying hair toward the layer that it belongs to (slope).
 const RISE: f64 = 0.4;
@@ -161,11 +166,16 @@ impl Ground<'_> {
 
         let over_ears = self.over_ears(styled);
         let mut beam = Beam { stiffness: styled.bend.powi(3), segment: d, clamp: styled.clamp, hold: Hold::Clamped };
+        if let Some(tie) = &styled.tie {
+            self.lie_to(tie, styled, d, k, directions, nodes);
+            beam.clamp = tie.behind;
+        }
+        let tied = directions.len();
         // The free piece starts at this segment.
-        let mut from = 0;
-        self.hang(&beam, loads, false, free, workspace);
-        let (mut p, mut lies, mut touched) = (styled.root, false, false);
-        for i in 0..k {
+        let mut from = tied;
+        self.hang(&beam, &loads[from..], false, free, workspace);
+        let (mut p, mut lies, mut touched) = (nodes[tied], false, false);
+        for i in tied..k {
             let s = (i + 1) as f64 * d;
             let wave = wave_at(styled, self.wave_length, s - 0.5 * d);
             let keep = self.keep(styled, over_ears, p, s, d);
@@ -196,10 +206,36 @@ impl Ground<'_> {
             nodes.push(p);
             directions.push(taken);
         }
-        if touched {
+        if touched && tied == 0 {
             for _ in 0..ROUNDINGS {
                 self.round(styled, over_ears, d, directions, nodes);
             }
+        }
+    }
+
+    /// Lays a strand along the head to where it is tied, or as far as its `k` segments reach.
+    fn lie_to(
+        &self,
+        tie: &Tie,
+        styled: &StrandStyle,
+        d: f64,
+        k: usize,
+        directions: &mut Vec<DVec3>,
+        nodes: &mut Vec<DVec3>,
+    ) {
+        let (mut p, mut t) = (styled.root, styled.clamp);
+        while directions.len() < k && p.distance(tie.at) > 0.5 * d {
+            let wanted = (tie.at - p).normalize();
+            // What would go away from the band turns at its root; near the band it aims at it.
+            let ease = if p.distance(tie.at) < NEAR_BAND { 0.0 } else { EASE };
+            t = (wanted + t * ease).try_normalize().unwrap_or(wanted);
+            let keep = self.keep(styled, None, p, (directions.len() + 1) as f64 * d, d);
+            if self.spare(p, t * d, &keep) < 0.0 {
+                t = self.turned_onto(p, t, d, &keep);
+            }
+            p += t * d;
+            directions.push(t);
+            nodes.push(p);
         }
     }
 

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, IVec3, Vec3};
 
 use super::chance::Chance;
 use super::curl::{Clump, StrandCurl};
-use super::style::{Region, Style};
+use super::style::{Ponytail, Region, Style};
 use crate::roots::Root;
 use crate::{Ellipsoid, Head};
 
@@ -24,6 +24,8 @@ pub(super) mod channel {
     pub const EDGE: u64 = 11;
     /// Radius, pitch, turn and hand of a clump's curls; radius and turn of a strand's.
     pub const CURL: u64 = 12;
+    /// Place within the band of a ponytail.
+    pub const BAND: u64 = 16;
 }
 
 /// One strand's share of the style (head space, cm; loads in units of its own weight).
@@ -55,7 +57,31 @@ pub(super) struct StrandStyle {
     pub cut_offset: f64,
     /// How it curls, if the style has curls.
     pub curl: Option<StrandCurl>,
+    /// Where it is tied, if it is.
+    pub tie: Option<Tie>,
 }
+
+/// Where a strand passes the band of a ponytail (head space, cm), and its direction behind that (unit vector).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tie {
+    pub at: DVec3,
+    pub behind: DVec3,
+}
+
+impl Tie {
+    /// In the band, hair lies on the side that it comes from.
+    fn new(tail: &Ponytail, root: DVec3, strand: Chance) -> Self {
+        let middle = tail.at.as_dvec3();
+        let through = tail.direction.as_dvec3().normalize();
+        let from = root - middle;
+        let side = (from - through * from.dot(through)).try_normalize().unwrap_or_else(|| through.any_orthonormal_vector());
+        let off = side * strand.unit(channel::BAND).sqrt();
+        Self { at: middle + off * f64::from(tail.radius), behind: (through + off * FLARE).normalize() }
+    }
+}
+
+/// Slope at which hair from the rim of a band leaves its middle line.
+const FLARE: f64 = 0.25;
 
 impl StrandStyle {
     /// How far it reaches from its line at the distance `s` along that (cm).
@@ -203,6 +229,7 @@ pub(super) fn strand_style(
     let out = (clump_middle - head.ellipsoid.center).as_dvec3().try_normalize().unwrap_or(normal);
     let of_curls = Clump { middle: clump_middle, chance: clump, outward: out };
     let curl = StrandCurl::new(&style.curl, length, root, clamp, strand, &of_curls);
+    let tie = style.ponytail.filter(|_| region != Region::Fringe).map(|tail| Tie::new(&tail, root, strand));
     // A lock lies in one layer.
     let depth = curl.map_or(strand, |_| clump).unit(channel::DEPTH);
     StrandStyle {
@@ -220,5 +247,6 @@ pub(super) fn strand_style(
         region,
         cut_offset: f64::from(variation.cut) * strand.bell(channel::CUT),
         curl,
+        tie,
     }
 }

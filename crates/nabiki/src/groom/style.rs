@@ -3,8 +3,8 @@
 use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
-use crate::SettingError;
 use crate::error::{check_positive, check_range};
+use crate::{Head, SettingError};
 
 /// A hairstyle: how hair leaves the scalp, how stiff and how long it is, where it is combed and cut.
 ///
@@ -33,6 +33,9 @@ pub struct Style {
     pub clumps: Clumps,
     /// Curls and waves; none by default.
     pub curl: Curl,
+    /// A tail that all hair but the fringe is tied to; none by default.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ponytail: Option<Ponytail>,
     /// Planes beyond which hair is cut off, in any number.
     pub cuts: Vec<Cut>,
     /// Which lever arms bend a strand that hangs free (default "deformed").
@@ -316,6 +319,59 @@ impl Curl {
     }
 }
 
+/// A ponytail: hair goes along the head to one place, through a band there, and falls from it.
+///
+/// A strand too short to reach it ends on the way. `[free] tie` holds the hair there when it moves.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ponytail {
+    /// The middle of the band (head space, cm), at least `radius` away from the skin.
+    pub at: Vec3,
+    /// Radius of the hair within the band (cm, default 0.9).
+    #[serde(default = "band")]
+    pub radius: f32,
+    /// The way that hair takes through the band, of any length (default (-1, 0.2, 0): backward).
+    #[serde(default = "backward")]
+    pub direction: Vec3,
+}
+
+fn band() -> f32 {
+    0.9
+}
+
+fn backward() -> Vec3 {
+    Vec3::new(-1.0, 0.2, 0.0)
+}
+
+impl Ponytail {
+    fn check(&self) -> Result<(), SettingError> {
+        let key = |field: &str| format!("hair.style.ponytail.{field}");
+        if !self.at.is_finite() {
+            return Err(SettingError::new(key("at"), self.at, "must have finite coordinates"));
+        }
+        if self.direction.try_normalize().is_none() {
+            return Err(SettingError::new(key("direction"), self.direction, "must be a direction, not of length 0"));
+        }
+        check_range(&key("radius"), self.radius, 0.01, 5.0)
+    }
+
+    /// Refuses a band that reaches into the head.
+    ///
+    /// # Errors
+    /// Names its place, and says how far that is from the skin.
+    pub fn check_place(&self, head: &Head) -> Result<(), SettingError> {
+        let (distance, radius) = (head.distance(self.at), self.radius);
+        if distance >= radius {
+            return Ok(());
+        }
+        let remedy = format!(
+            "the band reaches into the head: its middle is {distance:.2} cm from the skin and must be at least its \
+             radius, {radius} cm"
+        );
+        Err(SettingError::new("hair.style.ponytail.at", self.at, remedy))
+    }
+}
+
 /// A cut: hair on the side of the plane that `normal` points to is taken off.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -394,6 +450,7 @@ impl Style {
         // Steeper than this a wave would turn hair back on itself.
         range("clumps.wave", self.clumps.wave, 0.0, 0.16 * self.clumps.wave_length)?;
         self.curl.check()?;
+        self.ponytail.map_or(Ok(()), |tail| tail.check())?;
         for (i, cut) in self.cuts.iter().enumerate() {
             let key = |field: &str| format!("hair.style.cuts[{i}].{field}");
             if !cut.point.is_finite() {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use glam::Vec3;
 use nabiki::body::Contact;
 use nabiki::dynamics::Motion;
-use nabiki::free_form::FreeForm;
+use nabiki::free_form::{FreeForm, Tie};
 use nabiki::{Profile, SettingError};
 use nabiki_io::motion::{Axis, MotionSource};
 use nabiki_io::{Placement, Unit};
@@ -66,20 +66,24 @@ pub struct FreeSettings {
     pub lag: f32,
     /// Whether `[pseudo_force]` weakens the field before the head, as in the paper's form (default false).
     pub pseudo_force: bool,
+    /// Hair that passes `at` (head space, cm) at rest as near as `within` (cm) is tied there, and does not move before it;
+    /// none if left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tie: Option<Tie>,
 }
 
 impl Default for FreeSettings {
     fn default() -> Self {
-        let FreeForm { stiffness, hold, settle, gravity, lag } = FreeForm::default();
-        Self { stiffness, hold, settle, gravity: Gravity::Strength(gravity), lag, pseudo_force: false }
+        let FreeForm { stiffness, hold, settle, gravity, lag, tie } = FreeForm::default();
+        Self { stiffness, hold, settle, gravity: Gravity::Strength(gravity), lag, pseudo_force: false, tie }
     }
 }
 
 impl FreeSettings {
     /// The method's settings, where weight has this strength.
     pub fn form(&self, gravity: f32) -> FreeForm {
-        let Self { stiffness, hold, settle, lag, .. } = self.clone();
-        FreeForm { stiffness, hold, settle, gravity, lag }
+        let Self { stiffness, hold, settle, lag, tie, .. } = self.clone();
+        FreeForm { stiffness, hold, settle, gravity, lag, tie }
     }
 
     /// Refuses lists of no or too many numbers, and numbers out of range.

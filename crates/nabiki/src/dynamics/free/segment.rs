@@ -35,8 +35,9 @@ pub(in crate::dynamics) fn free_segments(
 ) -> Result<Vec<FreeSegment>, SettingError> {
     let shapes = segment_shapes(dynamics, strand, s)?;
     let total: f64 = shapes.iter().map(|shape| shape.length).sum();
+    let held = form.tie.map_or(0, |tie| tie.held(strand));
     let mut before = shapes[0].length;
-    let segments = shapes.into_iter().zip(strand.windows(2)).map(|(shape, w)| {
+    let segments = shapes.into_iter().zip(strand.windows(2)).enumerate().map(|(i, (shape, w))| {
         // Curvature is an angle for the length between two middles, and it is its change over such a length that pulls:
         // finer cuts bend as coarse ones do.
         let between = 0.5 * (before + shape.length);
@@ -44,13 +45,18 @@ pub(in crate::dynamics) fn free_segments(
         let cut = (f64::from(dynamics.segment_length) / between).powi(2);
         let begin = shape.along - shape.length / total;
         let middle = shape.along - 0.5 * shape.length / total;
+        // What is tied goes with the head.
+        let (shape, share_of_turn) = match i < held {
+            true => (SegmentShape { gain: 0.0, gain_in_gamma: 0.0, ..shape }, 1.0),
+            false => (shape, form.share_of_turn(middle)),
+        };
         FreeSegment {
             shape,
             rest: (w[1].as_dvec3() - w[0].as_dvec3()).normalize(),
             stiffness: cut * form.stiffness.at(begin),
             hold: form.hold.at(middle),
             decay: form.decay(middle),
-            lag: 1.0 - form.share_of_turn(middle),
+            lag: 1.0 - share_of_turn,
         }
     });
     Ok(segments.collect())
