@@ -38,8 +38,9 @@ pub struct FreeForm {
     pub tie: Option<Tie>,
 }
 
-/// A band that ties hair: a strand that passes it at rest does not move before it, but goes with the head. Its segments up
-/// to the node nearest to the band have no gain, as points of no inverse mass have.
+/// A band that ties hair: a strand that passes it at rest does not move before it, but goes with the head, and moves behind
+/// it as one that is rooted there. Its segments up to the node nearest to the band have no gain, as points of no inverse
+/// mass have, and lengths, gains and what varies along a strand count from there.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tie {

@@ -101,6 +101,34 @@ fn tied_hair_does_not_move_before_its_band() {
     }
 }
 
+/// Lengths, gains and profiles count from the band. Both are put together in f32 and turn by the same increments but for
+/// what rounding of a chain of 18 segments makes of them.
+#[test]
+fn tied_hair_moves_behind_its_band_as_hair_rooted_there() {
+    let mut strands = Strands::default();
+    strands.push(hair(40, 18).strand(7).iter().copied());
+    let whole = strands.strand(0).to_vec();
+    let mut behind = Strands::default();
+    behind.push(whole[6..].iter().copied());
+    let stiffness = Profile::RootToTip(vec![160.0, 90.0, 120.0]);
+    let mut dynamics = free(FreeForm { stiffness, ..form(0.0, 30.0, 20.0, 100.0) });
+    let blows = field(&[(1000, [-60.0, 10.0, 40.0])]);
+    let run = |dynamics: &Dynamics, strands: &Strands| {
+        let mut stepper = exact(strands, dynamics, &blows);
+        run(&mut stepper, &blows, 30)
+    };
+    let alone = run(&dynamics, &behind);
+    if let Form::Free(free) = &mut dynamics.form {
+        free.form.tie = Some(Tie { at: whole[6], within: 0.1 });
+    }
+    let tied = run(&dynamics, &strands);
+    let moved = behind.strand(0).iter().zip(alone.strand(0)).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+    assert!(moved > 1.0, "{moved} cm");
+    for (a, b) in tied.strand(0)[6..].iter().zip(alone.strand(0)) {
+        assert!(a.distance(*b) < 1e-5, "{a} and {b}");
+    }
+}
+
 #[test]
 fn a_band_out_of_range_is_refused_by_name() {
     for (tie, thing) in [

@@ -41,7 +41,8 @@ pub(super) struct SegmentShape {
     pub gain: f64,
     /// eps_i c_i.
     pub gain_in_gamma: f64,
-    /// Distance of the segment's end from the root as a part of the strand's length, 0..1.
+    /// Distance of the segment's end from the root as a part of the strand's length, 0..1; both from the band on, where
+    /// the strand is tied.
     pub along: f64,
 }
 
@@ -67,9 +68,13 @@ pub(super) fn segment_shapes(
         return Err(SettingError::new(thing(), format!("segment {} of length 0", i + 1), remedy));
     }
     let d = f64::from(dynamics.segment_length);
-    let total: f64 = lengths.iter().sum();
+    let held = held(dynamics, strand);
+    let total: f64 = lengths[held..].iter().sum();
     let mut end = 0.0;
-    let shapes = lengths.iter().map(|&length| {
+    let shapes = lengths.iter().enumerate().map(|(i, &length)| {
+        if i < held {
+            return SegmentShape { length, gain: 0.0, gain_in_gamma: 0.0, along: 0.0 };
+        }
         let position = (end + length / 2.0) / d + 0.5;
         end += length;
         let gain = gain(dynamics, position, total / d);
@@ -77,6 +82,14 @@ pub(super) fn segment_shapes(
         SegmentShape { length, gain, gain_in_gamma: eps * gain, along: end / total }
     });
     Ok(shapes.collect())
+}
+
+/// How many segments of a strand are held where it is tied.
+pub(super) fn held(dynamics: &Dynamics, strand: &[glam::Vec3]) -> usize {
+    match &dynamics.form {
+        Form::Paper => 0,
+        Form::Free(free) => free.form.tie.map_or(0, |tie| tie.held(strand)),
+    }
 }
 
 /// The largest gain c_i of all strands: a force is stable while it times |F| stays below 4.

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use crate::dynamics::Dynamics;
-use crate::dynamics::gain::{SegmentShape, segment_shapes};
+use crate::dynamics::gain::{SegmentShape, held, segment_shapes};
 use crate::error::SettingError;
 use crate::free_form::FreeForm;
 
@@ -34,8 +34,9 @@ pub(in crate::dynamics) fn free_segments(
     s: usize,
 ) -> Result<Vec<FreeSegment>, SettingError> {
     let shapes = segment_shapes(dynamics, strand, s)?;
-    let total: f64 = shapes.iter().map(|shape| shape.length).sum();
-    let held = form.tie.map_or(0, |tie| tie.held(strand));
+    // What is tied goes with the head, as its roots do.
+    let held = held(dynamics, strand);
+    let total: f64 = shapes[held..].iter().map(|shape| shape.length).sum();
     let mut before = shapes[0].length;
     let segments = shapes.into_iter().zip(strand.windows(2)).enumerate().map(|(i, (shape, w))| {
         // Curvature is an angle for the length between two middles, and it is its change over such a length that pulls:
@@ -43,12 +44,9 @@ pub(in crate::dynamics) fn free_segments(
         let between = 0.5 * (before + shape.length);
         before = shape.length;
         let cut = (f64::from(dynamics.segment_length) / between).powi(2);
-        let begin = shape.along - shape.length / total;
-        let middle = shape.along - 0.5 * shape.length / total;
-        // What is tied goes with the head.
-        let (shape, share_of_turn) = match i < held {
-            true => (SegmentShape { gain: 0.0, gain_in_gamma: 0.0, ..shape }, 1.0),
-            false => (shape, form.share_of_turn(middle)),
+        let (begin, middle) = match i < held {
+            true => (0.0, 0.0),
+            false => (shape.along - shape.length / total, shape.along - 0.5 * shape.length / total),
         };
         FreeSegment {
             shape,
@@ -56,7 +54,7 @@ pub(in crate::dynamics) fn free_segments(
             stiffness: cut * form.stiffness.at(begin),
             hold: form.hold.at(middle),
             decay: form.decay(middle),
-            lag: 1.0 - share_of_turn,
+            lag: 1.0 - form.share_of_turn(middle),
         }
     });
     Ok(segments.collect())
