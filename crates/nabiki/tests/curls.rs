@@ -13,8 +13,7 @@ use proptest::prelude::*;
 static HEAD: LazyLock<Head> = LazyLock::new(Head::builtin);
 
 /// A curl of chance only in hand and phase, which begins early.
-const EVEN: Curl =
-    Curl { radius: 0.6, pitch: 2.5, from: 0.1, flatness: 0.0, gather: 0.0, variation: 0.0, frizz: 0.0 };
+const EVEN: Curl = Curl { radius: 0.6, pitch: 2.5, from: 0.1, flatness: 0.0, gather: 0.0, variation: 0.0, frizz: 0.0 };
 
 /// Coordinates 60 cm from the origin are 2^-18 cm apart, and a step along the line is settled to 1e-9 of it.
 const ROUNDING: f32 = 1e-5;

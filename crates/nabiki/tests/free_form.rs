@@ -91,7 +91,8 @@ fn tied_hair_does_not_move_before_its_band() {
     for (moved, moved_loose) in moved.iter().zip(&moved_loose) {
         for (s, rest) in strands.iter().enumerate() {
             if near(rest) {
-                let held = (0..rest.len()).min_by(|&i, &j| rest[i].distance(at).total_cmp(&rest[j].distance(at))).unwrap();
+                let held =
+                    (0..rest.len()).min_by(|&i, &j| rest[i].distance(at).total_cmp(&rest[j].distance(at))).unwrap();
                 assert_eq!(rest[..=held], moved.strand(s)[..=held], "strand {s}");
                 assert!(held + 1 == rest.len() || rest[held + 1] != moved.strand(s)[held + 1], "strand {s}");
             } else {
@@ -101,8 +102,8 @@ fn tied_hair_does_not_move_before_its_band() {
     }
 }
 
-/// Lengths, gains and profiles count from the band. Both are put together in f32 and turn by the same increments but for
-/// what rounding of a chain of 18 segments makes of them.
+/// Lengths, gains and profiles count from the band. Both are put together in f32, whose roundings, 1e-6 cm and as much of a
+/// direction, grow along a chain of 12 segments that all pull on one another, and over thirty frames.
 #[test]
 fn tied_hair_moves_behind_its_band_as_hair_rooted_there() {
     let mut strands = Strands::default();
@@ -125,7 +126,7 @@ fn tied_hair_moves_behind_its_band_as_hair_rooted_there() {
     let moved = behind.strand(0).iter().zip(alone.strand(0)).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
     assert!(moved > 1.0, "{moved} cm");
     for (a, b) in tied.strand(0)[6..].iter().zip(alone.strand(0)) {
-        assert!(a.distance(*b) < 1e-5, "{a} and {b}");
+        assert!(a.distance(*b) < 1e-4, "{a} and {b}");
     }
 }
 

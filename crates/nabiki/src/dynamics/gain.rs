@@ -46,6 +46,13 @@ pub(super) struct SegmentShape {
     pub along: f64,
 }
 
+impl SegmentShape {
+    /// eps_i; 1 where nothing moves the segment.
+    pub fn eps(&self) -> f64 {
+        if self.gain > 0.0 { self.gain_in_gamma / self.gain } else { 1.0 }
+    }
+}
+
 /// Lengths and gains of every segment of one strand, root first.
 ///
 /// # Errors

@@ -53,18 +53,12 @@ pub(super) struct Clump {
 
 impl StrandCurl {
     /// That of the strand of `length` (cm) which leaves `root` along `clamp`; none, if the style has no curls.
-    pub fn new(
-        curl: &Curl,
-        length: f64,
-        root: DVec3,
-        clamp: DVec3,
-        strand: Chance,
-        clump: &Clump,
-    ) -> Option<Self> {
+    pub fn new(curl: &Curl, length: f64, root: DVec3, clamp: DVec3, strand: Chance, clump: &Clump) -> Option<Self> {
         if curl.radius == 0.0 {
             return None;
         }
-        let differs = |share: f32, chance: Chance, i: u64| f64::from(share) * (2.0 * chance.unit(channel::CURL + i) - 1.0);
+        let differs =
+            |share: f32, chance: Chance, i: u64| f64::from(share) * (2.0 * chance.unit(channel::CURL + i) - 1.0);
         let radius = f64::from(curl.radius)
             * (1.0 + differs(curl.variation, clump.chance, 0))
             * (1.0 + differs(curl.frizz, strand, 0));

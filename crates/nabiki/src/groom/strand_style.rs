@@ -74,7 +74,8 @@ impl Tie {
         let middle = tail.at.as_dvec3();
         let through = tail.direction.as_dvec3().normalize();
         let from = root - middle;
-        let side = (from - through * from.dot(through)).try_normalize().unwrap_or_else(|| through.any_orthonormal_vector());
+        let side =
+            (from - through * from.dot(through)).try_normalize().unwrap_or_else(|| through.any_orthonormal_vector());
         let off = side * strand.unit(channel::BAND).sqrt();
         Self { at: middle + off * f64::from(tail.radius), behind: (through + off * FLARE).normalize() }
     }

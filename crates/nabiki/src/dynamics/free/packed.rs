@@ -104,7 +104,7 @@ impl Packed {
                 self.lags[row].0[lane] = segment.lag as f32;
                 self.rest[row].direction = self.rows[row].rest;
                 if let Some((_, eps)) = &mut self.weakening {
-                    eps[row].0[lane] = (segment.shape.gain_in_gamma / segment.shape.gain) as f32;
+                    eps[row].0[lane] = segment.shape.eps() as f32;
                 }
             }
         }

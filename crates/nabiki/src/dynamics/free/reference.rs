@@ -190,7 +190,7 @@ impl Hair {
             let segment = &self.segments[points.start - s + i];
             let FreeSegment { shape, rest, .. } = segment.moved_by;
             velocity += shape.length * segment.increment;
-            let eps = if weakened { shape.gain_in_gamma / shape.gain } else { 1.0 };
+            let eps = if weakened { shape.eps() } else { 1.0 };
             let felt = head.felt.map_or(DVec3::ZERO, |felt| felt.transform_point3(end));
             let others = crowd.map_or(DVec3::ZERO, |crowd| crowd.force(end, velocity));
             let weight = head.weight - frame * self.rest_weight;

@@ -63,7 +63,7 @@ impl ShapeRow {
     pub fn set(&mut self, lane: usize, shape: &SegmentShape) {
         self.length.0[lane] = shape.length as f32;
         self.gain.0[lane] = shape.gain as f32;
-        self.eps.0[lane] = (shape.gain_in_gamma / shape.gain) as f32;
+        self.eps.0[lane] = shape.eps() as f32;
     }
 }
 

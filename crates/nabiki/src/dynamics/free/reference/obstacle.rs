@@ -83,6 +83,9 @@ impl<'a> Obstacle<'a> {
             return pushed;
         }
         let (stayed, depth_there) = self.pushed_from(touch.was, touch);
+        if depth_there <= f64::from(TOLERANCE_CM) {
+            return stayed;
+        }
         let (mut best, mut least) = if depth_there < depth { (stayed, depth_there) } else { (pushed, depth) };
         // Where no turn is found so, a fan of directions from there outward.
         let normal = self.read(touch.from + touch.length * best, touch.surface).map_or(best, |(_, normal)| normal);
