@@ -1,5 +1,6 @@
 //! Bodies that hair does not enter: the head, and whatever else a scene names.
 
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use glam::{Affine3A, Vec3};
@@ -80,6 +81,11 @@ pub struct Body {
 
 /// Radius of the ball that does not reach into the folds of a head that [`Body::head`] fills (cm).
 const FOLD_CM: f32 = 3.0;
+/// Heads that are filled, whose folds have the size of a person's: from a newborn's to half again an adult's (mean half
+/// axis, cm). A head in a wrong unit would take samples without end.
+const FILLED_HEADS_CM: RangeInclusive<f32> = 5.0..=14.0;
+/// Samples of a filled head at most; a whole body has a third of that.
+const MOST_FILLED: f32 = 2e7;
 /// Steps with which the filled head is sampled (cm).
 const FILLED_CM: f32 = 0.5;
 
@@ -114,12 +120,16 @@ pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError
 }
 
 impl Body {
-    /// The head itself, its folds filled.
+    /// The head itself, its folds filled if it is of a person's size.
     pub fn head(head: &Head, contact: Contact) -> Self {
+        let size = head.ellipsoid.half_axes.element_product().cbrt();
+        let [low, high] = head.skin().sampled_box();
+        let samples = ((high - low) / FILLED_CM).element_product();
+        let is_filled = FILLED_HEADS_CM.contains(&size) && samples <= MOST_FILLED;
         Self {
             name: "contact".to_owned(),
             distance: head.skin().clone(),
-            filled: Some(Arc::new(head.skin().filled(FOLD_CM, FILLED_CM))),
+            filled: is_filled.then(|| Arc::new(head.skin().filled(FOLD_CM, FILLED_CM))),
             way: BodyWay::WithHead,
             contact,
         }
@@ -180,5 +190,31 @@ impl PartialEq for Body {
             && Arc::ptr_eq(&self.distance, &other.distance)
             && self.way == other.way
             && self.contact == other.contact
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Ellipsoid;
+
+    /// A box about the origin with its ellipsoid.
+    fn boxed(half: f32) -> Head {
+        let corner = |i: u32| half * Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32) * 2.0 - half;
+        let positions = (0..8).map(corner).collect();
+        let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles = sides.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        let ellipsoid = Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::splat(half) };
+        Head::from_mesh(Mesh { positions, triangles, ..Mesh::default() }, Some(ellipsoid)).unwrap()
+    }
+
+    #[test]
+    fn heads_of_any_size_are_bodies_and_those_of_persons_are_filled() {
+        for (half, filled) in [(0.01, false), (9.0, true), (900.0, false), (9e4, false)] {
+            let body = Body::head(&boxed(half), Contact::default());
+            assert_eq!(body.filled.is_some(), filled, "{half} cm");
+            let (_, clearance) = body.kept_from(Vec3::new(0.0, 1.05 * half, 0.0));
+            assert!((0.0..=body.contact.margin).contains(&clearance), "{half} cm: {clearance}");
+        }
     }
 }
