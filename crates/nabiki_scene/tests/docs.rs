@@ -75,6 +75,9 @@ fn stand_ins(scene: &Scene, bust: &BuiltScene) {
             sink.finish().unwrap();
         }
     }
+    for body in &scene.bodies {
+        std::fs::write(scene.resolve(&body.mesh), TETRAHEDRON).unwrap();
+    }
     if let Some(motion) = &scene.head.motion {
         std::fs::write(scene.resolve(motion.skeleton.as_ref().unwrap()), SKELETON).unwrap();
         let samples = (1..=60).map(|n| format!("{n}\nroot 0 {} 0 0 0 0\nhead 0 {n} 0\n", 17.0 + 0.01 * f64::from(n)));
@@ -82,6 +85,9 @@ fn stand_ins(scene: &Scene, bust: &BuiltScene) {
         std::fs::write(scene.resolve(&motion.file), format!(":FULLY-SPECIFIED\n:DEGREES\n{text}")).unwrap();
     }
 }
+
+/// Beside the head.
+const TETRAHEDRON: &str = "v 30 0 0\nv 32 0 0\nv 30 2 0\nv 30 0 2\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 
 const SKELETON: &str = "\
 :version 1.10
