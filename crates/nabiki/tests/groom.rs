@@ -28,7 +28,7 @@ struct Hair {
 }
 
 const SCENES: [(&str, &str); 5] = [
-    ("gust", include_str!("../../../scenes/gust.toml")),
+    ("gust", include_str!("../../../scenes/paper/gust.toml")),
     ("bob", include_str!("../../../scenes/bob.toml")),
     ("short", include_str!("../../../scenes/short.toml")),
     ("curls", include_str!("../../../scenes/curls.toml")),

@@ -17,7 +17,7 @@ use nabiki_scene::{Error, Result};
     after_help = "\
 Start with:
   nabiki preview scenes/gust.toml                     300 strands: what will the wind do?
-  nabiki preview scenes/gust.toml --set 'force.1.vector=[-15,-300,0]'
+  nabiki preview scenes/gust.toml --set 'force.0.vector=[-200,20,0]'
   nabiki run scenes/gust.toml                         the whole movie
 
 A scene is a TOML file: head, hair, motion, pseudo_force, force, picture, output. The files in scenes/ are

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
-const GUST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/gust.toml");
+const GUST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/paper/gust.toml");
 
 /// A scene that would be stepped and drawn for days: a refusal that came after its frames would never come.
 const ENDLESS: [&str; 4] = ["--frames", "4000000", "--set", "hair.strands=200"];

@@ -76,9 +76,9 @@ inertia_length_floor = 14.0   # shorter hair is held by the longer hair beside i
 # What holds hair in shape and calms it, in the unit of the forces below: where the stiffness is 36 times the wind, hair
 # bends within 6 times hair.segment_length. The first three are numbers, or lists from root to tip.
 [free]
-stiffness = [6000.0, 600.0]   # keeps each segment in line with those beside it, as at rest
-hold = 15.0                # keeps it where it is on the head, as hair spray does
-settle = 30.0              # frames in which a swing dies to 1/e; 0: never
+stiffness = [12000.0, 1000.0]   # keeps each segment in line with those beside it, as at rest
+hold = 30.0                # keeps it where it is on the head, as hair spray does
+settle = 20.0              # frames in which a swing dies to 1/e; 0: never
 gravity = 100.0            # weight of hair that has been moved; \"earth\": as on the earth at this frame_rate
 lag = 1.0                  # how far the tips fall behind a head that turns; 0: not at all
 

@@ -6,7 +6,7 @@ use nabiki_scene::info::info;
 
 #[test]
 fn a_scene_has_its_kind_beside_its_fields() {
-    let scene = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/gust.toml"));
+    let scene = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/paper/gust.toml"));
     let said = toml::Value::try_from(info(scene).unwrap()).unwrap();
     assert_eq!(said["kind"].as_str(), Some("scene"));
     assert_eq!((said["frames"].as_integer(), said["head"].as_str()), (Some(100), Some("builtin:bust")));

@@ -12,7 +12,7 @@ const SIZE: [u32; 2] = [320, 180];
 
 /// Few strands in the gust, after `changes`.
 fn gust(changes: &[(&str, &str)]) -> BuiltScene {
-    let scene = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/gust.toml"));
+    let scene = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/paper/gust.toml"));
     let few = [("hair.strands", "40"), ("motion.frames", "12"), ("output.sheet", "[0]"), ("picture.size", "[320,180]")];
     let changes: Vec<_> = few.iter().chain(changes).map(|&(key, value)| (key.to_owned(), value.to_owned())).collect();
     Scene::load(scene, &changes).unwrap().build(Shown::All).unwrap()
