@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use nabiki::dynamics::{gain, period};
+use nabiki::dynamics::{Form, gain, period};
 use nabiki_io::hair::ImportReport;
 
 use crate::advice::Advice;
@@ -215,7 +215,8 @@ pub struct SwingRow {
     pub frames: [u32; 2],
     /// |F|.
     pub force: f64,
-    /// Frames of a swing at the root, in the middle, at the tip; infinite without force.
+    /// Frames of a swing at the root, in the middle, at the tip: of a segment by itself, in the free form under hold and
+    /// weight besides. Infinite where nothing pulls.
     pub periods: [f64; 3],
 }
 
@@ -226,9 +227,13 @@ impl SwingTable {
         lengths.sort_by(f32::total_cmp);
         let length = lengths[lengths.len() / 2];
         let count = f64::from(length) / f64::from(built.dynamics.segment_length);
+        let held = |position: f64| match &built.dynamics.form {
+            Form::Paper => 0.0,
+            Form::Free(free) => free.form.hold.at(position / count) + f64::from(free.form.gravity),
+        };
         let row = |frames: [u32; 2], force: f32| {
-            let force = f64::from(force);
-            let swing = |position: f64| period(gain(&built.dynamics, position, count) * force);
+            let force = f64::from(force.max(0.0));
+            let swing = |position: f64| period(gain(&built.dynamics, position, count) * (force + held(position)));
             SwingRow { frames, force, periods: [1.0, (count + 1.0) / 2.0, count].map(swing) }
         };
         let mut first = 1;

@@ -125,7 +125,8 @@ pub(super) struct Stability {
     /// Its strand, and the length of that (cm).
     strand: usize,
     length: f32,
-    free: bool,
+    /// The largest that the scene gives; none in the paper's form.
+    stiffness: Option<f32>,
 }
 
 impl Stability {
@@ -145,13 +146,18 @@ impl Stability {
             }
         }
         let (gain, own, strand) = worst;
-        let free = matches!(dynamics.form, Form::Free(_));
-        Ok(Self { gain, own, strand, length: length(strands.strand(strand)), free })
+        let stiffness = match &dynamics.form {
+            Form::Paper => None,
+            Form::Free(free) => Some(free.form.stiffness.largest()),
+        };
+        Ok(Self { gain, own, strand, length: length(strands.strand(strand)), stiffness })
     }
 
     /// Refuses fields under which the scheme is unstable.
     pub fn check(&self, field: &dyn Field) -> Result<(), SettingError> {
-        let Self { gain, own, strand, length, free } = *self;
+        let Self { gain, own, strand, length, stiffness } = *self;
+        let free = stiffness.is_some();
+        let stiffness = stiffness.unwrap_or(0.0);
         let strongest = f64::from(field.strongest());
         if gain * (strongest + own) < 4.0 {
             return Ok(());
@@ -161,13 +167,14 @@ impl Stability {
         let ways = "make motion.time_step smaller, or set motion.inertia_length_floor so that short hair is held by its \
                     neighbours";
         if largest <= 0.0 {
+            // What is asked for is given for segments of hair.segment_length; where it acts, it is larger by their cut.
+            let holds = 0.99 * f64::from(stiffness) * 4.0 / (gain * own);
             let remedy = format!(
                 "unstable without any force: {what} reaches {:.3} at strand {strand} ({length:.2} cm long), and must \
-                 stay below 4; keep 4 stiffness + hold + 2 gravity below {:.4}, {ways}",
-                gain * own,
-                4.0 / gain
+                 stay below 4; keep the largest stiffness below {holds:.0}, {ways}",
+                gain * own
             );
-            return Err(SettingError::new("free.stiffness", own, remedy));
+            return Err(SettingError::new("free.stiffness", stiffness, remedy));
         }
         // A force of exactly the largest is one too strong.
         let below = largest.next_down();
