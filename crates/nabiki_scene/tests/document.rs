@@ -84,11 +84,10 @@ fn one_changed_value_changes_one_line_of_any_shipped_scene() {
     for path in shipped() {
         let text = std::fs::read_to_string(&path).unwrap();
         let mut scene = Scene::load(&path, &[]).unwrap();
-        scene.pseudo_force.alpha = 0.125;
-        keyframes(&mut scene)[0].vector.x = -77.5;
+        scene.picture.size[0] += 16;
         let new = scene.to_toml().unwrap();
         let pairs: Vec<_> = text.lines().zip(new.lines()).filter(|(a, b)| a != b).collect();
-        assert_eq!((text.lines().count(), pairs.len()), (new.lines().count(), 2), "{}\n{new}", path.display());
+        assert_eq!((text.lines().count(), pairs.len()), (new.lines().count(), 1), "{}\n{new}", path.display());
         assert_eq!(reread(&scene), scene);
     }
 }
