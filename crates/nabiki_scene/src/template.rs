@@ -66,6 +66,14 @@ lift_degrees = { top = 18.0, sides = 15.0, back = 12.0 }
 comb = { away = 1.0, sweep = [-0.3, 0.0, 0.0], off_face = 2.8, decay = 3.5 }
 ";
 
+/// `free.stiffness` of a new scene, from root to tip.
+pub(crate) const STIFFNESS: [f32; 2] = [12_000.0, 1000.0];
+
+/// The line of a new scene that gives it.
+pub(crate) fn stiffness_line(stiffness: [f32; 2]) -> String {
+    format!("stiffness = {stiffness:?}   #")
+}
+
 const REST: &str = "
 [motion]
 form = \"free\"              # \"paper\": the equations of 1993, in which hair neither stops at the head nor calms down
