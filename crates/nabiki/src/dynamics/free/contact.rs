@@ -2,11 +2,10 @@
 
 use glam::{Affine3A, Vec3};
 
-use crate::body::{Body, Surface};
+use crate::body::Body;
 use crate::distance::{Places, Reading, SkinDistance};
 use crate::dynamics::FrameInput;
 use crate::dynamics::row::{LANES, PointRow};
-use crate::pose::Pose;
 
 /// Times that a segment is turned along the gradient before another way is tried.
 pub(in crate::dynamics) const PUSHES: usize = 6;
@@ -55,11 +54,6 @@ pub(super) struct Touch {
 pub(super) struct Going {
     pub direction: Vec3,
     pub increment: Vec3,
-}
-
-/// What a point of head space is kept out of, and how far from it (cm).
-pub(super) fn kept_from(body: &Body, rest_pose: &Pose, p: Vec3) -> (Surface, f32) {
-    body.kept_from(body.head_from_body(0, rest_pose).inverse().transform_point3(p))
 }
 
 /// How far at least a point at a sampled distance is from touching what it keeps clear of.

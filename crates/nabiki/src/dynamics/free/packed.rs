@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::Vec3;
 
-use super::contact::{Going, Obstacle, Touch, gap, kept_from};
+use super::contact::{Going, Obstacle, Touch, gap};
 use super::grid::Crowd;
 use super::head_frame::{HeadFrame, weight};
 use super::kernel::{FreeRow, FreeState, Next, StrengthRow, Walk, Weight, ends, lag_behind, step_segment};
@@ -114,13 +114,15 @@ impl Packed {
 
     /// From the very points that the step puts together, so that what rests does not touch.
     fn kept_from(&self, body: &Body) -> Vec<KeptRow> {
+        let body_from_head = body.head_from_body(0, &self.free.rest_pose).inverse();
         let mut kept = vec![KeptRow::default(); self.rows.len()];
         for block in &self.blocks {
             let mut from = block.roots;
             for at in block.rows() {
                 let to = ends(&self.rest[at], &self.rows[at], &from);
                 for lane in 0..LANES {
-                    let (surface, clearance) = kept_from(body, &self.free.rest_pose, Vec3::from(lane_of(&to, lane)));
+                    let at_rest = body_from_head.transform_point3(Vec3::from(lane_of(&to, lane)));
+                    let (surface, clearance) = body.kept_from(at_rest);
                     kept[at].clearance.0[lane] = clearance;
                     kept[at].filled |= u16::from(surface == Surface::Filled) << lane;
                 }
