@@ -67,6 +67,7 @@ mod random;
 pub mod roots;
 pub mod strands;
 pub mod subset;
+mod vector;
 
 pub use ellipsoid::Ellipsoid;
 pub use error::SettingError;

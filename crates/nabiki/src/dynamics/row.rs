@@ -1,7 +1,6 @@
-//! Numbers of sixteen strands, side by side, and vectors of three numbers.
-//!
-//! No closure stands in what the kernels call: only a named function can be forced into its caller, and so be compiled for
-//! the vectors chosen there.
+//! Numbers of sixteen strands, side by side.
+
+use crate::vector::scale_add;
 
 /// Strands in a block: two vectors of eight, or one of sixteen.
 pub(super) const LANES: usize = 16;
@@ -40,40 +39,4 @@ pub(super) fn rotate([x, y, z]: &[[f32; 3]; 3], v: [f32; 3]) -> [f32; 3] {
         x[1].mul_add(v[0], y[1].mul_add(v[1], z[1] * v[2])),
         x[2].mul_add(v[0], y[2].mul_add(v[1], z[2] * v[2])),
     ]
-}
-
-/// a . b
-#[inline(always)]
-pub(super) fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
-}
-
-/// a x b; exactly 0 where one of them is.
-#[inline(always)]
-pub(super) fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[1].mul_add(b[2], -(a[2] * b[1])), a[2].mul_add(b[0], -(a[0] * b[2])), a[0].mul_add(b[1], -(a[1] * b[0]))]
-}
-
-/// a + b
-#[inline(always)]
-pub(super) fn add(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-/// a - b
-#[inline(always)]
-pub(super) fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-/// s a
-#[inline(always)]
-pub(super) fn scale(s: f32, a: [f32; 3]) -> [f32; 3] {
-    [s * a[0], s * a[1], s * a[2]]
-}
-
-/// s a + b, each number rounded once.
-#[inline(always)]
-pub(super) fn scale_add(s: f32, a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [s.mul_add(a[0], b[0]), s.mul_add(a[1], b[1]), s.mul_add(a[2], b[2])]
 }

@@ -4,11 +4,12 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::falloff::{self, EnvelopeKey, Falloff};
-use super::lanes::{self, Lanes, dot, get, minus, scaled, set};
+use super::lanes::{self, Lanes, get, set};
 use super::local::{self, check_place, unit};
 use super::sine::cos_turns;
 use super::{Field, VectorRow};
 use crate::error::{SettingError, check_range};
+use crate::vector::{dot, scale, subtract};
 
 /// The settings of a fan: F = strength falloff(r) cone(angle) r^, away from it and only within its cone.
 ///
@@ -105,7 +106,7 @@ impl Lanes for InFrame {
         let mut forces = [[0.0; N]; 3];
         let mut squares = [0.0; N];
         for lane in 0..N {
-            let r = minus(get(points, lane), self.position);
+            let r = subtract(get(points, lane), self.position);
             squares[lane] = dot(r, r);
             set(&mut forces, lane, r);
         }
@@ -116,7 +117,7 @@ impl Lanes for InFrame {
             let cos = inverse * dot(r, self.direction);
             let short = (1.0 - (cos - self.cos_spread) * self.sharpness).clamp(0.0, 1.0);
             let cone = 1.0 - (short * short) * (short * short);
-            set(&mut forces, lane, scaled(self.strength * parts[lane] * cone * inverse, r));
+            set(&mut forces, lane, scale(self.strength * parts[lane] * cone * inverse, r));
         }
         forces
     }

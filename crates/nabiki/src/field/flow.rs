@@ -11,11 +11,12 @@ use glam::{Mat3, Vec3};
 use serde::{Deserialize, Serialize};
 
 use super::head_track::{HeadTrack, Place};
-use super::lanes::{self, Lanes, by_part, dot, get, minus, scaled, scaled_plus, set, times, transposed_times};
+use super::lanes::{self, Lanes, by_part, get, set, times, transposed_times};
 use super::{Field, VectorRow, check_at_least_0};
 use crate::ellipsoid::Ellipsoid;
 use crate::error::SettingError;
 use crate::pose::Pose;
+use crate::vector::{dot, scale, scale_add, subtract};
 use carlson::{alpha, expansion, mean_square};
 
 /// The settings of the flow round the head.
@@ -155,7 +156,7 @@ impl InFrame<'_> {
         let inside = dot(q, q).min(1.0);
         let bent = by_part(with_gains, alpha);
         let straight = [self.wind[0] + bent[0], self.wind[1] + bent[1], self.wind[2] + bent[2]];
-        scaled(inside, scaled_plus(back, y, straight))
+        scale(inside, scale_add(back, y, straight))
     }
 }
 
@@ -173,7 +174,7 @@ impl Lanes for InFrame<'_> {
         let mut lambda = [0.0; N];
         let mut tau2 = [0.0; N];
         for lane in 0..N {
-            let in_axes = times(&self.place.axes, minus(get(points, lane), self.place.center));
+            let in_axes = times(&self.place.axes, subtract(get(points, lane), self.place.center));
             set(&mut x, lane, in_axes);
             lambda[lane] = self.lambda(by_part(in_axes, in_axes));
             tau2[lane] = self.field.mean_square / (self.field.mean_square + lambda[lane]);
@@ -195,8 +196,8 @@ impl Lanes for InFrame<'_> {
         let mut forces = [[0.0; N]; 3];
         for lane in 0..N {
             let half = 2.0 * tau2[lane] - 1.0;
-            let series = scaled_plus(half, get(&last, lane), minus(first, get(&before, lane)));
-            let alpha = scaled(tau2[lane] * tau2[lane].sqrt(), series);
+            let series = scale_add(half, get(&last, lane), subtract(first, get(&before, lane)));
+            let alpha = scale(tau2[lane] * tau2[lane].sqrt(), series);
             let in_axes = self.force(get(&x, lane), lambda[lane], alpha);
             set(&mut forces, lane, transposed_times(&self.place.axes, in_axes));
         }

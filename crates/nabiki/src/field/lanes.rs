@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::VectorRow;
+use crate::vector::dot;
 
 /// A field in one frame, written without branches so that its loops over points become vectors.
 ///
@@ -52,38 +53,10 @@ pub(super) fn transposed_times([a, b, c]: &[[f32; 3]; 3], v: [f32; 3]) -> [f32; 
     [dot([a[0], b[0], c[0]], v), dot([a[1], b[1], c[1]], v), dot([a[2], b[2], c[2]], v)]
 }
 
-#[inline(always)]
-pub(super) fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
-}
-
-#[inline(always)]
-pub(super) fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[1].mul_add(b[2], -(a[2] * b[1])), a[2].mul_add(b[0], -(a[0] * b[2])), a[0].mul_add(b[1], -(a[1] * b[0]))]
-}
-
-/// a - b.
-#[inline(always)]
-pub(super) fn minus(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
 /// The products of their components.
 #[inline(always)]
 pub(super) fn by_part(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
-}
-
-/// factor v.
-#[inline(always)]
-pub(super) fn scaled(factor: f32, v: [f32; 3]) -> [f32; 3] {
-    [factor * v[0], factor * v[1], factor * v[2]]
-}
-
-/// factor a + b.
-#[inline(always)]
-pub(super) fn scaled_plus(factor: f32, a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [factor.mul_add(a[0], b[0]), factor.mul_add(a[1], b[1]), factor.mul_add(a[2], b[2])]
 }
 
 /// One of N vectors.

@@ -4,10 +4,11 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::falloff::{self, EnvelopeKey, Falloff};
-use super::lanes::{self, Lanes, dot, get, minus, scaled, set};
+use super::lanes::{self, Lanes, get, set};
 use super::local::{self, check_place};
 use super::{Field, VectorRow};
 use crate::error::SettingError;
+use crate::vector::{dot, scale, subtract};
 
 /// The settings of a point: F = strength falloff(r) r^, away from it.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -80,14 +81,14 @@ impl Lanes for InFrame {
         let mut forces = [[0.0; N]; 3];
         let mut squares = [0.0; N];
         for lane in 0..N {
-            let r = minus(get(points, lane), self.position);
+            let r = subtract(get(points, lane), self.position);
             squares[lane] = dot(r, r);
             set(&mut forces, lane, r);
         }
         let parts = self.falloff.at_roots(&squares);
         for lane in 0..N {
             let size = self.strength * parts[lane] / (squares[lane] + self.core_squared).sqrt();
-            let force = scaled(size, get(&forces, lane));
+            let force = scale(size, get(&forces, lane));
             set(&mut forces, lane, force);
         }
         forces

@@ -11,12 +11,13 @@ use serde::{Deserialize, Serialize};
 
 use self::waves::{LOOP, Octave, Phases};
 use super::head_track::{HeadTrack, Place};
-use super::lanes::{self, Lanes, by_part, cross, dot, get, minus, scaled, scaled_plus, set, times, transposed_times};
+use super::lanes::{self, Lanes, by_part, get, set, times, transposed_times};
 use super::{Field, VectorRow, check_at_least_0, check_strength};
 use crate::ellipsoid::Ellipsoid;
 use crate::error::{SettingError, check_positive, check_range};
 use crate::pose::Pose;
 use crate::random;
+use crate::vector::{cross, dot, scale, scale_add, subtract};
 
 /// The settings of turbulence: a random force without sources, which drifts with the wind and changes on its way.
 ///
@@ -221,7 +222,7 @@ impl Ramp {
     /// The curl of ramp times potential: ramp v + grad ramp x psi.
     #[inline(always)]
     fn curl(&self, p: [f32; 3], velocity: [f32; 3], potential: [f32; 3]) -> [f32; 3] {
-        let q = by_part(times(&self.place.axes, minus(p, self.place.center)), self.inverse);
+        let q = by_part(times(&self.place.axes, subtract(p, self.place.center)), self.inverse);
         // Where |q| is small the slope of the ramp is 0.
         let radius = dot(q, q).sqrt().max(1e-6);
         let x = ((radius - 1.0) * self.steepness).clamp(-1.0, 1.0);
@@ -229,7 +230,7 @@ impl Ramp {
         let ramp = x * x2.mul_add(x2.mul_add(0.375, -1.25), 1.875);
         let slope = 1.875 * (1.0 - x2) * (1.0 - x2) * self.steepness / radius;
         let gradient = transposed_times(&self.place.axes, by_part(q, self.inverse));
-        scaled_plus(ramp, velocity, scaled(slope, cross(gradient, potential)))
+        scale_add(ramp, velocity, scale(slope, cross(gradient, potential)))
     }
 }
 

@@ -4,10 +4,11 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::falloff::{self, EnvelopeKey, Falloff};
-use super::lanes::{self, Lanes, cross, dot, get, minus, scaled, set};
+use super::lanes::{self, Lanes, get, set};
 use super::local::{self, check_place, unit};
 use super::{Field, VectorRow};
 use crate::error::SettingError;
+use crate::vector::{cross, dot, scale, subtract};
 
 /// The settings of a vortex: F = strength falloff(r) (axis x r^), where r leads from the axis to the point.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -88,14 +89,14 @@ impl Lanes for InFrame {
         let mut squares = [0.0; N];
         for lane in 0..N {
             // As long as the distance from the axis, and across it.
-            let round = cross(self.axis, minus(get(points, lane), self.position));
+            let round = cross(self.axis, subtract(get(points, lane), self.position));
             squares[lane] = dot(round, round);
             set(&mut forces, lane, round);
         }
         let parts = self.falloff.at_roots(&squares);
         for lane in 0..N {
             let size = self.strength * parts[lane] / (squares[lane] + self.core_squared).sqrt();
-            let force = scaled(size, get(&forces, lane));
+            let force = scale(size, get(&forces, lane));
             set(&mut forces, lane, force);
         }
         forces

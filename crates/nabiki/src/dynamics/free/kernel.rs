@@ -4,11 +4,10 @@
 //! adds are fused by name: the bits do not depend on the vector width, nor on the other lanes.
 
 use super::segment::FreeSegment;
-use crate::dynamics::row::{
-    LANES, PointRow, Row, add, beyond, cross, dot, lane as lane_of, scale, scale_add, set_lane, subtract,
-};
+use crate::dynamics::row::{LANES, PointRow, Row, beyond, lane as lane_of, set_lane};
 use crate::dynamics::trigonometry::sin_cos;
 use crate::free_form::FreeForm;
+use crate::vector::{add, cross, dot, scale, scale_add, subtract};
 
 /// Direction and increment (rad a frame) of one segment of every strand of a block, in head space.
 #[derive(Clone, Copy, Debug, Default)]

@@ -14,9 +14,7 @@ use crate::distance::SkinDistance;
 use crate::dynamics::block::{Block, Pass};
 use crate::dynamics::gain::Stability;
 use crate::dynamics::paper::{Force, Surroundings};
-use crate::dynamics::row::{
-    LANES, PointRow, Row, add, beyond, dot, lane as lane_of, rotate, scale, scale_add, set_lane, subtract,
-};
+use crate::dynamics::row::{LANES, PointRow, Row, beyond, lane as lane_of, rotate, set_lane};
 use crate::dynamics::sweep::Form;
 use crate::dynamics::wind::FieldFrame;
 use crate::dynamics::{Dynamics, FrameInput};
@@ -24,6 +22,7 @@ use crate::error::SettingError;
 use crate::field::Field;
 use crate::free_form::FreeMotion;
 use crate::strands::{Strands, bounds};
+use crate::vector::{add, dot, scale, scale_add, subtract};
 
 /// Everything about hair that no frame changes.
 #[derive(Clone, Debug)]

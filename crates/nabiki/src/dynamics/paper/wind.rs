@@ -4,10 +4,11 @@ use glam::Vec3;
 
 use super::kernel::{SegmentState, ShapeRow, extend};
 use super::polar::PolarAxis;
-use crate::dynamics::row::{LANES, PointRow, Row, dot, lane as lane_of, rotate, set_lane};
+use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, rotate, set_lane};
 use crate::dynamics::wind::FieldFrame;
 use crate::dynamics::{Dynamics, ForceSpace, FrameInput};
 use crate::ellipsoid::Ellipsoid;
+use crate::vector::dot;
 
 /// What lies around the hair in every frame: Gamma but for the force, and the polar axis.
 #[derive(Clone, Copy, Debug)]

@@ -14,9 +14,9 @@
 
 use glam::{DQuat, DVec3};
 
-use super::super::lanes::{dot, scaled_plus};
 use super::super::sine::{cos_turns, sin_turns};
 use crate::random;
+use crate::vector::{dot, scale_add};
 
 /// Waves of an octave.
 pub(super) const WAVES: usize = 8;
@@ -133,8 +133,8 @@ impl Octave {
             let size = z.abs();
             let s = (8.0 * z) * size.mul_add(-2.0, 1.0);
             let big_s = (z * z).mul_add(size.mul_add(-16.0 / 3.0, 4.0), -1.0 / 6.0);
-            *velocity = scaled_plus(s, wave.velocity, *velocity);
-            *potential = scaled_plus(big_s, wave.potential, *potential);
+            *velocity = scale_add(s, wave.velocity, *velocity);
+            *potential = scale_add(big_s, wave.potential, *potential);
         }
     }
 }
