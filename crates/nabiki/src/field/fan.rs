@@ -3,13 +3,11 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::falloff::{self, EnvelopeKey, Falloff};
-use super::lanes::{self, Lanes, get, set};
-use super::local::{self, check_place, unit};
+use super::falloff::{EnvelopeKey, Falloff};
+use super::local::{self, LocalField, Shape, check_place, unit};
 use super::sine::cos_turns;
-use super::{Field, VectorRow};
 use crate::error::{SettingError, check_range};
-use crate::vector::{dot, scale, subtract};
+use crate::vector::dot;
 
 /// The settings of a fan: F = strength falloff(r) cone(angle) r^, away from it and only within its cone.
 ///
@@ -53,12 +51,16 @@ impl Fan {
 }
 
 /// A fan as a field.
-#[derive(Clone, Debug)]
-pub struct FanField {
-    name: String,
-    settings: Fan,
+pub type FanField = LocalField<Cone>;
+
+/// Away from the tip of a cone, and only within it.
+#[derive(Clone, Copy, Debug)]
+pub struct Cone {
+    /// Of length 1.
     direction: [f32; 3],
     cos_spread: f32,
+    /// 1 / (1 - cos spread).
+    sharpness: f32,
 }
 
 impl FanField {
@@ -68,79 +70,24 @@ impl FanField {
     /// As [`Fan::check`].
     pub fn new(settings: &Fan, name: &str) -> Result<Self, SettingError> {
         settings.check(name)?;
-        let direction = unit(name, "direction", settings.direction)?.to_array();
-        let cos_spread = cos_turns(f64::from(settings.spread) / 360.0) as f32;
-        Ok(Self { name: name.to_owned(), settings: settings.clone(), direction, cos_spread })
-    }
-
-    fn in_frame(&self, frame: u32) -> InFrame {
-        let Fan { position, strength, falloff, envelope, .. } = &self.settings;
-        let core = Falloff::CORE * falloff.radius;
-        InFrame {
-            position: position.to_array(),
-            direction: self.direction,
-            cos_spread: self.cos_spread,
-            sharpness: (1.0 - self.cos_spread).recip(),
-            strength: strength * falloff::envelope(envelope, frame),
-            falloff: *falloff,
-            core_squared: core * core,
-        }
+        let Fan { position, direction, strength, spread, falloff, envelope } = settings.clone();
+        let cos_spread = cos_turns(f64::from(spread) / 360.0) as f32;
+        let direction = unit(name, "direction", direction)?.to_array();
+        let shape = Cone { direction, cos_spread, sharpness: (1.0 - cos_spread).recip() };
+        Ok(Self { name: name.to_owned(), position, strength, falloff, envelope, shape })
     }
 }
 
-struct InFrame {
-    position: [f32; 3],
-    direction: [f32; 3],
-    cos_spread: f32,
-    /// 1 / (1 - cos spread).
-    sharpness: f32,
-    strength: f32,
-    falloff: Falloff,
-    core_squared: f32,
-}
-
-impl Lanes for InFrame {
-    #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernel")]
+impl Shape for Cone {
     #[inline(always)]
-    fn forces<const N: usize>(&self, points: &[[f32; N]; 3]) -> [[f32; N]; 3] {
-        let mut forces = [[0.0; N]; 3];
-        let mut squares = [0.0; N];
-        for lane in 0..N {
-            let r = subtract(get(points, lane), self.position);
-            squares[lane] = dot(r, r);
-            set(&mut forces, lane, r);
-        }
-        let parts = self.falloff.at_roots(&squares);
-        for lane in 0..N {
-            let r = get(&forces, lane);
-            let inverse = (squares[lane] + self.core_squared).sqrt().recip();
-            let cos = inverse * dot(r, self.direction);
-            let short = (1.0 - (cos - self.cos_spread) * self.sharpness).clamp(0.0, 1.0);
-            let cone = 1.0 - (short * short) * (short * short);
-            set(&mut forces, lane, scale(self.strength * parts[lane] * cone * inverse, r));
-        }
-        forces
-    }
-}
-
-impl Field for FanField {
-    fn at(&self, point: Vec3, frame: u32) -> Vec3 {
-        lanes::at(&self.in_frame(frame), point)
+    fn along(&self, from_place: [f32; 3]) -> [f32; 3] {
+        from_place
     }
 
-    fn at_row(&self, points: &VectorRow, frame: u32, forces: &mut VectorRow) {
-        lanes::at_row(&self.in_frame(frame), points, forces);
-    }
-
-    fn strongest(&self) -> f32 {
-        local::strongest(self.settings.strength, &self.settings.envelope)
-    }
-
-    fn first_above(&self, limit: f64) -> Option<(String, String)> {
-        local::first_above(&self.name, self.settings.strength, &self.settings.envelope, limit)
-    }
-
-    fn uniform(&self, frame: u32) -> Option<Vec3> {
-        (self.in_frame(frame).strength == 0.0).then_some(Vec3::ZERO)
+    #[inline(always)]
+    fn part(&self, along: [f32; 3], inverse: f32) -> f32 {
+        let cos = inverse * dot(along, self.direction);
+        let short = (1.0 - (cos - self.cos_spread) * self.sharpness).clamp(0.0, 1.0);
+        1.0 - (short * short) * (short * short)
     }
 }

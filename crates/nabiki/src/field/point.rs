@@ -3,12 +3,9 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::falloff::{self, EnvelopeKey, Falloff};
-use super::lanes::{self, Lanes, get, set};
-use super::local::{self, check_place};
-use super::{Field, VectorRow};
+use super::falloff::{EnvelopeKey, Falloff};
+use super::local::{self, LocalField, Shape, check_place};
 use crate::error::SettingError;
-use crate::vector::{dot, scale, subtract};
 
 /// The settings of a point: F = strength falloff(r) r^, away from it.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -39,11 +36,11 @@ impl Point {
 }
 
 /// A point as a field.
-#[derive(Clone, Debug)]
-pub struct PointField {
-    name: String,
-    settings: Point,
-}
+pub type PointField = LocalField<Away>;
+
+/// Straight away from the place.
+#[derive(Clone, Copy, Debug)]
+pub struct Away;
 
 impl PointField {
     /// The field of a point that is called `name` in refusals.
@@ -52,67 +49,19 @@ impl PointField {
     /// As [`Point::check`].
     pub fn new(settings: &Point, name: &str) -> Result<Self, SettingError> {
         settings.check(name)?;
-        Ok(Self { name: name.to_owned(), settings: settings.clone() })
-    }
-
-    fn in_frame(&self, frame: u32) -> InFrame {
-        let Point { position, strength, falloff, envelope } = &self.settings;
-        let core = Falloff::CORE * falloff.radius;
-        InFrame {
-            position: position.to_array(),
-            strength: strength * falloff::envelope(envelope, frame),
-            falloff: *falloff,
-            core_squared: core * core,
-        }
+        let Point { position, strength, falloff, envelope } = settings.clone();
+        Ok(Self { name: name.to_owned(), position, strength, falloff, envelope, shape: Away })
     }
 }
 
-struct InFrame {
-    position: [f32; 3],
-    strength: f32,
-    falloff: Falloff,
-    core_squared: f32,
-}
-
-impl Lanes for InFrame {
-    #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernel")]
+impl Shape for Away {
     #[inline(always)]
-    fn forces<const N: usize>(&self, points: &[[f32; N]; 3]) -> [[f32; N]; 3] {
-        let mut forces = [[0.0; N]; 3];
-        let mut squares = [0.0; N];
-        for lane in 0..N {
-            let r = subtract(get(points, lane), self.position);
-            squares[lane] = dot(r, r);
-            set(&mut forces, lane, r);
-        }
-        let parts = self.falloff.at_roots(&squares);
-        for lane in 0..N {
-            let size = self.strength * parts[lane] / (squares[lane] + self.core_squared).sqrt();
-            let force = scale(size, get(&forces, lane));
-            set(&mut forces, lane, force);
-        }
-        forces
-    }
-}
-
-impl Field for PointField {
-    fn at(&self, point: Vec3, frame: u32) -> Vec3 {
-        lanes::at(&self.in_frame(frame), point)
+    fn along(&self, from_place: [f32; 3]) -> [f32; 3] {
+        from_place
     }
 
-    fn at_row(&self, points: &VectorRow, frame: u32, forces: &mut VectorRow) {
-        lanes::at_row(&self.in_frame(frame), points, forces);
-    }
-
-    fn strongest(&self) -> f32 {
-        local::strongest(self.settings.strength, &self.settings.envelope)
-    }
-
-    fn first_above(&self, limit: f64) -> Option<(String, String)> {
-        local::first_above(&self.name, self.settings.strength, &self.settings.envelope, limit)
-    }
-
-    fn uniform(&self, frame: u32) -> Option<Vec3> {
-        (self.in_frame(frame).strength == 0.0).then_some(Vec3::ZERO)
+    #[inline(always)]
+    fn part(&self, _: [f32; 3], _: f32) -> f32 {
+        1.0
     }
 }

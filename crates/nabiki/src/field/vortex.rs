@@ -3,12 +3,10 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::falloff::{self, EnvelopeKey, Falloff};
-use super::lanes::{self, Lanes, get, set};
-use super::local::{self, check_place, unit};
-use super::{Field, VectorRow};
+use super::falloff::{EnvelopeKey, Falloff};
+use super::local::{self, LocalField, Shape, check_place, unit};
 use crate::error::SettingError;
-use crate::vector::{cross, dot, scale, subtract};
+use crate::vector::cross;
 
 /// The settings of a vortex: F = strength falloff(r) (axis x r^), where r leads from the axis to the point.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -42,10 +40,11 @@ impl Vortex {
 }
 
 /// A vortex as a field.
-#[derive(Clone, Debug)]
-pub struct VortexField {
-    name: String,
-    settings: Vortex,
+pub type VortexField = LocalField<Round>;
+
+/// Round an axis, of length 1.
+#[derive(Clone, Copy, Debug)]
+pub struct Round {
     axis: [f32; 3],
 }
 
@@ -56,71 +55,21 @@ impl VortexField {
     /// As [`Vortex::check`].
     pub fn new(settings: &Vortex, name: &str) -> Result<Self, SettingError> {
         settings.check(name)?;
-        let axis = unit(name, "axis", settings.axis)?;
-        Ok(Self { name: name.to_owned(), settings: settings.clone(), axis: axis.to_array() })
-    }
-
-    fn in_frame(&self, frame: u32) -> InFrame {
-        let Vortex { position, strength, falloff, envelope, .. } = &self.settings;
-        let core = Falloff::CORE * falloff.radius;
-        InFrame {
-            position: position.to_array(),
-            axis: self.axis,
-            strength: strength * falloff::envelope(envelope, frame),
-            falloff: *falloff,
-            core_squared: core * core,
-        }
+        let Vortex { position, axis, strength, falloff, envelope } = settings.clone();
+        let shape = Round { axis: unit(name, "axis", axis)?.to_array() };
+        Ok(Self { name: name.to_owned(), position, strength, falloff, envelope, shape })
     }
 }
 
-struct InFrame {
-    position: [f32; 3],
-    axis: [f32; 3],
-    strength: f32,
-    falloff: Falloff,
-    core_squared: f32,
-}
-
-impl Lanes for InFrame {
-    #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernel")]
+impl Shape for Round {
+    /// As long as the distance from the axis, and across it.
     #[inline(always)]
-    fn forces<const N: usize>(&self, points: &[[f32; N]; 3]) -> [[f32; N]; 3] {
-        let mut forces = [[0.0; N]; 3];
-        let mut squares = [0.0; N];
-        for lane in 0..N {
-            // As long as the distance from the axis, and across it.
-            let round = cross(self.axis, subtract(get(points, lane), self.position));
-            squares[lane] = dot(round, round);
-            set(&mut forces, lane, round);
-        }
-        let parts = self.falloff.at_roots(&squares);
-        for lane in 0..N {
-            let size = self.strength * parts[lane] / (squares[lane] + self.core_squared).sqrt();
-            let force = scale(size, get(&forces, lane));
-            set(&mut forces, lane, force);
-        }
-        forces
-    }
-}
-
-impl Field for VortexField {
-    fn at(&self, point: Vec3, frame: u32) -> Vec3 {
-        lanes::at(&self.in_frame(frame), point)
+    fn along(&self, from_place: [f32; 3]) -> [f32; 3] {
+        cross(self.axis, from_place)
     }
 
-    fn at_row(&self, points: &VectorRow, frame: u32, forces: &mut VectorRow) {
-        lanes::at_row(&self.in_frame(frame), points, forces);
-    }
-
-    fn strongest(&self) -> f32 {
-        local::strongest(self.settings.strength, &self.settings.envelope)
-    }
-
-    fn first_above(&self, limit: f64) -> Option<(String, String)> {
-        local::first_above(&self.name, self.settings.strength, &self.settings.envelope, limit)
-    }
-
-    fn uniform(&self, frame: u32) -> Option<Vec3> {
-        (self.in_frame(frame).strength == 0.0).then_some(Vec3::ZERO)
+    #[inline(always)]
+    fn part(&self, _: [f32; 3], _: f32) -> f32 {
+        1.0
     }
 }
