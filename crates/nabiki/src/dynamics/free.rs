@@ -7,6 +7,7 @@ mod grid;
 mod head_frame;
 mod kernel;
 mod packed;
+mod passes;
 mod reference;
 mod runner;
 mod segment;

@@ -4,17 +4,18 @@ use std::ops::Range;
 
 use glam::Vec3;
 
-use super::contact::{Going, Obstacle, Touch, gap};
+use super::contact::Obstacle;
 use super::grid::Crowd;
 use super::head_frame::{HeadFrame, weight};
-use super::kernel::{FreeRow, FreeState, Next, StrengthRow, Walk, Weight, ends, lag_behind, step_segment};
+use super::kernel::{FreeRow, FreeState, StrengthRow, Walk, Weight, ends, lag_behind};
+use super::passes::{Among, Free, Place, Velocities};
 use super::segment::{FreeSegment, free_segments};
 use crate::body::{Body, Surface};
 use crate::distance::SkinDistance;
-use crate::dynamics::block::{Block, Pass};
+use crate::dynamics::block::Block;
 use crate::dynamics::gain::Stability;
-use crate::dynamics::paper::{Force, Surroundings};
-use crate::dynamics::row::{LANES, PointRow, Row, beyond, lane as lane_of, rotate, set_lane};
+use crate::dynamics::paper::Surroundings;
+use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of};
 use crate::dynamics::sweep::Form;
 use crate::dynamics::wind::FieldFrame;
 use crate::dynamics::{Dynamics, FrameInput};
@@ -22,13 +23,12 @@ use crate::error::SettingError;
 use crate::field::Field;
 use crate::free_form::FreeMotion;
 use crate::strands::{Strands, bounds};
-use crate::vector::{add, dot, scale, scale_add, subtract};
 
 /// Everything about hair that no frame changes.
 #[derive(Clone, Debug)]
 pub(super) struct Packed {
     dynamics: Dynamics,
-    free: FreeMotion,
+    pub free: FreeMotion,
     stability: Stability,
     blocks: Vec<Block>,
     rows: Vec<FreeRow>,
@@ -37,9 +37,9 @@ pub(super) struct Packed {
     /// The part of the head's turn that segments lag behind.
     lags: Vec<Row>,
     /// eps_i, where the scene has a pseudo-force.
-    weakening: Option<(Surroundings, Vec<Row>)>,
+    pub weakening: Option<(Surroundings, Vec<Row>)>,
     /// For each body, what the ends of the segments are kept out of.
-    kept_from: Vec<Vec<KeptRow>>,
+    pub kept_from: Vec<Vec<KeptRow>>,
     rest: Vec<FreeState>,
     weight_at_rest: [f32; 3],
     /// A ball that hair does not leave (head space, cm), and the length of the longest strand.
@@ -185,11 +185,11 @@ impl Packed {
 
 /// What a body keeps the end of a segment of every strand of a block out of.
 #[derive(Clone, Copy, Debug, Default)]
-struct KeptRow {
+pub(super) struct KeptRow {
     /// How far from it they are kept (cm).
-    clearance: Row,
+    pub clearance: Row,
     /// A bit for each strand: whether that is the skin with its folds filled.
-    filled: u16,
+    pub filled: u16,
 }
 
 /// What becomes of the hair in one frame.
@@ -207,26 +207,26 @@ pub(super) enum Plan<'a> {
 /// What a frame does to every block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step<'a> {
-    field: FieldFrame<'a>,
+    pub field: FieldFrame<'a>,
     /// The field's force, where that is the same everywhere (head space).
-    uniform: Option<[f32; 3]>,
+    pub uniform: Option<[f32; 3]>,
     /// All forces, where they are.
-    everywhere: Option<[f32; 3]>,
+    pub everywhere: Option<[f32; 3]>,
     /// The head's turn: axis and angle (rad).
     turn: Option<([f32; 3], f32)>,
-    weight: Weight,
-    felt: Option<Felt>,
-    obstacles: &'a [Obstacle],
+    pub weight: Weight,
+    pub felt: Option<Felt>,
+    pub obstacles: &'a [Obstacle],
     /// How much closer nodes and bodies may have come but by the nodes' own motion (cm).
-    closer: f32,
-    crowd: Option<&'a Crowd>,
+    pub closer: f32,
+    pub crowd: Option<&'a Crowd>,
 }
 
 /// The force of the head's acceleration at a point: columns of a matrix, and what it has in the origin.
 #[derive(Clone, Copy, Debug)]
-struct Felt {
-    columns: [[f32; 3]; 3],
-    constant: [f32; 3],
+pub(super) struct Felt {
+    pub columns: [[f32; 3]; 3],
+    pub constant: [f32; 3],
 }
 
 impl Form for Packed {
@@ -273,249 +273,14 @@ impl Form for Packed {
 impl Packed {
     /// What body `b` keeps the end of a segment of row `at` out of, and how far from it (cm).
     #[inline(always)]
-    fn kept_out_of(&self, b: usize, at: usize, lane: usize) -> (&SkinDistance, f32) {
+    pub fn kept_out_of(&self, b: usize, at: usize, lane: usize) -> (&SkinDistance, f32) {
         let kept = &self.kept_from[b][at];
         let surface = if kept.filled >> lane & 1 == 1 { Surface::Filled } else { Surface::Skin };
         (self.free.bodies[b].surface(surface), kept.clearance.0[lane])
     }
 
     #[inline(always)]
-    fn strength(&self, at: usize) -> &StrengthRow {
+    pub fn strength(&self, at: usize) -> &StrengthRow {
         &self.strengths[if self.strengths.len() == 1 { 0 } else { at }]
-    }
-}
-
-/// A step under the same force everywhere, with nothing in the way.
-struct Free<'a> {
-    packed: &'a Packed,
-    force: [f32; 3],
-    weight: Weight,
-    walk: Walk,
-    /// Number of the row among those of all blocks.
-    at: usize,
-}
-
-impl Pass<FreeState, FreeRow> for Free<'_> {
-    #[inline(always)]
-    fn segment(
-        &mut self,
-        state: &mut FreeState,
-        row: &FreeRow,
-        next: Option<(&FreeState, &FreeRow)>,
-        from: &PointRow,
-        to: &mut PointRow,
-    ) {
-        let Self { packed, force, weight, walk, at } = self;
-        step_segment(state, row, packed.strength(*at), force, weight, &Next::of(next), walk, from, to);
-        *at += 1;
-    }
-}
-
-/// A step among fields, bodies and other hair.
-struct Among<'a, 's> {
-    packed: &'a Packed,
-    step: &'a Step<'s>,
-    walk: Walk,
-    /// Of p_(i-1), by the increments of frame n (cm a frame).
-    velocity: PointRow,
-    /// Number of the row among those of all blocks.
-    at: usize,
-}
-
-impl Pass<FreeState, FreeRow> for Among<'_, '_> {
-    #[inline(always)]
-    fn segment(
-        &mut self,
-        state: &mut FreeState,
-        row: &FreeRow,
-        next: Option<(&FreeState, &FreeRow)>,
-        from: &PointRow,
-        to: &mut PointRow,
-    ) {
-        let (strength, weight, was) = (self.packed.strength(self.at), &self.step.weight, state.direction);
-        let next = Next::of(next);
-        match self.step.everywhere {
-            Some(force) => step_segment(state, row, strength, &force, weight, &next, &mut self.walk, from, to),
-            None => {
-                let forces = self.forces(state, row);
-                step_segment(state, row, strength, &forces, weight, &next, &mut self.walk, from, to);
-            }
-        }
-        if !self.step.obstacles.is_empty() {
-            self.keep_out(state, &was, row, from, to);
-        }
-        self.at += 1;
-    }
-}
-
-impl Among<'_, '_> {
-    /// All forces on a segment of every strand, at p_i of frame n, but for those that come from its shape.
-    #[inline(always)]
-    fn forces(&mut self, state: &FreeState, row: &FreeRow) -> PointRow {
-        let points = ends(state, row, &self.walk.before);
-        let mut forces = match self.step.uniform {
-            Some([x, y, z]) => [Row([x; LANES]), Row([y; LANES]), Row([z; LANES])],
-            None => self.step.field.at_row(&points),
-        };
-        if let Some((surroundings, eps)) = &self.packed.weakening {
-            for lane in 0..LANES {
-                let force = lane_of(&forces, lane);
-                let weakened = surroundings.weaken(lane_of(&points, lane), &Force::new(force, surroundings));
-                let eps = if weakened { eps[self.at].0[lane] } else { 1.0 };
-                set_lane(&mut forces, lane, scale(eps, force));
-            }
-        }
-        if let Some(Felt { columns, constant }) = &self.step.felt {
-            for lane in 0..LANES {
-                let felt = add(rotate(columns, lane_of(&points, lane)), *constant);
-                let force = add(lane_of(&forces, lane), felt);
-                set_lane(&mut forces, lane, force);
-            }
-        }
-        if let Some(crowd) = self.step.crowd {
-            let (pull, drag) = crowd.at_row(&points);
-            for lane in 0..LANES {
-                let velocity = beyond(&self.velocity, lane, row.length.0[lane], lane_of(&state.increment, lane));
-                set_lane(&mut self.velocity, lane, velocity);
-                let felt = scale_add(-drag.0[lane], velocity, lane_of(&pull, lane));
-                let force = add(lane_of(&forces, lane), felt);
-                set_lane(&mut forces, lane, force);
-            }
-        }
-        forces
-    }
-
-    /// Turns segments out of the bodies: of sixteen nodes a few may have come near, and fewer touch.
-    #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernels")]
-    #[inline(always)]
-    fn keep_out(&self, state: &mut FreeState, was: &PointRow, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
-        let near = self.near(state, row, to);
-        if near == 0 {
-            return;
-        }
-        let mut gaps = [f32::INFINITY; LANES];
-        for b in 0..self.step.obstacles.len() {
-            self.read_gaps(b, near, to, &mut gaps);
-        }
-        let mut touching = 0;
-        for lane in 0..LANES {
-            let read = near >> lane & 1 == 1;
-            state.gap.0[lane] = if read { gaps[lane].max(0.0) } else { state.gap.0[lane] };
-            touching |= u32::from(gaps[lane] < 0.0) << lane;
-        }
-        while touching != 0 {
-            let lane = next_lane(&mut touching);
-            self.keep_one_out(state, was, row, from, to, lane);
-        }
-    }
-
-    /// Takes from the gaps what nodes and bodies may have come closer, and says which may touch: a bit for each strand.
-    #[inline(always)]
-    fn near(&self, state: &mut FreeState, row: &FreeRow, to: &PointRow) -> u32 {
-        let (mut near, closer) = (0, self.step.closer);
-        for lane in 0..LANES {
-            let way = subtract(lane_of(to, lane), lane_of(&self.walk.before, lane));
-            let gap = state.gap.0[lane] - (dot(way, way).sqrt() + closer);
-            state.gap.0[lane] = gap;
-            near |= u32::from((gap < 0.0) & (row.length.0[lane] > 0.0)) << lane;
-        }
-        near
-    }
-
-    /// How far at least the ends of some segments are from touching body `b`, where that is less than `gaps`.
-    #[inline(always)]
-    fn read_gaps(&self, b: usize, mut near: u32, to: &PointRow, gaps: &mut [f32; LANES]) {
-        let (packed, obstacle) = (self.packed, &self.step.obstacles[b]);
-        let (body, kept) = (&packed.free.bodies[b], &packed.kept_from[b][self.at]);
-        // Nearly all that lies on a body with filled folds keeps out of those.
-        let (usual, unusual) = match body.filled.as_deref() {
-            Some(filled) => (filled, !kept.filled),
-            None => (&*body.distance, 0),
-        };
-        let places = obstacle.places(usual, to);
-        while near != 0 {
-            let lane = next_lane(&mut near);
-            let clearance = kept.clearance.0[lane];
-            let distance = match &places {
-                Some(places) if unusual >> lane & 1 == 0 => usual.fine_distance(places, lane),
-                _ => None,
-            };
-            let found = match distance {
-                Some(distance) => gap(distance, clearance),
-                None => {
-                    let (skin, clearance) = packed.kept_out_of(b, self.at, lane);
-                    obstacle.gap(skin, Vec3::from(lane_of(to, lane)), clearance)
-                }
-            };
-            gaps[lane] = gaps[lane].min(found);
-        }
-    }
-
-    /// Turns a segment out of the bodies that its end touches.
-    #[inline(never)]
-    fn keep_one_out(
-        &self,
-        state: &mut FreeState,
-        was: &PointRow,
-        row: &FreeRow,
-        from: &PointRow,
-        to: &mut PointRow,
-        lane: usize,
-    ) {
-        let at = |row: &PointRow| Vec3::from(lane_of(row, lane));
-        let mut going = Going { direction: at(&state.direction), increment: at(&state.increment) };
-        let (from, length, was) = (at(from), row.length.0[lane], at(was));
-        for (b, obstacle) in self.step.obstacles.iter().enumerate() {
-            let (skin, clearance) = self.packed.kept_out_of(b, self.at, lane);
-            let touch = Touch { from, length, clearance, was };
-            going = obstacle.stop(skin, going, &touch).unwrap_or(going);
-        }
-        set_lane(&mut state.direction, lane, going.direction.to_array());
-        set_lane(&mut state.increment, lane, going.increment.to_array());
-        set_lane(to, lane, (from + length * going.direction).to_array());
-    }
-}
-
-/// Takes the first lane out of a set of them, a bit for each.
-#[inline(always)]
-fn next_lane(set: &mut u32) -> usize {
-    let lane = set.trailing_zeros() as usize;
-    *set &= *set - 1;
-    lane
-}
-
-/// Puts strands together as they are.
-struct Place;
-
-impl Pass<FreeState, FreeRow> for Place {
-    #[inline(always)]
-    fn segment(
-        &mut self,
-        state: &mut FreeState,
-        row: &FreeRow,
-        _: Option<(&FreeState, &FreeRow)>,
-        from: &PointRow,
-        to: &mut PointRow,
-    ) {
-        *to = ends(state, row, from);
-    }
-}
-
-/// Adds up what the increments move each point by, from a root that stands still.
-struct Velocities;
-
-impl Pass<FreeState, FreeRow> for Velocities {
-    #[inline(always)]
-    fn segment(
-        &mut self,
-        state: &mut FreeState,
-        row: &FreeRow,
-        _: Option<(&FreeState, &FreeRow)>,
-        from: &PointRow,
-        to: &mut PointRow,
-    ) {
-        for lane in 0..LANES {
-            set_lane(to, lane, beyond(from, lane, row.length.0[lane], lane_of(&state.increment, lane)));
-        }
     }
 }

@@ -1,0 +1,246 @@
+//! What the free form does to each segment of a block on the way from root to tip.
+
+use glam::Vec3;
+
+use super::contact::{Going, Touch, gap};
+use super::kernel::{FreeRow, FreeState, Next, Walk, Weight, ends, step_segment};
+use super::packed::{Felt, Packed, Step};
+use crate::dynamics::block::Pass;
+use crate::dynamics::paper::Force;
+use crate::dynamics::row::{LANES, PointRow, Row, beyond, lane as lane_of, rotate, set_lane};
+use crate::vector::{add, dot, scale, scale_add, subtract};
+
+/// A step under the same force everywhere, with nothing in the way.
+pub(super) struct Free<'a> {
+    pub packed: &'a Packed,
+    pub force: [f32; 3],
+    pub weight: Weight,
+    pub walk: Walk,
+    /// Number of the row among those of all blocks.
+    pub at: usize,
+}
+
+impl Pass<FreeState, FreeRow> for Free<'_> {
+    #[inline(always)]
+    fn segment(
+        &mut self,
+        state: &mut FreeState,
+        row: &FreeRow,
+        next: Option<(&FreeState, &FreeRow)>,
+        from: &PointRow,
+        to: &mut PointRow,
+    ) {
+        let Self { packed, force, weight, walk, at } = self;
+        step_segment(state, row, packed.strength(*at), force, weight, &Next::of(next), walk, from, to);
+        *at += 1;
+    }
+}
+
+/// A step among fields, bodies and other hair.
+pub(super) struct Among<'a, 's> {
+    pub packed: &'a Packed,
+    pub step: &'a Step<'s>,
+    pub walk: Walk,
+    /// Of p_(i-1), by the increments of frame n (cm a frame).
+    pub velocity: PointRow,
+    /// Number of the row among those of all blocks.
+    pub at: usize,
+}
+
+impl Pass<FreeState, FreeRow> for Among<'_, '_> {
+    #[inline(always)]
+    fn segment(
+        &mut self,
+        state: &mut FreeState,
+        row: &FreeRow,
+        next: Option<(&FreeState, &FreeRow)>,
+        from: &PointRow,
+        to: &mut PointRow,
+    ) {
+        let (strength, weight, was) = (self.packed.strength(self.at), &self.step.weight, state.direction);
+        let next = Next::of(next);
+        match self.step.everywhere {
+            Some(force) => step_segment(state, row, strength, &force, weight, &next, &mut self.walk, from, to),
+            None => {
+                let forces = self.forces(state, row);
+                step_segment(state, row, strength, &forces, weight, &next, &mut self.walk, from, to);
+            }
+        }
+        if !self.step.obstacles.is_empty() {
+            self.keep_out(state, &was, row, from, to);
+        }
+        self.at += 1;
+    }
+}
+
+impl Among<'_, '_> {
+    /// All forces on a segment of every strand, at p_i of frame n, but for those that come from its shape.
+    #[inline(always)]
+    fn forces(&mut self, state: &FreeState, row: &FreeRow) -> PointRow {
+        let points = ends(state, row, &self.walk.before);
+        let mut forces = match self.step.uniform {
+            Some([x, y, z]) => [Row([x; LANES]), Row([y; LANES]), Row([z; LANES])],
+            None => self.step.field.at_row(&points),
+        };
+        if let Some((surroundings, eps)) = &self.packed.weakening {
+            for lane in 0..LANES {
+                let force = lane_of(&forces, lane);
+                let weakened = surroundings.weaken(lane_of(&points, lane), &Force::new(force, surroundings));
+                let eps = if weakened { eps[self.at].0[lane] } else { 1.0 };
+                set_lane(&mut forces, lane, scale(eps, force));
+            }
+        }
+        if let Some(Felt { columns, constant }) = &self.step.felt {
+            for lane in 0..LANES {
+                let felt = add(rotate(columns, lane_of(&points, lane)), *constant);
+                let force = add(lane_of(&forces, lane), felt);
+                set_lane(&mut forces, lane, force);
+            }
+        }
+        if let Some(crowd) = self.step.crowd {
+            let (pull, drag) = crowd.at_row(&points);
+            for lane in 0..LANES {
+                let velocity = beyond(&self.velocity, lane, row.length.0[lane], lane_of(&state.increment, lane));
+                set_lane(&mut self.velocity, lane, velocity);
+                let felt = scale_add(-drag.0[lane], velocity, lane_of(&pull, lane));
+                let force = add(lane_of(&forces, lane), felt);
+                set_lane(&mut forces, lane, force);
+            }
+        }
+        forces
+    }
+
+    /// Turns segments out of the bodies: of sixteen nodes a few may have come near, and fewer touch.
+    #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernels")]
+    #[inline(always)]
+    fn keep_out(&self, state: &mut FreeState, was: &PointRow, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
+        let near = self.near(state, row, to);
+        if near == 0 {
+            return;
+        }
+        let mut gaps = [f32::INFINITY; LANES];
+        for b in 0..self.step.obstacles.len() {
+            self.read_gaps(b, near, to, &mut gaps);
+        }
+        let mut touching = 0;
+        for lane in 0..LANES {
+            let read = near >> lane & 1 == 1;
+            state.gap.0[lane] = if read { gaps[lane].max(0.0) } else { state.gap.0[lane] };
+            touching |= u32::from(gaps[lane] < 0.0) << lane;
+        }
+        while touching != 0 {
+            let lane = next_lane(&mut touching);
+            self.keep_one_out(state, was, row, from, to, lane);
+        }
+    }
+
+    /// Takes from the gaps what nodes and bodies may have come closer, and says which may touch: a bit for each strand.
+    #[inline(always)]
+    fn near(&self, state: &mut FreeState, row: &FreeRow, to: &PointRow) -> u32 {
+        let (mut near, closer) = (0, self.step.closer);
+        for lane in 0..LANES {
+            let way = subtract(lane_of(to, lane), lane_of(&self.walk.before, lane));
+            let gap = state.gap.0[lane] - (dot(way, way).sqrt() + closer);
+            state.gap.0[lane] = gap;
+            near |= u32::from((gap < 0.0) & (row.length.0[lane] > 0.0)) << lane;
+        }
+        near
+    }
+
+    /// How far at least the ends of some segments are from touching body `b`, where that is less than `gaps`.
+    #[inline(always)]
+    fn read_gaps(&self, b: usize, mut near: u32, to: &PointRow, gaps: &mut [f32; LANES]) {
+        let (packed, obstacle) = (self.packed, &self.step.obstacles[b]);
+        let (body, kept) = (&packed.free.bodies[b], &packed.kept_from[b][self.at]);
+        // Nearly all that lies on a body with filled folds keeps out of those.
+        let (usual, unusual) = match body.filled.as_deref() {
+            Some(filled) => (filled, !kept.filled),
+            None => (&*body.distance, 0),
+        };
+        let places = obstacle.places(usual, to);
+        while near != 0 {
+            let lane = next_lane(&mut near);
+            let clearance = kept.clearance.0[lane];
+            let distance = match &places {
+                Some(places) if unusual >> lane & 1 == 0 => usual.fine_distance(places, lane),
+                _ => None,
+            };
+            let found = match distance {
+                Some(distance) => gap(distance, clearance),
+                None => {
+                    let (skin, clearance) = packed.kept_out_of(b, self.at, lane);
+                    obstacle.gap(skin, Vec3::from(lane_of(to, lane)), clearance)
+                }
+            };
+            gaps[lane] = gaps[lane].min(found);
+        }
+    }
+
+    /// Turns a segment out of the bodies that its end touches.
+    #[inline(never)]
+    fn keep_one_out(
+        &self,
+        state: &mut FreeState,
+        was: &PointRow,
+        row: &FreeRow,
+        from: &PointRow,
+        to: &mut PointRow,
+        lane: usize,
+    ) {
+        let at = |row: &PointRow| Vec3::from(lane_of(row, lane));
+        let mut going = Going { direction: at(&state.direction), increment: at(&state.increment) };
+        let (from, length, was) = (at(from), row.length.0[lane], at(was));
+        for (b, obstacle) in self.step.obstacles.iter().enumerate() {
+            let (skin, clearance) = self.packed.kept_out_of(b, self.at, lane);
+            let touch = Touch { from, length, clearance, was };
+            going = obstacle.stop(skin, going, &touch).unwrap_or(going);
+        }
+        set_lane(&mut state.direction, lane, going.direction.to_array());
+        set_lane(&mut state.increment, lane, going.increment.to_array());
+        set_lane(to, lane, (from + length * going.direction).to_array());
+    }
+}
+
+/// Takes the first lane out of a set of them, a bit for each.
+#[inline(always)]
+fn next_lane(set: &mut u32) -> usize {
+    let lane = set.trailing_zeros() as usize;
+    *set &= *set - 1;
+    lane
+}
+
+/// Puts strands together as they are.
+pub(super) struct Place;
+
+impl Pass<FreeState, FreeRow> for Place {
+    #[inline(always)]
+    fn segment(
+        &mut self,
+        state: &mut FreeState,
+        row: &FreeRow,
+        _: Option<(&FreeState, &FreeRow)>,
+        from: &PointRow,
+        to: &mut PointRow,
+    ) {
+        *to = ends(state, row, from);
+    }
+}
+
+/// Adds up what the increments move each point by, from a root that stands still.
+pub(super) struct Velocities;
+
+impl Pass<FreeState, FreeRow> for Velocities {
+    #[inline(always)]
+    fn segment(
+        &mut self,
+        state: &mut FreeState,
+        row: &FreeRow,
+        _: Option<(&FreeState, &FreeRow)>,
+        from: &PointRow,
+        to: &mut PointRow,
+    ) {
+        for lane in 0..LANES {
+            set_lane(to, lane, beyond(from, lane, row.length.0[lane], lane_of(&state.increment, lane)));
+        }
+    }
+}
