@@ -5,9 +5,13 @@
 //! written. Bodies and neighbours are met by hair that the wind blows against and over the built-in head, at the frames that
 //! stand in the table.
 
+#[path = "common/bytes.rs"]
+mod bytes;
+
 use std::sync::Arc;
 use std::time::Instant;
 
+use bytes::Bytes;
 use glam::Vec3;
 use nabiki::Head;
 use nabiki::body::{Body, Contact};
@@ -17,7 +21,6 @@ use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours};
 use nabiki::groom::{Growth, Style, grow};
 use nabiki::pseudo_force::PseudoForce;
 use nabiki::roots::Hairline;
-use rayon::prelude::*;
 
 const ROUNDS: usize = 15;
 const FRAMES: u32 = 60;
@@ -45,7 +48,7 @@ fn main() {
     ])
     .expect("two keyframes");
     let mut times = vec![f64::INFINITY; forms.len() + 1];
-    let mut bytes = Bytes::new(strands, 20);
+    let mut bytes = Bytes::<6>::new(strands, 20);
     for _ in 0..ROUNDS {
         for ((_, form), time) in forms.iter().zip(&mut times) {
             let mut simulation =
@@ -78,36 +81,5 @@ fn dynamics(head: &Head, form: Form) -> Dynamics {
         polar_axis: Vec3::Y,
         disturbance: None,
         form,
-    }
-}
-
-/// The bytes of a step without its work: 24 read and written, 20 read, 12 written, for each segment.
-struct Bytes {
-    states: Vec<[[f32; 16]; 6]>,
-    shapes: Vec<[[f32; 16]; 5]>,
-    points: Vec<f32>,
-    segments: usize,
-}
-
-impl Bytes {
-    fn new(strands: usize, segments: usize) -> Self {
-        let rows = strands.div_ceil(16) * segments;
-        let (states, shapes) = (vec![[[1e-3; 16]; 6]; rows], vec![[[1e-3; 16]; 5]; rows]);
-        Self { states, shapes, points: vec![0.0; rows * 48], segments }
-    }
-
-    fn pass(&mut self) {
-        let rows = 8 * self.segments;
-        let states = self.states.par_chunks_mut(rows).zip(self.shapes.par_chunks(rows));
-        states.zip(self.points.par_chunks_mut(rows * 48)).for_each(|((states, shapes), points)| {
-            for ((row, shape), out) in states.iter_mut().zip(shapes).zip(points.as_chunks_mut::<48>().0) {
-                for (quantity, shape) in row.iter_mut().zip(shape.iter().cycle()) {
-                    quantity.iter_mut().zip(shape).for_each(|(v, s)| *v = s - *v);
-                }
-                out[..16].copy_from_slice(&row[0]);
-                out[16..32].copy_from_slice(&row[1]);
-                out[32..].copy_from_slice(&row[2]);
-            }
-        });
     }
 }

@@ -6,9 +6,13 @@
 //! that. All three use the same threads and blocks. The figures are the fastest of the rounds, in ns a segment and
 //! frame. The last size has strands of 10 to 20 segments of all lengths, side by side: blocks that are filled up.
 
+#[path = "common/bytes.rs"]
+mod bytes;
+
 use std::hint::black_box;
 use std::time::Instant;
 
+use bytes::Bytes;
 use glam::Vec3;
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Simulation, Stepper};
 use nabiki::field::{Keyframe, KeyframedField};
@@ -31,13 +35,13 @@ fn main() {
         let field = wind();
         let mut simulation = Simulation::new(&hair, &gust(), &field).expect("settings in range");
         let input = FrameInput::new(1, &[], &field);
-        let mut bytes = Bytes::new(strands, segments);
+        let mut bytes = Bytes::<3>::new(strands, segments);
         let per_segment = 1e9 / (hair.segment_count() * frames) as f64;
         let mut times = [const { Vec::new() }; 3];
         for _ in 0..ROUNDS {
             times[0].push(time(frames, || simulation.step_frame(&input)));
             times[1].push(time(frames, || bytes.pass()));
-            times[2].push(time(frames, || bytes.sines()));
+            times[2].push(time(frames, || sines(&mut bytes)));
         }
         let [step, bytes, sines] = times.map(|t| fastest(t) * per_segment);
         let ratio = step / sines;
@@ -96,43 +100,12 @@ fn hair(strands: usize, segments: usize, mixed: bool) -> Strands {
     hair
 }
 
-/// The bytes of a step without its work: 24 read and written, 12 read, 12 written, for each segment.
-struct Bytes {
-    states: Vec<[[f32; 16]; 6]>,
-    shapes: Vec<[[f32; 16]; 3]>,
-    points: Vec<f32>,
-    segments: usize,
-}
-
-impl Bytes {
-    fn new(strands: usize, segments: usize) -> Self {
-        let rows = strands.div_ceil(16) * segments;
-        let (states, shapes) = (vec![[[1e-3; 16]; 6]; rows], vec![[[1e-3; 16]; 3]; rows]);
-        Self { states, shapes, points: vec![0.0; rows * 48], segments }
-    }
-
-    fn pass(&mut self) {
-        let rows = 8 * self.segments;
-        let states = self.states.par_chunks_mut(rows).zip(self.shapes.par_chunks(rows));
-        states.zip(self.points.par_chunks_mut(rows * 48)).for_each(|((states, shapes), points)| {
-            for ((row, shape), out) in states.iter_mut().zip(shapes).zip(points.as_chunks_mut::<48>().0) {
-                for (quantity, shape) in row.iter_mut().zip(shape.iter().cycle()) {
-                    quantity.iter_mut().zip(shape).for_each(|(v, s)| *v = s - *v);
-                }
-                out[..16].copy_from_slice(&row[0]);
-                out[16..32].copy_from_slice(&row[1]);
-                out[32..].copy_from_slice(&row[2]);
-            }
-        });
-    }
-
-    /// Eight sines and cosines a segment, of data that stays in the nearest cache.
-    fn sines(&mut self) {
-        self.states.par_chunks_mut(8 * self.segments).for_each(|states| {
-            let [a, b, c, d, ..] = states[0];
-            pulp::Arch::new().dispatch(Sines { angles: [a, b, c, d], times: states.len() });
-        });
-    }
+/// Eight sines and cosines a segment, of data that stays in the nearest cache.
+fn sines(bytes: &mut Bytes<3>) {
+    bytes.states.par_chunks_mut(8 * bytes.segments).for_each(|states| {
+        let [a, b, c, d, ..] = states[0];
+        pulp::Arch::new().dispatch(Sines { angles: [a, b, c, d], times: states.len() });
+    });
 }
 
 struct Sines {

@@ -1,12 +1,13 @@
 //! The fast step of the free form against itself, among bodies and neighbours: the same bits from any number of threads,
 //! any vector width, within any subset, from the timeline; and no allocation.
 
+#[path = "common/allocations.rs"]
+mod allocations;
 mod common;
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 use std::sync::Arc;
 
+use allocations::allocations;
 use common::{Whirl, bits, fast, field, gust, hair, mixed_hair, step, way_of_a_head, wind};
 use glam::Vec3;
 use nabiki::body::{Body, BodyWay, Contact};
@@ -110,26 +111,6 @@ fn the_timeline_gives_the_frames_of_the_stepper_to_the_bit() {
     }
 }
 
-thread_local! {
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-struct Counting;
-
-// SAFETY: every call goes on to the system's allocator unchanged.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.with(|n| n.set(n.get() + 1));
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
-
 #[test]
 fn a_step_allocates_nothing() {
     // In a pool of one thread all the work happens on the thread that counts.
@@ -138,11 +119,11 @@ fn a_step_allocates_nothing() {
         let (field, poses) = (wind(), way_of_a_head(FRAMES));
         let mut simulation: Simulation = fast(&mixed_hair(120), &crowded(), &field);
         step(&mut simulation, &field);
-        let before = ALLOCATIONS.with(Cell::get);
+        let before = allocations();
         for frame in 2..=FRAMES {
             let field: &dyn Field = if frame % 2 == 0 { &field } else { &Whirl };
             simulation.step_frame(&FrameInput::new(frame, &poses, field));
         }
-        assert_eq!(ALLOCATIONS.with(Cell::get), before);
+        assert_eq!(allocations(), before);
     });
 }

@@ -1,10 +1,10 @@
 //! The fast stepper against the specification, and against itself: other threads, widths, subsets, orders.
 
+#[path = "common/allocations.rs"]
+mod allocations;
 mod common;
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-
+use allocations::allocations;
 use common::*;
 use glam::{DVec3, Vec3};
 use nabiki::disturbance::Disturbance;
@@ -227,26 +227,6 @@ fn a_disturbance_over_more_frames_goes_as_far_and_jolts_less() {
     }
 }
 
-thread_local! {
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-struct Counting;
-
-// SAFETY: every call goes on to the system's allocator unchanged.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.with(|n| n.set(n.get() + 1));
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
-
 #[test]
 fn a_step_allocates_nothing() {
     // In a pool of one thread all the work happens on the thread that counts.
@@ -255,11 +235,11 @@ fn a_step_allocates_nothing() {
         let field = wind();
         let mut fast = fast(&mixed_hair(300), &running(), &field);
         step(&mut fast, &field);
-        let before = ALLOCATIONS.with(Cell::get);
+        let before = allocations();
         for _ in 0..30 {
             step(&mut fast, &field);
             step(&mut fast, &Whirl);
         }
-        assert_eq!(ALLOCATIONS.with(Cell::get), before);
+        assert_eq!(allocations(), before);
     });
 }
