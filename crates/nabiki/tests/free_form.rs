@@ -43,6 +43,10 @@ fn both(strands: &Strands, dynamics: &Dynamics, field: &dyn Field) -> [Box<dyn S
     [Box::new(exact(strands, dynamics, field)), Box::new(fast(strands, dynamics, field))]
 }
 
+/// How far the tip of a strand of 18 cm may go for roundings alone, in free hair that settles within 40 frames: a direction
+/// is rounded to 6e-8 in each frame, friction forgets it after forty, and 18 segments may all be off the same way.
+const ROUNDINGS_CM: f64 = 18.0 * 40.0 * 6e-8;
+
 fn directions(strands: &Strands) -> Vec<DVec3> {
     strands.iter().flat_map(|s| s.windows(2).map(|w| (w[1] - w[0]).as_dvec3().normalize())).collect()
 }
@@ -102,8 +106,8 @@ fn tied_hair_does_not_move_before_its_band() {
     }
 }
 
-/// Lengths, gains and profiles count from the band. Both are put together in f32, whose roundings, 1e-6 cm and as much of a
-/// direction, grow along a chain of 12 segments that all pull on one another, and over thirty frames.
+/// Lengths, gains, joints and profiles count from the band. Both are put together in f32 and turn by the same increments but
+/// for what rounding of a chain of 18 segments makes of them.
 #[test]
 fn tied_hair_moves_behind_its_band_as_hair_rooted_there() {
     let mut strands = Strands::default();
@@ -126,7 +130,7 @@ fn tied_hair_moves_behind_its_band_as_hair_rooted_there() {
     let moved = behind.strand(0).iter().zip(alone.strand(0)).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
     assert!(moved > 1.0, "{moved} cm");
     for (a, b) in tied.strand(0)[6..].iter().zip(alone.strand(0)) {
-        assert!(a.distance(*b) < 1e-4, "{a} and {b}");
+        assert!(a.distance(*b) < 1e-5, "{a} and {b}");
     }
 }
 
@@ -248,10 +252,9 @@ fn quarter_turns_and_mirrors_of_all_turn_the_result_to_the_bit() {
         let turned = field(&wind.map(|(through, v)| (through, turn(v).to_array())));
         let expected = map(&run(&mut fast(&strands, &dynamics, &blows), &blows, 60), turn);
         let found = run(&mut fast(&map(&strands, turn), &dynamics, &turned), &turned, 60);
-        // A quarter turn changes the order in which three products are added up, so it is the f64 twin that shows it
-        // closely; the fast one keeps to its own bound.
+        // A quarter turn changes the order in which three products are added up.
         let farthest = expected.points().iter().zip(found.points()).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
-        assert!(farthest < 2e-3, "{farthest}");
+        assert!(f64::from(farthest) < 2.0 * ROUNDINGS_CM, "{farthest}");
     }
     let expected = map(&run(&mut fast(&strands, &dynamics, &blows), &blows, 60), mirror);
     let turned = field(&wind.map(|(through, v)| (through, mirror(v).to_array())));
@@ -270,9 +273,8 @@ fn any_turn_of_head_hair_and_field_turns_the_result() {
     let expected = map(&run(&mut exact(&strands, &dynamics, &blows), &blows, 40), turn);
     let found = run(&mut exact(&map(&strands, turn), &dynamics, &turned), &turned, 40);
     let farthest = expected.points().iter().zip(found.points()).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
-    // Points of 30 cm are turned within 4e-6 cm; a root off by that much moves its strand, a direction off by 4e-6 of its
-    // centimetre swings on from there, and unstable swings grow what they begin with by e every some ten frames.
-    assert!(farthest < 1e-3, "{farthest}");
+    // Points of 30 cm are turned within 4e-6 cm, and so are the directions of segments of a centimetre, 18 in a row.
+    assert!(farthest < 19.0 * 4e-6, "{farthest}");
 }
 
 #[test]
@@ -307,14 +309,8 @@ fn the_twins_agree() {
         let pairs = reference.positions().iter().zip(simulation.strands().points());
         distances.extend(pairs.map(|(a, b)| a.distance(b.as_dvec3())));
     }
-    distances.sort_by(f64::total_cmp);
-    println!(
-        "median {:e} 99.9 % {:e} largest {:e}",
-        distances[distances.len() / 2],
-        distances[distances.len() * 999 / 1000],
-        distances[distances.len() - 1]
-    );
-    assert!(distances[distances.len() - 1] < 1e-3);
+    let largest = distances.into_iter().fold(0.0, f64::max);
+    assert!(largest < ROUNDINGS_CM, "{largest:e}");
 }
 
 /// Kinetic energy over 2 c, and the work against force, hold and the first joint, of strands of one segment each; from what
@@ -452,14 +448,17 @@ fn no_node_enters_a_body_in_any_frame() {
 fn a_body_carries_hair_along_and_lets_it_go() {
     let (hair, dynamics) = among_bodies(20.0);
     let calm_field = field(&[(1000, [0.0; 3])]);
-    let mut frames = 0.0_f32;
     let mut simulation = fast(&hair, &dynamics, &calm_field);
-    for _ in 1..=60 {
+    let mut farthest = Vec::new();
+    for _ in 1..=340 {
         step(&mut simulation, &calm_field);
         let moved = hair.points().iter().zip(simulation.strands().points()).map(|(a, b)| a.distance(*b));
-        frames = frames.max(moved.fold(0.0, f32::max));
+        farthest.push(moved.fold(0.0, f32::max));
     }
-    assert!(frames > 2.0, "the ball moved no hair by more than {frames} cm");
+    let carried = farthest.iter().copied().fold(0.0, f32::max);
+    assert!(carried > 2.0, "the ball moved no hair by more than {carried} cm");
+    // It is gone from frame 100 on, and hair has ten seconds to come back.
+    assert!(farthest[339] < 0.05, "{} cm off its rest shape", farthest[339]);
 }
 
 #[test]

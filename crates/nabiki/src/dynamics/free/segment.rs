@@ -41,7 +41,8 @@ pub(in crate::dynamics) fn free_segments(
     let segments = shapes.into_iter().zip(strand.windows(2)).enumerate().map(|(i, (shape, w))| {
         // Curvature is an angle for the length between two middles, and it is its change over such a length that pulls:
         // finer cuts bend as coarse ones do.
-        let between = 0.5 * (before + shape.length);
+        // The first joint, at the root or at the band, has no segment before it that bends.
+        let between = if i == held { shape.length } else { 0.5 * (before + shape.length) };
         before = shape.length;
         let cut = (f64::from(dynamics.segment_length) / between).powi(2);
         let (begin, middle) = match i < held {
