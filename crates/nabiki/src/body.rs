@@ -63,6 +63,36 @@ pub enum BodyWay {
     InWorld(Arc<[Pose]>),
 }
 
+impl BodyWay {
+    /// Where the body is in the world in a frame in which the head has the pose `head`.
+    pub fn pose(&self, frame: u32, head: &Pose) -> Pose {
+        match self {
+            Self::WithHead => *head,
+            Self::InWorld(poses) => poses.get(frame as usize).or(poses.last()).copied().unwrap_or_default(),
+        }
+    }
+
+    /// Refuses a way that ends before `frames` or leads through places that are none; `name` is what the body is called.
+    ///
+    /// # Errors
+    /// Names the frame.
+    pub fn check(&self, name: &str, frames: u32) -> Result<(), SettingError> {
+        let Self::InWorld(poses) = self else { return Ok(()) };
+        if poses.len() != 1 && poses.len() <= frames as usize {
+            let remedy =
+                format!("the body has a pose in {} frames; give one, or one for every frame from 0 on", poses.len());
+            return Err(SettingError::new(format!("{name}.motion"), format!("frame {frames}"), remedy));
+        }
+        match poses.iter().position(|pose| !pose.is_valid()) {
+            None => Ok(()),
+            Some(n) => {
+                let remedy = "must be a finite position (cm) and a rotation of length 1";
+                Err(SettingError::new(format!("{name}.motion frame {n}"), format!("{:?}", poses[n]), remedy))
+            }
+        }
+    }
+}
+
 /// Something that hair does not enter.
 #[derive(Clone, Debug)]
 pub struct Body {
@@ -156,29 +186,14 @@ impl Body {
     /// Refuses contacts out of range, and a way that ends before `frames` or leads through places that are none.
     pub fn check(&self, frames: u32) -> Result<(), SettingError> {
         self.contact.check(&self.name)?;
-        let BodyWay::InWorld(poses) = &self.way else { return Ok(()) };
-        if poses.len() != 1 && poses.len() <= frames as usize {
-            let remedy =
-                format!("the body has a pose in {} frames; give one, or one for every frame from 0 on", poses.len());
-            return Err(SettingError::new(format!("{}.motion", self.name), format!("frame {frames}"), remedy));
-        }
-        match poses.iter().position(|pose| !pose.is_valid()) {
-            None => Ok(()),
-            Some(n) => {
-                let remedy = "must be a finite position (cm) and a rotation of length 1";
-                Err(SettingError::new(format!("{}.motion frame {n}", self.name), format!("{:?}", poses[n]), remedy))
-            }
-        }
+        self.way.check(&self.name, frames)
     }
 
     /// Takes points of the body's space into head space in a frame in which the head has the pose `head`.
     pub fn head_from_body(&self, frame: u32, head: &Pose) -> Affine3A {
         match &self.way {
             BodyWay::WithHead => Affine3A::IDENTITY,
-            BodyWay::InWorld(poses) => {
-                let pose = poses.get(frame as usize).or(poses.last()).copied().unwrap_or_default();
-                head.world_from_head().inverse() * pose.world_from_head()
-            }
+            BodyWay::InWorld(_) => head.world_from_head().inverse() * self.way.pose(frame, head).world_from_head(),
         }
     }
 }

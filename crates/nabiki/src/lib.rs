@@ -65,6 +65,7 @@ pub mod profile;
 pub mod pseudo_force;
 mod random;
 pub mod roots;
+pub mod smoothing;
 pub mod strands;
 pub mod subset;
 mod vector;

@@ -21,10 +21,10 @@ pub struct Frame {
 pub struct Layer {
     /// Direction of the hair from root to tip (unit vector in head space), times `hair`.
     pub direction: [f32; 3],
-    /// Movement of hair and head while the shutter is open (pixels, right and down), times `hair + head`.
+    /// Movement of hair, head and bodies while the shutter is open (pixels, right and down), times `hair + head`.
     pub motion: [f32; 2],
     /// Share of the pixel that shows hair, 0..1.
     pub hair: f32,
-    /// Share of the pixel that shows the head, 0..1.
+    /// Share of the pixel that shows the head or a body, 0..1.
     pub head: f32,
 }

@@ -43,7 +43,7 @@ pub mod tone_mapping;
 pub use camera::{Bounds, View};
 pub use error::RenderError;
 pub use frame::Frame;
-pub use moment::{FrameToDraw, Moment};
+pub use moment::{DrawnBody, FrameToDraw, Moment};
 pub use output::canvas::Canvas;
 pub use output::sheet::{ContactSheet, ForceArrow};
 #[cfg(feature = "video")]

@@ -1,8 +1,17 @@
 //! What a frame is drawn from: hair, head and camera now, and at the frame before.
 
-use nabiki::{Pose, Strands};
+use nabiki::{Mesh, Pose, Strands};
 
 use crate::camera::View;
+
+/// A body that is drawn besides the head.
+#[derive(Clone, Debug)]
+pub struct DrawnBody {
+    /// Its surface (its own space, cm).
+    pub mesh: Mesh,
+    /// Its colour (sRGB, 0..1).
+    pub colour: [f32; 3],
+}
 
 /// Hair, head and camera at one frame.
 #[derive(Clone, Copy, Debug)]
@@ -13,6 +22,8 @@ pub struct Moment<'a> {
     pub pose: Pose,
     /// The camera, in the world.
     pub view: View,
+    /// Where the renderer's bodies are in the world, in their order.
+    pub bodies: &'a [Pose],
 }
 
 /// All that one frame is drawn from.
@@ -27,6 +38,6 @@ pub struct FrameToDraw<'a> {
 impl<'a> FrameToDraw<'a> {
     /// Hair on a head that stands still in the world, sharp.
     pub fn at_rest(strands: &'a Strands, view: View) -> Self {
-        Self { now: Moment { strands, pose: Pose::STILL, view }, before: None }
+        Self { now: Moment { strands, pose: Pose::STILL, view, bodies: &[] }, before: None }
     }
 }

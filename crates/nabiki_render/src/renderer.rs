@@ -12,19 +12,19 @@ use crate::colour;
 use crate::curve::{Curves, bounds, drawable};
 use crate::frame::Frame;
 use crate::light::fibre::Fibre;
-use crate::light::headlight::HeadShadow;
+use crate::light::headlight::SolidShadows;
 use crate::light::kajiya::KajiyaKay;
 use crate::light::lamps::{Lamp, lamps, zenith};
 use crate::light::shade::{HairLight, Model};
 use crate::light::shadow::{self, Crossings, Scene, Sweep};
 use crate::light::sky::SkyMap;
-use crate::moment::FrameToDraw;
+use crate::moment::{DrawnBody, FrameToDraw};
 use crate::raster::bins::Bins;
 use crate::raster::{Node, TILE};
 use crate::scalp::{Scalp, roots};
 use crate::settings::{Antialiasing, Picture, Shading};
 use crate::shutter::{Exposure, Shot};
-use crate::skin::{SkinLight, SkinView};
+use crate::skin::{SkinLight, SkinView, Solids, placed};
 use crate::timing::{Stage, Timing};
 use crate::tone_mapping::linear_from_srgb;
 
@@ -33,13 +33,16 @@ const SHADOW_CELL: f32 = 0.2;
 /// How far a piece may leave traces beyond its own width (pixels): a cell, and its overhang.
 const MARGIN: f32 = 1.25;
 
-/// Draws frames of strands on a head. It keeps its working memory from frame to frame, and what does not change
-/// while camera, lamps and head stand still.
+/// Draws frames of strands on a head, among bodies. It keeps its working memory from frame to frame, and what does not
+/// change while camera, lamps, head and bodies stand still.
 pub struct Renderer {
     picture: Picture,
     layers: bool,
     head: Mesh,
-    normals: Vec<Vec3>,
+    bodies: Vec<Mesh>,
+    solids: Solids,
+    /// Colours of the head and of the bodies (linear).
+    skins: Vec<[f32; 3]>,
     model: Model,
     curves: Curves,
     radius: Vec<f32>,
@@ -57,7 +60,9 @@ pub struct Renderer {
 struct Still {
     shot: Shot,
     lamps: Vec<Lamp>,
-    head_shadows: Vec<HeadShadow>,
+    solid_shadows: Vec<SolidShadows>,
+    /// The bodies where they are in head space.
+    bodies: Vec<Mesh>,
     skin: SkinView,
     skin_places: Vec<Vec3>,
     skin_unhidden: Vec<[f32; 3]>,
@@ -81,18 +86,7 @@ impl Renderer {
     /// If a setting is out of range, or the head has a vertex that is not finite or a triangle without vertices.
     pub fn new(picture: &Picture, head: &Mesh) -> Result<Self, RenderError> {
         picture.check()?;
-        if let Some(v) = head.positions.iter().position(|&p| !drawable(p)) {
-            let p = head.positions[v];
-            return Err(RenderError::Geometry(format!(
-                "vertex {v} of the head lies at {p}: every coordinate must be a number within 1e7 cm"
-            )));
-        }
-        if let Some(t) = head.triangles.iter().position(|t| t.iter().any(|&v| v as usize >= head.positions.len())) {
-            let vertices = head.positions.len();
-            return Err(RenderError::Geometry(format!(
-                "triangle {t} of the head names a vertex beyond its {vertices}"
-            )));
-        }
+        check_mesh(head, "the head")?;
         let look = &picture.hair;
         let model = match look.shading {
             Shading::Fibre => Model::Fibre(Box::new(Fibre::new(look))),
@@ -105,7 +99,9 @@ impl Renderer {
             picture: picture.clone(),
             layers: false,
             head: head.clone(),
-            normals: head.vertex_normals(),
+            bodies: Vec::new(),
+            solids: Solids::new(head, std::iter::empty()),
+            skins: vec![picture.head.colour.map(linear_from_srgb)],
             model,
             curves: Curves::default(),
             radius: Vec::new(),
@@ -118,6 +114,23 @@ impl Renderer {
             still: None,
             timing: Timing::default(),
         })
+    }
+
+    /// Draws these bodies as well, lit as the head is, each in its colour. They hide hair and throw shadows as the head does; every
+    /// frame says where they are.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), of a body's mesh.
+    pub fn with_bodies(mut self, bodies: Vec<DrawnBody>) -> Result<Self, RenderError> {
+        for (i, body) in bodies.iter().enumerate() {
+            check_mesh(&body.mesh, &format!("body {i}"))?;
+        }
+        self.solids = Solids::new(&self.head, bodies.iter().map(|body| &body.mesh));
+        self.skins.truncate(1);
+        self.skins.extend(bodies.iter().map(|body| body.colour.map(linear_from_srgb)));
+        self.bodies = bodies.into_iter().map(|body| body.mesh).collect();
+        self.still = None;
+        Ok(self)
     }
 
     /// Fills the frames' layers of hair direction and motion as well (coverage only).
@@ -140,8 +153,15 @@ impl Renderer {
     /// little more than a sharp frame, however fast the hair; a head that moves on the picture costs as much as it moves far.
     ///
     /// # Errors
-    /// If a point of a strand is not finite: which one. If the frame before has not the same strands.
+    /// If a point of a strand is not finite: which one. If the frame before has not the same strands. If there is not one pose for
+    /// each body.
     pub fn draw(&mut self, frame: &FrameToDraw) -> Result<Frame, RenderError> {
+        for moment in [Some(&frame.now), frame.before.as_ref()].into_iter().flatten() {
+            let (given, bodies) = (moment.bodies.len(), self.bodies.len());
+            if given != bodies {
+                return Err(RenderError::Geometry(format!("{given} poses for {bodies} bodies: give one for each")));
+            }
+        }
         let mut clock = self.timing.start();
         let exposure = Exposure::new(frame, self.picture.shutter)?;
         self.curves.build(&exposure.strands, &exposure.moved, &self.picture.hair, &exposure.shot.middle)?;
@@ -179,17 +199,20 @@ impl Renderer {
             self.still = Some(still);
             return;
         }
-        let head_shadows: Vec<_> = if self.picture.shadows {
-            lamps.par_iter().map(|lamp| HeadShadow::new(lamp, &self.head)).collect()
+        let bodies: Vec<Mesh> =
+            self.bodies.iter().zip(&exposure.shot.bodies).map(|(mesh, at)| placed(mesh, &at.middle)).collect();
+        let solids = || std::iter::once(&self.head).chain(&bodies);
+        let solid_shadows: Vec<_> = if self.picture.shadows {
+            lamps.par_iter().map(|lamp| SolidShadows::new(lamp, solids())).collect()
         } else {
             Vec::new()
         };
-        let skin = SkinView::new(&self.head, &self.normals, &exposure.shot);
+        let skin = SkinView::new(&self.solids, &exposure.shot);
         let skin_places = skin.pixels.iter().map(|p| p.position + 0.15 * p.normal).collect();
-        let skin_unhidden = SkinLight::unhidden(&skin.pixels, &lamps, &head_shadows);
+        let skin_unhidden = SkinLight::unhidden(&skin.pixels, &solid_shadows);
         let (roots, stubble) = (Vec::new(), Vec::new());
         let shot = exposure.shot.clone();
-        let mut still = Still { shot, lamps, head_shadows, skin, skin_places, skin_unhidden, roots, stubble };
+        let mut still = Still { shot, lamps, solid_shadows, bodies, skin, skin_places, skin_unhidden, roots, stubble };
         still.grow(strands, &self.picture);
         self.still = Some(still);
     }
@@ -225,15 +248,15 @@ impl Renderer {
                 let across = [seen.dot(view.right), -seen.dot(view.up)];
                 let length = (across[0] * across[0] + across[1] * across[1]).sqrt();
                 let motion = curve.velocities.get(i).map_or(Vec3::ZERO, |&v| shot.motion(n.position, v));
-                let behind_head = |p: Vec3| {
+                let behind_skin = |p: Vec3| {
                     let beside = p.x < 0.0 || p.y < 0.0 || p.x >= width || p.y >= height;
                     !beside && {
                         let tile = (p.y as usize / TILE) * tiles[0] + p.x as usize / TILE;
                         p.z > still.skin.hidden_beyond[tile] + 0.5
                     }
                 };
-                let hidden = behind_head(p)
-                    && (motion == Vec3::ZERO || behind_head(p - 0.5 * motion) && behind_head(p + 0.5 * motion));
+                let hidden = behind_skin(p)
+                    && (motion == Vec3::ZERO || behind_skin(p - 0.5 * motion) && behind_skin(p + 0.5 * motion));
                 Node {
                     at: [p.x, p.y],
                     depth: p.z,
@@ -273,7 +296,7 @@ impl Renderer {
         };
         let cover = || {
             if sky.is_occluded() {
-                sky_map.fill(nodes, bounds, &self.radius, &self.head, self.zenith);
+                sky_map.fill(nodes, bounds, &self.radius, (&self.head, &still.bodies), self.zenith);
             }
         };
         // Parts of each run on one core only; side by side they fill each other's gaps.
@@ -290,7 +313,7 @@ impl Renderer {
             variation: self.picture.hair.variation,
             lamps: &still.lamps,
             crossings: &crossings,
-            head_shadows: &still.head_shadows,
+            solid_shadows: &still.solid_shadows,
             sky: &self.picture.sky,
             sky_map: self.occluded_sky(),
             view,
@@ -309,7 +332,7 @@ impl Renderer {
             sky: &self.picture.sky,
             zenith: self.zenith,
             sky_map: self.occluded_sky(),
-            skin: self.picture.head.colour.map(linear_from_srgb),
+            skins: &self.skins,
             hair: colour::albedo(colour::absorption(&self.picture.hair), self.picture.hair.azimuthal_roughness),
             passed: self.model.passed_on(),
             unhidden: &still.skin_unhidden,
@@ -324,5 +347,20 @@ impl Renderer {
 
     fn occluded_sky(&self) -> Option<&SkyMap> {
         self.picture.sky.is_occluded().then_some(&self.sky_map)
+    }
+}
+
+/// Refuses what cannot be drawn of a mesh that is called `name`.
+fn check_mesh(mesh: &Mesh, name: &str) -> Result<(), RenderError> {
+    if let Some(v) = mesh.positions.iter().position(|&p| !drawable(p)) {
+        let p = mesh.positions[v];
+        return Err(RenderError::Geometry(format!(
+            "vertex {v} of {name} lies at {p}: every coordinate must be a number within 1e7 cm"
+        )));
+    }
+    let vertices = mesh.positions.len();
+    match mesh.triangles.iter().position(|t| t.iter().any(|&v| v as usize >= vertices)) {
+        Some(t) => Err(RenderError::Geometry(format!("triangle {t} of {name} names a vertex beyond its {vertices}"))),
+        None => Ok(()),
     }
 }

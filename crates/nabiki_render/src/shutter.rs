@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use glam::Vec3;
+use glam::{Affine3A, Vec3};
 use nabiki::{Pose, Strands};
 use rayon::prelude::*;
 
@@ -97,7 +97,8 @@ impl<'a> Exposure<'a> {
     pub fn new(frame: &FrameToDraw<'a>, shutter: f32) -> Result<Self, RenderError> {
         let now = frame.now;
         let Some(before) = frame.before.filter(|_| shutter > 0.0) else {
-            let shot = Shot::sharp(now.view.in_head(&now.pose));
+            let bodies = now.bodies.iter().map(|body| Passage::still(in_head_space(body, &now.pose))).collect();
+            let shot = Shot { bodies, ..Shot::sharp(now.view.in_head(&now.pose)) };
             let strands = Cow::Borrowed(now.strands);
             return Ok(Self { strands, moved: Vec::new(), pose: now.pose, view: now.view, shot });
         };
@@ -113,27 +114,77 @@ impl<'a> Exposure<'a> {
         };
         let (pose, view) = at(0.5);
         let [open, middle_view, close] = [0.0, 0.5, 1.0].map(in_head);
-        let between =
-            (open != close).then(|| Box::new(std::array::from_fn(|k| in_head((k as f32 + 0.5) / CELLS as f32))));
-        let shot = Shot { open, middle: middle_view, close, between };
+        let mut bodies: Vec<Passage> = (before.bodies.iter().zip(now.bodies))
+            .map(|(a, b)| {
+                let place = |part: f32| {
+                    let part = 1.0 - shutter * (1.0 - part);
+                    in_head_space(&pose_between(*a, *b, part), &pose_between(before.pose, now.pose, part))
+                };
+                let [open, middle, close] = [0.0, 0.5, 1.0].map(place);
+                let between = (0..CELLS).map(|k| place((k as f32 + 0.5) / CELLS as f32)).collect();
+                Passage { open, middle, close, between }
+            })
+            .collect();
+        let moves = open != close || bodies.iter().any(|body| body.open != body.close);
+        if !moves {
+            bodies.iter_mut().for_each(|body| body.between.clear());
+        }
+        let between = moves.then(|| Box::new(std::array::from_fn(|k| in_head((k as f32 + 0.5) / CELLS as f32))));
+        let shot = Shot { open, middle: middle_view, close, between, bodies };
         Ok(Self { strands: Cow::Owned(middle), moved, pose, view, shot })
     }
 }
 
-/// The camera in head space while the shutter is open.
+/// Takes points of a body into head space.
+fn in_head_space(body: &Pose, head: &Pose) -> Affine3A {
+    head.world_from_head().inverse() * body.world_from_head()
+}
+
+/// Where a body is in head space while the shutter is open.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Passage {
+    pub open: Affine3A,
+    pub middle: Affine3A,
+    pub close: Affine3A,
+    /// As [`Shot::between`]; empty if nothing moves.
+    pub between: Vec<Affine3A>,
+}
+
+impl Passage {
+    fn still(place: Affine3A) -> Self {
+        Self { open: place, middle: place, close: place, between: Vec::new() }
+    }
+
+    /// How a place that is at `p` halfway through moves in head space (cm).
+    fn motion(&self, p: Vec3) -> Vec3 {
+        let own = self.middle.inverse().transform_point3(p);
+        self.close.transform_point3(own) - self.open.transform_point3(own)
+    }
+}
+
+/// The camera and the bodies in head space while the shutter is open.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Shot {
     pub open: View,
     pub middle: View,
     pub close: View,
-    /// The middles of as many equal parts of the time as a pixel has cells; none if the camera does not move.
+    /// The middles of as many equal parts of the time as a pixel has cells; none if neither camera nor a body moves.
     pub between: Option<Box<[View; CELLS]>>,
+    pub bodies: Vec<Passage>,
 }
 
 impl Shot {
-    /// Of a camera that does not move.
+    /// Of a camera that does not move, without bodies.
     pub fn sharp(view: View) -> Self {
-        Self { open: view, middle: view, close: view, between: None }
+        Self { open: view, middle: view, close: view, between: None, bodies: Vec::new() }
+    }
+
+    /// How a place on the head (solid 0) or on a body that is at `p` halfway through moves on the picture, as
+    /// [`motion`](Self::motion).
+    #[inline]
+    pub fn motion_of_solid(&self, solid: u16, p: Vec3) -> Vec3 {
+        let body = usize::from(solid).checked_sub(1).map(|i| self.bodies[i].motion(p));
+        self.motion(p, body.unwrap_or_default())
     }
 
     /// How a place that is at `p` halfway through, and moves by `v` in head space (cm), moves on the picture: pixels right and

@@ -1,7 +1,9 @@
-//! The head on the picture: where it shows, and how it is lit.
+//! Head and bodies on the picture: where they show, and how they are lit.
 
 mod light;
+mod solids;
 mod surface;
 
 pub use light::SkinLight;
+pub use solids::{Solids, placed};
 pub use surface::{SkinPixel, SkinView};

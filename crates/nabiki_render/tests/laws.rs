@@ -39,7 +39,7 @@ fn draw(picture: &Picture, strands: &Strands) -> Frame {
 
 /// Hair that moves before a camera that stands still.
 fn between<'a>(before: &'a Strands, now: &'a Strands, view: View) -> FrameToDraw<'a> {
-    let moment = |strands| Moment { strands, pose: Pose::STILL, view };
+    let moment = |strands| Moment { strands, pose: Pose::STILL, view, bodies: &[] };
     FrameToDraw { now: moment(now), before: Some(moment(before)) }
 }
 

@@ -61,7 +61,7 @@ fn moved(position_cm: Vec3) -> Pose {
 }
 
 fn draw(picture: &Picture, strands: &Strands, now: (Pose, View), before: Option<(Pose, View)>) -> Frame {
-    let moment = |(pose, view)| Moment { strands, pose, view };
+    let moment = |(pose, view)| Moment { strands, pose, view, bodies: &[] };
     let frame = FrameToDraw { now: moment(now), before: before.map(moment) };
     Renderer::new(picture, &octahedron()).unwrap().with_layers().draw(&frame).unwrap()
 }

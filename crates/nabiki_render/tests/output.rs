@@ -60,7 +60,7 @@ fn openexr_files_hold_the_frame_to_the_bit() {
     let (renderer, strands, view) = setting(&picture);
     let mut moved = strands.clone();
     moved.points_mut().iter_mut().for_each(|p| p.x += 0.5);
-    let moment = |strands| Moment { strands, pose: Pose::STILL, view };
+    let moment = |strands| Moment { strands, pose: Pose::STILL, view, bodies: &[] };
     let blurred = FrameToDraw { now: moment(&moved), before: Some(moment(&strands)) };
     let frame = renderer.with_layers().draw(&blurred).unwrap();
     let folder = tempfile::tempdir().unwrap();
@@ -83,7 +83,8 @@ fn openexr_files_hold_the_frame_to_the_bit() {
 
 #[test]
 fn a_movie_decodes_to_the_frames_it_was_given() {
-    let picture = Picture { video: nabiki_render::settings::Video { quality: 1.0 }, ..small() };
+    let mut picture = small();
+    picture.video.quality = 1.0;
     let (mut renderer, strands, view) = setting(&picture);
     let tone_mapping = ToneMapping::new(&picture);
     let frame = renderer.draw(&FrameToDraw::at_rest(&strands, view)).unwrap();

@@ -6,14 +6,16 @@ mod load;
 use std::sync::Arc;
 
 use glam::Vec3;
+use nabiki::body::BodyWay;
 use nabiki::dynamics::{Dynamics, FrameInput, Reference, Simulation, Timeline};
 use nabiki::field::Field;
-use nabiki::{Hair, Head, Pose, SettingError, Strands};
+use nabiki::{Hair, Head, Mesh, Pose, SettingError, Strands};
 use nabiki_io::cache::Origin;
 use nabiki_io::hair::ImportReport;
 use nabiki_io::mesh::MeshReport;
 use nabiki_io::placement::Placement;
 use nabiki_io::{DeclaredSpace, GroomCurves};
+use nabiki_render::DrawnBody;
 
 use crate::advice::{Advice, advice};
 use crate::error::{Error, Result};
@@ -60,10 +62,20 @@ pub struct BuiltScene {
     judged: Strands,
     /// How the head's motion was read and converted, in one line.
     pub motion_report: Option<String>,
+    /// The scene's bodies, in their order; none in the paper's form.
+    bodies: Vec<BuiltBody>,
     /// Number of each strand in the whole hair.
     ids: Vec<u32>,
     /// World poses of the head from frame 0 on; none for a head that stands still.
     poses: Vec<Pose>,
+}
+
+/// A body as it is drawn.
+#[derive(Clone, Debug)]
+struct BuiltBody {
+    /// Its own space (cm).
+    mesh: Mesh,
+    way: BodyWay,
 }
 
 impl Scene {
@@ -160,6 +172,18 @@ impl BuiltScene {
     /// Where the head is in a frame.
     pub fn pose(&self, frame: u32) -> Pose {
         self.poses.get(frame as usize).copied().unwrap_or_default()
+    }
+
+    /// The bodies that are shown, to be drawn.
+    pub fn drawn_bodies(&self) -> Vec<DrawnBody> {
+        let all = self.scene.bodies.iter().zip(&self.bodies).filter(|(settings, _)| settings.shown);
+        all.map(|(settings, body)| DrawnBody { mesh: body.mesh.clone(), colour: settings.colour }).collect()
+    }
+
+    /// Where the bodies that are shown are in the world in a frame, in the order of [`drawn_bodies`](Self::drawn_bodies).
+    pub fn drawn_poses(&self, frame: u32) -> Vec<Pose> {
+        let all = self.scene.bodies.iter().zip(&self.bodies).filter(|(settings, _)| settings.shown);
+        all.map(|(_, body)| body.way.pose(frame, &self.pose(frame))).collect()
     }
 
     /// What a step to a frame needs to know of it.

@@ -35,7 +35,7 @@ impl<'a> Film<'a> {
         watch: &mut dyn Watch,
     ) -> Result<Self> {
         let head = &built.head;
-        let renderer = Renderer::new(picture, &head.mesh)?;
+        let renderer = Renderer::new(picture, &head.mesh)?.with_bodies(built.drawn_bodies())?;
         let mut bounds = Bounds::default();
         bounds.include_head(&head.mesh, &head.ellipsoid);
         if picture.camera.is_automatic() {
@@ -102,9 +102,11 @@ impl<'a> Film<'a> {
     /// The frame, and the view in the space of the forces.
     fn draw(&mut self, n: u32, strands: &Strands) -> Result<(Frame, View)> {
         let previous = self.previous.take();
-        let moment = |n: u32, strands| Moment { strands, pose: self.built.pose(n), view: self.view_in_world(n) };
-        let now = moment(n, strands);
-        let before = previous.as_ref().filter(|_| n > 0).map(|previous| moment(n - 1, previous));
+        let built = self.built;
+        let (bodies, bodies_before) = (built.drawn_poses(n), built.drawn_poses(n.saturating_sub(1)));
+        let moment = |n, strands, bodies| Moment { strands, pose: built.pose(n), view: self.view_in_world(n), bodies };
+        let now = moment(n, strands, bodies.as_slice());
+        let before = previous.as_ref().filter(|_| n > 0).map(|previous| moment(n - 1, previous, &bodies_before));
         let frame = self.renderer.draw(&FrameToDraw { now, before })?;
         if self.picture.shutter > 0.0 {
             self.previous = Some(strands.clone());

@@ -69,7 +69,8 @@ impl<'a> PictureOutputs<'a> {
         }
         let movie = match movie_file {
             Some(file) => {
-                let movie = Movie::create(&file, picture, built.scene.frame_rate())?;
+                let movie =
+                    Movie::create(&file, picture, picture.video.frame_rate.unwrap_or(built.scene.frame_rate()))?;
                 Some((file, movie))
             }
             None => None,

@@ -208,4 +208,28 @@ fn bodies_that_are_none_are_refused() {
         refused("mesh = \"solid.obj\"", "mesh = \"solid.obj\"\nunit = 0"),
         "free.toml:13: body[0].unit = 0: must be a finite number above 0"
     );
+    assert_eq!(
+        refused("mesh = \"solid.obj\"", "mesh = \"solid.obj\"\ncolour = [0.2, 1.5, 0]"),
+        "free.toml:13: body[0].colour = [0.2, 1.5, 0.0]: each of red, green and blue must lie in 0..1"
+    );
+    assert_eq!(
+        refused("mesh = \"solid.obj\"", "mesh = \"solid.obj\"\ncolour = \"grey\""),
+        "free.toml:13: body[0].colour: found string \"grey\", must be an array of length 3"
+    );
+    assert_eq!(
+        refused(
+            "mesh = \"solid.obj\"",
+            "mesh = \"sheet.obj\"\nsolid = false\nmotion = { file = \"short.csv\", up = \"+y\", facing = \"+x\" }"
+        ),
+        "free.toml:14: body[0].motion = frame 3: the body has a pose in 3 frames; give one, or one for every frame from 0 on",
+        "a sheet will do for what is only drawn, a motion too short will not"
+    );
+    for (value, remedy) in [("smoothing = -1", "0..240"), ("speed = 0", "0.01..100"), ("speed = nan", "0.01..100")] {
+        let motion = format!("mesh = \"solid.obj\"\nmotion = {{ file = \"short.csv\", {value} }}");
+        let value = value.replace("nan", "NaN");
+        assert_eq!(
+            refused("mesh = \"solid.obj\"", &motion),
+            format!("free.toml:13: body[0].motion.{value}: must lie in {remedy}")
+        );
+    }
 }

@@ -8,6 +8,7 @@ use super::{Field, check_at_least_0};
 use crate::dynamics::ForceSpace;
 use crate::error::SettingError;
 use crate::pose::Pose;
+use crate::smoothing::{self, smoothed};
 
 /// The settings of the wind from the head's own motion, uniform in space.
 ///
@@ -40,7 +41,7 @@ impl BodyWind {
     pub fn check(&self) -> Result<(), SettingError> {
         check_at_least_0("body_wind.drag", self.drag, "force by velocity (per cm/s)")?;
         check_at_least_0("body_wind.footfall", self.footfall, "force by acceleration (per cm/s^2)")?;
-        crate::error::check_range("body_wind.smoothing", self.smoothing, 0.0, 240.0)
+        smoothing::check("body_wind.smoothing", self.smoothing)
     }
 }
 
@@ -64,7 +65,8 @@ impl BodyWindField {
             return Err(SettingError::new("motion.frame_rate", frame_rate, remedy));
         }
         let places: Vec<DVec3> = poses.iter().map(|pose| pose.position_cm.as_dvec3()).collect();
-        let places = smoothed(&places, f64::from(settings.smoothing));
+        let mean = |before: DVec3, now: DVec3, after: DVec3, b: f64| now + b * (before - now + (after - now));
+        let places = smoothed(&places, f64::from(settings.smoothing), mean);
         let force = |n: usize| {
             let (velocity, acceleration) = moving(&places, n, frame_rate);
             let felt = DVec3::new(0.0, acceleration.y, 0.0) * f64::from(settings.footfall);
@@ -81,27 +83,6 @@ impl BodyWindField {
         }
         Ok(Self { forces })
     }
-}
-
-/// The places averaged by a bell, of which what lies beyond either end is left out.
-fn smoothed(places: &[DVec3], deviation: f64) -> Vec<DVec3> {
-    if deviation == 0.0 {
-        return places.to_vec();
-    }
-    // Four parabolas in a row make a bell: the binomial weights of a wide enough row, (1 + x)^(2 k), whose variance is k / 2.
-    let rounds = (2.0 * deviation * deviation).ceil().max(1.0);
-    // A part of a round keeps the deviation exact: its weights are b, 1 - 2 b, b with variance 2 b.
-    let b = deviation * deviation / rounds / 2.0;
-    let mut now = places.to_vec();
-    let mut next = now.clone();
-    for _ in 0..rounds as u64 {
-        for n in 0..now.len() {
-            let (before, after) = (now[n.saturating_sub(1)], now[(n + 1).min(now.len() - 1)]);
-            next[n] = now[n] + b * (before - now[n] + (after - now[n]));
-        }
-        std::mem::swap(&mut now, &mut next);
-    }
-    now
 }
 
 /// Velocity and acceleration in a frame, by central differences; at the ends, those beside them.

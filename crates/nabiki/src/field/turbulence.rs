@@ -10,6 +10,7 @@ use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
 use self::waves::{LOOP, Octave, Phases};
+use super::falloff::{self, EnvelopeKey};
 use super::head_track::{HeadTrack, Place};
 use super::lanes::{self, Lanes, by_part, get, set, times, transposed_times};
 use super::{Field, VectorRow, check_at_least_0, check_strength};
@@ -45,6 +46,9 @@ pub struct Turbulence {
     pub near_head: f32,
     /// Seed of the random vectors.
     pub seed: u64,
+    /// Parts of the strength over frames, on straight lines from key to key; all of it without keys (default).
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub envelope: Vec<EnvelopeKey>,
 }
 
 impl Default for Turbulence {
@@ -58,6 +62,7 @@ impl Default for Turbulence {
             drift: 0.02,
             near_head: 4.0,
             seed: 1,
+            envelope: Vec::new(),
         }
     }
 }
@@ -80,7 +85,8 @@ impl Turbulence {
             return Err(SettingError::new("turbulence.octaves", self.octaves, remedy));
         }
         check_at_least_0("turbulence.drift", self.drift, "length (cm a frame and unit of force)")?;
-        check_at_least_0("turbulence.near_head", self.near_head, "distance (cm)")
+        check_at_least_0("turbulence.near_head", self.near_head, "distance (cm)")?;
+        falloff::check_envelope("turbulence", &self.envelope)
     }
 }
 
@@ -153,7 +159,8 @@ impl TurbulenceField {
     fn in_frame(&self, frame: u32, act: impl FnOnce(&InFrame)) {
         let ramp = Ramp::new(self, frame);
         let first = frame as usize * self.octaves.len();
-        let in_frame = |phases| InFrame { octaves: &self.octaves, phases, ramp };
+        let part = falloff::envelope(&self.settings.envelope, frame);
+        let in_frame = |phases| InFrame { octaves: &self.octaves, phases, ramp, part };
         match self.first_phases.get(first..first + self.octaves.len()) {
             Some(phases) => act(&in_frame(phases)),
             None => {
@@ -239,6 +246,8 @@ struct InFrame<'a> {
     octaves: &'a [Octave],
     phases: &'a [Phases],
     ramp: Ramp,
+    /// Of the strength.
+    part: f32,
 }
 
 impl Lanes for InFrame<'_> {
@@ -255,13 +264,14 @@ impl Lanes for InFrame<'_> {
                 set(&mut potential, lane, psi);
             }
         }
-        if self.ramp.steepness == 0.0 {
-            return velocity;
-        }
         let mut forces = [[0.0; N]; 3];
         for lane in 0..N {
-            let force = self.ramp.curl(get(points, lane), get(&velocity, lane), get(&potential, lane));
-            set(&mut forces, lane, force);
+            let velocity = get(&velocity, lane);
+            let force = match self.ramp.steepness {
+                0.0 => velocity,
+                _ => self.ramp.curl(get(points, lane), velocity, get(&potential, lane)),
+            };
+            set(&mut forces, lane, scale(self.part, force));
         }
         forces
     }
@@ -285,7 +295,8 @@ impl Field for TurbulenceField {
         let uneven = f64::from(mean_half_axis(&self.head.ellipsoid) / axes.min_element());
         let slope = if near > 0.0 { 1.875 / near * uneven } else { 0.0 };
         // The bound of the profile leaves room for what rounding adds to the force itself.
-        self.octaves.iter().map(|octave| octave.largest(slope)).sum::<f64>() as f32
+        let largest = self.octaves.iter().map(|octave| octave.largest(slope)).sum::<f64>() as f32;
+        largest * falloff::largest(&self.settings.envelope)
     }
 
     fn first_above(&self, limit: f64) -> Option<(String, String)> {
@@ -296,8 +307,9 @@ impl Field for TurbulenceField {
         })
     }
 
-    fn uniform(&self, _frame: u32) -> Option<Vec3> {
-        (self.settings.strength == 0.0).then_some(Vec3::ZERO)
+    fn uniform(&self, frame: u32) -> Option<Vec3> {
+        let part = falloff::envelope(&self.settings.envelope, frame);
+        (self.settings.strength * part == 0.0).then_some(Vec3::ZERO)
     }
 }
 

@@ -68,10 +68,10 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
     let (up, facing) = (source.up.unwrap_or(Axis::PlusY), source.facing.unwrap_or(Axis::PlusZ));
     let unit_cm = source.unit_cm.unwrap_or(100.0);
     let world_from_file = WorldFromFile::new(Some(unit_cm), Some(up), Some(facing))?;
-    let frames = frame_count(end - start, frame_rate)?;
+    let frames = frame_count(end - start, frame_rate / source.speed)?;
     let mut samples = Vec::with_capacity(frames.min(1 << 16));
     for n in 0..frames {
-        let time = start + n as f64 / frame_rate;
+        let time = start + n as f64 / (frame_rate / source.speed);
         let pose = world(curves.iter().map(|c| c.matrix_at(time)), &source.node)?;
         samples.push(Sample {
             position: pose.position,
@@ -79,14 +79,15 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
         });
     }
     let report = format!(
-        "{}: clip {}, node {}, {:.3} s -> {frames} frames at {frame_rate} Hz (evaluated at the frames; unit {unit_cm} cm, \
+        "{}: clip {}, node {}, {:.3} s -> {frames} frames at {frame_rate} Hz{} (evaluated at the frames; unit {unit_cm} cm, \
          up {up}, face {facing})",
         source.file.display(),
         animation.name().unwrap_or("without a name"),
         source.node,
         end - start,
+        source.changes(),
     );
-    Ok(HeadMotion { frame_rate, poses: poses(&world_from_file, samples.into_iter(), source.start_at_origin)?, report })
+    Ok(HeadMotion { frame_rate, poses: poses(&world_from_file, samples.into_iter(), source)?, report })
 }
 
 /// The nodes from the scene's root down to the one named.

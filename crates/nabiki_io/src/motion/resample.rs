@@ -23,19 +23,19 @@ impl Track {
         let (unit_cm, up) = (source.unit_cm.or(self.unit_cm), source.up.or(self.up));
         let world_from_file = WorldFromFile::new(unit_cm, up, source.facing).map_err(named)?;
         let duration = self.times[self.times.len() - 1] - self.times[0];
-        let frames = frame_count(duration, frame_rate).map_err(named)?;
+        let frames = frame_count(duration, frame_rate / source.speed).map_err(named)?;
         let mut key = 0;
         let samples = (0..frames).map(|n| {
-            let time = self.times[0] + n as f64 / frame_rate;
+            let time = self.times[0] + n as f64 / (frame_rate / source.speed);
             while key + 2 < self.times.len() && self.times[key + 1] <= time {
                 key += 1;
             }
             self.at(key, time, source.positions)
         });
-        let poses = poses(&world_from_file, samples, source.start_at_origin).map_err(named)?;
+        let poses = poses(&world_from_file, samples, source).map_err(named)?;
         let rate = (self.times.len() - 1) as f64 / duration.max(f64::MIN_POSITIVE);
         let report = format!(
-            "{}: {}, {} samples at {} Hz ({:.3} s) -> {} frames at {} Hz (positions {}, rotations slerp; unit {} cm, \
+            "{}: {}, {} samples at {} Hz ({:.3} s) -> {} frames at {} Hz{} (positions {}, rotations slerp; unit {} cm, \
              up {}, face {})",
             source.file.display(),
             self.what,
@@ -44,6 +44,7 @@ impl Track {
             duration,
             frames,
             Rate(frame_rate),
+            source.changes(),
             match source.positions {
                 Interpolation::Linear => "linear",
                 Interpolation::Cubic => "cubic",

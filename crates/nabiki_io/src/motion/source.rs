@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use nabiki::{SettingError, smoothing};
 use serde::{Deserialize, Serialize};
 
 use crate::axis::Axis;
@@ -38,6 +39,11 @@ pub struct MotionSource {
     /// How positions between two samples are found (default cubic). Rotations turn at a constant rate (slerp). Not for
     /// .glb, whose channels say it themselves.
     pub positions: Interpolation,
+    /// How fast the motion is played, 0.01..100: 0.25 takes four times as long (default 1).
+    pub speed: f64,
+    /// Deviation of the bell that places and turns are averaged by (frames of the scene), 0..240 (default 0: as they are).
+    /// Recordings tremble, and hair feels accelerations.
+    pub smoothing: f32,
     /// Whether the first frame is moved to the world's origin and turned about y to face +x (default false).
     pub start_at_origin: bool,
 }
@@ -55,6 +61,8 @@ impl Default for MotionSource {
             frames_per_second: None,
             skip: 0,
             positions: Interpolation::Cubic,
+            speed: 1.0,
+            smoothing: 0.0,
             start_at_origin: false,
         }
     }
@@ -74,6 +82,29 @@ impl MotionSource {
     /// Whether the motion is in one file and its skeleton in another.
     pub(super) fn has_skeleton(&self) -> bool {
         matches!(extension(&self.file).as_str(), "amc" | "tof")
+    }
+
+    /// Refuses numbers out of range; `name` is what the motion is called, `head.motion`.
+    ///
+    /// # Errors
+    /// Names the setting.
+    pub fn check_numbers(&self, name: &str) -> std::result::Result<(), SettingError> {
+        if !(0.01..=100.0).contains(&self.speed) {
+            return Err(SettingError::new(format!("{name}.speed"), self.speed, "must lie in 0.01..100"));
+        }
+        smoothing::check(&format!("{name}.smoothing"), self.smoothing)
+    }
+
+    /// What is done to the samples' times and places, for the report; empty where nothing is.
+    pub(super) fn changes(&self) -> String {
+        let mut text = String::new();
+        if self.speed != 1.0 {
+            text += &format!(", at {} of its speed", self.speed);
+        }
+        if self.smoothing > 0.0 {
+            text += &format!(", smoothed over {} frames", self.smoothing);
+        }
+        text
     }
 
     /// Refuses what has no effect on a file of this kind.

@@ -124,6 +124,74 @@ fn uniform_acceleration_and_a_constant_turn_survive_resampling() {
     }
 }
 
+/// A track of 24 samples a second, read at that rate with a bell of this deviation (frames).
+fn smoothed(deviation: f32, sample: impl Fn(f64) -> Sample) -> Vec<Pose> {
+    let times = (0..80).map(|n| f64::from(n) / 24.0).collect();
+    let samples = (0..80).map(|n| sample(f64::from(n))).collect();
+    let source = MotionSource { smoothing: deviation, ..straight("smoothed".into(), Some(1.0)) };
+    Track { times, samples, ..Track::default() }.head_motion(&source, 24.0).unwrap().poses
+}
+
+/// Frames that a bell of this deviation reaches to either side, and its weight of a neighbour.
+fn reach_and_weight(deviation: f32) -> (usize, f64) {
+    let rounds = (2.0 * f64::from(deviation).powi(2)).ceil();
+    (rounds as usize, f64::from(deviation).powi(2) / rounds / 2.0)
+}
+
+#[test]
+fn smoothing_leaves_what_is_still_and_what_goes_evenly_but_at_its_ends() {
+    let still = |_| Sample { position: flight(1.0), rotation: spin(0.3) };
+    let even = |n: f64| Sample { position: DVec3::new(3.0, -1.0, 2.0) * n, rotation: spin(0.03 * n) };
+    for deviation in [0.4, 1.5, 3.0] {
+        let (reach, _) = reach_and_weight(deviation);
+        for pose in smoothed(deviation, still) {
+            assert_eq!(pose.position_cm, flight(1.0).as_vec3());
+            assert!(1.0 - pose.rotation.as_dquat().dot(spin(0.3)).abs() < 1e-6);
+        }
+        let (as_it_is, poses) = (smoothed(0.0, even), smoothed(deviation, even));
+        for n in reach..80 - reach {
+            // f32 near 300 cm.
+            assert!(poses[n].position_cm.distance(as_it_is[n].position_cm) < 1e-4, "{deviation}: {n}");
+            assert!(1.0 - poses[n].rotation.dot(as_it_is[n].rotation).abs() < 1e-6, "{deviation}: {n}");
+        }
+        assert!(poses[0].position_cm.distance(as_it_is[0].position_cm) > 0.1, "the ends are averaged with less");
+    }
+}
+
+#[test]
+fn smoothing_weakens_every_tremor_as_its_bell_does() {
+    for omega in [0.3, 1.2, 3.0_f64] {
+        for deviation in [0.5, 1.0, 2.0] {
+            let tremble = |n: f64| Sample {
+                position: DVec3::new(0.0, 4.0 * (omega * n).cos(), 0.0),
+                // Small, for the mean of two turns is the turn of the mean up to the square of the angle: 1e-4.
+                rotation: DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.01 * (omega * n).cos()),
+            };
+            let (reach, b) = reach_and_weight(deviation);
+            let factor = (1.0 - 2.0 * b * (1.0 - omega.cos())).powi(reach as i32);
+            let (as_it_is, poses) = (smoothed(0.0, tremble), smoothed(deviation, tremble));
+            for n in reach..80 - reach {
+                let left = factor * f64::from(as_it_is[n].position_cm.y);
+                assert!((f64::from(poses[n].position_cm.y) - left).abs() < 1e-6, "{omega} {deviation}: {n}");
+                // Half the angle, along the axis.
+                let left = factor * f64::from(as_it_is[n].rotation.z);
+                assert!((f64::from(poses[n].rotation.z) - left).abs() < 1e-6, "{omega} {deviation}: {n}");
+            }
+        }
+    }
+}
+
+#[test]
+fn half_the_speed_has_the_same_poses_and_one_between_each_two() {
+    let source = straight("thrown".into(), None);
+    let slow = MotionSource { speed: 0.5, ..source.clone() };
+    let (a, b) = (thrown().head_motion(&source, 24.0).unwrap(), thrown().head_motion(&slow, 24.0).unwrap());
+    // 0.41 s.
+    assert_eq!((a.poses.len(), b.poses.len()), (10, 20));
+    assert!(b.poses.iter().step_by(2).eq(&a.poses));
+    assert!(b.report.contains("at 24 Hz, at 0.5 of its speed (") && b.frame_rate == 24.0, "{}", b.report);
+}
+
 #[test]
 fn a_start_at_the_origin_faces_x_and_changes_no_motion() {
     let as_it_is = straight("thrown".into(), None);

@@ -6,8 +6,9 @@
 
 use glam::{DQuat, DVec3};
 use nabiki::Pose;
+use nabiki::smoothing::smoothed;
 
-use super::source::asked;
+use super::source::{MotionSource, asked};
 use super::track::Sample;
 use crate::axis::Axis;
 use crate::error::{Error, Result};
@@ -61,14 +62,17 @@ impl WorldFromFile {
     }
 }
 
-/// The poses of all frames, moved to start at the origin where asked.
+/// The poses of all frames, smoothed and moved to start at the origin where asked.
 pub(super) fn poses(
     world_from_file: &WorldFromFile,
     samples: impl Iterator<Item = Sample>,
-    start_at_origin: bool,
+    source: &MotionSource,
 ) -> Result<Vec<Pose>> {
     let mut poses: Vec<(DVec3, DQuat)> = samples.map(|s| world_from_file.pose(s)).collect();
-    if let (true, Some(&(start, turned))) = (start_at_origin, poses.first()) {
+    if source.smoothing > 0.0 {
+        poses = smoothed(&poses, f64::from(source.smoothing), mean);
+    }
+    if let (true, Some(&(start, turned))) = (source.start_at_origin, poses.first()) {
         let face = turned * DVec3::X;
         let upright = DQuat::from_rotation_y(face.z.atan2(face.x));
         for (position, rotation) in &mut poses {
@@ -86,6 +90,15 @@ pub(super) fn poses(
         }
         None => Ok(single),
     }
+}
+
+/// One round of smoothing. Turns are averaged as quaternions of one hemisphere: the mean of a constant turn's neighbours is the one
+/// between them.
+fn mean(before: (DVec3, DQuat), now: (DVec3, DQuat), after: (DVec3, DQuat), b: f64) -> (DVec3, DQuat) {
+    let place = now.0 + b * (before.0 - now.0 + (after.0 - now.0));
+    let beside = |turn: DQuat| if turn.dot(now.1) < 0.0 { -turn } else { turn };
+    let turn = now.1 * (1.0 - 2.0 * b) + beside(before.1) * b + beside(after.1) * b;
+    (place, turn.normalize())
 }
 
 /// Number of scene frames that fit into `duration` seconds, the first at 0.

@@ -46,6 +46,12 @@ pub fn scaled_bessel(x: f32) -> f32 {
     cosh * (1.0 + 0.242_73 * s) / ((1.0 + 0.430_23 * s) * (1.0 + 0.25 * s).sqrt().sqrt())
 }
 
+/// From 0 to 1 as x goes, with no slope at either end.
+pub fn smooth(x: f32) -> f32 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,4 +1,4 @@
-//! The head in the way of a lamp: its outline and depth as the lamp sees it.
+//! Head and bodies in the way of a lamp: the outline and depth of each as the lamp sees it.
 //!
 //! Hair reads a map that is blurred once, as the lamp is wide. Skin reads the sharp one, at places around its own, so that what
 //! lies in its own tangent plane never hides it.
@@ -6,6 +6,7 @@
 use glam::Vec3;
 use nabiki::Mesh;
 
+use super::approx::smooth;
 use super::lamps::Lamp;
 
 /// Side of a cell (cm), unless the head is so large that this would make too many.
@@ -19,23 +20,74 @@ const BLUR: f32 = 0.4;
 const TAPS: usize = 24;
 /// How far light spreads under skin (cm; red, green, blue), as the radius of a disc: the red of a shadow's edge.
 const UNDER_SKIN: [f32; 3] = [0.6, 0.42, 0.34];
+/// Cosine of the angle to a lamp from which on the angle itself is the shadow, not what else of the solid is in the way.
+const TERMINATOR: f32 = -0.1;
 /// How far before the tangent plane (cm) what hides the lamp must lie, more where the plane is steep on the map, and over which
 /// depth it sets in.
 const BEFORE: f32 = 0.1;
 const SETS_IN: f32 = 0.25;
 
-/// What a lamp sees of the head.
-pub struct HeadShadow {
+/// What a lamp sees of all that is solid, each by itself: what lies between two is in the shadow of one alone.
+pub struct SolidShadows {
+    toward: Vec3,
+    solids: Vec<SolidShadow>,
+}
+
+impl SolidShadows {
+    /// Draws each of the meshes (head space, cm) as the lamp sees it.
+    pub fn new<'a>(lamp: &Lamp, solids: impl Iterator<Item = &'a Mesh>) -> Self {
+        Self { toward: lamp.toward, solids: solids.map(|solid| SolidShadow::new(lamp, solid)).collect() }
+    }
+
+    /// Part of the lamp (red, green, blue) that is left to a place on the skin of solid number `own`, with this unit normal, 0..1.
+    /// Where it turns away from the lamp, what hides it is its own angle, and the other solids.
+    pub fn visible_from_skin(&self, own: u16, p: Vec3, normal: Vec3) -> [f32; 3] {
+        let facing = normal.dot(self.toward);
+        let sure = smooth((facing - TERMINATOR) / 0.3);
+        let mut left = [1.0; 3];
+        for (i, solid) in self.solids.iter().enumerate() {
+            if i != usize::from(own) && -p.dot(self.toward) <= solid.nearest {
+                continue;
+            }
+            let part = if i != usize::from(own) {
+                // No skin of its own can be in the way: a plane across the light will do.
+                solid.visible_from_skin(p, self.toward)
+            } else if facing > TERMINATOR {
+                solid.visible_from_skin(p, normal).map(|part| 1.0 - sure * (1.0 - part))
+            } else {
+                [1.0; 3]
+            };
+            left = std::array::from_fn(|c| left[c] * part[c]);
+        }
+        left
+    }
+
+    /// Part of the lamp that is left to places (x, y and z of all of them), 0..1.
+    #[inline(always)]
+    pub fn visible<const N: usize>(&self, places: &[[f32; N]; 3]) -> [f32; N] {
+        let mut left = [1.0; N];
+        for solid in &self.solids {
+            let part = solid.visible(places);
+            left = std::array::from_fn(|n| left[n] * part[n]);
+        }
+        left
+    }
+}
+
+/// What a lamp sees of the head or of a body.
+struct SolidShadow {
     toward: Vec3,
     axes: [Vec3; 2],
     low: [f32; 2],
     cell: f32,
     size: [usize; 2],
-    /// In each cell: the head's distance (cm), infinite where there is none.
+    /// In each cell: the solid's distance (cm), infinite where there is none.
     distance: Vec<f32>,
-    /// Distance up to which the head hides nothing (cm).
+    /// The least of them.
+    nearest: f32,
+    /// Distance up to which it hides nothing (cm).
     clear: f32,
-    /// The blurred map, in as fine cells as show in it: the part of its surroundings that the head covers, and the head's mean
+    /// The blurred map, in as fine cells as show in it: the part of its surroundings that the solid covers, and its mean
     /// distance there (cm).
     blurred: Vec<[f32; 2]>,
     blurred_cell: f32,
@@ -44,13 +96,13 @@ pub struct HeadShadow {
     taps: [([f32; 2], [f32; 3]); TAPS],
 }
 
-impl HeadShadow {
-    /// Draws the head as the lamp sees it.
-    pub fn new(lamp: &Lamp, head: &Mesh) -> Self {
+impl SolidShadow {
+    /// Draws a mesh (head space, cm) as the lamp sees it.
+    fn new(lamp: &Lamp, solid: &Mesh) -> Self {
         let right = lamp.toward.any_orthonormal_vector();
         let axes = [right, lamp.toward.cross(right)];
         let seen: Vec<[f32; 3]> =
-            head.positions.iter().map(|p| [p.dot(axes[0]), p.dot(axes[1]), -p.dot(lamp.toward)]).collect();
+            solid.positions.iter().map(|p| [p.dot(axes[0]), p.dot(axes[1]), -p.dot(lamp.toward)]).collect();
         let blur = BLUR.max(2.5 * lamp.spread.tan());
         let limit = |i: usize, f: fn(f32, f32) -> f32, from: f32| seen.iter().map(|p| p[i]).fold(from, f);
         let low = [0, 1].map(|i| limit(i, f32::min, f32::INFINITY) - 2.0 * blur);
@@ -59,13 +111,14 @@ impl HeadShadow {
         let cell = CELL.max(extent / MOST_CELLS);
         let size = if seen.is_empty() { [0, 0] } else { [0, 1].map(|i| ((high[i] - low[i]) / cell) as usize + 2) };
         let mut distance = vec![f32::INFINITY; size[0] * size[1]];
-        for triangle in &head.triangles {
+        for triangle in &solid.triangles {
             let corners = triangle.map(|v| {
                 let p = seen[v as usize];
                 [(p[0] - low[0]) / cell, (p[1] - low[1]) / cell, p[2]]
             });
             draw(corners, size, &mut distance);
         }
+        let nearest = distance.iter().copied().fold(f32::INFINITY, f32::min);
         // Covered part and distance times covered part: both can be averaged.
         let mut cells: Vec<[f32; 2]> =
             distance.iter().map(|&d| if d < f32::INFINITY { [1.0, d] } else { [0.0; 2] }).collect();
@@ -83,12 +136,25 @@ impl HeadShadow {
         let penumbra = 2.5 * lamp.spread.tan();
         let clear = blurred.iter().filter(|c| c[0] > 0.0).map(|c| c[1]).fold(f32::INFINITY, f32::min) + SOFT;
         let taps = taps(penumbra);
-        Self { toward: lamp.toward, axes, low, cell, size, distance, clear, blurred, blurred_cell, blurred_size, taps }
+        Self {
+            toward: lamp.toward,
+            axes,
+            low,
+            cell,
+            size,
+            distance,
+            nearest,
+            clear,
+            blurred,
+            blurred_cell,
+            blurred_size,
+            taps,
+        }
     }
 
-    /// Part of the lamp (red, green, blue) that the head leaves to a place on its own skin with this unit normal, 0..1. Light that
+    /// Part of the lamp (red, green, blue) that it leaves to a place on its own skin, or another's, with this unit normal, 0..1. Light that
     /// enters beside the place and reaches it under the skin counts, red from farthest.
-    pub fn visible_from_skin(&self, p: Vec3, normal: Vec3) -> [f32; 3] {
+    fn visible_from_skin(&self, p: Vec3, normal: Vec3) -> [f32; 3] {
         let facing = normal.dot(self.toward).max(0.12);
         // Growth of the tangent plane's distance from the lamp.
         let slope = self.axes.map(|a| normal.dot(a) / facing);
@@ -127,9 +193,9 @@ impl HeadShadow {
         Some((row * width + column, [x - column as f32, y - row as f32]))
     }
 
-    /// Part of the lamp that the head leaves visible from places (x, y and z of all of them), 0..1.
+    /// Part of the lamp that it leaves visible from places (x, y and z of all of them), 0..1.
     #[inline(always)]
-    pub fn visible<const N: usize>(&self, [px, py, pz]: &[[f32; N]; 3]) -> [f32; N] {
+    fn visible<const N: usize>(&self, [px, py, pz]: &[[f32; N]; 3]) -> [f32; N] {
         let along = |axis: Vec3, n: usize| px[n] * axis.x + py[n] * axis.y + pz[n] * axis.z;
         let distance: [f32; N] = std::array::from_fn(|n| -along(self.toward, n));
         if distance.iter().all(|&d| d <= self.clear) {
@@ -249,14 +315,14 @@ mod tests {
             corner_uvs: None,
         };
         let lamp = Lamp { toward: Vec3::Y, strength: [1.0; 3], spread: 0.03 };
-        let shadow = HeadShadow::new(&lamp, &plate);
+        let shadow = SolidShadow::new(&lamp, &plate);
         let visible = |x: f32, y: f32| shadow.visible(&[[x], [y], [0.3]])[0];
         assert_eq!(visible(0.0, 2.0), 1.0);
         assert!(visible(0.0, -2.0) < 1e-5);
         assert_eq!(visible(20.0, -2.0), 1.0);
         // At the edge, half of the blurred plate: within a cell of 1/3 of the blur's slope.
         assert!((visible(6.0, -2.0) - 0.5).abs() < 0.25);
-        assert_eq!(HeadShadow::new(&lamp, &Mesh::default()).visible(&[[0.0]; 3]), [1.0]);
+        assert_eq!(SolidShadow::new(&lamp, &Mesh::default()).visible(&[[0.0]; 3]), [1.0]);
     }
 
     #[test]
@@ -279,7 +345,7 @@ mod tests {
         }
         for toward in [Vec3::Y, Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.48, 0.64, 0.6)] {
             for spread in [0.0, 0.17] {
-                let shadow = HeadShadow::new(&Lamp { toward, strength: [1.0; 3], spread }, &ball);
+                let shadow = SolidShadow::new(&Lamp { toward, strength: [1.0; 3], spread }, &ball);
                 for p in &ball.positions {
                     let normal = *p / 8.0;
                     let visible = shadow.visible_from_skin(*p, normal);

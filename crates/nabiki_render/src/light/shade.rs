@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use super::approx::{arccos, exp_of_negative, ln};
 use super::fibre::{COLUMNS, Fibre, GRADES, Longitudinal, ROWS};
-use super::headlight::HeadShadow;
+use super::headlight::SolidShadows;
 use super::kajiya::KajiyaKay;
 use super::lamps::Lamp;
 use super::shadow::Crossings;
@@ -56,7 +56,7 @@ pub struct HairLight<'a> {
     pub lamps: &'a [Lamp],
     /// For each lamp; empty without shadows.
     pub crossings: &'a [&'a Crossings],
-    pub head_shadows: &'a [HeadShadow],
+    pub solid_shadows: &'a [SolidShadows],
     pub sky: &'a Sky,
     pub sky_map: Option<&'a SkyMap>,
     pub view: &'a View,
@@ -126,7 +126,7 @@ impl HairLight<'_> {
         });
         for (l, lamp) in self.lamps.iter().enumerate() {
             let hair = self.crossings.get(l).map_or(1.0, |c| (-c.at(i)).exp());
-            let head = self.head_shadows.get(l).map_or(1.0, |s| s.visible(&place)[0]);
+            let head = self.solid_shadows.get(l).map_or(1.0, |s| s.visible(&place)[0]);
             let part = model.reflected(node.tangent, lamp.toward, eye);
             light = std::array::from_fn(|c| light[c] + part[c] * lamp.strength[c] * hair * head);
         }
@@ -218,7 +218,7 @@ impl HairLight<'_> {
                 }
                 along[3][lane] = wide.at(s, c, sin_eye[lane], cos_eye[lane]);
             }
-            let visible = self.head_shadows.get(l).map_or([1.0; LANES], |s| s.visible(&place));
+            let visible = self.solid_shadows.get(l).map_or([1.0; LANES], |s| s.visible(&place));
             let mut crossed = [0.0_f32; LANES];
             let mut lobes = [[0.0_f32; LANES]; 8];
             for lane in 0..LANES {

@@ -1,4 +1,4 @@
-//! Light from all around, and how much of it hair and head take away.
+//! Light from all around, and how much of it hair, head and bodies take away.
 //!
 //! Space is cut into cells that know how much fibre and how much skin they hold. Along fourteen lattice directions the light is
 //! carried from cell to cell, losing what each cell takes; what arrives is kept as two numbers a cell: the light from the
@@ -33,21 +33,21 @@ pub struct SkyMap {
     taken: Vec<f32>,
     carried: Vec<Vec<f32>>,
     arriving: Vec<Arriving>,
-    /// What the skin takes of the light in each cell, by the cell's place on the lattice through the origin.
+    /// What the head's skin takes of the light in each cell, by the cell's place on the lattice through the origin.
     skin: Vec<(IVec3, f32)>,
     /// Edge of those cells.
     skin_of: Option<f32>,
 }
 
 impl SkyMap {
-    /// Carries the sky's light through the hair (its box and half thicknesses `radius`, cm) and past the head; `zenith` is above
-    /// (unit).
+    /// Carries the sky's light through the hair (its box and half thicknesses `radius`, cm) and past the head and the `bodies`; `zenith`
+    /// is above (unit).
     pub fn fill(
         &mut self,
         nodes: &[CurveNode],
         [mut low, mut high]: [Vec3; 2],
         radius: &[f32],
-        head: &Mesh,
+        (head, bodies): (&Mesh, &[Mesh]),
         zenith: Vec3,
     ) {
         if !low.is_finite() {
@@ -62,7 +62,8 @@ impl SkyMap {
         self.taken.clear();
         self.taken.resize(self.size.element_product() as usize, 0.0);
         self.lay_hair(nodes, radius);
-        self.lay_skin(head);
+        self.lay_head(head);
+        bodies.iter().for_each(|body| self.lay_skin(&skin_cells(body, self.cell)));
         self.carry(zenith);
     }
 
@@ -134,15 +135,21 @@ impl SkyMap {
         }
     }
 
-    /// Marks the cells that skin passes through. The head stands still: which they are is worked out once for each size
+    /// Marks the cells that the head's skin passes through. It stands still: which they are is worked out once for each size
     /// of cell.
-    fn lay_skin(&mut self, head: &Mesh) {
+    fn lay_head(&mut self, head: &Mesh) {
         if self.skin_of != Some(self.cell) {
             self.skin = skin_cells(head, self.cell);
             self.skin_of = Some(self.cell);
         }
+        let skin = std::mem::take(&mut self.skin);
+        self.lay_skin(&skin);
+        self.skin = skin;
+    }
+
+    fn lay_skin(&mut self, skin: &[(IVec3, f32)]) {
         let low = (self.low / self.cell).round().as_ivec3();
-        for &(cell, depth) in &self.skin {
+        for &(cell, depth) in skin {
             let c = cell - low;
             if c.cmpge(IVec3::ZERO).all() && c.cmplt(self.size.as_ivec3()).all() {
                 let at = self.index(c.as_uvec3());
@@ -185,11 +192,11 @@ impl SkyMap {
     }
 }
 
-/// Cells of edge `cell` that the head's surface passes through, each with the optical depth of what lies in it.
-fn skin_cells(head: &Mesh, cell: f32) -> Vec<(IVec3, f32)> {
+/// Cells of edge `cell` that a surface passes through, each with the optical depth of what lies in it.
+fn skin_cells(solid: &Mesh, cell: f32) -> Vec<(IVec3, f32)> {
     let mut shares: Vec<([i32; 3], f32)> = Vec::new();
-    for triangle in &head.triangles {
-        let [a, b, c] = triangle.map(|v| head.positions[v as usize]);
+    for triangle in &solid.triangles {
+        let [a, b, c] = triangle.map(|v| solid.positions[v as usize]);
         let area = 0.5 * (b - a).cross(c - a).length();
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
         let steps = (2.0 * longest / cell).ceil().clamp(1.0, 64.0) as usize;
@@ -300,7 +307,7 @@ mod tests {
         }
         let radius = vec![0.05; nodes.len()];
         let mut sky = SkyMap::default();
-        sky.fill(&nodes, crate::curve::bounds(&nodes), &radius, &Mesh::default(), Vec3::Y);
+        sky.fill(&nodes, crate::curve::bounds(&nodes), &radius, (&Mesh::default(), &[]), Vec3::Y);
         let [above, below] = sky.at(&[[0.0, 0.0, 100.0], [0.0, 5.4, 100.0], [0.0, 0.0, 100.0]]);
         let [middle, top, outside] = [0, 1, 2].map(|n| (above[n], below[n]));
         assert!(middle.0 < 0.05 && middle.1 < 0.05, "{middle:?}");

@@ -103,20 +103,18 @@ impl CoverageTile {
         }
     }
 
-    /// Draws the tile: pieces of hair, nearest first, before the skin's pieces, whose light is asked for where they show. Skin
+    /// Draws the tile: pieces of hair, nearest first, before the skin's pieces, whose light is asked for where they would show. Skin
     /// without light hides hair all the same.
     pub fn draw<'p>(
         &mut self,
         tile: [usize; 2],
         pieces: impl Iterator<Item = (&'p Piece, &'p Range<usize>)>,
-        skin: (&[SkinPixel], Option<impl Fn(usize) -> [f32; 3]>),
+        skin: (&[SkinPixel], impl Fn(usize) -> Option<[f32; 3]>),
         watch: &mut impl Watch,
     ) {
         self.clear(skin.0);
         pulp::Arch::new().dispatch(DrawHair { work: self, tile, pieces, watch: &mut *watch });
-        if let Some(light) = skin.1 {
-            self.add_skin(skin.0, light, watch);
-        }
+        self.add_skin(skin.0, skin.1, watch);
     }
 
     /// What pixel `i` of the tile holds.
@@ -147,7 +145,7 @@ impl CoverageTile {
         self.farthest = self.skin_far.iter().copied().fold(0.0, f32::max);
     }
 
-    fn add_skin(&mut self, skin: &[SkinPixel], light: impl Fn(usize) -> [f32; 3], watch: &mut impl Watch) {
+    fn add_skin(&mut self, skin: &[SkinPixel], light: impl Fn(usize) -> Option<[f32; 3]>, watch: &mut impl Watch) {
         for (n, piece) in skin.iter().enumerate() {
             let i = usize::from(piece.pixel);
             if self.full[0][i / TILE] >> (i % TILE) & 1 == 1 {
@@ -155,8 +153,9 @@ impl CoverageTile {
             }
             let cells = (0..CELLS).filter(|s| piece.mask >> s & 1 == 1);
             let share = cells.map(|s| self.open[i][s]).sum::<f32>() / CELLS as f32;
-            if share > 0.0 {
-                let light = light(n);
+            if share > 0.0
+                && let Some(light) = light(n)
+            {
                 watch.skin(i, share, n);
                 self.nearest[i] = self.nearest[i].min(piece.depth);
                 let sum = &mut self.light[i];

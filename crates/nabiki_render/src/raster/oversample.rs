@@ -19,18 +19,17 @@ impl OversampledTile {
         Self { samples, depth: vec![f32::INFINITY; points], light: vec![[0.0; 4]; points] }
     }
 
-    /// Draws what lies in a tile; skin that is not `visible` hides hair all the same.
+    /// Draws what lies in a tile; skin without light hides hair all the same.
     pub fn draw<'a>(
         &mut self,
         tile: [usize; 2],
         pieces: impl Iterator<Item = &'a Piece>,
-        skin: (&[SkinPixel], &[[f32; 3]]),
-        visible: bool,
+        skin: (&[SkinPixel], &[Option<[f32; 3]>]),
     ) {
         self.depth.fill(f32::INFINITY);
         self.light.fill([0.0; 4]);
         for (piece, light) in skin.0.iter().zip(skin.1) {
-            self.skin(piece, if visible { [light[0], light[1], light[2], 1.0] } else { [0.0; 4] });
+            self.skin(piece, light.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]));
         }
         for piece in pieces {
             self.piece(tile, piece);

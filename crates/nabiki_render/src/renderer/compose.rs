@@ -1,6 +1,5 @@
 //! From lit nodes to the frame's pixels, tile by tile.
 
-use glam::Vec3;
 use rayon::prelude::*;
 
 use super::Renderer;
@@ -13,7 +12,7 @@ use crate::raster::coverage::{CoverageTile, Watch};
 use crate::raster::oversample::OversampledTile;
 use crate::raster::{Node, TILE};
 use crate::shutter::Shot;
-use crate::skin::SkinPixel;
+use crate::skin::{SkinLight, SkinPixel};
 
 impl Renderer {
     pub(super) fn compose<const LAYERS: bool>(&self, shot: &Shot) -> Frame {
@@ -21,7 +20,6 @@ impl Renderer {
         let still = self.still.as_ref().expect("stands");
         let crossings = self.crossings();
         let skin_light = self.skin_light(&crossings, view);
-        let skin_visible = self.picture.head.visible;
         let size = view.size.map(|s| s as usize);
         let layers = vec![Layer::default(); if LAYERS { size[0] * size[1] } else { 0 }];
         let mut frame = self.empty(view, layers);
@@ -44,8 +42,8 @@ impl Renderer {
                     out.put(column, size[0], |_, y| (backdrop.behind([0.0; 4], row * TILE + y), NO_DEPTH, None));
                     continue;
                 }
-                let light = |i: usize| skin_light.at(range.start + i, &pixels[i]);
-                let skin = (pixels, skin_visible.then_some(light));
+                let light = |i: usize| self.skin_light_of(&skin_light, range.start + i, &pixels[i]);
+                let skin = (pixels, light);
                 let mut watch = LayerWatch {
                     curves: &self.curves,
                     nodes: &self.nodes,
@@ -85,13 +83,8 @@ impl Renderer {
                     let tile = row * self.bins.tiles[0] + column;
                     let range = still.skin.tile(tile);
                     let pixels = &still.skin.pixels[range.clone()];
-                    let light: Vec<_> = range.zip(pixels).map(|(i, p)| skin_light.at(i, p)).collect();
-                    work.draw(
-                        [column, row],
-                        hair.tile(column).map(|(piece, _)| piece),
-                        (pixels, &light),
-                        self.picture.head.visible,
-                    );
+                    let light: Vec<_> = range.zip(pixels).map(|(i, p)| self.skin_light_of(&skin_light, i, p)).collect();
+                    work.draw([column, row], hair.tile(column).map(|(piece, _)| piece), (pixels, &light));
                     out.put(column, width, |i, y| {
                         let (light, depth) = work.pixel(i);
                         (backdrop.behind(light, row * TILE + y), depth, None)
@@ -100,6 +93,11 @@ impl Renderer {
             },
         );
         frame
+    }
+
+    /// Light from place `i` on the skin; none from a head that is not drawn.
+    fn skin_light_of(&self, light: &SkinLight, i: usize, place: &SkinPixel) -> Option<[f32; 3]> {
+        (place.solid > 0 || self.picture.head.visible).then(|| light.at(i, place))
     }
 
     fn empty(&self, view: &View, layers: Vec<Layer>) -> Frame {
@@ -175,7 +173,8 @@ impl Watch for LayerWatch<'_> {
 
     #[inline(always)]
     fn skin(&mut self, pixel: usize, share: f32, piece: usize) {
-        let motion = self.shot.motion(self.skin[piece].position, Vec3::ZERO);
+        let SkinPixel { solid, position, .. } = self.skin[piece];
+        let motion = self.shot.motion_of_solid(solid, position);
         let layer = &mut self.layers[pixel];
         for c in 0..2 {
             layer.motion[c] += share * motion[c];

@@ -8,7 +8,7 @@ mod surroundings;
 pub use camera::{Camera, CameraKey, Projection};
 pub use hair::{HairColour, HairLook, Shading};
 pub use light::{Light, LightSpace, Sky, SkySpace};
-pub use surroundings::{Background, HeadLook, ToneCurve, Video};
+pub use surroundings::{Background, BodyLook, HeadLook, ToneCurve, Video};
 
 use nabiki::SettingError;
 use nabiki::error::check_range;
@@ -46,7 +46,7 @@ pub struct Picture {
     pub lights: Vec<Light>,
     /// The light that comes from all around.
     pub sky: Sky,
-    /// Whether hair and head cast shadows. Default true.
+    /// Whether hair, head and bodies cast shadows. Default true.
     pub shadows: bool,
     /// Colour of the head, or none.
     pub head: HeadLook,

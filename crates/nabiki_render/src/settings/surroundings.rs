@@ -38,6 +38,32 @@ impl HeadLook {
     }
 }
 
+/// How a body besides the head is drawn: `shown` and `colour` of a `[[body]]`.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct BodyLook {
+    /// Whether it is drawn. What is not shown hides nothing and throws no shadow. Default true.
+    pub shown: bool,
+    /// Its colour (sRGB, 0..1). Default a grey that is no skin.
+    pub colour: [f32; 3],
+}
+
+impl Default for BodyLook {
+    fn default() -> Self {
+        Self { shown: true, colour: [0.42, 0.46, 0.50] }
+    }
+}
+
+impl BodyLook {
+    /// Refuses a colour out of its range; `name` is what the body is called.
+    ///
+    /// # Errors
+    /// Names the setting.
+    pub fn check(&self, name: &str) -> Result<(), SettingError> {
+        check_colour(&format!("{name}.colour"), self.colour, 1.0)
+    }
+}
+
 /// `[picture.background]`: a vertical gradient, or nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
@@ -74,22 +100,25 @@ pub enum ToneCurve {
     Filmic,
 }
 
-/// `[picture.video]`; how many frames a second are shown is the motion's to say (`motion.frame_rate`).
+/// `[picture.video]`
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Video {
     /// 0 (small file) .. 1 (large, near lossless). Default 0.75.
     pub quality: f32,
+    /// Frames a second that the movie is played with, 1..240: fewer than `motion.frame_rate` is slow motion. Default that rate.
+    pub frame_rate: Option<f64>,
 }
 
 impl Default for Video {
     fn default() -> Self {
-        Self { quality: 0.75 }
+        Self { quality: 0.75, frame_rate: None }
     }
 }
 
 impl Video {
     pub(crate) fn check(&self) -> Result<(), SettingError> {
-        check_range("picture.video.quality", self.quality, 0.0, 1.0)
+        check_range("picture.video.quality", self.quality, 0.0, 1.0)?;
+        self.frame_rate.map_or(Ok(()), |rate| check_range("picture.video.frame_rate", rate as f32, 1.0, 240.0))
     }
 }

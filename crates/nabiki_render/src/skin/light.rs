@@ -5,17 +5,14 @@ use rayon::prelude::*;
 
 use super::SkinPixel;
 use crate::camera::View;
-use crate::light::approx::exp_of_negative;
-use crate::light::headlight::HeadShadow;
+use crate::light::approx::{exp_of_negative, smooth};
+use crate::light::headlight::SolidShadows;
 use crate::light::lamps::Lamp;
 use crate::light::shade::DENSITY;
 use crate::light::shadow::Crossings;
 use crate::light::sky::SkyMap;
 use crate::scalp::Scalp;
 use crate::settings::Sky;
-
-/// Cosine of the angle to a lamp from which on the angle itself is the shadow, not what else of the head is in the way.
-const TERMINATOR: f32 = -0.1;
 
 /// Light on skin.
 pub struct SkinLight<'a> {
@@ -28,13 +25,13 @@ pub struct SkinLight<'a> {
     /// Where the sky is above (head space, unit).
     pub zenith: Vec3,
     pub sky_map: Option<&'a SkyMap>,
-    /// Colour of bare skin (linear).
-    pub skin: [f32; 3],
+    /// Colours of bare skin, the head's and of each body (linear).
+    pub skins: &'a [[f32; 3]],
     /// Colour of a mass of the hair (linear), for what of it is too short to be drawn.
     pub hair: [f32; 3],
     /// The part of its light that a hair passes on forward: what is scattered by hair in the way reaches skin as well.
     pub passed: [f32; 3],
-    /// What the head leaves of each lamp at each place; empty without shadows.
+    /// What head and bodies leave of each lamp at each place; empty without shadows.
     pub unhidden: &'a [[f32; 3]],
     /// How much of each place is covered by hair too short to be drawn; empty without.
     pub stubble: &'a [f32],
@@ -42,22 +39,21 @@ pub struct SkinLight<'a> {
 }
 
 impl SkinLight<'_> {
-    /// What the head leaves of each lamp at each place: it does not change while head and lamps stand still.
-    pub fn unhidden(pixels: &[SkinPixel], lamps: &[Lamp], shadows: &[HeadShadow]) -> Vec<[f32; 3]> {
-        let of = |p: &SkinPixel, lamp: &Lamp, shadow: &HeadShadow| {
-            let matters = p.normal.dot(lamp.toward) > TERMINATOR;
-            if matters { shadow.visible_from_skin(p.position, p.normal) } else { [1.0; 3] }
-        };
+    /// What head and bodies leave of each lamp at each place: it does not change while they and the lamps stand still.
+    pub fn unhidden(pixels: &[SkinPixel], shadows: &[SolidShadows]) -> Vec<[f32; 3]> {
         pixels
             .par_iter()
             .with_min_len(256)
-            .flat_map_iter(|p| lamps.iter().zip(shadows).map(move |(lamp, shadow)| of(p, lamp, shadow)))
+            .flat_map_iter(|p| shadows.iter().map(|shadow| shadow.visible_from_skin(p.solid, p.position, p.normal)))
             .collect()
     }
 
-    /// How much of each place hair too short to be drawn covers, 0..1, where `shade` square centimetres of it stand on each root.
+    /// How much of each place on the head hair too short to be drawn covers, 0..1, where `shade` square centimetres of it stand on each root.
     pub fn stubble(pixels: &[SkinPixel], scalp: &Scalp, shade: f32) -> Vec<f32> {
-        let covered = |p: &SkinPixel| 1.0 - (-shade * scalp.density(p.position)).exp();
+        let covered = |p: &SkinPixel| match p.solid {
+            0 => 1.0 - (-shade * scalp.density(p.position)).exp(),
+            _ => 0.0,
+        };
         if shade > 0.0 { pixels.par_iter().with_min_len(256).map(covered).collect() } else { Vec::new() }
     }
 
@@ -72,9 +68,8 @@ impl SkinLight<'_> {
         for (l, lamp) in self.lamps.iter().enumerate() {
             let facing = normal.dot(lamp.toward);
             let hair = self.crossings.get(l).map_or([1.0; 3], |c| self.through(c.at(self.first_receiver + i)));
-            let head = self.unhidden.get(i * self.lamps.len() + l).copied().unwrap_or([1.0; 3]);
-            let sure = smooth((facing - TERMINATOR) / 0.3);
-            let lit = [0, 1, 2].map(|c| hair[c] * (1.0 - sure * (1.0 - head[c])));
+            let solid = self.unhidden.get(i * self.lamps.len() + l).copied().unwrap_or([1.0; 3]);
+            let lit = [0, 1, 2].map(|c| hair[c] * solid[c]);
             let halfway = (lamp.toward + eye).normalize_or(eye);
             let gloss = 0.045 * 9.0 * normal.dot(halfway).max(0.0).powi(18) * smooth(facing / 0.25);
             let rim = (1.0 - eye.dot(normal).clamp(0.0, 1.0)).powi(4) * facing.max(0.0);
@@ -93,9 +88,10 @@ impl SkinLight<'_> {
             let sky = self.sky.above[c] * up * open_above[c] + self.sky.below[c] * (1.0 - up) * open_below[c];
             *diffuse += self.sky.strength * sky;
         }
+        let skin = self.skins[usize::from(p.solid)];
         let hair = self.stubble.get(i).copied().unwrap_or(0.0);
         std::array::from_fn(|c| {
-            let bare = self.skin[c] * diffuse[c] + self.look.sheen * sheen[c];
+            let bare = skin[c] * diffuse[c] + self.look.sheen * sheen[c];
             bare + (self.hair[c] * diffuse[c] - bare) * hair
         })
     }
@@ -105,9 +101,4 @@ impl SkinLight<'_> {
         let straight = exp_of_negative(-n);
         self.passed.map(|p| straight + DENSITY * (exp_of_negative(-n * (1.0 - p).max(0.0)) - straight).max(0.0))
     }
-}
-
-fn smooth(x: f32) -> f32 {
-    let x = x.clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
 }

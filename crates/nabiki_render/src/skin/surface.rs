@@ -1,13 +1,13 @@
-//! The head's surface in pixels: which of their cells it covers, and how deep.
+//! The surface of head and bodies in pixels: which of their cells it covers, and how deep.
 //!
-//! While the shutter is open each cell of a pixel sees the head at a moment of its own. Neighbouring pixels share the
+//! While the shutter is open each cell of a pixel sees them at a moment of its own. Neighbouring pixels share the
 //! moments, so an edge that moves fades over its way in as many steps as a pixel has cells. What lies between edges is told
 //! apart at as many moments as it moves pixels.
 
 use glam::Vec3;
-use nabiki::Mesh;
 use rayon::prelude::*;
 
+use super::solids::Solids;
 use crate::camera::{NEAR, View};
 use crate::raster::{CELLS, SIDE, TILE, cell_offset};
 use crate::settings::Projection;
@@ -18,13 +18,15 @@ const APART: f32 = 0.4;
 /// How far surface may move on the picture (pixels) between the moments that one pixel tells apart.
 const STEP: f32 = 1.5;
 
-/// One piece of the head's surface in one pixel.
+/// One piece of surface in one pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkinPixel {
     /// Pixel within its tile, row after row.
     pub pixel: u16,
     /// Which of the pixel's cells it covers, a bit each.
     pub mask: u16,
+    /// The head, 0, or a body.
+    pub solid: u16,
     /// Depth at the pixel's centre (cm), and its growth by a pixel right and down.
     pub depth: f32,
     pub slope: [f32; 2],
@@ -33,7 +35,7 @@ pub struct SkinPixel {
     pub normal: Vec3,
 }
 
-/// The head as one view sees it, tile by tile.
+/// Head and bodies as one view sees them, tile by tile.
 #[derive(Default)]
 pub struct SkinView {
     pub pixels: Vec<SkinPixel>,
@@ -47,7 +49,7 @@ struct Corner {
     depth: f32,
 }
 
-/// The head at one moment, and the cells that see it then, a bit each.
+/// Head and bodies at one moment, and the cells that see it then, a bit each.
 struct Seen {
     view: View,
     cells: u16,
@@ -57,10 +59,9 @@ struct Seen {
 }
 
 impl Seen {
-    fn new(head: &Mesh, view: View, cells: u16) -> Self {
+    fn new(solids: &Solids, positions: &[Vec3], view: View, cells: u16) -> Self {
         let tiles = view.size.map(|s| (s as usize).div_ceil(TILE));
-        let corners: Vec<Corner> = head
-            .positions
+        let corners: Vec<Corner> = positions
             .par_iter()
             .map(|&p| {
                 let p = view.project(p);
@@ -68,7 +69,7 @@ impl Seen {
             })
             .collect();
         let mut lists = vec![Vec::new(); tiles[0] * tiles[1]];
-        for (t, triangle) in head.triangles.iter().enumerate() {
+        for (t, triangle) in solids.triangles.iter().enumerate() {
             let c = triangle.map(|v| &corners[v as usize]);
             if c.iter().any(|c| c.depth < NEAR) {
                 continue;
@@ -87,15 +88,16 @@ impl Seen {
         Self { view, cells, corners, lists }
     }
 
-    /// The head while the shutter is open: once for all cells, or at as many moments as there are cells.
-    fn all(head: &Mesh, shot: &Shot) -> Vec<Self> {
+    /// Head and bodies while the shutter is open: once for all cells, or at as many moments as there are cells.
+    fn all(solids: &Solids, middle: &[Vec3], shot: &Shot) -> Vec<Self> {
         match &shot.between {
-            None => vec![Self::new(head, shot.middle, u16::MAX)],
+            None => vec![Self::new(solids, middle, shot.middle, u16::MAX)],
             Some(views) => (0..CELLS)
                 .into_par_iter()
                 .map(|moment| {
                     let cells = (0..CELLS).filter(|&cell| moment_of(cell) == moment).fold(0, |m, cell| m | 1 << cell);
-                    Self::new(head, views[moment], cells)
+                    let positions = solids.positions(shot.bodies.iter().map(|body| body.between[moment]));
+                    Self::new(solids, &positions, views[moment], cells)
                 })
                 .collect(),
         }
@@ -111,19 +113,21 @@ fn moment_of(cell: usize) -> usize {
 }
 
 impl SkinView {
-    /// Draws the head (with unit normals at its vertices).
-    pub fn new(head: &Mesh, normals: &[Vec3], shot: &Shot) -> Self {
+    /// Draws head and bodies.
+    pub fn new(solids: &Solids, shot: &Shot) -> Self {
         let tiles = shot.middle.size.map(|s| (s as usize).div_ceil(TILE));
-        let seen = Seen::all(head, shot);
+        let halfway = || shot.bodies.iter().map(|body| body.middle);
+        let surface = Surface { solids, positions: solids.positions(halfway()), normals: solids.normals(halfway()) };
+        let seen = Seen::all(solids, &surface.positions, shot);
         let drawn: Vec<(Vec<SkinPixel>, f32)> = (0..tiles[0] * tiles[1])
             .into_par_iter()
             .map(|tile| {
                 if seen.iter().all(|seen| seen.lists[tile].is_empty()) {
                     return (Vec::new(), f32::INFINITY);
                 }
-                let groups = groups(movement(head, &seen, tile));
-                TileSurface::draw([tile % tiles[0], tile / tiles[0]], tile, head, &seen)
-                    .resolve(head, normals, &seen, &groups)
+                let groups = groups(movement(solids, &seen, tile));
+                TileSurface::draw([tile % tiles[0], tile / tiles[0]], tile, solids, &seen)
+                    .resolve(&surface, &seen, &groups)
             })
             .collect();
         let mut all = Self::default();
@@ -143,14 +147,14 @@ impl SkinView {
 }
 
 /// The farthest that the surface in a tile moves between the first moment and the last (pixels).
-fn movement(head: &Mesh, seen: &[Seen], tile: usize) -> f32 {
+fn movement(solids: &Solids, seen: &[Seen], tile: usize) -> f32 {
     let [first, .., last] = seen else { return 0.0 };
     let of_corner = |v: u32| {
         let (a, b) = (&first.corners[v as usize], &last.corners[v as usize]);
         (b.at[0] - a.at[0]).hypot(b.at[1] - a.at[1])
     };
     let triangles = [first, &seen[seen.len() / 2], last].into_iter().flat_map(|seen| &seen.lists[tile]);
-    triangles.flat_map(|&t| head.triangles[t as usize].map(of_corner)).fold(0.0, f32::max)
+    triangles.flat_map(|&t| solids.triangles[t as usize].map(of_corner)).fold(0.0, f32::max)
 }
 
 /// The cells that share a piece of surface, a bit each, where it moves so far (pixels).
@@ -163,6 +167,13 @@ fn groups(movement: f32) -> Vec<u16> {
     groups
 }
 
+/// Head and bodies halfway through (head space, cm).
+struct Surface<'a> {
+    solids: &'a Solids,
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+}
+
 /// The nearest triangle in each cell of a tile.
 struct TileSurface {
     tile: [usize; 2],
@@ -173,20 +184,20 @@ struct TileSurface {
 const NONE: u32 = u32::MAX;
 
 impl TileSurface {
-    fn draw(tile: [usize; 2], number: usize, head: &Mesh, seen: &[Seen]) -> Self {
+    fn draw(tile: [usize; 2], number: usize, solids: &Solids, seen: &[Seen]) -> Self {
         let mut surface =
             Self { tile, depth: vec![[f32::INFINITY; CELLS]; TILE * TILE], triangle: vec![[NONE; CELLS]; TILE * TILE] };
         for seen in seen {
             for &t in &seen.lists[number] {
-                surface.triangle(t, head, seen);
+                surface.triangle(t, solids, seen);
             }
         }
         surface
     }
 
     /// Draws a triangle in the cells that see it at this moment.
-    fn triangle(&mut self, t: u32, head: &Mesh, seen: &Seen) {
-        let c = head.triangles[t as usize].map(|v| &seen.corners[v as usize]);
+    fn triangle(&mut self, t: u32, solids: &Solids, seen: &Seen) {
+        let c = solids.triangles[t as usize].map(|v| &seen.corners[v as usize]);
         let span = |i: usize| {
             let first = (self.tile[i] * TILE) as f32;
             let low = c.iter().fold(f32::INFINITY, |m, c| m.min(c.at[i])) - first;
@@ -214,7 +225,7 @@ impl TileSurface {
     }
 
     /// Gathers each group of a pixel's cells into one piece of surface, or two where an edge passes before something behind.
-    fn resolve(self, head: &Mesh, normals: &[Vec3], seen: &[Seen], groups: &[u16]) -> (Vec<SkinPixel>, f32) {
+    fn resolve(self, surface: &Surface, seen: &[Seen], groups: &[u16]) -> (Vec<SkinPixel>, f32) {
         let mut pixels = Vec::new();
         let mut hidden_beyond = 0.0_f32;
         for pixel in 0..TILE * TILE {
@@ -226,34 +237,42 @@ impl TileSurface {
                 let pick =
                     |test: &dyn Fn(f32) -> bool| cells().filter(|&s| test(depth[s])).fold(0_u16, |m, s| m | 1 << s);
                 let masks = [pick(&|d| d < nearest + APART), pick(&|d| d >= nearest + APART)];
-                pixels.extend(masks.into_iter().filter_map(|mask| self.piece(pixel, mask, head, normals, seen)));
+                pixels.extend(masks.into_iter().filter_map(|mask| self.piece(pixel, mask, surface, seen)));
             }
         }
         (pixels, hidden_beyond)
     }
 
     /// The surface in some cells of a pixel, as it is in the middle of them; none in no cells.
-    fn piece(&self, pixel: usize, mask: u16, head: &Mesh, normals: &[Vec3], seen: &[Seen]) -> Option<SkinPixel> {
+    fn piece(&self, pixel: usize, mask: u16, surface: &Surface, seen: &[Seen]) -> Option<SkinPixel> {
         let cells = || (0..CELLS).filter(|s| mask >> s & 1 == 1);
         let count = cells().count() as f32;
         let middle = [0, 1].map(|i| cells().map(|s| cell_offset(s)[i]).sum::<f32>() / count);
         let off = |s: usize| (cell_offset(s)[0] - middle[0]).hypot(cell_offset(s)[1] - middle[1]);
         let cell = cells().min_by(|&a, &b| off(a).total_cmp(&off(b)))?;
         let Seen { view, corners, .. } = &seen[moment_of(cell) * seen.len() / CELLS];
-        let t = head.triangles[self.triangle[pixel][cell] as usize];
+        let t = surface.solids.triangles[self.triangle[pixel][cell] as usize];
         let c = t.map(|v| &corners[v as usize]);
         let place = self.place(pixel, cell);
         let (w, here) = weights(c, place, view)?;
         let blend = |of: &[Vec3]| w[0] * of[t[0] as usize] + w[1] * of[t[1] as usize] + w[2] * of[t[2] as usize];
-        let position = blend(&head.positions);
-        let normal = blend(normals).normalize_or(Vec3::Y);
+        let position = blend(&surface.positions);
+        let normal = blend(&surface.normals).normalize_or(Vec3::Y);
         // Interpolated normals lean a little away from the eye at outlines; farther, it is the inside of an open mesh.
         let normal = if normal.dot(view.toward_eye(position)) < -0.2 { -normal } else { normal };
         let slope = slope(c);
         let centre = [0, 1].map(|i| (self.tile[i] * TILE) as f32 + 0.5);
         let centre = [centre[0] + (pixel % TILE) as f32, centre[1] + (pixel / TILE) as f32];
         let depth = here + slope[0] * (centre[0] - place[0]) + slope[1] * (centre[1] - place[1]);
-        Some(SkinPixel { pixel: pixel as u16, mask, depth, slope, position, normal })
+        Some(SkinPixel {
+            pixel: pixel as u16,
+            mask,
+            solid: surface.solids.solid_of(t[0]),
+            depth,
+            slope,
+            position,
+            normal,
+        })
     }
 }
 

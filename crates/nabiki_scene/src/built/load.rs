@@ -38,9 +38,10 @@ pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
     let imported = imported.map(|found| (Some(found.groom), found.declared, found.judged));
     let (groom, hair_declared, judged) = imported.unwrap_or_default();
     hair.strands = straightened(&hair.strands, &dynamics.motion, dynamics.polar_axis);
+    let mut bodies = Vec::new();
     if scene.form == FormChoice::Free {
         let first = straightened(&first, &dynamics.motion, dynamics.polar_axis);
-        free::set(&mut dynamics, &scene, &head, &first, rest_pose)?;
+        bodies = free::set(&mut dynamics, &scene, &head, &first, rest_pose)?;
     }
     Ok(BuiltScene {
         scene,
@@ -60,6 +61,7 @@ pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
         hair_declared,
         judged,
         motion_report,
+        bodies,
         ids,
         poses,
     })

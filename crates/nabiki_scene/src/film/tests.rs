@@ -115,3 +115,32 @@ fn what_a_camera_leaves_open_is_chosen_for_all_frames() {
     let orthographic = Camera { projection: Projection::Orthographic, ..looked_at };
     check(&built, &film(&built, Camera { distance: Some(200.0), ..orthographic }));
 }
+
+#[test]
+fn a_body_is_drawn_where_it_is_and_changes_no_pixel_when_it_is_not_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = folder.path().join("box.obj");
+    let corners = (0..8).map(|i| format!("v {} {} {}\n", i & 1, i >> 1 & 1, i >> 2)).collect::<String>();
+    let faces = "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    std::fs::write(&mesh, corners + faces).unwrap();
+    let track = folder.path().join("track.csv");
+    let rows = (0..=FRAMES).map(|n| format!("{},25,{n},0,0,0,0,1\n", f64::from(n) / 24.0)).collect::<String>();
+    std::fs::write(&track, "t_s,px_cm,py_cm,pz_cm,qx,qy,qz,qw\n".to_owned() + &rows).unwrap();
+    let motion = format!("motion={{file=\"{}\",up=\"+y\",facing=\"+x\"}}", track.display());
+    let body = |more: &str| format!("[{{mesh=\"{}\",unit=8,{motion}{more}}}]", mesh.display());
+    let drawn = |bodies: &str, n: u32| {
+        let built = gust(&[("motion.form", "\"free\""), ("body", bodies)]);
+        let mut film = film(&built, Camera { azimuth: 0.0, distance: Some(90.0), ..Camera::default() });
+        // The same hair, whatever the body does to it.
+        film.draw(n, &built.hair.strands).unwrap().0
+    };
+    let bare = drawn("[]", 8);
+    assert!(drawn(&body(",shown=false"), 8) == bare);
+    let (shown, later, blue) = (drawn(&body(""), 8), drawn(&body(""), 9), drawn(&body(",colour=[0,0,1]"), 8));
+    let apart = |a: &Frame, b: &Frame| a.rgba.iter().zip(&b.rgba).filter(|(a, b)| a != b).count();
+    // A face of 8 cm at a distance of some 60 on a picture of 180 rows.
+    assert!(apart(&shown, &bare) > 300, "{}", apart(&shown, &bare));
+    assert!(drawn(&body(",solid=false"), 8) == shown);
+    assert!(apart(&shown, &later) > 30, "it rises");
+    assert!(apart(&shown, &blue) > 300 && shown.depth == blue.depth);
+}

@@ -9,6 +9,7 @@ use nabiki::free_form::{FreeForm, Tie};
 use nabiki::{Profile, SettingError};
 use nabiki_io::motion::{Axis, MotionSource};
 use nabiki_io::{Placement, Unit};
+use nabiki_render::settings::BodyLook;
 use serde::{Deserialize, Serialize};
 use toml::Table;
 
@@ -146,17 +147,24 @@ pub struct BodySettings {
     pub motion: Option<MotionSource>,
     /// Whether it is worn: it stands in head space and goes with the head (default false).
     pub with_head: bool,
+    /// Whether hair keeps out of it (default true); otherwise it is drawn and no more, and may be open.
+    pub solid: bool,
     /// How far from its skin nodes are kept (cm).
     pub margin: f32,
     /// The part of a push that sliding hair loses of its speed.
     pub friction: f32,
     /// The same for hair that does not slide, at least `friction`.
     pub static_friction: f32,
+    /// Whether it is drawn (default true).
+    pub shown: bool,
+    /// Its colour in pictures (sRGB, 0..1; default a grey).
+    pub colour: [f32; 3],
 }
 
 impl Default for BodySettings {
     fn default() -> Self {
         let Contact { margin, friction, static_friction } = Contact::default();
+        let BodyLook { shown, colour } = BodyLook::default();
         Self {
             mesh: PathBuf::new(),
             groups: Vec::new(),
@@ -166,9 +174,12 @@ impl Default for BodySettings {
             origin: None,
             motion: None,
             with_head: false,
+            solid: true,
             margin,
             friction,
             static_friction,
+            shown,
+            colour,
         }
     }
 }
@@ -177,6 +188,11 @@ impl BodySettings {
     /// How it is touched.
     pub fn contact(&self) -> Contact {
         Contact { margin: self.margin, friction: self.friction, static_friction: self.static_friction }
+    }
+
+    /// How it is drawn.
+    pub fn look(&self) -> BodyLook {
+        BodyLook { shown: self.shown, colour: self.colour }
     }
 
     /// How the file lies in the body's space. `up` and `unit`: what the file itself says.
@@ -204,6 +220,10 @@ impl BodySettings {
             return Err(SettingError::new(format!("{name}.with_head"), true, remedy));
         }
         check_placement(&name, self.unit, self.up, self.facing, self.origin)?;
-        self.contact().check(&name)
+        self.contact().check(&name)?;
+        if let Some(motion) = &self.motion {
+            motion.check_numbers(&format!("{name}.motion"))?;
+        }
+        self.look().check(&name)
     }
 }

@@ -189,7 +189,7 @@ impl HeadSettings {
         if !(self.shell > 1.0 && self.shell.is_finite()) {
             return Err(SettingError::new("head.shell", self.shell, "must be a finite number above 1"));
         }
-        Ok(())
+        self.motion.as_ref().map_or(Ok(()), |motion| motion.check_numbers("head.motion"))
     }
 }
 

@@ -23,6 +23,7 @@ fn settings() -> impl Strategy<Value = Turbulence> {
             drift,
             near_head,
             seed,
+            envelope: Vec::new(),
         })
 }
 
@@ -142,6 +143,21 @@ fn seeds_differ_and_strength_scales() {
 }
 
 #[test]
+fn an_envelope_scales_the_force_of_each_frame() {
+    let keys = [(10, 0.0), (20, 2.0), (40, 0.5)].map(|(frame, factor)| EnvelopeKey { frame, factor });
+    for near_head in [0.0, 4.0] {
+        let even = field(&Turbulence { near_head, ..Turbulence::default() });
+        let shaped = field(&Turbulence { near_head, envelope: keys.to_vec(), ..Turbulence::default() });
+        let p = Vec3::new(14.0, 3.0, 2.0);
+        for (frame, factor) in [(0, 0.0), (10, 0.0), (15, 1.0), (20, 2.0), (30, 1.25), (40, 0.5), (900, 0.5)] {
+            assert_eq!(shaped.at(p, frame), factor * even.at(p, frame), "frame {frame}");
+            assert_eq!(shaped.uniform(frame), (factor == 0.0).then_some(Vec3::ZERO));
+        }
+        assert_eq!(shaped.strongest(), 2.0 * even.strongest());
+    }
+}
+
+#[test]
 fn frames_worked_out_beforehand_are_those_worked_out_when_asked() {
     let field = on_the_way(&Turbulence::default());
     let mut bare = field.clone();
@@ -164,6 +180,8 @@ fn settings_out_of_range_are_refused_by_name() {
     assert_eq!(thing(Turbulence { octaves: 9, ..default() }), "turbulence.octaves");
     assert_eq!(thing(Turbulence { drift: -0.1, ..default() }), "turbulence.drift");
     assert_eq!(thing(Turbulence { near_head: 9.6, ..default() }), "turbulence.near_head");
+    let envelope = vec![EnvelopeKey { frame: 3, factor: f32::NAN }];
+    assert_eq!(thing(Turbulence { envelope, ..default() }), "turbulence.envelope[0].factor");
     let refused = TurbulenceField::new(&default(), HEAD, &[], &[Vec3::NAN]).unwrap_err();
     assert_eq!(refused.thing, "wind of frame 0");
     let blamed = field(&default()).first_above(10.0).unwrap();

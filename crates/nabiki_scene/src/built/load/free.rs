@@ -6,10 +6,11 @@ use nabiki::body::{Body, BodyWay, skin_of};
 use nabiki::dynamics::{Dynamics, Form};
 use nabiki::free_form::{FreeMotion, Neighbours, earth_gravity};
 use nabiki::pseudo_force::PseudoForce;
-use nabiki::{Head, Pose, Strands};
+use nabiki::{Head, Mesh, Pose, Strands};
 use nabiki_io::{declared_space, mesh};
 
 use super::{read_motion, there};
+use crate::built::BuiltBody;
 use crate::error::Result;
 use crate::scene::{BodySettings, FormChoice, Gravity, Scene};
 
@@ -24,8 +25,15 @@ pub(super) fn first_wanted(scene: &Scene) -> usize {
     }
 }
 
-/// Gives `dynamics` the scene's free form. `first`: strands of the whole, as many as are wanted or as there are.
-pub(super) fn set(dynamics: &mut Dynamics, scene: &Scene, head: &Head, first: &Strands, rest_pose: Pose) -> Result<()> {
+/// Gives `dynamics` the scene's free form. `first`: strands of the whole, as many as are wanted or as there are. Returns the
+/// scene's bodies as they are drawn.
+pub(super) fn set(
+    dynamics: &mut Dynamics,
+    scene: &Scene,
+    head: &Head,
+    first: &Strands,
+    rest_pose: Pose,
+) -> Result<Vec<BuiltBody>> {
     let gravity = match scene.free.gravity {
         Gravity::Strength(strength) => strength,
         Gravity::Earth => {
@@ -35,8 +43,17 @@ pub(super) fn set(dynamics: &mut Dynamics, scene: &Scene, head: &Head, first: &S
         }
     };
     let mut bodies = vec![Body::head(head, scene.contact)];
+    let mut drawn = Vec::new();
     for (i, settings) in scene.bodies.iter().enumerate() {
-        bodies.push(body(scene, settings, i)?);
+        let name = format!("body[{i}]");
+        let (mesh, way) = mesh_and_way(scene, settings, &name)?;
+        way.check(&name, scene.motion.frames).map_err(|refused| scene.refusal(refused))?;
+        if settings.solid {
+            let distance = skin_of(mesh.clone(), &format!("{name}.mesh")).map_err(|refused| scene.refusal(refused))?;
+            let (distance, way, contact) = (Arc::new(distance), way.clone(), settings.contact());
+            bodies.push(Body { name, distance, filled: None, way, contact });
+        }
+        drawn.push(BuiltBody { mesh, way });
     }
     let neighbours = scene.neighbours.as_ref().map(|forces| {
         let carriers = (forces.carriers as usize).min(first.len());
@@ -46,21 +63,20 @@ pub(super) fn set(dynamics: &mut Dynamics, scene: &Scene, head: &Head, first: &S
         dynamics.pseudo_force = PseudoForce::off();
     }
     dynamics.form = Form::Free(FreeMotion { form: scene.free.form(gravity), bodies, neighbours, rest_pose });
-    dynamics.check().map_err(|refused| scene.refusal(refused).into())
+    dynamics.check().map_err(|refused| scene.refusal(refused))?;
+    Ok(drawn)
 }
 
-fn body(scene: &Scene, settings: &BodySettings, i: usize) -> Result<Body> {
-    let name = format!("body[{i}]");
+fn mesh_and_way(scene: &Scene, settings: &BodySettings, name: &str) -> Result<(Mesh, BodyWay)> {
     let file = there(scene, &format!("{name}.mesh"), &settings.mesh)?;
     let declared = declared_space(&file)?;
     let placement = settings.placement(declared.unit, declared.up);
-    placement.check(&name).map_err(|refused| scene.refusal(refused))?;
+    placement.check(name).map_err(|refused| scene.refusal(refused))?;
     let (mesh, _) = mesh::import(&file, &placement, &settings.groups)?;
-    let distance = skin_of(mesh, &format!("{name}.mesh")).map_err(|refused| scene.refusal(refused))?;
     let way = match &settings.motion {
         _ if settings.with_head => BodyWay::WithHead,
         None => BodyWay::InWorld(Arc::new([Pose::STILL])),
         Some(source) => BodyWay::InWorld(read_motion(scene, source, &format!("{name}.motion"))?.poses.into()),
     };
-    Ok(Body { name, distance: Arc::new(distance), filled: None, way, contact: settings.contact() })
+    Ok((mesh, way))
 }
