@@ -44,6 +44,8 @@ pub struct Row {
 /// Hair is sorted in parts of a tile where it is so thick (pixels) that the eye sees which hair is before which: first and
 /// second half, or four quarters.
 const THICK: [f32; 2] = [0.2, 0.5];
+/// The same where it goes so far in depth from end to end of a tile (cm), else layers that cross change places from tile to tile.
+const STEEP: [f32; 2] = [0.4, 0.8];
 /// The parts of a tile, along the axis that a piece follows more: all of it, halves, quarters.
 const PARTS: [Range<usize>; 7] = [0..TILE, 0..8, 8..TILE, 0..4, 4..8, 8..12, 12..TILE];
 const PART_BITS: u32 = 3;
@@ -188,10 +190,11 @@ impl Row {
 #[inline]
 fn parts(piece: &Piece) -> Range<usize> {
     let thickness = 2.0 * piece.a.radius.max(piece.b.radius);
-    match THICK.map(|t| thickness > t) {
-        [false, _] => 0..1,
+    let steepness = (piece.b.depth - piece.a.depth).abs() * piece.per_length * TILE as f32;
+    match [0, 1].map(|i| thickness > THICK[i] || steepness > STEEP[i]) {
+        [_, true] => 3..7,
         [true, false] => 1..3,
-        [true, true] => 3..7,
+        [false, false] => 0..1,
     }
 }
 
