@@ -66,6 +66,10 @@ pub trait Field: Debug + Send + Sync {
 
     /// The forces at sixteen points in a frame, each the very bits of [`at`](Self::at).
     fn at_row(&self, points: &VectorRow, frame: u32, forces: &mut VectorRow) {
+        if let Some(force) = self.uniform(frame) {
+            *forces = force.to_array().map(|along| [along; ROW]);
+            return;
+        }
         for i in 0..ROW {
             let force = self.at(Vec3::new(points[0][i], points[1][i], points[2][i]), frame);
             [forces[0][i], forces[1][i], forces[2][i]] = force.to_array();

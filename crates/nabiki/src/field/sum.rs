@@ -21,7 +21,7 @@ impl FieldSum {
 
 impl Field for FieldSum {
     fn at(&self, point: Vec3, frame: u32) -> Vec3 {
-        self.parts.iter().map(|part| part.at(point, frame)).sum()
+        self.parts.iter().map(|part| part.at(point, frame)).reduce(|sum, part| sum + part).unwrap_or_default()
     }
 
     fn strongest(&self) -> f32 {
@@ -42,9 +42,13 @@ impl Field for FieldSum {
     }
 
     fn at_row(&self, points: &VectorRow, frame: u32, forces: &mut VectorRow) {
-        *forces = VectorRow::default();
+        let Some((first, others)) = self.parts.split_first() else {
+            *forces = VectorRow::default();
+            return;
+        };
+        first.at_row(points, frame, forces);
         let mut of_part = VectorRow::default();
-        for part in &self.parts {
+        for part in others {
             part.at_row(points, frame, &mut of_part);
             for (sum, part) in forces.iter_mut().zip(&of_part) {
                 for i in 0..ROW {

@@ -16,7 +16,7 @@ use glam::{DQuat, DVec3};
 
 use super::super::sine::{cos_turns, sin_turns};
 use crate::random;
-use crate::vector::{dot, scale_add};
+use crate::vector::{add, dot, scale_add};
 
 /// Waves of an octave.
 pub(super) const WAVES: usize = 8;
@@ -38,9 +38,9 @@ const ROUND: f32 = 12_582_912.0;
 struct Wave {
     /// kappa (wavelengths a cm).
     kappa: [f32; 3],
-    /// e, of the wave's strength.
+    /// 8 e, of the wave's strength.
     velocity: [f32; 3],
-    /// e x kappa / |kappa|^2.
+    /// 4 e x kappa / |kappa|^2.
     potential: [f32; 3],
 }
 
@@ -59,6 +59,8 @@ struct Clock {
 pub(super) struct Octave {
     waves: [Wave; WAVES],
     clocks: [Clock; WAVES],
+    /// What the constant of S adds to the potential, of all waves.
+    constant: [f32; 3],
 }
 
 /// Phases of the waves of an octave in one frame.
@@ -75,7 +77,8 @@ impl Octave {
         };
         let turn = rotation([chance(), chance(), chance()]);
         let amplitude = strength / (MEAN_SQUARE * WAVES as f64).sqrt();
-        let mut octave = Self { waves: Default::default(), clocks: Default::default() };
+        let mut octave = Self { waves: Default::default(), clocks: Default::default(), constant: [0.0; 3] };
+        let mut sum = DVec3::ZERO;
         for m in 0..WAVES {
             // Directions spread evenly over half of the sphere, and turned as a whole: no side is left without a wave.
             let y = (m as f64 + 0.5) / WAVES as f64;
@@ -92,12 +95,15 @@ impl Octave {
             let kappa = turn * direction * (0.75 + 0.5 * chance()) / (2.0 * swirl_size);
             let rate = hurry * (9 + 2 * m) as f64 / LOOP;
             octave.clocks[m] = Clock { kappa, phase: chance(), rate: if chance() < 0.5 { rate } else { -rate } };
+            let potential = e.cross(kappa) / kappa.length_squared();
+            sum += potential;
             octave.waves[m] = Wave {
                 kappa: kappa.as_vec3().to_array(),
-                velocity: e.as_vec3().to_array(),
-                potential: (e.cross(kappa) / kappa.length_squared()).as_vec3().to_array(),
+                velocity: (8.0 * e).as_vec3().to_array(),
+                potential: (4.0 * potential).as_vec3().to_array(),
             };
         }
+        octave.constant = (sum / -6.0).as_vec3().to_array();
         octave
     }
 
@@ -115,7 +121,7 @@ impl Octave {
     /// s^2 + (6 S)^2; and ramp^2 + (1 - x^2)^4 is at most 1.
     pub fn largest(&self, slope: f64) -> f64 {
         let length = |vector: [f32; 3]| DVec3::from_array(vector.map(f64::from)).length();
-        let of_wave = |wave: &Wave| length(wave.velocity).max(slope * length(wave.potential) / 6.0);
+        let of_wave = |wave: &Wave| (length(wave.velocity) / 8.0).max(slope * length(wave.potential) / 24.0);
         LARGEST_PROFILE * self.waves.iter().map(of_wave).sum::<f64>()
     }
 
@@ -126,13 +132,16 @@ impl Octave {
     )]
     #[inline(always)]
     pub fn add(&self, phases: &Phases, p: [f32; 3], velocity: &mut [f32; 3], potential: &mut [f32; 3]) {
+        *potential = add(*potential, self.constant);
         for m in 0..WAVES {
             let wave = &self.waves[m];
             let turns = dot(wave.kappa, p) + phases[m];
             let z = turns - ((turns + ROUND) - ROUND);
             let size = z.abs();
-            let s = (8.0 * z) * size.mul_add(-2.0, 1.0);
-            let big_s = (z * z).mul_add(size.mul_add(-16.0 / 3.0, 4.0), -1.0 / 6.0);
+            // s / 8 = z - 2 z |z| and (S + 1/6) / 4 = z^2 - 4/3 z^2 |z|.
+            let square = z * size;
+            let s = square.mul_add(-2.0, z);
+            let big_s = (size * (-4.0 / 3.0)).mul_add(square.abs(), square.abs());
             *velocity = scale_add(s, wave.velocity, *velocity);
             *potential = scale_add(big_s, wave.potential, *potential);
         }
