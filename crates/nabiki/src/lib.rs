@@ -46,7 +46,7 @@
 //! }
 //! ```
 
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
 pub mod body;
 pub mod distance;
@@ -61,6 +61,7 @@ pub mod hair;
 pub mod head;
 pub mod mesh;
 pub mod pose;
+mod prefetch;
 pub mod profile;
 pub mod pseudo_force;
 mod random;

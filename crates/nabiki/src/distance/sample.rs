@@ -140,7 +140,7 @@ fn block_corners(block: &[f32; EDGE * EDGE * EDGE], at: usize) -> Option<[f32; 8
 /// The whole part of a number from 0 to 2^21, and what is left, 0..=1: a whole number may count as the end of the cell
 /// before it. Plain x86-64 has no instruction that rounds down.
 #[inline(always)]
-fn whole(x: f32) -> (u32, f32) {
+pub(crate) fn whole(x: f32) -> (u32, f32) {
     let shifted = (x - 0.5) + ROUNDS;
     (shifted.to_bits() & 0x3f_ffff, x - (shifted - ROUNDS))
 }

@@ -8,7 +8,10 @@ use super::row::{LANES, PointRow, Row};
 use super::transpose::write_points;
 
 /// Rows of points kept on the stack before they are written out strand by strand.
-const ROWS: usize = 16;
+const ROWS: usize = RUN + 1;
+
+/// The most segments of a strand that a pass takes at once.
+pub(super) const RUN: usize = 15;
 
 /// Up to sixteen consecutive strands. Shorter ones are filled up with segments of no length, and missing ones with
 /// strands of such segments: they go through the motions and are not written.
@@ -65,30 +68,25 @@ impl Block {
         states: &mut [State],
         shapes: &[Shape],
         mut points: Option<&mut [Vec3]>,
-        mut pass: impl Pass<State, Shape>,
+        mut pass: impl RunPass<State, Shape>,
     ) {
         let mut rows = [[Row::default(); 3]; ROWS];
         rows[0] = *start;
-        let (mut filled, mut written) = (1, 0);
-        let mut rest = &mut states[..shapes.len()];
-        for (i, shape) in shapes.iter().enumerate() {
-            let Some((state, after)) = std::mem::take(&mut rest).split_first_mut() else { break };
-            if filled == ROWS {
-                if let Some(points) = &mut points {
-                    write_points(&rows, written, &self.points, points);
-                }
-                // The last row is the first of the next ones, and written once more.
-                rows[0] = rows[ROWS - 1];
-                written += ROWS - 1;
-                filled = 1;
+        let (mut states, mut shapes, mut written) = (&mut states[..shapes.len()], shapes, 0);
+        loop {
+            let count = shapes.len().min(RUN);
+            let (run, after) = states.split_at_mut(count);
+            let (run_shapes, shapes_after) = shapes.split_at(count);
+            pass.run(run, run_shapes, after.first().zip(shapes_after.first()), &mut rows[..=count]);
+            if let Some(points) = &mut points {
+                write_points(&rows[..=count], written, &self.points, points);
             }
-            let (done, next) = rows.split_at_mut(filled);
-            pass.segment(state, shape, after.first().zip(shapes.get(i + 1)), &done[filled - 1], &mut next[0]);
-            filled += 1;
-            rest = after;
-        }
-        if let Some(points) = &mut points {
-            write_points(&rows[..filled], written, &self.points, points);
+            if after.is_empty() {
+                break;
+            }
+            // The last row is the first of the next ones, and written once more.
+            rows[0] = rows[count];
+            (states, shapes, written) = (after, shapes_after, written + count);
         }
     }
 }
@@ -107,4 +105,22 @@ pub(super) trait Pass<State, Shape> {
         from: &PointRow,
         to: &mut PointRow,
     );
+}
+
+/// What is done to up to [`RUN`] segments in a row: takes the first of the points to all others, one more than segments.
+pub(super) trait RunPass<State, Shape> {
+    fn run(&mut self, states: &mut [State], shapes: &[Shape], next: Option<(&State, &Shape)>, points: &mut [PointRow]);
+}
+
+impl<State, Shape, P: Pass<State, Shape>> RunPass<State, Shape> for P {
+    #[inline(always)]
+    fn run(&mut self, states: &mut [State], shapes: &[Shape], next: Option<(&State, &Shape)>, points: &mut [PointRow]) {
+        let mut rest = states;
+        for (i, (shape, point)) in shapes.iter().zip(1..points.len()).enumerate() {
+            let Some((state, after)) = std::mem::take(&mut rest).split_first_mut() else { break };
+            let (done, to) = points.split_at_mut(point);
+            self.segment(state, shape, after.first().zip(shapes.get(i + 1)).or(next), &done[i], &mut to[0]);
+            rest = after;
+        }
+    }
 }

@@ -104,6 +104,7 @@ impl Obstacle {
     }
 
     /// Keeps a segment out of the body; `None` where it touches nothing.
+    #[inline(always)]
     pub fn stop(&self, skin: &SkinDistance, going: Going, touch: &Touch) -> Option<Going> {
         let &Touch { from, length, clearance, .. } = touch;
         let end = from + length * going.direction;
@@ -121,6 +122,7 @@ impl Obstacle {
     }
 
     /// What contact takes of a motion against the body: all of it that goes inward, and of the rest what friction takes.
+    #[inline(always)]
     fn slowed(&self, moved: Vec3, normal: Vec3) -> Vec3 {
         // A motion outward loses nothing: of 0 all that follows is 0.
         let inward = (-moved.dot(normal)).max(0.0);
@@ -160,6 +162,7 @@ impl Obstacle {
     }
 
     /// Turns a segment along the gradient until its end keeps its clearance; how deep it then is.
+    #[inline]
     fn pushed_from(&self, skin: &SkinDistance, mut direction: Vec3, touch: &Touch) -> (Vec3, f32) {
         let &Touch { from, length, clearance, .. } = touch;
         let mut depth = 0.0;

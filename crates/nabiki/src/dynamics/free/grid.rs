@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use glam::{DVec3, UVec3, Vec3, Vec4};
 
-use crate::dynamics::row::{LANES, PointRow, Row};
+use crate::distance::whole;
+use crate::dynamics::row::{LANES, PointRow};
 use crate::error::SettingError;
 use crate::free_form::{NeighbourForces, Neighbours};
 use crate::strands::bounds;
@@ -16,6 +17,7 @@ const MOST_NODES: u64 = 128 * 128 * 128;
 #[derive(Clone, Debug)]
 pub(super) struct Crowd {
     forces: NeighbourForces,
+    cells_per_cm: f32,
     /// The first node (head space, cm).
     low: Vec3,
     nodes: UVec3,
@@ -62,6 +64,7 @@ impl Crowd {
         let count = nodes.element_product() as usize;
         let mut crowd = Self {
             forces: forces.clone(),
+            cells_per_cm: 1.0 / forces.cell,
             low,
             nodes,
             filled: [[UVec3::ZERO, nodes - 1]; 2],
@@ -104,6 +107,7 @@ impl Crowd {
         let (mut first_filled, mut last_filled) = (self.nodes - 1, UVec3::ZERO);
         for ((&p, &velocity), &mass) in points.iter().zip(velocities).zip(&self.masses) {
             let (first, t) = self.cell(p.to_array());
+            let first = first as usize;
             let content = mass * velocity.extend(1.0);
             for (corner, weight) in [(0, 1.0 - t[2]), (slice, t[2])] {
                 for (corner, weight) in [(corner, weight * (1.0 - t[1])), (corner + row, weight * t[1])] {
@@ -151,26 +155,19 @@ impl Crowd {
         }
     }
 
-    /// The forces on sixteen points and their drag (head space); none beyond the grid.
+    /// The forces on sixteen points, and their drag (head space); none beyond the grid.
     #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernels")]
     #[inline(always)]
-    pub fn at_row(&self, points: &PointRow) -> (PointRow, Row) {
+    pub fn at_row(&self, points: &PointRow, pulls: &mut [[f32; 4]; LANES]) {
         let (mut firsts, mut places) = ([0; LANES], [[0.0; LANES]; 3]);
         for lane in 0..LANES {
             let (first, t) = self.cell([points[0].0[lane], points[1].0[lane], points[2].0[lane]]);
             firsts[lane] = first;
             (places[0][lane], places[1][lane], places[2][lane]) = (t[0], t[1], t[2]);
         }
-        let mut pulls = [[0.0; 4]; LANES];
         for lane in 0..LANES {
-            pulls[lane] = self.between(firsts[lane], [places[0][lane], places[1][lane], places[2][lane]]);
+            pulls[lane] = self.between(firsts[lane] as usize, [places[0][lane], places[1][lane], places[2][lane]]);
         }
-        let (mut forces, mut drag) = (PointRow::default(), Row::default());
-        for lane in 0..LANES {
-            let [x, y, z, w] = pulls[lane];
-            (forces[0].0[lane], forces[1].0[lane], forces[2].0[lane], drag.0[lane]) = (x, y, z, w);
-        }
-        (forces, drag)
     }
 
     /// The force on a point of the cell of this first node, and its drag.
@@ -183,7 +180,7 @@ impl Crowd {
         let pair = lerp(lerp(a, b, y), lerp(c, d, y), z);
         let ([low, high], mut pull) = (pair, [0.0; 4]);
         for i in 0..4 {
-            pull[i] = low[i] + (high[i] - low[i]) * x;
+            pull[i] = (high[i] - low[i]).mul_add(x, low[i]);
         }
         pull
     }
@@ -198,7 +195,7 @@ impl Crowd {
     /// The force on a point that goes along at `velocity` (cm a frame; head space).
     pub fn force(&self, p: DVec3, velocity: DVec3) -> DVec3 {
         let (first, t) = self.cell(p.as_vec3().to_array());
-        let [x, y, z, drag] = self.between(first, t).map(f64::from);
+        let [x, y, z, drag] = self.between(first as usize, t).map(f64::from);
         DVec3::new(x, y, z) - drag * velocity
     }
 
@@ -207,19 +204,18 @@ impl Crowd {
         (self.nodes.x as usize, (self.nodes.x * self.nodes.y) as usize)
     }
 
-    /// The first node of the cell of a point, and where in it the point lies, 0..1; for points beyond the grid a place
-    /// that no hair reaches.
+    /// The first node of the cell of a point, and where in it the point lies, 0..=1; for points beyond the grid a place that
+    /// no hair reaches.
     #[inline(always)]
-    fn cell(&self, p: [f32; 3]) -> (usize, [f32; 3]) {
-        let (size, nodes) = (1.0 / self.forces.cell, self.nodes);
+    fn cell(&self, p: [f32; 3]) -> (u32, [f32; 3]) {
+        let (size, nodes) = (self.cells_per_cm, self.nodes);
         let q = [(p[0] - self.low.x) * size, (p[1] - self.low.y) * size, (p[2] - self.low.z) * size];
         let cells = [(nodes.x - 1) as f32, (nodes.y - 1) as f32, (nodes.z - 1) as f32];
         let above = (q[0] >= 0.0) & (q[1] >= 0.0) & (q[2] >= 0.0);
         let inside = above & (q[0] < cells[0]) & (q[1] < cells[1]) & (q[2] < cells[2]);
-        let q = if inside { q } else { [0.0; 3] };
-        let (i, j, k) = (q[0] as i32, q[1] as i32, q[2] as i32);
-        let first = (k as u32 * nodes.y + j as u32) * nodes.x + i as u32;
-        (first as usize, [q[0] - i as f32, q[1] - j as f32, q[2] - k as f32])
+        let q = if inside { q } else { [0.5; 3] };
+        let ((i, x), (j, y), (k, z)) = (whole(q[0]), whole(q[1]), whole(q[2]));
+        ((k * nodes.y + j) * nodes.x + i, [x, y, z])
     }
 }
 
@@ -228,7 +224,7 @@ fn lerp(a: [[f32; 4]; 2], b: [[f32; 4]; 2], t: f32) -> [[f32; 4]; 2] {
     let mut sum = [[0.0; 4]; 2];
     for i in 0..2 {
         for j in 0..4 {
-            sum[i][j] = a[i][j] + (b[i][j] - a[i][j]) * t;
+            sum[i][j] = (b[i][j] - a[i][j]).mul_add(t, a[i][j]);
         }
     }
     sum

@@ -22,6 +22,7 @@ use crate::dynamics::{Dynamics, FrameInput};
 use crate::error::SettingError;
 use crate::field::Field;
 use crate::free_form::FreeMotion;
+use crate::prefetch::prefetch;
 use crate::strands::{Strands, bounds};
 
 /// Everything about hair that no frame changes.
@@ -39,7 +40,7 @@ pub(super) struct Packed {
     /// eps_i, where the scene has a pseudo-force.
     pub weakening: Option<(Surroundings, Vec<Row>)>,
     /// For each body, what the ends of the segments are kept out of.
-    pub kept_from: Vec<Vec<KeptRow>>,
+    pub kept_from: Vec<KeptFrom>,
     rest: Vec<FreeState>,
     weight_at_rest: [f32; 3],
     /// A ball that hair does not leave (head space, cm), and the length of the longest strand.
@@ -112,9 +113,10 @@ impl Packed {
     }
 
     /// From the very points that the step puts together, so that what rests does not touch.
-    fn kept_from(&self, body: &Body) -> Vec<KeptRow> {
+    fn kept_from(&self, body: &Body) -> KeptFrom {
         let body_from_head = body.head_from_body(0, &self.free.rest_pose).inverse();
-        let mut kept = vec![KeptRow::default(); self.rows.len()];
+        let rows = self.rows.len();
+        let mut kept = KeptFrom { clearances: vec![Row::default(); rows], filled: vec![0; rows] };
         for block in &self.blocks {
             let mut from = block.roots;
             for at in block.rows() {
@@ -122,8 +124,8 @@ impl Packed {
                 for lane in 0..LANES {
                     let at_rest = body_from_head.transform_point3(Vec3::from(lane_of(&to, lane)));
                     let (surface, clearance) = body.kept_from(at_rest);
-                    kept[at].clearance.0[lane] = clearance;
-                    kept[at].filled |= u16::from(surface == Surface::Filled) << lane;
+                    kept.clearances[at].0[lane] = clearance;
+                    kept.filled[at] |= u16::from(surface == Surface::Filled) << lane;
                 }
                 from = to;
             }
@@ -183,13 +185,13 @@ impl Packed {
     }
 }
 
-/// What a body keeps the end of a segment of every strand of a block out of.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct KeptRow {
+/// What a body keeps the ends of segments out of, row by row.
+#[derive(Clone, Debug)]
+pub(super) struct KeptFrom {
     /// How far from it they are kept (cm).
-    pub clearance: Row,
+    pub clearances: Vec<Row>,
     /// A bit for each strand: whether that is the skin with its folds filled.
-    pub filled: u16,
+    pub filled: Vec<u16>,
 }
 
 /// What becomes of the hair in one frame.
@@ -252,6 +254,7 @@ impl Form for Packed {
                         lag_behind(state, axis, angle, lag);
                     }
                 }
+                prefetch(page.as_deref().unwrap_or_default());
                 let walk = Walk::new(&block.roots, states.first().zip(rows.first()));
                 match step.everywhere {
                     Some(force) if step.obstacles.is_empty() => {
@@ -260,8 +263,7 @@ impl Form for Packed {
                         block.walk(&block.roots, states, rows, page, pass);
                     }
                     _ => {
-                        let pass =
-                            Among { packed: self, step, walk, velocity: PointRow::default(), at: block.rows().start };
+                        let pass = Among::new(self, step, block, walk);
                         block.walk(&block.roots, states, rows, page, pass);
                     }
                 }
@@ -274,9 +276,9 @@ impl Packed {
     /// What body `b` keeps the end of a segment of row `at` out of, and how far from it (cm).
     #[inline(always)]
     pub fn kept_out_of(&self, b: usize, at: usize, lane: usize) -> (&SkinDistance, f32) {
-        let kept = &self.kept_from[b][at];
-        let surface = if kept.filled >> lane & 1 == 1 { Surface::Filled } else { Surface::Skin };
-        (self.free.bodies[b].surface(surface), kept.clearance.0[lane])
+        let kept = &self.kept_from[b];
+        let surface = if kept.filled[at] >> lane & 1 == 1 { Surface::Filled } else { Surface::Skin };
+        (self.free.bodies[b].surface(surface), kept.clearances[at].0[lane])
     }
 
     #[inline(always)]

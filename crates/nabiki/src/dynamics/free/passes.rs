@@ -3,12 +3,16 @@
 use glam::Vec3;
 
 use super::contact::{Going, Touch, gap};
-use super::kernel::{FreeRow, FreeState, Next, Walk, Weight, ends, step_segment};
+use super::kernel::{Forces, FreeRow, FreeState, Next, Walk, Weight, ends, step_segment};
 use super::packed::{Felt, Packed, Step};
-use crate::dynamics::block::Pass;
+use crate::dynamics::block::{Block, Pass, RUN, RunPass};
 use crate::dynamics::paper::Force;
 use crate::dynamics::row::{LANES, PointRow, Row, beyond, lane as lane_of, rotate, set_lane};
+use crate::prefetch::prefetch_ahead;
 use crate::vector::{add, dot, scale, scale_add, subtract};
+
+/// How many segments ahead memory is asked for: its answer takes as long as their steps.
+const AHEAD: usize = 10;
 
 /// A step under the same force everywhere, with nothing in the way.
 pub(super) struct Free<'a> {
@@ -31,78 +35,158 @@ impl Pass<FreeState, FreeRow> for Free<'_> {
         to: &mut PointRow,
     ) {
         let Self { packed, force, weight, walk, at } = self;
+        prefetch_ahead(&*state, AHEAD);
+        prefetch_ahead(row, AHEAD);
         step_segment(state, row, packed.strength(*at), force, weight, &Next::of(next), walk, from, to);
         *at += 1;
     }
 }
 
 /// A step among fields, bodies and other hair.
+///
+/// It goes through a run of segments more than once: first for all forces, which are asked for in many places, then for the
+/// step. What is written number by number can be read as vectors only a little later.
 pub(super) struct Among<'a, 's> {
-    pub packed: &'a Packed,
-    pub step: &'a Step<'s>,
-    pub walk: Walk,
+    packed: &'a Packed,
+    step: &'a Step<'s>,
+    walk: Walk,
     /// Of p_(i-1), by the increments of frame n (cm a frame).
-    pub velocity: PointRow,
+    velocity: PointRow,
     /// Number of the row among those of all blocks.
-    pub at: usize,
+    at: usize,
 }
 
-impl Pass<FreeState, FreeRow> for Among<'_, '_> {
+/// Forces on a run of segments.
+trait RunForces {
+    type Row: Forces;
+
+    fn row(&self, i: usize) -> &Self::Row;
+}
+
+impl RunForces for [f32; 3] {
+    type Row = Self;
+
     #[inline(always)]
-    fn segment(
-        &mut self,
-        state: &mut FreeState,
-        row: &FreeRow,
-        next: Option<(&FreeState, &FreeRow)>,
-        from: &PointRow,
-        to: &mut PointRow,
-    ) {
-        let (strength, weight, was) = (self.packed.strength(self.at), &self.step.weight, state.direction);
-        let next = Next::of(next);
-        match self.step.everywhere {
-            Some(force) => step_segment(state, row, strength, &force, weight, &next, &mut self.walk, from, to),
-            None => {
-                let forces = self.forces(state, row);
-                step_segment(state, row, strength, &forces, weight, &next, &mut self.walk, from, to);
-            }
-        }
-        if !self.step.obstacles.is_empty() {
-            self.keep_out(state, &was, row, from, to);
-        }
-        self.at += 1;
+    fn row(&self, _: usize) -> &Self {
+        self
     }
 }
 
-impl Among<'_, '_> {
-    /// All forces on a segment of every strand, at p_i of frame n, but for those that come from its shape.
+impl RunForces for [PointRow; RUN] {
+    type Row = PointRow;
+
     #[inline(always)]
-    fn forces(&mut self, state: &FreeState, row: &FreeRow) -> PointRow {
-        let points = ends(state, row, &self.walk.before);
+    fn row(&self, i: usize) -> &PointRow {
+        &self[i]
+    }
+}
+
+impl RunPass<FreeState, FreeRow> for Among<'_, '_> {
+    #[inline(always)]
+    fn run(
+        &mut self,
+        states: &mut [FreeState],
+        rows: &[FreeRow],
+        next: Option<(&FreeState, &FreeRow)>,
+        points: &mut [PointRow],
+    ) {
+        match self.step.everywhere {
+            Some(force) => self.move_all(&force, states, rows, next, points),
+            None => {
+                let mut forces = [PointRow::default(); RUN];
+                self.forces(states, rows, &mut forces);
+                self.move_all(&forces, states, rows, next, points);
+            }
+        }
+    }
+}
+
+impl<'a, 's> Among<'a, 's> {
+    #[inline(always)]
+    pub fn new(packed: &'a Packed, step: &'a Step<'s>, block: &Block, walk: Walk) -> Self {
+        Self { packed, step, walk, velocity: PointRow::default(), at: block.rows().start }
+    }
+
+    /// Moves a run of segments under forces that are known.
+    #[inline(always)]
+    fn move_all(
+        &mut self,
+        forces: &impl RunForces,
+        states: &mut [FreeState],
+        rows: &[FreeRow],
+        next: Option<(&FreeState, &FreeRow)>,
+        points: &mut [PointRow],
+    ) {
+        let (packed, weight) = (self.packed, &self.step.weight);
+        for i in 0..rows.len().min(RUN) {
+            let Some((state, after)) = states[i..].split_first_mut() else { break };
+            prefetch_ahead(&*state, AHEAD);
+            prefetch_ahead(&rows[i], AHEAD);
+            let next = Next::of(after.first().zip(rows.get(i + 1)).or(next));
+            let was = state.direction;
+            let (from, to) = points.split_at_mut(i + 1);
+            let (from, to) = (&from[i], &mut to[0]);
+            let (force, strength) = (forces.row(i), packed.strength(self.at));
+            step_segment(state, &rows[i], strength, force, weight, &next, &mut self.walk, from, to);
+            if !self.step.obstacles.is_empty() {
+                for kept in &packed.kept_from {
+                    prefetch_ahead(&kept.clearances[self.at], AHEAD);
+                }
+                self.keep_out(state, &was, &rows[i], from, to);
+            }
+            self.at += 1;
+        }
+    }
+
+    /// All forces on a run of segments, at p_i of frame n, but for those that come from their shape.
+    #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernels")]
+    #[inline(always)]
+    fn forces(&mut self, states: &[FreeState], rows: &[FreeRow], forces: &mut [PointRow; RUN]) {
+        let mut points = [PointRow::default(); RUN];
+        let mut before = self.walk.before;
+        for ((state, row), point) in states.iter().zip(rows).zip(&mut points) {
+            before = ends(state, row, &before);
+            *point = before;
+        }
+        for (i, (force, point)) in forces[..rows.len()].iter_mut().zip(&points).enumerate() {
+            *force = self.outer_forces(self.at + i, point);
+        }
+        let Some(crowd) = self.step.crowd else { return };
+        let mut pulls = [[[0.0; 4]; LANES]; RUN];
+        for (pulls, point) in pulls[..rows.len()].iter_mut().zip(&points) {
+            crowd.at_row(point, pulls);
+        }
+        let of_all = states.iter().zip(rows).zip(&pulls);
+        for (((state, row), pulls), force) in of_all.zip(forces) {
+            for lane in 0..LANES {
+                let velocity = beyond(&self.velocity, lane, row.length.0[lane], lane_of(&state.increment, lane));
+                set_lane(&mut self.velocity, lane, velocity);
+                let [x, y, z, drag] = pulls[lane];
+                let felt = scale_add(-drag, velocity, [x, y, z]);
+                let sum = add(lane_of(force, lane), felt);
+                set_lane(force, lane, sum);
+            }
+        }
+    }
+
+    /// Forces of the field and of the head's acceleration on a segment of every strand.
+    #[inline(always)]
+    fn outer_forces(&self, at: usize, points: &PointRow) -> PointRow {
         let mut forces = match self.step.uniform {
             Some([x, y, z]) => [Row([x; LANES]), Row([y; LANES]), Row([z; LANES])],
-            None => self.step.field.at_row(&points),
+            None => self.step.field.at_row(points),
         };
         if let Some((surroundings, eps)) = &self.packed.weakening {
             for lane in 0..LANES {
                 let force = lane_of(&forces, lane);
-                let weakened = surroundings.weaken(lane_of(&points, lane), &Force::new(force, surroundings));
-                let eps = if weakened { eps[self.at].0[lane] } else { 1.0 };
+                let weakened = surroundings.weaken(lane_of(points, lane), &Force::new(force, surroundings));
+                let eps = if weakened { eps[at].0[lane] } else { 1.0 };
                 set_lane(&mut forces, lane, scale(eps, force));
             }
         }
         if let Some(Felt { columns, constant }) = &self.step.felt {
             for lane in 0..LANES {
-                let felt = add(rotate(columns, lane_of(&points, lane)), *constant);
-                let force = add(lane_of(&forces, lane), felt);
-                set_lane(&mut forces, lane, force);
-            }
-        }
-        if let Some(crowd) = self.step.crowd {
-            let (pull, drag) = crowd.at_row(&points);
-            for lane in 0..LANES {
-                let velocity = beyond(&self.velocity, lane, row.length.0[lane], lane_of(&state.increment, lane));
-                set_lane(&mut self.velocity, lane, velocity);
-                let felt = scale_add(-drag.0[lane], velocity, lane_of(&pull, lane));
+                let felt = add(rotate(columns, lane_of(points, lane)), *constant);
                 let force = add(lane_of(&forces, lane), felt);
                 set_lane(&mut forces, lane, force);
             }
@@ -122,10 +206,11 @@ impl Among<'_, '_> {
         for b in 0..self.step.obstacles.len() {
             self.read_gaps(b, near, to, &mut gaps);
         }
-        let mut touching = 0;
-        for lane in 0..LANES {
-            let read = near >> lane & 1 == 1;
-            state.gap.0[lane] = if read { gaps[lane].max(0.0) } else { state.gap.0[lane] };
+        // Number by number: vectors would wait for what has just been written so.
+        let (mut read, mut touching) = (near, 0);
+        while read != 0 {
+            let lane = next_lane(&mut read);
+            state.gap.0[lane] = gaps[lane].max(0.0);
             touching |= u32::from(gaps[lane] < 0.0) << lane;
         }
         while touching != 0 {
@@ -151,16 +236,16 @@ impl Among<'_, '_> {
     #[inline(always)]
     fn read_gaps(&self, b: usize, mut near: u32, to: &PointRow, gaps: &mut [f32; LANES]) {
         let (packed, obstacle) = (self.packed, &self.step.obstacles[b]);
-        let (body, kept) = (&packed.free.bodies[b], &packed.kept_from[b][self.at]);
+        let (body, kept) = (&packed.free.bodies[b], &packed.kept_from[b]);
         // Nearly all that lies on a body with filled folds keeps out of those.
         let (usual, unusual) = match body.filled.as_deref() {
-            Some(filled) => (filled, !kept.filled),
+            Some(filled) => (filled, !kept.filled[self.at]),
             None => (&*body.distance, 0),
         };
         let places = obstacle.places(usual, to);
         while near != 0 {
             let lane = next_lane(&mut near);
-            let clearance = kept.clearance.0[lane];
+            let clearance = kept.clearances[self.at].0[lane];
             let distance = match &places {
                 Some(places) if unusual >> lane & 1 == 0 => usual.fine_distance(places, lane),
                 _ => None,
@@ -177,7 +262,7 @@ impl Among<'_, '_> {
     }
 
     /// Turns a segment out of the bodies that its end touches.
-    #[inline(never)]
+    #[inline(always)]
     fn keep_one_out(
         &self,
         state: &mut FreeState,

@@ -38,7 +38,7 @@ impl Runner {
     /// Refuses a field under which this hair, or its carriers, cannot be stepped.
     pub fn check_field(&self, field: &dyn Field) -> Result<(), SettingError> {
         self.packed.check_field(field)?;
-        self.carriers.as_ref().map_or(Ok(()), |carriers| carriers.packed.check_field(field))
+        self.carriers.as_ref().map_or(Ok(()), |carriers| carriers.hair.packed.check_field(field))
     }
 
     pub fn dynamics(&self) -> &Dynamics {
@@ -53,16 +53,22 @@ impl Runner {
         }
     }
 
-    /// Moves the hair by one frame.
+    /// Moves the hair by one frame; beside it the carriers.
     pub fn step(&mut self, input: &FrameInput, width: VectorWidth, page: &mut [Vec3]) {
         let Self { packed, states, carriers, obstacles } = self;
         packed.obstacles(input, obstacles);
-        let crowd = carriers.as_ref().map(|carriers| &carriers.crowd);
-        let plan = packed.plan(input, obstacles, crowd);
-        sweep(&*packed, &[plan], width, states, Pages::Last(page));
-        if let Some(carriers) = carriers {
-            carriers.step(input, obstacles, width);
-        }
+        let Some(carriers) = carriers else {
+            let plan = packed.plan(input, obstacles, None);
+            return sweep(&*packed, &[plan], width, states, Pages::Last(page));
+        };
+        let Carriers { hair, crowd, next } = carriers;
+        let plan = packed.plan(input, obstacles, Some(crowd));
+        // What the carriers leave is one thread's work: it begins first.
+        rayon::join(
+            || hair.step(input, obstacles, width, crowd, next),
+            || sweep(&*packed, &[plan], width, states, Pages::Last(page)),
+        );
+        std::mem::swap(crowd, next);
     }
 
     /// Moves the hair through many frames, the first of them rest itself if `from_rest`.
@@ -82,9 +88,10 @@ impl Runner {
                     carriers.rewind();
                 }
                 let before = |(input, obstacles): (&FrameInput, &Vec<Obstacle>)| {
-                    let crowd = carriers.crowd.clone();
-                    carriers.step(input, obstacles, width);
-                    crowd
+                    let Carriers { hair, crowd, next } = &mut *carriers;
+                    hair.step(input, obstacles, width, crowd, next);
+                    std::mem::swap(crowd, next);
+                    next.clone()
                 };
                 inputs.iter().zip(&obstacles).map(before).collect()
             }
@@ -96,14 +103,22 @@ impl Runner {
     }
 }
 
-/// The strands that carry density and velocity.
+/// The strands that carry density and velocity, and what they leave.
 #[derive(Clone, Debug)]
 struct Carriers {
+    hair: CarrierHair,
+    /// What they left in the frame before.
+    crowd: Crowd,
+    /// Room for what they leave in this one.
+    next: Crowd,
+}
+
+#[derive(Clone, Debug)]
+struct CarrierHair {
     packed: Packed,
     states: Vec<FreeState>,
     points: Vec<Vec3>,
     velocities: Vec<Vec3>,
-    crowd: Crowd,
     crowd_at_rest: Crowd,
 }
 
@@ -113,19 +128,31 @@ impl Carriers {
         sweep(&packed, &[Plan::Rest], VectorWidth::default(), &mut states, Pages::Last(&mut points));
         let crowd = Crowd::new(neighbours, &points)?;
         let velocities = vec![Vec3::ZERO; points.len()];
-        Ok(Self { states, packed, points, velocities, crowd_at_rest: crowd.clone(), crowd })
+        let hair = CarrierHair { states, packed, points, velocities, crowd_at_rest: crowd.clone() };
+        Ok(Self { hair, next: crowd.clone(), crowd })
     }
 
     fn rewind(&mut self) {
-        self.states.copy_from_slice(self.packed.at_rest());
-        self.crowd.clone_from(&self.crowd_at_rest);
+        let Self { hair, crowd, next } = self;
+        hair.states.copy_from_slice(hair.packed.at_rest());
+        crowd.clone_from(&hair.crowd_at_rest);
+        next.clone_from(&hair.crowd_at_rest);
     }
+}
 
-    /// Moves by one frame under what they left in the frame before, and leaves what they are then.
-    fn step(&mut self, input: &FrameInput, obstacles: &[Obstacle], width: VectorWidth) {
-        let plan = self.packed.plan(input, obstacles, Some(&self.crowd));
+impl CarrierHair {
+    /// Moves by one frame under what they left in the frame before, and leaves in `next` what they are then.
+    fn step(
+        &mut self,
+        input: &FrameInput,
+        obstacles: &[Obstacle],
+        width: VectorWidth,
+        crowd: &Crowd,
+        next: &mut Crowd,
+    ) {
+        let plan = self.packed.plan(input, obstacles, Some(crowd));
         sweep(&self.packed, &[plan], width, &mut self.states, Pages::Last(&mut self.points));
         sweep(&self.packed, &[Plan::Velocities], width, &mut self.states, Pages::Last(&mut self.velocities));
-        self.crowd.fill(&self.points, &self.velocities);
+        next.fill(&self.points, &self.velocities);
     }
 }
