@@ -4,6 +4,7 @@
 //! f32, sixteen strands to a block, all cores. Both take the same [`Dynamics`] and [`FrameInput`]s and give the same
 //! frames. [`Timeline`] is the fast twin with all its frames at hand.
 
+mod air;
 mod block;
 mod free;
 mod gain;
@@ -14,6 +15,7 @@ mod runner;
 mod simulation;
 mod straighten;
 mod sweep;
+mod tangents;
 mod timeline;
 mod transpose;
 mod trigonometry;
@@ -35,6 +37,7 @@ pub use gain::{check_field, gain, largest_gain, period};
 pub use reference::Reference;
 pub use simulation::{Simulation, VectorWidth};
 pub use straighten::straightened;
+pub(crate) use tangents::{Asked, Change, Moved, Points, tangents};
 pub use timeline::{Film, Timeline};
 
 /// The settings of the motion; the default is Table 1 of the paper.

@@ -1,6 +1,6 @@
 //! Distance and gradient in one reading, for collisions.
 
-use glam::Vec3;
+use glam::{Mat3, Vec3};
 
 use super::{COARSE, EDGE, FINE, Samples, SkinDistance};
 
@@ -160,6 +160,18 @@ impl Reading {
         let along_y = between(high - low, far_high - far_low, t.z);
         let along_z = between(far_low, far_high, t.y) - between(low, high, t.y);
         Vec3::new(along_x, along_y, if flipped { -along_z } else { along_z }) / edge
+    }
+
+    /// How the gradient changes within the cell: the second derivatives of the interpolation, of which those along one axis
+    /// twice are 0.
+    pub fn hessian(&self) -> Mat3 {
+        let Self { corners: [a, b, c, d, e, f, g, h], t, edge, flipped } = *self;
+        let (low, high) = ((d - c) - (b - a), (h - g) - (f - e));
+        let xy = between(low, high, t.z);
+        let xz = between((f - e) - (b - a), (h - g) - (d - c), t.y);
+        let yz = between((g - e) - (c - a), (h - f) - (d - b), t.x);
+        let (xz, yz) = if flipped { (-xz, -yz) } else { (xz, yz) };
+        Mat3::from_cols_array(&[0.0, xy, xz, xy, 0.0, yz, xz, yz, 0.0]) * (1.0 / (edge * edge))
     }
 }
 

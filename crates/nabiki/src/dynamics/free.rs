@@ -13,6 +13,7 @@ mod runner;
 mod segment;
 
 use contact::{FAN, NEAR, PUSHES, TOLERANCE_CM};
-pub(super) use reference::Reference;
+pub(super) use grid::Crowd;
+pub(super) use reference::{Reference, Setting, Springs, Strand};
 pub(super) use runner::Runner;
 pub(super) use segment::free_segments;

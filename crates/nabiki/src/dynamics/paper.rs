@@ -9,6 +9,7 @@ mod runner;
 mod turn;
 mod wind;
 
-pub(super) use reference::Reference;
+pub(super) use polar::PolarAxis;
+pub(super) use reference::{Reference, Setting, Strand};
 pub(super) use runner::Runner;
 pub(super) use wind::{Force, Surroundings};

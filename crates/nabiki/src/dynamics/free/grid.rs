@@ -15,7 +15,7 @@ const MOST_NODES: u64 = 128 * 128 * 128;
 
 /// The carriers' hair in one frame, as a field: a force, and a drag against the hair's own motion.
 #[derive(Clone, Debug)]
-pub(super) struct Crowd {
+pub(in crate::dynamics) struct Crowd {
     forces: NeighbourForces,
     cells_per_cm: f32,
     /// The first node (head space, cm).

@@ -3,6 +3,8 @@
 
 use glam::DVec3;
 
+use crate::scalar::{Scalar, Vector};
+
 /// Below this sine of theta a segment counts as parallel to y, where phi is undefined (section 4.2). The direction
 /// of a segment of half a centimetre between two f32 points 32 cm from the origin is not known any better.
 pub(super) const POLE_SINE: f64 = 1e-5;
@@ -23,13 +25,12 @@ pub(super) fn direction_turns(s: DVec3) -> [[f64; 2]; 2] {
     [[level / length, s.y / length], phi]
 }
 
-/// The unit direction (sin theta sin phi, cos theta, sin theta cos phi).
-pub(super) fn to_direction(theta: f64, phi: f64) -> DVec3 {
-    let ((sin_theta, cos_theta), (sin_phi, cos_phi)) = (theta.sin_cos(), phi.sin_cos());
-    DVec3::new(sin_theta * sin_phi, cos_theta, sin_theta * cos_phi)
-}
-
 /// The azimuth of a force, where it has one.
-pub(super) fn azimuth(force: DVec3) -> Option<f64> {
-    (force.x != 0.0 || force.z != 0.0).then(|| force.x.atan2(force.z))
+pub(super) fn azimuth<S: Scalar>(force: Vector<S>) -> Option<S> {
+    let level = force.value();
+    (level.x != 0.0 || level.z != 0.0).then(|| {
+        let azimuth = level.x.atan2(level.z);
+        let across = (level.x * level.x + level.z * level.z).recip();
+        S::known(azimuth, force, || DVec3::new(level.z * across, 0.0, -level.x * across))
+    })
 }

@@ -12,7 +12,7 @@ const UPRIGHT: f64 = 1e-6;
 
 /// The polar axis of the equations in head space.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct PolarAxis {
+pub(in crate::dynamics) struct PolarAxis {
     polar_from_head: DMat3,
 }
 

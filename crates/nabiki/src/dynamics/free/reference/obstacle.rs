@@ -1,11 +1,13 @@
 //! A body in one frame, as the f64 stepper meets it.
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 
 use crate::body::{Body, Contact, Surface};
+use crate::distance::Reading;
 use crate::dynamics::FrameInput;
 use crate::dynamics::free::{FAN, NEAR, PUSHES, TOLERANCE_CM};
 use crate::pose::Pose;
+use crate::scalar::{Scalar, Vector};
 
 /// What each point is kept out of, and how far from it (cm).
 pub fn kept_from(body: &Body, rest_pose: &Pose, positions: &[DVec3]) -> Vec<(Surface, f64)> {
@@ -27,14 +29,14 @@ pub struct Obstacle<'a> {
 }
 
 /// The end of a segment that turns about its beginning (head space, cm).
-pub struct Touch {
+pub struct Touch<S> {
     /// p_(i-1), where it is now.
-    pub from: DVec3,
+    pub from: Vector<S>,
     pub length: f64,
     /// How far p_i is kept from the skin.
     pub clearance: f64,
     /// d at frame n.
-    pub was: DVec3,
+    pub was: Vector<S>,
     /// What p_i is kept out of.
     pub surface: Surface,
 }
@@ -47,39 +49,58 @@ impl<'a> Obstacle<'a> {
     }
 
     /// Keeps a segment that would go along `direction`, with this `increment`, out of the body.
-    pub fn stop(&self, mut direction: DVec3, mut increment: DVec3, touch: &Touch) -> (DVec3, DVec3) {
-        let &Touch { from, length, clearance, .. } = touch;
-        let end = from + length * direction;
-        let Some((distance, normal)) = self.read(end, touch.surface) else { return (direction, increment) };
-        if distance >= clearance {
-            return (direction, increment);
+    #[inline(always)]
+    pub fn stop<S: Scalar>(
+        &self,
+        direction: Vector<S>,
+        increment: Vector<S>,
+        touch: &Touch<S>,
+    ) -> (Vector<S>, Vector<S>) {
+        let &Touch { from, length, clearance, surface, .. } = touch;
+        let end = from + direction.times(length);
+        match self.reading(end.value(), surface) {
+            Some(reading) if f64::from(reading.distance()) < clearance => self.stopped(direction, increment, touch),
+            _ => (direction, increment),
         }
-        let of_body = end - self.before_from_now.transform_point3(end);
-        let change = self.slowed(length * increment - of_body, normal);
-        direction = (length * direction + change).normalize_or(normal);
-        increment += change / length;
+    }
+
+    /// The same where the segment touches.
+    #[inline(never)]
+    fn stopped<S: Scalar>(
+        &self,
+        mut direction: Vector<S>,
+        mut increment: Vector<S>,
+        touch: &Touch<S>,
+    ) -> (Vector<S>, Vector<S>) {
+        let &Touch { from, length, surface, .. } = touch;
+        let end = from + direction.times(length);
+        let Some((_, normal)) = self.read(end, surface) else { return (direction, increment) };
+        let of_body = end - end.taken_by(&self.before_from_now);
+        let change = self.slowed(increment.times(length) - of_body, normal);
+        direction = (direction.times(length) + change).normalized_or(normal);
+        increment += change / S::from(length);
         direction = self.pushed_out(direction, touch);
-        (direction, increment - increment.dot(direction) * direction)
+        (direction, increment - direction * increment.dot(direction))
     }
 
     /// What contact takes of a motion against the body: all of it that goes inward, and of the rest what friction takes.
-    fn slowed(&self, moved: DVec3, normal: DVec3) -> DVec3 {
+    fn slowed<S: Scalar>(&self, moved: Vector<S>, normal: Vector<S>) -> Vector<S> {
         let inward = -moved.dot(normal);
-        if inward <= 0.0 {
-            return DVec3::ZERO;
+        if inward.value() <= 0.0 {
+            return Vector::zero();
         }
-        let along = moved + inward * normal;
+        let along = moved + normal * inward;
         let speed = along.length();
-        let held = speed <= f64::from(self.contact.static_friction) * inward;
-        let lost = if held { 1.0 } else { f64::from(self.contact.friction) * inward / speed };
-        inward * normal - lost * along
+        let held = speed.value() <= f64::from(self.contact.static_friction) * inward.value();
+        let lost = if held { S::from(1.0) } else { inward.times(f64::from(self.contact.friction)) / speed };
+        normal * inward - along * lost
     }
 
     /// The direction nearest to where a segment would go in which its end keeps its clearance. In a fold of the skin, behind
     /// an ear, that may be far off or not be found: then the one nearest to where the segment was, for it was free there.
-    fn pushed_out(&self, direction: DVec3, touch: &Touch) -> DVec3 {
+    fn pushed_out<S: Scalar>(&self, direction: Vector<S>, touch: &Touch<S>) -> Vector<S> {
         let (pushed, depth) = self.pushed_from(direction, touch);
-        if depth <= f64::from(TOLERANCE_CM) && pushed.dot(touch.was) > f64::from(NEAR) {
+        if depth <= f64::from(TOLERANCE_CM) && pushed.dot(touch.was).value() > f64::from(NEAR) {
             return pushed;
         }
         let (stayed, depth_there) = self.pushed_from(touch.was, touch);
@@ -88,12 +109,12 @@ impl<'a> Obstacle<'a> {
         }
         let (mut best, mut least) = if depth_there < depth { (stayed, depth_there) } else { (pushed, depth) };
         // Where no turn is found so, a fan of directions from there outward.
-        let normal = self.read(touch.from + touch.length * best, touch.surface).map_or(best, |(_, normal)| normal);
+        let normal = self.read(touch.from + best.times(touch.length), touch.surface).map_or(best, |(_, normal)| normal);
         for step in 1..=FAN {
             if least <= f64::from(TOLERANCE_CM) {
                 break;
             }
-            let aside = best.lerp(normal, step as f64 / FAN as f64).normalize_or(normal);
+            let aside = best.lerp(normal, step as f64 / FAN as f64).normalized_or(normal);
             let (direction, depth) = self.pushed_from(aside, touch);
             if depth < least {
                 (best, least) = (direction, depth);
@@ -103,27 +124,42 @@ impl<'a> Obstacle<'a> {
     }
 
     /// Turns a segment along the gradient until its end keeps its clearance; how deep it then is.
-    fn pushed_from(&self, mut direction: DVec3, touch: &Touch) -> (DVec3, f64) {
+    fn pushed_from<S: Scalar>(&self, mut direction: Vector<S>, touch: &Touch<S>) -> (Vector<S>, f64) {
         let &Touch { from, length, clearance, .. } = touch;
         let mut depth = 0.0;
         for _ in 0..=PUSHES {
-            let end = from + length * direction;
+            let end = from + direction.times(length);
             let Some((distance, normal)) = self.read(end, touch.surface) else { return (direction, 0.0) };
-            depth = clearance - distance;
+            let inside = S::from(clearance) - distance;
+            depth = inside.value();
             if depth <= f64::from(TOLERANCE_CM) {
                 return (direction, depth);
             }
-            direction = (end + depth * normal - from).normalize_or(normal);
+            direction = (end + normal * inside - from).normalized_or(normal);
         }
         (direction, depth)
     }
 
     /// Distance and outward normal at a point of head space; `None` far away.
-    fn read(&self, p: DVec3, surface: Surface) -> Option<(f64, DVec3)> {
-        let in_body = self.body_from_head.transform_point3(p);
-        let (distance, gradient) = self.body.surface(surface).sample(in_body.as_vec3())?;
-        let normal = gradient.as_dvec3().normalize_or(DVec3::Y);
-        Some((f64::from(distance), self.body_from_head.matrix3.transpose() * normal))
+    fn read<S: Scalar>(&self, p: Vector<S>, surface: Surface) -> Option<(S, Vector<S>)> {
+        let reading = self.reading(p.value(), surface)?;
+        let (gradient, head_from_body) = (reading.gradient(), self.body_from_head.matrix3.transpose());
+        let gradient = gradient.as_dvec3();
+        let in_body = gradient.normalize_or(DVec3::Y);
+        let curved = || {
+            // The normal turns as far as the gradient changes across it.
+            let across =
+                DMat3::IDENTITY - DMat3::from_cols(in_body * in_body.x, in_body * in_body.y, in_body * in_body.z);
+            let curvature = reading.hessian().as_dmat3() * gradient.length().recip();
+            head_from_body * across * curvature * self.body_from_head.matrix3
+        };
+        let distance = S::known(f64::from(reading.distance()), p, || head_from_body * gradient);
+        Some((distance, S::known_vector(head_from_body * in_body, p, curved)))
+    }
+
+    /// What is sampled at a point of head space; `None` far away.
+    fn reading(&self, p: DVec3, surface: Surface) -> Option<Reading> {
+        self.body.surface(surface).read(self.body_from_head.transform_point3(p).as_vec3())
     }
 }
 

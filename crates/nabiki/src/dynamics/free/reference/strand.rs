@@ -1,0 +1,218 @@
+//! One strand, and the step that moves it, in numbers of any kind.
+
+use glam::{DMat3, DQuat, DVec3, Vec3};
+
+use super::Setting;
+use super::obstacle::{Touch, kept_from};
+use crate::body::Surface;
+use crate::dynamics::Dynamics;
+use crate::dynamics::air::Air;
+use crate::dynamics::free::grid::Crowd;
+use crate::dynamics::free::segment::{FreeSegment, free_segments};
+use crate::error::SettingError;
+use crate::free_form::FreeMotion;
+use crate::scalar::{Scalar, Turn, Vector};
+
+/// A strand at some frame.
+#[derive(Clone)]
+pub(in crate::dynamics) struct Strand<S> {
+    segments: Vec<Segment<S>>,
+    /// Root first (head space, cm).
+    positions: Vec<Vector<S>>,
+    /// For each body, what every point is kept out of, and how far from it (cm).
+    kept_from: Vec<Vec<(Surface, f64)>>,
+}
+
+/// One segment: its direction d at frame n and its increment w (rad a frame), normal to d; both in head space.
+#[derive(Clone)]
+struct Segment<S> {
+    moved_by: FreeSegment,
+    /// K of the joint at its beginning.
+    stiffness: S,
+    /// What is left of an increment after a frame.
+    decay: S,
+    direction: Vector<S>,
+    increment: Vector<S>,
+}
+
+/// Factors on the settings that may be unknown.
+pub(in crate::dynamics) struct Springs<S> {
+    /// Of the stiffness.
+    pub stiffness: S,
+    /// Of the frames in which a swing settles.
+    pub settle: S,
+}
+
+impl<S: Scalar> Default for Springs<S> {
+    /// The settings as they are.
+    fn default() -> Self {
+        Self { stiffness: S::from(1.0), settle: S::from(1.0) }
+    }
+}
+
+impl<S: Scalar> Segment<S> {
+    fn new(moved_by: FreeSegment, springs: &Springs<S>) -> Self {
+        let FreeSegment { rest, stiffness, decay, .. } = moved_by;
+        // What settles a factor slower has left, in a frame, what was left before to the power of 1 / factor.
+        let as_it_was = springs.settle == S::from(1.0) || decay == 0.0 || decay == 1.0;
+        let decay = if as_it_was { S::from(decay) } else { (S::from(decay.ln()) / springs.settle).exp() };
+        let (stiffness, increment) = (springs.stiffness.times(stiffness), Vector::zero());
+        Self { moved_by, stiffness, decay, direction: rest.into(), increment }
+    }
+
+    /// What is left of the head's turn is felt as lag.
+    fn lag_behind(&mut self, axis: DVec3, angle: f64) {
+        let lag = Turn::from(DQuat::from_axis_angle(axis, -self.moved_by.lag * angle));
+        self.direction = lag.of(self.direction);
+        self.increment = lag.of(self.increment);
+    }
+
+    /// The moment of the joint at its beginning: what turns d toward where the segment before it carries its rest
+    /// direction, and that one back. `carried`: that direction, R_(i-1) r_i.
+    #[inline(always)]
+    fn moment(&self, carried: Vector<S>) -> Vector<S> {
+        carried.cross(self.direction) * self.stiffness
+    }
+
+    /// w(n+1), before it turns d. `force`: all that does not come from the segment's shape; `moment`: of both of its
+    /// joints.
+    #[inline(always)]
+    fn drive(&mut self, force: Vector<S>, moment: Vector<S>) {
+        let FreeSegment { shape, rest, hold, .. } = self.moved_by;
+        let d = self.direction;
+        let f = force + (Vector::from(rest) - d).times(hold);
+        let across = (f - d * f.dot(d)) + d.cross(moment);
+        self.increment = (self.increment + across.times(shape.gain)) * self.decay;
+    }
+
+    /// d + w, brought back to length 1, and w as it is carried along that way: its length stays. What rests keeps its bits.
+    #[inline(always)]
+    fn turned(&self) -> (Vector<S>, Vector<S>) {
+        let (d, w) = (self.direction, self.increment);
+        if w == Vector::zero() {
+            return (d, w);
+        }
+        let length = (d + w).length();
+        ((d + w) / length, (w - d * w.length_squared()) / length)
+    }
+}
+
+impl<S: Scalar> Strand<S> {
+    /// Strand number `s` at rest.
+    ///
+    /// # Errors
+    /// As [`free_segments`].
+    pub fn new(
+        dynamics: &Dynamics,
+        free: &FreeMotion,
+        springs: &Springs<S>,
+        strand: &[Vec3],
+        s: usize,
+    ) -> Result<Self, SettingError> {
+        let segments = free_segments(dynamics, &free.form, strand, s)?;
+        let segments = segments.into_iter().map(|moved_by| Segment::new(moved_by, springs)).collect();
+        let positions = strand.iter().map(|p| p.as_dvec3().into()).collect();
+        let mut strand = Self { segments, positions, kept_from: Vec::new() };
+        strand.place();
+        let at_rest: Vec<DVec3> = strand.positions.iter().map(|p| p.value()).collect();
+        strand.kept_from = free.bodies.iter().map(|body| kept_from(body, &free.rest_pose, &at_rest)).collect();
+        Ok(strand)
+    }
+
+    /// Root first (head space, cm).
+    pub fn positions(&self) -> &[Vector<S>] {
+        &self.positions
+    }
+
+    /// What the increments alone move every point by in a frame (cm).
+    pub fn velocities(&self) -> impl Iterator<Item = DVec3> {
+        let moved = self.segments.iter().scan(DVec3::ZERO, |velocity, segment| {
+            *velocity += segment.moved_by.shape.length * segment.increment.value();
+            Some(*velocity)
+        });
+        std::iter::once(DVec3::ZERO).chain(moved)
+    }
+
+    /// Moves it by one frame, from its root to its tip. `crowd`: what its neighbours left in the frame before.
+    #[inline(always)]
+    pub fn step(&mut self, setting: &Setting, air: &impl Air<S>, crowd: Option<&Crowd>) {
+        let Setting { gamma, head, rest_weight, obstacles } = setting;
+        if let Some((axis, angle)) = head.turn {
+            self.segments.iter_mut().for_each(|segment| segment.lag_behind(axis, angle));
+            self.place();
+        }
+        let Self { segments, positions, kept_from } = self;
+        // R_(i-1), which has carried the segments before this one from their rest to where they are.
+        let mut frame = Turn::from(DQuat::IDENTITY);
+        let mut velocity = Vector::zero();
+        let mut carried = frame.of_known(segments[0].moved_by.rest);
+        let mut moment = segments[0].moment(carried);
+        for i in 0..segments.len() {
+            let (from, end) = (positions[i], positions[i + 1]);
+            let field = air.force(end);
+            let segment = &segments[i];
+            let shape = segment.moved_by.shape;
+            velocity += segment.increment.times(shape.length);
+            let weakened = gamma.contains(end.value(), field.value().as_vec3());
+            let eps = if weakened { shape.eps() } else { 1.0 };
+            // No closures: only what is inlined is compiled for the machine's vectors.
+            let felt = match &head.felt {
+                Some(felt) => end.taken_by(felt),
+                None => Vector::zero(),
+            };
+            let others = match crowd {
+                Some(crowd) => push(crowd, end, velocity),
+                None => Vector::zero(),
+            };
+            let weight = Vector::from(head.weight) - frame.of_known(*rest_weight);
+            frame = Turn::smallest(carried, segment.direction).after(frame);
+            let next = match segments.get(i + 1) {
+                Some(next) => {
+                    carried = frame.of_known(next.moved_by.rest);
+                    next.moment(carried)
+                }
+                None => Vector::zero(),
+            };
+            let segment = &mut segments[i];
+            segment.drive(field.times(eps) + felt + others + weight, moment - next);
+            moment = next;
+            let was = segment.direction;
+            let (mut direction, mut increment) = segment.turned();
+            for (obstacle, kept_from) in obstacles.iter().zip(kept_from.iter()) {
+                let (surface, clearance) = kept_from[i + 1];
+                let touch = Touch { from, length: shape.length, clearance, was, surface };
+                (direction, increment) = obstacle.stop(direction, increment, &touch);
+            }
+            (segment.direction, segment.increment) = (direction, increment);
+            positions[i + 1] = from + direction.times(shape.length);
+        }
+    }
+
+    /// Puts the strand together from its root outward.
+    fn place(&mut self) {
+        let mut p = self.positions[0];
+        for (segment, position) in self.segments.iter().zip(&mut self.positions[1..]) {
+            p += segment.direction.times(segment.moved_by.shape.length);
+            *position = p;
+        }
+    }
+}
+
+/// The force of its neighbours on a point that goes along at `velocity` (cm a frame; head space).
+#[inline(never)]
+fn push<S: Scalar>(crowd: &Crowd, p: Vector<S>, velocity: Vector<S>) -> Vector<S> {
+    /// In a grid of centimetres, read in f32.
+    const STEP_CM: f64 = 0.03;
+    let (at, along) = (p.value(), velocity.value());
+    let by_place = || {
+        let slope = |e: DVec3| (crowd.force(at + e, along) - crowd.force(at - e, along)) / (2.0 * STEP_CM);
+        DMat3::from_cols(slope(STEP_CM * DVec3::X), slope(STEP_CM * DVec3::Y), slope(STEP_CM * DVec3::Z))
+    };
+    // The drag is linear in the velocity.
+    let by_velocity = || {
+        let drag = |e: DVec3| crowd.force(at, e) - crowd.force(at, DVec3::ZERO);
+        DMat3::from_cols(drag(DVec3::X), drag(DVec3::Y), drag(DVec3::Z))
+    };
+    let push = S::known_vector(crowd.force(at, along), p, by_place);
+    push + S::known_vector(DVec3::ZERO, velocity, by_velocity)
+}

@@ -1,0 +1,220 @@
+//! Wishes as residuals: what is looked at, and how far it is from where it should be.
+
+use glam::{DVec3, Vec3};
+
+use super::linear::Normal;
+use super::problem::Problem;
+use super::wish::{Goal, Wish};
+use crate::dynamics::{Asked, Points};
+use crate::error::SettingError;
+
+/// All wishes of a problem.
+#[derive(Clone, Debug)]
+pub(super) struct Aims {
+    /// The strands of the problem that wishes name, ascending.
+    pub strands: Vec<usize>,
+    /// What is looked at, ascending; strands are counted in `strands`.
+    pub spots: Vec<Asked>,
+    aims: Vec<Aim>,
+}
+
+/// One wish.
+#[derive(Clone, Debug)]
+struct Aim {
+    /// Its nodes among the spots.
+    spots: Vec<usize>,
+    /// Where they are in the motion as the problem has it.
+    now: Vec<DVec3>,
+    to: To,
+    /// The part of all wishes that it is.
+    share: f64,
+}
+
+#[derive(Clone, Debug)]
+enum To {
+    Each(Vec<DVec3>),
+    Mean(DVec3),
+}
+
+impl Aims {
+    /// Refuses no wishes, and those about nothing.
+    pub fn new(problem: &Problem) -> Result<Self, SettingError> {
+        let Problem { hair, wishes, dynamics, .. } = problem;
+        if wishes.is_empty() {
+            let remedy = "there is nothing to solve for: give a wish";
+            return Err(SettingError::new("wish", "none", remedy));
+        }
+        for (i, wish) in wishes.iter().enumerate() {
+            check(wish, i, problem, dynamics.motion.frames)?;
+        }
+        let mut strands: Vec<usize> = wishes.iter().flat_map(|w| w.nodes.iter().map(|n| n.strand as usize)).collect();
+        strands.sort_unstable();
+        strands.dedup();
+        debug_assert!(strands.iter().all(|&s| s < hair.len()));
+        let spot = |frame: u32, node: &super::wish::Node| Asked {
+            strand: strands.partition_point(|&s| s < node.strand as usize),
+            frame,
+            node: node.node as usize,
+        };
+        let mut spots: Vec<Asked> =
+            wishes.iter().flat_map(|wish| wish.nodes.iter().map(|node| spot(wish.frame, node))).collect();
+        spots.sort_unstable();
+        spots.dedup();
+        let sum: f64 = wishes.iter().map(|wish| f64::from(wish.weight)).sum();
+        let aim = |wish: &Wish| {
+            let place = |node| spots.partition_point(|&other| other < spot(wish.frame, node));
+            Aim {
+                spots: wish.nodes.iter().map(place).collect(),
+                now: Vec::new(),
+                to: To::Each(Vec::new()),
+                share: f64::from(wish.weight) / sum,
+            }
+        };
+        let aims = wishes.iter().map(aim).collect();
+        Ok(Self { strands, spots, aims })
+    }
+
+    /// Takes the motion as the problem has it, and the goals that are counted from there.
+    pub fn set_now(&mut self, places: &[DVec3], wishes: &[Wish]) {
+        for (aim, wish) in self.aims.iter_mut().zip(wishes) {
+            aim.now = aim.spots.iter().map(|&spot| places[spot]).collect();
+            aim.set(&wish.goal);
+        }
+    }
+
+    /// Gives a wish, checked already, another goal.
+    pub fn set_goal(&mut self, wish: usize, goal: &Goal) {
+        self.aims[wish].set(goal);
+    }
+
+    /// The frames that are looked at, ascending.
+    pub fn frames(&self) -> Vec<u32> {
+        let mut frames: Vec<u32> = self.spots.iter().map(|spot| spot.frame).collect();
+        frames.sort_unstable();
+        frames.dedup();
+        frames
+    }
+
+    /// Where the nodes of a wish are.
+    pub fn places(&self, wish: usize, places: &[DVec3]) -> Vec<Vec3> {
+        self.aims[wish].spots.iter().map(|&spot| places[spot].as_vec3()).collect()
+    }
+
+    /// Mean square of what is left of all wishes, by weight (cm^2).
+    pub fn mean_square(&self, places: &[DVec3]) -> f64 {
+        self.aims.iter().map(|aim| aim.share * aim.mean_square(places)).sum()
+    }
+
+    /// Root mean square of what is left of each wish (cm).
+    pub fn left(&self, places: &[DVec3]) -> Vec<f64> {
+        self.aims.iter().map(|aim| aim.mean_square(places).sqrt()).collect()
+    }
+
+    /// Adds what is left to the normal equations. `places`: of the spots, by which residuals are counted; `points` has their
+    /// tangents.
+    pub fn add_to(&self, normal: &mut Normal, places: &[DVec3], points: &Points) {
+        let n = normal.n;
+        let row = |spot: usize, axis: usize| &points.tangents[(3 * spot + axis) * n..][..n];
+        let mut mean = vec![0.0; n];
+        for aim in &self.aims {
+            let count = aim.spots.len() as f64;
+            match &aim.to {
+                To::Each(goals) => {
+                    for (&spot, goal) in aim.spots.iter().zip(goals) {
+                        let left = places[spot] - goal;
+                        for axis in 0..3 {
+                            normal.add(aim.share / count, left[axis], row(spot, axis));
+                        }
+                    }
+                }
+                To::Mean(goal) => {
+                    let left = aim.mean(places) - goal;
+                    for axis in 0..3 {
+                        mean.fill(0.0);
+                        for &spot in &aim.spots {
+                            for (sum, tangent) in mean.iter_mut().zip(row(spot, axis)) {
+                                *sum += tangent / count;
+                            }
+                        }
+                        normal.add(aim.share, left[axis], &mean);
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Aim {
+    fn set(&mut self, goal: &Goal) {
+        let now = || self.now.iter().sum::<DVec3>() / self.now.len() as f64;
+        self.to = match goal {
+            Goal::Places(places) => To::Each(places.iter().map(|p| p.as_dvec3()).collect()),
+            Goal::Moved(by) => To::Each(self.now.iter().map(|&p| p + by.as_dvec3()).collect()),
+            Goal::MeanAt(place) => To::Mean(place.as_dvec3()),
+            Goal::MeanMoved(by) => To::Mean(now() + by.as_dvec3()),
+            Goal::Stay => To::Each(self.now.clone()),
+        };
+    }
+
+    fn mean(&self, places: &[DVec3]) -> DVec3 {
+        self.spots.iter().map(|&spot| places[spot]).sum::<DVec3>() / self.spots.len() as f64
+    }
+
+    fn mean_square(&self, places: &[DVec3]) -> f64 {
+        match &self.to {
+            To::Mean(goal) => self.mean(places).distance_squared(*goal),
+            To::Each(goals) => {
+                let squares = self.spots.iter().zip(goals).map(|(&spot, goal)| places[spot].distance_squared(*goal));
+                squares.sum::<f64>() / self.spots.len() as f64
+            }
+        }
+    }
+}
+
+/// Refuses a goal that is none, or not for so many nodes.
+pub(super) fn check_goal(goal: &Goal, nodes: usize, wish: usize) -> Result<(), SettingError> {
+    let finite = |thing: &str, v: &Vec3| match v.is_finite() {
+        true => Ok(()),
+        false => Err(SettingError::new(format!("wish[{wish}].{thing}"), v, "must be three finite numbers (cm)")),
+    };
+    match goal {
+        Goal::Stay => Ok(()),
+        Goal::Moved(by) => finite("moved", by),
+        Goal::MeanAt(place) => finite("mean_at", place),
+        Goal::MeanMoved(by) => finite("mean_moved", by),
+        Goal::Places(places) if places.len() != nodes => {
+            let value = format!("{} places", places.len());
+            let remedy = format!("the wish is about {nodes} nodes: give each a place, or their mean one");
+            Err(SettingError::new(format!("wish[{wish}].places"), value, remedy))
+        }
+        Goal::Places(places) => places.iter().try_for_each(|place| finite("places", place)),
+    }
+}
+
+fn check(wish: &Wish, i: usize, problem: &Problem, frames: u32) -> Result<(), SettingError> {
+    let refused =
+        |key: &str, value: String, remedy: String| Err(SettingError::new(format!("wish[{i}].{key}"), value, remedy));
+    if !(1..=frames).contains(&wish.frame) {
+        let remedy = format!("the scene has frames 1 to {frames} in which hair moves");
+        return refused("frame", wish.frame.to_string(), remedy);
+    }
+    if !(wish.weight.is_finite() && wish.weight > 0.0) {
+        return refused("weight", wish.weight.to_string(), "must be a finite number above 0".to_owned());
+    }
+    if wish.nodes.is_empty() {
+        return refused("nodes", "none".to_owned(), "the wish is about no node: take a larger radius".to_owned());
+    }
+    for node in &wish.nodes {
+        let strand = node.strand as usize;
+        if strand >= problem.hair.len() {
+            let remedy = format!("there are {} strands, 0 to {}", problem.hair.len(), problem.hair.len() - 1);
+            return refused("strands", node.strand.to_string(), remedy);
+        }
+        let points = problem.hair.strand(strand).len();
+        if node.node == 0 || node.node as usize >= points {
+            let remedy = format!("strand {strand} has nodes 1 to {} that move", points - 1);
+            return refused("nodes", node.node.to_string(), remedy);
+        }
+    }
+    check_goal(&wish.goal, wish.nodes.len(), i)
+}

@@ -1,0 +1,342 @@
+//! The search: Levenberg's and Marquardt's method, with tangents of the specification, judged by the fast stepper.
+
+mod search;
+
+use std::sync::Arc;
+
+use glam::{DVec3, Vec3};
+
+use super::aims::{Aims, check_goal};
+use super::linear::Normal;
+use super::problem::Problem;
+use super::report::Step;
+use super::unknowns::{Answer, Guess, Layout, Unknown};
+use super::wind::Gusts;
+use super::wish::Goal;
+use crate::dynamics::{Change, Dynamics, Form, Moved, Timeline, tangents};
+use crate::error::SettingError;
+use crate::field::{Field, Keyframe, KeyframedField};
+use crate::profile::Profile;
+use crate::strands::Strands;
+
+pub use search::Search;
+
+/// A problem, and the settings that it has come to.
+#[derive(Debug)]
+pub struct Solver {
+    problem: Problem,
+    layout: Layout,
+    aims: Aims,
+    gusts: Gusts,
+    /// What a wind of 1 along each axis makes.
+    of_wind: [Arc<dyn Field>; 3],
+    /// The strands that wishes name, with their numbers.
+    strands: Strands,
+    ids: Vec<u32>,
+    timeline: Timeline,
+    frames: Vec<u32>,
+    large: Vec<f64>,
+    /// What the problem has, from which changes are counted.
+    start: Vec<f64>,
+    at: Place,
+    before_cm: f64,
+    left_before: Vec<f64>,
+    damping: Damping,
+    /// Numbers that stay as they are.
+    held: Vec<usize>,
+    runs: usize,
+    iterations: usize,
+}
+
+/// Settings, and the motion that they make.
+#[derive(Clone, Debug)]
+struct Place {
+    x: Vec<f64>,
+    /// Of the spots.
+    places: Vec<DVec3>,
+    /// Mean square of what is left, and of what is preferred (cm^2).
+    cost: f64,
+}
+
+/// How much each step is held back, and how fast that grows where steps fail.
+#[derive(Clone, Copy, Debug)]
+struct Damping {
+    amount: f64,
+    growth: f64,
+}
+
+impl Default for Damping {
+    fn default() -> Self {
+        Self { amount: 1e-3, growth: 2.0 }
+    }
+}
+
+/// Trials of one step, each more damped than the one before: by 2, 4, 8, ... times, so that the last is next to nothing.
+const TRIALS: usize = 8;
+
+/// The least damping.
+const LEAST: f64 = 1e-6;
+
+impl Solver {
+    /// The problem as it is, nothing changed yet.
+    ///
+    /// # Errors
+    /// Wishes and unknowns that name what is not there, weights that are none, no wishes, no unknowns; and as
+    /// [`Timeline::new`](crate::dynamics::Timeline::new).
+    pub fn new(problem: Problem) -> Result<Self, SettingError> {
+        let Problem { hair, ids, dynamics, poses, wind, surroundings, .. } = &problem;
+        let layout = Layout::new(&problem.unknowns, wind, dynamics)?;
+        problem.prior.check()?;
+        let mut aims = Aims::new(&problem)?;
+        let frames = aims.frames();
+        let last = frames.last().copied().unwrap_or(1);
+        let rate = dynamics.motion.frame_rate;
+        let gusts = Gusts::new(wind.gust.as_ref(), rate, dynamics.motion.frames)?;
+        let unit = |vector: Vec3| {
+            let keyframes = [Keyframe { through: 1, vector }];
+            surroundings.of_wind(Arc::new(KeyframedField::new(&keyframes)?))
+        };
+        let of_wind = [unit(Vec3::X)?, unit(Vec3::Y)?, unit(Vec3::Z)?];
+        let field = surroundings.field(wind.field(rate)?)?;
+        let strands = hair.select(&aims.strands);
+        let ids: Vec<u32> = aims.strands.iter().map(|&s| ids[s]).collect();
+        let poses = if poses.is_empty() { Vec::new() } else { poses[..poses.len().min(last as usize + 1)].to_vec() };
+        let timeline = Timeline::with_ids(&strands, &ids, dynamics, field, poses, last)?;
+        let start = layout.start(wind);
+        aims.set_now(&vec![DVec3::ZERO; aims.spots.len()], &problem.wishes);
+        let large = layout.large();
+        let at = Place { x: start.clone(), places: Vec::new(), cost: f64::INFINITY };
+        let mut solver = Self {
+            layout,
+            aims,
+            gusts,
+            of_wind,
+            strands,
+            ids,
+            timeline,
+            frames,
+            large,
+            start,
+            at,
+            before_cm: 0.0,
+            left_before: Vec::new(),
+            damping: Damping::default(),
+            held: Vec::new(),
+            runs: 0,
+            iterations: 0,
+            problem,
+        };
+        let places = solver.looked_at();
+        solver.aims.set_now(&places, &solver.problem.wishes);
+        solver.at.places = places;
+        solver.restart();
+        Ok(solver)
+    }
+
+    /// Counts from where it is.
+    fn restart(&mut self) {
+        self.at.cost = self.cost(&self.at.x, &self.at.places);
+        self.before_cm = self.left_cm();
+        self.left_before = self.aims.left(&self.at.places);
+        self.damping = Damping::default();
+    }
+
+    /// Root mean square over wishes by weight (cm) of the motion that it has come to.
+    pub fn left_cm(&self) -> f64 {
+        self.aims.mean_square(&self.at.places).sqrt()
+    }
+
+    /// Where the nodes of a wish are in that motion (head space, cm).
+    pub fn places(&self, wish: usize) -> Vec<Vec3> {
+        self.aims.places(wish, &self.at.places)
+    }
+
+    /// Another goal for a wish. "Now" stays that of the problem.
+    ///
+    /// # Errors
+    /// Places that are not as many as the nodes, or no numbers.
+    pub fn set_goal(&mut self, wish: usize, goal: Goal) -> Result<(), SettingError> {
+        let given = &mut self.problem.wishes[wish];
+        check_goal(&goal, given.nodes.len(), wish)?;
+        given.goal = goal;
+        self.aims.set_goal(wish, &given.goal);
+        self.at.cost = self.cost(&self.at.x, &self.at.places);
+        Ok(())
+    }
+
+    /// One damped step, judged by a simulation of its own: it is taken only if it leads nearer.
+    pub fn step(&mut self) -> Step {
+        let before_cm = self.left_cm();
+        self.descend_once();
+        Step { before_cm, after_cm: self.left_cm() }
+    }
+
+    /// The settings that it has come to.
+    pub fn answer(&self) -> Answer {
+        let Problem { wind, dynamics, .. } = &self.problem;
+        self.layout.guess(wind, &self.at.x).rounded(wind, dynamics)
+    }
+
+    /// One step of the method; whether it led nearer.
+    fn descend_once(&mut self) -> bool {
+        self.iterations += 1;
+        let Ok(normal) = self.normal() else { return false };
+        // What hardly matters is damped as if it mattered a little, so that it stays where it is.
+        let most = (0..normal.n).map(|i| normal.diagonal(i) * self.large[i].powi(2)).fold(0.0, f64::max);
+        for _ in 0..TRIALS {
+            let amount = self.damping.amount;
+            let damping: Vec<f64> = (0..normal.n)
+                .map(|i| amount * (normal.diagonal(i) + 1e-3 * most / self.large[i].powi(2)).max(f64::MIN_POSITIVE))
+                .collect();
+            if let Some(mut step) = normal.solved(&damping) {
+                let length = step.iter().zip(&self.large).map(|(d, large)| (d / large).abs()).fold(0.0, f64::max);
+                let shorter = if length > 1.0 { 1.0 / length } else { 1.0 };
+                step.iter_mut().for_each(|d| *d *= shorter);
+                let expected = normal.expected(&step);
+                if let Some(next) = self.tried(&step) {
+                    let gained = (self.at.cost - next.cost) / expected.max(f64::MIN_POSITIVE);
+                    if next.cost < self.at.cost {
+                        self.at = next;
+                        let factor = (1.0 - (2.0 * gained.min(1.0) - 1.0).powi(3)).max(1.0 / 3.0);
+                        self.damping = Damping { amount: (amount * factor).max(LEAST), growth: 2.0 };
+                        return true;
+                    }
+                }
+            }
+            self.damping.amount = (amount * self.damping.growth).min(1e9);
+            self.damping.growth *= 2.0;
+        }
+        false
+    }
+
+    /// Where a step leads; `None` where the hair cannot be stepped there.
+    fn tried(&mut self, step: &[f64]) -> Option<Place> {
+        let mut x: Vec<f64> = self.at.x.iter().zip(step).map(|(x, d)| x + d).collect();
+        self.layout.keep_in_range(&self.problem.wind, &mut x);
+        self.place(x)
+    }
+
+    /// Some settings with the motion that they make.
+    fn place(&mut self, x: Vec<f64>) -> Option<Place> {
+        let guess = self.layout.guess(&self.problem.wind, &x);
+        let wind = Arc::new(self.gusts.table(&guess));
+        let dynamics = self.dynamics(&guess);
+        let places = self.simulated(wind, dynamics).ok()?;
+        let cost = self.cost(&x, &places);
+        cost.is_finite().then_some(Place { x, places, cost })
+    }
+
+    /// How the hair answers under a guess; `None` where that is as the problem has it.
+    fn dynamics(&self, guess: &Guess) -> Option<Dynamics> {
+        let mut dynamics = self.problem.dynamics.clone();
+        let Form::Free(free) = &mut dynamics.form else { return None };
+        let mut changed = false;
+        for (unknown, profile, factor) in [
+            (Unknown::Stiffness, &mut free.form.stiffness, guess.stiffness),
+            (Unknown::Settle, &mut free.form.settle, guess.settle),
+        ] {
+            if self.problem.unknowns.contains(&unknown) {
+                changed = true;
+                let values = match profile {
+                    Profile::Even(value) => std::slice::from_mut(value),
+                    Profile::RootToTip(values) => &mut values[..],
+                };
+                values.iter_mut().for_each(|value| *value = (f64::from(*value) * factor) as f32);
+            }
+        }
+        changed.then_some(dynamics)
+    }
+
+    /// Where the spots are under this wind. `dynamics`: how the hair answers, where it does otherwise than before.
+    fn simulated(&mut self, wind: Arc<dyn Field>, dynamics: Option<Dynamics>) -> Result<Vec<DVec3>, SettingError> {
+        let field = self.problem.surroundings.field(wind)?;
+        if let Some(dynamics) = dynamics {
+            // Under the old field the new settings might not be steppable, and the other way round.
+            self.timeline.set_field(Arc::new(crate::field::FieldSum::default()))?;
+            self.timeline.set_dynamics(&dynamics)?;
+        }
+        self.timeline.set_field(field)?;
+        Ok(self.looked_at())
+    }
+
+    /// Where the spots are in the motion of the timeline.
+    fn looked_at(&mut self) -> Vec<DVec3> {
+        self.runs += 1;
+        let mut places = vec![DVec3::ZERO; self.aims.spots.len()];
+        for &frame in &self.frames {
+            let strands = self.timeline.seek(frame);
+            for (spot, place) in self.aims.spots.iter().zip(&mut places).filter(|(spot, _)| spot.frame == frame) {
+                *place = strands.strand(spot.strand)[spot.node].as_dvec3();
+            }
+        }
+        places
+    }
+
+    /// The normal equations about where it is.
+    fn normal(&mut self) -> Result<Normal, SettingError> {
+        let guess = self.layout.guess(&self.problem.wind, &self.at.x);
+        let dynamics = self.dynamics(&guess);
+        let dynamics = dynamics.as_ref().unwrap_or(&self.problem.dynamics);
+        let field = self.problem.surroundings.field(Arc::new(self.gusts.table(&guess)))?;
+        let Self { strands, ids, .. } = &*self;
+        let moved = Moved { strands, ids, dynamics, poses: &self.problem.poses };
+        let unknown =
+            |wanted: Unknown| self.layout.unknowns.iter().find(|(unknown, _)| *unknown == wanted).map(|&(_, at)| at);
+        let change = Change {
+            field: &*field,
+            of_wind: &self.of_wind,
+            wind: &self.gusts.by_number(&guess, &self.layout),
+            stiffness: unknown(Unknown::Stiffness),
+            settle: unknown(Unknown::Settle),
+        };
+        let points = tangents(&moved, &change, &self.aims.spots)?;
+        self.runs += 1;
+        let mut normal = Normal::new(self.layout.numbers);
+        self.aims.add_to(&mut normal, &self.at.places, &points);
+        self.add_prior(&mut normal);
+        self.held.iter().for_each(|&i| normal.hold(i));
+        Ok(normal)
+    }
+
+    /// What is left of the wishes and what is preferred (cm^2).
+    fn cost(&self, x: &[f64], places: &[DVec3]) -> f64 {
+        let mut preferred = 0.0;
+        self.preferences(x, |weight, residual, _| preferred += weight * residual * residual);
+        self.aims.mean_square(places) + preferred
+    }
+
+    fn add_prior(&self, normal: &mut Normal) {
+        let mut row = vec![0.0; normal.n];
+        let x = &self.at.x;
+        self.preferences(x, |weight, residual, derivatives| {
+            row.fill(0.0);
+            derivatives.iter().for_each(|&(i, d)| row[i] = d);
+            normal.add(weight, residual, &row);
+        });
+    }
+
+    /// The residuals of the prior: weight, residual, and by which numbers it changes how.
+    fn preferences(&self, x: &[f64], mut preference: impl FnMut(f64, f64, &[(usize, f64)])) {
+        let (keep, alike) = (f64::from(self.problem.prior.keep).powi(2), f64::from(self.problem.prior.alike).powi(2));
+        for (i, large) in self.large.iter().enumerate() {
+            preference(keep, (x[i] - self.start[i]) / large, &[(i, 1.0 / large)]);
+        }
+        let guess = self.layout.guess(&self.problem.wind, x);
+        let large = Unknown::Vector(0).large();
+        let free = |j: usize| self.layout.unknowns.iter().find(|(u, _)| *u == Unknown::Vector(j)).map(|&(_, at)| at);
+        for (j, pair) in guess.track.vectors.windows(2).enumerate() {
+            let (a, b) = (free(j), free(j + 1));
+            for axis in 0..3 {
+                let residual = (pair[1] - pair[0])[axis] / large;
+                match (a, b) {
+                    (None, None) => {}
+                    (Some(a), None) => preference(alike, residual, &[(a + axis, -1.0 / large)]),
+                    (None, Some(b)) => preference(alike, residual, &[(b + axis, 1.0 / large)]),
+                    (Some(a), Some(b)) => {
+                        preference(alike, residual, &[(a + axis, -1.0 / large), (b + axis, 1.0 / large)]);
+                    }
+                }
+            }
+        }
+    }
+}

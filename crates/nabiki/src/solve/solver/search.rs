@@ -1,0 +1,189 @@
+//! From one start to the answer: other starts, whole frames, few digits.
+
+use glam::DVec3;
+
+use super::{Damping, Place, Solver};
+use crate::dynamics::Form;
+use crate::error::SettingError;
+use crate::random::{GOLDEN_GAMMA, mix, unit};
+use crate::solve::report::{Report, WishLeft};
+use crate::solve::unknowns::Answer;
+use crate::solve::wind::Wind;
+
+/// How long and how widely is searched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Search {
+    /// Steps from each start at the most.
+    pub iterations: usize,
+    /// Starts at the most: the problem's own, and others about it.
+    pub starts: usize,
+    /// A motion this near to the wishes is near enough (root mean square, cm): no other start is tried.
+    pub near_cm: f64,
+    /// Seed of the other starts.
+    pub seed: u64,
+}
+
+impl Default for Search {
+    fn default() -> Self {
+        Self { iterations: 30, starts: 4, near_cm: 0.1, seed: 1 }
+    }
+}
+
+/// Who is told of each step, and may stop the search.
+struct Watched<'a> {
+    goes_on: &'a mut dyn FnMut(f64) -> bool,
+    stopped: bool,
+}
+
+/// Starts drawn for each that is followed: the nearest of them is.
+const DRAWN: usize = 8;
+
+impl Solver {
+    /// Searches from here, and from other starts where that does not lead near enough.
+    pub fn solve(&mut self, search: &Search) -> Report {
+        self.solve_watched(search, &mut |_| true)
+    }
+
+    /// The same, which tells after each step how far the nearest motion so far is from the wishes (cm) and goes on while the
+    /// answer is yes. Stopped, it reports what it has come to.
+    pub fn solve_watched(&mut self, search: &Search, goes_on: &mut dyn FnMut(f64) -> bool) -> Report {
+        let (mut starts, near) = (1, search.near_cm.powi(2));
+        let mut watched = Watched { goes_on, stopped: false };
+        self.descend(search.iterations, near, &mut watched);
+        let mut best = self.at.clone();
+        let mut counter = mix(search.seed);
+        while starts < search.starts && self.aims.mean_square(&best.places) > near && !watched.stopped {
+            starts += 1;
+            if let Some(start) = self.drawn(&mut counter) {
+                self.at = start;
+                self.damping = Damping::default();
+                self.descend(search.iterations, near, &mut watched);
+                if self.at.cost < best.cost {
+                    best = self.at.clone();
+                }
+            }
+        }
+        self.at = best;
+        self.damping = Damping::default();
+        self.set_borders_to_frames(search.iterations, &mut watched);
+        let left = self.rounded();
+        let wish = |(&before_cm, after_cm): (&f64, f64)| WishLeft { before_cm, after_cm };
+        Report {
+            answer: self.answer(),
+            before_cm: self.before_cm,
+            after_cm: self.aims.mean_square(&left).sqrt(),
+            wishes: self.left_before.iter().zip(self.aims.left(&left)).map(wish).collect(),
+            iterations: self.iterations,
+            starts,
+            runs: self.runs,
+        }
+    }
+
+    /// Where the spots are in the motion of a scene that holds the answer. Rounded settings may be too strong for the step
+    /// where these just were not: then a little less of the change is the answer.
+    fn rounded(&mut self) -> Vec<DVec3> {
+        const PARTS: usize = 100;
+        let x = self.at.x.clone();
+        for part in (0..=PARTS).rev() {
+            let part = part as f64 / PARTS as f64;
+            self.at.x = x.iter().zip(&self.start).map(|(x, start)| start + part * (x - start)).collect();
+            if let Ok(places) = self.left_of(&self.answer()) {
+                return places;
+            }
+        }
+        self.at.places.clone()
+    }
+
+    /// Steps until they lead hardly nearer.
+    fn descend(&mut self, iterations: usize, near: f64, watched: &mut Watched) {
+        let mut slow = 0;
+        for _ in 0..iterations {
+            let before = self.at.cost;
+            if watched.stopped || !self.descend_once() || slow > 2 || self.at.cost < 1e-3 * near {
+                return;
+            }
+            watched.stopped = !(watched.goes_on)(self.left_cm());
+            slow = if self.at.cost > 0.99 * before { slow + 1 } else { 0 };
+        }
+    }
+
+    /// Where the spots are in the motion of a scene that holds an answer.
+    fn left_of(&mut self, answer: &Answer) -> Result<Vec<DVec3>, SettingError> {
+        let Answer { keyframes, gust, stiffness, settle } = answer.clone();
+        let wind = Wind { keyframes, gust, ease: self.problem.wind.ease };
+        let mut dynamics = self.problem.dynamics.clone();
+        if let (Form::Free(free), Some(stiffness), Some(settle)) = (&mut dynamics.form, stiffness, settle) {
+            (free.form.stiffness, free.form.settle) = (stiffness, settle);
+        }
+        let dynamics = (dynamics != self.problem.dynamics).then_some(dynamics);
+        self.simulated(wind.field(self.problem.dynamics.motion.frame_rate)?, dynamics)
+    }
+
+    /// Another start: the nearest of a few drawn about the problem's own.
+    fn drawn(&mut self, counter: &mut u64) -> Option<Place> {
+        let mut best: Option<Place> = None;
+        for _ in 0..DRAWN {
+            let mut x = self.start.clone();
+            for (x, large) in x.iter_mut().zip(&self.large) {
+                *counter = counter.wrapping_add(GOLDEN_GAMMA);
+                *x += large * (2.0 * unit(mix(*counter)) - 1.0);
+            }
+            self.layout.keep_in_range(&self.problem.wind, &mut x);
+            if let Some(place) = self.place(x)
+                && best.as_ref().is_none_or(|best| place.cost < best.cost)
+            {
+                best = Some(place);
+            }
+        }
+        best
+    }
+
+    /// Gives borders the frames that a scene can hold, and the other numbers the rest of the way: first the nearest frames,
+    /// then one more or less as long as that leads nearer.
+    fn set_borders_to_frames(&mut self, iterations: usize, watched: &mut Watched) {
+        self.held = self.layout.borders().collect();
+        let borders = self.held.clone();
+        if borders.is_empty() {
+            return;
+        }
+        let mut x = self.at.x.clone();
+        borders.iter().for_each(|&i| x[i] = x[i].round());
+        self.layout.keep_in_range(&self.problem.wind, &mut x);
+        if let Some(place) = self.place(x) {
+            self.at = place;
+            self.descend(iterations, 0.0, watched);
+        }
+        let mut nearer = true;
+        while nearer {
+            nearer = false;
+            for &i in &borders {
+                for by in [-1.0, 1.0] {
+                    nearer |= self.shift_border(i, by, watched);
+                }
+            }
+        }
+        self.held.clear();
+    }
+
+    /// Moves a border if that, with a few steps of the other numbers, leads nearer by a hundredth.
+    fn shift_border(&mut self, i: usize, by: f64, watched: &mut Watched) -> bool {
+        const STEPS: usize = 4;
+        let before = self.at.clone();
+        let mut x = before.x.clone();
+        x[i] += by;
+        self.layout.keep_in_range(&self.problem.wind, &mut x);
+        if x[i] == before.x[i] || x[i].fract() != 0.0 {
+            return false;
+        }
+        if let Some(place) = self.place(x) {
+            self.at = place;
+            self.damping = Damping::default();
+            self.descend(STEPS, 0.0, watched);
+        }
+        if self.at.cost < 0.99 * before.cost {
+            return true;
+        }
+        self.at = before;
+        false
+    }
+}
