@@ -54,6 +54,14 @@ pub enum Command {
     Simulate(Simulate),
     /// Draw a scene, moved by its own simulation or by a motion cache
     Render(Render),
+    /// Find the wind that makes the hair do what a wish file asks for, and write the scene with it
+    ///
+    /// A wish file is TOML: what may change ([unknowns] with vectors, borders, interval, gust, stiffness, settle), where
+    /// locks should be ([[wish]] with frame, strands or near, and moved, mean_moved, mean_at or places) and what should
+    /// stay ([[nail]] with frames). It prints how far the hair is from the wishes before and after, and the new numbers; a
+    /// wish that no motion meets ends with the nearest one, and with the distance left. scenes/wishes/ has commented
+    /// examples, docs/solve.md the rest.
+    Solve(Solve),
     /// Turn a hair file, or a motion cache or a frame of it, into another format
     Convert(Convert),
     /// Say what is in a scene, hair file, motion cache or mesh
@@ -236,6 +244,24 @@ pub struct Render {
     /// Folder for the pictures, made if it is not there
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
+}
+
+#[derive(Args)]
+pub struct Solve {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+
+    /// The wish file (TOML)
+    #[arg(long, value_name = "FILE")]
+    pub wish: PathBuf,
+
+    /// The scene to write (TOML): this one with the numbers found, its comments and layout as they are
+    #[arg(long, short, value_name = "FILE")]
+    pub output: PathBuf,
+
+    /// Strands among which locks near a point are looked for, chosen evenly over the scalp
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = positive)]
+    pub strands: usize,
 }
 
 #[derive(Args)]

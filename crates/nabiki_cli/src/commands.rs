@@ -1,9 +1,9 @@
 //! Each subcommand as the task that it asks for.
 
-use nabiki_scene::tasks::{self, ConvertOptions, NewOptions, RenderOptions, SimulateOptions};
+use nabiki_scene::tasks::{self, ConvertOptions, NewOptions, RenderOptions, SimulateOptions, SolveOptions};
 use nabiki_scene::{Error, Result, Shown};
 
-use crate::args::{Convert, Groom, Info, New, Preview, Render, Run, Simulate};
+use crate::args::{Convert, Groom, Info, New, Preview, Render, Run, Simulate, Solve};
 use crate::say;
 use crate::terminal::Terminal;
 
@@ -38,6 +38,11 @@ pub fn simulate(args: &Simulate, terminal: &mut Terminal) -> Result<()> {
 pub fn render(args: &Render, terminal: &mut Terminal) -> Result<()> {
     let options = RenderOptions { motion: args.motion.clone(), frame: args.frame };
     tasks::render(args.scene.load()?, shown(args.strands), &options, &args.out, terminal)
+}
+
+pub fn solve(args: &Solve, terminal: &mut Terminal) -> Result<()> {
+    let options = SolveOptions { wishes: args.wish.clone(), output: args.output.clone(), strands: args.strands };
+    tasks::solve(args.scene.load()?, &options, terminal)
 }
 
 pub fn convert(args: &Convert, terminal: &mut Terminal) -> Result<()> {

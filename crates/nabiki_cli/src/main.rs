@@ -37,6 +37,7 @@ fn run(cli: &Cli) -> Result<()> {
         Command::Groom(args) => commands::groom(args, &mut terminal),
         Command::Simulate(args) => commands::simulate(args, &mut terminal),
         Command::Render(args) => commands::render(args, &mut terminal),
+        Command::Solve(args) => commands::solve(args, &mut terminal),
         Command::Convert(args) => commands::convert(args, &mut terminal),
         Command::Info(args) => commands::info(args),
     }

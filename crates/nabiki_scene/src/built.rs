@@ -212,6 +212,16 @@ impl BuiltScene {
         })
     }
 
+    /// World poses of the head from frame 0 on; none for a head that stands still.
+    pub fn poses(&self) -> &[Pose] {
+        &self.poses
+    }
+
+    /// Number of each strand of [`hair`](Self::hair) in the whole.
+    pub fn ids(&self) -> &[u32] {
+        &self.ids
+    }
+
     /// Whether the head moves.
     pub fn head_moves(&self) -> bool {
         !self.poses.is_empty()

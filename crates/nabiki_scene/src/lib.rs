@@ -44,6 +44,7 @@ mod place;
 pub mod scene;
 mod seat;
 mod size;
+pub mod solve;
 pub mod tasks;
 pub mod template;
 pub mod told;

@@ -13,8 +13,8 @@ mod free;
 mod hair;
 mod head;
 mod output;
-mod read;
-mod tree;
+pub(crate) mod read;
+pub(crate) mod tree;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -357,7 +357,7 @@ impl Scene {
     }
 }
 
-fn file_error(path: &Path, what: String) -> SceneError {
+pub(crate) fn file_error(path: &Path, what: String) -> SceneError {
     SceneError {
         file: path.to_owned(),
         line: None,

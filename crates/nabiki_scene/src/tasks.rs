@@ -8,6 +8,7 @@ mod preview;
 mod render;
 mod run;
 mod simulate;
+mod solve;
 
 pub use convert::{ConvertOptions, convert};
 pub use groom::groom;
@@ -16,6 +17,7 @@ pub use preview::preview;
 pub use render::{RenderOptions, render};
 pub use run::run;
 pub use simulate::{SimulateOptions, Twin, simulate};
+pub use solve::{SolveOptions, solve};
 
 use std::path::{Path, PathBuf};
 

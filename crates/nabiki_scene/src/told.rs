@@ -9,6 +9,7 @@ use nabiki_io::hair::ImportReport;
 use crate::advice::Advice;
 use crate::built::BuiltScene;
 use crate::motion_summary::MotionSummary;
+use crate::solve::Solved;
 
 /// Something said by a task.
 #[derive(Clone, Debug)]
@@ -21,6 +22,8 @@ pub enum Told {
     Swing(SwingTable),
     /// What the motion is like.
     Motion(MotionSummary),
+    /// What a solver found.
+    Solved(Box<Solved>),
     /// What looks wrong about the size or place of head and hair.
     Advice(Advice),
     /// What no file says and a new scene takes for granted.
@@ -67,6 +70,7 @@ impl fmt::Display for Told {
             Self::Scene(summary) => summary.fmt(f),
             Self::Swing(table) => table.fmt(f),
             Self::Motion(summary) => summary.fmt(f),
+            Self::Solved(solved) => solved.fmt(f),
             Self::Advice(advice) => write!(f, "  look    {advice}"),
             Self::Guessed(what) => write!(f, "  guessed {what}"),
             Self::Lost { file, what } => write!(f, "  lost    {} cannot hold {what}", file.display()),

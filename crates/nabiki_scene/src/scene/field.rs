@@ -143,16 +143,30 @@ impl FieldSettings {
     /// # Errors
     /// As [`check`](Self::check), and what only shows about this head: an ellipsoid too flat for the flow.
     pub(crate) fn build(&self, place: &FieldPlace) -> Result<FieldParts, SettingError> {
+        self.build_about(place, None)
+    }
+
+    /// The same, where this wind blows in the place of `[[force]]` and `[gust]`.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build).
+    pub(crate) fn build_about(
+        &self,
+        place: &FieldPlace,
+        instead: Option<Arc<dyn Field>>,
+    ) -> Result<FieldParts, SettingError> {
         self.check(!place.poses.is_empty(), place.may_be_none)?;
         let mut bounds = Vec::new();
         let mut bound = |name: String, at_most: f32| bounds.push(FieldBound { name, at_most });
         let mut winds: Vec<Arc<dyn Field>> = Vec::new();
-        if !self.force.is_empty() {
+        if let Some(wind) = &instead {
+            winds.push(wind.clone());
+        } else if !self.force.is_empty() {
             let keyframed = KeyframedField::new(&self.force)?.eased(self.wind.ease);
             bound("force".to_owned(), keyframed.strongest());
             winds.push(Arc::new(keyframed));
         }
-        if let Some(gust) = &self.gust {
+        if let (Some(gust), None) = (&self.gust, &instead) {
             let gusty = GustField::new(gust, sum(std::mem::take(&mut winds)), place.frame_rate)?;
             bound("gust".to_owned(), gusty.largest_factor());
             winds.push(Arc::new(gusty));
@@ -174,7 +188,7 @@ impl FieldSettings {
             bound("flow".to_owned(), flow.largest_part());
             parts = vec![Arc::new(flow)];
         }
-        if self.force.is_empty() && self.body_wind.is_none() {
+        if self.force.is_empty() && self.body_wind.is_none() && instead.is_none() {
             parts.clear();
         }
         if let Some(turbulence) = &self.turbulence {

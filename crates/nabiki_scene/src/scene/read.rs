@@ -17,7 +17,7 @@ use super::error::Problem;
 
 /// A value refused while settings were read.
 #[derive(Debug)]
-pub(super) struct Refusal {
+pub(crate) struct Refusal {
     /// Keys and indices from the refused value outward.
     outward: Vec<String>,
     problem: Problem,
@@ -181,7 +181,7 @@ fn unexpected(value: &Value) -> Unexpected<'_> {
 }
 
 /// One value of the tree.
-pub(super) struct Node<'a>(pub &'a Value);
+pub(crate) struct Node<'a>(pub &'a Value);
 
 impl<'de> IntoDeserializer<'de, Refusal> for Node<'_> {
     type Deserializer = Self;

@@ -16,7 +16,7 @@ use super::error::{Problem, SceneError};
 
 /// Where the values of a scene come from: lines of the file, or overrides.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Origins {
+pub(crate) struct Origins {
     /// The scene file.
     pub file: PathBuf,
     /// Line of each dotted path (`force.1.vector`).
@@ -60,7 +60,7 @@ pub(super) fn table_of(settings: &impl Serialize) -> Result<Table, Unwritable> {
 }
 
 /// Parses a scene's text and applies the overrides in order.
-pub(super) fn parse(text: &str, file: &Path, overrides: &[(String, String)]) -> Result<(Table, Origins), SceneError> {
+pub(crate) fn parse(text: &str, file: &Path, overrides: &[(String, String)]) -> Result<(Table, Origins), SceneError> {
     let mut origins = Origins { file: file.to_owned(), ..Origins::default() };
     let line_starts: Vec<usize> = std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
     let line_at = |offset: usize| line_starts.partition_point(|&start| start <= offset);

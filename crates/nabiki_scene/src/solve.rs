@@ -1,0 +1,102 @@
+//! Which wind makes the hair of a scene do this: between a scene and the method's solver.
+
+mod find;
+mod solved;
+mod wishes;
+
+use std::sync::Arc;
+
+use nabiki::dynamics::ForceSpace;
+use nabiki::field::{Field, FlowField};
+use nabiki::solve::{Answer, Prior, Problem, Surroundings, Unknown, Wind, Wish};
+use nabiki::{Ellipsoid, Pose, SettingError};
+
+use crate::built::BuiltScene;
+use crate::scene::{FieldPlace, FieldSettings, FormChoice, Scene};
+
+pub use find::Named;
+pub use solved::{MET_CM, Solved};
+pub use wishes::{
+    Interval, NailEntry, Near, PriorEntry, SearchEntry, Unknowns, WishEntry, WishFile, WishSpace, Wishes,
+};
+
+impl BuiltScene {
+    /// What would have to be solved for these wishes about its hair, were this to change. Nodes are those of
+    /// [`hair`](Self::hair), places are in head space.
+    pub fn problem(&self, unknowns: Vec<Unknown>, wishes: Vec<Wish>) -> Problem {
+        let field = &self.scene.field;
+        let poses = if self.head_moves() { self.poses()[..=self.frames() as usize].to_vec() } else { Vec::new() };
+        Problem {
+            hair: self.hair.strands.clone(),
+            ids: self.ids().to_vec(),
+            dynamics: self.dynamics.clone(),
+            wind: Wind { keyframes: field.force.clone(), ease: field.wind.ease, gust: field.gust.clone() },
+            surroundings: Arc::new(SceneSurroundings {
+                field: field.clone(),
+                ellipsoid: self.head.ellipsoid,
+                poses: poses.clone(),
+                frame_rate: self.scene.frame_rate(),
+                frames: self.frames(),
+                space: self.dynamics.motion.force_space,
+                may_be_none: self.scene.form == FormChoice::Free,
+            }),
+            poses,
+            unknowns,
+            wishes,
+            prior: Prior::default(),
+        }
+    }
+}
+
+impl Scene {
+    /// Takes over what a solver found for it.
+    pub fn accept(&mut self, answer: &Answer) {
+        let Answer { keyframes, gust, stiffness, settle } = answer.clone();
+        self.field.force = keyframes;
+        self.field.gust = gust;
+        if self.form == FormChoice::Free {
+            self.free.stiffness = stiffness.unwrap_or(self.free.stiffness.clone());
+            self.free.settle = settle.unwrap_or(self.free.settle.clone());
+        }
+    }
+}
+
+/// The fields of a scene about any wind.
+#[derive(Debug)]
+struct SceneSurroundings {
+    field: FieldSettings,
+    ellipsoid: Ellipsoid,
+    poses: Vec<Pose>,
+    frame_rate: f64,
+    frames: u32,
+    space: ForceSpace,
+    may_be_none: bool,
+}
+
+impl SceneSurroundings {
+    fn place(&self) -> FieldPlace<'_> {
+        FieldPlace {
+            ellipsoid: self.ellipsoid,
+            poses: &self.poses,
+            frame_rate: self.frame_rate,
+            frames: self.frames,
+            space: self.space,
+            may_be_none: self.may_be_none,
+        }
+    }
+}
+
+impl Surroundings for SceneSurroundings {
+    fn field(&self, wind: Arc<dyn Field>) -> Result<Arc<dyn Field>, SettingError> {
+        Ok(self.field.build_about(&self.place(), Some(wind))?.field)
+    }
+
+    fn of_wind(&self, wind: Arc<dyn Field>) -> Result<Arc<dyn Field>, SettingError> {
+        let Some(flow) = &self.field.flow else { return Ok(wind) };
+        let poses = match self.space {
+            ForceSpace::World => &self.poses[..],
+            ForceSpace::Head => &[],
+        };
+        Ok(Arc::new(FlowField::new(flow, wind, self.ellipsoid, poses)?))
+    }
+}

@@ -1,0 +1,88 @@
+//! What a search found, for a person to read.
+
+use std::fmt;
+
+use nabiki::solve::{Report, Unknown};
+
+/// A wish is met where no more is left of it than this (cm, root mean square over its nodes).
+pub const MET_CM: f64 = 0.5;
+
+/// What a search found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solved {
+    /// As the solver says it.
+    pub report: Report,
+    /// What each wish is called in its file.
+    pub names: Vec<String>,
+    /// What could change.
+    pub unknowns: Vec<Unknown>,
+    /// How many strands the wishes are about.
+    pub strands: usize,
+    /// How long it took.
+    pub seconds: f64,
+}
+
+impl Solved {
+    /// Whether every wish is met within [`MET_CM`].
+    pub fn all_met(&self) -> bool {
+        self.report.wishes.iter().all(|wish| wish.after_cm <= MET_CM)
+    }
+}
+
+impl fmt::Display for Solved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { report, names, unknowns, strands, seconds } = self;
+        let numbers: usize = unknowns.iter().map(|unknown| unknown.numbers()).sum();
+        let some = |n: usize, what: &str| if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") };
+        write!(
+            f,
+            "  solved  rms {:.2} cm before, {:.2} cm after: {}, {}, {} from {}, {seconds:.2} s",
+            report.before_cm,
+            report.after_cm,
+            some(numbers, "number"),
+            some(*strands, "strand"),
+            some(report.iterations, "step"),
+            some(report.starts, "start"),
+        )?;
+        let answer = &report.answer;
+        let mut first = 1;
+        for (j, key) in answer.keyframes.iter().enumerate() {
+            let changed = unknowns.iter().any(|u| *u == Unknown::Vector(j) || *u == Unknown::Border(j))
+                || (j > 0 && unknowns.contains(&Unknown::Border(j - 1)));
+            if changed {
+                let [x, y, z] = key.vector.to_array();
+                write!(f, "\n          force[{j}], frames {first} to {}: [{x}, {y}, {z}]", key.through)?;
+            }
+            first = key.through + 1;
+        }
+        for unknown in unknowns {
+            match unknown {
+                Unknown::Gust => {
+                    let intensity = answer.gust.as_ref().map_or(0.0, |gust| gust.intensity);
+                    write!(f, "\n          gust.intensity: {intensity}")?;
+                }
+                Unknown::Stiffness => profile(f, "stiffness", answer.stiffness.as_ref())?,
+                Unknown::Settle => profile(f, "settle", answer.settle.as_ref())?,
+                Unknown::Vector(_) | Unknown::Border(_) => {}
+            }
+        }
+        for (name, wish) in names.iter().zip(&report.wishes) {
+            if wish.after_cm > MET_CM {
+                write!(
+                    f,
+                    "\n  far     {name} is not reached: {:.1} cm are left of {:.1}; no nearer motion was found",
+                    wish.after_cm, wish.before_cm
+                )?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn profile(f: &mut fmt::Formatter<'_>, name: &str, profile: Option<&nabiki::Profile>) -> fmt::Result {
+    match profile.map(nabiki::Profile::values) {
+        None => Ok(()),
+        Some([value]) => write!(f, "\n          free.{name}: {value}"),
+        Some(values) => write!(f, "\n          free.{name}: {values:?}"),
+    }
+}

@@ -1,0 +1,441 @@
+//! The wish file: what should be where in which frames, and what may change for it.
+
+use std::path::Path;
+
+use glam::Vec3;
+use nabiki::SettingError;
+use nabiki::field::Keyframe;
+use nabiki::solve::{Goal, Prior, Search, Unknown, with_interval};
+use nabiki_io::input;
+use serde::Deserialize;
+use toml::Value;
+
+use crate::scene::read::Node;
+use crate::scene::tree::{self, Origins};
+use crate::scene::{SceneError, file_error};
+
+/// A wish file, TOML: `[unknowns]`, `[[wish]]`, `[[nail]]`, `[prior]`, `[search]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WishFile {
+    /// What it says.
+    pub wishes: Wishes,
+    origins: Origins,
+}
+
+/// What a wish file says.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default, rename = "a wish file")]
+pub struct Wishes {
+    /// The space that its points are in (default: the world).
+    pub space: WishSpace,
+    /// What may change.
+    pub unknowns: Unknowns,
+    /// What should be where.
+    pub wish: Vec<WishEntry>,
+    /// What should stay.
+    pub nail: Vec<NailEntry>,
+    /// What is preferred where wishes leave a choice.
+    pub prior: PriorEntry,
+    /// How long and how widely is searched.
+    pub search: SearchEntry,
+}
+
+/// The space of the points of a wish file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum WishSpace {
+    /// The world, in the frame that is spoken of.
+    #[default]
+    World,
+    /// Head space.
+    Head,
+}
+
+/// `[unknowns]`: what may change.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Unknowns {
+    /// Numbers of intervals, from 0 in the order of `[[force]]`, whose vectors may change. A new interval counts as if it
+    /// stood there already, and is free without being named.
+    pub vectors: Vec<usize>,
+    /// Numbers of intervals whose last frame may change, which is where the next one begins.
+    pub borders: Vec<usize>,
+    /// A new interval.
+    pub interval: Option<Interval>,
+    /// Whether `gust.intensity` may change.
+    pub gust: bool,
+    /// Whether `free.stiffness` may change, all its numbers by one factor.
+    pub stiffness: bool,
+    /// Whether `free.settle` may change, all its numbers by one factor.
+    pub settle: bool,
+}
+
+/// A new interval of the force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Interval {
+    /// Its first frame, from 1 on.
+    pub from: u32,
+    /// Its last frame.
+    pub through: u32,
+}
+
+/// Some strands, or parts of them: named, or found near a point.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Lock<'a> {
+    /// Numbers of strands in the scene's.
+    pub strands: &'a [u32],
+    /// All with a node near a point.
+    pub near: Option<Near>,
+    /// The part of each strand that is meant, 0 at its root and 1 at its tip; without it all of strands that are named, and
+    /// of those found near a point the nodes that are near it.
+    pub along: Option<[f32; 2]>,
+}
+
+/// What lies near a point.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Near {
+    /// The point (cm).
+    pub point: Vec3,
+    /// How near (cm).
+    pub radius: f32,
+    /// The frame in which hair is looked for there, 0 for rest (default: the one that the wish is about).
+    pub frame: Option<u32>,
+}
+
+/// `[[wish]]`: a lock should be somewhere in a frame. One of `moved`, `mean_moved`, `mean_at`, `places` says where.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WishEntry {
+    /// The frame.
+    pub frame: u32,
+    /// Numbers of strands.
+    #[serde(default)]
+    pub strands: Vec<u32>,
+    /// Or all with a node near a point.
+    pub near: Option<Near>,
+    /// The part of each strand that is meant.
+    pub along: Option<[f32; 2]>,
+    /// Each node moved by this from where it is (cm).
+    pub moved: Option<Vec3>,
+    /// Their mean moved by this (cm).
+    pub mean_moved: Option<Vec3>,
+    /// Their mean here (cm).
+    pub mean_at: Option<Vec3>,
+    /// Each node at its own place, strand by strand from root to tip (cm).
+    pub places: Option<Vec<Vec3>>,
+    /// How much it counts beside others, above 0 (default 1).
+    #[serde(default = "one")]
+    pub weight: f32,
+}
+
+/// `[[nail]]`: a lock should stay as it is in some frames.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NailEntry {
+    /// The frames.
+    pub frames: Vec<u32>,
+    /// Numbers of strands.
+    #[serde(default)]
+    pub strands: Vec<u32>,
+    /// Or all with a node near a point.
+    pub near: Option<Near>,
+    /// The part of each strand that is meant.
+    pub along: Option<[f32; 2]>,
+    /// How much it counts in each frame beside others, above 0 (default 1).
+    #[serde(default = "one")]
+    pub weight: f32,
+}
+
+/// `[prior]`: small terms beside the wishes.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PriorEntry {
+    /// What a vector changed by 100 counts as, in cm that wishes are missed by (default 0.02).
+    pub keep: f32,
+    /// The same of vectors that differ by 100 from an interval to the next (default 0.01).
+    pub alike: f32,
+}
+
+/// `[search]`: how long and how widely is searched.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SearchEntry {
+    /// Steps from each start at the most (default 30).
+    pub iterations: usize,
+    /// Starts at the most (default 4).
+    pub starts: usize,
+    /// So near to all wishes is near enough (rms, cm; default 0.1): no other start is tried.
+    pub near: f64,
+    /// Seed of the other starts.
+    pub seed: u64,
+}
+
+fn one() -> f32 {
+    1.0
+}
+
+impl Default for PriorEntry {
+    fn default() -> Self {
+        let Prior { keep, alike } = Prior::default();
+        Self { keep, alike }
+    }
+}
+
+impl From<PriorEntry> for Prior {
+    fn from(PriorEntry { keep, alike }: PriorEntry) -> Self {
+        Self { keep, alike }
+    }
+}
+
+impl Default for SearchEntry {
+    fn default() -> Self {
+        let Search { iterations, starts, near_cm: near, seed } = Search::default();
+        Self { iterations, starts, near, seed }
+    }
+}
+
+impl From<SearchEntry> for Search {
+    fn from(SearchEntry { iterations, starts, near: near_cm, seed }: SearchEntry) -> Self {
+        Self { iterations, starts, near_cm, seed }
+    }
+}
+
+impl WishFile {
+    /// Reads a wish file.
+    ///
+    /// # Errors
+    /// What is wrong with it: file, line, key, value and the way out.
+    pub fn load(path: &Path) -> Result<Self, SceneError> {
+        let text = input::read_text(path, input::MOST_SCENE_BYTES).map_err(|e| file_error(path, e.what))?;
+        Self::parse(&text, path)
+    }
+
+    /// The same from text; `path` names it in errors.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn parse(text: &str, path: &Path) -> Result<Self, SceneError> {
+        let (table, origins) = tree::parse(text, path, &[])?;
+        let wishes = Wishes::deserialize(Node(&Value::Table(table))).map_err(|refusal| {
+            let (key, problem) = refusal.into_parts();
+            origins.error(&key, problem)
+        })?;
+        let file = Self { wishes, origins };
+        file.wishes.check().map_err(|refused| file.refusal(refused))?;
+        Ok(file)
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.origins.file
+    }
+
+    /// A refused value as an error that names the file and the line.
+    pub fn refusal(&self, refused: SettingError) -> SceneError {
+        let SceneError { key, problem, .. } = refused.into();
+        self.origins.error(&key, *problem)
+    }
+}
+
+impl Wishes {
+    /// Refuses what no scene could meet.
+    ///
+    /// # Errors
+    /// Names the first such value.
+    pub fn check(&self) -> Result<(), SettingError> {
+        if self.wish.is_empty() && self.nail.is_empty() {
+            let remedy = "there is nothing to solve for: give a [[wish]] with frame, strands or near, and where to";
+            return Err(SettingError::new("wish", "none", remedy));
+        }
+        self.unknowns.check()?;
+        for (i, wish) in self.wish.iter().enumerate() {
+            let name = format!("wish[{i}]");
+            wish.lock().check(&name)?;
+            check_weight(&name, wish.weight)?;
+            wish.goal(&name)?;
+        }
+        for (i, nail) in self.nail.iter().enumerate() {
+            let name = format!("nail[{i}]");
+            nail.lock().check(&name)?;
+            check_weight(&name, nail.weight)?;
+            if nail.frames.is_empty() {
+                let remedy = "name the frames in which it should stay, frames = [20, 40]";
+                return Err(SettingError::new(format!("{name}.frames"), "[]", remedy));
+            }
+        }
+        let SearchEntry { iterations, starts, near, .. } = self.search;
+        for (thing, value, most) in [("search.iterations", iterations, 10_000), ("search.starts", starts, 1000)] {
+            if !(1..=most).contains(&value) {
+                return Err(SettingError::new(thing, value, format!("must lie in 1..{most}")));
+            }
+        }
+        let prior = [("prior.keep", self.prior.keep), ("prior.alike", self.prior.alike)];
+        for (thing, value) in
+            prior.map(|(thing, value)| (thing, f64::from(value))).into_iter().chain([("search.near", near)])
+        {
+            if !(value.is_finite() && value >= 0.0) {
+                return Err(SettingError::new(thing, value, "must be a finite distance of at least 0 cm"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The largest number of a strand that it names.
+    pub fn largest_strand(&self) -> Option<u32> {
+        let named = self.wish.iter().flat_map(|wish| &wish.strands);
+        named.chain(self.nail.iter().flat_map(|nail| &nail.strands)).copied().max()
+    }
+}
+
+impl Unknowns {
+    fn check(&self) -> Result<(), SettingError> {
+        let Self { vectors, borders, interval, gust, stiffness, settle } = self;
+        if vectors.is_empty() && borders.is_empty() && interval.is_none() && !gust && !stiffness && !settle {
+            let remedy =
+                "nothing may change: give [unknowns] with vectors, borders, interval, gust, stiffness or settle";
+            return Err(SettingError::new("unknowns", "none", remedy));
+        }
+        for (key, list) in [("vectors", vectors), ("borders", borders)] {
+            if let Some(i) = (0..list.len()).find(|&i| list[..i].contains(&list[i])) {
+                let remedy = "is named twice: once will do";
+                return Err(SettingError::new(format!("unknowns.{key}[{i}]"), list[i], remedy));
+            }
+        }
+        match interval {
+            Some(Interval { from, through }) if *from == 0 || from > through => {
+                let remedy = format!("must lie in 1..{through}, the interval's last frame");
+                Err(SettingError::new("unknowns.interval.from", from, remedy))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The intervals of a scene with the new one, if there is one, and all that may change.
+    ///
+    /// # Errors
+    /// Intervals that are not there, an interval beyond the scene's `frames`.
+    pub fn of(&self, force: &[Keyframe], frames: u32) -> Result<(Vec<Keyframe>, Vec<Unknown>), SettingError> {
+        let Self { vectors, borders, interval, gust, stiffness, settle } = self;
+        let (force, new) = match *interval {
+            None => (force.to_vec(), None),
+            Some(Interval { through, .. }) if through > frames => {
+                let remedy = format!("the scene has frames 1 to {frames} in which hair moves");
+                return Err(SettingError::new("unknowns.interval.through", through, remedy));
+            }
+            Some(Interval { from, through }) => {
+                let (force, new) = with_interval(force, from, through);
+                (force, Some(new))
+            }
+        };
+        let there = |key: &str, i: usize, j: usize| {
+            let remedy = match force.len() {
+                n if j < n => return Ok(()),
+                0 => "the scene has no [[force]]: give it one, or ask for a new interval".to_owned(),
+                1 => "the scene has one interval of [[force]], number 0".to_owned(),
+                n => format!("the intervals of [[force]] are 0 to {}", n - 1),
+            };
+            Err(SettingError::new(format!("unknowns.{key}[{i}]"), j, remedy))
+        };
+        let mut unknowns = Vec::new();
+        for (i, &j) in vectors.iter().enumerate() {
+            there("vectors", i, j)?;
+            unknowns.push(Unknown::Vector(j));
+        }
+        unknowns.extend(new.filter(|new| !vectors.contains(new)).map(Unknown::Vector));
+        for (i, &j) in borders.iter().enumerate() {
+            there("borders", i, j)?;
+            if j + 1 == force.len() {
+                let remedy = "the last interval holds for good and meets no other: name one before it";
+                return Err(SettingError::new(format!("unknowns.borders[{i}]"), j, remedy));
+            }
+            unknowns.push(Unknown::Border(j));
+        }
+        let others = [(gust, Unknown::Gust), (stiffness, Unknown::Stiffness), (settle, Unknown::Settle)];
+        unknowns.extend(others.into_iter().filter(|(free, _)| **free).map(|(_, unknown)| unknown));
+        Ok((force, unknowns))
+    }
+}
+
+impl WishEntry {
+    pub(super) fn lock(&self) -> Lock<'_> {
+        Lock { strands: &self.strands, near: self.near, along: self.along }
+    }
+
+    /// Where it should be, in the file's space. `name`: what it is called.
+    pub(super) fn goal(&self, name: &str) -> Result<Goal, SettingError> {
+        let goals = [
+            ("moved", self.moved.map(Goal::Moved)),
+            ("mean_moved", self.mean_moved.map(Goal::MeanMoved)),
+            ("mean_at", self.mean_at.map(Goal::MeanAt)),
+            ("places", self.places.clone().map(Goal::Places)),
+        ];
+        let mut given = goals.into_iter().filter_map(|(key, goal)| Some((key, goal?)));
+        let (first, second) = (given.next(), given.next());
+        let remedy = "say where to by one of moved, mean_moved, mean_at and places";
+        let Some((key, goal)) = first else { return Err(SettingError::new(name, "a wish to no place", remedy)) };
+        if let Some((other, _)) = second {
+            return Err(SettingError::new(format!("{name}.{other}"), format!("beside {key}"), remedy));
+        }
+        let finite = match &goal {
+            Goal::Moved(v) | Goal::MeanMoved(v) | Goal::MeanAt(v) => v.is_finite(),
+            Goal::Places(places) => places.iter().all(|p| p.is_finite()),
+            Goal::Stay => true,
+        };
+        match finite {
+            true => Ok(goal),
+            false => {
+                let remedy = "every coordinate must be a finite number (cm)";
+                Err(SettingError::new(format!("{name}.{key}"), "no place", remedy))
+            }
+        }
+    }
+}
+
+impl NailEntry {
+    pub(super) fn lock(&self) -> Lock<'_> {
+        Lock { strands: &self.strands, near: self.near, along: self.along }
+    }
+}
+
+impl Lock<'_> {
+    fn check(&self, name: &str) -> Result<(), SettingError> {
+        let Self { strands, near, along } = self;
+        match (strands.is_empty(), near) {
+            (false, None) => {}
+            (true, None) => {
+                let remedy = "say which hair is meant: strands = [0, 1], or near = { point = [x, y, z], radius = 2 }";
+                return Err(SettingError::new(name, "no lock", remedy));
+            }
+            (false, Some(_)) => {
+                let remedy = "name strands, or a point that they are near: one of the two";
+                return Err(SettingError::new(format!("{name}.near"), "beside strands", remedy));
+            }
+            (true, Some(Near { point, radius, .. })) => {
+                if !point.is_finite() {
+                    let remedy = "must be three finite numbers (cm)";
+                    return Err(SettingError::new(format!("{name}.near.point"), point, remedy));
+                }
+                if !(radius.is_finite() && *radius > 0.0) {
+                    let remedy = "must be a finite length above 0 cm";
+                    return Err(SettingError::new(format!("{name}.near.radius"), radius, remedy));
+                }
+            }
+        }
+        match along {
+            Some([from, to]) if !(0.0 <= *from && from <= to && *to <= 1.0) => {
+                let remedy = "must be two parts of a strand in order, from 0 at the root to 1 at the tip";
+                Err(SettingError::new(format!("{name}.along"), format!("[{from}, {to}]"), remedy))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn check_weight(name: &str, weight: f32) -> Result<(), SettingError> {
+    if weight.is_finite() && weight > 0.0 {
+        return Ok(());
+    }
+    Err(SettingError::new(format!("{name}.weight"), weight, "must be a finite number above 0"))
+}

@@ -1,0 +1,103 @@
+//! Which wind makes the hair do this: a scene with wishes, and the scene that meets them.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use nabiki::SettingError;
+use nabiki::solve::{Problem, Solver, Wish};
+
+use crate::built::Shown;
+use crate::error::{Error, Result};
+use crate::place;
+use crate::scene::{HairSource, Scene};
+use crate::solve::{Solved, WishFile};
+use crate::told::Told;
+use crate::watch::Watch;
+
+/// What [`solve`] reads and writes.
+#[derive(Clone, Debug)]
+pub struct SolveOptions {
+    /// The wish file.
+    pub wishes: PathBuf,
+    /// The scene to write.
+    pub output: PathBuf,
+    /// Strands among which locks are looked for; more where wishes name others.
+    pub strands: usize,
+}
+
+/// Finds settings under which the hair of a scene does what is wished for, and writes the scene with them.
+///
+/// # Errors
+/// A scene that cannot be built or stepped, wishes that cannot be about it, a place that cannot be written; cancelled by
+/// `watch`.
+pub fn solve(mut scene: Scene, options: &SolveOptions, watch: &mut dyn Watch) -> Result<()> {
+    let file = WishFile::load(&options.wishes)?;
+    let mut inputs = scene.inputs();
+    inputs.push(options.wishes.clone());
+    check_place(&options.output, &inputs, &scene)?;
+    let wishes = &file.wishes;
+    let in_file = |refused: SettingError| Error::from(file.refusal(refused));
+    let (force, unknowns) = wishes.unknowns.of(&scene.field.force, scene.motion.frames).map_err(in_file)?;
+    scene.field.force = force;
+    let shown = shown(&file, options.strands, &scene)?;
+    let mut built = super::build(scene, shown, watch)?;
+    super::present(&built, watch);
+    let named = file.about(&built)?;
+    let (names, list): (Vec<String>, Vec<Wish>) = named.into_iter().map(|named| (named.name, named.wish)).unzip();
+    let strands: BTreeSet<u32> = list.iter().flat_map(|wish| wish.nodes.iter().map(|node| node.strand)).collect();
+    let problem = Problem { prior: wishes.prior.into(), ..built.problem(unknowns.clone(), list) };
+    let begun = Instant::now();
+    let refused = |refused: SettingError| match refused.thing.starts_with("unknowns") {
+        true => in_file(refused),
+        false => built.refusal(refused),
+    };
+    let mut solver = Solver::new(problem).map_err(refused)?;
+    let search = wishes.search.into();
+    let mut cancelled = false;
+    let report = solver.solve_watched(&search, &mut |_| {
+        cancelled = watch.cancelled();
+        !cancelled
+    });
+    if cancelled {
+        return Err(Error::Cancelled);
+    }
+    let seconds = begun.elapsed().as_secs_f64();
+    built.scene.accept(&report.answer);
+    built.scene.save(&options.output)?;
+    watch.told(Told::Solved(Box::new(Solved { report, names, unknowns, strands: strands.len(), seconds })));
+    super::wrote(vec![options.output.clone()], watch);
+    Ok(())
+}
+
+/// Refuses a place that cannot be written, or from which the files that the scene names are not found.
+fn check_place(output: &Path, inputs: &[PathBuf], scene: &Scene) -> Result<()> {
+    if !output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+        return Err(Error::refused(format!(
+            "{}: a scene ends in .toml; give the result such a name",
+            output.display()
+        )));
+    }
+    place::file(output)?;
+    place::not_inputs(&[output], inputs)?;
+    let folder = |path: &Path| std::fs::canonicalize(nabiki_file::folder_of(path)).ok();
+    if scene.inputs().len() > 1 && folder(output) != folder(scene.file()) {
+        return Err(Error::refused(format!(
+            "{}: the scene names {} by its place beside {}; write the result into that folder",
+            output.display(),
+            scene.inputs()[1].display(),
+            scene.file().display()
+        )));
+    }
+    Ok(())
+}
+
+/// The strands that are built: those among which locks are looked for, and those that are named.
+fn shown(file: &WishFile, strands: usize, scene: &Scene) -> Result<Shown> {
+    match (&scene.hair.source, file.wishes.largest_strand()) {
+        (_, None) => Ok(Shown::AtMost(strands)),
+        // The numbers of imported strands are those of the file.
+        (HairSource::Imported(_), Some(_)) => Ok(Shown::All),
+        (HairSource::Grown(_), Some(largest)) => Ok(Shown::AtMost(strands.max(largest as usize + 1))),
+    }
+}

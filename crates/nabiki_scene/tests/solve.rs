@@ -1,0 +1,338 @@
+//! Scenes solved for their wishes: the file that comes of it, and wishes that cannot be met or make no sense.
+
+use std::path::{Path, PathBuf};
+
+use glam::Vec3;
+use nabiki::field::Keyframe;
+use nabiki::solve::{Unknown, nodes_near};
+use nabiki_scene::solve::{Solved, WishFile};
+use nabiki_scene::tasks::{SolveOptions, solve};
+use nabiki_scene::{Error, Scene, Shown, Told, Watch};
+
+/// Comments in all places, and numbers spelled as nobody else would.
+const SCENE: &str = "\
+# A little hair.
+[hair]
+strands = 60      # not many
+segments = 9
+segment_length = 2.0
+
+[motion]
+form = \"free\"
+frames = +60      # two seconds and a half
+inertia_length_floor = 18.0
+
+# first it blows
+[[force]]
+through = 30
+vector = [-60, 0.50, 0]   # from the front
+
+[[force]]   # then it does not
+through = 60
+vector = [0, 0, 0]
+";
+
+const WISHES: &str = "\
+[unknowns]
+vectors = [0]
+
+[[wish]]
+frame = 30
+strands = [3, 7, 11]
+along = [0.5, 1]
+mean_moved = [-1, 2, -2]
+";
+
+#[derive(Default)]
+struct Ear {
+    solved: Option<Solved>,
+    stops: bool,
+}
+
+impl Watch for Ear {
+    fn told(&mut self, told: Told) {
+        if let Told::Solved(solved) = told {
+            self.solved = Some(*solved);
+        }
+    }
+
+    fn cancelled(&self) -> bool {
+        self.stops
+    }
+}
+
+struct Place {
+    folder: tempfile::TempDir,
+}
+
+impl Place {
+    fn new(scene: &str, wishes: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("scene.toml"), scene).unwrap();
+        std::fs::write(folder.path().join("wish.toml"), wishes).unwrap();
+        Self { folder }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn options(&self) -> SolveOptions {
+        SolveOptions { wishes: self.path("wish.toml"), output: self.path("solved.toml"), strands: 2000 }
+    }
+
+    fn solved(&self, ear: &mut Ear) -> Result<Solved, Error> {
+        let scene = Scene::load(&self.path("scene.toml"), &[])?;
+        solve(scene, &self.options(), ear)?;
+        Ok(ear.solved.take().expect("a search tells what it found"))
+    }
+}
+
+/// What a search says of these, less the folder.
+fn refusal(scene: &str, wishes: &str) -> String {
+    let place = Place::new(scene, wishes);
+    let error = place.solved(&mut Ear::default()).expect_err("no such wish can be met").to_string();
+    assert!(!place.path("solved.toml").exists(), "{error}");
+    assert!(!error.contains('\n'), "one line: {error}");
+    error.replace(&format!("{}/", place.folder.path().display()), "")
+}
+
+#[test]
+fn the_solved_scene_moves_as_reported_and_keeps_its_comments_and_layout() {
+    let place = Place::new(SCENE, WISHES);
+    let solved = place.solved(&mut Ear::default()).unwrap();
+    let report = &solved.report;
+    assert!(report.after_cm < 0.1 && report.before_cm > 2.9, "{solved}");
+
+    let text = std::fs::read_to_string(place.path("solved.toml")).unwrap();
+    let Vec3 { x, y, z } = report.answer.keyframes[0].vector;
+    assert_eq!(text, SCENE.replace("[-60, 0.50, 0]", &format!("[{x:?}, {y:?}, {z:?}]")));
+
+    let mean = |file: &str| {
+        let scene = Scene::load(&place.path(file), &[]).unwrap();
+        let mut timeline = scene.build(Shown::All).unwrap().timeline().unwrap();
+        let strands = timeline.seek(30);
+        let of = |s: usize| strands.strand(s)[5..].iter().map(|p| p.as_dvec3()).sum::<glam::DVec3>();
+        (of(3) + of(7) + of(11)) / 15.0
+    };
+    let goal = mean("scene.toml") + glam::DVec3::new(-1.0, 2.0, -2.0);
+    let left = mean("solved.toml").distance(goal);
+    assert!((left - report.wishes[0].after_cm).abs() < 1e-6, "{left} {report:?}");
+}
+
+#[test]
+fn a_new_interval_and_its_border_come_into_the_file_where_they_belong() {
+    let wishes = "\
+[unknowns]
+interval = { from = 31, through = 45 }
+borders = [1]
+
+[[wish]]
+frame = 50
+near = { point = [-9, -12, 0], radius = 5, frame = 0 }
+along = [0.6, 1]
+moved = [-2, 1, 0]
+
+[[nail]]
+frames = [25, 30]
+strands = [0, 1]
+";
+    let place = Place::new(SCENE, wishes);
+    let solved = place.solved(&mut Ear::default()).unwrap();
+    assert_eq!(solved.unknowns, [Unknown::Vector(1), Unknown::Border(1)]);
+    assert_eq!(solved.names, ["wish[0]", "nail[0]", "nail[0]"]);
+    assert!(solved.report.after_cm < 0.7 * solved.report.before_cm, "{solved}");
+    // What comes before the new interval does not feel it.
+    assert!(solved.report.wishes[1..].iter().all(|wish| wish.after_cm < 1e-3), "{solved}");
+    let scene = Scene::load(&place.path("solved.toml"), &[]).unwrap();
+    let force = &scene.field.force;
+    assert_eq!((force.len(), force[0].through, force[2].through), (3, 30, 60));
+    assert_eq!(force[0].vector, Vec3::new(-60.0, 0.5, 0.0));
+    assert_eq!(*force, solved.report.answer.keyframes);
+    let text = std::fs::read_to_string(place.path("solved.toml")).unwrap();
+    for comment in
+        ["# A little hair.", "# not many", "+60", "# first it blows", "# from the front", "# then it does not"]
+    {
+        assert!(text.contains(comment), "{text}");
+    }
+}
+
+#[test]
+fn the_same_fields_surround_a_wind_that_is_solved_for() {
+    let fields = "
+[gust]
+intensity = 0.3
+[flow]
+[turbulence]
+strength = 30
+drift = 0.02
+[neighbours]
+carriers = 30
+";
+    let wishes = WISHES.replace("vectors = [0]", "vectors = [0]\ngust = true\nstiffness = true\nsettle = true");
+    let place = Place::new(&format!("{SCENE}{fields}"), &wishes);
+    let solved = place.solved(&mut Ear::default()).unwrap();
+    assert!(solved.report.after_cm < 0.1, "{solved}");
+    // Before: the problem moves as the scene does.
+    let built = Scene::load(&place.path("solved.toml"), &[]).unwrap().build(Shown::All).unwrap();
+    assert_eq!(built.scene.field.force, solved.report.answer.keyframes);
+    let problem = built.problem(vec![Unknown::Vector(0)], Vec::new());
+    let wind = problem.wind.field(built.scene.frame_rate()).unwrap();
+    let field = problem.surroundings.field(wind).unwrap();
+    for frame in [1, 20, 45] {
+        for p in [Vec3::new(-12.0, 3.0, 4.0), Vec3::new(2.0, -9.0, 9.0)] {
+            assert_eq!(field.at(p, frame), built.force_at(p, frame), "{p} in frame {frame}");
+        }
+    }
+}
+
+#[test]
+fn a_wish_out_of_reach_is_said_with_the_distance_left() {
+    let far = WISHES.replace("mean_moved = [-1, 2, -2]", "mean_at = [0, 60, 0]");
+    let place = Place::new(SCENE, &far);
+    let solved = place.solved(&mut Ear::default()).unwrap();
+    assert!(!solved.all_met());
+    let left = solved.report.wishes[0].after_cm;
+    assert!(left > 10.0, "{left}");
+    let said = solved.to_string();
+    assert!(said.contains(&format!("wish[0] is not reached: {left:.1} cm are left")), "{said}");
+    assert!(place.path("solved.toml").exists());
+}
+
+#[test]
+fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
+    let wish = |from: &str, to: &str| refusal(SCENE, &WISHES.replace(from, to));
+    let cases = [
+        (wish("[3, 7, 11]", "[3, 700]"), "wish.toml:6: wish[0].strands[1] = 700: the scene's strands are 0 to 59"),
+        (wish("frame = 30", "frame = 61"), "wish.toml:5: wish[0].frame = 61: the scene has frames 1 to 60"),
+        (wish("frame = 30", "frame = 0"), "wish.toml:5: wish[0].frame = 0: the scene has frames 1 to 60"),
+        (wish("along = [0.5, 1]", "weight = -1"), "wish.toml:7: wish[0].weight = -1: must be a finite number above 0"),
+        (wish("along = [0.5, 1]", "weight = nan"), "wish.toml:7: wish[0].weight = NaN: must be"),
+        (wish("along = [0.5, 1]", "along = [1, 0.5]"), "wish.toml:7: wish[0].along = [1, 0.5]: must be two parts"),
+        (wish("vectors = [0]", ""), "wish.toml:1: unknowns = none: nothing may change"),
+        (
+            wish("vectors = [0]", "vectors = [2]"),
+            "wish.toml:2: unknowns.vectors[0] = 2: the intervals of [[force]] are 0 to 1",
+        ),
+        (wish("vectors = [0]", "vectors = [0, 0]"), "wish.toml:2: unknowns.vectors[1] = 0: is named twice"),
+        (
+            wish("vectors = [0]", "borders = [1]"),
+            "wish.toml:2: unknowns.borders[0] = 1: the last interval holds for good",
+        ),
+        (wish("vectors = [0]", "gust = true"), "wish.toml:2: unknowns.gust = true: the scene has no [gust]"),
+        (
+            wish("vectors = [0]", "vektors = [0]"),
+            "wish.toml:2: unknowns.vektors: unknown key; did you mean unknowns.vectors?",
+        ),
+        (
+            wish("vectors = [0]", "interval = { from = 40, through = 20 }"),
+            "wish.toml:2: unknowns.interval.from = 40: must",
+        ),
+        (
+            wish("vectors = [0]", "interval = { from = 40, through = 99 }"),
+            "wish.toml:2: unknowns.interval.through = 99: the",
+        ),
+        (refusal(SCENE, "[unknowns]\nvectors = [0]\n"), "wish.toml: wish = none: there is nothing to solve for"),
+        (wish("strands = [3, 7, 11]", ""), "wish.toml:4: wish[0] = no lock: say which hair is meant"),
+        (wish("mean_moved = [-1, 2, -2]", ""), "wish.toml:4: wish[0] = a wish to no place: say where to by one of"),
+        (
+            wish("mean_moved", "mean_at = [0, 0, 0]\nmean_moved"),
+            "wish.toml:8: wish[0].mean_at = beside mean_moved: say",
+        ),
+        (
+            wish("mean_moved = [-1, 2, -2]", "places = [[1, 2, 3]]"),
+            "wish.toml:8: wish[0].places = 1 places: the lock has 15",
+        ),
+        (
+            wish("mean_moved = [-1, 2, -2]", "mean_moved = [1, inf, 0]"),
+            "wish.toml:8: wish[0].mean_moved = no place: every",
+        ),
+        (
+            wish("strands = [3, 7, 11]", "near = { point = [90, 0, 0], radius = 2 }"),
+            "wish.toml:6: wish[0].near.radius = 2: no hair is there in that frame",
+        ),
+        (
+            refusal(&SCENE.replace("form = \"free\"", ""), &WISHES.replace("vectors = [0]", "settle = true")),
+            "wish.toml:2: unknowns.settle = true: hair of the paper's form has none",
+        ),
+    ];
+    for (said, expected) in cases {
+        assert!(said.contains(expected), "{said}\n    and not: {expected}");
+    }
+}
+
+#[test]
+fn places_that_cannot_be_written_and_files_that_are_not_there_are_refused_before_anything_is_built() {
+    let place = Place::new(SCENE, WISHES);
+    let refused = |change: &dyn Fn(&mut SolveOptions)| {
+        let mut options = place.options();
+        change(&mut options);
+        let scene = Scene::load(&place.path("scene.toml"), &[]).unwrap();
+        solve(scene, &options, &mut Ear::default()).unwrap_err().to_string()
+    };
+    let missing = refused(&|o| o.wishes = place.path("none.toml"));
+    assert!(missing.contains("none.toml: ") && !missing.contains('\n'), "{missing}");
+    assert!(refused(&|o| o.output = place.path("scene.toml")).contains("give the result another name"));
+    assert!(refused(&|o| o.output = place.path("wish.toml")).contains("give the result another name"));
+    assert!(refused(&|o| o.output = place.path("solved.txt")).contains("a scene ends in .toml"));
+    assert!(refused(&|o| o.output = place.path("none/solved.toml")).contains("there is no folder"));
+}
+
+#[test]
+fn files_that_a_scene_names_are_still_found_from_where_it_is_written() {
+    let scene = format!("{SCENE}\n[[body]]\nmesh = \"ball.obj\"\n");
+    let place = Place::new(&scene, WISHES);
+    std::fs::create_dir(place.path("other")).unwrap();
+    let options = SolveOptions { output: place.path("other/solved.toml"), ..place.options() };
+    let scene = Scene::load(&place.path("scene.toml"), &[]).unwrap();
+    let refused = solve(scene, &options, &mut Ear::default()).unwrap_err().to_string();
+    assert!(refused.contains("write the result into that folder"), "{refused}");
+}
+
+#[test]
+fn a_search_that_is_stopped_leaves_nothing() {
+    let place = Place::new(SCENE, WISHES);
+    let stopped = place.solved(&mut Ear { stops: true, ..Ear::default() });
+    assert!(matches!(stopped, Err(Error::Cancelled)));
+    assert!(!place.path("solved.toml").exists());
+}
+
+#[test]
+fn the_wishes_that_come_with_the_scenes_are_about_their_hair() {
+    let scenes = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes"));
+    let mut count = 0;
+    for entry in std::fs::read_dir(scenes.join("wishes")).unwrap() {
+        let wishes = entry.unwrap().path();
+        let file = WishFile::load(&wishes).unwrap();
+        let scene = Scene::load(&scenes.join(wishes.file_name().unwrap()), &[]).unwrap();
+        let (force, _) = file.wishes.unknowns.of(&scene.field.force, scene.motion.frames).unwrap();
+        assert!(force.windows(2).all(|pair: &[Keyframe]| pair[0].through < pair[1].through));
+        let built = scene.build(Shown::AtMost(400)).unwrap();
+        let named = file.about(&built).unwrap();
+        assert_eq!(
+            named.len(),
+            file.wishes.wish.len() + file.wishes.nail.iter().map(|n| n.frames.len()).sum::<usize>()
+        );
+        count += 1;
+        // A lock near a point has the nodes that are there.
+        if let Some(near) = file.wishes.wish[0].near.filter(|near| near.frame == Some(0)) {
+            let there = nodes_near(&built.hair.strands, near.point, near.radius);
+            assert!(there.iter().all(|n| named[0].wish.nodes.iter().any(|m| m.strand == n.strand)));
+        }
+    }
+    assert!(count >= 3, "{count}");
+}
+
+#[test]
+fn the_wish_files_of_the_docs_are_wish_files() {
+    let page = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/solve.md"));
+    let text = std::fs::read_to_string(page).unwrap();
+    let blocks: Vec<&str> =
+        text.split("```toml wish\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
+    assert!(!blocks.is_empty());
+    for block in blocks {
+        let file = WishFile::parse(block, page).unwrap();
+        // What is said to be the default is.
+        assert_eq!((file.wishes.prior, file.wishes.search), Default::default());
+    }
+}
