@@ -59,9 +59,18 @@ pub struct Growth<'a> {
 /// # Errors
 /// If a setting is out of its range, or the hairline leaves nothing of the scalp.
 pub fn grow(head: &Head, growth: &Growth<'_>, shown: usize) -> Result<Hair, SettingError> {
-    let &Growth { hairline, style, strands, segments, segment_length, seed } = growth;
-    let roots = roots::spread_first(head, hairline, strands, shown, seed)?;
-    let strands = groom(head, &roots, style, segments, segment_length, seed)?;
+    let roots = roots::spread_first(head, growth.hairline, growth.strands, shown, growth.seed)?;
+    grow_from(head, growth, &roots)
+}
+
+/// The same from roots that are there already: the first of those that [`roots::spread_first`] gives for this hairline,
+/// number and seed. Another style does not move them.
+///
+/// # Errors
+/// As [`groom()`].
+pub fn grow_from(head: &Head, growth: &Growth<'_>, roots: &[Root]) -> Result<Hair, SettingError> {
+    let &Growth { style, segments, segment_length, seed, .. } = growth;
+    let strands = groom(head, roots, style, segments, segment_length, seed)?;
     let group = |root: &Root| strand_style::region(head, style, root, seed) as i32;
     let groups: Vec<i32> = roots.iter().map(group).collect();
     let grown = Region::ALL.iter().filter(|&&region| groups.contains(&(region as i32)));

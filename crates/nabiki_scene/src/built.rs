@@ -9,6 +9,7 @@ use glam::Vec3;
 use nabiki::body::BodyWay;
 use nabiki::dynamics::{Dynamics, FrameInput, Reference, Simulation, Timeline};
 use nabiki::field::Field;
+use nabiki::roots::Root;
 use nabiki::{Hair, Head, Mesh, Pose, SettingError, Strands};
 use nabiki_io::cache::Origin;
 use nabiki_io::hair::ImportReport;
@@ -39,6 +40,10 @@ pub struct BuiltScene {
     pub hair: Hair,
     /// Strands of the whole scene, of which `hair` may be some.
     pub strands_of_scene: usize,
+    /// Where hair grows, as many of its roots as strands were grown; none for hair of a file.
+    roots: Arc<[Root]>,
+    /// The first strands of the farthest-first order of the whole, whichever are shown: those that the free form asks of.
+    first: Strands,
     /// How the hair's file lies in head space; `None` for hair grown here.
     pub hair_placement: Option<Placement>,
     /// The hair's file and where its curves are in it; `None` for hair grown here.
@@ -84,7 +89,7 @@ impl Scene {
     /// # Errors
     /// One line: file, thing, value and the way out.
     pub fn build(self, shown: Shown) -> Result<BuiltScene> {
-        load::build(self, shown)
+        load::build(self, shown, None)
     }
 
     /// What each of the scene's fields can reach, and last `all` of them together; head and motion are loaded for it.
@@ -135,6 +140,15 @@ impl Shown {
 }
 
 impl BuiltScene {
+    /// What [`Scene::build`] gives, for an editor in which a scene changes a little at a time: what the two scenes have
+    /// alike is not read, grown or sampled again, so that files count as they were when this one was built.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn changed_to(&self, scene: Scene, shown: Shown) -> Result<Self> {
+        load::build(scene, shown, Some(self))
+    }
+
     /// The fast stepper, at rest.
     ///
     /// # Errors

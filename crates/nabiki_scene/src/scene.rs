@@ -14,6 +14,7 @@ mod hair;
 mod head;
 mod output;
 pub(crate) mod read;
+mod settings;
 pub(crate) mod tree;
 
 use std::io::Write;
@@ -164,44 +165,46 @@ impl Scene {
     /// What the text says, whether or not it is in its ranges.
     fn read(text: &str, path: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
         let (table, origins) = tree::parse(text, path, overrides)?;
-        let read = || -> Result<Self, Refusal> {
-            let tables = Tables::deserialize(Node(&Value::Table(table)))?;
-            let (motion, form) = free::read_motion(&tables.motion).map_err(|e| e.below("motion"))?;
-            Ok(Self {
-                head: HeadSettings::read(&tables.head).map_err(|e| e.below("head"))?,
-                hair: HairSettings::read(&tables.hair).map_err(|e| e.below("hair"))?,
-                motion,
-                form,
-                free: tables.free,
-                contact: tables.contact,
-                bodies: tables.body,
-                neighbours: tables.neighbours,
-                pseudo_force: tables.pseudo_force,
-                field: FieldSettings {
-                    force: tables.force,
-                    wind: tables.wind,
-                    gust: tables.gust,
-                    body_wind: tables.body_wind,
-                    flow: tables.flow,
-                    turbulence: tables.turbulence,
-                    point: tables.point,
-                    vortex: tables.vortex,
-                    fan: tables.fan,
-                },
-                disturbance: tables.disturbance,
-                picture: tables.picture,
-                output: tables.output,
-                text: text.to_owned(),
-                origins: tree::Origins::default(),
-            })
-        };
-        match read() {
-            Ok(scene) => Ok(Self { origins, ..scene }),
+        match Self::of_tree(table) {
+            Ok(scene) => Ok(Self { text: text.to_owned(), origins, ..scene }),
             Err(refusal) => {
                 let (key, problem) = refusal.into_parts();
                 Err(origins.error(&key, problem))
             }
         }
+    }
+
+    /// What a tree of settings says; made in code, as far as anybody can see.
+    fn of_tree(tree: Table) -> Result<Self, Refusal> {
+        let tables = Tables::deserialize(Node(&Value::Table(tree)))?;
+        let (motion, form) = free::read_motion(&tables.motion).map_err(|e| e.below("motion"))?;
+        Ok(Self {
+            head: HeadSettings::read(&tables.head).map_err(|e| e.below("head"))?,
+            hair: HairSettings::read(&tables.hair).map_err(|e| e.below("hair"))?,
+            motion,
+            form,
+            free: tables.free,
+            contact: tables.contact,
+            bodies: tables.body,
+            neighbours: tables.neighbours,
+            pseudo_force: tables.pseudo_force,
+            field: FieldSettings {
+                force: tables.force,
+                wind: tables.wind,
+                gust: tables.gust,
+                body_wind: tables.body_wind,
+                flow: tables.flow,
+                turbulence: tables.turbulence,
+                point: tables.point,
+                vortex: tables.vortex,
+                fan: tables.fan,
+            },
+            disturbance: tables.disturbance,
+            picture: tables.picture,
+            output: tables.output,
+            text: String::new(),
+            origins: tree::Origins::default(),
+        })
     }
 
     /// Refuses every value out of its range. What depends on the head or the hair is checked when they are loaded.

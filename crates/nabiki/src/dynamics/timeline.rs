@@ -161,11 +161,23 @@ impl Timeline {
             let points = self.strands.points().len();
             self.film.resize((self.frames as usize + 1) * points, Vec3::ZERO);
             let mut film = std::mem::take(&mut self.film);
-            self.sweep(0..=self.frames, Pages::All(film.chunks_exact_mut(points).collect()));
-            self.strands.points_mut().copy_from_slice(&film[self.frames as usize * points..]);
-            (self.film, self.frame, self.played) = (film, self.frames, true);
+            self.play_into(&mut film);
+            (self.film, self.played) = (film, true);
         }
         Film { points: &self.film, hair: &self.hair }
+    }
+
+    /// Computes all frames into storage of the caller's, and stands at the last one: the points of frame 0, then those of
+    /// frame 1, ..., as [`Strands::points`] orders them. For films that go to another thread.
+    ///
+    /// # Panics
+    /// If there is not room for just these points.
+    pub fn play_into(&mut self, film: &mut [Vec3]) {
+        let points = self.strands.points().len();
+        assert_eq!(film.len(), (self.frames as usize + 1) * points, "a film has room for every point of every frame");
+        self.sweep(0..=self.frames, Pages::All(film.chunks_exact_mut(points).collect()));
+        self.strands.points_mut().copy_from_slice(&film[self.frames as usize * points..]);
+        self.frame = self.frames;
     }
 
     /// Puts another field in the place of this one, and the hair back to rest.

@@ -4,10 +4,12 @@ mod free;
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use glam::Vec3;
 use nabiki::dynamics::{Dynamics, Form, straightened};
-use nabiki::groom::{Growth, grow};
+use nabiki::groom::{Growth, grow_from};
+use nabiki::roots::{self, Root};
 use nabiki::{Hair, Head, Pose, SettingError, Strands, subset};
 use nabiki_io::{
     DeclaredSpace, GroomCurves, GroomFile, declared_space,
@@ -26,22 +28,57 @@ use crate::scene::{
 };
 use crate::seat;
 
-pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
-    let LoadedHead { head, placement, report: mesh_report, declared: head_declared } = load_head(&scene)?;
-    let (poses, motion_report) = head_motion(&scene)?.map_or_else(Default::default, |m| (m.poses, Some(m.report)));
+/// Builds a scene. What it has in common with a scene that is `known` is taken from there, and files are not read again.
+pub(super) fn build(scene: Scene, shown: Shown, known: Option<&BuiltScene>) -> Result<BuiltScene> {
+    let known = known.filter(|known| known.scene.file() == scene.file());
+    let same_head = known.filter(|known| {
+        let (head, was) = (&scene.head, &known.scene.head);
+        head.source == was.source && head.ellipsoid == was.ellipsoid
+    });
+    let LoadedHead { head, placement, report: mesh_report, declared: head_declared } = match same_head {
+        Some(known) => LoadedHead::of(known),
+        None => load_head(&scene)?,
+    };
+    let same_rate = known.filter(|known| known.scene.frame_rate() == scene.frame_rate());
+    let (poses, motion_report) = match same_rate.filter(|known| known.scene.head.motion == scene.head.motion) {
+        Some(known) => {
+            check_length(&scene, &known.poses)?;
+            (known.poses.clone(), known.motion_report.clone())
+        }
+        None => head_motion(&scene)?.map_or_else(Default::default, |m| (m.poses, Some(m.report))),
+    };
     let mut dynamics = dynamics(&scene, &head)?;
     let rest_pose = poses.first().copied().unwrap_or_default();
     dynamics.polar_axis = rest_pose.up_in_head();
     let FieldParts { field, wind, .. } = field(&scene, &head, &poses)?;
-    let Loaded { mut hair, ids, of_scene, first, imported, frames } = load_hair(&scene, &head, &placement, shown)?;
+    let same_hair = same_head.filter(|known| {
+        scene.hair == known.scene.hair
+            && scene.motion.straighten == known.scene.motion.straighten
+            && dynamics.polar_axis == known.dynamics.polar_axis
+            && free::first_wanted(&scene) == free::first_wanted(&known.scene)
+            && shown.of(known.strands_of_scene).is_ok_and(|count| count == known.hair.strands.len())
+    });
+    let LoadedHair { mut hair, roots, ids, of_scene, first, imported, frames } = match same_hair {
+        Some(known) => LoadedHair::of(known),
+        None => {
+            let mut loaded = load_hair(&scene, &head, &placement, shown, same_head)?;
+            loaded.hair.strands = straightened(&loaded.hair.strands, &dynamics.motion, dynamics.polar_axis);
+            loaded.first = straightened(&loaded.first, &dynamics.motion, dynamics.polar_axis);
+            loaded
+        }
+    };
+    if imported.is_none() {
+        // As it is drawn, so that it goes out as it looks.
+        hair.attributes.constant.width = Some(scene.picture.hair.width);
+        hair.attributes.constant.colour = Some(colour::of_mass(&scene.picture.hair));
+    }
     let (hair_placement, report) = imported.as_ref().map(|found| (found.placement, found.report)).unzip();
     let imported = imported.map(|found| (Some(found.groom), found.declared, found.judged));
     let (groom, hair_declared, judged) = imported.unwrap_or_default();
-    hair.strands = straightened(&hair.strands, &dynamics.motion, dynamics.polar_axis);
     let mut bodies = Vec::new();
     if scene.form == FormChoice::Free {
-        let first = straightened(&first, &dynamics.motion, dynamics.polar_axis);
-        bodies = free::set(&mut dynamics, &scene, &head, &first, rest_pose)?;
+        let known = free::Known { same_head, same_rate };
+        bodies = free::set(&mut dynamics, &scene, &head, &first, rest_pose, known)?;
     }
     Ok(BuiltScene {
         scene,
@@ -49,7 +86,9 @@ pub(super) fn build(scene: Scene, shown: Shown) -> Result<BuiltScene> {
         placement,
         mesh_report,
         hair,
+        roots,
         strands_of_scene: of_scene,
+        first,
         hair_placement,
         groom,
         import_report: report,
@@ -87,8 +126,10 @@ pub(crate) fn load_field(scene: &Scene) -> Result<FieldParts> {
 }
 
 /// Hair at rest, some or all of the scene's.
-struct Loaded {
+struct LoadedHair {
     hair: Hair,
+    /// Where it grows; none for hair of a file.
+    roots: Arc<[Root]>,
     /// Number of each strand in the whole.
     ids: Vec<u32>,
     /// Strands of the whole.
@@ -112,27 +153,62 @@ struct Imported {
     judged: Strands,
 }
 
-fn load_hair(scene: &Scene, head: &Head, head_placement: &Placement, shown: Shown) -> Result<Loaded> {
+impl LoadedHair {
+    /// That of a scene that is built.
+    fn of(built: &BuiltScene) -> Self {
+        let imported = match (built.hair_placement, &built.groom, built.import_report) {
+            (Some(placement), Some(groom), Some(report)) => {
+                let (groom, judged) = (groom.clone(), built.judged.clone());
+                Some(Imported { placement, groom, report, declared: built.hair_declared, judged })
+            }
+            _ => None,
+        };
+        Self {
+            hair: built.hair.clone(),
+            roots: built.roots.clone(),
+            ids: built.ids.clone(),
+            of_scene: built.strands_of_scene,
+            first: built.first.clone(),
+            imported,
+            frames: built.frames_in_file,
+        }
+    }
+}
+
+/// `same_head`: a scene that is built, with the same head.
+fn load_hair(
+    scene: &Scene,
+    head: &Head,
+    head_placement: &Placement,
+    shown: Shown,
+    same_head: Option<&BuiltScene>,
+) -> Result<LoadedHair> {
     match &scene.hair.source {
         HairSource::Grown(settings) => {
             let count = shown.of(settings.strands)?;
             let first = free::first_wanted(scene).min(settings.strands);
-            let mut hair = grown(scene, settings, head, count.max(first))?;
+            let wanted = count.max(first);
+            let roots = match same_head.and_then(|known| known_roots(known, settings, wanted)) {
+                Some(roots) => roots,
+                None => {
+                    let GrownHair { strands, seed, hairline, .. } = settings;
+                    let roots = roots::spread_first(head, hairline, *strands, wanted, *seed);
+                    roots.map_err(|refused| scene.refusal(refused))?.into()
+                }
+            };
+            let mut hair = grown(scene, settings, head, &roots)?;
             let first = hair.strands.select(&(0..first).collect::<Vec<_>>());
             if hair.strands.len() > count {
                 hair = hair.select(&(0..count).collect::<Vec<_>>());
             }
-            // As it is drawn, so that it goes out as it looks.
-            hair.attributes.constant.width = Some(scene.picture.hair.width);
-            hair.attributes.constant.colour = Some(colour::of_mass(&scene.picture.hair));
             let ids = (0..count as u32).collect();
-            Ok(Loaded { hair, ids, of_scene: settings.strands, first, imported: None, frames: 1 })
+            Ok(LoadedHair { hair, roots, ids, of_scene: settings.strands, first, imported: None, frames: 1 })
         }
         HairSource::Imported(settings) => import(scene, settings, head_placement, shown),
     }
 }
 
-fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, shown: Shown) -> Result<Loaded> {
+fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, shown: Shown) -> Result<LoadedHair> {
     let file = there(scene, "hair.file", &settings.file)?;
     let mut groom = GroomFile::open(&file)?;
     let declared = groom.declared_space()?;
@@ -163,7 +239,7 @@ fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, sh
     let (hair, first) = (cut(hair)?, cut(first)?.strands);
     let (frames, groom) = (groom.frames()?, groom.curves(&settings.file)?);
     let imported = Some(Imported { placement, groom, report, declared, judged });
-    Ok(Loaded { hair, ids, of_scene, first, imported, frames })
+    Ok(LoadedHair { hair, roots: Arc::default(), ids, of_scene, first, imported, frames })
 }
 
 /// `count` strands of the farthest-first order of the roots, in the order of the file.
@@ -178,9 +254,15 @@ fn evenly(hair: &Hair, count: usize) -> Vec<usize> {
 fn head_motion(scene: &Scene) -> Result<Option<HeadMotion>> {
     let Some(source) = &scene.head.motion else { return Ok(None) };
     let motion = read_motion(scene, source, "head.motion")?;
-    let (frames, given) = (scene.motion.frames as usize, motion.poses.len());
-    if given > frames {
-        return Ok(Some(motion));
+    check_length(scene, &motion.poses)?;
+    Ok(Some(motion))
+}
+
+/// Refuses a head's motion that ends too soon; none is that of a head that stands still.
+fn check_length(scene: &Scene, poses: &[Pose]) -> Result<()> {
+    let (frames, given) = (scene.motion.frames as usize, poses.len());
+    if scene.head.motion.is_none() || given > frames {
+        return Ok(());
     }
     let remedy = format!(
         "head.motion ends at frame {} and motion.frames = {frames}: make motion.frames smaller, or the file longer",
@@ -206,6 +288,14 @@ pub(super) struct LoadedHead {
     placement: Placement,
     report: Option<MeshReport>,
     declared: DeclaredSpace,
+}
+
+impl LoadedHead {
+    /// That of a scene that is built.
+    fn of(built: &BuiltScene) -> Self {
+        let (head, placement) = (built.head.clone(), built.placement);
+        Self { head, placement, report: built.mesh_report, declared: built.head_declared }
+    }
 }
 
 /// The file that the scene names under `key`; that it is not there is said with the scene's line.
@@ -277,8 +367,15 @@ pub(crate) fn hair_placement(settings: &ImportedHair, head: &Placement, declared
     Placement { origin, ..unmoved }
 }
 
-/// The first `count` strands of the scene's.
-fn grown(scene: &Scene, settings: &GrownHair, head: &Head, count: usize) -> Result<Hair> {
+/// The roots of a scene that is built, if they are those of this hair.
+fn known_roots(known: &BuiltScene, settings: &GrownHair, wanted: usize) -> Option<Arc<[Root]>> {
+    let was = known.scene.hair.grown()?;
+    let same = was.strands == settings.strands && was.seed == settings.seed && was.hairline == settings.hairline;
+    (same && known.roots.len() == wanted).then(|| known.roots.clone())
+}
+
+/// The strands that grow from these of the scene's roots.
+fn grown(scene: &Scene, settings: &GrownHair, head: &Head, roots: &[Root]) -> Result<Hair> {
     let GrownHair { strands, segments, seed, hairline, style } = settings;
     let growth = Growth {
         hairline,
@@ -288,7 +385,7 @@ fn grown(scene: &Scene, settings: &GrownHair, head: &Head, count: usize) -> Resu
         segment_length: scene.hair.segment_length,
         seed: *seed,
     };
-    grow(head, &growth, count).map_err(|refused| scene.refusal(refused).into())
+    grow_from(head, &growth, roots).map_err(|refused| scene.refusal(refused).into())
 }
 
 /// The same strands in `segments` equally long segments each.

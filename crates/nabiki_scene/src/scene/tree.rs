@@ -118,6 +118,11 @@ fn dotted(path: &str) -> Vec<String> {
 /// Puts `text`, read as a TOML value or else as a string, at `path`, making tables on the way where there are none.
 fn set(table: &mut Table, path: &str, text: &str) -> Result<(), String> {
     let value: Value = text.trim().parse().unwrap_or_else(|_| Value::String(text.trim().to_owned()));
+    place(table, path).map(|place| *place = value)
+}
+
+/// The place at `path`, with tables made on the way where there are none.
+fn place<'a>(table: &'a mut Table, path: &str) -> Result<&'a mut Value, String> {
     let steps = dotted(path);
     if steps.iter().any(String::is_empty) {
         return Err("write a key as motion.time_step or force.0.vector".to_owned());
@@ -140,8 +145,42 @@ fn set(table: &mut Table, path: &str, text: &str) -> Result<(), String> {
             other => return Err(format!("{so_far} is {} {other}, it has nothing below it", other.type_str())),
         };
     }
-    *place = value;
-    Ok(())
+    Ok(place)
+}
+
+/// Puts `value` at `path`, making tables on the way where there are none; takes out what is there where there is no value.
+pub(super) fn put(table: &mut Table, path: &str, value: Option<Value>) -> Result<(), String> {
+    match value {
+        Some(value) => place(table, path).map(|place| *place = value),
+        None => {
+            remove(table, &dotted(path));
+            Ok(())
+        }
+    }
+}
+
+/// Takes out what is at the end of `steps`, if anything is.
+fn remove(table: &mut Table, steps: &[String]) {
+    match steps {
+        [] => {}
+        [last] => {
+            table.remove(last);
+        }
+        [first, rest @ ..] => match (table.get_mut(first), rest) {
+            (Some(Value::Table(below)), _) => remove(below, rest),
+            (Some(Value::Array(values)), [index, rest @ ..]) => {
+                let Some(index) = index.parse().ok().filter(|&i: &usize| i < values.len()) else { return };
+                match &mut values[index] {
+                    _ if rest.is_empty() => {
+                        values.remove(index);
+                    }
+                    Value::Table(below) => remove(below, rest),
+                    _ => {}
+                }
+            }
+            _ => {}
+        },
+    }
 }
 
 /// What to make for the part of a path that is not there yet.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use nabiki::body::{Body, BodyWay, skin_of};
+use nabiki::distance::SkinDistance;
 use nabiki::dynamics::{Dynamics, Form};
 use nabiki::free_form::{FreeMotion, Neighbours, earth_gravity};
 use nabiki::pseudo_force::PseudoForce;
@@ -10,7 +11,7 @@ use nabiki::{Head, Mesh, Pose, Strands};
 use nabiki_io::{declared_space, mesh};
 
 use super::{read_motion, there};
-use crate::built::BuiltBody;
+use crate::built::{BuiltBody, BuiltScene};
 use crate::error::Result;
 use crate::scene::{BodySettings, FormChoice, Gravity, Scene};
 
@@ -25,6 +26,15 @@ pub(super) fn first_wanted(scene: &Scene) -> usize {
     }
 }
 
+/// Scenes that are built, of which bodies may be taken.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'a> {
+    /// One with the same head.
+    pub same_head: Option<&'a BuiltScene>,
+    /// One with the same frame rate, in the same folder.
+    pub same_rate: Option<&'a BuiltScene>,
+}
+
 /// Gives `dynamics` the scene's free form. `first`: strands of the whole, as many as are wanted or as there are. Returns the
 /// scene's bodies as they are drawn.
 pub(super) fn set(
@@ -33,6 +43,7 @@ pub(super) fn set(
     head: &Head,
     first: &Strands,
     rest_pose: Pose,
+    known: Known<'_>,
 ) -> Result<Vec<BuiltBody>> {
     let gravity = match scene.free.gravity {
         Gravity::Strength(strength) => strength,
@@ -42,16 +53,32 @@ pub(super) fn set(
             earth_gravity(dynamics, mean)
         }
     };
-    let mut bodies = vec![Body::head(head, scene.contact)];
+    let of_head = known.same_head.and_then(solid_bodies).and_then(|bodies| bodies.first());
+    let mut bodies = vec![match of_head {
+        Some(known) => Body { contact: scene.contact, ..known.clone() },
+        None => Body::head(head, scene.contact),
+    }];
     let mut drawn = Vec::new();
     for (i, settings) in scene.bodies.iter().enumerate() {
         let name = format!("body[{i}]");
-        let (mesh, way) = mesh_and_way(scene, settings, &name)?;
+        let known = known.same_rate.and_then(|known| known_body(known, settings, i));
+        let (BuiltBody { mesh, way }, distance) = match known {
+            Some((body, distance)) => (body, distance),
+            None => {
+                let (mesh, way) = mesh_and_way(scene, settings, &name)?;
+                (BuiltBody { mesh, way }, None)
+            }
+        };
         way.check(&name, scene.motion.frames).map_err(|refused| scene.refusal(refused))?;
         if settings.solid {
-            let distance = skin_of(mesh.clone(), &format!("{name}.mesh")).map_err(|refused| scene.refusal(refused))?;
-            let (distance, way, contact) = (Arc::new(distance), way.clone(), settings.contact());
-            bodies.push(Body { name, distance, filled: None, way, contact });
+            let distance = match distance {
+                Some(distance) => distance,
+                None => {
+                    let skin = skin_of(mesh.clone(), &format!("{name}.mesh"));
+                    Arc::new(skin.map_err(|refused| scene.refusal(refused))?)
+                }
+            };
+            bodies.push(Body { name, distance, filled: None, way: way.clone(), contact: settings.contact() });
         }
         drawn.push(BuiltBody { mesh, way });
     }
@@ -65,6 +92,32 @@ pub(super) fn set(
     dynamics.form = Form::Free(FreeMotion { form: scene.free.form(gravity), bodies, neighbours, rest_pose });
     dynamics.check().map_err(|refused| scene.refusal(refused))?;
     Ok(drawn)
+}
+
+/// The bodies that hair of a scene in the free form does not enter, the head first.
+fn solid_bodies(built: &BuiltScene) -> Option<&[Body]> {
+    match &built.dynamics.form {
+        Form::Free(free) => Some(&free.bodies),
+        Form::Paper => None,
+    }
+}
+
+/// Body `i` of a scene that is built, with the distance to it if it is solid there; none if its file or its motion is another.
+fn known_body(known: &BuiltScene, settings: &BodySettings, i: usize) -> Option<(BuiltBody, Option<Arc<SkinDistance>>)> {
+    let was = known.scene.bodies.get(i)?;
+    let BodySettings { mesh, groups, unit, up, facing, origin, motion, with_head, .. } = settings;
+    let same = *mesh == was.mesh
+        && *groups == was.groups
+        && *unit == was.unit
+        && *up == was.up
+        && *facing == was.facing
+        && *origin == was.origin
+        && *motion == was.motion
+        && *with_head == was.with_head;
+    let body = known.bodies.get(i).filter(|_| same)?.clone();
+    let name = format!("body[{i}]");
+    let solid = solid_bodies(known)?.iter().find(|body| body.name == name);
+    Some((body, solid.map(|body| body.distance.clone())))
 }
 
 fn mesh_and_way(scene: &Scene, settings: &BodySettings, name: &str) -> Result<(Mesh, BodyWay)> {

@@ -1,0 +1,146 @@
+//! A scene as a table of settings by their keys, for shells that show and change any of them; and a scene that moves to
+//! another folder.
+
+use std::path::{Component, Path, PathBuf};
+
+use toml::{Table, Value};
+
+use super::error::Problem;
+use super::tree::{self, Unwritable};
+use super::{HairSource, HeadSource, Scene, SceneError};
+
+impl Scene {
+    /// Every setting with the value that it has, given or not: what a file that says everything would hold. Tables that
+    /// the scene does not have are left out, and so are keys without a value.
+    ///
+    /// # Errors
+    /// As [`to_toml`](Self::to_toml).
+    pub fn settings(&self) -> Result<Table, SceneError> {
+        self.tree().map_err(|Unwritable(why)| self.origins.error("", Problem::Other(why)))
+    }
+
+    /// The scene with another value of one setting, named as in a file: `motion.time_step`, `force[1].vector`; an index one
+    /// past the end adds to a list. Without a value the key, table or entry of a list is taken out. Ranges are left to
+    /// [`check`](Self::check).
+    ///
+    /// # Errors
+    /// No such setting, or a value of the wrong kind.
+    pub fn with_setting(&self, key: &str, value: Option<Value>) -> Result<Self, SceneError> {
+        let mut tree = self.settings()?;
+        tree::put(&mut tree, key, value).map_err(|what| self.origins.error(key, Problem::Other(what)))?;
+        match Self::of_tree(tree) {
+            Ok(scene) => Ok(Self { text: self.text.clone(), origins: self.origins.clone(), ..scene }),
+            Err(refusal) => {
+                let (key, problem) = refusal.into_parts();
+                Err(self.origins.error(&key, problem))
+            }
+        }
+    }
+
+    /// The same scene as that of the file `path`, which need not exist: relative paths lead where they led before.
+    pub fn moved_to(mut self, path: &Path) -> Self {
+        let folder = |file: &Path| std::path::absolute(file.parent().unwrap_or(Path::new(""))).unwrap_or_default();
+        let (from, to) = (folder(self.file()), folder(path));
+        self.origins.file = path.to_owned();
+        if from == to {
+            return self;
+        }
+        let mend = |file: &mut PathBuf| {
+            if file.is_relative() && !file.as_os_str().is_empty() {
+                *file = from_folder(&to, &from.join(&*file));
+            }
+        };
+        if let HairSource::Imported(hair) = &mut self.hair.source {
+            mend(&mut hair.file);
+        }
+        if let HeadSource::Imported(head) = &mut self.head.source {
+            mend(&mut head.file);
+        }
+        self.bodies.iter_mut().for_each(|body| mend(&mut body.mesh));
+        let motions = self.bodies.iter_mut().filter_map(|body| body.motion.as_mut());
+        for motion in motions.chain(&mut self.head.motion) {
+            mend(&mut motion.file);
+            motion.skeleton.iter_mut().for_each(mend);
+        }
+        self
+    }
+}
+
+/// The way to an absolute path from an absolute folder; the path itself where the two share nothing but the root.
+fn from_folder(folder: &Path, path: &Path) -> PathBuf {
+    let clean = |path: &Path| {
+        let mut steps: Vec<Component> = Vec::new();
+        for step in path.components() {
+            match step {
+                Component::ParentDir => drop(steps.pop()),
+                Component::CurDir => {}
+                step => steps.push(step),
+            }
+        }
+        steps.into_iter().map(|step| step.as_os_str().to_owned()).collect::<Vec<_>>()
+    };
+    let (folder, steps) = (clean(folder), clean(path));
+    let shared = folder.iter().zip(&steps).take_while(|(a, b)| a == b).count();
+    if shared <= 1 {
+        return steps.iter().collect();
+    }
+    let up = folder[shared..].iter().map(|_| Component::ParentDir.as_os_str());
+    up.chain(steps[shared..].iter().map(|step| step.as_os_str())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene() -> Scene {
+        let text = "# wind\n[[force]]\nthrough = 50\nvector = [-100, 0, 0] # back\n\n[free]\nstiffness = 3\n";
+        Scene::parse(text, "/a/b/gust.toml".as_ref(), &[]).unwrap()
+    }
+
+    #[test]
+    fn every_setting_put_back_as_it_is_leaves_the_scene_as_it_was() {
+        let scene = scene();
+        for (key, value) in scene.settings().unwrap() {
+            let again = scene.with_setting(&key, Some(value)).unwrap();
+            assert_eq!(again, scene, "{key}");
+            assert_eq!(again.to_toml().unwrap(), scene.to_toml().unwrap());
+        }
+    }
+
+    #[test]
+    fn one_setting_changes_one_place_of_the_text() {
+        let changed = scene().with_setting("force[0].vector", Some(vec![-80.0, 0.0, 0.0].into())).unwrap();
+        let text = changed.to_toml().unwrap();
+        assert!(text.contains("[-80, 0, 0] # back") || text.contains("[-80.0, 0.0, 0.0] # back"), "{text}");
+        let gust = scene().with_setting("gust", Some(Table::new().into())).unwrap();
+        assert_eq!(gust.field.gust, Some(nabiki::field::Gust::default()));
+        assert_eq!(gust.with_setting("gust", None).unwrap(), scene());
+        let two = scene().with_setting("force[1]", Some(scene().settings().unwrap()["force"][0].clone())).unwrap();
+        assert_eq!(two.field.force.len(), 2);
+        assert_eq!(two.with_setting("force[1]", None).unwrap(), scene());
+    }
+
+    #[test]
+    fn what_no_setting_is_called_and_values_of_the_wrong_kind_are_refused_by_name() {
+        let refused = |key: &str, value: Value| scene().with_setting(key, Some(value)).unwrap_err();
+        assert!(matches!(*refused("motion.timestep", 1.0.into()).problem, Problem::UnknownKey { .. }));
+        let kind = refused("motion.frames", "many".into());
+        assert_eq!(kind.key, "motion.frames");
+        assert!(matches!(*kind.problem, Problem::Kind { .. }));
+        // The place of a value that the file has is its line.
+        assert_eq!(refused("force[0].vector", 1.into()).line, Some(4));
+    }
+
+    #[test]
+    fn a_scene_that_moves_leads_to_the_same_files() {
+        let text = "[head.motion]\nfile = \"../motion/turn.csv\"\n[[body]]\nmesh = \"ball.obj\"\n[[force]]\nthrough = 1\nvector = [0, 0, 0]\n";
+        let scene = Scene::parse(text, "/a/b/c.toml".as_ref(), &[]).unwrap();
+        let moved = scene.clone().moved_to("/a/x/y/c.toml".as_ref());
+        assert_eq!(moved.bodies[0].mesh, Path::new("../../b/ball.obj"));
+        assert_eq!(moved.head.motion.as_ref().unwrap().file, Path::new("../../motion/turn.csv"));
+        assert_eq!(moved.moved_to("/a/b/d.toml".as_ref()), Scene::parse(text, "/a/b/d.toml".as_ref(), &[]).unwrap());
+        assert_eq!(scene.clone().moved_to("/a/b/d.toml".as_ref()), scene);
+        let far = scene.moved_to("/z/c.toml".as_ref());
+        assert_eq!(far.bodies[0].mesh, Path::new("/a/b/ball.obj"));
+    }
+}
