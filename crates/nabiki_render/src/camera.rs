@@ -142,7 +142,7 @@ impl View {
     }
 
     /// The same camera as a head in this pose sees it.
-    pub(crate) fn in_head(&self, pose: &Pose) -> Self {
+    pub fn in_head(&self, pose: &Pose) -> Self {
         if *pose == Pose::STILL {
             return *self;
         }

@@ -28,6 +28,7 @@ mod curve;
 mod error;
 pub mod frame;
 mod light;
+pub mod live;
 mod moment;
 pub mod output;
 mod prefetch;

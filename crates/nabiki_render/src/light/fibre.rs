@@ -12,8 +12,9 @@ use super::approx::{exp_of_negative, scaled_bessel};
 use crate::colour::absorption;
 use crate::settings::HairLook;
 
-/// Rows of a table, by the sine of the eye's inclination; and columns, by azimuth 0..pi between lamp and eye.
+/// Rows of a table, by the sine of the eye's inclination.
 pub const ROWS: usize = 24;
+/// Its columns, by azimuth 0..pi between lamp and eye.
 pub const COLUMNS: usize = 64;
 /// Offsets across the fibre over which the tables integrate.
 const OFFSETS: usize = 160;
@@ -85,12 +86,13 @@ impl Fibre {
                 Table::new(base.map(|a| a * pigment), look.refraction, look.azimuthal_roughness)
             })
             .collect();
+        Self { grades, spread: Self::variances(look).map(Longitudinal::new), tilt: look.scale_tilt.to_radians() }
+    }
+
+    /// Variances along the hair of R, TT and TRT (rad^2).
+    pub fn variances(look: &HairLook) -> [f32; 3] {
         let rough = 2.0 * look.roughness.to_radians();
-        Self {
-            grades,
-            spread: [rough, 0.5 * rough, 2.0 * rough].map(|r| Longitudinal::new(r * r)),
-            tilt: look.scale_tilt.to_radians(),
-        }
+        [rough, 0.5 * rough, 2.0 * rough].map(|r| r * r)
     }
 
     /// By how much each lobe turns for scales tilted by `tilt` (rad): R toward the root, the others toward the tip
@@ -113,6 +115,16 @@ impl Table {
             fill(row, entries, sin_eye, absorption, refraction, scale);
         }
         Self { lobes, rows }
+    }
+
+    /// The lobes, row after row.
+    pub fn lobes_by_row(&self) -> &[Lobes] {
+        &self.lobes
+    }
+
+    /// The rows.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
     }
 
     /// Interpolated lobes at a place between rows and columns (counted from 0 to `ROWS` - 1 and `COLUMNS`).

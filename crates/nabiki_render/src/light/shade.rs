@@ -29,9 +29,9 @@ const LANES: usize = 16;
 /// Share of the scattered light that stays within hair: dual scattering's density factor.
 pub const DENSITY: f32 = 0.7;
 /// Variance along the hair of light scattered more than once (rad^2).
-const WIDE: f32 = 0.35;
+pub const WIDE: f32 = 0.35;
 /// Largest deviation of a strand's tilt (rad), for a variation of 1.
-const TILT_SPREAD: f32 = 0.14;
+pub const TILT_SPREAD: f32 = 0.14;
 
 /// How hair reflects.
 pub enum Model {
