@@ -1,0 +1,327 @@
+//! What can be done by a key, from the menu or from the palette: one table for all three, and for the list of keys.
+
+/// Something that can be done without being told more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Action {
+    /// Opens a scene.
+    Open,
+    /// Saves it.
+    Save,
+    /// Saves it under another name.
+    SaveAs,
+    /// Reads it and its files again.
+    Reload,
+    /// Shows the dialog of exports.
+    Export,
+    /// Closes the window.
+    Quit,
+    /// Takes the last step back.
+    Undo,
+    /// Makes it again.
+    Redo,
+    /// Copies the chosen intervals.
+    Copy,
+    /// Copies and removes them.
+    Cut,
+    /// Lays what was copied over the wind at this frame.
+    Paste,
+    /// Removes the chosen intervals.
+    Delete,
+    /// Chooses all intervals.
+    SelectAll,
+    /// Chooses none.
+    SelectNone,
+    /// Adds an interval.
+    Add,
+    /// Cuts the interval at this frame.
+    Split,
+    /// Joins the chosen intervals.
+    Join,
+    /// Goes through stepped, linear, smooth.
+    Ease,
+    /// Plays or pauses.
+    Play,
+    /// One frame on.
+    Forward,
+    /// One frame back.
+    Back,
+    /// The rest frame.
+    First,
+    /// The last frame.
+    Last,
+    /// The next border of an interval.
+    NextBorder,
+    /// The one before.
+    PreviousBorder,
+    /// Loop, stop, swing.
+    Ending,
+    /// Frames the hair in the view.
+    Frame,
+    /// Takes the view over as the scene's camera.
+    UseCamera,
+    /// Shows the scene's camera in the view.
+    SceneCamera,
+    /// Paths of the tips.
+    Ghosts,
+    /// Arrows of the wind.
+    Arrows,
+    /// The finished picture when the hand rests.
+    FinalPicture,
+    /// Fewer strands.
+    Fewer,
+    /// More strands.
+    More,
+    /// Everything larger.
+    ZoomIn,
+    /// Everything smaller.
+    ZoomOut,
+    /// The panels as at the first start.
+    ResetLayout,
+    /// The palette.
+    Palette,
+    /// The list of keys.
+    Keys,
+    /// The words of the first start.
+    Welcome,
+    /// The preferences.
+    Preferences,
+}
+
+/// A key with what must be held. `command`: Ctrl, or Cmd on a Mac.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shortcut {
+    /// Ctrl, or Cmd on a Mac.
+    pub command: bool,
+    /// Shift.
+    pub shift: bool,
+    /// The key as the window's library names it.
+    pub key: &'static str,
+}
+
+impl Shortcut {
+    /// As it is written on a key's list.
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        if self.command {
+            text.push_str("Ctrl+");
+        }
+        if self.shift {
+            text.push_str("Shift+");
+        }
+        text.push_str(match self.key {
+            "ArrowRight" => "Right",
+            "ArrowLeft" => "Left",
+            "ArrowUp" => "Up",
+            "ArrowDown" => "Down",
+            "Equals" => "+",
+            "Minus" => "-",
+            "OpenBracket" => "[",
+            "CloseBracket" => "]",
+            key => key,
+        });
+        text
+    }
+}
+
+/// An action with its names.
+#[derive(Debug)]
+pub struct Entry {
+    /// What it does.
+    pub action: Action,
+    /// The menu that it is in.
+    pub menu: &'static str,
+    /// Its name there.
+    pub name: &'static str,
+    /// Its key, if it has one.
+    pub key: Option<Shortcut>,
+    /// What it does, in a sentence.
+    pub help: &'static str,
+}
+
+/// The menus, in their order.
+pub const MENUS: [&str; 6] = ["File", "Edit", "Wind", "Play", "View", "Help"];
+
+const fn plain(key: &'static str) -> Option<Shortcut> {
+    Some(Shortcut { command: false, shift: false, key })
+}
+
+const fn shift(key: &'static str) -> Option<Shortcut> {
+    Some(Shortcut { command: false, shift: true, key })
+}
+
+const fn command(key: &'static str) -> Option<Shortcut> {
+    Some(Shortcut { command: true, shift: false, key })
+}
+
+const fn both(key: &'static str) -> Option<Shortcut> {
+    Some(Shortcut { command: true, shift: true, key })
+}
+
+const fn entry(
+    action: Action,
+    menu: &'static str,
+    name: &'static str,
+    key: Option<Shortcut>,
+    help: &'static str,
+) -> Entry {
+    Entry { action, menu, name, key, help }
+}
+
+/// All actions, as the menus have them.
+pub const ACTIONS: &[Entry] = &[
+    entry(Action::Open, "File", "Open...", command("O"), "Opens a scene, or shows the folder of this one."),
+    entry(Action::Save, "File", "Save", command("S"), "Writes the scene into its file; comments stay."),
+    entry(Action::SaveAs, "File", "Save as...", both("S"), "Writes it into another file, and goes on there."),
+    entry(Action::Reload, "File", "Reload", plain("F5"), "Reads the scene and all files that it names again."),
+    entry(
+        Action::Export,
+        "File",
+        "Export...",
+        command("E"),
+        "A movie, a still, hair for other programs, a motion cache.",
+    ),
+    entry(Action::Quit, "File", "Quit", command("Q"), "Closes the window; asks if something is not saved."),
+    entry(Action::Undo, "Edit", "Undo", command("Z"), "Takes the last step back. One drag is one step."),
+    entry(Action::Redo, "Edit", "Redo", both("Z"), "Makes it again."),
+    entry(Action::Cut, "Edit", "Cut", command("X"), "Copies the chosen intervals and removes them."),
+    entry(Action::Copy, "Edit", "Copy", command("C"), "Copies the chosen intervals."),
+    entry(Action::Paste, "Edit", "Paste", command("V"), "Lays what was copied over the wind, from this frame on."),
+    entry(Action::Delete, "Edit", "Delete", plain("Delete"), "Removes the chosen intervals; the one before goes on."),
+    entry(Action::SelectAll, "Edit", "Choose all", command("A"), "Chooses all intervals."),
+    entry(Action::SelectNone, "Edit", "Choose none", plain("Escape"), "Chooses no interval."),
+    entry(Action::Add, "Wind", "Add interval", plain("A"), "A new interval at this frame, or after the last one."),
+    entry(Action::Split, "Wind", "Split", plain("S"), "Cuts the interval at this frame in two."),
+    entry(
+        Action::Join,
+        "Wind",
+        "Join",
+        plain("J"),
+        "Makes one of the chosen neighbours; the longest gives its vector.",
+    ),
+    entry(Action::Ease, "Wind", "Next ease", plain("E"), "Stepped, linear, smooth: how one vector leads to the next."),
+    entry(Action::Play, "Play", "Play or pause", plain("Space"), "Plays from this frame, or pauses."),
+    entry(Action::Forward, "Play", "Next frame", plain("ArrowRight"), "One frame on."),
+    entry(Action::Back, "Play", "Previous frame", plain("ArrowLeft"), "One frame back."),
+    entry(Action::First, "Play", "First frame", plain("Home"), "Hair at rest."),
+    entry(Action::Last, "Play", "Last frame", plain("End"), "The end of the motion."),
+    entry(
+        Action::NextBorder,
+        "Play",
+        "Next border",
+        shift("ArrowRight"),
+        "The next frame in which another vector begins.",
+    ),
+    entry(
+        Action::PreviousBorder,
+        "Play",
+        "Previous border",
+        shift("ArrowLeft"),
+        "The frame before in which one begins.",
+    ),
+    entry(Action::Ending, "Play", "Loop, stop or swing", plain("L"), "What happens after the last frame."),
+    entry(Action::Frame, "View", "Frame the hair", plain("F"), "Shows all of the hair."),
+    entry(
+        Action::SceneCamera,
+        "View",
+        "Scene's camera",
+        plain("C"),
+        "Looks through the camera of the scene's pictures.",
+    ),
+    entry(
+        Action::UseCamera,
+        "View",
+        "Use as camera",
+        both("C"),
+        "The scene's pictures are taken from where the view is.",
+    ),
+    entry(Action::Ghosts, "View", "Paths of the tips", plain("G"), "Where tips were and will be."),
+    entry(
+        Action::Arrows,
+        "View",
+        "Arrows of the wind",
+        plain("W"),
+        "The wind in space, where it is not the same everywhere.",
+    ),
+    entry(
+        Action::FinalPicture,
+        "View",
+        "Finished picture",
+        plain("R"),
+        "All strands by the final renderer, when the hand rests.",
+    ),
+    entry(Action::Fewer, "View", "Fewer strands", plain("OpenBracket"), "Shows half as many."),
+    entry(Action::More, "View", "More strands", plain("CloseBracket"), "Shows twice as many."),
+    entry(Action::ZoomIn, "View", "Larger", command("Equals"), "Type and panels a tenth larger."),
+    entry(Action::ZoomOut, "View", "Smaller", command("Minus"), "Type and panels a tenth smaller."),
+    entry(Action::ResetLayout, "View", "Reset panels", None, "Panels where they were at the first start."),
+    entry(Action::Palette, "Help", "Find a command...", command("P"), "All of this, by a few letters of its name."),
+    entry(Action::Keys, "Help", "Keys", plain("F1"), "The list of keys."),
+    entry(Action::Welcome, "Help", "What to try first", None, "The words of the first start."),
+    entry(Action::Preferences, "Edit", "Preferences...", command("Comma"), "Navigation, strands, size of the type."),
+];
+
+impl Action {
+    /// Its names.
+    ///
+    /// # Panics
+    /// Never: every action is in the table, as a test says.
+    pub fn entry(self) -> &'static Entry {
+        ACTIONS.iter().find(|entry| entry.action == self).expect("every action is in the table")
+    }
+}
+
+/// The actions whose name holds all words of `query`, in any order; the best first.
+pub fn matching(query: &str) -> Vec<&'static Entry> {
+    let query = query.to_lowercase();
+    let words: Vec<&str> = query.split_whitespace().collect();
+    let found = |entry: &&Entry| {
+        let text = format!("{} {} {}", entry.menu, entry.name, entry.help).to_lowercase();
+        words.iter().all(|word| text.contains(word))
+    };
+    let mut entries: Vec<&Entry> = ACTIONS.iter().filter(found).collect();
+    // Those whose own name begins so come before those whose help only speaks of it.
+    entries.sort_by_key(|entry| {
+        let name = entry.name.to_lowercase();
+        match words.first() {
+            Some(word) if name.starts_with(word) => 0,
+            Some(word) if name.contains(word) => 1,
+            Some(_) => 2,
+            None => 0,
+        }
+    });
+    entries
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_key_means_two_things() {
+        for (i, a) in ACTIONS.iter().enumerate() {
+            for b in &ACTIONS[i + 1..] {
+                assert!(a.key.is_none() || a.key != b.key, "{} and {}", a.name, b.name);
+                assert_ne!(a.action, b.action);
+            }
+            assert!(MENUS.contains(&a.menu));
+        }
+    }
+
+    #[test]
+    fn every_key_stands_in_the_documentation() {
+        let text = include_str!("../../../docs/studio.md");
+        for entry in ACTIONS {
+            let key = entry.key.map(|key| key.text()).unwrap_or_default();
+            let row = format!("| {} | {} | {} |", key, entry.name.trim_end_matches("..."), entry.help);
+            assert!(text.contains(&row), "docs/studio.md lacks this row:\n{row}");
+        }
+    }
+
+    #[test]
+    fn the_palette_finds_by_parts_of_words() {
+        assert_eq!(matching("und")[0].action, Action::Undo);
+        assert_eq!(matching("sav as")[0].action, Action::SaveAs);
+        assert_eq!(matching("").len(), ACTIONS.len());
+        assert!(matching("no such thing").is_empty());
+    }
+}

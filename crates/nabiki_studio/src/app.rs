@@ -1,0 +1,359 @@
+//! The window: panels laid out, keys and files that come in, commands carried out.
+
+use std::path::PathBuf;
+
+use eframe::egui::{self, Key, Modifiers, Ui, ViewportCommand};
+use egui_tiles::{SimplificationOptions, TileId, Tiles, Tree, UiResponse};
+use serde::{Deserialize, Serialize};
+
+use crate::actions::{ACTIONS, Action};
+use crate::command::Command;
+use crate::document::Phase;
+use crate::panels::{Commands, dialogs, mend, menu, page, status, theme, timeline};
+use crate::preferences::{LAYOUT, Preferences};
+use crate::session::{Session, Wish};
+use crate::settings::Page;
+use crate::view::{Shown, Touch, View};
+
+/// A panel of the window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+enum Pane {
+    View,
+    Timeline,
+    Page(Page),
+}
+
+/// The window.
+pub struct App {
+    session: Session,
+    view: View,
+    tree: Tree<Pane>,
+    /// Pictures of the window in a second, by a running mean.
+    fps: f32,
+    title: String,
+    remembered: Preferences,
+    zoom: f32,
+}
+
+impl App {
+    /// A window on the scene named, or on the one opened last. `folder`: where it remembers things.
+    ///
+    /// # Errors
+    /// The system's, if it gives no thread.
+    pub fn new(
+        cc: &eframe::CreationContext<'_>,
+        folder: Option<PathBuf>,
+        scene: Option<PathBuf>,
+    ) -> std::io::Result<Self> {
+        theme::apply(&cc.egui_ctx);
+        let ctx = cc.egui_ctx.clone();
+        let mut session = Session::new(folder, move || ctx.request_repaint())?;
+        session.begin(scene.as_deref());
+        let tree = session.folder().and_then(|folder| read_layout(&folder.join(LAYOUT))).unwrap_or_else(layout);
+        let view = View::new(cc.wgpu_render_state.as_ref());
+        let (remembered, zoom) = (session.preferences().clone(), 0.0);
+        Ok(Self { session, view, tree, fps: 0.0, title: String::new(), remembered, zoom })
+    }
+
+    /// What the window knows.
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// The same, to be changed by commands from outside.
+    pub fn session_mut(&mut self) -> &mut Session {
+        &mut self.session
+    }
+
+    fn passes(&mut self, ctx: &egui::Context) {
+        let seconds = f64::from(ctx.input(|input| input.stable_dt)).min(0.25);
+        self.session.tick(seconds);
+        if self.session.play.is_playing() {
+            self.fps += 0.1 * (1.0 / seconds.max(1e-4) as f32 - self.fps);
+            ctx.request_repaint();
+        } else {
+            // The file on the disk, and what is to be kept, are looked at now and then.
+            ctx.request_repaint_after(std::time::Duration::from_secs(1));
+        }
+        let zoom = self.session.preferences().zoom;
+        if (self.zoom - zoom).abs() > 1e-3 {
+            ctx.set_zoom_factor(zoom);
+            self.zoom = zoom;
+        }
+        self.remember_window(ctx);
+        let title = match self.session.document() {
+            Some(document) => format!("{}{} - Nabiki", if document.is_dirty() { "*" } else { "" }, document.name()),
+            None => "Nabiki".to_owned(),
+        };
+        if title != self.title {
+            ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+    }
+
+    fn remember_window(&mut self, ctx: &egui::Context) {
+        let (size, maximised) = ctx.input(|input| {
+            let viewport = input.viewport();
+            (viewport.inner_rect.map(|rect| rect.size()), viewport.maximized.unwrap_or_default())
+        });
+        let mut preferences = self.session.preferences().clone();
+        preferences.maximised = maximised;
+        if let (Some(size), false) = (size, maximised) {
+            let zoom = ctx.zoom_factor();
+            preferences.window = [(size.x * zoom).round(), (size.y * zoom).round()];
+        }
+        if preferences != *self.session.preferences() {
+            self.session.apply(Command::Prefer(Box::new(preferences)));
+        }
+    }
+
+    fn inputs(&mut self, ctx: &egui::Context, commands: &mut Commands) {
+        let dropped: Vec<PathBuf> =
+            ctx.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect());
+        commands.extend(dropped.into_iter().map(Command::Open));
+        if ctx.input(|input| input.viewport().close_requested()) && !self.session.may_close() {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+        }
+        if self.session.dialog().is_some() || ctx.egui_wants_keyboard_input() {
+            return;
+        }
+        keys(ctx, commands);
+    }
+
+    fn carry_out(&mut self, ctx: &egui::Context, commands: Commands) {
+        let any = !commands.is_empty();
+        commands.into_iter().for_each(|command| self.session.apply(command));
+        for wish in self.session.wishes() {
+            match wish {
+                Wish::Frame => self.view.frame_hair(),
+                Wish::SceneCamera => self.view.reset_camera(),
+                Wish::UseCamera => self.use_camera(),
+                Wish::ResetLayout => self.tree = layout(),
+                Wish::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+            }
+        }
+        if *self.session.preferences() != self.remembered && !ctx.input(|input| input.pointer.any_down()) {
+            self.remembered = self.session.preferences().clone();
+            self.session.remember();
+        }
+        if any {
+            ctx.request_repaint();
+        }
+    }
+
+    /// Writes the view's camera into the scene. What it does not say stays.
+    fn use_camera(&mut self) {
+        let Some(document) = self.session.document() else { return };
+        let mut scene = document.scene().clone();
+        scene.picture.camera = self.view.camera();
+        let command = Command::Scene { name: "Camera".to_owned(), scene: Box::new(scene), phase: Phase::Done };
+        self.session.apply(command);
+    }
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        let ctx = ui.ctx().clone();
+        self.passes(&ctx);
+        let mut commands = Commands::new();
+        self.inputs(&ctx, &mut commands);
+        let bar = |fill| egui::Frame::new().fill(fill).inner_margin(egui::Margin::symmetric(4, 1));
+        egui::Panel::top("menu").frame(bar(theme::PANEL)).show(ui, |ui| menu::ui(ui, &self.session, &mut commands));
+        egui::Panel::bottom("status").frame(bar(theme::PANEL)).show(ui, |ui| {
+            status::line(ui, &self.session, self.fps, &mut commands);
+        });
+        if status::has_words(&self.session) {
+            let panel = egui::Panel::bottom("words").frame(egui::Frame::new()).show_separator_line(false);
+            panel.show(ui, |ui| status::words(ui, &self.session, &mut commands));
+        }
+        egui::CentralPanel::default().frame(egui::Frame::new().fill(theme::GROUND)).show(ui, |ui| {
+            let mut panes = Panes { session: &self.session, view: &mut self.view, commands: &mut commands };
+            self.tree.ui(&mut panes, ui);
+        });
+        dialogs::ui(&ctx, &self.session, &mut commands);
+        if ctx.input(|input| input.pointer.any_released()) {
+            commands.push(Command::EndDrag);
+        }
+        self.carry_out(&ctx, commands);
+    }
+
+    fn on_exit(&mut self) {
+        self.session.remember();
+        if let Some(folder) = self.session.folder() {
+            write_layout(&folder.join(LAYOUT), &self.tree);
+        }
+    }
+
+    fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {
+        theme::GROUND.to_normalized_gamma_f32()
+    }
+}
+
+/// The keys of all actions.
+fn keys(ctx: &egui::Context, commands: &mut Commands) {
+    ctx.input_mut(|input| {
+        // The system has its own words for these three.
+        for event in &input.events {
+            match event {
+                egui::Event::Copy => commands.push(Command::Act(Action::Copy)),
+                egui::Event::Cut => commands.push(Command::Act(Action::Cut)),
+                egui::Event::Paste(_) => commands.push(Command::Act(Action::Paste)),
+                _ => {}
+            }
+        }
+        // Those that hold more come first, or Ctrl+Z would take Ctrl+Shift+Z.
+        let mut entries: Vec<_> = ACTIONS.iter().filter_map(|entry| entry.key.map(|key| (key, entry.action))).collect();
+        entries.sort_by_key(|(key, _)| std::cmp::Reverse(u8::from(key.command) + u8::from(key.shift)));
+        for (shortcut, action) in entries {
+            let Some(key) = Key::from_name(shortcut.key) else { continue };
+            let modifiers = Modifiers { command: shortcut.command, shift: shortcut.shift, ..Modifiers::NONE };
+            // The keys held are those of the event: by the end of a slow picture they may have been let go. And in one
+            // picture a key may have been pressed more than once.
+            let presses = input.count_and_consume_key(modifiers, key);
+            commands.extend(std::iter::repeat_n(Command::Act(action), presses));
+        }
+        // A second name on keyboards where + is a key of its own, and the other usual key for redo.
+        if input.consume_key(Modifiers::COMMAND, Key::Plus) {
+            commands.push(Command::Act(Action::ZoomIn));
+        }
+        if input.consume_key(Modifiers::COMMAND, Key::Y) {
+            commands.push(Command::Act(Action::Redo));
+        }
+    });
+}
+
+struct Panes<'a> {
+    session: &'a Session,
+    view: &'a mut View,
+    commands: &'a mut Commands,
+}
+
+impl Panes<'_> {
+    fn view(&mut self, ui: &mut Ui) {
+        if self.session.broken().is_some() {
+            egui::Frame::new().inner_margin(10.0).show(ui, |ui| mend::ui(ui, self.session, self.commands));
+            return;
+        }
+        let (Some(document), Some(take)) = (self.session.document(), self.session.take()) else {
+            ui.centered_and_justified(|ui| {
+                let text = match self.session.trouble() {
+                    Some(_) => "This scene does not move yet: see below what is wrong.",
+                    None if self.session.is_moving() => "The hair grows...",
+                    None => "Open a scene (Ctrl+O), or drop one here.",
+                };
+                ui.label(theme::faint(text));
+            });
+            return;
+        };
+        let (scene, preferences) = (document.scene(), self.session.preferences());
+        let shown = Shown {
+            take,
+            picture: &scene.picture,
+            force: &scene.field.force,
+            frame: self.session.play.frame().min(take.frames()),
+            playing: self.session.play.is_playing(),
+            selected_interval: match self.session.chosen() {
+                [j] => Some(*j),
+                _ => None,
+            },
+            ghosts: preferences.ghosts,
+            wind: preferences.arrows,
+            final_picture: preferences.final_picture && self.session.trouble().is_none(),
+            strands_in_final: usize::MAX,
+            navigation: preferences.navigation,
+        };
+        for touch in self.view.ui(ui, &shown) {
+            let phase = |done| if done { Phase::Done } else { Phase::Dragging };
+            self.commands.push(match touch {
+                Touch::SetVector { interval, vector, done } => Command::Vector { interval, vector, phase: phase(done) },
+                Touch::SetForce { force, done } => {
+                    Command::Intervals { name: "Pull the hair", keys: force, chosen: None, phase: phase(done) }
+                }
+                Touch::Undone => Command::GiveUpDrag,
+                Touch::CameraMoved => continue,
+                Touch::Said(text) => Command::Say(text),
+            });
+        }
+    }
+}
+
+impl egui_tiles::Behavior<Pane> for Panes<'_> {
+    fn pane_ui(&mut self, ui: &mut Ui, _: TileId, pane: &mut Pane) -> UiResponse {
+        let fill = if *pane == Pane::View { theme::GROUND } else { theme::PANEL };
+        ui.painter().rect_filled(ui.max_rect(), 0.0, fill);
+        match pane {
+            Pane::View => self.view(ui),
+            Pane::Timeline => timeline::ui(ui, self.session, self.commands),
+            Pane::Page(page) => {
+                let margin = egui::Margin { left: 8, right: 2, top: 6, bottom: 0 };
+                egui::Frame::new().inner_margin(margin).show(ui, |ui| page::ui(ui, self.session, *page, self.commands));
+            }
+        }
+        UiResponse::None
+    }
+
+    fn tab_title_for_pane(&mut self, pane: &Pane) -> egui::WidgetText {
+        match pane {
+            Pane::View => "View",
+            Pane::Timeline => "Timeline",
+            Pane::Page(page) => page.title(),
+        }
+        .into()
+    }
+
+    fn simplification_options(&self) -> SimplificationOptions {
+        SimplificationOptions { all_panes_must_have_tabs: false, ..SimplificationOptions::default() }
+    }
+
+    fn gap_width(&self, _: &egui::Style) -> f32 {
+        3.0
+    }
+
+    fn tab_bar_height(&self, _: &egui::Style) -> f32 {
+        28.0
+    }
+
+    fn tab_title_spacing(&self, _: &egui::Visuals) -> f32 {
+        10.0
+    }
+
+    fn tab_bar_color(&self, _: &egui::Visuals) -> egui::Color32 {
+        theme::GROUND
+    }
+}
+
+/// The panels as at the first start.
+fn layout() -> Tree<Pane> {
+    let mut tiles = Tiles::default();
+    let view = tiles.insert_pane(Pane::View);
+    let timeline = tiles.insert_pane(Pane::Timeline);
+    let pages = Page::ALL.map(|page| tiles.insert_pane(Pane::Page(page))).to_vec();
+    let pages = tiles.insert_tab_tile(pages);
+    let mut shares = egui_tiles::Linear::new(egui_tiles::LinearDir::Horizontal, vec![view, pages]);
+    shares.shares.set_share(view, 0.77);
+    shares.shares.set_share(pages, 0.23);
+    let above = tiles.insert_container(shares);
+    let mut shares = egui_tiles::Linear::new(egui_tiles::LinearDir::Vertical, vec![above, timeline]);
+    shares.shares.set_share(above, 0.72);
+    shares.shares.set_share(timeline, 0.28);
+    let root = tiles.insert_container(shares);
+    Tree::new(egui::Id::unique("panels"), root, tiles)
+}
+
+/// The panels as they were, if that can be read and nothing is missing.
+fn read_layout(file: &std::path::Path) -> Option<Tree<Pane>> {
+    let tree: Tree<Pane> = serde_json::from_str(&std::fs::read_to_string(file).ok()?).ok()?;
+    let whole = [Pane::View, Pane::Timeline]
+        .into_iter()
+        .chain(Page::ALL.map(Pane::Page))
+        .all(|pane| tree.tiles.find_pane(&pane).is_some_and(|id| tree.tiles.is_visible(id)));
+    let root = tree.root()?;
+    (whole && tree.tiles.get(root).is_some()).then_some(tree)
+}
+
+/// A layout that is not remembered is no loss.
+fn write_layout(file: &std::path::Path, tree: &Tree<Pane>) {
+    if let Ok(text) = serde_json::to_string(tree) {
+        let _ = std::fs::write(file, text);
+    }
+}

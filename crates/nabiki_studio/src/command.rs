@@ -1,0 +1,117 @@
+//! What panels ask for. Nothing else changes what is open, chosen or shown.
+
+use std::path::PathBuf;
+
+use glam::Vec3;
+use nabiki::field::Keyframe;
+use nabiki_scene::Scene;
+use toml::Value;
+
+use crate::actions::Action;
+use crate::dialog::Dialog;
+use crate::document::Phase;
+use crate::play::Ending;
+use crate::preferences::Preferences;
+use crate::tasks::Order;
+
+/// Something asked for.
+#[derive(Clone, Debug)]
+pub enum Command {
+    /// Something that has a key.
+    Act(Action),
+    /// Another value of a setting, or none.
+    Set {
+        /// Its whole key, as a scene file spells it.
+        key: String,
+        /// The value; without one it is taken out.
+        value: Option<Value>,
+        /// How the change goes on.
+        phase: Phase,
+    },
+    /// Other intervals.
+    Intervals {
+        /// What is done to them.
+        name: &'static str,
+        /// What they are then.
+        keys: Vec<Keyframe>,
+        /// Which are chosen then; as before if it is left out.
+        chosen: Option<Vec<usize>>,
+        /// How the change goes on.
+        phase: Phase,
+    },
+    /// Another vector of an interval.
+    Vector {
+        /// Which.
+        interval: usize,
+        /// The vector.
+        vector: Vec3,
+        /// How the change goes on.
+        phase: Phase,
+    },
+    /// Another scene altogether, as a tool that solves for a wind gives one.
+    Scene {
+        /// What made it.
+        name: String,
+        /// The scene.
+        scene: Box<Scene>,
+        /// How the change goes on.
+        phase: Phase,
+    },
+    /// The hand has let go.
+    EndDrag,
+    /// The hand has given up: all as before the drag.
+    GiveUpDrag,
+    /// These intervals are chosen.
+    Choose(Vec<usize>),
+    /// This frame is shown.
+    Go(u32),
+    /// The speed of the play, as a part of the scene's own.
+    Speed(f64),
+    /// What happens after the last frame.
+    End(Ending),
+    /// So many strands are shown.
+    Strands(usize),
+    /// Opens a file: a scene, or what a scene may name.
+    Open(PathBuf),
+    /// Saves the scene into a file, which is its file from then on.
+    SaveTo(PathBuf),
+    /// Saves over what another program has written.
+    SaveOver,
+    /// Opens what was not saved when a window was killed, by its number in the dialog.
+    Recover(usize),
+    /// Throws it away.
+    Forget(usize),
+    /// The text of a scene with errors has been changed.
+    Mend(String),
+    /// It is opened as it has been mended.
+    UseMended,
+    /// It is left alone.
+    LeaveBroken,
+    /// A dialog is shown, or changed.
+    Show(Box<Dialog>),
+    /// The dialog goes.
+    CloseDialog,
+    /// Goes on without saving.
+    GoOn,
+    /// Goes on if everything is saved by now; asks for a name first if it was not because it has none.
+    GoOnIfSaved(crate::dialog::Next),
+    /// Begins an export.
+    Export(Order),
+    /// Stops the export of this number.
+    Cancel(usize),
+    /// Takes the export of this number from the list.
+    Dismiss(usize),
+    /// Says something for a while.
+    Say(String),
+    /// Takes the word of this number away.
+    Heard(usize),
+    /// Other preferences.
+    Prefer(Box<Preferences>),
+    /// Lines that are put together from a dropped file: settings with their values, one step.
+    SetAll {
+        /// What they are for.
+        name: String,
+        /// Keys and values.
+        settings: Vec<(String, Option<Value>)>,
+    },
+}

@@ -1,0 +1,194 @@
+//! Pulling the hair: a lock in a hand, nails that hold others, and the wind that follows, found on a thread of its own.
+
+use std::sync::mpsc::{Receiver, Sender, channel};
+
+use glam::Vec3;
+use nabiki::Strands;
+use nabiki::field::Keyframe;
+use nabiki::solve::{Drag, Goal, Node, Problem, Unknown, Wish};
+use nabiki_scene::BuiltScene;
+
+/// Intervals whose vectors follow a hand: the last that begin before the frame, besides the chosen one.
+const FREE_INTERVALS: usize = 2;
+/// How much a nail counts beside the lock in the hand.
+const NAIL_WEIGHT: f32 = 2.0;
+/// A step that leaves more than this part of what was left is the last until the hand moves on.
+const WORTH: f64 = 0.98;
+
+/// Nodes that belong together, in one frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lock {
+    /// The frame.
+    pub frame: u32,
+    /// Strand and node of each.
+    pub nodes: Vec<(usize, usize)>,
+}
+
+impl Lock {
+    /// The middle of its nodes (head space, cm) where the strands have these points.
+    pub fn middle(&self, points: &[Vec3], strands: &Strands) -> Vec3 {
+        let sum: Vec3 = self.nodes.iter().map(|&(strand, node)| points[strands.range(strand)][node]).sum();
+        sum / self.nodes.len().max(1) as f32
+    }
+
+    /// Whether all its nodes are nodes of these strands.
+    pub fn fits(&self, strands: &Strands) -> bool {
+        self.nodes.iter().all(|&(strand, node)| strand < strands.len() && node < strands.range(strand).len())
+    }
+
+    fn wish(&self, goal: Goal, weight: f32) -> Wish {
+        let nodes = self.nodes.iter().map(|&(strand, node)| Node { strand: strand as u32, node: node as u32 });
+        Wish { frame: self.frame, nodes: nodes.collect(), goal, weight }
+    }
+}
+
+/// What is to be solved while a lock is pulled: it is the first wish, and the nails are the others. `chosen` is an interval that
+/// follows the hand as well, however long before it ends.
+pub fn problem(built: &BuiltScene, held: &Lock, nails: &[Lock], chosen: Option<usize>) -> Problem {
+    let mut wishes = vec![held.wish(Goal::MeanMoved(Vec3::ZERO), 1.0)];
+    wishes.extend(nails.iter().map(|nail| nail.wish(Goal::Stay, NAIL_WEIGHT)));
+    let mut problem = built.problem(Vec::new(), wishes);
+    let keyframes = &mut problem.wind.keyframes;
+    if keyframes.is_empty() {
+        keyframes.push(Keyframe { through: built.frames(), vector: Vec3::ZERO });
+    }
+    problem.unknowns = unknowns(keyframes, held.frame, chosen);
+    problem
+}
+
+/// The vectors that follow a hand at a frame: those of the last intervals that begin before it, and the chosen one's if it does.
+fn unknowns(keyframes: &[Keyframe], frame: u32, chosen: Option<usize>) -> Vec<Unknown> {
+    let begins = |j: usize| if j == 0 { 0 } else { keyframes[j - 1].through };
+    let before = (0..keyframes.len()).filter(|&j| begins(j) < frame).count();
+    let follows = |j: &usize| j + FREE_INTERVALS >= before || chosen == Some(*j);
+    (0..before).filter(follows).map(Unknown::Vector).collect()
+}
+
+/// Where a pull has come to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pulled {
+    /// The intervals that pull the hair there.
+    pub force: Vec<Keyframe>,
+    /// What is left between hand and hair, and of the nails (cm).
+    pub left_cm: f64,
+}
+
+/// A pull: the solver on its thread. Let it go by dropping it.
+#[derive(Debug)]
+pub struct Pull {
+    moved: Sender<Vec3>,
+    pulled: Receiver<Result<Pulled, String>>,
+}
+
+impl Pull {
+    /// Takes hold; `wake` is called whenever the wind has followed.
+    pub fn new(problem: Problem, wake: impl Fn() + Send + 'static) -> Self {
+        let (moved, moves) = channel();
+        let (give, pulled) = channel();
+        std::thread::spawn(move || {
+            if let Err(why) = follow(problem, &moves, &give, &wake) {
+                // Nobody hears it if the hand has let go.
+                let _ = give.send(Err(why));
+                wake();
+            }
+        });
+        Self { moved, pulled }
+    }
+
+    /// The hand is now this far from where it took hold (head space, cm).
+    pub fn to(&self, way: Vec3) {
+        // A thread that ended has said why.
+        let _ = self.moved.send(way);
+    }
+
+    /// What the wind has come to since the last call, or why it cannot follow.
+    pub fn take(&self) -> Option<Result<Pulled, String>> {
+        self.pulled.try_iter().last()
+    }
+}
+
+/// Follows the newest place of the hand, and goes on while that is worth it.
+fn follow(
+    problem: Problem,
+    moves: &Receiver<Vec3>,
+    give: &Sender<Result<Pulled, String>>,
+    wake: &dyn Fn(),
+) -> Result<(), String> {
+    let mut drag = Drag::new(problem).map_err(|error| error.to_string())?;
+    let mut resting = true;
+    let mut way = Vec3::ZERO;
+    loop {
+        if resting {
+            match moves.recv() {
+                Ok(newest) => way = newest,
+                Err(_) => return Ok(()),
+            }
+        }
+        way = moves.try_iter().last().unwrap_or(way);
+        let step = drag.pull(0, Goal::MeanMoved(way)).map_err(|error| error.to_string())?;
+        resting = step.after_cm >= WORTH * step.before_cm;
+        let pulled = Pulled { force: drag.answer().keyframes, left_cm: step.after_cm };
+        if give.send(Ok(pulled)).is_err() {
+            return Ok(());
+        }
+        wake();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::{Duration, Instant};
+
+    use nabiki_scene::{Scene, Shown};
+
+    use super::*;
+
+    fn key(through: u32, x: f32) -> Keyframe {
+        Keyframe { through, vector: Vec3::new(x, 0.0, 0.0) }
+    }
+
+    #[test]
+    fn only_intervals_that_can_reach_the_frame_follow() {
+        let keys = [key(10, 1.0), key(20, 2.0), key(30, 3.0)];
+        let vectors = |of: &[usize]| of.iter().map(|&j| Unknown::Vector(j)).collect::<Vec<_>>();
+        assert_eq!(unknowns(&keys, 5, None), vectors(&[0]));
+        assert_eq!(unknowns(&keys, 10, None), vectors(&[0]));
+        assert_eq!(unknowns(&keys, 11, None), vectors(&[0, 1]));
+        assert_eq!(unknowns(&keys, 30, None), vectors(&[1, 2]));
+        assert_eq!(unknowns(&keys, 30, Some(0)), vectors(&[0, 1, 2]));
+        assert_eq!(unknowns(&keys, 5, Some(2)), vectors(&[0]));
+    }
+
+    #[test]
+    fn hair_follows_the_hand_and_what_is_nailed_stays() {
+        let text = "[hair]\nstrands = 40\n[motion]\nframes = 30\nform = \"free\"\n\
+                    [[force]]\nthrough = 30\nvector = [-40, 0, 0]\n";
+        let scene = Scene::parse(text, "a.toml".as_ref(), &[]).unwrap();
+        let built = scene.build(Shown::All).unwrap();
+        let mut timeline = built.timeline().unwrap();
+        let before = timeline.seek(30).clone();
+        let last = |strand: usize| before.range(strand).len() - 1;
+        let held = Lock { frame: 30, nodes: vec![(3, last(3))] };
+        let pull = Pull::new(problem(&built, &held, &[], None), || {});
+        let way = Vec3::new(2.0, 1.0, 1.0);
+        pull.to(way / 2.0);
+        pull.to(way);
+        let clock = Instant::now();
+        let mut newest = None;
+        while clock.elapsed() < Duration::from_secs(5) && newest.as_ref().is_none_or(|p: &Pulled| p.left_cm > 0.5) {
+            newest = pull.take().map(Result::unwrap).or(newest);
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let pulled = newest.unwrap();
+        let mut scene = built.scene.clone();
+        scene.field.force = pulled.force;
+        let built = scene.build(Shown::All).unwrap();
+        let mut timeline = built.timeline().unwrap();
+        let after = timeline.seek(30);
+        let left =
+            |wanted: Vec3| held.middle(after.points(), after).distance(held.middle(before.points(), &before) + wanted);
+        assert!(left(way) < 0.3 * way.length(), "{} of {}", left(way), way.length());
+        // What the solver says is what the simulation does: f32 against f64 over 30 frames, far below a millimetre.
+        assert!((f64::from(left(way)) - pulled.left_cm).abs() < 0.05, "{} {}", left(way), pulled.left_cm);
+    }
+}

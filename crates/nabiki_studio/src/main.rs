@@ -1,0 +1,69 @@
+//! The window.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use eframe::egui;
+use nabiki_studio::app::App;
+use nabiki_studio::icon;
+use nabiki_studio::preferences::{self, Preferences};
+
+const HELP: &str = "\
+The window of Nabiki: take hold of the hair, and see it move.
+
+Usage: nabiki-studio [SCENE.toml]
+
+Without a scene the one opened last is opened, or a gust of wind at the first start.
+
+  -h, --help       this text
+  -V, --version    the version
+";
+
+fn main() -> ExitCode {
+    let mut scene = None;
+    for argument in std::env::args_os().skip(1) {
+        match argument.to_str() {
+            Some("-h" | "--help") => {
+                print!("{HELP}");
+                return ExitCode::SUCCESS;
+            }
+            Some("-V" | "--version") => {
+                println!("nabiki-studio {}", env!("CARGO_PKG_VERSION"));
+                return ExitCode::SUCCESS;
+            }
+            Some(option) if option.starts_with('-') && option.len() > 1 => {
+                eprintln!("nabiki-studio: {option}: no such option; see --help");
+                return ExitCode::FAILURE;
+            }
+            _ if scene.is_some() => {
+                eprintln!("nabiki-studio: {}: a window shows one scene; start another for it", argument.display());
+                return ExitCode::FAILURE;
+            }
+            _ => scene = Some(PathBuf::from(argument)),
+        }
+    }
+    match run(scene) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!(
+                "nabiki-studio: {error}; a window needs a display and a graphics driver (Vulkan, Metal, DirectX 12)"
+            );
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(scene: Option<PathBuf>) -> eframe::Result {
+    let folder = preferences::folder();
+    let remembered = folder.as_deref().map_or_else(Preferences::default, |folder| Preferences::load(folder).0);
+    let viewport = egui::ViewportBuilder::default()
+        .with_title("Nabiki")
+        .with_app_id("nabiki-studio")
+        .with_icon(egui::IconData { rgba: icon::pixels(), width: icon::SIDE, height: icon::SIDE })
+        .with_inner_size(remembered.window)
+        .with_min_inner_size([640.0, 420.0])
+        .with_maximized(remembered.maximised)
+        .with_drag_and_drop(true);
+    let options = eframe::NativeOptions { viewport, ..eframe::NativeOptions::default() };
+    eframe::run_native("Nabiki", options, Box::new(move |cc| Ok(Box::new(App::new(cc, folder, scene)?))))
+}

@@ -1,0 +1,412 @@
+//! What is asked in front of everything else.
+
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use eframe::egui::{self, Key, Ui};
+
+use super::{Commands, files, theme};
+use crate::actions::{ACTIONS, Entry, MENUS, matching};
+use crate::command::Command;
+use crate::dialog::{Chooser, Dialog, Import, Next, Purpose, Role, as_folder};
+use crate::preferences::Preferences;
+use crate::recovery::Kept;
+use crate::session::Session;
+use crate::tasks::{Kind, Order};
+use crate::view::Navigation;
+
+/// Draws the question that is asked, if one is.
+pub fn ui(ctx: &egui::Context, session: &Session, commands: &mut Commands) {
+    let Some(dialog) = session.dialog() else { return };
+    let wide: f32 = match dialog {
+        Dialog::Keys => 760.0,
+        Dialog::File(_) | Dialog::Recover(_) => 560.0,
+        _ => 460.0,
+    };
+    let frame = egui::Frame::window(&ctx.global_style()).inner_margin(egui::Margin::same(18));
+    let modal = egui::Modal::new(egui::Id::unique("dialog")).frame(frame);
+    let modal = modal.backdrop_color(egui::Color32::from_black_alpha(120));
+    let response = modal.show(ctx, |ui| {
+        ui.set_width(wide.min(ctx.content_rect().width() - 60.0));
+        match dialog {
+            Dialog::File(chooser) => files::ui(ui, session, chooser, commands),
+            Dialog::Conflict(path) => conflict(ui, path, commands),
+            Dialog::Unsaved(next) => unsaved(ui, session, next, commands),
+            Dialog::Recover(kept) => recover(ui, kept, commands),
+            Dialog::Palette { query, line } => palette(ui, query, *line, commands),
+            Dialog::Keys => keys(ui, commands),
+            Dialog::Welcome => welcome(ui, commands),
+            Dialog::Preferences => preferences(ui, session, commands),
+            Dialog::Export(order) => export(ui, session, order, commands),
+            Dialog::Import(import) => self::import(ui, session, import, commands),
+        }
+    });
+    // A question of what is lost is answered, not passed by.
+    let must = matches!(dialog, Dialog::Conflict(_) | Dialog::Recover(_));
+    if response.should_close() && !must {
+        commands.push(Command::CloseDialog);
+    }
+}
+
+fn buttons(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
+    ui.add_space(10.0);
+    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), add);
+}
+
+fn paragraph(ui: &mut Ui, text: impl Into<egui::WidgetText>) {
+    ui.add(egui::Label::new(text).wrap());
+}
+
+fn conflict(ui: &mut Ui, path: &std::path::Path, commands: &mut Commands) {
+    ui.heading("Another program has changed the file");
+    ui.add_space(6.0);
+    paragraph(ui, format!("{} is no longer what was opened here. Saving over it loses those changes.", path.display()));
+    buttons(ui, |ui| {
+        if ui.button("Cancel").clicked() {
+            commands.push(Command::CloseDialog);
+        }
+        if ui.button("Save under another name...").clicked() {
+            commands.push(Command::Act(crate::actions::Action::SaveAs));
+        }
+        if ui.button("Read theirs").on_hover_text("Yours can be had back with Undo.").clicked() {
+            commands.extend([Command::CloseDialog, Command::Act(crate::actions::Action::Reload)]);
+        }
+        if ui.button("Save over it").clicked() {
+            commands.push(Command::SaveOver);
+        }
+    });
+}
+
+fn unsaved(ui: &mut Ui, session: &Session, next: &Next, commands: &mut Commands) {
+    let name = session.document().map(|document| document.name()).unwrap_or_default();
+    ui.heading("Save the changes?");
+    ui.add_space(6.0);
+    let what = if *next == Next::Quit { "the window is closed" } else { "another scene is opened" };
+    paragraph(ui, format!("{name} has changes that are lost when {what}."));
+    buttons(ui, |ui| {
+        if ui.button("Cancel").clicked() {
+            commands.push(Command::CloseDialog);
+        }
+        if ui.button("Do not save").clicked() {
+            commands.push(Command::GoOn);
+        }
+        if ui.button("Save").clicked() {
+            commands.extend([Command::Act(crate::actions::Action::Save), Command::GoOnIfSaved(next.clone())]);
+        }
+    });
+}
+
+fn recover(ui: &mut Ui, kept: &[Kept], commands: &mut Commands) {
+    ui.heading("Not saved when a window was closed by force");
+    ui.add_space(6.0);
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |passed| passed.as_secs());
+    for (n, kept) in kept.iter().enumerate() {
+        ui.horizontal(|ui| {
+            if ui.button("Open").clicked() {
+                commands.push(Command::Recover(n));
+            }
+            if ui.button("Throw away").clicked() {
+                commands.push(Command::Forget(n));
+            }
+            let name = kept.path.file_name().unwrap_or_default().to_string_lossy();
+            let minutes = now.saturating_sub(kept.seconds) / 60;
+            let ago = match minutes {
+                0 => "just now".to_owned(),
+                1..120 => format!("{minutes} min ago"),
+                _ => format!("{} h ago", minutes / 60),
+            };
+            ui.add(egui::Label::new(format!("{name}, {ago}")).truncate())
+                .on_hover_text(kept.path.display().to_string());
+        });
+    }
+    buttons(ui, |ui| {
+        if ui.button("Later").on_hover_text("They are offered again at the next start.").clicked() {
+            commands.push(Command::CloseDialog);
+        }
+    });
+}
+
+fn palette(ui: &mut Ui, query: &str, line: usize, commands: &mut Commands) {
+    let mut text = query.to_owned();
+    let edit =
+        egui::TextEdit::singleline(&mut text).hint_text("a few letters of a command").desired_width(f32::INFINITY);
+    let response = ui.add(edit).accessible_name("Command");
+    response.request_focus();
+    let found = matching(query);
+    let count = found.len();
+    let (up, down, enter) = ui.input(|input| {
+        (input.key_pressed(Key::ArrowUp), input.key_pressed(Key::ArrowDown), input.key_pressed(Key::Enter))
+    });
+    let line = line.min(count.saturating_sub(1));
+    let moved = match (up, down) {
+        (true, _) => line.saturating_sub(1),
+        (_, true) => (line + 1).min(count.saturating_sub(1)),
+        _ => line,
+    };
+    if response.changed() || moved != line {
+        let line = if response.changed() { 0 } else { moved };
+        commands.push(Command::Show(Box::new(Dialog::Palette { query: text, line })));
+    }
+    let mut done = |entry: &Entry| commands.extend([Command::CloseDialog, Command::Act(entry.action)]);
+    if enter && let Some(entry) = found.get(line) {
+        done(entry);
+    }
+    ui.add_space(4.0);
+    egui::ScrollArea::vertical().max_height(360.0).auto_shrink([false, true]).show(ui, |ui| {
+        for (n, entry) in found.iter().enumerate() {
+            let key = entry.key.map(|key| key.text()).unwrap_or_default();
+            let text = format!("{}  \u{203a}  {}", entry.menu, entry.name);
+            let button = egui::Button::selectable(n == line, text).right_text(theme::faint(key));
+            let response = ui.add(button.min_size(egui::vec2(ui.available_width(), 22.0))).on_hover_text(entry.help);
+            if n == line && moved != line {
+                response.scroll_to_me(None);
+            }
+            if response.clicked() {
+                done(entry);
+            }
+        }
+        if count == 0 {
+            ui.label(theme::faint("No command has these letters."));
+        }
+    });
+}
+
+fn keys(ui: &mut Ui, commands: &mut Commands) {
+    ui.heading("Keys");
+    ui.add_space(6.0);
+    egui::ScrollArea::vertical().max_height(ui.ctx().content_rect().height() - 180.0).show(ui, |ui| {
+        ui.columns(2, |columns| {
+            for (n, menu) in MENUS.into_iter().enumerate() {
+                let ui = &mut columns[usize::from(n >= 3)];
+                ui.label(egui::RichText::new(menu).color(theme::ACCENT));
+                for entry in ACTIONS.iter().filter(|entry| entry.menu == menu && entry.key.is_some()) {
+                    ui.horizontal(|ui| {
+                        let key = entry.key.map(|key| key.text()).unwrap_or_default();
+                        ui.add_sized(
+                            [92.0, 18.0],
+                            egui::Label::new(egui::RichText::new(key).monospace()).halign(egui::Align::LEFT),
+                        );
+                        ui.add(egui::Label::new(entry.name.trim_end_matches("...")).truncate())
+                            .on_hover_text(entry.help);
+                    });
+                }
+                ui.add_space(8.0);
+            }
+            let ui = &mut columns[0];
+            ui.label(egui::RichText::new("Mouse").color(theme::ACCENT));
+            for (keys, what) in [
+                ("Middle", "turn (Maya: Alt + left)"),
+                ("Shift+Middle", "shift (Maya: Alt + middle)"),
+                ("Wheel", "nearer, farther"),
+                ("Shift+drag", "a border, with what comes after"),
+                ("Wheel", "over the timeline: fewer frames, more"),
+            ] {
+                ui.horizontal(|ui| {
+                    ui.add_sized(
+                        [92.0, 18.0],
+                        egui::Label::new(egui::RichText::new(keys).monospace()).halign(egui::Align::LEFT),
+                    );
+                    ui.label(what);
+                });
+            }
+        });
+    });
+    buttons(ui, |ui| {
+        if ui.button("Close").clicked() {
+            commands.push(Command::CloseDialog);
+        }
+    });
+}
+
+fn welcome(ui: &mut Ui, commands: &mut Commands) {
+    ui.heading("Hair goes where you want it");
+    ui.add_space(6.0);
+    for text in [
+        "This is a gust on long hair: intervals of wind below, and all frames of the motion at hand. Press Space.",
+        "Drag a border between two intervals. Every touch moves the hair through all frames anew.",
+        "Click an interval: its vector is an arrow by the head, and in the two circles at the left. Pull it.",
+        "On the right: how stiff hair is, how it is cut and curled, its colour. Point at a name to read what it does.",
+        "Undo takes back anything. Ctrl+P finds every command, F1 lists the keys.",
+    ] {
+        paragraph(ui, text);
+        ui.add_space(4.0);
+    }
+    buttons(ui, |ui| {
+        if ui.button("Begin").clicked() {
+            commands.push(Command::CloseDialog);
+        }
+    });
+}
+
+fn preferences(ui: &mut Ui, session: &Session, commands: &mut Commands) {
+    ui.heading("Preferences");
+    ui.add_space(6.0);
+    let mut changed: Preferences = session.preferences().clone();
+    super::fields::row(ui, "Navigation", "Which mouse buttons turn, shift and near the view.", false, |ui| {
+        ui.selectable_value(&mut changed.navigation, Navigation::Blender, "Blender");
+        ui.selectable_value(&mut changed.navigation, Navigation::Maya, "Maya");
+    });
+    super::fields::row(ui, "Strands", "Shown, and moved with every touch.", false, |ui| {
+        ui.add(egui::DragValue::new(&mut changed.strands).range(1..=1_000_000).speed(10.0))
+            .accessible_name("Strands shown at first");
+    });
+    super::fields::row(ui, "Size", "Of type and panels, by what the system says.", false, |ui| {
+        let mut percent = (100.0 * changed.zoom).round();
+        ui.add(egui::DragValue::new(&mut percent).range(50.0..=400.0).suffix(" %").update_while_editing(false));
+        changed.zoom = percent / 100.0;
+    });
+    super::fields::row(
+        ui,
+        "Finished picture",
+        "All strands by the final renderer, when the hand rests.",
+        false,
+        |ui| {
+            ui.checkbox(&mut changed.final_picture, "");
+        },
+    );
+    super::fields::row(ui, "Paths of tips", "Where tips were and will be.", false, |ui| {
+        ui.checkbox(&mut changed.ghosts, "");
+    });
+    super::fields::row(ui, "Arrows", "The wind in space.", false, |ui| {
+        ui.checkbox(&mut changed.arrows, "");
+    });
+    if let Some(folder) = session.folder() {
+        ui.add_space(6.0);
+        ui.add(egui::Label::new(theme::faint(format!("Remembered in {}", folder.display()))).wrap().selectable(true));
+    }
+    if changed != *session.preferences() {
+        commands.push(Command::Prefer(Box::new(changed)));
+    }
+    buttons(ui, |ui| {
+        if ui.button("Close").clicked() {
+            commands.push(Command::CloseDialog);
+        }
+    });
+}
+
+fn export(ui: &mut Ui, session: &Session, order: &Order, commands: &mut Commands) {
+    let Some(document) = session.document() else { return };
+    ui.heading("Export");
+    ui.add_space(6.0);
+    let mut changed = order.clone();
+    ui.horizontal(|ui| {
+        for kind in Kind::ALL {
+            if ui.selectable_label(order.kind == kind, kind.name()).clicked() && order.kind != kind {
+                (changed.kind, changed.place) = (kind, kind.place(document.scene()));
+            }
+        }
+    });
+    ui.add_space(4.0);
+    paragraph(ui, theme::faint(order.kind.help()));
+    ui.add_space(4.0);
+    let label = if order.kind.ending().is_some() { "File" } else { "Folder" };
+    super::fields::row(
+        ui,
+        label,
+        "Where it goes. What is there already is replaced when the new one is whole.",
+        false,
+        |ui| {
+            let mut place = changed.place.display().to_string();
+            let edit = egui::TextEdit::singleline(&mut place).desired_width(ui.available_width() - 34.0);
+            if ui.add(edit).accessible_name("Place").changed() {
+                changed.place = place.into();
+            }
+            if ui.small_button("...").clicked() {
+                let path = match order.kind.ending() {
+                    Some(_) => changed.place.display().to_string(),
+                    None => as_folder(&changed.place),
+                };
+                let endings = order.kind.ending().into_iter().collect();
+                let chooser = Chooser { purpose: Purpose::Export(changed.clone()), path, endings };
+                commands.push(Command::Show(Box::new(Dialog::File(chooser))));
+            }
+        },
+    );
+    if order.kind == Kind::Still {
+        super::fields::row(ui, "Frame", "The frame that is drawn.", false, |ui| {
+            ui.add(egui::DragValue::new(&mut changed.frame).range(0..=document.scene().motion.frames));
+        });
+    }
+    super::fields::row(ui, "Strands", "All of the scene's, or the first few for a try.", false, |ui| {
+        let mut all = changed.strands.is_none();
+        ui.checkbox(&mut all, "all");
+        changed.strands = match (all, changed.strands) {
+            (true, _) => None,
+            (false, None) => Some(1000),
+            (false, some) => some,
+        };
+        if let Some(strands) = &mut changed.strands {
+            ui.add(egui::DragValue::new(strands).range(1..=10_000_000).speed(10.0));
+        }
+    });
+    if changed != *order && commands.is_empty() {
+        commands.push(Command::Show(Box::new(Dialog::Export(changed.clone()))));
+    }
+    buttons(ui, |ui| {
+        let may = !changed.place.as_os_str().is_empty();
+        if ui.add_enabled(may, egui::Button::new("Begin")).clicked() {
+            commands.push(Command::Export(changed));
+        }
+        if ui.button("Cancel").clicked() {
+            commands.push(Command::CloseDialog);
+        }
+    });
+}
+
+fn import(ui: &mut Ui, session: &Session, import: &Import, commands: &mut Commands) {
+    let name = import.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    ui.heading(name);
+    ui.add_space(6.0);
+    let mut changed = import.clone();
+    super::fields::row(ui, "It is", "What the file is for.", false, |ui| {
+        for role in &import.roles {
+            ui.selectable_value(&mut changed.role, *role, role.name());
+        }
+    });
+    let says = "what the file says";
+    let choose = |ui: &mut Ui, id: &str, now: &mut String, words: &[&str]| {
+        let text = if now.is_empty() { says.to_owned() } else { now.clone() };
+        egui::ComboBox::from_id_salt(id).selected_text(text).width(140.0).show_ui(ui, |ui| {
+            for word in std::iter::once("").chain(words.iter().copied()) {
+                ui.selectable_value(now, word.to_owned(), if word.is_empty() { says } else { word });
+            }
+        });
+    };
+    const AXES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
+    super::fields::row(
+        ui,
+        "Unit",
+        "Needed where the file does not say it: .bvh, .tof, .abc, and most .obj and .ply that are not in cm.",
+        false,
+        |ui| {
+            choose(ui, "unit", &mut changed.unit, &["mm", "cm", "dm", "m", "in", "ft"]);
+        },
+    );
+    super::fields::row(ui, "Up", "Axis of the file that points up.", false, |ui| {
+        choose(ui, "up", &mut changed.up, &AXES)
+    });
+    super::fields::row(ui, "Facing", "Axis of the file along which the face looks.", false, |ui| {
+        choose(ui, "facing", &mut changed.facing, &AXES);
+    });
+    if changed.role == Role::Motion {
+        super::fields::row(ui, "Joint", "Joint, bone or node that carries the head; not used for .csv.", false, |ui| {
+            ui.add(egui::TextEdit::singleline(&mut changed.node).desired_width(140.0));
+        });
+    }
+    if changed != *import {
+        commands.push(Command::Show(Box::new(Dialog::Import(changed.clone()))));
+    }
+    buttons(ui, |ui| {
+        if ui.button("Take it").clicked() {
+            commands.push(Command::CloseDialog);
+            match session.import(&changed) {
+                Some(command) => commands.push(command),
+                None => {
+                    commands.push(Command::Say("the path of the file is not text that a scene can hold".to_owned()))
+                }
+            }
+        }
+        if ui.button("Cancel").clicked() {
+            commands.push(Command::CloseDialog);
+        }
+    });
+}

@@ -1,0 +1,476 @@
+//! One setting as a field.
+
+use eframe::egui::{self, DragValue, Response, Ui};
+use toml::{Table, Value};
+
+use super::{Commands, theme};
+use crate::command::Command;
+use crate::dialog::{Chooser, Dialog, Purpose, as_folder};
+use crate::document::Phase;
+use crate::settings::{Kind, Setting};
+
+/// Width of the names beside the fields (points).
+const NAMES: f32 = 96.0;
+
+/// A name and a field beside it. `what`: the whole name, for who does not see it.
+pub fn row<R>(ui: &mut Ui, label: &str, help: &str, marked: bool, field: impl FnOnce(&mut Ui) -> R) -> R {
+    ui.horizontal(|ui| {
+        let height = ui.spacing().interact_size.y;
+        let ink = if marked { theme::WRONG } else { theme::FAINT };
+        // Painted, so that all fields begin at one place however long their names are.
+        let (rect, response) = ui.allocate_exact_size(egui::vec2(NAMES, height), egui::Sense::hover());
+        let font = egui::TextStyle::Body.resolve(ui.style());
+        let within = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+        within.text(rect.left_center(), egui::Align2::LEFT_CENTER, label, font, ink);
+        response.on_hover_text(help);
+        field(ui)
+    })
+    .inner
+}
+
+/// What a field sends when it was touched.
+pub fn send(response: &Response, commands: &mut Commands, make: impl FnOnce(Phase) -> Command) {
+    if response.changed() {
+        commands.push(make(if response.dragged() { Phase::Dragging } else { Phase::Done }));
+    }
+    if response.drag_stopped() {
+        commands.push(Command::EndDrag);
+    }
+}
+
+/// The field of one setting, with its name.
+pub struct Field<'a> {
+    /// The setting.
+    pub setting: &'a Setting,
+    /// Its whole key.
+    pub key: String,
+    /// Its value.
+    pub value: Option<&'a Value>,
+    /// The title of its group, for who does not see it.
+    pub group: &'a str,
+    /// Whether it is to blame for an error.
+    pub blamed: bool,
+    /// The folder of the scene, from which paths lead.
+    pub folder: &'a std::path::Path,
+}
+
+impl Field<'_> {
+    /// Draws it.
+    pub fn ui(&self, ui: &mut Ui, commands: &mut Commands) {
+        let Setting { label, unit, kind, open, help, .. } = self.setting;
+        let help = format!("{help}{}\n\n{}", range_text(*kind, unit), self.key);
+        row(ui, label, &help, self.blamed, |ui| match (open, self.value) {
+            (Some(what), None) => {
+                let taken =
+                    ui.button(theme::faint(*what)).on_hover_text("Left open; click to give it a value of its own.");
+                if name(taken, self).clicked() {
+                    self.set(commands, Some(first_value(*kind)), Phase::Done);
+                }
+            }
+            (open, value) => {
+                self.field(ui, value, commands);
+                if open.is_some() && ui.small_button("x").on_hover_text("Leave it open again.").clicked() {
+                    self.set(commands, None, Phase::Done);
+                }
+            }
+        });
+    }
+
+    fn set(&self, commands: &mut Commands, value: Option<Value>, phase: Phase) {
+        commands.push(Command::Set { key: self.key.clone(), value, phase });
+    }
+
+    fn sent(&self, response: &Response, commands: &mut Commands, value: Value) {
+        send(response, commands, |phase| Command::Set { key: self.key.clone(), value: Some(value), phase });
+    }
+
+    fn field(&self, ui: &mut Ui, value: Option<&Value>, commands: &mut Commands) {
+        let unit = self.setting.unit;
+        let wide = ui.available_width().max(60.0);
+        match self.setting.kind {
+            Kind::Number { least, most, step } => {
+                let mut number = value.and_then(number_of).unwrap_or_default();
+                let drag = drag(&mut number, step, unit).range(least..=most);
+                let response = name(ui.add_sized([wide.min(110.0), ui.spacing().interact_size.y], drag), self);
+                self.sent(&response, commands, Value::Float(number));
+            }
+            Kind::Whole { least, most } => {
+                let mut number = value.and_then(Value::as_integer).unwrap_or_default();
+                let speed = (number.unsigned_abs() as f64 * 0.005).clamp(0.1, 1e4);
+                let drag = DragValue::new(&mut number).speed(speed).range(least..=most).suffix(suffix(unit));
+                let drag = drag.update_while_editing(false);
+                let response = name(ui.add_sized([wide.min(110.0), ui.spacing().interact_size.y], drag), self);
+                self.sent(&response, commands, Value::Integer(number));
+            }
+            Kind::Flag => {
+                let mut flag = value.and_then(Value::as_bool).unwrap_or_default();
+                let response = name(ui.checkbox(&mut flag, ""), self);
+                self.sent(&response, commands, Value::Boolean(flag));
+            }
+            Kind::Choice(words) => {
+                let now = value.and_then(Value::as_str).unwrap_or_default();
+                choose(ui, self, now, words, commands, |word| Value::String(word.to_owned()));
+            }
+            Kind::Numbers { names, step } => {
+                self.numbers(ui, value, names, commands, |ui, number, _| ui.add(drag(number, step, "")), Value::Float)
+            }
+            Kind::Wholes { names, least, most } => self.numbers(
+                ui,
+                value,
+                names,
+                commands,
+                |ui, number, _| {
+                    ui.add(DragValue::new(number).speed(1.0).range(least as f64..=most as f64).max_decimals(0))
+                },
+                |number| Value::Integer(number.round() as i64),
+            ),
+            Kind::Colour { linear } => self.colour(ui, value, linear, commands),
+            Kind::HairColour => self.hair_colour(ui, value, commands),
+            Kind::Profile { most, step } => self.profile(ui, value, most, step, commands),
+            Kind::NumberOr { word, most, step } => {
+                let is_word = value.and_then(Value::as_str).is_some();
+                if ui.selectable_label(is_word, word).clicked() {
+                    let value = if is_word { Value::Float(100.0) } else { Value::String(word.to_owned()) };
+                    self.set(commands, Some(value), Phase::Done);
+                }
+                if !is_word {
+                    let mut number = value.and_then(number_of).unwrap_or_default();
+                    let response = name(ui.add(drag(&mut number, step, unit).range(0.0..=most)), self);
+                    self.sent(&response, commands, Value::Float(number));
+                }
+            }
+            Kind::Ellipsoid => self.ellipsoid(ui, value, commands),
+            Kind::File(endings) => self.file(ui, value, endings, commands),
+            Kind::Text => {
+                self.text(ui, value.and_then(Value::as_str).unwrap_or_default().to_owned(), commands, |text| {
+                    Some(Value::String(text.to_owned()))
+                })
+            }
+            Kind::Texts => {
+                let words = value.and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str);
+                self.text(ui, words.collect::<Vec<_>>().join(", "), commands, |text| {
+                    let words = text.split(',').map(str::trim).filter(|word| !word.is_empty());
+                    Some(words.map(|word| Value::String(word.to_owned())).collect::<Vec<_>>().into())
+                });
+            }
+            Kind::List { whole } => {
+                let numbers = value.and_then(Value::as_array).into_iter().flatten().map(Value::to_string);
+                self.text(ui, numbers.collect::<Vec<_>>().join(", "), commands, |text| {
+                    let words = text.split([',', ' ']).map(str::trim).filter(|word| !word.is_empty());
+                    let number = |word: &str| match whole {
+                        true => word.parse().ok().map(Value::Integer),
+                        false => word.parse().ok().map(Value::Float),
+                    };
+                    words.map(number).collect::<Option<Vec<_>>>().map(Value::Array)
+                });
+            }
+            Kind::Unit => {
+                let now = value.map_or(String::new(), |value| match value {
+                    Value::String(name) => name.clone(),
+                    other => format!("{other}"),
+                });
+                self.text(ui, now, commands, |text| {
+                    text.parse().map(Value::Float).ok().or_else(|| Some(Value::String(text.to_owned())))
+                });
+            }
+            Kind::Envelope => self.envelope(ui, value, commands),
+        }
+    }
+
+    fn numbers(
+        &self,
+        ui: &mut Ui,
+        value: Option<&Value>,
+        names: &[&str],
+        commands: &mut Commands,
+        field: impl Fn(&mut Ui, &mut f64, usize) -> Response,
+        wrap: impl Fn(f64) -> Value,
+    ) {
+        let mut numbers: Vec<f64> =
+            value.and_then(Value::as_array).into_iter().flatten().filter_map(number_of).collect();
+        numbers.resize(names.len(), 0.0);
+        let gap = 3.0;
+        let wide =
+            ((ui.available_width() - 22.0 - gap * (names.len() - 1) as f32) / names.len() as f32).clamp(30.0, 64.0);
+        ui.spacing_mut().item_spacing.x = gap;
+        for i in 0..names.len() {
+            let response = ui.scope(|ui| {
+                ui.spacing_mut().interact_size.x = wide;
+                ui.spacing_mut().button_padding.x = 2.0;
+                field(ui, &mut numbers[i], i)
+            });
+            let response = response.inner.on_hover_text(names[i]);
+            let response = response.accessible_name(format!("{} {}: {}", self.group, self.setting.label, names[i]));
+            self.sent(&response, commands, numbers.iter().map(|number| wrap(*number)).collect::<Vec<_>>().into());
+        }
+    }
+
+    fn colour(&self, ui: &mut Ui, value: Option<&Value>, linear: bool, commands: &mut Commands) {
+        let mut rgb = rgb_of(value);
+        let before = rgb;
+        let response = if linear {
+            egui::color_picker::color_edit_button_rgb(ui, &mut rgb)
+        } else {
+            let mut bytes = rgb.map(|c| (c * 255.0).round() as u8);
+            let was = bytes;
+            let response = ui.color_edit_button_srgb(&mut bytes);
+            if bytes != was {
+                rgb = bytes.map(|b| f32::from(b) / 255.0);
+            }
+            response
+        };
+        name(response, self);
+        if rgb != before {
+            self.set(commands, Some(rgb_value(rgb)), Phase::Dragging);
+        }
+    }
+
+    fn hair_colour(&self, ui: &mut Ui, value: Option<&Value>, commands: &mut Commands) {
+        const NAMES: [&str; 5] = ["black", "brown", "blond", "red", "grey"];
+        let now = match value {
+            Some(Value::String(word)) => word.as_str(),
+            Some(Value::Table(table)) if table.contains_key("melanin") => "by pigment",
+            _ => "as it looks",
+        };
+        let words = [&NAMES[..], &["by pigment", "as it looks"]].concat();
+        choose(ui, self, now, &words, commands, |word| match word {
+            "by pigment" => table([("melanin", table([("eumelanin", 1.1.into()), ("pheomelanin", 0.6.into())]))]),
+            "as it looks" => table([("rgb", rgb_value([0.3, 0.16, 0.08]))]),
+            name => Value::String(name.to_owned()),
+        });
+        let Some(Value::Table(inner)) = value else { return };
+        if let Some(melanin) = inner.get("melanin") {
+            for (pigment, letter) in [("eumelanin", "e "), ("pheomelanin", "p ")] {
+                let mut amount = melanin.get(pigment).and_then(number_of).unwrap_or_default();
+                let response = ui.add(drag(&mut amount, 0.01, "").range(0.0..=100.0).prefix(letter));
+                let response = response.on_hover_text(pigment);
+                let mut melanin = melanin.as_table().cloned().unwrap_or_default();
+                melanin.insert(pigment.to_owned(), amount.into());
+                self.sent(&response, commands, table([("melanin", melanin.into())]));
+            }
+        } else {
+            let mut bytes = rgb_of(inner.get("rgb")).map(|c| (c * 255.0).round() as u8);
+            let was = bytes;
+            ui.color_edit_button_srgb(&mut bytes);
+            if bytes != was {
+                let rgb = rgb_value(bytes.map(|b| f32::from(b) / 255.0));
+                self.set(commands, Some(table([("rgb", rgb)])), Phase::Dragging);
+            }
+        }
+    }
+
+    fn profile(&self, ui: &mut Ui, value: Option<&Value>, most: f64, step: f64, commands: &mut Commands) {
+        let mut numbers: Vec<f64> = match value {
+            Some(Value::Array(values)) => values.iter().filter_map(number_of).collect(),
+            other => other.and_then(number_of).into_iter().collect(),
+        };
+        let wrap = |numbers: &[f64]| match numbers {
+            [one] => Value::Float(*one),
+            all => all.iter().map(|number| Value::Float(*number)).collect::<Vec<_>>().into(),
+        };
+        ui.spacing_mut().item_spacing.x = 3.0;
+        let last = numbers.len().saturating_sub(1);
+        for i in 0..numbers.len() {
+            let place = match (i, last) {
+                (_, 0) => "from root to tip",
+                (0, _) => "at the root",
+                (i, last) if i == last => "at the tip",
+                _ => "on the way",
+            };
+            ui.spacing_mut().interact_size.x = 44.0;
+            let step = step.max(numbers[i].abs() * 0.005);
+            let response = ui.add(drag(&mut numbers[i], step, "").range(0.0..=most)).on_hover_text(place);
+            let response = response.accessible_name(format!("{} {}: {place}", self.group, self.setting.label));
+            self.sent(&response, commands, wrap(&numbers));
+        }
+        if numbers.len() < 6 && ui.small_button("+").on_hover_text("One number more, toward the tip.").clicked() {
+            numbers.extend(numbers.last().copied());
+            self.set(commands, Some(wrap(&numbers)), Phase::Done);
+        }
+        if numbers.len() > 1 && ui.small_button("-").on_hover_text("One number less.").clicked() {
+            numbers.pop();
+            self.set(commands, Some(wrap(&numbers)), Phase::Done);
+        }
+    }
+
+    fn ellipsoid(&self, ui: &mut Ui, value: Option<&Value>, commands: &mut Commands) {
+        let given = value.and_then(Value::as_table);
+        let words: [&str; 2] = ["fit", "given"];
+        choose(ui, self, words[usize::from(given.is_some())], &words, commands, |word| match word {
+            "fit" => Value::String("fit".to_owned()),
+            _ => table([
+                ("center", [-1.0, 0.5, 0.0].map(Value::Float).to_vec().into()),
+                ("half_axes", [9.5, 11.0, 7.8].map(Value::Float).to_vec().into()),
+            ]),
+        });
+        if let Some(given) = given {
+            ui.vertical(|ui| {
+                for (key, value) in given {
+                    let numbers = value.as_array().into_iter().flatten().map(Value::to_string);
+                    let text = numbers.collect::<Vec<_>>().join(", ");
+                    self.text(ui, text, commands, |text| {
+                        let numbers = text.split(',').map(|word| word.trim().parse().ok().map(Value::Float));
+                        let mut given = given.clone();
+                        given.insert(key.clone(), numbers.collect::<Option<Vec<_>>>()?.into());
+                        Some(given.into())
+                    });
+                }
+            });
+        }
+    }
+
+    fn file(&self, ui: &mut Ui, value: Option<&Value>, endings: &'static [&'static str], commands: &mut Commands) {
+        let now = value.and_then(Value::as_str).unwrap_or_default().to_owned();
+        let choose = ui.small_button("...").on_hover_text("Choose a file.");
+        if choose.clicked() {
+            let folder = std::path::absolute(self.folder.join(&now)).unwrap_or_default();
+            let path = folder.parent().map(as_folder).unwrap_or_default();
+            let chooser = Chooser { purpose: Purpose::Setting(self.key.clone()), path, endings: endings.to_vec() };
+            commands.push(Command::Show(Box::new(Dialog::File(chooser))));
+        }
+        self.text(ui, now, commands, |text| Some(Value::String(text.to_owned())));
+    }
+
+    /// Text that is taken when it is finished. What it does not make sense of is left as it was.
+    fn text(&self, ui: &mut Ui, now: String, commands: &mut Commands, read: impl Fn(&str) -> Option<Value>) {
+        let id = ui.scope_id().with((&self.key, now.len()));
+        let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| now.clone());
+        let wide = (ui.available_width() - 4.0).max(60.0);
+        let response =
+            name(ui.add(egui::TextEdit::singleline(&mut text).desired_width(wide)), self).on_hover_text(&now);
+        if response.lost_focus() {
+            ui.data_mut(|data| data.remove::<String>(id));
+            if text != now {
+                match read(&text) {
+                    Some(value) => self.set(commands, Some(value), Phase::Done),
+                    None => commands.push(Command::Say(format!("{}: \"{text}\" was not understood", self.key))),
+                }
+            }
+        } else if response.has_focus() {
+            ui.data_mut(|data| data.insert_temp(id, text));
+        }
+    }
+
+    fn envelope(&self, ui: &mut Ui, value: Option<&Value>, commands: &mut Commands) {
+        let keys: Vec<Table> =
+            value.and_then(Value::as_array).into_iter().flatten().filter_map(|key| key.as_table().cloned()).collect();
+        let wrap = |keys: &[Table]| Value::Array(keys.iter().cloned().map(Value::Table).collect());
+        ui.vertical(|ui| {
+            for i in 0..keys.len() {
+                ui.horizontal(|ui| {
+                    let mut frame = keys[i].get("frame").and_then(Value::as_integer).unwrap_or_default();
+                    let mut factor = keys[i].get("factor").and_then(number_of).unwrap_or_default();
+                    let changed = |frame: i64, factor: f64| {
+                        let mut keys = keys.clone();
+                        keys[i].insert("frame".to_owned(), frame.into());
+                        keys[i].insert("factor".to_owned(), factor.into());
+                        wrap(&keys)
+                    };
+                    let low = i.checked_sub(1).and_then(|i| keys[i].get("frame")?.as_integer()).map_or(0, |n| n + 1);
+                    let high = keys
+                        .get(i + 1)
+                        .and_then(|key| key.get("frame")?.as_integer())
+                        .map_or(i64::from(u32::MAX), |n| n - 1);
+                    let response = ui.add(DragValue::new(&mut frame).range(low..=high).prefix("frame "));
+                    self.sent(&response, commands, changed(frame, factor));
+                    let response = ui.add(drag(&mut factor, 0.01, "")).on_hover_text("Part of the strength.");
+                    self.sent(&response, commands, changed(frame, factor));
+                    if ui.small_button("x").clicked() {
+                        let mut keys = keys.clone();
+                        keys.remove(i);
+                        self.set(commands, Some(wrap(&keys)), Phase::Done);
+                    }
+                });
+            }
+            if ui.small_button("+ key").clicked() {
+                let after = keys.last().and_then(|key| key.get("frame")?.as_integer()).map_or(0, |n| n + 10);
+                let mut keys = keys.clone();
+                keys.push(
+                    [("frame".to_owned(), after.into()), ("factor".to_owned(), 1.0.into())].into_iter().collect(),
+                );
+                self.set(commands, Some(wrap(&keys)), Phase::Done);
+            }
+        });
+    }
+}
+
+/// A field for a number that is taken when it is finished or dragged.
+pub fn drag<'a>(number: &'a mut f64, step: f64, unit: &str) -> DragValue<'a> {
+    DragValue::new(number).speed(step).max_decimals(6).suffix(suffix(unit)).update_while_editing(false)
+}
+
+fn suffix(unit: &str) -> String {
+    match unit {
+        "" => String::new(),
+        "degrees" => "\u{b0}".to_owned(),
+        unit => format!(" {unit}"),
+    }
+}
+
+/// Names a field for who does not see it, and for tests.
+fn name(response: Response, field: &Field) -> Response {
+    response.accessible_name(format!("{} {}", field.group, field.setting.label))
+}
+
+fn choose(
+    ui: &mut Ui,
+    field: &Field,
+    now: &str,
+    words: &[&str],
+    commands: &mut Commands,
+    make: impl Fn(&str) -> Value,
+) {
+    let combo = egui::ComboBox::from_id_salt(&field.key).selected_text(now).width(96.0);
+    let response = combo.show_ui(ui, |ui| {
+        for word in words {
+            if ui.selectable_label(*word == now, *word).clicked() && *word != now {
+                field.set(commands, Some(make(word)), Phase::Done);
+            }
+        }
+    });
+    name(response.response, field);
+}
+
+fn range_text(kind: Kind, unit: &str) -> String {
+    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    match kind {
+        Kind::Number { least, most, .. } if most < 9e4 => format!("\n{least} to {most}{unit}."),
+        Kind::Number { least, .. } if least > -9e4 => format!("\nAt least {least}{unit}."),
+        Kind::Whole { least, most } if most < 1_000_000 => format!("\n{least} to {most}{unit}."),
+        Kind::Whole { least, .. } => format!("\nAt least {least}{unit}."),
+        _ if unit.is_empty() => String::new(),
+        _ => format!("\nIn{unit}."),
+    }
+}
+
+/// What a setting that was left open begins with.
+fn first_value(kind: Kind) -> Value {
+    match kind {
+        Kind::Number { least, most, .. } => Value::Float(50.0_f64.clamp(least, most)),
+        Kind::Whole { least, most } => Value::Integer(1000.clamp(least, most)),
+        Kind::Flag => Value::Boolean(true),
+        Kind::Choice(words) => Value::String(words.first().copied().unwrap_or_default().to_owned()),
+        Kind::Numbers { names, .. } => names.iter().map(|_| Value::Float(0.0)).collect::<Vec<_>>().into(),
+        Kind::List { .. } => Value::Array(vec![Value::Integer(0)]),
+        Kind::Unit => Value::String("cm".to_owned()),
+        _ => Value::String(String::new()),
+    }
+}
+
+/// A number, whole or not.
+pub fn number_of(value: &Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+}
+
+fn rgb_of(value: Option<&Value>) -> [f32; 3] {
+    let mut channels = value.and_then(Value::as_array).into_iter().flatten().filter_map(number_of);
+    std::array::from_fn(|_| channels.next().unwrap_or_default() as f32)
+}
+
+fn rgb_value(rgb: [f32; 3]) -> Value {
+    rgb.map(|c| Value::Float((f64::from(c) * 1e4).round() / 1e4)).to_vec().into()
+}
+
+fn table<const N: usize>(entries: [(&str, Value); N]) -> Value {
+    Value::Table(entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
+}

@@ -1,0 +1,116 @@
+//! Choosing a file: a path to type, what is in its folder to click, and the system's own dialog for who prefers it.
+
+use std::path::{Path, PathBuf};
+
+use eframe::egui::{self, Ui};
+
+use super::{Commands, theme};
+use crate::command::Command;
+use crate::dialog::{Chooser, Dialog, Purpose};
+use crate::document::Phase;
+use crate::session::Session;
+use crate::tasks::Order;
+
+/// Draws the chooser.
+pub fn ui(ui: &mut Ui, session: &Session, chooser: &Chooser, commands: &mut Commands) {
+    let (title, verb) = match &chooser.purpose {
+        Purpose::Open => ("Open", "Open"),
+        Purpose::SaveAs => ("Save as", "Save"),
+        Purpose::Setting(_) => ("Choose a file", "Choose"),
+        Purpose::Export(_) => ("Export to", "Choose"),
+    };
+    ui.heading(title);
+    ui.add_space(6.0);
+    let show = |chooser: Chooser| Command::Show(Box::new(Dialog::File(chooser)));
+    let mut path = chooser.path.clone();
+    let edit = egui::TextEdit::singleline(&mut path).desired_width(540.0).hint_text("a path");
+    let response = ui.add(edit).accessible_name("Path");
+    if ui.memory(|memory| memory.focused().is_none()) {
+        response.request_focus();
+    }
+    let entered = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+    if response.changed() {
+        commands.push(show(Chooser { path: path.clone(), ..chooser.clone() }));
+    }
+    ui.add_space(4.0);
+    egui::Frame::new().fill(theme::GROUND).corner_radius(4.0).inner_margin(6.0).show(ui, |ui| {
+        egui::ScrollArea::vertical().max_height(300.0).min_scrolled_height(300.0).auto_shrink(false).show(ui, |ui| {
+            if line(ui, "..", true, false).clicked() {
+                commands.push(show(chooser.up()));
+            }
+            let listed = chooser.listed();
+            if listed.is_empty() {
+                ui.label(theme::faint("Nothing here that could be chosen."));
+            }
+            for entry in listed {
+                let chosen = !entry.folder && Path::new(&chooser.path) == entry.path;
+                let response = line(ui, &entry.name, entry.folder, chosen);
+                if response.double_clicked() && !entry.folder {
+                    finish(session, chooser, entry.path.clone(), commands);
+                } else if response.clicked() {
+                    commands.push(show(chooser.with(&entry)));
+                }
+            }
+        });
+    });
+    ui.add_space(8.0);
+    let chosen = PathBuf::from(&path);
+    let is_file = !path.is_empty() && !path.ends_with(std::path::is_separator);
+    let may = match chooser.purpose {
+        Purpose::Open | Purpose::Setting(_) => chosen.is_file(),
+        Purpose::SaveAs | Purpose::Export(_) => is_file && !chosen.is_dir(),
+    };
+    ui.horizontal(|ui| {
+        if ui.button("System dialog...").on_hover_text("The dialog of your desktop, if it has one.").clicked()
+            && let Some(path) = system(chooser)
+        {
+            finish(session, chooser, path, commands);
+        }
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let replaces = matches!(chooser.purpose, Purpose::SaveAs) && chosen.is_file();
+            let own = session.document().and_then(|document| document.path()).is_some_and(|own| own == chosen);
+            let verb = if replaces && !own { "Replace" } else { verb };
+            let done = ui.add_enabled(may, egui::Button::new(verb)).clicked();
+            if (done || entered) && may {
+                finish(session, chooser, chosen, commands);
+            }
+            if ui.button("Cancel").clicked() {
+                commands.push(Command::CloseDialog);
+            }
+        });
+    });
+}
+
+fn line(ui: &mut Ui, name: &str, folder: bool, chosen: bool) -> egui::Response {
+    let text =
+        if folder { theme::faint(format!("{name}{}", std::path::MAIN_SEPARATOR)) } else { egui::RichText::new(name) };
+    let button = egui::Button::selectable(chosen, text).truncate().min_size(egui::vec2(ui.available_width(), 20.0));
+    ui.add(button)
+}
+
+fn finish(session: &Session, chooser: &Chooser, path: PathBuf, commands: &mut Commands) {
+    match &chooser.purpose {
+        Purpose::Open => commands.push(Command::Open(path)),
+        Purpose::SaveAs => commands.push(Command::SaveTo(path)),
+        Purpose::Setting(key) => {
+            commands.push(Command::CloseDialog);
+            let path = session.from_scene(&path);
+            let value = Some(path.display().to_string().into());
+            commands.push(Command::Set { key: key.clone(), value, phase: Phase::Done });
+        }
+        Purpose::Export(order) => {
+            let order = Order { place: path, ..order.clone() };
+            commands.push(Command::Show(Box::new(Dialog::Export(order))));
+        }
+    }
+}
+
+/// Asks the desktop. It waits, as that dialog stands before this window.
+fn system(chooser: &Chooser) -> Option<PathBuf> {
+    let dialog = rfd::FileDialog::new().set_directory(std::path::absolute(chooser.folder()).unwrap_or_default());
+    let dialog = if chooser.endings.is_empty() { dialog } else { dialog.add_filter("Files", &chooser.endings) };
+    match chooser.purpose {
+        Purpose::Open | Purpose::Setting(_) => dialog.pick_file(),
+        Purpose::SaveAs | Purpose::Export(_) => dialog.save_file(),
+    }
+}

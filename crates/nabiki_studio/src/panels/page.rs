@@ -1,0 +1,207 @@
+//! A page of settings: groups that open and close, drawn from the tables of `settings`.
+
+use std::path::Path;
+
+use eframe::egui::{self, Ui};
+use nabiki_scene::scene::FormChoice;
+use toml::Value;
+
+use super::fields::Field;
+use super::{Commands, theme};
+use crate::command::Command;
+use crate::document::Phase;
+use crate::session::Session;
+use crate::settings::{Group, Page, Shape, When, value_at};
+
+/// Draws a page.
+pub fn ui(ui: &mut Ui, session: &Session, page: Page, commands: &mut Commands) {
+    let Some(document) = session.document() else {
+        ui.add_space(12.0);
+        ui.label(theme::faint("No scene is open."));
+        return;
+    };
+    let scene = document.scene();
+    let has_effect = |when: When| match when {
+        When::Always => true,
+        When::Paper => scene.form == FormChoice::Paper,
+        When::Free => scene.form == FormChoice::Free,
+        When::Grown => scene.hair.grown().is_some(),
+        When::Imported => scene.hair.imported().is_some(),
+        When::ImportedHead => scene.head.mesh() != nabiki_scene::scene::HeadSettings::BUILTIN,
+    };
+    let list = Panel { session, folder: scene.file().parent().unwrap_or(Path::new("")) };
+    egui::ScrollArea::vertical().id_salt(page).auto_shrink(false).show(ui, |ui| {
+        ui.set_width(ui.available_width() - 6.0);
+        let groups = page.groups().iter();
+        for group in groups.filter(|group| has_effect(group.when) && parent(page, group).is_none()) {
+            list.group(ui, page, group, group.table.to_owned(), commands);
+        }
+        ui.add_space(24.0);
+    });
+}
+
+/// The list of which a group is a part: the motion of a body.
+fn parent(page: Page, group: &Group) -> Option<&'static Group> {
+    let lists = page.groups().iter().filter(|of| matches!(of.shape, Shape::List(_)));
+    lists.into_iter().find(|of| group.table.strip_prefix(of.table).is_some_and(|rest| rest.starts_with('.')))
+}
+
+struct Panel<'a> {
+    session: &'a Session,
+    folder: &'a Path,
+}
+
+impl Panel<'_> {
+    fn group(&self, ui: &mut Ui, page: Page, group: &'static Group, table: String, commands: &mut Commands) {
+        let there = value_at(self.session.settings(), &table);
+        match group.shape {
+            Shape::Always => self.fold(
+                ui,
+                group,
+                &table,
+                group.title,
+                None,
+                true,
+                |ui, commands| {
+                    self.fields(ui, group, &table, commands);
+                },
+                commands,
+            ),
+            Shape::Optional(_) => {
+                let on = there.is_some();
+                let toggle = Command::Set {
+                    key: table.clone(),
+                    value: if on { None } else { group.fresh() },
+                    phase: Phase::Done,
+                };
+                self.fold(
+                    ui,
+                    group,
+                    &table,
+                    group.title,
+                    Some((on, toggle)),
+                    on,
+                    |ui, commands| {
+                        if on {
+                            self.fields(ui, group, &table, commands);
+                        } else {
+                            ui.label(theme::faint(group.help));
+                        }
+                    },
+                    commands,
+                );
+            }
+            Shape::List(_) => {
+                let count = there.and_then(Value::as_array).map_or(0, Vec::len);
+                let title = if count == 0 { group.title.to_owned() } else { format!("{} ({count})", group.title) };
+                self.fold(
+                    ui,
+                    group,
+                    &table,
+                    &title,
+                    None,
+                    count > 0,
+                    |ui, commands| {
+                        for i in 0..count {
+                            self.entry(ui, page, group, i, commands);
+                        }
+                        if ui.button("Add").on_hover_text(group.help).clicked() {
+                            let key = format!("{}[{count}]", group.table);
+                            commands.push(Command::Set { key, value: group.fresh(), phase: Phase::Done });
+                        }
+                    },
+                    commands,
+                );
+            }
+        }
+    }
+
+    fn entry(&self, ui: &mut Ui, page: Page, group: &'static Group, i: usize, commands: &mut Commands) {
+        let table = format!("{}[{i}]", group.table);
+        ui.horizontal(|ui| {
+            ui.label(format!("{}", i + 1));
+            let remove = ui.small_button("Remove");
+            if remove.clicked() {
+                commands.push(Command::Set { key: table.clone(), value: None, phase: Phase::Done });
+            }
+        });
+        self.fields(ui, group, &table, commands);
+        for nested in
+            page.groups().iter().filter(|nested| parent(page, nested).is_some_and(|of| of.table == group.table))
+        {
+            let below = nested.table.strip_prefix(group.table).unwrap_or_default();
+            self.group(ui, page, nested, format!("{table}{below}"), commands);
+        }
+        ui.separator();
+    }
+
+    /// A title that opens and closes what is below it, with a switch beside it where it may be off.
+    #[expect(clippy::too_many_arguments, reason = "it is a row of a table")]
+    fn fold(
+        &self,
+        ui: &mut Ui,
+        group: &Group,
+        table: &str,
+        title: &str,
+        switch: Option<(bool, Command)>,
+        is_on: bool,
+        body: impl FnOnce(&mut Ui, &mut Commands),
+        commands: &mut Commands,
+    ) {
+        let blamed = self.session.trouble().and_then(|trouble| trouble.key.as_deref()).is_some_and(|key| {
+            key.strip_prefix(table).is_some_and(|rest| {
+                group.settings.iter().any(|setting| blames(rest, setting.key)) || rest.starts_with('[')
+            })
+        });
+        let id = ui.make_persistent_id((group.title, table));
+        let mut state = egui::collapsing_header::CollapsingState::load_with_default_open(ui.ctx(), id, group.open);
+        let header = ui.horizontal(|ui| {
+            ui.set_min_height(24.0);
+            state.show_toggle_button(ui, egui::collapsing_header::paint_default_icon);
+            let ink = match (blamed, is_on) {
+                (true, _) => theme::WRONG,
+                (_, true) => theme::TEXT,
+                (_, false) => theme::FAINT,
+            };
+            let label = egui::Label::new(egui::RichText::new(title).color(ink)).truncate().sense(egui::Sense::click());
+            let response = ui.add(label).on_hover_text(group.help);
+            if response.clicked() {
+                state.toggle(ui);
+            }
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let Some((mut on, toggle)) = switch else { return };
+                let response = ui.checkbox(&mut on, "").on_hover_text(group.help);
+                if response.accessible_name(format!("{} on", group.title)).changed() {
+                    if on {
+                        state.set_open(true);
+                    }
+                    commands.push(toggle);
+                }
+            });
+        });
+        let rect = header.response.rect;
+        state.show_body_unindented(ui, |ui| {
+            egui::Frame::new()
+                .inner_margin(egui::Margin { left: 14, right: 0, top: 0, bottom: 6 })
+                .show(ui, |ui| body(ui, commands));
+        });
+        ui.painter().hline(rect.x_range(), rect.top() - 2.0, egui::Stroke::new(1.0, theme::LINE));
+    }
+
+    fn fields(&self, ui: &mut Ui, group: &'static Group, table: &str, commands: &mut Commands) {
+        let blamed = self.session.trouble().and_then(|trouble| trouble.key.as_deref());
+        for setting in group.settings {
+            let key = format!("{table}.{}", setting.key);
+            let value = value_at(self.session.settings(), &key);
+            let blamed =
+                blamed.and_then(|blamed| blamed.strip_prefix(table)).is_some_and(|rest| blames(rest, setting.key));
+            Field { setting, key, value, group: group.title, blamed, folder: self.folder }.ui(ui, commands);
+        }
+    }
+}
+
+/// Whether what follows a table's name in the key of an error means this setting.
+fn blames(rest: &str, key: &str) -> bool {
+    let Some(rest) = rest.strip_prefix('.').and_then(|rest| rest.strip_prefix(key)) else { return false };
+    rest.is_empty() || rest.starts_with(['.', '[', ' '])
+}

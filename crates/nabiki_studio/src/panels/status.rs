@@ -1,0 +1,139 @@
+//! The last line: what is shown and how fast, what is wrong, what runs in the background.
+
+use std::time::Duration;
+
+use eframe::egui::{self, Ui};
+
+use super::{Commands, theme};
+use crate::command::Command;
+use crate::dialog::Dialog;
+use crate::preferences::STRANDS;
+use crate::session::Session;
+use crate::tasks::{Ended, Task};
+
+/// Whether there is anything to be said above the line.
+pub fn has_words(session: &Session) -> bool {
+    session.trouble().is_some() || !session.words().is_empty() || !session.tasks().is_empty()
+}
+
+/// Draws what has to be said above the line: trouble, words and tasks.
+pub fn words(ui: &mut Ui, session: &Session, commands: &mut Commands) {
+    if let Some(trouble) = session.trouble() {
+        bar(ui, theme::WRONG, |ui| {
+            let button = ui.button("Undo");
+            if button.clicked() {
+                commands.push(Command::Act(crate::actions::Action::Undo));
+            }
+            let text = egui::RichText::new(&trouble.text).color(theme::TEXT);
+            ui.add(egui::Label::new(text).wrap().selectable(true));
+        });
+    }
+    for (n, word) in session.words().iter().enumerate() {
+        bar(ui, if word.wrong { theme::WRONG } else { theme::GOOD }, |ui| {
+            if ui.small_button("x").on_hover_text("Take it away.").clicked() {
+                commands.push(Command::Heard(n));
+            }
+            ui.add(egui::Label::new(&word.text).wrap().selectable(true));
+        });
+    }
+    for (n, task) in session.tasks().iter().enumerate() {
+        bar(ui, theme::ACCENT, |ui| self::task(ui, n, task, commands));
+    }
+}
+
+fn bar(ui: &mut Ui, ink: egui::Color32, contents: impl FnOnce(&mut Ui)) {
+    let frame = egui::Frame::new().fill(egui::Color32::from_gray(38)).inner_margin(egui::Margin::symmetric(10, 4));
+    let response = frame.show(ui, |ui| {
+        ui.set_min_width(ui.available_width());
+        ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), contents);
+    });
+    let rect = response.response.rect;
+    ui.painter().vline(rect.left() + 1.5, rect.y_range(), egui::Stroke::new(3.0, ink));
+}
+
+fn task(ui: &mut Ui, n: usize, task: &Task, commands: &mut Commands) {
+    let progress = task.progress();
+    let (kind, place) = (task.order.kind.name(), task.order.place.display());
+    match &progress.ended {
+        None => {
+            if ui.add_enabled(!task.is_cancelled(), egui::Button::new("Cancel")).clicked() {
+                commands.push(Command::Cancel(n));
+            }
+            let left = progress.left().map(|left| format!(", {} left", time(left))).unwrap_or_default();
+            let doing = if task.is_cancelled() { "stopping" } else { progress.doing.as_str() };
+            ui.label(format!("{kind}: {doing} {} of {}{left}", progress.steps[0], progress.steps[1]));
+            let bar = egui::ProgressBar::new(progress.part()).desired_width(160.0).desired_height(6.0);
+            ui.add(bar.fill(theme::ACCENT));
+            ui.add(egui::Label::new(theme::faint(place.to_string())).truncate());
+        }
+        Some(ended) => {
+            if ui.small_button("x").on_hover_text("Take it away.").clicked() {
+                commands.push(Command::Dismiss(n));
+            }
+            let text = match ended {
+                Ended::Wrote(files) => {
+                    let files: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
+                    format!("{kind}: wrote {}", files.join(", "))
+                }
+                Ended::Cancelled => format!("{kind}: cancelled, nothing was left"),
+                Ended::Failed(why) => format!("{kind}: {why}"),
+            };
+            let ink = if matches!(ended, Ended::Failed(_)) { theme::WRONG } else { theme::TEXT };
+            let said = progress.said.iter().map(|line| format!("\n{line}")).collect::<String>();
+            ui.add(egui::Label::new(egui::RichText::new(text + &said).color(ink)).wrap().selectable(true));
+        }
+    }
+}
+
+/// Draws the line.
+pub fn line(ui: &mut Ui, session: &Session, fps: f32, commands: &mut Commands) {
+    ui.horizontal(|ui| {
+        ui.set_min_height(22.0);
+        ui.add_space(6.0);
+        let Some(take) = session.take() else {
+            ui.label(theme::faint(if session.is_moving() { "Moving the hair..." } else { "No motion yet" }));
+            return;
+        };
+        let mut strands = session.preferences().strands;
+        let whole = take.built.strands_of_scene;
+        let most = (*STRANDS.end()).min(whole).max(*STRANDS.start());
+        ui.label(theme::faint("Strands"));
+        ui.spacing_mut().slider_width = 110.0;
+        let slider = egui::Slider::new(&mut strands, *STRANDS.start()..=most).logarithmic(true).show_value(false);
+        let help =
+            "Strands that are shown and moved with every touch. The others move just so: the picture has them all.";
+        let response = ui.add(slider).on_hover_text(help).accessible_name("Strands shown");
+        if response.changed() {
+            commands.push(Command::Strands(strands));
+        }
+        ui.label(format!("{} of {whole}", take.strands().len()));
+        ui.separator();
+        let took = session.took().as_secs_f64() * 1000.0;
+        let text = format!("{} frames in {}", take.frames(), time_short(took));
+        ui.label(theme::faint(text)).on_hover_text("How long the last touch took, for the motion of all frames.");
+        if session.is_moving() {
+            ui.add(egui::Spinner::new().size(12.0).color(theme::FAINT));
+        }
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.add_space(8.0);
+            if session.play.is_playing() {
+                ui.label(theme::faint(format!("{fps:.0} pictures a second")));
+            } else if ui.add(egui::Label::new(theme::faint("F1 keys")).sense(egui::Sense::click())).clicked() {
+                commands.push(Command::Show(Box::new(Dialog::Keys)));
+            }
+        });
+    });
+}
+
+fn time_short(milliseconds: f64) -> String {
+    if milliseconds < 100.0 { format!("{milliseconds:.1} ms") } else { format!("{:.2} s", milliseconds / 1000.0) }
+}
+
+fn time(left: Duration) -> String {
+    let seconds = left.as_secs();
+    match seconds {
+        0..60 => format!("{seconds} s"),
+        60..3600 => format!("{} min {} s", seconds / 60, seconds % 60),
+        _ => format!("{} h {} min", seconds / 3600, seconds / 60 % 60),
+    }
+}

@@ -1,0 +1,249 @@
+//! The timeline: transport, ruler, the wind's intervals, and the tracks of what else moves.
+
+mod blocks;
+mod scale;
+mod tracks;
+
+use eframe::egui::{self, Align2, Color32, Rect, Sense, Stroke, Ui, pos2, vec2};
+
+use super::{Commands, interval, theme};
+use crate::actions::Action;
+use crate::command::Command;
+use crate::play::{Ending, Play};
+use crate::session::Session;
+
+use scale::Scale;
+
+/// Width of the fields beside the tracks (points).
+const FIELDS: f32 = 236.0;
+/// Width of the names of the tracks (points).
+const NAMES: f32 = 74.0;
+/// Height of the ruler (points).
+const RULER: f32 = 22.0;
+/// Height of the intervals (points).
+const BLOCKS: f32 = 62.0;
+
+/// Draws the panel.
+pub fn ui(ui: &mut Ui, session: &Session, commands: &mut Commands) {
+    transport(ui, session, commands);
+    ui.add_space(2.0);
+    let Some(document) = session.document() else { return };
+    let room = ui.available_rect_before_wrap();
+    let (fields, tracks) = room.split_left_right_at_x(room.left() + FIELDS.min(room.width() * 0.4));
+    let mut below = ui.new_child(egui::UiBuilder::new().max_rect(fields.shrink2(vec2(6.0, 2.0))));
+    egui::ScrollArea::vertical().id_salt("interval").show(&mut below, |ui| {
+        interval::ui(ui, session, fields.height(), commands);
+    });
+    ui.painter().vline(fields.right(), room.y_range(), Stroke::new(1.0, theme::LINE));
+
+    let area = Rect::from_min_max(pos2(tracks.left() + 6.0, tracks.top()), tracks.right_bottom() - vec2(8.0, 0.0));
+    let mut below = ui.new_child(egui::UiBuilder::new().max_rect(area));
+    below.set_clip_rect(area.intersect(ui.clip_rect()));
+    let ui = &mut below;
+    let keys = &document.scene().field.force;
+    let last = document.scene().motion.frames.max(1);
+    let lane = Rect::from_min_max(pos2(area.left() + NAMES, area.top()), area.right_bottom());
+    let scale = Scale::of(ui, lane, last.max(keys.last().map_or(0, |key| key.through)));
+    // What lies behind everything else takes the drags that nothing before it wants.
+    let behind = Rect::from_min_max(pos2(lane.left(), lane.top() + RULER), lane.right_bottom());
+    choose_by_box(ui, behind, &scale, session, commands);
+    ruler(ui, Rect::from_min_size(lane.min, vec2(lane.width(), RULER)), &scale, last, commands);
+    let mut y = lane.top() + RULER + 4.0;
+    let mut next = |height: f32| {
+        let rect = Rect::from_min_size(pos2(area.left(), y), vec2(area.width(), height));
+        y += height + 4.0;
+        (rect, Rect::from_min_max(pos2(lane.left(), rect.top()), rect.right_bottom()))
+    };
+    let (row, wind) = next(BLOCKS);
+    track_name(ui, row, "Wind", theme::TEXT);
+    blocks::ui(ui, wind, &scale, session, commands);
+    tracks::ui(ui, &mut next, &scale, session, commands);
+    playhead(ui, lane, &scale, session.play.frame());
+}
+
+/// Buttons and fields above the tracks.
+fn transport(ui: &mut Ui, session: &Session, commands: &mut Commands) {
+    ui.horizontal(|ui| {
+        ui.set_min_height(26.0);
+        ui.add_space(6.0);
+        ui.spacing_mut().item_spacing.x = 2.0;
+        for (sign, action) in [
+            (Sign::First, Action::First),
+            (Sign::Back, Action::Back),
+            (if session.play.is_playing() { Sign::Pause } else { Sign::Play }, Action::Play),
+            (Sign::Forward, Action::Forward),
+            (Sign::Last, Action::Last),
+        ] {
+            if sign_button(ui, sign, action).clicked() {
+                commands.push(Command::Act(action));
+            }
+        }
+        ui.add_space(8.0);
+        let mut frame = session.play.frame();
+        let field = egui::DragValue::new(&mut frame).range(0..=session.play.last()).speed(0.25);
+        let response = ui.add_sized([46.0, 20.0], field).on_hover_text("The frame shown.").accessible_name("Frame");
+        if response.changed() {
+            commands.push(Command::Go(frame));
+        }
+        ui.add_space(4.0);
+        let rate = session.document().map_or(24.0, |document| document.scene().frame_rate());
+        let seconds = f64::from(frame) / rate;
+        ui.label(theme::faint(format!("of {}   {seconds:.2} s", session.play.last())));
+        ui.add_space(10.0);
+        let speed = session.play.speed;
+        let text = |speed: f64| format!("{speed} x");
+        let box_ = egui::ComboBox::from_id_salt("speed").selected_text(text(speed)).width(56.0);
+        let response = box_.show_ui(ui, |ui| {
+            for offered in Play::SPEEDS {
+                if ui.selectable_label(speed == offered, text(offered)).clicked() {
+                    commands.push(Command::Speed(offered));
+                }
+            }
+        });
+        response.response.on_hover_text(format!("Of the scene's own {rate} frames a second.")).accessible_name("Speed");
+        ui.add_space(4.0);
+        let ending = |ending| match ending {
+            Ending::Loop => "Loop",
+            Ending::Stop => "Stop",
+            Ending::Swing => "Swing",
+        };
+        let button = ui.button(ending(session.play.ending)).on_hover_text("What happens after the last frame (L).");
+        if button.clicked() {
+            commands.push(Command::Act(Action::Ending));
+        }
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.add_space(8.0);
+            let (chosen, open) = (session.chosen().len(), session.document().is_some());
+            for (action, enabled) in
+                [(Action::Delete, chosen > 0), (Action::Join, chosen > 1), (Action::Split, open), (Action::Add, open)]
+            {
+                let entry = action.entry();
+                let key = entry.key.map(|key| format!(" ({})", key.text())).unwrap_or_default();
+                let button = ui.add_enabled(enabled, egui::Button::new(entry.name));
+                if button.on_hover_text(format!("{}{key}", entry.help)).clicked() {
+                    commands.push(Command::Act(action));
+                }
+            }
+        });
+    });
+}
+
+#[derive(Clone, Copy)]
+enum Sign {
+    First,
+    Back,
+    Play,
+    Pause,
+    Forward,
+    Last,
+}
+
+/// A button with a sign that no font need have.
+fn sign_button(ui: &mut Ui, sign: Sign, action: Action) -> egui::Response {
+    let entry = action.entry();
+    let (rect, response) = ui.allocate_exact_size(vec2(26.0, 22.0), Sense::click());
+    let key = entry.key.map(|key| format!(" ({})", key.text())).unwrap_or_default();
+    let response = response.on_hover_text(format!("{}{key}", entry.name));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, entry.name));
+    let visuals = ui.style().interact(&response);
+    ui.painter().rect_filled(rect, 3.0, visuals.bg_fill);
+    let ink = visuals.fg_stroke.color;
+    let (c, h) = (rect.center(), 5.0);
+    let triangle = |from: f32, to: f32| {
+        egui::Shape::convex_polygon(
+            vec![pos2(c.x + from, c.y - h), pos2(c.x + to, c.y), pos2(c.x + from, c.y + h)],
+            ink,
+            Stroke::NONE,
+        )
+    };
+    let bar = |x: f32, wide: f32| {
+        egui::Shape::rect_filled(Rect::from_center_size(pos2(c.x + x, c.y), vec2(wide, 2.0 * h)), 0.0, ink)
+    };
+    let shapes = match sign {
+        Sign::First => vec![bar(-5.0, 2.0), triangle(5.0, -3.0)],
+        Sign::Back => vec![triangle(3.0, -5.0)],
+        Sign::Play => vec![triangle(-4.0, 5.0)],
+        Sign::Pause => vec![bar(-3.0, 3.0), bar(3.0, 3.0)],
+        Sign::Forward => vec![triangle(-3.0, 5.0)],
+        Sign::Last => vec![triangle(-5.0, 3.0), bar(5.0, 2.0)],
+    };
+    ui.painter().extend(shapes);
+    response
+}
+
+/// Frames in numbers; a drag on it shows them.
+fn ruler(ui: &mut Ui, rect: Rect, scale: &Scale, last: u32, commands: &mut Commands) {
+    let response = ui.interact(rect, ui.scope_id().with("ruler"), Sense::click_and_drag());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, "Ruler"));
+    let response = response.on_hover_cursor(egui::CursorIcon::ResizeHorizontal);
+    if (response.dragged() || response.clicked())
+        && let Some(pointer) = response.interact_pointer_pos()
+    {
+        commands.push(Command::Go(scale.frame(pointer.x)));
+    }
+    if response.double_clicked() {
+        scale.forget(ui);
+    }
+    let painter = ui.painter();
+    let over = scale.x(f64::from(last) + 0.5);
+    if over < rect.right() {
+        // After the last frame there is nothing.
+        let beyond = Rect::from_min_max(pos2(over, rect.top()), ui.clip_rect().right_bottom());
+        painter.rect_filled(beyond, 0.0, Color32::from_black_alpha(60));
+    }
+    let step = scale.step();
+    let from = (scale.from().max(0.0) / f64::from(step)).floor() as u32 * step;
+    for frame in (from..).step_by(step as usize).take_while(|n| f64::from(*n) <= scale.to()) {
+        let x = scale.x(f64::from(frame));
+        painter.vline(x, rect.bottom() - 4.0..=rect.bottom(), Stroke::new(1.0, Color32::from_gray(70)));
+        painter.text(
+            pos2(x, rect.top() + 9.0),
+            Align2::CENTER_CENTER,
+            frame,
+            egui::FontId::proportional(10.5),
+            theme::FAINT,
+        );
+    }
+}
+
+/// A drag over nothing chooses the intervals of its frames; a click chooses none.
+fn choose_by_box(ui: &mut Ui, rect: Rect, scale: &Scale, session: &Session, commands: &mut Commands) {
+    let response = ui.interact(rect, ui.scope_id().with("behind"), Sense::click_and_drag());
+    if response.clicked() && !session.chosen().is_empty() {
+        commands.push(Command::Choose(Vec::new()));
+    }
+    let Some(document) = session.document() else { return };
+    if let (true, Some(start), Some(now)) =
+        (response.dragged(), ui.input(|input| input.pointer.press_origin()), response.interact_pointer_pos())
+    {
+        let (a, b) = (scale.frame(start.x.min(now.x)), scale.frame(start.x.max(now.x)));
+        commands.push(Command::Choose(crate::timeline::within(&document.scene().field.force, a..=b)));
+        let drawn = Rect::from_two_pos(start, now).intersect(rect);
+        ui.painter().rect(
+            drawn,
+            2.0,
+            theme::ACCENT.gamma_multiply(0.12),
+            Stroke::new(1.0, theme::ACCENT),
+            egui::StrokeKind::Inside,
+        );
+    }
+    scale.steer(ui, rect);
+}
+
+fn track_name(ui: &Ui, row: Rect, name: &str, ink: Color32) {
+    let at = pos2(row.left() + 2.0, row.center().y);
+    ui.painter().text(at, Align2::LEFT_CENTER, name, egui::FontId::proportional(theme::SMALL), ink);
+}
+
+fn playhead(ui: &Ui, lane: Rect, scale: &Scale, frame: u32) {
+    let x = scale.x(f64::from(frame));
+    if !lane.x_range().contains(x) {
+        return;
+    }
+    let painter = ui.painter();
+    painter.vline(x, lane.top() + 16.0..=lane.bottom(), Stroke::new(1.0, theme::ACCENT));
+    let text = frame.to_string();
+    let head = Rect::from_center_size(pos2(x, lane.top() + 9.0), vec2(10.0 + 6.5 * text.len() as f32, 16.0));
+    painter.rect_filled(head, 3.0, theme::ACCENT);
+    painter.text(head.center(), Align2::CENTER_CENTER, text, egui::FontId::proportional(10.5), Color32::from_gray(20));
+}

@@ -1,0 +1,456 @@
+//! What a window knows: the scene, its motion, what is chosen, played, asked and exported. It changes by commands and by
+//! the time that passes.
+
+mod edit;
+mod files;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use nabiki_scene::scene::SceneError;
+use nabiki_scene::told::SwingTable;
+use toml::Table;
+
+use crate::actions::Action;
+use crate::command::Command;
+use crate::dialog::{Dialog, Next};
+use crate::document::Document;
+use crate::motion::{Motion, Moved};
+use crate::play::{Ending, Play};
+use crate::preferences::{self, Preferences};
+use crate::recovery::{self, Keeper};
+use crate::take::Take;
+use crate::tasks::Task;
+use crate::timeline::Clip;
+
+/// Between two looks at the scene's file, and between the last change and its being kept.
+const LOOK: Duration = Duration::from_secs(1);
+
+/// A word about what has happened.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Word {
+    /// What.
+    pub text: String,
+    /// Whether it went wrong, and stays until it is read.
+    pub wrong: bool,
+    /// When it was said, by the session's clock (seconds).
+    pub at: f64,
+}
+
+/// The text of a scene that cannot be read, being mended.
+#[derive(Clone, Debug)]
+pub struct Broken {
+    /// The file.
+    pub path: PathBuf,
+    /// Its text, as it has been mended so far.
+    pub text: String,
+    /// What is wrong; none once nothing is.
+    pub error: Option<SceneError>,
+    /// What is in the file.
+    on_disk: Vec<u8>,
+}
+
+/// What only the window itself can do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wish {
+    /// Frame the hair in the view.
+    Frame,
+    /// Look through the scene's camera.
+    SceneCamera,
+    /// Take the view over as the scene's camera.
+    UseCamera,
+    /// Put the panels where they were at the first start.
+    ResetLayout,
+    /// Close.
+    Quit,
+}
+
+/// Why the scene as it is does not move.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trouble {
+    /// In one line.
+    pub text: String,
+    /// The setting to blame, where one is.
+    pub key: Option<String>,
+}
+
+/// A window's state.
+#[derive(Debug)]
+pub struct Session {
+    document: Option<Document>,
+    settings: Arc<Table>,
+    broken: Option<Broken>,
+    motion: Motion,
+    take: Option<Arc<Take>>,
+    swings: Option<SwingTable>,
+    trouble: Option<Trouble>,
+    took: Duration,
+    asked: u64,
+    chosen: Vec<usize>,
+    clip: Clip,
+    dialog: Option<Dialog>,
+    tasks: Vec<Task>,
+    words: Vec<Word>,
+    wishes: Vec<Wish>,
+    preferences: Preferences,
+    folder: Option<PathBuf>,
+    keeper: Option<Keeper>,
+    clock: f64,
+    looked: Instant,
+    said_changed: bool,
+    seen_version: u64,
+    wake: Waker,
+    /// The clock of the play.
+    pub play: Play,
+}
+
+/// Calls for a new picture of the window.
+#[derive(Clone)]
+pub struct Waker(Arc<dyn Fn() + Send + Sync>);
+
+impl std::fmt::Debug for Waker {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Waker")
+    }
+}
+
+impl Session {
+    /// A window without a scene. `folder`: where it remembers things, if anywhere. `wake` is called when there is something
+    /// new to see.
+    ///
+    /// # Errors
+    /// The system's, if it gives no thread.
+    pub fn new(folder: Option<PathBuf>, wake: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
+        let wake = Waker(Arc::new(wake));
+        let theirs = wake.clone();
+        let motion = Motion::start(move || theirs.0())?;
+        let (preferences, said) = folder.as_deref().map_or((Preferences::default(), None), Preferences::load);
+        let mut session = Self {
+            document: None,
+            settings: Arc::default(),
+            broken: None,
+            motion,
+            take: None,
+            swings: None,
+            trouble: None,
+            took: Duration::ZERO,
+            asked: 0,
+            chosen: Vec::new(),
+            clip: Clip::default(),
+            dialog: None,
+            tasks: Vec::new(),
+            words: Vec::new(),
+            wishes: Vec::new(),
+            play: Play::new(preferences.ending),
+            preferences,
+            keeper: None,
+            folder,
+            clock: 0.0,
+            looked: Instant::now(),
+            said_changed: false,
+            seen_version: 0,
+            wake,
+        };
+        said.into_iter().for_each(|said| session.say(said, true));
+        session.look_for_what_is_left();
+        Ok(session)
+    }
+
+    /// Finds what windows that were killed have left, and begins to keep what this one has.
+    fn look_for_what_is_left(&mut self) {
+        let Some(folder) = self.folder.as_ref().map(|folder| folder.join("recovery")) else { return };
+        let left = recovery::left_behind(&folder);
+        if !left.is_empty() {
+            self.dialog = Some(Dialog::Recover(left));
+        }
+        match Keeper::begin(&folder) {
+            Ok(keeper) => self.keeper = Some(keeper),
+            Err(e) => {
+                self.say(
+                    format!("{}: {e}; what is not saved is lost if this window is killed", folder.display()),
+                    true,
+                );
+            }
+        }
+    }
+
+    /// The scene that is open.
+    pub fn document(&self) -> Option<&Document> {
+        self.document.as_ref()
+    }
+
+    /// All its settings by their keys.
+    pub fn settings(&self) -> &Table {
+        &self.settings
+    }
+
+    /// A scene's text that cannot be read.
+    pub fn broken(&self) -> Option<&Broken> {
+        self.broken.as_ref()
+    }
+
+    /// The last good motion.
+    pub fn take(&self) -> Option<&Arc<Take>> {
+        self.take.as_ref()
+    }
+
+    /// How long the swings of each interval take.
+    pub fn swings(&self) -> Option<&SwingTable> {
+        self.swings.as_ref()
+    }
+
+    /// Why the scene as it is does not move; the last good motion is then another's.
+    pub fn trouble(&self) -> Option<&Trouble> {
+        self.trouble.as_ref()
+    }
+
+    /// How long the last motion took.
+    pub fn took(&self) -> Duration {
+        self.took
+    }
+
+    /// Whether a motion is being worked out.
+    pub fn is_moving(&self) -> bool {
+        self.motion.is_working()
+    }
+
+    /// Waits until the scene has been moved as it is.
+    pub fn wait(&mut self) {
+        self.motion.wait();
+        self.receive();
+    }
+
+    /// The intervals chosen, in ascending order.
+    pub fn chosen(&self) -> &[usize] {
+        &self.chosen
+    }
+
+    /// Whether something was copied.
+    pub fn has_clip(&self) -> bool {
+        !self.clip.0.is_empty()
+    }
+
+    /// The question asked.
+    pub fn dialog(&self) -> Option<&Dialog> {
+        self.dialog.as_ref()
+    }
+
+    /// Exports, running and ended.
+    pub fn tasks(&self) -> &[Task] {
+        &self.tasks
+    }
+
+    /// What has been said and not been read.
+    pub fn words(&self) -> &[Word] {
+        &self.words
+    }
+
+    /// What is remembered.
+    pub fn preferences(&self) -> &Preferences {
+        &self.preferences
+    }
+
+    /// The folder in which it is.
+    pub fn folder(&self) -> Option<&Path> {
+        self.folder.as_deref()
+    }
+
+    /// Seconds since the window came up.
+    pub fn clock(&self) -> f64 {
+        self.clock
+    }
+
+    /// What only the window can do, once.
+    pub fn wishes(&mut self) -> Vec<Wish> {
+        std::mem::take(&mut self.wishes)
+    }
+
+    /// Says something.
+    pub fn say(&mut self, text: impl Into<String>, wrong: bool) {
+        let word = Word { text: text.into(), wrong, at: self.clock };
+        // Said twice, it is not twice as true.
+        self.words.retain(|known| known.text != word.text);
+        self.words.push(word);
+    }
+
+    /// Lets time pass, and takes what has come of what was asked for.
+    pub fn tick(&mut self, seconds: f64) {
+        self.clock += seconds;
+        if let Some(document) = &self.document {
+            self.play.advance(seconds, document.scene().frame_rate());
+        }
+        self.receive();
+        let clock = self.clock;
+        self.words.retain(|word| word.wrong || clock - word.at < 6.0);
+        if self.looked.elapsed() >= LOOK {
+            self.looked = Instant::now();
+            self.look_at_file();
+            self.keep();
+        }
+    }
+
+    fn receive(&mut self) {
+        let Some(Moved { number, result, took }) = self.motion.take() else { return };
+        match result {
+            Ok((take, swings)) => {
+                self.play.set_last(take.frames());
+                (self.take, self.swings, self.took) = (Some(take), Some(swings), took);
+                if number == self.asked {
+                    self.trouble = None;
+                }
+            }
+            Err(error) if number == self.asked => {
+                let key = match &error {
+                    nabiki_scene::Error::Scene(refused) => Some(refused.key.clone()).filter(|key| !key.is_empty()),
+                    _ => None,
+                };
+                self.trouble = Some(Trouble { text: error.to_string(), key });
+            }
+            Err(_) => {}
+        }
+    }
+
+    /// Keeps what is not saved.
+    fn keep(&mut self) {
+        let (Some(keeper), Some(document)) = (&mut self.keeper, &self.document) else { return };
+        if let Err(e) = keeper.keep(document) {
+            self.say(format!("{e}: what is not saved cannot be kept in case this window is killed"), true);
+        }
+    }
+
+    /// Asks for the motion of the scene as it is.
+    fn move_again(&mut self, fresh: bool) {
+        let Some(document) = &self.document else { return };
+        self.seen_version = document.version();
+        match document.scene().settings() {
+            Ok(settings) => self.settings = Arc::new(settings),
+            Err(e) => self.trouble = Some(Trouble { text: e.to_string(), key: None }),
+        }
+        self.play.set_last(document.scene().motion.frames);
+        self.asked = self.motion.ask(document.scene().clone(), self.preferences.strands, fresh);
+        let intervals = document.scene().field.force.len();
+        self.chosen.retain(|&j| j < intervals);
+    }
+
+    /// Does what is asked for.
+    pub fn apply(&mut self, command: Command) {
+        match command {
+            Command::Act(action) => self.act(action),
+            Command::Go(frame) => {
+                self.play.set_playing(false);
+                self.play.go(frame);
+            }
+            Command::Speed(speed) => self.play.speed = speed,
+            Command::End(ending) => self.set_ending(ending),
+            Command::Strands(strands) => {
+                self.preferences.strands = strands.max(1);
+                self.move_again(false);
+            }
+            Command::Choose(chosen) => self.chosen = chosen,
+            Command::Show(dialog) => self.dialog = Some(*dialog),
+            Command::CloseDialog => self.close_dialog(),
+            Command::Cancel(task) => self.tasks.get(task).into_iter().for_each(Task::cancel),
+            Command::Dismiss(task) if task < self.tasks.len() => drop(self.tasks.remove(task)),
+            Command::Heard(word) if word < self.words.len() => drop(self.words.remove(word)),
+            Command::Say(text) => self.say(text, false),
+            Command::Dismiss(_) | Command::Heard(_) => {}
+            Command::Prefer(preferences) => {
+                let strands = preferences.strands != self.preferences.strands;
+                self.preferences = *preferences;
+                if strands {
+                    self.move_again(false);
+                }
+            }
+            Command::Export(order) => self.export(order),
+            command => self.apply_to_document(command),
+        }
+        if self.document.as_ref().is_some_and(|document| document.version() != self.seen_version) {
+            self.move_again(false);
+        }
+    }
+
+    fn set_ending(&mut self, ending: Ending) {
+        self.play.ending = ending;
+        self.preferences.ending = ending;
+    }
+
+    fn close_dialog(&mut self) {
+        if self.dialog == Some(Dialog::Welcome) {
+            self.preferences.welcomed = true;
+        }
+        self.dialog = None;
+    }
+
+    fn export(&mut self, order: crate::tasks::Order) {
+        let Some(document) = &self.document else { return };
+        self.dialog = None;
+        let wake = self.wake.clone();
+        match Task::begin(order, document.scene().clone(), move || wake.0()) {
+            Ok(task) => self.tasks.push(task),
+            Err(e) => self.say(format!("the export cannot begin: {e}"), true),
+        }
+    }
+
+    /// Remembers the preferences. What goes wrong is said, and matters to nobody else.
+    pub fn remember(&mut self) {
+        let Some(folder) = &self.folder else { return };
+        if let Err(e) = self.preferences.save(folder) {
+            self.say(format!("{}: {e}; preferences are not remembered", folder.display()), true);
+        }
+    }
+
+    /// Whether the window may close now; asks if something would be lost.
+    pub fn may_close(&mut self) -> bool {
+        if self.document.as_ref().is_some_and(Document::is_dirty) {
+            self.dialog = Some(Dialog::Unsaved(Next::Quit));
+            return false;
+        }
+        true
+    }
+
+    fn act(&mut self, action: Action) {
+        match action {
+            Action::Play => self.play.set_playing(!self.play.is_playing()),
+            Action::Forward => self.play.step(1),
+            Action::Back => self.play.step(-1),
+            Action::First => self.apply(Command::Go(0)),
+            Action::Last => self.apply(Command::Go(self.play.last())),
+            Action::Ending => self.set_ending(match self.play.ending {
+                Ending::Loop => Ending::Stop,
+                Ending::Stop => Ending::Swing,
+                Ending::Swing => Ending::Loop,
+            }),
+            Action::Frame => self.wishes.push(Wish::Frame),
+            Action::SceneCamera => self.wishes.push(Wish::SceneCamera),
+            Action::UseCamera => self.wishes.push(Wish::UseCamera),
+            Action::ResetLayout => self.wishes.push(Wish::ResetLayout),
+            Action::Ghosts => self.preferences.ghosts = !self.preferences.ghosts,
+            Action::Arrows => self.preferences.arrows = !self.preferences.arrows,
+            Action::FinalPicture => self.preferences.final_picture = !self.preferences.final_picture,
+            Action::Fewer => self.step_strands(false),
+            Action::More => self.step_strands(true),
+            Action::ZoomIn => self.preferences.zoom = (self.preferences.zoom * 1.1).min(4.0),
+            Action::ZoomOut => self.preferences.zoom = (self.preferences.zoom / 1.1).max(0.5),
+            Action::Palette => self.dialog = Some(Dialog::Palette { query: String::new(), line: 0 }),
+            Action::Keys => self.dialog = Some(Dialog::Keys),
+            Action::Welcome => self.dialog = Some(Dialog::Welcome),
+            Action::Preferences => self.dialog = Some(Dialog::Preferences),
+            Action::Open | Action::Save | Action::SaveAs | Action::Reload | Action::Export | Action::Quit => {
+                self.act_on_files(action);
+            }
+            action => self.act_on_intervals(action),
+        }
+    }
+
+    fn step_strands(&mut self, more: bool) {
+        let (least, most) = (*preferences::STRANDS.start(), *preferences::STRANDS.end());
+        let strands = self.preferences.strands;
+        let strands = if more { (2 * strands).min(most.max(strands)) } else { (strands / 2).max(least.min(strands)) };
+        self.apply(Command::Strands(strands));
+    }
+}
+
+#[cfg(test)]
+#[path = "session_tests.rs"]
+mod tests;

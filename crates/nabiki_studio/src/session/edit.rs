@@ -1,0 +1,149 @@
+//! What changes the scene.
+
+use nabiki::field::{Ease, Keyframe};
+use nabiki_scene::Scene;
+
+use super::Session;
+use crate::actions::Action;
+use crate::command::Command;
+use crate::document::Phase;
+use crate::timeline;
+
+impl Session {
+    pub(super) fn apply_to_document(&mut self, command: Command) {
+        match command {
+            Command::Set { key, value, phase } => self.set(&key, value, phase),
+            Command::SetAll { name, settings } => self.set_all(&name, &settings),
+            Command::Intervals { name, keys, chosen, phase } => {
+                self.change(name, phase, |scene| set_intervals(scene, keys));
+                self.chosen = chosen.unwrap_or_else(|| std::mem::take(&mut self.chosen));
+            }
+            Command::Vector { interval, vector, phase } => {
+                let name = format!("Vector of interval {}", interval + 1);
+                self.change(&name, phase, |scene| {
+                    scene.field.force.get_mut(interval).into_iter().for_each(|key| key.vector = vector);
+                });
+            }
+            Command::Scene { name, scene, phase } => self.change(&name, phase, |now| *now = *scene),
+            Command::EndDrag => self.document.iter_mut().for_each(|document| document.end_drag()),
+            Command::GiveUpDrag => self.document.iter_mut().for_each(|document| document.give_up_drag()),
+            command => self.apply_to_files(command),
+        }
+    }
+
+    fn change(&mut self, name: &str, phase: Phase, change: impl FnOnce(&mut Scene)) {
+        let Some(document) = &mut self.document else { return };
+        let mut scene = document.scene().clone();
+        change(&mut scene);
+        document.edit(name, scene, phase);
+    }
+
+    fn set(&mut self, key: &str, value: Option<toml::Value>, phase: Phase) {
+        let Some(document) = &mut self.document else { return };
+        match document.scene().with_setting(key, value) {
+            Ok(scene) => document.edit(&name_of(key), scene, phase),
+            Err(refused) => {
+                let text = refused.to_string();
+                self.say(text, true);
+            }
+        }
+    }
+
+    fn set_all(&mut self, name: &str, settings: &[(String, Option<toml::Value>)]) {
+        let Some(document) = &mut self.document else { return };
+        let set = |scene: Scene, (key, value): &(String, Option<toml::Value>)| scene.with_setting(key, value.clone());
+        match settings.iter().try_fold(document.scene().clone(), set) {
+            Ok(scene) => document.edit(name, scene, Phase::Done),
+            Err(refused) => {
+                let text = refused.to_string();
+                self.say(text, true);
+            }
+        }
+    }
+
+    pub(super) fn act_on_intervals(&mut self, action: Action) {
+        let Some(document) = &mut self.document else { return };
+        let keys = document.scene().field.force.clone();
+        let (frame, last) = (self.play.frame(), document.scene().motion.frames);
+        let chosen = self.chosen.clone();
+        match action {
+            Action::Undo => drop(document.undo()),
+            Action::Redo => drop(document.redo()),
+            Action::Copy => self.clip = timeline::copy(&keys, &chosen),
+            Action::Cut => {
+                self.clip = timeline::copy(&keys, &chosen);
+                self.edit_intervals("Cut", timeline::remove(&keys, &chosen), Vec::new());
+            }
+            Action::Paste if !self.clip.0.is_empty() => {
+                let (keys, chosen) = timeline::paste(&keys, frame, &self.clip);
+                self.edit_intervals("Paste", keys, chosen);
+            }
+            Action::Delete if !chosen.is_empty() => {
+                self.edit_intervals("Remove intervals", timeline::remove(&keys, &chosen), Vec::new());
+            }
+            Action::SelectAll => self.chosen = (0..keys.len()).collect(),
+            Action::SelectNone => self.chosen.clear(),
+            Action::Add => {
+                let (keys, j) = timeline::add(&keys, frame, last);
+                self.edit_intervals("Add an interval", keys, vec![j]);
+            }
+            Action::Split => {
+                if let (Some(keys), Some(j)) = (timeline::split(&keys, frame), timeline::at(&keys, frame)) {
+                    self.edit_intervals("Split", keys, vec![j + 1]);
+                }
+            }
+            Action::Join => match timeline::join(&keys, &chosen) {
+                Some(joined) => {
+                    let at = chosen.first().map_or(0, |&first| first.min(joined.len() - 1));
+                    self.edit_intervals("Join", joined, vec![at]);
+                }
+                None => self.say("choose two intervals or more that lie beside each other, to join them", false),
+            },
+            Action::Ease => self.next_ease(),
+            Action::NextBorder => {
+                let next = keys.iter().map(|key| key.through + 1).find(|&first| first > frame);
+                self.apply(Command::Go(next.unwrap_or(last)));
+            }
+            Action::PreviousBorder => {
+                let before = keys.iter().rev().map(|key| key.through + 1).find(|&first| first < frame);
+                self.apply(Command::Go(before.unwrap_or(if frame > 1 { 1 } else { 0 })));
+            }
+            _ => {}
+        }
+    }
+
+    fn edit_intervals(&mut self, name: &str, keys: Vec<Keyframe>, chosen: Vec<usize>) {
+        self.change(name, Phase::Done, |scene| set_intervals(scene, keys));
+        self.chosen = chosen;
+    }
+
+    fn next_ease(&mut self) {
+        self.change("Ease", Phase::Done, |scene| {
+            scene.field.wind.ease = match scene.field.wind.ease {
+                Ease::Stepped => Ease::Linear,
+                Ease::Linear => Ease::Smooth,
+                Ease::Smooth => Ease::Stepped,
+            };
+        });
+    }
+}
+
+/// Puts intervals into a scene. Without any there is nothing to ease and nothing to make gusty.
+fn set_intervals(scene: &mut Scene, keys: Vec<Keyframe>) {
+    scene.field.force = keys;
+    if scene.field.force.is_empty() {
+        scene.field.wind.ease = Ease::Stepped;
+        scene.field.gust = None;
+        if scene.field.body_wind.is_none() {
+            scene.field.flow = None;
+        }
+    }
+}
+
+/// What the undo menu calls a change of a setting.
+fn name_of(key: &str) -> String {
+    match crate::settings::find(key) {
+        Some((_, group, setting)) => format!("{}: {}", group.title, setting.label.to_lowercase()),
+        None => key.to_owned(),
+    }
+}

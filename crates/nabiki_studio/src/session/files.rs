@@ -1,0 +1,362 @@
+//! Opening, saving, and what lies between.
+
+use std::path::{Path, PathBuf};
+
+use nabiki_scene::Scene;
+use toml::Value;
+
+use super::{Broken, Session, Wish};
+use crate::actions::Action;
+use crate::command::Command;
+use crate::dialog::{Chooser, Dialog, Import, Next, Purpose, Role, as_folder};
+use crate::document::{Document, SaveError};
+use crate::recovery::Kept;
+use crate::tasks;
+
+/// The scene of the first start.
+pub const FIRST: &str = include_str!("../first.toml");
+
+impl Session {
+    /// Opens a scene at the start: the one named, or the one opened last, or that of the first start.
+    pub fn begin(&mut self, named: Option<&Path>) {
+        let last = self.preferences.recent.iter().find(|path| path.is_file()).cloned();
+        match named.map(Path::to_owned).or(last) {
+            Some(path) => self.open(&path),
+            None => self.open_first(),
+        }
+        if self.document.is_none() && self.broken.is_none() {
+            self.open_first();
+        }
+        if !self.preferences.welcomed && self.dialog.is_none() {
+            self.dialog = Some(Dialog::Welcome);
+        }
+    }
+
+    fn open_first(&mut self) {
+        match Scene::parse(FIRST, "gust.toml".as_ref(), &[]) {
+            Ok(scene) => self.take_over(Document::untitled(scene)),
+            Err(e) => self.say(e.to_string(), true),
+        }
+    }
+
+    fn take_over(&mut self, document: Document) {
+        // What can be pulled is seen at once.
+        let strengths = document.scene().field.force.iter().map(|key| key.vector.length());
+        let strongest = strengths.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+        self.chosen = strongest.map(|(j, _)| j).into_iter().collect();
+        self.document = Some(document);
+        (self.broken, self.trouble, self.said_changed) = (None, None, false);
+        self.play.go(0);
+        self.move_again(true);
+    }
+
+    /// Whether what is open may go; if it may not, asks what to do, and goes on with `next` afterwards.
+    fn may_go(&mut self, next: Next) -> bool {
+        let dirty = self.document.as_ref().is_some_and(Document::is_dirty);
+        if dirty {
+            self.dialog = Some(Dialog::Unsaved(next));
+        }
+        !dirty
+    }
+
+    fn open(&mut self, path: &Path) {
+        match Document::open(path) {
+            Ok(document) => {
+                self.preferences.used(path);
+                self.take_over(document);
+            }
+            // What can be read as text can be mended; what cannot is only said.
+            Err(error) => match std::fs::read(path).map(|bytes| (String::from_utf8(bytes.clone()), bytes)) {
+                Ok((Ok(text), on_disk)) if text.len() < MOST_TEXT && !text.contains('\0') => {
+                    self.broken = Some(Broken { path: path.to_owned(), text, error: Some(error), on_disk });
+                }
+                _ => self.say(error.to_string(), true),
+            },
+        }
+    }
+
+    pub(super) fn apply_to_files(&mut self, command: Command) {
+        match command {
+            Command::Open(path) => self.open_any(path),
+            Command::SaveTo(path) => self.save_to(&path),
+            Command::SaveOver => {
+                self.dialog = None;
+                self.save(true);
+            }
+            Command::Recover(n) => {
+                let Some(Dialog::Recover(kept)) = &self.dialog else { return };
+                let Some(kept) = kept.get(n).cloned() else { return };
+                self.forget(n);
+                self.recover(kept);
+            }
+            Command::Forget(n) => {
+                let Some(Dialog::Recover(kept)) = &self.dialog else { return };
+                kept.get(n).into_iter().for_each(Kept::remove);
+                self.forget(n);
+            }
+            Command::Mend(text) => {
+                if let Some(broken) = &mut self.broken {
+                    broken.error = Scene::parse(&text, &broken.path, &[]).err();
+                    broken.text = text;
+                }
+            }
+            Command::UseMended if self.may_go(Next::UseMended) => self.use_mended(),
+            Command::LeaveBroken => self.broken = None,
+            Command::GoOnIfSaved(next) if !self.document.as_ref().is_some_and(Document::is_dirty) => {
+                self.dialog = None;
+                self.go_on(next);
+            }
+            Command::GoOn => {
+                let Some(Dialog::Unsaved(next)) = self.dialog.take() else { return };
+                self.go_on(next);
+            }
+            _ => {}
+        }
+    }
+
+    fn forget(&mut self, n: usize) {
+        if let Some(Dialog::Recover(kept)) = &mut self.dialog {
+            kept.remove(n);
+            if kept.is_empty() {
+                self.dialog = None;
+            }
+        }
+    }
+
+    fn recover(&mut self, kept: Kept) {
+        match Scene::parse(&kept.text, &kept.path, &[]) {
+            Ok(scene) => {
+                let on_disk = kept.has_file.then(|| std::fs::read(&kept.path).unwrap_or_default());
+                self.dialog = None;
+                self.take_over(Document::unsaved(scene, on_disk));
+                kept.remove();
+            }
+            Err(e) => self.say(format!("what was kept cannot be read: {e}"), true),
+        }
+    }
+
+    fn use_mended(&mut self) {
+        let Some(Broken { path, text, error: None, on_disk }) = &self.broken else { return };
+        if let Ok(scene) = Scene::parse(text, path, &[]) {
+            let document = Document::unsaved(scene, Some(on_disk.clone()));
+            self.preferences.used(&path.clone());
+            self.take_over(document);
+        }
+    }
+
+    /// Goes on with what a question stood before; what is not saved is lost.
+    fn go_on(&mut self, next: Next) {
+        match next {
+            Next::Open(path) => self.open(&path),
+            Next::Recover(kept) => self.recover(*kept),
+            Next::UseMended => self.use_mended(),
+            Next::Quit => {
+                self.document = None;
+                self.keeper.iter_mut().for_each(crate::recovery::Keeper::forget);
+                self.wishes.push(Wish::Quit);
+            }
+        }
+    }
+
+    /// Opens a scene, or asks what another file is for.
+    fn open_any(&mut self, path: PathBuf) {
+        if matches!(self.dialog, Some(Dialog::File(_))) {
+            self.dialog = None;
+        }
+        let roles = Role::of(&path);
+        let Some(&role) = roles.first() else {
+            if self.may_go(Next::Open(path.clone())) {
+                self.open(&path);
+            }
+            return;
+        };
+        if self.document.is_none() {
+            self.say(format!("{}: open a scene first, which it can go into", path.display()), true);
+            return;
+        }
+        let empty = String::new;
+        let node = "Head".to_owned();
+        self.dialog =
+            Some(Dialog::Import(Import { path, roles, role, unit: empty(), up: empty(), facing: empty(), node }));
+    }
+
+    fn save(&mut self, replace: bool) {
+        let Some(document) = &mut self.document else { return };
+        match document.save(replace) {
+            Ok(()) => self.saved(),
+            Err(SaveError::Changed(path)) => self.dialog = Some(Dialog::Conflict(path)),
+            Err(SaveError::NoFile) => self.ask_save_as(),
+            Err(e @ SaveError::Scene(_)) => self.say(format!("not saved: {e}"), true),
+        }
+    }
+
+    fn save_to(&mut self, path: &Path) {
+        let Some(document) = &mut self.document else { return };
+        let path = if path.extension().is_none() { path.with_extension("toml") } else { path.to_owned() };
+        match document.save_as(&path) {
+            Ok(()) => {
+                self.preferences.used(&path);
+                self.dialog = None;
+                self.saved();
+            }
+            Err(e) => self.say(format!("not saved: {e}"), true),
+        }
+    }
+
+    fn saved(&mut self) {
+        self.said_changed = false;
+        self.keep();
+        let name = self.document.as_ref().map(Document::name).unwrap_or_default();
+        self.say(format!("Saved {name}"), false);
+    }
+
+    fn ask_save_as(&mut self) {
+        let Some(document) = &self.document else { return };
+        let path = std::path::absolute(document.scene().file()).unwrap_or_default();
+        let chooser = Chooser { purpose: Purpose::SaveAs, path: path.display().to_string(), endings: vec!["toml"] };
+        self.dialog = Some(Dialog::File(chooser));
+    }
+
+    pub(super) fn act_on_files(&mut self, action: Action) {
+        match action {
+            Action::Open => {
+                let file =
+                    self.document.as_ref().map(|document| document.scene().file().to_owned()).unwrap_or_default();
+                let folder = std::path::absolute(&file).ok().and_then(|file| file.parent().map(as_folder));
+                let path = folder.unwrap_or_default();
+                self.dialog = Some(Dialog::File(Chooser { purpose: Purpose::Open, path, endings: vec!["toml"] }));
+            }
+            Action::Save => self.save(false),
+            Action::SaveAs => self.ask_save_as(),
+            Action::Reload => self.reload(true),
+            Action::Export => {
+                let Some(document) = &self.document else { return };
+                let kind = tasks::Kind::Movie;
+                let order =
+                    tasks::Order { kind, place: kind.place(document.scene()), frame: self.play.frame(), strands: None };
+                self.dialog = Some(Dialog::Export(order));
+            }
+            Action::Quit if self.may_close() => self.wishes.push(Wish::Quit),
+            _ => {}
+        }
+    }
+
+    /// Reads the scene's file again. `fresh`: and all files that it names.
+    fn reload(&mut self, fresh: bool) {
+        let Some(document) = &mut self.document else { return };
+        let Some(path) = document.path().map(Path::to_owned) else {
+            self.move_again(fresh);
+            return;
+        };
+        match document.reload() {
+            Ok(()) => {
+                (self.broken, self.said_changed) = (None, false);
+                self.move_again(fresh);
+                self.say(format!("Read {} again", path.display()), false);
+            }
+            Err(error) => match std::fs::read(&path).map(|bytes| (String::from_utf8(bytes.clone()), bytes)) {
+                Ok((Ok(text), on_disk)) if text.len() < MOST_TEXT => {
+                    self.broken = Some(Broken { path, text, error: Some(error), on_disk });
+                }
+                _ => self.say(error.to_string(), true),
+            },
+        }
+    }
+
+    /// Notices that somebody else has written the file, or taken it away.
+    pub(super) fn look_at_file(&mut self) {
+        let Some(document) = &self.document else { return };
+        let Some(path) = document.path().map(Path::to_owned) else { return };
+        match document.changed_on_disk() {
+            Some(false) => self.said_changed = false,
+            _ if self.said_changed => {}
+            Some(true) if !document.is_dirty() => {
+                self.said_changed = true;
+                self.reload(false);
+            }
+            Some(true) => {
+                self.said_changed = true;
+                let text = format!("{}: another program has changed it; saving will ask which to keep", path.display());
+                self.say(text, true);
+            }
+            None => {
+                self.said_changed = true;
+                self.say(format!("{}: it is no longer there; saving writes it again", path.display()), true);
+            }
+        }
+    }
+
+    /// What a dropped file sets, once it is known how it lies.
+    pub fn import(&self, import: &Import) -> Option<Command> {
+        let document = self.document.as_ref()?;
+        let Import { path, role, unit, up, facing, node, .. } = import;
+        let file = Value::String(self.from_scene(path).to_str()?.to_owned());
+        let mut settings: Vec<(String, Option<Value>)> = Vec::new();
+        let mut set = |key: String, value: Option<Value>| settings.push((key, value));
+        let text = |text: &str| (!text.is_empty()).then(|| Value::String(text.to_owned()));
+        let unit_value = |unit: &str| unit.parse::<f64>().map(Value::Float).ok().or_else(|| text(unit));
+        let lie = |table: &str, set: &mut dyn FnMut(String, Option<Value>)| {
+            for (key, value) in [("unit", unit_value(unit)), ("up", text(up)), ("facing", text(facing))] {
+                if value.is_some() {
+                    set(format!("{table}.{key}"), value);
+                }
+            }
+        };
+        match role {
+            Role::Hair => {
+                // Keys of grown hair are none of imported hair's.
+                let mut table = toml::Table::new();
+                table.insert("file".to_owned(), file);
+                table.insert("segment_length".to_owned(), f64::from(document.scene().hair.segment_length).into());
+                set("hair".to_owned(), Some(table.into()));
+                lie("hair", &mut set);
+            }
+            Role::Head => {
+                let mut table = toml::Table::new();
+                table.insert("mesh".to_owned(), file);
+                if let Some(motion) = self.settings.get("head").and_then(|head| head.get("motion")) {
+                    table.insert("motion".to_owned(), motion.clone());
+                }
+                set("head".to_owned(), Some(table.into()));
+                lie("head", &mut set);
+            }
+            Role::Motion => {
+                let mut table = toml::Table::new();
+                table.insert("file".to_owned(), file);
+                set("head.motion".to_owned(), Some(table.into()));
+                if path.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case("csv")) {
+                    set("head.motion.node".to_owned(), text(node));
+                }
+                if let Some(cm) = centimetres(unit) {
+                    set("head.motion.unit_cm".to_owned(), Some(cm.into()));
+                }
+                for (key, value) in [("up", text(up)), ("facing", text(facing))] {
+                    if value.is_some() {
+                        set(format!("head.motion.{key}"), value);
+                    }
+                }
+            }
+            Role::Body => {
+                let table = format!("body[{}]", document.scene().bodies.len());
+                set(format!("{table}.mesh"), Some(file));
+                lie(&table, &mut set);
+            }
+        }
+        let name = format!("{} from {}", role.name(), path.file_name().unwrap_or_default().to_string_lossy());
+        Some(Command::SetAll { name, settings })
+    }
+
+    /// A path below the scene's folder from there, any other as it is.
+    pub fn from_scene(&self, path: &Path) -> PathBuf {
+        let file = self.document.as_ref().and_then(|document| std::path::absolute(document.scene().file()).ok());
+        let folder = file.as_deref().and_then(Path::parent);
+        folder.and_then(|folder| path.strip_prefix(folder).ok()).unwrap_or(path).to_owned()
+    }
+}
+
+fn centimetres(unit: &str) -> Option<f64> {
+    unit.parse::<nabiki_io::Unit>().ok().map(|unit| f64::from(unit.cm))
+}
+
+/// A scene's text that is larger than this is none (bytes).
+const MOST_TEXT: usize = 1 << 20;

@@ -1,0 +1,252 @@
+use std::path::PathBuf;
+
+use glam::Vec3;
+use nabiki::field::Keyframe;
+
+use super::*;
+use crate::document::Phase;
+
+const TEXT: &str = "[hair]\nstrands = 60\nsegments = 18\n[motion]\nform = \"free\"\nframes = 20\n\
+                    [[force]]\nthrough = 10     # then calm\nvector = [-100, 0, 0]\n[[force]]\nthrough = 20\nvector = [0, 0, 0]\n";
+
+struct Place(tempfile::TempDir);
+
+impl Place {
+    fn new() -> Self {
+        let place = Self(tempfile::tempdir().unwrap());
+        std::fs::write(place.file(), TEXT).unwrap();
+        place
+    }
+
+    fn file(&self) -> PathBuf {
+        self.0.path().join("wind.toml")
+    }
+
+    fn session(&self) -> Session {
+        let mut session = Session::new(Some(self.0.path().join("config")), || ()).unwrap();
+        session.begin(Some(&self.file()));
+        session.wait();
+        session
+    }
+}
+
+fn tip(session: &Session, frame: u32) -> Vec3 {
+    *session.take().unwrap().points(frame).last().unwrap()
+}
+
+/// What a new start would show of the scene as it is.
+fn fresh(session: &Session) -> Vec<Vec3> {
+    let scene = session.document().unwrap().scene().clone();
+    let built = scene.build(nabiki_scene::Shown::AtMost(session.preferences().strands)).unwrap();
+    let mut timeline = built.timeline().unwrap();
+    let film = timeline.play();
+    (0..=film.frames()).flat_map(|n| film.points(n).iter().copied()).collect()
+}
+
+#[test]
+fn whatever_is_changed_is_moved_as_if_from_anew() {
+    let place = Place::new();
+    let mut session = place.session();
+    for (key, value) in [
+        ("force[0].vector", "[50.0, 20.0, 5.0]"),
+        ("wind.ease", "\"smooth\""),
+        ("free.settle", "5.0"),
+        ("free.gravity", "\"earth\""),
+        ("turbulence", "{}"),
+        ("contact.margin", "0.5"),
+        ("neighbours", "{}"),
+        ("neighbours.carriers", "20"),
+        ("hair.style.length.top", "16.0"),
+        ("hair.style.comb.away", "2.0"),
+        ("hair.segment_length", "2.0"),
+        ("head.ellipsoid", "{ center = [-1.0, 0.0, 0.0], half_axes = [10.0, 11.0, 8.0] }"),
+        ("motion.frames", "25"),
+        ("motion.frame_rate", "30.0"),
+        ("motion.straighten", "5.0"),
+        ("motion.form", "\"paper\""),
+        ("pseudo_force.alpha", "0.5"),
+        ("picture.hair.colour", "\"red\""),
+    ] {
+        let value = format!("x = {value}").parse::<Table>().unwrap().remove("x");
+        session.apply(Command::Set { key: key.to_owned(), value, phase: Phase::Done });
+        session.wait();
+        assert_eq!(session.trouble(), None, "{key}");
+        assert!(*session.take().unwrap().film == *fresh(&session), "{key}: not what a new start would show");
+    }
+    session.apply(Command::Strands(30));
+    session.wait();
+    assert!(*session.take().unwrap().film == *fresh(&session));
+    while session.document().unwrap().undo_name().is_some() {
+        session.apply(Command::Act(Action::Undo));
+        session.wait();
+        assert!(*session.take().unwrap().film == *fresh(&session));
+    }
+    assert_eq!(session.document().unwrap().scene().to_toml().unwrap(), TEXT);
+}
+
+#[test]
+fn a_scene_that_cannot_move_keeps_the_last_good_motion_and_says_why() {
+    let mut session = Place::new().session();
+    let before = tip(&session, 10);
+    session.apply(Command::Vector { interval: 0, vector: Vec3::new(-1e6, 0.0, 0.0), phase: Phase::Done });
+    session.wait();
+    let trouble = session.trouble().unwrap();
+    assert!(trouble.key.as_deref().is_some_and(|key| key.starts_with("force[0]")), "{trouble:?}");
+    assert!(!trouble.text.contains('\n'));
+    assert_eq!(tip(&session, 10), before);
+    session.apply(Command::Act(Action::Undo));
+    session.wait();
+    assert_eq!(session.trouble(), None);
+}
+
+#[test]
+fn a_file_with_errors_is_mended_in_the_window() {
+    let place = Place::new();
+    let mut session = place.session();
+    let broken = place.0.path().join("broken.toml");
+    let text = TEXT.replace("through = 20", "trough = 20");
+    std::fs::write(&broken, &text).unwrap();
+    session.apply(Command::Open(broken.clone()));
+    assert_eq!(session.broken().unwrap().error.as_ref().unwrap().line, Some(11));
+    assert_eq!(session.document().unwrap().path(), Some(place.file().as_path()), "the good one stays");
+    session.apply(Command::UseMended);
+    assert!(session.broken().is_some(), "it is not mended yet");
+    session.apply(Command::Mend(TEXT.to_owned()));
+    assert!(session.broken().unwrap().error.is_none());
+    session.apply(Command::UseMended);
+    session.wait();
+    assert!(session.broken().is_none() && session.document().unwrap().is_dirty());
+    session.apply(Command::Act(Action::Save));
+    assert_eq!(std::fs::read_to_string(&broken).unwrap(), TEXT);
+}
+
+#[test]
+fn an_error_written_from_outside_leaves_the_motion_and_a_right_change_is_taken() {
+    let place = Place::new();
+    let mut session = place.session();
+    std::fs::write(place.file(), TEXT.replace("-100", "-50")).unwrap();
+    session.look_at_file();
+    session.wait();
+    assert_eq!(session.document().unwrap().scene().field.force[0].vector.x, -50.0);
+    std::fs::write(place.file(), "nonsense").unwrap();
+    session.look_at_file();
+    assert!(session.broken().is_some());
+    assert!(session.take().is_some());
+    std::fs::remove_file(place.file()).unwrap();
+    session.said_changed = false;
+    session.look_at_file();
+    assert!(session.words().iter().any(|word| word.wrong && word.text.contains("no longer there")));
+}
+
+#[test]
+fn what_would_be_lost_is_asked_for() {
+    let place = Place::new();
+    let mut session = place.session();
+    session.apply(Command::Vector { interval: 0, vector: Vec3::X, phase: Phase::Done });
+    let other = place.0.path().join("other.toml");
+    std::fs::write(&other, TEXT).unwrap();
+    session.apply(Command::Open(other.clone()));
+    assert!(matches!(session.dialog(), Some(Dialog::Unsaved(Next::Open(_)))));
+    assert!(!session.may_close());
+    session.apply(Command::CloseDialog);
+    assert_eq!(session.document().unwrap().path(), Some(place.file().as_path()));
+    session.apply(Command::Open(other.clone()));
+    session.apply(Command::GoOn);
+    assert_eq!(session.document().unwrap().path(), Some(other.as_path()));
+    assert!(session.may_close());
+}
+
+#[test]
+fn what_a_killed_window_had_is_offered_and_opened() {
+    let place = Place::new();
+    let mut session = place.session();
+    session.apply(Command::Vector { interval: 0, vector: Vec3::new(1.0, 2.0, 3.0), phase: Phase::Done });
+    session.keep();
+    // As a kill leaves it: what it kept, and no lock.
+    let recovery = place.0.path().join("config/recovery");
+    let kept = std::fs::read_dir(&recovery)
+        .unwrap()
+        .flatten()
+        .find(|entry| entry.path().extension().is_some_and(|e| e == "toml"));
+    let text = std::fs::read_to_string(kept.unwrap().path()).unwrap();
+    drop(session);
+    std::fs::write(recovery.join("1-0.toml"), text).unwrap();
+    let mut session = place.session();
+    assert!(matches!(session.dialog(), Some(Dialog::Recover(kept)) if kept.len() == 1));
+    session.apply(Command::Recover(0));
+    session.wait();
+    let document = session.document().unwrap();
+    assert_eq!(document.scene().field.force[0].vector, Vec3::new(1.0, 2.0, 3.0));
+    assert!(document.is_dirty());
+    assert_eq!(document.path(), Some(place.file().as_path()));
+    assert_eq!(crate::recovery::left_behind(&recovery), []);
+}
+
+#[test]
+fn intervals_are_cut_joined_copied_and_pasted_as_single_steps() {
+    let mut session = Place::new().session();
+    session.apply(Command::Go(5));
+    session.apply(Command::Act(Action::Split));
+    assert_eq!(session.chosen(), [1]);
+    session.apply(Command::Choose(vec![0, 1]));
+    session.apply(Command::Act(Action::Join));
+    let keys = |session: &Session| session.document().unwrap().scene().field.force.clone();
+    assert_eq!(keys(&session).len(), 2);
+    session.apply(Command::Choose(vec![0]));
+    session.apply(Command::Act(Action::Copy));
+    session.apply(Command::Go(11));
+    session.apply(Command::Act(Action::Paste));
+    let ends: Vec<u32> = keys(&session).iter().map(|key| key.through).collect();
+    assert_eq!(ends, [10, 20]);
+    for _ in 0..3 {
+        session.apply(Command::Act(Action::Undo));
+    }
+    assert_eq!(session.document().unwrap().undo_name(), None);
+    session.apply(Command::Act(Action::SelectAll));
+    session.apply(Command::Act(Action::Delete));
+    assert_eq!(keys(&session), [] as [Keyframe; 0]);
+    session.wait();
+    assert_eq!(session.trouble(), None, "the free form moves without wind");
+    session.apply(Command::Act(Action::Add));
+    assert_eq!(keys(&session).len(), 1);
+}
+
+#[test]
+fn a_dropped_file_becomes_settings_of_the_scene_in_one_step() {
+    let place = Place::new();
+    let csv = place.0.path().join("turn.csv");
+    std::fs::write(&csv, "t_s,px_m,py_m,pz_m,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n10,0.1,0,0,0,0,0,1\n").unwrap();
+    let mut session = place.session();
+    session.apply(Command::Open(csv.clone()));
+    let Some(Dialog::Import(import)) = session.dialog() else { panic!("it is not asked how it lies") };
+    let import = crate::dialog::Import { up: "+y".to_owned(), facing: "+x".to_owned(), ..import.clone() };
+    let command = session.import(&import).unwrap();
+    session.apply(Command::CloseDialog);
+    session.apply(command);
+    session.wait();
+    assert_eq!(session.trouble(), None, "{:?}", session.words());
+    assert!(session.take().unwrap().built.head_moves());
+    session.apply(Command::Act(Action::Undo));
+    session.wait();
+    assert!(!session.take().unwrap().built.head_moves());
+}
+
+#[test]
+fn the_first_start_shows_the_gust_and_its_words() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut session = Session::new(Some(folder.path().to_owned()), || ()).unwrap();
+    session.begin(None);
+    assert_eq!(session.dialog(), Some(&Dialog::Welcome));
+    session.apply(Command::CloseDialog);
+    session.remember();
+    let mut again = Session::new(Some(folder.path().to_owned()), || ()).unwrap();
+    again.begin(None);
+    assert_eq!(again.dialog(), None);
+    assert!(again.document().unwrap().scene().field.force.len() > 1);
+}
+
+#[test]
+fn the_scene_of_the_first_start_is_the_gust() {
+    let gust = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/gust.toml")).unwrap();
+    assert_eq!(files::FIRST, gust);
+}

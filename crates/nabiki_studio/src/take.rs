@@ -1,0 +1,44 @@
+//! One motion of a scene, whole: all frames of the strands that are shown.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+use nabiki::{Pose, Strands};
+use nabiki_scene::BuiltScene;
+
+/// A scene as it was built, and where its shown strands are in every frame.
+#[derive(Clone, Debug)]
+pub struct Take {
+    /// What was moved.
+    pub built: Arc<BuiltScene>,
+    /// The points of frame 0, then those of frame 1, ... (head space, cm), as [`Strands::points`] orders them.
+    pub film: Arc<[Vec3]>,
+    /// Counts up with every take of a window, so that what is drawn from one can be kept until the next.
+    pub number: u64,
+}
+
+impl Take {
+    /// The last frame.
+    pub fn frames(&self) -> u32 {
+        self.built.frames()
+    }
+
+    /// The shown strands at rest.
+    pub fn strands(&self) -> &Strands {
+        &self.built.hair.strands
+    }
+
+    /// All points at a frame (head space, cm).
+    ///
+    /// # Panics
+    /// If there is no such frame.
+    pub fn points(&self, frame: u32) -> &[Vec3] {
+        let points = self.strands().points().len();
+        &self.film[frame as usize * points..][..points]
+    }
+
+    /// Where the head is in a frame.
+    pub fn pose(&self, frame: u32) -> Pose {
+        self.built.pose(frame)
+    }
+}

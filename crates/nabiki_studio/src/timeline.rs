@@ -1,0 +1,177 @@
+//! The intervals of the wind: what may be done to the list of keyframes `[[force]]`. Each function takes the list and
+//! returns another, whose last frames ascend as the method wants them.
+
+use std::ops::RangeInclusive;
+
+use glam::Vec3;
+use nabiki::field::Keyframe;
+
+/// A stretch of wind, cut out: how many frames of which force, one after another.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Clip(pub Vec<(u32, Vec3)>);
+
+/// First and last frame of interval `j`.
+pub fn frames(keys: &[Keyframe], j: usize) -> RangeInclusive<u32> {
+    first(keys, j)..=keys[j].through
+}
+
+/// First frame of interval `j`.
+fn first(keys: &[Keyframe], j: usize) -> u32 {
+    1 + j.checked_sub(1).map_or(0, |before| keys[before].through)
+}
+
+/// The interval whose force is felt in a frame; the last one holds for good.
+pub fn at(keys: &[Keyframe], frame: u32) -> Option<usize> {
+    let j = keys.partition_point(|key| key.through < frame);
+    (!keys.is_empty()).then(|| j.min(keys.len() - 1))
+}
+
+/// Moves the end of interval `j` to a frame, as far as its neighbours let it: every interval keeps a frame. With `ripple`
+/// what comes after moves along and keeps its lengths.
+pub fn move_border(keys: &[Keyframe], j: usize, frame: u32, ripple: bool) -> Vec<Keyframe> {
+    let mut keys = keys.to_vec();
+    let low = first(&keys, j);
+    if ripple {
+        let by = i64::from(frame.max(low)) - i64::from(keys[j].through);
+        keys[j..].iter_mut().for_each(|key| key.through = (i64::from(key.through) + by) as u32);
+    } else {
+        let high = keys.get(j + 1).map_or(u32::MAX, |next| next.through - 1);
+        keys[j].through = frame.clamp(low, high);
+    }
+    keys
+}
+
+/// Moves the intervals of `chosen` (neighbours or not) by so many frames, each as far as the intervals beside it let it.
+pub fn slide(keys: &[Keyframe], chosen: &[usize], by: i64) -> Vec<Keyframe> {
+    let mut moved = keys.to_vec();
+    let mut runs: Vec<RangeInclusive<usize>> = Vec::new();
+    for &j in chosen {
+        match runs.last_mut() {
+            Some(run) if *run.end() + 1 == j => *run = *run.start()..=j,
+            _ => runs.push(j..=j),
+        }
+    }
+    for run in runs {
+        let (a, b) = (*run.start(), *run.end());
+        // The first interval begins at frame 1 whatever comes, and the one after the last keeps a frame.
+        let Some(before) = a.checked_sub(1) else { continue };
+        let low = i64::from(first(&moved, before)) - i64::from(moved[before].through);
+        let high = keys.get(b + 1).map_or(i64::MAX, |next| i64::from(next.through) - i64::from(moved[b].through) - 1);
+        let by = by.clamp(low, high.max(0));
+        moved[before..=b].iter_mut().for_each(|key| key.through = (i64::from(key.through) + by) as u32);
+    }
+    moved
+}
+
+/// Cuts the interval that holds a frame in two, of which the first ends there. None where it ends there already.
+pub fn split(keys: &[Keyframe], frame: u32) -> Option<Vec<Keyframe>> {
+    let j = at(keys, frame)?;
+    (frame >= first(keys, j) && frame != keys[j].through).then(|| {
+        let mut keys = keys.to_vec();
+        // After the last interval its force goes on: the cut then ends it there.
+        let (through, at) = if frame < keys[j].through { (frame, j) } else { (frame, j + 1) };
+        keys.insert(at, Keyframe { through, vector: keys[j].vector });
+        keys
+    })
+}
+
+/// Makes one interval of each run of neighbours among `chosen`; its force is that of the longest of them. None where no two
+/// are neighbours.
+pub fn join(keys: &[Keyframe], chosen: &[usize]) -> Option<Vec<Keyframe>> {
+    let mut joined: Vec<Keyframe> = Vec::new();
+    let mut longest = 0;
+    for (j, key) in keys.iter().enumerate() {
+        let length = key.through + 1 - first(keys, j);
+        let goes_on = j > 0 && chosen.contains(&j) && chosen.contains(&(j - 1));
+        match joined.last_mut() {
+            Some(last) if goes_on => {
+                last.through = key.through;
+                if length > longest {
+                    (last.vector, longest) = (key.vector, length);
+                }
+            }
+            _ => {
+                joined.push(*key);
+                longest = length;
+            }
+        }
+    }
+    (joined.len() < keys.len()).then_some(joined)
+}
+
+/// Takes intervals out; the one before each goes on in its place, or the one after where there is none before.
+pub fn remove(keys: &[Keyframe], chosen: &[usize]) -> Vec<Keyframe> {
+    let mut left: Vec<Keyframe> = Vec::new();
+    for (j, key) in keys.iter().enumerate() {
+        match left.last_mut() {
+            _ if !chosen.contains(&j) => left.push(*key),
+            Some(last) => last.through = key.through,
+            None => {}
+        }
+    }
+    left
+}
+
+/// The chosen intervals, in their order.
+pub fn copy(keys: &[Keyframe], chosen: &[usize]) -> Clip {
+    let chosen = chosen.iter().filter(|&&j| j < keys.len());
+    Clip(chosen.map(|&j| (keys[j].through + 1 - first(keys, j), keys[j].vector)).collect())
+}
+
+/// Lays a clip over the wind from frame `from` on, and says which intervals it then is. What it covers is gone, what stands
+/// before and after stays.
+pub fn paste(keys: &[Keyframe], from: u32, clip: &Clip) -> (Vec<Keyframe>, Vec<usize>) {
+    let from = from.max(1);
+    let length: u32 = clip.0.iter().map(|(frames, _)| frames).sum();
+    let end = from.saturating_add(length) - 1;
+    let mut pasted: Vec<Keyframe> = keys.iter().copied().filter(|key| key.through < from).collect();
+    let under = keys.iter().find(|key| key.through >= from).or(keys.last());
+    if let Some(under) = under
+        && pasted.last().map_or(0, |last| last.through) + 1 < from
+    {
+        pasted.push(Keyframe { through: from - 1, vector: under.vector });
+    } else if keys.is_empty() && from > 1 {
+        pasted.push(Keyframe { through: from - 1, vector: Vec3::ZERO });
+    }
+    let first = pasted.len();
+    let mut through = from - 1;
+    for &(frames, vector) in &clip.0 {
+        through += frames;
+        pasted.push(Keyframe { through, vector });
+    }
+    let chosen = (first..pasted.len()).collect();
+    pasted.extend(keys.iter().copied().filter(|key| key.through > end));
+    (pasted, chosen)
+}
+
+/// Adds an interval: it takes the later half of the one that holds `frame`, or all frames up to `last` where there is none.
+/// Returns its number, too.
+pub fn add(keys: &[Keyframe], frame: u32, last: u32) -> (Vec<Keyframe>, usize) {
+    let Some(j) = at(keys, frame.max(1)) else {
+        return (vec![Keyframe { through: last.max(1), vector: Vec3::new(-100.0, 0.0, 0.0) }], 0);
+    };
+    if keys[j].through < last && j + 1 == keys.len() {
+        let mut keys = keys.to_vec();
+        keys.push(Keyframe { through: last, vector: keys[j].vector });
+        return (keys, j + 1);
+    }
+    let range = frames(keys, j);
+    let middle = range.start() + (range.end() - range.start()) / 2;
+    match split(keys, if range.contains(&frame) && frame < *range.end() { frame.max(1) } else { middle }) {
+        Some(keys) => (keys, j + 1),
+        None => (keys.to_vec(), j),
+    }
+}
+
+/// The intervals that share a frame with a range.
+pub fn within(keys: &[Keyframe], range: RangeInclusive<u32>) -> Vec<usize> {
+    let meets = |j: &usize| {
+        let frames = frames(keys, *j);
+        frames.start() <= range.end() && range.start() <= frames.end()
+    };
+    (0..keys.len()).filter(meets).collect()
+}
+
+#[cfg(test)]
+#[path = "timeline_tests.rs"]
+mod tests;

@@ -1,0 +1,110 @@
+use super::*;
+use nabiki::field::KeyframedField;
+
+fn key(through: u32, x: f32) -> Keyframe {
+    Keyframe { through, vector: Vec3::new(x, 0.0, 0.0) }
+}
+
+fn three() -> Vec<Keyframe> {
+    vec![key(10, 1.0), key(30, 2.0), key(60, 3.0)]
+}
+
+/// The force of every frame, which is what an interval is for.
+fn felt(keys: &[Keyframe]) -> Vec<f32> {
+    let field = KeyframedField::new(keys).unwrap();
+    (1..=80).map(|n| field.vector(n).x).collect()
+}
+
+fn ends(keys: &[Keyframe]) -> Vec<u32> {
+    keys.iter().map(|key| key.through).collect()
+}
+
+#[test]
+fn a_border_goes_where_it_is_led_and_no_farther_than_its_neighbours() {
+    assert_eq!(ends(&move_border(&three(), 1, 40, false)), [10, 40, 60]);
+    assert_eq!(ends(&move_border(&three(), 1, 0, false)), [10, 11, 60]);
+    assert_eq!(ends(&move_border(&three(), 1, 99, false)), [10, 59, 60]);
+    assert_eq!(ends(&move_border(&three(), 2, 99, false)), [10, 30, 99]);
+    assert_eq!(ends(&move_border(&three(), 0, 0, false)), [1, 30, 60]);
+    assert_eq!(ends(&move_border(&three(), 0, 15, true)), [15, 35, 65]);
+    assert_eq!(ends(&move_border(&three(), 1, 3, true)), [10, 11, 41]);
+}
+
+#[test]
+fn what_slides_keeps_its_length() {
+    assert_eq!(ends(&slide(&three(), &[1], 5)), [15, 35, 60]);
+    assert_eq!(ends(&slide(&three(), &[1], -50)), [1, 21, 60]);
+    assert_eq!(ends(&slide(&three(), &[1], 50)), [39, 59, 60]);
+    assert_eq!(ends(&slide(&three(), &[1, 2], 7)), [17, 37, 67]);
+    assert_eq!(slide(&three(), &[0], 7), three());
+}
+
+#[test]
+fn a_cut_changes_no_force() {
+    for frame in 1..70 {
+        let Some(cut) = split(&three(), frame) else {
+            assert!(ends(&three()).contains(&frame));
+            continue;
+        };
+        assert_eq!(felt(&cut), felt(&three()), "at {frame}");
+        assert_eq!(cut.len(), 4);
+        assert!(ends(&cut).contains(&frame));
+    }
+    assert_eq!(split(&[], 5), None);
+}
+
+#[test]
+fn joined_neighbours_have_the_force_of_the_longest() {
+    assert_eq!(join(&three(), &[1, 2]), Some(vec![key(10, 1.0), key(60, 3.0)]));
+    assert_eq!(join(&three(), &[0, 1, 2]), Some(vec![key(60, 3.0)]));
+    assert_eq!(join(&three(), &[0, 2]), None);
+    assert_eq!(join(&three(), &[1]), None);
+    let cut = split(&three(), 20).unwrap();
+    assert_eq!(join(&cut, &[1, 2]), Some(three()), "what was cut is joined again");
+}
+
+#[test]
+fn what_is_removed_leaves_its_place_to_the_one_before() {
+    assert_eq!(remove(&three(), &[1]), [key(30, 1.0), key(60, 3.0)]);
+    assert_eq!(remove(&three(), &[0]), [key(30, 2.0), key(60, 3.0)]);
+    assert_eq!(remove(&three(), &[0, 1, 2]), []);
+}
+
+#[test]
+fn a_clip_lies_over_its_frames_and_no_others() {
+    let clip = copy(&three(), &[0, 1]);
+    assert_eq!(clip, Clip(vec![(10, Vec3::X), (20, 2.0 * Vec3::X)]));
+    for from in 1..70_usize {
+        let (pasted, chosen) = paste(&three(), from as u32, &clip);
+        let (before, after) = (felt(&three()), felt(&pasted));
+        for n in 1..=60_usize {
+            let expected = match n {
+                n if n < from => before[n - 1],
+                n if n < from + 10 => 1.0,
+                n if n < from + 30 => 2.0,
+                n => before[n - 1],
+            };
+            assert_eq!(after[n - 1], expected, "frame {n} after a paste at {from}");
+        }
+        assert_eq!(copy(&pasted, &chosen), clip);
+    }
+    let (alone, chosen) = paste(&[], 5, &clip);
+    assert_eq!((ends(&alone), chosen), (vec![4, 14, 34], vec![1, 2]));
+}
+
+#[test]
+fn a_new_interval_is_always_there_afterwards() {
+    for frame in 0..=80 {
+        let (keys, j) = add(&three(), frame, 80);
+        assert!(KeyframedField::new(&keys).is_ok(), "at {frame}");
+        assert!(keys.len() == 4 && j < 4, "at {frame}: {keys:?}");
+    }
+    assert_eq!(add(&[], 3, 50).0.len(), 1);
+}
+
+#[test]
+fn a_frame_belongs_to_the_interval_that_it_feels() {
+    assert_eq!([1, 10, 11, 30, 60, 99].map(|n| at(&three(), n)), [0, 0, 1, 1, 2, 2].map(Some));
+    assert_eq!(within(&three(), 10..=11), [0, 1]);
+    assert!(within(&three(), 61..=70).is_empty());
+}

@@ -1,0 +1,455 @@
+//! The view: head and hair from any side, and what is taken hold of in space.
+
+mod arrows;
+pub mod camera;
+pub mod final_picture;
+mod globals;
+pub mod gpu;
+mod hair;
+mod hand;
+pub mod handle;
+mod mesh;
+mod onion;
+mod overlay;
+pub mod pick;
+mod screen;
+pub mod volume;
+
+use eframe::egui;
+use eframe::egui_wgpu::RenderState;
+use glam::Vec3;
+use nabiki::field::Keyframe;
+use nabiki_render::settings::Camera;
+use nabiki_render::{Bounds, Picture, View as Seen};
+
+use crate::drag::{self, Lock, Pull};
+use crate::take::Take;
+
+use camera::{Held as Buttons, Orbit};
+use final_picture::{FinalPicture, Rest, Wanted};
+use hand::Hand;
+use overlay::Overlay;
+use screen::Screen;
+
+/// Logical pixels about the pointer within which hair is taken hold of.
+const REACH: f32 = 9.0;
+
+/// Which buttons move the camera.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Navigation {
+    /// Middle button orbits, with Shift pans, with Ctrl zooms; the wheel zooms.
+    #[default]
+    Blender,
+    /// Alt with the left button orbits, with the middle pans, with the right zooms; the wheel zooms.
+    Maya,
+}
+
+/// All that is shown, and what is selected of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown<'a> {
+    /// The last good motion.
+    pub take: &'a Take,
+    /// The look as it is now: it may be newer than the one the take was built from.
+    pub picture: &'a Picture,
+    /// The intervals as they are now, newer than the take while it is simulated.
+    pub force: &'a [Keyframe],
+    /// The frame looked at, at most the take's last.
+    pub frame: u32,
+    /// Whether frames are running: nothing is refined then.
+    pub playing: bool,
+    /// The interval whose vector is a handle in space.
+    pub selected_interval: Option<usize>,
+    /// Whether the paths of tips are drawn.
+    pub ghosts: bool,
+    /// Whether the wind is drawn as arrows.
+    pub wind: bool,
+    /// Whether the final picture fades in when the hand rests.
+    pub final_picture: bool,
+    /// Strands of the final picture; all of the scene's where it has fewer.
+    pub strands_in_final: usize,
+    /// Which buttons move the camera.
+    pub navigation: Navigation,
+}
+
+/// What a hand did in the view, for the session to make true.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Touch {
+    /// The vector of an interval, its handle being dragged; `done` with the button let go: one step of undo.
+    SetVector {
+        /// Which.
+        interval: usize,
+        /// Its new vector.
+        vector: Vec3,
+        /// Whether the hand has let go.
+        done: bool,
+    },
+    /// All intervals, as they make the hair go where it is pulled; `done` when they are accepted.
+    SetForce {
+        /// The intervals.
+        force: Vec<Keyframe>,
+        /// Whether the hand has let go.
+        done: bool,
+    },
+    /// A drag was given up: all as it was before its first touch.
+    Undone,
+    /// The camera was moved by hand. [`View::camera`] is where it is.
+    CameraMoved,
+    /// A word for the status line.
+    Said(String),
+}
+
+/// The view. It holds what a graphics card needs, the camera, and what the hand is doing.
+pub struct View {
+    screen: Result<Screen, String>,
+    orbit: Option<Orbit>,
+    /// The camera of the scene that the view began with; another one, or none, begins anew.
+    scenes: Option<Camera>,
+    /// Whether a hand has moved the camera away from the scene's.
+    is_free: bool,
+    frames_hair: bool,
+    hand: Hand,
+    nails: Vec<Lock>,
+    rest: Rest,
+    final_picture: Option<FinalPicture>,
+    said: Option<String>,
+}
+
+impl View {
+    /// A view that draws by the window's device. Without one it says so in words, and all else works.
+    pub fn new(render_state: Option<&RenderState>) -> Self {
+        let screen = match render_state {
+            Some(state) => Screen::new(state),
+            None => Err("There is no graphics adapter, so nothing can be drawn here. All else works.".to_owned()),
+        };
+        Self {
+            screen,
+            orbit: None,
+            scenes: None,
+            is_free: false,
+            frames_hair: false,
+            hand: Hand::Idle,
+            nails: Vec::new(),
+            rest: Rest::default(),
+            final_picture: None,
+            said: None,
+        }
+    }
+
+    /// The camera as `[picture.camera]` would have it.
+    pub fn camera(&self) -> Camera {
+        self.orbit.map(|orbit| orbit.settings()).unwrap_or_default()
+    }
+
+    /// The scene's own camera again, from the next frame of the display on.
+    pub fn reset_camera(&mut self) {
+        self.scenes = None;
+    }
+
+    /// The hair in the middle, as large as it fits, from the next frame of the display on.
+    pub fn frame_hair(&mut self) {
+        self.frames_hair = true;
+    }
+
+    /// Pulls out all nails.
+    pub fn pull_nails(&mut self) {
+        self.nails.clear();
+    }
+
+    /// Draws into all the room that is left, and says what a hand did.
+    pub fn ui(&mut self, ui: &mut egui::Ui, shown: &Shown<'_>) -> Vec<Touch> {
+        let (rect, response) = ui.allocate_exact_size(ui.available_size(), egui::Sense::click_and_drag());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "View of the hair"));
+        let scale = ui.pixels_per_point();
+        let size = (rect.size() * scale).round();
+        let size = [size.x.max(1.0) as u32, size.y.max(1.0) as u32];
+        let now = ui.input(|input| input.time);
+        let mut touches: Vec<Touch> = self.said.take().map(Touch::Said).into_iter().collect();
+
+        self.place_camera(shown, size);
+        if self.move_camera(ui, &response, shown, rect) {
+            touches.push(Touch::CameraMoved);
+            self.rest.touch(now);
+        }
+        let Some(orbit) = self.orbit else { return touches };
+        let view = orbit.view(size, shown.take.pose(shown.frame).position_cm);
+        self.nails.retain(|nail| nail.fits(shown.take.strands()) && nail.frame <= shown.take.frames());
+        let before = touches.len();
+        self.use_hand(ui, &response, shown, &view, rect, &mut touches);
+        if touches.len() > before || self.hand.is_busy() || shown.playing {
+            self.rest.touch(now);
+        }
+
+        let painter = ui.painter_at(rect);
+        let overlay = Overlay { painter: &painter, rect, scale };
+        match &mut self.screen {
+            Err(words) => overlay.instead(words),
+            Ok(screen) => {
+                if screen.show(&painter, rect, shown, &view, now) {
+                    self.rest.touch(now);
+                }
+                if let Some(words) = screen.failure() {
+                    self.screen = Err(words);
+                } else {
+                    self.refine(ui, &painter, rect, shown, &view, now);
+                }
+            }
+        }
+        self.draw_over(&overlay, &response, shown, &view);
+        touches
+    }
+
+    /// Goes where the scene's camera is, unless a hand has moved it.
+    fn place_camera(&mut self, shown: &Shown<'_>, size: [u32; 2]) {
+        let scenes = shown.picture.camera;
+        if self.scenes != Some(scenes) || self.orbit.is_none() {
+            (self.scenes, self.is_free, self.orbit) = (Some(scenes), false, None);
+        }
+        let glides = scenes.to.is_some();
+        if self.orbit.is_none() || (glides && !self.is_free) {
+            let progress = shown.frame as f32 / shown.take.frames().max(1) as f32;
+            let bounds =
+                if scenes.is_automatic() { bounds(shown.take, 0..=shown.take.frames()) } else { Bounds::default() };
+            self.orbit = Some(Orbit::new(&scenes.at(progress), size, &bounds));
+        }
+        if std::mem::take(&mut self.frames_hair)
+            && let Some(orbit) = &mut self.orbit
+        {
+            orbit.frame(&bounds(shown.take, shown.frame..=shown.frame), size);
+            self.is_free = true;
+        }
+    }
+
+    /// Orbits, pans and zooms; whether it did.
+    fn move_camera(&mut self, ui: &egui::Ui, response: &egui::Response, shown: &Shown<'_>, rect: egui::Rect) -> bool {
+        let Some(orbit) = &mut self.orbit else { return false };
+        let (buttons, pressed, way, wheel) = ui.input(|input| {
+            let down = |button| input.pointer.button_down(button);
+            let buttons = Buttons {
+                left: down(egui::PointerButton::Primary),
+                middle: down(egui::PointerButton::Middle),
+                right: down(egui::PointerButton::Secondary),
+                alt: input.modifiers.alt,
+                shift: input.modifiers.shift,
+                ctrl: input.modifiers.command || input.modifiers.ctrl,
+            };
+            let wheel = input.smooth_scroll_delta().y + 200.0 * (input.zoom_delta() - 1.0);
+            (buttons, input.pointer.any_pressed(), input.pointer.delta(), wheel)
+        });
+        let over = response.contains_pointer();
+        if over
+            && pressed
+            && matches!(self.hand, Hand::Idle)
+            && let Some(gesture) = shown.navigation.gesture(buttons)
+        {
+            self.hand = Hand::Camera(gesture);
+        }
+        let mut moved = false;
+        if let Hand::Camera(gesture) = self.hand {
+            if buttons.left || buttons.middle || buttons.right {
+                if way != egui::Vec2::ZERO {
+                    orbit.drag(gesture, glam::Vec2::new(way.x, way.y), rect.height());
+                    moved = true;
+                }
+            } else {
+                self.hand = Hand::Idle;
+            }
+        }
+        if over && wheel != 0.0 {
+            orbit.zoom(-0.002 * wheel);
+            moved = true;
+        }
+        self.is_free |= moved;
+        moved
+    }
+
+    /// Takes hold, drags, lets go.
+    fn use_hand(
+        &mut self,
+        ui: &egui::Ui,
+        response: &egui::Response,
+        shown: &Shown<'_>,
+        view: &Seen,
+        rect: egui::Rect,
+        touches: &mut Vec<Touch>,
+    ) {
+        let scale = ui.pixels_per_point();
+        let pixel = ui.input(|input| input.pointer.latest_pos()).map(|at| (at - rect.min) * scale);
+        let Some(pixel) = pixel.map(|at| glam::Vec2::new(at.x, at.y)) else { return };
+        let (pressed, down, escape, nailing) = ui.input(|input| {
+            let primary = egui::PointerButton::Primary;
+            let (pressed, down) = (input.pointer.button_pressed(primary), input.pointer.button_down(primary));
+            (pressed, down, input.key_pressed(egui::Key::Escape), input.key_down(egui::Key::N))
+        });
+        if escape && self.hand.is_busy() {
+            touches.extend(self.hand.give_up());
+            return;
+        }
+        if pressed && response.contains_pointer() && matches!(self.hand, Hand::Idle) {
+            self.take_hold(ui.ctx(), shown, view, pixel, scale, nailing, touches);
+        }
+        if !down && self.hand.is_busy() {
+            touches.extend(self.hand.release());
+            return;
+        }
+        let (of_forces, _) = hand::of_forces(shown, view);
+        touches.extend(self.hand.drag_tip(&of_forces, pixel));
+        if let Hand::Hair(held) = &mut self.hand {
+            held.drag(&view.in_head(&shown.take.pose(shown.frame)), pixel);
+            touches.extend(held.follow());
+        }
+    }
+
+    /// The left button went down: what is it on?
+    #[expect(clippy::too_many_arguments, reason = "what a press knows, used once")]
+    fn take_hold(
+        &mut self,
+        context: &egui::Context,
+        shown: &Shown<'_>,
+        view: &Seen,
+        pixel: glam::Vec2,
+        scale: f32,
+        nailing: bool,
+        touches: &mut Vec<Touch>,
+    ) {
+        let (of_forces, pose) = hand::of_forces(shown, view);
+        if let Some((interval, arrow)) = hand::arrow(shown, &pose)
+            && arrow.is_held_by(&of_forces, pixel, handle::REACH * scale)
+        {
+            self.hand = Hand::Tip { interval, held: handle::Held::new(&arrow, &of_forces, pixel), vector: None };
+            return;
+        }
+        let Some(picked) = picked(shown, view, pixel, scale) else {
+            self.hand = Hand::Camera(camera::Gesture::Orbit);
+            return;
+        };
+        let (points, strands) = (shown.take.points(shown.frame), shown.take.strands());
+        let lock = Lock { frame: shown.frame, nodes: pick::lock(points, strands, &picked, hand::LOCK_CM) };
+        if shown.frame == 0 {
+            touches.push(Touch::Said("Frame 0 is the hair at rest: go to a later frame to pull it.".to_owned()));
+        } else if nailing {
+            self.nail(lock);
+        } else if shown.take.built.scene.field.force != shown.force {
+            touches.push(Touch::Said("The motion is not there yet: pull again in a moment.".to_owned()));
+        } else {
+            let problem = drag::problem(&shown.take.built, &lock, &self.nails, shown.selected_interval);
+            let context = context.clone();
+            let pull = Pull::new(problem, move || context.request_repaint());
+            let in_head = view.in_head(&shown.take.pose(shown.frame));
+            self.hand = Hand::Hair(hand::Held::new(lock, &picked, points, strands, &in_head, pixel, pull));
+        }
+    }
+
+    /// Drives a nail in, or pulls out the one that is there.
+    fn nail(&mut self, lock: Lock) {
+        let count = self.nails.len();
+        let first = lock.nodes.first().copied();
+        self.nails.retain(|nail| nail.frame != lock.frame || first.is_none_or(|node| !nail.nodes.contains(&node)));
+        if self.nails.len() == count {
+            self.nails.push(lock);
+        }
+    }
+
+    /// Lets the final picture fade in while the hand rests.
+    fn refine(
+        &mut self,
+        ui: &egui::Ui,
+        painter: &egui::Painter,
+        rect: egui::Rect,
+        shown: &Shown<'_>,
+        view: &Seen,
+        now: f64,
+    ) {
+        let Ok(screen) = &mut self.screen else { return };
+        if !shown.final_picture || shown.playing || self.hand.is_busy() || shown.ghosts {
+            self.rest.touch(now);
+            if let Some(thread) = &self.final_picture {
+                thread.cancel();
+            }
+            return;
+        }
+        let context = ui.ctx().clone();
+        if self.rest.begins(now) {
+            let mut picture = shown.picture.clone();
+            picture.background.transparent = false;
+            let wanted = Wanted {
+                built: shown.take.built.clone(),
+                picture,
+                view: *view,
+                frame: shown.frame,
+                strands: shown.strands_in_final,
+            };
+            let thread = self.final_picture.get_or_insert_with(|| FinalPicture::new(move || context.request_repaint()));
+            thread.ask(wanted);
+        }
+        if let Some(waits) = self.rest.waits(now) {
+            ui.ctx().request_repaint_after_secs(waits as f32);
+            return;
+        }
+        match self.final_picture.as_ref().and_then(FinalPicture::take) {
+            Some(Ok(done)) => {
+                screen.set_final(ui.ctx(), &done);
+                self.rest.came(now);
+            }
+            Some(Err(why)) => self.said = Some(format!("The final picture cannot be drawn: {why}")),
+            None => {}
+        }
+        let opacity = self.rest.opacity(now);
+        if opacity > 0.0 {
+            screen.show_final(painter, rect, opacity);
+        }
+        if opacity > 0.0 && opacity < 1.0 || (opacity == 0.0 && self.rest.has_come()) {
+            ui.ctx().request_repaint();
+        }
+    }
+
+    /// Handle, thread, nails.
+    fn draw_over(&self, overlay: &Overlay<'_>, response: &egui::Response, shown: &Shown<'_>, view: &Seen) {
+        let in_head = view.in_head(&shown.take.pose(shown.frame));
+        let (points, strands) = (shown.take.points(shown.frame), shown.take.strands());
+        for nail in &self.nails {
+            overlay.nail(&in_head, nail.middle(points, strands), nail.frame == shown.frame);
+        }
+        let (of_forces, pose) = hand::of_forces(shown, view);
+        if let Some((_, arrow)) = hand::arrow(shown, &pose) {
+            overlay.handle(&of_forces, &arrow, matches!(self.hand, Hand::Tip { .. }));
+        }
+        match &self.hand {
+            Hand::Hair(held) if held.lock.fits(strands) => {
+                overlay.thread(&in_head, held.goal(), held.lock.middle(points, strands));
+            }
+            Hand::Idle if !shown.playing && shown.frame > 0 => {
+                let pixel = response.hover_pos().map(|at| (at - overlay.rect.min) * overlay.scale);
+                let picked = pixel.and_then(|at| picked(shown, view, glam::Vec2::new(at.x, at.y), overlay.scale));
+                if let Some(picked) = picked {
+                    overlay.hint(&in_head, picked.place);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The node under the pointer.
+fn picked(shown: &Shown<'_>, view: &Seen, pixel: glam::Vec2, scale: f32) -> Option<pick::Picked> {
+    let take = shown.take;
+    let in_head = view.in_head(&take.pose(shown.frame));
+    let ellipsoid = &take.built.head.ellipsoid;
+    pick::nearest(&in_head, take.points(shown.frame), take.strands(), ellipsoid, pixel, REACH * scale)
+}
+
+/// Head and hair of some frames, from the head's origin along the world's axes.
+fn bounds(take: &Take, frames: std::ops::RangeInclusive<u32>) -> Bounds {
+    let mut bounds = Bounds::default();
+    let (head, turns) = (&take.built.head, take.built.head_moves());
+    bounds.include_head(&head.mesh, &head.ellipsoid);
+    for frame in frames {
+        let turn = take.pose(frame).rotation;
+        take.points(frame).iter().for_each(|&p| bounds.include(if turns { turn * p } else { p }));
+    }
+    bounds
+}
+
+#[cfg(test)]
+#[path = "view/tests.rs"]
+mod tests;

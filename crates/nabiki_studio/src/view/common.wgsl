@@ -1,0 +1,84 @@
+// What every shader of the view knows. All places and directions are in head space (cm): the head stands still, the camera
+// and the lamps go round it.
+
+struct Lamp {
+    toward: vec3f,   // unit, toward the lamp
+    channel: i32,    // of the volume of hair depths; -1 beyond the fourth lamp
+    strength: vec3f, // linear
+    pad: f32,
+}
+
+struct Globals {
+    eye: vec4f,
+    right: vec4f,
+    up: vec4f,
+    forward: vec4f,
+    screen: vec4f,      // width and height (px), px that 1 cm at depth 1 cm covers, 1 if rays are parallel
+    lamps: array<Lamp, 16>,
+    counts: vec4u,      // lamps, points of strands, pieces of a segment + 65536 x hairs of a lock, 1 for Kajiya and Kay
+    sky_above: vec4f,
+    sky_below: vec4f,
+    zenith: vec4f,
+    skin: vec4f,        // softness last
+    hair: vec4f,        // colour of a mass of hair, sheen of skin
+    passed: vec4f,      // what a hair passes on forward, DENSITY
+    volume_low: vec4f,  // corner of the volume, 1 / cell
+    volume_size: vec4f, // cells
+    spread: vec4f,      // variances of R, TT, TRT and of what is scattered more than once
+    look: vec4f,        // tilt, spread of tilts, exponent of Kajiya and Kay's highlight, least half width (px)
+    width: vec4f,       // half width at the root (cm), part of it at the tip, taper, half width of a lock (cm)
+    centre: vec4f,      // of the head ellipsoid
+    axes: vec4f,        // its half axes
+}
+
+@group(0) @binding(0) var<uniform> g: Globals;
+@group(0) @binding(1) var hair_depth: texture_3d<f32>;
+@group(0) @binding(2) var sky_open: texture_3d<f32>;
+@group(0) @binding(3) var between: sampler;
+
+const PI: f32 = 3.14159265;
+const NEAR: f32 = 1.0;
+const FAR: f32 = 1e5;
+
+// Depth is reversed, so that it is as fine far away as near: 1 at the near plane, 0 at infinity.
+fn clip_of(p: vec3f) -> vec4f {
+    let d = p - g.eye.xyz;
+    let depth = dot(d, g.forward.xyz);
+    let xy = vec2f(dot(d, g.right.xyz), dot(d, g.up.xyz)) * 2.0 * g.screen.z / g.screen.xy;
+    if g.screen.w > 0.5 {
+        return vec4f(xy, 1.0 - depth / FAR, 1.0);
+    }
+    return vec4f(xy, NEAR, depth);
+}
+
+fn toward_eye(p: vec3f) -> vec3f {
+    if g.screen.w > 0.5 {
+        return -g.forward.xyz;
+    }
+    return normalize(g.eye.xyz - p);
+}
+
+fn pixels_per_cm(p: vec3f) -> f32 {
+    if g.screen.w > 0.5 {
+        return g.screen.z;
+    }
+    return g.screen.z / max(dot(p - g.eye.xyz, g.forward.xyz), NEAR);
+}
+
+// Away from the head.
+fn outward_of(p: vec3f) -> vec3f {
+    return normalize((p - g.centre.xyz) / (g.axes.xyz * g.axes.xyz) + vec3f(0.0, 1e-9, 0.0));
+}
+
+fn in_volume(p: vec3f) -> vec3f {
+    return (p - g.volume_low.xyz) * g.volume_low.w / g.volume_size.xyz;
+}
+
+// What the head leaves of a lamp: exact for its ellipsoid, whose rim is made as soft as a shadow on hair is.
+fn past_head(p: vec3f, toward: vec3f) -> f32 {
+    let q = (p - g.centre.xyz) / g.axes.xyz;
+    let d = toward / g.axes.xyz;
+    let t = -dot(q, d) / dot(d, d);
+    let nearest = length(q + d * t);
+    return select(smoothstep(0.82, 1.0, nearest), 1.0, t <= 0.0);
+}

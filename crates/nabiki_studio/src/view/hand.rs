@@ -1,0 +1,163 @@
+//! What a hand is doing in the view.
+
+use glam::{Vec2, Vec3};
+use nabiki::dynamics::ForceSpace;
+use nabiki::{Pose, Strands};
+use nabiki_render::View;
+
+use super::camera::{Gesture, place_in_plane};
+use super::handle::{self, Arrow};
+use super::pick::Picked;
+use super::{Shown, Touch};
+use crate::drag::{Lock, Pull};
+
+/// About the node that is pulled: strands that come along have a node this near (cm).
+pub const LOCK_CM: f32 = 1.5;
+
+/// What it is doing.
+#[derive(Debug, Default)]
+pub enum Hand {
+    /// Nothing.
+    #[default]
+    Idle,
+    /// It moves the camera.
+    Camera(Gesture),
+    /// It holds the tip of an interval's arrow.
+    Tip {
+        /// Which interval's.
+        interval: usize,
+        /// How.
+        held: handle::Held,
+        /// The vector it has dragged it to, if it has moved.
+        vector: Option<Vec3>,
+    },
+    /// It holds a lock.
+    Hair(Held),
+}
+
+/// A lock in the hand.
+#[derive(Debug)]
+pub struct Held {
+    /// What is held.
+    pub lock: Lock,
+    /// The node it was taken hold of by, where it was (head space, cm).
+    from: Vec3,
+    /// The middle of the lock, where it was.
+    middle: Vec3,
+    /// From the pixel taken hold of to that node.
+    offset: Vec2,
+    /// How far the hand has gone (head space, cm).
+    pub way: Vec3,
+    /// The solver.
+    pull: Pull,
+    /// Whether the wind has followed at all: there is something to accept, or to undo.
+    followed: Option<Vec<nabiki::field::Keyframe>>,
+    /// Why it cannot follow; said once.
+    failed: bool,
+}
+
+impl Held {
+    /// Takes hold of a lock by a node at a pixel.
+    pub fn new(
+        lock: Lock,
+        picked: &Picked,
+        points: &[Vec3],
+        strands: &Strands,
+        view: &View,
+        pixel: Vec2,
+        pull: Pull,
+    ) -> Self {
+        Self {
+            middle: lock.middle(points, strands),
+            lock,
+            from: picked.place,
+            offset: view.project(picked.place).truncate() - pixel,
+            way: Vec3::ZERO,
+            pull,
+            followed: None,
+            failed: false,
+        }
+    }
+
+    /// The hand is at this pixel of the view (head space): the lock should come along in the plane that faces the camera.
+    pub fn drag(&mut self, view: &View, pixel: Vec2) {
+        let way = place_in_plane(view, pixel + self.offset, self.from) - self.from;
+        if way != self.way {
+            self.way = way;
+            self.pull.to(way);
+        }
+    }
+
+    /// Where the middle of the lock should be (head space, cm).
+    pub fn goal(&self) -> Vec3 {
+        self.middle + self.way
+    }
+
+    /// What the wind has come to.
+    pub fn follow(&mut self) -> Option<Touch> {
+        match self.pull.take()? {
+            Ok(pulled) => {
+                self.followed = Some(pulled.force.clone());
+                Some(Touch::SetForce { force: pulled.force, done: false })
+            }
+            Err(why) if !self.failed => {
+                self.failed = true;
+                Some(Touch::Said(why))
+            }
+            Err(_) => None,
+        }
+    }
+}
+
+impl Hand {
+    /// Whether it holds something that changes the scene.
+    pub fn is_busy(&self) -> bool {
+        matches!(self, Self::Tip { .. } | Self::Hair(_))
+    }
+
+    /// It lets go, and what it did is accepted.
+    pub fn release(&mut self) -> Option<Touch> {
+        match std::mem::take(self) {
+            Self::Tip { interval, vector: Some(vector), .. } => Some(Touch::SetVector { interval, vector, done: true }),
+            Self::Hair(Held { followed: Some(force), .. }) => Some(Touch::SetForce { force, done: true }),
+            _ => None,
+        }
+    }
+
+    /// It gives up: all is as it was before.
+    pub fn give_up(&mut self) -> Option<Touch> {
+        match std::mem::take(self) {
+            Self::Tip { vector: Some(_), .. } | Self::Hair(Held { followed: Some(_), .. }) => Some(Touch::Undone),
+            _ => None,
+        }
+    }
+
+    /// The tip of an arrow follows the pointer.
+    pub fn drag_tip(&mut self, view: &View, pixel: Vec2) -> Option<Touch> {
+        let Self::Tip { interval, held, vector } = self else { return None };
+        if vector.is_none() && held.rests(pixel) {
+            return None;
+        }
+        let now = handle::rounded(held.dragged(view, pixel).force());
+        (*vector != Some(now)).then(|| {
+            *vector = Some(now);
+            Touch::SetVector { interval: *interval, vector: now, done: false }
+        })
+    }
+}
+
+/// The space of the forces: the camera in it, and where the head is in it.
+pub fn of_forces(shown: &Shown<'_>, world: &View) -> (View, Pose) {
+    let pose = shown.take.pose(shown.frame);
+    match shown.take.built.dynamics.motion.force_space {
+        ForceSpace::World => (*world, pose),
+        ForceSpace::Head => (world.in_head(&pose), Pose::STILL),
+    }
+}
+
+/// The arrow of the selected interval, in the space of the forces.
+pub fn arrow(shown: &Shown<'_>, pose: &Pose) -> Option<(usize, Arrow)> {
+    let interval = shown.selected_interval?;
+    let key = shown.force.get(interval)?;
+    Some((interval, Arrow::new(&shown.take.built.head.ellipsoid, pose, key.vector)))
+}

@@ -1,0 +1,124 @@
+//! The arrow of a force as a handle in space: where it is drawn, and which force a dragged tip means.
+
+use glam::{Vec2, Vec3};
+use nabiki::{Ellipsoid, Pose};
+use nabiki_render::View;
+
+use super::camera::place_in_plane;
+
+/// Centimetres that an arrow is long for a force of 1.
+pub const CM_PER_FORCE: f32 = 0.04;
+/// Pixels (logical) about the tip within which it is taken hold of.
+pub const REACH: f32 = 14.0;
+/// Space between the crown and the foot of the arrow (cm).
+const ABOVE_CM: f32 = 2.0;
+
+/// An arrow (the space of the view it is seen in, cm).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arrow {
+    /// Where it begins: above the crown.
+    pub foot: Vec3,
+    /// Where it points to.
+    pub tip: Vec3,
+}
+
+impl Arrow {
+    /// The arrow of a force over a head that is at `pose` in the space of the force.
+    pub fn new(head: &Ellipsoid, pose: &Pose, force: Vec3) -> Self {
+        let foot = pose.world_from_head().transform_point3(head.center) + Vec3::Y * (head.half_axes.y + ABOVE_CM);
+        Self { foot, tip: foot + force * CM_PER_FORCE }
+    }
+
+    /// The force it stands for.
+    pub fn force(&self) -> Vec3 {
+        (self.tip - self.foot) / CM_PER_FORCE
+    }
+
+    /// Whether a pixel takes hold of its tip.
+    pub fn is_held_by(&self, view: &View, pixel: Vec2, reach: f32) -> bool {
+        let tip = view.project(self.tip);
+        tip.z > 0.0 && tip.truncate().distance(pixel) <= reach
+    }
+}
+
+/// A tip in a hand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Held {
+    foot: Vec3,
+    /// The tip as it was: its plane is the one it stays in.
+    tip: Vec3,
+    /// The pixel taken hold of, and from there to the tip.
+    pixel: Vec2,
+    offset: Vec2,
+}
+
+impl Held {
+    /// Takes hold of an arrow's tip at a pixel near it.
+    pub fn new(arrow: &Arrow, view: &View, pixel: Vec2) -> Self {
+        let offset = view.project(arrow.tip).truncate() - pixel;
+        Self { foot: arrow.foot, tip: arrow.tip, pixel, offset }
+    }
+
+    /// Whether the pointer is still where it took hold: a press is no drag.
+    pub fn rests(&self, pixel: Vec2) -> bool {
+        self.pixel.distance(pixel) < 1.0
+    }
+
+    /// The arrow whose tip is under the pointer, in the plane that faces the camera and holds the tip as it was.
+    pub fn dragged(&self, view: &View, pixel: Vec2) -> Arrow {
+        Arrow { foot: self.foot, tip: place_in_plane(view, pixel + self.offset, self.tip) }
+    }
+}
+
+/// A force as a scene file should hold it: to the tenth, far below what an eye sees.
+pub fn rounded(force: Vec3) -> Vec3 {
+    // Adding 0 makes -0 a 0.
+    (force * 10.0).round() / 10.0 + 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use nabiki_render::Bounds;
+    use nabiki_render::settings::Camera;
+
+    use super::*;
+    use crate::view::camera::Orbit;
+
+    const HEAD: Ellipsoid = Ellipsoid { center: Vec3::new(-1.0, 2.0, 0.0), half_axes: Vec3::new(9.0, 11.0, 8.0) };
+
+    #[test]
+    fn a_dragged_tip_is_under_the_pointer() {
+        for azimuth in [0.0, 60.0, 200.0] {
+            let camera = Camera { azimuth, distance: Some(90.0), target: Some(Vec3::ZERO), ..Camera::default() };
+            let view = Orbit::new(&camera, [1280, 720], &Bounds::default()).view([1280, 720], Vec3::ZERO);
+            for force in [Vec3::new(-100.0, 0.0, 0.0), Vec3::ZERO, Vec3::new(30.0, -200.0, 70.0)] {
+                let arrow = Arrow::new(&HEAD, &Pose::STILL, force);
+                let at = view.project(arrow.tip).truncate();
+                let hand = at + Vec2::new(5.0, -3.0);
+                assert!(arrow.is_held_by(&view, hand, REACH));
+                let held = Held::new(&arrow, &view, hand);
+                assert!((held.dragged(&view, hand).force() - force).length() < 0.01);
+                for way in [Vec2::new(120.0, 40.0), Vec2::new(-300.0, 222.5)] {
+                    let dragged = held.dragged(&view, hand + way);
+                    let tip = view.project(dragged.tip);
+                    assert!((tip.truncate() - at - way).length() < 0.01, "{tip}");
+                    assert!((tip.z - view.project(arrow.tip).z).abs() < 1e-3);
+                    let kept = rounded(dragged.force());
+                    assert!(((kept - dragged.force()) * CM_PER_FORCE).length() < 0.006);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_arrow_is_its_force() {
+        let force = Vec3::new(-100.0, 25.0, 3.0);
+        let arrow = Arrow::new(&HEAD, &Pose { position_cm: Vec3::X, ..Pose::STILL }, force);
+        assert!((arrow.force() - force).length() < 1e-3);
+        assert!(HEAD.value(arrow.foot - Vec3::X) > 0.0);
+        assert_eq!(
+            rounded(Vec3::new(-0.01, 2.34, 100.06)).to_array().map(f32::to_bits),
+            [0.0_f32, 2.3, 100.1].map(f32::to_bits)
+        );
+    }
+}

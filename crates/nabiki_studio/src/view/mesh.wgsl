@@ -1,0 +1,57 @@
+// The head and other bodies, lit as the renderer lights skin (its skin/light.rs). Light is worked out once a corner: the triangles
+// of a head are a few pixels wide.
+
+struct Corner {
+    place: vec3f,
+    stubble: f32, // part of the skin that hair too short to be drawn covers
+    normal: vec3f,
+    pad: f32,
+    colour: vec3f,
+    pad_too: f32,
+}
+
+@group(1) @binding(0) var<storage, read> corners: array<Corner>;
+@group(1) @binding(1) var<storage, read_write> lit: array<vec4f>;
+
+// What arrives through n hairs: unscattered, and scattered forward as among the hair itself.
+fn through(n: f32) -> vec3f {
+    let straight = exp(-n);
+    return straight + g.passed.w * max(exp(-n * max(1.0 - g.passed.rgb, vec3f(0.0))) - straight, vec3f(0.0));
+}
+
+@compute @workgroup_size(64)
+fn light(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
+    let i = id.x + id.y * groups.x * 64u;
+    if i >= arrayLength(&corners) {
+        return;
+    }
+    let place = corners[i].place;
+    let normal = corners[i].normal;
+    let eye = toward_eye(place);
+    // Red light spreads farthest under skin.
+    let soft = vec3f(1.25, 0.8, 0.6) * g.skin.w;
+    // Off the skin by most of a cell, or the hair on the far side of it would count.
+    let depth = textureSampleLevel(hair_depth, between, in_volume(place + 0.5 * normal), 0.0);
+    let open = textureSampleLevel(sky_open, between, in_volume(place + 0.9 * normal), 0.0).xy;
+    var diffuse = vec3f(0.0);
+    var sheen = vec3f(0.0);
+    for (var l = 0u; l < g.counts.x; l++) {
+        let lamp = g.lamps[l];
+        let facing = dot(normal, lamp.toward);
+        var arrives = lamp.strength;
+        if lamp.channel >= 0 {
+            arrives *= through(depth[lamp.channel]) * past_head(place + 0.3 * normal, lamp.toward);
+        }
+        let halfway = normalize(lamp.toward + eye);
+        let gloss = 0.405 * pow(max(dot(normal, halfway), 0.0), 18.0) * smoothstep(0.0, 0.25, facing);
+        let rim = pow(1.0 - clamp(dot(eye, normal), 0.0, 1.0), 4.0) * max(facing, 0.0);
+        let wrapped = max((facing + soft) / (1.0 + soft), vec3f(0.0));
+        diffuse += arrives * wrapped * wrapped;
+        sheen += arrives * (gloss + 0.5 * rim);
+    }
+    let up = 0.5 + 0.5 * dot(normal, g.zenith.xyz);
+    diffuse += g.sky_above.rgb * up * through(-log(max(open.x, 1e-6)));
+    diffuse += g.sky_below.rgb * (1.0 - up) * through(-log(max(open.y, 1e-6)));
+    let skin = corners[i].colour * diffuse + g.hair.w * sheen;
+    lit[i] = vec4f(mix(skin, g.hair.rgb * diffuse, corners[i].stubble), 1.0);
+}

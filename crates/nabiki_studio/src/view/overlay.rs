@@ -1,0 +1,116 @@
+//! What is drawn over the picture: the handle, the thread from hand to hair, nails, words.
+
+use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
+use glam::Vec3;
+use nabiki_render::View;
+
+use super::handle::Arrow;
+
+/// Of what can be taken hold of.
+const ACCENT: Color32 = Color32::from_rgb(255, 176, 64);
+/// Of what a hand holds.
+const HELD: Color32 = Color32::from_rgb(255, 222, 150);
+/// Of nails.
+const NAIL: Color32 = Color32::from_rgb(120, 205, 255);
+/// About lines, so that they show on bright hair as on dark.
+const OUTLINE: Color32 = Color32::from_black_alpha(140);
+
+/// The painter of a view, which knows where places of space are.
+pub struct Overlay<'a> {
+    /// Clipped to the view.
+    pub painter: &'a Painter,
+    /// The view on the screen.
+    pub rect: Rect,
+    /// Pixels to a point.
+    pub scale: f32,
+}
+
+impl Overlay<'_> {
+    /// Where a place is on the screen, if it is before the eye.
+    pub fn at(&self, view: &View, place: Vec3) -> Option<Pos2> {
+        let p = view.project(place);
+        (p.z >= nabiki_render::camera::NEAR).then(|| self.rect.min + vec2(p.x, p.y) / self.scale)
+    }
+
+    /// The handle of a force.
+    pub fn handle(&self, view: &View, arrow: &Arrow, held: bool) {
+        let (Some(foot), Some(tip)) = (self.at(view, arrow.foot), self.at(view, arrow.tip)) else { return };
+        let colour = if held { HELD } else { ACCENT };
+        let way = tip - foot;
+        let along = if way.length() > 1.0 { way.normalized() } else { vec2(0.0, 0.0) };
+        let across = vec2(-along.y, along.x);
+        let neck = tip - along * 13.0_f32.min(way.length());
+        for (width, colour) in [(5.0, OUTLINE), (2.5, colour)] {
+            self.painter.line_segment([foot, neck], Stroke::new(width, colour));
+        }
+        if way.length() > 1.0 {
+            let corners = vec![tip, neck + across * 6.0, neck - across * 6.0];
+            self.painter.add(Shape::convex_polygon(corners, colour, Stroke::new(1.0, OUTLINE)));
+        }
+        self.painter.circle(foot, 3.0, colour, Stroke::new(1.0, OUTLINE));
+        let radius = if held { 8.0 } else { 6.0 };
+        self.painter.circle_stroke(tip, radius + 1.0, Stroke::new(3.0, OUTLINE));
+        self.painter.circle_stroke(tip, radius + 1.0, Stroke::new(1.5, colour));
+        let force = arrow.force();
+        let number = format!("{:.0}   ({:.0}, {:.0}, {:.0})", force.length(), force.x, force.y, force.z);
+        self.words(tip + vec2(14.0, -14.0), &number, colour);
+    }
+
+    /// The thread from where the hand holds to where the hair is.
+    pub fn thread(&self, view: &View, hand: Vec3, hair: Vec3) {
+        let (Some(from), Some(to)) = (self.at(view, hand), self.at(view, hair)) else { return };
+        for (width, colour) in [(3.5, OUTLINE), (1.5, HELD)] {
+            self.painter.line_segment([from, to], Stroke::new(width, colour));
+        }
+        self.painter.circle(to, 3.0, HELD, Stroke::new(1.0, OUTLINE));
+        self.painter.circle_stroke(from, 8.0, Stroke::new(1.5, HELD));
+        let left = hand.distance(hair);
+        if left > 0.05 {
+            self.words(from + vec2(14.0, -12.0), &format!("{left:.1} cm left"), HELD);
+        }
+    }
+
+    /// A node that could be taken hold of.
+    pub fn hint(&self, view: &View, place: Vec3) {
+        if let Some(at) = self.at(view, place) {
+            self.painter.circle_stroke(at, 6.0, Stroke::new(3.0, OUTLINE));
+            self.painter.circle_stroke(at, 6.0, Stroke::new(1.5, ACCENT));
+        }
+    }
+
+    /// A nail.
+    pub fn nail(&self, view: &View, place: Vec3, is_of_this_frame: bool) {
+        let Some(at) = self.at(view, place) else { return };
+        let colour = if is_of_this_frame { NAIL } else { NAIL.gamma_multiply(0.4) };
+        let arm = |d: Vec2| [at - d, at + d];
+        for d in [vec2(4.0, 4.0), vec2(4.0, -4.0)] {
+            self.painter.line_segment(arm(d), Stroke::new(4.0, OUTLINE));
+            self.painter.line_segment(arm(d), Stroke::new(2.0, colour));
+        }
+    }
+
+    /// Small words with a dark ground.
+    fn words(&self, at: Pos2, words: &str, colour: Color32) {
+        let galley = self.painter.layout_no_wrap(words.to_owned(), FontId::proportional(13.0), colour);
+        // Within the view, whatever they belong to.
+        let room = (self.rect.size() - galley.size() - vec2(8.0, 6.0)).max(Vec2::ZERO);
+        let low = self.rect.min + vec2(4.0, 3.0);
+        let at = pos2(at.x.clamp(low.x, low.x + room.x), at.y.clamp(low.y, low.y + room.y));
+        let ground = Rect::from_min_size(at, galley.size()).expand2(vec2(4.0, 2.0));
+        self.painter.rect_filled(ground, 3.0, Color32::from_black_alpha(150));
+        self.painter.galley(at, galley, colour);
+    }
+
+    /// Words where there is no picture.
+    pub fn instead(&self, words: &str) {
+        self.painter.rect_filled(self.rect, 0.0, Color32::from_gray(38));
+        let galley = self.painter.layout(
+            words.to_owned(),
+            FontId::proportional(15.0),
+            Color32::from_gray(190),
+            (self.rect.width() - 40.0).max(80.0),
+        );
+        let at = Align2::CENTER_CENTER.anchor_size(self.rect.center(), galley.size());
+        self.painter.galley(at.min, galley, Color32::from_gray(190));
+    }
+}

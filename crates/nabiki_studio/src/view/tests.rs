@@ -1,0 +1,239 @@
+//! The view under a hand, without a graphics card.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, pos2, vec2};
+use nabiki_scene::{Scene, Shown as Strands};
+
+use super::*;
+
+/// A window with the view alone.
+struct Window {
+    context: egui::Context,
+    view: View,
+    take: Take,
+    frame: u32,
+    selected: Option<usize>,
+    navigation: Navigation,
+    time: f64,
+    modifiers: Modifiers,
+    rect: Rect,
+}
+
+impl Window {
+    fn new() -> Self {
+        let text = "[hair]\nstrands = 60\n[motion]\nframes = 20\nform = \"free\"\n[[force]]\nthrough = 20\nvector = [-60, 0, 0]\n";
+        let scene = Scene::parse(text, "a.toml".as_ref(), &[]).unwrap();
+        let built = Arc::new(scene.build(Strands::All).unwrap());
+        let mut timeline = built.timeline().unwrap();
+        let film = timeline.play();
+        let film: Vec<Vec3> = (0..=20).flat_map(|n| film.points(n).to_vec()).collect();
+        let take = Take { built, film: film.into(), number: 1 };
+        let (context, view) = (egui::Context::default(), View::new(None));
+        let navigation = Navigation::Blender;
+        let mut window = Self {
+            context,
+            view,
+            take,
+            frame: 15,
+            selected: None,
+            navigation,
+            time: 0.0,
+            modifiers: Modifiers::NONE,
+            rect: Rect::NOTHING,
+        };
+        window.run(&[]);
+        window
+    }
+
+    fn run(&mut self, events: &[Event]) -> Vec<Touch> {
+        self.time += 0.05;
+        let input = RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(800.0, 600.0))),
+            time: Some(self.time),
+            events: [&[Event::ModifiersChanged(self.modifiers)], events].concat(),
+            ..RawInput::default()
+        };
+        let scene = &self.take.built.scene;
+        let shown = Shown {
+            take: &self.take,
+            picture: &scene.picture,
+            force: &scene.field.force,
+            frame: self.frame,
+            playing: false,
+            selected_interval: self.selected,
+            ghosts: true,
+            wind: true,
+            final_picture: true,
+            strands_in_final: 60,
+            navigation: self.navigation,
+        };
+        let mut touches = Vec::new();
+        let (view, rect) = (&mut self.view, &mut self.rect);
+        let _ = self.context.run_ui(input, |ui| {
+            *rect = ui.max_rect();
+            touches = view.ui(ui, &shown);
+        });
+        touches
+    }
+
+    fn seen(&self) -> Seen {
+        let size = [self.rect.width() as u32, self.rect.height() as u32];
+        self.view.orbit.unwrap().view(size, self.take.pose(self.frame).position_cm)
+    }
+
+    fn on_screen(&self, place: Vec3) -> Pos2 {
+        let p = self.seen().project(place);
+        self.rect.min + vec2(p.x, p.y)
+    }
+
+    /// A node that a hand can take hold of, where it is on the screen.
+    fn some_hair(&mut self) -> Pos2 {
+        for strand in 0..self.take.strands().len() {
+            let tip = self.take.strands().range(strand).end - 2;
+            let at = self.on_screen(self.take.points(self.frame)[tip]);
+            let pixel = glam::Vec2::new(at.x - self.rect.min.x, at.y - self.rect.min.y);
+            let shown = self.take.points(self.frame);
+            let ellipsoid = &self.take.built.head.ellipsoid;
+            if pick::nearest(&self.seen(), shown, self.take.strands(), ellipsoid, pixel, 2.0).is_some() {
+                return at;
+            }
+        }
+        panic!("no hair in sight");
+    }
+}
+
+fn press(at: Pos2, pressed: bool) -> Vec<Event> {
+    button(at, PointerButton::Primary, pressed, Modifiers::NONE)
+}
+
+fn button(pos: Pos2, button: PointerButton, pressed: bool, modifiers: Modifiers) -> Vec<Event> {
+    vec![Event::PointerMoved(pos), Event::PointerButton { pos, button, pressed, modifiers }]
+}
+
+fn key(key: Key, pressed: bool) -> Event {
+    Event::Key { key, physical_key: None, pressed, repeat: false, modifiers: Modifiers::NONE }
+}
+
+#[test]
+fn a_tip_that_is_dragged_sets_the_vector_and_the_tip_is_under_the_pointer() {
+    let mut window = Window::new();
+    window.selected = Some(0);
+    let head = window.take.built.head.ellipsoid;
+    let vector = Vec3::new(-60.0, 0.0, 0.0);
+    let tip = window.on_screen(handle::Arrow::new(&head, &nabiki::Pose::STILL, vector).tip);
+    window.run(&[Event::PointerMoved(tip)]);
+    assert!(window.run(&press(tip, true)).is_empty());
+    let to = tip + vec2(-40.0, 25.0);
+    let touches = window.run(&[Event::PointerMoved(to)]);
+    let [Touch::SetVector { interval: 0, vector, done: false }] = touches[..] else { panic!("{touches:?}") };
+    // A tenth of a force, to which it is rounded, is 0.004 cm: a tenth of a pixel.
+    let now = window.on_screen(handle::Arrow::new(&head, &nabiki::Pose::STILL, vector).tip);
+    assert!(now.distance(to) < 0.3, "{now} {to}");
+    let touches = window.run(&press(to, false));
+    assert_eq!(touches, [Touch::SetVector { interval: 0, vector, done: true }]);
+    assert!(window.run(&[Event::PointerMoved(tip)]).is_empty());
+}
+
+#[test]
+fn escape_gives_a_drag_up_and_a_press_without_a_drag_sets_nothing() {
+    let mut window = Window::new();
+    window.selected = Some(0);
+    let head = window.take.built.head.ellipsoid;
+    let tip = window.on_screen(handle::Arrow::new(&head, &nabiki::Pose::STILL, Vec3::new(-60.0, 0.0, 0.0)).tip);
+    window.run(&press(tip, true));
+    window.run(&[Event::PointerMoved(tip + vec2(30.0, 0.0))]);
+    assert_eq!(window.run(&[key(Key::Escape, true)]), [Touch::Undone]);
+    assert!(window.run(&press(tip, false)).is_empty());
+    window.run(&press(tip, true));
+    let touches = window.run(&press(tip, false));
+    assert!(touches.iter().all(|touch| !matches!(touch, Touch::SetVector { done: true, .. })), "{touches:?}");
+}
+
+#[test]
+fn the_camera_moves_by_both_presets_and_by_a_drag_on_the_ground() {
+    let middle = PointerButton::Middle;
+    for (navigation, which, modifiers) in [
+        (Navigation::Blender, middle, Modifiers::NONE),
+        (Navigation::Maya, PointerButton::Primary, Modifiers::ALT),
+        (Navigation::Blender, PointerButton::Primary, Modifiers::NONE),
+    ] {
+        let mut window = Window { navigation, modifiers, ..Window::new() };
+        let corner = pos2(30.0, 30.0);
+        let before = window.view.camera();
+        window.run(&[Event::PointerMoved(corner)]);
+        window.run(&button(corner, which, true, modifiers));
+        let touches = window.run(&[Event::PointerMoved(corner + vec2(60.0, 20.0))]);
+        assert_eq!(touches, [Touch::CameraMoved], "{navigation:?}");
+        assert_ne!(window.view.camera().azimuth, before.azimuth);
+        window.run(&button(corner, which, false, modifiers));
+        assert!(window.run(&[Event::PointerMoved(corner)]).is_empty());
+        window.view.reset_camera();
+        window.run(&[]);
+        assert_eq!(window.view.camera().azimuth, before.azimuth);
+    }
+}
+
+#[test]
+fn framing_shows_all_of_the_hair() {
+    let mut window = Window::new();
+    window.run(&[Event::PointerMoved(pos2(400.0, 300.0))]);
+    window.run(&[Event::Zoom(0.3)]);
+    (0..20).for_each(|_| drop(window.run(&[])));
+    window.view.frame_hair();
+    window.run(&[]);
+    for &p in window.take.points(15) {
+        assert!(window.rect.contains(window.on_screen(p)));
+    }
+    let widest = window.take.points(15).iter().map(|&p| window.on_screen(p).distance(window.rect.center()));
+    assert!(widest.fold(0.0, f32::max) > 150.0);
+}
+
+#[test]
+fn a_pull_makes_wind_that_release_accepts_and_escape_undoes() {
+    let mut window = Window::new();
+    for ends in [true, false] {
+        let at = window.some_hair();
+        window.run(&[Event::PointerMoved(at)]);
+        window.run(&press(at, true));
+        assert!(matches!(window.view.hand, Hand::Hair(_)), "{:?}", window.view.hand);
+        let to = at + vec2(-30.0, -20.0);
+        let mut touches = window.run(&[Event::PointerMoved(to)]);
+        let clock = Instant::now();
+        while touches.is_empty() {
+            assert!(clock.elapsed() < Duration::from_secs(60), "the wind never followed");
+            std::thread::sleep(Duration::from_millis(5));
+            touches = window.run(&[]);
+        }
+        let Some(Touch::SetForce { force, done: false }) = touches.pop() else { panic!("{touches:?}") };
+        assert_ne!(force, window.take.built.scene.field.force);
+        let touches = if ends { window.run(&press(to, false)) } else { window.run(&[key(Key::Escape, true)]) };
+        let is_right = match &touches[..] {
+            [.., Touch::SetForce { done, .. }] => ends && *done,
+            [.., Touch::Undone] => !ends,
+            _ => false,
+        };
+        assert!(is_right, "{touches:?}");
+        window.run(&press(to, false));
+    }
+}
+
+#[test]
+fn a_click_with_n_held_drives_a_nail_and_another_pulls_it_out() {
+    let mut window = Window::new();
+    let at = window.some_hair();
+    window.run(&[Event::PointerMoved(at), key(Key::N, true)]);
+    window.run(&press(at, true));
+    window.run(&press(at, false));
+    assert_eq!(window.view.nails.len(), 1);
+    assert_eq!(window.view.nails[0].frame, 15);
+    window.run(&press(at, true));
+    window.run(&press(at, false));
+    assert!(window.view.nails.is_empty());
+    window.frame = 0;
+    let at = window.some_hair();
+    window.run(&[Event::PointerMoved(at)]);
+    let touches = window.run(&press(at, true));
+    assert!(matches!(&touches[..], [Touch::Said(_)]), "{touches:?}");
+}
