@@ -56,9 +56,9 @@ pub enum Command {
     Render(Render),
     /// Find the wind that makes the hair do what a wish file asks for, and write the scene with it
     ///
-    /// A wish file is TOML: what may change ([unknowns] with vectors, borders, interval, gust, stiffness, settle), where
-    /// locks should be ([[wish]] with frame, strands or near, and moved, mean_moved, mean_at or places) and what should
-    /// stay ([[nail]] with frames). It prints how far the hair is from the wishes before and after, and the new numbers; a
+    /// A wish file is TOML: what may change (`[unknowns]` with vectors, borders, interval, gust, stiffness, settle), where
+    /// locks should be (`[[wish]]` with frame, strands or near, and moved, mean_moved, mean_at or places) and what should
+    /// stay (`[[nail]]` with frames). It prints how far the hair is from the wishes before and after, and the new numbers; a
     /// wish that no motion meets ends with the nearest one, and with the distance left. scenes/wishes/ has commented
     /// examples, docs/solve.md the rest.
     Solve(Solve),
