@@ -7,19 +7,20 @@
 
 #[path = "common/bytes.rs"]
 mod bytes;
+#[path = "common/dynamics.rs"]
+mod dynamics;
 
 use std::sync::Arc;
 use std::time::Instant;
 
 use bytes::Bytes;
+use dynamics::{dynamics, free};
 use glam::Vec3;
 use nabiki::Head;
-use nabiki::body::{Body, Contact};
-use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Simulation, Stepper};
+use nabiki::dynamics::{Form, FrameInput, Simulation, Stepper};
 use nabiki::field::{Field, FieldSum, Keyframe, KeyframedField, Turbulence, TurbulenceField};
-use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours};
+use nabiki::free_form::{FreeMotion, NeighbourForces, Neighbours};
 use nabiki::groom::{Growth, Style, grow};
-use nabiki::pseudo_force::PseudoForce;
 use nabiki::roots::Hairline;
 
 const ROUNDS: usize = 15;
@@ -31,12 +32,9 @@ fn main() {
     let (hairline, style) = (Hairline::default(), Style::default());
     let growth = Growth { hairline: &hairline, style: &style, strands, segments: 20, segment_length: 0.9, seed: 1 };
     let hair = grow(&head, &growth, strands).expect("settings in range").strands;
-    let form = FreeForm::default();
-    let bodies = vec![Body::head(&head, Contact::default())];
     let carriers = Arc::new(hair.select(&(0..256).collect::<Vec<_>>()));
     let neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers });
-    let bare = FreeMotion { form, ..Default::default() };
-    let with_head = FreeMotion { bodies, ..bare.clone() };
+    let with_head = free(&head);
     let with_all = FreeMotion { neighbours, ..with_head.clone() };
     let wind = || {
         KeyframedField::new(&[
@@ -50,7 +48,7 @@ fn main() {
     let wind = wind();
     let cases: [(&str, Form, &dyn Field); 5] = [
         ("the paper's form", Form::Paper, &wind),
-        ("free", Form::Free(bare), &wind),
+        ("free", Form::Free(FreeMotion::default()), &wind),
         ("free, head", Form::Free(with_head), &wind),
         ("free, head, neighbours", Form::Free(with_all.clone()), &wind),
         ("the same, turbulence", Form::Free(with_all), &turbulent),
@@ -81,17 +79,4 @@ fn seconds(act: impl FnOnce()) -> f64 {
     let start = Instant::now();
     act();
     start.elapsed().as_secs_f64()
-}
-
-fn dynamics(head: &Head, form: Form) -> Dynamics {
-    Dynamics {
-        motion: Motion { inertia_length_floor: 18.0, ..Motion::default() },
-        segment_length: 1.0,
-        pseudo_force: if form == Form::Paper { PseudoForce::default() } else { PseudoForce::off() },
-        ellipsoid: head.ellipsoid,
-        shell: 1.25,
-        polar_axis: Vec3::Y,
-        disturbance: None,
-        form,
-    }
 }

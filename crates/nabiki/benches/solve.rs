@@ -5,19 +5,20 @@
 //! for 40 strands. The fastest, the median and the slowest of all rounds, in ms, and the time on all processors together, which
 //! others on the machine move less: on two cores of one's own it takes half of that.
 
+#[path = "common/dynamics.rs"]
+mod dynamics;
+
 use std::sync::Arc;
 use std::time::Instant;
 
+use dynamics::{dynamics, free};
 use glam::Vec3;
-use nabiki::body::{Body, Contact};
-use nabiki::dynamics::{Dynamics, Form, Motion};
+use nabiki::dynamics::{Dynamics, Form};
 use nabiki::field::{Ease, Keyframe};
-use nabiki::free_form::{FreeForm, FreeMotion};
 use nabiki::groom::{Growth, Style, grow};
-use nabiki::pseudo_force::PseudoForce;
 use nabiki::roots::Hairline;
 use nabiki::solve::{Drag, Goal, OpenAir, Prior, Problem, Search, Solver, Unknown, Wind, Wish, nodes_of};
-use nabiki::{Head, Pose, Strands};
+use nabiki::{Head, Strands};
 
 fn main() {
     println!("threads: {}", rayon::current_num_threads());
@@ -26,25 +27,11 @@ fn main() {
     let growth =
         Growth { hairline: &hairline, style: &style, strands: 2000, segments: 18, segment_length: 1.0, seed: 1 };
     let hair = grow(&head, &growth, 40).expect("settings in range").strands;
-    for (name, form) in [("paper", Form::Paper), ("free", free(&head))] {
-        let dynamics = Dynamics {
-            motion: Motion { inertia_length_floor: 18.0, ..Motion::default() },
-            segment_length: 1.0,
-            pseudo_force: PseudoForce::default(),
-            ellipsoid: head.ellipsoid,
-            shell: 1.25,
-            polar_axis: Vec3::Y,
-            disturbance: None,
-            form,
-        };
+    for (name, form) in [("paper", Form::Paper), ("free", Form::Free(free(&head)))] {
+        let dynamics = dynamics(&head, form);
         drag(name, &hair, &dynamics);
         full(name, &hair, &dynamics);
     }
-}
-
-fn free(head: &Head) -> Form {
-    let bodies = vec![Body::head(head, Contact::default())];
-    Form::Free(FreeMotion { form: FreeForm::default(), bodies, neighbours: None, rest_pose: Pose::STILL })
 }
 
 fn key(through: u32, x: f32, y: f32, z: f32) -> Keyframe {

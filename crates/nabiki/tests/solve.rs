@@ -1,19 +1,20 @@
 //! Which wind makes the hair do this: found again where it is known, and as near as can be where there is none.
 
+#[path = "../benches/common/dynamics.rs"]
+mod dynamics;
+
 use std::sync::Arc;
 
+use dynamics::{dynamics, free};
 use glam::Vec3;
-use nabiki::body::{Body, Contact};
-use nabiki::dynamics::{Dynamics, Form, Motion, Timeline};
+use nabiki::dynamics::{Dynamics, Form, Timeline};
 use nabiki::field::{Ease, Keyframe};
-use nabiki::free_form::{FreeForm, FreeMotion};
 use nabiki::groom::{Growth, Style, grow};
-use nabiki::pseudo_force::PseudoForce;
 use nabiki::roots::Hairline;
 use nabiki::solve::{
     Answer, Drag, Goal, Node, OpenAir, Prior, Problem, Report, Search, Solver, Unknown, Wind, Wish, nodes_of,
 };
-use nabiki::{Head, Pose, Strands};
+use nabiki::{Head, Strands};
 
 const SEGMENTS: usize = 18;
 
@@ -23,25 +24,6 @@ fn hair(head: &Head, strands: usize) -> Strands {
     let growth =
         Growth { hairline: &hairline, style: &style, strands: 2000, segments: SEGMENTS, segment_length: 1.0, seed: 1 };
     grow(head, &growth, strands).unwrap().strands
-}
-
-fn dynamics(head: &Head, form: Form) -> Dynamics {
-    Dynamics {
-        motion: Motion { inertia_length_floor: 18.0, ..Motion::default() },
-        segment_length: 1.0,
-        pseudo_force: if form == Form::Paper { PseudoForce::default() } else { PseudoForce::off() },
-        ellipsoid: head.ellipsoid,
-        shell: 1.25,
-        polar_axis: Vec3::Y,
-        disturbance: None,
-        form,
-    }
-}
-
-/// The free form with the head in the way.
-fn free(head: &Head) -> Form {
-    let bodies = vec![Body::head(head, Contact::default())];
-    Form::Free(FreeMotion { form: FreeForm::default(), bodies, neighbours: None, rest_pose: Pose::STILL })
 }
 
 fn key(through: u32, vector: [f32; 3]) -> Keyframe {
@@ -137,7 +119,7 @@ const FOUND: f32 = 2.0;
 fn the_vectors_of_table_1_are_found_again() {
     let head = Head::builtin();
     let hair = hair(&head, 40);
-    for (name, form) in [("paper", Form::Paper), ("free", free(&head))] {
+    for (name, form) in [("paper", Form::Paper), ("free", Form::Free(free(&head)))] {
         let dynamics = dynamics(&head, form);
         let wishes = wishes_for(problem(&hair, &dynamics, table_1()), &[30, 60, 90]);
         let mut chance = Chance(7);
@@ -168,7 +150,7 @@ fn the_vectors_of_table_1_are_found_again() {
 fn a_noise_of_half_a_centimetre_moves_the_answer_by_little() {
     let head = Head::builtin();
     let hair = hair(&head, 40);
-    for (name, form) in [("paper", Form::Paper), ("free", free(&head))] {
+    for (name, form) in [("paper", Form::Paper), ("free", Form::Free(free(&head)))] {
         let dynamics = dynamics(&head, form);
         let mut wishes = wishes_for(problem(&hair, &dynamics, table_1()), &[30, 60, 90]);
         let mut chance = Chance(3);
@@ -193,7 +175,7 @@ fn a_noise_of_half_a_centimetre_moves_the_answer_by_little() {
 fn borders_stiffness_and_settling_are_found_again() {
     let head = Head::builtin();
     let hair = hair(&head, 24);
-    let dynamics = dynamics(&head, free(&head));
+    let dynamics = dynamics(&head, Form::Free(free(&head)));
     let truth = vec![key(43, [-100.0, 20.0, 30.0]), key(100, [0.0, -60.0, 0.0])];
     let mut stiffer = dynamics.clone();
     if let Form::Free(free) = &mut stiffer.form {
@@ -231,7 +213,7 @@ fn vec_times(profile: &nabiki::Profile, factor: f32) -> nabiki::Profile {
 fn a_wish_beyond_reach_ends_near_and_says_how_far_is_left() {
     let head = Head::builtin();
     let hair = hair(&head, 8);
-    for form in [Form::Paper, free(&head)] {
+    for form in [Form::Paper, Form::Free(free(&head))] {
         let dynamics = dynamics(&head, form);
         let (tip, root) = (hair.strand(3).len() as u32 - 1, hair.strand(3)[0]);
         let length = nabiki::strands::length(hair.strand(3));
@@ -257,7 +239,7 @@ fn a_wish_beyond_reach_ends_near_and_says_how_far_is_left() {
 fn a_drag_follows_the_hand_and_nails_hold() {
     let head = Head::builtin();
     let hair = hair(&head, 20);
-    let dynamics = dynamics(&head, free(&head));
+    let dynamics = dynamics(&head, Form::Free(free(&head)));
     let lock = Wish { frame: 90, nodes: nodes(&hair, 10, 0.6), goal: Goal::Stay, weight: 1.0 };
     let nail = Wish { frame: 45, nodes: nodes(&hair, 20, 0.5), goal: Goal::Stay, weight: 1.0 };
     let keyframes = vec![key(50, [-60.0, 0.0, 0.0]), key(100, [-20.0, 0.0, 0.0])];

@@ -1,0 +1,27 @@
+//! How hair of the default style answers a force.
+
+use glam::Vec3;
+use nabiki::Head;
+use nabiki::body::{Body, Contact};
+use nabiki::dynamics::{Dynamics, Form, Motion};
+use nabiki::free_form::FreeMotion;
+use nabiki::pseudo_force::PseudoForce;
+
+/// Table 1's settings in a form, short hair moving with the long; the pseudo-force is the paper's form's alone.
+pub fn dynamics(head: &Head, form: Form) -> Dynamics {
+    Dynamics {
+        motion: Motion { inertia_length_floor: 18.0, ..Motion::default() },
+        segment_length: 1.0,
+        pseudo_force: if form == Form::Paper { PseudoForce::default() } else { PseudoForce::off() },
+        ellipsoid: head.ellipsoid,
+        shell: 1.25,
+        polar_axis: Vec3::Y,
+        disturbance: None,
+        form,
+    }
+}
+
+/// The free form with the head in the way.
+pub fn free(head: &Head) -> FreeMotion {
+    FreeMotion { bodies: vec![Body::head(head, Contact::default())], ..FreeMotion::default() }
+}
