@@ -172,10 +172,14 @@ impl BuiltScene {
     /// # Errors
     /// As [`simulation`](Self::simulation).
     pub fn timeline(&self) -> Result<Timeline> {
-        let poses = if self.head_moves() { self.poses[..=self.frames() as usize].to_vec() } else { Vec::new() };
-        let built =
-            Timeline::with_ids(&self.hair.strands, &self.ids, &self.dynamics, self.field.clone(), poses, self.frames());
+        let (field, poses) = (self.field.clone(), self.given_poses());
+        let built = Timeline::with_ids(&self.hair.strands, &self.ids, &self.dynamics, field, poses, self.frames());
         built.map_err(|refused| self.refusal(refused))
+    }
+
+    /// The poses that a timeline is given: those of all frames, or none for a head that stands still.
+    pub fn given_poses(&self) -> Vec<Pose> {
+        if self.head_moves() { self.poses[..=self.frames() as usize].to_vec() } else { Vec::new() }
     }
 
     /// Frames after the rest frame 0.

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use glam::Vec3;
 use nabiki::dynamics::Timeline;
+use nabiki::field::FieldSum;
 use nabiki_scene::told::SwingTable;
 use nabiki_scene::{BuiltScene, Error, Scene, Shown};
 
@@ -218,11 +219,12 @@ fn reused(mut timeline: Timeline, known: &BuiltScene, built: &BuiltScene) -> Opt
         && known.head_moves() == built.head_moves()
         && (!built.head_moves() || (0..=built.frames()).all(|n| known.pose(n) == built.pose(n)));
     if !same_poses {
-        return None;
+        timeline.set_poses(built.given_poses(), built.frames()).ok()?;
     }
     if known.dynamics != built.dynamics {
-        // With the old field, which may be too strong for the new settings, or the other way round.
-        return None;
+        // The old field may be too strong for the new settings, or the new one for the old.
+        timeline.set_field(Arc::new(FieldSum::default())).ok()?;
+        timeline.set_dynamics(&built.dynamics).ok()?;
     }
     timeline.set_field(built.field.clone()).ok()?;
     Some(timeline)

@@ -25,10 +25,34 @@ impl Runner {
     /// Hair at rest in the given shape; `ids` are the strands' numbers in the set they are some of.
     pub fn new(strands: &Strands, ids: &[u32], dynamics: &Dynamics, field: &dyn Field) -> Result<Self, SettingError> {
         assert_eq!(ids.len(), strands.len(), "one id for each strand");
+        Self::beside(strands, ids, dynamics, field, None)
+    }
+
+    /// The same hair, at rest, with other settings; `strands` are those that it was made of.
+    pub fn with_dynamics(
+        &self,
+        strands: &Strands,
+        dynamics: &Dynamics,
+        field: &dyn Field,
+    ) -> Result<Self, SettingError> {
+        let known = match &self.form {
+            OfForm::Free(runner) => Some(&**runner),
+            OfForm::Paper(_) => None,
+        };
+        Self::beside(strands, &self.ids, dynamics, field, known)
+    }
+
+    fn beside(
+        strands: &Strands,
+        ids: &[u32],
+        dynamics: &Dynamics,
+        field: &dyn Field,
+        known: Option<&free::Runner>,
+    ) -> Result<Self, SettingError> {
         dynamics.check()?;
         let form = match &dynamics.form {
             Form::Paper => OfForm::Paper(Box::new(paper::Runner::new(strands, ids, dynamics)?)),
-            Form::Free(free) => OfForm::Free(Box::new(free::Runner::new(strands, dynamics, free)?)),
+            Form::Free(free) => OfForm::Free(Box::new(free::Runner::new(strands, dynamics, free, known)?)),
         };
         let runner = Self { form, ids: ids.to_vec() };
         runner.check_field(field)?;
@@ -48,10 +72,6 @@ impl Runner {
             OfForm::Paper(runner) => runner.dynamics(),
             OfForm::Free(runner) => runner.dynamics(),
         }
-    }
-
-    pub fn ids(&self) -> &[u32] {
-        &self.ids
     }
 
     /// Puts the hair back to rest.

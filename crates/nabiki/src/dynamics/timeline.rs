@@ -196,7 +196,7 @@ impl Timeline {
     /// # Errors
     /// As [`new`](Self::new); the timeline is then as it was.
     pub fn set_dynamics(&mut self, dynamics: &Dynamics) -> Result<(), SettingError> {
-        self.runner = Runner::new(&self.hair, self.runner.ids(), dynamics, &*self.field)?;
+        self.runner = self.runner.with_dynamics(&self.hair, dynamics, &*self.field)?;
         self.forget();
         Ok(())
     }

@@ -50,8 +50,14 @@ pub(super) struct Packed {
 }
 
 impl Packed {
-    /// Packs hair at rest in the given shape, whose settings have been checked.
-    pub fn new(strands: &Strands, dynamics: &Dynamics, free: &FreeMotion) -> Result<Self, SettingError> {
+    /// Packs hair at rest in the given shape, whose settings have been checked. `known`: the same hair, packed with other
+    /// settings; what these do not change is taken from there.
+    pub fn new(
+        strands: &Strands,
+        dynamics: &Dynamics,
+        free: &FreeMotion,
+        known: Option<&Self>,
+    ) -> Result<Self, SettingError> {
         let stability = Stability::of(strands, dynamics)?;
         let [low, high] = bounds(strands.points());
         let longest = strands.lengths().fold(0.0, f32::max);
@@ -78,7 +84,12 @@ impl Packed {
         if packed.strengths.iter().all(|strength| *strength == packed.strengths[0]) {
             packed.strengths.truncate(1);
         }
-        packed.kept_from = free.bodies.iter().map(|body| packed.kept_from(body)).collect();
+        packed.kept_from = match known {
+            Some(known) if known.free.bodies == free.bodies && known.free.rest_pose == free.rest_pose => {
+                known.kept_from.clone()
+            }
+            _ => free.bodies.iter().map(|body| packed.kept_from(body)).collect(),
+        };
         Ok(packed)
     }
 

@@ -1,5 +1,7 @@
 //! The free form on its way through the frames: hair, and the carriers that go before it.
 
+use std::sync::Arc;
+
 use glam::Vec3;
 
 use super::contact::Obstacle;
@@ -24,12 +26,21 @@ pub(in crate::dynamics) struct Runner {
 }
 
 impl Runner {
-    /// Hair at rest in the given shape, whose settings have been checked.
-    pub fn new(strands: &Strands, dynamics: &Dynamics, free: &FreeMotion) -> Result<Self, SettingError> {
-        let packed = Packed::new(strands, dynamics, free)?;
+    /// Hair at rest in the given shape, whose settings have been checked. `known`: the same hair with other settings.
+    pub fn new(
+        strands: &Strands,
+        dynamics: &Dynamics,
+        free: &FreeMotion,
+        known: Option<&Self>,
+    ) -> Result<Self, SettingError> {
+        let packed = Packed::new(strands, dynamics, free, known.map(|known| &known.packed))?;
         let carriers = match &free.neighbours {
             None => None,
-            Some(neighbours) => Some(Carriers::new(Packed::new(&neighbours.carriers, dynamics, free)?, neighbours)?),
+            Some(neighbours) => {
+                let known = known.and_then(|known| known.carriers.as_ref()).map(|carriers| &carriers.hair);
+                let known = known.filter(|known| known.strands == neighbours.carriers).map(|known| &known.packed);
+                Some(Carriers::new(Packed::new(&neighbours.carriers, dynamics, free, known)?, neighbours)?)
+            }
         };
         let obstacles = Vec::with_capacity(free.bodies.len());
         Ok(Self { states: packed.states(), packed, carriers, obstacles })
@@ -115,6 +126,8 @@ struct Carriers {
 
 #[derive(Clone, Debug)]
 struct CarrierHair {
+    /// At rest, as given.
+    strands: Arc<Strands>,
     packed: Packed,
     states: Vec<FreeState>,
     points: Vec<Vec3>,
@@ -128,7 +141,8 @@ impl Carriers {
         sweep(&packed, &[Plan::Rest], VectorWidth::default(), &mut states, Pages::Last(&mut points));
         let crowd = Crowd::new(neighbours, &points)?;
         let velocities = vec![Vec3::ZERO; points.len()];
-        let hair = CarrierHair { states, packed, points, velocities, crowd_at_rest: crowd.clone() };
+        let strands = neighbours.carriers.clone();
+        let hair = CarrierHair { strands, states, packed, points, velocities, crowd_at_rest: crowd.clone() };
         Ok(Self { hair, next: crowd.clone(), crowd })
     }
 
