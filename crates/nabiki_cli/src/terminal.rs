@@ -26,7 +26,7 @@ impl Watch for Terminal {
     fn begin(&mut self, doing: &'static str, steps: u64) {
         // Standard error draws no bar where it is no terminal.
         let target = if self.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-        let style = ProgressStyle::with_template("{msg:10} {wide_bar} {pos}/{len} frames, {eta} left")
+        let style = ProgressStyle::with_template("{msg:10} {wide_bar} {pos}/{len}, {eta} left")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         self.bar = ProgressBar::with_draw_target(Some(steps), target).with_style(style).with_message(doing);
     }

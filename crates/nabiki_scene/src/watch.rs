@@ -10,15 +10,15 @@ pub trait Watch {
         let _ = told;
     }
 
-    /// A stretch of `steps` frames begins; `doing`: "drawing", "simulating", ...
+    /// A stretch of `steps` frames begins, or of so many trials at the most; `doing`: "drawing", "simulating", ...
     fn begin(&mut self, doing: &'static str, steps: u64) {
         let _ = (doing, steps);
     }
 
-    /// One frame of the stretch is done.
+    /// One frame of the stretch is done, or one trial.
     fn step(&mut self) {}
 
-    /// The stretch has ended.
+    /// The stretch has ended, maybe before all of its steps.
     fn end(&mut self) {}
 
     /// Whether the task is to stop at the next frame.

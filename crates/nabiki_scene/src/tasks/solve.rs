@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use nabiki::SettingError;
-use nabiki::solve::{Problem, Solver, Wish};
+use nabiki::solve::{Problem, Search, Solver, Wish};
 
 use crate::built::Shown;
 use crate::error::{Error, Result};
@@ -53,12 +53,15 @@ pub fn solve(mut scene: Scene, options: &SolveOptions, watch: &mut dyn Watch) ->
         false => built.refusal(refused),
     };
     let mut solver = Solver::new(problem).map_err(refused)?;
-    let search = wishes.search.into();
+    let search: Search = wishes.search.into();
     let mut cancelled = false;
+    watch.begin("solving", (search.starts * search.iterations) as u64);
     let report = solver.solve_watched(&search, &mut |_| {
+        watch.step();
         cancelled = watch.cancelled();
         !cancelled
     });
+    watch.end();
     if cancelled {
         return Err(Error::Cancelled);
     }
