@@ -65,6 +65,11 @@ impl App {
         &mut self.session
     }
 
+    /// What is seen of it, and what a hand does there.
+    pub fn view(&self) -> &View {
+        &self.view
+    }
+
     fn passes(&mut self, ctx: &egui::Context) {
         let seconds = f64::from(ctx.input(|input| input.stable_dt)).min(0.25);
         self.session.tick(seconds);
@@ -283,7 +288,7 @@ impl egui_tiles::Behavior<Pane> for Panes<'_> {
         ui.painter().rect_filled(ui.max_rect(), 0.0, fill);
         match pane {
             Pane::View => self.view(ui),
-            Pane::Timeline => timeline::ui(ui, self.session, self.commands),
+            Pane::Timeline => timeline::ui(ui, self.session, &self.view.marks(), self.commands),
             Pane::Page(page) => {
                 let margin = egui::Margin { left: 8, right: 2, top: 6, bottom: 0 };
                 egui::Frame::new().inner_margin(margin).show(ui, |ui| page::ui(ui, self.session, *page, self.commands));

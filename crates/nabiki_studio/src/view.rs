@@ -99,6 +99,15 @@ pub enum Touch {
     Said(String),
 }
 
+/// Frames in which hair is wished to be somewhere.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Marks {
+    /// Those of nails.
+    pub nails: Vec<u32>,
+    /// That of the lock in the hand.
+    pub pulled: Option<u32>,
+}
+
 /// The view. It holds what a graphics card needs, the camera, and what the hand is doing.
 pub struct View {
     screen: Result<Screen, String>,
@@ -149,6 +158,18 @@ impl View {
     /// The hair in the middle, as large as it fits, from the next frame of the display on.
     pub fn frame_hair(&mut self) {
         self.frames_hair = true;
+    }
+
+    /// The frames in which hair is wished to be somewhere, in order.
+    pub fn marks(&self) -> Marks {
+        let mut nails: Vec<u32> = self.nails.iter().map(|nail| nail.frame).collect();
+        nails.sort_unstable();
+        nails.dedup();
+        let pulled = match &self.hand {
+            Hand::Hair(held) => Some(held.lock.frame),
+            _ => None,
+        };
+        Marks { nails, pulled }
     }
 
     /// Pulls out all nails.

@@ -6,6 +6,7 @@ use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use nabiki_studio::app::App;
+use nabiki_studio::command::Command;
 use nabiki_studio::dialog::Dialog;
 use nabiki_studio::session::Session;
 
@@ -143,6 +144,40 @@ fn a_vector_is_dragged_in_its_circle() {
     window.press(Modifiers::COMMAND, Key::Z);
     assert_eq!(window.session().document().unwrap().undo_name(), None);
     assert_eq!(tip(&window), before);
+}
+
+#[test]
+fn a_lock_is_pulled_the_wind_follows_and_one_step_undoes_it() {
+    let mut window = Window::open();
+    window.harness.state_mut().session_mut().apply(Command::Go(30));
+    window.settle();
+    let before = window.session().document().unwrap().scene().field.force.clone();
+    let view = window.harness.get_by_label("View of the hair").rect();
+    let pulled = |window: &Window| window.harness.state().view().marks().pulled;
+    // Somewhere there is hair under the pointer.
+    let places = (0..400).map(|n| view.min + view.size() * vec2((n % 20) as f32 + 0.5, (n / 20) as f32 + 0.5) / 20.0);
+    let held = places.into_iter().find(|&at| {
+        window.harness.hover_at(at);
+        window.button(at, true);
+        pulled(&window).is_some() || {
+            window.button(at, false);
+            false
+        }
+    });
+    let held = held.expect("no hair in sight");
+    assert_eq!(pulled(&window), Some(30), "the timeline marks the frame");
+    let clock = std::time::Instant::now();
+    window.harness.hover_at(held + vec2(-40.0, -30.0));
+    while window.session().document().unwrap().scene().field.force == before {
+        assert!(clock.elapsed().as_secs() < 60, "the wind never followed");
+        window.harness.step();
+    }
+    window.button(held + vec2(-40.0, -30.0), false);
+    window.settle();
+    assert_eq!(pulled(&window), None);
+    assert_eq!(window.session().document().unwrap().undo_name(), Some("Pull the hair"));
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.session().document().unwrap().scene().field.force, before, "one pull is one step");
 }
 
 #[test]

@@ -8,6 +8,8 @@ pub const ACCENT: Color32 = Color32::from_rgb(226, 164, 92);
 pub const WRONG: Color32 = Color32::from_rgb(232, 110, 96);
 /// What went well.
 pub const GOOD: Color32 = Color32::from_rgb(132, 186, 120);
+/// Nails.
+pub const NAIL: Color32 = Color32::from_rgb(120, 205, 255);
 /// Behind everything.
 pub const GROUND: Color32 = Color32::from_gray(24);
 /// Behind panels.

@@ -11,6 +11,7 @@ use crate::actions::Action;
 use crate::command::Command;
 use crate::play::{Ending, Play};
 use crate::session::Session;
+use crate::view::Marks;
 
 use scale::Scale;
 
@@ -23,8 +24,8 @@ const RULER: f32 = 22.0;
 /// Height of the intervals (points).
 const BLOCKS: f32 = 62.0;
 
-/// Draws the panel.
-pub fn ui(ui: &mut Ui, session: &Session, commands: &mut Commands) {
+/// Draws the panel. `marks`: where hair is wished to be somewhere.
+pub fn ui(ui: &mut Ui, session: &Session, marks: &Marks, commands: &mut Commands) {
     transport(ui, session, commands);
     ui.add_space(2.0);
     let Some(document) = session.document() else { return };
@@ -48,17 +49,54 @@ pub fn ui(ui: &mut Ui, session: &Session, commands: &mut Commands) {
     let behind = Rect::from_min_max(pos2(lane.left(), lane.top() + RULER), lane.right_bottom());
     choose_by_box(ui, behind, &scale, session, commands);
     ruler(ui, Rect::from_min_size(lane.min, vec2(lane.width(), RULER)), &scale, last, commands);
-    let mut y = lane.top() + RULER + 4.0;
-    let mut next = |height: f32| {
-        let rect = Rect::from_min_size(pos2(area.left(), y), vec2(area.width(), height));
-        y += height + 4.0;
-        (rect, Rect::from_min_max(pos2(lane.left(), rect.top()), rect.right_bottom()))
-    };
-    let (row, wind) = next(BLOCKS);
-    track_name(ui, row, "Wind", theme::TEXT);
-    blocks::ui(ui, wind, &scale, session, commands);
-    tracks::ui(ui, &mut next, &scale, session, commands);
+    wishes(ui, Rect::from_min_size(lane.min, vec2(lane.width(), RULER)), &scale, marks);
+    let top = lane.top() + RULER + 4.0;
+    let row = |top: f32, height: f32| Rect::from_min_size(pos2(area.left(), top), vec2(area.width(), height));
+    let wind = row(top, BLOCKS);
+    track_name(ui, wind, "Wind", theme::TEXT);
+    blocks::ui(ui, Rect::from_min_max(pos2(lane.left(), wind.top()), wind.right_bottom()), &scale, session, commands);
+    scrolled(ui, Rect::from_min_max(pos2(area.left(), wind.bottom() + 4.0), area.max), |ui| {
+        let mut y = ui.cursor().top();
+        let mut next = |height: f32| {
+            let rect = row(y, height);
+            y += height + 4.0;
+            (rect, Rect::from_min_max(pos2(lane.left(), rect.top()), rect.right_bottom()))
+        };
+        tracks::ui(ui, &mut next, &scale, session, commands);
+        y
+    });
     playhead(ui, lane, &scale, session.play.frame());
+}
+
+/// Tracks in the room that is left: more of them than fit are scrolled, by the bar or by the wheel over their names, since over
+/// the tracks it nears the time. `draw` returns where they end.
+fn scrolled(ui: &mut Ui, room: Rect, draw: impl FnOnce(&mut Ui) -> f32) {
+    let mut below = ui.new_child(egui::UiBuilder::new().max_rect(room));
+    below.spacing_mut().scroll = egui::style::ScrollStyle::solid();
+    let over_names = ui.rect_contains_pointer(Rect::from_min_size(room.min, vec2(NAMES, room.height())));
+    let source =
+        egui::scroll_area::ScrollSource { mouse_wheel: over_names, ..egui::scroll_area::ScrollSource::SCROLL_BAR };
+    let area = egui::ScrollArea::vertical().id_salt("tracks").auto_shrink(false).scroll_source(source);
+    area.show(&mut below, |ui| {
+        let top = ui.cursor().top();
+        let bottom = draw(ui);
+        ui.allocate_rect(Rect::from_min_max(pos2(room.left(), top), pos2(room.right() - 10.0, bottom)), Sense::hover());
+    });
+}
+
+/// Where nails are, and where a lock is pulled.
+fn wishes(ui: &Ui, ruler: Rect, scale: &Scale, marks: &Marks) {
+    let painter = ui.painter().with_clip_rect(ruler.intersect(ui.clip_rect()));
+    for &frame in &marks.nails {
+        let at = pos2(scale.x(f64::from(frame)), ruler.bottom() - 4.0);
+        for d in [vec2(3.5, 3.5), vec2(3.5, -3.5)] {
+            painter.line_segment([at - d, at + d], Stroke::new(2.0, theme::NAIL));
+        }
+    }
+    if let Some(frame) = marks.pulled {
+        let at = pos2(scale.x(f64::from(frame)), ruler.bottom() - 4.0);
+        painter.circle_stroke(at, 3.5, Stroke::new(2.0, theme::ACCENT));
+    }
 }
 
 /// Buttons and fields above the tracks.

@@ -5,13 +5,12 @@ use glam::Vec3;
 use nabiki_render::View;
 
 use super::handle::Arrow;
+use crate::panels::theme::NAIL;
 
 /// Of what can be taken hold of.
 const ACCENT: Color32 = Color32::from_rgb(255, 176, 64);
 /// Of what a hand holds.
 const HELD: Color32 = Color32::from_rgb(255, 222, 150);
-/// Of nails.
-const NAIL: Color32 = Color32::from_rgb(120, 205, 255);
 /// About lines, so that they show on bright hair as on dark.
 const OUTLINE: Color32 = Color32::from_black_alpha(140);
 
