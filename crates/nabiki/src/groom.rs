@@ -69,17 +69,26 @@ pub fn grow(head: &Head, growth: &Growth<'_>, shown: usize) -> Result<Hair, Sett
 /// # Errors
 /// As [`groom()`].
 pub fn grow_from(head: &Head, growth: &Growth<'_>, roots: &[Root]) -> Result<Hair, SettingError> {
+    grow_run(head, growth, roots, 0)
+}
+
+/// The same of a run of those roots that begins with number `first` of the order.
+///
+/// # Errors
+/// As [`groom()`].
+pub fn grow_run(head: &Head, growth: &Growth<'_>, roots: &[Root], first: usize) -> Result<Hair, SettingError> {
     let &Growth { style, segments, segment_length, seed, .. } = growth;
     let strands = groom(head, roots, style, segments, segment_length, seed)?;
     let group = |root: &Root| strand_style::region(head, style, root, seed) as i32;
     let groups: Vec<i32> = roots.iter().map(group).collect();
     let grown = Region::ALL.iter().filter(|&&region| groups.contains(&(region as i32)));
+    let numbers = first..first + roots.len();
     let attributes = Attributes {
-        id: Some((0..roots.len() as i64).collect()),
+        id: Some(numbers.clone().map(|number| number as i64).collect()),
         root_uv: Some(roots.iter().map(|root| root.uv.to_array()).collect()),
         group_names: grown.map(|&region| (region as i32, region.name().to_owned())).collect(),
         group: Some(groups),
-        guide: Some((0..roots.len()).map(|strand| strand < GUIDES).collect()),
+        guide: Some(numbers.map(|number| number < GUIDES).collect()),
         ..Attributes::default()
     };
     Ok(Hair { strands, attributes })

@@ -1,5 +1,6 @@
 //! Hair as tools exchange it: strands with whatever else a file says about them.
 
+mod join;
 mod other;
 mod resample;
 

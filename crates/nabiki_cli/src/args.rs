@@ -1,10 +1,13 @@
 //! What may be written after `nabiki`.
 
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use nabiki_io::Unit;
+use nabiki_io::cache::Shard;
 use nabiki_scene::exports::ExportOptions;
+use nabiki_scene::farm::Engine;
 use nabiki_scene::tasks::Twin;
 use nabiki_scene::{Error, Result};
 
@@ -52,8 +55,21 @@ pub enum Command {
     Groom(Groom),
     /// Move the hair of a scene and write every frame into a motion cache
     Simulate(Simulate),
+    /// Put the shards of a motion, simulated apart, together into the cache of the whole
+    ///
+    /// The file is, byte for byte, the one that `nabiki simulate` writes without --shard. A shard that is missing is named with
+    /// the command that makes it.
+    Join(Join),
     /// Draw a scene, moved by its own simulation or by a motion cache
     Render(Render),
+    /// Make a movie of numbered PNG files
+    ///
+    /// Of PNG files of 16 bits (output.png_bits=16) it is, byte for byte, the movie that `nabiki run` makes of the same scene.
+    Movie(Movie),
+    /// Write a scene as a job for a render farm: shards, join, frames, movie
+    ///
+    /// docs/farm.md says how to run it, and what it takes.
+    Farm(Farm),
     /// Find the wind that makes the hair do what a wish file asks for, and write the scene with it
     ///
     /// A wish file is TOML: what may change (`[unknowns]` with vectors, borders, interval, gust, stiffness, settle), where
@@ -202,8 +218,90 @@ pub struct Simulate {
     #[arg(long, value_enum, default_value_t = StepperName::Fast)]
     pub stepper: StepperName,
 
+    /// One of N shards of the strands alone, 1/N to N/N, for `nabiki join`; each may be made on another machine
+    #[arg(long, value_name = "K/N")]
+    pub shard: Option<Shard>,
+
     #[command(flatten)]
     pub export: ExportArgs,
+}
+
+#[derive(Args)]
+pub struct Join {
+    /// The shards (.nabiki), all of them, in any order
+    #[arg(required = true)]
+    pub shards: Vec<PathBuf>,
+
+    /// The motion cache to write (.nabiki)
+    #[arg(long, short, value_name = "FILE")]
+    pub output: PathBuf,
+}
+
+#[derive(Args)]
+pub struct Movie {
+    /// Numbered PNG files (0007.png, gust_0007.png), or folders of them
+    #[arg(required = true)]
+    pub frames: Vec<PathBuf>,
+
+    /// The movie to write (.mp4)
+    #[arg(long, short, value_name = "FILE")]
+    pub output: PathBuf,
+
+    /// The scene that they show: it says how many there must be, the frame rate and the quality
+    #[arg(long, value_name = "SCENE")]
+    pub scene: Option<PathBuf>,
+
+    /// Any setting of the scene in TOML, as often as wanted
+    #[arg(long = "set", value_name = "KEY=VALUE", requires = "scene")]
+    pub sets: Vec<String>,
+}
+
+#[derive(Args)]
+pub struct Farm {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+
+    /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub strands: Option<usize>,
+
+    /// The engine that runs the job
+    #[arg(long, value_enum)]
+    pub engine: EngineName,
+
+    /// Shards to simulate apart (default: as many as hold 100,000 strands each)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub shards: Option<u32>,
+
+    /// Frames that one task draws
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
+    pub frames_a_task: u32,
+
+    /// The job to write: a template (.yaml) for openjd, a script (.sh) for slurm
+    #[arg(long, short, value_name = "JOB")]
+    pub output: PathBuf,
+
+    /// Folder for the results, made by the job (default: beside the job, under the scene's name)
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+/// The engines of farms.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum EngineName {
+    /// Open Job Description, jobtemplate-2023-09: AWS Deadline Cloud and others
+    Openjd,
+    /// Slurm
+    Slurm,
+}
+
+impl From<EngineName> for Engine {
+    fn from(name: EngineName) -> Self {
+        match name {
+            EngineName::Openjd => Self::OpenJd,
+            EngineName::Slurm => Self::Slurm,
+        }
+    }
 }
 
 /// The twins.
@@ -226,8 +324,16 @@ impl From<StepperName> for Twin {
 
 #[derive(Args)]
 pub struct Render {
-    #[command(flatten)]
-    pub scene: SceneArgs,
+    /// The scene (TOML)
+    pub scene: PathBuf,
+
+    /// Frames to simulate and draw, in place of motion.frames; or A..B, the frames from A through B alone, as numbered stills
+    #[arg(long, value_name = "N|A..B")]
+    pub frames: Option<Frames>,
+
+    /// Any setting of the scene in TOML, as often as wanted: motion.time_step=0.05, or in quotes force.0.vector=[0,-100,0]
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub sets: Vec<String>,
 
     /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
     #[arg(long, value_name = "N", value_parser = positive)]
@@ -244,6 +350,27 @@ pub struct Render {
     /// Folder for the pictures, made if it is not there
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
+}
+
+/// How many frames a scene has, or which of them are drawn.
+#[derive(Clone, Copy)]
+pub enum Frames {
+    /// So many.
+    Count(u32),
+    /// From the first through the second.
+    Run(u32, u32),
+}
+
+impl FromStr for Frames {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let found = match text.split_once("..") {
+            Some((from, through)) => from.parse().ok().zip(through.parse().ok()).map(|(a, b)| Self::Run(a, b)),
+            None => text.parse().ok().map(Self::Count),
+        };
+        found.ok_or_else(|| "write one whole number, or two as in 10..19 for the frames from 10 through 19".to_owned())
+    }
 }
 
 #[derive(Args)]

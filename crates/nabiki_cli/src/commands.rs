@@ -1,9 +1,14 @@
 //! Each subcommand as the task that it asks for.
 
-use nabiki_scene::tasks::{self, ConvertOptions, NewOptions, RenderOptions, SimulateOptions, SolveOptions};
-use nabiki_scene::{Error, Result, Shown};
+use nabiki_scene::tasks::{
+    self, ConvertOptions, FarmOptions, MovieOptions, NewOptions, Pictures, RenderOptions, ShardOptions,
+    SimulateOptions, SolveOptions,
+};
+use nabiki_scene::{Error, Result, Shown, shell};
 
-use crate::args::{Convert, Groom, Info, New, Preview, Render, Run, Simulate, Solve};
+use crate::args::{
+    Convert, Farm, Frames, Groom, Info, Join, Movie, New, Preview, Render, Run, SceneArgs, Simulate, Solve, StepperName,
+};
 use crate::say;
 use crate::terminal::Terminal;
 
@@ -30,14 +35,68 @@ pub fn groom(args: &Groom, terminal: &mut Terminal) -> Result<()> {
 }
 
 pub fn simulate(args: &Simulate, terminal: &mut Terminal) -> Result<()> {
-    let options =
-        SimulateOptions { output: args.output.clone(), exports: args.export.options(), twin: args.stepper.into() };
+    let shard =
+        args.shard.map(|shard| Ok::<_, Error>(ShardOptions { shard, command: without_shard(args)? })).transpose()?;
+    let options = SimulateOptions {
+        output: args.output.clone(),
+        exports: args.export.options(),
+        twin: args.stepper.into(),
+        shard,
+    };
     tasks::simulate(args.scene.load()?, shown(args.strands), &options, terminal)
 }
 
+/// The command that simulates this scene, up to which shard of it and into which file.
+fn without_shard(args: &Simulate) -> Result<String> {
+    let SceneArgs { scene, .. } = &args.scene;
+    let mut words = vec!["nabiki".to_owned(), "simulate".to_owned(), scene.to_string_lossy().into_owned()];
+    words.extend(args.strands.into_iter().flat_map(|count| ["--strands".to_owned(), count.to_string()]));
+    words.extend(args.scene.as_sets()?.into_iter().flat_map(|set| ["--set".to_owned(), set]));
+    if matches!(args.stepper, StepperName::F64) {
+        words.extend(["--stepper".to_owned(), "f64".to_owned()]);
+    }
+    Ok(shell::command(&words))
+}
+
+pub fn join(args: &Join, terminal: &mut Terminal) -> Result<()> {
+    tasks::join(&args.shards, &args.output, terminal)
+}
+
 pub fn render(args: &Render, terminal: &mut Terminal) -> Result<()> {
-    let options = RenderOptions { motion: args.motion.clone(), frame: args.frame };
-    tasks::render(args.scene.load()?, shown(args.strands), &options, &args.out, terminal)
+    let (frames, pictures) = match (args.frames, args.frame) {
+        (Some(Frames::Run(from, through)), Some(frame)) => {
+            let line = format!("--frame {frame} and --frames {from}..{through}: give one of them");
+            return Err(Error::refused(line));
+        }
+        (Some(Frames::Run(from, through)), None) => (None, Pictures::Run(from, through)),
+        (Some(Frames::Count(frames)), one) => (Some(frames), one.map_or(Pictures::All, Pictures::One)),
+        (None, one) => (None, one.map_or(Pictures::All, Pictures::One)),
+    };
+    let scene = SceneArgs { scene: args.scene.clone(), frames, sets: args.sets.clone() };
+    let options = RenderOptions { motion: args.motion.clone(), pictures };
+    tasks::render(scene.load()?, shown(args.strands), &options, &args.out, terminal)
+}
+
+pub fn movie(args: &Movie, terminal: &mut Terminal) -> Result<()> {
+    let scene = args.scene.as_ref().map(|scene| {
+        let scene = SceneArgs { scene: scene.clone(), frames: None, sets: args.sets.clone() };
+        scene.load()
+    });
+    let options = MovieOptions { frames: args.frames.clone(), output: args.output.clone(), scene: scene.transpose()? };
+    tasks::movie(&options, terminal)
+}
+
+pub fn farm(args: &Farm, terminal: &mut Terminal) -> Result<()> {
+    let options = FarmOptions {
+        engine: args.engine.into(),
+        shards: args.shards,
+        frames_a_task: args.frames_a_task,
+        strands: args.strands,
+        sets: args.scene.as_sets()?,
+        output: args.output.clone(),
+        results: args.out.clone(),
+    };
+    tasks::farm(args.scene.load()?, &options, terminal)
 }
 
 pub fn solve(args: &Solve, terminal: &mut Terminal) -> Result<()> {

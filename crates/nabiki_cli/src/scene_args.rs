@@ -9,6 +9,11 @@ use crate::args::SceneArgs;
 impl SceneArgs {
     /// The scene with its overrides.
     pub fn load(&self) -> Result<Scene> {
+        Ok(Scene::load(&self.scene, &self.overrides()?)?)
+    }
+
+    /// What is changed in the scene: keys and values.
+    fn overrides(&self) -> Result<Vec<(String, String)>> {
         let mut overrides = Vec::new();
         for set in &self.sets {
             let (key, value) = set.split_once('=').ok_or_else(|| {
@@ -22,7 +27,12 @@ impl SceneArgs {
                 overrides.extend(shorter_sheet(&self.scene, frames));
             }
         }
-        Ok(Scene::load(&self.scene, &overrides)?)
+        Ok(overrides)
+    }
+
+    /// The same as values of `--set`.
+    pub fn as_sets(&self) -> Result<Vec<String>> {
+        Ok(self.overrides()?.into_iter().map(|(key, value)| format!("{key}={value}")).collect())
     }
 }
 

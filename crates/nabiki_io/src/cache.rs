@@ -4,6 +4,7 @@
 mod attributes;
 mod origin;
 mod other;
+mod piece;
 
 use std::{
     fs::File,
@@ -23,12 +24,15 @@ use crate::{
 };
 
 pub use origin::Origin;
+pub use piece::{Piece, Shard};
 
 const MAGIC: &[u8; 8] = b"NABIKI\r\n";
 const VERSION: u32 = 1;
 const HEADER_BYTES: u64 = 64;
 const FRAMES_AT: u64 = 24;
 const POSE_BYTES: u64 = 28;
+/// The block of the box about all frames.
+const BOUNDS_TAG: &[u8; 8] = b"bounds  ";
 
 /// What is the same in every frame of a cache.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,13 +47,21 @@ pub struct Header {
     pub attributes: Attributes,
     /// Where the hair came from; `None` for hair grown here.
     pub origin: Option<Origin>,
+    /// Whose strands these are, where they are some of a motion's; `None` where they are all. `scene` is then not that of
+    /// the whole.
+    pub piece: Option<Piece>,
 }
 
 impl Header {
     /// The header of a scene's hair, grown here until `origin` says otherwise.
     pub fn new(scene: SceneId, frame_rate: f64, hair: &Hair) -> Self {
         let starts = hair.strands.starts().to_vec();
-        Self { scene, frame_rate, starts, attributes: hair.attributes.clone(), origin: None }
+        Self { scene, frame_rate, starts, attributes: hair.attributes.clone(), origin: None, piece: None }
+    }
+
+    /// The same for strands that are a piece of a motion.
+    pub fn of_piece(self, piece: Piece) -> Self {
+        Self { scene: piece.identity(), piece: Some(piece), ..self }
     }
 
     fn strand_count(&self) -> usize {
@@ -77,6 +89,10 @@ pub struct Writer {
     target: PathBuf,
     points: usize,
     frames: u64,
+    /// The pose of a frame of which some points are still to come, and how many there are.
+    open: Option<(Pose, usize)>,
+    bounds: [Vec3; 2],
+    bounds_at: u64,
 }
 
 impl Writer {
@@ -93,19 +109,36 @@ impl Writer {
         let hair = Hair { strands: shape, attributes: header.attributes.clone() };
         hair.check_lengths().map_err(|e| named(Error::new(e.to_string())))?;
         let mut file = PartFile::create(path).map_err(|e| named(e.into()))?;
-        write_header(&mut file, header).map_err(named)?;
-        Ok(Self { file, target: path.to_owned(), points: header.point_count(), frames: 0 })
+        let bounds_at = write_header(&mut file, header).map_err(named)?;
+        let bounds = [Vec3::INFINITY, Vec3::NEG_INFINITY];
+        Ok(Self {
+            file,
+            target: path.to_owned(),
+            points: header.point_count(),
+            frames: 0,
+            open: None,
+            bounds,
+            bounds_at,
+        })
     }
 
     /// Appends one frame: all `points` (head space, cm) and where the head is.
     pub fn push(&mut self, head: &Pose, points: &[Vec3]) -> Result<()> {
-        let frame = self.frames;
-        let refuse = |what: String| Err(Error::new(what).in_file(&self.target));
         if points.len() != self.points {
-            return refuse(format!("frame {frame}: {} points, the cache is of {}", points.len(), self.points));
+            let what = format!("frame {}: {} points, the cache is of {}", self.frames, points.len(), self.points);
+            return Err(Error::new(what).in_file(&self.target));
         }
-        if let Some(p) = not_finite(points) {
-            return refuse(format!("frame {frame}: point {p} is {}: refused, the file would be useless", points[p]));
+        self.check(points)?;
+        self.begin_frame(head)?;
+        self.part(points)
+    }
+
+    /// Begins a frame whose points come in parts, by [`part`](Self::part): it ends with the last of them.
+    pub fn begin_frame(&mut self, head: &Pose) -> Result<()> {
+        let refuse = |what: String| Err(Error::new(what).in_file(&self.target));
+        let frame = self.frames;
+        if let Some((_, given)) = self.open {
+            return refuse(format!("frame {frame}: {given} points, the cache is of {}", self.points));
         }
         if !(head.position_cm.is_finite() && head.rotation.is_finite()) {
             return refuse(format!("frame {frame}: the head is at {}, turned {}", head.position_cm, head.rotation));
@@ -113,10 +146,34 @@ impl Writer {
         let out = &mut self.file;
         put(out, &[head.position_cm])
             .and_then(|()| put(out, &[head.rotation.to_array()]))
-            .and_then(|()| put(out, points))
             .map_err(|e| e.in_file(&self.target))?;
-        self.frames += 1;
+        self.open = Some((*head, 0));
         Ok(())
+    }
+
+    /// The next points of the frame that was begun (head space, cm).
+    pub fn part(&mut self, points: &[Vec3]) -> Result<()> {
+        let Some((head, given)) = self.open.map(|(head, given)| (head, given + points.len())) else {
+            return Err(Error::new("points of no frame").in_file(&self.target));
+        };
+        if given > self.points {
+            let what = format!("frame {}: {given} points, the cache is of {}", self.frames, self.points);
+            return Err(Error::new(what).in_file(&self.target));
+        }
+        self.check(points)?;
+        put(&mut self.file, points).map_err(|e| e.in_file(&self.target))?;
+        let [low, high] = turned_bounds(points, head.rotation);
+        self.bounds = [self.bounds[0].min(low), self.bounds[1].max(high)];
+        self.open = (given < self.points).then_some((head, given));
+        self.frames += u64::from(given == self.points);
+        Ok(())
+    }
+
+    /// Refuses points that are not finite.
+    fn check(&self, points: &[Vec3]) -> Result<()> {
+        let Some(p) = not_finite(points) else { return Ok(()) };
+        let what = format!("frame {}: point {p} is {}: refused, the file would be useless", self.frames, points[p]);
+        Err(Error::new(what).in_file(&self.target))
     }
 
     /// Puts the cache under its name, and returns its number of frames.
@@ -125,15 +182,33 @@ impl Writer {
         if self.frames == 0 {
             return Err(named(Error::new("there are no frames to write")));
         }
+        if let Some((_, given)) = self.open {
+            let what = format!("frame {}: {given} points, the cache is of {}", self.frames, self.points);
+            return Err(named(Error::new(what)));
+        }
         let out = &mut self.file;
         out.seek(SeekFrom::Start(FRAMES_AT)).map_err(|e| named(e.into()))?;
         put(out, &[self.frames]).map_err(named)?;
+        out.seek(SeekFrom::Start(self.bounds_at)).map_err(|e| named(e.into()))?;
+        put(out, &self.bounds).map_err(named)?;
         self.file.finish().map_err(|e| Error::from(e).in_file(&self.target))?;
         Ok(self.frames)
     }
 }
 
-fn write_header(out: &mut dyn Write, header: &Header) -> Result<()> {
+/// The box about points that are turned.
+fn turned_bounds(points: &[Vec3], turn: Quat) -> [Vec3; 2] {
+    if turn == Quat::IDENTITY {
+        return nabiki::strands::bounds(points);
+    }
+    points.iter().fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], &p| {
+        let p = turn * p;
+        [low.min(p), high.max(p)]
+    })
+}
+
+/// Returns where the bounds are to be written in the end.
+fn write_header(out: &mut dyn Write, header: &Header) -> Result<u64> {
     let mut blocks = Vec::new();
     put(&mut blocks, &header.starts)?;
     blocks.resize(blocks.len().next_multiple_of(8), 0);
@@ -143,13 +218,17 @@ fn write_header(out: &mut dyn Write, header: &Header) -> Result<()> {
         let groom = origin.groom.as_ref().map(origin::groom_bytes).transpose()?;
         attributes::block(&mut blocks, origin::GROOM_TAG, groom.as_deref())?;
     }
+    let piece = header.piece.as_ref().map(Piece::bytes).transpose()?;
+    attributes::block(&mut blocks, piece::TAG, piece.as_deref())?;
+    let none = [Vec3::INFINITY, Vec3::NEG_INFINITY];
+    attributes::block(&mut blocks, BOUNDS_TAG, Some(&none))?;
     out.write_all(MAGIC)?;
     put(out, &[VERSION, header.strand_count() as u32, header.point_count() as u32, 0])?;
     put(out, &[0, HEADER_BYTES + blocks.len() as u64])?;
     put(out, &[header.frame_rate])?;
     out.write_all(&header.scene.0.to_le_bytes())?;
     out.write_all(&blocks)?;
-    Ok(())
+    Ok(HEADER_BYTES + (blocks.len() - size_of_val(&none)) as u64)
 }
 
 /// Reads any frame of a cache.
@@ -157,6 +236,7 @@ pub struct Reader<R = File> {
     source: Bytes<R>,
     path: PathBuf,
     header: Header,
+    bounds: Option<[Vec3; 2]>,
     frames: u64,
     first_frame_at: u64,
 }
@@ -177,13 +257,24 @@ impl<'a> Reader<std::io::Cursor<&'a [u8]>> {
 
 impl<R: std::io::Read + Seek> Reader<R> {
     fn from_source(mut source: Bytes<R>, path: &Path) -> Result<Self> {
-        let (header, frames, first_frame_at) = read_header(&mut source).map_err(|e| e.in_file(path))?;
-        Ok(Self { source, path: path.to_owned(), header, frames, first_frame_at })
+        let Start { header, bounds, frames, first_frame_at } = read_header(&mut source).map_err(|e| e.in_file(path))?;
+        Ok(Self { source, path: path.to_owned(), header, bounds, frames, first_frame_at })
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
     /// What is the same in every frame.
     pub fn header(&self) -> &Header {
         &self.header
+    }
+
+    /// The lowest and the highest corner of the box about the points of all frames, from the head's origin along the
+    /// world's axes (cm); `None` in a cache of before that was kept.
+    pub fn bounds(&self) -> Option<[Vec3; 2]> {
+        self.bounds
     }
 
     /// Number of frames, numbered from 0; frame 0 is the hair at rest.
@@ -225,7 +316,15 @@ impl<R: std::io::Read + Seek> Reader<R> {
     }
 }
 
-fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<(Header, u64, u64)> {
+/// What stands before the frames.
+struct Start {
+    header: Header,
+    bounds: Option<[Vec3; 2]>,
+    frames: u64,
+    first_frame_at: u64,
+}
+
+fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<Start> {
     source.expect(HEADER_BYTES, "header")?;
     if source.array::<u8>(8, "magic")? != MAGIC {
         return Err(Error::new("does not start with NABIKI: not a motion cache"));
@@ -259,6 +358,15 @@ fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<(Header
     }
     let blocks_at = HEADER_BYTES + (starts.len() as u64 * 4).next_multiple_of(8);
     source.seek(blocks_at)?;
-    let (attributes, origin) = attributes::read(source, first_frame_at, strand_count as usize, point_count as usize)?;
-    Ok((Header { scene, frame_rate, starts, attributes, origin }, frames, first_frame_at))
+    let attributes::Blocks { attributes, origin, piece, bounds } =
+        attributes::read(source, first_frame_at, strand_count as usize, point_count as usize)?;
+    if let Some(piece) = &piece {
+        let expected = piece.shard.range(usize::try_from(piece.strands).unwrap_or(usize::MAX)).len();
+        if expected != strand_count as usize {
+            let what = format!("shard {}: {strand_count} strands and not {expected}: the file is damaged", piece.shard);
+            return Err(Error::new(what));
+        }
+    }
+    let header = Header { scene, frame_rate, starts, attributes, origin, piece };
+    Ok(Start { header, bounds, frames, first_frame_at })
 }

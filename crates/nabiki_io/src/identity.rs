@@ -1,7 +1,8 @@
 //! A short name for all that decides how a scene's hair moves.
 
-use std::fmt;
+use std::{fmt, ops::Range};
 
+use nabiki::Strands;
 use serde::{Serialize, Serializer};
 use toml::Value;
 use twox_hash::XxHash3_128;
@@ -11,6 +12,46 @@ use crate::error::{Error, Result};
 /// 128 bits (XXH3) of everything that decides how a scene's hair moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SceneId(pub u128);
+
+impl SceneId {
+    /// Of settings and the strands that they move.
+    pub fn of(settings: Self, strands: StrandSum) -> Self {
+        let mut digest = Digest::new();
+        digest.bytes("settings", &settings.0.to_le_bytes());
+        digest.bytes("strands", &strands.0.to_le_bytes());
+        digest.finish()
+    }
+}
+
+/// What strands at rest add to an identity: the sum of a number of each, so that those of pieces, added, are that of the
+/// whole.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StrandSum(pub u128);
+
+impl StrandSum {
+    /// Of strands that are those `places` of a whole. `ids`: their lasting numbers, where these decide how they move.
+    ///
+    /// # Panics
+    /// If there are not as many places, or ids, as strands.
+    pub fn of(strands: &Strands, places: Range<usize>, ids: Option<&[u32]>) -> Self {
+        assert_eq!(places.len(), strands.len(), "a place for each strand");
+        let mut bytes = Vec::new();
+        let sum = places.enumerate().map(|(s, place)| {
+            bytes.clear();
+            bytes.extend((place as u64).to_le_bytes());
+            bytes.extend(ids.map_or(0, |ids| ids[s]).to_le_bytes());
+            bytes.extend(strands.strand(s).iter().flat_map(|p| p.to_array()).flat_map(f32::to_le_bytes));
+            XxHash3_128::oneshot(&bytes)
+        });
+        Self(sum.fold(0, u128::wrapping_add))
+    }
+
+    /// That of both.
+    #[must_use]
+    pub fn and(self, further: Self) -> Self {
+        Self(self.0.wrapping_add(further.0))
+    }
+}
 
 impl fmt::Display for SceneId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -101,7 +142,33 @@ impl Digest {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
+
+    fn five_strands(change: f32) -> Strands {
+        let mut strands = Strands::default();
+        for s in 0..5_u8 {
+            strands.push((0..3 + s % 2).map(|p| Vec3::new(f32::from(s), f32::from(p), change)));
+        }
+        strands
+    }
+
+    #[test]
+    fn the_sums_of_pieces_are_that_of_the_whole() {
+        let (whole, ids) = (five_strands(0.5), [4, 3, 2, 1, 0]);
+        let all = StrandSum::of(&whole, 0..5, Some(&ids));
+        for cut in 0..=5 {
+            let part = |range: Range<usize>| {
+                let strands = whole.select(&range.clone().collect::<Vec<_>>());
+                StrandSum::of(&strands, range.clone(), Some(&ids[range]))
+            };
+            assert_eq!(part(cut..5).and(part(0..cut)), all, "{cut}");
+        }
+        assert_ne!(StrandSum::of(&whole, 0..5, None), all);
+        assert_ne!(StrandSum::of(&whole, 1..6, Some(&ids)), all);
+        assert_ne!(StrandSum::of(&five_strands(0.25), 0..5, Some(&ids)), all);
+    }
 
     #[test]
     fn another_version_of_the_method_is_another_identity() {

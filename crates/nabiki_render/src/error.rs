@@ -13,6 +13,14 @@ pub enum RenderError {
     /// The strands or the head cannot be drawn: which one, and what is wrong with it.
     #[error("{0}")]
     Geometry(String),
+    /// A picture could not be read.
+    #[error("{}: {what}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it, or what the system said.
+        what: String,
+    },
     /// A file could not be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {
@@ -24,6 +32,12 @@ pub enum RenderError {
 }
 
 impl RenderError {
+    pub(crate) fn read(path: &Path, source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Self {
+        // Messages of other crates may span lines; ours never do.
+        let what = source.into().to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+        Self::Read { path: path.to_owned(), what }
+    }
+
     pub(crate) fn write(path: &Path, source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Self {
         Self::Write { path: path.to_owned(), source: std::io::Error::other(source) }
     }

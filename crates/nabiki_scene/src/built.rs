@@ -11,8 +11,9 @@ use nabiki::dynamics::{Dynamics, FrameInput, Reference, Simulation, Timeline};
 use nabiki::field::Field;
 use nabiki::roots::Root;
 use nabiki::{Hair, Head, Mesh, Pose, SettingError, Strands};
-use nabiki_io::cache::Origin;
+use nabiki_io::cache::{Origin, Shard};
 use nabiki_io::hair::ImportReport;
+use nabiki_io::identity::StrandSum;
 use nabiki_io::mesh::MeshReport;
 use nabiki_io::placement::Placement;
 use nabiki_io::{DeclaredSpace, GroomCurves};
@@ -40,6 +41,8 @@ pub struct BuiltScene {
     pub hair: Hair,
     /// Strands of the whole scene, of which `hair` may be some.
     pub strands_of_scene: usize,
+    /// Where `hair` is one shard of the strands asked for: which, of what.
+    pub shard: Option<ShardOf>,
     /// Where hair grows, as many of its roots as strands were grown; none for hair of a file.
     roots: Arc<[Root]>,
     /// The first strands of the farthest-first order of the whole, whichever are shown: those that the free form asks of.
@@ -75,6 +78,17 @@ pub struct BuiltScene {
     poses: Vec<Pose>,
 }
 
+/// A shard and the whole that it is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ShardOf {
+    /// Which.
+    pub shard: Shard,
+    /// Strands that were asked for, of which these are some.
+    pub strands: usize,
+    /// All strands of an imported groom; nothing of one that is grown.
+    groom: StrandSum,
+}
+
 /// A body as it is drawn.
 #[derive(Clone, Debug)]
 struct BuiltBody {
@@ -89,7 +103,16 @@ impl Scene {
     /// # Errors
     /// One line: file, thing, value and the way out.
     pub fn build(self, shown: Shown) -> Result<BuiltScene> {
-        load::build(self, shown, None)
+        load::build(self, shown, None, None)
+    }
+
+    /// The same, of which one shard of the strands alone is kept, and, where hair is grown, grown: each moves, to the bit,
+    /// as it does in the whole.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build); more shards than strands.
+    pub fn build_shard(self, shown: Shown, shard: Shard) -> Result<BuiltScene> {
+        load::build(self, shown, Some(shard), None)
     }
 
     /// What each of the scene's fields can reach, and last `all` of them together; head and motion are loaded for it.
@@ -126,7 +149,7 @@ pub enum Shown {
 
 impl Shown {
     /// Strands shown of `of_scene`.
-    fn of(self, of_scene: usize) -> Result<usize> {
+    pub(crate) fn of(self, of_scene: usize) -> Result<usize> {
         match self {
             Self::All => Ok(of_scene),
             Self::AtMost(count) => Ok(count.min(of_scene)),
@@ -146,7 +169,7 @@ impl BuiltScene {
     /// # Errors
     /// As there.
     pub fn changed_to(&self, scene: Scene, shown: Shown) -> Result<Self> {
-        load::build(scene, shown, Some(self))
+        load::build(scene, shown, None, Some(self))
     }
 
     /// The fast stepper, at rest.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use nabiki_io::cache::{Header, Writer};
+use nabiki_io::cache::{Header, Piece, Writer};
 
 use crate::built::BuiltScene;
 use crate::error::Result;
@@ -17,13 +17,16 @@ pub(crate) struct SceneCache<'a> {
 }
 
 impl<'a> SceneCache<'a> {
-    /// Begins the file.
-    pub fn begin(built: &'a BuiltScene, path: &Path, watch: &mut dyn Watch) -> Result<Self> {
+    /// Begins the file. `piece`: what it says of the whole, where the scene is built in part.
+    pub fn begin(built: &'a BuiltScene, path: &Path, piece: Option<Piece>, watch: &mut dyn Watch) -> Result<Self> {
         let points = built.hair.strands.points().len() as u64;
         // A pose of seven numbers and the points, all of four bytes.
         place::room(path, (u64::from(built.frames()) + 1) * (28 + 12 * points), watch)?;
         let mut header = Header::new(built.identity()?, built.scene.frame_rate(), &built.hair);
         header.origin = built.hair_origin();
+        if let Some(piece) = piece {
+            header = header.of_piece(piece);
+        }
         super::tasks::lost(path, built.hair.attributes.unread.clone(), watch);
         Ok(Self { built, writer: Writer::create(path, &header)? })
     }
@@ -47,7 +50,7 @@ pub(crate) fn write_cache(
     frames: &mut dyn FrameSource,
     watch: &mut dyn Watch,
 ) -> Result<()> {
-    let mut cache = SceneCache::begin(built, path, watch)?;
+    let mut cache = SceneCache::begin(built, path, None, watch)?;
     each_frame(watch, "simulating", 0..=built.frames(), |n| cache.push(n, frames.frame(n)?))?;
     cache.finish()
 }

@@ -1,5 +1,6 @@
 //! The pictures of a scene, drawn one after another.
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use glam::{Quat, Vec3};
@@ -12,7 +13,7 @@ use crate::built::BuiltScene;
 use crate::error::Result;
 use crate::frames::FrameSource;
 use crate::motion_summary::MotionSummary;
-use crate::outputs::PictureOutputs;
+use crate::outputs::{PictureOutputs, Stills};
 use crate::watch::{Watch, each_frame};
 
 /// Draws one frame after another and keeps none.
@@ -38,7 +39,12 @@ impl<'a> Film<'a> {
         let renderer = Renderer::new(picture, &head.mesh)?.with_bodies(built.drawn_bodies())?;
         let mut bounds = Bounds::default();
         bounds.include_head(&head.mesh, &head.ellipsoid);
-        if picture.camera.is_automatic() {
+        if !picture.camera.is_automatic() {
+            // Nothing is left to be framed.
+        } else if let Some([low, high]) = frames.bounds(built.frames()) {
+            bounds.include(low);
+            bounds.include(high);
+        } else {
             each_frame(watch, "framing", 0..=built.frames(), |n| {
                 let turn = built.pose(n).rotation;
                 let strands = frames.frame(n)?;
@@ -80,11 +86,32 @@ impl<'a> Film<'a> {
 
     /// Draws frame `n` alone, as a PNG at `path`.
     pub fn still(&mut self, n: u32, frames: &mut dyn FrameSource, path: &Path) -> Result<()> {
+        self.begin_at(n, frames)?;
+        let (frame, _) = self.draw(n, frames.frame(n)?)?;
+        Ok(png::write(path, &frame, &self.tone_mapping, png::Depth::Eight)?)
+    }
+
+    /// Draws the frames `wanted`, each into files of its own, as they are in the whole film.
+    pub fn stills(
+        &mut self,
+        wanted: RangeInclusive<u32>,
+        frames: &mut dyn FrameSource,
+        stills: &Stills,
+        watch: &mut dyn Watch,
+    ) -> Result<()> {
+        self.begin_at(*wanted.start(), frames)?;
+        each_frame(watch, "drawing", wanted, |n| {
+            let (frame, _) = self.draw(n, frames.frame(n)?)?;
+            stills.write(n, &frame, &self.tone_mapping)
+        })
+    }
+
+    /// Makes ready for a film that begins with frame `n`.
+    fn begin_at(&mut self, n: u32, frames: &mut dyn FrameSource) -> Result<()> {
         if self.picture.shutter > 0.0 && n > 0 {
             self.previous = Some(frames.frame(n - 1)?.clone());
         }
-        let (frame, _) = self.draw(n, frames.frame(n)?)?;
-        Ok(png::write(path, &frame, &self.tone_mapping, png::Depth::Eight)?)
+        Ok(())
     }
 
     /// The view of frame `n`, from the head's origin along the world's axes.

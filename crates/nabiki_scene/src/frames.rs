@@ -1,5 +1,6 @@
 //! Where the frames of a motion come from.
 
+use glam::Vec3;
 use nabiki::Strands;
 use nabiki::dynamics::{Simulation, Stepper};
 use nabiki_io::cache::Reader;
@@ -14,6 +15,13 @@ pub trait FrameSource {
     /// # Errors
     /// What is wrong with the file that they come from.
     fn frame(&mut self, n: u32) -> Result<&Strands>;
+
+    /// The box about the hair of the frames up to `last`, from the head's origin along the world's axes (cm), where it is
+    /// known without looking at them.
+    fn bounds(&self, last: u32) -> Option<[Vec3; 2]> {
+        let _ = last;
+        None
+    }
 }
 
 /// Frames as they are simulated.
@@ -67,6 +75,12 @@ impl Cached {
     pub fn of(built: &BuiltScene, cache: &std::path::Path) -> Result<Self> {
         let reader = Reader::open(cache)?;
         let (file, scene) = (cache.display(), built.scene.file().display());
+        if let Some(piece) = &reader.header().piece {
+            return Err(Error::refused(format!(
+                "{file}: holds shard {} of a motion; put all shards together with nabiki join, and give that file",
+                piece.shard
+            )));
+        }
         if reader.header().scene != built.identity()? {
             return Err(Error::refused(format!(
                 "{file}: its motion was not made from {scene} as it is now; give the --strands and --set that it was made \
@@ -89,5 +103,9 @@ impl FrameSource for Cached {
     fn frame(&mut self, n: u32) -> Result<&Strands> {
         self.reader.read(n.into(), &mut self.strands)?;
         Ok(&self.strands)
+    }
+
+    fn bounds(&self, last: u32) -> Option<[Vec3; 2]> {
+        self.reader.bounds().filter(|_| self.reader.frame_count() == u64::from(last) + 1)
     }
 }

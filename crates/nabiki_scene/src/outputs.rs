@@ -1,6 +1,7 @@
 //! The files that the pictures of a scene go into: a movie, a contact sheet, stills, the field.
 
 use std::fs;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use nabiki_render::output::field_plot::{self, FieldPlot};
@@ -20,6 +21,53 @@ pub const WAY_OUT: &str = "choose another folder with --out";
 
 type WriteField = fn(&Path, &FieldPlot) -> Result<(), RenderError>;
 
+/// A folder of numbered stills, in the kinds that a scene asks for.
+pub(crate) struct Stills {
+    folder: PathBuf,
+    output: Output,
+}
+
+impl Stills {
+    /// Begins, in `folder`, the stills of the frames `wanted`, of so many pixels. What cannot be written is refused.
+    pub fn begin(
+        folder: PathBuf,
+        output: &Output,
+        wanted: RangeInclusive<u32>,
+        size: [u32; 2],
+        folders: &mut Folders,
+        watch: &mut dyn Watch,
+    ) -> Result<Self> {
+        folders.make(&folder, WAY_OUT)?;
+        let mut replaced = numbered(&folder, output).into_iter().filter(|(n, _)| wanted.contains(n));
+        replaced.try_for_each(|(_, file)| place::free(&file, WAY_OUT))?;
+        let frames = u64::from(wanted.end() - wanted.start()) + 1;
+        place::room(&folder, frames.saturating_mul(least_bytes(output, size)), watch)?;
+        Ok(Self { folder, output: output.clone() })
+    }
+
+    /// Writes frame `n`.
+    pub fn write(&self, n: u32, frame: &Frame, tone_mapping: &ToneMapping) -> Result<()> {
+        if self.output.png_frames {
+            let depth = if self.output.png_bits == 16 { png::Depth::Sixteen } else { png::Depth::Eight };
+            png::write(&still(&self.folder, n, "png"), frame, tone_mapping, depth)?;
+        }
+        if self.output.exr_frames {
+            exr::write(&still(&self.folder, n, "exr"), frame)?;
+        }
+        Ok(())
+    }
+
+    /// Where they are.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+}
+
+/// The folder of a scene's stills among its results.
+pub(crate) fn stills_folder(folder: &Path, name: &str) -> PathBuf {
+    folder.join(format!("{name}_frames"))
+}
+
 /// Takes frames one by one, and writes of them what the scene asks for.
 pub(crate) struct PictureOutputs<'a> {
     built: &'a BuiltScene,
@@ -28,7 +76,7 @@ pub(crate) struct PictureOutputs<'a> {
     sheet: ContactSheet,
     sheet_file: PathBuf,
     on_sheet: Vec<u32>,
-    stills: Option<PathBuf>,
+    stills: Option<Stills>,
     fields: Vec<(PathBuf, WriteField)>,
 }
 
@@ -49,7 +97,6 @@ impl<'a> PictureOutputs<'a> {
         folders.make(folder, WAY_OUT)?;
         let movie_file = output.movie.then(|| at(".mp4"));
         let (sheet_file, on_sheet) = (at("_sheet.png"), output.sheet_frames(last));
-        let stills = (output.png_frames || output.exr_frames).then(|| at("_frames"));
         let fields: Vec<(PathBuf, WriteField)> = if output.field {
             vec![(at("_field.svg"), field_plot::write_svg), (at("_field.png"), field_plot::write_png)]
         } else {
@@ -60,13 +107,9 @@ impl<'a> PictureOutputs<'a> {
             movie_file.iter().chain(sheet).chain(fields.iter().map(|(file, _)| file)).map(PathBuf::as_path).collect();
         files.iter().try_for_each(|file| place::free(file, WAY_OUT))?;
         place::not_inputs(&files, inputs)?;
-        if let Some(stills) = &stills {
-            folders.make(stills, WAY_OUT)?;
-            let mut replaced = numbered(stills, output).into_iter().filter(|(n, _)| *n <= last);
-            replaced.try_for_each(|(_, file)| place::free(&file, WAY_OUT))?;
-            let frames = u64::from(last) + 1;
-            place::room(stills, frames.saturating_mul(least_bytes(output, picture.size)), watch)?;
-        }
+        let stills = (output.png_frames || output.exr_frames)
+            .then(|| Stills::begin(stills_folder(folder, name), output, 0..=last, picture.size, folders, watch))
+            .transpose()?;
         let movie = match movie_file {
             Some(file) => {
                 let movie =
@@ -81,18 +124,11 @@ impl<'a> PictureOutputs<'a> {
 
     /// Takes frame `n`, which `view` shows in the space of the forces.
     pub fn push(&mut self, n: u32, frame: &Frame, view: &View) -> Result<()> {
-        let output = &self.built.scene.output;
         if let Some((_, movie)) = &mut self.movie {
             movie.push(frame, &self.tone_mapping)?;
         }
         if let Some(stills) = &self.stills {
-            if output.png_frames {
-                let depth = if output.png_bits == 16 { png::Depth::Sixteen } else { png::Depth::Eight };
-                png::write(&still(stills, n, "png"), frame, &self.tone_mapping, depth)?;
-            }
-            if output.exr_frames {
-                exr::write(&still(stills, n, "exr"), frame)?;
-            }
+            stills.write(n, frame, &self.tone_mapping)?;
         }
         if self.on_sheet.contains(&n) {
             match self.built.field.uniform(n.max(1)) {
@@ -109,7 +145,7 @@ impl<'a> PictureOutputs<'a> {
     /// Completes the files, and removes the frames that a longer run left beyond the last. Returns what was written.
     pub fn finish(self, watch: &mut dyn Watch) -> Result<Vec<PathBuf>> {
         if let Some(stills) = &self.stills {
-            remove_beyond(self.built.frames(), stills, &self.built.scene.output, watch)?;
+            remove_beyond(self.built.frames(), &stills.folder, &stills.output, watch)?;
         }
         let mut written = Vec::new();
         if let Some((file, movie)) = self.movie {
@@ -120,7 +156,7 @@ impl<'a> PictureOutputs<'a> {
             self.sheet.write(&self.sheet_file)?;
             written.push(self.sheet_file);
         }
-        written.extend(self.stills);
+        written.extend(self.stills.map(|stills| stills.folder));
         for (file, write) in self.fields {
             write(&file, &field_picture::plot(self.built))?;
             written.push(file);

@@ -2,7 +2,10 @@
 //! and leaves only whole files.
 
 mod convert;
+mod farm;
 mod groom;
+mod join;
+mod movie;
 mod new;
 mod preview;
 mod render;
@@ -11,15 +14,20 @@ mod simulate;
 mod solve;
 
 pub use convert::{ConvertOptions, convert};
+pub use farm::{FarmOptions, farm};
 pub use groom::groom;
+pub use join::join;
+pub use movie::{MovieOptions, movie};
 pub use new::{NewOptions, new};
 pub use preview::preview;
-pub use render::{RenderOptions, render};
+pub use render::{Pictures, RenderOptions, render};
 pub use run::run;
-pub use simulate::{SimulateOptions, Twin, simulate};
+pub use simulate::{ShardOptions, SimulateOptions, Twin, simulate};
 pub use solve::{SolveOptions, solve};
 
 use std::path::{Path, PathBuf};
+
+use nabiki_io::cache::Shard;
 
 use crate::built::{BuiltScene, Shown};
 use crate::error::Result;
@@ -31,6 +39,12 @@ use crate::watch::Watch;
 fn build(scene: Scene, shown: Shown, watch: &mut dyn Watch) -> Result<BuiltScene> {
     reading(scene.inputs().split_off(1), watch);
     scene.build(shown)
+}
+
+/// The same for one shard of its strands.
+fn build_shard(scene: Scene, shown: Shown, shard: Shard, watch: &mut dyn Watch) -> Result<BuiltScene> {
+    reading(scene.inputs().split_off(1), watch);
+    scene.build_shard(shown, shard)
 }
 
 /// Says which files are about to be read, if any.

@@ -7,7 +7,7 @@ use nabiki::dynamics::{Form, gain, period};
 use nabiki_io::hair::ImportReport;
 
 use crate::advice::Advice;
-use crate::built::BuiltScene;
+use crate::built::{BuiltScene, ShardOf};
 use crate::motion_summary::MotionSummary;
 use crate::solve::Solved;
 
@@ -122,6 +122,8 @@ pub struct SceneSummary {
     pub strands: usize,
     /// Strands of the whole scene.
     pub strands_of_scene: usize,
+    /// Which shard of the strands asked for these are, where they are not all.
+    pub shard: Option<ShardOf>,
     /// Segments of the strands built.
     pub segments: usize,
     /// Length of the longest (cm).
@@ -145,6 +147,7 @@ impl SceneSummary {
             motion: built.motion_report.clone(),
             strands: strands.len(),
             strands_of_scene: built.strands_of_scene,
+            shard: built.shard,
             segments: strands.segment_count(),
             longest: strands.lengths().fold(0.0, f32::max),
             import: built.import_report,
@@ -174,6 +177,9 @@ impl fmt::Display for SceneSummary {
         write!(f, "  hair    {} strands", self.strands)?;
         if self.strands < self.strands_of_scene {
             write!(f, " of {}", self.strands_of_scene)?;
+        }
+        if let Some(ShardOf { shard, strands, .. }) = self.shard {
+            write!(f, ", shard {shard} of {strands} strands")?;
         }
         write!(f, ", {} segments, up to {:.1} cm", self.segments, self.longest)?;
         if let Some(import) = &self.import {

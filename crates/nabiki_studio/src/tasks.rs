@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use nabiki_scene::exports::ExportOptions;
-use nabiki_scene::tasks::{self, RenderOptions, SimulateOptions, Twin};
+use nabiki_scene::tasks::{self, Pictures, RenderOptions, SimulateOptions, Twin};
 use nabiki_scene::{Error, Scene, Shown, Told, Watch};
 
 /// What is exported.
@@ -246,12 +246,16 @@ fn carry_out(order: &Order, scene: Scene, watch: &mut dyn Watch) -> Result<(), E
     match kind {
         Kind::Movie => tasks::run(scene, shown, place, &ExportOptions::default(), watch),
         Kind::Still => {
-            let options = RenderOptions { motion: None, frame: Some(*frame) };
+            let options = RenderOptions { motion: None, pictures: Pictures::One(*frame) };
             tasks::render(scene, shown, &options, place, watch)
         }
         Kind::Usd | Kind::Alembic | Kind::Cache => {
-            let options =
-                SimulateOptions { output: place.clone(), exports: ExportOptions::default(), twin: Twin::Fast };
+            let options = SimulateOptions {
+                output: place.clone(),
+                exports: ExportOptions::default(),
+                twin: Twin::Fast,
+                shard: None,
+            };
             tasks::simulate(scene, shown, &options, watch)
         }
     }

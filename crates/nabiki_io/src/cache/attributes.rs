@@ -2,11 +2,14 @@
 
 use std::io::{Read, Seek};
 
+use glam::Vec3;
 use nabiki::hair::Attributes;
 
 use super::{
+    BOUNDS_TAG,
     origin::{self, Origin},
     other,
+    piece::{self, Piece},
 };
 use crate::{
     bytes::{Bytes, Scalar, put},
@@ -51,15 +54,19 @@ pub(super) fn write(out: &mut Vec<u8>, a: &Attributes) -> Result<()> {
     Ok(())
 }
 
+/// What the blocks say.
+#[derive(Default)]
+pub(super) struct Blocks {
+    pub attributes: Attributes,
+    pub origin: Option<Origin>,
+    pub piece: Option<Piece>,
+    pub bounds: Option<[Vec3; 2]>,
+}
+
 /// Reads the blocks up to the offset `end`; tags of later versions are passed over.
-pub(super) fn read<R: Read + Seek>(
-    source: &mut Bytes<R>,
-    end: u64,
-    strands: usize,
-    points: usize,
-) -> Result<(Attributes, Option<Origin>)> {
-    let mut a = Attributes::default();
-    let (mut origin, mut groom) = (None, None);
+pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, end: u64, strands: usize, points: usize) -> Result<Blocks> {
+    let Blocks { attributes: mut a, mut origin, mut piece, mut bounds } = Blocks::default();
+    let mut groom = None;
     while source.at() < end {
         let tag: [u8; 8] = source.value("attribute tag")?;
         let length: u64 = source.value("attribute length")?;
@@ -91,12 +98,18 @@ pub(super) fn read<R: Read + Seek>(
             }
             origin::TAG => origin = Some(Origin::from_bytes(&block.values(origin::BYTES)?)?),
             origin::GROOM_TAG => groom = Some(origin::groom_from_bytes(&block.values(length as usize)?)?),
+            piece::TAG => piece = Some(Piece::from_bytes(&block.values(length as usize)?)?),
+            // A box of no points, or with a corner that is nowhere, bounds nothing.
+            BOUNDS_TAG => {
+                let corners: Vec<Vec3> = block.values(2)?;
+                bounds = <[Vec3; 2]>::try_from(corners).ok().filter(|[low, high]| low.is_finite() && high.is_finite());
+            }
             other::TAG => a.other.push(other::read(source, length, strands, points)?),
             _ => {}
         }
         source.seek(next)?;
     }
-    Ok((a, origin.map(|origin| Origin { groom, ..origin })))
+    Ok(Blocks { attributes: a, origin: origin.map(|origin| Origin { groom, ..origin }), piece, bounds })
 }
 
 /// The values of one block.

@@ -5,7 +5,12 @@ use std::fmt;
 use serde::Serialize;
 
 use super::hair::HairInfo;
-use crate::{cache::Reader, error::Result, identity::SceneId, short::Short};
+use crate::{
+    cache::{Piece, Reader},
+    error::Result,
+    identity::SceneId,
+    short::Short,
+};
 
 /// Frames, and the hair of the first.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -16,6 +21,8 @@ pub struct CacheInfo {
     pub frame_rate: f64,
     /// The scene that made it.
     pub scene: SceneId,
+    /// Which shard of a motion it is, `2/7 of 700 strands`; `None` where it is all of it.
+    pub shard: Option<String>,
     /// Greatest distance of a point in the last frame from where it was in the first (head space, cm).
     pub farthest_move: f32,
     /// Whether the head is elsewhere in the last frame than in the first.
@@ -37,6 +44,11 @@ impl CacheInfo {
             frames,
             frame_rate: cache.header().frame_rate,
             scene: cache.header().scene,
+            shard: cache
+                .header()
+                .piece
+                .as_ref()
+                .map(|Piece { shard, strands, .. }| format!("{shard} of {strands} strands")),
             farthest_move: moves.fold(0.0, f32::max),
             head_moves: first_pose != last_pose,
             rest: HairInfo { guess: None, ..HairInfo::of(&rest) },
@@ -47,6 +59,9 @@ impl CacheInfo {
 impl fmt::Display for CacheInfo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "motion cache: {} frames at {} a second, of scene {}", self.frames, self.frame_rate, self.scene)?;
+        if let Some(shard) = &self.shard {
+            writeln!(f, "shard {shard}; nabiki join puts all of them together")?;
+        }
         let head = if self.head_moves { "moves" } else { "stands still" };
         writeln!(
             f,

@@ -1,9 +1,11 @@
 //! PNG files: sRGB with straight alpha, of 8 or 16 bit.
 
+use std::fs::File;
+use std::io::BufReader;
 use std::path::Path;
 
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
+use image::codecs::png::{CompressionType, FilterType, PngDecoder, PngEncoder};
+use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder};
 
 use super::write_whole;
 use crate::RenderError;
@@ -18,6 +20,46 @@ pub enum Depth {
     Eight,
     /// 16 bit.
     Sixteen,
+}
+
+/// A picture read from a PNG file: display values.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Still {
+    /// Width and height (pixels).
+    pub size: [u32; 2],
+    /// Red, green, blue (sRGB, 0..65535), row after row from the top.
+    pub rgb: Vec<[u16; 3]>,
+}
+
+/// The width and height (pixels) of a PNG file, without its pixels.
+///
+/// # Errors
+/// A file that cannot be read, or is no PNG.
+pub fn read_size(path: &Path) -> Result<[u32; 2], RenderError> {
+    let (width, height) = decoder(path)?.dimensions();
+    Ok([width, height])
+}
+
+/// Reads an opaque PNG file.
+///
+/// # Errors
+/// A file that cannot be read, or is no PNG; pixels that are not opaque.
+pub fn read(path: &Path) -> Result<Still, RenderError> {
+    let picture = DynamicImage::from_decoder(decoder(path)?).map_err(|e| RenderError::read(path, e))?;
+    let size = [picture.width(), picture.height()];
+    let rgba = picture.into_rgba16();
+    if let Some(see_through) = rgba.pixels().position(|p| p.0[3] != u16::MAX) {
+        let (x, y) = (see_through as u32 % size[0], see_through as u32 / size[0]);
+        let what = format!("pixel ({x}, {y}) is transparent: only opaque pictures can be frames of a movie");
+        return Err(RenderError::read(path, what));
+    }
+    let rgb = rgba.pixels().map(|p| [p.0[0], p.0[1], p.0[2]]).collect();
+    Ok(Still { size, rgb })
+}
+
+fn decoder(path: &Path) -> Result<PngDecoder<BufReader<File>>, RenderError> {
+    let file = File::open(path).map_err(|e| RenderError::read(path, e))?;
+    PngDecoder::new(BufReader::new(file)).map_err(|e| RenderError::read(path, e))
 }
 
 /// Writes a frame as a PNG file: sRGB, straight alpha (left out where the whole picture is opaque).

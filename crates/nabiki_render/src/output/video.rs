@@ -15,6 +15,7 @@ use openh264::formats::YUVSlices;
 use rayon::prelude::*;
 
 use super::mp4::Track;
+use super::png::Still;
 use super::{create_part, write_whole};
 use crate::RenderError;
 use crate::frame::Frame;
@@ -26,7 +27,8 @@ const INTRA_PERIOD: u32 = 48;
 
 /// A movie being written. Nothing stands under its name until [`finish`](Self::finish).
 ///
-/// Colour is Rec. 709, studio range, 4:2:0. An odd side loses its last row or column, which H.264's halved
+/// Colour is Rec. 709, studio range, 4:2:0, of display values of 16 bits: so a movie of PNG files of 16 bits is that of
+/// the frames that they were written from, to the bit. An odd side loses its last row or column, which H.264's halved
 /// colour cannot hold. A transparent frame is shown on black.
 ///
 /// Frames are coded on a thread of their own, one after another, while the next are drawn; at most one waits.
@@ -44,11 +46,11 @@ type Planes = [Vec<u8>; 3];
 const WAITING: usize = 1;
 
 impl Movie {
-    /// Starts a movie at `path` with the size and quality of `picture`, of `frame_rate` frames a second (1..240).
+    /// Refuses what [`create`](Self::create) would refuse of the picture and the frame rate.
     ///
     /// # Errors
-    /// A size or frame rate that a movie cannot have; a place that cannot be written.
-    pub fn create(path: &Path, picture: &Picture, frame_rate: f64) -> Result<Self, RenderError> {
+    /// A size or frame rate that a movie cannot have.
+    pub fn check(picture: &Picture, frame_rate: f64) -> Result<(), RenderError> {
         picture.check()?;
         check_range("motion.frame_rate", frame_rate as f32, 1.0, 240.0)?;
         let size = picture.size.map(|s| s as usize & !1);
@@ -61,6 +63,16 @@ impl Movie {
             )
             .into());
         }
+        Ok(())
+    }
+
+    /// Starts a movie at `path` with the size and quality of `picture`, of `frame_rate` frames a second (1..240).
+    ///
+    /// # Errors
+    /// A size or frame rate that a movie cannot have; a place that cannot be written.
+    pub fn create(path: &Path, picture: &Picture, frame_rate: f64) -> Result<Self, RenderError> {
+        Self::check(picture, frame_rate)?;
+        let size = picture.size.map(|s| s as usize & !1);
         // The encoder takes 12 (near lossless) to 51. A range of one value leaves its rate control nothing to decide.
         let quantiser = (44.0 - 32.0 * picture.video.quality).round() as u8;
         let config = EncoderConfig::new()
@@ -104,8 +116,35 @@ impl Movie {
     /// # Panics
     /// If the frame's size is not that of the picture the movie was created for.
     pub fn push(&mut self, frame: &Frame, tone_mapping: &ToneMapping) -> Result<(), RenderError> {
-        assert_eq!(frame.size.map(|s| s as usize & !1), self.size, "every frame has the movie's size");
-        let planes = planes(frame, self.size, tone_mapping);
+        let stride = frame.size[0] as usize;
+        let value = |light: f32| (tone_mapping.value(light) * 65535.0 + 0.5) as u16;
+        let pixel = |x: usize, y: usize| {
+            let [r, g, b, _] = frame.rgba[y * stride + x];
+            [value(r), value(g), value(b)]
+        };
+        self.push_pixels(frame.size, pixel)
+    }
+
+    /// Appends a picture that is drawn already.
+    ///
+    /// # Errors
+    /// As [`push`](Self::push).
+    ///
+    /// # Panics
+    /// As there.
+    pub fn push_still(&mut self, still: &Still) -> Result<(), RenderError> {
+        let stride = still.size[0] as usize;
+        self.push_pixels(still.size, |x, y| still.rgb[y * stride + x])
+    }
+
+    /// `pixel`: display values, 0..65535.
+    fn push_pixels(
+        &mut self,
+        size: [u32; 2],
+        pixel: impl Fn(usize, usize) -> [u16; 3] + Sync,
+    ) -> Result<(), RenderError> {
+        assert_eq!(size.map(|s| s as usize & !1), self.size, "every frame has the movie's size");
+        let planes = planes(self.size, pixel);
         match self.planes.as_ref().map(|waiting| waiting.send(planes)) {
             Some(Ok(())) => Ok(()),
             // It takes no more because it has failed.
@@ -173,18 +212,16 @@ impl Coder {
 }
 
 /// Studio-range Rec. 709 planes: luma of full size, the two colour differences averaged over 2 x 2 pixels.
-fn planes(frame: &Frame, [width, height]: [usize; 2], tone_mapping: &ToneMapping) -> Planes {
+fn planes([width, height]: [usize; 2], pixel: impl Fn(usize, usize) -> [u16; 3] + Sync) -> Planes {
     let mut luma = vec![0; width * height];
     let mut blue = vec![0; width * height / 4];
     let mut red = vec![0; width * height / 4];
-    let stride = frame.size[0] as usize;
     let rows = luma.par_chunks_mut(2 * width).zip(blue.par_chunks_mut(width / 2)).zip(red.par_chunks_mut(width / 2));
     rows.enumerate().for_each(|(pair, ((luma, blue), red))| {
         for x in (0..width).step_by(2) {
             let mut differences = [0.0; 2];
             for (dy, dx) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                let p = frame.rgba[(2 * pair + dy) * stride + x + dx];
-                let [r, g, b] = [tone_mapping.value(p[0]), tone_mapping.value(p[1]), tone_mapping.value(p[2])];
+                let [r, g, b] = pixel(x + dx, 2 * pair + dy).map(|value| f32::from(value) / 65535.0);
                 let y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
                 luma[dy * width + x + dx] = (16.5 + 219.0 * y) as u8;
                 differences[0] += (b - y) / 1.8556;

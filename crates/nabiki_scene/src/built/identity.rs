@@ -4,10 +4,12 @@ use nabiki::Pose;
 use nabiki::body::BodyWay;
 use nabiki::dynamics::{Form, Motion};
 use nabiki::free_form::FreeMotion;
-use nabiki_io::identity::{Digest, SceneId};
+use nabiki_io::cache::Piece;
+use nabiki_io::identity::{Digest, SceneId, StrandSum};
 
-use super::BuiltScene;
+use super::{BuiltScene, ShardOf};
 use crate::error::Result;
+use crate::scene::HairSource;
 
 impl BuiltScene {
     /// Everything that decides how the hair moves, but not how many frames are made of it, nor how it is drawn. Two
@@ -16,9 +18,44 @@ impl BuiltScene {
     /// # Errors
     /// A file of the head's motion that can no longer be read.
     pub fn identity(&self) -> Result<SceneId> {
+        Ok(SceneId::of(self.settings_identity()?, self.strand_sum()))
+    }
+
+    /// What a cache of one shard says of the whole; `None` where all strands are built. `command`: what makes it, without
+    /// the shard and the file.
+    ///
+    /// # Errors
+    /// As [`identity`](Self::identity).
+    pub(crate) fn piece(&self, reference: bool, command: &str) -> Result<Option<Piece>> {
+        let Some(ShardOf { shard, strands, .. }) = self.shard else { return Ok(None) };
+        let (settings, groom) = (self.settings_identity()?, self.groom_identity()?);
+        let (strands, command) = (strands as u64, command.to_owned());
+        Ok(Some(Piece { shard, strands, settings, groom, sum: self.strand_sum(), reference, command }))
+    }
+
+    fn strand_sum(&self) -> StrandSum {
+        let from = self.shard.map_or(0, |ShardOf { shard, strands, .. }| shard.range(strands).start);
+        let places = from..from + self.hair.strands.len();
+        StrandSum::of(&self.hair.strands, places, self.dynamics.disturbance.as_ref().map(|_| self.ids.as_slice()))
+    }
+
+    /// What the strands grow from, or the strands by which the whole of an imported groom is known.
+    fn groom_identity(&self) -> Result<SceneId> {
         let mut digest = Digest::new();
-        digest.bytes("starts", bytemuck::cast_slice(&little_endian(self.hair.strands.starts())));
-        add_numbers(&mut digest, "points", bytemuck::cast_slice(self.hair.strands.points()));
+        match &self.scene.hair.source {
+            HairSource::Grown(hair) => digest.settings("grown", hair)?,
+            HairSource::Imported(hair) => digest.settings("imported", hair)?,
+        }
+        digest.settings("segment_length", &[self.scene.hair.segment_length])?;
+        add_numbers(&mut digest, "head", bytemuck::cast_slice(&self.head.mesh.positions));
+        let groom = self.shard.map_or(StrandSum::default(), |shard| shard.groom);
+        digest.bytes("groom", &groom.0.to_le_bytes());
+        Ok(digest.finish())
+    }
+
+    /// What moves the strands, whichever they are.
+    fn settings_identity(&self) -> Result<SceneId> {
+        let mut digest = Digest::new();
         // The rate counts where it says which poses the head has, which are taken in below.
         let motion = Motion { frames: 1, frame_rate: 24.0, ..self.dynamics.motion.clone() };
         digest.settings("motion", &motion)?;
@@ -33,7 +70,6 @@ impl BuiltScene {
         }
         if let Some(disturbance) = &self.dynamics.disturbance {
             digest.settings("disturbance", disturbance)?;
-            digest.bytes("ids", bytemuck::cast_slice(&little_endian(&self.ids)));
         }
         if let Form::Free(free) = &self.dynamics.form {
             self.add_free(&mut digest, free)?;

@@ -3,17 +3,21 @@
 mod free;
 
 use std::io::ErrorKind;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::Vec3;
 use nabiki::dynamics::{Dynamics, Form, straightened};
-use nabiki::groom::{Growth, grow_from};
+use nabiki::groom::{Growth, grow_run};
 use nabiki::roots::{self, Root};
 use nabiki::{Hair, Head, Pose, SettingError, Strands, subset};
 use nabiki_io::{
-    DeclaredSpace, GroomCurves, GroomFile, declared_space,
+    DeclaredSpace, GroomCurves, GroomFile,
+    cache::Shard,
+    declared_space,
     hair::{self, ImportReport},
+    identity::StrandSum,
     mesh::{self, MeshReport},
     motion::{self, HeadMotion},
     placement::Placement,
@@ -21,15 +25,21 @@ use nabiki_io::{
 
 use nabiki_render::colour;
 
-use super::{BuiltScene, Shown};
-use crate::error::Result;
+use super::{BuiltScene, ShardOf, Shown};
+use crate::error::{Error, Result};
 use crate::scene::{
     EllipsoidChoice, FieldParts, FieldPlace, FormChoice, GrownHair, HairSource, HeadSource, ImportedHair, Scene,
 };
 use crate::seat;
 
-/// Builds a scene. What it has in common with a scene that is `known` is taken from there, and files are not read again.
-pub(super) fn build(scene: Scene, shown: Shown, known: Option<&BuiltScene>) -> Result<BuiltScene> {
+/// Builds a scene, or one `shard` of it. What it has in common with a scene that is `known` is taken from there, and files
+/// are not read again.
+pub(super) fn build(
+    scene: Scene,
+    shown: Shown,
+    shard: Option<Shard>,
+    known: Option<&BuiltScene>,
+) -> Result<BuiltScene> {
     let known = known.filter(|known| known.scene.file() == scene.file());
     let same_head = known.filter(|known| {
         let (head, was) = (&scene.head, &known.scene.head);
@@ -56,12 +66,14 @@ pub(super) fn build(scene: Scene, shown: Shown, known: Option<&BuiltScene>) -> R
             && scene.motion.straighten == known.scene.motion.straighten
             && dynamics.polar_axis == known.dynamics.polar_axis
             && free::first_wanted(&scene) == free::first_wanted(&known.scene)
+            && shard.is_none()
+            && known.shard.is_none()
             && shown.of(known.strands_of_scene).is_ok_and(|count| count == known.hair.strands.len())
     });
-    let LoadedHair { mut hair, roots, ids, of_scene, first, imported, frames } = match same_hair {
+    let LoadedHair { mut hair, roots, ids, of_scene, shard, first, imported, frames } = match same_hair {
         Some(known) => LoadedHair::of(known),
         None => {
-            let mut loaded = load_hair(&scene, &head, &placement, shown, same_head)?;
+            let mut loaded = load_hair(&scene, &head, &placement, Wanted { shown, shard }, same_head)?;
             loaded.hair.strands = straightened(&loaded.hair.strands, &dynamics.motion, dynamics.polar_axis);
             loaded.first = straightened(&loaded.first, &dynamics.motion, dynamics.polar_axis);
             loaded
@@ -88,6 +100,7 @@ pub(super) fn build(scene: Scene, shown: Shown, known: Option<&BuiltScene>) -> R
         hair,
         roots,
         strands_of_scene: of_scene,
+        shard,
         first,
         hair_placement,
         groom,
@@ -134,6 +147,8 @@ struct LoadedHair {
     ids: Vec<u32>,
     /// Strands of the whole.
     of_scene: usize,
+    /// Which shard it is.
+    shard: Option<ShardOf>,
     /// The first strands of the farthest-first order of the whole, whichever are shown: those that the free form asks of.
     first: Strands,
     /// What its file was; `None` for hair grown here.
@@ -168,10 +183,32 @@ impl LoadedHair {
             roots: built.roots.clone(),
             ids: built.ids.clone(),
             of_scene: built.strands_of_scene,
+            shard: built.shard,
             first: built.first.clone(),
             imported,
             frames: built.frames_in_file,
         }
+    }
+}
+
+/// Which strands are wanted.
+#[derive(Clone, Copy)]
+struct Wanted {
+    shown: Shown,
+    /// One run of these alone.
+    shard: Option<Shard>,
+}
+
+impl Wanted {
+    /// How many strands of `of_scene` are shown, and which run of these is wanted.
+    fn of(self, of_scene: usize) -> Result<(usize, Range<usize>)> {
+        let count = self.shown.of(of_scene)?;
+        let Some(shard) = self.shard else { return Ok((count, 0..count)) };
+        if shard.of() as usize > count {
+            let line = format!("shard {shard}: there are {count} strands; part them into {count} shards at the most");
+            return Err(Error::refused(line));
+        }
+        Ok((count, shard.range(count)))
     }
 }
 
@@ -180,35 +217,43 @@ fn load_hair(
     scene: &Scene,
     head: &Head,
     head_placement: &Placement,
-    shown: Shown,
+    wanted: Wanted,
     same_head: Option<&BuiltScene>,
 ) -> Result<LoadedHair> {
     match &scene.hair.source {
         HairSource::Grown(settings) => {
-            let count = shown.of(settings.strands)?;
+            let (count, run) = wanted.of(settings.strands)?;
             let first = free::first_wanted(scene).min(settings.strands);
-            let wanted = count.max(first);
-            let roots = match same_head.and_then(|known| known_roots(known, settings, wanted)) {
+            let rooted = run.end.max(first);
+            let roots = match same_head.and_then(|known| known_roots(known, settings, rooted)) {
                 Some(roots) => roots,
                 None => {
                     let GrownHair { strands, seed, hairline, .. } = settings;
-                    let roots = roots::spread_first(head, hairline, *strands, wanted, *seed);
+                    let roots = roots::spread_first(head, hairline, *strands, rooted, *seed);
                     roots.map_err(|refused| scene.refusal(refused))?.into()
                 }
             };
-            let mut hair = grown(scene, settings, head, &roots)?;
-            let first = hair.strands.select(&(0..first).collect::<Vec<_>>());
-            if hair.strands.len() > count {
-                hair = hair.select(&(0..count).collect::<Vec<_>>());
-            }
-            let ids = (0..count as u32).collect();
-            Ok(LoadedHair { hair, roots, ids, of_scene: settings.strands, first, imported: None, frames: 1 })
+            let (hair, first) = if run.start < first {
+                // What is wanted first is grown anyway.
+                let hair = grown(scene, settings, head, &roots, 0)?;
+                let first = hair.strands.select(&(0..first).collect::<Vec<_>>());
+                (
+                    if hair.strands.len() > run.len() { hair.select(&run.clone().collect::<Vec<_>>()) } else { hair },
+                    first,
+                )
+            } else {
+                let first = grown(scene, settings, head, &roots[..first], 0)?.strands;
+                (grown(scene, settings, head, &roots[run.clone()], run.start)?, first)
+            };
+            let ids = run.map(|number| number as u32).collect();
+            let shard = wanted.shard.map(|shard| ShardOf { shard, strands: count, groom: StrandSum::default() });
+            Ok(LoadedHair { hair, roots, ids, of_scene: settings.strands, shard, first, imported: None, frames: 1 })
         }
-        HairSource::Imported(settings) => import(scene, settings, head_placement, shown),
+        HairSource::Imported(settings) => import(scene, settings, head_placement, wanted),
     }
 }
 
-fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, shown: Shown) -> Result<LoadedHair> {
+fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, wanted: Wanted) -> Result<LoadedHair> {
     let file = there(scene, "hair.file", &settings.file)?;
     let mut groom = GroomFile::open(&file)?;
     let declared = groom.declared_space()?;
@@ -225,12 +270,17 @@ fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, sh
     let of_scene = hair.strands.len();
     let first = free::first_wanted(scene).min(of_scene);
     let first = if first == 0 { Hair::default() } else { hair.select(&evenly(&hair, first)) };
-    let (hair, ids) = match shown.of(of_scene)? {
-        count if count < of_scene => {
-            let chosen = evenly(&hair, count);
-            (hair.select(&chosen), chosen.iter().map(|&s| s as u32).collect())
-        }
-        _ => (hair, (0..of_scene as u32).collect()),
+    let (count, run) = wanted.of(of_scene)?;
+    let shard = wanted.shard.map(|shard| {
+        let groom = StrandSum::of(&hair.strands, 0..of_scene, None);
+        ShardOf { shard, strands: count, groom }
+    });
+    let (hair, ids) = if count < of_scene || run.len() < count {
+        let mut chosen = if count < of_scene { evenly(&hair, count) } else { (0..count).collect() };
+        chosen = chosen[run].to_vec();
+        (hair.select(&chosen), chosen.iter().map(|&s| s as u32).collect())
+    } else {
+        (hair, (0..of_scene as u32).collect())
     };
     let cut = |hair: Hair| match settings.segments {
         Some(segments) => cut_anew(&hair, segments).map_err(|refused| scene.refusal(refused)),
@@ -239,7 +289,7 @@ fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, sh
     let (hair, first) = (cut(hair)?, cut(first)?.strands);
     let (frames, groom) = (groom.frames()?, groom.curves(&settings.file)?);
     let imported = Some(Imported { placement, groom, report, declared, judged });
-    Ok(LoadedHair { hair, roots: Arc::default(), ids, of_scene, first, imported, frames })
+    Ok(LoadedHair { hair, roots: Arc::default(), ids, of_scene, shard, first, imported, frames })
 }
 
 /// `count` strands of the farthest-first order of the roots, in the order of the file.
@@ -374,8 +424,8 @@ fn known_roots(known: &BuiltScene, settings: &GrownHair, wanted: usize) -> Optio
     (same && known.roots.len() == wanted).then(|| known.roots.clone())
 }
 
-/// The strands that grow from these of the scene's roots.
-fn grown(scene: &Scene, settings: &GrownHair, head: &Head, roots: &[Root]) -> Result<Hair> {
+/// The strands that grow from a run of the scene's roots, from number `first` on.
+fn grown(scene: &Scene, settings: &GrownHair, head: &Head, roots: &[Root], first: usize) -> Result<Hair> {
     let GrownHair { strands, segments, seed, hairline, style } = settings;
     let growth = Growth {
         hairline,
@@ -385,7 +435,7 @@ fn grown(scene: &Scene, settings: &GrownHair, head: &Head, roots: &[Root]) -> Re
         segment_length: scene.hair.segment_length,
         seed: *seed,
     };
-    grow_from(head, &growth, roots).map_err(|refused| scene.refusal(refused).into())
+    grow_run(head, &growth, roots, first).map_err(|refused| scene.refusal(refused).into())
 }
 
 /// The same strands in `segments` equally long segments each.

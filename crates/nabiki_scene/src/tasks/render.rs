@@ -6,7 +6,7 @@ use crate::built::{BuiltScene, Shown};
 use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::frames::{Cached, FrameSource, Simulated};
-use crate::outputs::{self, PictureOutputs};
+use crate::outputs::{self, PictureOutputs, Stills};
 use crate::place::{self, Folders};
 use crate::scene::Scene;
 use crate::told::Told;
@@ -17,26 +17,57 @@ use crate::watch::Watch;
 pub struct RenderOptions {
     /// The motion cache, written from the same scene; without it the scene is simulated.
     pub motion: Option<PathBuf>,
-    /// This frame only, as a PNG.
-    pub frame: Option<u32>,
+    /// Which pictures.
+    pub pictures: Pictures,
 }
 
-/// Draws all frames of a scene, or one, into `folder`.
+/// Which pictures of a scene are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pictures {
+    /// All, into what the scene asks for: a movie, a contact sheet, stills.
+    #[default]
+    All,
+    /// One frame, as a PNG.
+    One(u32),
+    /// The frames from the first through the second, as numbered stills: PNG files, and OpenEXR files if the scene asks
+    /// for them. Each is, to the bit, as in any other division of the film.
+    Run(u32, u32),
+}
+
+impl Pictures {
+    /// Refuses frames that are not there.
+    fn check(self, last: u32) -> Result<()> {
+        let reaches = format!("the last frame is motion.frames = {last}");
+        match self {
+            Self::One(frame) if frame > last => Err(Error::refused(format!("--frame {frame}: {reaches}"))),
+            Self::Run(from, through) if from > through => Err(Error::refused(format!(
+                "--frames {from}..{through}: ends before it begins; write the earlier first"
+            ))),
+            Self::Run(from, through) if through > last => {
+                Err(Error::refused(format!("--frames {from}..{through}: {reaches}")))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Draws all frames of a scene, or some, into `folder`.
 ///
 /// # Errors
 /// As [`run`](super::run()); a cache of another motion, a frame that the scene does not reach.
 pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path, watch: &mut dyn Watch) -> Result<()> {
-    let last = scene.motion.frames;
-    if let Some(frame) = options.frame.filter(|&frame| frame > last) {
-        return Err(Error::refused(format!("--frame {frame}: the last frame is motion.frames = {last}")));
+    options.pictures.check(scene.motion.frames)?;
+    let mut scene = scene;
+    if matches!(options.pictures, Pictures::Run(..)) {
+        scene.output.png_frames = true;
     }
     let built = super::build(scene, shown, watch)?;
     let scene = &built.scene;
     let mut folders = Folders::default();
     let mut inputs = scene.inputs();
     inputs.extend(options.motion.clone());
-    let written = match options.frame {
-        None => {
+    let written = match options.pictures {
+        Pictures::All => {
             let mut outputs =
                 PictureOutputs::begin(&built, &scene.picture, folder, &scene.name(), &inputs, &mut folders, watch)?;
             let mut film = Film::new(&built, &scene.picture, source(&built, options)?.as_mut(), watch)?;
@@ -44,7 +75,7 @@ pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path
             watch.told(Told::Motion(summary));
             outputs.finish(watch)?
         }
-        Some(frame) => {
+        Pictures::One(frame) => {
             let path = folder.join(format!("{}_{frame:04}.png", scene.name()));
             folders.make(folder, outputs::WAY_OUT)?;
             place::free(&path, outputs::WAY_OUT)?;
@@ -52,6 +83,15 @@ pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path
             let mut film = Film::new(&built, &scene.picture, source(&built, options)?.as_mut(), watch)?;
             film.still(frame, source(&built, options)?.as_mut(), &path)?;
             vec![path]
+        }
+        Pictures::Run(from, through) => {
+            let mut frames = source(&built, options)?;
+            folders.make(folder, outputs::WAY_OUT)?;
+            let stills = outputs::stills_folder(folder, &scene.name());
+            let stills = Stills::begin(stills, &scene.output, from..=through, scene.picture.size, &mut folders, watch)?;
+            let mut film = Film::new(&built, &scene.picture, source(&built, options)?.as_mut(), watch)?;
+            film.stills(from..=through, frames.as_mut(), &stills, watch)?;
+            vec![stills.folder().to_owned()]
         }
     };
     super::wrote(written, watch);

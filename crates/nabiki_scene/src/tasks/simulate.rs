@@ -2,15 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
+use nabiki_file::folder_of;
+use nabiki_io::cache::Shard;
 use nabiki_io::exchange;
 
 use crate::built::Shown;
 use crate::cache_file::SceneCache;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::exports::{ExportOptions, Exports};
 use crate::frames::{FrameSource, Simulated};
 use crate::motion_summary::MotionSummary;
-use crate::place;
+use crate::place::{self, Folders};
 use crate::scene::Scene;
 use crate::told::Told;
 use crate::watch::{Watch, each_frame};
@@ -24,6 +26,17 @@ pub struct SimulateOptions {
     pub exports: ExportOptions,
     /// Which of the twins steps.
     pub twin: Twin,
+    /// One shard of the strands alone, into a motion cache for [`join`](super::join()).
+    pub shard: Option<ShardOptions>,
+}
+
+/// Which shard is simulated.
+#[derive(Clone, Debug)]
+pub struct ShardOptions {
+    /// Which.
+    pub shard: Shard,
+    /// How the shell would be asked for it, without the shard and the file: told to whoever misses another one.
+    pub command: String,
 }
 
 /// The two steppers.
@@ -44,6 +57,19 @@ pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &m
     let mut exports = options.exports.clone();
     let to_tools = exchange::is_usd(&options.output) || exchange::is_alembic(&options.output);
     let cache = (!to_tools).then_some(options.output.as_path());
+    if let Some(ShardOptions { shard, .. }) = options.shard
+        && !(cache.is_some() && exports.files.is_empty())
+    {
+        return Err(Error::refused(format!(
+            "--shard {shard}: a shard goes into a motion cache (.nabiki) alone; export what nabiki join makes of all of them, \
+             with nabiki convert"
+        )));
+    }
+    let mut folders = Folders::default();
+    if let (Some(cache), Some(_)) = (cache, &options.shard) {
+        // Nobody goes ahead of the tasks of a farm.
+        folders.make(folder_of(cache), "choose another name")?;
+    }
     match cache {
         Some(cache) => place::cache(cache, &scene.inputs())?,
         None => exports.files.insert(0, options.output.clone()),
@@ -52,14 +78,20 @@ pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &m
     let files: Vec<&Path> = cache.into_iter().chain(exports.files.iter().map(PathBuf::as_path)).collect();
     place::distinct(&files)?;
     place::not_inputs(&files, &scene.inputs())?;
-    let built = super::build(scene, shown, watch)?;
+    let built = match &options.shard {
+        Some(ShardOptions { shard, .. }) => super::build_shard(scene, shown, *shard, watch)?,
+        None => super::build(scene, shown, watch)?,
+    };
     let mut frames: Box<dyn FrameSource + '_> = match options.twin {
         Twin::Fast => Box::new(Simulated::new(&built)?),
         Twin::Reference => Box::new(Simulated::by(&built, built.reference()?)),
     };
     super::introduce(&built, watch);
     let mut exports = Exports::begin(&exports, &built, watch)?;
-    let mut scene_cache = cache.map(|cache| SceneCache::begin(&built, cache, watch)).transpose()?;
+    let reference = options.twin == Twin::Reference;
+    let piece = options.shard.as_ref().map(|ShardOptions { command, .. }| built.piece(reference, command));
+    let piece = piece.transpose()?.flatten();
+    let mut scene_cache = cache.map(|cache| SceneCache::begin(&built, cache, piece, watch)).transpose()?;
     let mut summary = MotionSummary::default();
     each_frame(watch, "simulating", 0..=built.frames(), |n| {
         let strands = frames.frame(n)?;

@@ -1,0 +1,142 @@
+//! The job as an Open Job Description template, jobtemplate-2023-09, in YAML.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use super::{Names, Plan, Step, Tasks, Word};
+use crate::error::{Error, Result};
+
+const NAMES: Names = Names {
+    scene: "{{Param.Scene}}",
+    results: "{{Param.Results}}",
+    name: None,
+    shard: "{{Task.Param.Shard}}",
+    frames: "{{Task.Param.From}}..{{Task.Param.Through}}",
+};
+
+/// Longest name of a job (characters).
+const LONGEST_NAME: usize = 128;
+
+impl Plan {
+    /// The template.
+    ///
+    /// # Errors
+    /// Words that the format would take for its own.
+    pub fn template(&self) -> Result<String> {
+        let mut out = String::new();
+        let name: String = format!("Nabiki {}", self.name).chars().take(LONGEST_NAME).collect();
+        let scene = default_path(&self.scene, &self.folder);
+        let results = default_path(&self.results, &self.folder);
+        for plain in self.sets.iter().chain([&name]) {
+            if plain.contains("{{") {
+                let line = "holds {{, which Open Job Description takes for the name of a parameter; leave it out";
+                return Err(Error::refused(format!("{plain}: {line}")));
+            }
+        }
+        let parameter = |name: &str, kind: &str, about: &str, default: Option<String>| {
+            let default = default.map_or_else(String::new, |path| format!("    default: {}\n", text(&path)));
+            format!("  - name: {name}\n    type: {kind}\n    description: {}\n{about}{default}", text(about_of(name)))
+        };
+        let _ = write!(
+            out,
+            "specificationVersion: jobtemplate-2023-09\nname: {}\nparameterDefinitions:\n{}{}{}steps:\n",
+            text(&name),
+            parameter("Scene", "PATH", "    objectType: FILE\n    dataFlow: IN\n", scene),
+            parameter("Results", "PATH", "    objectType: DIRECTORY\n    dataFlow: INOUT\n", results),
+            parameter("Nabiki", "STRING", "", Some("nabiki".to_owned())),
+        );
+        let mut before = None;
+        for step in self.steps(&NAMES) {
+            self.step(&mut out, &step, before);
+            before = Some(step.name);
+        }
+        Ok(out)
+    }
+
+    fn step(&self, out: &mut String, Step { name, tasks, command }: &Step, before: Option<&str>) {
+        let _ = writeln!(out, "  - name: {name}");
+        if let Some(before) = before {
+            let _ = writeln!(out, "    dependencies:\n      - dependsOn: {before}");
+        }
+        let parameter = |name: &str, range: String| {
+            format!("        - name: {name}\n          type: INT\n          range: \"{range}\"\n")
+        };
+        let space = "    parameterSpace:\n      taskParameterDefinitions:\n";
+        match tasks {
+            Tasks::One => {}
+            Tasks::Shards => {
+                let _ = write!(out, "{space}{}", parameter("Shard", format!("1-{}", self.shards)));
+            }
+            Tasks::Frames => {
+                let (from, through) = (self.ends(|run| *run.start()), self.ends(|run| *run.end()));
+                let (from, through) = (parameter("From", from), parameter("Through", through));
+                let _ = write!(out, "{space}{from}{through}      combination: \"(From, Through)\"\n");
+            }
+        }
+        let args =
+            "    script:\n      actions:\n        onRun:\n          command: \"{{Param.Nabiki}}\"\n          args:\n";
+        out.push_str(args);
+        for word in command {
+            let (Word::Plain(word) | Word::Filled(word)) = word;
+            let _ = writeln!(out, "            - {}", text(word));
+        }
+    }
+
+    /// One end of each run, as a range of the format: those but the last are evenly apart.
+    fn ends(&self, end: impl Fn(&std::ops::RangeInclusive<u32>) -> u32) -> String {
+        let ends: Vec<u32> = self.runs().map(|run| end(&run)).collect();
+        match ends.as_slice() {
+            [] => String::new(),
+            [one] => one.to_string(),
+            [one, other] => format!("{one},{other}"),
+            [first, .., before, last] => format!("{first}-{before}:{},{last}", self.frames_a_task),
+        }
+    }
+}
+
+fn about_of(parameter: &str) -> &'static str {
+    match parameter {
+        "Scene" => "The scene (TOML). The files that it names are looked for beside it.",
+        "Results" => "Folder for shards, motion, frames and movie; made if it is not there.",
+        _ => "The command nabiki on the machines that work.",
+    }
+}
+
+/// A default of a path parameter: from the template's folder and not out of it, as the format wants, or none.
+fn default_path(path: &Path, folder: &Path) -> Option<String> {
+    path.strip_prefix(folder).ok().map(|path| path.to_string_lossy().into_owned()).filter(|path| !path.is_empty())
+}
+
+/// A double-quoted scalar of YAML.
+fn text(text: &str) -> String {
+    let mut out = String::from('"');
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => out.extend(['\\', c]),
+            c if c.is_control() => {
+                let _ = write!(out, "\\u{:04x}", u32::from(c));
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quoted_text_is_one_line_of_yaml() {
+        assert_eq!(text("a \"b\" \\ \n \u{85}\u{98a8}"), "\"a \\\"b\\\" \\\\ \\u000a \\u0085\u{98a8}\"");
+    }
+
+    #[test]
+    fn a_default_path_stays_in_the_folder_of_the_template() {
+        let inside = |path: &str| default_path(path.as_ref(), "/jobs/a".as_ref());
+        assert_eq!(inside("/jobs/a/scenes/gust.toml").as_deref(), Some("scenes/gust.toml"));
+        assert_eq!(inside("/jobs/gust.toml"), None);
+        assert_eq!(inside("/jobs/a"), None);
+    }
+}

@@ -1,0 +1,136 @@
+//! A scene as a job for a render farm.
+
+use std::path::{Path, PathBuf};
+
+use nabiki_file::{PartFile, folder_of};
+use nabiki_render::Movie;
+
+use crate::built::Shown;
+use crate::error::{Error, Result};
+use crate::farm::{Engine, Plan};
+use crate::place;
+use crate::scene::Scene;
+use crate::told::Told;
+use crate::watch::Watch;
+
+/// Strands that a shard has at the most unless a number of shards is given.
+const STRANDS_A_SHARD: usize = 100_000;
+
+/// Strands by which a scene is tried before it becomes a job.
+const TRIED: usize = 300;
+
+/// Which job [`farm`] writes.
+#[derive(Clone, Debug)]
+pub struct FarmOptions {
+    /// The engine that will run it.
+    pub engine: Engine,
+    /// Into how many shards the strands are parted; as many as hold 100,000 each without it.
+    pub shards: Option<u32>,
+    /// Frames that one task draws.
+    pub frames_a_task: u32,
+    /// Strands of the scene's to show; all without it.
+    pub strands: Option<usize>,
+    /// Changes to the scene file that make it this scene, `motion.time_step=0.05`.
+    pub sets: Vec<String>,
+    /// The job: a template (.yaml) or a script (.sh).
+    pub output: PathBuf,
+    /// Folder for the results; beside the job, under the scene's name, without it.
+    pub results: Option<PathBuf>,
+}
+
+/// Writes the job that simulates a scene in shards, joins them, draws the frames and codes the movie. The scene is built
+/// with a few strands before, so that what can be refused is refused here and not on a hundred machines.
+///
+/// # Errors
+/// A scene that cannot be built or stepped, more shards than strands, a place that cannot be written.
+pub fn farm(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Result<()> {
+    let output = options.output.as_path();
+    let (ending, what) = match options.engine {
+        Engine::OpenJd => ("yaml", "a template of Open Job Description"),
+        Engine::Slurm => ("sh", "a script for Slurm"),
+    };
+    if !output.extension().is_some_and(|found| found == ending) {
+        return Err(Error::refused(format!("{}: {what} ends in .{ending}; choose another name", output.display())));
+    }
+    place::file(output)?;
+    place::not_inputs(&[output], &scene.inputs())?;
+    check_movie(&scene)?;
+    let plan = plan(scene, options, watch)?;
+    let text = match options.engine {
+        Engine::OpenJd => plan.template()?,
+        Engine::Slurm => plan.script(),
+    };
+    let write = || {
+        let mut file = PartFile::create(output)?;
+        std::io::Write::write_all(&mut file, text.as_bytes())?;
+        file.finish()
+    };
+    write().map_err(|e: std::io::Error| nabiki_io::Error::from(e).in_file(output))?;
+    let holds = format!(
+        "{} shards, {} frames in {} tasks, results into {}",
+        plan.shards,
+        plan.last + 1,
+        plan.runs().count(),
+        plan.results.display()
+    );
+    watch.told(Told::Wrote { file: output.to_owned(), holds: Some(holds) });
+    Ok(())
+}
+
+/// Refuses pictures that would be no movie in the end.
+fn check_movie(scene: &Scene) -> Result<()> {
+    if !scene.output.movie {
+        return Ok(());
+    }
+    if scene.picture.background.transparent {
+        let file = scene.file().display();
+        return Err(Error::refused(format!(
+            "{file}: picture.background.transparent = true: stills with alpha make no movie; give output.movie = false, or \
+             false"
+        )));
+    }
+    let rate = scene.picture.video.frame_rate.unwrap_or(scene.frame_rate());
+    Ok(Movie::check(&scene.picture, rate)?)
+}
+
+fn plan(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Result<Plan> {
+    let folder = from_root(folder_of(&options.output))?;
+    let name = scene.name();
+    let results = match &options.results {
+        Some(results) => from_root(results)?,
+        None => folder.join(&name),
+    };
+    let (last, movie, file) = (scene.motion.frames, scene.output.movie, from_root(scene.file())?);
+    let built = super::build(scene, Shown::AtMost(options.strands.unwrap_or(TRIED).min(TRIED)), watch)?;
+    // Refuses what cannot be stepped.
+    built.simulation()?;
+    let strands = Shown::of(options.strands.map_or(Shown::All, Shown::First), built.strands_of_scene)?;
+    let shards = options.shards.unwrap_or(strands.div_ceil(STRANDS_A_SHARD) as u32);
+    if shards as usize > strands {
+        let line =
+            format!("--shards {shards}: there are {strands} strands; part them into {strands} shards at the most");
+        return Err(Error::refused(line));
+    }
+    super::present(&built, watch);
+    Ok(Plan {
+        name,
+        scene: file,
+        folder,
+        results,
+        sets: options.sets.clone(),
+        strands: options.strands,
+        shards,
+        last,
+        frames_a_task: options.frames_a_task,
+        movie,
+    })
+}
+
+/// A path as every machine of a farm may take it.
+fn from_root(path: &Path) -> Result<PathBuf> {
+    let path = std::path::absolute(path).map_err(|e| nabiki_io::Error::from(e).in_file(path))?;
+    if path.to_str().is_none() {
+        return Err(Error::refused(format!("{}: is no text (UTF-8), and a job is; rename it", path.display())));
+    }
+    Ok(path)
+}

@@ -1,0 +1,175 @@
+//! Shards of a motion, put together into the cache that one machine would have written.
+
+use std::path::{Path, PathBuf};
+
+use nabiki_io::SceneId;
+use nabiki_io::cache::{Header, Piece, Reader, Shard, Writer};
+use nabiki_io::identity::StrandSum;
+
+use crate::error::{Error, Result};
+use crate::place;
+use crate::told::Told;
+use crate::watch::{Watch, each_frame};
+
+/// Writes, out of all shards of a motion in any order, the motion cache that [`simulate`](super::simulate()) writes of
+/// the whole, byte for byte.
+///
+/// # Errors
+/// Files that are not the shards of one motion; a missing one, with the command that makes it; a place that cannot be
+/// written; cancelled by `watch`.
+pub fn join(files: &[PathBuf], output: &Path, watch: &mut dyn Watch) -> Result<()> {
+    place::cache(output, files)?;
+    let mut pieces = sorted(files)?;
+    let header = whole(&pieces)?;
+    let frames = pieces[0].reader.frame_count();
+    let points = u64::from(header.starts.last().copied().unwrap_or_default());
+    place::room(output, frames * (28 + 12 * points), watch)?;
+    let strands = header.starts.len() - 1;
+    let mut writer = Writer::create(output, &header)?;
+    drop(header);
+    // The header of a cache holds fewer frames than that.
+    let last = u32::try_from(frames - 1).unwrap_or(u32::MAX);
+    each_frame(watch, "joining", 0..=last, |n| {
+        let mut head = None;
+        for OpenPiece { reader, .. } in &mut pieces {
+            let mut part = reader.header().strands();
+            let pose = reader.read(n.into(), &mut part)?;
+            match head {
+                None => writer.begin_frame(&pose)?,
+                Some(head) if head == pose => {}
+                Some(_) => {
+                    let file = reader.path().display();
+                    return Err(Error::refused(format!(
+                        "{file}: frame {n}: the head is elsewhere than in the first shard"
+                    )));
+                }
+            }
+            head = Some(pose);
+            writer.part(part.points())?;
+        }
+        Ok(())
+    })?;
+    writer.finish()?;
+    let holds = Some(format!("{frames} frames of {strands} strands, out of {} shards", pieces.len()));
+    watch.told(Told::Wrote { file: output.to_owned(), holds });
+    Ok(())
+}
+
+/// A shard's file.
+struct OpenPiece {
+    reader: Reader,
+    piece: Piece,
+}
+
+impl OpenPiece {
+    fn open(file: &Path) -> Result<Self> {
+        let reader = Reader::open(file)?;
+        let Some(piece) = reader.header().piece.clone() else {
+            let line = "a whole motion and no shard of one; nabiki simulate --shard K/N writes shards";
+            return Err(Error::refused(format!("{}: {line}", file.display())));
+        };
+        Ok(Self { reader, piece })
+    }
+
+    /// Why this is no shard of the motion that `first` is of.
+    fn differs_from(&self, first: &Self) -> Option<String> {
+        let (mine, other) = (&self.piece, &first.piece);
+        let (header, others) = (self.reader.header(), first.reader.header());
+        let (frames, others_frames) = (self.reader.frame_count(), first.reader.frame_count());
+        if mine.shard.of() != other.shard.of() {
+            Some(format!("is shard {}, and {} is shard {}", mine.shard, first.reader.path().display(), other.shard))
+        } else if mine.settings != other.settings || mine.groom != other.groom || mine.strands != other.strands {
+            Some("was made from another scene, with other settings, or by another version".to_owned())
+        } else if mine.reference != other.reference {
+            Some("was stepped by the other of the twins (--stepper)".to_owned())
+        } else if frames != others_frames || header.frame_rate != others.frame_rate {
+            let [mine, others] = [(frames, header), (others_frames, others)]
+                .map(|(frames, header)| format!("{frames} frames at {} a second", header.frame_rate));
+            Some(format!("holds {mine} and not {others}"))
+        } else {
+            None
+        }
+    }
+}
+
+/// All shards of one motion, in their order.
+fn sorted(files: &[PathBuf]) -> Result<Vec<OpenPiece>> {
+    let (there, missing): (Vec<&PathBuf>, Vec<&PathBuf>) = files.iter().partition(|file| file.exists());
+    let mut pieces = there.into_iter().map(|file| OpenPiece::open(file)).collect::<Result<Vec<_>>>()?;
+    let Some(first) = pieces.first() else {
+        let line = match missing.first() {
+            Some(file) => format!("{}: there is no such file, nor any other of the shards", file.display()),
+            None => "no shards are given: name all files that nabiki simulate --shard has written".to_owned(),
+        };
+        return Err(Error::refused(line));
+    };
+    for piece in &pieces[1..] {
+        if let Some(why) = piece.differs_from(first) {
+            return Err(Error::refused(format!(
+                "{}: {why}, unlike {}; give the shards of one motion, each made in the same way",
+                piece.reader.path().display(),
+                first.reader.path().display()
+            )));
+        }
+    }
+    pieces.sort_by_key(|piece| piece.piece.shard.number());
+    if let Some([a, b]) = pieces.windows(2).find(|pair| pair[0].piece.shard == pair[1].piece.shard) {
+        return Err(Error::refused(format!(
+            "{}: is shard {} as {} is; give each shard once",
+            b.reader.path().display(),
+            b.piece.shard,
+            a.reader.path().display()
+        )));
+    }
+    match first_missing(&pieces) {
+        Some(shard) => Err(missing_shard(&pieces[0], shard, &missing)),
+        None => match missing.first() {
+            Some(file) => Err(Error::refused(format!(
+                "{}: there is no such file, and all {} shards are given without it; leave it out",
+                file.display(),
+                pieces.len()
+            ))),
+            None => Ok(pieces),
+        },
+    }
+}
+
+/// The first number that no piece has.
+fn first_missing(pieces: &[OpenPiece]) -> Option<Shard> {
+    let of = pieces[0].piece.shard.of();
+    let have = |number: u32| pieces.binary_search_by_key(&number, |piece| piece.piece.shard.number()).is_ok();
+    (1..=of).find(|&number| !have(number)).and_then(|number| Shard::new(number, of).ok())
+}
+
+/// Names a shard that is missing, and the command that makes it. `files`: those given that are not there.
+fn missing_shard(first: &OpenPiece, shard: Shard, files: &[&PathBuf]) -> Error {
+    let named = format!("{}_of_{}.nabiki", shard.number(), shard.of());
+    let given = files.iter().find(|file| file.ends_with(&named)).or(files.first());
+    let file = given.map_or_else(|| first.reader.path().with_file_name(named), |file| (*file).clone());
+    let words = format!("{} --shard {shard} -o {}", first.piece.command, crate::shell::quoted(&file.to_string_lossy()));
+    Error::refused(format!("shard {shard} is missing: make it with {words}"))
+}
+
+/// The header of the whole.
+fn whole(pieces: &[OpenPiece]) -> Result<Header> {
+    let first = &pieces[0];
+    let mut header = Header { piece: None, ..first.reader.header().clone() };
+    let mut sum = first.piece.sum;
+    for OpenPiece { reader, piece } in &pieces[1..] {
+        let part = reader.header();
+        let refuse = |what: &str| {
+            Error::refused(format!("{}: {what}; make all shards again with the same scene", reader.path().display()))
+        };
+        let from = header.starts.last().copied().unwrap_or_default();
+        for &start in &part.starts[1..] {
+            let start = from.checked_add(start).ok_or_else(|| refuse("more than 2^32 points in all"))?;
+            header.starts.push(start);
+        }
+        if part.origin != header.origin || !header.attributes.append(part.attributes.clone()) {
+            return Err(refuse("carries other attributes than the shards before it"));
+        }
+        sum = StrandSum::and(sum, piece.sum);
+    }
+    header.scene = SceneId::of(first.piece.settings, sum);
+    Ok(header)
+}

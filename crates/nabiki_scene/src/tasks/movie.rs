@@ -1,0 +1,149 @@
+//! A movie of pictures that are drawn already, here or on many machines.
+
+use std::path::{Path, PathBuf};
+
+use nabiki_render::output::png;
+use nabiki_render::{Movie, Picture};
+
+use crate::error::{Error, Result};
+use crate::place;
+use crate::scene::Scene;
+use crate::told::Told;
+use crate::watch::{Watch, each_frame};
+
+/// What [`movie`] is made of.
+#[derive(Clone, Debug, Default)]
+pub struct MovieOptions {
+    /// Numbered PNG files: `0007.png`, `gust_0007.png`, or folders of them.
+    pub frames: Vec<PathBuf>,
+    /// The movie (.mp4).
+    pub output: PathBuf,
+    /// The scene that they show, which then says how many there are, the frame rate and the quality; without it they
+    /// begin anywhere and are 24 a second.
+    pub scene: Option<Scene>,
+}
+
+/// Codes numbered pictures, without a gap, as a movie. Of PNG files of 16 bits it is, to the bit, the movie that
+/// [`run`](super::run()) makes of the same frames.
+///
+/// # Errors
+/// Pictures that are missing, of different sizes, or transparent; a place that cannot be written; cancelled by `watch`.
+pub fn movie(options: &MovieOptions, watch: &mut dyn Watch) -> Result<()> {
+    let output = options.output.as_path();
+    if !output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mp4")) {
+        return Err(Error::refused(format!("{}: a movie ends in .mp4; choose another name", output.display())));
+    }
+    place::file(output)?;
+    let frames = numbered(&options.frames)?;
+    let files: Vec<PathBuf> = frames.iter().map(|(_, file)| file.clone()).collect();
+    place::not_inputs(&[output], &files)?;
+    whole(&frames, options)?;
+    let size = one_size(&files)?;
+    let (picture, frame_rate) = match &options.scene {
+        Some(scene) => {
+            let rate = scene.picture.video.frame_rate.unwrap_or(scene.frame_rate());
+            (Picture { size, ..scene.picture.clone() }, rate)
+        }
+        None => (Picture { size, ..Picture::default() }, Scene::default().frame_rate()),
+    };
+    let mut movie = Movie::create(output, &picture, frame_rate)?;
+    let last = u32::try_from(files.len() - 1).unwrap_or(u32::MAX);
+    each_frame(watch, "coding", 0..=last, |n| Ok(movie.push_still(&png::read(&files[n as usize])?)?))?;
+    movie.finish()?;
+    let holds = Some(format!("{} frames at {frame_rate} a second", files.len()));
+    watch.told(Told::Wrote { file: output.to_owned(), holds });
+    Ok(())
+}
+
+/// The pictures in the order of their numbers.
+fn numbered(given: &[PathBuf]) -> Result<Vec<(u32, PathBuf)>> {
+    let mut frames = Vec::new();
+    for path in given {
+        if path.is_dir() {
+            let unreadable = |e: std::io::Error| Error::from(nabiki_io::Error::from(e).in_file(path));
+            let before = frames.len();
+            for there in std::fs::read_dir(path).map_err(unreadable)? {
+                let file = there.map_err(unreadable)?.path();
+                frames.extend(number(&file).map(|number| (number, file)));
+            }
+            if frames.len() == before {
+                let line = "no numbered PNG files are in this folder, such as 0007.png; nabiki render --frames A..B writes them";
+                return Err(Error::refused(format!("{}: {line}", path.display())));
+            }
+        } else {
+            let Some(number) = number(path) else {
+                let line = "no PNG file with a number at the end of its name, such as 0007.png";
+                return Err(Error::refused(format!("{}: {line}", path.display())));
+            };
+            frames.push((number, path.clone()));
+        }
+    }
+    frames.sort();
+    if let Some([a, b]) = frames.windows(2).find(|pair| pair[0].0 == pair[1].0).and_then(|pair| pair.first_chunk()) {
+        let (b, a, n) = (b.1.display(), a.1.display(), a.0);
+        return Err(Error::refused(format!("{b}: is frame {n} as {a} is; give each frame once")));
+    }
+    Ok(frames)
+}
+
+/// The number at the end of a PNG file's name.
+fn number(file: &Path) -> Option<u32> {
+    file.extension().filter(|ending| ending.eq_ignore_ascii_case("png"))?;
+    let stem = file.file_stem()?.to_str()?;
+    stem[stem.trim_end_matches(|c: char| c.is_ascii_digit()).len()..].parse().ok()
+}
+
+/// Refuses a film in which frames are missing.
+fn whole(frames: &[(u32, PathBuf)], options: &MovieOptions) -> Result<()> {
+    let Some((first, _)) = frames.first() else {
+        return Err(Error::refused("no frames are given: name numbered PNG files, or a folder of them"));
+    };
+    let mut next = if options.scene.is_some() { 0 } else { *first };
+    let missing = |from: u32, through: u32| {
+        let scene = options.scene.as_ref().map_or("SCENE".to_owned(), |scene| scene.file().display().to_string());
+        let which =
+            if from == through { format!("frame {from} is") } else { format!("frames {from} to {through} are") };
+        let of = frames[0].1.parent().unwrap_or(Path::new("")).display();
+        Err(Error::refused(format!(
+            "{of}: {which} missing; draw with nabiki render {} --frames {from}..{through}",
+            crate::shell::quoted(&scene)
+        )))
+    };
+    for &(n, _) in frames {
+        if n > next {
+            return missing(next, n - 1);
+        }
+        next = n + 1;
+    }
+    let Some(scene) = &options.scene else { return Ok(()) };
+    let last = scene.motion.frames;
+    match frames.iter().find(|(n, _)| *n > last) {
+        Some((_, file)) => Err(Error::refused(format!(
+            "{}: the last frame of {} is motion.frames = {last}; leave it out, or say --frames",
+            file.display(),
+            scene.file().display()
+        ))),
+        None if next <= last => missing(next, last),
+        None => Ok(()),
+    }
+}
+
+/// The size of all pictures.
+fn one_size(files: &[PathBuf]) -> Result<[u32; 2]> {
+    let size = png::read_size(&files[0])?;
+    for file in &files[1..] {
+        let other = png::read_size(file)?;
+        if other != size {
+            return Err(Error::refused(format!(
+                "{}: {} x {} pixels and {} has {} x {}; draw all frames in one size",
+                file.display(),
+                other[0],
+                other[1],
+                files[0].display(),
+                size[0],
+                size[1]
+            )));
+        }
+    }
+    Ok(size)
+}
