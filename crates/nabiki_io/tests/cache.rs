@@ -102,3 +102,58 @@ fn a_cache_cut_short_says_how_many_frames_it_holds() {
     let error = Reader::from_bytes(&bytes[..bytes.len() - 1]).err().unwrap().to_string();
     assert!(error.contains("3 frames of 136 bytes from offset") && error.contains("(2 frames)"), "{error}");
 }
+
+// Frames of a turning head, whole and in parts of any size: the same file, which knows the box about all of them.
+#[test]
+fn frames_in_parts_are_frames_and_all_lie_in_the_bounds() {
+    let folder = tempfile::tempdir().unwrap();
+    let (whole, parts) = (folder.path().join("whole.nabiki"), folder.path().join("parts.nabiki"));
+    let header = samples::write_cache(&whole);
+    let hair = samples::whole(&[3, 2, 4]);
+    for size in [1, 2, 4, 9, 100] {
+        let mut writer = Writer::create(&parts, &header).unwrap();
+        for frame in 0..3 {
+            writer.begin_frame(&samples::pose(frame)).unwrap();
+            samples::frame_points(&hair, frame).chunks(size).for_each(|part| writer.part(part).unwrap());
+        }
+        assert_eq!(writer.finish().unwrap(), 3);
+        assert!(std::fs::read(&parts).unwrap() == std::fs::read(&whole).unwrap(), "{size}");
+    }
+    let [low, high] = Reader::open(&whole).unwrap().bounds().unwrap();
+    let turned = (0..3).flat_map(|frame| {
+        let points = samples::frame_points(&hair, frame);
+        points.into_iter().map(move |p| samples::pose(frame).rotation * p).collect::<Vec<_>>()
+    });
+    let (mut lowest, mut highest) = (glam::Vec3::INFINITY, glam::Vec3::NEG_INFINITY);
+    turned.for_each(|p| (lowest, highest) = (lowest.min(p), highest.max(p)));
+    assert_eq!((low, high), (lowest, highest));
+}
+
+#[test]
+fn a_frame_that_is_not_whole_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.nabiki");
+    let header = samples::write_cache(&path);
+    std::fs::remove_file(&path).unwrap();
+    let points = samples::frame_points(&samples::whole(&[3, 2, 4]), 0);
+    let writer = || {
+        let mut writer = Writer::create(&path, &header).unwrap();
+        writer.begin_frame(&samples::pose(0)).unwrap();
+        writer
+    };
+    let said = |refused: nabiki_io::Result<()>| refused.unwrap_err().to_string();
+    let mut short = writer();
+    short.part(&points[..8]).unwrap();
+    assert!(said(short.begin_frame(&samples::pose(1))).ends_with("frame 0: 8 points, the cache is of 9"));
+    assert!(said(short.finish().map(drop)).contains("no frames"));
+    let mut second = writer();
+    second.part(&points).unwrap();
+    second.begin_frame(&samples::pose(1)).unwrap();
+    second.part(&points[..5]).unwrap();
+    assert!(said(second.finish().map(drop)).ends_with("frame 1: 5 points, the cache is of 9"));
+    let mut long = writer();
+    long.part(&points[..8]).unwrap();
+    assert!(said(long.part(&points[..2])).ends_with("frame 0: 10 points, the cache is of 9"));
+    drop(long);
+    assert!(!path.exists());
+}
