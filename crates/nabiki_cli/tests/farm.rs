@@ -159,7 +159,7 @@ fn a_movie_of_8_bit_frames_differs_from_the_film_by_their_rounding_alone() {
     succeed(&folder, &format!("render {scene} --frames 0..2 --out parts"));
     succeed(
         &folder,
-        &format!("movie parts/gust_frames/0000.png parts/gust_frames/0002.png parts/gust_frames/0001.png -o parts.mp4"),
+        "movie parts/gust_frames/0000.png parts/gust_frames/0002.png parts/gust_frames/0001.png -o parts.mp4",
     );
     let [a, b] = ["parts.mp4", "whole/gust.mp4"].map(|name| bytes(&folder, name).len() as f64);
     assert!((a / b - 1.0).abs() < 0.1, "{a} and {b} bytes");

@@ -61,7 +61,7 @@ mod tests {
         }
         let (count, points) = (strands.len(), strands.points().len());
         let number = |i: usize| i as f32 * 0.1;
-        let other = |name: &str, per, values| Other::new(name, per, Role::None, 1, values);
+        let other = |name: &str, per, values| Other::new(name, per, Role::Plain, 1, values);
         let attributes = Attributes {
             id: Some((0..count as i64).map(|i| 7 * i).collect()),
             root_uv: Some((0..count).map(|i| [number(i), -number(i)]).collect()),

@@ -70,7 +70,7 @@ impl Plan {
             Tasks::Frames => {
                 let (from, through) = (self.ends(|run| *run.start()), self.ends(|run| *run.end()));
                 let (from, through) = (parameter("From", from), parameter("Through", through));
-                let _ = write!(out, "{space}{from}{through}      combination: \"(From, Through)\"\n");
+                let _ = writeln!(out, "{space}{from}{through}      combination: \"(From, Through)\"");
             }
         }
         let args =

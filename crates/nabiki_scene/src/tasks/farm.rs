@@ -49,7 +49,7 @@ pub fn farm(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Resul
         Engine::OpenJd => ("yaml", "a template of Open Job Description"),
         Engine::Slurm => ("sh", "a script for Slurm"),
     };
-    if !output.extension().is_some_and(|found| found == ending) {
+    if output.extension().is_none_or(|found| found != ending) {
         return Err(Error::refused(format!("{}: {what} ends in .{ending}; choose another name", output.display())));
     }
     place::file(output)?;
