@@ -2,6 +2,7 @@
 
     python3 tests/farm/check.py            builds, makes its own environment, checks
     python3 tests/farm/check.py --slurm    besides, submits a job to the Slurm of this machine and waits for it
+    python3 tests/farm/check.py --nabiki COMMAND    with a command that is built already
 
 openjd-cli comes from PyPI into target/farm. Jobs of Open Job Description are checked and run by it: all steps, then a task
 once more, as after a machine was lost. The tasks of a Slurm script are run as Slurm would run them, one after another;
@@ -32,6 +33,13 @@ JOBS = [
 
 def run(*command, **options):
     return subprocess.run([str(word) for word in command], check=True, cwd=ROOT, **options)
+
+
+def build(debug):
+    """The command, built now."""
+    run("cargo", "build", "--quiet", *([] if debug else ["--release"]), "-p", "nabiki_cli")
+    target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+    return target / ("debug" if debug else "release") / "nabiki"
 
 
 def environment():
@@ -90,17 +98,29 @@ def slurm(folder, job, nabiki):
     return killed
 
 
+def by_slurm(nabiki):
+    """A job of some seconds, so that a task can be caught while it writes."""
+    scene, folder = ROOT / "scenes" / "storm.toml", WORK / "by_slurm"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    changes = ["--set", "hair.strands=60000", "--set", "picture.size=[320,180]", "--frames", "60"]
+    run(nabiki, "run", scene, *changes, "--out", folder / "whole", "--quiet")
+    run(nabiki, "simulate", scene, *changes, "-o", folder / "whole" / "storm.nabiki", "--quiet")
+    job = folder / "job.sh"
+    run(nabiki, "farm", scene, *changes, "--shards", 5, "--frames-a-task", 8, "--engine", "slurm", "-o", job, "--quiet")
+    killed = slurm(folder / "storm", job, nabiki)
+    assert killed, "no task was caught while it wrote"
+    same(folder / "storm", folder / "whole", "storm")
+    print("slurm: the same bytes")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--slurm", action="store_true", help="submit to the Slurm of this machine, too")
+    parser.add_argument("--nabiki", type=Path, help="the command, built already")
     parser.add_argument("--debug", action="store_true", help="build without optimisation")
     arguments = parser.parse_args()
-    profile = [] if arguments.debug else ["--release"]
-    run("cargo", "build", "--quiet", *profile, "-p", "nabiki_cli")
-    nabiki = ROOT / "target" / ("debug" if arguments.debug else "release") / "nabiki"
-    target = os.environ.get("CARGO_TARGET_DIR")
-    if target:
-        nabiki = Path(target) / nabiki.relative_to(ROOT / "target")
+    nabiki = arguments.nabiki or build(arguments.debug)
     WORK.mkdir(parents=True, exist_ok=True)
     openjd = environment()
 
@@ -149,18 +169,7 @@ def main():
         print(f"{name}: {shards} shards, {len(drawing)} drawing tasks, by Open Job Description and as Slurm runs them: the same bytes")
 
     if arguments.slurm:
-        scene, folder = ROOT / "scenes" / "storm.toml", WORK / "by_slurm"
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir()
-        changes = ["--set", "hair.strands=60000", "--set", "picture.size=[320,180]", "--frames", "60"]
-        run(nabiki, "run", scene, *changes, "--out", folder / "whole", "--quiet")
-        run(nabiki, "simulate", scene, *changes, "-o", folder / "whole" / "storm.nabiki", "--quiet")
-        job = folder / "job.sh"
-        run(nabiki, "farm", scene, *changes, "--shards", 5, "--frames-a-task", 8, "--engine", "slurm", "-o", job, "--quiet")
-        killed = slurm(folder / "storm", job, nabiki)
-        assert killed, "no task was caught while it wrote"
-        same(folder / "storm", folder / "whole", "storm")
-        print("slurm: the same bytes")
+        by_slurm(nabiki)
     print("farm: all well")
 
 
