@@ -177,8 +177,7 @@ mod tests {
         let plan = plan(100, 10);
         let template = plan.template().unwrap();
         let script = plan.script();
-        for word in ["force.0.vector=[1, 2, 3]", "--strands", "shards/2_of_3.nabiki", "output.png_bits=16", "gust.mp4"]
-        {
+        for word in ["force.0.vector=[1, 2, 3]", "--strands", "shards/2_of_3.nabiki", "output.png_bits=16", ".mp4"] {
             assert!(template.contains(word) && script.contains(word), "{word}");
         }
         let silent = Plan { movie: false, ..plan };
