@@ -1,12 +1,10 @@
 //! The pictures of a scene, drawn one after another.
 
 use std::ops::RangeInclusive;
-use std::path::Path;
 
 use glam::{Quat, Vec3};
 use nabiki::Strands;
 use nabiki::dynamics::ForceSpace;
-use nabiki_render::output::png;
 use nabiki_render::{Bounds, Frame, FrameToDraw, Moment, Picture, Renderer, ToneMapping, View};
 
 use crate::built::BuiltScene;
@@ -84,11 +82,10 @@ impl<'a> Film<'a> {
         Ok(summary)
     }
 
-    /// Draws frame `n` alone, as a PNG at `path`.
-    pub fn still(&mut self, n: u32, frames: &mut dyn FrameSource, path: &Path) -> Result<()> {
+    /// Draws frame `n` alone.
+    pub fn still(&mut self, n: u32, frames: &mut dyn FrameSource) -> Result<Frame> {
         self.begin_at(n, frames)?;
-        let (frame, _) = self.draw(n, frames.frame(n)?)?;
-        Ok(png::write(path, &frame, &self.tone_mapping, png::Depth::Eight)?)
+        Ok(self.draw(n, frames.frame(n)?)?.0)
     }
 
     /// Draws the frames `wanted`, each into files of its own, as they are in the whole film.

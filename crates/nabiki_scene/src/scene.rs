@@ -37,7 +37,7 @@ use toml::{Table, Value};
 use toml_edit::DocumentMut;
 
 pub use error::{Problem, SceneError};
-pub use field::{FieldBound, FieldSettings};
+pub use field::{FieldBound, FieldSettings, OwnField};
 pub(crate) use field::{FieldParts, FieldPlace};
 pub use free::{BodySettings, FormChoice, FreeSettings, Gravity};
 pub use hair::{GrownHair, HairSettings, HairSource, ImportedHair};
@@ -198,6 +198,7 @@ impl Scene {
                 point: tables.point,
                 vortex: tables.vortex,
                 fan: tables.fan,
+                own: Vec::new(),
             },
             disturbance: tables.disturbance,
             picture: tables.picture,
@@ -283,8 +284,12 @@ impl Scene {
     /// were. A setting that is at its default and not in the text stays out of it.
     ///
     /// # Errors
-    /// A setting that TOML cannot hold: a whole number beyond 2^63, a path that is not text.
+    /// A setting that TOML cannot hold: a whole number beyond 2^63, a path that is not text, a field of a program's own.
     pub fn to_toml(&self) -> Result<String, SceneError> {
+        if !self.field.own.is_empty() {
+            let line = "a file cannot hold a field that a program gave: take it out of the scene before it is written";
+            return Err(self.origins.error("", Problem::Other(line.to_owned())));
+        }
         let unwritable = |Unwritable(why): Unwritable| self.origins.error("", Problem::Other(why));
         let held = Self::read(&self.text, self.file(), &[])?.tree().map_err(unwritable)?;
         let wanted = self.tree().map_err(unwritable)?;

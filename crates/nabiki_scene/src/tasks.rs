@@ -20,10 +20,10 @@ pub use join::join;
 pub use movie::{MovieOptions, movie};
 pub use new::{NewOptions, new};
 pub use preview::preview;
-pub use render::{Pictures, RenderOptions, render};
+pub use render::{Pictures, RenderOptions, draw, render};
 pub use run::run;
 pub use simulate::{ShardOptions, SimulateOptions, Twin, simulate};
-pub use solve::{SolveOptions, solve};
+pub use solve::{SolveOptions, find, solve};
 
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,7 @@
 //! The fast stepper: f32, blocks of sixteen strands, the widest vectors of the machine, all cores.
 
+use glam::Vec3;
+
 use super::runner::Runner;
 use super::{Dynamics, FrameInput, Stepper};
 use crate::error::SettingError;
@@ -70,6 +72,18 @@ impl Simulation {
     pub fn rewind(&mut self) {
         self.runner.rewind(self.width, self.strands.points_mut());
         self.frame = 0;
+    }
+
+    /// Advances by one step, to the frame of `input`, and writes the points into storage of the caller's, as
+    /// [`Strands::points`] orders them: for frames that are handed on without a copy. [`strands`](Stepper::strands) goes on
+    /// showing what it showed.
+    ///
+    /// # Panics
+    /// If there is not room for just these points.
+    pub fn step_frame_into(&mut self, input: &FrameInput, points: &mut [Vec3]) {
+        assert_eq!(points.len(), self.strands.points().len(), "a frame has room for every point");
+        self.runner.step(input, self.width, points);
+        self.frame = input.frame;
     }
 }
 

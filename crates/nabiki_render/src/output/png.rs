@@ -1,11 +1,11 @@
 //! PNG files: sRGB with straight alpha, of 8 or 16 bit.
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufReader, Write};
 use std::path::Path;
 
 use image::codecs::png::{CompressionType, FilterType, PngDecoder, PngEncoder};
-use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder};
+use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, ImageResult};
 
 use super::write_whole;
 use crate::RenderError;
@@ -85,6 +85,18 @@ pub fn write(path: &Path, frame: &Frame, tone_mapping: &ToneMapping, depth: Dept
     }
 }
 
+/// A frame as the bytes of a PNG file of 8 bit, as [`write`] writes them.
+pub fn bytes(frame: &Frame, tone_mapping: &ToneMapping) -> Result<Vec<u8>, RenderError> {
+    let rgba = tone_mapping.rgba8(frame);
+    let mut file = Vec::new();
+    let written = match frame.rgba.iter().all(|p| p[3] >= 1.0) {
+        true => into(&mut file, frame.size, &without_alpha(&rgba), ExtendedColorType::Rgb8),
+        false => into(&mut file, frame.size, &rgba, ExtendedColorType::Rgba8),
+    };
+    written.map_err(|e| RenderError::Geometry(e.to_string()))?;
+    Ok(file)
+}
+
 /// Writes 8 bit sRGB pixels, three bytes each, as a PNG file.
 pub fn write_rgb8(path: &Path, size: [u32; 2], rgb: &[u8]) -> Result<(), RenderError> {
     encode(path, size, rgb, ExtendedColorType::Rgb8)
@@ -95,9 +107,10 @@ fn without_alpha<T: Copy>(rgba: &[T]) -> Vec<T> {
 }
 
 fn encode(path: &Path, size: [u32; 2], bytes: &[u8], colour: ExtendedColorType) -> Result<(), RenderError> {
-    write_whole(path, |file| {
-        PngEncoder::new_with_quality(file, CompressionType::Default, FilterType::Adaptive)
-            .write_image(bytes, size[0], size[1], colour)
-            .map_err(Into::into)
-    })
+    write_whole(path, |file| into(file, size, bytes, colour).map_err(Into::into))
+}
+
+fn into(file: impl Write, size: [u32; 2], bytes: &[u8], colour: ExtendedColorType) -> ImageResult<()> {
+    let encoder = PngEncoder::new_with_quality(file, CompressionType::Default, FilterType::Adaptive);
+    encoder.write_image(bytes, size[0], size[1], colour)
 }

@@ -8,7 +8,7 @@ use nabiki_io::cache::Piece;
 use nabiki_io::identity::{Digest, SceneId, StrandSum};
 
 use super::{BuiltScene, ShardOf};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::scene::HairSource;
 
 impl BuiltScene {
@@ -16,7 +16,7 @@ impl BuiltScene {
     /// scenes spelled differently that mean the same have the same.
     ///
     /// # Errors
-    /// A file of the head's motion that can no longer be read.
+    /// A file of the head's motion that can no longer be read; a field of a program's own, which nothing tells from another.
     pub fn identity(&self) -> Result<SceneId> {
         Ok(SceneId::of(self.settings_identity()?, self.strand_sum()))
     }
@@ -55,6 +55,12 @@ impl BuiltScene {
 
     /// What moves the strands, whichever they are.
     fn settings_identity(&self) -> Result<SceneId> {
+        if !self.scene.field.own.is_empty() {
+            return Err(Error::refused(
+                "a motion cache cannot tell which field a program gave the scene: export to .usdc, .usda or .abc, or take \
+                 the field out",
+            ));
+        }
         let mut digest = Digest::new();
         // The rate counts where it says which poses the head has, which are taken in below.
         let motion = Motion { frames: 1, frame_rate: 24.0, ..self.dynamics.motion.clone() };

@@ -130,7 +130,7 @@ impl fmt::Display for SceneInfo {
 
 /// The fields beside `[[force]]`, each by its table.
 fn in_words(field: &FieldSettings) -> Vec<(String, String)> {
-    let FieldSettings { force: _, wind: _, gust, body_wind, flow, turbulence, point, vortex, fan } = field;
+    let FieldSettings { force: _, wind: _, gust, body_wind, flow, turbulence, point, vortex, fan, own } = field;
     let mut words = Vec::new();
     let mut say = |name: String, text: String| words.push((name, text));
     if let Some(gust) = gust {
@@ -167,6 +167,9 @@ fn in_words(field: &FieldSettings) -> Vec<(String, String)> {
             Short(2.0 * fan.spread)
         );
         say(format!("fan[{i}]"), text);
+    }
+    for i in 0..own.len() {
+        say(format!("own[{i}]"), "a field that a program gave".to_owned());
     }
     words
 }

@@ -38,6 +38,19 @@ pub struct FieldSettings {
     pub vortex: Vec<Vortex>,
     /// Winds in a cone. `[[fan]]`
     pub fan: Vec<Fan>,
+    /// Fields that a program adds to those of the file, which cannot hold them.
+    #[serde(skip)]
+    pub own: Vec<OwnField>,
+}
+
+/// A field that a program gives a scene. It is equal to itself and to no other.
+#[derive(Clone, Debug)]
+pub struct OwnField(pub Arc<dyn Field>);
+
+impl PartialEq for OwnField {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
 }
 
 /// What fields are about.
@@ -84,9 +97,9 @@ impl FieldSettings {
 
     /// Whether it is the paper's, of `[[force]]` alone, stepped.
     pub fn is_the_papers(&self) -> bool {
-        let Self { force, wind, gust, body_wind, flow, turbulence, point, vortex, fan } = self;
+        let Self { force, wind, gust, body_wind, flow, turbulence, point, vortex, fan, own } = self;
         let alone = gust.is_none() && body_wind.is_none() && flow.is_none() && turbulence.is_none();
-        let local = point.is_empty() && vortex.is_empty() && fan.is_empty();
+        let local = point.is_empty() && vortex.is_empty() && fan.is_empty() && own.is_empty();
         !force.is_empty() && wind.ease == Ease::Stepped && alone && local
     }
 
@@ -96,8 +109,8 @@ impl FieldSettings {
     /// # Errors
     /// Names the first such setting.
     pub fn check(&self, head_moves: bool, may_be_none: bool) -> Result<(), SettingError> {
-        let Self { force, wind, gust, body_wind, flow, turbulence, point, vortex, fan } = self;
-        let local = point.len() + vortex.len() + fan.len();
+        let Self { force, wind, gust, body_wind, flow, turbulence, point, vortex, fan, own } = self;
+        let local = point.len() + vortex.len() + fan.len() + own.len();
         let none = force.is_empty() && body_wind.is_none() && turbulence.is_none() && local == 0;
         if none && !may_be_none {
             let remedy = "give at least one [[force]] with through and vector, or another field";
@@ -213,12 +226,15 @@ impl FieldSettings {
             let name = format!("fan[{i}]");
             local(name.clone(), Arc::new(FanField::new(settings, &name)?));
         }
+        for (i, OwnField(field)) in self.own.iter().enumerate() {
+            local(format!("own[{i}]"), field.clone());
+        }
         Ok(FieldParts { field: sum(parts), wind, bounds })
     }
 
     /// The tables, to be written.
     pub(super) fn tables(&self) -> Result<Table, Unwritable> {
-        let Self { force, wind, gust, body_wind, flow, turbulence, point, vortex, fan } = self;
+        let Self { force, wind, gust, body_wind, flow, turbulence, point, vortex, fan, own: _ } = self;
         let mut tree = Table::new();
         tree.insert("force".to_owned(), list(force)?);
         tree.insert("wind".to_owned(), table_of(wind)?.into());

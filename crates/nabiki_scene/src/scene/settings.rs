@@ -29,7 +29,10 @@ impl Scene {
         let mut tree = self.settings()?;
         tree::put(&mut tree, key, value).map_err(|what| self.origins.error(key, Problem::Other(what)))?;
         match Self::of_tree(tree) {
-            Ok(scene) => Ok(Self { text: self.text.clone(), origins: self.origins.clone(), ..scene }),
+            Ok(mut scene) => {
+                scene.field.own.clone_from(&self.field.own);
+                Ok(Self { text: self.text.clone(), origins: self.origins.clone(), ..scene })
+            }
             Err(refusal) => {
                 let (key, problem) = refusal.into_parts();
                 Err(self.origins.error(&key, problem))

@@ -2,6 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use nabiki_render::output::png;
+use nabiki_render::{Frame, ToneMapping};
+
 use crate::built::{BuiltScene, Shown};
 use crate::error::{Error, Result};
 use crate::film::Film;
@@ -81,7 +84,8 @@ pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path
             place::free(&path, outputs::WAY_OUT)?;
             place::not_inputs(&[&path], &inputs)?;
             let mut film = Film::new(&built, &scene.picture, source(&built, options)?.as_mut(), watch)?;
-            film.still(frame, source(&built, options)?.as_mut(), &path)?;
+            let drawn = film.still(frame, source(&built, options)?.as_mut())?;
+            png::write(&path, &drawn, &ToneMapping::new(&scene.picture), png::Depth::Eight)?;
             vec![path]
         }
         Pictures::Run(from, through) => {
@@ -96,6 +100,20 @@ pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path
     };
     super::wrote(written, watch);
     Ok(())
+}
+
+/// Draws one frame of a scene that is built, as light. [`ToneMapping`] brings it into the range of a screen.
+///
+/// # Errors
+/// As [`render`].
+pub fn draw(built: &BuiltScene, frame: u32, watch: &mut dyn Watch) -> Result<Frame> {
+    let last = built.frames();
+    if frame > last {
+        return Err(Error::refused(format!("frame {frame}: the last frame is motion.frames = {last}")));
+    }
+    let frames = Simulated::new(built)?;
+    let mut film = Film::new(built, &built.scene.picture, &mut frames.again(), watch)?;
+    film.still(frame, &mut frames.again())
 }
 
 fn source<'a>(built: &'a BuiltScene, options: &RenderOptions) -> Result<Box<dyn FrameSource + 'a>> {

@@ -31,16 +31,29 @@ pub struct SolveOptions {
 /// # Errors
 /// A scene that cannot be built or stepped, wishes that cannot be about it, a place that cannot be written; cancelled by
 /// `watch`.
-pub fn solve(mut scene: Scene, options: &SolveOptions, watch: &mut dyn Watch) -> Result<()> {
+pub fn solve(scene: Scene, options: &SolveOptions, watch: &mut dyn Watch) -> Result<()> {
     let file = WishFile::load(&options.wishes)?;
     let mut inputs = scene.inputs();
     inputs.push(options.wishes.clone());
     check_place(&options.output, &inputs, &scene)?;
+    let (mut scene, solved) = find(scene, &file, options.strands, watch)?;
+    scene.save(&options.output)?;
+    watch.told(Told::Solved(Box::new(solved)));
+    super::wrote(vec![options.output.clone()], watch);
+    Ok(())
+}
+
+/// The same without a file: the scene with the settings that were found, and how near they come. `strands`: among which
+/// locks are looked for; more where wishes name others.
+///
+/// # Errors
+/// As [`solve`], but for places.
+pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn Watch) -> Result<(Scene, Solved)> {
     let wishes = &file.wishes;
     let in_file = |refused: SettingError| Error::from(file.refusal(refused));
     let (force, unknowns) = wishes.unknowns.of(&scene.field.force, scene.motion.frames).map_err(in_file)?;
     scene.field.force = force;
-    let shown = shown(&file, options.strands, &scene)?;
+    let shown = shown(file, strands, &scene)?;
     let mut built = super::build(scene, shown, watch)?;
     super::present(&built, watch);
     let named = file.about(&built)?;
@@ -67,10 +80,7 @@ pub fn solve(mut scene: Scene, options: &SolveOptions, watch: &mut dyn Watch) ->
     }
     let seconds = begun.elapsed().as_secs_f64();
     built.scene.accept(&report.answer);
-    built.scene.save(&options.output)?;
-    watch.told(Told::Solved(Box::new(Solved { report, names, unknowns, strands: strands.len(), seconds })));
-    super::wrote(vec![options.output.clone()], watch);
-    Ok(())
+    Ok((built.scene, Solved { report, names, unknowns, strands: strands.len(), seconds }))
 }
 
 /// Refuses a place that cannot be written, or from which the files that the scene names are not found.
