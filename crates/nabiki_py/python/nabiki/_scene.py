@@ -1,0 +1,90 @@
+"""The scene, with its settings as attributes."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
+
+from ._nabiki import Field, Solution
+from .settings import SceneSettings
+from .settings._table import Arrays, File, Numbers
+
+Force = tuple[int, Numbers]
+
+
+class Scene(SceneSettings):
+    """Everything that decides a movie: read by `Scene.open`, or put together here.
+
+    `head`: a mesh file, (points, faces), or settings of the head. `hair`: a hair file, (points, offsets), or settings of the
+    hair; without it hair is grown. All else is a table of settings by its name: `motion={"frames": 50}`.
+
+    Each table of a scene file is an attribute, and each of its settings an attribute of that: `scene.motion.frames = 50`. A
+    table that the scene does not have is made by setting one of its keys, and taken out by None: `scene.gust = None`.
+    """
+
+    def __init__(
+        self,
+        head: File | Arrays | Mapping[str, Any] | None = None,
+        hair: File | Arrays | Mapping[str, Any] | None = None,
+        *,
+        forces: Iterable[Force] | None = None,
+        bodies: Iterable[File | Arrays | Mapping[str, Any]] | None = None,
+        fields: Sequence[Field] | None = None,
+        **settings: Any,
+    ) -> None:
+        if head is not None:
+            self["head"] = head if isinstance(head, Mapping) else {"mesh": head}
+        if hair is not None:
+            self["hair"] = hair if isinstance(hair, Mapping) else {"file": hair}
+        for name, value in settings.items():
+            self[name] = value
+        if forces is not None:
+            self.forces = forces
+        if bodies is not None:
+            self.bodies = bodies
+        if fields is not None:
+            self.fields = list(fields)
+
+    @property
+    def forces(self) -> list[tuple[int, tuple[float, float, float]]]:
+        """The intervals of `[[force]]`: the last frame of each, and the vector that pulls through it."""
+        return [(force.through, force.vector) for force in self.force]
+
+    @forces.setter
+    def forces(self, forces: Iterable[Force]) -> None:
+        self["force"] = [{"through": through, "vector": vector} for through, vector in forces]
+
+    @property
+    def bodies(self) -> list[dict[str, Any]]:
+        """What else hair does not enter, in the free form: a list of settings of bodies, mesh files or (points, faces)."""
+        return self.body.to_list()
+
+    @bodies.setter
+    def bodies(self, bodies: Iterable[File | Arrays | Mapping[str, Any]]) -> None:
+        self["body"] = [body if isinstance(body, Mapping) else {"mesh": body} for body in bodies]
+
+    def solve(
+        self,
+        wishes: File | Iterable[Mapping[str, Any]],
+        *,
+        nails: Iterable[Mapping[str, Any]] = (),
+        unknowns: Mapping[str, Any] | None = None,
+        space: str = "world",
+        prior: Mapping[str, Any] | None = None,
+        search: Mapping[str, Any] | None = None,
+        strands: int = 300,
+        report: Callable[[str], object] | None = None,
+    ) -> Solution:
+        """Finds the wind that makes the hair do what is wished for. This scene stays; the answer has one of its own.
+
+        `wishes`: a wish file, or what is in its `[[wish]]` tables; `nails`, `unknowns`, `space`, `prior` and `search` as
+        there. Without `unknowns` the vectors of all intervals may change. `strands`: among which locks near a point are
+        looked for.
+        """
+        if isinstance(wishes, (str, os.PathLike)):
+            return self._solve_file(wishes, strands=strands, report=report)
+        problem: dict[str, Any] = {"space": space, "wish": list(wishes), "nail": list(nails)}
+        problem["unknowns"] = unknowns if unknowns is not None else {"vectors": list(range(len(self.force)))}
+        problem |= {name: value for name, value in [("prior", prior), ("search", search)] if value is not None}
+        return self._solve(problem, strands=strands, report=report)

@@ -1,0 +1,400 @@
+"""How hair answers: `scene.motion`, `scene.free`, ... Written by generate.py from the doc comments of the Rust structs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Literal
+
+from ._table import Arrays, File, Numbers, Table, Tables
+
+__all__ = ["Contact", "Disturbance", "FreeSettings", "Motion", "NeighbourForces", "PseudoForce", "Tie"]
+
+
+class Motion(Table):
+    """The settings of the motion; the default is Table 1 of the paper."""
+
+    __slots__ = ()
+
+    @property
+    def frames(self) -> int:
+        """Frames after the rest frame 0 (N_f)."""
+        value: int = self._get('frames')
+        return value
+
+    @frames.setter
+    def frames(self, value: int | None) -> None:
+        self._set('frames', value)
+
+    @property
+    def frame_rate(self) -> float:
+        """Frames in a second, finite and above 0. The steppers count frames and never see it: it says where a recorded
+        head is in each of them, and how fast the frames are shown.
+        """
+        value: float = self._get('frame_rate')
+        return value
+
+    @frame_rate.setter
+    def frame_rate(self, value: float | None) -> None:
+        self._set('frame_rate', value)
+
+    @property
+    def time_step(self) -> float:
+        """Delta t of equation (7), above 0 (its unit is the step's own: a frame is one step)."""
+        value: float = self._get('time_step')
+        return value
+
+    @time_step.setter
+    def time_step(self, value: float | None) -> None:
+        self._set('time_step', value)
+
+    @property
+    def linear_density(self) -> float:
+        """lambda of equation (6), above 0 (mass per cm, in the units of the force)."""
+        value: float = self._get('linear_density')
+        return value
+
+    @linear_density.setter
+    def linear_density(self, value: float | None) -> None:
+        self._set('linear_density', value)
+
+    @property
+    def inertia_length_floor(self) -> float:
+        """Hair shorter than this (cm) has the inertia of hair this long: it is held by its longer neighbours. 0, the
+        paper's way, gives every strand the inertia of its own length, and short hair very fast swings.
+        """
+        value: float = self._get('inertia_length_floor')
+        return value
+
+    @inertia_length_floor.setter
+    def inertia_length_floor(self, value: float | None) -> None:
+        self._set('inertia_length_floor', value)
+
+    @property
+    def straighten(self) -> float:
+        """Segments that hang within this of the vertical at rest are made to hang exactly so (degrees, 0..45), and are
+        then free to swing in the plane of any force (section 4.2). A segment nearly vertical is not: it keeps the
+        plane of its small lean, and hair that leans this way and that is blown apart. 0, the paper's way, leaves the
+        hair as it is. It belongs to the making of the rest shape, see `straightened`; steppers take hair as it is.
+        """
+        value: float = self._get('straighten')
+        return value
+
+    @straighten.setter
+    def straighten(self, value: float | None) -> None:
+        self._set('straighten', value)
+
+    @property
+    def force_space(self) -> Literal["world", "head"]:
+        """Space of the forces; it matters where the head turns."""
+        value: Literal["world", "head"] = self._get('force_space')
+        return value
+
+    @force_space.setter
+    def force_space(self, value: Literal["world", "head"] | None) -> None:
+        self._set('force_space', value)
+
+    @property
+    def form(self) -> Literal["paper", "free"]:
+        """`motion.form`: the equations that hair moves by."""
+        value: Literal["paper", "free"] = self._get('form')
+        return value
+
+    @form.setter
+    def form(self, value: Literal["paper", "free"] | None) -> None:
+        self._set('form', value)
+
+
+class FreeSettings(Table):
+    """`[free]`: what holds hair in shape and calms it. Without effect on the paper's form."""
+
+    __slots__ = ()
+
+    @property
+    def stiffness(self) -> float | tuple[float, ...]:
+        """K: the moment with which a joint turns its two segments toward one another's rest shape; one number, or a list
+        from root to tip (default [12000, 1000]).
+        """
+        value: float | tuple[float, ...] = self._get('stiffness')
+        return value
+
+    @stiffness.setter
+    def stiffness(self, value: float | Numbers | None) -> None:
+        self._set('stiffness', value)
+
+    @property
+    def hold(self) -> float | tuple[float, ...]:
+        """H: what turns a segment toward its rest direction in the head's frame; one number, or a list (default 30)."""
+        value: float | tuple[float, ...] = self._get('hold')
+        return value
+
+    @hold.setter
+    def hold(self, value: float | Numbers | None) -> None:
+        self._set('hold', value)
+
+    @property
+    def settle(self) -> float | tuple[float, ...]:
+        """Frames in which a swing dies to 1/e, 0: never; one number, or a list (default 20)."""
+        value: float | tuple[float, ...] = self._get('settle')
+        return value
+
+    @settle.setter
+    def settle(self, value: float | Numbers | None) -> None:
+        self._set('settle', value)
+
+    @property
+    def gravity(self) -> float | str:
+        """The weight of hair that has been moved: a strength, or "earth" for that of the earth at `motion.frame_rate`
+        (default 100).
+        """
+        value: float | str = self._get('gravity')
+        return value
+
+    @gravity.setter
+    def gravity(self, value: float | str | None) -> None:
+        self._set('gravity', value)
+
+    @property
+    def lag(self) -> float:
+        """The share of the head's turn that hair follows at once is (1 - m/L)^lag (default 1)."""
+        value: float = self._get('lag')
+        return value
+
+    @lag.setter
+    def lag(self, value: float | None) -> None:
+        self._set('lag', value)
+
+    @property
+    def pseudo_force(self) -> bool:
+        """Whether `[pseudo_force]` weakens the field before the head, as in the paper's form (default false)."""
+        value: bool = self._get('pseudo_force')
+        return value
+
+    @pseudo_force.setter
+    def pseudo_force(self, value: bool | None) -> None:
+        self._set('pseudo_force', value)
+
+    @property
+    def tie(self) -> Tie:
+        """Hair that passes `at` (head space, cm) at rest as near as `within` (cm) is tied there, and does not move
+        before it; none if left out.
+        """
+        return Tie(self._scene, self._key_of('tie'))
+
+    @tie.setter
+    def tie(self, value: Tie | Mapping[str, Any] | None) -> None:
+        self._set('tie', value)
+
+
+class Tie(Table):
+    """A band that ties hair: a strand that passes it at rest does not move before it, but goes with the head, and moves
+    behind it as one that is rooted there. Its segments up to the node nearest to the band have no gain, as points of
+    no inverse mass have, and lengths, gains and what varies along a strand count from there.
+    """
+
+    __slots__ = ()
+
+    @property
+    def at(self) -> tuple[float, float, float]:
+        """Its middle (head space, cm)."""
+        value: tuple[float, float, float] = self._get('at')
+        return value
+
+    @at.setter
+    def at(self, value: Numbers | None) -> None:
+        self._set('at', value)
+
+    @property
+    def within(self) -> float:
+        """How near a strand passes that is tied (cm), above 0."""
+        value: float = self._get('within')
+        return value
+
+    @within.setter
+    def within(self, value: float | None) -> None:
+        self._set('within', value)
+
+
+class Contact(Table):
+    """How hair and a body touch."""
+
+    __slots__ = ()
+
+    @property
+    def margin(self) -> float:
+        """How far from the skin nodes are kept (cm), 0..=5. A node that lies closer at rest is kept where it lies."""
+        value: float = self._get('margin')
+        return value
+
+    @margin.setter
+    def margin(self, value: float | None) -> None:
+        self._set('margin', value)
+
+    @property
+    def friction(self) -> float:
+        """The part of the push that sliding hair loses of its speed along the skin (Coulomb), 0..=10."""
+        value: float = self._get('friction')
+        return value
+
+    @friction.setter
+    def friction(self, value: float | None) -> None:
+        self._set('friction', value)
+
+    @property
+    def static_friction(self) -> float:
+        """The same for hair that does not slide: it stays as long as what would move it is below this part of the push.
+        At least `friction`.
+        """
+        value: float = self._get('static_friction')
+        return value
+
+    @static_friction.setter
+    def static_friction(self, value: float | None) -> None:
+        self._set('static_friction', value)
+
+
+class NeighbourForces(Table):
+    """Hair against hair: forces from a grid that a few strands, the carriers, fill as they move.
+
+    Carriers move first and write density and mean velocity; every strand, carriers too, reads what they left in the
+    frame before. So a strand depends on itself and on the carriers only, and any subset of the hair moves as within
+    the whole.
+    """
+
+    __slots__ = ()
+
+    @property
+    def carriers(self) -> int:
+        """How many strands are carriers: the first so many of the farthest-first order, 1..=4096."""
+        value: int = self._get('carriers')
+        return value
+
+    @carriers.setter
+    def carriers(self, value: int | None) -> None:
+        self._set('carriers', value)
+
+    @property
+    def pressure(self) -> float:
+        """Strength of what pushes hair out of places fuller than at rest, at least 0, in the unit of F where the density
+        falls by that of the hair at rest over one cell.
+        """
+        value: float = self._get('pressure')
+        return value
+
+    @pressure.setter
+    def pressure(self, value: float | None) -> None:
+        self._set('pressure', value)
+
+    @property
+    def cohesion(self) -> float:
+        """Strength of what pulls a node toward the mean velocity about it, at least 0, in the unit of F for each cm a
+        frame.
+        """
+        value: float = self._get('cohesion')
+        return value
+
+    @cohesion.setter
+    def cohesion(self, value: float | None) -> None:
+        self._set('cohesion', value)
+
+    @property
+    def cell(self) -> float:
+        """Edge of a cell of the grid (cm), 0.5..=20."""
+        value: float = self._get('cell')
+        return value
+
+    @cell.setter
+    def cell(self, value: float | None) -> None:
+        self._set('cell', value)
+
+
+class PseudoForce(Table):
+    """The settings of the pseudo-force; the default is Table 1 of the paper."""
+
+    __slots__ = ()
+
+    @property
+    def alpha(self) -> float:
+        """alpha of equation (4), the cosine that bounds Gamma, -1..1: at 1 all of the shell, at -1 only the line against
+        the wind.
+        """
+        value: float = self._get('alpha')
+        return value
+
+    @alpha.setter
+    def alpha(self, value: float | None) -> None:
+        self._set('alpha', value)
+
+    @property
+    def coefficients(self) -> tuple[float, ...]:
+        """eps_i for the segments i = 1, 2, ...; the last one goes on to the tip. Each above 0 and at most 1. Where
+        segments are not `hair.segment_length` long, i is the distance along the strand counted in it.
+        """
+        value: tuple[float, ...] = self._get('coefficients')
+        return value
+
+    @coefficients.setter
+    def coefficients(self, value: Sequence[float] | None) -> None:
+        self._set('coefficients', value)
+
+
+class Disturbance(Table):
+    """Turns every strand a little, at random, every so many frames.
+
+    The paper names neither its size nor its law. Here a strand is given one random turn of theta and one of phi,
+    uniform within `amplitude` at the tip and falling to nothing at the root, so that it stays a smooth curve; the
+    segments' speeds are left alone. The numbers depend on seed, strand and frame only.
+    """
+
+    __slots__ = ()
+
+    @property
+    def every(self) -> int:
+        """Frames from one disturbance to the next (at least 1). The paper: 10; every frame would be too much."""
+        value: int = self._get('every')
+        return value
+
+    @every.setter
+    def every(self, value: int | None) -> None:
+        self._set('every', value)
+
+    @property
+    def from_(self) -> int:
+        """First frame that may be disturbed (frames). The paper disturbs the last 60 of 100."""
+        value: int = self._get('from')
+        return value
+
+    @from_.setter
+    def from_(self, value: int | None) -> None:
+        self._set('from', value)
+
+    @property
+    def amplitude(self) -> float:
+        """Largest turn at the tip (rad, above 0 and at most pi)."""
+        value: float = self._get('amplitude')
+        return value
+
+    @amplitude.setter
+    def amplitude(self, value: float | None) -> None:
+        self._set('amplitude', value)
+
+    @property
+    def over(self) -> int:
+        """Frames in which a disturbance sets in, 1..=`every`. At 1, the paper's way, it is there at once, and seen as a
+        jump; over more frames it comes and stays smoothly, and is the same in the end.
+        """
+        value: int = self._get('over')
+        return value
+
+    @over.setter
+    def over(self, value: int | None) -> None:
+        self._set('over', value)
+
+    @property
+    def seed(self) -> int:
+        """Seed of the random numbers."""
+        value: int = self._get('seed')
+        return value
+
+    @seed.setter
+    def seed(self, value: int | None) -> None:
+        self._set('seed', value)

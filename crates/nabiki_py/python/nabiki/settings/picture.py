@@ -1,0 +1,703 @@
+"""What is drawn: `scene.picture`, `scene.output`. Written by generate.py from the doc comments of the Rust structs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Literal
+
+from ._table import Arrays, File, Numbers, Table, Tables
+
+__all__ = ["Camera", "CameraKey", "HairLook", "HeadLook", "Light", "Output", "Picture", "Sky", "Video"]
+
+
+class Picture(Table):
+    """The scene's `[picture]` table."""
+
+    __slots__ = ()
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height (pixels). Default 960 x 540."""
+        value: tuple[int, int] = self._get('size')
+        return value
+
+    @size.setter
+    def size(self, value: Numbers | None) -> None:
+        self._set('size', value)
+
+    @property
+    def antialiasing(self) -> Literal["coverage", "oversample"]:
+        """`"coverage"` (default) or `"oversample"`."""
+        value: Literal["coverage", "oversample"] = self._get('antialiasing')
+        return value
+
+    @antialiasing.setter
+    def antialiasing(self, value: Literal["coverage", "oversample"] | None) -> None:
+        self._set('antialiasing', value)
+
+    @property
+    def samples(self) -> int:
+        """Points along each side of a pixel when oversampling, 1..32. Default 4."""
+        value: int = self._get('samples')
+        return value
+
+    @samples.setter
+    def samples(self, value: int | None) -> None:
+        self._set('samples', value)
+
+    @property
+    def camera(self) -> Camera:
+        """Where the picture is taken from."""
+        return Camera(self._scene, self._key_of('camera'))
+
+    @camera.setter
+    def camera(self, value: Camera | Mapping[str, Any] | None) -> None:
+        self._set('camera', value)
+
+    @property
+    def hair(self) -> HairLook:
+        """Width, colour and shading of the hair."""
+        return HairLook(self._scene, self._key_of('hair'))
+
+    @hair.setter
+    def hair(self, value: HairLook | Mapping[str, Any] | None) -> None:
+        self._set('hair', value)
+
+    @property
+    def lights(self) -> Tables[Light]:
+        """The lamps: an array of tables, `[[picture.lights]]`. Default: key, fill and rim."""
+        return Tables(self._scene, self._key_of('lights'), Light)
+
+    @lights.setter
+    def lights(self, value: Iterable[Light | Mapping[str, Any]] | None) -> None:
+        self._set('lights', value)
+
+    @property
+    def sky(self) -> Sky:
+        """The light that comes from all around."""
+        return Sky(self._scene, self._key_of('sky'))
+
+    @sky.setter
+    def sky(self, value: Sky | Mapping[str, Any] | None) -> None:
+        self._set('sky', value)
+
+    @property
+    def shadows(self) -> bool:
+        """Whether hair, head and bodies cast shadows. Default true."""
+        value: bool = self._get('shadows')
+        return value
+
+    @shadows.setter
+    def shadows(self, value: bool | None) -> None:
+        self._set('shadows', value)
+
+    @property
+    def head(self) -> HeadLook:
+        """Colour of the head, or none."""
+        return HeadLook(self._scene, self._key_of('head'))
+
+    @head.setter
+    def head(self, value: HeadLook | Mapping[str, Any] | None) -> None:
+        self._set('head', value)
+
+    @property
+    def background(self) -> str | tuple[float, ...]:
+        """What is behind it all."""
+        value: str | tuple[float, ...] = self._get('background')
+        return value
+
+    @background.setter
+    def background(self, value: str | Numbers | None) -> None:
+        self._set('background', value)
+
+    @property
+    def exposure(self) -> float:
+        """Brightness in photographic stops: each is a factor of 2. Default 0."""
+        value: float = self._get('exposure')
+        return value
+
+    @exposure.setter
+    def exposure(self, value: float | None) -> None:
+        self._set('exposure', value)
+
+    @property
+    def tone_mapping(self) -> Literal["linear", "filmic"]:
+        """How scene light becomes display light in 8 and 16 bit pictures and in video. Default `"filmic"`."""
+        value: Literal["linear", "filmic"] = self._get('tone_mapping')
+        return value
+
+    @tone_mapping.setter
+    def tone_mapping(self, value: Literal["linear", "filmic"] | None) -> None:
+        self._set('tone_mapping', value)
+
+    @property
+    def shutter(self) -> float:
+        """Part of the frame interval during which the shutter is open, 0..1: 0 (default) is a sharp picture, 0.5 a film
+        camera's 180 degrees.
+        """
+        value: float = self._get('shutter')
+        return value
+
+    @shutter.setter
+    def shutter(self, value: float | None) -> None:
+        self._set('shutter', value)
+
+    @property
+    def video(self) -> Video:
+        """The movie."""
+        return Video(self._scene, self._key_of('video'))
+
+    @video.setter
+    def video(self, value: Video | Mapping[str, Any] | None) -> None:
+        self._set('video', value)
+
+
+class Camera(Table):
+    """`[picture.camera]`: a camera on an orbit about the hair, or moving between two places of it."""
+
+    __slots__ = ()
+
+    @property
+    def projection(self) -> Literal["perspective", "orthographic"]:
+        """`"perspective"` (default) or `"orthographic"`."""
+        value: Literal["perspective", "orthographic"] = self._get('projection')
+        return value
+
+    @projection.setter
+    def projection(self, value: Literal["perspective", "orthographic"] | None) -> None:
+        self._set('projection', value)
+
+    @property
+    def azimuth(self) -> float:
+        """Direction of the camera about the world's vertical (degrees): of a head that has not turned 0 is before the
+        face, 90 at the character's right hand, 180 behind. Default 40.
+        """
+        value: float = self._get('azimuth')
+        return value
+
+    @azimuth.setter
+    def azimuth(self, value: float | None) -> None:
+        self._set('azimuth', value)
+
+    @property
+    def elevation(self) -> float:
+        """Direction of the camera above the horizon (degrees, -89..89). Default 5."""
+        value: float = self._get('elevation')
+        return value
+
+    @elevation.setter
+    def elevation(self, value: float | None) -> None:
+        self._set('elevation', value)
+
+    @property
+    def fov(self) -> float:
+        """Vertical field of view (degrees, 1..150), for perspective. Default 26."""
+        value: float = self._get('fov')
+        return value
+
+    @fov.setter
+    def fov(self, value: float | None) -> None:
+        self._set('fov', value)
+
+    @property
+    def distance(self) -> float | None:
+        """From the target to the eye (cm). Default: near enough to frame everything."""
+        value: float | None = self._get('distance')
+        return value
+
+    @distance.setter
+    def distance(self, value: float | None) -> None:
+        self._set('distance', value)
+
+    @property
+    def height(self) -> float | None:
+        """Height of the picture in space (cm), for orthographic views. Default: enough to frame everything."""
+        value: float | None = self._get('height')
+        return value
+
+    @height.setter
+    def height(self, value: float | None) -> None:
+        self._set('height', value)
+
+    @property
+    def target(self) -> tuple[float, float, float] | None:
+        """The point looked at (cm), from the head's origin along the world's axes: the camera goes along with the head
+        and does not turn with it. Default: the middle of what is framed.
+        """
+        value: tuple[float, float, float] | None = self._get('target')
+        return value
+
+    @target.setter
+    def target(self, value: Numbers | None) -> None:
+        self._set('target', value)
+
+    @property
+    def margin(self) -> float:
+        """Empty border around what is framed, as part of the picture's shorter side, 0..0.45. Default 0.06."""
+        value: float = self._get('margin')
+        return value
+
+    @margin.setter
+    def margin(self, value: float | None) -> None:
+        self._set('margin', value)
+
+    @property
+    def to(self) -> CameraKey:
+        """Where the camera is at the last frame, `[picture.camera.to]`: it glides there from the values above."""
+        return CameraKey(self._scene, self._key_of('to'))
+
+    @to.setter
+    def to(self, value: CameraKey | Mapping[str, Any] | None) -> None:
+        self._set('to', value)
+
+
+class CameraKey(Table):
+    """The second place of a moving camera; what is left out stays as it was."""
+
+    __slots__ = ()
+
+    @property
+    def azimuth(self) -> float | None:
+        """Azimuth at the end (degrees)."""
+        value: float | None = self._get('azimuth')
+        return value
+
+    @azimuth.setter
+    def azimuth(self, value: float | None) -> None:
+        self._set('azimuth', value)
+
+    @property
+    def elevation(self) -> float | None:
+        """Elevation at the end (degrees)."""
+        value: float | None = self._get('elevation')
+        return value
+
+    @elevation.setter
+    def elevation(self, value: float | None) -> None:
+        self._set('elevation', value)
+
+    @property
+    def distance(self) -> float | None:
+        """Distance at the end (cm); needs `distance` at the start."""
+        value: float | None = self._get('distance')
+        return value
+
+    @distance.setter
+    def distance(self, value: float | None) -> None:
+        self._set('distance', value)
+
+    @property
+    def fov(self) -> float | None:
+        """Field of view at the end (degrees)."""
+        value: float | None = self._get('fov')
+        return value
+
+    @fov.setter
+    def fov(self, value: float | None) -> None:
+        self._set('fov', value)
+
+    @property
+    def target(self) -> tuple[float, float, float] | None:
+        """Target at the end (cm); needs `target` at the start."""
+        value: tuple[float, float, float] | None = self._get('target')
+        return value
+
+    @target.setter
+    def target(self, value: Numbers | None) -> None:
+        self._set('target', value)
+
+
+class HairLook(Table):
+    """`[picture.hair]`."""
+
+    __slots__ = ()
+
+    @property
+    def width(self) -> float:
+        """Thickness of a hair at its root (diameter, cm), 1e-5..5. Default 0.014: a real hair of 0.007 cm made thicker
+        because twenty thousand stand for a hundred thousand.
+        """
+        value: float = self._get('width')
+        return value
+
+    @width.setter
+    def width(self, value: float | None) -> None:
+        self._set('width', value)
+
+    @property
+    def tip(self) -> float:
+        """Thickness at the tip as a part of that at the root, 0..1. Default 0.3."""
+        value: float = self._get('tip')
+        return value
+
+    @tip.setter
+    def tip(self, value: float | None) -> None:
+        self._set('tip', value)
+
+    @property
+    def taper(self) -> float:
+        """Part of the length over which the hair thins to its tip, 0..1. Default 0.4."""
+        value: float = self._get('taper')
+        return value
+
+    @taper.setter
+    def taper(self, value: float | None) -> None:
+        self._set('taper', value)
+
+    @property
+    def colour(self) -> str | dict[str, Any]:
+        """A name (`"black"`, `"brown"`, `"blond"`, `"red"`, `"grey"`), `{ melanin = .. }` or `{ rgb = .. }`."""
+        value: str | dict[str, Any] = self._get('colour')
+        return value
+
+    @colour.setter
+    def colour(self, value: str | Mapping[str, Any] | None) -> None:
+        self._set('colour', value)
+
+    @property
+    def variation(self) -> float:
+        """How much hairs differ in pigment and tilt of their scales, 0..1. Default 0.25."""
+        value: float = self._get('variation')
+        return value
+
+    @variation.setter
+    def variation(self, value: float | None) -> None:
+        self._set('variation', value)
+
+    @property
+    def shading(self) -> Literal["fibre", "kajiya-kay"]:
+        """`"fibre"` (default) or `"kajiya-kay"`."""
+        value: Literal["fibre", "kajiya-kay"] = self._get('shading')
+        return value
+
+    @shading.setter
+    def shading(self, value: Literal["fibre", "kajiya-kay"] | None) -> None:
+        self._set('shading', value)
+
+    @property
+    def roughness(self) -> float:
+        """Roughness along the hair: the width of the highlight's band (degrees, 2..40). Default 5."""
+        value: float = self._get('roughness')
+        return value
+
+    @roughness.setter
+    def roughness(self, value: float | None) -> None:
+        self._set('roughness', value)
+
+    @property
+    def azimuthal_roughness(self) -> float:
+        """Roughness around the hair, 0.05..1: small sharpens the light through the fibre. Default 0.35."""
+        value: float = self._get('azimuthal_roughness')
+        return value
+
+    @azimuthal_roughness.setter
+    def azimuthal_roughness(self, value: float | None) -> None:
+        self._set('azimuthal_roughness', value)
+
+    @property
+    def scale_tilt(self) -> float:
+        """Tilt of the scales of the cuticle (degrees, -10..10): shifts the white highlight toward the root and the
+        coloured one toward the tip. Default 2.5.
+        """
+        value: float = self._get('scale_tilt')
+        return value
+
+    @scale_tilt.setter
+    def scale_tilt(self, value: float | None) -> None:
+        self._set('scale_tilt', value)
+
+    @property
+    def refraction(self) -> float:
+        """Refractive index of the fibre, 1.1..2.5. Default 1.55."""
+        value: float = self._get('refraction')
+        return value
+
+    @refraction.setter
+    def refraction(self, value: float | None) -> None:
+        self._set('refraction', value)
+
+    @property
+    def smooth(self) -> bool:
+        """Whether a curve is drawn through the nodes rather than straight segments. Default true."""
+        value: bool = self._get('smooth')
+        return value
+
+    @smooth.setter
+    def smooth(self, value: bool | None) -> None:
+        self._set('smooth', value)
+
+
+class Light(Table):
+    """One lamp, far away: an element of `[[picture.lights]]`."""
+
+    __slots__ = ()
+
+    @property
+    def azimuth(self) -> float:
+        """Where the light comes from, about the vertical (degrees), counted as the camera's azimuth. Default 0."""
+        value: float = self._get('azimuth')
+        return value
+
+    @azimuth.setter
+    def azimuth(self, value: float | None) -> None:
+        self._set('azimuth', value)
+
+    @property
+    def elevation(self) -> float:
+        """Where it comes from, above the horizon (degrees, -90..90). Default 40."""
+        value: float = self._get('elevation')
+        return value
+
+    @elevation.setter
+    def elevation(self, value: float | None) -> None:
+        self._set('elevation', value)
+
+    @property
+    def strength(self) -> float:
+        """Its strength: a white surface facing it is as bright as this. 0..1000, default 1."""
+        value: float = self._get('strength')
+        return value
+
+    @strength.setter
+    def strength(self, value: float | None) -> None:
+        self._set('strength', value)
+
+    @property
+    def colour(self) -> tuple[float, float, float]:
+        """Its colour (linear red, green, blue; 0..1). Default white."""
+        value: tuple[float, float, float] = self._get('colour')
+        return value
+
+    @colour.setter
+    def colour(self, value: Numbers | None) -> None:
+        self._set('colour', value)
+
+    @property
+    def spread(self) -> float:
+        """How far the lamp spreads as seen from the hair (degrees, 0..45): wide lamps throw soft shadows. Default 4."""
+        value: float = self._get('spread')
+        return value
+
+    @spread.setter
+    def spread(self, value: float | None) -> None:
+        self._set('spread', value)
+
+    @property
+    def space(self) -> Literal["camera", "world", "head"]:
+        """`"camera"` (default), `"world"` or `"head"`."""
+        value: Literal["camera", "world", "head"] = self._get('space')
+        return value
+
+    @space.setter
+    def space(self, value: Literal["camera", "world", "head"] | None) -> None:
+        self._set('space', value)
+
+
+class Sky(Table):
+    """`[picture.sky]`: light from all around, dimmed where hair or head hide it."""
+
+    __slots__ = ()
+
+    @property
+    def strength(self) -> float:
+        """Strength: an unhidden white surface is as bright as this, 0..1000. Default 0.32."""
+        value: float = self._get('strength')
+        return value
+
+    @strength.setter
+    def strength(self, value: float | None) -> None:
+        self._set('strength', value)
+
+    @property
+    def above(self) -> tuple[float, float, float]:
+        """Colour of the light from straight above (linear, 0..1)."""
+        value: tuple[float, float, float] = self._get('above')
+        return value
+
+    @above.setter
+    def above(self, value: Numbers | None) -> None:
+        self._set('above', value)
+
+    @property
+    def below(self) -> tuple[float, float, float]:
+        """Colour of the light from straight below (linear, 0..1)."""
+        value: tuple[float, float, float] = self._get('below')
+        return value
+
+    @below.setter
+    def below(self, value: Numbers | None) -> None:
+        self._set('below', value)
+
+    @property
+    def occlusion(self) -> bool:
+        """Whether hair and head hide the sky from what lies within. Default true."""
+        value: bool = self._get('occlusion')
+        return value
+
+    @occlusion.setter
+    def occlusion(self, value: bool | None) -> None:
+        self._set('occlusion', value)
+
+    @property
+    def space(self) -> Literal["world", "head"]:
+        """`"world"` (default) or `"head"`."""
+        value: Literal["world", "head"] = self._get('space')
+        return value
+
+    @space.setter
+    def space(self, value: Literal["world", "head"] | None) -> None:
+        self._set('space', value)
+
+
+class HeadLook(Table):
+    """`[picture.head]`."""
+
+    __slots__ = ()
+
+    @property
+    def visible(self) -> bool:
+        """Whether the head is drawn; it hides hair behind it and throws shadows all the same. Default true."""
+        value: bool = self._get('visible')
+        return value
+
+    @visible.setter
+    def visible(self, value: bool | None) -> None:
+        self._set('visible', value)
+
+    @property
+    def colour(self) -> tuple[float, float, float]:
+        """Its colour (sRGB, 0..1). Default a neutral skin, dull enough to leave the eye to the hair."""
+        value: tuple[float, float, float] = self._get('colour')
+        return value
+
+    @colour.setter
+    def colour(self, value: Numbers | None) -> None:
+        self._set('colour', value)
+
+    @property
+    def softness(self) -> float:
+        """How far light creeps past the terminator, as in skin, 0..1. Default 0.35."""
+        value: float = self._get('softness')
+        return value
+
+    @softness.setter
+    def softness(self, value: float | None) -> None:
+        self._set('softness', value)
+
+    @property
+    def sheen(self) -> float:
+        """Strength of its sheen, 0..1. Default 0.25."""
+        value: float = self._get('sheen')
+        return value
+
+    @sheen.setter
+    def sheen(self, value: float | None) -> None:
+        self._set('sheen', value)
+
+    @property
+    def stubble(self) -> float:
+        """Hair too short to be drawn: its length for each root (cm, as thick as the hair), 0..100. It tints the scalp as
+        dense as the roots stand, so that partings do not gleam. Default 2; 0 shows bare skin.
+        """
+        value: float = self._get('stubble')
+        return value
+
+    @stubble.setter
+    def stubble(self, value: float | None) -> None:
+        self._set('stubble', value)
+
+
+class Video(Table):
+    """`[picture.video]`"""
+
+    __slots__ = ()
+
+    @property
+    def quality(self) -> float:
+        """0 (small file) .. 1 (large, near lossless). Default 0.75."""
+        value: float = self._get('quality')
+        return value
+
+    @quality.setter
+    def quality(self, value: float | None) -> None:
+        self._set('quality', value)
+
+    @property
+    def frame_rate(self) -> float | None:
+        """Frames a second that the movie is played with, 1..240: fewer than `motion.frame_rate` is slow motion. Default
+        that rate.
+        """
+        value: float | None = self._get('frame_rate')
+        return value
+
+    @frame_rate.setter
+    def frame_rate(self, value: float | None) -> None:
+        self._set('frame_rate', value)
+
+
+class Output(Table):
+    """`[output]`: what a run writes. Where it goes is the command line's affair."""
+
+    __slots__ = ()
+
+    @property
+    def movie(self) -> bool:
+        """Whether a movie is written (default true)."""
+        value: bool = self._get('movie')
+        return value
+
+    @movie.setter
+    def movie(self, value: bool | None) -> None:
+        self._set('movie', value)
+
+    @property
+    def png_frames(self) -> bool:
+        """Whether every frame is written as a PNG (default false)."""
+        value: bool = self._get('png_frames')
+        return value
+
+    @png_frames.setter
+    def png_frames(self, value: bool | None) -> None:
+        self._set('png_frames', value)
+
+    @property
+    def png_bits(self) -> int:
+        """Bits of each channel of those PNGs, 8 (default) or 16."""
+        value: int = self._get('png_bits')
+        return value
+
+    @png_bits.setter
+    def png_bits(self, value: int | None) -> None:
+        self._set('png_bits', value)
+
+    @property
+    def exr_frames(self) -> bool:
+        """Whether every frame is written as an OpenEXR file with depth, hair direction and motion (default false)."""
+        value: bool = self._get('exr_frames')
+        return value
+
+    @exr_frames.setter
+    def exr_frames(self, value: bool | None) -> None:
+        self._set('exr_frames', value)
+
+    @property
+    def field(self) -> bool:
+        """Whether the force's projections on the yz and zx planes are drawn, as SVG and PNG (default false; the paper's
+        Figure 10).
+        """
+        value: bool = self._get('field')
+        return value
+
+    @field.setter
+    def field(self, value: bool | None) -> None:
+        self._set('field', value)
+
+    @property
+    def sheet(self) -> tuple[int, ...] | None:
+        """Frames of the contact sheet (default: four, evenly from frame 0 on, as the paper's Figure 6 has them)."""
+        value: tuple[int, ...] | None = self._get('sheet')
+        return value
+
+    @sheet.setter
+    def sheet(self, value: Sequence[int] | None) -> None:
+        self._set('sheet', value)

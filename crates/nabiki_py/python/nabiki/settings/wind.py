@@ -1,0 +1,504 @@
+"""What pushes the hair: `scene.wind`, `scene.gust`, `scene.fan`, ... Written by generate.py from the doc comments of the Rust structs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Literal
+
+from ._table import Arrays, File, Numbers, Table, Tables
+
+__all__ = [
+    "BodyWind",
+    "EnvelopeKey",
+    "Falloff",
+    "Fan",
+    "Flow",
+    "Gust",
+    "Keyframe",
+    "Point",
+    "Turbulence",
+    "Vortex",
+    "Wind",
+]
+
+
+class Keyframe(Table):
+    """One interval of a field: `vector` drives every frame after the previous keyframe's and up to `through`."""
+
+    __slots__ = ()
+
+    @property
+    def through(self) -> int:
+        """Last frame that feels this vector (k_j of equation (5))."""
+        value: int = self._get('through')
+        return value
+
+    @through.setter
+    def through(self, value: int | None) -> None:
+        self._set('through', value)
+
+    @property
+    def vector(self) -> tuple[float, float, float]:
+        """Force F_j: a direction with a strength, without a unit (section 4.3: only c_i |F| moves hair)."""
+        value: tuple[float, float, float] = self._get('vector')
+        return value
+
+    @vector.setter
+    def vector(self, value: Numbers | None) -> None:
+        self._set('vector', value)
+
+
+class Wind(Table):
+    """How the vectors of a `KeyframedField` follow one another."""
+
+    __slots__ = ()
+
+    @property
+    def ease(self) -> Literal["stepped", "linear", "smooth"]:
+        """From one vector to the next (default: stepped)."""
+        value: Literal["stepped", "linear", "smooth"] = self._get('ease')
+        return value
+
+    @ease.setter
+    def ease(self, value: Literal["stepped", "linear", "smooth"] | None) -> None:
+        self._set('ease', value)
+
+
+class Gust(Table):
+    """The settings of gusts: a random factor about 1 on the wind, with the spectrum of the wind's own direction after T.
+    von Karman ("Progress in the statistical theory of turbulence", PNAS 34, 1948) as engineers write it,
+
+    ```text S(f) = 4 T / (1 + 70.8 (f T)^2)^(5/6) ```
+
+    up to a highest frequency: what is faster is not felt by the whole head of hair at once, and is turbulence.
+    """
+
+    __slots__ = ()
+
+    @property
+    def intensity(self) -> float:
+        """Root mean square of the factor about 1, at least 0 (default 0.3). In open country 0.15, in a town 0.4; above
+        0.4 the wind now and then turns round.
+        """
+        value: float = self._get('intensity')
+        return value
+
+    @intensity.setter
+    def intensity(self, value: float | None) -> None:
+        self._set('intensity', value)
+
+    @property
+    def time_scale(self) -> float:
+        """T (seconds), above 0: the length scale of the turbulence over the mean speed of the wind (default 2)."""
+        value: float = self._get('time_scale')
+        return value
+
+    @time_scale.setter
+    def time_scale(self, value: float | None) -> None:
+        self._set('time_scale', value)
+
+    @property
+    def highest(self) -> float:
+        """Highest frequency (Hz), above 0 (default 1)."""
+        value: float = self._get('highest')
+        return value
+
+    @highest.setter
+    def highest(self, value: float | None) -> None:
+        self._set('highest', value)
+
+    @property
+    def seed(self) -> int:
+        """Seed of the phases."""
+        value: int = self._get('seed')
+        return value
+
+    @seed.setter
+    def seed(self, value: int | None) -> None:
+        self._set('seed', value)
+
+
+class BodyWind(Table):
+    """The settings of the wind from the head's own motion, uniform in space.
+
+    With the head's velocity v (cm/s) and acceleration a (cm/s^2), from the poses and the frame rate: F = -drag v -
+    footfall (0, a_y, 0).
+    """
+
+    __slots__ = ()
+
+    @property
+    def drag(self) -> float:
+        """Force for each cm/s of the head, against its way, at least 0 (default 0.3)."""
+        value: float = self._get('drag')
+        return value
+
+    @drag.setter
+    def drag(self, value: float | None) -> None:
+        self._set('drag', value)
+
+    @property
+    def footfall(self) -> float:
+        """Force for each cm/s^2 by which the head is lifted, downward, at least 0 (default 0). Where gravity is G, hair
+        that is lifted with the head feels G / 981.
+        """
+        value: float = self._get('footfall')
+        return value
+
+    @footfall.setter
+    def footfall(self, value: float | None) -> None:
+        self._set('footfall', value)
+
+    @property
+    def smoothing(self) -> float:
+        """Deviation of the bell by which the head's places are averaged beforehand (frames), 0..240 (default 0: as they
+        are). Recorded places tremble, and accelerations many times more.
+        """
+        value: float = self._get('smoothing')
+        return value
+
+    @smoothing.setter
+    def smoothing(self, value: float | None) -> None:
+        self._set('smoothing', value)
+
+
+class Flow(Table):
+    """The settings of the flow round the head."""
+
+    __slots__ = ()
+
+    @property
+    def thickness(self) -> float:
+        """What the wind goes round stands out so far from the head ellipsoid (cm, at least 0, default 0): as hair itself
+        does.
+        """
+        value: float = self._get('thickness')
+        return value
+
+    @thickness.setter
+    def thickness(self, value: float | None) -> None:
+        self._set('thickness', value)
+
+
+class Turbulence(Table):
+    """The settings of turbulence: a random force without sources, which drifts with the wind and changes on its way.
+
+    It is the curl of a random vector potential, a sum of octaves each half as large as the one before. Near the head
+    the potential is let go to 0 by Bridson's ramp, so that the force runs along the head.
+    """
+
+    __slots__ = ()
+
+    @property
+    def strength(self) -> float:
+        """Root mean square of |F| over space, far from the head, at least 0 (default 30)."""
+        value: float = self._get('strength')
+        return value
+
+    @strength.setter
+    def strength(self, value: float | None) -> None:
+        self._set('strength', value)
+
+    @property
+    def swirl_size(self) -> float:
+        """Size of the largest swirls (cm), half of the wavelengths that they are made of, above 0 (default 10)."""
+        value: float = self._get('swirl_size')
+        return value
+
+    @swirl_size.setter
+    def swirl_size(self, value: float | None) -> None:
+        self._set('swirl_size', value)
+
+    @property
+    def pulse_length(self) -> float:
+        """Frames in which a swirl turns into its opposite and back, about; 0: swirls drift and never change (default
+        48). Without drift the whole pattern comes again after 16 times as many.
+        """
+        value: float = self._get('pulse_length')
+        return value
+
+    @pulse_length.setter
+    def pulse_length(self, value: float | None) -> None:
+        self._set('pulse_length', value)
+
+    @property
+    def roughness(self) -> float:
+        """Strength of each octave by that of the one before, 0..1 (default 0.5; 0.79 is Kolmogorov's)."""
+        value: float = self._get('roughness')
+        return value
+
+    @roughness.setter
+    def roughness(self, value: float | None) -> None:
+        self._set('roughness', value)
+
+    @property
+    def octaves(self) -> int:
+        """Octaves, 1..8 (default 2). Time is spent on each."""
+        value: int = self._get('octaves')
+        return value
+
+    @octaves.setter
+    def octaves(self, value: int | None) -> None:
+        self._set('octaves', value)
+
+    @property
+    def drift(self) -> float:
+        """Way that the swirls go in a frame for each unit of the wind (cm), at least 0 (default 0.02)."""
+        value: float = self._get('drift')
+        return value
+
+    @drift.setter
+    def drift(self, value: float | None) -> None:
+        self._set('drift', value)
+
+    @property
+    def near_head(self) -> float:
+        """Distance from the head ellipsoid within which the force is turned along it (cm, default 4): that which E's own
+        measure gives, (|q| - 1) times the mean half axis, where q is the point in half axes from the centre. 0: the
+        force knows nothing of the head. At most the mean half axis.
+        """
+        value: float = self._get('near_head')
+        return value
+
+    @near_head.setter
+    def near_head(self, value: float | None) -> None:
+        self._set('near_head', value)
+
+    @property
+    def seed(self) -> int:
+        """Seed of the random vectors."""
+        value: int = self._get('seed')
+        return value
+
+    @seed.setter
+    def seed(self, value: int | None) -> None:
+        self._set('seed', value)
+
+    @property
+    def envelope(self) -> Tables[EnvelopeKey]:
+        """Parts of the strength over frames, on straight lines from key to key; all of it without keys (default)."""
+        return Tables(self._scene, self._key_of('envelope'), EnvelopeKey)
+
+    @envelope.setter
+    def envelope(self, value: Iterable[EnvelopeKey | Mapping[str, Any]] | None) -> None:
+        self._set('envelope', value)
+
+
+class EnvelopeKey(Table):
+    """A part of the strength at one frame."""
+
+    __slots__ = ()
+
+    @property
+    def frame(self) -> int:
+        """The frame."""
+        value: int = self._get('frame')
+        return value
+
+    @frame.setter
+    def frame(self, value: int | None) -> None:
+        self._set('frame', value)
+
+    @property
+    def factor(self) -> float:
+        """Part of the strength, any finite number."""
+        value: float = self._get('factor')
+        return value
+
+    @factor.setter
+    def factor(self, value: float | None) -> None:
+        self._set('factor', value)
+
+
+class Point(Table):
+    """The settings of a point: F = strength falloff(r) r^, away from it."""
+
+    __slots__ = ()
+
+    @property
+    def position(self) -> tuple[float, float, float]:
+        """Where it is (cm; the space of the forces)."""
+        value: tuple[float, float, float] = self._get('position')
+        return value
+
+    @position.setter
+    def position(self, value: Numbers | None) -> None:
+        self._set('position', value)
+
+    @property
+    def strength(self) -> float:
+        """|F| beside the point; negative draws in (default 50)."""
+        value: float = self._get('strength')
+        return value
+
+    @strength.setter
+    def strength(self, value: float | None) -> None:
+        self._set('strength', value)
+
+    @property
+    def falloff(self) -> Falloff:
+        """How it weakens with the distance. Within a twentieth of its radius the direction, which has no meaning at the
+        centre, is let go to 0.
+        """
+        return Falloff(self._scene, self._key_of('falloff'))
+
+    @falloff.setter
+    def falloff(self, value: Falloff | Mapping[str, Any] | None) -> None:
+        self._set('falloff', value)
+
+    @property
+    def envelope(self) -> Tables[EnvelopeKey]:
+        """Parts of the strength over time (default: all of it always)."""
+        return Tables(self._scene, self._key_of('envelope'), EnvelopeKey)
+
+    @envelope.setter
+    def envelope(self, value: Iterable[EnvelopeKey | Mapping[str, Any]] | None) -> None:
+        self._set('envelope', value)
+
+
+class Falloff(Table):
+    """How a force weakens with the distance from its place."""
+
+    __slots__ = ()
+
+    @property
+    def law(self) -> Literal["none", "linear", "smooth", "inverse", "inverse_square"]:
+        """The law (default: smooth)."""
+        value: Literal["none", "linear", "smooth", "inverse", "inverse_square"] = self._get('law')
+        return value
+
+    @law.setter
+    def law(self, value: Literal["none", "linear", "smooth", "inverse", "inverse_square"] | None) -> None:
+        self._set('law', value)
+
+    @property
+    def radius(self) -> float:
+        """R (cm), above 0 (default 30)."""
+        value: float = self._get('radius')
+        return value
+
+    @radius.setter
+    def radius(self, value: float | None) -> None:
+        self._set('radius', value)
+
+
+class Vortex(Table):
+    """The settings of a vortex: F = strength falloff(r) (axis x r^), where r leads from the axis to the point."""
+
+    __slots__ = ()
+
+    @property
+    def position(self) -> tuple[float, float, float]:
+        """A point of the axis (cm; the space of the forces)."""
+        value: tuple[float, float, float] = self._get('position')
+        return value
+
+    @position.setter
+    def position(self, value: Numbers | None) -> None:
+        self._set('position', value)
+
+    @property
+    def axis(self) -> tuple[float, float, float]:
+        """Along the axis, of any length but 0 (default y): hair goes round it counter-clockwise as seen from its tip."""
+        value: tuple[float, float, float] = self._get('axis')
+        return value
+
+    @axis.setter
+    def axis(self, value: Numbers | None) -> None:
+        self._set('axis', value)
+
+    @property
+    def strength(self) -> float:
+        """|F| beside the axis; negative goes round the other way (default 50)."""
+        value: float = self._get('strength')
+        return value
+
+    @strength.setter
+    def strength(self, value: float | None) -> None:
+        self._set('strength', value)
+
+    @property
+    def falloff(self) -> Falloff:
+        """How it weakens with the distance from the axis. Within a twentieth of its radius it is let go to 0."""
+        return Falloff(self._scene, self._key_of('falloff'))
+
+    @falloff.setter
+    def falloff(self, value: Falloff | Mapping[str, Any] | None) -> None:
+        self._set('falloff', value)
+
+    @property
+    def envelope(self) -> Tables[EnvelopeKey]:
+        """Parts of the strength over time (default: all of it always)."""
+        return Tables(self._scene, self._key_of('envelope'), EnvelopeKey)
+
+    @envelope.setter
+    def envelope(self, value: Iterable[EnvelopeKey | Mapping[str, Any]] | None) -> None:
+        self._set('envelope', value)
+
+
+class Fan(Table):
+    """The settings of a fan: F = strength falloff(r) cone(angle) r^, away from it and only within its cone.
+
+    With c = (cos angle - cos spread) / (1 - cos spread), 1 on the axis and 0 at the edge, cone is 1 - (1 - c)^4 of
+    it: nearly all of the strength over the inner half of the cone, and none beyond its edge.
+    """
+
+    __slots__ = ()
+
+    @property
+    def position(self) -> tuple[float, float, float]:
+        """The tip of the cone (cm; the space of the forces)."""
+        value: tuple[float, float, float] = self._get('position')
+        return value
+
+    @position.setter
+    def position(self, value: Numbers | None) -> None:
+        self._set('position', value)
+
+    @property
+    def direction(self) -> tuple[float, float, float]:
+        """Where it blows, of any length but 0."""
+        value: tuple[float, float, float] = self._get('direction')
+        return value
+
+    @direction.setter
+    def direction(self, value: Numbers | None) -> None:
+        self._set('direction', value)
+
+    @property
+    def strength(self) -> float:
+        """|F| on the axis beside the fan; negative draws in (default 50)."""
+        value: float = self._get('strength')
+        return value
+
+    @strength.setter
+    def strength(self, value: float | None) -> None:
+        self._set('strength', value)
+
+    @property
+    def spread(self) -> float:
+        """Angle between the axis and the edge of the cone (degrees), 1..90 (default 30)."""
+        value: float = self._get('spread')
+        return value
+
+    @spread.setter
+    def spread(self, value: float | None) -> None:
+        self._set('spread', value)
+
+    @property
+    def falloff(self) -> Falloff:
+        """How it weakens with the distance. Within a twentieth of its radius it is let go to 0."""
+        return Falloff(self._scene, self._key_of('falloff'))
+
+    @falloff.setter
+    def falloff(self, value: Falloff | Mapping[str, Any] | None) -> None:
+        self._set('falloff', value)
+
+    @property
+    def envelope(self) -> Tables[EnvelopeKey]:
+        """Parts of the strength over time (default: all of it always)."""
+        return Tables(self._scene, self._key_of('envelope'), EnvelopeKey)
+
+    @envelope.setter
+    def envelope(self, value: Iterable[EnvelopeKey | Mapping[str, Any]] | None) -> None:
+        self._set('envelope', value)

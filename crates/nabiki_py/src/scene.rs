@@ -1,0 +1,281 @@
+//! The scene as Python has it: settings by key, and what can be done with them.
+
+mod tasks;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::SystemTime;
+
+use nabiki_scene::scene::OwnField;
+use nabiki_scene::{BuiltScene, Shown};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList, PyMapping, PyTuple, PyType};
+use toml::{Table, Value};
+
+use crate::error;
+use crate::field::{Field, PythonField};
+use crate::hints::{Anything, Hinted};
+use crate::made::Folder;
+use crate::values;
+use crate::watched::{Ears, watched};
+
+/// Everything that decides a movie. `scene["motion.frames"]` is a setting by the key that it has in a scene file.
+#[pyclass(subclass, module = "nabiki")]
+#[derive(Default)]
+pub struct Scene {
+    scene: nabiki_scene::Scene,
+    fields: Vec<Py<Field>>,
+    made: Folder,
+    built: Option<Built>,
+}
+
+/// What was built last, and what its files were then.
+#[derive(Clone)]
+struct Built {
+    shown: Shown,
+    scene: Arc<BuiltScene>,
+    files: Vec<FileState>,
+}
+
+type FileState = (PathBuf, Option<(SystemTime, u64)>);
+
+/// Lengths and times of the files that a scene is read from, but for its own, which has been read.
+fn files_of(scene: &nabiki_scene::Scene) -> Vec<FileState> {
+    let state = |path: &PathBuf| {
+        let data = std::fs::metadata(path).ok()?;
+        Some((data.modified().ok()?, data.len()))
+    };
+    scene.inputs().split_off(1).into_iter().map(|path| (path.clone(), state(&path))).collect()
+}
+
+impl Scene {
+    /// All that the scene names, loaded; what has not changed since it was built last is taken from there.
+    fn built(&mut self, py: Python<'_>, strands: Option<usize>, ears: Ears<'_, '_>) -> PyResult<Arc<BuiltScene>> {
+        let shown = strands.map_or(Shown::All, Shown::First);
+        let files = files_of(&self.scene);
+        let known = self.built.as_ref().filter(|known| known.files == files);
+        if let Some(known) = known.filter(|known| known.shown == shown && known.scene.scene == self.scene) {
+            return Ok(known.scene.clone());
+        }
+        let (scene, fields) = (self.scene.clone(), self.shared_fields(py));
+        let built = watched(py, ears, &fields, |_| match known {
+            Some(known) => known.scene.changed_to(scene, shown),
+            None => scene.build(shown),
+        })?;
+        let scene = Arc::new(built);
+        self.built = Some(Built { shown, scene: scene.clone(), files });
+        Ok(scene)
+    }
+
+    fn shared_fields(&self, py: Python<'_>) -> Vec<Arc<PythonField>> {
+        self.fields.iter().map(|field| field.bind(py).get().shared.clone()).collect()
+    }
+
+    fn refused(&self, py: Python<'_>, refused: nabiki_scene::scene::SceneError) -> PyErr {
+        error::raised(py, refused.into())
+    }
+
+    /// Another value of a setting; what is out of its range is refused, and the scene is then as it was.
+    fn put(&mut self, py: Python<'_>, key: &str, value: Option<Value>) -> PyResult<()> {
+        let changed = self.scene.with_setting(key, value).map_err(|refused| self.refused(py, refused))?;
+        if let Err(wrong) = changed.check()
+            && concerns(&wrong.thing, key)
+        {
+            return Err(self.refused(py, changed.refusal(wrong)));
+        }
+        self.scene = changed;
+        Ok(())
+    }
+
+    /// A scene of the same class.
+    fn another<'py>(class: &Bound<'py, PyType>, scene: Self) -> PyResult<Bound<'py, PyAny>> {
+        let another = class.call0()?;
+        *another.cast::<Self>()?.borrow_mut() = scene;
+        Ok(another)
+    }
+
+    fn with(&self, py: Python<'_>, scene: nabiki_scene::Scene) -> Self {
+        let fields = self.fields.iter().map(|field| field.clone_ref(py)).collect();
+        Self { scene, fields, made: self.made.clone(), built: self.built.clone() }
+    }
+}
+
+/// Whether one of two keys lies in the other.
+fn concerns(thing: &str, key: &str) -> bool {
+    let steps = |key: &str| key.replace('[', ".").replace(']', "");
+    let (thing, key) = (steps(thing), steps(key));
+    let within = |a: &str, b: &str| a.strip_prefix(b).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+    within(&thing, &key) || within(&key, &thing)
+}
+
+#[pymethods]
+impl Scene {
+    #[new]
+    #[pyo3(signature = (*_arguments, **_settings))]
+    fn new(_arguments: &Bound<'_, PyTuple>, _settings: Option<&Bound<'_, PyDict>>) -> Self {
+        Self::default()
+    }
+
+    /// Reads a scene file. `settings` are put in their places by their keys before anything is read: `{"motion.frames": 50}`.
+    #[classmethod]
+    #[pyo3(signature = (path: "str | os.PathLike[str]", settings: "typing.Mapping[str, typing.Any] | None"=None) -> "typing.Self")]
+    fn open<'py>(
+        class: &Bound<'py, PyType>,
+        path: PathBuf,
+        settings: Option<&Bound<'py, PyMapping>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = class.py();
+        let settings = settings.map(values::table).transpose()?.unwrap_or_default();
+        let settings: Vec<(String, String)> =
+            settings.iter().map(|(key, value)| (key.clone(), value.to_string())).collect();
+        let scene = nabiki_scene::Scene::load(&path, &settings).map_err(|refused| error::raised(py, refused.into()))?;
+        Self::another(class, Self { scene, ..Self::default() })
+    }
+
+    /// Reads the text of a scene file; `path` names it in errors, and paths in it are relative to the folder of `path`.
+    #[classmethod]
+    #[pyo3(signature = (text, path: "str | os.PathLike[str]"=PathBuf::new()) -> "typing.Self")]
+    fn parse<'py>(class: &Bound<'py, PyType>, text: &str, path: PathBuf) -> PyResult<Bound<'py, PyAny>> {
+        let scene = nabiki_scene::Scene::parse(text, &path, &[]);
+        let scene = scene.map_err(|refused| error::raised(class.py(), refused.into()))?;
+        Self::another(class, Self { scene, ..Self::default() })
+    }
+
+    /// The same scene once more, to be changed by itself.
+    #[pyo3(signature = () -> "typing.Self")]
+    fn copy<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        let copy = this.borrow().with(this.py(), this.borrow().scene.clone());
+        Self::another(&this.get_type(), copy)
+    }
+
+    /// Its file, or nothing for a scene made in code.
+    #[getter]
+    fn file(&self) -> Option<String> {
+        let file = self.scene.file();
+        (!file.as_os_str().is_empty()).then(|| file.display().to_string())
+    }
+
+    /// Every setting with the value that it has, given or not: what a file that says everything would hold.
+    #[pyo3(signature = () -> "dict[str, typing.Any]")]
+    fn settings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        values::dict(py, &self.scene.settings().map_err(|refused| self.refused(py, refused))?)
+    }
+
+    /// The value of a setting, `scene["force[0].vector"]`; None where it has none, or its table is not in the scene.
+    fn __getitem__<'py>(&self, py: Python<'py>, key: &str) -> PyResult<Hinted<'py, Anything>> {
+        let mut place = Value::Table(self.scene.settings().map_err(|refused| self.refused(py, refused))?);
+        for step in key.replace('[', ".").replace(']', "").split('.') {
+            let below = match &mut place {
+                Value::Table(table) => table.remove(step),
+                Value::Array(values) => {
+                    step.parse().ok().filter(|&i: &usize| i < values.len()).map(|i| values.swap_remove(i))
+                }
+                _ => None,
+            };
+            match below {
+                Some(below) => place = below,
+                None => return Ok(Hinted::new(py.None().into_bound(py))),
+            }
+        }
+        values::to_python(py, &place).map(Hinted::new)
+    }
+
+    /// Gives a setting another value; None takes it out, so that it is what it is when nobody says. Meshes may be files or
+    /// (points, faces), `hair.file` may be (points, offsets).
+    fn __setitem__(&mut self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
+        let value = match value {
+            none if none.is_none() => None,
+            given => Some(self.value(key, given)?),
+        };
+        self.put(py, key, value)
+    }
+
+    /// Takes a setting, a table or an entry of a list out.
+    fn __delitem__(&mut self, py: Python<'_>, key: &str) -> PyResult<()> {
+        self.put(py, key, None)
+    }
+
+    /// Fields of Python functions, which are added to those of the settings.
+    #[getter]
+    fn fields(&self, py: Python<'_>) -> Vec<Py<Field>> {
+        self.fields.iter().map(|field| field.clone_ref(py)).collect()
+    }
+
+    #[setter]
+    fn set_fields(&mut self, py: Python<'_>, fields: Vec<Py<Field>>) {
+        self.scene.field.own = fields.iter().map(|field| OwnField(field.bind(py).get().shared.clone())).collect();
+        self.fields = fields;
+    }
+
+    /// The scene as TOML: the text it was read from with what has changed since in its place, comments as they were.
+    fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
+        self.check_writable(py)?;
+        self.scene.to_toml().map_err(|refused| self.refused(py, refused))
+    }
+
+    /// Writes it, comments and layout as they were. From then on `path` is its file.
+    #[pyo3(signature = (path: "str | os.PathLike[str]"))]
+    fn save(&mut self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        self.check_writable(py)?;
+        // Only a scene that has a place of its own has paths that are relative to it.
+        let mut moved = match self.scene.file().as_os_str().is_empty() {
+            true => self.scene.clone(),
+            false => self.scene.clone().moved_to(&path),
+        };
+        moved.save(&path).map_err(|refused| self.refused(py, refused))?;
+        self.scene = moved;
+        Ok(())
+    }
+
+    fn __repr__(&self) -> String {
+        match self.scene.file() {
+            none if none.as_os_str().is_empty() => "<nabiki.Scene>".to_owned(),
+            file => format!("<nabiki.Scene {}>", file.display()),
+        }
+    }
+}
+
+impl Scene {
+    /// A value of a setting, or of a table of them, in which arrays of hair and meshes become files.
+    fn value(&mut self, key: &str, given: &Bound<'_, PyAny>) -> PyResult<Value> {
+        let name = key.rsplit('.').next().unwrap_or(key);
+        if let Ok(arrays) = given.cast::<PyTuple>() {
+            let path = match name {
+                "mesh" => Some(self.made.mesh(key, arrays)?),
+                "file" if key == "hair.file" => Some(self.made.hair(arrays)?),
+                _ => None,
+            };
+            if let Some(path) = path {
+                return Ok(Value::String(path.to_string_lossy().into_owned()));
+            }
+        }
+        if let Ok(table) = given.cast::<PyMapping>() {
+            let mut values = Table::new();
+            for entry in table.items()?.iter() {
+                let (name, value): (String, Bound<'_, PyAny>) = entry.extract()?;
+                if !value.is_none() {
+                    values.insert(name.clone(), self.value(&format!("{key}.{name}"), &value)?);
+                }
+            }
+            return Ok(Value::Table(values));
+        }
+        if key == "body"
+            && let Ok(bodies) = given.cast::<PyList>()
+        {
+            let entry = |(i, body): (usize, Bound<'_, PyAny>)| self.value(&format!("body[{i}]"), &body);
+            return bodies.iter().enumerate().map(entry).collect::<PyResult<_>>().map(Value::Array);
+        }
+        values::to_toml(given)
+    }
+
+    fn check_writable(&self, py: Python<'_>) -> PyResult<()> {
+        if self.made.is_empty() {
+            return Ok(());
+        }
+        Err(error::line(
+            py,
+            "a scene file names files, and this scene has hair or meshes of arrays: write them with nabiki.write_hair, or \
+             with any writer of meshes, and give the scene these files",
+        ))
+    }
+}

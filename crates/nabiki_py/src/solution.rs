@@ -1,0 +1,66 @@
+//! What the solver found.
+
+use nabiki_scene::solve::Solved;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+use crate::hints::{Dictionaries, Hinted};
+
+/// The wind that was found for some wishes.
+#[pyclass(frozen, module = "nabiki")]
+pub struct Solution {
+    pub scene: Py<PyAny>,
+    pub solved: Solved,
+}
+
+#[pymethods]
+impl Solution {
+    /// The scene with the settings that were found.
+    #[getter]
+    fn scene(&self, py: Python<'_>) -> Py<PyAny> {
+        self.scene.clone_ref(py)
+    }
+
+    /// The intervals of the force that was found: (last frame, vector) each.
+    #[getter]
+    fn forces(&self) -> Vec<(u32, [f32; 3])> {
+        self.solved.report.answer.keyframes.iter().map(|key| (key.through, key.vector.to_array())).collect()
+    }
+
+    /// How far the hair was from the wishes (root mean square, cm).
+    #[getter]
+    fn before_cm(&self) -> f64 {
+        self.solved.report.before_cm
+    }
+
+    /// How far it is now (root mean square, cm).
+    #[getter]
+    fn after_cm(&self) -> f64 {
+        self.solved.report.after_cm
+    }
+
+    /// Whether every wish is met within half a centimetre.
+    #[getter]
+    fn all_met(&self) -> bool {
+        self.solved.all_met()
+    }
+
+    /// Of each wish and nail its name, `before_cm` and `after_cm`.
+    #[getter]
+    fn wishes<'py>(&self, py: Python<'py>) -> PyResult<Hinted<'py, Dictionaries>> {
+        let all = self.solved.names.iter().zip(&self.solved.report.wishes);
+        let found = PyList::empty(py);
+        for (name, left) in all {
+            let wish = PyDict::new(py);
+            wish.set_item("name", name)?;
+            wish.set_item("before_cm", left.before_cm)?;
+            wish.set_item("after_cm", left.after_cm)?;
+            found.append(wish)?;
+        }
+        Ok(Hinted::new(found))
+    }
+
+    fn __repr__(&self) -> String {
+        self.solved.to_string().trim().to_owned()
+    }
+}

@@ -1,0 +1,79 @@
+//! All frames of a motion at hand.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+use nabiki_scene::BuiltScene;
+use numpy::{PyArray1, PyArray3};
+use pyo3::exceptions::PyIndexError;
+use pyo3::prelude::*;
+
+use crate::arrays::{self, Points};
+use crate::error;
+use crate::field::PythonField;
+use crate::frame::{self, Frame};
+use crate::hints::{Hinted, UInt32};
+use crate::watched::{Ears, watched};
+
+/// A motion at hand: any frame of it, or all of them at once.
+#[pyclass(module = "nabiki")]
+pub struct Timeline {
+    built: Arc<BuiltScene>,
+    timeline: nabiki::dynamics::Timeline,
+    fields: Vec<Arc<PythonField>>,
+    offsets: Py<PyArray1<u32>>,
+}
+
+impl Timeline {
+    pub fn of(py: Python<'_>, built: Arc<BuiltScene>, fields: Vec<Arc<PythonField>>) -> PyResult<Self> {
+        let timeline = py.detach(|| built.timeline()).map_err(|refused| error::raised(py, refused))?;
+        let offsets = frame::offsets(py, &built);
+        Ok(Self { built, timeline, fields, offsets })
+    }
+}
+
+#[pymethods]
+impl Timeline {
+    /// All frames: (frames, P, 3) float32, head space, cm; read-only. They take frames x P x 12 bytes.
+    #[pyo3(signature = () -> "numpy.typing.NDArray[numpy.float32]")]
+    fn play<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let frames = self.built.frames() as usize + 1;
+        let Self { built, timeline, fields, .. } = self;
+        let film = watched(py, Ears::default(), fields, |_| {
+            let mut film = vec![Vec3::ZERO; frames * built.hair.strands.points().len()];
+            timeline.play_into(&mut film);
+            Ok(film)
+        })?;
+        Ok(arrays::film(&Bound::new(py, Points::new(film, None))?, frames))
+    }
+
+    /// Any frame, computed from the one before it that was asked for last; `timeline[-1]` is the last frame.
+    fn __getitem__(&mut self, py: Python<'_>, frame: i64) -> PyResult<Frame> {
+        let count = i64::from(self.built.frames()) + 1;
+        let number = if frame < 0 { frame + count } else { frame };
+        if !(0..count).contains(&number) {
+            return Err(PyIndexError::new_err(format!("frame {frame}: the frames are 0 to {}", count - 1)));
+        }
+        let number = number as u32;
+        let Self { built, timeline, fields, offsets } = self;
+        let points = watched(py, Ears::default(), fields, |_| Ok(timeline.seek(number).points().to_vec()))?;
+        let points = Py::new(py, Points::new(points, None))?;
+        Ok(Frame { built: built.clone(), points, offsets: offsets.clone_ref(py), number })
+    }
+
+    fn __len__(&self) -> usize {
+        self.built.frames() as usize + 1
+    }
+
+    /// Where strands begin in the points of each frame, and at last where they end: (S + 1,) uint32.
+    #[getter]
+    fn offsets<'py>(&self, py: Python<'py>) -> Hinted<'py, UInt32> {
+        Hinted::new(self.offsets.bind(py).clone())
+    }
+
+    /// The number of each strand in the whole hair of the scene: (S,) uint32.
+    #[getter]
+    fn ids<'py>(&self, py: Python<'py>) -> Hinted<'py, UInt32> {
+        Hinted::new(PyArray1::from_slice(py, self.built.ids()))
+    }
+}
