@@ -10,6 +10,7 @@ use pyo3::intern;
 use pyo3::prelude::*;
 
 use crate::error;
+use crate::hints::{Forces, Given};
 
 /// A field of force that a Python function answers.
 ///
@@ -28,8 +29,8 @@ pub struct Field {
 #[pymethods]
 impl Field {
     #[new]
-    #[pyo3(signature = (function: "typing.Callable[[typing.Any, int], typing.Any]", strongest))]
-    fn new(py: Python<'_>, function: Bound<'_, PyAny>, strongest: f32) -> PyResult<Self> {
+    fn new(py: Python<'_>, function: Given<'_, Forces>, strongest: f32) -> PyResult<Self> {
+        let function = function.0;
         if !function.is_callable() {
             return Err(error::argument(py, "function", function.repr()?, "must be a function of points and frame"));
         }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nabiki_scene::BuiltScene;
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 
 use crate::arrays::{self, Points};
@@ -56,12 +56,11 @@ impl Frame {
     }
 
     /// The points in the world (cm): (P, 3) float32, a copy.
-    #[pyo3(signature = () -> "numpy.typing.NDArray[numpy.float32]")]
-    fn world_points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    fn world_points<'py>(&self, py: Python<'py>) -> PyResult<Hinted<'py, Float32>> {
         let world = self.built.pose(self.number).world_from_head();
         let points = self.points.get().points();
         let moved: Vec<f32> = points.iter().flat_map(|&p| world.transform_point3(p).to_array()).collect();
-        PyArray1::from_vec(py, moved).reshape([points.len(), 3])
+        PyArray1::from_vec(py, moved).reshape([points.len(), 3]).map(Hinted::new)
     }
 
     fn __repr__(&self) -> String {

@@ -34,48 +34,72 @@ impl<'py, T: Hint> IntoPyObject<'py> for Hinted<'py, T> {
     }
 }
 
-const fn array(of: &'static PyStaticExpr) -> PyStaticExpr {
-    PyStaticExpr::Subscript { value: &type_hint_identifier!("numpy.typing", "NDArray"), slice: of }
+/// An object that Python gives, of the type `T` as far as Python's own tools check it.
+pub struct Given<'py, T>(pub Bound<'py, PyAny>, pub PhantomData<T>);
+
+impl<'py, T: Hint> FromPyObject<'_, 'py> for Given<'py, T> {
+    type Error = Infallible;
+
+    const INPUT_TYPE: PyStaticExpr = T::TYPE;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> Result<Self, Self::Error> {
+        Ok(Self(object.to_owned(), PhantomData))
+    }
 }
 
-/// An array of float32.
-pub struct Float32;
+macro_rules! hints {
+    ($($(#[$doc:meta])* $name:ident = $type:expr;)*) => {
+        $(
+            $(#[$doc])*
+            pub struct $name;
 
-impl Hint for Float32 {
-    const TYPE: PyStaticExpr = array(&type_hint_identifier!("numpy", "float32"));
+            impl Hint for $name {
+                const TYPE: PyStaticExpr = $type;
+            }
+        )*
+    };
 }
 
-/// An array of float64.
-pub struct Float64;
+const INT: PyStaticExpr = type_hint_identifier!("builtins", "int");
+const STR: PyStaticExpr = type_hint_identifier!("builtins", "str");
+const OBJECT: PyStaticExpr = type_hint_identifier!("builtins", "object");
+const ANY: PyStaticExpr = type_hint_identifier!("typing", "Any");
+const CALLABLE: PyStaticExpr = type_hint_identifier!("collections.abc", "Callable");
+const ARRAY: PyStaticExpr = type_hint_identifier!("numpy.typing", "NDArray");
+const ARRAY_LIKE: PyStaticExpr = type_hint_identifier!("numpy.typing", "ArrayLike");
+const DICT: PyStaticExpr = type_hint_subscript!(type_hint_identifier!("builtins", "dict"), STR, ANY);
 
-impl Hint for Float64 {
-    const TYPE: PyStaticExpr = array(&type_hint_identifier!("numpy", "float64"));
-}
-
-/// An array of uint32.
-pub struct UInt32;
-
-impl Hint for UInt32 {
-    const TYPE: PyStaticExpr = array(&type_hint_identifier!("numpy", "uint32"));
-}
-
-/// Anything.
-pub struct Anything;
-
-impl Hint for Anything {
-    const TYPE: PyStaticExpr = type_hint_identifier!("typing", "Any");
-}
-
-/// Dictionaries by name.
-pub struct Dictionaries;
-
-impl Hint for Dictionaries {
-    const TYPE: PyStaticExpr = type_hint_subscript!(
-        type_hint_identifier!("builtins", "list"),
-        type_hint_subscript!(
-            type_hint_identifier!("builtins", "dict"),
-            type_hint_identifier!("builtins", "str"),
-            type_hint_identifier!("typing", "Any")
-        )
-    );
+hints! {
+    /// An array of float32.
+    Float32 = type_hint_subscript!(ARRAY, type_hint_identifier!("numpy", "float32"));
+    /// An array of float64.
+    Float64 = type_hint_subscript!(ARRAY, type_hint_identifier!("numpy", "float64"));
+    /// An array of uint32.
+    UInt32 = type_hint_subscript!(ARRAY, type_hint_identifier!("numpy", "uint32"));
+    /// What NumPy makes an array of.
+    ArrayLike = ARRAY_LIKE;
+    /// Anything.
+    Anything = ANY;
+    /// An object of the class that was asked.
+    SameClass = type_hint_identifier!("typing_extensions", "Self");
+    /// A dictionary by name.
+    Dictionary = DICT;
+    /// Dictionaries by name.
+    Dictionaries = type_hint_subscript!(type_hint_identifier!("builtins", "list"), DICT);
+    /// Values by name.
+    ByName = type_hint_subscript!(type_hint_identifier!("collections.abc", "Mapping"), STR, ANY);
+    /// Called with what is done and what there is to do.
+    Progress = type_hint_subscript!(CALLABLE, PyStaticExpr::List { elts: &[INT, INT] }, OBJECT);
+    /// Called with lines.
+    Report = type_hint_subscript!(CALLABLE, PyStaticExpr::List { elts: &[STR] }, OBJECT);
+    /// Forces at points in a frame.
+    Forces = type_hint_subscript!(CALLABLE, PyStaticExpr::List { elts: &[Float32::TYPE, INT] }, ARRAY_LIKE);
+    /// The scene with its settings as attributes.
+    SceneClass = type_hint_identifier!("nabiki", "Scene");
+    /// A unit of length by name, or in centimetres.
+    UnitName = PyStaticExpr::BinOp {
+        left: &STR,
+        op: pyo3::inspect::PyStaticOperator::BitOr,
+        right: &type_hint_identifier!("builtins", "float"),
+    };
 }

@@ -14,7 +14,7 @@ use toml::{Table, Value};
 
 use crate::error;
 use crate::field::{Field, PythonField};
-use crate::hints::{Anything, Hinted};
+use crate::hints::{Anything, ByName, Dictionary, Given, Hinted, SameClass};
 use crate::made::Folder;
 use crate::values;
 use crate::watched::{Ears, watched};
@@ -111,41 +111,40 @@ fn concerns(thing: &str, key: &str) -> bool {
 #[pymethods]
 impl Scene {
     #[new]
-    #[pyo3(signature = (*_arguments, **_settings))]
+    #[pyo3(signature = (*_arguments: "object", **_settings: "object"))]
     fn new(_arguments: &Bound<'_, PyTuple>, _settings: Option<&Bound<'_, PyDict>>) -> Self {
         Self::default()
     }
 
     /// Reads a scene file. `settings` are put in their places by their keys before anything is read: `{"motion.frames": 50}`.
     #[classmethod]
-    #[pyo3(signature = (path: "str | os.PathLike[str]", settings: "typing.Mapping[str, typing.Any] | None"=None) -> "typing.Self")]
+    #[pyo3(signature = (path, settings=None))]
     fn open<'py>(
         class: &Bound<'py, PyType>,
         path: PathBuf,
-        settings: Option<&Bound<'py, PyMapping>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
+        settings: Option<Given<'py, ByName>>,
+    ) -> PyResult<Hinted<'py, SameClass>> {
         let py = class.py();
-        let settings = settings.map(values::table).transpose()?.unwrap_or_default();
+        let settings = settings.map(|settings| values::table(settings.0.cast()?)).transpose()?.unwrap_or_default();
         let settings: Vec<(String, String)> =
             settings.iter().map(|(key, value)| (key.clone(), value.to_string())).collect();
         let scene = nabiki_scene::Scene::load(&path, &settings).map_err(|refused| error::raised(py, refused.into()))?;
-        Self::another(class, Self { scene, ..Self::default() })
+        Self::another(class, Self { scene, ..Self::default() }).map(Hinted::new)
     }
 
     /// Reads the text of a scene file; `path` names it in errors, and paths in it are relative to the folder of `path`.
     #[classmethod]
-    #[pyo3(signature = (text, path: "str | os.PathLike[str]"=PathBuf::new()) -> "typing.Self")]
-    fn parse<'py>(class: &Bound<'py, PyType>, text: &str, path: PathBuf) -> PyResult<Bound<'py, PyAny>> {
+    #[pyo3(signature = (text, path=PathBuf::new()))]
+    fn parse<'py>(class: &Bound<'py, PyType>, text: &str, path: PathBuf) -> PyResult<Hinted<'py, SameClass>> {
         let scene = nabiki_scene::Scene::parse(text, &path, &[]);
         let scene = scene.map_err(|refused| error::raised(class.py(), refused.into()))?;
-        Self::another(class, Self { scene, ..Self::default() })
+        Self::another(class, Self { scene, ..Self::default() }).map(Hinted::new)
     }
 
     /// The same scene once more, to be changed by itself.
-    #[pyo3(signature = () -> "typing.Self")]
-    fn copy<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+    fn copy<'py>(this: &Bound<'py, Self>) -> PyResult<Hinted<'py, SameClass>> {
         let copy = this.borrow().with(this.py(), this.borrow().scene.clone());
-        Self::another(&this.get_type(), copy)
+        Self::another(&this.get_type(), copy).map(Hinted::new)
     }
 
     /// Its file, or nothing for a scene made in code.
@@ -156,9 +155,8 @@ impl Scene {
     }
 
     /// Every setting with the value that it has, given or not: what a file that says everything would hold.
-    #[pyo3(signature = () -> "dict[str, typing.Any]")]
-    fn settings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        values::dict(py, &self.scene.settings().map_err(|refused| self.refused(py, refused))?)
+    fn settings<'py>(&self, py: Python<'py>) -> PyResult<Hinted<'py, Dictionary>> {
+        values::dict(py, &self.scene.settings().map_err(|refused| self.refused(py, refused))?).map(Hinted::new)
     }
 
     /// The value of a setting, `scene["force[0].vector"]`; None where it has none, or its table is not in the scene.
@@ -214,7 +212,7 @@ impl Scene {
     }
 
     /// Writes it, comments and layout as they were. From then on `path` is its file.
-    #[pyo3(signature = (path: "str | os.PathLike[str]"))]
+    #[pyo3(signature = (path))]
     fn save(&mut self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         self.check_writable(py)?;
         // Only a scene that has a place of its own has paths that are relative to it.

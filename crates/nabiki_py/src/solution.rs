@@ -4,7 +4,7 @@ use nabiki_scene::solve::Solved;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-use crate::hints::{Dictionaries, Hinted};
+use crate::hints::{Dictionaries, Hinted, SceneClass};
 
 /// The wind that was found for some wishes.
 #[pyclass(frozen, module = "nabiki")]
@@ -17,14 +17,14 @@ pub struct Solution {
 impl Solution {
     /// The scene with the settings that were found.
     #[getter]
-    fn scene(&self, py: Python<'_>) -> Py<PyAny> {
-        self.scene.clone_ref(py)
+    fn scene<'py>(&self, py: Python<'py>) -> Hinted<'py, SceneClass> {
+        Hinted::new(self.scene.bind(py).clone())
     }
 
     /// The intervals of the force that was found: (last frame, vector) each.
     #[getter]
-    fn forces(&self) -> Vec<(u32, [f32; 3])> {
-        self.solved.report.answer.keyframes.iter().map(|key| (key.through, key.vector.to_array())).collect()
+    fn forces(&self) -> Vec<(u32, (f32, f32, f32))> {
+        self.solved.report.answer.keyframes.iter().map(|key| (key.through, key.vector.into())).collect()
     }
 
     /// How far the hair was from the wishes (root mean square, cm).

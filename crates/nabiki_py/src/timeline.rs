@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use nabiki_scene::BuiltScene;
-use numpy::{PyArray1, PyArray3};
+use numpy::PyArray1;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 
@@ -12,7 +12,7 @@ use crate::arrays::{self, Points};
 use crate::error;
 use crate::field::PythonField;
 use crate::frame::{self, Frame};
-use crate::hints::{Hinted, UInt32};
+use crate::hints::{Float32, Hinted, UInt32};
 use crate::watched::{Ears, watched};
 
 /// A motion at hand: any frame of it, or all of them at once.
@@ -35,8 +35,7 @@ impl Timeline {
 #[pymethods]
 impl Timeline {
     /// All frames: (frames, P, 3) float32, head space, cm; read-only. They take frames x P x 12 bytes.
-    #[pyo3(signature = () -> "numpy.typing.NDArray[numpy.float32]")]
-    fn play<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
+    fn play<'py>(&mut self, py: Python<'py>) -> PyResult<Hinted<'py, Float32>> {
         let frames = self.built.frames() as usize + 1;
         let Self { built, timeline, fields, .. } = self;
         let film = watched(py, Ears::default(), fields, |_| {
@@ -44,7 +43,7 @@ impl Timeline {
             timeline.play_into(&mut film);
             Ok(film)
         })?;
-        Ok(arrays::film(&Bound::new(py, Points::new(film, None))?, frames))
+        Ok(Hinted::new(arrays::film(&Bound::new(py, Points::new(film, None))?, frames)))
     }
 
     /// Any frame, computed from the one before it that was asked for last; `timeline[-1]` is the last frame.

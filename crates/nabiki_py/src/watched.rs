@@ -13,6 +13,7 @@ use pyo3::prelude::*;
 
 use crate::error;
 use crate::field::PythonField;
+use crate::hints::{Given, Progress, Report};
 
 /// How often Python is asked whether somebody pressed Ctrl-C.
 const ASKED: Duration = Duration::from_millis(50);
@@ -70,6 +71,13 @@ pub struct Ears<'a, 'py> {
     pub progress: Option<&'a Bound<'py, PyAny>>,
     /// Called with each line that the command would print; what looks wrong is a warning where nobody listens.
     pub report: Option<&'a Bound<'py, PyAny>>,
+}
+
+impl<'a, 'py> Ears<'a, 'py> {
+    /// Those of a call.
+    pub fn new(progress: &'a Option<Given<'py, Progress>>, report: &'a Option<Given<'py, Report>>) -> Self {
+        Self { progress: progress.as_ref().map(|given| &given.0), report: report.as_ref().map(|given| &given.0) }
+    }
 }
 
 /// Carries out `work` on a thread of its own and returns when that has ended, whatever happens: after Ctrl-C, or an exception

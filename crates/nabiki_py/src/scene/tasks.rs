@@ -9,13 +9,14 @@ use nabiki_scene::Shown;
 use nabiki_scene::exports::ExportOptions;
 use nabiki_scene::solve::WishFile;
 use nabiki_scene::tasks::{self, SimulateOptions, Twin};
-use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyMapping};
+use pyo3::types::PyBytes;
 
 use super::Scene;
 use crate::arrays::{self, Points};
 use crate::error;
+use crate::hints::{ArrayLike, ByName, Float32, Given, Hinted, Progress, Report, UInt32};
 use crate::simulation::Simulation;
 use crate::solution::Solution;
 use crate::timeline::Timeline;
@@ -51,23 +52,22 @@ impl Scene {
     /// The hair at rest: points (P, 3) float32, head space, cm, and offsets (S + 1,) uint32.
     ///
     /// `strands`: the first so many, spread evenly over the scalp. `file`: writes it into a hair file, too.
-    #[pyo3(signature = (*, strands=None, file: "str | os.PathLike[str] | None"=None, report: "typing.Callable[[str], object] | None"=None)
-        -> "tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.uint32]]")]
+    #[pyo3(signature = (*, strands=None, file=None, report=None))]
     fn groom<'py>(
         &mut self,
         py: Python<'py>,
         strands: Option<usize>,
         file: Option<PathBuf>,
-        report: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<(Bound<'py, PyArray2<f32>>, Bound<'py, PyArray1<u32>>)> {
-        let ears = Ears { progress: None, report };
+        report: Option<Given<'_, Report>>,
+    ) -> PyResult<(Hinted<'py, Float32>, Hinted<'py, UInt32>)> {
+        let ears = Ears::new(&None, &report);
         if let Some(file) = file {
             let (scene, shown) = (self.scene.clone(), shown(strands));
             watched(py, ears, &[], |watch| tasks::groom(scene, shown, &file, watch))?;
         }
         let built = self.built(py, strands, ears)?;
         let points = Bound::new(py, Points::new(built.hair.strands.points().to_vec(), None))?;
-        Ok((arrays::flat(&points), crate::frame::offsets(py, &built).into_bound(py)))
+        Ok((Hinted::new(arrays::flat(&points)), Hinted::new(crate::frame::offsets(py, &built).into_bound(py))))
     }
 
     /// The motion, frame by frame, from rest on. `strands`: the first so many of the scene's, spread evenly over the scalp;
@@ -87,47 +87,47 @@ impl Scene {
 
     /// The force at points (N, 3) in a frame, both in the space of the forces (the world, unless `motion.force_space` says
     /// otherwise; cm): (N, 3) float32.
-    #[pyo3(signature = (points: "numpy.typing.ArrayLike", frame) -> "numpy.typing.NDArray[numpy.float32]")]
+    #[pyo3(signature = (points, frame))]
     fn force_at<'py>(
         &mut self,
         py: Python<'py>,
-        points: &Bound<'py, PyAny>,
+        points: Given<'py, ArrayLike>,
         frame: u32,
-    ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let points = crate::made::points_of("points", points)?;
+    ) -> PyResult<Hinted<'py, Float32>> {
+        let points = crate::made::points_of("points", &points.0)?;
         let built = self.built(py, self.built.as_ref().and_then(|built| first(built.shown)), Ears::default())?;
         let forces = watched(py, Ears::default(), &self.shared_fields(py), |_| {
             Ok(points.iter().flat_map(|&point| built.force_at(point, frame).to_array()).collect::<Vec<f32>>())
         })?;
-        PyArray1::from_vec(py, forces).reshape([points.len(), 3])
+        PyArray1::from_vec(py, forces).reshape([points.len(), 3]).map(Hinted::new)
     }
 
     /// A frame as light: (height, width, 4) float32, linear Rec. 709, premultiplied.
-    #[pyo3(signature = (frame, *, strands=None, progress: "typing.Callable[[int, int], object] | None"=None) -> "numpy.typing.NDArray[numpy.float32]")]
+    #[pyo3(signature = (frame, *, strands=None, progress=None))]
     fn render<'py>(
         &mut self,
         py: Python<'py>,
         frame: u32,
         strands: Option<usize>,
-        progress: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyArray3<f32>>> {
-        let (frame, _) = self.drawn(py, frame, strands, Ears { progress, report: None })?;
+        progress: Option<Given<'_, Progress>>,
+    ) -> PyResult<Hinted<'py, Float32>> {
+        let (frame, _) = self.drawn(py, frame, strands, Ears::new(&progress, &None))?;
         let [width, height] = frame.size.map(|side| side as usize);
         let numbers: Vec<f32> = cast_vec(frame.rgba.into_iter().flatten().collect::<Vec<f32>>());
-        PyArray1::from_vec(py, numbers).reshape([height, width, 4])
+        PyArray1::from_vec(py, numbers).reshape([height, width, 4]).map(Hinted::new)
     }
 
     /// A frame as the bytes of a PNG file, as `nabiki render` writes it; into `file`, too, if one is named.
-    #[pyo3(signature = (frame, *, file: "str | os.PathLike[str] | None"=None, strands=None, progress: "typing.Callable[[int, int], object] | None"=None) -> "bytes")]
+    #[pyo3(signature = (frame, *, file=None, strands=None, progress=None))]
     fn render_png<'py>(
         &mut self,
         py: Python<'py>,
         frame: u32,
         file: Option<PathBuf>,
         strands: Option<usize>,
-        progress: Option<&Bound<'py, PyAny>>,
+        progress: Option<Given<'_, Progress>>,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let (frame, tone_mapping) = self.drawn(py, frame, strands, Ears { progress, report: None })?;
+        let (frame, tone_mapping) = self.drawn(py, frame, strands, Ears::new(&progress, &None))?;
         let written = py.detach(|| {
             if let Some(file) = &file {
                 png::write(file, &frame, &tone_mapping, png::Depth::Eight)?;
@@ -139,42 +139,44 @@ impl Scene {
     }
 
     /// Draws all frames into `folder`: a movie, a contact sheet and whatever else the settings of `output` ask for.
-    #[pyo3(signature = (folder: "str | os.PathLike[str]"="out".into(), *, strands=None, progress: "typing.Callable[[int, int], object] | None"=None,
-        report: "typing.Callable[[str], object] | None"=None))]
+    #[pyo3(signature = (folder="out".into(), *, strands=None, progress=None,
+        report=None))]
     fn run(
         &self,
         py: Python<'_>,
         folder: PathBuf,
         strands: Option<usize>,
-        progress: Option<&Bound<'_, PyAny>>,
-        report: Option<&Bound<'_, PyAny>>,
+        progress: Option<Given<'_, Progress>>,
+        report: Option<Given<'_, Report>>,
     ) -> PyResult<()> {
         let (scene, shown, none) = (self.scene.clone(), shown(strands), ExportOptions::default());
         let fields = self.shared_fields(py);
-        watched(py, Ears { progress, report }, &fields, |watch| tasks::run(scene, shown, &folder, &none, watch))
+        watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::run(scene, shown, &folder, &none, watch))
     }
 
     /// The same with few strands, small, at once.
-    #[pyo3(signature = (folder: "str | os.PathLike[str]"="out".into(), *, strands=300, progress: "typing.Callable[[int, int], object] | None"=None,
-        report: "typing.Callable[[str], object] | None"=None))]
+    #[pyo3(signature = (folder="out".into(), *, strands=300, progress=None,
+        report=None))]
     fn preview(
         &self,
         py: Python<'_>,
         folder: PathBuf,
         strands: usize,
-        progress: Option<&Bound<'_, PyAny>>,
-        report: Option<&Bound<'_, PyAny>>,
+        progress: Option<Given<'_, Progress>>,
+        report: Option<Given<'_, Report>>,
     ) -> PyResult<()> {
         let (scene, fields) = (self.scene.clone(), self.shared_fields(py));
-        watched(py, Ears { progress, report }, &fields, |watch| tasks::preview(scene, strands, &folder, None, watch))
+        watched(py, Ears::new(&progress, &report), &fields, |watch| {
+            tasks::preview(scene, strands, &folder, None, watch)
+        })
     }
 
     /// Writes the moving hair: .usdc, .usda or .abc for other programs, or a motion cache, .nabiki.
     ///
     /// `strands`: the first so many. `layer`: the prim path of the groom over which samples alone are laid. `head`: whether the
     /// head goes into an .abc file, too.
-    #[pyo3(signature = (file: "str | os.PathLike[str]", *, strands=None, layer=None, head=false, progress: "typing.Callable[[int, int], object] | None"=None,
-        report: "typing.Callable[[str], object] | None"=None))]
+    #[pyo3(signature = (file, *, strands=None, layer=None, head=false, progress=None,
+        report=None))]
     #[expect(clippy::too_many_arguments, reason = "named in Python")]
     fn export(
         &self,
@@ -183,41 +185,41 @@ impl Scene {
         strands: Option<usize>,
         layer: Option<String>,
         head: bool,
-        progress: Option<&Bound<'_, PyAny>>,
-        report: Option<&Bound<'_, PyAny>>,
+        progress: Option<Given<'_, Progress>>,
+        report: Option<Given<'_, Report>>,
     ) -> PyResult<()> {
         let exports = ExportOptions { files: Vec::new(), layer, head };
         let options = SimulateOptions { output: file, exports, twin: Twin::Fast };
         let (scene, shown, fields) = (self.scene.clone(), shown(strands), self.shared_fields(py));
-        watched(py, Ears { progress, report }, &fields, |watch| tasks::simulate(scene, shown, &options, watch))
+        watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::simulate(scene, shown, &options, watch))
     }
 
     /// Finds the wind that makes the hair do what is wished for. This scene stays as it is; the answer has one of its own.
     ///
     /// `problem`: what a wish file says, as a dictionary. `strands`: among which locks near a point are looked for.
-    #[pyo3(signature = (problem: "typing.Mapping[str, typing.Any]", *, strands=300, report: "typing.Callable[[str], object] | None"=None) -> "Solution")]
+    #[pyo3(signature = (problem, *, strands=300, report=None))]
     fn _solve<'py>(
         this: &Bound<'py, Self>,
-        problem: &Bound<'py, PyMapping>,
+        problem: Given<'py, ByName>,
         strands: usize,
-        report: Option<&Bound<'py, PyAny>>,
+        report: Option<Given<'_, Report>>,
     ) -> PyResult<Solution> {
         let py = this.py();
-        let text = values::table(problem)?.to_string();
+        let text = values::table(problem.0.cast()?)?.to_string();
         let wishes = WishFile::parse(&text, "".as_ref()).map_err(|refused| error::raised(py, refused.into()))?;
-        Self::found(this, &wishes, strands, report)
+        Self::found(this, &wishes, strands, &report)
     }
 
     /// The same for a wish file.
-    #[pyo3(signature = (wishes: "str | os.PathLike[str]", *, strands=300, report: "typing.Callable[[str], object] | None"=None) -> "Solution")]
+    #[pyo3(signature = (wishes, *, strands=300, report=None))]
     fn _solve_file<'py>(
         this: &Bound<'py, Self>,
         wishes: PathBuf,
         strands: usize,
-        report: Option<&Bound<'py, PyAny>>,
+        report: Option<Given<'_, Report>>,
     ) -> PyResult<Solution> {
         let wishes = WishFile::load(&wishes).map_err(|refused| error::raised(this.py(), refused.into()))?;
-        Self::found(this, &wishes, strands, report)
+        Self::found(this, &wishes, strands, &report)
     }
 }
 
@@ -226,11 +228,11 @@ impl Scene {
         this: &Bound<'py, Self>,
         wishes: &WishFile,
         strands: usize,
-        report: Option<&Bound<'py, PyAny>>,
+        report: &Option<Given<'_, Report>>,
     ) -> PyResult<Solution> {
         let py = this.py();
         let (scene, fields) = (this.borrow().scene.clone(), this.borrow().shared_fields(py));
-        let ears = Ears { progress: None, report };
+        let ears = Ears::new(&None, report);
         let (scene, solved) = watched(py, ears, &fields, |watch| tasks::find(scene, wishes, strands, watch))?;
         let scene = this.borrow().with(py, scene);
         Ok(Solution { scene: Self::another(&this.get_type(), scene)?.unbind(), solved })
