@@ -2,8 +2,8 @@
 //! hair and meshes of files is true of them.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
-use std::sync::Arc;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::Vec3;
 use nabiki::{Hair, Strands};
@@ -17,33 +17,39 @@ use crate::error;
 
 /// The folder of the arrays of a scene, and of those copied from it.
 #[derive(Clone, Default)]
-pub struct Folder(Option<Arc<TempDir>>, u32);
+pub struct Folder(Arc<Mutex<Files>>);
+
+#[derive(Default)]
+struct Files {
+    folder: Option<TempDir>,
+    made: u32,
+}
 
 impl Folder {
-    /// Whether anything was made.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_none()
+    /// Whether a file is one of them.
+    pub fn holds(&self, path: &Path) -> bool {
+        let files = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        files.folder.as_ref().is_some_and(|folder| path.starts_with(folder.path()))
     }
 
     /// A new name in it.
-    fn file(&mut self, py: Python<'_>, ending: &str) -> PyResult<PathBuf> {
-        let folder = match &self.0 {
-            Some(folder) => folder.clone(),
-            None => {
-                let made = tempfile::Builder::new().prefix("nabiki_").tempdir();
-                let made =
-                    made.map_err(|e| error::line(py, format!("no room for arrays beside other temporary files: {e}")))?;
-                self.0.insert(Arc::new(made)).clone()
+    fn file(&self, py: Python<'_>, ending: &str) -> PyResult<PathBuf> {
+        let new = || {
+            let mut files = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            files.made += 1;
+            let name = format!("{}.{ending}", files.made);
+            if files.folder.is_none() {
+                files.folder = Some(tempfile::Builder::new().prefix("nabiki_").tempdir()?);
             }
+            Ok(files.folder.as_ref().map(|folder| folder.path().join(name)).unwrap_or_default())
         };
-        self.1 += 1;
-        // Two scenes that share the folder may both give arrays from now on.
-        let unique = format!("{}_{:x}.{ending}", self.1, std::ptr::from_ref(self) as usize);
-        Ok(folder.path().join(unique))
+        new().map_err(|e: std::io::Error| {
+            error::line(py, format!("no place for arrays beside other temporary files: {e}"))
+        })
     }
 
     /// A hair file of (points, offsets).
-    pub fn hair(&mut self, arrays: &Bound<'_, PyTuple>) -> PyResult<PathBuf> {
+    pub fn hair(&self, arrays: &Bound<'_, PyTuple>) -> PyResult<PathBuf> {
         let py = arrays.py();
         let hair = hair(arrays)?;
         let path = self.file(py, "hair")?;
@@ -52,7 +58,7 @@ impl Folder {
     }
 
     /// A mesh file of (points, faces).
-    pub fn mesh(&mut self, thing: &str, arrays: &Bound<'_, PyTuple>) -> PyResult<PathBuf> {
+    pub fn mesh(&self, thing: &str, arrays: &Bound<'_, PyTuple>) -> PyResult<PathBuf> {
         let py = arrays.py();
         let (points, faces) = pair(thing, "(points, faces)", arrays)?;
         let points = points_of(&format!("{thing} points"), &points)?;

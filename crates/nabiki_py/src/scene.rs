@@ -3,7 +3,7 @@
 mod tasks;
 
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
 use nabiki_scene::scene::OwnField;
@@ -20,11 +20,15 @@ use crate::values;
 use crate::watched::{Ears, watched};
 
 /// Everything that decides a movie. `scene["motion.frames"]` is a setting by the key that it has in a scene file.
-#[pyclass(subclass, module = "nabiki")]
+#[pyclass(frozen, subclass, module = "nabiki")]
 #[derive(Default)]
-pub struct Scene {
+pub struct Scene(Mutex<State>);
+
+/// What a scene is. Nobody of Python is called while it is locked, since whoever is called may ask the scene.
+#[derive(Clone, Default)]
+struct State {
     scene: nabiki_scene::Scene,
-    fields: Vec<Py<Field>>,
+    fields: Vec<Arc<PythonField>>,
     made: Folder,
     built: Option<Built>,
 }
@@ -49,54 +53,62 @@ fn files_of(scene: &nabiki_scene::Scene) -> Vec<FileState> {
 }
 
 impl Scene {
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// What it is now.
+    fn now(&self) -> nabiki_scene::Scene {
+        self.state().scene.clone()
+    }
+
     /// All that the scene names, loaded; what has not changed since it was built last is taken from there.
-    fn built(&mut self, py: Python<'_>, strands: Option<usize>, ears: Ears<'_, '_>) -> PyResult<Arc<BuiltScene>> {
+    fn built(&self, py: Python<'_>, strands: Option<usize>, ears: Ears<'_, '_>) -> PyResult<Arc<BuiltScene>> {
         let shown = strands.map_or(Shown::All, Shown::First);
-        let files = files_of(&self.scene);
-        let known = self.built.as_ref().filter(|known| known.files == files);
-        if let Some(known) = known.filter(|known| known.shown == shown && known.scene.scene == self.scene) {
+        let State { scene, built: known, .. } = self.state().clone();
+        let files = files_of(&scene);
+        let known = known.filter(|known| known.files == files);
+        if let Some(known) = known.as_ref().filter(|known| known.shown == shown && known.scene.scene == scene) {
             return Ok(known.scene.clone());
         }
-        let (scene, fields) = (self.scene.clone(), self.shared_fields(py));
-        let built = watched(py, ears, &fields, |_| match known {
+        let built = watched(py, ears, &self.functions(), |_| match known {
             Some(known) => known.scene.changed_to(scene, shown),
             None => scene.build(shown),
         })?;
         let scene = Arc::new(built);
-        self.built = Some(Built { shown, scene: scene.clone(), files });
+        self.state().built = Some(Built { shown, scene: scene.clone(), files });
         Ok(scene)
     }
 
-    fn shared_fields(&self, py: Python<'_>) -> Vec<Arc<PythonField>> {
-        self.fields.iter().map(|field| field.bind(py).get().shared.clone()).collect()
+    fn functions(&self) -> Vec<Arc<PythonField>> {
+        self.state().fields.clone()
     }
 
-    fn refused(&self, py: Python<'_>, refused: nabiki_scene::scene::SceneError) -> PyErr {
+    fn refused(py: Python<'_>, refused: nabiki_scene::scene::SceneError) -> PyErr {
         error::raised(py, refused.into())
     }
 
     /// Another value of a setting; what is out of its range is refused, and the scene is then as it was.
-    fn put(&mut self, py: Python<'_>, key: &str, value: Option<Value>) -> PyResult<()> {
-        let changed = self.scene.with_setting(key, value).map_err(|refused| self.refused(py, refused))?;
-        if let Err(wrong) = changed.check()
-            && concerns(&wrong.thing, key)
-        {
-            return Err(self.refused(py, changed.refusal(wrong)));
-        }
-        self.scene = changed;
-        Ok(())
+    fn put(&self, py: Python<'_>, key: &str, value: Option<Value>) -> PyResult<()> {
+        let put = || {
+            let mut state = self.state();
+            let changed = state.scene.with_setting(key, value)?;
+            match changed.check() {
+                Err(wrong) if concerns(&wrong.thing, key) => Err(changed.refusal(wrong)),
+                _ => {
+                    state.scene = changed;
+                    Ok(())
+                }
+            }
+        };
+        put().map_err(|refused| Self::refused(py, refused))
     }
 
     /// A scene of the same class.
-    fn another<'py>(class: &Bound<'py, PyType>, scene: Self) -> PyResult<Bound<'py, PyAny>> {
+    fn another<'py>(class: &Bound<'py, PyType>, state: State) -> PyResult<Bound<'py, PyAny>> {
         let another = class.call0()?;
-        *another.cast::<Self>()?.borrow_mut() = scene;
+        *another.cast::<Self>()?.get().state() = state;
         Ok(another)
-    }
-
-    fn with(&self, py: Python<'_>, scene: nabiki_scene::Scene) -> Self {
-        let fields = self.fields.iter().map(|field| field.clone_ref(py)).collect();
-        Self { scene, fields, made: self.made.clone(), built: self.built.clone() }
     }
 }
 
@@ -128,8 +140,8 @@ impl Scene {
         let settings = settings.map(|settings| values::table(settings.0.cast()?)).transpose()?.unwrap_or_default();
         let settings: Vec<(String, String)> =
             settings.iter().map(|(key, value)| (key.clone(), value.to_string())).collect();
-        let scene = nabiki_scene::Scene::load(&path, &settings).map_err(|refused| error::raised(py, refused.into()))?;
-        Self::another(class, Self { scene, ..Self::default() }).map(Hinted::new)
+        let scene = nabiki_scene::Scene::load(&path, &settings).map_err(|refused| Self::refused(py, refused))?;
+        Self::another(class, State { scene, ..State::default() }).map(Hinted::new)
     }
 
     /// Reads the text of a scene file; `path` names it in errors, and paths in it are relative to the folder of `path`.
@@ -138,30 +150,31 @@ impl Scene {
     fn parse<'py>(class: &Bound<'py, PyType>, text: &str, path: PathBuf) -> PyResult<Hinted<'py, SameClass>> {
         let scene = nabiki_scene::Scene::parse(text, &path, &[]);
         let scene = scene.map_err(|refused| error::raised(class.py(), refused.into()))?;
-        Self::another(class, Self { scene, ..Self::default() }).map(Hinted::new)
+        Self::another(class, State { scene, ..State::default() }).map(Hinted::new)
     }
 
     /// The same scene once more, to be changed by itself.
     fn copy<'py>(this: &Bound<'py, Self>) -> PyResult<Hinted<'py, SameClass>> {
-        let copy = this.borrow().with(this.py(), this.borrow().scene.clone());
-        Self::another(&this.get_type(), copy).map(Hinted::new)
+        let state = this.get().state().clone();
+        Self::another(&this.get_type(), state).map(Hinted::new)
     }
 
     /// Its file, or nothing for a scene made in code.
     #[getter]
     fn file(&self) -> Option<String> {
-        let file = self.scene.file();
+        let scene = self.now();
+        let file = scene.file();
         (!file.as_os_str().is_empty()).then(|| file.display().to_string())
     }
 
     /// Every setting with the value that it has, given or not: what a file that says everything would hold.
     fn settings<'py>(&self, py: Python<'py>) -> PyResult<Hinted<'py, Dictionary>> {
-        values::dict(py, &self.scene.settings().map_err(|refused| self.refused(py, refused))?).map(Hinted::new)
+        values::dict(py, &self.now().settings().map_err(|refused| Self::refused(py, refused))?).map(Hinted::new)
     }
 
     /// The value of a setting, `scene["force[0].vector"]`; None where it has none, or its table is not in the scene.
     fn __getitem__<'py>(&self, py: Python<'py>, key: &str) -> PyResult<Hinted<'py, Anything>> {
-        let mut place = Value::Table(self.scene.settings().map_err(|refused| self.refused(py, refused))?);
+        let mut place = Value::Table(self.now().settings().map_err(|refused| Self::refused(py, refused))?);
         for step in key.replace('[', ".").replace(']', "").split('.') {
             let below = match &mut place {
                 Value::Table(table) => table.remove(step),
@@ -180,7 +193,7 @@ impl Scene {
 
     /// Gives a setting another value; None takes it out, so that it is what it is when nobody says. Meshes may be files or
     /// (points, faces), `hair.file` may be (points, offsets).
-    fn __setitem__(&mut self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
+    fn __setitem__(&self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
         let value = match value {
             none if none.is_none() => None,
             given => Some(self.value(key, given)?),
@@ -189,58 +202,59 @@ impl Scene {
     }
 
     /// Takes a setting, a table or an entry of a list out.
-    fn __delitem__(&mut self, py: Python<'_>, key: &str) -> PyResult<()> {
+    fn __delitem__(&self, py: Python<'_>, key: &str) -> PyResult<()> {
         self.put(py, key, None)
     }
 
     /// Fields of Python functions, which are added to those of the settings.
     #[getter]
-    fn fields(&self, py: Python<'_>) -> Vec<Py<Field>> {
-        self.fields.iter().map(|field| field.clone_ref(py)).collect()
+    fn fields(&self) -> Vec<Field> {
+        self.functions().into_iter().map(|shared| Field { shared }).collect()
     }
 
     #[setter]
-    fn set_fields(&mut self, py: Python<'_>, fields: Vec<Py<Field>>) {
-        self.scene.field.own = fields.iter().map(|field| OwnField(field.bind(py).get().shared.clone())).collect();
-        self.fields = fields;
+    fn set_fields(&self, fields: Vec<Bound<'_, Field>>) {
+        let fields: Vec<Arc<PythonField>> = fields.iter().map(|field| field.get().shared.clone()).collect();
+        let mut state = self.state();
+        state.scene.field.own = fields.iter().map(|field| OwnField(field.clone())).collect();
+        state.fields = fields;
     }
 
     /// The scene as TOML: the text it was read from with what has changed since in its place, comments as they were.
     fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
-        self.check_writable(py)?;
-        self.scene.to_toml().map_err(|refused| self.refused(py, refused))
+        self.writable(py)?.to_toml().map_err(|refused| Self::refused(py, refused))
     }
 
     /// Writes it, comments and layout as they were. From then on `path` is its file.
     #[pyo3(signature = (path))]
-    fn save(&mut self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        self.check_writable(py)?;
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let mut scene = self.writable(py)?;
         // Only a scene that has a place of its own has paths that are relative to it.
-        let mut moved = match self.scene.file().as_os_str().is_empty() {
-            true => self.scene.clone(),
-            false => self.scene.clone().moved_to(&path),
-        };
-        moved.save(&path).map_err(|refused| self.refused(py, refused))?;
-        self.scene = moved;
+        if !scene.file().as_os_str().is_empty() {
+            scene = scene.moved_to(&path);
+        }
+        scene.save(&path).map_err(|refused| Self::refused(py, refused))?;
+        self.state().scene = scene;
         Ok(())
     }
 
     fn __repr__(&self) -> String {
-        match self.scene.file() {
-            none if none.as_os_str().is_empty() => "<nabiki.Scene>".to_owned(),
-            file => format!("<nabiki.Scene {}>", file.display()),
+        match self.file() {
+            None => "<nabiki.Scene>".to_owned(),
+            Some(file) => format!("<nabiki.Scene {file}>"),
         }
     }
 }
 
 impl Scene {
     /// A value of a setting, or of a table of them, in which arrays of hair and meshes become files.
-    fn value(&mut self, key: &str, given: &Bound<'_, PyAny>) -> PyResult<Value> {
+    fn value(&self, key: &str, given: &Bound<'_, PyAny>) -> PyResult<Value> {
         let name = key.rsplit('.').next().unwrap_or(key);
         if let Ok(arrays) = given.cast::<PyTuple>() {
+            let made = self.state().made.clone();
             let path = match name {
-                "mesh" => Some(self.made.mesh(key, arrays)?),
-                "file" if key == "hair.file" => Some(self.made.hair(arrays)?),
+                "mesh" => Some(made.mesh(key, arrays)?),
+                "file" if key == "hair.file" => Some(made.hair(arrays)?),
                 _ => None,
             };
             if let Some(path) = path {
@@ -266,9 +280,11 @@ impl Scene {
         values::to_toml(given)
     }
 
-    fn check_writable(&self, py: Python<'_>) -> PyResult<()> {
-        if self.made.is_empty() {
-            return Ok(());
+    /// The scene, unless it names what is gone with it.
+    fn writable(&self, py: Python<'_>) -> PyResult<nabiki_scene::Scene> {
+        let State { scene, made, .. } = self.state().clone();
+        if !scene.inputs().iter().any(|file| made.holds(file)) {
+            return Ok(scene);
         }
         Err(error::line(
             py,

@@ -6,6 +6,11 @@ use pyo3::types::{PyDict, PyList};
 
 use crate::hints::{Dictionaries, Hinted, SceneClass};
 
+/// A number as a file has it, with no more digits than it takes to tell it from its neighbours of 32 bits.
+fn in_file(number: f32) -> f64 {
+    number.to_string().parse().unwrap_or(f64::from(number))
+}
+
 /// The wind that was found for some wishes.
 #[pyclass(frozen, module = "nabiki")]
 pub struct Solution {
@@ -23,8 +28,14 @@ impl Solution {
 
     /// The intervals of the force that was found: (last frame, vector) each.
     #[getter]
-    fn forces(&self) -> Vec<(u32, (f32, f32, f32))> {
-        self.solved.report.answer.keyframes.iter().map(|key| (key.through, key.vector.into())).collect()
+    fn forces(&self) -> Vec<(u32, (f64, f64, f64))> {
+        self.solved
+            .report
+            .answer
+            .keyframes
+            .iter()
+            .map(|key| (key.through, key.vector.to_array().map(in_file).into()))
+            .collect()
     }
 
     /// How far the hair was from the wishes (root mean square, cm).

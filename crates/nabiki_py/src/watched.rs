@@ -148,13 +148,11 @@ impl Heard {
         }
     }
 
-    /// All that has been said by now, of progress only the last.
+    /// All that has been said by now, of progress only where it began and where it is.
     fn newest(&self, first: Message, hear: &Receiver<Message>) -> Vec<Message> {
         let mut messages = vec![first];
         while let Ok(next) = hear.try_recv() {
-            if let (Some(Message::Progress(..)), Message::Progress(done, _)) = (messages.last(), &next)
-                && *done > 0
-            {
+            if let (Some(Message::Progress(1.., _)), Message::Progress(1.., _)) = (messages.last(), &next) {
                 messages.pop();
             }
             messages.push(next);

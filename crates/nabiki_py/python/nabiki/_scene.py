@@ -23,6 +23,8 @@ class Scene(SceneSettings):
     table that the scene does not have is made by setting one of its keys, and taken out by None: `scene.gust = None`.
     """
 
+    __slots__ = ()
+
     def __init__(
         self,
         head: File | Arrays | Mapping[str, Any] | None = None,

@@ -13,7 +13,7 @@ use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use super::Scene;
+use super::{Scene, State};
 use crate::arrays::{self, Points};
 use crate::error;
 use crate::hints::{ArrayLike, ByName, Float32, Given, Hinted, Progress, Report, UInt32};
@@ -34,16 +34,16 @@ fn check_frame(py: Python<'_>, frame: u32, last: u32) -> PyResult<()> {
 impl Scene {
     /// One frame as light, and what brings it onto a screen.
     fn drawn(
-        &mut self,
+        &self,
         py: Python<'_>,
         frame: u32,
         strands: Option<usize>,
         ears: Ears<'_, '_>,
     ) -> PyResult<(nabiki_render::Frame, ToneMapping)> {
-        check_frame(py, frame, self.scene.motion.frames)?;
         let built = self.built(py, strands, ears)?;
-        let frame = watched(py, ears, &self.shared_fields(py), |watch| tasks::draw(&built, frame, watch))?;
-        Ok((frame, ToneMapping::new(&self.scene.picture)))
+        check_frame(py, frame, built.frames())?;
+        let frame = watched(py, ears, &self.functions(), |watch| tasks::draw(&built, frame, watch))?;
+        Ok((frame, ToneMapping::new(&built.scene.picture)))
     }
 }
 
@@ -54,7 +54,7 @@ impl Scene {
     /// `strands`: the first so many, spread evenly over the scalp. `file`: writes it into a hair file, too.
     #[pyo3(signature = (*, strands=None, file=None, report=None))]
     fn groom<'py>(
-        &mut self,
+        &self,
         py: Python<'py>,
         strands: Option<usize>,
         file: Option<PathBuf>,
@@ -62,7 +62,7 @@ impl Scene {
     ) -> PyResult<(Hinted<'py, Float32>, Hinted<'py, UInt32>)> {
         let ears = Ears::new(&None, &report);
         if let Some(file) = file {
-            let (scene, shown) = (self.scene.clone(), shown(strands));
+            let (scene, shown) = (self.now(), shown(strands));
             watched(py, ears, &[], |watch| tasks::groom(scene, shown, &file, watch))?;
         }
         let built = self.built(py, strands, ears)?;
@@ -73,30 +73,30 @@ impl Scene {
     /// The motion, frame by frame, from rest on. `strands`: the first so many of the scene's, spread evenly over the scalp;
     /// each moves, to the bit, as it does in the whole.
     #[pyo3(signature = (strands=None))]
-    fn simulate(&mut self, py: Python<'_>, strands: Option<usize>) -> PyResult<Simulation> {
+    fn simulate(&self, py: Python<'_>, strands: Option<usize>) -> PyResult<Simulation> {
         let built = self.built(py, strands, Ears::default())?;
-        Simulation::of(py, built, self.shared_fields(py))
+        Simulation::of(py, built, self.functions())
     }
 
     /// The motion at hand: any frame, or all of them at once.
     #[pyo3(signature = (strands=None))]
-    fn timeline(&mut self, py: Python<'_>, strands: Option<usize>) -> PyResult<Timeline> {
+    fn timeline(&self, py: Python<'_>, strands: Option<usize>) -> PyResult<Timeline> {
         let built = self.built(py, strands, Ears::default())?;
-        Timeline::of(py, built, self.shared_fields(py))
+        Timeline::of(py, built, self.functions())
     }
 
     /// The force at points (N, 3) in a frame, both in the space of the forces (the world, unless `motion.force_space` says
     /// otherwise; cm): (N, 3) float32.
     #[pyo3(signature = (points, frame))]
     fn force_at<'py>(
-        &mut self,
+        &self,
         py: Python<'py>,
         points: Given<'py, ArrayLike>,
         frame: u32,
     ) -> PyResult<Hinted<'py, Float32>> {
         let points = crate::made::points_of("points", &points.0)?;
-        let built = self.built(py, self.built.as_ref().and_then(|built| first(built.shown)), Ears::default())?;
-        let forces = watched(py, Ears::default(), &self.shared_fields(py), |_| {
+        let built = self.built(py, self.shown_last(), Ears::default())?;
+        let forces = watched(py, Ears::default(), &self.functions(), |_| {
             Ok(points.iter().flat_map(|&point| built.force_at(point, frame).to_array()).collect::<Vec<f32>>())
         })?;
         PyArray1::from_vec(py, forces).reshape([points.len(), 3]).map(Hinted::new)
@@ -105,7 +105,7 @@ impl Scene {
     /// A frame as light: (height, width, 4) float32, linear Rec. 709, premultiplied.
     #[pyo3(signature = (frame, *, strands=None, progress=None))]
     fn render<'py>(
-        &mut self,
+        &self,
         py: Python<'py>,
         frame: u32,
         strands: Option<usize>,
@@ -120,7 +120,7 @@ impl Scene {
     /// A frame as the bytes of a PNG file, as `nabiki render` writes it; into `file`, too, if one is named.
     #[pyo3(signature = (frame, *, file=None, strands=None, progress=None))]
     fn render_png<'py>(
-        &mut self,
+        &self,
         py: Python<'py>,
         frame: u32,
         file: Option<PathBuf>,
@@ -149,8 +149,8 @@ impl Scene {
         progress: Option<Given<'_, Progress>>,
         report: Option<Given<'_, Report>>,
     ) -> PyResult<()> {
-        let (scene, shown, none) = (self.scene.clone(), shown(strands), ExportOptions::default());
-        let fields = self.shared_fields(py);
+        let (scene, shown, none) = (self.now(), shown(strands), ExportOptions::default());
+        let fields = self.functions();
         watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::run(scene, shown, &folder, &none, watch))
     }
 
@@ -165,7 +165,7 @@ impl Scene {
         progress: Option<Given<'_, Progress>>,
         report: Option<Given<'_, Report>>,
     ) -> PyResult<()> {
-        let (scene, fields) = (self.scene.clone(), self.shared_fields(py));
+        let (scene, fields) = (self.now(), self.functions());
         watched(py, Ears::new(&progress, &report), &fields, |watch| {
             tasks::preview(scene, strands, &folder, None, watch)
         })
@@ -190,7 +190,7 @@ impl Scene {
     ) -> PyResult<()> {
         let exports = ExportOptions { files: Vec::new(), layer, head };
         let options = SimulateOptions { output: file, exports, twin: Twin::Fast };
-        let (scene, shown, fields) = (self.scene.clone(), shown(strands), self.shared_fields(py));
+        let (scene, shown, fields) = (self.now(), shown(strands), self.functions());
         watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::simulate(scene, shown, &options, watch))
     }
 
@@ -231,21 +231,22 @@ impl Scene {
         report: &Option<Given<'_, Report>>,
     ) -> PyResult<Solution> {
         let py = this.py();
-        let (scene, fields) = (this.borrow().scene.clone(), this.borrow().shared_fields(py));
+        let State { scene, fields, made, built } = this.get().state().clone();
         let ears = Ears::new(&None, report);
         let (scene, solved) = watched(py, ears, &fields, |watch| tasks::find(scene, wishes, strands, watch))?;
-        let scene = this.borrow().with(py, scene);
-        Ok(Solution { scene: Self::another(&this.get_type(), scene)?.unbind(), solved })
+        let state = State { scene, fields, made, built };
+        Ok(Solution { scene: Self::another(&this.get_type(), state)?.unbind(), solved })
+    }
+
+    /// How many strands were asked for last, so that they are not built anew.
+    fn shown_last(&self) -> Option<usize> {
+        match self.state().built.as_ref()?.shown {
+            Shown::First(count) => Some(count),
+            Shown::All | Shown::AtMost(_) => None,
+        }
     }
 }
 
 fn shown(strands: Option<usize>) -> Shown {
     strands.map_or(Shown::All, Shown::First)
-}
-
-fn first(shown: Shown) -> Option<usize> {
-    match shown {
-        Shown::First(count) => Some(count),
-        Shown::All | Shown::AtMost(_) => None,
-    }
 }

@@ -13,7 +13,7 @@ use crate::outputs::{self, PictureOutputs, Stills};
 use crate::place::{self, Folders};
 use crate::scene::Scene;
 use crate::told::Told;
-use crate::watch::Watch;
+use crate::watch::{Watch, each_frame};
 
 /// What [`render`] draws, and whence.
 #[derive(Clone, Debug, Default)]
@@ -111,9 +111,12 @@ pub fn draw(built: &BuiltScene, frame: u32, watch: &mut dyn Watch) -> Result<Fra
     if frame > last {
         return Err(Error::refused(format!("frame {frame}: the last frame is motion.frames = {last}")));
     }
-    let frames = Simulated::new(built)?;
+    let mut frames = Simulated::new(built)?;
     let mut film = Film::new(built, &built.scene.picture, &mut frames.again(), watch)?;
-    film.still(frame, &mut frames.again())
+    if frame > 0 {
+        each_frame(watch, "simulating", 0..=frame - 1, |n| frames.frame(n).map(drop))?;
+    }
+    film.still(frame, &mut frames)
 }
 
 fn source<'a>(built: &'a BuiltScene, options: &RenderOptions) -> Result<Box<dyn FrameSource + 'a>> {

@@ -1,0 +1,99 @@
+"""Whatever a user gets wrong is one line, an exception with its parts, and leaves nothing behind."""
+
+import pickle
+
+import numpy
+import pytest
+from conftest import SCENES
+
+import nabiki
+
+
+def test_parts_of_a_refused_setting(tmp_path):
+    file = tmp_path / "bad.toml"
+    file.write_text("[[force]]\nthrough = 5\nvector = [1, 2, 3]\n[motion]\ntime_step = -0.1\n")
+    with pytest.raises(nabiki.Error) as refused:
+        nabiki.Scene.open(file)
+    error = refused.value
+    assert isinstance(error, ValueError)
+    assert (error.file, error.line, error.thing, error.value) == (str(file), 5, "motion.time_step", "-0.1")
+    assert error.way_out == "must be a finite number above 0"
+    assert str(error) == f"{file}:5: motion.time_step = -0.1: must be a finite number above 0"
+    again = pickle.loads(pickle.dumps(error))
+    assert str(again) == str(error) and vars(again) == vars(error)
+
+
+def lines():
+    """What cannot be, and a word of the way out."""
+    gust = nabiki.Scene.open(SCENES / "gust.toml", {"motion.frames": 3, "output.sheet": [0]})
+    points, offsets = gust.groom(strands=3)
+    wrong = points.copy()
+    wrong[4] = numpy.nan
+    made = nabiki.Scene(hair=(points, offsets), forces=[(3, (1, 0, 0))])
+    cube = numpy.float32([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+    return [
+        (lambda: nabiki.Scene.open("none.toml"), "none.toml"),
+        (lambda: nabiki.Scene.open(SCENES / "gust.toml", {"motion.framez": 3}), "did you mean"),
+        (lambda: nabiki.Scene.parse("[motion"), "TOML"),
+        (lambda: nabiki.Scene(motions={}), "motion"),
+        (lambda: list(nabiki.Scene().simulate()), "force"),
+        (lambda: nabiki.Scene(head="none.obj", forces=[(1, (1, 0, 0))]).groom(), "none.obj"),
+        (lambda: nabiki.Scene(hair=(points, offsets[:-1])), "must begin with 0"),
+        (lambda: nabiki.Scene(hair=(points, [0, 1, len(points)])), "two points"),
+        (lambda: nabiki.Scene(hair=(points, 7)), "shape"),
+        (lambda: nabiki.Scene(hair=(points[:, :2], offsets)), "shape"),
+        (lambda: nabiki.Scene(hair=(wrong, offsets)), "finite"),
+        (lambda: nabiki.Scene(hair=("a", "b")), "array"),
+        (lambda: nabiki.Scene(hair=(points,)), "(points, offsets)"),
+        (lambda: nabiki.Scene(head=(cube, [(0, 1, 8)])), "0 to 7"),
+        (lambda: nabiki.Scene(head=(cube, [0, 1, 2])), "shape"),
+        (lambda: made.save("made.toml"), "write_hair"),
+        (lambda: gust.simulate(strands=0), "strands"),
+        (lambda: gust.simulate(strands=10**7), "strands"),
+        (lambda: gust.render(4), "0 to motion.frames = 3"),
+        (lambda: gust.render_png(0, file="none/a.png"), "none"),
+        (lambda: gust.export("none/a.usdc"), "none"),
+        (lambda: gust.export("a.mp4"), ".usdc"),
+        (lambda: gust.export(SCENES), "scenes"),
+        (lambda: gust.export("a.usdc", layer="/hair"), "layer"),
+        (lambda: gust.groom(file="a.txt"), ".hair"),
+        (lambda: gust.solve("none.toml"), "none.toml"),
+        (lambda: gust.solve([]), "wish"),
+        (lambda: gust.solve([{"frame": 1}]), "wish[0]"),
+        (lambda: gust.solve([{"frame": 1, "strands": [1], "moved": (1, 0, 0)}], unknowns={}), "may change"),
+        (lambda: gust.solve([{"frame": 1, "strands": [1], "moved": (1, 0, 0)}], space="moon"), "world"),
+        (lambda: nabiki.convert("none.hair", "a.usdc"), "none.hair"),
+        (lambda: nabiki.convert(SCENES / "gust.toml", "a.usdc"), "gust.toml"),
+        (lambda: nabiki.convert("none.hair", "a.usdc", unit="mile"), "mile"),
+        (lambda: nabiki.info("none.hair"), "none.hair"),
+        (lambda: nabiki.write_hair("a.txt", points, offsets), ".hair"),
+    ]
+
+
+@pytest.mark.parametrize("place", range(len(lines())))
+def test_what_cannot_be_is_one_line_with_a_way_out(place, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    wrong, word = lines()[place]
+    with pytest.raises(nabiki.Error) as refused:
+        wrong()
+    text = str(refused.value)
+    assert word in text and "\n" not in text and text[-1] not in ".:", text
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda scene: setattr(scene.motion, "frames", object()),
+        lambda scene: scene.simulate(strands="many"),
+        lambda scene: scene.render(-1),
+        lambda scene: scene.render(1.5),
+        lambda scene: scene.export(5),
+        lambda scene: setattr(scene, "fields", [5]),
+        lambda scene: setattr(scene.motion, "frames", 2**70),
+    ],
+)
+def test_arguments_of_another_type_are_exceptions_of_python(wrong):
+    scene = nabiki.Scene.open(SCENES / "gust.toml", {"motion.frames": 3, "output.sheet": [0]})
+    with pytest.raises((TypeError, OverflowError)):
+        wrong(scene)

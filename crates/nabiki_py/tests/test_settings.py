@@ -1,0 +1,218 @@
+"""Every setting is an attribute, means what it means in a file, and has a doc."""
+
+import keyword
+
+import pytest
+from conftest import SCENES
+
+import nabiki
+from nabiki.settings._table import Table, Tables
+
+WIND = "[[force]]\nthrough = 5\nvector = [1, 2, 3]\n"
+MOTION = '{ file = "m.bvh", skeleton = "s.asf", unit_cm = 1.0, up = "+y", facing = "+z", frames_per_second = 30.0 }'
+LIE = 'unit = "m"\nup = "+y"\nfacing = "+x"\norigin = [0, 0, 0]\n'
+# Between them they have every table that a scene can have.
+MOST = f"""{WIND}
+[head]
+motion = {MOTION}
+[gust]
+[body_wind]
+[flow]
+[turbulence]
+envelope = [{{ frame = 1, factor = 1.0 }}]
+[neighbours]
+[disturbance]
+[[fan]]
+position = [0, 0, 0]
+direction = [1, 0, 0]
+envelope = [{{ frame = 1, factor = 1.0 }}]
+[[vortex]]
+position = [0, 0, 0]
+envelope = [{{ frame = 1, factor = 1.0 }}]
+[[point]]
+position = [0, 0, 0]
+envelope = [{{ frame = 1, factor = 1.0 }}]
+[free]
+tie = {{ at = [0, 0, 0], within = 1.0 }}
+[motion]
+form = "free"
+[hair.style.ponytail]
+at = [-12, 0, 0]
+[[hair.style.cuts]]
+point = [0, 0, 0]
+normal = [0, -1, 0]
+region = "top"
+[[body]]
+mesh = "b.obj"
+{LIE}motion = {MOTION}
+[picture.camera]
+distance = 1.0
+height = 1.0
+target = [0, 0, 0]
+[picture.camera.to]
+azimuth = 1.0
+elevation = 1.0
+distance = 1.0
+fov = 1.0
+target = [0, 0, 0]
+[output]
+sheet = [0]
+[picture.video]
+frame_rate = 24.0
+"""
+IMPORTED = f"""{WIND}
+[head]
+mesh = "h.obj"
+{LIE}[hair]
+file = "h.hair"
+strands = 5
+segments = 5
+{LIE}"""
+
+
+def scenes():
+    return [nabiki.Scene.parse(text, "all.toml") for text in (MOST, IMPORTED)]
+
+
+def name_of(key):
+    """The attribute of a key: Python has some words for itself."""
+    return key + "_" * keyword.iskeyword(key)
+
+
+def attribute(owner, name):
+    """An attribute that is a property with a doc."""
+    found = getattr(type(owner), name, None)
+    assert isinstance(found, property), f"{type(owner).__name__} has no {name}"
+    assert found.__doc__ and found.fset, f"{type(owner).__name__}.{name} says nothing of itself"
+    return getattr(owner, name)
+
+
+def walk(owner, values, path=""):
+    """All settings of a table as attributes."""
+    for key, value in values.items():
+        name = name_of(key)
+        found = attribute(owner, name)
+        if isinstance(found, Table):
+            yield owner, name, found
+            yield from walk(found, value, f"{path}{name}.")
+        elif isinstance(found, Tables):
+            yield owner, name, found
+            for entry, below in zip(found, value, strict=True):
+                yield from walk(entry, below, f"{path}{name}.")
+        else:
+            assert found == value, f"{path}{name}"
+            yield owner, name, value
+
+
+def test_every_key_of_a_scene_is_an_attribute_with_a_doc_and_its_value_and_there_are_no_others():
+    reached = {(type(owner), name) for scene in scenes() for owner, name, _ in walk(scene, scene.settings())}
+    tables = Table.__subclasses__()
+    there = {(table, name) for table in tables for name, value in vars(table).items() if isinstance(value, property)}
+    assert there - reached == set() and len(tables) > 30
+
+
+def test_every_attribute_put_back_as_it_is_leaves_the_scene_as_it_was():
+    for scene in scenes():
+        before, text = scene.settings(), scene.to_toml()
+        for owner, name, value in walk(scene, scene.settings()):
+            setattr(owner, name, value)
+        assert scene.settings() == before and scene.to_toml() == text
+
+
+@pytest.mark.parametrize(
+    ("put", "line"),
+    [
+        (lambda scene: setattr(scene.motion, "frames", 7), "[motion]\nframes = 7\n"),
+        (lambda scene: setattr(scene.free, "stiffness", [2000, 200]), "[free]\nstiffness = [2000, 200]\n"),
+        (lambda scene: setattr(scene.free, "gravity", "earth"), '[free]\ngravity = "earth"\n'),
+        (lambda scene: setattr(scene.hair.style.curl, "radius", 0.5), "[hair.style.curl]\nradius = 0.5\n"),
+        (lambda scene: setattr(scene.gust, "intensity", 0.25), "[gust]\nintensity = 0.25\n"),
+        (lambda scene: setattr(scene.picture.hair, "colour", {"rgb": (0.3, 0.1, 0.05)}), "[picture.hair]\ncolour = { rgb = [0.3, 0.1, 0.05] }\n"),
+        (lambda scene: scene.vortex.append({"position": (1, 2, 3)}), "[[vortex]]\nposition = [1, 2, 3]\n"),
+        (lambda scene: setattr(scene, "turbulence", {"strength": 3}), "[turbulence]\nstrength = 3\n"),
+        (lambda scene: setattr(scene, "forces", [(9, (1, 2, 3))]), None),
+    ],
+)
+def test_an_attribute_means_what_it_means_in_a_file(put, line):
+    scene = nabiki.Scene.parse(WIND)
+    put(scene)
+    text = WIND + line if line else WIND.replace("5", "9")
+    assert scene.settings() == nabiki.Scene.parse(text).settings()
+    assert nabiki.Scene.parse(scene.to_toml()).settings() == scene.settings()
+
+
+def test_a_refused_value_leaves_the_scene_as_it_was():
+    scene = nabiki.Scene.open(SCENES / "gust.toml")
+    before = scene.settings()
+    for put, thing in [
+        (lambda: setattr(scene.motion, "time_step", -1), "motion.time_step"),
+        (lambda: setattr(scene.motion, "frames", "many"), "motion.frames"),
+        (lambda: setattr(scene.motion, "framez", 5), "motion.framez"),
+        (lambda: setattr(scene.picture, "size", (0, 90)), "picture.size"),
+        (lambda: setattr(scene, "forces", [(9, (1, 2, 3)), (8, (1, 2, 3))]), None),
+        (lambda: scene.gust.intensity, "gust"),
+    ]:
+        with pytest.raises(nabiki.Error) as refused:
+            put()
+        assert thing is None or refused.value.thing == thing
+        assert scene.settings() == before
+
+
+def test_tables_come_and_go():
+    scene = nabiki.Scene.parse(WIND)
+    assert not scene.gust and scene.gust.to_dict() == {}
+    scene.gust = {}
+    assert scene.gust and scene.gust.seed is not None
+    scene.gust = None
+    assert not scene.gust
+    scene.vortex = [{"position": (1, 2, 3)}, {"position": (4, 5, 6)}]
+    scene.vortex.insert(0, {"position": (7, 8, 9)})
+    del scene.vortex[1]
+    assert [vortex.position for vortex in scene.vortex] == [(7, 8, 9), (4, 5, 6)]
+    scene.vortex[1].strength = 12
+    assert scene["vortex[1].strength"] == scene.vortex[-1].strength == 12
+    scene.vortex = None
+    assert len(scene.vortex) == 0 and scene.settings() == nabiki.Scene.parse(WIND).settings()
+
+
+def test_what_a_scene_has_no_name_for_is_refused():
+    scene = nabiki.Scene.parse(WIND)
+    with pytest.raises(AttributeError):
+        scene.motions = {}
+    with pytest.raises(nabiki.Error, match="did you mean motion.frames"):
+        scene["motion.framez"] = 3
+
+
+def test_copies_change_by_themselves():
+    scene = nabiki.Scene.parse(WIND)
+    other = scene.copy()
+    other.motion.frames = 3
+    assert scene.motion.frames != 3 and type(other) is nabiki.Scene
+
+
+def test_a_saved_scene_keeps_its_comments_and_its_paths(tmp_path):
+    file = tmp_path / "gust.toml"
+    file.write_text("[[force]] # back\nthrough = 5\nvector = [-100, 0, 0]\n\n[hair]\nfile = \"groom.hair\"\n")
+    scene = nabiki.Scene.open(file)
+    scene.forces = [(5, (-80, 0, 0))]
+    (tmp_path / "below").mkdir()
+    scene.save(tmp_path / "below" / "other.toml")
+    text = (tmp_path / "below" / "other.toml").read_text()
+    assert "[[force]] # back" in text and "-80" in text and '"../groom.hair"' in text
+    assert scene.file == str(tmp_path / "below" / "other.toml")
+
+
+def test_settings_of_open_go_before_those_of_the_file():
+    scene = nabiki.Scene.open(SCENES / "gust.toml", {"motion.frames": 3, "output.sheet": [0], "force.1.vector": (1, 2, 3)})
+    assert scene.motion.frames == 3 and scene.force[1].vector == (1, 2, 3)
+
+
+def test_tables_of_a_scene_may_be_given_to_itself():
+    scene = nabiki.Scene.parse(WIND)
+    other = scene.copy()
+    other.motion.frames = 7
+    scene.motion = other.motion
+    scene.motion = scene.motion
+    scene.vortex = [{"position": (1, 2, 3)}]
+    scene.vortex = [*scene.vortex, scene.vortex[0]]
+    assert scene.motion.frames == 7 and len(scene.vortex) == 2 and scene.vortex[0] == scene.vortex[1]
