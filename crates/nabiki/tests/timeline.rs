@@ -138,3 +138,17 @@ fn what_cannot_be_stepped_is_refused_and_leaves_all_as_it_was() {
     assert_eq!((timeline.frame(), bits(timeline.strands())), (31, before));
     assert_eq!(played(&mut timeline), film);
 }
+
+#[test]
+fn a_step_into_storage_of_the_callers_is_the_step() {
+    let (hair, poses, field) = (mixed_hair(50), way_of_a_head(FRAMES), everything());
+    let wanted = stepped(&hair, &dynamics(), &*field, &poses);
+    let mut simulation = fast(&hair, &dynamics(), &*field);
+    let at_rest = bits(simulation.strands());
+    let mut points = vec![Vec3::NAN; hair.points().len()];
+    for frame in 1..=FRAMES {
+        simulation.step_frame_into(&FrameInput::new(frame, &poses, &*field), &mut points);
+        assert_eq!((simulation.frame(), to_bits(&points)), (frame, wanted[frame as usize].clone()));
+    }
+    assert_eq!(bits(simulation.strands()), at_rest, "what is shown stays");
+}

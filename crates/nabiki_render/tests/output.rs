@@ -46,7 +46,10 @@ fn png_files_hold_the_display_values() {
         png::write(&path, &frame, &tone_mapping, depth).unwrap();
         let read = image::open(&path).unwrap();
         match depth {
-            Depth::Eight => assert_eq!(read.into_rgba8().into_raw(), tone_mapping.rgba8(&frame)),
+            Depth::Eight => {
+                assert_eq!(read.into_rgba8().into_raw(), tone_mapping.rgba8(&frame));
+                assert_eq!(std::fs::read(&path).unwrap(), png::bytes(&frame, &tone_mapping).unwrap());
+            }
             Depth::Sixteen => assert_eq!(read.into_rgba16().into_raw(), tone_mapping.rgba16(&frame)),
         }
     }

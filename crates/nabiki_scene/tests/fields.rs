@@ -1,11 +1,12 @@
 //! Fields of a scene: read, refused, added up, told.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::Vec3;
-use nabiki::field::Ease;
+use nabiki::field::{Ease, Keyframe, KeyframedField};
 use nabiki_scene::info::info;
-use nabiki_scene::scene::{Scene, SceneError};
+use nabiki_scene::scene::{OwnField, Scene, SceneError};
 use nabiki_scene::{BuiltScene, Shown};
 
 const FIELDS: &str = "\
@@ -245,4 +246,38 @@ fn the_wind_of_a_recorded_head_is_against_its_way() {
     // The head looks along x, so head space is the world turned no way.
     let force = build("head").force_at(Vec3::new(0.0, 5000.0, 0.0), 10);
     assert!((force - Vec3::new(-60.0, 0.0, 0.0)).length() < 0.01, "{force}");
+}
+
+/// A field of a program's own is one more: added up, kept by other settings, and not to be written anywhere.
+#[test]
+fn a_field_of_a_programs_own_is_added_and_cannot_be_written() {
+    let vector = Vec3::new(3.0, -2.0, 1.0);
+    let own = OwnField(Arc::new(KeyframedField::new(&[Keyframe { through: 10, vector }]).unwrap()));
+    let mut scene = parse(FIELDS, &[]).unwrap();
+    let place = Vec3::new(12.0, 3.0, -4.0);
+    let without = scene.clone().build(Shown::First(5)).unwrap();
+    scene.field.own = vec![own.clone(), own];
+    let scene = scene.with_setting("motion.frames", Some(7.into())).unwrap();
+    let with = scene.clone().build(Shown::First(5)).unwrap();
+    for frame in 1..=7 {
+        assert_eq!(with.force_at(place, frame), without.force_at(place, frame) + vector + vector);
+    }
+    assert!(with.field.strongest() >= without.field.strongest() + 2.0 * vector.length());
+    let written = scene.to_toml().unwrap_err().to_string();
+    assert!(written.contains("cannot hold a field that a program gave"), "{written}");
+    let marked = with.identity().unwrap_err().to_string();
+    assert!(marked.contains("export to .usdc"), "{marked}");
+    assert!(without.identity().is_ok());
+}
+
+/// In the paper's form there must be some field, and one of a program's own is some.
+#[test]
+fn a_field_of_a_programs_own_may_be_the_only_one() {
+    let mut scene = Scene::default();
+    assert!(scene.check().is_err());
+    let force = [Keyframe { through: 10, vector: Vec3::X }];
+    scene.field.own.push(OwnField(Arc::new(KeyframedField::new(&force).unwrap())));
+    scene.check().unwrap();
+    assert_ne!(scene, Scene::default());
+    assert_eq!(scene.clone(), scene);
 }
