@@ -3,9 +3,9 @@
     speed.py            the paper's form and the free one
 
 Stepping alone is timed in Rust (an example of nabiki_scene, in a process of its own) and in Python (`for frame in
-scene.simulate(): frame.points`); files by the command and by `scene.export`, grooming and start taken out by the difference between many
-frames and few. The ways take turns; the figures are medians. The machine should have nothing else to do; ratios in one run are what to
-trust.
+scene.simulate(): frame.points`); files by the command and by `scene.export`, grooming and start taken out by the difference
+between many frames and few. The ways take turns; the figures are medians, and in brackets the least. The machine should have
+nothing else to do; ratios in one run are what to trust.
 """
 
 import statistics
@@ -66,9 +66,11 @@ def compared(name, ways):
     for _ in range(ROUNDS):
         for way, work in ways.items():
             taken[way].append(work())
-    first, *_ = middles = {way: statistics.median(times) for way, times in taken.items()}
-    for way, middle in middles.items():
-        print(f"{name:12} {way:28} {1000 * middle:7.2f} ms a frame, {middle / middles[first]:.3f}", flush=True)
+    first = next(iter(taken))
+    for way, times in taken.items():
+        middle, least = statistics.median(times), min(times)
+        parts = f"{middle / statistics.median(taken[first]):.3f} ({least / min(taken[first]):.3f})"
+        print(f"{name:12} {way:20} {1000 * middle:7.2f} ms a frame ({1000 * least:.2f}), {parts}", flush=True)
 
 
 def main():

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use bytemuck::allocation::cast_vec;
 use nabiki_render::ToneMapping;
 use nabiki_render::output::png;
 use nabiki_scene::Shown;
@@ -113,8 +112,7 @@ impl Scene {
     ) -> PyResult<Hinted<'py, Float32>> {
         let (frame, _) = self.drawn(py, frame, strands, Ears::new(&progress, &None))?;
         let [width, height] = frame.size.map(|side| side as usize);
-        let numbers: Vec<f32> = cast_vec(frame.rgba.into_iter().flatten().collect::<Vec<f32>>());
-        PyArray1::from_vec(py, numbers).reshape([height, width, 4]).map(Hinted::new)
+        PyArray1::from_vec(py, frame.rgba.into_flattened()).reshape([height, width, 4]).map(Hinted::new)
     }
 
     /// A frame as the bytes of a PNG file, as `nabiki render` writes it; into `file`, too, if one is named.
