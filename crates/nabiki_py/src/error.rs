@@ -34,6 +34,9 @@ pub fn raised(py: Python<'_>, error: nabiki_scene::Error) -> PyErr {
         Error::Picture(RenderError::Write { path, source }) => {
             Parts { file: named(&path), way_out: Some(source.to_string()), ..Parts::default() }
         }
+        Error::Picture(RenderError::Read { path, what }) => {
+            Parts { file: named(&path), way_out: Some(what), ..Parts::default() }
+        }
         Error::Picture(RenderError::Geometry(_)) | Error::Refused(_) => Parts::default(),
     };
     with_parts(py, line, parts)

@@ -187,7 +187,7 @@ impl Scene {
         report: Option<Given<'_, Report>>,
     ) -> PyResult<()> {
         let exports = ExportOptions { files: Vec::new(), layer, head };
-        let options = SimulateOptions { output: file, exports, twin: Twin::Fast };
+        let options = SimulateOptions { output: file, exports, twin: Twin::Fast, shard: None };
         let (scene, shown, fields) = (self.now(), shown(strands), self.functions());
         watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::simulate(scene, shown, &options, watch))
     }
