@@ -347,6 +347,10 @@ pub struct Render {
     #[arg(long, value_name = "N")]
     pub frame: Option<u32>,
 
+    /// Draw one frame (--frame, or else the first) from all around: a movie of N pictures, once round the head
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    pub turntable: Option<u32>,
+
     /// Folder for the pictures, made if it is not there
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,

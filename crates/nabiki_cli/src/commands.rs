@@ -63,14 +63,23 @@ pub fn join(args: &Join, terminal: &mut Terminal) -> Result<()> {
 }
 
 pub fn render(args: &Render, terminal: &mut Terminal) -> Result<()> {
-    let (frames, pictures) = match (args.frames, args.frame) {
+    if let (Some(Frames::Run(from, through)), Some(pictures)) = (args.frames, args.turntable) {
+        let line =
+            format!("--turntable {pictures} and --frames {from}..{through}: a turntable shows one frame; give --frame");
+        return Err(Error::refused(line));
+    }
+    let one = |frame| match args.turntable {
+        Some(pictures) => Pictures::Turntable { frame, pictures },
+        None => Pictures::One(frame),
+    };
+    let (frames, pictures) = match (args.frames, args.frame.or(args.turntable.map(|_| 0))) {
         (Some(Frames::Run(from, through)), Some(frame)) => {
             let line = format!("--frame {frame} and --frames {from}..{through}: give one of them");
             return Err(Error::refused(line));
         }
         (Some(Frames::Run(from, through)), None) => (None, Pictures::Run(from, through)),
-        (Some(Frames::Count(frames)), one) => (Some(frames), one.map_or(Pictures::All, Pictures::One)),
-        (None, one) => (None, one.map_or(Pictures::All, Pictures::One)),
+        (Some(Frames::Count(frames)), frame) => (Some(frames), frame.map_or(Pictures::All, one)),
+        (None, frame) => (None, frame.map_or(Pictures::All, one)),
     };
     let scene = SceneArgs { scene: args.scene.clone(), frames, sets: args.sets.clone() };
     let options = RenderOptions { motion: args.motion.clone(), pictures };

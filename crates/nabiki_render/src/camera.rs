@@ -49,6 +49,15 @@ impl Bounds {
         self.low.x > self.high.x
     }
 
+    /// What a camera frames: itself, or a head if nothing is included.
+    fn framed(self) -> Self {
+        if self.is_empty() { Self { low: Vec3::splat(-12.0), high: Vec3::splat(12.0) } } else { self }
+    }
+
+    fn centre(&self) -> Vec3 {
+        (self.low + self.high) / 2.0
+    }
+
     fn corners(&self) -> [Vec3; 8] {
         std::array::from_fn(|i| {
             let pick = |bit: usize, low: f32, high: f32| if i >> bit & 1 == 0 { low } else { high };
@@ -95,8 +104,7 @@ impl View {
     /// The view of `camera` for a picture of `size` pixels. Whatever of distance, height and target the camera leaves
     /// open is chosen so that `bounds` fits; empty bounds count as a head.
     pub fn new(camera: &Camera, size: [u32; 2], bounds: &Bounds) -> Self {
-        let bounds =
-            if bounds.is_empty() { Bounds { low: Vec3::splat(-12.0), high: Vec3::splat(12.0) } } else { *bounds };
+        let bounds = bounds.framed();
         let outward = direction(camera.azimuth, camera.elevation);
         let forward = -outward;
         let right = forward.cross(Vec3::Y).normalize_or(Vec3::Z);
@@ -105,7 +113,7 @@ impl View {
         let shorter = width.min(height);
         let room = [width - 2.0 * camera.margin * shorter, height - 2.0 * camera.margin * shorter];
 
-        let centre = (bounds.low + bounds.high) / 2.0;
+        let centre = bounds.centre();
         let offsets = |target: Vec3| {
             bounds.corners().map(|c| {
                 let c = c - target;
@@ -139,6 +147,20 @@ impl View {
                 Self { eye, right, up, forward, projection: camera.projection, scale, size }
             }
         }
+    }
+
+    /// The views of a camera that goes once round its target in `views` even steps, from where it is: always as far away as the step
+    /// that needs most room for `bounds`.
+    pub fn around(camera: &Camera, size: [u32; 2], bounds: &Bounds, views: u32) -> Vec<Self> {
+        let step = |k: u32| Camera { azimuth: camera.azimuth + 360.0 * k as f32 / views as f32, to: None, ..*camera };
+        let free: Vec<Self> = (0..views).map(|k| Self::new(&step(k), size, bounds)).collect();
+        let target = camera.target.unwrap_or(bounds.framed().centre());
+        let farthest = free.iter().map(|view| view.eye.distance(target)).fold(0.0, f32::max);
+        let scale = match camera.projection {
+            Projection::Perspective => free.first().map_or(1.0, |view| view.scale),
+            Projection::Orthographic => free.iter().map(|view| view.scale).fold(f32::INFINITY, f32::min),
+        };
+        free.into_iter().map(|view| Self { eye: target - view.forward * farthest, scale, ..view }).collect()
     }
 
     /// The same camera as a head in this pose sees it.
@@ -229,6 +251,30 @@ mod tests {
                 // A thousandth of a pixel: rounding of coordinates of some hundred pixels in single precision.
                 assert!(tightest.abs() < 1e-3 * 360.0 / 100.0, "{projection:?} {azimuth}: {tightest}");
             }
+        }
+    }
+
+    #[test]
+    fn a_camera_that_goes_round_stays_as_far_away_and_loses_nothing() {
+        let bounds = Bounds { low: Vec3::new(-9.0, -20.0, -8.0), high: Vec3::new(30.0, 12.0, 11.0) };
+        for projection in [Projection::Perspective, Projection::Orthographic] {
+            let camera = Camera { projection, azimuth: 17.0, elevation: 20.0, ..Camera::default() };
+            let views = View::around(&camera, [640, 360], &bounds, 24);
+            assert_eq!(views[0].forward, View::new(&camera, [640, 360], &bounds).forward);
+            let spare = views.iter().map(|view| {
+                assert!(
+                    (view.eye.distance(bounds.centre()) / views[0].eye.distance(bounds.centre()) - 1.0).abs() < 1e-5
+                );
+                assert_eq!(view.scale, views[0].scale);
+                let corner = |c| {
+                    let p = view.project(c);
+                    p.x.min(640.0 - p.x).min(p.y).min(360.0 - p.y)
+                };
+                bounds.corners().map(corner).into_iter().fold(f32::INFINITY, f32::min) - camera.margin * 360.0
+            });
+            // As tight as it can be, and nowhere tighter; rounding as in the framing of one view.
+            let tightest = spare.fold(f32::INFINITY, f32::min);
+            assert!(tightest.abs() < 1e-2, "{projection:?}: {tightest}");
         }
     }
 

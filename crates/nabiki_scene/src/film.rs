@@ -33,10 +33,8 @@ impl<'a> Film<'a> {
         frames: &mut dyn FrameSource,
         watch: &mut dyn Watch,
     ) -> Result<Self> {
-        let head = &built.head;
-        let renderer = Renderer::new(picture, &head.mesh)?.with_bodies(built.drawn_bodies())?;
-        let mut bounds = Bounds::default();
-        bounds.include_head(&head.mesh, &head.ellipsoid);
+        let mut film = Self::of_head(built, picture)?;
+        let bounds = &mut film.bounds;
         if !picture.camera.is_automatic() {
             // Nothing is left to be framed.
         } else if let Some([low, high]) = frames.bounds(built.frames()) {
@@ -54,6 +52,15 @@ impl<'a> Film<'a> {
                 Ok(())
             })?;
         }
+        Ok(film)
+    }
+
+    /// Shows the scene as `picture` says, framed so that it holds the head.
+    fn of_head(built: &'a BuiltScene, picture: &Picture) -> Result<Self> {
+        let head = &built.head;
+        let renderer = Renderer::new(picture, &head.mesh)?.with_bodies(built.drawn_bodies())?;
+        let mut bounds = Bounds::default();
+        bounds.include_head(&head.mesh, &head.ellipsoid);
         Ok(Self {
             built,
             picture: picture.clone(),
@@ -100,6 +107,31 @@ impl<'a> Film<'a> {
         each_frame(watch, "drawing", wanted, |n| {
             let (frame, _) = self.draw(n, frames.frame(n)?)?;
             stills.write(n, &frame, &self.tone_mapping)
+        })
+    }
+
+    /// Draws one frame from `views` sides, once round it: the camera goes about its target, and the lamps that are fixed to it go along. What
+    /// moves is not blurred.
+    pub fn turntable(
+        built: &'a BuiltScene,
+        (n, views): (u32, u32),
+        frames: &mut dyn FrameSource,
+        mut push: impl FnMut(u32, &Frame) -> Result<()>,
+        watch: &mut dyn Watch,
+    ) -> Result<()> {
+        let picture = Picture { shutter: 0.0, ..built.scene.picture.clone() };
+        let mut film = Self::of_head(built, &picture)?;
+        let strands = frames.frame(n)?.clone();
+        let pose = built.pose(n);
+        strands.points().iter().for_each(|&p| film.bounds.include(pose.rotation * p));
+        let camera = picture.camera.at(n as f32 / built.frames() as f32);
+        let views = View::around(&camera, picture.size, &film.bounds, views);
+        let bodies = built.drawn_poses(n);
+        each_frame(watch, "drawing", 0..=views.len() as u32 - 1, |k| {
+            let view = views[k as usize];
+            let view = View { eye: view.eye + pose.position_cm, ..view };
+            let now = Moment { strands: &strands, pose, view, bodies: &bodies };
+            push(k, &film.renderer.draw(&FrameToDraw { now, before: None })?)
         })
     }
 

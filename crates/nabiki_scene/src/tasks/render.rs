@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use nabiki_render::output::png;
-use nabiki_render::{Frame, ToneMapping};
+use nabiki_render::{Frame, Movie, ToneMapping};
 
 use crate::built::{BuiltScene, Shown};
 use crate::error::{Error, Result};
@@ -35,6 +35,13 @@ pub enum Pictures {
     /// The frames from the first through the second, as numbered stills: PNG files, and OpenEXR files if the scene asks
     /// for them. Each is, to the bit, as in any other division of the film.
     Run(u32, u32),
+    /// One frame from all around: a movie of so many pictures, a full turn, and stills if the scene asks for them.
+    Turntable {
+        /// The frame.
+        frame: u32,
+        /// Pictures in the turn, at least 2.
+        pictures: u32,
+    },
 }
 
 impl Pictures {
@@ -42,12 +49,17 @@ impl Pictures {
     fn check(self, last: u32) -> Result<()> {
         let reaches = format!("the last frame is motion.frames = {last}");
         match self {
-            Self::One(frame) if frame > last => Err(Error::refused(format!("--frame {frame}: {reaches}"))),
+            Self::One(frame) | Self::Turntable { frame, .. } if frame > last => {
+                Err(Error::refused(format!("--frame {frame}: {reaches}")))
+            }
             Self::Run(from, through) if from > through => Err(Error::refused(format!(
                 "--frames {from}..{through}: ends before it begins; write the earlier first"
             ))),
             Self::Run(from, through) if through > last => {
                 Err(Error::refused(format!("--frames {from}..{through}: {reaches}")))
+            }
+            Self::Turntable { pictures, .. } if pictures < 2 => {
+                Err(Error::refused(format!("--turntable {pictures}: a turn takes 2 pictures at least")))
             }
             _ => Ok(()),
         }
@@ -97,9 +109,46 @@ pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path
             film.stills(from..=through, frames.as_mut(), &stills, watch)?;
             vec![stills.folder().to_owned()]
         }
+        Pictures::Turntable { frame, pictures } => turntable(&built, (frame, pictures), options, folder, watch)?,
     };
     super::wrote(written, watch);
     Ok(())
+}
+
+/// Draws `frame` in `pictures` steps from all around.
+fn turntable(
+    built: &BuiltScene,
+    (frame, pictures): (u32, u32),
+    options: &RenderOptions,
+    folder: &Path,
+    watch: &mut dyn Watch,
+) -> Result<Vec<PathBuf>> {
+    let scene = &built.scene;
+    let mut folders = Folders::default();
+    folders.make(folder, outputs::WAY_OUT)?;
+    let name = format!("{}_{frame:04}_turntable", scene.name());
+    let file = folder.join(format!("{name}.mp4"));
+    place::free(&file, outputs::WAY_OUT)?;
+    let mut inputs = scene.inputs();
+    inputs.extend(options.motion.clone());
+    place::not_inputs(&[&file], &inputs)?;
+    let (output, picture) = (&scene.output, &scene.picture);
+    let stills = (output.png_frames || output.exr_frames)
+        .then(|| {
+            let stills = outputs::stills_folder(folder, &name);
+            Stills::begin(stills, output, 0..=pictures - 1, picture.size, &mut folders, watch)
+        })
+        .transpose()?;
+    let mut movie = Movie::create(&file, picture, picture.video.frame_rate.unwrap_or(scene.frame_rate()))?;
+    let tone_mapping = ToneMapping::new(picture);
+    let mut frames = source(built, options)?;
+    let push = |n, drawn: &Frame| {
+        movie.push(drawn, &tone_mapping)?;
+        stills.as_ref().map_or(Ok(()), |stills| stills.write(n, drawn, &tone_mapping))
+    };
+    Film::turntable(built, (frame, pictures), frames.as_mut(), push, watch)?;
+    movie.finish()?;
+    Ok([file].into_iter().chain(stills.map(|stills| stills.folder().to_owned())).collect())
 }
 
 /// Draws one frame of a scene that is built, as light. [`ToneMapping`] brings it into the range of a screen.
