@@ -122,9 +122,20 @@ impl Gpu {
             let words = format!("The graphics device was lost ({why}). Save, and start Nabiki again.");
             told.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(words);
         });
+        // Some drivers, those of OpenGL among them, have all that is asked for and cannot compile what is then drawn.
+        let attempts =
+            [wgpu::ErrorFilter::Internal, wgpu::ErrorFilter::Validation].map(|of| device.push_error_scope(of));
+        let pipelines = Pipelines::new(device);
+        // The scope opened last is closed first.
+        let failed = attempts.into_iter().rev().filter_map(|attempt| headless::now(attempt.pop())).count();
+        if failed > 0 {
+            return Err(
+                "This graphics driver cannot compile the view. It needs Vulkan, Metal or Direct3D 12.".to_owned()
+            );
+        }
         let uniform = wgpu::BufferUsages::UNIFORM;
         Ok(Self {
-            pipelines: Pipelines::new(device),
+            pipelines,
             globals: buffer(device, queue, "globals", &[0; size_of::<Globals>()], uniform),
             show: buffer(device, queue, "show", &[0; size_of::<Show>()], uniform),
             device: device.clone(),

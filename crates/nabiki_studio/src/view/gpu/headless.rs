@@ -63,7 +63,7 @@ impl Gpu {
 }
 
 /// What a future gives that is ready when it is asked or soon after, as all of wgpu's are outside of a browser.
-fn now<T>(future: impl Future<Output = T>) -> T {
+pub(super) fn now<T>(future: impl Future<Output = T>) -> T {
     let mut future = pin!(future);
     let mut context = Context::from_waker(Waker::noop());
     loop {
