@@ -71,12 +71,17 @@ impl ToneMapping {
         [self.value(p[0] * straight), self.value(p[1] * straight), self.value(p[2] * straight), a]
     }
 
-    /// 8 bit sRGB with *straight* alpha, four bytes a pixel.
+    /// 8 bit sRGB with *straight* alpha, four bytes a pixel. Colours between two steps become one or the other from pixel to pixel, as
+    /// often as they are near it, so that a gradient shows no bands.
     pub fn rgba8(&self, frame: &Frame) -> Vec<u8> {
+        let width = frame.size[0].max(1) as usize;
         let mut bytes = vec![0; 4 * frame.rgba.len()];
-        bytes.par_chunks_mut(4 * 1024).zip(frame.rgba.par_chunks(1024)).for_each(|(out, pixels)| {
-            for (out, p) in out.chunks_exact_mut(4).zip(pixels) {
-                out.copy_from_slice(&self.pixel(p).map(|v| (v * 255.0 + 0.5) as u8));
+        bytes.par_chunks_mut(4 * width).zip(frame.rgba.par_chunks(width)).enumerate().for_each(|(y, (out, pixels))| {
+            for (x, (out, p)) in out.chunks_exact_mut(4).zip(pixels).enumerate() {
+                let [r, g, b, a] = self.pixel(p);
+                let up_from = threshold(x, y);
+                out[..3].copy_from_slice(&[r, g, b].map(|v| (v * 255.0 + up_from) as u8));
+                out[3] = (a * 255.0 + 0.5) as u8;
             }
         });
         bytes
@@ -92,6 +97,16 @@ impl ToneMapping {
         });
         values
     }
+}
+
+/// What is added to a colour before its fraction is cut off: the interleaved gradient noise of Jimenez (2014), whose values are spread
+/// evenly over every 3 x 3 pixels. It keeps off 0 and 1, so that a whole step to within rounding stays one.
+#[inline]
+fn threshold(x: usize, y: usize) -> f32 {
+    // Kept small, so that no digits are lost far from the corner.
+    let (x, y) = ((x % 1024) as f32, (y % 1024) as f32);
+    let noise = (52.982_918 * (0.067_110_56 * x + 0.005_837_15 * y).fract()).fract();
+    0.02 + 0.96 * noise
 }
 
 #[cfg(test)]
@@ -123,7 +138,31 @@ mod tests {
         let tone_mapping = ToneMapping::new(&Picture { tone_mapping: ToneCurve::Linear, ..Picture::default() });
         let frame =
             Frame { size: [2, 1], rgba: vec![[0.25, 0.25, 0.25, 0.5], [0.0; 4]], depth: vec![], layers: vec![] };
-        let half = (srgb_from_linear(0.5) * 255.0 + 0.5) as u8;
+        let half = (srgb_from_linear(0.5) * 255.0 + threshold(0, 0)) as u8;
         assert_eq!(tone_mapping.rgba8(&frame), [half, half, half, 128, 0, 0, 0, 0]);
+    }
+
+    #[test]
+    fn a_gradient_finer_than_a_step_is_right_in_the_mean_and_has_no_bands() {
+        let tone_mapping = ToneMapping::new(&Picture { tone_mapping: ToneCurve::Linear, ..Picture::default() });
+        let (width, height) = (128_usize, 512_usize);
+        // Four steps of 255 from top to bottom: 128 rows each, which without noise would be four flat bands.
+        let shown = |y: usize| (60.0 + 4.0 * (y as f32 + 0.5) / height as f32) / 255.0;
+        let light = |y: usize| linear_from_srgb(shown(y));
+        let rgba = (0..width * height).map(|i| [light(i / width), light(i / width), light(i / width), 1.0]).collect();
+        let frame = Frame { size: [width as u32, height as u32], rgba, depth: vec![], layers: vec![] };
+        let bytes = tone_mapping.rgba8(&frame);
+        for (n, rows) in bytes.chunks(4 * width * 16).enumerate() {
+            let sum: f64 = rows.chunks_exact(4).map(|p| f64::from(p[0])).sum();
+            let mean = sum / (rows.len() / 4) as f64;
+            let wanted = f64::from(255.0 * shown(16 * n + 8) - 0.5 * 4.0 / height as f32);
+            // A tenth of a step is the table's; the noise, kept to 0.96 of a step, is off by 0.02, and by 1 of 48 for its grain.
+            assert!((mean - wanted).abs() < 0.15, "rows from {}: {mean} for {wanted}", 16 * n);
+            // Within a band the colour would be one; but where it is a whole step, both neighbours are rare.
+            let low = rows.chunks_exact(4).filter(|p| f64::from(p[0]) < wanted).count();
+            let share = low as f64 / (rows.len() / 4) as f64;
+            let fraction = wanted.ceil() - wanted;
+            assert!((share - fraction).abs() < 0.15 || fraction < 0.1 || fraction > 0.9, "{share} for {fraction}");
+        }
     }
 }
