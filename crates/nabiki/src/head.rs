@@ -1,6 +1,7 @@
 //! The head: its mesh, the head ellipsoid E, and how far a point is from the skin (the paper, section 3.1).
 
 mod bust;
+pub mod face;
 mod fit;
 mod openings;
 
@@ -34,6 +35,8 @@ pub struct Head {
     pub orientation: Orientation,
     /// Where its surface is open.
     pub openings: Vec<Opening>,
+    /// Whether it is the built-in bust, whose [`face`] is known.
+    pub is_builtin: bool,
     /// Lowest and highest corner of the mesh: beyond it nothing is inside.
     bounds: [Vec3; 2],
     skin: Arc<SkinDistance>,
@@ -46,7 +49,7 @@ impl Head {
         let (mesh, skin) = bust::read(bust::BAKED);
         let orientation = Orientation { turned: 0, open_edges: 0, has_inside: true };
         let (bounds, skin) = (bounds(&mesh.positions), Arc::new(skin));
-        Self { bounds, mesh, ellipsoid: bust::ELLIPSOID, orientation, openings: Vec::new(), skin }
+        Self { bounds, mesh, ellipsoid: bust::ELLIPSOID, orientation, openings: Vec::new(), is_builtin: true, skin }
     }
 
     /// The same head with another ellipsoid.
@@ -116,7 +119,7 @@ impl Head {
         let spacing = finest.max(((high - low).element_product() / MOST_SAMPLES).cbrt());
         let skin = Arc::new(SkinDistance::new(&mesh, low, high, spacing));
         let openings = openings::of(&mesh, &ellipsoid, &skin);
-        Self { bounds: bounds(&mesh.positions), mesh, ellipsoid, orientation, openings, skin }
+        Self { bounds: bounds(&mesh.positions), mesh, ellipsoid, orientation, openings, is_builtin: false, skin }
     }
 
     /// Signed distance from `p` to the skin (cm), negative inside. Open rims of the mesh count as closed.

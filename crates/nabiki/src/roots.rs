@@ -25,6 +25,8 @@ pub struct Root {
     pub normal: Vec3,
     /// Texture coordinates of the skin there, v upward: the mesh's own, else [`Ellipsoid::uv`](crate::Ellipsoid::uv) of E.
     pub uv: Vec2,
+    /// How far above the hairline it is, in the unit of that ([`Hairline`]).
+    pub above_hairline: f32,
 }
 
 /// Candidates for each root asked for: with more the spacing gains little, with fewer it shows.
@@ -156,7 +158,8 @@ impl<'a> Scalp<'a> {
                 }
                 None => self.head.ellipsoid.uv(position),
             };
-            Root { position, normal, uv }
+            let above_hairline = self.hairline.above(&self.head.ellipsoid, position);
+            Root { position, normal, uv, above_hairline }
         })
     }
 

@@ -35,7 +35,10 @@ fn hanging(curl: Curl, length: f32) -> Style {
 
 /// Roots off the head whose hair leaves downward.
 fn in_the_air(places: impl IntoIterator<Item = Vec3>) -> Vec<Root> {
-    places.into_iter().map(|position| Root { position, normal: Vec3::NEG_Y, uv: Vec2::ZERO }).collect()
+    places
+        .into_iter()
+        .map(|position| Root { position, normal: Vec3::NEG_Y, uv: Vec2::ZERO, above_hairline: 1.0 })
+        .collect()
 }
 
 fn scattered() -> Vec<Root> {

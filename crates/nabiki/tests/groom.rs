@@ -195,7 +195,7 @@ fn hair_is_finite_and_within_its_length_of_the_root() {
 fn a_strand_off_the_head_is_the_cantilever() {
     let style = plain();
     for normal in [Vec3::X, Vec3::new(0.6, 0.8, 0.0), Vec3::new(0.0, -0.6, 0.8)] {
-        let root = Root { position: Vec3::new(60.0, 40.0, -50.0), normal, uv: Vec2::ZERO };
+        let root = Root { position: Vec3::new(60.0, 40.0, -50.0), normal, uv: Vec2::ZERO, above_hairline: 1.0 };
         let strands = groom(&HEAD, &[root], &style, 18, 1.0, 1).unwrap();
         let beam = Beam { stiffness: 8.0, segment: 1.0, clamp: normal.as_dvec3().normalize(), hold: Hold::Clamped };
         let mut directions = Vec::new();
@@ -353,4 +353,23 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn baby_hair_grows_on_the_hairline_alone_and_leaves_all_other_hair_as_it_was() {
+    let gust = style_named("gust");
+    let mut style = gust.hair.style.clone();
+    style.variation.baby_hair = 0.8;
+    let with = groom(&HEAD, &gust.roots, &style, gust.hair.segments, gust.hair.segment_length, 5).unwrap();
+    let length = |strand: &[Vec3]| strand.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f32>();
+    let mut shortest = f32::INFINITY;
+    for ((root, before), after) in gust.roots.iter().zip(gust.strands.iter()).zip(with.iter()) {
+        if root.above_hairline >= 0.2 {
+            assert_eq!(before, after);
+        }
+        // Cuts and draping may take as much from either; what is left of the longest is a fifth at least.
+        shortest = shortest.min(length(after) / style.length.sides);
+    }
+    assert!((0.2..0.5).contains(&shortest), "{shortest}");
+    assert_ne!(with, gust.strands);
 }

@@ -1,6 +1,7 @@
 //! Brows, sockets and closed eyes.
 
 use glam::{Quat, Vec3};
+use nabiki::head::face;
 
 use crate::shapes::{chain, join, ridge, swell, turned_ellipsoid};
 
@@ -34,13 +35,13 @@ pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
 
 /// The line on which the closed lids meet hangs like a bow; a crease runs above it.
 fn lids(p: Vec3) -> f32 {
-    let t = (p.z - 3.2) / 1.55;
+    let t = face::along_lids(p.z);
     let bow = 1.0 - t * t;
     if bow <= -0.2 {
         return 0.0;
     }
     let open = bow.max(0.0).sqrt();
-    let line = p.y - (-0.85 + 0.12 * t - 0.55 * bow);
+    let line = p.y - face::lid_line(t);
     let crease = p.y - (-0.6 + 0.1 * t + 0.62 * bow);
     // The lower lid lies a little behind the upper one.
     let below = (-line / 0.25).clamp(0.0, 1.0) * ridge(line, 1.2);
@@ -49,10 +50,10 @@ fn lids(p: Vec3) -> f32 {
 
 /// The eyebrow as a sculptor has it: a low ridge that rises outward and falls at its end.
 fn eyebrow(p: Vec3) -> f32 {
-    let t = (p.z - 1.3) / 3.9;
+    let t = face::along_brow(p.z);
     if !(0.0..=1.0).contains(&t) {
         return 0.0;
     }
-    let off = p.y - (1.35 + 1.9 * t - 2.0 * t * t * t);
+    let off = p.y - face::brow_line(t);
     0.1 * ridge(off, 0.62 - 0.25 * t) * (t * 6.0).min(1.0) * ((1.0 - t) * 2.5).min(1.0)
 }

@@ -1,6 +1,7 @@
 //! The lips.
 
 use glam::Vec3;
+use nabiki::head::face;
 
 use crate::shapes::{chain, join, ridge, swell};
 
@@ -38,7 +39,7 @@ pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
 
 /// The line between the lips: a shallow wave that rises to the corners.
 fn parting(p: Vec3) -> f32 {
-    let t = p.z / 2.65;
+    let t = face::along_lips(p.z);
     if t >= 1.0 {
         return 0.0;
     }
@@ -49,12 +50,11 @@ fn parting(p: Vec3) -> f32 {
 
 /// The red of the lips stands out a little from the skin about it, with the bow of the upper lip.
 fn vermilion(p: Vec3) -> f32 {
-    let t = p.z / 2.65;
+    let t = face::along_lips(p.z);
     if t >= 1.0 {
         return 0.0;
     }
-    let upper = -6.62 - 0.1 * ridge(p.z, 0.5) - 0.6 * t * t;
-    let lower = -8.62 + 1.28 * t * t;
+    let [upper, lower] = face::lip_edges(p.z, t);
     let rise = |depth: f32| {
         let s = (depth / 0.22).clamp(0.0, 1.0);
         s * s * (3.0 - 2.0 * s)

@@ -39,6 +39,7 @@ pub struct Renderer {
     picture: Picture,
     layers: bool,
     head: Mesh,
+    face: bool,
     bodies: Vec<Mesh>,
     solids: Solids,
     /// Colours of the head and of the bodies (linear).
@@ -68,6 +69,8 @@ struct Still {
     skin_unhidden: Vec<[f32; 3]>,
     roots: Vec<Vec3>,
     stubble: Vec<f32>,
+    /// The colours of bare skin where it is painted; empty on heads that are not.
+    painted: Vec<[f32; 3]>,
 }
 
 impl Still {
@@ -99,6 +102,7 @@ impl Renderer {
             picture: picture.clone(),
             layers: false,
             head: head.clone(),
+            face: false,
             bodies: Vec::new(),
             solids: Solids::new(head, std::iter::empty()),
             skins: vec![picture.head.colour.map(linear_from_srgb)],
@@ -114,6 +118,13 @@ impl Renderer {
             still: None,
             timing: Timing::default(),
         })
+    }
+
+    /// Draws the face of the built-in bust: the head is that, and `picture.head.face` is wished for.
+    pub fn with_face(mut self) -> Self {
+        self.face = self.picture.head.face;
+        self.still = None;
+        self
     }
 
     /// Draws these bodies as well, lit as the head is, each in its colour. They hide hair and throw shadows as the head does; every
@@ -210,9 +221,12 @@ impl Renderer {
         let skin = SkinView::new(&self.solids, &exposure.shot);
         let skin_places = skin.pixels.iter().map(|p| p.position + 0.15 * p.normal).collect();
         let skin_unhidden = SkinLight::unhidden(&skin.pixels, &solid_shadows);
+        let painted =
+            if self.face { SkinLight::painted(&skin.pixels, self.skins[0], self.hair_colour()) } else { Vec::new() };
         let (roots, stubble) = (Vec::new(), Vec::new());
         let shot = exposure.shot.clone();
-        let mut still = Still { shot, lamps, solid_shadows, bodies, skin, skin_places, skin_unhidden, roots, stubble };
+        let mut still =
+            Still { shot, lamps, solid_shadows, bodies, skin, skin_places, skin_unhidden, roots, stubble, painted };
         still.grow(strands, &self.picture);
         self.still = Some(still);
     }
@@ -333,12 +347,18 @@ impl Renderer {
             zenith: self.zenith,
             sky_map: self.occluded_sky(),
             skins: &self.skins,
-            hair: colour::albedo(colour::absorption(&self.picture.hair), self.picture.hair.azimuthal_roughness),
+            painted: &still.painted,
+            hair: self.hair_colour(),
             passed: self.model.passed_on(),
             unhidden: &still.skin_unhidden,
             stubble: &still.stubble,
             view,
         }
+    }
+
+    /// The colour of a mass of the hair (linear).
+    fn hair_colour(&self) -> [f32; 3] {
+        colour::of_mass(&self.picture.hair)
     }
 
     fn crossings(&self) -> Vec<&Crossings> {

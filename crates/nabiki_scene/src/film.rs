@@ -59,6 +59,7 @@ impl<'a> Film<'a> {
     fn of_head(built: &'a BuiltScene, picture: &Picture) -> Result<Self> {
         let head = &built.head;
         let renderer = Renderer::new(picture, &head.mesh)?.with_bodies(built.drawn_bodies())?;
+        let renderer = if head.is_builtin { renderer.with_face() } else { renderer };
         let mut bounds = Bounds::default();
         bounds.include_head(&head.mesh, &head.ellipsoid);
         Ok(Self {

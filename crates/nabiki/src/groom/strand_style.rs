@@ -26,6 +26,7 @@ pub(super) mod channel {
     pub const CURL: u64 = 12;
     /// Place within the band of a ponytail.
     pub const BAND: u64 = 16;
+    pub const BABY: u64 = 17;
 }
 
 /// One strand's share of the style (head space, cm; loads in units of its own weight).
@@ -80,6 +81,9 @@ impl Tie {
         Self { at: middle + off * f64::from(tail.radius), behind: (through + off * FLARE).normalize() }
     }
 }
+
+/// So far above the hairline, in its unit, no hair is baby hair.
+const BABY_HAIR: f32 = 0.2;
 
 /// Slope at which hair from the rim of a band leaves its middle line.
 const FLARE: f64 = 0.25;
@@ -187,7 +191,7 @@ fn away_from_parting(style: &Style, root: DVec3, strand: Chance, clump: Chance) 
 pub(super) fn strand_style(
     head: &Head,
     style: &Style,
-    &Root { position, normal, .. }: &Root,
+    &Root { position, normal, above_hairline, .. }: &Root,
     seed: u64,
 ) -> StrandStyle {
     let (root, normal) = (position.as_dvec3(), normal.as_dvec3());
@@ -206,7 +210,10 @@ pub(super) fn strand_style(
     };
     let variation = &style.variation;
     let stray = if strand.unit(channel::STRAY) < f64::from(variation.strays) { 4.0 } else { 1.0 };
-    let own = f64::from(variation.direction_degrees).to_radians() * stray;
+    // How short baby hair is here: longer with every millimetre above the line, and each by its own chance.
+    let at_line = 1.0 - f64::from(smooth(above_hairline / BABY_HAIR));
+    let short = f64::from(variation.baby_hair) * at_line * strand.unit(channel::BABY);
+    let own = f64::from(variation.direction_degrees).to_radians() * stray * (1.0 + 3.0 * short);
     let shared = f64::from(style.clumps.direction_degrees).to_radians();
 
     // Along the scalp: as combed on top, where that says little (on the sides) as the hair falls.
@@ -219,7 +226,9 @@ pub(super) fn strand_style(
     // Chance must not lead a root into the skin.
     let clamp = (clamp + normal * (0.05 - clamp.dot(normal)).max(0.0)).normalize();
 
-    let length = mean(style.length.each(), shares) * (1.0 - f64::from(variation.length) * strand.unit(channel::LENGTH));
+    let length = mean(style.length.each(), shares)
+        * (1.0 - f64::from(variation.length) * strand.unit(channel::LENGTH))
+        * (1.0 - short);
     let level = |v: DVec3| DVec3::new(v.x, 0.0, v.z);
     let gather = level((clump_middle - position).as_dvec3()) * (f64::from(style.clumps.gather) / length);
     let tilt = level(strand.vector(channel::TILT) * (0.5 * own) + clump.vector(channel::TILT) * shared) + gather;

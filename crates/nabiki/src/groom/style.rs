@@ -215,11 +215,14 @@ pub struct Variation {
     pub strays: f32,
     /// Deviation of the cut from its plane (cm, default 0.15).
     pub cut: f32,
+    /// Baby hair: the largest share by which a strand on the hairline falls short, and strays the more; it is as long as others from
+    /// 0.2 of the hairline's unit on (1.7 cm on the bust) (default 0).
+    pub baby_hair: f32,
 }
 
 impl Default for Variation {
     fn default() -> Self {
-        Self { length: 0.06, stiffness: 0.15, direction_degrees: 3.0, strays: 0.02, cut: 0.15 }
+        Self { length: 0.06, stiffness: 0.15, direction_degrees: 3.0, strays: 0.02, cut: 0.15, baby_hair: 0.0 }
     }
 }
 
@@ -443,6 +446,7 @@ impl Style {
         range("variation.direction_degrees", self.variation.direction_degrees, 0.0, 45.0)?;
         range("variation.strays", self.variation.strays, 0.0, 1.0)?;
         range("variation.cut", self.variation.cut, 0.0, 10.0)?;
+        range("variation.baby_hair", self.variation.baby_hair, 0.0, 0.95)?;
         check_positive("hair.style.clumps.size", self.clumps.size)?;
         range("clumps.gather", self.clumps.gather, 0.0, 1.0)?;
         range("clumps.direction_degrees", self.clumps.direction_degrees, 0.0, 45.0)?;

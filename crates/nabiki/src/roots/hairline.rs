@@ -28,11 +28,21 @@ pub struct Hairline {
     pub nape: f32,
     /// Height over which hair thins out at the line (default 0.10: 0.9 cm).
     pub fade: f32,
+    /// How far the line wanders up and down, in waves of one to three centimetres on the bust (default 0).
+    pub wander: f32,
 }
 
 impl Default for Hairline {
     fn default() -> Self {
-        Self { forehead: 0.5, temple_recession: 0.05, sideburns: 1.45, above_ears: 0.98, nape: 2.1, fade: 0.1 }
+        Self {
+            forehead: 0.5,
+            temple_recession: 0.05,
+            sideburns: 1.45,
+            above_ears: 0.98,
+            nape: 2.1,
+            fade: 0.1,
+            wander: 0.0,
+        }
     }
 }
 
@@ -47,7 +57,8 @@ impl Hairline {
         check_range("hair.hairline.sideburns", self.sideburns, 0.0, 2.5)?;
         check_range("hair.hairline.above_ears", self.above_ears, 0.0, 2.5)?;
         check_range("hair.hairline.nape", self.nape, 0.0, 2.8)?;
-        check_range("hair.hairline.fade", self.fade, 0.0, 1.0)
+        check_range("hair.hairline.fade", self.fade, 0.0, 1.0)?;
+        check_range("hair.hairline.wander", self.wander, 0.0, 0.3)
     }
 
     /// The line's depth at the angle `around` (rad) from the front: 0 there, pi at the back.
@@ -93,8 +104,9 @@ impl Hairline {
     pub fn above(&self, ellipsoid: &Ellipsoid, p: Vec3) -> f32 {
         let Ellipsoid { center, half_axes } = *ellipsoid;
         let q = (p - center) / half_axes;
-        let depth = (center.y + half_axes.y - p.y) / (0.5 * (half_axes.x + half_axes.z));
-        self.depth(q.z.abs().atan2(q.x)) - depth
+        let unit = 0.5 * (half_axes.x + half_axes.z);
+        let depth = (center.y + half_axes.y - p.y) / unit;
+        self.depth(q.z.abs().atan2(q.x)) + self.wander * waves((p - center) / unit) - depth
     }
 
     /// Whether hair grows at `p`; `chance` in 0..1 decides within the fading edge.
@@ -106,4 +118,12 @@ impl Hairline {
         let share = if above < self.fade { above / self.fade } else { 1.0 };
         above > 0.0 && share * share * share > chance
     }
+}
+
+/// Waves of three lengths that never meet in step, within -1..1; `p` in the hairline's unit. Both sides of a head differ.
+fn waves(p: Vec3) -> f32 {
+    let wave = |direction: Vec3, phase: f32| (p.dot(direction) + phase).sin();
+    0.5 * wave(Vec3::new(5.0, 4.0, 17.0), 1.3)
+        + 0.3 * wave(Vec3::new(-21.0, 9.0, 27.0), 4.0)
+        + 0.2 * wave(Vec3::new(29.0, -13.0, 47.0), 0.4)
 }

@@ -21,11 +21,14 @@ pub struct HeadLook {
     /// Hair too short to be drawn: its length for each root (cm, as thick as the hair), 0..100. It tints the scalp as dense as
     /// the roots stand, so that partings do not gleam. Default 2; 0 shows bare skin.
     pub stubble: f32,
+    /// Whether the built-in head has brows, lashes and lips of their colours; other heads have what their mesh has, one colour.
+    /// Default true.
+    pub face: bool,
 }
 
 impl Default for HeadLook {
     fn default() -> Self {
-        Self { visible: true, colour: [0.56, 0.44, 0.37], softness: 0.35, sheen: 0.25, stubble: 2.0 }
+        Self { visible: true, colour: [0.56, 0.44, 0.37], softness: 0.35, sheen: 0.25, stubble: 2.0, face: true }
     }
 }
 

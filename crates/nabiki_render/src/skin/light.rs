@@ -1,6 +1,7 @@
 //! How skin is lit.
 
 use glam::Vec3;
+use nabiki::head::face::Paint;
 use rayon::prelude::*;
 
 use super::SkinPixel;
@@ -27,6 +28,8 @@ pub struct SkinLight<'a> {
     pub sky_map: Option<&'a SkyMap>,
     /// Colours of bare skin, the head's and of each body (linear).
     pub skins: &'a [[f32; 3]],
+    /// The colours of the head's skin at each place, where it is painted; empty where it has one colour.
+    pub painted: &'a [[f32; 3]],
     /// Colour of a mass of the hair (linear), for what of it is too short to be drawn.
     pub hair: [f32; 3],
     /// The part of its light that a hair passes on forward: what is scattered by hair in the way reaches skin as well.
@@ -55,6 +58,12 @@ impl SkinLight<'_> {
             _ => 0.0,
         };
         if shade > 0.0 { pixels.par_iter().with_min_len(256).map(covered).collect() } else { Vec::new() }
+    }
+
+    /// The colour of the built-in bust's skin at each place, under hair of a colour.
+    pub fn painted(pixels: &[SkinPixel], skin: [f32; 3], hair: [f32; 3]) -> Vec<[f32; 3]> {
+        let colour = |p: &SkinPixel| Paint::at(p.position).over(skin, hair);
+        pixels.par_iter().with_min_len(256).map(colour).collect()
     }
 
     /// Light toward the eye (linear) from place `i` on the skin.
@@ -88,7 +97,10 @@ impl SkinLight<'_> {
             let sky = self.sky.above[c] * up * open_above[c] + self.sky.below[c] * (1.0 - up) * open_below[c];
             *diffuse += self.sky.strength * sky;
         }
-        let skin = self.skins[usize::from(p.solid)];
+        let skin = match self.painted.get(i) {
+            Some(&painted) if p.solid == 0 => painted,
+            _ => self.skins[usize::from(p.solid)],
+        };
         let hair = self.stubble.get(i).copied().unwrap_or(0.0);
         std::array::from_fn(|c| {
             let bare = skin[c] * diffuse[c] + self.look.sheen * sheen[c];

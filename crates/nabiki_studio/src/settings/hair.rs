@@ -174,6 +174,7 @@ pub(super) const GROUPS: &[Group] = &[
             number("direction_degrees", "Direction", "degrees", [0.0, 45.0], "Deviation of the direction at the root and of the load."),
             number("strays", "Strays", "", PART, "Share of stray hairs, whose direction deviates four times as much."),
             fine("cut", "Cut", "cm", [0.0, 10.0], 0.005, "Deviation of the cut from its plane."),
+            number("baby_hair", "Baby hair", "", [0.0, 0.95], "Largest share by which a strand on the hairline falls short; it strays the more."),
         ],
     )
     .when(When::Grown),
@@ -200,6 +201,7 @@ pub(super) const GROUPS: &[Group] = &[
             number("above_ears", "Above the ears", "", [0.0, 2.5], "Depth above the ears."),
             number("nape", "Nape", "", [0.0, 2.8], "Depth on the nape."),
             number("fade", "Fade", "", PART, "Height over which hair thins out at the line."),
+            number("wander", "Wander", "", [0.0, 0.3], "How far the line wanders up and down."),
         ],
     )
     .when(When::Grown),

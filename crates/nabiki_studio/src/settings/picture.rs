@@ -152,6 +152,7 @@ pub(super) const GROUPS: &[Group] = &[
                 0.05,
                 "Hair too short to be drawn, by its length: it tints the scalp. 0 shows bare skin.",
             ),
+            flag("face", "Face", "Whether the built-in head has brows, lashes and lips of their colours."),
         ],
     ),
     Group::new(

@@ -14,13 +14,13 @@ use nabiki::Strands;
 use nabiki_render::live::{self, FibreTables};
 use nabiki_render::settings::HairLook;
 use nabiki_render::tone_mapping::linear_from_srgb;
-use nabiki_render::{Picture, View};
+use nabiki_render::{Picture, View, colour};
 
 use crate::take::Take;
 
 use super::globals::{self, Globals, Locks, Show};
 use super::hair;
-use super::mesh::Surface;
+use super::mesh::{Skin, Surface};
 use super::volume::{Casting, Volume, VolumeMaker};
 use pipelines::{Pipelines, RIBBON_BYTES, buffer};
 use target::Target;
@@ -85,7 +85,7 @@ struct StrandsOnCard {
 struct Bodies {
     roots: Vec<Vec3>,
     shade: f32,
-    colour: [f32; 3],
+    skin: Skin,
     share: f32,
     head_visible: bool,
     vertices: usize,
@@ -353,7 +353,10 @@ impl Gpu {
     fn set_bodies(&mut self, take: &Take, picture: &Picture, frame: u32, share: f32) {
         let head = &take.built.head;
         let shade = picture.head.stubble * picture.hair.width;
-        let colour = picture.head.colour.map(linear_from_srgb);
+        let skin = Skin {
+            colour: picture.head.colour.map(linear_from_srgb),
+            hair_of_face: (head.is_builtin && picture.head.face).then(|| colour::of_mass(&picture.hair)),
+        };
         let strands = take.strands();
         let roots: Vec<Vec3> = strands.iter().filter_map(|strand| strand.first().copied()).collect();
         let bodies = take.built.drawn_bodies();
@@ -363,7 +366,7 @@ impl Gpu {
         let of_bodies: Vec<_> = bodies.iter().map(|body| (body.mesh.positions.len(), body.colour)).collect();
         let same = |on_card: &Bodies| {
             on_card.shade == shade
-                && on_card.colour == colour
+                && on_card.skin == skin
                 && on_card.share == share
                 && on_card.head_visible == picture.head.visible
                 && on_card.vertices == head.mesh.positions.len()
@@ -380,7 +383,7 @@ impl Gpu {
             None => {
                 self.volumes.forget_head();
                 let seen = if picture.head.visible {
-                    Surface::head(&head.mesh, colour, &roots, shade, share)
+                    Surface::head(&head.mesh, skin, &roots, shade, share)
                 } else {
                     Surface::default()
                 };
@@ -395,7 +398,7 @@ impl Gpu {
         self.bodies = Some(Bodies {
             roots,
             shade,
-            colour,
+            skin,
             share,
             head_visible: picture.head.visible,
             vertices: take.built.head.mesh.positions.len(),

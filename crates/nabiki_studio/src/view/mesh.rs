@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use bytemuck::{Pod, Zeroable};
 use glam::{Affine3A, IVec3, Vec3};
 use nabiki::Mesh;
+use nabiki::head::face::Paint;
 
 /// A corner of a triangle (head space, cm).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
@@ -22,6 +23,21 @@ pub struct Corner {
     pub colour: [f32; 3],
     /// Keeps the numbers at their places.
     pub pad_too: f32,
+}
+
+/// The colours of a head.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Skin {
+    /// Bare skin (linear).
+    pub colour: [f32; 3],
+    /// The colour of a mass of its hair (linear), if the face of the built-in bust is to be painted.
+    pub hair_of_face: Option<[f32; 3]>,
+}
+
+impl Skin {
+    fn at(&self, p: Vec3) -> [f32; 3] {
+        self.hair_of_face.map_or(self.colour, |hair| Paint::at(p).over(self.colour, hair))
+    }
 }
 
 /// Triangles for the card.
@@ -46,10 +62,11 @@ impl Surface {
     }
 
     /// The head, `shade` square centimetres of stubble standing on each root, which stands for `share` of them.
-    pub fn head(mesh: &Mesh, colour: [f32; 3], roots: &[Vec3], shade: f32, share: f32) -> Self {
+    pub fn head(mesh: &Mesh, skin: Skin, roots: &[Vec3], shade: f32, share: f32) -> Self {
         let scalp = Scalp::new(roots, share);
-        let mut surface = Self::of(mesh, colour);
+        let mut surface = Self::of(mesh, skin.colour);
         for corner in &mut surface.corners {
+            corner.colour = skin.at(corner.place.into());
             corner.stubble = 1.0 - (-shade * share * scalp.density(corner.place.into())).exp();
         }
         surface
@@ -117,7 +134,8 @@ mod tests {
                 .filter(|p| p.length() < 12.0)
                 .collect();
             let shade = 0.03;
-            let surface = Surface::head(&plane, [0.5; 3], &roots, shade, share);
+            let skin = Skin { colour: [0.5; 3], hair_of_face: None };
+            let surface = Surface::head(&plane, skin, &roots, shade, share);
             // Roots spread evenly cover as much, however few stand for all; a lattice beats by a fifth of the density at most.
             let whole = 1.0 - (-shade / 0.04_f32).exp();
             assert!((surface.corners[0].stubble - whole).abs() < 0.15, "{share}: {}", surface.corners[0].stubble);

@@ -230,6 +230,16 @@ class Hairline(Table):
     def fade(self, value: float | None) -> None:
         self._set('fade', value)
 
+    @property
+    def wander(self) -> float:
+        """How far the line wanders up and down, in waves of one to three centimetres on the bust (default 0)."""
+        value: float = self._get('wander')
+        return value
+
+    @wander.setter
+    def wander(self, value: float | None) -> None:
+        self._set('wander', value)
+
 
 class Style(Table):
     """A hairstyle: how hair leaves the scalp, how stiff and how long it is, where it is combed and cut.
@@ -733,6 +743,18 @@ class Variation(Table):
     @cut.setter
     def cut(self, value: float | None) -> None:
         self._set('cut', value)
+
+    @property
+    def baby_hair(self) -> float:
+        """Baby hair: the largest share by which a strand on the hairline falls short, and strays the more; it is as long
+        as others from 0.2 of the hairline's unit on (1.7 cm on the bust) (default 0).
+        """
+        value: float = self._get('baby_hair')
+        return value
+
+    @baby_hair.setter
+    def baby_hair(self, value: float | None) -> None:
+        self._set('baby_hair', value)
 
 
 class Clumps(Table):

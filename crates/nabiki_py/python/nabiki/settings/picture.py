@@ -606,6 +606,18 @@ class HeadLook(Table):
     def stubble(self, value: float | None) -> None:
         self._set('stubble', value)
 
+    @property
+    def face(self) -> bool:
+        """Whether the built-in head has brows, lashes and lips of their colours; other heads have what their mesh has,
+        one colour. Default true.
+        """
+        value: bool = self._get('face')
+        return value
+
+    @face.setter
+    def face(self, value: bool | None) -> None:
+        self._set('face', value)
+
 
 class Video(Table):
     """`[picture.video]`"""

@@ -1,0 +1,182 @@
+//! The face of the built-in bust: the lines that its sculptor followed, and what is painted along them.
+//!
+//! Both halves are alike: z stands for |z| throughout, t for how far along a feature (each line says of which). Head space, cm.
+
+use glam::Vec3;
+
+/// Where the brow runs: `t` 0 beside the nose, 1 at its end.
+pub fn brow_line(t: f32) -> f32 {
+    1.35 + 1.9 * t - 2.0 * t * t * t
+}
+
+/// How far along the brow.
+pub fn along_brow(z: f32) -> f32 {
+    (z - 1.3) / 3.9
+}
+
+/// Where the closed lids meet: `t` from -1, the inner corner, to 1, the outer; a bow that hangs.
+pub fn lid_line(t: f32) -> f32 {
+    let bow = 1.0 - t * t;
+    -0.85 + 0.12 * t - 0.55 * bow
+}
+
+/// How far along the lids.
+pub fn along_lids(z: f32) -> f32 {
+    (z - 3.2) / 1.55
+}
+
+/// The upper and the lower edge of the lips: `t` 0 in the middle, 1 at the corner.
+pub fn lip_edges(z: f32, t: f32) -> [f32; 2] {
+    let dip = 1.0 - (z / 0.5) * (z / 0.5);
+    let dip = if dip > 0.0 { dip * dip * dip } else { 0.0 };
+    [-6.62 - 0.1 * dip - 0.6 * t * t, -8.62 + 1.28 * t * t]
+}
+
+/// How far along the lips.
+pub fn along_lips(z: f32) -> f32 {
+    z / 2.65
+}
+
+/// What covers the skin at a place, each 0..1.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Paint {
+    /// Hairs of the brow.
+    pub brow: f32,
+    /// Lashes, and the line that their roots make.
+    pub lashes: f32,
+    /// The red of the lips.
+    pub lips: f32,
+    /// Blood under the skin of cheeks, nose and ears.
+    pub flush: f32,
+}
+
+impl Paint {
+    /// What covers the built-in bust's skin at `p`.
+    pub fn at(p: Vec3) -> Self {
+        let z = p.z.abs();
+        let near = |centre: Vec3, reach: f32| {
+            let far = (Vec3::new(p.x, p.y, z) - centre).length_squared() / (reach * reach);
+            if far < 1.0 { (1.0 - far) * (1.0 - far) } else { 0.0 }
+        };
+        let flush = near(Vec3::new(6.6, -3.9, 4.3), 3.2) + 0.8 * near(Vec3::new(10.9, -3.9, 0.0), 1.6);
+        let ears = 0.8 * near(Vec3::new(-0.5, -2.5, 8.2), 3.2);
+        if p.x < 4.0 || !(-10.0..4.0).contains(&p.y) {
+            return Self { flush: ears, ..Self::default() };
+        }
+        Self { brow: brow(p.y, z), lashes: lashes(p.y, z), lips: lips(p.y, z), flush: (flush + ears).min(1.0) }
+    }
+
+    /// The colour (linear) of skin so painted, on a head whose hair has such a colour.
+    pub fn over(&self, skin: [f32; 3], hair: [f32; 3]) -> [f32; 3] {
+        const LIPS: [f32; 3] = [0.92, 0.66, 0.70];
+        const FLUSH: [f32; 3] = [1.0, 0.86, 0.86];
+        std::array::from_fn(|c| {
+            let toward = |from: f32, to: f32, share: f32| from + (to - from) * share;
+            let colour = toward(skin[c], skin[c] * FLUSH[c], self.flush);
+            let colour = toward(colour, skin[c] * LIPS[c], self.lips);
+            // Brows and lashes are darker than hair, and always than skin.
+            let colour = toward(colour, (0.5 * hair[c]).min(0.4 * skin[c]), 0.8 * self.brow);
+            toward(colour, (0.25 * hair[c]).min(0.12 * skin[c]), self.lashes)
+        })
+    }
+}
+
+fn brow(y: f32, z: f32) -> f32 {
+    let t = along_brow(z);
+    if !(0.0..=1.0).contains(&t) {
+        return 0.0;
+    }
+    let off = y - brow_line(t);
+    let width = 0.40 - 0.2 * t;
+    let within = 1.0 - (off / width) * (off / width);
+    if within <= 0.0 {
+        return 0.0;
+    }
+    // Upright beside the nose, hairs lie down along the brow farther out.
+    let (sin, cos) = (1.25 - 1.0 * t).sin_cos();
+    let across = cos * off - sin * (z - 1.3);
+    let hairs = 0.55 * grain(across / 0.035) + 0.45 * grain(across / 0.09 + 31.7);
+    (1.5 * within).min(1.0) * (5.0 * t).min(1.0) * (2.5 * (1.0 - t)).min(1.0) * (0.3 + 0.7 * hairs)
+}
+
+fn lashes(y: f32, z: f32) -> f32 {
+    let t = along_lids(z);
+    if !(-1.02..=1.06).contains(&t) {
+        return 0.0;
+    }
+    let below = lid_line(t.clamp(-1.0, 1.0)) - y;
+    let ends = (8.0 * (1.06 - t)).min(1.0) * (5.0 * (t + 1.02)).min(1.0);
+    let line = 1.0 - ((below - 0.015) / (0.075 + 0.02 * t)).powi(2);
+    // They hang from the line, longer and more slanted toward the outer corner.
+    let long = 0.24 + 0.12 * t;
+    let slant = z - 0.45 * t * below;
+    let fall = if below > 0.0 { 1.0 - below / long } else { 0.0 };
+    let hairs = smooth((grain(slant / 0.05) - 0.35) / 0.4) * smooth(1.6 * fall);
+    ends * line.max(0.0).max(0.75 * hairs)
+}
+
+fn lips(y: f32, z: f32) -> f32 {
+    let t = along_lips(z);
+    if t >= 1.0 {
+        return 0.0;
+    }
+    let [upper, lower] = lip_edges(z, t);
+    smooth((upper - y) / 0.2) * smooth((y - lower) / 0.3) * (4.0 * (1.0 - t)).min(1.0)
+}
+
+fn smooth(t: f32) -> f32 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// Noise along a line, 0..1: chance at whole numbers, smooth between.
+fn grain(x: f32) -> f32 {
+    let cell = x.floor();
+    let chance = |n: i32| {
+        let mixed = (n as u32).wrapping_mul(0x9E37_79B1);
+        let mixed = (mixed ^ mixed >> 15).wrapping_mul(0x85EB_CA77);
+        ((mixed ^ mixed >> 13) >> 8) as f32 / (1 << 24) as f32
+    };
+    let (a, b) = (chance(cell as i32), chance(cell as i32 + 1));
+    a + (b - a) * smooth(x - cell)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Head;
+
+    #[test]
+    fn paint_is_alike_on_both_sides_and_lies_on_the_face_alone() {
+        let head = Head::builtin();
+        let mut seen = Paint::default();
+        for &p in &head.mesh.positions {
+            let paint = Paint::at(p);
+            assert_eq!(paint, Paint::at(Vec3::new(p.x, p.y, -p.z)));
+            let each = [paint.brow, paint.lashes, paint.lips, paint.flush];
+            assert!(each.iter().all(|share| (0.0..=1.0).contains(share)), "{paint:?} at {p}");
+            if p.x < 4.0 {
+                assert_eq!((paint.brow, paint.lashes, paint.lips), (0.0, 0.0, 0.0), "{p}");
+            }
+            seen = Paint {
+                brow: seen.brow.max(paint.brow),
+                lashes: seen.lashes.max(paint.lashes),
+                lips: seen.lips.max(paint.lips),
+                flush: seen.flush.max(paint.flush),
+            };
+        }
+        assert!(seen.brow > 0.5 && seen.lashes > 0.5 && seen.lips > 0.9 && seen.flush > 0.3, "{seen:?}");
+    }
+
+    #[test]
+    fn brows_and_lashes_darken_any_skin_under_any_hair() {
+        for (skin, hair) in [([0.8, 0.7, 0.6], [0.01; 3]), ([0.05, 0.03, 0.02], [0.9, 0.8, 0.6])] {
+            let bare = Paint::default().over(skin, hair);
+            assert_eq!(bare, skin);
+            for paint in [Paint { brow: 1.0, ..Paint::default() }, Paint { lashes: 1.0, ..Paint::default() }] {
+                let painted = paint.over(skin, hair);
+                assert!((0..3).all(|c| painted[c] < 0.6 * skin[c]), "{painted:?}");
+            }
+        }
+    }
+}
