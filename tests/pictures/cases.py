@@ -1,0 +1,92 @@
+"""What is compared: views, colours, lamps, and the regions in which the two are held against each other."""
+
+from dataclasses import dataclass, field
+
+SIZE = (480, 360)
+
+# The studio: azimuth from the camera and elevation (degrees), strength, colour, extent (degrees).
+KEY = (30.0, 42.0, 2.9, (1.0, 0.97, 0.93), 4.0)
+FILL = (-50.0, 15.0, 0.6, (0.94, 0.97, 1.0), 20.0)
+RIM = (-155.0, 38.0, 0.9, (1.0, 0.97, 0.94), 4.0)
+SKY = 0.32
+ABOVE, BELOW = (0.93, 0.97, 1.0), (0.55, 0.5, 0.47)
+SKIN = (0.56, 0.44, 0.37)
+
+# Hair as the scenes have it unless a view says otherwise.
+WIDTH, TIP, TAPER = 0.014, 0.3, 0.4
+VARIATION, ROUGHNESS, AROUND, TILT, REFRACTION = 0.25, 5.0, 0.35, 2.5, 1.55
+# Eumelanin and pheomelanin of the named colours.
+MELANIN = {"black": (8.0, 0.0), "brown": (1.1, 0.6), "blond": (0.03, 0.2), "red": (0.0, 1.9)}
+
+
+@dataclass(frozen=True)
+class View:
+    """A frame of a scene through a camera. Regions are rectangles (left, top, right, bottom; pixels); of one whose name begins with
+    "skin" the head's pixels count, of the others those of hair."""
+
+    name: str
+    scene: str
+    frame: int
+    azimuth: float
+    elevation: float
+    target: tuple
+    distance: float
+    regions: dict
+    width: float = WIDTH
+    fov: float = 26.0
+
+
+@dataclass(frozen=True)
+class Case:
+    view: View
+    colour: str
+    light: str = "all"  # or "sky" or "key"
+
+    @property
+    def name(self):
+        return f"{self.view.name}-{self.colour}" + ("" if self.light == "all" else f"-{self.light}")
+
+    @property
+    def lamps(self):
+        return {"all": [KEY, FILL, RIM], "sky": [], "key": [KEY]}[self.light]
+
+    @property
+    def sky(self):
+        return 0.0 if self.light == "key" else SKY
+
+
+GUST = View(
+    "gust0", "gust", 0, 60.0, 4.0, (-1.0, -3.0, 0.0), 80.0,
+    {
+        "top": (210, 44, 262, 70),
+        "band": (160, 110, 198, 158),
+        "side": (204, 110, 238, 190),
+        "edge": (230, 120, 246, 180),
+        "tips": (176, 235, 232, 268),
+        "rim": (138, 193, 155, 283),
+        "skin cheek": (273, 150, 312, 225),
+        "skin jaw": (255, 254, 305, 266),
+        "skin neck": (240, 292, 266, 318),
+    },
+)
+BLOWN = View("gust36", "gust", 36, 60.0, 4.0, (-4.5, -3.0, 0.0), 86.0, {})
+BOB = View("bob22", "bob", 22, 35.0, 4.0, (-1.0, 1.0, 0.0), 80.0, {})
+SHORT = View("short12", "short", 12, 35.0, 6.0, (0.0, -1.0, 0.0), 70.0, {})
+FINE = View("fifty0", "fifty_thousand", 0, 50.0, 6.0, (-2.0, -4.0, 0.0), 75.0, {}, width=0.011)
+
+CASES = [
+    Case(GUST, "brown"),
+    Case(GUST, "blond"),
+    Case(GUST, "black"),
+    Case(GUST, "red"),
+    Case(GUST, "brown", "sky"),
+    Case(GUST, "blond", "key"),
+    Case(GUST, "blond", "sky"),
+    Case(GUST, "brown", "key"),
+    Case(BLOWN, "brown"),
+    Case(BLOWN, "blond"),
+    Case(BOB, "blond"),
+    Case(BOB, "brown"),
+    Case(SHORT, "brown"),
+    Case(FINE, "black"),
+]
