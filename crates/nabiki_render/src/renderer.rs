@@ -181,7 +181,7 @@ impl Renderer {
         clock.lap(&mut self.timing, Stage::Head);
         self.project(&exposure.shot);
         clock.lap(&mut self.timing, Stage::Projection);
-        self.occlude();
+        self.occlude(&exposure.shot.middle);
         clock.lap(&mut self.timing, Stage::Occlusion);
         let view = &exposure.shot.middle;
         self.shade(view);
@@ -291,7 +291,7 @@ impl Renderer {
     }
 
     /// Finds what stands in the way of lamps and sky.
-    fn occlude(&mut self) {
+    fn occlude(&mut self, view: &View) {
         let still = self.still.as_ref().expect("stands");
         let nodes = &self.curves.nodes;
         let lamps: &[Lamp] = if self.picture.shadows { &still.lamps } else { &[] };
@@ -310,7 +310,7 @@ impl Renderer {
         };
         let cover = || {
             if sky.is_occluded() {
-                sky_map.fill(nodes, bounds, &self.radius, (&self.head, &still.bodies), self.zenith);
+                sky_map.fill(nodes, bounds, &self.radius, (&self.head, &still.bodies), self.zenith, view);
             }
         };
         // Parts of each run on one core only; side by side they fill each other's gaps.

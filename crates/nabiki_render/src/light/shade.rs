@@ -17,7 +17,7 @@ use super::headlight::SolidShadows;
 use super::kajiya::KajiyaKay;
 use super::lamps::Lamp;
 use super::shadow::Crossings;
-use super::sky::SkyMap;
+use super::sky::{BEHIND_ABOVE, BEHIND_BELOW, FRONT_ABOVE, FRONT_BELOW, SkyMap};
 use crate::camera::View;
 use crate::colour::of_strand;
 use crate::curve::CurveNode;
@@ -111,18 +111,19 @@ impl HairLight<'_> {
         });
     }
 
-    /// The share of the sky that arrives from above and from below.
+    /// What arrives of the sky, as [`SkyMap::at`] has it.
     #[inline(always)]
-    fn sky_above_below<const N: usize>(&self, places: &[[f32; N]; 3]) -> [[f32; N]; 2] {
-        self.sky_map.map_or([[1.0; N]; 2], |s| s.at(places))
+    fn sky_at<const N: usize>(&self, places: &[[f32; N]; 3]) -> [[f32; N]; 4] {
+        self.sky_map.map_or([[0.5; N]; 4], |s| s.at(places))
     }
 
     fn kajiya(&self, model: &KajiyaKay, i: usize, node: &CurveNode) -> [f32; 3] {
         let eye = self.view.toward_eye(node.position);
         let place = node.position.to_array().map(|c| [c]);
-        let [[above], [below]] = self.sky_above_below(&place);
+        let [[front_above], [front_below], [behind_above], [behind_below]] = self.sky_at(&place);
+        let (above, below) = (0.5 * (front_above + behind_above), 0.5 * (front_below + behind_below));
         let mut light: [f32; 3] = std::array::from_fn(|c| {
-            0.5 * self.sky.strength * model.colour[c] * (self.sky.above[c] * above + self.sky.below[c] * below)
+            self.sky.strength * model.colour[c] * (self.sky.above[c] * above + self.sky.below[c] * below)
         });
         for (l, lamp) in self.lamps.iter().enumerate() {
             let hair = self.crossings.get(l).map_or(1.0, |c| (-c.at(i)).exp());
@@ -172,7 +173,7 @@ impl HairLight<'_> {
         }
 
         let mut rows = Rows::default();
-        let [above, below] = self.sky_above_below(&place);
+        let sky = self.sky_at(&place);
         for lane in 0..LANES {
             let row = tables[lane].row(sin_eye[lane].abs() * (ROWS - 1) as f32);
             for c in 0..3 {
@@ -189,12 +190,17 @@ impl HairLight<'_> {
                 let g = 1.0 / (1.0 - a * a).max(0.02);
                 let again = DENSITY * (b * a * a * g + b * b * b * a * a * g * g * g);
                 rows.again[c][lane] = again;
-                let arrives = |open: f32| {
-                    let scattered = exp_of_negative(ln(open.max(1e-6)) * (1.0 - a).max(0.0));
-                    open + DENSITY * (scattered - open).max(0.0)
+                // What hair in the way scatters forward arrives as well: on both sides as much more than what is open as the
+                // mean depth of the hair there says.
+                let arrives = |above: f32, below: f32| {
+                    let open = (above + below).clamp(1e-6, 1.0);
+                    let scattered = exp_of_negative(ln(open) * (1.0 - a).max(0.0));
+                    let more = 1.0 + DENSITY * (scattered / open - 1.0).max(0.0);
+                    (self.sky.above[c] * above + self.sky.below[c] * below) * more
                 };
-                let sky = self.sky.above[c] * arrives(above[lane]) + self.sky.below[c] * arrives(below[lane]);
-                light[c][lane] = 0.5 * self.sky.strength * sky * (a + b + again);
+                let front = arrives(sky[FRONT_ABOVE][lane], sky[FRONT_BELOW][lane]);
+                let behind = arrives(sky[BEHIND_ABOVE][lane], sky[BEHIND_BELOW][lane]);
+                light[c][lane] = self.sky.strength * (front * (b + again) + behind * a);
             }
         }
 

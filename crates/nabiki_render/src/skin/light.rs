@@ -41,6 +41,13 @@ pub struct SkinLight<'a> {
     pub view: &'a View,
 }
 
+/// The part of a lamp's light that skin takes at this cosine of the angle to it: the cosine itself, but where light creeps past the
+/// terminator, `soft` of cosine to both sides, which a parabola joins without a kink.
+fn wrapped(facing: f32, soft: f32) -> f32 {
+    let within = (facing + soft).max(0.0);
+    if facing >= soft { facing } else { within * within / (4.0 * soft).max(1e-6) }
+}
+
 impl SkinLight<'_> {
     /// What head and bodies leave of each lamp at each place: it does not change while they and the lamps stand still.
     pub fn unhidden(pixels: &[SkinPixel], shadows: &[SolidShadows]) -> Vec<[f32; 3]> {
@@ -83,15 +90,14 @@ impl SkinLight<'_> {
             let gloss = 0.045 * 9.0 * normal.dot(halfway).max(0.0).powi(18) * smooth(facing / 0.25);
             let rim = (1.0 - eye.dot(normal).clamp(0.0, 1.0)).powi(4) * facing.max(0.0);
             for c in 0..3 {
-                let wrapped = ((facing + soft[c]) / (1.0 + soft[c])).max(0.0);
-                diffuse[c] += lamp.strength[c] * lit[c] * wrapped * wrapped;
+                diffuse[c] += lamp.strength[c] * lit[c] * wrapped(facing, soft[c]);
                 sheen[c] += lamp.strength[c] * lit[c] * (gloss + 0.5 * rim);
             }
         }
-        let arriving = self.sky_map.map(|s| s.at(&(p.position + 0.9 * normal).to_array().map(|c| [c])));
+        let arriving = self.sky_map.map(|s| s.on_surface(p.position + 0.9 * normal, normal));
         let open = |part: f32| if part < 1.0 { self.through(-part.max(1e-6).ln()) } else { [1.0; 3] };
         let (open_above, open_below) =
-            arriving.map_or(([1.0; 3], [1.0; 3]), |[[above], [below]]| (open(above), open(below)));
+            arriving.map_or(([1.0; 3], [1.0; 3]), |[above, below]| (open(above), open(below)));
         let up = 0.5 + 0.5 * normal.dot(self.zenith);
         for (c, diffuse) in diffuse.iter_mut().enumerate() {
             let sky = self.sky.above[c] * up * open_above[c] + self.sky.below[c] * (1.0 - up) * open_below[c];
