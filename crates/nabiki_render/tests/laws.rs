@@ -154,6 +154,38 @@ fn coverage_agrees_with_the_papers_oversampling_taken_to_its_limit() {
 }
 
 #[test]
+fn no_edge_of_a_tile_shows() {
+    // Two layers of long straight hair that lean to either side, and so are not alike bright. The one is before the other above and
+    // behind it below; they pass through each other over some tiles.
+    let mut strands = Strands::default();
+    for s in 0..8000_u32 {
+        let random = |k: u32| (((s * 4 + k) as f32 * 12.9898).sin() * 43758.547).rem_euclid(1.0) - 0.5;
+        let side = if s % 2 == 0 { 1.0 } else { -1.0 };
+        let (z, x) = (32.0 * random(0), random(1));
+        strands.push((0..=14).map(|k| {
+            let t = k as f32 / 7.0 - 1.0;
+            vec3(x + 0.8 * side * t, -14.0 * t, z + 5.0 * side * t)
+        }));
+    }
+    let mut picture = black([160, 160]);
+    picture.camera.azimuth = 0.0;
+    picture.shadows = false;
+    let frame = Renderer::new(&picture, &Mesh::default()).unwrap();
+    let frame = { frame }.draw(&FrameToDraw::at_rest(&strands, fixed_view(&picture))).unwrap();
+    let shown = ToneMapping::new(&picture).rgba8(&frame);
+    // Mean of each row, and how far it is from that of its neighbours.
+    let row = |y: usize| (40..120).map(|x| f64::from(shown[4 * (y * 160 + x) + 1])).sum::<f64>() / 80.0;
+    let step = |y: usize| (row(y) - row(y - 1) - 0.5 * (row(y + 1) - row(y) + row(y - 1) - row(y - 2))).abs();
+    let mean = |on_edge: bool| {
+        let rows: Vec<usize> = (48..=112).filter(|y| (y % 16 == 0) == on_edge).collect();
+        rows.iter().map(|&y| step(y)).sum::<f64>() / rows.len() as f64
+    };
+    // Three standard errors of the mean over five edges: the absolute value of what is spread normally deviates by three quarters
+    // of its mean.
+    assert!(mean(true) < (1.0 + 3.0 * 0.75 / 5.0_f64.sqrt()) * mean(false), "{} {}", mean(true), mean(false));
+}
+
+#[test]
 fn a_fine_hair_that_moves_does_not_flicker() {
     let mut picture = black([48, 48]);
     picture.hair.width = 0.02;

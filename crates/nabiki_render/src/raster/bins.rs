@@ -1,8 +1,9 @@
 //! Which pieces touch which tile, nearest first.
 //!
 //! Pieces are sorted one row of tiles at a time, right before it is drawn: what the row needs then lies close together and
-//! stays in a core's own cache. Within a tile pieces go by their depth *there*, so long hair that crosses other hair is
-//! before it in one tile and behind it in the next.
+//! stays in a core's own cache. Long hair that crosses other hair is before it at one end and behind it at the other: each piece is
+//! divided along itself into parts, which go by their own depth. Parts begin at lines of the picture that differ from piece to piece, and
+//! one that crosses the edge of a tile has the same depth on both sides, so no edge shows.
 
 use std::ops::Range;
 
@@ -34,20 +35,18 @@ pub struct Bins {
 /// The pieces of one row of tiles; kept from row to row for its memory.
 #[derive(Default)]
 pub struct Row {
-    pieces: Vec<Piece>,
+    pieces: Vec<(Piece, Parts)>,
     entries: Vec<(u16, u64)>,
     starts: Vec<u32>,
     /// For each tile, what touches it: depth (high half), place among `pieces`, and which part of the piece it is.
     order: Vec<u64>,
 }
 
-/// Hair is sorted in parts of a tile where it is so thick (pixels) that the eye sees which hair is before which: first and
-/// second half, or four quarters.
+/// Parts are half as long as a tile, or a quarter, where hair is so thick (pixels) that the eye sees which is before which.
 const THICK: [f32; 2] = [0.2, 0.5];
-/// The same where it goes so far in depth from end to end of a tile (cm), else layers that cross change places from tile to tile.
+/// The same where it goes so far in depth over the length of a tile (cm).
 const STEEP: [f32; 2] = [0.4, 0.8];
-/// The parts of a tile, along the axis that a piece follows more: all of it, halves, quarters.
-const PARTS: [Range<usize>; 7] = [0..TILE, 0..8, 8..TILE, 0..4, 4..8, 8..12, 12..TILE];
+/// Bits for the number of a part within a tile: five at most, since parts do not begin where the tile does.
 const PART_BITS: u32 = 3;
 
 impl Bins {
@@ -125,7 +124,7 @@ impl Bins {
             let Some(piece) = Piece::new(&nodes[i as usize], &nodes[i as usize + 1], i) else { continue };
             let several = right > left && bottom > top;
             let place = out.pieces.len() as u64;
-            let parts = if in_parts { parts(&piece) } else { 0..1 };
+            let parts = if in_parts { parts(&piece) } else { Parts::WHOLE };
             for x in left..=right {
                 let corner = [f32::from(x), row as f32].map(|c| c * TILE as f32);
                 // Half of a tile's diagonal, and a little for rounding.
@@ -133,14 +132,17 @@ impl Bins {
                 if several && piece.distance(corner.map(|c| c + 0.5 * TILE as f32)) > near {
                     continue;
                 }
-                for part in parts.clone() {
-                    let Some(along) = piece.within(corner, &PARTS[part]) else { continue };
+                for part in 0..parts.in_tile() {
+                    if !piece.reaches(corner, &parts.lines(part)) {
+                        continue;
+                    }
+                    let along = piece.along(corner, parts.middle(part));
                     let depth = piece.a.depth + (piece.b.depth - piece.a.depth) * along;
                     out.entries.push((x, u64::from(depth.to_bits()) << 32 | place << PART_BITS | part as u64));
                     out.starts[usize::from(x)] += 1;
                 }
             }
-            out.pieces.push(piece);
+            out.pieces.push((piece, parts));
         }
         out.sort();
     }
@@ -148,13 +150,13 @@ impl Bins {
 
 impl Row {
     /// The pieces of a tile of the row, nearest first, and which lines of the tile are meant; ties in the order of the nodes.
-    pub fn tile(&self, column: usize) -> impl Iterator<Item = (&Piece, &Range<usize>)> {
+    pub fn tile(&self, column: usize) -> impl Iterator<Item = (&Piece, Range<usize>)> {
         let order = &self.order[self.starts[column] as usize..self.starts[column + 1] as usize];
         let piece = |entry: u64| &self.pieces[entry as u32 as usize >> PART_BITS];
-        let lines = |entry: u64| &PARTS[entry as usize & ((1 << PART_BITS) - 1)];
         order.iter().enumerate().map(move |(n, &entry)| {
             prefetch(piece(order[(n + AHEAD).min(order.len() - 1)]));
-            (piece(entry), lines(entry))
+            let (piece, parts) = piece(entry);
+            (piece, parts.lines(entry as usize & ((1 << PART_BITS) - 1)))
         })
     }
 
@@ -186,16 +188,58 @@ impl Row {
     }
 }
 
-/// Into which of `PARTS` a piece is divided.
+/// How a piece is divided along the axis that it follows more: into parts of `length` lines of the picture, of which one begins
+/// `offset` lines into every tile.
+#[derive(Clone, Copy, Debug)]
+struct Parts {
+    length: u8,
+    offset: u8,
+}
+
+impl Parts {
+    /// A tile each.
+    const WHOLE: Self = Self { length: TILE as u8, offset: 0 };
+
+    /// How many of them lie in a tile, or reach into it.
+    #[inline]
+    fn in_tile(self) -> usize {
+        TILE / usize::from(self.length) + usize::from(self.offset > 0)
+    }
+
+    /// Where part `i` begins (lines from the tile's edge): the first before it, if it reaches in.
+    #[inline]
+    fn start(self, i: usize) -> i32 {
+        let before = if self.offset > 0 { i32::from(self.length) } else { 0 };
+        i as i32 * i32::from(self.length) + i32::from(self.offset) - before
+    }
+
+    /// The lines of the tile that part `i` has.
+    #[inline]
+    fn lines(self, i: usize) -> Range<usize> {
+        let start = self.start(i);
+        start.max(0) as usize..((start + i32::from(self.length)) as usize).min(TILE)
+    }
+
+    /// The middle of part `i`, within the tile or not (lines from its edge).
+    #[inline]
+    fn middle(self, i: usize) -> f32 {
+        self.start(i) as f32 + 0.5 * f32::from(self.length)
+    }
+}
+
+/// Into what a piece is divided.
 #[inline]
-fn parts(piece: &Piece) -> Range<usize> {
+fn parts(piece: &Piece) -> Parts {
     let thickness = 2.0 * piece.a.radius.max(piece.b.radius);
     let steepness = (piece.b.depth - piece.a.depth).abs() * piece.per_length * TILE as f32;
-    match [0, 1].map(|i| thickness > THICK[i] || steepness > STEEP[i]) {
-        [_, true] => 3..7,
-        [true, false] => 1..3,
-        [false, false] => 0..1,
-    }
+    let length = match [0, 1].map(|i| thickness > THICK[i] || steepness > STEEP[i]) {
+        [_, true] => 4,
+        [true, false] => 8,
+        [false, false] => TILE as u8,
+    };
+    // Bits of the golden ratio spread them.
+    let spread = (piece.number.wrapping_mul(0x9E37_79B1) >> 24) as u8;
+    Parts { length, offset: spread % length }
 }
 
 /// The rows of tiles that a rectangle reaches; none of [`NOWHERE`].
@@ -229,11 +273,17 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn parts_of_a_tile_make_a_whole() {
-        for of in [0..1, 1..3, 3..7] {
-            let mut lines: Vec<usize> = of.flat_map(|part| PARTS[part].clone()).collect();
-            lines.sort_unstable();
-            assert_eq!(lines, (0..TILE).collect::<Vec<_>>());
+    fn parts_of_a_tile_make_a_whole_and_go_on_beyond_its_edge() {
+        for length in [4, 8, TILE as u8] {
+            for offset in 0..length {
+                let parts = Parts { length, offset };
+                let lines: Vec<usize> = (0..parts.in_tile()).flat_map(|part| parts.lines(part)).collect();
+                assert_eq!(lines, (0..TILE).collect::<Vec<_>>());
+                let last = parts.in_tile() - 1;
+                if offset > 0 {
+                    assert_eq!(parts.middle(last), parts.middle(0) + TILE as f32);
+                }
+            }
         }
     }
 

@@ -75,7 +75,7 @@ struct DrawHair<'a, W, P> {
     watch: &'a mut W,
 }
 
-impl<'p, W: Watch, P: Iterator<Item = (&'p Piece, &'p Range<usize>)>> WithSimd for DrawHair<'_, W, P> {
+impl<'p, W: Watch, P: Iterator<Item = (&'p Piece, Range<usize>)>> WithSimd for DrawHair<'_, W, P> {
     type Output = ();
 
     #[inline(always)]
@@ -108,7 +108,7 @@ impl CoverageTile {
     pub fn draw<'p>(
         &mut self,
         tile: [usize; 2],
-        pieces: impl Iterator<Item = (&'p Piece, &'p Range<usize>)>,
+        pieces: impl Iterator<Item = (&'p Piece, Range<usize>)>,
         skin: (&[SkinPixel], impl Fn(usize) -> Option<[f32; 3]>),
         watch: &mut impl Watch,
     ) {
@@ -170,7 +170,7 @@ impl CoverageTile {
         &mut self,
         simd: S,
         tile: [usize; 2],
-        pieces: impl Iterator<Item = (&'p Piece, &'p Range<usize>)>,
+        pieces: impl Iterator<Item = (&'p Piece, Range<usize>)>,
         watch: &mut impl Watch,
     ) {
         for (piece, among) in pieces {
@@ -180,7 +180,7 @@ impl CoverageTile {
                 break;
             }
             if nearest - recession <= self.farthest {
-                self.piece(simd, tile, piece, among, watch);
+                self.piece(simd, tile, piece, &among, watch);
             }
         }
     }

@@ -111,17 +111,28 @@ impl Piece {
         (from_a[0] * self.unit[1] - from_a[1] * self.unit[0]).abs()
     }
 
-    /// Where on the piece (0..1) the middle of some lines of a tile lies, counted from the tile's `corner` (pixels) along the
-    /// axis that the piece follows more; none where it does not reach them.
+    /// Whether the piece reaches some lines of a tile, counted from the tile's `corner` (pixels) along the axis that the piece follows
+    /// more.
     #[inline]
-    pub fn within(&self, corner: [f32; 2], lines: &Range<usize>) -> Option<f32> {
-        let major = usize::from(self.unit[1].abs() > self.unit[0].abs());
+    pub fn reaches(&self, corner: [f32; 2], lines: &Range<usize>) -> bool {
+        let major = self.major();
         let [start, end] = [self.a.at[major], self.b.at[major]].map(|c| c - corner[major]);
-        let (first, last) = (lines.start as f32, lines.end as f32);
         // As far as drawing reaches beyond the ends.
         let overhang = self.a.radius.max(self.b.radius) + 0.2;
-        let reaches = start.max(end) + overhang >= first && start.min(end) - overhang <= last;
-        reaches.then(|| ((0.5 * (first + last) - start) * self.per_length / self.unit[major]).clamp(0.0, 1.0))
+        start.max(end) + overhang >= lines.start as f32 && start.min(end) - overhang <= lines.end as f32
+    }
+
+    /// Where on the piece (0..1) a line lies, counted likewise; at its nearer end if it lies beyond.
+    #[inline]
+    pub fn along(&self, corner: [f32; 2], line: f32) -> f32 {
+        let major = self.major();
+        ((line - (self.a.at[major] - corner[major])) * self.per_length / self.unit[major]).clamp(0.0, 1.0)
+    }
+
+    /// The axis that the piece follows more, 0 for x.
+    #[inline]
+    fn major(&self) -> usize {
+        usize::from(self.unit[1].abs() > self.unit[0].abs())
     }
 
     /// How far from its line the piece reaches (pixels), moving hair included.
