@@ -56,19 +56,21 @@ impl Default for Light {
 }
 
 impl Light {
-    /// A portrait photographer's three lamps: a warm key from above, a cool fill, a rim from behind.
+    /// A portrait photographer's four lamps: a warm key from above, a weak cool fill, and two kickers from behind that edge the hair.
     pub fn studio() -> Vec<Self> {
+        let lamp = |azimuth, elevation, strength, colour, spread| Self {
+            azimuth,
+            elevation,
+            strength,
+            colour,
+            spread,
+            ..Self::default()
+        };
         vec![
-            Self { azimuth: 30.0, elevation: 42.0, strength: 2.9, colour: [1.0, 0.97, 0.93], ..Self::default() },
-            Self {
-                azimuth: -50.0,
-                elevation: 15.0,
-                strength: 0.6,
-                colour: [0.94, 0.97, 1.0],
-                spread: 20.0,
-                ..Self::default()
-            },
-            Self { azimuth: -155.0, elevation: 38.0, strength: 0.9, colour: [1.0, 0.97, 0.94], ..Self::default() },
+            lamp(32.0, 48.0, 3.1, [1.0, 0.96, 0.91], 6.0),
+            lamp(-50.0, 14.0, 0.5, [0.92, 0.96, 1.0], 20.0),
+            lamp(168.0, 40.0, 1.5, [1.0, 0.97, 0.94], 5.0),
+            lamp(-130.0, 28.0, 1.3, [0.92, 0.96, 1.0], 5.0),
         ]
     }
 
@@ -85,7 +87,7 @@ impl Light {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Sky {
-    /// Strength: an unhidden white surface is as bright as this, 0..1000. Default 0.32.
+    /// Strength: an unhidden white surface is as bright as this, 0..1000. Default 0.24.
     pub strength: f32,
     /// Colour of the light from straight above (linear, 0..1).
     pub above: [f32; 3],
@@ -100,7 +102,7 @@ pub struct Sky {
 impl Default for Sky {
     fn default() -> Self {
         Self {
-            strength: 0.32,
+            strength: 0.24,
             above: [0.93, 0.97, 1.0],
             below: [0.55, 0.5, 0.47],
             occlusion: true,

@@ -42,7 +42,7 @@ pub struct Picture {
     pub camera: Camera,
     /// Width, colour and shading of the hair.
     pub hair: HairLook,
-    /// The lamps: an array of tables, `[[picture.lights]]`. Default: key, fill and rim.
+    /// The lamps: an array of tables, `[[picture.lights]]`. Default: key, fill and two kickers.
     pub lights: Vec<Light>,
     /// The light that comes from all around.
     pub sky: Sky,

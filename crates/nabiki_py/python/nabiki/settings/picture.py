@@ -65,7 +65,7 @@ class Picture(Table):
 
     @property
     def lights(self) -> Tables[Light]:
-        """The lamps: an array of tables, `[[picture.lights]]`. Default: key, fill and rim."""
+        """The lamps: an array of tables, `[[picture.lights]]`. Default: key, fill and two kickers."""
         return Tables(self._scene, self._key_of('lights'), Light)
 
     @lights.setter
@@ -500,7 +500,7 @@ class Sky(Table):
 
     @property
     def strength(self) -> float:
-        """Strength: an unhidden white surface is as bright as this, 0..1000. Default 0.32."""
+        """Strength: an unhidden white surface is as bright as this, 0..1000. Default 0.24."""
         value: float = self._get('strength')
         return value
 
