@@ -1,0 +1,82 @@
+"""The whole moving hair in a file, and the object that reads it."""
+
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from . import hair as hair_module
+from . import jobs, motion, playing, scene_files
+from .messages import Mistake
+
+ENDINGS = (".usdc", ".usda", ".abc")
+
+# Where the hair is in the files that nabiki writes.
+PRIM = {".usdc": "/head/hair", ".usda": "/head/hair", ".abc": "/head/hair"}
+
+
+def place(thing):
+    """Where the cache of an object goes."""
+    given = thing.nabiki.cache_path.strip()
+    if not given:
+        given = f"//{bpy.path.clean_name(thing.name)}_nabiki.usdc"
+    if given.startswith("//") and not bpy.data.filepath:
+        raise Mistake("the .blend file has no place yet, and the cache goes beside it: save it, or give the cache a whole path in Nabiki > Cache")
+    path = Path(bpy.path.abspath(given))
+    if path.suffix.lower() not in ENDINGS:
+        raise Mistake(f'"{path.name}" ends in none of {", ".join(ENDINGS)}: give the cache such a name')
+    if not path.parent.is_dir():
+        raise Mistake(f'there is no folder "{path.parent}": make it, or name another in Nabiki > Cache')
+    return given, path
+
+
+def bake(context, thing, operator):
+    """Writes all strands and frames, and adds the object that reads them; yields how far it is and returns a line."""
+    given, path = place(thing)
+    sample = yield from motion.sampled(context, thing)
+    plain = scene_files.values(thing.nabiki, sample.frames.start)
+    with motion.folder() as folder:
+        operator.made = made = scene_files.write(sample, plain, folder)
+
+        def write(progress):
+            scene_files.build(made, plain)
+            made.scene.export(path, progress=progress, report=lambda line: None)
+
+        yield from jobs.on_thread(write, "writing hair")
+    with playing.Quiet():
+        put_baked(context, thing, sample, given, path)
+    size = path.stat().st_size / 1e6
+    return f"{len(sample.hair)} strands, {len(sample.frames)} frames, {size:.0f} MB: {path}" + said(made.notes)
+
+
+def said(notes):
+    return "".join(f"; {note}" for note in notes)
+
+
+def put_baked(context, thing, sample, given, path):
+    """The object that reads the cache."""
+    settings = thing.nabiki
+    motion.remove(settings.baked)
+    motion.remove(settings.preview)
+    settings.baked = settings.preview = None
+    name = thing.name + motion.BAKED
+    data = hair_module.make(name, sample.hair, np.arange(len(sample.hair)), smooth=False)
+    baked = bpy.data.objects.new(name, data)
+    for collection in motion.collections_of(context, thing):
+        collection.objects.link(baked)
+    baked.location = sample.origin
+    cache = open_cache(path)
+    cache.filepath = given if given.startswith("//") else str(path)
+    cache.frame_offset = sample.frames.start
+    cache.velocity_unit = "SECOND"
+    modifier = baked.modifiers.new("Nabiki", "MESH_SEQUENCE_CACHE")
+    modifier.cache_file, modifier.object_path = cache, PRIM[path.suffix.lower()]
+    settings.baked, baked.nabiki.of = baked, thing
+    motion.hide(thing)
+
+
+def open_cache(path):
+    before = set(bpy.data.cache_files)
+    bpy.ops.cachefile.open(filepath=str(path))
+    (cache,) = set(bpy.data.cache_files) - before
+    return cache

@@ -1,0 +1,152 @@
+"""The steps from an object of curves to its motion."""
+
+import shutil
+import tempfile
+from contextlib import contextmanager
+
+import bpy
+import numpy as np
+
+from . import attributes, axes, jobs, playing, sampling, scene_files
+from . import hair as hair_module
+from .messages import Mistake
+
+PREVIEW, BAKED = " Preview", " Baked"
+
+
+def chosen(context, name=""):
+    """The object of curves that is meant: the one of that name, or the active one, or what its preview is of."""
+    thing = context.scene.objects.get(name) if name else context.object
+    if thing is None:
+        raise Mistake("no object is active: select the hair, an object of curves")
+    if thing.type == "CURVES" and thing.nabiki.of is not None:
+        thing = thing.nabiki.of
+    if thing.type != "CURVES":
+        kind = thing.bl_rna.properties["type"].enum_items[thing.type].name.lower()
+        other = ": Object > Convert > Curves makes hair of particles and of old curves" if thing.type in {"CURVE", "MESH"} else ""
+        raise Mistake(f'"{thing.name}" is a {kind}, and hair is an object of curves (Add > Curve > Empty Hair){other}')
+    if thing.library is not None or thing.override_library is not None:
+        raise Mistake(f'"{thing.name}" belongs to another .blend file: make it local (Object > Relations > Make Local)')
+    if context.mode != "OBJECT":
+        raise Mistake("an object is being edited: leave its mode first (Tab)")
+    return thing
+
+
+@contextmanager
+def folder():
+    """A folder of Blender's own for files that are gone afterwards."""
+    made = tempfile.mkdtemp(prefix="nabiki_", dir=bpy.app.tempdir or None)
+    try:
+        yield made
+    finally:
+        shutil.rmtree(made, ignore_errors=True)
+
+
+def sampled(context, thing):
+    """The sample of an object, read anew where something is another; yields how far it is."""
+    known = playing.take(thing)
+    same = known.sample is not None and known.sample.digest == sampling.digest(context.scene, thing)
+    if same and sampling.still_as_sampled(known.sample, thing, context.evaluated_depsgraph_get(), context.scene.frame_current):
+        return known.sample
+    known.sample = None
+    with playing.Quiet():
+        reading = sampling.sample(context, thing)
+        while True:
+            try:
+                done, total = next(reading)
+            except StopIteration as ended:
+                known.sample = ended.value
+                known.films.clear()
+                return known.sample
+            yield done / total, f"reading frame {done} of {total}"
+
+
+def film(sample, plain, made, strands, progress):
+    """The motion of some strands; on a thread. `strands`: how many, or None for all."""
+    scene_files.build(made, plain)
+    count = None if strands is None or strands >= len(sample.hair) else strands
+    frames = made.scene.simulate(count)
+    chosen_strands = np.asarray(frames.ids).astype(np.int64)
+    points = np.empty((len(frames), int(frames.offsets[-1]), 3), np.float32)
+    for number, frame in enumerate(frames):
+        progress(number, len(frames))
+        points[number] = axes.as_in_blender(frame.world_points(), plain["facing"], sample.unit_cm)
+    velocities = np.empty_like(points)
+    np.subtract(points[1:], points[:-1], out=velocities[:-1])
+    velocities[-1] = velocities[-2]
+    velocities *= np.float32(sample.rate)
+    return playing.Film(points, velocities, chosen_strands, sample.frames, made.notes)
+
+
+def simulate(context, thing, operator):
+    """Moves the preview of an object; yields how far it is and returns the motion."""
+    known = playing.take(thing)
+    sample = yield from sampled(context, thing)
+    plain = scene_files.values(thing.nabiki, sample.frames.start)
+    key = playing.key(context.scene, thing)
+    found = known.films.get(key)
+    if found is None:
+        strands = thing.nabiki.preview_strands
+        with folder() as place:
+            operator.made = made = scene_files.write(sample, plain, place)
+            found = yield from jobs.on_thread(lambda progress: film(sample, plain, made, strands, progress), "moving hair")
+    known.keep(key, found)
+    with playing.Quiet():
+        preview = put_preview(context, thing, sample, found)
+        playing.show(context.scene, thing, preview, found)
+    return found
+
+
+def put_preview(context, thing, sample, found):
+    """The object that shows a motion: a copy of its strands, in the place of the hair. The hair itself is never written."""
+    settings, preview = thing.nabiki, thing.nabiki.preview
+    if preview is None or preview.name not in context.scene.objects:
+        preview = bpy.data.objects.new(thing.name + PREVIEW, bpy.data.hair_curves.new(thing.name + PREVIEW))
+        for collection in collections_of(context, thing):
+            collection.objects.link(preview)
+        settings.preview, preview.nabiki.of = preview, thing
+    data = hair_module.make(thing.name + PREVIEW, sample.hair, found.strands, sample.hair.smooth)
+    rest = sample.hair.points[sample.hair.points_of(found.strands)]
+    attributes.put(data, "nabiki_rest", "FLOAT_VECTOR", "POINT", rest)
+    old, preview.data = preview.data, data
+    bpy.data.hair_curves.remove(old)
+    preview.location = sample.origin
+    hide(thing)
+    return preview
+
+
+def collections_of(context, thing):
+    return [c for c in thing.users_collection] or [context.scene.collection]
+
+
+def hide(thing):
+    """Hides the hair, and remembers how it was shown."""
+    if not thing.nabiki.shown_before:
+        thing.nabiki.shown_before = f"{int(thing.hide_viewport)}{int(thing.hide_render)}"
+    thing.hide_viewport = thing.hide_render = True
+
+
+def clear(scene, thing):
+    """Takes everything away that was added, and shows the hair as it was."""
+    settings = thing.nabiki
+    with playing.Quiet():
+        for added in [settings.preview, settings.baked]:
+            remove(added)
+        settings.preview = settings.baked = None
+        if settings.shown_before:
+            thing.hide_viewport, thing.hide_render = (figure == "1" for figure in settings.shown_before)
+            settings.shown_before = ""
+    playing.takes.pop(thing.session_uid, None)
+
+
+def remove(added):
+    """Removes an object that was added, with its data and the cache that it reads."""
+    if added is None:
+        return
+    data, caches = added.data, [m.cache_file for m in added.modifiers if m.type == "MESH_SEQUENCE_CACHE" and m.cache_file]
+    bpy.data.objects.remove(added)
+    if data.users == 0:
+        bpy.data.hair_curves.remove(data)
+    for cache in caches:
+        if cache.users == 0:
+            bpy.data.cache_files.remove(cache)

@@ -1,0 +1,146 @@
+"""The buttons."""
+
+from pathlib import Path
+
+import bpy
+from bpy_extras.io_utils import ExportHelper
+
+from . import baking, jobs, motion, playing, scene_files, wishing
+from .messages import Mistake, one_line
+
+
+class Named:
+    """An operator about one object of curves: the active one, unless a name is given."""
+
+    name: bpy.props.StringProperty(name="Hair", description="The object of curves. The active one if empty", options={"SKIP_SAVE", "HIDDEN"})
+
+
+class NABIKI_OT_simulate(jobs.Working, Named, bpy.types.Operator):
+    bl_idname = "nabiki.simulate"
+    bl_label = "Simulate"
+    bl_description = "Move some strands of the active hair through all frames, and show them as the time line is scrubbed"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def steps(self, context):
+        thing = motion.chosen(context, self.name)
+        film = yield from motion.simulate(context, thing, self)
+        return f"{len(film.strands)} strands, {len(film.frames)} frames" + baking.said(film.notes)
+
+
+class NABIKI_OT_solve(jobs.Working, Named, bpy.types.Operator):
+    bl_idname = "nabiki.solve"
+    bl_label = "Find the Wind"
+    bl_description = "Find the wind under which the preview's curves go, in this frame, where you have moved them"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def steps(self, context):
+        return (yield from wishing.solve(context, motion.chosen(context, self.name), self))
+
+
+class NABIKI_OT_bake(jobs.Working, Named, bpy.types.Operator):
+    bl_idname = "nabiki.bake"
+    bl_label = "Bake"
+    bl_description = "Write all strands and frames into a file, and add the object that reads it, with motion blur"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def steps(self, context):
+        return (yield from baking.bake(context, motion.chosen(context, self.name), self))
+
+
+class NABIKI_OT_clear(Named, bpy.types.Operator):
+    bl_idname = "nabiki.clear"
+    bl_label = "Clear"
+    bl_description = "Remove the preview and the baked object, and show the hair as it was. Files stay"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        try:
+            motion.clear(context.scene, motion.chosen(context, self.name))
+        except Mistake as mistake:
+            self.report({"ERROR"}, one_line(mistake))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+class NABIKI_OT_interval_add(bpy.types.Operator):
+    bl_idname = "nabiki.interval_add"
+    bl_label = "Add Wind"
+    bl_description = "Add a wind that begins where the last one ends"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.object is not None and context.object.type == "CURVES"
+
+    def execute(self, context):
+        thing = hair_of(context.object)
+        settings = thing.nabiki
+        before = settings.intervals[-1].through if len(settings.intervals) else max(context.scene.frame_start, 0)
+        with playing.Quiet():
+            interval = settings.intervals.add()
+            interval.through = before + 24
+        settings.active_interval = len(settings.intervals) - 1
+        playing.settings_changed(thing)
+        return {"FINISHED"}
+
+
+class NABIKI_OT_interval_remove(bpy.types.Operator):
+    bl_idname = "nabiki.interval_remove"
+    bl_label = "Remove Wind"
+    bl_description = "Remove the wind that is shown"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.object is not None and context.object.type == "CURVES" and len(hair_of(context.object).nabiki.intervals) > 0
+
+    def execute(self, context):
+        thing = hair_of(context.object)
+        settings = thing.nabiki
+        settings.intervals.remove(settings.active_interval)
+        settings.active_interval = max(0, min(settings.active_interval, len(settings.intervals) - 1))
+        playing.settings_changed(thing)
+        return {"FINISHED"}
+
+
+class NABIKI_OT_write_scene(jobs.Working, Named, ExportHelper, bpy.types.Operator):
+    bl_idname = "nabiki.write_scene"
+    bl_label = "Write Scene"
+    bl_description = "Write hair, head, bodies and wind as a scene of the command nabiki, for a render farm or the studio"
+    bl_options = {"REGISTER"}
+
+    filename_ext = ".toml"
+    filter_glob: bpy.props.StringProperty(default="*.toml", options={"HIDDEN"})
+
+    def invoke(self, context, event):
+        return ExportHelper.invoke(self, context, event)
+
+    def steps(self, context):
+        thing = motion.chosen(context, self.name)
+        path = Path(bpy.path.abspath(self.filepath))
+        if path.suffix != ".toml" or not path.parent.is_dir():
+            raise Mistake(f'"{path}" is no place for a scene: name a .toml file in a folder that is there')
+        sample = yield from motion.sampled(context, thing)
+        plain = scene_files.values(thing.nabiki, sample.frames.start)
+        self.made = made = scene_files.write(sample, plain, path.with_suffix(""))
+        yield from jobs.on_thread(lambda progress: scene_files.build(made, plain), "checking the scene")
+        made.scene.save(path)
+        return f"wrote {path}" + baking.said(made.notes)
+
+
+def hair_of(thing):
+    return thing.nabiki.of or thing
+
+
+CLASSES = [NABIKI_OT_simulate, NABIKI_OT_solve, NABIKI_OT_bake, NABIKI_OT_clear, NABIKI_OT_interval_add, NABIKI_OT_interval_remove]
+CLASSES += [NABIKI_OT_write_scene]
+
+
+def register():
+    for known in CLASSES:
+        bpy.utils.register_class(known)
+
+
+def unregister():
+    for known in reversed(CLASSES):
+        bpy.utils.unregister_class(known)

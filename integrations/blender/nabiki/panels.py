@@ -1,0 +1,212 @@
+"""The panels: settings in the Physics tab of the hair, buttons in the sidebar of the 3D Viewport as well."""
+
+import bpy
+
+from . import playing
+from .operators import hair_of
+
+
+def of(context):
+    """The object of curves that is active, or that the active preview is of."""
+    thing = context.object
+    return hair_of(thing) if thing is not None and thing.type == "CURVES" else None
+
+
+def columns(layout):
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    return layout
+
+
+def buttons(layout, context, thing):
+    """What is pressed, and what is said of it."""
+    state = context.window_manager.nabiki
+    if state.text:
+        layout.progress(factor=state.part, text=state.text)
+        return
+    settings = thing.nabiki
+    column = layout.column(align=True)
+    column.operator("nabiki.simulate", icon="PLAY")
+    column.prop(settings, "preview_strands")
+    column = layout.column(align=True)
+    row = column.row()
+    row.enabled = settings.preview is not None
+    row.operator("nabiki.solve", icon="FORCE_WIND")
+    column.operator("nabiki.bake", icon="FILE_CACHE")
+    row = column.row()
+    row.enabled = settings.preview is not None or settings.baked is not None
+    row.operator("nabiki.clear", icon="TRASH")
+    known = playing.takes.get(thing.session_uid)
+    film = next(reversed(known.films.values()), None) if known else None
+    if settings.preview is not None and film is None:
+        layout.label(text="At rest: press Simulate", icon="INFO")
+    elif film is not None:
+        for note in film.notes:
+            layout.label(text=note, icon="INFO")
+
+
+class Panel:
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "physics"
+
+    @classmethod
+    def poll(cls, context):
+        return of(context) is not None
+
+
+class NABIKI_PT_main(Panel, bpy.types.Panel):
+    bl_label = "Nabiki"
+
+    def draw(self, context):
+        thing = of(context)
+        settings, layout = thing.nabiki, columns(self.layout)
+        buttons(layout, context, thing)
+        column = layout.column()
+        column.prop(settings, "head")
+        head = settings.head or thing.data.surface
+        if head is not None and settings.head is None:
+            column.label(text=f"The surface: {head.name}")
+        if head is not None and head.type == "MESH":
+            column.prop_search(settings, "head_group", head, "vertex_groups")
+            armature = head.find_armature()
+            if armature is not None:
+                column.prop_search(settings, "head_bone", armature.pose, "bones")
+        column.prop(settings, "facing")
+
+
+class Part(Panel):
+    bl_parent_id = "NABIKI_PT_main"
+    bl_options = {"DEFAULT_CLOSED"}
+
+
+class NABIKI_UL_intervals(bpy.types.UIList):
+    def draw_item(self, context, layout, data, item, icon, active_data, active_property, index=0, flt_flag=0):
+        before = data.intervals[index - 1].through if index else context.scene.frame_start
+        layout.label(text=f"{before} to {item.through}")
+        layout.label(text="{:.0f}, {:.0f}, {:.0f}".format(*item.vector))
+        layout.prop(item, "solve", text="", icon="FORCE_WIND" if item.solve else "LOCKED", emboss=False)
+
+
+class NABIKI_PT_wind(Panel, bpy.types.Panel):
+    bl_label = "Wind"
+    bl_parent_id = "NABIKI_PT_main"
+
+    def draw(self, context):
+        settings, layout = of(context).nabiki, columns(self.layout)
+        row = layout.row()
+        row.template_list("NABIKI_UL_intervals", "", settings, "intervals", settings, "active_interval", rows=3)
+        column = row.column(align=True)
+        column.operator("nabiki.interval_add", text="", icon="ADD")
+        column.operator("nabiki.interval_remove", text="", icon="REMOVE")
+        if 0 <= settings.active_interval < len(settings.intervals):
+            interval = settings.intervals[settings.active_interval]
+            column = layout.column()
+            column.prop(interval, "through")
+            column.prop(interval, "vector")
+            column.prop(interval, "solve")
+        layout.prop(settings, "ease")
+
+
+class NABIKI_PT_fields(Part, bpy.types.Panel):
+    bl_label = "Force Fields"
+    bl_parent_id = "NABIKI_PT_wind"
+
+    def draw(self, context):
+        settings, layout = of(context).nabiki, columns(self.layout)
+        layout.prop(settings, "effector_collection")
+        layout.prop(settings, "strength_scale")
+
+
+def switched(name, label, switch, *shown):
+    """A panel with a switch in its header."""
+
+    def draw_header(self, context):
+        self.layout.prop(of(context).nabiki, switch, text="")
+
+    def draw(self, context):
+        settings, layout = of(context).nabiki, columns(self.layout)
+        layout.active = getattr(settings, switch)
+        for property_name in shown:
+            layout.prop(settings, property_name)
+
+    members = {"bl_label": label, "bl_parent_id": "NABIKI_PT_wind", "draw_header": draw_header, "draw": draw}
+    return type(name, (Part, bpy.types.Panel), members)
+
+
+NABIKI_PT_gusts = switched("NABIKI_PT_gusts", "Gusts", "use_gust", "gust_intensity", "gust_time_scale", "gust_seed")
+NABIKI_PT_flow = switched("NABIKI_PT_flow", "Flow Round the Head", "use_flow", "flow_thickness")
+NABIKI_PT_body_wind = switched("NABIKI_PT_body_wind", "Wind of the Motion", "use_body_wind", "body_wind_drag")
+
+
+class NABIKI_PT_settings(Part, bpy.types.Panel):
+    bl_label = "Settings"
+
+    def draw(self, context):
+        settings, layout = of(context).nabiki, columns(self.layout)
+        column = layout.column(align=True)
+        column.prop(settings, "stiffness", index=0, text="Stiffness Root")
+        column.prop(settings, "stiffness", index=1, text="Tip")
+        layout.prop(settings, "adapt_stiffness")
+        column = layout.column()
+        for name in ["hold", "settle", "gravity", "lag", "speed", "short_hair_length"]:
+            column.prop(settings, name)
+        layout.prop(settings, "use_frame_range")
+        column = layout.column(align=True)
+        column.active = settings.use_frame_range
+        column.prop(settings, "frame_start")
+        column.prop(settings, "frame_end")
+
+
+class NABIKI_PT_collisions(Part, bpy.types.Panel):
+    bl_label = "Collisions"
+
+    def draw(self, context):
+        settings, layout = of(context).nabiki, columns(self.layout)
+        layout.prop(settings, "collision_collection")
+        column = layout.column()
+        for name in ["margin", "friction", "static_friction"]:
+            column.prop(settings, name)
+        layout.prop(settings, "use_neighbours")
+        column = layout.column()
+        column.active = settings.use_neighbours
+        column.prop(settings, "pressure")
+        column.prop(settings, "cohesion")
+
+
+class NABIKI_PT_cache(Part, bpy.types.Panel):
+    bl_label = "Cache"
+
+    def draw(self, context):
+        settings, layout = of(context).nabiki, columns(self.layout)
+        layout.prop(settings, "cache_path")
+        layout.operator("nabiki.bake", icon="FILE_CACHE")
+        layout.operator("nabiki.write_scene", icon="EXPORT")
+
+
+class NABIKI_PT_sidebar(bpy.types.Panel):
+    bl_label = "Nabiki"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Animation"
+
+    @classmethod
+    def poll(cls, context):
+        return of(context) is not None
+
+    def draw(self, context):
+        buttons(columns(self.layout), context, of(context))
+
+
+CLASSES = [NABIKI_UL_intervals, NABIKI_PT_main, NABIKI_PT_wind, NABIKI_PT_fields, NABIKI_PT_gusts, NABIKI_PT_flow, NABIKI_PT_body_wind]
+CLASSES += [NABIKI_PT_settings, NABIKI_PT_collisions, NABIKI_PT_cache, NABIKI_PT_sidebar]
+
+
+def register():
+    for known in CLASSES:
+        bpy.utils.register_class(known)
+
+
+def unregister():
+    for known in reversed(CLASSES):
+        bpy.utils.unregister_class(known)

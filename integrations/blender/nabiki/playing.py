@@ -1,0 +1,263 @@
+"""Motions in memory, and the preview that shows them as the time line is scrubbed.
+
+A motion is kept under a number for all that it was computed from. What is shown is looked up by that number, so that a motion
+of other settings is never shown: where there is none, the preview is at rest.
+"""
+
+import zlib
+from collections import OrderedDict
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+from bpy.app.handlers import persistent
+
+from . import attributes, sampling, scene_files
+from .messages import Mistake
+
+# Motions that are kept of an object, so that Undo and Redo find them.
+KEPT = 4
+
+
+@dataclass
+class Film:
+    """The motion of a preview."""
+
+    points: np.ndarray
+    """(frames, points, 3), float32, about the place of the preview."""
+    velocities: np.ndarray
+    """The same, a second."""
+    strands: np.ndarray
+    """The numbers of its strands in the sampled hair."""
+    frames: range
+    notes: list = field(default_factory=list)
+
+    def at(self, frame, rows=None):
+        """The rows of a frame; between frames on straight lines, before and after them as at the ends."""
+        rows = self.points if rows is None else rows
+        place = min(max(frame - self.frames.start, 0.0), len(rows) - 1.0)
+        before = int(place)
+        part = np.float32(place - before)
+        if not part:
+            return rows[before]
+        return rows[before] + part * (rows[before + 1] - rows[before])
+
+
+class Take:
+    """What is known of an object of curves: what it was sampled as, and its motions."""
+
+    def __init__(self):
+        self.sample = None
+        self.films = OrderedDict()
+
+    def keep(self, key, film):
+        self.films[key] = film
+        self.films.move_to_end(key)
+        while len(self.films) > KEPT:
+            self.films.popitem(last=False)
+
+
+takes = {}
+"""By the number that an object has in a session of Blender, which Undo leaves alone."""
+
+quiet = 0
+"""Above 0 while what changes is changed by us."""
+
+
+class Quiet:
+    """While it lasts, changes are our own."""
+
+    def __enter__(self):
+        global quiet
+        quiet += 1
+
+    def __exit__(self, *_):
+        global quiet
+        quiet -= 1
+
+
+def take(thing):
+    return takes.setdefault(thing.session_uid, Take())
+
+
+def key(scene, thing):
+    """A number for all that a motion is computed from, but what moves by itself; None where a mistake is in the way."""
+    try:
+        plain = scene_files.values(thing.nabiki, sampling.frame_range(scene, thing.nabiki)[0])
+        # Which winds may be changed decides no motion.
+        plain["intervals"] = [interval[:2] for interval in plain["intervals"]]
+        words = repr((sorted(plain.items()), thing.nabiki.preview_strands))
+        return zlib.crc32(words.encode()), sampling.digest(scene, thing)
+    except Mistake:
+        return None
+
+
+def film_of(scene, thing):
+    """The motion of an object as it is now, or None."""
+    known = takes.get(thing.session_uid)
+    return known.films.get(key(scene, thing)) if known and known.films else None
+
+
+def previews(scene):
+    """The objects of curves that have a preview in a scene, and their previews."""
+    for thing in scene.objects:
+        if thing.type == "CURVES" and thing.nabiki.preview is not None and thing.nabiki.preview.name in scene.objects:
+            yield thing, thing.nabiki.preview
+
+
+def show(scene, thing, preview, film):
+    """Writes a frame of a motion into a preview; its rest where there is no motion."""
+    if preview.mode != "OBJECT":
+        return
+    data = preview.data
+    if film is not None and film.points.shape[1] == len(data.points):
+        frame = scene.frame_current_final
+        points, velocities = film.at(frame), film.at(frame, film.velocities)
+    else:
+        rest = data.attributes.get("nabiki_rest")
+        if rest is None:
+            return
+        points = attributes.values(rest)
+        velocities = np.zeros_like(points)
+    attributes.put(data, "position", "FLOAT_VECTOR", "POINT", points)
+    attributes.put(data, "velocity", "FLOAT_VECTOR", "POINT", velocities)
+    data.update_tag()
+
+
+def show_all(scene):
+    for thing, preview in previews(scene):
+        show(scene, thing, preview, film_of(scene, thing))
+
+
+def settings_changed(thing):
+    """A setting of an object is another."""
+    if quiet:
+        return
+    for scene in bpy.data.scenes:
+        for own, preview in previews(scene):
+            if own == thing:
+                film = film_of(scene, thing)
+                show(scene, thing, preview, film)
+                if film is None:
+                    ask_again(thing)
+
+
+# Objects whose motion is computed again as soon as nobody changes anything any more.
+asked = set()
+
+
+def ask_again(thing):
+    if bpy.app.background:
+        return
+    asked.add(thing.session_uid)
+    if bpy.app.timers.is_registered(again):
+        bpy.app.timers.unregister(again)
+    bpy.app.timers.register(again, first_interval=0.3)
+
+
+def again():
+    """Computes what was asked for, as a press of the button would."""
+    window = bpy.context.window_manager.windows[0] if bpy.context.window_manager.windows else None
+    if window is None:
+        return
+    for thing in [o for o in window.scene.objects if o.session_uid in asked]:
+        with bpy.context.temp_override(window=window, scene=window.scene):
+            bpy.ops.nabiki.simulate("INVOKE_DEFAULT", name=thing.name)
+    asked.clear()
+
+
+@persistent
+def before_frame(scene, _=None):
+    """The preview is written before the frame is evaluated, so that all that depends on it is of the same frame."""
+    if quiet:
+        return
+    with Quiet():
+        show_all(scene)
+
+
+@persistent
+def after_frame(scene, graph=None):
+    """What moves by itself may move otherwise than when it was sampled: then its motion is none any more."""
+    if quiet:
+        return
+    check(scene, graph)
+
+
+@persistent
+def after_update(scene, graph):
+    """Whatever was changed: motions of before are not shown any more."""
+    if quiet:
+        return
+    shown = list(previews(scene))
+    if not shown:
+        return
+    own = {id_.name for pair in shown for thing in pair[1:] for id_ in (thing, thing.data)}
+    updates = [u for u in graph.updates if u.id.name not in own]
+    if any(isinstance(u.id.original, bpy.types.Action) for u in updates):
+        for thing, _ in shown:
+            forget(thing)
+    elif not any(u.is_updated_geometry or u.is_updated_transform or isinstance(u.id.original, bpy.types.Object) for u in updates):
+        return
+    check(scene, graph)
+
+
+def check(scene, graph=None):
+    for thing, preview in previews(scene):
+        film = film_of(scene, thing)
+        known = takes.get(thing.session_uid)
+        if film is not None and known.sample is not None:
+            graph_now = graph or bpy.context.evaluated_depsgraph_get()
+            if not sampling.still_as_sampled(known.sample, thing, graph_now, scene.frame_current):
+                forget(thing)
+                film = None
+        if film is None:
+            with Quiet():
+                show(scene, thing, preview, None)
+            if known is not None:
+                ask_again(thing)
+
+
+def forget(thing):
+    """What moves by itself was changed: neither sample nor motions hold."""
+    known = takes.get(thing.session_uid)
+    if known is not None:
+        known.sample = None
+        known.films.clear()
+
+
+@persistent
+def after_undo(scene, _=None):
+    with Quiet():
+        show_all(bpy.context.scene)
+
+
+@persistent
+def after_load(*_):
+    """Motions are of the file that was open before."""
+    takes.clear()
+    with Quiet():
+        for scene in bpy.data.scenes:
+            show_all(scene)
+
+
+HANDLERS = [
+    ("frame_change_pre", before_frame),
+    ("frame_change_post", after_frame),
+    ("depsgraph_update_post", after_update),
+    ("undo_post", after_undo),
+    ("redo_post", after_undo),
+    ("load_post", after_load),
+]
+
+
+def register():
+    for name, handler in HANDLERS:
+        getattr(bpy.app.handlers, name).append(handler)
+
+
+def unregister():
+    for name, handler in HANDLERS:
+        getattr(bpy.app.handlers, name).remove(handler)
+    if bpy.app.timers.is_registered(again):
+        bpy.app.timers.unregister(again)
+    takes.clear()

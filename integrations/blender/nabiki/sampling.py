@@ -1,0 +1,257 @@
+"""What decides a motion, read from Blender frame by frame."""
+
+import zlib
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+
+from . import fields, meshes
+from . import hair as hair_module
+from .messages import Mistake
+
+
+@dataclass
+class Body:
+    """Something that hair keeps out of."""
+
+    name: str
+    points: np.ndarray
+    faces: np.ndarray
+    matrices: list
+    ways: list
+    """(rotation, shift) in each frame, about the origin of the sample, from where it is in the first."""
+
+    def moves(self):
+        return any((turn != np.eye(3)).any() or shift.any() for turn, shift in self.ways)
+
+
+@dataclass
+class Sample:
+    """A scene of Blender over some frames, in its own axes and unit about `origin`."""
+
+    frames: range
+    rate: float
+    unit_cm: float
+    origin: np.ndarray
+    hair: hair_module.Hair
+    head: Body
+    bodies: list
+    effectors: list
+    digest: int
+    notes: list = field(default_factory=list)
+
+
+def head_of(thing):
+    """The head mesh of an object of curves: the one that is picked, or the surface that it is attached to."""
+    head = thing.nabiki.head or thing.data.surface
+    if head is None:
+        raise Mistake(f'"{thing.name}" has no head: pick the mesh that it grows on in Nabiki > Head')
+    if head.type != "MESH":
+        raise Mistake(f'the head "{head.name}" is no mesh: pick the mesh that the hair grows on')
+    return head
+
+
+def colliders(scene, thing):
+    """The objects that hair keeps out of: those of the collection, or else all with Collision."""
+    settings, head = thing.nabiki, head_of(thing)
+    group = settings.collision_collection
+    found = []
+    for other in group.all_objects if group else scene.objects:
+        if other == head or other.type != "MESH" or other.hide_viewport:
+            continue
+        if group or any(m.type == "COLLISION" for m in other.modifiers):
+            found.append(other)
+    return sorted(found, key=lambda other: other.name)
+
+
+def effectors(scene, thing):
+    """The objects with a force field: those of the collection, or else all."""
+    group = thing.nabiki.effector_collection
+    found = [other for other in (group.all_objects if group else scene.objects) if not other.hide_viewport]
+    found = [other for other in found if other.field is not None and other.field.type != "NONE"]
+    return sorted(found, key=lambda other: other.name)
+
+
+def digest(scene, thing):
+    """A number for all that decides a sample and does not change from frame to frame by itself: rest, meshes, who takes part."""
+    settings = thing.nabiki
+    head = head_of(thing)
+    parts = [settings.head_group, settings.head_bone, str(frame_range(scene, settings)), str(rate(scene)), str(unit(scene))]
+    for other in [head, *colliders(scene, thing)]:
+        raw = np.empty(3 * len(other.data.vertices), np.float32)
+        other.data.vertices.foreach_get("co", raw)
+        parts += [other.name, raw]
+    for other in effectors(scene, thing):
+        parts += [other.name, other.field.type]
+    curves = np.empty(len(thing.data.curves), np.int32)
+    thing.data.curves.foreach_get("points_length", curves)
+    from . import attributes
+
+    parts += [thing.name, curves, attributes.points_of(thing.data)]
+    found = 0
+    for part in parts:
+        found = zlib.crc32(part.encode() if isinstance(part, str) else np.ascontiguousarray(part), found)
+    return found
+
+
+def frame_range(scene, settings):
+    """First and last frame."""
+    if settings.use_frame_range:
+        return settings.frame_start, settings.frame_end
+    return scene.frame_start, scene.frame_end
+
+
+def rate(scene):
+    return scene.render.fps / scene.render.fps_base
+
+
+def unit(scene):
+    """Centimetres of Blender's unit."""
+    return 100.0 * scene.unit_settings.scale_length
+
+
+def carrier(thing, head):
+    """What carries the head: (object, name of a bone or nothing)."""
+    bone = thing.nabiki.head_bone
+    if not bone:
+        return head, ""
+    armature = head.find_armature() or (head.parent if head.parent and head.parent.type == "ARMATURE" else None)
+    if armature is None:
+        raise Mistake(f'the head "{head.name}" has no armature, and Nabiki > Head Bone names "{bone}": clear it')
+    if bone not in armature.pose.bones:
+        raise Mistake(f'the armature "{armature.name}" has no bone "{bone}": pick one of its own in Nabiki > Head Bone')
+    return armature, bone
+
+
+def carried(evaluated, bone):
+    world = meshes.matrix(evaluated.matrix_world)
+    return world @ meshes.matrix(evaluated.pose.bones[bone].matrix) if bone else world
+
+
+def sample(context, thing):
+    """Goes through the frames, yields (done, all) for each, and returns a Sample. The frame is where it was afterwards."""
+    scene, settings = context.scene, thing.nabiki
+    first, last = frame_range(scene, settings)
+    if last <= first:
+        raise Mistake(f"the frames are {first} to {last}: motion needs two at least, so set a later end")
+    head = head_of(thing)
+    frames, was = range(first, last + 1), (scene.frame_current, scene.frame_subframe)
+    hidden = thing.hide_viewport
+    thing.hide_viewport = False
+    try:
+        graph = context.evaluated_depsgraph_get()
+        for frame in frames:
+            scene.frame_set(frame)
+            graph.update()
+            if frame == first:
+                reader = Reader(scene, thing, head, graph)
+            else:
+                reader.go_on(graph)
+            yield frame - first + 1, len(frames)
+    finally:
+        thing.hide_viewport = hidden
+        scene.frame_set(was[0], subframe=was[1])
+    return reader.sample(frames)
+
+
+class Reader:
+    """A scene of Blender that is being read."""
+
+    def __init__(self, scene, thing, head, graph):
+        self.scene, self.thing, self.head = scene, thing, head
+        self.digest = digest(scene, thing)
+        self.notes = []
+        group = thing.nabiki.head_group
+        self.carrier, self.bone = carrier(thing, head)
+        evaluated = head.evaluated_get(graph)
+        to_world = meshes.matrix(evaluated.matrix_world)
+        points, faces = meshes.triangles(evaluated, "the head", group)
+        corners = points @ to_world[:3, :3].T + to_world[:3, 3]
+        # Numbers near 0 keep the most digits, wherever in the world the head is.
+        self.origin = np.round(0.5 * (corners.min(0) + corners.max(0)), 3)
+        self.bent = not self.bone and meshes.bends(head)
+        start = carried(self.carrier.evaluated_get(graph), self.bone)
+        self.at_first = self._bent_vertices(graph) if self.bent else None
+        self.head_body = Body(head.name, *meshes.placed(points, faces, to_world, self.origin), [start], [(np.eye(3), np.zeros(3))])
+        own = thing.evaluated_get(graph)
+        self.hair = hair_module.read(own, meshes.matrix(own.matrix_world), self.origin, unit(scene))
+        if self.hair.left_out:
+            self.notes.append(f"{self.hair.left_out} curves without extent are left out")
+        self.colliders = colliders(scene, thing)
+        self.bodies = [self._body(other, graph) for other in self.colliders]
+        self.fields, self.effectors = [], []
+        for other in effectors(scene, thing):
+            kind = other.field.type
+            if kind in fields.KNOWN:
+                self.fields.append(other)
+                evaluated = other.evaluated_get(graph)
+                self.effectors.append(fields.Effector.of(evaluated, fields.Now.of(evaluated)))
+            else:
+                self.notes.append(f'"{other.name}" is not carried over: {fields.UNKNOWN.get(kind, kind)}')
+
+    def _body(self, other, graph):
+        evaluated = other.evaluated_get(graph)
+        to_world = meshes.matrix(evaluated.matrix_world)
+        if meshes.bends(other):
+            self.notes.append(f'"{other.name}" bends: hair keeps out of the shape that it has in the first frame')
+        points, faces = meshes.triangles(evaluated, "the body")
+        return Body(other.name, *meshes.placed(points, faces, to_world, self.origin), [to_world], [(np.eye(3), np.zeros(3))])
+
+    def _bent_vertices(self, graph):
+        evaluated = self.head.evaluated_get(graph)
+        to_world = meshes.matrix(evaluated.matrix_world)
+        points = meshes.vertices(evaluated)
+        # A few thousand say as much as all.
+        return points[:: max(1, len(points) // 4000)] @ to_world[:3, :3].T + to_world[:3, 3] - self.origin
+
+    def go_on(self, graph):
+        """Reads one more frame."""
+        body = self.head_body
+        now = carried(self.carrier.evaluated_get(graph), self.bone)
+        body.matrices.append(now)
+        if self.bent:
+            points = self._bent_vertices(graph)
+            if len(points) != len(self.at_first):
+                raise Mistake(f'the head "{self.head.name}" changes its vertices from frame to frame: name its bone in Nabiki > Head Bone')
+            turn, shift, left = meshes.fitted(self.at_first, points)
+            size = np.ptp(self.at_first, axis=0).max()
+            if left > 0.01 * size:
+                raise Mistake(f'the head "{self.head.name}" bends too much to be one rigid thing: pick its bone in Nabiki > Head Bone')
+            same = (points == self.at_first).all()
+            body.ways.append((np.eye(3), np.zeros(3)) if same else (turn, shift))
+        else:
+            body.ways.append(meshes.rigid(body.matrices[0], now, self.origin, f'the head "{self.head.name}"'))
+        for other, body in zip(self.colliders, self.bodies, strict=True):
+            now = meshes.matrix(other.evaluated_get(graph).matrix_world)
+            body.matrices.append(now)
+            body.ways.append(meshes.rigid(body.matrices[0], now, self.origin, f'the body "{other.name}"'))
+        for other, effector in zip(self.fields, self.effectors, strict=True):
+            effector.frames.append(fields.Now.of(other.evaluated_get(graph)))
+
+    def sample(self, frames):
+        return Sample(
+            frames, rate(self.scene), unit(self.scene), self.origin, self.hair, self.head_body, self.bodies, self.effectors, self.digest, self.notes
+        )
+
+
+def still_as_sampled(sample, thing, graph, frame):
+    """Whether what moves by itself is, in one frame, where it was when it was sampled."""
+    if frame not in sample.frames:
+        return True
+    at = frame - sample.frames.start
+    try:
+        carried_by, bone = carrier(thing, head_of(thing))
+    except Mistake:
+        return False
+    if (carried(carried_by.evaluated_get(graph), bone) != sample.head.matrices[at]).any():
+        return False
+    for body in sample.bodies:
+        other = bpy.data.objects.get(body.name)
+        if other is None or (meshes.matrix(other.evaluated_get(graph).matrix_world) != body.matrices[at]).any():
+            return False
+    for effector in sample.effectors:
+        other = bpy.data.objects.get(effector.name)
+        if other is None or fields.Now.of(other.evaluated_get(graph)) != effector.frames[at]:
+            return False
+    return True

@@ -1,0 +1,196 @@
+"""A sample of Blender as a scene of nabiki: the files that it names, and its settings."""
+
+import struct
+from dataclasses import dataclass
+from pathlib import Path
+
+import nabiki
+import numpy as np
+
+from . import axes, fields, meshes
+from .messages import Mistake, in_words
+
+# Halvings of the stiffness that are tried before hair is called too quick for its step.
+HALVINGS = 14
+
+
+@dataclass
+class Made:
+    """A scene of nabiki."""
+
+    scene: object
+    names: dict
+    """What its files hold, by their paths."""
+    notes: list
+    box: tuple = ()
+    """The least and the largest corner of the head (head space, cm)."""
+
+
+def values(settings, start):
+    """The settings of a panel as plain values, since nothing of Blender may be asked from a thread. `start`: the first frame."""
+    plain = {name: getattr(settings, name) for name in PLAIN}
+    plain["stiffness"] = tuple(settings.stiffness)
+    plain["intervals"] = [(interval.through - start, tuple(interval.vector), interval.solve) for interval in settings.intervals]
+    return plain
+
+
+PLAIN = ["facing", "strength_scale", "ease", "use_gust", "gust_intensity", "gust_time_scale", "gust_seed", "use_flow", "flow_thickness"]
+PLAIN += ["use_body_wind", "body_wind_drag", "hold", "settle", "gravity", "lag", "speed", "short_hair_length", "adapt_stiffness"]
+PLAIN += ["margin", "friction", "static_friction", "use_neighbours", "pressure", "cohesion"]
+
+
+def write(sample, plain, folder, apart=()):
+    """Writes the files of a sample into `folder` and makes the scene about them.
+
+    `apart`: winds that are not added to the intervals, since these are to be found.
+    """
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    made = Made(None, {}, list(sample.notes))
+    space = {"unit": sample.unit_cm, "up": "+z", "facing": plain["facing"], "origin": (0.0, 0.0, 0.0)}
+    count = len(sample.frames) - 1
+
+    def named(file, name):
+        made.names[str(file)] = name
+        return str(file)
+
+    def track(body, file):
+        _write_track(file, body.ways, sample.unit_cm, sample.rate)
+        return {"file": str(file), "up": "+z", "facing": plain["facing"]}
+
+    head, hair = folder / "head.ply", folder / "hair.hair"
+    _write_mesh(head, sample.head)
+    _write_hair(hair, sample.hair)
+    corners = sample.head.points @ axes.to_nabiki(plain["facing"]).T * sample.unit_cm
+    made.box = corners.min(0), corners.max(0)
+    settings = {"head": {"mesh": named(head, f'the head "{sample.head.name}"'), **space}}
+    if sample.head.moves():
+        settings["head"]["motion"] = track(sample.head, folder / "head.csv")
+    settings["hair"] = {"file": named(hair, "the hair"), "join_within": 0.0, **space}
+    bodies = []
+    for number, body in enumerate(sample.bodies):
+        file = folder / f"body_{number}.ply"
+        _write_mesh(file, body)
+        bodies.append({"mesh": named(file, f'the body "{body.name}"'), **space})
+        bodies[-1] |= {name: plain[name] for name in ["margin", "friction", "static_friction"]}
+        if body.moves():
+            bodies[-1]["motion"] = track(body, folder / f"body_{number}.csv")
+    if bodies:
+        settings["body"] = bodies
+    settings["motion"] = {"form": "free", "frames": count, "frame_rate": sample.rate, "time_step": 0.1 * plain["speed"]}
+    settings["motion"]["inertia_length_floor"] = plain["short_hair_length"]
+    settings["free"] = {name: plain[name] for name in ["hold", "settle", "gravity", "lag"]}
+    settings["free"]["stiffness"] = plain["stiffness"]
+    settings["contact"] = {name: plain[name] for name in ["margin", "friction", "static_friction"]}
+    if plain["use_neighbours"]:
+        settings["neighbours"] = {"pressure": plain["pressure"], "cohesion": plain["cohesion"]}
+    found, notes = _wind(sample, plain, count, apart)
+    made.notes += notes
+    made.scene = nabiki.Scene(**settings, **found)
+    return made
+
+
+def _wind(sample, plain, count, apart):
+    """The tables of the wind, and what is said of it."""
+    way = axes.to_nabiki(plain["facing"])
+    scale = plain["strength_scale"]
+    found, notes = fields.settings(sample.effectors, way, sample.origin, sample.unit_cm, scale)
+    intervals = in_order([(last, way @ np.array(vector)) for last, vector, _ in plain["intervals"]])
+    winds = [e for e in sample.effectors if e.kind == "WIND" and e.cone is None and e not in apart and e.strengths().any()]
+    if winds:
+        forces = fields.eased(intervals, count, plain["ease"])
+        forces = forces + sum(fields.uniform(wind, way, scale) for wind in winds)
+        found["force"] = [{"through": last, "vector": vector} for last, vector in fields.runs(forces)]
+    elif intervals:
+        found["force"] = [{"through": last, "vector": tuple(map(float, vector))} for last, vector in intervals]
+        found["wind"] = {"ease": plain["ease"]}
+    noise = max((wind.noise for wind in winds), default=0.0)
+    if plain["use_gust"]:
+        found["gust"] = {"intensity": plain["gust_intensity"], "time_scale": plain["gust_time_scale"], "seed": plain["gust_seed"]}
+    elif noise > 0:
+        strongest = max(winds, key=lambda wind: wind.noise)
+        found["gust"] = {"intensity": min(noise, 1.0), "seed": abs(strongest.seed)}
+    if plain["use_flow"]:
+        found["flow"] = {"thickness": plain["flow_thickness"]}
+    if plain["use_body_wind"]:
+        found["body_wind"] = {"drag": plain["body_wind_drag"]}
+    return found, notes
+
+
+def in_order(intervals):
+    """The intervals as they are, unless one ends before it begins."""
+    last = 0
+    for number, (through, _) in enumerate(intervals, 1):
+        if through <= last:
+            before = "the first frame" if number == 1 else f"interval {number - 1} does"
+            raise Mistake(f"Wind > Interval {number} ends before {before}: set its last frame later, or remove it")
+        last = through
+    return intervals
+
+
+def adapt(made, plain):
+    """Makes hair softer, by halves, until it can be stepped at all, as `nabiki new` does, and says so."""
+    for n in range(HALVINGS):
+        softer = [0.5**n * value for value in plain["stiffness"]]
+        made.scene.free.stiffness = softer
+        try:
+            simulation = made.scene.simulate()
+        except nabiki.Error as refused:
+            if not plain["adapt_stiffness"] or "unstable" not in str(refused) or n + 1 == HALVINGS:
+                raise
+            continue
+        if n:
+            made.notes.append(f"stiffness lowered to {softer[0]:.4g} and {softer[1]:.4g}: the shortest segments of this hair are quick")
+        return simulation
+
+
+def build(made, plain):
+    """Reads and checks all that the scene names. A head without a skull gets an ellipsoid about it."""
+    try:
+        return adapt(made, plain)
+    except nabiki.Error as refused:
+        if "skull" not in str(refused) and "ellipsoid" not in str(refused):
+            raise
+    low, high = made.box
+    made.scene["head.ellipsoid"] = {"center": (0.5 * (low + high)).tolist(), "half_axes": (0.5 * (high - low)).tolist()}
+    made.notes.append("no skull was found in the head: the wind goes round its box")
+    return adapt(made, plain)
+
+
+def line(error, made):
+    """What nabiki refuses, in the words of the panels."""
+    return in_words(error, made.names if made else {})
+
+
+def _write_mesh(file, body):
+    """A binary .ply of triangles."""
+    faces = np.empty(len(body.faces), [("count", "u1"), ("corners", "<i4", 3)])
+    faces["count"], faces["corners"] = 3, body.faces
+    header = (
+        f"ply\nformat binary_little_endian 1.0\nelement vertex {len(body.points)}\nproperty float x\nproperty float y\nproperty float z\n"
+        f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+    file.write_bytes(header.encode() + body.points.astype("<f4").tobytes() + faces.tobytes())
+
+
+def _write_hair(file, hair):
+    """A .hair file with segments and diameters."""
+    segments = np.diff(hair.offsets) - 1
+    if segments.max() > 65535:
+        raise Mistake(f"a curve has {segments.max() + 1} points, and hair has 65536 at most: give it fewer")
+    header = struct.pack("<4sIIIIfffff88s", b"HAIR", len(segments), len(hair.points), 1 | 2 | 4, 0, 0, 0, 0, 0, 0, b"")
+    thickness = (2 * hair.radii).astype("<f4")
+    file.write_bytes(header + segments.astype("<u2").tobytes() + hair.points.astype("<f4").tobytes() + thickness.tobytes())
+
+
+def _write_track(file, ways, unit_cm, rate):
+    """The way of something rigid, a row a frame."""
+    rows, before = ["t_s,px_m,py_m,pz_m,qx,qy,qz,qw"], None
+    for frame, (turn, shift) in enumerate(ways):
+        turned = meshes.quaternion(turn)
+        if before is not None and turned @ before < 0:
+            turned = -turned
+        before = turned
+        numbers = [frame / rate, *(shift * unit_cm / 100), *turned]
+        rows.append(",".join(repr(float(number)) for number in numbers))
+    file.write_text("\n".join(rows) + "\n")

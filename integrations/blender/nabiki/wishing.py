@@ -1,0 +1,94 @@
+"""Curves that were moved by hand as wishes, and the wind that meets them."""
+
+import bpy
+import nabiki
+import numpy as np
+
+from . import attributes, axes, fields, jobs, motion, playing, sampling, scene_files
+from .messages import Mistake
+
+# What is moved by less than this is not meant (cm): rounding of positions in Blender's unit.
+MEANT_CM = 0.01
+
+# How far hair may stay away (cm, root mean square) to be called there.
+THERE_CM = 0.5
+
+
+def moved(scene, thing, sample, found):
+    """What was moved of the preview in the frame at hand: for each strand its number, part and mean way (cm, nabiki's axes)."""
+    preview = thing.nabiki.preview
+    now = attributes.points_of(preview.data).astype(np.float64)
+    was = found.at(scene.frame_current_final).astype(np.float64)
+    ways = (now - was) @ axes.to_nabiki(thing.nabiki.facing).T * sample.unit_cm
+    far = np.linalg.norm(ways, axis=1) > MEANT_CM
+    counts = np.diff(sample.hair.offsets)[found.strands]
+    start = 0
+    wishes = []
+    for strand, count in zip(found.strands, counts, strict=True):
+        rows = np.flatnonzero(far[start : start + count])
+        rows = rows[rows > 0]
+        if len(rows):
+            # Nodes that were moved lie at these parts of the strand; a little more on both sides takes them in.
+            along = [(rows[0] - 0.25) / (count - 1), min((rows[-1] + 0.25) / (count - 1), 1.0)]
+            way = ways[start + rows[0] : start + rows[-1] + 1].mean(0)
+            wishes.append((int(strand), along, way.tolist()))
+        start += count
+    return wishes
+
+
+def solve(context, thing, operator):
+    """Finds the wind under which hair goes where it was moved; yields how far it is and returns a line."""
+    scene, settings = context.scene, thing.nabiki
+    preview = settings.preview
+    if preview is None or preview.name not in scene.objects:
+        raise Mistake("nothing moves yet: press Simulate, go to a frame, and move curves of the preview there")
+    found = playing.film_of(scene, thing)
+    sample = playing.take(thing).sample
+    if found is None or sample is None:
+        raise Mistake("settings have changed since the preview was computed: press Simulate, and move its curves again")
+    frame = scene.frame_current - sample.frames.start
+    if not 0 < frame < len(sample.frames):
+        raise Mistake(f"frame {scene.frame_current} is none in which hair moves: go to one of {sample.frames.start + 1} to {sample.frames[-1]}")
+    wishes = moved(scene, thing, sample, found)
+    if not wishes:
+        raise Mistake("no curve of the preview was moved in this frame: move tips in Edit Mode, leave it, and press Find the Wind")
+    plain = scene_files.values(settings, sample.frames.start)
+    if not plain["intervals"]:
+        plain["intervals"] = [(len(sample.frames) - 1, (0.0, 0.0, 0.0), True)]
+    # A wind that begins after the frame changes nothing in it.
+    begins = [0, *(interval[0] for interval in plain["intervals"])]
+    free = [n for n, interval in enumerate(plain["intervals"]) if interval[2] and begins[n] < frame]
+    if not free:
+        raise Mistake("no wind before this frame may change: tick Find beside an interval of Nabiki > Wind")
+    winds = [e for e in sample.effectors if e.kind == "WIND" and e.cone is None and e.strengths().any()]
+    problem = [{"frame": frame, "strands": [s], "along": along, "mean_moved": way} for s, along, way in wishes]
+    with motion.folder() as folder:
+        operator.made = made = scene_files.write(sample, plain, folder, apart=winds)
+
+        def find(progress):
+            scene_files.build(made, plain)
+            if winds:
+                made.scene.fields = [_apart(winds, plain)]
+            return made.scene.solve(problem, unknowns={"vectors": free}, report=lambda line: progress(0, 1))
+
+        solution = yield from jobs.on_thread(find, "finding the wind")
+    back = axes.to_nabiki(settings.facing).T
+    with playing.Quiet():
+        if not len(settings.intervals):
+            settings.intervals.add().through = sample.frames[-1]
+        for interval, (_, vector) in zip(settings.intervals, solution.forces, strict=True):
+            interval.vector = back @ np.array(vector)
+    yield from motion.simulate(context, thing, operator)
+    there = "there" if solution.after_cm < THERE_CM else "as near as it was found to come: free more winds, or move less"
+    return f"the hair is {solution.after_cm:.2f} cm from where you moved it, {there}; before it was {solution.before_cm:.2f} cm"
+
+
+def _apart(winds, plain):
+    """Blender's winds as a field of their own, while the intervals are looked for."""
+    way, scale = axes.to_nabiki(plain["facing"]), plain["strength_scale"]
+    forces = sum(fields.uniform(wind, way, scale) for wind in winds)
+
+    def force(points, frame):
+        return np.tile(forces[max(frame, 1) - 1], (len(points), 1))
+
+    return nabiki.Field(force, strongest=float(np.linalg.norm(forces, axis=1).max()) + 1e-3)
