@@ -93,6 +93,16 @@ def test_wishes_are_dictionaries_too(gust):
     wish = {"frame": 20, "near": {"point": (-10, -8, 0), "radius": 4, "frame": 0}, "mean_moved": (-2, 1, 0)}
     found = gust.solve([wish], search={"iterations": 5, "starts": 1})
     assert found.after_cm < found.before_cm and len(found.forces) == len(gust.forces)
+    steps = []
+    gust.solve([wish], search={"iterations": 5, "starts": 1}, progress=lambda done, total: steps.append((done, total)))
+    assert steps[0] == (0, 5) and steps == sorted(steps)
+
+    def stop(done, total):
+        if done:
+            raise Enough
+
+    with pytest.raises(Enough):
+        gust.solve([wish], progress=stop)
     with pytest.raises(nabiki.Error) as refused:
         gust.solve([{"frame": 99, "strands": [1], "moved": (1, 0, 0)}])
     assert refused.value.thing == "wish[0].frame" and refused.value.line is None

@@ -76,17 +76,18 @@ class Scene(SceneSettings):
         prior: Mapping[str, Any] | None = None,
         search: Mapping[str, Any] | None = None,
         strands: int = 300,
+        progress: Callable[[int, int], object] | None = None,
         report: Callable[[str], object] | None = None,
     ) -> Solution:
         """Finds the wind that makes the hair do what is wished for. This scene stays; the answer has one of its own.
 
         `wishes`: a wish file, or what is in its `[[wish]]` tables; `nails`, `unknowns`, `space`, `prior` and `search` as
         there. Without `unknowns` the vectors of all intervals may change. `strands`: among which locks near a point are
-        looked for.
+        looked for. `progress` hears the steps done and the most that may be taken; it may end the search by raising.
         """
         if isinstance(wishes, (str, os.PathLike)):
-            return self._solve_file(wishes, strands=strands, report=report)
+            return self._solve_file(wishes, strands=strands, progress=progress, report=report)
         problem: dict[str, Any] = {"space": space, "wish": list(wishes), "nail": list(nails)}
         problem["unknowns"] = unknowns if unknowns is not None else {"vectors": list(range(len(self.force)))}
         problem |= {name: value for name, value in [("prior", prior), ("search", search)] if value is not None}
-        return self._solve(problem, strands=strands, report=report)
+        return self._solve(problem, strands=strands, progress=progress, report=report)

@@ -195,29 +195,31 @@ impl Scene {
     /// Finds the wind that makes the hair do what is wished for. This scene stays as it is; the answer has one of its own.
     ///
     /// `problem`: what a wish file says, as a dictionary. `strands`: among which locks near a point are looked for.
-    #[pyo3(signature = (problem, *, strands=300, report=None))]
+    #[pyo3(signature = (problem, *, strands=300, progress=None, report=None))]
     fn _solve<'py>(
         this: &Bound<'py, Self>,
         problem: Given<'py, ByName>,
         strands: usize,
+        progress: Option<Given<'_, Progress>>,
         report: Option<Given<'_, Report>>,
     ) -> PyResult<Solution> {
         let py = this.py();
         let text = values::table(problem.0.cast()?)?.to_string();
         let wishes = WishFile::parse(&text, "".as_ref()).map_err(|refused| error::raised(py, refused.into()))?;
-        Self::found(this, &wishes, strands, &report)
+        Self::found(this, &wishes, strands, Ears::new(&progress, &report))
     }
 
     /// The same for a wish file.
-    #[pyo3(signature = (wishes, *, strands=300, report=None))]
+    #[pyo3(signature = (wishes, *, strands=300, progress=None, report=None))]
     fn _solve_file<'py>(
         this: &Bound<'py, Self>,
         wishes: PathBuf,
         strands: usize,
+        progress: Option<Given<'_, Progress>>,
         report: Option<Given<'_, Report>>,
     ) -> PyResult<Solution> {
         let wishes = WishFile::load(&wishes).map_err(|refused| error::raised(this.py(), refused.into()))?;
-        Self::found(this, &wishes, strands, &report)
+        Self::found(this, &wishes, strands, Ears::new(&progress, &report))
     }
 }
 
@@ -226,11 +228,10 @@ impl Scene {
         this: &Bound<'py, Self>,
         wishes: &WishFile,
         strands: usize,
-        report: &Option<Given<'_, Report>>,
+        ears: Ears<'_, 'py>,
     ) -> PyResult<Solution> {
         let py = this.py();
         let State { scene, fields, made, built } = this.get().state().clone();
-        let ears = Ears::new(&None, report);
         let (scene, solved) = watched(py, ears, &fields, |watch| tasks::find(scene, wishes, strands, watch))?;
         let state = State { scene, fields, made, built };
         Ok(Solution { scene: Self::another(&this.get_type(), state)?.unbind(), solved })

@@ -1,0 +1,189 @@
+"""Hair moves in Blender as the command moves it; it is baked, cleared, undone, and found again."""
+
+import bpy
+import numpy as np
+
+import command as commands
+import scenes
+
+EPS = np.finfo(np.float32).eps
+
+
+def all_frames(thing):
+    """World points of every frame of the scene."""
+    scene = bpy.context.scene
+    return np.array([scenes.evaluated(thing, frame)[0] for frame in range(scene.frame_start, scene.frame_end + 1)])
+
+
+def near(found, wanted, apart, what):
+    """Points agree to `apart` (metres) and the roundings of their own size."""
+    left = np.abs(found - wanted).max()
+    allowed = apart + 8 * EPS * np.abs(wanted).max()
+    assert left <= allowed, f"{what}: {left:.3g} m apart, and {allowed:.3g} are allowed"
+    return left
+
+
+def simulated(hair, strands):
+    hair.nabiki.stiffness, hair.nabiki.preview_strands = (3000, 300), strands
+    scenes.active(hair)
+    assert bpy.ops.nabiki.simulate() == {"FINISHED"}
+    return hair.nabiki.preview
+
+
+def centre():
+    """The origin that keeps most digits; any would do."""
+    return np.round(scenes.PLACE, 3)
+
+
+def test_a_groom_of_blender_moves_as_the_command_moves_it(command, shared):
+    hair = scenes.groom(30)
+    keys = [(1, 0.0), (8, 80.0), (20, 80.0), (24, 10.0)]
+    wind = scenes.wind(keys=keys)
+    forces, scene = [], bpy.context.scene
+    for frame in range(2, scene.frame_end + 1):
+        scene.frame_set(frame)
+        axis = np.array(wind.matrix_world.to_3x3().col[2])
+        forces.append((frame - 1, wind.field.strength * axis))
+    preview = simulated(hair, 10**6)
+    found = all_frames(preview)
+    toml = commands.made(command, hair, forces, centre())
+    known, apart = commands.rounding(command, toml, command.folder / "hair.hair")
+    known = commands.in_blender(known, centre())
+    way = np.abs(known[-1] - known[0]).max()
+    assert way > 0.02, "hardly anything moves"
+    # The same law of growth, once for what the test rounds and once for what the extension does, each number a few times.
+    left = near(found, known, 8 * apart / 100, "all frames")
+    print(f"a groom of Blender: {left * 1000:.2g} mm apart over {way * 100:.0f} cm; a rounding of the hair: {apart * 10:.2g} mm")
+
+
+def test_intervals_of_the_panel_are_eased_as_in_a_scene_file(command, shared):
+    for ease in ["smooth", "linear", "stepped"]:
+        hair = scenes.groom(20, moving=False)
+        hair.nabiki.ease = ease
+        for last, vector in [(8, (0, 60, 10)), (14, (-50, 20, 0)), (20, (0, 0, 0))]:
+            scenes.interval(hair, last, vector)
+        found = all_frames(simulated(hair, 10**6))
+        forces = [(7, (0, 60, 10)), (13, (-50, 20, 0)), (19, (0, 0, 0))]
+        toml = commands.made(command, hair, forces, centre(), ease)
+        known, apart = commands.rounding(command, toml, command.folder / "hair.hair")
+        near(found, commands.in_blender(known, centre()), 8 * apart / 100, ease)
+        # Together with a Wind of no strength but in its last frame, the intervals are summed frame by frame.
+        scenes.wind(keys=[(19, 0.0), (20, 1e-3)])
+        summed = all_frames(simulated(hair, 10**6))
+        near(summed[:-1], found[:-1], 8 * apart / 100, f"{ease}, summed")
+
+
+def test_the_written_scene_is_the_one_that_was_simulated(command, shared):
+    hair = scenes.groom(20)
+    scenes.wind(70.0)
+    found = all_frames(simulated(hair, 50))
+    assert bpy.ops.nabiki.write_scene(filepath=str(command.folder / "written.toml"), name="Hair") == {"FINISHED"}
+    known = command.frames("written.toml", "--strands", 50)
+    # The same inputs to the bit, so only the points' own roundings differ: into the world, and into metres.
+    near(found, commands.in_blender(known, np.array(hair.nabiki.preview.location)), 0, "the written scene")
+
+
+def test_sintels_groom_moves_as_the_command_moves_it(command, shared):
+    hair_file, head_file = shared / "hair" / "sintel_hair_16pts.tfx", shared / "heads" / "sintel_bust.obj"
+    if not head_file.exists():
+        return f"{head_file} is not there"
+    scene = scenes.empty(24)
+    bpy.ops.wm.obj_import(filepath=str(head_file))
+    head = bpy.context.object
+    points, offsets = scenes.tfx(hair_file)
+    turned = np.stack([points[:, 0], -points[:, 2], points[:, 1]], 1)
+    hair = scenes.curves("Sintel", turned, offsets)
+    hair.nabiki.head = head
+    scenes.interval(hair, 16, (0, 60, 15))
+    scenes.interval(hair, 24, (0, 0, 0))
+    preview = simulated(hair, 300)
+    found = all_frames(preview)
+    origin = np.array(preview.location, np.float64)
+    used = float(np.float32(origin[0])), float(np.float32(origin[2])), float(np.float32(-origin[1]))
+    toml = command.folder / "scene.toml"
+    text = f'[head]\nmesh = "{head_file}"\nunit = "m"\nfacing = "+z"\norigin = {list(used)}\n'
+    text += f'\n[hair]\nfile = "{command.folder / "hair.hair"}"\njoin_within = 0\nunit = "m"\nfacing = "+z"\n'
+    stiffness = softened(preview, hair)
+    text += commands.SETTINGS.format(frames=23, rate=24, stiffness=stiffness, ease="smooth")
+    # In the file y is up and she looks along z, in nabiki y is up and she looks along x.
+    for last, (x, y, z) in [(15, (0, 60, 15)), (23, (0, 0, 0))]:
+        text += f"\n[[force]]\nthrough = {last}\nvector = {[-y, z, -x]}\n"
+    toml.write_text(text)
+    commands.write_hair(command.folder / "hair.hair", points, offsets)
+    known, apart = commands.rounding(command, toml, command.folder / "hair.hair", "--strands", 300)
+    known = known @ commands.WAY / 100 + origin
+    left = near(found, known, 8 * apart / 100, "Sintel")
+    way = np.abs(known[15] - known[0]).max()
+    assert way > 0.01, "hardly anything moves"
+    print(f"Sintel: {left * 1000:.2g} mm apart over {way * 100:.0f} cm; a rounding of the hair: {apart * 10:.2g} mm")
+    baked_is(command, hair, None)
+    return None
+
+
+def softened(preview, hair):
+    """The stiffness that the extension came to, by its note."""
+    import importlib
+
+    playing = importlib.import_module("bl_ext.user_default.nabiki.playing")
+    film = next(reversed(playing.takes[hair.session_uid].films.values()))
+    for note in film.notes:
+        if note.startswith("stiffness lowered"):
+            words = note.replace(":", "").split()
+            return [float(words[3]), float(words[5])]
+    return list(hair.nabiki.stiffness)
+
+
+def baked_is(command, hair, known, ending="usdc"):
+    """The bake reads back, every frame, as what the preview of all strands shows; velocities are those of motion blur."""
+    scene = bpy.context.scene
+    preview = simulated(hair, 10**6)
+    wanted = all_frames(preview)
+    middle = scenes.evaluated(preview, 10, 0.25)[0]
+    hair.nabiki.cache_path = str(command.folder / f"cache.{ending}")
+    scenes.active(hair)
+    assert bpy.ops.nabiki.bake() == {"FINISHED"}
+    baked = hair.nabiki.baked
+    assert hair.nabiki.preview is None and hair.hide_render and not baked.hide_render
+    found = all_frames(baked)
+    assert found.shape == wanted.shape
+    near(found, wanted, 0, f"baked to .{ending}")
+    near(scenes.evaluated(baked, 10, 0.25)[0], middle, 0, "between frames")
+    rate = scene.render.fps / scene.render.fps_base
+    for frame in [scene.frame_start, 10, scene.frame_end - 1]:
+        _, data = scenes.evaluated(baked, frame)
+        speeds = scenes.vectors(data, "velocity")
+        at = frame - scene.frame_start
+        by_hand = (wanted[at + 1] - wanted[at]) * rate
+        # A difference of two numbers of this size, each rounded, times the rate.
+        allowed = 8 * EPS * np.abs(wanted - np.array(baked.location)).max() * rate + 8 * EPS * np.abs(by_hand).max()
+        left = np.abs(speeds - by_hand).max()
+        assert left <= allowed + 8 * EPS * np.abs(wanted).max() * rate, f"velocities: {left:.3g} apart, {allowed:.3g} allowed"
+        assert np.abs(speeds).max() > 0.01 or frame == scene.frame_start
+    return baked
+
+
+def test_a_bake_reads_back_with_its_velocities(command, shared):
+    hair = scenes.groom(16)
+    material = bpy.data.materials.new("Hair Material")
+    hair.data.materials.append(material)
+    mine = hair.data.attributes.new("mine", "FLOAT", "CURVE")
+    mine.data.foreach_set("value", np.arange(scenes.STRANDS, dtype=np.float32))
+    scenes.wind(70.0)
+    for ending in ["usdc", "usda"]:
+        baked = baked_is(command, hair, None, ending)
+    data = scenes.evaluated(baked, 5)[1]
+    assert [m.name for m in data.materials] == ["Hair Material"]
+    assert [value.value for value in data.attributes["mine"].data] == list(range(scenes.STRANDS))
+    radii = [value.value for value in data.attributes["radius"].data]
+    wanted = [value.value for value in hair.data.attributes["radius"].data]
+    assert np.abs(np.array(radii) - wanted).max() <= 4 * EPS * max(wanted)
+
+
+def test_an_alembic_bake_reads_back(command, shared):
+    hair = scenes.groom(16)
+    scenes.wind(70.0)
+    wanted = all_frames(simulated(hair, 10**6))
+    hair.nabiki.cache_path = str(command.folder / "cache.abc")
+    scenes.active(hair)
+    assert bpy.ops.nabiki.bake() == {"FINISHED"}
+    near(all_frames(hair.nabiki.baked), wanted, 0, "baked to .abc")
