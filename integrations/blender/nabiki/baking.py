@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 
 from . import hair as hair_module
-from . import jobs, motion, playing, scene_files
+from . import jobs, meshes, motion, playing, scene_files
 from .messages import Mistake
 
 ENDINGS = (".usdc", ".usda", ".abc")
@@ -64,7 +64,7 @@ def put_baked(context, thing, sample, given, path):
     baked = bpy.data.objects.new(name, data)
     for collection in motion.collections_of(context, thing):
         collection.objects.link(baked)
-    baked.location = sample.origin
+    place_baked(baked, sample, path.suffix.lower())
     cache = open_cache(path)
     cache.filepath = given if given.startswith("//") else str(path)
     cache.frame_offset = sample.frames.start
@@ -73,6 +73,38 @@ def put_baked(context, thing, sample, given, path):
     modifier.cache_file, modifier.object_path = cache, PRIM[path.suffix.lower()]
     settings.baked, baked.nabiki.of = baked, thing
     motion.hide(thing)
+
+
+# Blender takes an Alembic file for one whose y is up, and turns its points about x: this turns them back.
+TURNED = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+
+
+def place_baked(baked, sample, ending):
+    """Puts the object where the head is, with a key in each frame where that moves: the file's points are the head's."""
+    own = TURNED if ending == ".abc" else np.eye(3)
+    baked.rotation_mode = "QUATERNION"
+    before = None
+    ways = sample.head.ways if sample.head.moves() else sample.head.ways[:1]
+    for frame, (turn, shift) in zip(sample.frames, ways, strict=False):
+        x, y, z, w = meshes.quaternion(turn @ own)
+        now = np.array([w, x, y, z])
+        before = now = -now if before is not None and now @ before < 0 else now
+        baked.location, baked.rotation_quaternion = sample.origin + shift, now
+        if len(ways) > 1:
+            baked.keyframe_insert("location", frame=frame, group="Nabiki")
+            baked.keyframe_insert("rotation_quaternion", frame=frame, group="Nabiki")
+    if len(ways) > 1:
+        for curve in curves_of(baked.animation_data):
+            for key in curve.keyframe_points:
+                key.interpolation = "LINEAR"
+
+
+def curves_of(animation):
+    """The f-curves of an object, wherever this Blender keeps them."""
+    if hasattr(animation.action, "fcurves"):
+        return list(animation.action.fcurves)
+    bags = [bag for layer in animation.action.layers for strip in layer.strips for bag in strip.channelbags]
+    return [curve for bag in bags for curve in bag.fcurves]
 
 
 def open_cache(path):

@@ -144,9 +144,12 @@ def remove(added):
     if added is None:
         return
     data, caches = added.data, [m.cache_file for m in added.modifiers if m.type == "MESH_SEQUENCE_CACHE" and m.cache_file]
+    action = added.animation_data.action if added.animation_data else None
     bpy.data.objects.remove(added)
     if data.users == 0:
         bpy.data.hair_curves.remove(data)
+    if action is not None and action.users == 0:
+        bpy.data.actions.remove(action)
     for cache in caches:
         if cache.users == 0:
             bpy.data.cache_files.remove(cache)
