@@ -9,6 +9,7 @@ import bpy
 import mistakes
 import motions
 import others
+import windows
 from command import Command
 
 
@@ -28,7 +29,7 @@ def main():
     archive, nabiki, work, shared = (Path(word) for word in sys.argv[1:5])
     install(archive)
     failed, skipped, passed = [], [], 0
-    for law in laws(motions, others, mistakes):
+    for law in laws(motions, others, windows, mistakes):
         if sys.argv[5:] and law.__name__ not in sys.argv[5:]:
             continue
         try:

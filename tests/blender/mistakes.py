@@ -1,0 +1,212 @@
+"""What a user does wrong is one clear line, and nothing is left half done."""
+
+import bpy
+import numpy as np
+
+import scenes
+
+
+def refused(press, *words):
+    """Presses a button that refuses: its one line has all the words, and no object, data or file has come or gone."""
+    before = snapshot()
+    try:
+        done = press()
+    except RuntimeError as error:
+        lines = [line for line in str(error).splitlines() if line.strip()]
+        assert len(lines) == 1 and lines[0].startswith("Error: "), str(error)
+        assert "Traceback" not in lines[0] and "/tmp" not in lines[0].replace("no folder", ""), lines[0]
+        for word in words:
+            assert word in lines[0], f"{word!r} is not in: {lines[0]}"
+        assert snapshot() == before
+        return lines[0]
+    raise AssertionError(f"was not refused, but {done}")
+
+
+def snapshot():
+    kinds = [bpy.data.objects, bpy.data.hair_curves, bpy.data.cache_files, bpy.data.actions, bpy.data.meshes]
+    hidden = {thing.name: (thing.hide_viewport, thing.hide_render) for thing in bpy.data.objects}
+    return [sorted(kind.keys()) for kind in kinds], hidden, bpy.context.scene.frame_current
+
+
+def plain():
+    hair = scenes.groom(8, moving=False)
+    hair.nabiki.stiffness = (3000, 300)
+    scenes.interval(hair, 8, (0, 60, 0))
+    return hair
+
+
+def simulate():
+    return bpy.ops.nabiki.simulate()
+
+
+def bake():
+    return bpy.ops.nabiki.bake()
+
+
+def test_wrong_objects_are_refused(command, shared):
+    hair = plain()
+    hair.nabiki.head = None
+    refused(simulate, '"Hair" has no head', "pick the mesh")
+    # The surface that curves are attached to is a head, too.
+    hair.data.surface = bpy.data.objects["Head"]
+    assert simulate() == {"FINISHED"}
+    scenes.active(bpy.data.objects["Head"])
+    refused(simulate, '"Head" is a mesh', "Curves")
+    for other in bpy.context.view_layer.objects:
+        other.select_set(False)
+    bpy.context.view_layer.objects.active = None
+    refused(simulate, "no object is active")
+    empty = scenes.curves("Nothing", np.empty((0, 3)), [0])
+    empty.nabiki.head = bpy.data.objects["Head"]
+    scenes.active(empty)
+    refused(simulate, '"Nothing" has no curves')
+    flat = scenes.curves("Points", np.zeros((6, 3)), [0, 3, 6])
+    flat.nabiki.head = bpy.data.objects["Head"]
+    scenes.active(flat)
+    refused(simulate, '"Points"', "extent")
+
+
+def test_other_kinds_of_curves_are_refused(command, shared):
+    hair = plain()
+    points, offsets = scenes.strands()
+    bent = scenes.curves("Bent", points, offsets, "BEZIER")
+    bent.nabiki.head = bpy.data.objects["Head"]
+    scenes.active(bent)
+    refused(simulate, "Bezier", "Set Curve Type")
+    hair.data.attributes.new("cyclic", "BOOLEAN", "CURVE").data[3].value = True
+    scenes.active(hair)
+    refused(simulate, "cyclic", "Toggle Cyclic")
+
+
+def test_heads_that_are_none_are_refused(command, shared):
+    hair = plain()
+    head = bpy.data.objects["Head"]
+    whole = head.data.copy()
+    head.data.clear_geometry()
+    refused(simulate, '"Head" has no faces')
+    head.data = whole
+    import bmesh
+
+    # A sheet encloses nothing.
+    form = bmesh.new()
+    bmesh.ops.create_grid(form, x_segments=4, y_segments=4, size=0.1)
+    sheet = bpy.data.meshes.new("Sheet")
+    form.to_mesh(sheet)
+    form.free()
+    head.data = sheet
+    print(refused(simulate, 'the head "Head"'))
+    head.data = whole
+    hair.nabiki.head_group = "nowhere"
+    refused(simulate, 'no vertex group "nowhere"')
+    hair.nabiki.head_group, hair.nabiki.head_bone = "", "skull"
+    refused(simulate, "no armature")
+    hair.nabiki.head_bone = ""
+    ball = scenes.ball("Open", 0.05, scenes.PLACE + [0.2, 0, 0])
+    ball.modifiers.new("Collision", "COLLISION")
+    ball.data = sheet
+    print(refused(simulate, 'the body "Open"'))
+
+
+def test_sizes_that_are_wrong_are_refused(command, shared):
+    hair = plain()
+    head = bpy.data.objects["Head"]
+    for frame, size in [(1, 1.0), (8, 1.3)]:
+        head.scale = (size, size, size)
+        head.keyframe_insert("scale", frame=frame)
+    refused(simulate, 'the head "Head"', "scale")
+    head.animation_data_clear()
+    head.scale = (0, 1, 1)
+    line = refused(simulate, "Head")
+    print(line)
+    head.scale = (1, 1, 1)
+    # A head of ten metres in a scene of metres: what is said of it is nabiki's own line.
+    for thing in [head, hair]:
+        thing.scale = (1e5, 1e5, 1e5)
+    print(refused(simulate, "Head"))
+
+
+def test_frames_and_winds_that_cannot_be_are_refused(command, shared):
+    hair = plain()
+    scene = bpy.context.scene
+    scene.frame_start = scene.frame_end = 5
+    refused(simulate, "the frames are 5 to 5")
+    scene.frame_start, scene.frame_end = 1, 8
+    scenes.interval(hair, 4, (0, 1, 0))
+    refused(simulate, "Wind > Interval 2 ends before interval 1 does")
+    hair.nabiki.intervals[1].through = 9
+    hair.nabiki.intervals[0].through = 1
+    refused(simulate, "Wind > Interval 1 ends before the first frame")
+    hair.nabiki.intervals[0].through = 8
+    hair.nabiki.intervals[0].vector = (0, 1e7, 0)
+    print(refused(simulate, "Wind > Interval 1"))
+    hair.nabiki.intervals[0].vector = (0, 60, 0)
+    hair.nabiki.adapt_stiffness, hair.nabiki.stiffness = False, (1e6, 1e6)
+    print(refused(simulate, "Stiffness"))
+
+
+def test_caches_without_a_place_are_refused(command, shared):
+    hair = plain()
+    refused(bake, "save it", "Nabiki > Cache")
+    folder = command.folder / "none"
+    hair.nabiki.cache_path = str(folder / "a.usdc")
+    try:
+        bake()
+        raise AssertionError("was not refused")
+    except RuntimeError as error:
+        assert "there is no folder" in str(error) and not folder.exists()
+    hair.nabiki.cache_path = str(command.folder / "a.obj")
+    refused(bake, ".usdc", "such a name")
+    assert list(command.folder.iterdir()) == []
+
+
+def test_wishes_that_are_none_are_refused(command, shared):
+    hair = plain()
+    solve = bpy.ops.nabiki.solve
+    refused(solve, "press Simulate")
+    assert simulate() == {"FINISHED"}
+    bpy.context.scene.frame_set(5)
+    refused(solve, "no curve of the preview was moved")
+    preview = hair.nabiki.preview
+    points = scenes.positions(preview.data)
+    points[scenes.POINTS - 1] += 0.02
+    preview.data.attributes["position"].data.foreach_set("vector", points.ravel())
+    hair.nabiki.intervals[0].solve = False
+    refused(solve, "tick Find")
+    hair.nabiki.gravity = 120
+    refused(solve, "settings have changed")
+    hair.nabiki.gravity = 100
+    bpy.context.scene.frame_set(1)
+    refused(solve, "frame 1 is none in which hair moves")
+
+
+def test_work_that_is_stopped_leaves_nothing(command, shared):
+    """Esc, at any step of any button."""
+    import importlib
+
+    jobs = importlib.import_module("bl_ext.user_default.nabiki.jobs")
+    messages = importlib.import_module("bl_ext.user_default.nabiki.messages")
+    steps = {
+        "motion": lambda part, hair: part.simulate(bpy.context, hair, Pressed()),
+        "baking": lambda part, hair: part.bake(bpy.context, hair, Pressed()),
+    }
+    for name, work in steps.items():
+        part = importlib.import_module(f"bl_ext.user_default.nabiki.{name}")
+        hair = plain()
+        hair.nabiki.cache_path = str(command.folder / "stopped.usdc")
+        bpy.context.scene.frame_set(3)
+        before = snapshot()
+        for after in [1, 4, 9]:
+            generator = work(part, hair)
+            for _ in range(after):
+                next(generator)
+            try:
+                generator.throw(messages.Cancelled())
+                raise AssertionError("went on")
+            except messages.Cancelled:
+                pass
+            assert snapshot() == before and list(command.folder.iterdir()) == [], name
+    assert jobs.running is None
+
+
+class Pressed:
+    made = None

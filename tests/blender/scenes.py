@@ -42,6 +42,8 @@ def ball(name, radius, location):
 def curves(name, points, offsets, kind="POLY"):
     """An object of curves."""
     data = bpy.data.hair_curves.new(name)
+    if len(offsets) == 1:  # Blender ends where no curves are added.
+        return linked(name, data)
     data.add_curves(np.diff(offsets).tolist())
     if hasattr(data, "set_types"):
         data.set_types(type=kind)

@@ -31,7 +31,7 @@ def place(thing):
 
 
 def bake(context, thing, operator):
-    """Writes all strands and frames, and adds the object that reads them; yields how far it is and returns a line."""
+    """Writes all strands and frames, and adds the object that reads them; yields how far it is and returns what to report."""
     given, path = place(thing)
     sample = yield from motion.sampled(context, thing)
     plain = scene_files.values(thing.nabiki, sample.frames.start)
@@ -46,11 +46,7 @@ def bake(context, thing, operator):
     with playing.Quiet():
         put_baked(context, thing, sample, given, path)
     size = path.stat().st_size / 1e6
-    return f"{len(sample.hair)} strands, {len(sample.frames)} frames, {size:.0f} MB: {path}" + said(made.notes)
-
-
-def said(notes):
-    return "".join(f"; {note}" for note in notes)
+    return f"{len(sample.hair)} strands, {len(sample.frames)} frames, {size:.0f} MB: {path}", made.notes
 
 
 def put_baked(context, thing, sample, given, path):
@@ -111,4 +107,6 @@ def open_cache(path):
     before = set(bpy.data.cache_files)
     bpy.ops.cachefile.open(filepath=str(path))
     (cache,) = set(bpy.data.cache_files) - before
+    # The operator counts a user of its own, where no menu asked for the file.
+    cache.user_clear()
     return cache

@@ -8,7 +8,7 @@ import numpy as np
 UNKNOWN = {
     "BOID": "Boid",
     "CHARGE": "Charge",
-    "DRAG": "Drag: what calms hair is Settings > Settle",
+    "DRAG": "Drag; what calms hair is Settings > Settle",
     "FLUID_FLOW": "Fluid Flow",
     "GUIDE": "Curve Guide",
     "HARMONIC": "Harmonic",
@@ -144,11 +144,12 @@ def envelope(strengths):
 
 
 def settings(effectors, way, origin, unit_cm, scale):
-    """Tables of nabiki for force fields, but for uniform winds, and a line for each thing that is not carried over.
+    """Tables of nabiki for force fields, but for uniform winds, a line for each thing that is not carried over, and what the
+    entries are called, by their keys.
 
     `way`: Blender's directions in nabiki's axes; `origin`: the point of Blender's world that is nabiki's 0.
     """
-    tables, notes = {"point": [], "vortex": [], "fan": []}, []
+    tables, notes, names = {"point": [], "vortex": [], "fan": []}, [], {}
     swirls = []
     for effector in effectors:
         notes += [f'"{effector.name}": {note}' for note in effector.notes]
@@ -169,13 +170,16 @@ def settings(effectors, way, origin, unit_cm, scale):
         if effector.moves():
             notes.append(f'"{effector.name}": moves, and is taken where it is in the first frame; only a Wind may turn')
         if effector.cone is not None:
-            tables["fan"].append({"position": place, "direction": axis, "spread": effector.cone, **common})
+            name, entry = "fan", {"position": place, "direction": axis, "spread": effector.cone, **common}
         elif effector.kind == "FORCE":
-            tables["point"].append({"position": place, **common})
+            name, entry = "point", {"position": place, **common}
         else:
-            tables["vortex"].append({"position": place, "axis": axis, **common})
+            name, entry = "vortex", {"position": place, "axis": axis, **common}
+        names[f"{name}[{len(tables[name])}]"] = f'the force field "{effector.name}"'
+        tables[name].append(entry)
     if swirls:
         strongest = max(swirls, key=lambda swirl: swirl[0])
         tables["turbulence"] = strongest[2]
+        names["turbulence"] = f'the force field "{strongest[1].name}"'
         notes += [f'"{s[1].name}": a scene has one Turbulence, and "{strongest[1].name}" is stronger' for s in swirls if s is not strongest]
-    return {name: table for name, table in tables.items() if table}, notes
+    return {name: table for name, table in tables.items() if table}, notes, names

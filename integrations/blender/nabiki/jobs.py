@@ -6,6 +6,7 @@ import time
 import bpy
 import nabiki
 
+from . import scene_files
 from .messages import Cancelled, Mistake, one_line
 
 # Seconds that may be spent before the window is drawn again.
@@ -55,7 +56,7 @@ def on_thread(work, text):
 
 
 class Working:
-    """An operator of many steps. `steps(context)` yields (part done, what is done) and returns a line to report."""
+    """An operator of many steps. `steps(context)` yields (part done, what is done), and returns what to report: a line, and notes."""
 
     timer = None
     made = None
@@ -97,6 +98,7 @@ class Working:
             if self.unwanted:
                 self.generator.throw(Cancelled())
             until = time.monotonic() + SLICE
+            part, text = next(self.generator)
             while time.monotonic() < until:
                 part, text = next(self.generator)
             self._tell(context, part, text)
@@ -132,14 +134,13 @@ class Working:
         context.window_manager.nabiki.text = ""
         redraw(context)
 
-    def _ended(self, context, line):
-        if line:
-            self.report({"INFO"}, one_line(line))
+    def _ended(self, context, outcome):
+        line, notes = outcome
+        # What was not carried over, or done otherwise than it was set, is worth a look.
+        self.report({"WARNING"} if notes else {"INFO"}, one_line("; ".join([line, *notes])))
         return {"FINISHED"}
 
     def _refused(self, context, error):
-        from . import scene_files
-
         if isinstance(error, (Cancelled, KeyboardInterrupt)):
             self.report({"INFO"}, "Cancelled: nothing was changed")
         elif isinstance(error, nabiki.Error):

@@ -34,12 +34,19 @@ def one_line(text):
 
 
 def in_words(text, names):
-    """A line of nabiki's with the names of Blender's things. `names`: what the files of the scene hold, by their paths."""
+    """A line of nabiki's with the names of Blender's things. `names`: what files and entries of the scene are called."""
     text = one_line(text)
-    for path in sorted(names, key=len, reverse=True):
-        text = text.replace(f'"{path}"', names[path]).replace(path, names[path])
-    text = re.sub(r"\bforce\[(\d+)\](\.\w+)?", lambda found: f"Wind > Interval {int(found[1]) + 1}", text)
+    unstable = re.match(r"(\S+) = .*?unstable.*?keep (\|F\||the largest stiffness) below ([\d.e+]+)", text)
+    if unstable:
+        what = "it" if unstable[2] == "|F|" else "it at the root and the tip"
+        text = f"{unstable[1]}: is too strong for this hair: keep {what} below {float(unstable[3]):.4g}, lower motion.time_step, or raise "
+        text += "motion.inertia_length_floor"
+    for name in sorted(names, key=len, reverse=True):
+        # An entry of a list is meant, whichever of its settings is named.
+        pattern = rf'"?{re.escape(name)}"?' if "/" in name or "\\" in name else rf"(?<![\w.]){re.escape(name)}(\.\w+)*"
+        text = re.sub(pattern, lambda _: names[name], text)
     text = re.sub(r"\bwish\[(\d+)\](\.\w+)?", lambda found: f"moved strand {int(found[1]) + 1}", text)
     for key, label in LABELS.items():
         text = re.sub(rf"(?<![\w.]){re.escape(key)}(?![\w.])", label, text)
-    return text
+    # A head is its mesh, and named once.
+    return re.sub(r'^(?:Head = )?(the \w+ ".*?") = ', r"\1: ", re.sub(r"^Head = (?=the head)", "", text))

@@ -152,4 +152,4 @@ def remove(added):
         bpy.data.actions.remove(action)
     for cache in caches:
         if cache.users == 0:
-            bpy.data.cache_files.remove(cache)
+            bpy.data.batch_remove([cache])

@@ -24,7 +24,7 @@ class NABIKI_OT_simulate(jobs.Working, Named, bpy.types.Operator):
     def steps(self, context):
         thing = motion.chosen(context, self.name)
         film = yield from motion.simulate(context, thing, self)
-        return f"{len(film.strands)} strands, {len(film.frames)} frames" + baking.said(film.notes)
+        return f"{len(film.strands)} strands, {len(film.frames)} frames", film.notes
 
 
 class NABIKI_OT_solve(jobs.Working, Named, bpy.types.Operator):
@@ -125,7 +125,7 @@ class NABIKI_OT_write_scene(jobs.Working, Named, ExportHelper, bpy.types.Operato
         self.made = made = scene_files.write(sample, plain, path.with_suffix(""))
         yield from jobs.on_thread(lambda progress: scene_files.build(made, plain), "checking the scene")
         made.scene.save(path)
-        return f"wrote {path}" + baking.said(made.notes)
+        return f"wrote {path}", made.notes
 
 
 def hair_of(thing):

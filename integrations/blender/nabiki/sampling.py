@@ -5,10 +5,14 @@ from dataclasses import dataclass, field
 
 import bpy
 import numpy as np
+from mathutils.bvhtree import BVHTree
 
-from . import fields, meshes
+from . import attributes, fields, meshes
 from . import hair as hair_module
 from .messages import Mistake
+
+# Roots by which it is judged whether hair grows on a head, and the part of the head's size from which on they float.
+JUDGED, AFLOAT = 600, 0.15
 
 
 @dataclass
@@ -86,8 +90,6 @@ def digest(scene, thing):
         parts += [other.name, other.field.type]
     curves = np.empty(len(thing.data.curves), np.int32)
     thing.data.curves.foreach_get("points_length", curves)
-    from . import attributes
-
     parts += [thing.name, curves, attributes.points_of(thing.data)]
     found = 0
     for part in parts:
@@ -178,6 +180,7 @@ class Reader:
         self.hair = hair_module.read(own, meshes.matrix(own.matrix_world), self.origin, unit(scene))
         if self.hair.left_out:
             self.notes.append(f"{self.hair.left_out} curves without extent are left out")
+        self._check_roots()
         self.colliders = colliders(scene, thing)
         self.bodies = [self._body(other, graph) for other in self.colliders]
         self.fields, self.effectors = [], []
@@ -188,7 +191,21 @@ class Reader:
                 evaluated = other.evaluated_get(graph)
                 self.effectors.append(fields.Effector.of(evaluated, fields.Now.of(evaluated)))
             else:
-                self.notes.append(f'"{other.name}" is not carried over: {fields.UNKNOWN.get(kind, kind)}')
+                self.notes.append(f'"{other.name}" is not carried over, being a {fields.UNKNOWN.get(kind, kind)}')
+
+    def _check_roots(self):
+        """Hair that does not grow on its head is another's, or somewhere else by mistake."""
+        points, faces = self.head_body.points, self.head_body.faces
+        skin = BVHTree.FromPolygons(points.tolist(), faces.tolist())
+        roots = self.hair.points[self.hair.offsets[:-1]]
+        off = float(np.median([skin.find_nearest(root)[3] for root in roots[:: max(1, len(roots) // JUDGED)].tolist()]))
+        size = 0.5 * np.ptp(points, axis=0).min()
+        cm = off * unit(self.scene)
+        if off > size:
+            way_out = "pick the mesh that it grows on in Nabiki > Head, or move the hair to it"
+            raise Mistake(f'the roots of "{self.thing.name}" are {cm:.3g} cm from the head "{self.head.name}": {way_out}')
+        if off > AFLOAT * size:
+            self.notes.append(f'the roots are {cm:.2g} cm from the skin of "{self.head.name}"')
 
     def _body(self, other, graph):
         evaluated = other.evaluated_get(graph)

@@ -20,7 +20,7 @@ class Made:
 
     scene: object
     names: dict
-    """What its files hold, by their paths."""
+    """What its files hold, by their paths, and what its entries of lists are called, by their keys."""
     notes: list
     box: tuple = ()
     """The least and the largest corner of the head (head space, cm)."""
@@ -71,6 +71,7 @@ def write(sample, plain, folder, apart=()):
     for number, body in enumerate(sample.bodies):
         file = folder / f"body_{number}.ply"
         _write_mesh(file, body)
+        made.names[f"body[{number}]"] = f'the body "{body.name}"'
         bodies.append({"mesh": named(file, f'the body "{body.name}"'), **space})
         bodies[-1] |= {name: plain[name] for name in ["margin", "friction", "static_friction"]}
         if body.moves():
@@ -84,26 +85,30 @@ def write(sample, plain, folder, apart=()):
     settings["contact"] = {name: plain[name] for name in ["margin", "friction", "static_friction"]}
     if plain["use_neighbours"]:
         settings["neighbours"] = {"pressure": plain["pressure"], "cohesion": plain["cohesion"]}
-    found, notes = _wind(sample, plain, count, apart)
+    found, notes, names = _wind(sample, plain, count, apart)
     made.notes += notes
+    made.names |= names
     made.scene = nabiki.Scene(**settings, **found)
     return made
 
 
 def _wind(sample, plain, count, apart):
-    """The tables of the wind, and what is said of it."""
+    """The tables of the wind, what is said of it, and what its entries are called."""
     way = axes.to_nabiki(plain["facing"])
     scale = plain["strength_scale"]
-    found, notes = fields.settings(sample.effectors, way, sample.origin, sample.unit_cm, scale)
+    found, notes, names = fields.settings(sample.effectors, way, sample.origin, sample.unit_cm, scale)
     intervals = in_order([(last, way @ np.array(vector)) for last, vector, _ in plain["intervals"]])
     winds = [e for e in sample.effectors if e.kind == "WIND" and e.cone is None and e not in apart and e.strengths().any()]
     if winds:
         forces = fields.eased(intervals, count, plain["ease"])
         forces = forces + sum(fields.uniform(wind, way, scale) for wind in winds)
         found["force"] = [{"through": last, "vector": vector} for last, vector in fields.runs(forces)]
+        for number, force in enumerate(found["force"]):
+            names[f"force[{number}]"] = f"the wind up to frame {sample.frames.start + force['through']}"
     elif intervals:
         found["force"] = [{"through": last, "vector": tuple(map(float, vector))} for last, vector in intervals]
         found["wind"] = {"ease": plain["ease"]}
+        names |= {f"force[{number}]": f"Wind > Interval {number + 1}" for number in range(len(intervals))}
     noise = max((wind.noise for wind in winds), default=0.0)
     if plain["use_gust"]:
         found["gust"] = {"intensity": plain["gust_intensity"], "time_scale": plain["gust_time_scale"], "seed": plain["gust_seed"]}
@@ -114,7 +119,7 @@ def _wind(sample, plain, count, apart):
         found["flow"] = {"thickness": plain["flow_thickness"]}
     if plain["use_body_wind"]:
         found["body_wind"] = {"drag": plain["body_wind_drag"]}
-    return found, notes
+    return found, notes, names
 
 
 def in_order(intervals):
@@ -152,7 +157,9 @@ def build(made, plain):
         if "skull" not in str(refused) and "ellipsoid" not in str(refused):
             raise
     low, high = made.box
-    made.scene["head.ellipsoid"] = {"center": (0.5 * (low + high)).tolist(), "half_axes": (0.5 * (high - low)).tolist()}
+    half = 0.5 * (high - low)
+    # As `nabiki new` draws it; what is flat is then refused for what it is.
+    made.scene["head.ellipsoid"] = {"center": (0.5 * (low + high)).tolist(), "half_axes": np.maximum(half, half.max() / 3).tolist()}
     made.notes.append("no skull was found in the head: the wind goes round its box")
     return adapt(made, plain)
 

@@ -37,7 +37,7 @@ def moved(scene, thing, sample, found):
 
 
 def solve(context, thing, operator):
-    """Finds the wind under which hair goes where it was moved; yields how far it is and returns a line."""
+    """Finds the wind under which hair goes where it was moved; yields how far it is and returns what to report."""
     scene, settings = context.scene, thing.nabiki
     preview = settings.preview
     if preview is None or preview.name not in scene.objects:
@@ -69,7 +69,7 @@ def solve(context, thing, operator):
             scene_files.build(made, plain)
             if winds:
                 made.scene.fields = [_apart(winds, plain)]
-            return made.scene.solve(problem, unknowns={"vectors": free}, report=lambda line: progress(0, 1))
+            return made.scene.solve(problem, unknowns={"vectors": free}, progress=progress, report=lambda line: None)
 
         solution = yield from jobs.on_thread(find, "finding the wind")
     back = axes.to_nabiki(settings.facing).T
@@ -80,7 +80,7 @@ def solve(context, thing, operator):
             interval.vector = back @ np.array(vector)
     yield from motion.simulate(context, thing, operator)
     there = "there" if solution.after_cm < THERE_CM else "as near as it was found to come: free more winds, or move less"
-    return f"the hair is {solution.after_cm:.2f} cm from where you moved it, {there}; before it was {solution.before_cm:.2f} cm"
+    return f"the hair is {solution.after_cm:.2f} cm from where you moved it, {there}; before it was {solution.before_cm:.2f} cm", []
 
 
 def _apart(winds, plain):
