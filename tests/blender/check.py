@@ -61,7 +61,8 @@ def main():
     run("cargo", "build", "--quiet", "--release", "-p", "nabiki_cli")
 
     user = WORK / "user"
-    shutil.rmtree(user, ignore_errors=True)
+    for old in [user, WORK / "tests"]:
+        shutil.rmtree(old, ignore_errors=True)
     user.mkdir(parents=True)
     nabiki = ROOT / "target" / "release" / "nabiki"
     shared = ROOT / ".." / "shared" / "data"

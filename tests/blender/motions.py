@@ -148,6 +148,9 @@ def baked_is(command, hair, known, ending="usdc"):
     own = [scenes.positions(scenes.evaluated(baked, frame)[1]) for frame in range(scene.frame_start, scene.frame_end + 1)]
     near(scenes.positions(scenes.evaluated(baked, 10, 0.25)[1]), 0.75 * own[10 - scene.frame_start] + 0.25 * own[11 - scene.frame_start], 0, "between")
     rate = scene.render.fps / scene.render.fps_base
+    if bpy.app.version < (4, 5):
+        # Its reader of curves leaves velocities where they are.
+        return baked
     for frame in [scene.frame_start, 10, scene.frame_end - 1]:
         _, data = scenes.evaluated(baked, frame)
         speeds = scenes.vectors(data, "velocity")

@@ -45,16 +45,19 @@ def curves(name, points, offsets, kind="POLY"):
     if len(offsets) == 1:  # Blender ends where no curves are added.
         return linked(name, data)
     data.add_curves(np.diff(offsets).tolist())
-    if hasattr(data, "set_types"):
-        data.set_types(type=kind)
-    else:
-        number = {"CATMULL_ROM": 0, "POLY": 1, "BEZIER": 2}[kind]
-        attribute = data.attributes.get("curve_type") or data.attributes.new("curve_type", "INT8", "CURVE")
-        attribute.data.foreach_set("value", [number] * (len(offsets) - 1))
     data.attributes["position"].data.foreach_set("vector", np.float32(points).ravel())
     radii = np.linspace(4e-4, 1e-4, len(points), dtype=np.float32)
     (data.attributes.get("radius") or data.attributes.new("radius", "FLOAT", "POINT")).data.foreach_set("value", radii)
-    return linked(name, data)
+    thing = linked(name, data)
+    if hasattr(data, "set_types"):
+        data.set_types(type=kind)
+    else:  # Blender 4.2, where a type that is only written as an attribute is the end of it
+        active(thing)
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.curves.select_all(action="SELECT")
+        bpy.ops.curves.curve_type_set(type=kind)
+        bpy.ops.object.mode_set(mode="OBJECT")
+    return thing
 
 
 def strands(seed=1):

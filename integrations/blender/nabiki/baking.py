@@ -35,16 +35,25 @@ def bake(context, thing, operator):
     given, path = place(thing)
     sample = yield from motion.sampled(context, thing)
     plain = scene_files.values(thing.nabiki, sample.frames.start)
-    with motion.folder() as folder:
-        operator.made = made = scene_files.write(sample, plain, folder)
+    # It has its name once it is whole and nobody has pressed Esc: until then a cache that is there already is read.
+    part = path.with_name(f".{path.stem}_part{path.suffix}")
+    try:
+        with motion.folder() as folder:
+            operator.made = made = scene_files.write(sample, plain, folder)
+            made.names[str(part)] = f'"{path.name}"'
 
-        def write(progress):
-            scene_files.build(made, plain)
-            made.scene.export(path, progress=progress, report=lambda line: None)
+            def write(progress):
+                scene_files.build(made, plain)
+                made.scene.export(part, progress=progress, report=lambda line: None)
 
-        yield from jobs.on_thread(write, "writing hair")
-    with playing.Quiet():
-        put_baked(context, thing, sample, given, path)
+            yield from jobs.on_thread(write, "writing hair")
+        with playing.Quiet():
+            # A file that Blender reads cannot be replaced everywhere.
+            motion.remove(thing.nabiki.baked)
+            part.replace(path)
+            put_baked(context, thing, sample, given, path)
+    finally:
+        part.unlink(missing_ok=True)
     size = path.stat().st_size / 1e6
     return f"{len(sample.hair)} strands, {len(sample.frames)} frames, {size:.0f} MB: {path}", made.notes
 
@@ -52,7 +61,6 @@ def bake(context, thing, operator):
 def put_baked(context, thing, sample, given, path):
     """The object that reads the cache."""
     settings = thing.nabiki
-    motion.remove(settings.baked)
     motion.remove(settings.preview)
     settings.baked = settings.preview = None
     name = thing.name + motion.BAKED

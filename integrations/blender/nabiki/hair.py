@@ -98,10 +98,9 @@ def make(name, hair, strands, smooth):
     data = bpy.data.hair_curves.new(name)
     points = hair.points_of(strands)
     data.add_curves(np.diff(hair.offsets)[strands].tolist())
-    if hasattr(data, "set_types"):
-        data.set_types(type="CATMULL_ROM" if smooth else "POLY")
-    else:  # Blender 4.2
-        attributes.put(data, "curve_type", "INT8", "CURVE", np.full(len(strands), CATMULL_ROM if smooth else POLY))
+    # Blender before 4.5 knows no way for it, and its curves stay smooth.
+    if not smooth and hasattr(data, "set_types"):
+        data.set_types(type="POLY")
     attributes.put(data, "position", "FLOAT_VECTOR", "POINT", hair.points[points])
     attributes.put(data, "radius", "FLOAT", "POINT", hair.radii[points])
     for attribute, (kind, rows) in hair.by_point.items():

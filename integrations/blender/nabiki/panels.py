@@ -36,8 +36,7 @@ def buttons(layout, context, thing):
     row = column.row()
     row.enabled = settings.preview is not None or settings.baked is not None
     row.operator("nabiki.clear", icon="TRASH")
-    known = playing.takes.get(thing.session_uid)
-    film = next(reversed(known.films.values()), None) if known else None
+    film = playing.film_of(context.scene, thing)
     if settings.preview is not None and film is None:
         layout.label(text="At rest: press Simulate", icon="INFO")
     elif film is not None:
@@ -71,7 +70,7 @@ class NABIKI_PT_main(Panel, bpy.types.Panel):
             column.prop_search(settings, "head_group", head, "vertex_groups")
             armature = head.find_armature()
             if armature is not None:
-                column.prop_search(settings, "head_bone", armature.pose, "bones")
+                column.prop_search(settings, "head_bone", armature.data, "bones")
         column.prop(settings, "facing")
 
 
