@@ -191,8 +191,8 @@ def after_update(scene, graph):
     shown = list(previews(scene))
     if not shown:
         return
-    own = {id_.name for pair in shown for thing in pair[1:] for id_ in (thing, thing.data)}
-    updates = [u for u in graph.updates if u.id.name not in own]
+    own = {block.session_uid for thing, preview in shown for block in ours(thing, preview)}
+    updates = [u for u in graph.updates if u.id.original.session_uid not in own]
     if any(isinstance(u.id.original, bpy.types.Action) for u in updates):
         for thing, _ in shown:
             forget(thing)
@@ -201,7 +201,17 @@ def after_update(scene, graph):
     check(scene, graph)
 
 
+def ours(thing, preview):
+    """What was added to the scene, and decides no motion."""
+    for added in [preview, thing.nabiki.baked]:
+        if added is not None:
+            yield from (added, added.data)
+            if added.animation_data is not None and added.animation_data.action is not None:
+                yield added.animation_data.action
+
+
 def check(scene, graph=None):
+    """Motions that are none any more are not shown."""
     for thing, preview in previews(scene):
         film = film_of(scene, thing)
         known = takes.get(thing.session_uid)
