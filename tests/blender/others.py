@@ -165,6 +165,10 @@ def test_previews_move_as_all_do_and_follow_subframes(command, shared):
     assert np.array_equal(few, every[:, rows])
     half = scenes.evaluated(preview, 9, 0.5)[0]
     motions.near(half, 0.5 * (every[8] + every[9]), 0, "half a frame")
+    # Whatever is looked at between frames, the motion is still there.
+    hair.data.update_tag()
+    bpy.context.view_layer.update()
+    assert not at_rest(preview)
 
 
 def test_the_wind_that_moved_the_hair_is_found_again(command, shared):

@@ -46,6 +46,7 @@ def sampled(context, thing):
     """The sample of an object, read anew where something is another; yields how far it is."""
     known = playing.take(thing)
     same = known.sample is not None and known.sample.digest == sampling.digest(context.scene, thing)
+    same = same and not context.scene.frame_subframe
     if same and sampling.still_as_sampled(known.sample, thing, context.evaluated_depsgraph_get(), context.scene.frame_current):
         return known.sample
     known.sample = None

@@ -215,7 +215,8 @@ def check(scene, graph=None):
     for thing, preview in previews(scene):
         film = film_of(scene, thing)
         known = takes.get(thing.session_uid)
-        if film is not None and known.sample is not None:
+        # Samples are of whole frames.
+        if film is not None and known.sample is not None and not scene.frame_subframe:
             graph_now = graph or bpy.context.evaluated_depsgraph_get()
             if not sampling.still_as_sampled(known.sample, thing, graph_now, scene.frame_current):
                 forget(thing)
