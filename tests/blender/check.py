@@ -40,6 +40,13 @@ def wheel():
     return package.wheel(package.environment())
 
 
+def valid(python, archive):
+    """Blender's own tool finds nothing to say against the manifest."""
+    where = run(python, "-c", "import bpy; print(bpy.__file__)", capture_output=True, text=True).stdout.strip()
+    (tool,) = Path(where).parent.rglob("bl_pkg/cli/blender_ext.py")
+    run(python, tool, "validate", archive)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--wheel", type=Path, help="a wheel that is built already")
@@ -58,6 +65,7 @@ def main():
         run(python, "-m", "pip", "install", "--quiet", "numpy<2")
     build = module(ROOT / "integrations" / "blender" / "build.py")
     archive = build.build([(arguments.wheel or wheel()).resolve()], WORK)
+    valid(python, archive)
     run("cargo", "build", "--quiet", "--release", "-p", "nabiki_cli")
 
     user = WORK / "user"

@@ -336,3 +336,51 @@ def test_a_scaled_scene_moves_alike(command, shared):
     centimetres = motions.all_frames(motions.simulated(hair, 40))
     # The same numbers but for where they are rounded.
     assert np.abs(centimetres / 100 - metres).max() < 1e-5
+
+
+def test_what_modifiers_make_of_the_hair_is_moved(command, shared):
+    """A geometry node that scales the hair by two: the preview begins with what was to be seen."""
+    hair = scenes.groom(8, moving=False)
+    group = bpy.data.node_groups.new("Longer", "GeometryNodeTree")
+    for way in ["INPUT", "OUTPUT"]:
+        group.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    nodes = [group.nodes.new(kind) for kind in ["NodeGroupInput", "GeometryNodeTransform", "NodeGroupOutput"]]
+    nodes[1].inputs["Scale"].default_value = (1.05, 1.05, 1.05)
+    group.links.new(nodes[0].outputs[0], nodes[1].inputs[0])
+    group.links.new(nodes[1].outputs[0], nodes[2].inputs[0])
+    hair.modifiers.new("Longer", "NODES").node_group = group
+    scenes.interval(hair, 8, (0, 60, 0))
+    seen = scenes.evaluated(hair, 1)[0]
+    preview = motions.simulated(hair, 10**6)
+    motions.near(scenes.evaluated(preview, 1)[0], seen, 0, "at rest")
+    assert np.abs(scenes.evaluated(preview, 8)[0] - seen).max() > 0.01
+
+
+def test_a_copy_of_the_hair_has_a_motion_of_its_own(command, shared):
+    hair, preview = blown()
+    bpy.context.scene.frame_set(9)
+    moved = scenes.positions(preview.data)
+    other = hair.copy()
+    bpy.context.scene.collection.objects.link(other)
+    other.nabiki.intervals[0].vector = (0, -50, 0)
+    own = motions.simulated(other, 40)
+    assert own != preview
+    bpy.context.scene.frame_set(9)
+    assert np.array_equal(scenes.positions(preview.data), moved)
+    assert not np.array_equal(scenes.positions(own.data), moved)
+    scenes.active(other)
+    assert bpy.ops.nabiki.clear() == {"FINISHED"}
+    assert hair.nabiki.preview == preview and preview.name in bpy.data.objects
+
+
+def test_a_setting_that_changes_is_computed_again_beside_the_user(command, shared):
+    """What the timer does once the settings are calm."""
+    windows, jobs = importlib.import_module("windows"), part("jobs")
+    hair, preview = blown()
+    hair.nabiki.gravity = 160
+    assert at_rest_after(preview, 9)
+    scenes.active(bpy.data.objects["Head"])
+    window, operator = windows.Window(), windows.pressed("NABIKI_OT_simulate", hair)
+    operator.beside = True
+    assert windows.in_window(jobs, operator, window, [windows.OTHER]) == {"CANCELLED"}
+    assert operator.reports == [] and not at_rest(preview)

@@ -101,6 +101,7 @@ def test_every_setting_and_button_says_what_it_does(command, shared):
                 assert known.name and known.name[0].isupper(), known.identifier
     for name in ["simulate", "solve", "bake", "clear", "interval_add", "interval_remove", "write_scene"]:
         kind = getattr(bpy.ops.nabiki, name).get_rna_type()
+        assert name != "simulate" or {"name", "beside"} <= set(kind.properties.keys())
         assert kind.description and not kind.description.endswith(".") and kind.name.istitle() or kind.name == "Find the Wind", name
 
 
@@ -154,7 +155,7 @@ def in_window(jobs, operator, window, events):
     try:
         answer = operator.invoke(window, None)
         events = iter(events)
-        while answer == {"RUNNING_MODAL"}:
+        while answer in ({"RUNNING_MODAL"}, {"PASS_THROUGH"}):
             answer = operator.modal(window, next(events, TIMER))
         return answer
     finally:

@@ -49,7 +49,7 @@ def bake(context, thing, operator):
             yield from jobs.on_thread(write, "writing hair")
         with playing.Quiet():
             # A file that Blender reads cannot be replaced everywhere.
-            motion.remove(thing.nabiki.baked)
+            motion.remove(thing, thing.nabiki.baked)
             part.replace(path)
             put_baked(context, thing, sample, given, path)
     finally:
@@ -61,7 +61,7 @@ def bake(context, thing, operator):
 def put_baked(context, thing, sample, given, path):
     """The object that reads the cache."""
     settings = thing.nabiki
-    motion.remove(settings.preview)
+    motion.remove(thing, settings.preview)
     settings.baked = settings.preview = None
     name = thing.name + motion.BAKED
     data = hair_module.make(name, sample.hair, np.arange(len(sample.hair)), smooth=False)

@@ -61,6 +61,8 @@ class Working:
     timer = None
     made = None
     """The scene of nabiki at hand, whose files errors may name."""
+    beside = False
+    """Whether nobody has asked for it, so that it goes on beside what the user does, and says nothing."""
 
     def execute(self, context):
         """All at once, for scripts and where there is no window."""
@@ -78,6 +80,8 @@ class Working:
         if bpy.app.background:
             return self.execute(context)
         if running is not None:
+            if self.beside:
+                return {"CANCELLED"}
             self.report({"ERROR"}, "Nabiki is at work already: wait for it, or press Esc")
             return {"CANCELLED"}
         running, self.unwanted = self, False
@@ -92,8 +96,8 @@ class Working:
         if event.type == "ESC" and event.value == "PRESS":
             self.unwanted = True
         if event.type != "TIMER":
-            # Nothing else is done meanwhile: what is read must not change under the reader's hands.
-            return {"RUNNING_MODAL"}
+            # Nothing else is done while frames are read: they must not change under the reader's hands.
+            return {"PASS_THROUGH"} if self.beside else {"RUNNING_MODAL"}
         try:
             if self.unwanted:
                 self.generator.throw(Cancelled())
@@ -102,7 +106,7 @@ class Working:
             while time.monotonic() < until:
                 part, text = next(self.generator)
             self._tell(context, part, text)
-            return {"RUNNING_MODAL"}
+            return {"PASS_THROUGH"} if self.beside else {"RUNNING_MODAL"}
         except StopIteration as ended:
             self._leave(context)
             return self._ended(context, ended.value)
@@ -136,11 +140,16 @@ class Working:
 
     def _ended(self, context, outcome):
         line, notes = outcome
+        if self.beside:
+            # Undo has nothing to take back: the setting that was changed has a step of its own.
+            return {"CANCELLED"}
         # What was not carried over, or done otherwise than it was set, is worth a look.
         self.report({"WARNING"} if notes else {"INFO"}, one_line("; ".join([line, *notes])))
         return {"FINISHED"}
 
     def _refused(self, context, error):
+        if self.beside and not isinstance(error, nabiki.Error):
+            return {"CANCELLED"}
         if isinstance(error, (Cancelled, KeyboardInterrupt)):
             self.report({"INFO"}, "Cancelled: nothing was changed")
         elif isinstance(error, nabiki.Error):
@@ -152,7 +161,8 @@ class Working:
         return {"CANCELLED"}
 
 
-EXPECTED = (Mistake, nabiki.Error, Cancelled, KeyboardInterrupt, OSError, MemoryError)
+# A ReferenceError is of an object that was deleted meanwhile.
+EXPECTED = (Mistake, nabiki.Error, Cancelled, KeyboardInterrupt, OSError, MemoryError, ReferenceError)
 
 
 def redraw(context):

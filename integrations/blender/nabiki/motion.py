@@ -72,11 +72,7 @@ def film(sample, plain, made, strands, progress):
     for number, frame in enumerate(frames):
         progress(number, len(frames))
         points[number] = axes.as_in_blender(frame.world_points(), plain["facing"], sample.unit_cm)
-    velocities = np.empty_like(points)
-    np.subtract(points[1:], points[:-1], out=velocities[:-1])
-    velocities[-1] = velocities[-2]
-    velocities *= np.float32(sample.rate)
-    return playing.Film(points, velocities, chosen_strands, sample.frames, made.notes)
+    return playing.Film(points, chosen_strands, sample.frames, sample.rate, made.notes)
 
 
 def simulate(context, thing, operator):
@@ -100,8 +96,8 @@ def simulate(context, thing, operator):
 
 def put_preview(context, thing, sample, found):
     """The object that shows a motion: a copy of its strands, in the place of the hair. The hair itself is never written."""
-    settings, preview = thing.nabiki, thing.nabiki.preview
-    if preview is None or preview.name not in context.scene.objects:
+    settings, preview = thing.nabiki, playing.preview_of(context.scene, thing)
+    if preview is None:
         preview = bpy.data.objects.new(thing.name + PREVIEW, bpy.data.hair_curves.new(thing.name + PREVIEW))
         for collection in collections_of(context, thing):
             collection.objects.link(preview)
@@ -132,7 +128,7 @@ def clear(scene, thing):
     settings = thing.nabiki
     with playing.Quiet():
         for added in [settings.preview, settings.baked]:
-            remove(added)
+            remove(thing, added)
         settings.preview = settings.baked = None
         if settings.shown_before:
             thing.hide_viewport, thing.hide_render = (figure == "1" for figure in settings.shown_before)
@@ -140,9 +136,10 @@ def clear(scene, thing):
     playing.takes.pop(thing.session_uid, None)
 
 
-def remove(added):
-    """Removes an object that was added, with its data and the cache that it reads."""
-    if added is None:
+def remove(thing, added):
+    """Removes what was added for an object, with its data and the cache that it reads; not what was added for one that the
+    object is a copy of."""
+    if added is None or added.nabiki.of != thing:
         return
     data, caches = added.data, [m.cache_file for m in added.modifiers if m.type == "MESH_SEQUENCE_CACHE" and m.cache_file]
     action = added.animation_data.action if added.animation_data else None

@@ -21,6 +21,8 @@ class NABIKI_OT_simulate(jobs.Working, Named, bpy.types.Operator):
     bl_description = "Move some strands of the active hair through all frames, and show them as the time line is scrubbed"
     bl_options = {"REGISTER", "UNDO"}
 
+    beside: bpy.props.BoolProperty(options={"SKIP_SAVE", "HIDDEN"})
+
     def steps(self, context):
         thing = motion.chosen(context, self.name)
         film = yield from motion.simulate(context, thing, self)

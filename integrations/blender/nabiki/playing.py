@@ -25,22 +25,25 @@ class Film:
 
     points: np.ndarray
     """(frames, points, 3), float32, about the place of the preview."""
-    velocities: np.ndarray
-    """The same, a second."""
     strands: np.ndarray
     """The numbers of its strands in the sampled hair."""
     frames: range
+    rate: float
     notes: list = field(default_factory=list)
 
-    def at(self, frame, rows=None):
-        """The rows of a frame; between frames on straight lines, before and after them as at the ends."""
-        rows = self.points if rows is None else rows
-        place = min(max(frame - self.frames.start, 0.0), len(rows) - 1.0)
+    def at(self, frame):
+        """The points of a frame; between frames on straight lines, before and after them as at the ends."""
+        place = min(max(frame - self.frames.start, 0.0), len(self.points) - 1.0)
         before = int(place)
         part = np.float32(place - before)
         if not part:
-            return rows[before]
-        return rows[before] + part * (rows[before + 1] - rows[before])
+            return self.points[before]
+        return self.points[before] + part * (self.points[before + 1] - self.points[before])
+
+    def velocities(self, frame):
+        """Units a second, toward the frame after, as motion blur wants them; those of the last frame are of the one before it."""
+        before = min(max(int(frame) - self.frames.start, 0), len(self.points) - 2)
+        return (self.points[before + 1] - self.points[before]) * np.float32(self.rate)
 
 
 class Take:
@@ -101,8 +104,15 @@ def film_of(scene, thing):
 def previews(scene):
     """The objects of curves that have a preview in a scene, and their previews."""
     for thing in scene.objects:
-        if thing.type == "CURVES" and thing.nabiki.preview is not None and thing.nabiki.preview.name in scene.objects:
-            yield thing, thing.nabiki.preview
+        preview = preview_of(scene, thing) if thing.type == "CURVES" else None
+        if preview is not None:
+            yield thing, preview
+
+
+def preview_of(scene, thing):
+    """The preview of an object, if it is still there, and its own: a copy of the object has that of the first."""
+    preview = thing.nabiki.preview
+    return preview if preview is not None and preview.name in scene.objects and preview.nabiki.of == thing else None
 
 
 def show(scene, thing, preview, film):
@@ -112,7 +122,7 @@ def show(scene, thing, preview, film):
     data = preview.data
     if film is not None and film.points.shape[1] == len(data.points):
         frame = scene.frame_current_final
-        points, velocities = film.at(frame), film.at(frame, film.velocities)
+        points, velocities = film.at(frame), film.velocities(frame)
     else:
         rest = data.attributes.get("nabiki_rest")
         if rest is None:
@@ -139,31 +149,35 @@ def settings_changed(thing):
                 film = film_of(scene, thing)
                 show(scene, thing, preview, film)
                 if film is None:
-                    ask_again(thing)
+                    ask_again(scene, thing)
 
 
-# Objects whose motion is computed again as soon as nobody changes anything any more.
-asked = set()
+# Objects whose motion is computed again as soon as nobody changes anything any more, and how long that is waited for (seconds).
+asked, CALM = set(), 0.3
 
 
-def ask_again(thing):
-    if bpy.app.background:
+def ask_again(scene, thing):
+    """Asks for the motion of other settings. What else has changed is read when the button is pressed: going through the frames
+    would take things out of the hands of who moves them."""
+    known = takes.get(thing.session_uid)
+    if bpy.app.background or known is None or known.sample is None:
         return
     asked.add(thing.session_uid)
     if bpy.app.timers.is_registered(again):
         bpy.app.timers.unregister(again)
-    bpy.app.timers.register(again, first_interval=0.3)
+    bpy.app.timers.register(again, first_interval=CALM)
 
 
 def again():
-    """Computes what was asked for, as a press of the button would."""
-    window = bpy.context.window_manager.windows[0] if bpy.context.window_manager.windows else None
-    if window is None:
-        return
-    for thing in [o for o in window.scene.objects if o.session_uid in asked]:
-        with bpy.context.temp_override(window=window, scene=window.scene):
-            bpy.ops.nabiki.simulate("INVOKE_DEFAULT", name=thing.name)
+    """Computes what was asked for, beside whatever the user does."""
+    windows = bpy.context.window_manager.windows
+    things = [o for o in windows[0].scene.objects if o.session_uid in asked] if windows else []
     asked.clear()
+    for thing in things:
+        known, now = takes.get(thing.session_uid), key(windows[0].scene, thing)
+        if known is not None and known.sample is not None and now is not None and known.sample.digest == now[1]:
+            with bpy.context.temp_override(window=windows[0], scene=windows[0].scene):
+                bpy.ops.nabiki.simulate("INVOKE_DEFAULT", name=thing.name, beside=True)
 
 
 @persistent
@@ -224,8 +238,6 @@ def check(scene, graph=None):
         if film is None:
             with Quiet():
                 show(scene, thing, preview, None)
-            if known is not None:
-                ask_again(thing)
 
 
 def forget(thing):

@@ -39,8 +39,7 @@ def moved(scene, thing, sample, found):
 def solve(context, thing, operator):
     """Finds the wind under which hair goes where it was moved; yields how far it is and returns what to report."""
     scene, settings = context.scene, thing.nabiki
-    preview = settings.preview
-    if preview is None or preview.name not in scene.objects:
+    if playing.preview_of(scene, thing) is None:
         raise Mistake("nothing moves yet: press Simulate, go to a frame, and move curves of the preview there")
     found = playing.film_of(scene, thing)
     sample = playing.take(thing).sample
