@@ -42,8 +42,8 @@ def wheel():
 
 def valid(python, archive):
     """Blender's own tool finds nothing to say against the manifest."""
-    where = run(python, "-c", "import bpy; print(bpy.__file__)", capture_output=True, text=True).stdout.strip()
-    (tool,) = Path(where).parent.rglob("bl_pkg/cli/blender_ext.py")
+    where = run(python, "-c", "import bpy; print(bpy.utils.resource_path('LOCAL'))", capture_output=True, text=True).stdout.strip()
+    (tool,) = Path(where).rglob("bl_pkg/cli/blender_ext.py")
     run(python, tool, "validate", archive)
 
 
