@@ -1,8 +1,8 @@
 """Makes the extension: the sources beside this file and wheels of the package nabiki, in one .zip that Blender installs.
 
-    python3 integrations/blender/build.py                          builds the wheel for this machine
-    python3 integrations/blender/build.py --wheel A.whl B.whl      takes wheels that are built already, of any platforms
-    python3 integrations/blender/build.py --out FOLDER             where the .zip goes (default: target/blender)
+python3 integrations/blender/build.py                          builds the wheel for this machine
+python3 integrations/blender/build.py --wheel A.whl B.whl      takes wheels that are built already, of any platforms
+python3 integrations/blender/build.py --out FOLDER             where the .zip goes (default: target/blender)
 """
 
 import argparse
@@ -49,7 +49,7 @@ def manifest(wheels):
     """The manifest with the wheels, and their version."""
     text = (SOURCE / "blender_manifest.toml").read_text()
     version = wheels[0].name.split("-")[1]
-    text = re.sub(r'^version = .*$', f'version = "{version}"', text, flags=re.M)
+    text = re.sub(r"^version = .*$", f'version = "{version}"', text, flags=re.M)
     names = ", ".join(f'"./wheels/{wheel.name}"' for wheel in wheels)
     text = text.replace("wheels = []", f"wheels = [{names}]")
     platforms = ", ".join(f'"{name}"' for name in sorted({platform(wheel) for wheel in wheels}))

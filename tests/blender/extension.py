@@ -35,7 +35,7 @@ def main():
             continue
         try:
             why = law(Command(nabiki, work / "tests" / law.__name__), shared)
-        except Exception:  # noqa: BLE001: all of them are shown, and the others go on
+        except Exception:  # All of them are shown, and the others go on.
             traceback.print_exc()
             failed.append(law.__name__)
             continue

@@ -86,7 +86,7 @@ def test_sintels_groom_moves_as_the_command_moves_it(command, shared):
     hair_file, head_file = shared / "hair" / "sintel_hair_16pts.tfx", shared / "heads" / "sintel_bust.obj"
     if not head_file.exists():
         return f"{head_file} is not there"
-    scene = scenes.empty(24)
+    scenes.empty(24)
     bpy.ops.wm.obj_import(filepath=str(head_file))
     head = bpy.context.object
     points, offsets = scenes.tfx(hair_file)
@@ -121,8 +121,9 @@ def test_sintels_groom_moves_as_the_command_moves_it(command, shared):
     near(found, commands.in_blender(same, origin), 0, "Sintel as it is written")
     way = np.abs(known[15] - known[0]).max()
     assert way > 0.01, "hardly anything moves"
-    print(f"Sintel: {left * 1000:.2g} mm apart (99 of 100 points: {most * 1000:.2g}) over {way * 100:.0f} cm; a rounding of the hair: {apart * 10:.2g} mm")
-    baked_is(command, hair, None)
+    print(f"Sintel: {left * 1000:.2g} mm apart, 99 of 100 points {most * 1000:.2g} mm, over {way * 100:.0f} cm")
+    print(f"Sintel with a rounding of the hair: {apart * 10:.2g} mm apart")
+    baked_is(command, hair, "usdc")
     return None
 
 
@@ -139,7 +140,7 @@ def softened(preview, hair):
     return list(hair.nabiki.stiffness)
 
 
-def baked_is(command, hair, known, ending="usdc"):
+def baked_is(command, hair, ending):
     """The bake reads back, every frame, as what the preview of all strands shows; velocities are those of motion blur."""
     scene = bpy.context.scene
     preview = simulated(hair, 10**6)
@@ -153,7 +154,8 @@ def baked_is(command, hair, known, ending="usdc"):
     near(found, wanted, 0, f"baked to .{ending}")
     # Between frames points go on straight lines in the head's space, and so does the head's place.
     own = [scenes.positions(scenes.evaluated(baked, frame)[1]) for frame in range(scene.frame_start, scene.frame_end + 1)]
-    near(scenes.positions(scenes.evaluated(baked, 10, 0.25)[1]), 0.75 * own[10 - scene.frame_start] + 0.25 * own[11 - scene.frame_start], 0, "between")
+    at = 10 - scene.frame_start
+    near(scenes.positions(scenes.evaluated(baked, 10, 0.25)[1]), 0.75 * own[at] + 0.25 * own[at + 1], 0, "between frames")
     rate = scene.render.fps / scene.render.fps_base
     if bpy.app.version < (4, 5):
         # Its reader of curves leaves velocities where they are.
@@ -177,10 +179,10 @@ def test_a_bake_reads_back_with_its_velocities(command, shared):
     mine.data.foreach_set("value", np.arange(scenes.STRANDS, dtype=np.float32))
     scenes.wind(70.0)
     for ending in ["usdc", "usda"]:
-        baked = baked_is(command, hair, None, ending)
+        baked_is(command, hair, ending)
     # Another wind into the same file: what was read of the old one is gone.
     hair.nabiki.strength_scale = 0.4
-    again = baked_is(command, hair, None, ending)
+    again = baked_is(command, hair, ending)
     data = scenes.evaluated(again, 5)[1]
     assert [m.name for m in data.materials] == ["Hair Material"]
     assert [value.value for value in data.attributes["mine"].data] == list(range(scenes.STRANDS))

@@ -27,7 +27,7 @@ class Thread:
     def _run(self, work):
         try:
             self.result = work(self.progress)
-        except BaseException as error:  # noqa: BLE001: it is raised where the work is waited for
+        except BaseException as error:  # It is raised where the work is waited for.
             self.error = error
 
     def progress(self, done, total):

@@ -44,7 +44,7 @@ def in_words(text, names):
     for name in sorted(names, key=len, reverse=True):
         # An entry of a list is meant, whichever of its settings is named.
         pattern = rf'"?{re.escape(name)}"?' if "/" in name or "\\" in name else rf"(?<![\w.]){re.escape(name)}(\.\w+)*"
-        text = re.sub(pattern, lambda _: names[name], text)
+        text = re.sub(pattern, names[name].replace("\\", r"\\"), text)
     text = re.sub(r"\bwish\[(\d+)\](\.\w+)?", lambda found: f"moved strand {int(found[1]) + 1}", text)
     for key, label in LABELS.items():
         text = re.sub(rf"(?<![\w.]){re.escape(key)}(?![\w.])", label, text)

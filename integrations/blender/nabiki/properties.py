@@ -40,9 +40,7 @@ class NabikiInterval(bpy.types.PropertyGroup):
         precision=1,
         update=changed,
     )
-    solve: BoolProperty(
-        name="Find", description="Whether Find the Wind may change this wind", default=True
-    )
+    solve: BoolProperty(name="Find", description="Whether Find the Wind may change this wind", default=True)
 
 
 FACING = [
@@ -86,12 +84,8 @@ class NabikiSettings(bpy.types.PropertyGroup):
         update=changed,
     )
     # Frames.
-    use_frame_range: BoolProperty(
-        name="Frame Range", description="Use other frames than those of the scene", default=False, update=changed
-    )
-    frame_start: IntProperty(
-        name="Start", description="The frame in which the hair is at rest", default=1, min=0, max=1048574, update=changed
-    )
+    use_frame_range: BoolProperty(name="Frame Range", description="Use other frames than those of the scene", default=False, update=changed)
+    frame_start: IntProperty(name="Start", description="The frame in which the hair is at rest", default=1, min=0, max=1048574, update=changed)
     frame_end: IntProperty(name="End", description="The last frame of the motion", default=100, min=1, max=1048574, update=changed)
     # Wind.
     intervals: CollectionProperty(type=NabikiInterval)

@@ -1,10 +1,9 @@
 """Curves that were moved by hand as wishes, and the wind that meets them."""
 
-import bpy
 import nabiki
 import numpy as np
 
-from . import attributes, axes, fields, jobs, motion, playing, sampling, scene_files
+from . import attributes, axes, fields, jobs, motion, playing, scene_files
 from .messages import Mistake
 
 # What is moved by less than this is not meant (cm): rounding of positions in Blender's unit.
