@@ -209,4 +209,4 @@ def test_work_that_is_stopped_leaves_nothing(command, shared):
 
 
 class Pressed:
-    made = None
+    made, beside = None, False

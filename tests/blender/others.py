@@ -47,6 +47,7 @@ def test_clear_puts_everything_back_to_the_bit(command, shared):
     assert bpy.ops.nabiki.bake() == {"FINISHED"}
     motions.simulated(hair, 40)
     assert bpy.ops.nabiki.clear() == {"FINISHED"}
+    bpy.context.scene.frame_set(1)
     assert state(hair) == was
     left = set(bpy.data.objects.keys()) ^ objects, set(bpy.data.hair_curves.keys()) ^ datas, bpy.data.cache_files.keys()
     assert not any(left), left
@@ -348,12 +349,24 @@ def test_what_modifiers_make_of_the_hair_is_moved(command, shared):
     nodes[1].inputs["Scale"].default_value = (1.05, 1.05, 1.05)
     group.links.new(nodes[0].outputs[0], nodes[1].inputs[0])
     group.links.new(nodes[1].outputs[0], nodes[2].inputs[0])
-    hair.modifiers.new("Longer", "NODES").node_group = group
+    modifier = hair.modifiers.new("Longer", "NODES")
+    modifier.node_group = group
     scenes.interval(hair, 8, (0, 60, 0))
     seen = scenes.evaluated(hair, 1)[0]
     preview = motions.simulated(hair, 10**6)
     motions.near(scenes.evaluated(preview, 1)[0], seen, 0, "at rest")
     assert np.abs(scenes.evaluated(preview, 8)[0] - seen).max() > 0.01
+    modifier.show_viewport = False
+    assert at_rest_after(preview, 7)
+    without = motions.all_frames(motions.simulated(hair, 10**6))
+    assert np.abs(without[0] - seen).max() > 0.001
+    # One of the head, and weights of its group.
+    head = bpy.data.objects["Head"]
+    preview = hair.nabiki.preview
+    assert not at_rest_after(preview, 7)
+    head.modifiers.new("Bevel", "SMOOTH").factor = 0.4
+    bpy.context.view_layer.update()
+    assert at_rest(preview)
 
 
 def test_a_copy_of_the_hair_has_a_motion_of_its_own(command, shared):

@@ -37,12 +37,11 @@ class Thread:
             raise Cancelled
 
     def wait(self, text):
-        """Yields how far it is until it has ended, and returns what it returned."""
+        """Yields how far it is until it has ended, and that there is nothing to do meanwhile; returns what it returned."""
         self.thread.start()
         try:
             while self.thread.is_alive():
-                yield self.done / self.total, text
-                self.thread.join(0.005)
+                yield self.done / self.total, text, True
         finally:
             self.stop.set()
             self.thread.join()
@@ -56,7 +55,8 @@ def on_thread(work, text):
 
 
 class Working:
-    """An operator of many steps. `steps(context)` yields (part done, what is done), and returns what to report: a line, and notes."""
+    """An operator of many steps. `steps(context)` yields (part done, what is done), and True where a thread is at work, and returns what
+    to report: a line, and notes."""
 
     timer = None
     made = None
@@ -69,7 +69,9 @@ class Working:
         try:
             steps = self.steps(context)
             while True:
-                next(steps)
+                _, _, *waits = next(steps)
+                if waits:
+                    time.sleep(0.001)
         except StopIteration as ended:
             return self._ended(context, ended.value)
         except EXPECTED as error:
@@ -102,9 +104,9 @@ class Working:
             if self.unwanted:
                 self.generator.throw(Cancelled())
             until = time.monotonic() + SLICE
-            part, text = next(self.generator)
-            while time.monotonic() < until:
-                part, text = next(self.generator)
+            part, text, *waits = next(self.generator)
+            while not waits and time.monotonic() < until:
+                part, text, *waits = next(self.generator)
             self._tell(context, part, text)
             return {"PASS_THROUGH"} if self.beside else {"RUNNING_MODAL"}
         except StopIteration as ended:

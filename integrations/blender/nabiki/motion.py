@@ -43,13 +43,8 @@ def folder():
 
 
 def sampled(context, thing):
-    """The sample of an object, read anew where something is another; yields how far it is."""
+    """The sample of an object, read anew: nobody tells of all that may have changed. Yields how far it is."""
     known = playing.take(thing)
-    same = known.sample is not None and known.sample.digest == sampling.digest(context.scene, thing)
-    same = same and not context.scene.frame_subframe
-    if same and sampling.still_as_sampled(known.sample, thing, context.evaluated_depsgraph_get(), context.scene.frame_current):
-        return known.sample
-    known.sample = None
     with playing.Quiet():
         reading = sampling.sample(context, thing)
         while True:
@@ -78,15 +73,20 @@ def film(sample, plain, made, strands, progress):
 def simulate(context, thing, operator):
     """Moves the preview of an object; yields how far it is and returns the motion."""
     known = playing.take(thing)
-    sample = yield from sampled(context, thing)
+    # Settings alone are another where nobody has pressed a button, and the frames are as they were read.
+    sample = known.sample if operator.beside else (yield from sampled(context, thing))
     plain = scene_files.values(thing.nabiki, sample.frames.start)
     key = playing.key(context.scene, thing)
     found = known.films.get(key)
     if found is None:
-        strands = thing.nabiki.preview_strands
+        strands, number = thing.nabiki.preview_strands, thing.session_uid
         with folder() as place:
             operator.made = made = scene_files.write(sample, plain, place)
             found = yield from jobs.on_thread(lambda progress: film(sample, plain, made, strands, progress), "moving hair")
+        # Undo may have put another in its place.
+        thing = next((other for other in context.scene.objects if other.session_uid == number), None)
+        if thing is None:
+            raise Mistake("the hair was deleted")
     known.keep(key, found)
     with playing.Quiet():
         preview = put_preview(context, thing, sample, found)

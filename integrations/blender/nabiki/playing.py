@@ -149,14 +149,14 @@ def settings_changed(thing):
                 film = film_of(scene, thing)
                 show(scene, thing, preview, film)
                 if film is None:
-                    ask_again(scene, thing)
+                    ask_again(thing)
 
 
 # Objects whose motion is computed again as soon as nobody changes anything any more, and how long that is waited for (seconds).
 asked, CALM = set(), 0.3
 
 
-def ask_again(scene, thing):
+def ask_again(thing):
     """Asks for the motion of other settings. What else has changed is read when the button is pressed: going through the frames
     would take things out of the hands of who moves them."""
     known = takes.get(thing.session_uid)
@@ -192,9 +192,9 @@ def before_frame(scene, _=None):
 @persistent
 def after_frame(scene, graph=None):
     """What moves by itself may move otherwise than when it was sampled: then its motion is none any more."""
-    if quiet:
-        return
-    check(scene, graph)
+    # A picture is evaluated without what is hidden in it.
+    if not quiet and (graph is None or graph.mode == "VIEWPORT"):
+        check(scene, graph)
 
 
 @persistent
@@ -205,23 +205,26 @@ def after_update(scene, graph):
     shown = list(previews(scene))
     if not shown:
         return
-    own = {block.session_uid for thing, preview in shown for block in ours(thing, preview)}
-    updates = [u for u in graph.updates if u.id.original.session_uid not in own]
-    if any(isinstance(u.id.original, bpy.types.Action) for u in updates):
-        for thing, _ in shown:
+    added = {block.session_uid for thing, preview in shown for block in ours(thing, preview)}
+    updates = [u for u in graph.updates if u.id.original.session_uid not in added]
+    touched = {u.id.original.session_uid for u in updates if u.is_updated_geometry}
+    keyed = any(isinstance(u.id.original, bpy.types.Action) for u in updates)
+    for thing, _ in shown:
+        known = takes.get(thing.session_uid)
+        if known is not None and known.sample is not None and (keyed or not sampling.still_shaped(known.sample, thing, graph, touched)):
             forget(thing)
-    elif not any(u.is_updated_geometry or u.is_updated_transform or isinstance(u.id.original, bpy.types.Object) for u in updates):
+    if not any(u.is_updated_geometry or u.is_updated_transform or isinstance(u.id.original, bpy.types.Object) for u in updates):
         return
     check(scene, graph)
 
 
 def ours(thing, preview):
     """What was added to the scene, and decides no motion."""
-    for added in [preview, thing.nabiki.baked]:
-        if added is not None:
-            yield from (added, added.data)
-            if added.animation_data is not None and added.animation_data.action is not None:
-                yield added.animation_data.action
+    for own in [preview, thing.nabiki.baked]:
+        if own is not None:
+            yield from (own, own.data)
+            if own.animation_data is not None and own.animation_data.action is not None:
+                yield own.animation_data.action
 
 
 def check(scene, graph=None):
@@ -252,6 +255,9 @@ def forget(thing):
 def after_undo(scene, _=None):
     with Quiet():
         show_all(bpy.context.scene)
+    for thing, _ in previews(bpy.context.scene):
+        if film_of(bpy.context.scene, thing) is None:
+            ask_again(thing)
 
 
 @persistent

@@ -25,6 +25,8 @@ class Body:
     matrices: list
     ways: list
     """(rotation, shift) in each frame, about the origin of the sample, from where it is in the first."""
+    shape: int
+    """A number for its mesh, as it is in its own space."""
 
     def moves(self):
         return any((turn != np.eye(3)).any() or shift.any() for turn, shift in self.ways)
@@ -88,6 +90,9 @@ def digest(scene, thing):
         parts += [other.name, raw]
     for other in effectors(scene, thing):
         parts += [other.name, other.field.type]
+    # Hidden hair is not evaluated, so that nothing tells of its modifiers; what is within a node group is read at the next press.
+    for modifier in thing.modifiers:
+        parts += [repr(sorted((name, str(value)) for name, value in modifier.items())), str(plain(modifier))]
     curves = np.empty(len(thing.data.curves), np.int32)
     thing.data.curves.foreach_get("points_length", curves)
     parts += [thing.name, curves, attributes.points_of(thing.data)]
@@ -95,6 +100,15 @@ def digest(scene, thing):
     for part in parts:
         found = zlib.crc32(part.encode() if isinstance(part, str) else np.ascontiguousarray(part), found)
     return found
+
+
+def plain(block):
+    """The plain values of something of Blender's."""
+    kinds = {"BOOLEAN", "INT", "FLOAT", "STRING", "ENUM"}
+    known = [
+        p.identifier for p in block.bl_rna.properties if p.type in kinds and p.identifier not in {"is_active", "execution_time", "show_expanded"}
+    ]
+    return [(name, str(getattr(block, name))) for name in known]
 
 
 def frame_range(scene, settings):
@@ -175,7 +189,8 @@ class Reader:
         self.bent = not self.bone and meshes.bends(head)
         start = carried(self.carrier.evaluated_get(graph), self.bone)
         self.at_first = self._bent_vertices(graph) if self.bent else None
-        self.head_body = Body(head.name, *meshes.placed(points, faces, to_world, self.origin), [start], [(np.eye(3), np.zeros(3))])
+        placed = meshes.placed(points, faces, to_world, self.origin)
+        self.head_body = Body(head.name, *placed, [start], [(np.eye(3), np.zeros(3))], shape_of(points, faces))
         own = thing.evaluated_get(graph)
         self.hair = hair_module.read(own, meshes.matrix(own.matrix_world), self.origin, unit(scene))
         if self.hair.left_out:
@@ -213,7 +228,8 @@ class Reader:
         if meshes.bends(other):
             self.notes.append(f'"{other.name}" bends: hair keeps out of the shape that it has in the first frame')
         points, faces = meshes.triangles(evaluated, "the body")
-        return Body(other.name, *meshes.placed(points, faces, to_world, self.origin), [to_world], [(np.eye(3), np.zeros(3))])
+        placed = meshes.placed(points, faces, to_world, self.origin)
+        return Body(other.name, *placed, [to_world], [(np.eye(3), np.zeros(3))], shape_of(points, faces))
 
     def _bent_vertices(self, graph):
         evaluated = self.head.evaluated_get(graph)
@@ -250,6 +266,25 @@ class Reader:
         return Sample(
             frames, rate(self.scene), unit(self.scene), self.origin, self.hair, self.head_body, self.bodies, self.effectors, self.digest, self.notes
         )
+
+
+def shape_of(points, faces):
+    return zlib.crc32(faces.astype(np.int32).tobytes(), zlib.crc32(points.tobytes()))
+
+
+def still_shaped(sample, thing, graph, touched):
+    """Whether meshes that may have changed, by their numbers, are what they were. What bends is taken for changed."""
+    try:
+        things = [head_of(thing), *(bpy.data.objects[body.name] for body in sample.bodies)]
+        for other, body in zip(things, [sample.head, *sample.bodies], strict=True):
+            if not {other.session_uid, other.data.session_uid} & touched:
+                continue
+            group = thing.nabiki.head_group if body is sample.head else ""
+            if meshes.bends(other) or shape_of(*meshes.triangles(other.evaluated_get(graph), "the mesh", group)) != body.shape:
+                return False
+    except (Mistake, KeyError):
+        return False
+    return True
 
 
 def still_as_sampled(sample, thing, graph, frame):

@@ -76,7 +76,10 @@ def solve(context, thing, operator):
             settings.intervals.add().through = sample.frames[-1]
         for interval, (_, vector) in zip(settings.intervals, solution.forces, strict=True):
             interval.vector = back @ np.array(vector)
+    # The frames are as they were.
+    operator.beside = True
     yield from motion.simulate(context, thing, operator)
+    operator.beside = False
     there = "there" if solution.after_cm < THERE_CM else "as near as it was found to come: free more winds, or move less"
     return f"the hair is {solution.after_cm:.2f} cm from where you moved it, {there}; before it was {solution.before_cm:.2f} cm", []
 
