@@ -92,7 +92,7 @@ def digest(scene, thing):
         parts += [other.name, other.field.type]
     # Hidden hair is not evaluated, so that nothing tells of its modifiers; what is within a node group is read at the next press.
     for modifier in thing.modifiers:
-        parts += [repr(sorted((name, str(value)) for name, value in modifier.items())), str(plain(modifier))]
+        parts += [repr(plain(modifier)), repr(inputs(modifier))]
     curves = np.empty(len(thing.data.curves), np.int32)
     thing.data.curves.foreach_get("points_length", curves)
     parts += [thing.name, curves, attributes.points_of(thing.data)]
@@ -100,6 +100,17 @@ def digest(scene, thing):
     for part in parts:
         found = zlib.crc32(part.encode() if isinstance(part, str) else np.ascontiguousarray(part), found)
     return found
+
+
+def inputs(modifier):
+    """What a node group of a modifier is given."""
+    try:
+        return sorted((name, str(value)) for name, value in modifier.items())
+    except TypeError:  # From Blender 5.2 on they have types of their own.
+        given = getattr(getattr(modifier, "properties", None), "inputs", None)
+        names = [p.identifier for p in given.bl_rna.properties if p.identifier != "rna_type"] if given else []
+        found = [(name, getattr(given, name, None)) for name in names]
+        return [(name, plain(value) if hasattr(value, "bl_rna") else str(value)) for name, value in found]
 
 
 def plain(block):
