@@ -94,17 +94,20 @@ def test_heads_that_are_none_are_refused(command, shared):
     form.to_mesh(sheet)
     form.free()
     head.data = sheet
-    print(refused(simulate, 'the head "Head"'))
+    refused(simulate, 'the head "Head", a sheet', "encloses no space")
     head.data = whole
     hair.nabiki.head_group = "nowhere"
     refused(simulate, 'no vertex group "nowhere"')
     hair.nabiki.head_group, hair.nabiki.head_bone = "", "skull"
     refused(simulate, "no armature")
     hair.nabiki.head_bone = ""
+    hair.location.x += 1
+    refused(simulate, 'the roots of "Hair" are', "cm from the head", "pick the mesh")
+    hair.location.x -= 1
     ball = scenes.ball("Open", 0.05, scenes.PLACE + [0.2, 0, 0])
     ball.modifiers.new("Collision", "COLLISION")
     ball.data = sheet
-    print(refused(simulate, 'the body "Open"'))
+    refused(simulate, 'the body "Open": a sheet', "encloses no space")
 
 
 def test_sizes_that_are_wrong_are_refused(command, shared):
@@ -116,13 +119,40 @@ def test_sizes_that_are_wrong_are_refused(command, shared):
     refused(simulate, 'the head "Head"', "scale")
     head.animation_data_clear()
     head.scale = (0, 1, 1)
-    line = refused(simulate, "Head")
-    print(line)
+    refused(simulate, 'the head "Head", a sheet')
     head.scale = (1, 1, 1)
     # A head of ten metres in a scene of metres: what is said of it is nabiki's own line.
     for thing in [head, hair]:
         thing.scale = (1e5, 1e5, 1e5)
-    print(refused(simulate, "Head"))
+    refused(simulate, 'the head "Head", a head of', "Unit Scale")
+
+
+def test_what_blender_does_not_evaluate_is_no_head_and_no_body(command, shared):
+    """It would seem to stand still; what the eye alone hides takes part as ever."""
+    seen = None
+    for how in ["seen", "eye", "disabled", "collection"]:
+        hair = scenes.groom(8)
+        things = [bpy.data.objects["Head"], bpy.data.objects["Ball"]]
+        if how == "collection":
+            apart = bpy.data.collections.new("Apart")
+            bpy.context.scene.collection.children.link(apart)
+            for thing in things:
+                apart.objects.link(thing)
+                bpy.context.scene.collection.objects.unlink(thing)
+            apart.hide_viewport = True
+        for thing in things:
+            thing.hide_viewport = how == "disabled"
+            if how == "eye":
+                thing.hide_set(True)
+        bpy.context.view_layer.update()
+        hair.nabiki.stiffness = (3000, 300)
+        if how in {"disabled", "collection"}:
+            refused(simulate, '"Head" is disabled')
+            continue
+        assert simulate() == {"FINISHED"}
+        found = scenes.evaluated(hair.nabiki.preview, 8)[0]
+        assert seen is None or np.array_equal(found, seen)
+        seen = found
 
 
 def test_frames_and_winds_that_cannot_be_are_refused(command, shared):
@@ -138,10 +168,18 @@ def test_frames_and_winds_that_cannot_be_are_refused(command, shared):
     refused(simulate, "Wind > Interval 1 ends before the first frame")
     hair.nabiki.intervals[0].through = 8
     hair.nabiki.intervals[0].vector = (0, 1e7, 0)
-    print(refused(simulate, "Wind > Interval 1"))
+    refused(simulate, "Wind > Interval 1: is too strong for this hair: keep it below", "Settings > Speed")
+    thing = scenes.wind(1e7)
+    bpy.context.scene.frame_set(1)
+    scenes.active(hair)
+    refused(simulate, "the wind up to frame ", ": is too strong for this hair")
+    thing.field.falloff_type = "CONE"
+    hair.nabiki.intervals[0].vector = (0, 0, 0)
+    refused(simulate, 'the force field "Wind": is too strong')
+    bpy.data.objects.remove(thing)
     hair.nabiki.intervals[0].vector = (0, 60, 0)
     hair.nabiki.adapt_stiffness, hair.nabiki.stiffness = False, (1e6, 1e6)
-    print(refused(simulate, "Stiffness"))
+    refused(simulate, "Settings > Stiffness: is too strong for this hair: keep it at the root and the tip below")
 
 
 def test_caches_without_a_place_are_refused(command, shared):
@@ -209,4 +247,4 @@ def test_work_that_is_stopped_leaves_nothing(command, shared):
 
 
 class Pressed:
-    made, beside = None, False
+    made = None

@@ -189,6 +189,13 @@ def test_the_wind_that_moved_the_hair_is_found_again(command, shared):
     preview.data.attributes["position"].data.foreach_set("vector", points.ravel())
     scenes.active(preview)
     bpy.ops.ed.undo_push(message="moved")
+    # Another step and back: what was moved stays.
+    bpy.context.scene.render.resolution_x = 640
+    bpy.ops.ed.undo_push(message="something else")
+    bpy.ops.ed.undo()
+    hair = bpy.data.objects["Hair"]
+    preview = hair.nabiki.preview
+    assert np.array_equal(scenes.positions(preview.data), points)
     assert bpy.ops.nabiki.solve() == {"FINISHED"}
     found = np.array(hair.nabiki.intervals[0].vector)
     # The law of docs/solve.md: no vector is off by more than 2.

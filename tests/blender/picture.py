@@ -13,7 +13,7 @@ import bpy
 import extension
 import scenes
 
-STRANDS, FRAME = 14000, 26
+STRANDS, FRAME = 14000, 38
 
 
 def main():
@@ -34,7 +34,7 @@ def main():
     settings = hair.nabiki
     # It was written looking along x.
     settings.head, settings.facing = head, "+x"
-    for last, vector in [(6, (0, 0, 0)), (44, (-150, 25, 60)), (60, (0, 0, 0))]:
+    for last, vector in [(6, (0, 0, 0)), (44, (-170, 20, 90)), (60, (0, 0, 0))]:
         scenes.interval(hair, last, vector)
     settings.stiffness = (4000, 400)
     settings.use_flow = settings.use_gust = True
@@ -77,11 +77,11 @@ def drawn(scene, picture):
         aim(scenes.linked(name, lamp, place), (0, 0, 0))
     scene.world = bpy.data.worlds.new("World")
     scene.world.use_nodes = True
-    scene.world.node_tree.nodes["Background"].inputs[0].default_value = (0.35, 0.4, 0.48, 1)
-    scene.world.node_tree.nodes["Background"].inputs[1].default_value = 0.5
+    scene.world.node_tree.nodes["Background"].inputs[0].default_value = (0.55, 0.58, 0.62, 1)
+    scene.world.node_tree.nodes["Background"].inputs[1].default_value = 0.7
     scene.render.engine = "CYCLES"
-    scene.cycles.samples, scene.cycles.use_denoising = 200, False
-    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 0.5
+    scene.cycles.samples, scene.cycles.use_denoising = 128, False
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 0.35
     scene.render.resolution_x, scene.render.resolution_y = 960, 540
     scene.view_settings.view_transform = "AgX"
     scene.render.filepath = str(picture)

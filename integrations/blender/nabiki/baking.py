@@ -50,6 +50,7 @@ def bake(context, thing, operator):
         with playing.Quiet():
             # A file that Blender reads cannot be replaced everywhere.
             motion.remove(thing, thing.nabiki.baked)
+            context.view_layer.update()
             part.replace(path)
             put_baked(context, thing, sample, given, path)
     finally:

@@ -70,11 +70,11 @@ def film(sample, plain, made, strands, progress):
     return playing.Film(points, chosen_strands, sample.frames, sample.rate, made.notes)
 
 
-def simulate(context, thing, operator):
-    """Moves the preview of an object; yields how far it is and returns the motion."""
+def simulate(context, thing, operator, anew=True):
+    """Moves the preview of an object; yields how far it is and returns the motion. `anew`: whether the frames are read again, which
+    they need not be where settings alone are another."""
     known = playing.take(thing)
-    # Settings alone are another where nobody has pressed a button, and the frames are as they were read.
-    sample = known.sample if operator.beside else (yield from sampled(context, thing))
+    sample = (yield from sampled(context, thing)) if anew else known.sample
     plain = scene_files.values(thing.nabiki, sample.frames.start)
     key = playing.key(context.scene, thing)
     found = known.films.get(key)
@@ -108,6 +108,11 @@ def put_preview(context, thing, sample, found):
     old, preview.data = preview.data, data
     bpy.data.hair_curves.remove(old)
     preview.location = sample.origin
+    baked = settings.baked if settings.baked is not None and settings.baked.nabiki.of == thing else None
+    # Of a preview and a bake one is seen, and the other drawn.
+    preview.hide_render = baked is not None
+    if baked is not None:
+        baked.hide_viewport = True
     hide(thing)
     return preview
 

@@ -25,7 +25,7 @@ class NABIKI_OT_simulate(jobs.Working, Named, bpy.types.Operator):
 
     def steps(self, context):
         thing = motion.chosen(context, self.name)
-        film = yield from motion.simulate(context, thing, self)
+        film = yield from motion.simulate(context, thing, self, anew=not self.beside)
         return f"{len(film.strands)} strands, {len(film.frames)} frames", film.notes
 
 

@@ -120,6 +120,7 @@ def show(scene, thing, preview, film):
     if preview.mode != "OBJECT":
         return
     data = preview.data
+    data["nabiki_shown"] = shown_now(scene, thing, film)
     if film is not None and film.points.shape[1] == len(data.points):
         frame = scene.frame_current_final
         points, velocities = film.at(frame), film.velocities(frame)
@@ -132,6 +133,11 @@ def show(scene, thing, preview, film):
     attributes.put(data, "position", "FLOAT_VECTOR", "POINT", points)
     attributes.put(data, "velocity", "FLOAT_VECTOR", "POINT", velocities)
     data.update_tag()
+
+
+def shown_now(scene, thing, film):
+    """What a preview shows, in a word that is kept with its points."""
+    return f"{key(scene, thing)} {scene.frame_current_final}" if film is not None else "rest"
 
 
 def show_all(scene):
@@ -253,10 +259,14 @@ def forget(thing):
 
 @persistent
 def after_undo(scene, _=None):
-    with Quiet():
-        show_all(bpy.context.scene)
-    for thing, _ in previews(bpy.context.scene):
-        if film_of(bpy.context.scene, thing) is None:
+    scene = bpy.context.scene
+    for thing, preview in previews(scene):
+        film = film_of(scene, thing)
+        # What a hand has moved in this very frame stays.
+        if preview.data.get("nabiki_shown") != shown_now(scene, thing, film):
+            with Quiet():
+                show(scene, thing, preview, film)
+        if film is None:
             ask_again(thing)
 
 

@@ -48,6 +48,19 @@ class Sample:
     notes: list = field(default_factory=list)
 
 
+def check_enabled(layer, thing):
+    """Refuses what Blender does not evaluate, and what would therefore seem to stand still. The eye alone leaves it evaluated."""
+    if thing.hide_viewport or not within(layer.layer_collection, thing):
+        raise Mistake(f'"{thing.name}" is disabled in the viewport, by itself or by its collection: enable it (the eye may stay shut)')
+
+
+def within(collection, thing):
+    """Whether an object lies in a collection of a view layer, or in one below it, that is enabled."""
+    if collection.exclude or collection.collection.hide_viewport:
+        return False
+    return thing.name in collection.collection.objects or any(within(child, thing) for child in collection.children)
+
+
 def head_of(thing):
     """The head mesh of an object of curves: the one that is picked, or the surface that it is attached to."""
     head = thing.nabiki.head or thing.data.surface
@@ -172,7 +185,7 @@ def sample(context, thing):
             scene.frame_set(frame)
             graph.update()
             if frame == first:
-                reader = Reader(scene, thing, head, graph)
+                reader = Reader(scene, context.view_layer, thing, head, graph)
             else:
                 reader.go_on(graph)
             yield frame - first + 1, len(frames)
@@ -185,12 +198,14 @@ def sample(context, thing):
 class Reader:
     """A scene of Blender that is being read."""
 
-    def __init__(self, scene, thing, head, graph):
-        self.scene, self.thing, self.head = scene, thing, head
+    def __init__(self, scene, layer, thing, head, graph):
+        self.scene, self.layer, self.thing, self.head = scene, layer, thing, head
         self.digest = digest(scene, thing)
         self.notes = []
         group = thing.nabiki.head_group
         self.carrier, self.bone = carrier(thing, head)
+        for needed in [thing, head, self.carrier]:
+            check_enabled(layer, needed)
         evaluated = head.evaluated_get(graph)
         to_world = meshes.matrix(evaluated.matrix_world)
         points, faces = meshes.triangles(evaluated, "the head", group)
@@ -212,6 +227,7 @@ class Reader:
         self.fields, self.effectors = [], []
         for other in effectors(scene, thing):
             kind = other.field.type
+            check_enabled(layer, other)
             if kind in fields.KNOWN:
                 self.fields.append(other)
                 evaluated = other.evaluated_get(graph)
@@ -225,7 +241,7 @@ class Reader:
         skin = BVHTree.FromPolygons(points.tolist(), faces.tolist())
         roots = self.hair.points[self.hair.offsets[:-1]]
         off = float(np.median([skin.find_nearest(root)[3] for root in roots[:: max(1, len(roots) // JUDGED)].tolist()]))
-        size = 0.5 * np.ptp(points, axis=0).min()
+        size = 0.5 * np.median(np.ptp(points, axis=0))
         cm = off * unit(self.scene)
         if off > size:
             way_out = "pick the mesh that it grows on in Nabiki > Head, or move the hair to it"
@@ -234,6 +250,7 @@ class Reader:
             self.notes.append(f'the roots are {cm:.2g} cm from the skin of "{self.head.name}"')
 
     def _body(self, other, graph):
+        check_enabled(self.layer, other)
         evaluated = other.evaluated_get(graph)
         to_world = meshes.matrix(evaluated.matrix_world)
         if meshes.bends(other):
@@ -305,16 +322,11 @@ def still_as_sampled(sample, thing, graph, frame):
     at = frame - sample.frames.start
     try:
         carried_by, bone = carrier(thing, head_of(thing))
-    except Mistake:
-        return False
-    if (carried(carried_by.evaluated_get(graph), bone) != sample.head.matrices[at]).any():
-        return False
-    for body in sample.bodies:
-        other = bpy.data.objects.get(body.name)
-        if other is None or (meshes.matrix(other.evaluated_get(graph).matrix_world) != body.matrices[at]).any():
+        if (carried(carried_by.evaluated_get(graph), bone) != sample.head.matrices[at]).any():
             return False
-    for effector in sample.effectors:
-        other = bpy.data.objects.get(effector.name)
-        if other is None or fields.Now.of(other.evaluated_get(graph)) != effector.frames[at]:
-            return False
-    return True
+        for body in sample.bodies:
+            if (meshes.matrix(bpy.data.objects[body.name].evaluated_get(graph).matrix_world) != body.matrices[at]).any():
+                return False
+        return all(fields.Now.of(bpy.data.objects[e.name].evaluated_get(graph)) == e.frames[at] for e in sample.effectors)
+    except (Mistake, KeyError):
+        return False

@@ -71,15 +71,21 @@ def solve(context, thing, operator):
 
         solution = yield from jobs.on_thread(find, "finding the wind")
     back = axes.to_nabiki(settings.facing).T
+    before = [tuple(interval.vector) for interval in settings.intervals]
     with playing.Quiet():
-        if not len(settings.intervals):
+        if not before:
             settings.intervals.add().through = sample.frames[-1]
         for interval, (_, vector) in zip(settings.intervals, solution.forces, strict=True):
             interval.vector = back @ np.array(vector)
-    # The frames are as they were.
-    operator.beside = True
-    yield from motion.simulate(context, thing, operator)
-    operator.beside = False
+    try:
+        yield from motion.simulate(context, thing, operator, anew=False)
+    except BaseException:
+        with playing.Quiet():
+            for interval, vector in zip(settings.intervals, before, strict=False):
+                interval.vector = vector
+            if not before:
+                settings.intervals.clear()
+        raise
     there = "there" if solution.after_cm < THERE_CM else "as near as it was found to come: free more winds, or move less"
     return f"the hair is {solution.after_cm:.2f} cm from where you moved it, {there}; before it was {solution.before_cm:.2f} cm", []
 
