@@ -16,7 +16,7 @@ use crate::light::headlight::SolidShadows;
 use crate::light::kajiya::KajiyaKay;
 use crate::light::lamps::{Lamp, lamps, zenith};
 use crate::light::shade::{HairLight, Model};
-use crate::light::shadow::{self, Crossings, Scene, Sweep};
+use crate::light::shadow::{Crossings, Scene, Sweep};
 use crate::light::sky::SkyMap;
 use crate::moment::{DrawnBody, FrameToDraw};
 use crate::raster::bins::Bins;
@@ -28,8 +28,6 @@ use crate::skin::{SkinLight, SkinView, Solids, placed};
 use crate::timing::{Stage, Timing};
 use crate::tone_mapping::linear_from_srgb;
 
-/// Fineness of hair's shadows (cm).
-const SHADOW_CELL: f32 = 0.2;
 /// How far a piece may leave traces beyond its own width (pixels): a cell, and its overhang.
 const MARGIN: f32 = 1.25;
 
@@ -47,7 +45,6 @@ pub struct Renderer {
     model: Model,
     curves: Curves,
     radius: Vec<f32>,
-    length: Vec<f32>,
     nodes: Vec<Node>,
     bins: Bins,
     sweeps: Vec<Sweep>,
@@ -109,7 +106,6 @@ impl Renderer {
             model,
             curves: Curves::default(),
             radius: Vec::new(),
-            length: Vec::new(),
             nodes: Vec::new(),
             bins: Bins::default(),
             sweeps: Vec::new(),
@@ -295,18 +291,16 @@ impl Renderer {
         let still = self.still.as_ref().expect("stands");
         let nodes = &self.curves.nodes;
         let lamps: &[Lamp] = if self.picture.shadows { &still.lamps } else { &[] };
-        if !lamps.is_empty() {
-            shadow::lengths(nodes, &mut self.length);
-        }
         let bounds = bounds(nodes);
-        let scene = Scene { nodes, length: &self.length, radius: &self.radius, skin: &still.skin_places, bounds };
+        let scene =
+            Scene { nodes, radius: &self.radius, skin: &still.skin_places, width: self.picture.hair.width, bounds };
         self.sweeps.resize_with(lamps.len(), Sweep::default);
         let (sweeps, sky_map) = (&mut self.sweeps, &mut self.sky_map);
         let sky = &self.picture.sky;
         // As many tasks as there are threads, and no more: each looks through all nodes.
         let strips = rayon::current_num_threads().div_ceil(lamps.len().max(1));
         let cast = || {
-            sweeps.par_iter_mut().zip(lamps).for_each(|(sweep, lamp)| sweep.run(lamp, &scene, SHADOW_CELL, strips));
+            sweeps.par_iter_mut().zip(lamps).for_each(|(sweep, lamp)| sweep.run(lamp, &scene, strips));
         };
         let cover = || {
             if sky.is_occluded() {
