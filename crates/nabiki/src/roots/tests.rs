@@ -179,13 +179,15 @@ fn a_hairline_wanders_as_far_as_it_is_told_and_not_where_it_is_told_nothing() {
     let unit = 0.5 * (BUST.ellipsoid.half_axes.x + BUST.ellipsoid.half_axes.z);
     let (mut low, mut high) = (0.0_f32, 0.0_f32);
     for root in roots(3000, 4) {
-        let off = wandering.above(&BUST.ellipsoid, root.position) - root.above_hairline;
-        assert_eq!(root.above_hairline, straight.above(&BUST.ellipsoid, root.position));
+        let above = straight.above(&BUST.ellipsoid, root.position);
+        // A root was drawn on a triangle, some hundredths of a millimetre from the sampled skin.
+        assert!((root.above_hairline - above).abs() * unit < 0.01);
+        let off = wandering.above(&BUST.ellipsoid, root.position) - above;
         (low, high) = (low.min(off), high.max(off));
-        // It is a line: a millimetre on, it has moved by less than its steepest wave does. 0.1 (0.5 18 + 0.3 36 + 0.2 57) a unit.
+        // It is a line: a millimetre on, it has moved by less than its waves are steep along z, 0.5 17 + 0.3 27 + 0.2 47 a unit.
         let beside = root.position + Vec3::new(0.0, 0.0, 0.1);
         let moved = wandering.above(&BUST.ellipsoid, beside) - straight.above(&BUST.ellipsoid, beside) - off;
-        assert!(moved.abs() < 3.2 * 0.1 / unit + 1e-5, "{moved}");
+        assert!(moved.abs() < 0.1 * 26.0 * 0.1 / unit + 1e-5, "{moved}");
     }
     assert!((-0.1..-0.07).contains(&low) && (0.07..0.1).contains(&high), "{low} {high}");
 }
