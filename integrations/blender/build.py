@@ -6,6 +6,7 @@ python3 integrations/blender/build.py --out FOLDER             where the .zip go
 """
 
 import argparse
+import importlib.util
 import re
 import subprocess
 import sys
@@ -31,6 +32,8 @@ PLATFORMS = [
 
 def built():
     """A wheel for this machine."""
+    if importlib.util.find_spec("maturin") is None:
+        sys.exit(f"{sys.executable} has no maturin, which builds the wheel: pip install maturin, or name a wheel with --wheel")
     out = ROOT / "target" / "blender" / "wheels"
     build = [sys.executable, "-m", "maturin", "build", "--release", "--generate-stubs", "--out", str(out)]
     subprocess.run(build, check=True, cwd=ROOT / "crates" / "nabiki_py")
@@ -86,4 +89,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except subprocess.CalledProcessError as failure:
+        sys.exit(f"failed: {' '.join(failure.cmd)}")

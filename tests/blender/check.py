@@ -20,6 +20,9 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 WORK = ROOT / "target" / "blender"
 
+# What lines of the tests begin with.
+OURS = ("measured: ", "SKIPPED: ", "Blender ")
+
 
 def module(path):
     """A script as a module, whatever it is called."""
@@ -76,7 +79,15 @@ def main():
     shared = ROOT / ".." / "shared" / "data"
     # Nothing of the user's own Blender is read or written.
     places = {"BLENDER_USER_RESOURCES": str(user), "PYTHONDONTWRITEBYTECODE": "1"}
-    run(python, HERE / "extension.py", archive, nabiki, WORK, shared.resolve(), *arguments.tests, env={**os.environ, **places})
+    log = WORK / "log.txt"
+    with open(log, "w") as out:
+        words = [python, HERE / "extension.py", archive, nabiki, WORK, shared.resolve(), *arguments.tests]
+        done = subprocess.run(list(map(str, words)), cwd=ROOT, env={**os.environ, **places}, stdout=out, stderr=subprocess.STDOUT)
+    lines = log.read_text(errors="replace").splitlines()
+    # Blender says much of its own, which is of interest where something has failed.
+    print("\n".join(lines if done.returncode else [line for line in lines if line.startswith(OURS)]))
+    if done.returncode:
+        sys.exit(f"failed: the extension in Blender; {log} has all of the above")
     print("blender: all well")
 
 

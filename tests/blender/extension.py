@@ -22,6 +22,16 @@ def install(archive):
     assert hasattr(bpy.types, "NABIKI_PT_main")
 
 
+def disable():
+    """What the check box beside it does: nothing of it is left."""
+    bpy.ops.preferences.addon_disable(module="bl_ext.user_default.nabiki")
+    assert not hasattr(bpy.types, "NABIKI_PT_main") and not hasattr(bpy.types.Object, "nabiki") and not hasattr(bpy.types.WindowManager, "nabiki")
+    handlers = [
+        known for name in dir(bpy.app.handlers) if isinstance(getattr(bpy.app.handlers, name), list) for known in getattr(bpy.app.handlers, name)
+    ]
+    assert not [known for known in handlers if "nabiki" in getattr(known, "__module__", "")], handlers
+
+
 def laws(*modules):
     return [getattr(module, name) for module in modules for name in vars(module) if name.startswith("test_")]
 
@@ -43,6 +53,7 @@ def main():
             skipped.append(f"{law.__name__}: {why}")
         else:
             passed += 1
+    disable()
     for line in skipped:
         print(f"SKIPPED: {line}")
     print(f"Blender {bpy.app.version_string}: {passed} passed, {len(failed)} failed, {len(skipped)} skipped")

@@ -52,7 +52,7 @@ def test_a_groom_of_blender_moves_as_the_command_moves_it(command, shared):
     assert way > 0.02, "hardly anything moves"
     # The same law of growth, once for what the test rounds and once for what the extension does, each number a few times.
     left = near(found, known, 8 * apart / 100, "all frames")
-    print(f"a groom of Blender: {left * 1000:.2g} mm apart over {way * 100:.0f} cm; a rounding of the hair: {apart * 10:.2g} mm")
+    print(f"measured: a groom of Blender: {left * 1000:.2g} mm apart over {way * 100:.0f} cm; a rounding of the hair: {apart * 10:.2g} mm")
 
 
 def test_intervals_of_the_panel_are_eased_as_in_a_scene_file(command, shared):
@@ -121,8 +121,8 @@ def test_sintels_groom_moves_as_the_command_moves_it(command, shared):
     near(found, commands.in_blender(same, origin), 0, "Sintel as it is written")
     way = np.abs(known[15] - known[0]).max()
     assert way > 0.01, "hardly anything moves"
-    print(f"Sintel: {left * 1000:.2g} mm apart, 99 of 100 points {most * 1000:.2g} mm, over {way * 100:.0f} cm")
-    print(f"Sintel with a rounding of the hair: {apart * 10:.2g} mm apart")
+    print(f"measured: Sintel: {left * 1000:.2g} mm apart, 99 of 100 points {most * 1000:.2g} mm, over {way * 100:.0f} cm")
+    print(f"measured: Sintel with a rounding of the hair: {apart * 10:.2g} mm apart")
     baked_is(command, hair, "usdc")
     return None
 

@@ -333,6 +333,17 @@ def test_curves_without_extent_and_doubled_points_do_no_harm(command, shared):
     assert np.isfinite(moved).all() and np.abs(moved[-1] - moved[0]).max() > 0.01
 
 
+def test_any_frame_rate_and_first_frame_will_do(command, shared):
+    for rate, base, first, last in [(24, 1.001, 1, 98), (30, 1.001, 0, 30), (12, 0.96, 7, 36)]:
+        hair = scenes.groom(last)
+        scene = bpy.context.scene
+        scene.frame_start, scene.render.fps, scene.render.fps_base = first, rate, base
+        scenes.wind(50.0)
+        moved = motions.all_frames(motions.simulated(hair, 10))
+        assert len(moved) == last - first + 1 and np.abs(moved[-1] - moved[0]).max() > 0.01
+        assert np.array_equal(moved[0], scenes.evaluated(hair.nabiki.preview, first - 1)[0]), "before the first frame it is at rest"
+
+
 def test_a_scaled_scene_moves_alike(command, shared):
     """Centimetres for Blender's unit, and the same thing comes out a hundred times as large."""
     metres = motions.all_frames(blown()[1])
