@@ -311,6 +311,54 @@ def test_force_fields_are_carried_over_by_the_table(command, shared):
     assert '"Drag" is not carried over' in notes and '"Charge" is not carried over' in notes
 
 
+def pushed(kind, place, at, rotation, **settings):
+    """Where Blender's own force field pushes a ball that floats, in a few frames."""
+    scene = scenes.empty(6)
+    ball = scenes.ball("Floating", 0.02, at)
+    scenes.active(ball)
+    bpy.ops.rigidbody.world_add()
+    bpy.ops.rigidbody.object_add()
+    scene.use_gravity = False
+    field_of(kind, place, rotation, **settings)
+    for frame in range(1, 6):
+        scene.frame_set(frame)
+    return np.array(ball.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.translation) - at
+
+
+def field_of(kind, place, rotation, **settings):
+    bpy.ops.object.effector_add(type=kind, location=place, rotation=rotation)
+    thing = bpy.context.object
+    thing.field.strength = 20
+    for name, value in settings.items():
+        setattr(thing.field, name, value)
+
+
+def test_force_fields_push_where_blenders_own_push(command, shared):
+    import nabiki
+
+    place, rotation = scenes.PLACE + [0.2, -0.1, 0.1], (0.5, -0.7, 0.3)
+    # Within the head's reach nothing is led round it, since that is off.
+    at = place + np.array([0.3, 0.2, -0.1])
+    # A vortex of the shape Plane draws inward as well, which ours does not.
+    kinds = [("WIND", {}), ("FORCE", {}), ("FORCE", {"falloff_power": 1}), ("VORTEX", {"shape": "POINT"})]
+    for kind, settings in [*kinds, ("WIND", {"falloff_type": "CONE", "use_radial_max": True, "radial_max": 60.0})]:
+        cone = "falloff_type" in settings
+        # A cone is asked on its axis.
+        where = place + 0.3 * np.array(scenes.turned(rotation)) if cone else at
+        own = pushed(kind, place, where, rotation, **settings)
+        hair = scenes.groom(6, moving=False)
+        field_of(kind, place, rotation, **settings)
+        motions.simulated(hair, 5)
+        path = command.folder / "pushed.toml"
+        assert bpy.ops.nabiki.write_scene(filepath=str(path), name="Hair") == {"FINISHED"}
+        origin, way = np.array(hair.nabiki.preview.location), part("axes").to_nabiki("-y")
+        force = nabiki.Scene.open(path).force_at([way @ (where - origin) * 100], 3)[0] @ way
+        own, size = own / np.linalg.norm(own), np.linalg.norm(force)
+        assert force @ own / size > 1 - 1e-4, f"{kind} {settings}: {force / size} and {own}"
+        wanted = 20 / (1 + np.linalg.norm(at - place)) if settings.get("falloff_power") else 20
+        assert abs(size - wanted) < 0.05 * wanted, f"{kind} {settings}: {size}"
+
+
 def curves_of(thing):
     """The f-curves of an object, wherever this Blender keeps them."""
     action = thing.animation_data.action

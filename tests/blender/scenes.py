@@ -157,3 +157,10 @@ def vector(of):
     from mathutils import Vector
 
     return Vector(of)
+
+
+def turned(rotation):
+    """The z axis of an object with this rotation."""
+    from mathutils import Euler
+
+    return Euler(rotation).to_matrix().col[2]
