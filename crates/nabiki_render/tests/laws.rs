@@ -1,5 +1,7 @@
 //! What must hold of every picture, whatever is on it.
 
+mod common;
+
 use glam::{Vec3, vec3};
 use nabiki::{Mesh, Pose, Strands};
 use nabiki_render::camera::direction;
@@ -45,7 +47,7 @@ fn between<'a>(before: &'a Strands, now: &'a Strands, view: View) -> FrameToDraw
 
 fn black(size: [u32; 2]) -> Picture {
     let background = Background { transparent: true, ..Background::default() };
-    Picture { size, background, ..Picture::default() }
+    Picture { size, background, lights: common::lamps(), ..Picture::default() }
 }
 
 fn mean(frame: &Frame) -> [f64; 4] {

@@ -1,5 +1,7 @@
 //! What must hold of pictures of a head that moves.
 
+mod common;
+
 use glam::{Quat, Vec2, Vec3, vec3};
 use nabiki::{Mesh, Pose, Strands};
 use nabiki_render::camera::direction;
@@ -28,7 +30,7 @@ fn hair() -> Strands {
 
 fn picture() -> Picture {
     let background = Background { transparent: true, ..Background::default() };
-    let mut picture = Picture { size: SIZE, background, ..Picture::default() };
+    let mut picture = Picture { size: SIZE, background, lights: common::lamps(), ..Picture::default() };
     picture.camera.projection = Projection::Orthographic;
     picture.camera.height = Some(40.0);
     picture.camera.target = Some(Vec3::ZERO);
