@@ -11,6 +11,7 @@ import mistakes
 import motions
 import others
 import windows
+import winds
 from command import Command
 
 
@@ -40,7 +41,7 @@ def main():
     archive, nabiki, work, shared = (Path(word) for word in sys.argv[1:5])
     install(archive)
     failed, skipped, passed = [], [], 0
-    for law in laws(motions, others, windows, mistakes):
+    for law in laws(motions, winds, others, windows, mistakes):
         if sys.argv[5:] and law.__name__ not in sys.argv[5:]:
             continue
         try:

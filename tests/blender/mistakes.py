@@ -246,5 +246,41 @@ def test_work_that_is_stopped_leaves_nothing(command, shared):
     assert jobs.running is None
 
 
+def test_a_search_that_is_stopped_leaves_the_winds_as_they_were(command, shared):
+    """Also where the wind is found already, and the preview is being moved by it; and where there was none."""
+    import importlib
+
+    wishing = importlib.import_module("bl_ext.user_default.nabiki.wishing")
+    messages = importlib.import_module("bl_ext.user_default.nabiki.messages")
+    for winds in [1, 0]:
+        hair = plain()
+        if not winds:
+            hair.nabiki.intervals.clear()
+        assert simulate() == {"FINISHED"}
+        preview = hair.nabiki.preview
+        bpy.context.scene.frame_set(6)
+        points = scenes.positions(preview.data)
+        points.reshape(-1, scenes.POINTS, 3)[:, -2:] += np.float32([0.02, 0.01, 0.0])
+        preview.data.attributes["position"].data.foreach_set("vector", points.ravel())
+        before, stages = [tuple(i.vector) for i in hair.nabiki.intervals], set()
+        for stage in ["finding the wind", "moving hair"]:
+            generator = wishing.solve(bpy.context, hair, Pressed())
+            for _, text, *_ in generator:
+                stages.add(text)
+                if text == stage:
+                    break
+            try:
+                generator.throw(messages.Cancelled())
+                raise AssertionError("went on")
+            except messages.Cancelled:
+                pass
+            assert [tuple(i.vector) for i in hair.nabiki.intervals] == before, stage
+            assert np.array_equal(scenes.positions(preview.data), points), "what a hand has moved stays"
+        assert stages == {"finding the wind", "moving hair"}
+        # And without Esc it is found.
+        assert bpy.ops.nabiki.solve() == {"FINISHED"}
+        assert len(hair.nabiki.intervals) == 1 and np.linalg.norm(hair.nabiki.intervals[0].vector) > 1
+
+
 class Pressed:
     made = None
