@@ -51,7 +51,9 @@ def test_wrong_objects_are_refused(command, shared):
     hair.data.surface = bpy.data.objects["Head"]
     assert simulate() == {"FINISHED"}
     scenes.active(bpy.data.objects["Head"])
-    refused(simulate, '"Head" is a mesh', "Curves")
+    refused(simulate, '"Head" is a mesh', "Convert to Curves")
+    bpy.ops.curve.primitive_bezier_curve_add()
+    refused(simulate, "is a curve", "Object > Convert > Curves")
     for other in bpy.context.view_layer.objects:
         other.select_set(False)
     bpy.context.view_layer.objects.active = None

@@ -111,8 +111,8 @@ def test_undo_and_redo_are_one_step_each(command, shared):
     hair.nabiki.stiffness = (3000, 300)
     scenes.active(hair)
     bpy.ops.ed.undo_push(message="before")
-    assert bpy.ops.nabiki.simulate() == {"FINISHED"}
-    bpy.ops.ed.undo_push(message="Simulate")
+    # As a press does it: the operator makes its own step of undo.
+    assert bpy.ops.nabiki.simulate("EXEC_DEFAULT", True) == {"FINISHED"}
     bpy.ops.ed.undo()
     hair = bpy.data.objects["Hair"]
     assert hair.nabiki.preview is None and not hair.hide_viewport and "Hair Preview" not in bpy.data.objects
@@ -288,6 +288,32 @@ def test_what_modifiers_make_of_the_hair_is_moved(command, shared):
     assert at_rest(preview)
 
 
+def test_hair_that_blenders_own_menus_make_is_moved(command, shared):
+    """Add > Curve > Empty Hair on a mesh, with the modifier that comes with it; particle hair, converted."""
+    for how in ["empty hair", "particles"]:
+        scenes.empty(10)
+        bpy.ops.mesh.primitive_uv_sphere_add(radius=scenes.RADIUS, location=scenes.PLACE.tolist())
+        head = bpy.context.object
+        if how == "empty hair":
+            assert bpy.ops.object.curves_empty_hair_add() == {"FINISHED"}
+            hair = bpy.context.object
+            points, offsets = scenes.strands()
+            hair.data.add_curves(np.diff(offsets).tolist())
+            hair.data.attributes["position"].data.foreach_set("vector", points.ravel())
+            assert hair.data.surface == head and hair.modifiers
+        else:
+            head.modifiers.new("Hair", "PARTICLE_SYSTEM")
+            settings = head.particle_systems[0].settings
+            settings.type, settings.count, settings.hair_length = "HAIR", 100, 0.15
+            bpy.context.view_layer.update()
+            assert bpy.ops.curves.convert_from_particle_system() == {"FINISHED"}
+            hair = bpy.context.object
+            hair.nabiki.head = head
+        scenes.interval(hair, 10, (0, 60, 0))
+        moved = motions.all_frames(motions.simulated(hair, 50))
+        assert np.abs(moved[-1] - moved[0]).max() > 0.01, how
+
+
 def test_a_copy_of_the_hair_has_a_motion_of_its_own(command, shared):
     hair, preview = blown()
     bpy.context.scene.frame_set(9)
@@ -316,3 +342,8 @@ def test_a_setting_that_changes_is_computed_again_beside_the_user(command, share
     operator.beside = True
     assert windows.in_window(jobs, operator, window, [windows.OTHER]) == {"CANCELLED"}
     assert operator.reports == [] and not at_rest(preview)
+    # And by the operator itself, as the timer calls it.
+    hair.nabiki.gravity = 170
+    assert at_rest(hair.nabiki.preview)
+    assert bpy.ops.nabiki.simulate(name=hair.name, beside=True) == {"CANCELLED"}
+    assert not at_rest(hair.nabiki.preview)

@@ -38,14 +38,13 @@ def test_the_wind_that_moved_the_hair_is_found_again(command, shared):
     hair = bpy.data.objects["Hair"]
     preview = hair.nabiki.preview
     assert np.array_equal(scenes.positions(preview.data), points)
-    assert bpy.ops.nabiki.solve() == {"FINISHED"}
+    assert bpy.ops.nabiki.solve("EXEC_DEFAULT", True) == {"FINISHED"}
     found = np.array(hair.nabiki.intervals[0].vector)
     # The law of docs/solve.md: no vector is off by more than 2.
     assert np.abs(found - [10, 60, 20]).max() <= 2, found
     bpy.context.scene.frame_set(14)
     left = np.abs(scenes.positions(hair.nabiki.preview.data) - wanted).max()
     assert left < 0.002, left
-    bpy.ops.ed.undo_push(message="Find the Wind")
     bpy.ops.ed.undo()
     assert tuple(bpy.data.objects["Hair"].nabiki.intervals[0].vector) == (0, 0, 0)
 

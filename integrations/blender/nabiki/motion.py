@@ -13,6 +13,12 @@ from .messages import Mistake
 
 PREVIEW, BAKED = " Preview", " Baked"
 
+# How what is no hair becomes hair.
+WAYS_OUT = {
+    "CURVE": ": Object > Convert > Curves makes them of it",
+    "MESH": ": Convert to Curves, in the menu beside the list of Properties > Particles, makes them of particle hair",
+}
+
 
 def chosen(context, name=""):
     """The object of curves that is meant: the one of that name, or the active one, or what its preview is of."""
@@ -23,8 +29,7 @@ def chosen(context, name=""):
         thing = thing.nabiki.of
     if thing.type != "CURVES":
         kind = thing.bl_rna.properties["type"].enum_items[thing.type].name.lower()
-        other = ": Object > Convert > Curves makes hair of particles and of old curves" if thing.type in {"CURVE", "MESH"} else ""
-        raise Mistake(f'"{thing.name}" is a {kind}, and hair is an object of curves (Add > Curve > Empty Hair){other}')
+        raise Mistake(f'"{thing.name}" is a {kind}, and Nabiki moves hair curves (Add > Curve > Empty Hair){WAYS_OUT.get(thing.type, "")}')
     if thing.library is not None or thing.override_library is not None:
         raise Mistake(f'"{thing.name}" belongs to another .blend file: make it local (Object > Relations > Make Local)')
     if context.mode != "OBJECT":
@@ -74,7 +79,7 @@ def simulate(context, thing, operator, anew=True):
     """Moves the preview of an object; yields how far it is and returns the motion. `anew`: whether the frames are read again, which
     they need not be where settings alone are another."""
     known = playing.take(thing)
-    sample = (yield from sampled(context, thing)) if anew else known.sample
+    sample = (yield from sampled(context, thing)) if anew or known.sample is None else known.sample
     plain = scene_files.values(thing.nabiki, sample.frames.start)
     key = playing.key(context.scene, thing)
     found = known.films.get(key)
