@@ -24,6 +24,10 @@ WORK = ROOT / "target" / "blender"
 OURS = ("measured: ", "SKIPPED: ", "Blender ")
 
 
+# Nothing is left beside the sources.
+sys.dont_write_bytecode = True
+
+
 def module(path):
     """A script as a module, whatever it is called."""
     spec = importlib.util.spec_from_file_location(f"{path.parent.name}_{path.stem}", path)

@@ -191,6 +191,46 @@ def test_a_bake_reads_back_with_its_velocities(command, shared):
     assert np.abs(np.array(radii) - wanted).max() <= 4 * EPS * max(wanted)
 
 
+def test_a_rendered_animation_shows_the_motion(command, shared):
+    """Rendering evaluates the scene by itself, without what is hidden in pictures: the motion goes on all the same."""
+    hair = scenes.groom(6)
+    # Thick enough for a small picture.
+    hair.data.attributes["radius"].data.foreach_set("value", np.full(len(hair.data.points), 4e-3, np.float32))
+    # Black before white: only what the hair covers changes the picture.
+    black = bpy.data.materials.new("Black")
+    black.use_nodes = True
+    black.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (0, 0, 0, 1)
+    hair.data.materials.append(black)
+    scenes.wind(70.0)
+    preview = simulated(hair, 20)
+    wanted = all_frames(preview)
+    scene = bpy.context.scene
+    scene.camera = scenes.linked("Camera", bpy.data.cameras.new("Camera"), scenes.PLACE - [0, 1, 0])
+    scene.camera.rotation_euler = (np.pi / 2, 0, 0)
+    for name in ["Head", "Ball"]:
+        bpy.data.objects[name].hide_render = True
+    scene.world = bpy.data.worlds.new("World")
+    scene.world.use_nodes = True
+    scene.world.node_tree.nodes["Background"].inputs[0].default_value = (1, 1, 1, 1)
+    scene.render.engine, scene.cycles.samples = "CYCLES", 1
+    scene.render.resolution_x = scene.render.resolution_y = 48
+    scene.render.filepath, scene.frame_end = str(command.folder / "frame"), 6
+    found = {}
+
+    def written(scene, *_):
+        found[scene.frame_current] = scenes.positions(preview.data) + np.array(preview.location)
+
+    bpy.app.handlers.render_write.append(written)
+    try:
+        bpy.ops.render.render(animation=True)
+    finally:
+        bpy.app.handlers.render_write.remove(written)
+    near(np.array([found[frame] for frame in range(1, 7)]), wanted, 0, "while it is rendered")
+    pictures = [bpy.data.images.load(str(path)) for path in sorted(command.folder.glob("frame*.png"))]
+    pixels = [np.array(picture.pixels[:]) for picture in pictures]
+    assert len(pixels) == 6 and all(np.abs(a - b).max() > 0.05 for a, b in zip(pixels, pixels[1:], strict=False))
+
+
 def test_an_alembic_bake_reads_back(command, shared):
     hair = scenes.groom(16)
     scenes.wind(70.0)
