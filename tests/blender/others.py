@@ -288,6 +288,31 @@ def test_what_modifiers_make_of_the_hair_is_moved(command, shared):
     assert at_rest(preview)
 
 
+def test_of_a_body_the_vertex_group_is_the_head(command, shared):
+    """A trunk in the same mesh changes nothing, as far as the group leaves it out: the hair may hang where it is."""
+    found = []
+    for whole in [False, True]:
+        hair = scenes.groom(12, moving=False)
+        head = bpy.data.objects["Head"]
+        if whole:
+            head.vertex_groups.new(name="skull").add(range(len(head.data.vertices)), 1.0, "REPLACE")
+            trunk = scenes.ball("Trunk", 0.3, scenes.PLACE - [0, 0, 0.4])
+            with bpy.context.temp_override(active_object=head, object=head, selected_editable_objects=[head, trunk], selected_objects=[head, trunk]):
+                assert bpy.ops.object.join() == {"FINISHED"}
+            hair.nabiki.head_group = "skull"
+        scenes.interval(hair, 12, (0, 60, 0))
+        found.append(motions.all_frames(motions.simulated(hair, 10**6)))
+    # The same numbers but for where they are rounded: the origin is the middle of the group's box.
+    assert np.abs(found[1] - found[0]).max() < 1e-6
+    # Weights decide, too: without the group's crown the motion is another, and is computed again.
+    preview, head = hair.nabiki.preview, bpy.data.objects["Head"]
+    assert not at_rest_after(preview, 8)
+    head.vertex_groups["skull"].remove([0, 1, 2])
+    head.data.update_tag()
+    bpy.context.view_layer.update()
+    assert at_rest(preview)
+
+
 def test_hair_that_blenders_own_menus_make_is_moved(command, shared):
     """Add > Curve > Empty Hair on a mesh, with the modifier that comes with it; particle hair, converted."""
     for how in ["empty hair", "particles"]:

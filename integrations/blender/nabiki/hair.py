@@ -11,6 +11,9 @@ from .messages import Mistake
 # Points of a strand that are as near as this are one (cm): a segment needs a direction.
 JOINED_CM = 1e-3
 
+# The radius that Cycles draws hair with that has none (Blender's unit).
+DRAWN = 0.005
+
 CATMULL_ROM, POLY, BEZIER, NURBS = range(4)
 
 
@@ -28,6 +31,8 @@ class Hair:
     materials: list = field(default_factory=list)
     left_out: int = 0
     """Curves that have no extent."""
+    has_radii: bool = True
+    """Whether the radii are its own, or what Blender draws hair without any with."""
 
     def __len__(self):
         return len(self.offsets) - 1
@@ -67,11 +72,12 @@ def read(evaluated, to_world, origin, unit_cm):
     if not whole.any():
         raise Mistake(f'"{name}" has only curves without extent: give them two points apart at least')
     offsets = np.concatenate([[0], np.cumsum(left[whole])])
-    radii = attributes.values(data.attributes["radius"])[:, 0] if "radius" in data.attributes else np.full(len(world), 0.005, np.float32)
+    radii = attributes.values(data.attributes["radius"])[:, 0] if "radius" in data.attributes else np.full(len(world), DRAWN, np.float32)
     # A radius is not turned, so a scaled object scales it by the mean of its axes.
     radii = radii * np.float32(abs(np.linalg.det(to_world[:3, :3])) ** (1 / 3))
     hair = Hair(world[kept].astype(np.float32), offsets, radii[kept], bool((kinds == CATMULL_ROM).all()))
     hair.materials, hair.left_out = [slot.name if slot else None for slot in data.materials], int((~whole).sum())
+    hair.has_radii = "radius" in data.attributes
     for attribute in data.attributes:
         if attribute.name in attributes.OWN or attribute.name == "radius" or attribute.name.startswith("."):
             continue
@@ -102,7 +108,8 @@ def make(name, hair, strands, smooth):
     if not smooth and hasattr(data, "set_types"):
         data.set_types(type="POLY")
     attributes.put(data, "position", "FLOAT_VECTOR", "POINT", hair.points[points])
-    attributes.put(data, "radius", "FLOAT", "POINT", hair.radii[points])
+    if hair.has_radii:
+        attributes.put(data, "radius", "FLOAT", "POINT", hair.radii[points])
     for attribute, (kind, rows) in hair.by_point.items():
         attributes.put(data, attribute, kind, "POINT", rows[points])
     for attribute, (kind, rows) in hair.by_strand.items():
