@@ -80,6 +80,11 @@ def test_the_written_scene_is_the_one_that_was_simulated(command, shared):
     known = command.frames("written.toml", "--strands", 50)
     # The same inputs to the bit, so only the points' own roundings differ: into the world, and into metres.
     near(found, commands.in_blender(known, np.array(hair.nabiki.preview.location)), 0, "the written scene")
+    # It goes wherever its folder goes.
+    (command.folder / "moved").mkdir()
+    for name in ["written", "written.toml"]:
+        (command.folder / name).rename(command.folder / "moved" / name)
+    assert np.array_equal(command.frames("moved/written.toml", "--strands", 50), known)
 
 
 def test_sintels_groom_moves_as_the_command_moves_it(command, shared):

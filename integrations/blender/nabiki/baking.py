@@ -11,6 +11,9 @@ from .messages import Mistake
 
 ENDINGS = (".usdc", ".usda", ".abc")
 
+# Bytes of a file at either end.
+LOOKED_AT = 1 << 20
+
 # Where the hair is in the files that nabiki writes.
 PRIM = {".usdc": "/head/hair", ".usda": "/head/hair", ".abc": "/head/hair"}
 
@@ -27,7 +30,17 @@ def place(thing):
         raise Mistake(f'"{path.name}" ends in none of {", ".join(ENDINGS)}: give the cache such a name')
     if not path.parent.is_dir():
         raise Mistake(f'there is no folder "{path.parent}": make it, or name another in Nabiki > Cache')
+    if path.is_dir() or (path.exists() and not ours(path)):
+        raise Mistake(f'"{path.name}" is there already and is no cache of Nabiki: name another file in Nabiki > Cache')
     return given, path
+
+
+def ours(path):
+    """Whether nabiki has written a file: its formats say so near one of their ends."""
+    with open(path, "rb") as file:
+        found = file.read(LOOKED_AT)
+        file.seek(max(0, path.stat().st_size - LOOKED_AT))
+        return b"Nabiki" in found or b"Nabiki" in file.read()
 
 
 def bake(context, thing, operator):

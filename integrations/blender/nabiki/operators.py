@@ -1,5 +1,6 @@
 """The buttons."""
 
+import shutil
 from pathlib import Path
 
 import bpy
@@ -121,12 +122,19 @@ class NABIKI_OT_write_scene(jobs.Working, Named, ExportHelper, bpy.types.Operato
         thing = motion.chosen(context, self.name)
         path = Path(bpy.path.abspath(self.filepath))
         if path.suffix != ".toml" or not path.parent.is_dir():
-            raise Mistake(f'"{path}" is no place for a scene: name a .toml file in a folder that is there')
+            raise Mistake(f'"{path.name}" is no place for a scene: name a .toml file in a folder that is there')
+        folder = path.with_suffix("")
+        if folder.exists() and not folder.is_dir():
+            raise Mistake(f'"{folder.name}" is a file, and the folder of the scene\'s files is called so: name the scene otherwise')
         sample = yield from motion.sampled(context, thing)
         plain = scene_files.values(thing.nabiki, sample.frames.start)
-        self.made = made = scene_files.write(sample, plain, path.with_suffix(""))
-        yield from jobs.on_thread(lambda progress: scene_files.build(made, plain), "checking the scene")
-        made.scene.save(path)
+        with motion.folder() as place:
+            self.made = made = scene_files.write(sample, plain, place)
+            yield from jobs.on_thread(lambda progress: scene_files.build(made, plain), "checking the scene")
+            # Only what is right gets its place, and is named from there.
+            shutil.copytree(place, folder, dirs_exist_ok=True)
+            text = made.scene.to_toml().replace(f"{Path(place).as_posix()}/", f"{folder.name}/")
+            path.write_text(text, encoding="utf-8")
         return f"wrote {path}", made.notes
 
 

@@ -51,12 +51,12 @@ def write(sample, plain, folder, apart=()):
     count = len(sample.frames) - 1
 
     def named(file, name):
-        made.names[str(file)] = name
-        return str(file)
+        made.names[file.as_posix()] = name
+        return file.as_posix()
 
     def track(body, file):
         _write_track(file, body.ways, sample.unit_cm, sample.rate)
-        return {"file": str(file), "up": "+z", "facing": plain["facing"]}
+        return {"file": file.as_posix(), "up": "+z", "facing": plain["facing"]}
 
     head, hair = folder / "head.ply", folder / "hair.hair"
     _write_mesh(head, sample.head)
