@@ -11,6 +11,7 @@ use crate::camera::{NEAR, View};
 use crate::colour;
 use crate::curve::{Curves, bounds, drawable};
 use crate::frame::Frame;
+use crate::light::approx::exp_of_negative;
 use crate::light::fibre::Fibre;
 use crate::light::headlight::SolidShadows;
 use crate::light::kajiya::KajiyaKay;
@@ -28,6 +29,8 @@ use crate::skin::{SkinLight, SkinView, Solids, placed};
 use crate::timing::{Stage, Timing};
 use crate::tone_mapping::linear_from_srgb;
 
+/// How far off the skin (cm) it is asked how much hair lies before it: roots lie within.
+const OFF_SKIN: f32 = 0.15;
 /// How far a piece may leave traces beyond its own width (pixels): a cell, and its overhang.
 const MARGIN: f32 = 1.25;
 
@@ -49,6 +52,7 @@ pub struct Renderer {
     bins: Bins,
     sweeps: Vec<Sweep>,
     sky_map: SkyMap,
+    receivers: Vec<Vec3>,
     zenith: Vec3,
     still: Option<Still>,
     timing: Timing,
@@ -110,6 +114,7 @@ impl Renderer {
             bins: Bins::default(),
             sweeps: Vec::new(),
             sky_map: SkyMap::default(),
+            receivers: Vec::new(),
             zenith: Vec3::Y,
             still: None,
             timing: Timing::default(),
@@ -215,7 +220,7 @@ impl Renderer {
             Vec::new()
         };
         let skin = SkinView::new(&self.solids, &exposure.shot);
-        let skin_places = skin.pixels.iter().map(|p| p.position + 0.15 * p.normal).collect();
+        let skin_places = skin.pixels.iter().map(|p| p.position + OFF_SKIN * p.normal).collect();
         let skin_unhidden = SkinLight::unhidden(&skin.pixels, &solid_shadows);
         let painted =
             if self.face { SkinLight::painted(&skin.pixels, self.skins[0], self.hair_colour()) } else { Vec::new() };
@@ -292,23 +297,53 @@ impl Renderer {
         let nodes = &self.curves.nodes;
         let lamps: &[Lamp] = if self.picture.shadows { &still.lamps } else { &[] };
         let bounds = bounds(nodes);
+        let (occluded, sky_map) = (self.picture.sky.is_occluded(), &mut self.sky_map);
+        // What falls onto skin is to be known where it is seen, and where it lights hair.
+        self.receivers.clear();
+        self.receivers.extend_from_slice(&still.skin_places);
+        if occluded {
+            sky_map.lay_out(bounds, (&self.head, &still.bodies));
+            self.receivers.extend(sky_map.skin().iter().map(|skin| skin.place + OFF_SKIN * skin.normal));
+        }
         let scene =
-            Scene { nodes, radius: &self.radius, skin: &still.skin_places, width: self.picture.hair.width, bounds };
+            Scene { nodes, radius: &self.radius, skin: &self.receivers, width: self.picture.hair.width, bounds };
         self.sweeps.resize_with(lamps.len(), Sweep::default);
-        let (sweeps, sky_map) = (&mut self.sweeps, &mut self.sky_map);
-        let sky = &self.picture.sky;
+        let sweeps = &mut self.sweeps;
         // As many tasks as there are threads, and no more: each looks through all nodes.
         let strips = rayon::current_num_threads().div_ceil(lamps.len().max(1));
         let cast = || {
             sweeps.par_iter_mut().zip(lamps).for_each(|(sweep, lamp)| sweep.run(lamp, &scene, strips));
         };
         let cover = || {
-            if sky.is_occluded() {
-                sky_map.fill(nodes, bounds, &self.radius, (&self.head, &still.bodies), self.zenith, view);
+            if occluded {
+                sky_map.fill(nodes, &self.radius, self.zenith);
             }
         };
         // Parts of each run on one core only; side by side they fill each other's gaps.
         rayon::join(cover, cast);
+        if occluded {
+            let crossings: Vec<&Crossings> = self.sweeps.iter().map(|s| &s.crossings).collect();
+            let white = |colour: [f32; 3]| 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
+            // The head's colour is that of all light from skin: a body counts as much more or less as it is lighter or darker.
+            let as_head = |solid: u16| white(self.skins[usize::from(solid)]) / white(self.skins[0]).max(1e-3);
+            let sky = &self.picture.sky;
+            let first = nodes.len() + still.skin_places.len();
+            self.sky_map.gather(view, |map, i, skin| {
+                let place = skin.place + OFF_SKIN * skin.normal;
+                let mut lit = 0.0;
+                for (l, lamp) in still.lamps.iter().enumerate() {
+                    let facing = skin.normal.dot(lamp.toward).max(0.0);
+                    let hair = crossings.get(l).map_or(1.0, |c| exp_of_negative(-c.at(first + i)));
+                    let solid =
+                        still.solid_shadows.get(l).map_or(1.0, |s| s.visible(&place.to_array().map(|c| [c]))[0]);
+                    lit += white(lamp.strength) * facing * hair * solid;
+                }
+                let up = 0.5 + 0.5 * skin.normal.dot(self.zenith);
+                let [above, below, _] = map.on_surface(skin.place + 0.9 * skin.normal, skin.normal);
+                let sky = sky.strength * (white(sky.above) * up * above + white(sky.below) * (1.0 - up) * below);
+                (lit + sky) * as_head(skin.solid)
+            });
+        }
     }
 
     /// Lights all nodes.
@@ -324,6 +359,7 @@ impl Renderer {
             solid_shadows: &still.solid_shadows,
             sky: &self.picture.sky,
             sky_map: self.occluded_sky(),
+            skin: self.skins[0],
             view,
         };
         hair.shade(&self.curves.nodes, &mut nodes);

@@ -5,7 +5,7 @@ mod common;
 use glam::{Vec3, vec3};
 use nabiki::{Mesh, Pose, Strands};
 use nabiki_render::camera::direction;
-use nabiki_render::settings::{Antialiasing, Background, Projection, Shading};
+use nabiki_render::settings::{Antialiasing, Background, HairColour, Projection, Shading, Sky};
 use nabiki_render::{Bounds, Frame, FrameToDraw, Moment, Picture, Renderer, ToneMapping, View};
 use proptest::prelude::*;
 
@@ -185,6 +185,23 @@ fn no_edge_of_a_tile_shows() {
     // Three standard errors of the mean over five edges: the absolute value of what is spread normally deviates by three quarters
     // of its mean.
     assert!(mean(true) < (1.0 + 3.0 * 0.75 / 5.0_f64.sqrt()) * mean(false), "{} {}", mean(true), mean(false));
+}
+
+#[test]
+fn nothing_is_brighter_than_the_even_sky_that_lights_it() {
+    // White skin and clear hair, which take nothing away.
+    let mut picture = black([96, 96]);
+    picture.lights.clear();
+    picture.sky = Sky { strength: 1.0, above: [1.0; 3], below: [1.0; 3], ..Sky::default() };
+    picture.hair.colour = HairColour::Melanin { eumelanin: 0.0, pheomelanin: 0.0 };
+    picture.head.colour = [1.0; 3];
+    for strands in [0, 300, 6000] {
+        let frame = draw(&picture, &wisps(strands, 12));
+        let brightest = frame.rgba.iter().filter(|p| p[3] > 0.5).map(|p| p[1] / p[3]).fold(0.0, f32::max);
+        // What the eye's side sends and what comes from behind are weighted softly, so both count some light from beside a hair:
+        // among sparse hair over white skin, a twentieth.
+        assert!(brightest < 1.06 && brightest > 0.5, "{strands} strands: {brightest}");
+    }
 }
 
 #[test]

@@ -17,7 +17,7 @@ use super::headlight::SolidShadows;
 use super::kajiya::KajiyaKay;
 use super::lamps::Lamp;
 use super::shadow::Crossings;
-use super::sky::{BEHIND_ABOVE, BEHIND_BELOW, FRONT_ABOVE, FRONT_BELOW, SkyMap};
+use super::sky::{ARRIVING, BEHIND_ABOVE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BELOW, FRONT_GLOW, SkyMap};
 use crate::camera::View;
 use crate::colour::of_strand;
 use crate::curve::CurveNode;
@@ -61,6 +61,8 @@ pub struct HairLight<'a> {
     pub solid_shadows: &'a [SolidShadows],
     pub sky: &'a Sky,
     pub sky_map: Option<&'a SkyMap>,
+    /// Colour of the skin that sends light back (linear).
+    pub skin: [f32; 3],
     pub view: &'a View,
 }
 
@@ -115,14 +117,15 @@ impl HairLight<'_> {
 
     /// What arrives of the sky, as [`SkyMap::at`] has it.
     #[inline(always)]
-    fn sky_at<const N: usize>(&self, places: &[[f32; N]; 3]) -> [[f32; N]; 4] {
-        self.sky_map.map_or([[0.5; N]; 4], |s| s.at(places))
+    fn sky_at<const N: usize>(&self, places: &[[f32; N]; 3]) -> [[f32; N]; ARRIVING] {
+        let open = [[0.5; N], [0.5; N], [0.5; N], [0.5; N], [0.0; N], [0.0; N]];
+        self.sky_map.map_or(open, |s| s.at(places))
     }
 
     fn kajiya(&self, model: &KajiyaKay, i: usize, node: &CurveNode) -> [f32; 3] {
         let eye = self.view.toward_eye(node.position);
         let place = node.position.to_array().map(|c| [c]);
-        let [[front_above], [front_below], [behind_above], [behind_below]] = self.sky_at(&place);
+        let [[front_above], [front_below], [behind_above], [behind_below], ..] = self.sky_at(&place);
         let (above, below) = (0.5 * (front_above + behind_above), 0.5 * (front_below + behind_below));
         let mut light: [f32; 3] = std::array::from_fn(|c| {
             self.sky.strength * model.colour[c] * (self.sky.above[c] * above + self.sky.below[c] * below)
@@ -192,15 +195,21 @@ impl HairLight<'_> {
                 rows.again[c][lane] = again;
                 // What hair in the way scatters forward arrives as well: on both sides as much more than what is open as the
                 // mean depth of the hair there says.
-                let arrives = |above: f32, below: f32| {
-                    let open = (above + below).clamp(1e-6, 1.0);
+                let more = |open: f32| {
+                    let open = open.clamp(1e-6, 1.0);
                     let scattered = exp_of_negative(ln(open) * (1.0 - a).max(0.0));
-                    let more = 1.0 + SKY_DENSITY * (scattered / open - 1.0).max(0.0);
-                    (self.sky.above[c] * above + self.sky.below[c] * below) * more
+                    1.0 + SKY_DENSITY * (scattered / open - 1.0).max(0.0)
                 };
-                let front = arrives(sky[FRONT_ABOVE][lane], sky[FRONT_BELOW][lane]);
-                let behind = arrives(sky[BEHIND_ABOVE][lane], sky[BEHIND_BELOW][lane]);
-                light[c][lane] = self.sky.strength * (front * (b + SKY_DENSITY * again) + behind * a);
+                let colour = |above: f32, below: f32| self.sky.above[c] * above + self.sky.below[c] * below;
+                let (above, below) = (sky[FRONT_ABOVE][lane], sky[FRONT_BELOW][lane]);
+                let front = self.sky.strength * colour(above, below) * more(above + below)
+                    + self.skin[c] * sky[FRONT_GLOW][lane];
+                let (above, below) = (sky[BEHIND_ABOVE][lane], sky[BEHIND_BELOW][lane]);
+                let gain = more(above + below);
+                let behind = self.sky.strength * colour(above, below) * gain + self.skin[c] * sky[BEHIND_GLOW][lane];
+                // Where it is open behind there is no hair that sends back.
+                let again = SKY_DENSITY * again * (1.0 - (above + below) * gain).max(0.0);
+                light[c][lane] = front * (b + again) + behind * a;
             }
         }
 

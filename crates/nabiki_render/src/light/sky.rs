@@ -32,7 +32,12 @@ pub const FRONT_ABOVE: usize = 0;
 pub const FRONT_BELOW: usize = 1;
 pub const BEHIND_ABOVE: usize = 2;
 pub const BEHIND_BELOW: usize = 3;
-type Arriving = [f32; 4];
+/// The same of the light that skin sends back, in parts of what an even white surface under it would show.
+pub const FRONT_GLOW: usize = 4;
+pub const BEHIND_GLOW: usize = 5;
+/// How many numbers a cell has.
+pub const ARRIVING: usize = 6;
+type Arriving = [f32; ARRIVING];
 
 /// A lattice direction in which light travels.
 struct Direction {
@@ -50,28 +55,40 @@ pub struct SkyMap {
     low: Vec3,
     cell: f32,
     size: UVec3,
+    /// What hair takes of light that crosses a cell, and what all takes: optical depths.
+    hair: Vec<f32>,
     taken: Vec<f32>,
     directions: Vec<Direction>,
+    /// What each cell leaves of light that crosses it straight, and aslant.
+    through: [Vec<f32>; 2],
     carried: Vec<Vec<f32>>,
     arriving: Vec<Arriving>,
-    /// What the head's skin takes of the light in each cell, by the cell's place on the lattice through the origin.
-    skin: Vec<(IVec3, f32)>,
-    /// Edge of those cells.
-    skin_of: Option<f32>,
+    /// The cells that the head's skin passes through, and their edge.
+    head: Vec<SkinCell>,
+    head_of: Option<f32>,
+    /// Those within the map, the head's and the bodies', and the mean light that falls onto each.
+    skin: Vec<SkinCell>,
+    lit: Vec<f32>,
+    glow: Vec<Vec<f32>>,
+}
+
+/// A cell that the surface of a head or body passes through.
+#[derive(Clone, Copy)]
+pub struct SkinCell {
+    /// Its place on the lattice through the origin.
+    cell: IVec3,
+    /// Optical depth of the skin in it.
+    depth: f32,
+    /// Mean place and unit normal of the skin (head space, cm).
+    pub place: Vec3,
+    pub normal: Vec3,
+    /// The head's is 0, the bodies' follow.
+    pub solid: u16,
 }
 
 impl SkyMap {
-    /// Carries the sky's light through the hair (its box and half thicknesses `radius`, cm) and past the head and the `bodies`; `zenith`
-    /// is above (unit), and the view has the eye.
-    pub fn fill(
-        &mut self,
-        nodes: &[CurveNode],
-        [mut low, mut high]: [Vec3; 2],
-        radius: &[f32],
-        (head, bodies): (&Mesh, &[Mesh]),
-        zenith: Vec3,
-        view: &View,
-    ) {
+    /// Lays out the cells about hair (its box) and finds the skin in them, the head's and that of the `bodies`.
+    pub fn lay_out(&mut self, [mut low, mut high]: [Vec3; 2], (head, bodies): (&Mesh, &[Mesh])) {
         if !low.is_finite() {
             (low, high) = (Vec3::ZERO, Vec3::ZERO);
         }
@@ -81,19 +98,62 @@ impl SkyMap {
         let border = 2.0;
         self.low = ((low / self.cell).floor() - border) * self.cell;
         self.size = ((high - self.low) / self.cell).ceil().as_uvec3() + UVec3::splat(border as u32 + 1);
+        // The head stands still: where its skin is, is worked out once for each size of cell.
+        if self.head_of != Some(self.cell) {
+            self.head = skin_cells(head, self.cell, 0);
+            self.head_of = Some(self.cell);
+        }
+        let (first, size) = ((self.low / self.cell).round().as_ivec3(), self.size.as_ivec3());
+        let within = |skin: &SkinCell| {
+            let c = skin.cell - first;
+            c.cmpge(IVec3::ZERO).all() && c.cmplt(size).all()
+        };
+        self.skin.clear();
+        self.skin.extend(self.head.iter().copied().filter(within));
+        for (i, body) in bodies.iter().enumerate() {
+            self.skin.extend(skin_cells(body, self.cell, i as u16 + 1).into_iter().filter(within));
+        }
+    }
+
+    /// The skin in the cells.
+    pub fn skin(&self) -> &[SkinCell] {
+        &self.skin
+    }
+
+    /// Carries the sky's light through the hair (half thicknesses `radius`, cm) and past the skin; `zenith` is above (unit).
+    pub fn fill(&mut self, nodes: &[CurveNode], radius: &[f32], zenith: Vec3) {
+        // What skin sends out is not known yet, and not that of the frame before.
+        self.glow.iter_mut().for_each(Vec::clear);
         self.taken.clear();
         self.taken.resize(self.size.element_product() as usize, 0.0);
         self.lay_hair(nodes, radius);
-        self.lay_head(head);
-        bodies.iter().for_each(|body| self.lay_skin(&skin_cells(body, self.cell)));
+        self.hair.clone_from(&self.taken);
+        for i in 0..self.skin.len() {
+            let at = self.index_of(&self.skin[i]);
+            self.taken[at] += self.skin[i].depth;
+        }
         self.carry(zenith);
-        self.gather(view);
     }
 
-    /// What arrives at places (x, y and z of all of them), from the four quarters that the constants name; outside of the cells, what
+    /// Sums what arrives in each cell for the eye of a view. `lit` is the light that falls onto the skin in each of its cells: skin sends it
+    /// on as an even white surface would.
+    pub fn gather(&mut self, view: &View, lit: impl Fn(&Self, usize, &SkinCell) -> f32 + Sync) {
+        let mut of_skin = std::mem::take(&mut self.lit);
+        let this = &*self;
+        (0..this.skin.len())
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|i| lit(this, i, &this.skin[i]))
+            .collect_into_vec(&mut of_skin);
+        self.lit = of_skin;
+        self.carry_glow();
+        self.sum(view);
+    }
+
+    /// What arrives at places (x, y and z of all of them), as the constants name it; outside of the cells, what
     /// arrives at their border.
     #[inline(always)]
-    pub fn at<const N: usize>(&self, places: &[[f32; N]; 3]) -> [[f32; N]; 4] {
+    pub fn at<const N: usize>(&self, places: &[[f32; N]; 3]) -> [[f32; N]; ARRIVING] {
         let last = (self.size.as_vec3() - 1.001).max(Vec3::ZERO);
         let per_cell = 1.0 / self.cell;
         let c: [[f32; N]; 3] = std::array::from_fn(|axis| {
@@ -104,14 +164,14 @@ impl SkyMap {
         let base = c.map(|c| c.map(|c| c as i32));
         let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
         // All that is read first, so that the waits for memory go on side by side.
-        let mut corners = [[[0.0; N]; 4]; 8];
+        let mut corners = [[[0.0; N]; ARRIVING]; 8];
         for n in 0..N {
             let [x, y, z] = [0, 1, 2].map(|axis| base[axis][n] as usize);
             let at = x + row * y + slice * z;
             for (line, pair) in [0, row, slice, slice + row].into_iter().zip(corners.chunks_exact_mut(2)) {
                 let cells = &self.arriving[at + line..at + line + 2];
                 for (corner, cell) in pair.iter_mut().zip(cells) {
-                    for quarter in 0..4 {
+                    for quarter in 0..ARRIVING {
                         corner[quarter][n] = cell[quarter];
                     }
                 }
@@ -130,29 +190,41 @@ impl SkyMap {
         })
     }
 
-    /// The shares of the sky above and of that below, 0..1 each, that arrive at a place on a surface with this unit normal.
-    pub fn on_surface(&self, place: Vec3, normal: Vec3) -> [f32; 2] {
+    /// The shares of the sky above and of that below, 0..1 each, that arrive at a place on a surface with this unit normal, and the
+    /// light that other skin sends there.
+    pub fn on_surface(&self, place: Vec3, normal: Vec3) -> [f32; 3] {
         let last = (self.size.as_vec3() - 1.001).max(Vec3::ZERO);
         let c = ((place - self.low) / self.cell - 0.5).clamp(Vec3::ZERO, last);
         let base = c.as_uvec3();
         let f = c - base.as_vec3();
         let at = self.index(base);
         let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
-        let (mut arrives, mut all) = ([0.0_f32; 2], [1e-12_f32; 2]);
-        for (direction, light) in self.directions.iter().zip(&self.carried) {
+        let (mut arrives, mut all) = ([0.0_f32; 3], [1e-12_f32; 3]);
+        for (n, (direction, light)) in self.directions.iter().zip(&self.carried).enumerate() {
             let facing = direction.weight * normal.dot(direction.from);
             if facing <= 0.0 {
                 continue;
             }
-            let line = |i: usize| light[i] + (light[i + 1] - light[i]) * f.x;
-            let plane = |i: usize| line(i) + (line(i + row) - line(i)) * f.y;
-            let open = plane(at) + (plane(at + slice) - plane(at)) * f.z;
+            let between = |light: &[f32]| {
+                let line = |i: usize| light[i] + (light[i + 1] - light[i]) * f.x;
+                let plane = |i: usize| line(i) + (line(i + row) - line(i)) * f.y;
+                plane(at) + (plane(at + slice) - plane(at)) * f.z
+            };
+            let open = between(light);
             for half in 0..2 {
                 arrives[half] += facing * direction.halves[half] * open;
                 all[half] += facing * direction.halves[half];
             }
+            // Skin to the side is mostly the same that curves away; what faces it counts.
+            let facing = facing * facing;
+            arrives[2] += facing * self.glow.get(n).filter(|glow| !glow.is_empty()).map_or(0.0, |glow| between(glow));
+            all[2] += facing;
         }
-        [0, 1].map(|half| arrives[half] / all[half])
+        std::array::from_fn(|i| arrives[i] / all[i])
+    }
+
+    fn index_of(&self, skin: &SkinCell) -> usize {
+        self.index((skin.cell - (self.low / self.cell).round().as_ivec3()).as_uvec3())
     }
 
     fn index(&self, c: UVec3) -> usize {
@@ -191,29 +263,6 @@ impl SkyMap {
         }
     }
 
-    /// Marks the cells that the head's skin passes through. It stands still: which they are is worked out once for each size
-    /// of cell.
-    fn lay_head(&mut self, head: &Mesh) {
-        if self.skin_of != Some(self.cell) {
-            self.skin = skin_cells(head, self.cell);
-            self.skin_of = Some(self.cell);
-        }
-        let skin = std::mem::take(&mut self.skin);
-        self.lay_skin(&skin);
-        self.skin = skin;
-    }
-
-    fn lay_skin(&mut self, skin: &[(IVec3, f32)]) {
-        let low = (self.low / self.cell).round().as_ivec3();
-        for &(cell, depth) in skin {
-            let c = cell - low;
-            if c.cmpge(IVec3::ZERO).all() && c.cmplt(self.size.as_ivec3()).all() {
-                let at = self.index(c.as_uvec3());
-                self.taken[at] += depth;
-            }
-        }
-    }
-
     /// Carries light along the lattice directions, one after the other, slice by slice.
     fn carry(&mut self, zenith: Vec3) {
         self.directions.clear();
@@ -235,28 +284,59 @@ impl SkyMap {
         self.carried.resize_with(self.directions.len(), Vec::new);
         let size = self.size;
         self.carried.par_iter_mut().zip(&self.directions).for_each(|(light, d)| {
-            carry_along(d.step, size, if squared_length(d.step) == 1 { &straight } else { &aslant }, light);
+            light.clear();
+            light.resize(straight.len(), 1.0);
+            carry_along::<false>(d.step, size, if squared_length(d.step) == 1 { &straight } else { &aslant }, light);
+        });
+        self.through = [straight, aslant];
+    }
+
+    /// Carries the light that skin sends out, likewise: it arrives in the skin's own cell and in the next, and goes on from there.
+    fn carry_glow(&mut self) {
+        self.glow.resize_with(self.directions.len(), Vec::new);
+        let places: Vec<usize> = self.skin.iter().map(|skin| self.index_of(skin)).collect();
+        let (size, skin, lit, taken, through) = (self.size, &self.skin, &self.lit, &self.taken, &self.through);
+        let hair = &self.hair;
+        self.glow.par_iter_mut().zip(&self.directions).for_each(|(glow, d)| {
+            let through = &through[usize::from(squared_length(d.step) != 1)];
+            glow.clear();
+            glow.resize(taken.len(), 0.0);
+            for ((&at, skin), &lit) in places.iter().zip(skin).zip(lit) {
+                // Only outward, away from where this direction's light comes from.
+                if skin.normal.dot(d.from) < 0.0 {
+                    let sent = lit * (1.0 - through[at]) * (skin.depth / taken[at]).min(1.0);
+                    glow[at] += sent;
+                    let next = at as i32 + d.step[0] + size.x as i32 * (d.step[1] + size.y as i32 * d.step[2]);
+                    if let Some(next) = usize::try_from(next).ok().and_then(|next| glow.get_mut(next)) {
+                        *next += sent * exp_of_negative(-0.5 * hair[at]);
+                    }
+                }
+            }
+            carry_along::<true>(d.step, size, through, glow);
         });
     }
 
     /// Sums what arrives in each cell over the directions, as its eye sees it.
-    fn gather(&mut self, view: &View) {
+    fn sum(&mut self, view: &View) {
         self.arriving.resize(self.taken.len(), Arriving::default());
         let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
-        let (low, cell, carried, taken, directions) =
-            (self.low, self.cell, &self.carried, &self.taken, &self.directions);
+        let (low, cell, taken, directions) = (self.low, self.cell, &self.taken, &self.directions);
+        let (carried, glow, hair) = (&self.carried, &self.glow, &self.hair);
         self.arriving.par_chunks_mut(row).enumerate().for_each(|(line, arriving)| {
             let first = line * row;
             let start = low + cell * (Vec3::new(0.0, (first % slice / row) as f32, (first / slice) as f32) + 0.5);
             let eye: Vec<Vec3> = (0..row).map(|x| view.toward_eye(start + Vec3::X * cell * x as f32)).collect();
             arriving.fill(Arriving::default());
-            for (d, light) in directions.iter().zip(carried) {
+            for ((d, light), glow) in directions.iter().zip(carried).zip(glow) {
                 let [above, below] = d.halves.map(|half| d.weight * half);
-                for ((a, &l), e) in arriving.iter_mut().zip(&light[first..]).zip(&eye) {
+                for (((a, &l), &g), e) in arriving.iter_mut().zip(&light[first..]).zip(&glow[first..]).zip(&eye) {
                     let aside = e.dot(d.from);
                     // Each of mean 1 over all directions. What passes through a fibre goes on nearly straight.
                     let away = (1.0 - aside) * (1.0 - aside);
-                    let (front, behind) = (l * (1.0 + aside), l * away * away * (1.0 / 3.2));
+                    let (before, after) = (1.0 + aside, away * away * (1.0 / 3.2));
+                    let (front, behind) = (l * before, l * after);
+                    a[FRONT_GLOW] += d.weight * g * before;
+                    a[BEHIND_GLOW] += d.weight * g * after;
                     a[FRONT_ABOVE] += above * front;
                     a[FRONT_BELOW] += below * front;
                     a[BEHIND_ABOVE] += above * behind;
@@ -264,7 +344,8 @@ impl SkyMap {
                 }
             }
             // What the eye sees of a cell lies on its near side: what comes from behind has to cross all of it.
-            for (a, t) in arriving.iter_mut().zip(&taken[first..]) {
+            for ((a, t), hair) in arriving.iter_mut().zip(&taken[first..]).zip(&hair[first..]) {
+                a[BEHIND_GLOW] *= exp_of_negative(-hair);
                 let own = exp_of_negative(-t);
                 a[BEHIND_ABOVE] *= own;
                 a[BEHIND_BELOW] *= own;
@@ -273,12 +354,14 @@ impl SkyMap {
     }
 }
 
-/// Cells of edge `cell` that a surface passes through, each with the optical depth of what lies in it.
-fn skin_cells(solid: &Mesh, cell: f32) -> Vec<(IVec3, f32)> {
-    let mut shares: Vec<([i32; 3], f32)> = Vec::new();
-    for triangle in &solid.triangles {
-        let [a, b, c] = triangle.map(|v| solid.positions[v as usize]);
-        let area = 0.5 * (b - a).cross(c - a).length();
+/// Cells of edge `cell` that a surface passes through.
+fn skin_cells(mesh: &Mesh, cell: f32, solid: u16) -> Vec<SkinCell> {
+    // Of each bit of the surface: its cell, its share of a cell's face, its place and normal times that.
+    let mut shares: Vec<([i32; 3], f32, Vec3, Vec3)> = Vec::new();
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|v| mesh.positions[v as usize]);
+        let across = (b - a).cross(c - a);
+        let (area, normal) = (0.5 * across.length(), across.normalize_or_zero());
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
         let steps = (2.0 * longest / cell).ceil().clamp(1.0, 64.0) as usize;
         let share = area / (steps * steps) as f32 / (cell * cell);
@@ -289,28 +372,28 @@ fn skin_cells(solid: &Mesh, cell: f32) -> Vec<(IVec3, f32)> {
                 if u + v > 1.0 {
                     (u, v) = (1.0 - u, 1.0 - v);
                 }
-                let p = (a + (b - a) * u + (c - a) * v) / cell;
-                shares.push((p.floor().as_ivec3().to_array(), share));
+                let p = a + (b - a) * u + (c - a) * v;
+                shares.push(((p / cell).floor().as_ivec3().to_array(), share, share * p, share * normal));
             }
         }
     }
     // Stable, so that the shares of a cell are always added in one order.
-    shares.sort_by_key(|&(cell, _)| cell);
+    shares.sort_by_key(|share| share.0);
     let of_cells = shares.chunk_by(|a, b| a.0 == b.0);
     of_cells
         .map(|of_cell| {
-            let marked: f32 = of_cell.iter().map(|(_, share)| share).sum();
-            (IVec3::from(of_cell[0].0), SKIN * marked.min(1.5))
+            let marked: f32 = of_cell.iter().map(|share| share.1).sum();
+            let place = of_cell.iter().map(|share| share.2).sum::<Vec3>() / marked.max(1e-12);
+            let normal = of_cell.iter().map(|share| share.3).sum::<Vec3>().normalize_or_zero();
+            SkinCell { cell: IVec3::from(of_cell[0].0), depth: SKIN * marked.min(1.5), place, normal, solid }
         })
         .collect()
 }
 
 /// Light that arrives in each cell from direction `-d`, before the cell takes its own part; `through` is what a cell
-/// leaves of it.
-fn carry_along(d: [i32; 3], size: UVec3, through: &[f32], light: &mut Vec<f32>) {
+/// leaves of it. It takes the place of what is in the cells, or is added to it; the border's cells stay as they are.
+fn carry_along<const ADDED: bool>(d: [i32; 3], size: UVec3, through: &[f32], light: &mut [f32]) {
     let [nx, ny, nz] = [size.x, size.y, size.z].map(|n| n as i32);
-    light.clear();
-    light.resize(through.len(), 1.0);
     let order = |n: i32, step: i32| (0..n).map(move |i| if step < 0 { n - 1 - i } else { i });
     for z in order(nz, d[2]) {
         for y in order(ny, d[1]) {
@@ -325,7 +408,8 @@ fn carry_along(d: [i32; 3], size: UVec3, through: &[f32], light: &mut Vec<f32>) 
                     let fx = x - d[0];
                     if (0..nx).contains(&fx) {
                         let i = from + fx as usize;
-                        light[here + x as usize] = light[i] * through[i];
+                        let before = if ADDED { light[here + x as usize] } else { 0.0 };
+                        light[here + x as usize] = before + light[i] * through[i];
                     }
                 }
                 continue;
@@ -342,7 +426,7 @@ fn carry_along(d: [i32; 3], size: UVec3, through: &[f32], light: &mut Vec<f32>) 
             let through = &through[from + from_x..][..count];
             for ((to, &light), &through) in to[first..][..count].iter_mut().zip(&source[from_x..][..count]).zip(through)
             {
-                *to = light * through;
+                *to = if ADDED { *to } else { 0.0 } + light * through;
             }
         }
     }
@@ -383,7 +467,9 @@ mod tests {
         let bounds = crate::curve::bounds(&nodes);
         let filled = |azimuth: f32| {
             let mut sky = SkyMap::default();
-            sky.fill(&nodes, bounds, &radius, (&Mesh::default(), &[]), Vec3::Y, &view_from(azimuth));
+            sky.lay_out(bounds, (&Mesh::default(), &[]));
+            sky.fill(&nodes, &radius, Vec3::Y);
+            sky.gather(&view_from(azimuth), |_, _, _| 0.0);
             sky
         };
         let sky = filled(0.0);
@@ -395,7 +481,7 @@ mod tests {
         // Before the ball it is open toward the eye and closed behind; on its far side the other way round.
         let rims = [[5.4, -5.4], [0.0; 2], [0.0; 2]];
         let [near, far] = [0, 1].map(|n| sky.at(&rims).map(|quarter| quarter[n]));
-        let open = |at: [f32; 4]| (at[FRONT_ABOVE] + at[FRONT_BELOW], at[BEHIND_ABOVE] + at[BEHIND_BELOW]);
+        let open = |at: [f32; ARRIVING]| (at[FRONT_ABOVE] + at[FRONT_BELOW], at[BEHIND_ABOVE] + at[BEHIND_BELOW]);
         assert!(open(near).0 > 0.6 && open(near).1 < 0.1, "{near:?}");
         assert!(open(far).0 < open(near).0 - 0.2 && open(far).1 > open(near).1 + 0.2, "{far:?}");
         // The other eye sees the same of the other side: the ball is the same to some hairs' places.
@@ -415,13 +501,15 @@ mod tests {
         for zenith in [Vec3::Y, Vec3::new(0.36, -0.48, 0.8)] {
             let mut sky = SkyMap::default();
             let bounds = [Vec3::splat(-3.0), Vec3::splat(3.0)];
-            sky.fill(&[], bounds, &[], (&Mesh::default(), &[]), zenith, &view_from(47.0));
+            sky.lay_out(bounds, (&Mesh::default(), &[]));
+            sky.fill(&[], &[], zenith);
+            sky.gather(&view_from(47.0), |_, _, _| 0.0);
             let at = sky.at(&[[0.3], [-0.7], [1.1]]).map(|quarter| quarter[0]);
             // A dozen roundings of sums of 14 numbers.
             assert!((at[FRONT_ABOVE] + at[FRONT_BELOW] - 1.0).abs() < 1e-5, "{at:?}");
             assert!((at[BEHIND_ABOVE] + at[BEHIND_BELOW] - 1.0).abs() < 1e-5, "{at:?}");
             let above = sky.on_surface(Vec3::ZERO, Vec3::new(0.6, 0.0, 0.8));
-            assert!(above.iter().all(|open| (open - 1.0).abs() < 1e-5), "{above:?}");
+            assert!(above[..2].iter().all(|open| (open - 1.0).abs() < 1e-5) && above[2] == 0.0, "{above:?}");
         }
     }
 }

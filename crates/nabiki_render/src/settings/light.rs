@@ -112,9 +112,9 @@ impl Default for Sky {
 }
 
 impl Sky {
-    /// Whether there is anything to be hidden, and hair and head hide it.
+    /// Whether hair and head hide it. The light that they throw on one another is found with it, also where the sky is dark.
     pub(crate) fn is_occluded(&self) -> bool {
-        self.occlusion && self.strength > 0.0
+        self.occlusion
     }
 
     pub(crate) fn check(&self) -> Result<(), SettingError> {

@@ -9,7 +9,6 @@ use crate::camera::View;
 use crate::light::approx::{exp_of_negative, smooth};
 use crate::light::headlight::SolidShadows;
 use crate::light::lamps::Lamp;
-use crate::light::shade::DENSITY;
 use crate::light::shadow::Crossings;
 use crate::light::sky::SkyMap;
 use crate::scalp::Scalp;
@@ -40,6 +39,9 @@ pub struct SkinLight<'a> {
     pub stubble: &'a [f32],
     pub view: &'a View,
 }
+
+/// The share of light scattered forward by hair that falls onto skin behind: it goes on to all sides.
+const ON_SKIN: f32 = 0.4;
 
 /// The part of a lamp's light that skin takes at this cosine of the angle to it: the cosine itself, but where light creeps past the
 /// terminator, `soft` of cosine to both sides, which a parabola joins without a kink.
@@ -97,11 +99,12 @@ impl SkinLight<'_> {
         let arriving = self.sky_map.map(|s| s.on_surface(p.position + 0.9 * normal, normal));
         let open = |part: f32| if part < 1.0 { self.through(-part.max(1e-6).ln()) } else { [1.0; 3] };
         let (open_above, open_below) =
-            arriving.map_or(([1.0; 3], [1.0; 3]), |[above, below]| (open(above), open(below)));
+            arriving.map_or(([1.0; 3], [1.0; 3]), |[above, below, _]| (open(above), open(below)));
+        let glow = arriving.map_or(0.0, |[.., glow]| glow);
         let up = 0.5 + 0.5 * normal.dot(self.zenith);
         for (c, diffuse) in diffuse.iter_mut().enumerate() {
             let sky = self.sky.above[c] * up * open_above[c] + self.sky.below[c] * (1.0 - up) * open_below[c];
-            *diffuse += self.sky.strength * sky;
+            *diffuse += self.sky.strength * sky + self.skins[0][c] * glow;
         }
         let skin = match self.painted.get(i) {
             Some(&painted) if p.solid == 0 => painted,
@@ -117,6 +120,6 @@ impl SkinLight<'_> {
     /// What arrives through hair that light crosses `n` times: unscattered, and scattered forward as among the hair itself.
     fn through(&self, n: f32) -> [f32; 3] {
         let straight = exp_of_negative(-n);
-        self.passed.map(|p| straight + DENSITY * (exp_of_negative(-n * (1.0 - p).max(0.0)) - straight).max(0.0))
+        self.passed.map(|p| straight + ON_SKIN * (exp_of_negative(-n * (1.0 - p).max(0.0)) - straight).max(0.0))
     }
 }
