@@ -22,7 +22,7 @@ MELANIN = {"black": (8.0, 0.0), "brown": (1.1, 0.6), "blond": (0.03, 0.2), "red"
 @dataclass(frozen=True)
 class View:
     """A frame of a scene through a camera. Regions are rectangles (left, top, right, bottom; pixels); of one whose name begins with
-    "skin" the head's pixels count, of the others those of hair."""
+    "skin" the head's pixels count, of the others those of which hair covers most."""
 
     name: str
     scene: str
@@ -86,10 +86,10 @@ BOB = View(
     {
         "top": (190, 99, 232, 134),
         "fringe": (232, 120, 308, 168),
-        "low fringe": (225, 168, 322, 179),
+        "low fringe": (228, 160, 315, 172),
         "far lock": (142, 161, 183, 231),
         "tips": (121, 258, 176, 283),
-        "nape": (183, 279, 204, 334),
+        "skin nape": (183, 279, 204, 334),
         "skin cheek": (232, 238, 273, 279),
     },
 )

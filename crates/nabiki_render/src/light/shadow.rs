@@ -22,15 +22,15 @@ const FARTHEST: f32 = 200.0;
 /// faces the lamp at a grazing angle lies in its own shadow.
 const CELL: f32 = 0.05;
 /// Pieces are cut into parts that reach no farther into depth than this, and are no longer (cm): each lies at one distance.
-const DEEPEST: f32 = 0.3;
-const LONGEST: f32 = 0.6;
+const DEEPEST: f32 = 0.5;
+const LONGEST: f32 = 1.0;
 const MOST_CUTS: f32 = 32.0;
 /// How far behind a part (cm) what is spread over cells beside it still counts as the same layer, at most.
 const SPREAD_BEHIND: f32 = 0.1;
 /// Skin reads this many cells about its place to each side, lest single hairs streak it.
 const AROUND: usize = 2;
 /// Most steps in which a part's fibre is laid down.
-const MOST_STEPS: i32 = 8;
+const MOST_STEPS: i32 = 12;
 /// Nodes whose parts one task looks at.
 const CHUNK: usize = 8192;
 /// The receiver of what reads nothing.
