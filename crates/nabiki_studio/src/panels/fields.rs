@@ -420,7 +420,8 @@ fn choose(
     commands: &mut Commands,
     make: impl Fn(&str) -> Value,
 ) {
-    let combo = egui::ComboBox::from_id_salt(&field.key).selected_text(now).width(96.0);
+    let width = ui.available_width().clamp(40.0, 96.0);
+    let combo = egui::ComboBox::from_id_salt(&field.key).selected_text(now).width(width).truncate();
     let response = combo.show_ui(ui, |ui| {
         for word in words {
             if ui.selectable_label(*word == now, *word).clicked() && *word != now {

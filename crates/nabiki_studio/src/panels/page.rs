@@ -13,6 +13,9 @@ use crate::document::Phase;
 use crate::session::Session;
 use crate::settings::{Group, Page, Shape, When, value_at};
 
+/// Room for a switch at the end of a title (points).
+const SWITCH: f32 = 30.0;
+
 /// Draws a page.
 pub fn ui(ui: &mut Ui, session: &Session, page: Page, commands: &mut Commands) {
     let Some(document) = session.document() else {
@@ -164,7 +167,13 @@ impl Panel<'_> {
                 (_, false) => theme::FAINT,
             };
             let label = egui::Label::new(egui::RichText::new(title).color(ink)).truncate().sense(egui::Sense::click());
-            let response = ui.add(label).on_hover_text(group.help);
+            // A long title leaves the switch its place.
+            let room = ui.available_width() - if switch.is_some() { SWITCH } else { 0.0 };
+            let response = ui.scope(|ui| {
+                ui.set_max_width(room);
+                ui.add(label)
+            });
+            let response = response.inner.on_hover_text(group.help);
             if response.clicked() {
                 state.toggle(ui);
             }
