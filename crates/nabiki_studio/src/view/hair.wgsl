@@ -120,8 +120,21 @@ fn crossed(lamp: Lamp, depth: vec4f) -> f32 {
     return depth[lamp.channel];
 }
 
+// Share of the sky's light scattered by hair that stays within it, as the renderer's SKY_DENSITY.
+const SKY_DENSITY: f32 = 0.5;
+
+// By how much more of the sky arrives than is open, since hair passes on a part a of it.
+fn gain(open: vec2f, a: vec3f) -> vec3f {
+    let part = clamp(0.5 * (open.x + open.y), 1e-6, 1.0);
+    return 1.0 + SKY_DENSITY * max(pow(vec3f(part), max(1.0 - a, vec3f(0.0))) / part - 1.0, vec3f(0.0));
+}
+
+fn arrives(open: vec2f, a: vec3f) -> vec3f {
+    return 0.5 * (g.sky_above.rgb * open.x + g.sky_below.rgb * open.y) * gain(open, a);
+}
+
 // The renderer's fibre with dual scattering; see its light/shade.rs for the reasons.
-fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec2f) -> vec3f {
+fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec2f, behind: vec2f) -> vec3f {
     let density = g.passed.w;
     let tilt = g.look.x + g.look.y * (of_strand(strand, 1u) + of_strand(strand, 2u) - 1.0);
     let grade = min(u32((of_strand(strand, 3u) + of_strand(strand, 4u)) * 0.5 * f32(GRADES)), GRADES - 1u);
@@ -131,11 +144,11 @@ fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec2f)
     let a = row_at(grade, row, 0u);
     let b = row_at(grade, row, 1u);
     let rest = row_at(grade, row, 2u);
-    let one = 1.0 / max(1.0 - a * a, vec3f(0.02));
-    let again = density * (b * a * a * one + b * b * b * a * a * one * one * one);
-    let above = open.x + density * max(pow(vec3f(max(open.x, 1e-6)), max(1.0 - a, vec3f(0.0))) - open.x, vec3f(0.0));
-    let below = open.y + density * max(pow(vec3f(max(open.y, 1e-6)), max(1.0 - a, vec3f(0.0))) - open.y, vec3f(0.0));
-    var light = 0.5 * (g.sky_above.rgb * above + g.sky_below.rgb * below) * (a + b + again);
+    let q = 1.0 - a * a + b * b;
+    let again = 2.0 * b / max(q + sqrt(max(q * q - 4.0 * b * b, vec3f(0.0))), vec3f(1e-6)) - b;
+    let from_behind = arrives(behind, a);
+    let closed = max(1.0 - 0.5 * (behind.x + behind.y) * gain(behind, a), vec3f(0.0));
+    var light = arrives(open, a) * (b + SKY_DENSITY * again * closed) + from_behind * a;
     for (var l = 0u; l < g.counts.x; l++) {
         let lamp = g.lamps[l];
         let sl = clamp(dot(t, lamp.toward), -0.9995, 0.9995);
@@ -177,11 +190,14 @@ fn shade(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
     let at = in_volume(p + outward_of(p) * 0.6 / g.volume_low.w);
     let depth = textureSampleLevel(hair_depth, between, at, 0.0);
     let open = textureSampleLevel(sky_open, between, at, 0.0).xy;
+    // What passes through a fibre comes from behind: as open as it is there, and that by the hair's own depth once more.
+    let within = textureSampleLevel(sky_open, between, in_volume(p - eye), 0.0).xy;
+    let behind = within * within;
     var light: vec3f;
     if g.counts.w == 1u {
         light = cylinder(p, t, eye, depth, open);
     } else {
-        light = fibre(p, t, eye, marks[i] >> 12u, depth, open);
+        light = fibre(p, t, eye, marks[i] >> 12u, depth, open, behind);
     }
     lights[i] = vec4f(light, 0.0);
 }

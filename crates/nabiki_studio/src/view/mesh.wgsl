@@ -13,10 +13,13 @@ struct Corner {
 @group(1) @binding(0) var<storage, read> corners: array<Corner>;
 @group(1) @binding(1) var<storage, read_write> lit: array<vec4f>;
 
+// Share of light scattered by hair that falls onto skin, as the renderer's.
+const ON_SKIN: f32 = 0.4;
+
 // What arrives through n hairs: unscattered, and scattered forward as among the hair itself.
 fn through(n: f32) -> vec3f {
     let straight = exp(-n);
-    return straight + g.passed.w * max(exp(-n * max(1.0 - g.passed.rgb, vec3f(0.0))) - straight, vec3f(0.0));
+    return straight + ON_SKIN * max(exp(-n * max(1.0 - g.passed.rgb, vec3f(0.0))) - straight, vec3f(0.0));
 }
 
 @compute @workgroup_size(64)
@@ -45,8 +48,9 @@ fn light(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
         let halfway = normalize(lamp.toward + eye);
         let gloss = 0.405 * pow(max(dot(normal, halfway), 0.0), 18.0) * smoothstep(0.0, 0.25, facing);
         let rim = pow(1.0 - clamp(dot(eye, normal), 0.0, 1.0), 4.0) * max(facing, 0.0);
-        let wrapped = max((facing + soft) / (1.0 + soft), vec3f(0.0));
-        diffuse += arrives * wrapped * wrapped;
+        let within = max(facing + soft, vec3f(0.0));
+        let wrapped = select(within * within / max(4.0 * soft, vec3f(1e-6)), vec3f(facing), vec3f(facing) >= soft);
+        diffuse += arrives * wrapped;
         sheen += arrives * (gloss + 0.5 * rim);
     }
     let up = 0.5 + 0.5 * dot(normal, g.zenith.xyz);
