@@ -85,7 +85,7 @@ pub fn write(path: &Path, frame: &Frame, tone_mapping: &ToneMapping, depth: Dept
     }
 }
 
-/// A frame as the bytes of a PNG file of 8 bit, as [`write`] writes them.
+/// A frame as the bytes of a PNG file of 8 bit, as [`write()`] writes them.
 pub fn bytes(frame: &Frame, tone_mapping: &ToneMapping) -> Result<Vec<u8>, RenderError> {
     let rgba = tone_mapping.rgba8(frame);
     let mut file = Vec::new();

@@ -237,6 +237,10 @@ fn parts(piece: &Piece) -> Parts {
         [true, false] => 8,
         [false, false] => TILE as u8,
     };
+    // Thick hair beside thick hair goes alike into depth: at the same lines, both are right about which is before which.
+    if thickness > THICK[0] {
+        return Parts { length, offset: 0 };
+    }
     // Bits of the golden ratio spread them.
     let spread = (piece.number.wrapping_mul(0x9E37_79B1) >> 24) as u8;
     Parts { length, offset: spread % length }
