@@ -302,7 +302,7 @@ impl Renderer {
         self.receivers.clear();
         self.receivers.extend_from_slice(&still.skin_places);
         if occluded {
-            sky_map.lay_out(bounds, (&self.head, &still.bodies));
+            sky_map.lay_out(bounds, self.picture.hair.width, (&self.head, &still.bodies));
             self.receivers.extend(sky_map.skin().iter().map(|skin| skin.place + OFF_SKIN * skin.normal));
         }
         let scene =

@@ -15,6 +15,9 @@ use crate::curve::CurveNode;
 
 /// Side of a cell (cm), unless the hair is so spread out that this would make too many.
 const CELL: f32 = 0.55;
+/// Few thick hairs stand for many in a preview: a cell is so many of them wide, and not wider than this (cm).
+const WIDTHS: f32 = 8.0;
+const COARSE: f32 = 0.9;
 const MOST_CELLS: f32 = 1_000_000.0;
 /// Most steps in which a piece of hair is laid into cells.
 const MOST_STEPS: i32 = 8;
@@ -87,13 +90,14 @@ pub struct SkinCell {
 }
 
 impl SkyMap {
-    /// Lays out the cells about hair (its box) and finds the skin in them, the head's and that of the `bodies`.
-    pub fn lay_out(&mut self, [mut low, mut high]: [Vec3; 2], (head, bodies): (&Mesh, &[Mesh])) {
+    /// Lays out the cells about hair (its box, and how thick it is, cm) and finds the skin in them, the head's and that of the `bodies`.
+    pub fn lay_out(&mut self, [mut low, mut high]: [Vec3; 2], width: f32, (head, bodies): (&Mesh, &[Mesh])) {
         if !low.is_finite() {
             (low, high) = (Vec3::ZERO, Vec3::ZERO);
         }
         let extent = high - low;
-        self.cell = CELL.max((extent.x * extent.y * extent.z / MOST_CELLS).cbrt()).max(extent.max_element() / 1000.0);
+        let finest = CELL.max((WIDTHS * width).min(COARSE));
+        self.cell = finest.max((extent.x * extent.y * extent.z / MOST_CELLS).cbrt()).max(extent.max_element() / 1000.0);
         // Whole cells from a fixed origin: a grid that moved with the hair would make the light flicker.
         let border = 2.0;
         self.low = ((low / self.cell).floor() - border) * self.cell;
@@ -467,7 +471,7 @@ mod tests {
         let bounds = crate::curve::bounds(&nodes);
         let filled = |azimuth: f32| {
             let mut sky = SkyMap::default();
-            sky.lay_out(bounds, (&Mesh::default(), &[]));
+            sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]));
             sky.fill(&nodes, &radius, Vec3::Y);
             sky.gather(&view_from(azimuth), |_, _, _| 0.0);
             sky
@@ -501,7 +505,7 @@ mod tests {
         for zenith in [Vec3::Y, Vec3::new(0.36, -0.48, 0.8)] {
             let mut sky = SkyMap::default();
             let bounds = [Vec3::splat(-3.0), Vec3::splat(3.0)];
-            sky.lay_out(bounds, (&Mesh::default(), &[]));
+            sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]));
             sky.fill(&[], &[], zenith);
             sky.gather(&view_from(47.0), |_, _, _| 0.0);
             let at = sky.at(&[[0.3], [-0.7], [1.1]]).map(|quarter| quarter[0]);
