@@ -252,6 +252,10 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
             "wish.toml:6: wish[0].near.radius = 2: no hair is there in that frame",
         ),
         (
+            wish("strands = [3, 7, 11]", "near = [-9, -12, 0]"),
+            "wish.toml:6: wish[0].near: found sequence, must be a table { point, radius, frame }",
+        ),
+        (
             refusal(&SCENE.replace("form = \"free\"", ""), &WISHES.replace("vectors = [0]", "settle = true")),
             "wish.toml:2: unknowns.settle = true: hair of the paper's form has none",
         ),

@@ -241,11 +241,31 @@ impl<'de> Deserializer<'de> for Node<'_> {
         }
     }
 
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Refusal> {
+        // Serde would take an array for the fields in their order.
+        if self.0.is_array() {
+            let wanted = match fields.len() {
+                ..=MOST_NAMED => format!("a table {{ {} }}", fields.join(", ")),
+                _ => "a table".to_owned(),
+            };
+            return Err(Refusal::new(Problem::Kind { found: unexpected(self.0).to_string(), wanted }));
+        }
+        self.deserialize_any(visitor)
+    }
+
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf
-        unit unit_struct seq tuple tuple_struct map struct identifier ignored_any
+        unit unit_struct seq tuple tuple_struct map identifier ignored_any
     }
 }
+
+/// A table of up to so many keys is described by them.
+const MOST_NAMED: usize = 6;
 
 /// The entries of an array.
 struct Entries<'a> {
