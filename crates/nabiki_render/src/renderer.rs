@@ -3,7 +3,7 @@
 mod compose;
 
 use glam::Vec3;
-use nabiki::{Mesh, Strands};
+use nabiki::{Head, Mesh, Strands};
 use rayon::prelude::*;
 
 use crate::RenderError;
@@ -17,7 +17,7 @@ use crate::light::headlight::SolidShadows;
 use crate::light::kajiya::KajiyaKay;
 use crate::light::lamps::{Lamp, lamps, zenith};
 use crate::light::shade::{HairLight, Model};
-use crate::light::shadow::{Crossings, Scene, Sweep};
+use crate::light::shadow::{Crossings, Scene, SkinPlace, Sweep};
 use crate::light::sky::SkyMap;
 use crate::moment::{DrawnBody, FrameToDraw};
 use crate::raster::bins::Bins;
@@ -49,10 +49,12 @@ pub struct Renderer {
     curves: Curves,
     radius: Vec<f32>,
     nodes: Vec<Node>,
+    /// Whether the light of each node is asked for: it shows, or a neighbour does.
+    lit: Vec<bool>,
     bins: Bins,
     sweeps: Vec<Sweep>,
     sky_map: SkyMap,
-    receivers: Vec<Vec3>,
+    receivers: Vec<SkinPlace>,
     zenith: Vec3,
     still: Option<Still>,
     timing: Timing,
@@ -66,7 +68,7 @@ struct Still {
     /// The bodies where they are in head space.
     bodies: Vec<Mesh>,
     skin: SkinView,
-    skin_places: Vec<Vec3>,
+    skin_places: Vec<SkinPlace>,
     skin_unhidden: Vec<[f32; 3]>,
     roots: Vec<Vec3>,
     stubble: Vec<f32>,
@@ -111,6 +113,7 @@ impl Renderer {
             curves: Curves::default(),
             radius: Vec::new(),
             nodes: Vec::new(),
+            lit: Vec::new(),
             bins: Bins::default(),
             sweeps: Vec::new(),
             sky_map: SkyMap::default(),
@@ -121,9 +124,9 @@ impl Renderer {
         })
     }
 
-    /// Draws the face of the built-in bust: the head is that, and `picture.head.face` is wished for.
-    pub fn with_face(mut self) -> Self {
-        self.face = self.picture.head.face;
+    /// Draws the face of the head whose mesh was given, if it has one and `picture.head.face` is wished for.
+    pub fn with_face(mut self, head: &Head) -> Self {
+        self.face = head.is_builtin && self.picture.head.face;
         self.still = None;
         self
     }
@@ -220,7 +223,7 @@ impl Renderer {
             Vec::new()
         };
         let skin = SkinView::new(&self.solids, &exposure.shot);
-        let skin_places = skin.pixels.iter().map(|p| p.position + OFF_SKIN * p.normal).collect();
+        let skin_places = skin.pixels.iter().map(|p| off_skin(p.position, p.normal)).collect();
         let skin_unhidden = SkinLight::unhidden(&skin.pixels, &solid_shadows);
         let painted =
             if self.face { SkinLight::painted(&skin.pixels, self.skins[0], self.hair_colour()) } else { Vec::new() };
@@ -289,6 +292,13 @@ impl Renderer {
                 }
             })
             .collect_into_vec(&mut self.nodes);
+        let shows = |n: &Node| n.drawable && !n.hidden;
+        let nodes = &self.nodes;
+        (0..nodes.len())
+            .into_par_iter()
+            .with_min_len(8192)
+            .map(|i| nodes[i.saturating_sub(1)..(i + 2).min(nodes.len())].iter().any(shows))
+            .collect_into_vec(&mut self.lit);
     }
 
     /// Finds what stands in the way of lamps and sky.
@@ -303,16 +313,20 @@ impl Renderer {
         self.receivers.extend_from_slice(&still.skin_places);
         if occluded {
             sky_map.lay_out(bounds, self.picture.hair.width, (&self.head, &still.bodies));
-            self.receivers.extend(sky_map.skin().iter().map(|skin| skin.place + OFF_SKIN * skin.normal));
+            self.receivers.extend(sky_map.skin().iter().map(|skin| off_skin(skin.place, skin.normal)));
         }
-        let scene =
-            Scene { nodes, radius: &self.radius, skin: &self.receivers, width: self.picture.hair.width, bounds };
+        let width = self.picture.hair.width;
+        let least_facing = SkinLight::least_facing(&self.picture.head);
+        let (radius, skin) = (&self.radius, &self.receivers);
+        let scene = Scene { nodes, radius, asked: &self.lit, skin, least_facing, width, bounds };
         self.sweeps.resize_with(lamps.len(), Sweep::default);
         let sweeps = &mut self.sweeps;
         // As many tasks as there are threads, and no more: each looks through all nodes.
         let strips = rayon::current_num_threads().div_ceil(lamps.len().max(1));
         let cast = || {
-            sweeps.par_iter_mut().zip(lamps).for_each(|(sweep, lamp)| sweep.run(lamp, &scene, strips));
+            sweeps.par_iter_mut().zip(lamps).zip(&still.solid_shadows).for_each(|((sweep, lamp), solids)| {
+                sweep.run(lamp, Some(solids), &scene, strips);
+            });
         };
         let cover = || {
             if occluded {
@@ -329,10 +343,13 @@ impl Renderer {
             let sky = &self.picture.sky;
             let first = nodes.len() + still.skin_places.len();
             self.sky_map.gather(view, |map, i, skin| {
-                let place = skin.place + OFF_SKIN * skin.normal;
+                let place = off_skin(skin.place, skin.normal).at;
                 let mut lit = 0.0;
                 for (l, lamp) in still.lamps.iter().enumerate() {
-                    let facing = skin.normal.dot(lamp.toward).max(0.0);
+                    let facing = skin.normal.dot(lamp.toward);
+                    if facing <= 0.0 {
+                        continue;
+                    }
                     let hair = crossings.get(l).map_or(1.0, |c| exp_of_negative(-c.at(first + i)));
                     let solid =
                         still.solid_shadows.get(l).map_or(1.0, |s| s.visible(&place.to_array().map(|c| [c]))[0]);
@@ -362,7 +379,7 @@ impl Renderer {
             skin: self.skins[0],
             view,
         };
-        hair.shade(&self.curves.nodes, &mut nodes);
+        hair.shade(&self.curves.nodes, &self.lit, &mut nodes);
         self.nodes = nodes;
     }
 
@@ -398,6 +415,11 @@ impl Renderer {
     fn occluded_sky(&self) -> Option<&SkyMap> {
         self.picture.sky.is_occluded().then_some(&self.sky_map)
     }
+}
+
+/// Where it is asked how much hair lies before a place on the skin.
+fn off_skin(place: Vec3, normal: Vec3) -> SkinPlace {
+    SkinPlace { at: place + OFF_SKIN * normal, normal }
 }
 
 /// Refuses what cannot be drawn of a mesh that is called `name`.

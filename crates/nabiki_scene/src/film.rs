@@ -58,8 +58,7 @@ impl<'a> Film<'a> {
     /// Shows the scene as `picture` says, framed so that it holds the head.
     fn of_head(built: &'a BuiltScene, picture: &Picture) -> Result<Self> {
         let head = &built.head;
-        let renderer = Renderer::new(picture, &head.mesh)?.with_bodies(built.drawn_bodies())?;
-        let renderer = if head.is_builtin { renderer.with_face() } else { renderer };
+        let renderer = Renderer::new(picture, &head.mesh)?.with_face(head).with_bodies(built.drawn_bodies())?;
         let mut bounds = Bounds::default();
         bounds.include_head(&head.mesh, &head.ellipsoid);
         Ok(Self {

@@ -68,7 +68,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut timeline = whole.timeline()?;
     let strands = timeline.seek(frame);
     let clock = Instant::now();
-    let mut renderer = Renderer::new(picture, &whole.head.mesh)?.with_face().with_bodies(whole.drawn_bodies())?;
+    let mut renderer =
+        Renderer::new(picture, &whole.head.mesh)?.with_face(&whole.head).with_bodies(whole.drawn_bodies())?;
     let bodies = whole.drawn_poses(frame);
     let now = Moment { strands, pose: take.pose(frame), view, bodies: &bodies };
     let drawn = renderer.draw(&FrameToDraw { now, before: None })?;

@@ -20,6 +20,8 @@ const BLUR: f32 = 0.4;
 const TAPS: usize = 24;
 /// How far light spreads under skin (cm; red, green, blue), as the radius of a disc: the red of a shadow's edge.
 const UNDER_SKIN: [f32; 3] = [0.6, 0.42, 0.34];
+/// The part of a lamp that may be left to what counts as dark.
+pub const LEFT_IN_THE_DARK: f32 = 1e-4;
 /// Cosine of the angle to a lamp from which on the angle itself is the shadow, not what else of the solid is in the way.
 const TERMINATOR: f32 = -0.1;
 /// How far before the tangent plane (cm) what hides the lamp must lie, more where the plane is steep on the map, and over which
@@ -72,6 +74,12 @@ impl SolidShadows {
         }
         left
     }
+
+    /// Whether nothing of the lamp is left to a place, as [`visible`](Self::visible) has it, to [`LEFT_IN_THE_DARK`].
+    #[inline(always)]
+    pub fn is_dark(&self, p: Vec3) -> bool {
+        self.solids.iter().any(|solid| solid.is_dark(p))
+    }
 }
 
 /// What a lamp sees of the head or of a body.
@@ -92,6 +100,8 @@ struct SolidShadow {
     blurred: Vec<[f32; 2]>,
     blurred_cell: f32,
     blurred_size: [usize; 2],
+    /// For each cell of the blurred map, between it and the next: the distance from which on all is dark (cm); infinite where it never is.
+    dark_beyond: Vec<f32>,
     /// Where skin looks from, around a place (cm), and each one's share for red, green and blue.
     taps: [([f32; 2], [f32; 3]); TAPS],
 }
@@ -136,6 +146,16 @@ impl SolidShadow {
         let penumbra = 2.5 * lamp.spread.tan();
         let clear = blurred.iter().filter(|c| c[0] > 0.0).map(|c| c[1]).fold(f32::INFINITY, f32::min) + SOFT;
         let taps = taps(penumbra);
+        let width = blurred_size[0];
+        let dark_beyond = (0..blurred.len())
+            .map(|i| {
+                let corners = [i, i + 1, i + width, i + width + 1].map(|i| blurred.get(i).copied().unwrap_or_default());
+                let beyond = |[covered, distance]: [f32; 2]| {
+                    if covered > 1.0 - LEFT_IN_THE_DARK { distance + 2.0 * SOFT } else { f32::INFINITY }
+                };
+                corners.map(beyond).into_iter().fold(f32::NEG_INFINITY, f32::max)
+            })
+            .collect();
         Self {
             toward: lamp.toward,
             axes,
@@ -148,6 +168,7 @@ impl SolidShadow {
             blurred,
             blurred_cell,
             blurred_size,
+            dark_beyond,
             taps,
         }
     }
@@ -191,6 +212,22 @@ impl SolidShadow {
         }
         let (column, row) = (x as usize, y as usize);
         Some((row * width + column, [x - column as f32, y - row as f32]))
+    }
+
+    /// Whether it leaves nothing of the lamp to a place.
+    #[inline(always)]
+    fn is_dark(&self, p: Vec3) -> bool {
+        let distance = -p.dot(self.toward);
+        if distance <= self.clear {
+            return false;
+        }
+        let [x, y] = [0, 1].map(|i| (p.dot(self.axes[i]) - self.low[i]) / self.blurred_cell);
+        let [width, height] = self.blurred_size;
+        x >= 0.0
+            && y >= 0.0
+            && x < width as f32
+            && y < height as f32
+            && distance >= self.dark_beyond[y as usize * width + x as usize]
     }
 
     /// Part of the lamp that it leaves visible from places (x, y and z of all of them), 0..1.
@@ -323,6 +360,11 @@ mod tests {
         // At the edge, half of the blurred plate: within a cell of 1/3 of the blur's slope.
         assert!((visible(6.0, -2.0) - 0.5).abs() < 0.25);
         assert_eq!(SolidShadow::new(&lamp, &Mesh::default()).visible(&[[0.0]; 3]), [1.0]);
+        // What counts as dark is.
+        let places = (0..40 * 40).map(|i| Vec3::new(0.4 * (i % 40) as f32 - 8.0, 1.0 - 0.1 * (i / 40) as f32, 0.3));
+        let dark: Vec<Vec3> = places.filter(|&p| shadow.is_dark(p)).collect();
+        assert!(dark.len() > 500 && !shadow.is_dark(Vec3::new(0.0, 2.0, 0.3)));
+        assert!(dark.iter().all(|p| visible(p.x, p.y) <= LEFT_IN_THE_DARK));
     }
 
     #[test]

@@ -84,16 +84,15 @@ impl pulp::WithSimd for ShadeFibre<'_> {
 }
 
 impl HairLight<'_> {
-    /// Fills in the light of every node that shows, or has a neighbour that shows.
-    pub fn shade(&self, curve: &[CurveNode], nodes: &mut [Node]) {
-        let shows: Vec<bool> = nodes.par_iter().with_min_len(8192).map(|n| n.drawable && !n.hidden).collect();
+    /// Fills in the light of every node for which it is `asked`.
+    pub fn shade(&self, curve: &[CurveNode], asked: &[bool], nodes: &mut [Node]) {
         const CHUNK: usize = 64 * LANES;
         nodes.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, nodes)| {
             let first = chunk * CHUNK;
             let mut batch = [0; LANES];
             let mut filled = 0;
             for i in first..first + nodes.len() {
-                if shows[i.saturating_sub(1)..(i + 2).min(shows.len())].contains(&true) {
+                if asked[i] {
                     batch[filled] = i;
                     filled += 1;
                 }

@@ -12,11 +12,11 @@ use crate::light::lamps::Lamp;
 use crate::light::shadow::Crossings;
 use crate::light::sky::SkyMap;
 use crate::scalp::Scalp;
-use crate::settings::Sky;
+use crate::settings::{HeadLook, Sky};
 
 /// Light on skin.
 pub struct SkinLight<'a> {
-    pub look: &'a crate::settings::HeadLook,
+    pub look: &'a HeadLook,
     pub lamps: &'a [Lamp],
     /// Fibres in front of each place, for each lamp; the first place is receiver `first_receiver`.
     pub crossings: &'a [&'a Crossings],
@@ -43,6 +43,9 @@ pub struct SkinLight<'a> {
 /// The share of light scattered forward by hair that falls onto skin behind: it goes on to all sides.
 const ON_SKIN: f32 = 0.4;
 
+/// How far light creeps past the terminator under skin of softness 1, red farthest (cosine).
+const CREEPS: [f32; 3] = [1.25, 0.8, 0.6];
+
 /// The part of a lamp's light that skin takes at this cosine of the angle to it: the cosine itself, but where light creeps past the
 /// terminator, `soft` of cosine to both sides, which a parabola joins without a kink.
 fn wrapped(facing: f32, soft: f32) -> f32 {
@@ -58,6 +61,11 @@ impl SkinLight<'_> {
             .with_min_len(256)
             .flat_map_iter(|p| shadows.iter().map(|shadow| shadow.visible_from_skin(p.solid, p.position, p.normal)))
             .collect()
+    }
+
+    /// The cosine of the angle to a lamp from which on skin takes of its light.
+    pub fn least_facing(look: &HeadLook) -> f32 {
+        -CREEPS[0] * look.softness
     }
 
     /// How much of each place on the head hair too short to be drawn covers, 0..1, where `shade` square centimetres of it stand on each root.
@@ -77,14 +85,17 @@ impl SkinLight<'_> {
 
     /// Light toward the eye (linear) from place `i` on the skin.
     pub fn at(&self, i: usize, p: &SkinPixel) -> [f32; 3] {
-        // Red light spreads farthest under skin.
-        let soft = [1.25, 0.8, 0.6].map(|s| s * self.look.softness);
+        let soft = CREEPS.map(|s| s * self.look.softness);
+        let least_facing = Self::least_facing(self.look);
         let eye = self.view.toward_eye(p.position);
         let normal = p.normal;
         let mut diffuse = [0.0; 3];
         let mut sheen = [0.0; 3];
         for (l, lamp) in self.lamps.iter().enumerate() {
             let facing = normal.dot(lamp.toward);
+            if facing <= least_facing {
+                continue;
+            }
             let hair = self.crossings.get(l).map_or([1.0; 3], |c| self.through(c.at(self.first_receiver + i)));
             let solid = self.unhidden.get(i * self.lamps.len() + l).copied().unwrap_or([1.0; 3]);
             let lit = [0, 1, 2].map(|c| hair[c] * solid[c]);

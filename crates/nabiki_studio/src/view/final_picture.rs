@@ -228,8 +228,8 @@ impl Whole {
         let now = moment(wanted.frame, strands, bodies.as_slice());
         let before = self.before.as_ref().filter(|before| before.len() == strands.len());
         let before = before.map(|strands| moment(before_it, strands, &bodies_before));
-        let renderer = Renderer::new(&picture, &self.built.head.mesh).map_err(says)?;
-        let renderer = if self.built.head.is_builtin { renderer.with_face() } else { renderer };
+        let head = &self.built.head;
+        let renderer = Renderer::new(&picture, &head.mesh).map_err(says)?.with_face(head);
         let mut renderer = renderer.with_bodies(self.built.drawn_bodies()).map_err(says)?;
         let frame = renderer.draw(&FrameToDraw { now, before }).map_err(says)?;
         Ok(Done { size, rgba: ToneMapping::new(&picture).rgba8(&frame) })
@@ -304,8 +304,10 @@ mod tests {
             let mut timeline = whole.timeline().unwrap();
             let picture = Picture { size: [64, 48], ..wanted.picture };
             let now = Moment { strands: timeline.seek(frame), pose: whole.pose(frame), view: wanted.view, bodies: &[] };
-            let frame =
-                Renderer::new(&picture, &whole.head.mesh).unwrap().with_face().draw(&FrameToDraw { now, before: None });
+            let frame = Renderer::new(&picture, &whole.head.mesh)
+                .unwrap()
+                .with_face(&whole.head)
+                .draw(&FrameToDraw { now, before: None });
             assert!(done.rgba == ToneMapping::new(&picture).rgba8(&frame.unwrap()));
         }
     }

@@ -112,7 +112,8 @@ fn the_head_looks_as_in_the_renderers_picture() {
     picture.shadows = false;
     picture.sky.occlusion = false;
     let pixels = drawn(&mut gpu, &take, &picture, &[]);
-    let mut renderer = nabiki_render::Renderer::new(&picture, &take.built.head.mesh).unwrap().with_face();
+    let mut renderer =
+        nabiki_render::Renderer::new(&picture, &take.built.head.mesh).unwrap().with_face(&take.built.head);
     let strands = Strands::default();
     let frame = renderer.draw(&nabiki_render::FrameToDraw::at_rest(&strands, view())).unwrap();
     let theirs = nabiki_render::ToneMapping::new(&picture).rgba8(&frame);
