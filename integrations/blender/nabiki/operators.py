@@ -65,10 +65,9 @@ class NABIKI_OT_clear(Named, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class NABIKI_OT_interval_add(bpy.types.Operator):
-    bl_idname = "nabiki.interval_add"
-    bl_label = "Add Wind"
-    bl_description = "Add a wind that begins where the last one ends"
+class OfWinds:
+    """An operator about the winds of the active hair."""
+
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
@@ -77,33 +76,35 @@ class NABIKI_OT_interval_add(bpy.types.Operator):
 
     def execute(self, context):
         thing = hair_of(context.object)
-        settings = thing.nabiki
-        before = settings.intervals[-1].through if len(settings.intervals) else max(context.scene.frame_start, 0)
         with playing.Quiet():
-            interval = settings.intervals.add()
-            interval.through = before + 24
-        settings.active_interval = len(settings.intervals) - 1
+            self.change(context.scene, thing.nabiki)
         playing.settings_changed(thing)
         return {"FINISHED"}
 
 
-class NABIKI_OT_interval_remove(bpy.types.Operator):
+class NABIKI_OT_interval_add(OfWinds, bpy.types.Operator):
+    bl_idname = "nabiki.interval_add"
+    bl_label = "Add Wind"
+    bl_description = "Add a wind that begins where the last one ends"
+
+    def change(self, scene, settings):
+        before = settings.intervals[-1].through if len(settings.intervals) else max(scene.frame_start, 0)
+        settings.intervals.add().through = before + 24
+        settings.active_interval = len(settings.intervals) - 1
+
+
+class NABIKI_OT_interval_remove(OfWinds, bpy.types.Operator):
     bl_idname = "nabiki.interval_remove"
     bl_label = "Remove Wind"
     bl_description = "Remove the wind that is shown"
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context):
-        return context.object is not None and context.object.type == "CURVES" and len(hair_of(context.object).nabiki.intervals) > 0
+        return super().poll(context) and len(hair_of(context.object).nabiki.intervals) > 0
 
-    def execute(self, context):
-        thing = hair_of(context.object)
-        settings = thing.nabiki
+    def change(self, scene, settings):
         settings.intervals.remove(settings.active_interval)
         settings.active_interval = max(0, min(settings.active_interval, len(settings.intervals) - 1))
-        playing.settings_changed(thing)
-        return {"FINISHED"}
 
 
 class NABIKI_OT_write_scene(jobs.Working, Named, ExportHelper, bpy.types.Operator):
@@ -145,12 +146,4 @@ def hair_of(thing):
 CLASSES = [NABIKI_OT_simulate, NABIKI_OT_solve, NABIKI_OT_bake, NABIKI_OT_clear, NABIKI_OT_interval_add, NABIKI_OT_interval_remove]
 CLASSES += [NABIKI_OT_write_scene]
 
-
-def register():
-    for known in CLASSES:
-        bpy.utils.register_class(known)
-
-
-def unregister():
-    for known in reversed(CLASSES):
-        bpy.utils.unregister_class(known)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

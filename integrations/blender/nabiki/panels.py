@@ -200,12 +200,4 @@ class NABIKI_PT_sidebar(bpy.types.Panel):
 CLASSES = [NABIKI_UL_intervals, NABIKI_PT_main, NABIKI_PT_wind, NABIKI_PT_fields, NABIKI_PT_gusts, NABIKI_PT_flow, NABIKI_PT_body_wind]
 CLASSES += [NABIKI_PT_settings, NABIKI_PT_collisions, NABIKI_PT_cache, NABIKI_PT_sidebar]
 
-
-def register():
-    for known in CLASSES:
-        bpy.utils.register_class(known)
-
-
-def unregister():
-    for known in reversed(CLASSES):
-        bpy.utils.unregister_class(known)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)
