@@ -1,5 +1,7 @@
 """What a user does wrong is one clear line, and nothing is left half done."""
 
+import importlib
+
 import bpy
 import numpy as np
 
@@ -202,6 +204,22 @@ def test_caches_without_a_place_are_refused(command, shared):
         hair.nabiki.cache_path = str(path)
         refused(bake, "is no cache of Nabiki")
     assert own.read_bytes() == b"somebody's groom" and folder.is_dir()
+
+
+def test_a_blender_without_usd_or_alembic_says_so(command, shared):
+    """Systems package Blender without them: baked hair would not move there."""
+    baking = importlib.import_module("bl_ext.user_default.nabiki.baking")
+    hair, known = plain(), baking.readable
+    try:
+        baking.readable = lambda ending: False
+        refused(bake, "without USD and Alembic", "blender.org")
+        baking.readable = lambda ending: ending == ".abc"
+        hair.nabiki.cache_path = str(command.folder / "a.usdc")
+        refused(bake, '"a.usdc"', "name a file with .abc")
+        hair.nabiki.cache_path = str(command.folder / "a.abc")
+        assert bake() == {"FINISHED"} and [file.name for file in command.folder.iterdir()] == ["a.abc"]
+    finally:
+        baking.readable = known
 
 
 def test_a_scene_that_is_refused_is_not_written(command, shared):

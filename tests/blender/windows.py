@@ -74,7 +74,8 @@ def test_panels_draw_whatever_there_is(command, shared):
                 continue
             assert known.bl_label and known.__name__ == known.bl_idname if hasattr(known, "bl_idname") else known.__name__
             shown = known.poll(bpy.context)
-            assert shown == (state != "mesh")
+            # Notes are there where a motion has some.
+            assert known is panels.NABIKI_PT_notes or shown == (state != "mesh")
             if shown:
                 self = SimpleNamespace(layout=Layout())
                 if hasattr(known, "draw_header"):
@@ -84,6 +85,47 @@ def test_panels_draw_whatever_there_is(command, shared):
     settings = {name for name in hair.nabiki.bl_rna.properties.keys() if name not in HIDDEN}
     assert settings <= seen, settings - seen
     assert {"nabiki.simulate", "nabiki.solve", "nabiki.bake", "nabiki.clear"} <= seen and any("At rest" in line for line in seen)
+
+
+def test_nothing_below_the_buttons_moves_while_they_work(command, shared):
+    """Who changes a wind has the mouse on it when its motion is computed: rows above it neither come nor go."""
+    hair = scenes.groom(8, moving=False)
+    panels, progress = part("panels"), bpy.context.window_manager.nabiki
+
+    def rows():
+        layout = Layout()
+        panels.buttons(layout, bpy.context, hair)
+        return len(layout.drawn)
+
+    none = rows()
+    hair.nabiki.stiffness = (12000, 1000)
+    motions.simulated(hair, 10)
+    known = panels.film_of(bpy.context, hair)
+    known.notes.append("a note that is far too long for one line of a narrow panel, and is shown in several")
+    moving = rows()
+    hair.nabiki.hold = 31
+    at_rest = rows()
+    progress.text = "moving hair"
+    try:
+        assert {none, moving, at_rest, rows()} == {none}
+    finally:
+        progress.text = ""
+    hair.nabiki.hold = 30
+    layout = Layout()
+    panels.notes(layout, bpy.context, hair)
+    assert " ".join(layout.drawn) == " ".join(known.notes) and len(layout.drawn) > len(known.notes)
+
+
+def test_a_first_wind_blows_against_the_face_and_the_next_is_a_lull(command, shared):
+    hair = scenes.groom(8, moving=False)
+    for facing, axis, sign in [("-y", 1, 1), ("+y", 1, -1), ("-x", 0, 1), ("+x", 0, -1)]:
+        hair.nabiki.intervals.clear()
+        hair.nabiki.facing = facing
+        bpy.ops.nabiki.interval_add()
+        bpy.ops.nabiki.interval_add()
+        first, second = hair.nabiki.intervals
+        assert sign * first.vector[axis] > 0 and np.count_nonzero(first.vector) == 1
+        assert not any(second.vector) and second.through > first.through
 
 
 # What is drawn as a list, or belongs to no user.
@@ -224,3 +266,70 @@ def test_a_second_button_waits_and_mistakes_are_lines(command, shared):
     assert in_window(jobs, solving, window, [TIMER, ESC]) == {"CANCELLED"}
     assert tuple(hair.nabiki.intervals[0].vector) == (0, 50, 0)
     assert np.array_equal(scenes.positions(preview.data), points), "what was moved by hand stays"
+
+
+def beside(hair, window, events):
+    """What the timer starts once settings are calm."""
+    operator = pressed("NABIKI_OT_simulate", hair)
+    operator.beside = True
+    return in_window(part("jobs"), operator, window, events), operator
+
+
+def test_what_runs_beside_the_user_adds_and_removes_no_data_block(command, shared):
+    """No step of Undo follows it: a data-block that came or went between two steps is the end of Blender where they are undone."""
+    hair = scenes.groom(12, moving=False)
+    scenes.interval(hair, 12, (0, 70, 20))
+    preview = motions.simulated(hair, 40)
+    bpy.context.scene.frame_set(8)
+    bpy.ops.ed.undo_push(message="frame")
+    blocks = {block.session_uid for kind in [bpy.data.objects, bpy.data.hair_curves, bpy.data.materials] for block in kind}
+    for name, value, strands in [("gravity", 160, 40), ("preview_strands", 60, 60), ("preview_strands", 25, 25)]:
+        setattr(hair.nabiki, name, value)
+        bpy.ops.ed.undo_push(message=name)
+        assert at_rest(preview)
+        if name == "preview_strands" and bpy.app.version < (4, 3):
+            continue
+        answer, operator = beside(hair, Window(), [])
+        assert answer == {"CANCELLED"} and operator.reports == []
+        assert len(preview.data.curves) == strands and not at_rest(preview)
+        now = {block.session_uid for kind in [bpy.data.objects, bpy.data.hair_curves, bpy.data.materials] for block in kind}
+        assert now == blocks
+    # What is left after Undo may have the strands of another step: it is at rest, and shown once its motion is there again.
+    for undone in range(3):
+        bpy.ops.ed.undo()
+        hair = bpy.data.objects["Hair"]
+        preview = hair.nabiki.preview
+        if not part("panels").film_of(bpy.context, hair):
+            assert at_rest(preview)
+            beside(hair, Window(), [])
+        assert not at_rest(preview) and len(preview.data.curves) == hair.nabiki.preview_strands, undone
+
+
+def at_rest(preview):
+    return np.array_equal(scenes.positions(preview.data), scenes.vectors(preview.data, "nabiki_rest"))
+
+
+def test_a_motion_of_settings_that_have_changed_meanwhile_is_not_shown(command, shared):
+    hair = scenes.groom(12, moving=False)
+    scenes.interval(hair, 12, (0, 70, 20))
+    preview = motions.simulated(hair, 40)
+    bpy.context.scene.frame_set(8)
+    hair.nabiki.gravity = 160
+
+    def changes():
+        yield TIMER
+        hair.nabiki.gravity = 180
+        while True:
+            yield TIMER
+
+    jobs = part("jobs")
+    was, jobs.SLICE = jobs.SLICE, 1e-9
+    try:
+        answer, operator = beside(hair, Window(), changes())
+    finally:
+        jobs.SLICE = was
+    assert answer == {"CANCELLED"} and operator.reports == [] and at_rest(preview)
+    assert part("panels").film_of(bpy.context, hair) is None
+    # It was computed, though, and is there where the setting is.
+    hair.nabiki.gravity = 160
+    assert not at_rest(preview)

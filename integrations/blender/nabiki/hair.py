@@ -102,6 +102,14 @@ def _apart(points_cm, starts):
 def make(name, hair, strands, smooth):
     """A data-block of curves with some strands of the hair, with all that they carry."""
     data = bpy.data.hair_curves.new(name)
+    fill(data, hair, strands, smooth)
+    for material in hair.materials:
+        data.materials.append(bpy.data.materials.get(material) if material else None)
+    return data
+
+
+def fill(data, hair, strands, smooth):
+    """Puts some strands of the hair into a data-block without curves."""
     points = hair.points_of(strands)
     data.add_curves(np.diff(hair.offsets)[strands].tolist())
     # Blender before 4.5 knows no way for it, and its curves stay smooth.
@@ -114,6 +122,3 @@ def make(name, hair, strands, smooth):
         attributes.put(data, attribute, kind, "POINT", rows[points])
     for attribute, (kind, rows) in hair.by_strand.items():
         attributes.put(data, attribute, kind, "CURVE", rows[strands])
-    for material in hair.materials:
-        data.materials.append(bpy.data.materials.get(material) if material else None)
-    return data

@@ -58,7 +58,7 @@ class Working:
     """An operator of many steps. `steps(context)` yields (part done, what is done), and True where a thread is at work, and returns what
     to report: a line, and notes."""
 
-    timer = None
+    timer, told = None, ""
     made = None
     """The scene of nabiki at hand, whose files errors may name."""
     beside = False
@@ -90,7 +90,8 @@ class Working:
         self.generator = self.steps(context)
         window_manager = context.window_manager
         self.timer = window_manager.event_timer_add(SLICE, window=context.window)
-        window_manager.progress_begin(0, 100)
+        if not self.beside:
+            window_manager.progress_begin(0, 100)
         window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
@@ -125,17 +126,22 @@ class Working:
         self._leave(context)
 
     def _tell(self, context, part, text):
-        state = context.window_manager.nabiki
+        line = f"Nabiki: {text}, {100 * part:.0f} %  (Esc cancels)"
+        if line == self.told:
+            return
+        self.told, state = line, context.window_manager.nabiki
         state.part, state.text = part, text
-        context.window_manager.progress_update(100 * part)
-        context.workspace.status_text_set(f"Nabiki: {text}, {100 * part:.0f} %  (Esc cancels)")
+        if not self.beside:
+            context.window_manager.progress_update(100 * part)
+        context.workspace.status_text_set(line)
         redraw(context)
 
     def _leave(self, context):
         global running
         running = None
         context.window_manager.event_timer_remove(self.timer)
-        context.window_manager.progress_end()
+        if not self.beside:
+            context.window_manager.progress_end()
         context.workspace.status_text_set(None)
         context.window_manager.nabiki.text = ""
         redraw(context)
@@ -168,10 +174,12 @@ EXPECTED = (Mistake, nabiki.Error, Cancelled, KeyboardInterrupt, OSError, Memory
 
 
 def redraw(context):
+    """Draws the panels anew; the view beside them would take its time from the work."""
     for window in context.window_manager.windows:
         for area in window.screen.areas:
-            if area.type in {"PROPERTIES", "VIEW_3D"}:
-                area.tag_redraw()
+            for region in area.regions:
+                if (area.type, region.type) in {("PROPERTIES", "WINDOW"), ("VIEW_3D", "UI")}:
+                    region.tag_redraw()
 
 
 class NabikiProgress(bpy.types.PropertyGroup):

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import attributes, axes, jobs, playing, sampling, scene_files
 from . import hair as hair_module
-from .messages import Mistake
+from .messages import Cancelled, Mistake
 
 PREVIEW, BAKED = " Preview", " Baked"
 
@@ -93,23 +93,29 @@ def simulate(context, thing, operator, anew=True):
         if thing is None:
             raise Mistake("the hair was deleted")
     known.keep(key, found)
+    if operator.beside and playing.key(context.scene, thing) != key:
+        raise Cancelled
     with playing.Quiet():
-        preview = put_preview(context, thing, sample, found)
+        preview = put_preview(context, thing, sample, found, operator.beside)
         playing.show(context.scene, thing, preview, found)
     return found
 
 
-def put_preview(context, thing, sample, found):
-    """The object that shows a motion: a copy of its strands, in the place of the hair. The hair itself is never written."""
+def put_preview(context, thing, sample, found, beside):
+    """The object that shows a motion: a copy of its strands, in the place of the hair. The hair itself is never written.
+    `beside`: whether no step of Undo follows. Then no data-block may be added or removed: what the steps before it keep would
+    point to one that is gone, and Blender ends where they are undone."""
     settings, preview = thing.nabiki, playing.preview_of(context.scene, thing)
+    if beside:
+        refill(preview, sample, found)
+        return preview
     if preview is None:
         preview = bpy.data.objects.new(thing.name + PREVIEW, bpy.data.hair_curves.new(thing.name + PREVIEW))
         for collection in collections_of(context, thing):
             collection.objects.link(preview)
         settings.preview, preview.nabiki.of = preview, thing
     data = hair_module.make(thing.name + PREVIEW, sample.hair, found.strands, sample.hair.smooth)
-    rest = sample.hair.points[sample.hair.points_of(found.strands)]
-    attributes.put(data, "nabiki_rest", "FLOAT_VECTOR", "POINT", rest)
+    put_rest(data, sample, found)
     old, preview.data = preview.data, data
     bpy.data.hair_curves.remove(old)
     preview.location = sample.origin
@@ -120,6 +126,25 @@ def put_preview(context, thing, sample, found):
         baked.hide_viewport = True
     hide(thing)
     return preview
+
+
+def refill(preview, sample, found):
+    """Other strands for a preview that is there, in its own data-block."""
+    if preview is None:
+        raise Mistake("the preview was deleted: press Simulate")
+    data = preview.data
+    if found.fits(data):
+        return
+    if not hasattr(data, "remove_curves"):  # Blender 4.2
+        raise Mistake("other strands are to be seen: press Simulate")
+    data.remove_curves()
+    hair_module.fill(data, sample.hair, found.strands, sample.hair.smooth)
+    put_rest(data, sample, found)
+
+
+def put_rest(data, sample, found):
+    rest = sample.hair.points[sample.hair.points_of(found.strands)]
+    attributes.put(data, "nabiki_rest", "FLOAT_VECTOR", "POINT", rest)
 
 
 def collections_of(context, thing):

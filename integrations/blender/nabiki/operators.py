@@ -6,8 +6,12 @@ from pathlib import Path
 import bpy
 from bpy_extras.io_utils import ExportHelper
 
-from . import baking, jobs, motion, playing, scene_files, wishing
+from . import axes, baking, jobs, motion, playing, scene_files, wishing
 from .messages import Mistake, one_line
+
+
+# The wind that is added first, along the axes of nabiki, whose x is where the face looks: between a breeze and a strong wind.
+FIRST_WIND = (-60.0, 0.0, 0.0)
 
 
 class Named:
@@ -85,11 +89,14 @@ class OfWinds:
 class NABIKI_OT_interval_add(OfWinds, bpy.types.Operator):
     bl_idname = "nabiki.interval_add"
     bl_label = "Add Wind"
-    bl_description = "Add a wind that begins where the last one ends"
+    bl_description = "Add a wind that begins where the last one ends. The first one blows against the face"
 
     def change(self, scene, settings):
         before = settings.intervals[-1].through if len(settings.intervals) else max(scene.frame_start, 0)
-        settings.intervals.add().through = before + 24
+        interval = settings.intervals.add()
+        interval.through = before + 24
+        if len(settings.intervals) == 1:
+            interval.vector = axes.to_nabiki(settings.facing).T @ FIRST_WIND
         settings.active_interval = len(settings.intervals) - 1
 
 

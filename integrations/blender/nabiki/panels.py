@@ -1,9 +1,15 @@
 """The panels: settings in the Physics tab of the hair, buttons in the sidebar of the 3D Viewport as well."""
 
+import textwrap
+
 import bpy
 
 from . import playing
 from .operators import hair_of
+
+
+# Pixels of a letter on the average, and of what is beside a line of text, at a resolution scale of 1; letters of the shortest line.
+LETTER, BORDERS, LEAST = 5.7, 64, 20
 
 
 def of(context):
@@ -18,17 +24,24 @@ def columns(layout):
     return layout
 
 
+def film_of(context, thing):
+    """The motion that is shown of an object, or None."""
+    preview = playing.preview_of(context.scene, thing)
+    return playing.shown_film(context.scene, thing, preview) if preview is not None else None
+
+
 def buttons(layout, context, thing):
-    """What is pressed, and what is said of it."""
-    state = context.window_manager.nabiki
-    if state.text:
-        layout.progress(factor=state.part, text=state.text)
-        return
-    settings = thing.nabiki
+    """What is pressed, and how far it is: as high at any time, so that nothing below moves away from under the mouse."""
+    state, settings = context.window_manager.nabiki, thing.nabiki
+    busy = bool(state.text)
     column = layout.column(align=True)
-    column.operator("nabiki.simulate", icon="PLAY")
+    if busy:
+        column.progress(factor=state.part, text=state.text)
+    else:
+        column.operator("nabiki.simulate", icon="PLAY")
     column.prop(settings, "preview_strands")
     column = layout.column(align=True)
+    column.enabled = not busy
     row = column.row()
     row.enabled = settings.preview is not None
     row.operator("nabiki.solve", icon="FORCE_WIND")
@@ -36,12 +49,32 @@ def buttons(layout, context, thing):
     row = column.row()
     row.enabled = settings.preview is not None or settings.baked is not None
     row.operator("nabiki.clear", icon="TRASH")
-    film = playing.film_of(context.scene, thing)
-    if settings.preview is not None and film is None:
-        layout.label(text="At rest: press Simulate", icon="INFO")
-    elif film is not None:
-        for note in film.notes:
-            layout.label(text=note, icon="INFO")
+    if busy:
+        layout.label(text="Esc cancels", icon="INFO")
+    else:
+        said, icon = standing(context, thing)
+        layout.label(text=said, icon=icon)
+
+
+def standing(context, thing):
+    """In a few words what is shown of an object, and an icon."""
+    settings, film = thing.nabiki, film_of(context, thing)
+    if film is not None:
+        return f"{len(film.strands)} strands, {len(film.frames)} frames", "INFO" if film.notes else "CHECKMARK"
+    if settings.preview is not None:
+        return "At rest: press Simulate", "INFO"
+    return ("Baked", "CHECKMARK") if settings.baked is not None else ("Nothing moves yet", "INFO")
+
+
+def notes(layout, context, thing):
+    """What was not carried over, or done otherwise than it was set, in lines as wide as the panel."""
+    film = film_of(context, thing)
+    region = context.region
+    across = region.width / context.preferences.system.ui_scale if region is not None else 0
+    column = layout.column(align=True)
+    for note in film.notes if film is not None else []:
+        for number, line in enumerate(textwrap.wrap(note, max(LEAST, int((across - BORDERS) / LETTER)))):
+            column.label(text=line, icon="BLANK1" if number else "DOT")
 
 
 class Panel:
@@ -83,7 +116,7 @@ class NABIKI_UL_intervals(bpy.types.UIList):
     def draw_item(self, context, layout, data, item, icon, active_data, active_property, index=0, flt_flag=0):
         before = data.intervals[index - 1].through if index else context.scene.frame_start
         layout.label(text=f"{before} to {item.through}")
-        layout.label(text="{:.0f}, {:.0f}, {:.0f}".format(*item.vector))
+        layout.label(text=", ".join(str(round(part)) for part in item.vector))
         layout.prop(item, "solve", text="", icon="FORCE_WIND" if item.solve else "LOCKED", emboss=False)
 
 
@@ -183,6 +216,19 @@ class NABIKI_PT_cache(Part, bpy.types.Panel):
         layout.operator("nabiki.write_scene", icon="EXPORT")
 
 
+class NABIKI_PT_notes(Panel, bpy.types.Panel):
+    bl_label = "Notes"
+    bl_parent_id = "NABIKI_PT_main"
+
+    @classmethod
+    def poll(cls, context):
+        film = film_of(context, of(context)) if of(context) is not None else None
+        return film is not None and bool(film.notes)
+
+    def draw(self, context):
+        notes(self.layout, context, of(context))
+
+
 class NABIKI_PT_sidebar(bpy.types.Panel):
     bl_label = "Nabiki"
     bl_space_type = "VIEW_3D"
@@ -195,9 +241,10 @@ class NABIKI_PT_sidebar(bpy.types.Panel):
 
     def draw(self, context):
         buttons(columns(self.layout), context, of(context))
+        notes(self.layout, context, of(context))
 
 
 CLASSES = [NABIKI_UL_intervals, NABIKI_PT_main, NABIKI_PT_wind, NABIKI_PT_fields, NABIKI_PT_gusts, NABIKI_PT_flow, NABIKI_PT_body_wind]
-CLASSES += [NABIKI_PT_settings, NABIKI_PT_collisions, NABIKI_PT_cache, NABIKI_PT_sidebar]
+CLASSES += [NABIKI_PT_settings, NABIKI_PT_collisions, NABIKI_PT_cache, NABIKI_PT_notes, NABIKI_PT_sidebar]
 
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

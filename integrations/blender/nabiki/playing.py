@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 from bpy.app.handlers import persistent
 
-from . import attributes, sampling, scene_files
+from . import attributes, jobs, sampling, scene_files
 from .messages import Mistake
 
 # Motions that are kept of an object, so that Undo and Redo find them.
@@ -39,6 +39,10 @@ class Film:
         if not part:
             return self.points[before]
         return self.points[before] + part * (self.points[before + 1] - self.points[before])
+
+    def fits(self, data):
+        """Whether curves are as many as its strands, with as many points."""
+        return len(data.curves) == len(self.strands) and len(data.points) == self.points.shape[1]
 
     def velocities(self, frame):
         """Units a second, toward the frame after, as motion blur wants them; those of the last frame are of the one before it."""
@@ -101,6 +105,12 @@ def film_of(scene, thing):
     return known.films.get(key(scene, thing)) if known and known.films else None
 
 
+def shown_film(scene, thing, preview):
+    """The motion that a preview shows, or None: after Undo it may have the strands of another."""
+    film = film_of(scene, thing)
+    return film if film is not None and film.fits(preview.data) else None
+
+
 def previews(scene):
     """The objects of curves that have a preview in a scene, and their previews."""
     for thing in scene.objects:
@@ -121,7 +131,7 @@ def show(scene, thing, preview, film):
         return
     data = preview.data
     data["nabiki_shown"] = shown_now(scene, thing, film)
-    if film is not None and film.points.shape[1] == len(data.points):
+    if film is not None:
         frame = scene.frame_current_final
         points, velocities = film.at(frame), film.velocities(frame)
     else:
@@ -142,7 +152,7 @@ def shown_now(scene, thing, film):
 
 def show_all(scene):
     for thing, preview in previews(scene):
-        show(scene, thing, preview, film_of(scene, thing))
+        show(scene, thing, preview, shown_film(scene, thing, preview))
 
 
 def settings_changed(thing):
@@ -152,7 +162,7 @@ def settings_changed(thing):
     for scene in bpy.data.scenes:
         for own, preview in previews(scene):
             if own == thing:
-                film = film_of(scene, thing)
+                film = shown_film(scene, thing, preview)
                 show(scene, thing, preview, film)
                 if film is None:
                     ask_again(thing)
@@ -175,15 +185,26 @@ def ask_again(thing):
 
 
 def again():
-    """Computes what was asked for, beside whatever the user does."""
+    """Computes what was asked for, beside whatever the user does, once nothing else is at work."""
     windows = bpy.context.window_manager.windows
     things = [o for o in windows[0].scene.objects if o.session_uid in asked] if windows else []
-    asked.clear()
-    for thing in things:
-        known, now = takes.get(thing.session_uid), key(windows[0].scene, thing)
-        if known is not None and known.sample is not None and now is not None and known.sample.digest == now[1]:
-            with bpy.context.temp_override(window=windows[0], scene=windows[0].scene):
-                bpy.ops.nabiki.simulate("INVOKE_DEFAULT", name=thing.name, beside=True)
+    working = jobs.running
+    if working is not None:
+        # Nobody waits for the motion of settings that are others by now.
+        if working.beside and any(working.name == thing.name for thing in things):
+            working.unwanted = True
+        return CALM
+    if not things:
+        asked.clear()
+        return None
+    # One after another.
+    thing = things[0]
+    asked.remove(thing.session_uid)
+    known, now = takes.get(thing.session_uid), key(windows[0].scene, thing)
+    if known is not None and known.sample is not None and now is not None and known.sample.digest == now[1]:
+        with bpy.context.temp_override(window=windows[0], scene=windows[0].scene):
+            bpy.ops.nabiki.simulate("INVOKE_DEFAULT", name=thing.name, beside=True)
+    return CALM if asked else None
 
 
 @persistent
@@ -236,7 +257,7 @@ def ours(thing, preview):
 def check(scene, graph=None):
     """Motions that are none any more are not shown."""
     for thing, preview in previews(scene):
-        film = film_of(scene, thing)
+        film = shown_film(scene, thing, preview)
         known = takes.get(thing.session_uid)
         # Samples are of whole frames.
         if film is not None and known.sample is not None and not scene.frame_subframe:
@@ -261,7 +282,7 @@ def forget(thing):
 def after_undo(scene, _=None):
     scene = bpy.context.scene
     for thing, preview in previews(scene):
-        film = film_of(scene, thing)
+        film = shown_film(scene, thing, preview)
         # What a hand has moved in this very frame stays.
         if preview.data.get("nabiki_shown") != shown_now(scene, thing, film):
             with Quiet():
