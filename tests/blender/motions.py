@@ -244,3 +244,21 @@ def test_an_alembic_bake_reads_back(command, shared):
     scenes.active(hair)
     assert bpy.ops.nabiki.bake() == {"FINISHED"}
     near(all_frames(hair.nabiki.baked), wanted, 0, "baked to .abc")
+
+
+def test_blender_knows_where_a_frame_has_moved_the_preview(command, shared):
+    """Its bounds, by which what is out of sight is left out, are those of the points it has in each frame."""
+    if "resize_curves" not in bpy.types.Curves.bl_rna.functions:
+        return "Blender 4.2 cannot be told"
+    hair = scenes.groom(16, moving=False)
+    scenes.interval(hair, 16, (0, 90, 20))
+    preview = simulated(hair, 40)
+    boxes = []
+    for frame in [1, 9, 15, 4]:
+        points, _ = scenes.evaluated(preview, frame)
+        box = np.array(preview.evaluated_get(bpy.context.evaluated_depsgraph_get()).bound_box) + np.array(preview.location)
+        low, high = points.min(0) - box.min(0), box.max(0) - points.max(0)
+        # From 4.5 on bounds have the radius about the points; Catmull-Rom curves may go out of their points by little.
+        assert (abs(low) < 2e-3).all() and (abs(high) < 2e-3).all(), (frame, low, high)
+        boxes.append(box)
+    assert abs(boxes[2] - boxes[0]).max() > 0.01, boxes

@@ -42,3 +42,11 @@ def put(data, name, kind, domain, rows):
     attribute = data.attributes.get(name) or data.attributes.new(name, kind, domain)
     value, _, number = KINDS[kind]
     attribute.data.foreach_set(value, np.ascontiguousarray(rows, number).ravel())
+
+
+def moved(data):
+    """Tells Blender that the points of curves are elsewhere. Bounds and evaluated lines, by which it culls, draws Edit Mode and feeds
+    modifiers, are kept from before when positions alone are written; a curve that is given as many points as it has renews them."""
+    if len(data.curves) and hasattr(data, "resize_curves"):  # Blender 4.2 has none
+        data.resize_curves([data.curves[0].points_length], indices=[0])
+    data.update_tag()

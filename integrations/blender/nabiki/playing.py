@@ -142,7 +142,7 @@ def show(scene, thing, preview, film):
         velocities = np.zeros_like(points)
     attributes.put(data, "position", "FLOAT_VECTOR", "POINT", points)
     attributes.put(data, "velocity", "FLOAT_VECTOR", "POINT", velocities)
-    data.update_tag()
+    attributes.moved(data)
 
 
 def shown_now(scene, thing, film):
