@@ -97,6 +97,32 @@ fn any_frame_can_be_gone_to_in_any_order() {
 }
 
 #[test]
+fn a_film_in_stretches_is_the_film_and_can_be_stopped_between_them() {
+    let hair = mixed_hair(60);
+    let whole = played(&mut timeline(&hair));
+    let points = hair.points().len();
+    let last = FRAMES as usize;
+    for stretch in [1, 7, FRAMES, FRAMES + 1, 1000] {
+        let mut timeline = timeline(&hair);
+        let mut film = vec![Vec3::NAN; (last + 1) * points];
+        let mut asked = 0;
+        assert!(timeline.play_into_while(&mut film, stretch, || {
+            asked += 1;
+            true
+        }));
+        assert_eq!(asked, FRAMES / stretch, "it is asked between any two stretches");
+        assert!(film.chunks(points).zip(&whole).all(|(page, frame)| to_bits(page) == *frame));
+        assert_eq!(timeline.frame(), FRAMES);
+        // Stopped, it stands where it has come to, and goes on from there.
+        let ended = timeline.play_into_while(&mut film, stretch, || false);
+        let at = (stretch - 1).min(FRAMES);
+        assert_eq!((ended, timeline.frame()), (at == FRAMES, at));
+        assert_eq!(bits(timeline.strands()), whole[at as usize]);
+        assert_eq!(bits(timeline.seek(FRAMES)), whole[last]);
+    }
+}
+
+#[test]
 fn another_field_settings_or_way_give_what_a_new_timeline_gives() {
     let hair = mixed_hair(60);
     let mut timeline = timeline(&hair);

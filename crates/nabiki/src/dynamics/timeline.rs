@@ -173,11 +173,31 @@ impl Timeline {
     /// # Panics
     /// If there is not room for just these points.
     pub fn play_into(&mut self, film: &mut [Vec3]) {
+        self.play_into_while(film, self.frames + 1, || true);
+    }
+
+    /// As [`play_into`](Self::play_into), so many frames at a time; between any two of these stretches `goes_on` is asked
+    /// whether to go on. Whether it came to the end: where it did not, the timeline stands at the last frame of the stretch
+    /// that it ended with, and the film holds the frames up to it. For hair of which there is so much that somebody may not
+    /// want to wait.
+    ///
+    /// # Panics
+    /// If there is not room for just these points, or a stretch has no frame.
+    pub fn play_into_while(&mut self, film: &mut [Vec3], stretch: u32, mut goes_on: impl FnMut() -> bool) -> bool {
         let points = self.strands.points().len();
-        assert_eq!(film.len(), (self.frames as usize + 1) * points, "a film has room for every point of every frame");
-        self.sweep(0..=self.frames, Pages::All(film.chunks_exact_mut(points).collect()));
-        self.strands.points_mut().copy_from_slice(&film[self.frames as usize * points..]);
-        self.frame = self.frames;
+        let frames = self.frames as usize + 1;
+        assert_eq!(film.len(), frames * points, "a film has room for every point of every frame");
+        assert!(stretch > 0, "a stretch has at least one frame");
+        let mut first = 0;
+        while first < frames && (first == 0 || goes_on()) {
+            let end = (first + stretch as usize).min(frames);
+            let pages = film[first * points..end * points].chunks_exact_mut(points).collect();
+            self.sweep(first as u32..=end as u32 - 1, Pages::All(pages));
+            first = end;
+        }
+        self.strands.points_mut().copy_from_slice(&film[(first - 1) * points..first * points]);
+        self.frame = first as u32 - 1;
+        first == frames
     }
 
     /// Puts another field in the place of this one, and the hair back to rest.
