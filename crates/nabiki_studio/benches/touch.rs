@@ -5,7 +5,7 @@
 use std::time::{Duration, Instant};
 
 use nabiki_scene::{Scene, Shown};
-use nabiki_studio::motion::Motion;
+use nabiki_studio::motion::{Manner, Motion};
 
 /// The gust, whose wind is the same everywhere but for swirls.
 const GUST: &str = include_str!("../src/first.toml");
@@ -24,7 +24,7 @@ fn main() {
 }
 
 fn touch_it(scene: &Scene) {
-    let mut motion = Motion::start(|| ()).unwrap_or_else(|e| panic!("{e}"));
+    let mut motion = Motion::start(Manner::Finishes, || ()).unwrap_or_else(|e| panic!("{e}"));
     println!("{:>8}  {:<34}{:>9}{:>9}", "strands", "touch", "median", "worst");
     for strands in [300, 1000] {
         type Touch = fn(&mut Scene, usize);

@@ -3,31 +3,23 @@
 use std::path::PathBuf;
 
 use eframe::egui::{self, Key, Modifiers, Ui, ViewportCommand};
-use egui_tiles::{SimplificationOptions, TileId, Tiles, Tree, UiResponse};
-use serde::{Deserialize, Serialize};
+use egui_tiles::{SimplificationOptions, TileId, UiResponse};
 
 use crate::actions::{ACTIONS, Action};
 use crate::command::Command;
+use crate::dialog::Dialog;
 use crate::document::Phase;
-use crate::panels::{Commands, dialogs, mend, menu, page, status, theme, timeline};
+use crate::layout::{Layout, Pane};
+use crate::panels::{Commands, dialogs, mend, menu, page, status, theme, timeline, welcome};
 use crate::preferences::{LAYOUT, Preferences};
 use crate::session::{Session, Wish};
-use crate::settings::Page;
 use crate::view::{Shown, Touch, View};
-
-/// A panel of the window.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-enum Pane {
-    View,
-    Timeline,
-    Page(Page),
-}
 
 /// The window.
 pub struct App {
     session: Session,
     view: View,
-    tree: Tree<Pane>,
+    layout: Layout,
     /// Pictures of the window in a second, by a running mean.
     fps: f32,
     title: String,
@@ -49,10 +41,10 @@ impl App {
         let ctx = cc.egui_ctx.clone();
         let mut session = Session::new(folder, move || ctx.request_repaint())?;
         session.begin(scene.as_deref());
-        let tree = session.folder().and_then(|folder| read_layout(&folder.join(LAYOUT))).unwrap_or_else(layout);
+        let layout = session.folder().and_then(|folder| Layout::read(&folder.join(LAYOUT))).unwrap_or_default();
         let view = View::new(cc.wgpu_render_state.as_ref());
         let (remembered, zoom) = (session.preferences().clone(), 0.0);
-        Ok(Self { session, view, tree, fps: 0.0, title: String::new(), remembered, zoom })
+        Ok(Self { session, view, layout, fps: 0.0, title: String::new(), remembered, zoom })
     }
 
     /// What the window knows.
@@ -78,7 +70,7 @@ impl App {
             ctx.request_repaint();
         } else {
             // The file on the disk, and what is to be kept, are looked at now and then.
-            ctx.request_repaint_after(std::time::Duration::from_secs(1));
+            ctx.request_repaint_after(std::time::Duration::from_secs_f64(self.session.waits()));
         }
         let zoom = self.session.preferences().zoom;
         if (self.zoom - zoom).abs() > 1e-3 {
@@ -119,7 +111,16 @@ impl App {
         if ctx.input(|input| input.viewport().close_requested()) && !self.session.may_close() {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
         }
-        if self.session.dialog().is_some() || ctx.egui_wants_keyboard_input() {
+        if self.session.dialog() == Some(&Dialog::Welcome) {
+            if !welcome::is_over(ctx) {
+                return;
+            }
+            // The touch does what it does; the words only go.
+            commands.push(Command::CloseDialog);
+        } else if self.session.dialog().is_some() {
+            return;
+        }
+        if ctx.egui_wants_keyboard_input() {
             return;
         }
         keys(ctx, commands);
@@ -133,7 +134,7 @@ impl App {
                 Wish::Frame => self.view.frame_hair(),
                 Wish::SceneCamera => self.view.reset_camera(),
                 Wish::UseCamera => self.use_camera(),
-                Wish::ResetLayout => self.tree = layout(),
+                Wish::ResetLayout => self.layout = Layout::default(),
                 Wish::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             }
         }
@@ -173,7 +174,7 @@ impl eframe::App for App {
         }
         egui::CentralPanel::default().frame(egui::Frame::new().fill(theme::GROUND)).show(ui, |ui| {
             let mut panes = Panes { session: &self.session, view: &mut self.view, commands: &mut commands };
-            self.tree.ui(&mut panes, ui);
+            self.layout.ui(&mut panes, ui);
         });
         dialogs::ui(&ctx, &self.session, &mut commands);
         if ctx.input(|input| input.pointer.any_released()) {
@@ -185,7 +186,7 @@ impl eframe::App for App {
     fn on_exit(&mut self) {
         self.session.remember();
         if let Some(folder) = self.session.folder() {
-            write_layout(&folder.join(LAYOUT), &self.tree);
+            self.layout.write(&folder.join(LAYOUT));
         }
     }
 
@@ -267,7 +268,13 @@ impl Panes<'_> {
             strands_in_final: usize::MAX,
             navigation: preferences.navigation,
         };
-        for touch in self.view.ui(ui, &shown) {
+        let rect = ui.available_rect_before_wrap();
+        let touches = self.view.ui(ui, &shown);
+        if self.session.dialog() == Some(&Dialog::Welcome) {
+            let (side, room) = self.view.free_side(&shown, rect.size());
+            welcome::ui(ui.ctx(), rect, side, room);
+        }
+        for touch in touches {
             let phase = |done| if done { Phase::Done } else { Phase::Dragging };
             self.commands.push(match touch {
                 Touch::SetVector { interval, vector, done } => Command::Vector { interval, vector, phase: phase(done) },
@@ -324,41 +331,5 @@ impl egui_tiles::Behavior<Pane> for Panes<'_> {
 
     fn tab_bar_color(&self, _: &egui::Visuals) -> egui::Color32 {
         theme::GROUND
-    }
-}
-
-/// The panels as at the first start.
-fn layout() -> Tree<Pane> {
-    let mut tiles = Tiles::default();
-    let view = tiles.insert_pane(Pane::View);
-    let timeline = tiles.insert_pane(Pane::Timeline);
-    let pages = Page::ALL.map(|page| tiles.insert_pane(Pane::Page(page))).to_vec();
-    let pages = tiles.insert_tab_tile(pages);
-    let mut shares = egui_tiles::Linear::new(egui_tiles::LinearDir::Horizontal, vec![view, pages]);
-    shares.shares.set_share(view, 0.77);
-    shares.shares.set_share(pages, 0.23);
-    let above = tiles.insert_container(shares);
-    let mut shares = egui_tiles::Linear::new(egui_tiles::LinearDir::Vertical, vec![above, timeline]);
-    shares.shares.set_share(above, 0.72);
-    shares.shares.set_share(timeline, 0.28);
-    let root = tiles.insert_container(shares);
-    Tree::new(egui::Id::unique("panels"), root, tiles)
-}
-
-/// The panels as they were, if that can be read and nothing is missing.
-fn read_layout(file: &std::path::Path) -> Option<Tree<Pane>> {
-    let tree: Tree<Pane> = serde_json::from_str(&std::fs::read_to_string(file).ok()?).ok()?;
-    let whole = [Pane::View, Pane::Timeline]
-        .into_iter()
-        .chain(Page::ALL.map(Pane::Page))
-        .all(|pane| tree.tiles.find_pane(&pane).is_some_and(|id| tree.tiles.is_visible(id)));
-    let root = tree.root()?;
-    (whole && tree.tiles.get(root).is_some()).then_some(tree)
-}
-
-/// A layout that is not remembered is no loss.
-fn write_layout(file: &std::path::Path, tree: &Tree<Pane>) {
-    if let Ok(text) = serde_json::to_string(tree) {
-        let _ = std::fs::write(file, text);
     }
 }

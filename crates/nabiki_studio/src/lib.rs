@@ -9,6 +9,7 @@ pub mod dialog;
 pub mod document;
 pub mod drag;
 pub mod icon;
+pub mod layout;
 pub mod motion;
 mod panels;
 pub mod play;

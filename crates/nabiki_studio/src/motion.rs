@@ -34,7 +34,11 @@ pub struct Moved {
 }
 
 /// Most bytes of points that a take may hold.
-pub const MOST_BYTES: usize = 1 << 30;
+pub const MOST_BYTES: usize = 4 << 30;
+/// Most points of a frame: what every card has room for. Of two vertices of 32 bytes each, they fill 128 MiB.
+pub const MOST_POINTS: usize = 1 << 21;
+/// Points of a stretch, between two of which a worker that gives way looks whether it should: a few hundredths of a second.
+const STRETCH: usize = 4_000_000;
 
 /// The worker. Whatever is asked for while it works replaces what was asked for before and has not been begun.
 #[derive(Debug)]
@@ -42,6 +46,15 @@ pub struct Motion {
     shared: Arc<Shared>,
     thread: Option<JoinHandle<()>>,
     number: u64,
+}
+
+/// What a worker does with a motion that is no longer the newest asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Manner {
+    /// It ends it first: a hand that drags sees the hair follow all the while.
+    Finishes,
+    /// It gives it up: much hair, that nobody waits for any more.
+    GivesWay,
 }
 
 #[derive(Debug, Default)]
@@ -55,6 +68,12 @@ struct State {
     request: Option<Request>,
     done: Option<Moved>,
     working: bool,
+    /// How much of it is done, 0..1.
+    part: f32,
+    /// What is being worked on is wanted no more.
+    stopped: bool,
+    /// What is kept for the next request is to go.
+    forget: bool,
     quit: bool,
 }
 
@@ -70,14 +89,14 @@ impl Motion {
     ///
     /// # Errors
     /// The system's, if it gives no thread.
-    pub fn start(wake: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
+    pub fn start(manner: Manner, wake: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
         let shared = Arc::new(Shared::default());
         let theirs = shared.clone();
         let thread = std::thread::Builder::new().name("motion".to_owned()).spawn(move || {
             // A pool of its own, so that a touch need not wait for the tasks of a picture being drawn.
             match rayon::ThreadPoolBuilder::new().build() {
-                Ok(pool) => pool.install(|| work(&theirs, &wake)),
-                Err(_) => work(&theirs, &wake),
+                Ok(pool) => pool.install(|| work(manner, &theirs, &wake)),
+                Err(_) => work(manner, &theirs, &wake),
             }
         })?;
         Ok(Self { shared, thread: Some(thread), number: 0 })
@@ -92,6 +111,25 @@ impl Motion {
         state.request = Some(Request { scene, strands, number: self.number, fresh });
         self.shared.changed.notify_all();
         self.number
+    }
+
+    /// How much of what is being worked on is done, 0..1.
+    pub fn part(&self) -> f32 {
+        self.shared.lock().part
+    }
+
+    /// What was asked for is wanted no more: it does not come, nor does what was there already and has not been taken.
+    pub fn stop(&self) {
+        let mut state = self.shared.lock();
+        (state.request, state.done, state.stopped) = (None, None, state.working);
+        self.shared.changed.notify_all();
+    }
+
+    /// As [`stop`](Self::stop), and lets go of all that is kept for what may be asked for next.
+    pub fn forget(&self) {
+        self.stop();
+        self.shared.lock().forget = true;
+        self.shared.changed.notify_all();
     }
 
     /// The newest motion that has not been taken yet.
@@ -116,6 +154,7 @@ impl Motion {
 
 impl Drop for Motion {
     fn drop(&mut self) {
+        self.stop();
         self.shared.lock().quit = true;
         self.shared.changed.notify_all();
         if let Some(thread) = self.thread.take() {
@@ -125,7 +164,7 @@ impl Drop for Motion {
     }
 }
 
-fn work(shared: &Shared, wake: &(impl Fn() + Sync)) {
+fn work(manner: Manner, shared: &Shared, wake: &(impl Fn() + Sync)) {
     let mut player = Player::default();
     loop {
         let request = {
@@ -134,8 +173,11 @@ fn work(shared: &Shared, wake: &(impl Fn() + Sync)) {
                 if state.quit {
                     return;
                 }
+                if std::mem::take(&mut state.forget) {
+                    player = Player::default();
+                }
                 if let Some(request) = state.request.take() {
-                    state.working = true;
+                    (state.working, state.stopped, state.part) = (true, false, 0.0);
                     break request;
                 }
                 state = shared.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
@@ -143,10 +185,21 @@ fn work(shared: &Shared, wake: &(impl Fn() + Sync)) {
         };
         let start = Instant::now();
         let number = request.number;
-        let result = player.play(request);
-        let moved = Moved { number, result, took: start.elapsed() };
+        let goes_on = |part: f32| {
+            manner == Manner::Finishes || {
+                let mut state = shared.lock();
+                state.part = part;
+                wake();
+                state.request.is_none() && !state.stopped
+            }
+        };
+        let result = player.play(request, goes_on);
         let mut state = shared.lock();
-        state.done = Some(moved);
+        if let Some(result) = result.transpose()
+            && !state.stopped
+        {
+            state.done = Some(Moved { number, result, took: start.elapsed() });
+        }
         state.working = false;
         drop(state);
         shared.changed.notify_all();
@@ -167,7 +220,12 @@ struct Player {
 const FILMS: usize = 3;
 
 impl Player {
-    fn play(&mut self, Request { scene, strands, number, fresh }: Request) -> Result<(Arc<Take>, SwingTable), Error> {
+    /// The motion asked for; none where it did not go on to the end.
+    fn play(
+        &mut self,
+        Request { scene, strands, number, fresh }: Request,
+        goes_on: impl Fn(f32) -> bool,
+    ) -> Result<Option<(Arc<Take>, SwingTable)>, Error> {
         scene.check().map_err(|refused| scene.refusal(refused))?;
         let shown = Shown::AtMost(strands);
         let known = self.built.clone().filter(|_| !fresh);
@@ -176,6 +234,11 @@ impl Player {
             None => scene.build(shown)?,
         };
         check_size(&built)?;
+        if !goes_on(0.0) {
+            self.built = Some(Arc::new(built));
+            self.timeline = None;
+            return Ok(None);
+        }
         let timeline = match (known, self.timeline.take()) {
             (Some(known), Some(timeline)) => reused(timeline, &known, &built),
             _ => None,
@@ -185,11 +248,17 @@ impl Player {
             None => built.timeline().inspect_err(|_| self.built = None)?,
         };
         let points = built.hair.strands.points().len() * (built.frames() as usize + 1);
-        let film = self.film(points, |film| timeline.play_into(film));
+        let stretch = (STRETCH / built.hair.strands.points().len().max(1)).max(1) as u32;
+        let (mut whole, mut frame) = (false, 0);
+        let mut next = || {
+            frame += stretch;
+            goes_on(frame as f32 / (built.frames() + 1) as f32)
+        };
+        let film = self.film(points, |film| whole = timeline.play_into_while(film, stretch, &mut next));
         let swings = SwingTable::of(&built);
         let built = Arc::new(built);
         (self.built, self.timeline) = (Some(built.clone()), Some(timeline));
-        Ok((Arc::new(Take { built, film, number }), swings))
+        Ok(whole.then(|| (Arc::new(Take { built, film, number }), swings)))
     }
 
     /// A film of so many points, in storage that nobody looks at any more where there is some.
@@ -232,15 +301,30 @@ fn reused(mut timeline: Timeline, known: &BuiltScene, built: &BuiltScene) -> Opt
 
 /// Refuses more points than there is room for.
 fn check_size(built: &BuiltScene) -> Result<(), Error> {
-    let points = built.hair.strands.points().len() * (built.frames() as usize + 1);
-    let bytes = points * size_of::<Vec3>();
-    if bytes <= MOST_BYTES {
-        return Ok(());
+    let points = built.hair.strands.points().len();
+    let bytes = points * (built.frames() as usize + 1) * size_of::<Vec3>();
+    let strands = built.hair.strands.len();
+    if bytes > MOST_BYTES {
+        return Err(Error::refused(format!(
+            "{strands} strands in {} frames take {:.1} GiB: show fewer strands, or give motion.frames less",
+            built.frames() + 1,
+            bytes as f64 / (1u64 << 30) as f64
+        )));
     }
-    Err(Error::refused(format!(
-        "{} strands in {} frames take {:.1} GiB: show fewer strands, or give motion.frames less",
-        built.hair.strands.len(),
-        built.frames() + 1,
-        bytes as f64 / (1u64 << 30) as f64
-    )))
+    if points > MOST_POINTS {
+        return Err(Error::refused(format!(
+            "{strands} strands of {points} points are more than the view draws ({MOST_POINTS} points): show fewer"
+        )));
+    }
+    Ok(())
+}
+
+/// As many of a take's strands, or of those that it is some of, as [are not refused](check_size).
+pub fn most_strands(take: &Take) -> usize {
+    let (strands, points) = (take.strands().len().max(1), take.strands().points().len().max(1));
+    let frames = take.frames() as usize + 1;
+    let points_in_all = MOST_POINTS.min(MOST_BYTES / (frames * size_of::<Vec3>()));
+    // A hundredth is left for hair that is not of one length.
+    let fit = (points_in_all as f64 * 0.99 * strands as f64 / points as f64) as usize;
+    take.built.strands_of_scene.min(fit)
 }

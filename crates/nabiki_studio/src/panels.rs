@@ -10,6 +10,7 @@ pub mod page;
 pub mod status;
 pub mod theme;
 pub mod timeline;
+pub mod welcome;
 
 use crate::command::Command;
 

@@ -22,7 +22,7 @@ pub struct Preferences {
     pub zoom: f32,
     /// Mouse buttons of the view.
     pub navigation: Navigation,
-    /// Strands shown.
+    /// Strands shown; [`ALL`] for all of any scene.
     pub strands: usize,
     /// Whether the paths of the tips are drawn.
     pub ghosts: bool,
@@ -59,8 +59,10 @@ impl Default for Preferences {
 /// Files remembered.
 const MOST_RECENT: usize = 10;
 
-/// Strands shown, at least and at most.
-pub const STRANDS: std::ops::RangeInclusive<usize> = 300..=20_000;
+/// Fewest strands that the slider shows.
+pub const FEWEST: usize = 300;
+/// As many strands as this are all of any scene.
+pub const ALL: usize = 1_000_000_000;
 
 impl Preferences {
     /// What was remembered in `folder`; what cannot be read, or makes no sense, is as at the first start, and said.
@@ -112,6 +114,11 @@ impl Preferences {
         let mut file = PartFile::create(&folder.join(FILE))?;
         file.write_all(text.as_bytes())?;
         file.finish()
+    }
+
+    /// How many strands are shown, in words.
+    pub fn strands_in_words(&self) -> String {
+        if self.strands >= ALL { "all".to_owned() } else { self.strands.to_string() }
     }
 
     /// Notes that a file was opened or saved.

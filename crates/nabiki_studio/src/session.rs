@@ -1,6 +1,7 @@
 //! What a window knows: the scene, its motion, what is chosen, played, asked and exported. It changes by commands and by
 //! the time that passes.
 
+mod deep;
 mod edit;
 mod files;
 
@@ -16,13 +17,14 @@ use crate::actions::Action;
 use crate::command::Command;
 use crate::dialog::{Dialog, Next};
 use crate::document::Document;
-use crate::motion::{Motion, Moved};
+use crate::motion::{Manner, Motion, Moved};
 use crate::play::{Ending, Play};
-use crate::preferences::{self, Preferences};
+use crate::preferences::Preferences;
 use crate::recovery::{self, Keeper};
-use crate::take::Take;
+use crate::take::{TOUCHED, Take};
 use crate::tasks::Task;
 use crate::timeline::Clip;
+use deep::Deep;
 
 /// Between two looks at the scene's file, and between the last change and its being kept.
 const LOOK: Duration = Duration::from_secs(1);
@@ -82,6 +84,7 @@ pub struct Session {
     settings: Arc<Table>,
     broken: Option<Broken>,
     motion: Motion,
+    deep: Deep,
     take: Option<Arc<Take>>,
     swings: Option<SwingTable>,
     trouble: Option<Trouble>,
@@ -124,13 +127,14 @@ impl Session {
     pub fn new(folder: Option<PathBuf>, wake: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
         let wake = Waker(Arc::new(wake));
         let theirs = wake.clone();
-        let motion = Motion::start(move || theirs.0())?;
+        let motion = Motion::start(Manner::Finishes, move || theirs.0())?;
         let (preferences, said) = folder.as_deref().map_or((Preferences::default(), None), Preferences::load);
         let mut session = Self {
             document: None,
             settings: Arc::default(),
             broken: None,
             motion,
+            deep: Deep::default(),
             take: None,
             swings: None,
             trouble: None,
@@ -212,13 +216,28 @@ impl Session {
 
     /// Whether a motion is being worked out.
     pub fn is_moving(&self) -> bool {
-        self.motion.is_working()
+        self.motion.is_working() || self.deep.is_working()
     }
 
-    /// Waits until the scene has been moved as it is.
+    /// How much is done, 0..1, of the motion of more strands than a touch moves, while it is being worked out.
+    pub fn part_deep(&self) -> Option<f32> {
+        self.deep.part()
+    }
+
+    /// Waits until the scene has been moved as it is, with all strands that are asked for.
     pub fn wait(&mut self) {
         self.motion.wait();
         self.receive();
+        if self.deep.is_due(f64::INFINITY) {
+            self.deepen();
+        }
+        self.deep.wait();
+        self.receive();
+    }
+
+    /// Seconds until there is something to do that nobody calls for.
+    pub fn waits(&self) -> f64 {
+        self.deep.waits(self.clock).min(LOOK.as_secs_f64())
     }
 
     /// The intervals chosen, in ascending order.
@@ -281,6 +300,9 @@ impl Session {
             self.play.advance(seconds, document.scene().frame_rate());
         }
         self.receive();
+        if self.deep.is_due(self.clock) && !self.motion.is_working() {
+            self.deepen();
+        }
         let clock = self.clock;
         self.words.retain(|word| word.wrong || clock - word.at < 6.0);
         if self.looked.elapsed() >= LOOK {
@@ -291,7 +313,15 @@ impl Session {
     }
 
     fn receive(&mut self) {
-        let Some(Moved { number, result, took }) = self.motion.take() else { return };
+        if let Some(moved) = self.motion.take() {
+            self.receive_touched(moved);
+        }
+        if let Some(moved) = self.deep.take() {
+            self.receive_deep(moved);
+        }
+    }
+
+    fn receive_touched(&mut self, Moved { number, result, took }: Moved) {
         match result {
             Ok((take, swings)) => {
                 self.play.set_last(take.frames());
@@ -328,9 +358,10 @@ impl Session {
             Err(e) => self.trouble = Some(Trouble { text: e.to_string(), key: None }),
         }
         self.play.set_last(document.scene().motion.frames);
-        self.asked = self.motion.ask(document.scene().clone(), self.preferences.strands, fresh);
+        self.asked = self.motion.ask(document.scene().clone(), self.preferences.strands.min(TOUCHED), fresh);
         let intervals = document.scene().field.force.len();
         self.chosen.retain(|&j| j < intervals);
+        self.wait_to_deepen(fresh);
     }
 
     /// Does what is asked for.
@@ -343,10 +374,7 @@ impl Session {
             }
             Command::Speed(speed) => self.play.speed = speed,
             Command::End(ending) => self.set_ending(ending),
-            Command::Strands(strands) => {
-                self.preferences.strands = strands.max(1);
-                self.move_again(false);
-            }
+            Command::Strands(strands) => self.show_strands(strands),
             Command::Choose(chosen) => self.chosen = chosen,
             Command::Show(dialog) => self.dialog = Some(*dialog),
             Command::CloseDialog => self.close_dialog(),
@@ -356,10 +384,11 @@ impl Session {
             Command::Say(text) => self.say(text, false),
             Command::Dismiss(_) | Command::Heard(_) => {}
             Command::Prefer(preferences) => {
-                let strands = preferences.strands != self.preferences.strands;
-                self.preferences = *preferences;
-                if strands {
-                    self.move_again(false);
+                let strands = preferences.strands;
+                let before = std::mem::replace(&mut self.preferences, *preferences).strands;
+                if strands != before {
+                    self.preferences.strands = before;
+                    self.show_strands(strands);
                 }
             }
             Command::Export(order) => self.export(order),
@@ -441,13 +470,6 @@ impl Session {
             }
             action => self.act_on_intervals(action),
         }
-    }
-
-    fn step_strands(&mut self, more: bool) {
-        let (least, most) = (*preferences::STRANDS.start(), *preferences::STRANDS.end());
-        let strands = self.preferences.strands;
-        let strands = if more { (2 * strands).min(most.max(strands)) } else { (strands / 2).max(least.min(strands)) };
-        self.apply(Command::Strands(strands));
     }
 }
 

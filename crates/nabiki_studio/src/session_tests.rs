@@ -85,6 +85,63 @@ fn whatever_is_changed_is_moved_as_if_from_anew() {
 }
 
 #[test]
+fn more_strands_than_a_touch_moves_follow_when_the_hand_rests() {
+    let place = Place::new();
+    std::fs::write(place.file(), TEXT.replace("strands = 60", "strands = 2300")).unwrap();
+    let mut session = place.session();
+    let shown = |session: &Session| session.take().unwrap().strands().len();
+    session.apply(Command::Strands(crate::preferences::ALL));
+    session.wait();
+    assert_eq!(shown(&session), 2300);
+    assert!(*session.take().unwrap().film == *fresh(&session));
+    for n in 1..4 {
+        session.apply(Command::Vector { interval: 0, vector: Vec3::X * n as f32, phase: Phase::Dragging });
+        session.motion.wait();
+        session.receive();
+        assert_eq!(shown(&session), crate::take::TOUCHED, "a touch does not wait for all");
+    }
+    let few = session.take().unwrap().clone();
+    session.tick(0.01);
+    assert!(!session.is_moving(), "the hand has not rested");
+    session.tick(0.2);
+    session.wait();
+    let all = session.take().unwrap();
+    assert_eq!((all.strands().len(), session.trouble()), (2300, None));
+    assert!(*all.film == *fresh(&session));
+    assert!(
+        (0..=20).all(|frame| all.points(frame)[..few.points(0).len()] == *few.points(frame)),
+        "the few move as among all"
+    );
+    session.apply(Command::Act(Action::Fewer));
+    session.wait();
+    assert_eq!(shown(&session), 1150);
+    session.apply(Command::Act(Action::More));
+    session.wait();
+    assert_eq!((shown(&session), session.preferences().strands), (2300, crate::preferences::ALL));
+}
+
+#[test]
+fn what_is_moved_of_many_strands_gives_way() {
+    let place = Place::new();
+    let session = place.session();
+    let scene = session.document().unwrap().scene().clone();
+    let mut motion = Motion::start(Manner::GivesWay, || ()).unwrap();
+    motion.ask(scene.clone(), 60, false);
+    motion.stop();
+    motion.wait();
+    assert!(motion.take().is_none());
+    let numbers: Vec<u64> = (0..5).map(|_| motion.ask(scene.clone(), 60, false)).collect();
+    motion.wait();
+    let moved = motion.take().unwrap();
+    assert_eq!(Some(&moved.number), numbers.last());
+    assert_eq!(moved.result.unwrap().0.strands().len(), 60);
+    motion.forget();
+    motion.ask(scene, 30, false);
+    motion.wait();
+    assert_eq!(motion.take().unwrap().result.unwrap().0.strands().len(), 30);
+}
+
+#[test]
 fn a_scene_that_cannot_move_keeps_the_last_good_motion_and_says_why() {
     let mut session = Place::new().session();
     let before = tip(&session, 10);

@@ -6,6 +6,9 @@ use glam::Vec3;
 use nabiki::{Pose, Strands};
 use nabiki_scene::BuiltScene;
 
+/// Most strands that are moved with every touch; where more are shown, they follow once the hand rests.
+pub const TOUCHED: usize = 2000;
+
 /// A scene as it was built, and where its shown strands are in every frame.
 #[derive(Clone, Debug)]
 pub struct Take {
@@ -26,6 +29,12 @@ impl Take {
     /// The shown strands at rest.
     pub fn strands(&self) -> &Strands {
         &self.built.hair.strands
+    }
+
+    /// How many of the strands are at hand: the first, which every touch moves, however many are shown. What is taken hold of
+    /// is one of them, and the automatic camera frames them, so that neither changes when more strands come.
+    pub fn at_hand(&self) -> usize {
+        self.strands().len().min(TOUCHED)
     }
 
     /// All points at a frame (head space, cm).

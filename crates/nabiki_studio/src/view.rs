@@ -177,6 +177,22 @@ impl View {
         self.nails.clear();
     }
 
+    /// The side on which a view of so many points has more room beside head and hair, and that room (points).
+    pub fn free_side(&self, shown: &Shown<'_>, size: egui::Vec2) -> (egui::Align, f32) {
+        let Some(orbit) = self.orbit else { return (egui::Align::Max, size.x) };
+        let (take, pose) = (shown.take, shown.take.pose(shown.frame));
+        let pixels = [size.x, size.y].map(|side| side.max(1.0) as u32);
+        let view = orbit.view(pixels, pose.position_cm).in_head(&pose);
+        let head = &take.built.head.ellipsoid;
+        let of_head = [-1.0, 1.0].map(|side| head.center + view.right * head.half_axes.max_element() * side);
+        let tips =
+            (0..take.at_hand()).filter_map(|strand| take.points(shown.frame)[take.strands().range(strand)].last());
+        let across = of_head.into_iter().chain(tips.copied()).map(|place| view.project(place).x);
+        let (low, high) = across.fold((size.x, 0.0_f32), |(low, high), x| (low.min(x), high.max(x)));
+        let (left, right) = (low.max(0.0), (size.x - high).max(0.0));
+        if left > right { (egui::Align::Min, left) } else { (egui::Align::Max, right) }
+    }
+
     /// Draws into all the room that is left, and says what a hand did.
     pub fn ui(&mut self, ui: &mut egui::Ui, shown: &Shown<'_>) -> Vec<Touch> {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), egui::Sense::click_and_drag());
@@ -333,8 +349,8 @@ impl View {
         nailing: bool,
         touches: &mut Vec<Touch>,
     ) {
-        let (of_forces, pose) = hand::of_forces(shown, view);
-        if let Some((interval, arrow)) = hand::arrow(shown, &pose)
+        let (of_forces, _) = hand::of_forces(shown, view);
+        if let Some((interval, arrow)) = hand::arrow(shown, scale, view)
             && arrow.is_held_by(&of_forces, pixel, handle::REACH * scale)
         {
             self.hand = Hand::Tip { interval, held: handle::Held::new(&arrow, &of_forces, pixel), vector: None };
@@ -345,7 +361,10 @@ impl View {
             return;
         };
         let (points, strands) = (shown.take.points(shown.frame), shown.take.strands());
-        let lock = Lock { frame: shown.frame, nodes: pick::lock(points, strands, &picked, hand::LOCK_CM) };
+        let lock = Lock {
+            frame: shown.frame,
+            nodes: pick::lock(points, strands, shown.take.at_hand(), &picked, hand::LOCK_CM),
+        };
         if shown.frame == 0 {
             touches.push(Touch::Said("Frame 0 is the hair at rest: go to a later frame to pull it.".to_owned()));
         } else if nailing {
@@ -431,9 +450,13 @@ impl View {
         for nail in &self.nails {
             overlay.nail(&in_head, nail.middle(points, strands), nail.frame == shown.frame);
         }
-        let (of_forces, pose) = hand::of_forces(shown, view);
-        if let Some((_, arrow)) = hand::arrow(shown, &pose) {
-            overlay.handle(&of_forces, &arrow, matches!(self.hand, Hand::Tip { .. }));
+        let (of_forces, _) = hand::of_forces(shown, view);
+        let held = match &self.hand {
+            Hand::Tip { interval, held, .. } => shown.force.get(*interval).map(|key| held.showing(key.vector)),
+            _ => None,
+        };
+        if let Some(arrow) = held.or_else(|| hand::arrow(shown, overlay.scale, view).map(|(_, arrow)| arrow)) {
+            overlay.handle(&of_forces, &arrow, held.is_some());
         }
         match &self.hand {
             Hand::Hair(held) if held.lock.fits(strands) => {
@@ -456,7 +479,7 @@ fn picked(shown: &Shown<'_>, view: &Seen, pixel: glam::Vec2, scale: f32) -> Opti
     let take = shown.take;
     let in_head = view.in_head(&take.pose(shown.frame));
     let ellipsoid = &take.built.head.ellipsoid;
-    pick::nearest(&in_head, take.points(shown.frame), take.strands(), ellipsoid, pixel, REACH * scale)
+    pick::nearest(&in_head, take.points(shown.frame), take.strands(), take.at_hand(), ellipsoid, pixel, REACH * scale)
 }
 
 /// Head and hair of some frames, from the head's origin along the world's axes.
@@ -464,9 +487,10 @@ fn bounds(take: &Take, frames: std::ops::RangeInclusive<u32>) -> Bounds {
     let mut bounds = Bounds::default();
     let (head, turns) = (&take.built.head, take.built.head_moves());
     bounds.include_head(&head.mesh, &head.ellipsoid);
+    let points = take.at_hand().checked_sub(1).map_or(0, |last| take.strands().range(last).end);
     for frame in frames {
         let turn = take.pose(frame).rotation;
-        take.points(frame).iter().for_each(|&p| bounds.include(if turns { turn * p } else { p }));
+        take.points(frame)[..points].iter().for_each(|&p| bounds.include(if turns { turn * p } else { p }));
     }
     bounds
 }

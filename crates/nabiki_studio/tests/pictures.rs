@@ -163,7 +163,7 @@ fn has_adapter() -> bool {
 
 fn open(scene: &str, size: Vec2, points_to_pixels: f32, preferences: &str) -> (Window, tempfile::TempDir) {
     let config = tempfile::tempdir().unwrap_or_else(|e| panic!("{e}"));
-    let text = format!("welcomed = true\nstrands = 1000\n{preferences}");
+    let text = format!("welcomed = true\n{preferences}");
     std::fs::write(config.path().join("studio.toml"), text).unwrap_or_else(|e| panic!("{e}"));
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(scene);
     let folder = config.path().to_owned();
@@ -171,6 +171,7 @@ fn open(scene: &str, size: Vec2, points_to_pixels: f32, preferences: &str) -> (W
     let mut window = builder
         .build_eframe(move |cc| App::new(cc, Some(folder), Some(scene)).unwrap_or_else(|e| panic!("no thread: {e}")));
     settle(&mut window);
+    assert_eq!(window.state().session().words(), [], "what is remembered is not as this test wrote it");
     (window, config)
 }
 
@@ -196,7 +197,7 @@ fn click(window: &mut Window, label: &str) {
 
 fn as_kept(case: &Case) -> Result<(), String> {
     let (mut window, _config) =
-        open(case.scene, Vec2::from(case.size), case.points_to_pixels, "final_picture = false\n");
+        open(case.scene, Vec2::from(case.size), case.points_to_pixels, "strands = 1000\nfinal_picture = false\n");
     (case.act)(&mut window);
     let picture = window.render()?;
     let small = resize(&picture, picture.width() / SMALLER, picture.height() / SMALLER, FilterType::Triangle);
@@ -243,7 +244,7 @@ fn beside(kept: &Path, picture: &RgbaImage) -> Result<PathBuf, String> {
 
 /// The view is lit as the final renderer lights: where the hand rests and all strands fade in, the picture changes little.
 fn without_a_jump() -> Result<(), String> {
-    let (mut window, _config) = open("gust.toml", vec2(800.0, 600.0), 1.0, "strands = 20000\n");
+    let (mut window, _config) = open("gust.toml", vec2(800.0, 600.0), 1.0, "strands = 20000\narrows = false\n");
     go(&mut window, 40);
     let of_view = window.get_by_label("View of the hair").rect();
     let before = cut(&window.render()?, of_view);

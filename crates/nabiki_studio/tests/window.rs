@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{By, Queryable};
 use nabiki_studio::app::App;
 use nabiki_studio::command::Command;
 use nabiki_studio::dialog::Dialog;
@@ -309,4 +309,52 @@ fn every_panel_is_drawn_in_every_size_with_every_scene() {
             harness.step();
         }
     }
+}
+
+#[test]
+fn the_words_of_the_first_start_go_with_the_first_touch_which_does_what_it_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = harness(folder.path().to_owned(), None, vec2(1280.0, 720.0));
+    assert_eq!(harness.state().session().dialog(), Some(&Dialog::Welcome));
+    let words = harness.get_by_label_contains("plays the gust").rect();
+    let view = harness.get_by_label("View of the hair").rect();
+    assert!(view.contains_rect(words) && words.right() < view.left() + 0.3 * view.width(), "{words} in {view}");
+    harness.key_press(Key::Space);
+    harness.step();
+    harness.step();
+    assert_eq!(harness.state().session().dialog(), None);
+    assert!(harness.state().session().play.is_playing());
+    assert!(harness.query_by_label_contains("plays the gust").is_none());
+    assert!(harness.state().session().preferences().welcomed);
+}
+
+#[test]
+fn nothing_of_a_page_is_cut_in_a_small_window() {
+    for size in [vec2(720.0, 450.0), vec2(1280.0, 720.0), vec2(640.0, 420.0)] {
+        let mut window = Window::of(TEXT, size);
+        for page in nabiki_studio::settings::Page::ALL {
+            window.click(page.title());
+            let has_place = By::new().predicate(|node| node.raw_bounds().is_some());
+            for node in window.harness.query_all(has_place) {
+                let rect = node.rect();
+                assert!(rect.right() <= size.x + 0.5, "{} in {size}: {rect}, {node:?}", page.title());
+            }
+        }
+    }
+}
+
+#[test]
+fn the_slider_of_strands_goes_from_300_to_all() {
+    let mut window = Window::of(&TEXT.replace("strands = 60", "strands = 2100"), vec2(1280.0, 720.0));
+    let slider = window.harness.get_by_label("Strands shown").rect();
+    for (to, shown) in [(slider.left() - 40.0, 300), (slider.right() + 40.0, 2100)] {
+        window.button(slider.center(), true);
+        window.harness.hover_at(eframe::egui::pos2(to, slider.center().y));
+        window.harness.step();
+        window.button(eframe::egui::pos2(to, slider.center().y), false);
+        window.settle();
+        assert_eq!(window.session().take().unwrap().strands().len(), shown);
+    }
+    assert_eq!(window.session().preferences().strands, nabiki_studio::preferences::ALL);
+    assert!(window.harness.query_by_label("all 2100").is_some());
 }

@@ -8,7 +8,7 @@ use super::{Commands, files, theme};
 use crate::actions::{ACTIONS, Entry, MENUS, matching};
 use crate::command::Command;
 use crate::dialog::{Chooser, Dialog, Import, Next, Purpose, Role, as_folder};
-use crate::preferences::Preferences;
+use crate::preferences::{ALL, Preferences};
 use crate::recovery::Kept;
 use crate::session::Session;
 use crate::tasks::{Kind, Order};
@@ -16,7 +16,7 @@ use crate::view::Navigation;
 
 /// Draws the question that is asked, if one is.
 pub fn ui(ctx: &egui::Context, session: &Session, commands: &mut Commands) {
-    let Some(dialog) = session.dialog() else { return };
+    let Some(dialog) = session.dialog().filter(|dialog| **dialog != Dialog::Welcome) else { return };
     let wide: f32 = match dialog {
         Dialog::Keys => 760.0,
         Dialog::File(_) | Dialog::Recover(_) => 560.0,
@@ -34,7 +34,7 @@ pub fn ui(ctx: &egui::Context, session: &Session, commands: &mut Commands) {
             Dialog::Recover(kept) => recover(ui, kept, commands),
             Dialog::Palette { query, line } => palette(ui, query, *line, commands),
             Dialog::Keys => keys(ui, commands),
-            Dialog::Welcome => welcome(ui, commands),
+            Dialog::Welcome => {}
             Dialog::Preferences => preferences(ui, session, commands),
             Dialog::Export(order) => export(ui, session, order, commands),
             Dialog::Import(import) => self::import(ui, session, import, commands),
@@ -217,26 +217,6 @@ fn keys(ui: &mut Ui, commands: &mut Commands) {
     });
 }
 
-fn welcome(ui: &mut Ui, commands: &mut Commands) {
-    ui.heading("Hair goes where you want it");
-    ui.add_space(6.0);
-    for text in [
-        "This is a gust on long hair: intervals of wind below, and all frames of the motion at hand. Press Space.",
-        "Drag a border between two intervals. Every touch moves the hair through all frames anew.",
-        "Click an interval: its vector is an arrow by the head, and in the two circles at the left. Pull it.",
-        "On the right: how stiff hair is, how it is cut and curled, its colour. Point at a name to read what it does.",
-        "Undo takes back anything. Ctrl+P finds every command, F1 lists the keys.",
-    ] {
-        paragraph(ui, text);
-        ui.add_space(4.0);
-    }
-    buttons(ui, |ui| {
-        if ui.button("Begin").clicked() {
-            commands.push(Command::CloseDialog);
-        }
-    });
-}
-
 fn preferences(ui: &mut Ui, session: &Session, commands: &mut Commands) {
     ui.heading("Preferences");
     ui.add_space(6.0);
@@ -246,8 +226,10 @@ fn preferences(ui: &mut Ui, session: &Session, commands: &mut Commands) {
         ui.selectable_value(&mut changed.navigation, Navigation::Maya, "Maya");
     });
     super::fields::row(ui, "Strands", "Shown, and moved with every touch.", false, |ui| {
-        ui.add(egui::DragValue::new(&mut changed.strands).range(1..=1_000_000).speed(10.0))
-            .accessible_name("Strands shown at first");
+        let value = egui::DragValue::new(&mut changed.strands).range(1..=ALL).speed(10.0);
+        let words = |n: f64, _| if n >= ALL as f64 { "all".to_owned() } else { format!("{n:.0}") };
+        let number = |words: &str| if words.trim() == "all" { Some(ALL as f64) } else { words.trim().parse().ok() };
+        ui.add(value.custom_formatter(words).custom_parser(number)).accessible_name("Strands shown at first");
     });
     super::fields::row(ui, "Size", "Of type and panels, by what the system says.", false, |ui| {
         let mut percent = (100.0 * changed.zoom).round();

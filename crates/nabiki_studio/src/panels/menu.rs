@@ -46,7 +46,9 @@ fn item(ui: &mut Ui, session: &Session, action: Action, commands: &mut Commands)
         Action::Ghosts => ticked(entry.name, session.preferences().ghosts),
         Action::Arrows => ticked(entry.name, session.preferences().arrows),
         Action::FinalPicture => ticked(entry.name, session.preferences().final_picture),
-        Action::Fewer | Action::More => (format!("{} ({})", entry.name, session.preferences().strands), true),
+        Action::Fewer | Action::More => {
+            (format!("{} ({})", entry.name, session.preferences().strands_in_words()), true)
+        }
         _ => (entry.name.to_owned(), true),
     };
     let key = entry.key.map(|key| key.text()).unwrap_or_default();

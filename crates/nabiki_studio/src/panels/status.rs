@@ -7,8 +7,10 @@ use eframe::egui::{self, Ui};
 use super::{Commands, theme};
 use crate::command::Command;
 use crate::dialog::Dialog;
-use crate::preferences::STRANDS;
+use crate::motion::most_strands;
+use crate::preferences::{ALL, FEWEST};
 use crate::session::Session;
+use crate::take::{TOUCHED, Take};
 use crate::tasks::{Ended, Task};
 
 /// Whether there is anything to be said above the line.
@@ -94,19 +96,7 @@ pub fn line(ui: &mut Ui, session: &Session, fps: f32, commands: &mut Commands) {
             ui.label(theme::faint(if session.is_moving() { "Moving the hair..." } else { "No motion yet" }));
             return;
         };
-        let mut strands = session.preferences().strands;
-        let whole = take.built.strands_of_scene;
-        let most = (*STRANDS.end()).min(whole).max(*STRANDS.start());
-        ui.label(theme::faint("Strands"));
-        ui.spacing_mut().slider_width = 110.0;
-        let slider = egui::Slider::new(&mut strands, *STRANDS.start()..=most).logarithmic(true).show_value(false);
-        let help =
-            "Strands that are shown and moved with every touch. The others move just so: the picture has them all.";
-        let response = ui.add(slider).on_hover_text(help).accessible_name("Strands shown");
-        if response.changed() {
-            commands.push(Command::Strands(strands));
-        }
-        ui.label(format!("{} of {whole}", take.strands().len()));
+        self::strands(ui, session, take, commands);
         ui.separator();
         let took = session.took().as_secs_f64() * 1000.0;
         let text = format!("{} frames in {}", take.frames(), time_short(took));
@@ -122,6 +112,34 @@ pub fn line(ui: &mut Ui, session: &Session, fps: f32, commands: &mut Commands) {
                 commands.push(Command::Show(Box::new(Dialog::Keys)));
             }
         });
+    });
+}
+
+/// How many strands are shown: a few to all.
+fn strands(ui: &mut Ui, session: &Session, take: &Take, commands: &mut Commands) {
+    let whole = take.built.strands_of_scene;
+    let most = most_strands(take).max(FEWEST);
+    let mut strands = session.preferences().strands.min(most);
+    ui.label(theme::faint("Strands"));
+    ui.spacing_mut().slider_width = 110.0;
+    let slider = egui::Slider::new(&mut strands, FEWEST..=most).logarithmic(true).show_value(false);
+    let help = format!(
+        "Strands that are shown. Up to {TOUCHED} move with every touch; more follow when the hand rests, and all move as \
+         they do among all others. At the right end: {}.",
+        if most < whole { format!("{most}, as many as there is room for") } else { format!("all {whole}") }
+    );
+    let response = ui.add(slider).on_hover_text(help).accessible_name("Strands shown");
+    if response.changed() {
+        commands.push(Command::Strands(if strands == most { ALL } else { strands }));
+    }
+    let shown = take.strands().len();
+    let all = if shown == whole { format!("all {whole}") } else { format!("{shown} of {whole}") };
+    ui.label(match session.part_deep() {
+        Some(part) => {
+            let wanted = session.preferences().strands.min(most);
+            format!("{shown} of {wanted}, the others are {:.0} % on their way", 100.0 * part)
+        }
+        None => all,
     });
 }
 

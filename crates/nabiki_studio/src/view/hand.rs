@@ -155,9 +155,10 @@ pub fn of_forces(shown: &Shown<'_>, world: &View) -> (View, Pose) {
     }
 }
 
-/// The arrow of the selected interval, in the space of the forces.
-pub fn arrow(shown: &Shown<'_>, pose: &Pose) -> Option<(usize, Arrow)> {
+/// The arrow of the selected interval, in the space of the forces and within reach on a display of so many pixels to a point.
+pub fn arrow(shown: &Shown<'_>, scale: f32, world: &View) -> Option<(usize, Arrow)> {
+    let (view, pose) = of_forces(shown, world);
     let interval = shown.selected_interval?;
     let key = shown.force.get(interval)?;
-    Some((interval, Arrow::new(&shown.take.built.head.ellipsoid, pose, key.vector)))
+    Some((interval, Arrow::new(&shown.take.built.head.ellipsoid, &pose, key.vector).within(&view, scale)))
 }

@@ -3,6 +3,7 @@
 use glam::{Vec2, Vec3};
 use nabiki::{Ellipsoid, Pose};
 use nabiki_render::View;
+use nabiki_render::camera::NEAR;
 
 use super::camera::place_in_plane;
 
@@ -12,6 +13,10 @@ pub const CM_PER_FORCE: f32 = 0.04;
 pub const REACH: f32 = 14.0;
 /// Space between the crown and the foot of the arrow (cm).
 const ABOVE_CM: f32 = 2.0;
+/// Pixels (logical) that a tip and a foot keep from the edges of the view, and the largest part of a small view that these are.
+const TIP_FROM_EDGE: f32 = 24.0;
+const FOOT_FROM_EDGE: f32 = 48.0;
+const MOST_FROM_EDGE: f32 = 0.25;
 
 /// An arrow (the space of the view it is seen in, cm).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,18 +25,50 @@ pub struct Arrow {
     pub foot: Vec3,
     /// Where it points to.
     pub tip: Vec3,
+    /// How long it is, as a part of what its force would have: less than 1 where it would leave the view.
+    pub part: f32,
 }
 
 impl Arrow {
     /// The arrow of a force over a head that is at `pose` in the space of the force.
     pub fn new(head: &Ellipsoid, pose: &Pose, force: Vec3) -> Self {
         let foot = pose.world_from_head().transform_point3(head.center) + Vec3::Y * (head.half_axes.y + ABOVE_CM);
-        Self { foot, tip: foot + force * CM_PER_FORCE }
+        Self { foot, tip: foot + force * CM_PER_FORCE, part: 1.0 }
     }
 
     /// The force it stands for.
     pub fn force(&self) -> Vec3 {
-        (self.tip - self.foot) / CM_PER_FORCE
+        (self.tip - self.foot) / (CM_PER_FORCE * self.part)
+    }
+
+    /// Within reach of a hand: an arrow that would leave the view of a display with so many pixels to a point begins within
+    /// it, and is as much shorter as it must be.
+    pub fn within(self, view: &View, scale: f32) -> Self {
+        let size = Vec2::new(view.size[0] as f32, view.size[1] as f32);
+        let edge = |points: f32| Vec2::splat(points * scale).min(size * MOST_FROM_EDGE);
+        let seen = view.project(self.foot);
+        if seen.z < NEAR {
+            return self;
+        }
+        let kept = seen.truncate().clamp(edge(FOOT_FROM_EDGE), size - edge(FOOT_FROM_EDGE));
+        let foot = if kept == seen.truncate() { self.foot } else { place_in_plane(view, kept, self.foot) };
+        let way = self.tip - self.foot;
+        let fits = |part: f32| {
+            let tip = view.project(foot + way * part);
+            let from = edge(TIP_FROM_EDGE);
+            tip.z >= NEAR && tip.truncate().cmpge(from).all() && tip.truncate().cmple(size - from).all()
+        };
+        // A line in space is one on the screen, too: once out, it stays out.
+        let mut part = [0.0, 1.0];
+        if fits(1.0) {
+            part[0] = 1.0;
+        }
+        for _ in 0..20 {
+            let middle = 0.5 * (part[0] + part[1]);
+            part[usize::from(!fits(middle))] = middle;
+        }
+        let part = if part[0] > 0.0 { part[0] } else { 1.0 };
+        Self { foot, tip: foot + way * part, part: self.part * part }
     }
 
     /// Whether a pixel takes hold of its tip.
@@ -47,6 +84,7 @@ pub struct Held {
     foot: Vec3,
     /// The tip as it was: its plane is the one it stays in.
     tip: Vec3,
+    part: f32,
     /// The pixel taken hold of, and from there to the tip.
     pixel: Vec2,
     offset: Vec2,
@@ -56,7 +94,7 @@ impl Held {
     /// Takes hold of an arrow's tip at a pixel near it.
     pub fn new(arrow: &Arrow, view: &View, pixel: Vec2) -> Self {
         let offset = view.project(arrow.tip).truncate() - pixel;
-        Self { foot: arrow.foot, tip: arrow.tip, pixel, offset }
+        Self { foot: arrow.foot, tip: arrow.tip, part: arrow.part, pixel, offset }
     }
 
     /// Whether the pointer is still where it took hold: a press is no drag.
@@ -66,7 +104,12 @@ impl Held {
 
     /// The arrow whose tip is under the pointer, in the plane that faces the camera and holds the tip as it was.
     pub fn dragged(&self, view: &View, pixel: Vec2) -> Arrow {
-        Arrow { foot: self.foot, tip: place_in_plane(view, pixel + self.offset, self.tip) }
+        Arrow { foot: self.foot, tip: place_in_plane(view, pixel + self.offset, self.tip), part: self.part }
+    }
+
+    /// The arrow of a force as long as it is while it is held.
+    pub fn showing(&self, force: Vec3) -> Arrow {
+        Arrow { foot: self.foot, tip: self.foot + force * (CM_PER_FORCE * self.part), part: self.part }
     }
 }
 
@@ -106,6 +149,33 @@ mod tests {
                     let kept = rounded(dragged.force());
                     assert!(((kept - dragged.force()) * CM_PER_FORCE).length() < 0.006);
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn an_arrow_that_would_leave_the_view_is_within_reach_and_keeps_its_force() {
+        for (size, scale) in [([1280, 720], 1.0), ([1440, 900], 2.0), ([300, 200], 1.0)] {
+            for target in [Vec3::ZERO, Vec3::new(0.0, -30.0, 0.0), Vec3::new(80.0, 0.0, 0.0)] {
+                let camera = Camera { distance: Some(90.0), target: Some(target), ..Camera::default() };
+                let view = Orbit::new(&camera, size, &Bounds::default()).view(size, Vec3::ZERO);
+                for force in [Vec3::new(-2000.0, 300.0, 0.0), Vec3::Y * 900.0, Vec3::new(10.0, 30.0, -5.0)] {
+                    let whole = Arrow::new(&HEAD, &Pose::STILL, force);
+                    let arrow = whole.within(&view, scale);
+                    assert!((arrow.force() - force).length() < 1e-3 * force.length());
+                    for place in [arrow.foot, arrow.tip] {
+                        let at = view.project(place);
+                        let [width, height] = size.map(|side| side as f32);
+                        assert!(at.x > 0.0 && at.y > 0.0 && at.x < width && at.y < height, "{size:?}: {at}");
+                    }
+                    // Dragged to where it is, it stays what it is, and shorter it is less.
+                    let at = view.project(arrow.tip).truncate();
+                    let held = Held::new(&arrow, &view, at);
+                    assert!((held.dragged(&view, at).force() - force).length() < 1e-2 * force.length());
+                    assert!((held.showing(force).tip - arrow.tip).length() < 1e-2);
+                }
+                let calm = Arrow::new(&HEAD, &Pose::STILL, Vec3::ZERO).within(&view, scale);
+                assert_eq!((calm.part, calm.force()), (1.0, Vec3::ZERO));
             }
         }
     }

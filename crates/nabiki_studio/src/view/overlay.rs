@@ -39,8 +39,11 @@ impl Overlay<'_> {
         let along = if way.length() > 1.0 { way.normalized() } else { vec2(0.0, 0.0) };
         let across = vec2(-along.y, along.x);
         let neck = tip - along * 13.0_f32.min(way.length());
+        // An arrow that is drawn shorter than its force is long says so: its shaft is broken.
+        let whole = if arrow.part < 1.0 { foot + 0.5 * (neck - foot) } else { neck };
         for (width, colour) in [(5.0, OUTLINE), (2.5, colour)] {
-            self.painter.line_segment([foot, neck], Stroke::new(width, colour));
+            self.painter.line_segment([foot, whole], Stroke::new(width, colour));
+            self.painter.extend(Shape::dashed_line(&[whole, neck], Stroke::new(width, colour), 5.0, 6.0));
         }
         if way.length() > 1.0 {
             let corners = vec![tip, neck + across * 6.0, neck - across * 6.0];

@@ -23,19 +23,20 @@ pub struct Picked {
     pub apart: f32,
 }
 
-/// The node that is meant by a pixel: of the segments within `reach` pixels of it, and not behind the head, the one nearest to
-/// pointer and eye; of its ends the nearer one. `view` and `points` are in head space.
+/// The node that is meant by a pixel, of the first `among` strands: of the segments within `reach` pixels of it, and not behind
+/// the head, the one nearest to pointer and eye; of its ends the nearer one. `view` and `points` are in head space.
 pub fn nearest(
     view: &View,
     points: &[Vec3],
     strands: &Strands,
+    among: usize,
     head: &Ellipsoid,
     pixel: Vec2,
     reach: f32,
 ) -> Option<Picked> {
     let mut best: Option<(f32, Picked)> = None;
     let per_cm = view.pixels_per_cm(view.project(head.center).z.max(NEAR));
-    for strand in 0..strands.len() {
+    for strand in 0..strands.len().min(among) {
         let of = &points[strands.range(strand)];
         for (i, pair) in of.windows(2).enumerate() {
             let (a, b) = (view.project(pair[0]), view.project(pair[1]));
@@ -79,10 +80,10 @@ fn behind(view: &View, head: &Ellipsoid, place: Vec3) -> bool {
     }
 }
 
-/// A lock: of every strand that has a node within `radius` (cm) of a place, the node nearest to it, roots left out. The picked
+/// A lock: of each of the first `among` strands that has a node within `radius` (cm) of a place, the node nearest to it, roots left out. The picked
 /// strand comes first, the others by their distance.
-pub fn lock(points: &[Vec3], strands: &Strands, picked: &Picked, radius: f32) -> Vec<(usize, usize)> {
-    let mut near: Vec<(f32, usize, usize)> = (0..strands.len())
+pub fn lock(points: &[Vec3], strands: &Strands, among: usize, picked: &Picked, radius: f32) -> Vec<(usize, usize)> {
+    let mut near: Vec<(f32, usize, usize)> = (0..strands.len().min(among))
         .filter_map(|strand| {
             let of = points[strands.range(strand)].iter().enumerate().skip(1);
             let nearest =
@@ -137,12 +138,13 @@ mod tests {
         let view = view();
         for (strand, node) in [(0, 3), (1, 9), (2, 1)] {
             let pixel = view.project(strands.strand(strand)[node]).truncate();
-            let found = nearest(&view, strands.points(), &strands, &HEAD, pixel + Vec2::new(2.0, 1.0), 8.0).unwrap();
+            let found = nearest(&view, strands.points(), &strands, usize::MAX, &HEAD, pixel + Vec2::new(2.0, 1.0), 8.0)
+                .unwrap();
             assert_eq!((found.strand, found.node), (strand, node));
             assert_eq!(found.place, strands.strand(strand)[node]);
         }
         let pixel = view.project(Vec3::new(12.0, 0.0, 2.0)).truncate();
-        assert_eq!(nearest(&view, strands.points(), &strands, &HEAD, pixel, 8.0), None);
+        assert_eq!(nearest(&view, strands.points(), &strands, usize::MAX, &HEAD, pixel, 8.0), None);
     }
 
     #[test]
@@ -150,10 +152,10 @@ mod tests {
         let strands = hanging(&[[10.0, 0.0], [14.0, 0.0]]);
         let view = view();
         let pixel = view.project(strands.strand(0)[4]).truncate();
-        let found = nearest(&view, strands.points(), &strands, &HEAD, pixel, 8.0).unwrap();
+        let found = nearest(&view, strands.points(), &strands, usize::MAX, &HEAD, pixel, 8.0).unwrap();
         assert_eq!(found.strand, 1);
         let root = view.project(strands.strand(1)[0]).truncate();
-        let found = nearest(&view, strands.points(), &strands, &HEAD, root, 8.0).unwrap();
+        let found = nearest(&view, strands.points(), &strands, usize::MAX, &HEAD, root, 8.0).unwrap();
         assert!(found.node > 0);
     }
 
@@ -162,16 +164,16 @@ mod tests {
         let strands = hanging(&[[-12.0, 0.0]]);
         let view = view();
         let pixel = view.project(strands.strand(0)[5]).truncate();
-        assert_eq!(nearest(&view, strands.points(), &strands, &HEAD, pixel, 8.0), None);
+        assert_eq!(nearest(&view, strands.points(), &strands, usize::MAX, &HEAD, pixel, 8.0), None);
     }
 
     #[test]
     fn a_lock_is_what_has_a_node_within_its_radius() {
         let strands = hanging(&[[12.0, 0.0], [12.0, 1.0], [12.0, -2.5], [12.0, 6.0]]);
         let picked = Picked { strand: 1, node: 5, place: strands.strand(1)[5], apart: 0.0 };
-        let found = lock(strands.points(), &strands, &picked, 2.0);
+        let found = lock(strands.points(), &strands, usize::MAX, &picked, 2.0);
         assert_eq!(found, [(1, 5), (0, 5)]);
-        assert_eq!(lock(strands.points(), &strands, &picked, 0.0), [(1, 5)]);
-        assert_eq!(lock(strands.points(), &strands, &picked, 100.0).len(), 4);
+        assert_eq!(lock(strands.points(), &strands, usize::MAX, &picked, 0.0), [(1, 5)]);
+        assert_eq!(lock(strands.points(), &strands, usize::MAX, &picked, 100.0).len(), 4);
     }
 }

@@ -96,7 +96,7 @@ impl Window {
             let pixel = glam::Vec2::new(at.x - self.rect.min.x, at.y - self.rect.min.y);
             let shown = self.take.points(self.frame);
             let ellipsoid = &self.take.built.head.ellipsoid;
-            if pick::nearest(&self.seen(), shown, self.take.strands(), ellipsoid, pixel, 2.0).is_some() {
+            if pick::nearest(&self.seen(), shown, self.take.strands(), usize::MAX, ellipsoid, pixel, 2.0).is_some() {
                 return at;
             }
         }

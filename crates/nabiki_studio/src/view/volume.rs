@@ -13,6 +13,8 @@ pub const LAMPS: usize = 4;
 /// Edge of a cell (cm), and most cells before it grows.
 const CELL: f32 = 0.7;
 const MOST_CELLS: f32 = 220_000.0;
+/// Most strands that are laid into cells, the first, each for as many as there are: more would fill the same cells.
+const MOST_LAID: usize = 20_000;
 /// Empty cells around the hair.
 const BORDER: f32 = 2.0;
 /// What skin takes of the sky's light in each full crossing of a cell, as the renderer has it.
@@ -137,7 +139,9 @@ impl Cells {
     fn lay(&mut self, casting: &Casting, low: Vec3, cell: f32) {
         let per_length = casting.thickness * std::f32::consts::FRAC_PI_4 / (cell * cell);
         let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
-        for s in 0..casting.strands.len() {
+        let laid = casting.strands.len().min(MOST_LAID);
+        let per_length = per_length * casting.strands.len() as f32 / laid.max(1) as f32;
+        for s in 0..laid {
             for pair in casting.points[casting.strands.range(s)].windows(2) {
                 if !(pair[0].is_finite() && pair[1].is_finite()) {
                     continue;
