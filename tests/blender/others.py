@@ -129,6 +129,23 @@ def test_undo_and_redo_are_one_step_each(command, shared):
     assert hair.nabiki.gravity == 100 and not at_rest_after(hair.nabiki.preview, 7)
 
 
+def test_clear_leaves_the_hair_active_and_is_undone_with_its_motion(command, shared):
+    hair, preview = blown()
+    scenes.active(preview)
+    bpy.context.scene.frame_set(9)
+    bpy.ops.ed.undo_push(message="before")
+    assert bpy.ops.nabiki.clear("EXEC_DEFAULT", True) == {"FINISHED"}
+    assert bpy.context.object == hair and hair.select_get()
+    bpy.ops.ed.undo()
+    hair = bpy.data.objects["Hair"]
+    assert not at_rest(hair.nabiki.preview)
+    # A bake removes the preview, too.
+    scenes.active(hair.nabiki.preview)
+    hair.nabiki.cache_path = str(command.folder / "cache.usdc")
+    assert bpy.ops.nabiki.bake() == {"FINISHED"}
+    assert bpy.context.object in (hair, hair.nabiki.baked)
+
+
 def test_a_file_comes_back_with_its_settings_and_at_rest(command, shared):
     hair, preview = blown()
     assert not at_rest_after(preview, 10)

@@ -72,7 +72,7 @@ def bake(context, thing, operator):
                 made.scene.export(part, progress=progress, report=lambda line: None)
 
             yield from jobs.on_thread(write, "writing hair")
-        with playing.Quiet():
+        with playing.Quiet(), motion.still_active(context, thing):
             # A file that Blender reads cannot be replaced everywhere.
             motion.remove(thing, thing.nabiki.baked)
             context.view_layer.update()

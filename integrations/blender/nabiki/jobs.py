@@ -7,7 +7,7 @@ import bpy
 import nabiki
 
 from . import scene_files
-from .messages import Cancelled, Mistake, one_line
+from .messages import Cancelled, Mistake, sentence
 
 # Seconds that may be spent before the window is drawn again.
 SLICE = 0.03
@@ -152,7 +152,7 @@ class Working:
             # Undo has nothing to take back: the setting that was changed has a step of its own.
             return {"CANCELLED"}
         # What was not carried over, or done otherwise than it was set, is worth a look.
-        self.report({"WARNING"} if notes else {"INFO"}, one_line("; ".join([line, *notes])))
+        self.report({"WARNING"} if notes else {"INFO"}, sentence("; ".join([line, *notes])))
         return {"FINISHED"}
 
     def _refused(self, context, error):
@@ -161,11 +161,11 @@ class Working:
         if isinstance(error, (Cancelled, KeyboardInterrupt)):
             self.report({"INFO"}, "Cancelled: nothing was changed")
         elif isinstance(error, nabiki.Error):
-            self.report({"ERROR"}, scene_files.line(error, self.made))
+            self.report({"ERROR"}, sentence(scene_files.line(error, self.made)))
         elif isinstance(error, MemoryError):
-            self.report({"ERROR"}, "the motion does not fit into memory: show fewer strands or frames")
+            self.report({"ERROR"}, "The motion does not fit into memory: show fewer strands or frames")
         else:
-            self.report({"ERROR"}, one_line(error))
+            self.report({"ERROR"}, sentence(error))
         return {"CANCELLED"}
 
 

@@ -33,6 +33,12 @@ def one_line(text):
     return " ".join(str(text).split())
 
 
+def sentence(text):
+    """A line as Blender shows it, with a capital first."""
+    line = one_line(text)
+    return line[:1].upper() + line[1:]
+
+
 def in_words(text, names):
     """A line of nabiki's with the names of Blender's things. `names`: what files and entries of the scene are called."""
     text = one_line(text)

@@ -158,17 +158,28 @@ def hide(thing):
     thing.hide_viewport = thing.hide_render = True
 
 
-def clear(scene, thing):
-    """Takes everything away that was added, and shows the hair as it was."""
+def clear(context, thing):
+    """Takes everything away that was added, and shows the hair as it was. Motions are kept, for Undo."""
     settings = thing.nabiki
-    with playing.Quiet():
+    with playing.Quiet(), still_active(context, thing):
         for added in [settings.preview, settings.baked]:
             remove(thing, added)
         settings.preview = settings.baked = None
         if settings.shown_before:
             thing.hide_viewport, thing.hide_render = (figure == "1" for figure in settings.shown_before)
             settings.shown_before = ""
-    playing.takes.pop(thing.session_uid, None)
+
+
+@contextmanager
+def still_active(context, thing):
+    """Where what is removed meanwhile was active, the hair is active afterwards: panels are those of what is active."""
+    objects, settings = context.view_layer.objects, thing.nabiki
+    was = objects.active is not None and objects.active in (settings.preview, settings.baked)
+    yield
+    if was and objects.active is None:
+        objects.active = thing
+        if not thing.hide_viewport:
+            thing.select_set(True)
 
 
 def remove(thing, added):

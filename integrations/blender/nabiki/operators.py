@@ -7,7 +7,7 @@ import bpy
 from bpy_extras.io_utils import ExportHelper
 
 from . import axes, baking, jobs, motion, playing, scene_files, wishing
-from .messages import Mistake, one_line
+from .messages import Mistake, sentence
 
 
 # The wind that is added first, along the axes of nabiki, whose x is where the face looks: between a breeze and a strong wind.
@@ -62,9 +62,9 @@ class NABIKI_OT_clear(Named, bpy.types.Operator):
 
     def execute(self, context):
         try:
-            motion.clear(context.scene, motion.chosen(context, self.name))
+            motion.clear(context, motion.chosen(context, self.name))
         except Mistake as mistake:
-            self.report({"ERROR"}, one_line(mistake))
+            self.report({"ERROR"}, sentence(mistake))
             return {"CANCELLED"}
         return {"FINISHED"}
 

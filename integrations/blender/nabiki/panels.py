@@ -5,6 +5,7 @@ import textwrap
 import bpy
 
 from . import playing
+from .messages import sentence
 from .operators import hair_of
 
 
@@ -74,7 +75,7 @@ def notes(layout, context, thing):
     column = layout.column(align=True)
     for note in film.notes if film is not None else []:
         for number, line in enumerate(textwrap.wrap(note, max(LEAST, int((across - BORDERS) / LETTER)))):
-            column.label(text=line, icon="BLANK1" if number else "DOT")
+            column.label(text=line if number else sentence(line), icon="BLANK1" if number else "DOT")
 
 
 class Panel:
@@ -115,8 +116,9 @@ class Part(Panel):
 class NABIKI_UL_intervals(bpy.types.UIList):
     def draw_item(self, context, layout, data, item, icon, active_data, active_property, index=0, flt_flag=0):
         before = data.intervals[index - 1].through if index else context.scene.frame_start
-        layout.label(text=f"{before} to {item.through}")
-        layout.label(text=", ".join(str(round(part)) for part in item.vector))
+        row = layout.split(factor=0.38)
+        row.label(text=f"{before} to {item.through}")
+        row.label(text=", ".join(str(round(part)) for part in item.vector))
         layout.prop(item, "solve", text="", icon="FORCE_WIND" if item.solve else "LOCKED", emboss=False)
 
 
