@@ -4,7 +4,7 @@ import re
 
 # Settings of nabiki by their keys, and what they are called in the panels.
 LABELS = {
-    "motion.inertia_length_floor": "Settings > Short Hair Moves As",
+    "motion.inertia_length_floor": "Settings > Short Hair",
     "motion.time_step": "Settings > Speed",
     "free.stiffness": "Settings > Stiffness",
     "free.gravity": "Settings > Weight",

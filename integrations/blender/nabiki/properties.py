@@ -174,7 +174,7 @@ class NabikiSettings(bpy.types.PropertyGroup):
         name="Speed", description="How fast all of it goes: 1 is hair in slow motion", default=1.6, min=0.01, soft_max=4.0, update=changed
     )
     short_hair_length: FloatProperty(
-        name="Short Hair Moves As (cm)",
+        name="Short Hair (cm)",
         description="Hair shorter than this, in centimetres, moves as hair of this length: it is held by the longer hair beside it",
         default=14.0,
         min=0.0,
