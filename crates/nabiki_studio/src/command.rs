@@ -8,7 +8,7 @@ use nabiki_scene::Scene;
 use toml::Value;
 
 use crate::actions::Action;
-use crate::dialog::Dialog;
+use crate::dialog::{Chooser, Dialog};
 use crate::document::Phase;
 use crate::play::Ending;
 use crate::preferences::Preferences;
@@ -89,6 +89,10 @@ pub enum Command {
     LeaveBroken,
     /// A dialog is shown, or changed.
     Show(Box<Dialog>),
+    /// The desktop is asked for the file that a chooser is for.
+    AskDesktop,
+    /// This file is chosen.
+    Chosen(Box<Chooser>, PathBuf),
     /// The dialog goes.
     CloseDialog,
     /// Goes on without saving.

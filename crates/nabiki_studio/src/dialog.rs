@@ -84,6 +84,16 @@ pub struct Listed {
 }
 
 impl Chooser {
+    /// What is asked, in a word or two.
+    pub fn title(&self) -> &'static str {
+        match self.purpose {
+            Purpose::Open => "Open",
+            Purpose::SaveAs => "Save as",
+            Purpose::Setting(_) => "Choose a file",
+            Purpose::Export(_) => "Export to",
+        }
+    }
+
     /// The folder that is shown: that of the path, or the path itself where it ends like one.
     pub fn folder(&self) -> PathBuf {
         let path = Path::new(&self.path);

@@ -5,6 +5,7 @@
 pub mod actions;
 pub mod app;
 pub mod command;
+pub mod desktop;
 pub mod dialog;
 pub mod document;
 pub mod drag;

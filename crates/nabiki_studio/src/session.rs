@@ -15,6 +15,7 @@ use toml::Table;
 
 use crate::actions::Action;
 use crate::command::Command;
+use crate::desktop::Asked;
 use crate::dialog::{Dialog, Next};
 use crate::document::Document;
 use crate::motion::{Manner, Motion, Moved};
@@ -85,6 +86,8 @@ pub struct Session {
     broken: Option<Broken>,
     motion: Motion,
     deep: Deep,
+    desktop: Option<Asked>,
+    has_desktop: bool,
     take: Option<Arc<Take>>,
     swings: Option<SwingTable>,
     trouble: Option<Trouble>,
@@ -135,6 +138,8 @@ impl Session {
             broken: None,
             motion,
             deep: Deep::default(),
+            desktop: None,
+            has_desktop: true,
             take: None,
             swings: None,
             trouble: None,
@@ -300,6 +305,7 @@ impl Session {
             self.play.advance(seconds, document.scene().frame_rate());
         }
         self.receive();
+        self.hear_desktop();
         if self.deep.is_due(self.clock) && !self.motion.is_working() {
             self.deepen();
         }
@@ -378,6 +384,8 @@ impl Session {
             Command::Choose(chosen) => self.chosen = chosen,
             Command::Show(dialog) => self.dialog = Some(*dialog),
             Command::CloseDialog => self.close_dialog(),
+            Command::AskDesktop => self.ask_desktop(),
+            Command::Chosen(chooser, path) => self.chosen_file(*chooser, path),
             Command::Cancel(task) => self.tasks.get(task).into_iter().for_each(Task::cancel),
             Command::Dismiss(task) if task < self.tasks.len() => drop(self.tasks.remove(task)),
             Command::Heard(word) if word < self.words.len() => drop(self.words.remove(word)),
@@ -408,7 +416,7 @@ impl Session {
         if self.dialog == Some(Dialog::Welcome) {
             self.preferences.welcomed = true;
         }
-        self.dialog = None;
+        (self.dialog, self.desktop) = (None, None);
     }
 
     fn export(&mut self, order: crate::tasks::Order) {

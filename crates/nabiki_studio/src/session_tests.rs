@@ -289,6 +289,33 @@ fn a_dropped_file_becomes_settings_of_the_scene_in_one_step() {
 }
 
 #[test]
+fn the_desktops_answer_is_taken_and_a_desktop_without_a_dialog_said() {
+    let place = Place::new();
+    let other = place.0.path().join("other.toml");
+    std::fs::write(&other, TEXT).unwrap();
+    let mut session = place.session();
+    let ask = |session: &mut Session, path: Option<PathBuf>, after: Duration| {
+        session.apply(Command::Act(Action::Open));
+        let Some(Dialog::File(chooser)) = session.dialog() else { panic!("no file is asked for") };
+        let answer = move || {
+            std::thread::sleep(after);
+            path
+        };
+        session.desktop = Some(Asked::asks(chooser.clone(), answer, || ()).unwrap());
+        while session.asks_desktop() {
+            session.tick(0.001);
+        }
+    };
+    ask(&mut session, Some(other.clone()), Duration::ZERO);
+    assert_eq!((session.dialog(), session.document().unwrap().path()), (None, Some(other.as_path())));
+    ask(&mut session, None, Duration::from_millis(500));
+    assert!(session.has_desktop(), "it was closed by a hand");
+    ask(&mut session, None, Duration::ZERO);
+    assert!(!session.has_desktop());
+    assert!(matches!(session.dialog(), Some(Dialog::File(_))), "the path can be typed");
+}
+
+#[test]
 fn the_first_start_shows_the_gust_and_its_words() {
     let folder = tempfile::tempdir().unwrap();
     let mut session = Session::new(Some(folder.path().to_owned()), || ()).unwrap();

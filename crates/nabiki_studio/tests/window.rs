@@ -1,8 +1,9 @@
 //! The real window, driven by what a person sees: open, drag, undo, save, reopen, export.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
+use eframe::egui::{DroppedFile, Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{By, Queryable};
 use nabiki_studio::app::App;
@@ -12,6 +13,20 @@ use nabiki_studio::session::Session;
 
 const TEXT: &str = "# A breeze.\n[hair]\nstrands = 60\nsegments = 18\n[motion]\nform = \"free\"\nframes = 40\n\n\
                     [[force]]\nthrough = 20     # then calm\nvector = [-100, 0, 0]\n\n[[force]]\nthrough = 40\nvector = [0, 0, 0]\n";
+
+/// A file over the window.
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|e| e.to_string())
+    }
+}
 
 struct Window<'a> {
     harness: Harness<'a, App>,
@@ -76,6 +91,13 @@ impl Window<'_> {
         // A title of the same words stands before its button.
         let found = self.harness.query_all_by_label(label).last();
         found.unwrap_or_else(|| panic!("nothing is called {label}")).click();
+        self.harness.step();
+        self.settle();
+    }
+
+    /// Lets go of a file over the window.
+    fn drop(&mut self, path: &Path) {
+        self.harness.input_mut().dropped_files.push(Arc::new(Dropped(path.to_owned())));
         self.harness.step();
         self.settle();
     }
@@ -341,6 +363,50 @@ fn nothing_of_a_page_is_cut_in_a_small_window() {
             }
         }
     }
+}
+
+#[test]
+fn a_dropped_file_is_asked_how_it_lies_and_a_wrong_one_refused_in_a_line() {
+    let mut window = Window::open();
+    let folder = window.folder.path().to_owned();
+    let long = format!("{}.bvh", "a_recording_with_a_long_name_".repeat(7));
+    let names = ["locks.hair", "bust.obj", "walk.bvh", long.as_str(), "head.glb", "all.usda", "ball.ply"];
+    for name in names {
+        std::fs::write(folder.join(name), "nothing that could be read").unwrap();
+        window.drop(&folder.join(name));
+        let Some(Dialog::Import(import)) = window.session().dialog() else { panic!("{name}: it is not asked") };
+        for role in import.roles.clone() {
+            assert!(window.harness.query_all_by_label(role.name()).count() > 0, "{name}: {}", role.name());
+        }
+        for button in ["Cancel", "Take it"] {
+            let rect = window.harness.get_by_label(button).rect();
+            assert!(rect.right() < 1280.0 && rect.bottom() < 720.0, "{name}: {button} at {rect}");
+        }
+        window.click("Take it");
+        assert_eq!(window.session().dialog(), None);
+        let said = window.session().trouble().map(|trouble| trouble.text.clone());
+        let said = said.or_else(|| window.session().words().last().map(|word| word.text.clone())).unwrap();
+        assert!(said.contains(name) && !said.contains('\n'), "{name}: {said}");
+        assert!(window.session().take().is_some(), "the last good motion stays");
+        if window.session().trouble().is_some() {
+            window.press(Modifiers::COMMAND, Key::Z);
+        }
+        assert_eq!(window.session().trouble(), None, "{name}");
+        assert!(!window.session().document().unwrap().is_dirty(), "{name}");
+    }
+    std::fs::write(folder.join("notes.png"), [0x89, b'P', b'N', b'G', 0, 1, 2]).unwrap();
+    for wrong in [folder.join("notes.png"), folder.clone(), folder.join("not_there.toml")] {
+        window.drop(&wrong);
+        assert!(window.session().dialog().is_none() && window.session().broken().is_none(), "{wrong:?}");
+        let said = &window.session().words().last().unwrap().text;
+        assert!(said.contains(&wrong.display().to_string()) && !said.contains('\n'), "{said}");
+    }
+    // However much has been said, most of the window is still the window.
+    for n in 0..40 {
+        window.harness.state_mut().session_mut().say(format!("{n}: something that went wrong"), true);
+        window.harness.step();
+    }
+    assert!(window.harness.get_by_label("View of the hair").rect().height() > 100.0);
 }
 
 #[test]

@@ -7,23 +7,21 @@ use eframe::egui::{self, Ui};
 use super::{Commands, theme};
 use crate::command::Command;
 use crate::dialog::{Chooser, Dialog, Purpose};
-use crate::document::Phase;
 use crate::session::Session;
-use crate::tasks::Order;
 
 /// Draws the chooser.
 pub fn ui(ui: &mut Ui, session: &Session, chooser: &Chooser, commands: &mut Commands) {
-    let (title, verb) = match &chooser.purpose {
-        Purpose::Open => ("Open", "Open"),
-        Purpose::SaveAs => ("Save as", "Save"),
-        Purpose::Setting(_) => ("Choose a file", "Choose"),
-        Purpose::Export(_) => ("Export to", "Choose"),
+    let verb = match &chooser.purpose {
+        Purpose::Open => "Open",
+        Purpose::SaveAs => "Save",
+        Purpose::Setting(_) | Purpose::Export(_) => "Choose",
     };
-    ui.heading(title);
+    ui.heading(chooser.title());
     ui.add_space(6.0);
     let show = |chooser: Chooser| Command::Show(Box::new(Dialog::File(chooser)));
+    let chosen_file = |path: PathBuf| Command::Chosen(Box::new(chooser.clone()), path);
     let mut path = chooser.path.clone();
-    let edit = egui::TextEdit::singleline(&mut path).desired_width(540.0).hint_text("a path");
+    let edit = egui::TextEdit::singleline(&mut path).desired_width(f32::INFINITY).hint_text("a path");
     let response = ui.add(edit).accessible_name("Path");
     if ui.memory(|memory| memory.focused().is_none()) {
         response.request_focus();
@@ -34,7 +32,8 @@ pub fn ui(ui: &mut Ui, session: &Session, chooser: &Chooser, commands: &mut Comm
     }
     ui.add_space(4.0);
     egui::Frame::new().fill(theme::GROUND).corner_radius(4.0).inner_margin(6.0).show(ui, |ui| {
-        egui::ScrollArea::vertical().max_height(300.0).min_scrolled_height(300.0).auto_shrink(false).show(ui, |ui| {
+        let height = (ui.ctx().content_rect().height() - 190.0).clamp(80.0, 300.0);
+        egui::ScrollArea::vertical().max_height(height).min_scrolled_height(height).auto_shrink(false).show(ui, |ui| {
             if line(ui, "..", true, false).clicked() {
                 commands.push(show(chooser.up()));
             }
@@ -46,7 +45,7 @@ pub fn ui(ui: &mut Ui, session: &Session, chooser: &Chooser, commands: &mut Comm
                 let chosen = !entry.folder && Path::new(&chooser.path) == entry.path;
                 let response = line(ui, &entry.name, entry.folder, chosen);
                 if response.double_clicked() && !entry.folder {
-                    finish(session, chooser, entry.path.clone(), commands);
+                    commands.push(chosen_file(entry.path.clone()));
                 } else if response.clicked() {
                     commands.push(show(chooser.with(&entry)));
                 }
@@ -61,10 +60,14 @@ pub fn ui(ui: &mut Ui, session: &Session, chooser: &Chooser, commands: &mut Comm
         Purpose::SaveAs | Purpose::Export(_) => is_file && !chosen.is_dir(),
     };
     ui.horizontal(|ui| {
-        if ui.button("System dialog...").on_hover_text("The dialog of your desktop, if it has one.").clicked()
-            && let Some(path) = system(chooser)
-        {
-            finish(session, chooser, path, commands);
+        if !session.has_desktop() {
+            let words = "This desktop has no dialog: type the path, or click.";
+            let why = "On Linux it takes an XDG desktop portal with a file chooser, or zenity.";
+            ui.label(theme::faint(words)).on_hover_text(why);
+        } else if session.asks_desktop() {
+            ui.label(theme::faint("The dialog of your desktop is asked..."));
+        } else if ui.button("System dialog...").on_hover_text("The dialog of your desktop, if it has one.").clicked() {
+            commands.push(Command::AskDesktop);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let replaces = matches!(chooser.purpose, Purpose::SaveAs) && chosen.is_file();
@@ -72,7 +75,7 @@ pub fn ui(ui: &mut Ui, session: &Session, chooser: &Chooser, commands: &mut Comm
             let verb = if replaces && !own { "Replace" } else { verb };
             let done = ui.add_enabled(may, egui::Button::new(verb)).clicked();
             if (done || entered) && may {
-                finish(session, chooser, chosen, commands);
+                commands.push(chosen_file(chosen));
             }
             if ui.button("Cancel").clicked() {
                 commands.push(Command::CloseDialog);
@@ -86,31 +89,4 @@ fn line(ui: &mut Ui, name: &str, folder: bool, chosen: bool) -> egui::Response {
         if folder { theme::faint(format!("{name}{}", std::path::MAIN_SEPARATOR)) } else { egui::RichText::new(name) };
     let button = egui::Button::selectable(chosen, text).truncate().min_size(egui::vec2(ui.available_width(), 20.0));
     ui.add(button)
-}
-
-fn finish(session: &Session, chooser: &Chooser, path: PathBuf, commands: &mut Commands) {
-    match &chooser.purpose {
-        Purpose::Open => commands.push(Command::Open(path)),
-        Purpose::SaveAs => commands.push(Command::SaveTo(path)),
-        Purpose::Setting(key) => {
-            commands.push(Command::CloseDialog);
-            let path = session.from_scene(&path);
-            let value = Some(path.display().to_string().into());
-            commands.push(Command::Set { key: key.clone(), value, phase: Phase::Done });
-        }
-        Purpose::Export(order) => {
-            let order = Order { place: path, ..order.clone() };
-            commands.push(Command::Show(Box::new(Dialog::Export(order))));
-        }
-    }
-}
-
-/// Asks the desktop. It waits, as that dialog stands before this window.
-fn system(chooser: &Chooser) -> Option<PathBuf> {
-    let dialog = rfd::FileDialog::new().set_directory(std::path::absolute(chooser.folder()).unwrap_or_default());
-    let dialog = if chooser.endings.is_empty() { dialog } else { dialog.add_filter("Files", &chooser.endings) };
-    match chooser.purpose {
-        Purpose::Open | Purpose::Setting(_) => dialog.pick_file(),
-        Purpose::SaveAs | Purpose::Export(_) => dialog.save_file(),
-    }
 }

@@ -13,6 +13,9 @@ use crate::session::Session;
 use crate::take::{TOUCHED, Take};
 use crate::tasks::{Ended, Task};
 
+/// Most of a window that is taken by what has to be said; the rest is scrolled.
+const MOST_WORDS: f32 = 0.3;
+
 /// Whether there is anything to be said above the line.
 pub fn has_words(session: &Session) -> bool {
     session.trouble().is_some() || !session.words().is_empty() || !session.tasks().is_empty()
@@ -20,6 +23,11 @@ pub fn has_words(session: &Session) -> bool {
 
 /// Draws what has to be said above the line: trouble, words and tasks.
 pub fn words(ui: &mut Ui, session: &Session, commands: &mut Commands) {
+    let most = MOST_WORDS * ui.ctx().content_rect().height();
+    egui::ScrollArea::vertical().max_height(most).auto_shrink([false, true]).show(ui, |ui| bars(ui, session, commands));
+}
+
+fn bars(ui: &mut Ui, session: &Session, commands: &mut Commands) {
     if let Some(trouble) = session.trouble() {
         bar(ui, theme::WRONG, |ui| {
             let button = ui.button("Undo");
@@ -47,7 +55,8 @@ fn bar(ui: &mut Ui, ink: egui::Color32, contents: impl FnOnce(&mut Ui)) {
     let frame = egui::Frame::new().fill(egui::Color32::from_gray(38)).inner_margin(egui::Margin::symmetric(10, 4));
     let response = frame.show(ui, |ui| {
         ui.set_min_width(ui.available_width());
-        ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), contents);
+        // As high as what is in it: a layout that is centred would take all the height there is.
+        ui.horizontal_top(contents);
     });
     let rect = response.response.rect;
     ui.painter().vline(rect.left() + 1.5, rect.y_range(), egui::Stroke::new(3.0, ink));

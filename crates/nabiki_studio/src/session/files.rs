@@ -8,8 +8,9 @@ use toml::Value;
 use super::{Broken, Session, Wish};
 use crate::actions::Action;
 use crate::command::Command;
+use crate::desktop::{Answer, Asked};
 use crate::dialog::{Chooser, Dialog, Import, Next, Purpose, Role, as_folder};
-use crate::document::{Document, SaveError};
+use crate::document::{Document, Phase, SaveError};
 use crate::recovery::Kept;
 use crate::tasks;
 
@@ -178,6 +179,52 @@ impl Session {
         let node = "Head".to_owned();
         self.dialog =
             Some(Dialog::Import(Import { path, roles, role, unit: empty(), up: empty(), facing: empty(), node }));
+    }
+
+    /// Whether the dialog of the desktop is open.
+    pub fn asks_desktop(&self) -> bool {
+        self.desktop.is_some()
+    }
+
+    /// Whether the desktop has a dialog for files, as far as is known.
+    pub fn has_desktop(&self) -> bool {
+        self.has_desktop
+    }
+
+    pub(super) fn ask_desktop(&mut self) {
+        let Some(Dialog::File(chooser)) = &self.dialog else { return };
+        let wake = self.wake.clone();
+        match Asked::desktop(chooser.clone(), move || wake.0()) {
+            Ok(asked) => self.desktop = Some(asked),
+            Err(e) => self.say(format!("the desktop cannot be asked: {e}; type the path"), true),
+        }
+    }
+
+    /// Takes what the desktop has answered.
+    pub(super) fn hear_desktop(&mut self) {
+        let Some(answer) = self.desktop.as_ref().and_then(Asked::answer) else { return };
+        let Some(asked) = self.desktop.take() else { return };
+        match answer {
+            Answer::Path(path) => self.chosen_file(asked.chooser().clone(), path),
+            Answer::Closed => {}
+            Answer::None => self.has_desktop = false,
+        }
+    }
+
+    /// Does what a chooser was for.
+    pub(super) fn chosen_file(&mut self, chooser: Chooser, path: PathBuf) {
+        match chooser.purpose {
+            Purpose::Open => self.apply(Command::Open(path)),
+            Purpose::SaveAs => self.apply(Command::SaveTo(path)),
+            Purpose::Setting(key) => {
+                self.apply(Command::CloseDialog);
+                let value = Some(self.from_scene(&path).display().to_string().into());
+                self.apply(Command::Set { key, value, phase: Phase::Done });
+            }
+            Purpose::Export(order) => {
+                self.dialog = Some(Dialog::Export(tasks::Order { place: path, ..order }));
+            }
+        }
     }
 
     fn save(&mut self, replace: bool) {
