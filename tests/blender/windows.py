@@ -283,19 +283,20 @@ def test_what_runs_beside_the_user_adds_and_removes_no_data_block(command, share
     bpy.context.scene.frame_set(8)
     bpy.ops.ed.undo_push(message="frame")
     blocks = {block.session_uid for kind in [bpy.data.objects, bpy.data.hair_curves, bpy.data.materials] for block in kind}
-    for name, value, strands in [("gravity", 160, 40), ("preview_strands", 60, 60), ("preview_strands", 25, 25)]:
+    changes = [("gravity", 160, 40), ("preview_strands", 60, 60), ("preview_strands", 25, 25)]
+    # Curves of Blender 4.2 cannot become others: other strands wait for the button there.
+    changes = changes if "remove_curves" in bpy.types.Curves.bl_rna.functions else changes[:1]
+    for name, value, strands in changes:
         setattr(hair.nabiki, name, value)
         bpy.ops.ed.undo_push(message=name)
         assert at_rest(preview)
-        if name == "preview_strands" and bpy.app.version < (4, 3):
-            continue
         answer, operator = beside(hair, Window(), [])
         assert answer == {"CANCELLED"} and operator.reports == []
         assert len(preview.data.curves) == strands and not at_rest(preview)
         now = {block.session_uid for kind in [bpy.data.objects, bpy.data.hair_curves, bpy.data.materials] for block in kind}
         assert now == blocks
     # What is left after Undo may have the strands of another step: it is at rest, and shown once its motion is there again.
-    for undone in range(3):
+    for undone in range(len(changes)):
         bpy.ops.ed.undo()
         hair = bpy.data.objects["Hair"]
         preview = hair.nabiki.preview
