@@ -9,6 +9,10 @@ pub use crate::light::lamps::{Lamp, lamps, zenith};
 
 /// Share of the light scattered by hair that stays within it.
 pub const DENSITY: f32 = shade::DENSITY;
+/// The same of the sky's light.
+pub const SKY_DENSITY: f32 = shade::SKY_DENSITY;
+/// Share of light scattered forward by hair that falls onto skin behind.
+pub const ON_SKIN: f32 = crate::skin::ON_SKIN;
 /// Variance along the hair of light scattered more than once (rad^2).
 pub const WIDE: f32 = shade::WIDE;
 /// Largest deviation of a strand's tilt (rad), for a variation of 1.

@@ -4,6 +4,6 @@ mod light;
 mod solids;
 mod surface;
 
-pub use light::SkinLight;
+pub use light::{ON_SKIN, SkinLight};
 pub use solids::{Solids, placed};
 pub use surface::{SkinPixel, SkinView};

@@ -41,7 +41,7 @@ pub struct SkinLight<'a> {
 }
 
 /// The share of light scattered forward by hair that falls onto skin behind: it goes on to all sides.
-const ON_SKIN: f32 = 0.4;
+pub const ON_SKIN: f32 = 0.4;
 
 /// How far light creeps past the terminator under skin of softness 1, red farthest (cosine).
 const CREEPS: [f32; 3] = [1.25, 0.8, 0.6];

@@ -120,13 +120,10 @@ fn crossed(lamp: Lamp, depth: vec4f) -> f32 {
     return depth[lamp.channel];
 }
 
-// Share of the sky's light scattered by hair that stays within it, as the renderer's SKY_DENSITY.
-const SKY_DENSITY: f32 = 0.5;
-
 // By how much more of the sky arrives than is open, since hair passes on a part a of it.
 fn gain(open: vec2f, a: vec3f) -> vec3f {
     let part = clamp(0.5 * (open.x + open.y), 1e-6, 1.0);
-    return 1.0 + SKY_DENSITY * max(pow(vec3f(part), max(1.0 - a, vec3f(0.0))) / part - 1.0, vec3f(0.0));
+    return 1.0 + g.sky_above.w * max(pow(vec3f(part), max(1.0 - a, vec3f(0.0))) / part - 1.0, vec3f(0.0));
 }
 
 fn arrives(open: vec2f, a: vec3f) -> vec3f {
@@ -148,7 +145,7 @@ fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec2f,
     let again = 2.0 * b / max(q + sqrt(max(q * q - 4.0 * b * b, vec3f(0.0))), vec3f(1e-6)) - b;
     let from_behind = arrives(behind, a);
     let closed = max(1.0 - 0.5 * (behind.x + behind.y) * gain(behind, a), vec3f(0.0));
-    var light = arrives(open, a) * (b + SKY_DENSITY * again * closed) + from_behind * a;
+    var light = arrives(open, a) * (b + g.sky_above.w * again * closed) + from_behind * a;
     for (var l = 0u; l < g.counts.x; l++) {
         let lamp = g.lamps[l];
         let sl = clamp(dot(t, lamp.toward), -0.9995, 0.9995);

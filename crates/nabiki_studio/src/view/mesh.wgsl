@@ -13,13 +13,10 @@ struct Corner {
 @group(1) @binding(0) var<storage, read> corners: array<Corner>;
 @group(1) @binding(1) var<storage, read_write> lit: array<vec4f>;
 
-// Share of light scattered by hair that falls onto skin, as the renderer's.
-const ON_SKIN: f32 = 0.4;
-
 // What arrives through n hairs: unscattered, and scattered forward as among the hair itself.
 fn through(n: f32) -> vec3f {
     let straight = exp(-n);
-    return straight + ON_SKIN * max(exp(-n * max(1.0 - g.passed.rgb, vec3f(0.0))) - straight, vec3f(0.0));
+    return straight + g.sky_below.w * max(exp(-n * max(1.0 - g.passed.rgb, vec3f(0.0))) - straight, vec3f(0.0));
 }
 
 @compute @workgroup_size(64)
