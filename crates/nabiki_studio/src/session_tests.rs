@@ -192,7 +192,11 @@ fn an_error_written_from_outside_leaves_the_motion_and_a_right_change_is_taken()
     std::fs::remove_file(place.file()).unwrap();
     session.said_changed = false;
     session.look_at_file();
-    assert!(session.words().iter().any(|word| word.wrong && word.text.contains("no longer there")));
+    let is_said =
+        |session: &Session| session.words().iter().any(|word| word.wrong && word.text.contains("no longer there"));
+    assert!(is_said(&session));
+    session.apply(Command::Act(Action::Save));
+    assert!(place.file().is_file() && !is_said(&session), "saved, it is there again");
 }
 
 #[test]

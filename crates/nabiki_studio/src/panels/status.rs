@@ -47,7 +47,15 @@ fn bars(ui: &mut Ui, session: &Session, commands: &mut Commands) {
         });
     }
     for (n, task) in session.tasks().iter().enumerate() {
-        bar(ui, theme::ACCENT, |ui| self::task(ui, n, task, commands));
+        let is_running = task.progress().ended.is_none();
+        bar(ui, theme::ACCENT, |ui| {
+            if is_running {
+                // One line, whose parts are of different heights.
+                ui.horizontal(|ui| self::task(ui, n, task, commands));
+            } else {
+                self::task(ui, n, task, commands);
+            }
+        });
     }
 }
 

@@ -253,6 +253,11 @@ impl Session {
     fn saved(&mut self) {
         self.said_changed = false;
         self.keep();
+        // What was wrong with the file is so no longer.
+        let file = self.document.as_ref().and_then(Document::path).map(|path| path.display().to_string());
+        if let Some(file) = file {
+            self.words.retain(|word| !word.text.starts_with(&file));
+        }
         let name = self.document.as_ref().map(Document::name).unwrap_or_default();
         self.say(format!("Saved {name}"), false);
     }
