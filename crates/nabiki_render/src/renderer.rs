@@ -337,6 +337,7 @@ impl Renderer {
         rayon::join(cover, cast);
         if occluded {
             let crossings: Vec<&Crossings> = self.sweeps.iter().map(|s| &s.crossings).collect();
+            self.sky_map.look_toward(&still.lamps);
             let white = |colour: [f32; 3]| 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
             // The head's colour is that of all light from skin: a body counts as much more or less as it is lighter or darker.
             let as_head = |solid: u16| white(self.skins[usize::from(solid)]) / white(self.skins[0]).max(1e-3);

@@ -1,7 +1,8 @@
 //! The light that each node of the hair sends to the eye.
 //!
 //! A lamp's light that crosses `n` fibres on its way arrives unscattered with e^-n; what is scattered forward by those fibres
-//! arrives with e^(-n (1 - a)) - e^-n, where a is the part that one fibre passes on: the Poisson mean of a^k over k >= 1 crossings. This
+//! arrives with e^(-n (1 - a)) - e^-n, where a is the part that one fibre passes on: the Poisson mean of a^k over k >= 1 crossings. It strays
+//! from the lamp's direction, so half of it is reckoned with what is about that direction in place of what is straight on. This
 //! follows the dual scattering of Zinke et al. (2008), with one wide shape for all scattered light. What the hair behind sends back
 //! is summed over all orders of reversals at once.
 
@@ -17,7 +18,9 @@ use super::headlight::SolidShadows;
 use super::kajiya::KajiyaKay;
 use super::lamps::Lamp;
 use super::shadow::Crossings;
-use super::sky::{ARRIVING, BEHIND_ABOVE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BELOW, FRONT_GLOW, SkyMap};
+use super::sky::{
+    ARRIVING, BEHIND_ABOVE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BELOW, FRONT_GLOW, Places, SkyMap,
+};
 use crate::camera::View;
 use crate::colour::of_strand;
 use crate::curve::CurveNode;
@@ -116,15 +119,16 @@ impl HairLight<'_> {
 
     /// What arrives of the sky, as [`SkyMap::at`] has it.
     #[inline(always)]
-    fn sky_at<const N: usize>(&self, places: &[[f32; N]; 3]) -> [[f32; N]; ARRIVING] {
+    fn sky_at<const N: usize>(&self, places: Option<&Places<N>>) -> [[f32; N]; ARRIVING] {
         let open = [[0.5; N], [0.5; N], [0.5; N], [0.5; N], [0.0; N], [0.0; N]];
-        self.sky_map.map_or(open, |s| s.at(places))
+        self.sky_map.zip(places).map_or(open, |(map, places)| map.at(places))
     }
 
     fn kajiya(&self, model: &KajiyaKay, i: usize, node: &CurveNode) -> [f32; 3] {
         let eye = self.view.toward_eye(node.position);
         let place = node.position.to_array().map(|c| [c]);
-        let [[front_above], [front_below], [behind_above], [behind_below], ..] = self.sky_at(&place);
+        let [[front_above], [front_below], [behind_above], [behind_below], ..] =
+            self.sky_at(self.sky_map.map(|map| map.places(&place)).as_ref());
         let (above, below) = (0.5 * (front_above + behind_above), 0.5 * (front_below + behind_below));
         let mut light: [f32; 3] = std::array::from_fn(|c| {
             self.sky.strength * model.colour[c] * (self.sky.above[c] * above + self.sky.below[c] * below)
@@ -177,7 +181,8 @@ impl HairLight<'_> {
         }
 
         let mut rows = Rows::default();
-        let sky = self.sky_at(&place);
+        let places = self.sky_map.map(|map| map.places(&place));
+        let sky = self.sky_at(places.as_ref());
         for lane in 0..LANES {
             let row = tables[lane].row(sin_eye[lane].abs() * (ROWS - 1) as f32);
             for c in 0..3 {
@@ -243,6 +248,9 @@ impl HairLight<'_> {
                     lobes[i][lane] = mixed[i];
                 }
             }
+            // Where it is not known what is about, as much as straight on.
+            let about = self.sky_map.zip(places.as_ref()).map(|(map, places)| map.toward_lamp(l, places));
+            let aside = about.map_or(crossed, |open| open.map(|open| -ln(open.clamp(1e-6, 1.0))));
             let straight = crossed.map(|n| exp_of_negative(-n));
             for c in 0..3 {
                 for lane in 0..LANES {
@@ -254,7 +262,9 @@ impl HairLight<'_> {
                     let back = m[3] * rows.again[c][lane] * same_side;
                     let many = m[3] * (rows.back[c][lane] * same_side + forward * far_side);
                     let straight = straight[lane];
-                    let passed = exp_of_negative(-crossed[lane] * (1.0 - forward).max(0.0)) - straight;
+                    let lost = (1.0 - forward).max(0.0);
+                    let scattered = exp_of_negative(-crossed[lane] * lost) + exp_of_negative(-aside[lane] * lost);
+                    let passed = 0.5 * scattered - straight;
                     let part = straight * (once + back) + DENSITY * passed.max(0.0) * (many + back);
                     light[c][lane] += PI * visible[lane] * lamp.strength[c] * part;
                 }

@@ -5,11 +5,19 @@
 //! the eye's side is sent back by a fibre, what comes from behind passes through it; each from the upper and from the lower half
 //! of the sky.
 
+mod directions;
+mod skin_cells;
+
 use glam::{IVec3, UVec3, Vec3};
 use nabiki::Mesh;
 use rayon::prelude::*;
 
+pub use self::skin_cells::SkinCell;
+
+use self::directions::{Direction, carry_along};
+use self::skin_cells::skin_cells;
 use super::approx::exp_of_negative;
+use super::lamps::Lamp;
 use crate::camera::View;
 use crate::curve::CurveNode;
 
@@ -21,14 +29,6 @@ const COARSE: f32 = 0.9;
 const MOST_CELLS: f32 = 1_000_000.0;
 /// Most steps in which a piece of hair is laid into cells.
 const MOST_STEPS: i32 = 8;
-/// Optical depth of skin, for each full crossing of a cell.
-const SKIN: f32 = 4.0;
-
-/// Weights by which the sky is summed over lattice directions: along the axes and along the diagonals of a cube (Lebedev's rule
-/// of 14 points, exact for polynomials of fifth degree).
-const ALONG_AXIS: f32 = 1.0 / 15.0;
-const ALONG_DIAGONAL: f32 = 3.0 / 40.0;
-
 /// Means over the directions on the eye's side, and over those behind, of the light that arrives from above and from below: where all
 /// is open the two of a side add up to 1.
 pub const FRONT_ABOVE: usize = 0;
@@ -42,14 +42,23 @@ pub const BEHIND_GLOW: usize = 5;
 pub const ARRIVING: usize = 6;
 type Arriving = [f32; ARRIVING];
 
-/// A lattice direction in which light travels.
-struct Direction {
-    step: [i32; 3],
-    /// Unit vector to where the light comes from.
-    from: Vec3,
-    weight: f32,
-    /// The parts of its light that count as from above and as from below.
-    halves: [f32; 2],
+/// Where some places lie among the cells.
+pub struct Places<const N: usize> {
+    /// The cell below each along all axes.
+    first: [usize; N],
+    /// How far into the next, 0..1, along each axis.
+    beyond: [[f32; N]; 3],
+}
+
+impl<const N: usize> Places<N> {
+    /// Between the values at the eight cells about place `n`, in proportion.
+    #[inline(always)]
+    fn between(&self, n: usize, corner: impl Fn(usize) -> f32) -> f32 {
+        let [u, v, w] = self.beyond.map(|beyond| beyond[n]);
+        let line = |i: usize| corner(i) + (corner(i + 1) - corner(i)) * u;
+        let plane = |i: usize| line(i) + (line(i + 2) - line(i)) * v;
+        plane(0) + (plane(4) - plane(0)) * w
+    }
 }
 
 /// The share of the sky that arrives in each cell about hair and head.
@@ -66,6 +75,8 @@ pub struct SkyMap {
     through: [Vec<f32>; 2],
     carried: Vec<Vec<f32>>,
     arriving: Vec<Arriving>,
+    /// For each lamp, how open each cell is about its direction, 0..1.
+    toward_lamps: Vec<Vec<f32>>,
     /// The cells that the head's skin passes through, and their edge.
     head: Vec<SkinCell>,
     head_of: Option<f32>,
@@ -73,20 +84,6 @@ pub struct SkyMap {
     skin: Vec<SkinCell>,
     lit: Vec<f32>,
     glow: Vec<Vec<f32>>,
-}
-
-/// A cell that the surface of a head or body passes through.
-#[derive(Clone, Copy)]
-pub struct SkinCell {
-    /// Its place on the lattice through the origin.
-    cell: IVec3,
-    /// Optical depth of the skin in it.
-    depth: f32,
-    /// Mean place and unit normal of the skin (head space, cm).
-    pub place: Vec3,
-    pub normal: Vec3,
-    /// The head's is 0, the bodies' follow.
-    pub solid: u16,
 }
 
 impl SkyMap {
@@ -139,6 +136,23 @@ impl SkyMap {
         self.carry(zenith);
     }
 
+    /// Finds how open each cell is about the directions of the lamps: light that hair scatters forward strays from the lamp's direction,
+    /// and finds ways that are shorter than the straight one where that goes along the hair's surface.
+    pub fn look_toward(&mut self, lamps: &[Lamp]) {
+        self.toward_lamps.resize_with(lamps.len(), Vec::new);
+        let (directions, carried, cells) = (&self.directions, &self.carried, self.taken.len());
+        self.toward_lamps.par_iter_mut().zip(lamps).for_each(|(open, lamp)| {
+            let shares = || directions.iter().map(|d| d.weight * d.from.dot(lamp.toward).max(0.0).powi(2));
+            let all: f32 = shares().sum();
+            open.clear();
+            open.resize(cells, 0.0);
+            for (share, light) in shares().zip(carried).filter(|(share, _)| *share > 0.0) {
+                let share = share / all;
+                open.iter_mut().zip(light).for_each(|(open, light)| *open += share * light);
+            }
+        });
+    }
+
     /// Sums what arrives in each cell for the eye of a view. `lit` is the light that falls onto the skin in each of its cells: skin sends it
     /// on as an even white surface would.
     pub fn gather(&mut self, view: &View, lit: impl Fn(&Self, usize, &SkinCell) -> f32 + Sync) {
@@ -154,10 +168,43 @@ impl SkyMap {
         self.sum(view);
     }
 
-    /// What arrives at places (x, y and z of all of them), as the constants name it; outside of the cells, what
-    /// arrives at their border.
+    /// What arrives at places, as the constants name it.
     #[inline(always)]
-    pub fn at<const N: usize>(&self, places: &[[f32; N]; 3]) -> [[f32; N]; ARRIVING] {
+    pub fn at<const N: usize>(&self, places: &Places<N>) -> [[f32; N]; ARRIVING] {
+        // All that is read first, so that the waits for memory go on side by side.
+        let mut corners = [[[0.0; N]; ARRIVING]; 8];
+        for n in 0..N {
+            for (line, pair) in self.lines().into_iter().zip(corners.chunks_exact_mut(2)) {
+                let at = places.first[n] + line;
+                for (corner, cell) in pair.iter_mut().zip(&self.arriving[at..at + 2]) {
+                    for quarter in 0..ARRIVING {
+                        corner[quarter][n] = cell[quarter];
+                    }
+                }
+            }
+        }
+        std::array::from_fn(|quarter| std::array::from_fn(|n| places.between(n, |i| corners[i][quarter][n])))
+    }
+
+    /// How open it is about the direction of lamp `l` at places, 0..1.
+    #[inline(always)]
+    pub fn toward_lamp<const N: usize>(&self, l: usize, places: &Places<N>) -> [f32; N] {
+        let open = &self.toward_lamps[l];
+        let mut corners = [[0.0; N]; 8];
+        for n in 0..N {
+            for (line, pair) in self.lines().into_iter().zip(corners.chunks_exact_mut(2)) {
+                let at = places.first[n] + line;
+                for (corner, open) in pair.iter_mut().zip(&open[at..at + 2]) {
+                    corner[n] = *open;
+                }
+            }
+        }
+        std::array::from_fn(|n| places.between(n, |i| corners[i][n]))
+    }
+
+    /// Where places (x, y and z of all of them) lie among the cells; those outside at the border.
+    #[inline(always)]
+    pub fn places<const N: usize>(&self, places: &[[f32; N]; 3]) -> Places<N> {
         let last = (self.size.as_vec3() - 1.001).max(Vec3::ZERO);
         let per_cell = 1.0 / self.cell;
         let c: [[f32; N]; 3] = std::array::from_fn(|axis| {
@@ -166,54 +213,33 @@ impl SkyMap {
         });
         // Toward zero is down: there is nothing below.
         let base = c.map(|c| c.map(|c| c as i32));
-        let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
-        // All that is read first, so that the waits for memory go on side by side.
-        let mut corners = [[[0.0; N]; ARRIVING]; 8];
-        for n in 0..N {
+        let [_, row, slice, _] = self.lines();
+        let first = std::array::from_fn(|n| {
             let [x, y, z] = [0, 1, 2].map(|axis| base[axis][n] as usize);
-            let at = x + row * y + slice * z;
-            for (line, pair) in [0, row, slice, slice + row].into_iter().zip(corners.chunks_exact_mut(2)) {
-                let cells = &self.arriving[at + line..at + line + 2];
-                for (corner, cell) in pair.iter_mut().zip(cells) {
-                    for quarter in 0..ARRIVING {
-                        corner[quarter][n] = cell[quarter];
-                    }
-                }
-            }
-        }
-        std::array::from_fn(|quarter| {
-            std::array::from_fn(|n| {
-                let [u, v, w] = [0, 1, 2].map(|axis| c[axis][n] - base[axis][n] as f32);
-                let line = |i: usize| {
-                    let (a, b) = (corners[i][quarter][n], corners[i + 1][quarter][n]);
-                    a + (b - a) * u
-                };
-                let plane = |i: usize| line(i) + (line(i + 2) - line(i)) * v;
-                plane(0) + (plane(4) - plane(0)) * w
-            })
-        })
+            x + row * y + slice * z
+        });
+        Places { first, beyond: std::array::from_fn(|i| std::array::from_fn(|n| c[i][n] - base[i][n] as f32)) }
+    }
+
+    /// From the first of the eight cells about a place to those that begin a pair along x.
+    #[inline(always)]
+    fn lines(&self) -> [usize; 4] {
+        let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
+        [0, row, slice, slice + row]
     }
 
     /// The shares of the sky above and of that below, 0..1 each, that arrive at a place on a surface with this unit normal, and the
     /// light that other skin sends there.
     pub fn on_surface(&self, place: Vec3, normal: Vec3) -> [f32; 3] {
-        let last = (self.size.as_vec3() - 1.001).max(Vec3::ZERO);
-        let c = ((place - self.low) / self.cell - 0.5).clamp(Vec3::ZERO, last);
-        let base = c.as_uvec3();
-        let f = c - base.as_vec3();
-        let at = self.index(base);
-        let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
+        let place = self.places(&place.to_array().map(|c| [c]));
+        let lines = self.lines();
         let (mut arrives, mut all) = ([0.0_f32; 3], [1e-12_f32; 3]);
         for (n, (direction, light)) in self.directions.iter().zip(&self.carried).enumerate() {
             let facing = direction.weight * normal.dot(direction.from);
             if facing <= 0.0 {
                 continue;
             }
-            let between = |light: &[f32]| {
-                let line = |i: usize| light[i] + (light[i + 1] - light[i]) * f.x;
-                let plane = |i: usize| line(i) + (line(i + row) - line(i)) * f.y;
-                plane(at) + (plane(at + slice) - plane(at)) * f.z
-            };
+            let between = |light: &[f32]| place.between(0, |i| light[place.first[0] + lines[i / 2] + i % 2]);
             let open = between(light);
             for half in 0..2 {
                 arrives[half] += facing * direction.halves[half] * open;
@@ -270,16 +296,7 @@ impl SkyMap {
     /// Carries light along the lattice directions, one after the other, slice by slice.
     fn carry(&mut self, zenith: Vec3) {
         self.directions.clear();
-        self.directions.extend((0..27_i32).map(|i| [i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1]).filter_map(|step| {
-            let weight = match squared_length(step) {
-                1 => ALONG_AXIS,
-                3 => ALONG_DIAGONAL,
-                _ => return None,
-            };
-            let from = -Vec3::from_array(step.map(|c| c as f32)).normalize();
-            let above = above(from.dot(zenith));
-            Some(Direction { step, from, weight, halves: [above, 1.0 - above] })
-        }));
+        self.directions.extend(Direction::all(zenith));
         let through = |length: f32| {
             let taken = self.taken.par_iter().with_min_len(8192);
             taken.map(move |t| exp_of_negative(-t * length)).collect::<Vec<f32>>()
@@ -290,7 +307,7 @@ impl SkyMap {
         self.carried.par_iter_mut().zip(&self.directions).for_each(|(light, d)| {
             light.clear();
             light.resize(straight.len(), 1.0);
-            carry_along::<false>(d.step, size, if squared_length(d.step) == 1 { &straight } else { &aslant }, light);
+            carry_along::<false>(d.step, size, if d.is_aslant() { &aslant } else { &straight }, light);
         });
         self.through = [straight, aslant];
     }
@@ -302,7 +319,7 @@ impl SkyMap {
         let (size, skin, lit, taken, through) = (self.size, &self.skin, &self.lit, &self.taken, &self.through);
         let hair = &self.hair;
         self.glow.par_iter_mut().zip(&self.directions).for_each(|(glow, d)| {
-            let through = &through[usize::from(squared_length(d.step) != 1)];
+            let through = &through[usize::from(d.is_aslant())];
             glow.clear();
             glow.resize(taken.len(), 0.0);
             for ((&at, skin), &lit) in places.iter().zip(skin).zip(lit) {
@@ -358,94 +375,6 @@ impl SkyMap {
     }
 }
 
-/// Cells of edge `cell` that a surface passes through.
-fn skin_cells(mesh: &Mesh, cell: f32, solid: u16) -> Vec<SkinCell> {
-    // Of each bit of the surface: its cell, its share of a cell's face, its place and normal times that.
-    let mut shares: Vec<([i32; 3], f32, Vec3, Vec3)> = Vec::new();
-    for triangle in &mesh.triangles {
-        let [a, b, c] = triangle.map(|v| mesh.positions[v as usize]);
-        let across = (b - a).cross(c - a);
-        let (area, normal) = (0.5 * across.length(), across.normalize_or_zero());
-        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-        let steps = (2.0 * longest / cell).ceil().clamp(1.0, 64.0) as usize;
-        let share = area / (steps * steps) as f32 / (cell * cell);
-        for i in 0..steps {
-            for j in 0..steps {
-                // Points of a lattice on the unit square, folded onto the triangle.
-                let (mut u, mut v) = ((i as f32 + 0.5) / steps as f32, (j as f32 + 0.5) / steps as f32);
-                if u + v > 1.0 {
-                    (u, v) = (1.0 - u, 1.0 - v);
-                }
-                let p = a + (b - a) * u + (c - a) * v;
-                shares.push(((p / cell).floor().as_ivec3().to_array(), share, share * p, share * normal));
-            }
-        }
-    }
-    // Stable, so that the shares of a cell are always added in one order.
-    shares.sort_by_key(|share| share.0);
-    let of_cells = shares.chunk_by(|a, b| a.0 == b.0);
-    of_cells
-        .map(|of_cell| {
-            let marked: f32 = of_cell.iter().map(|share| share.1).sum();
-            let place = of_cell.iter().map(|share| share.2).sum::<Vec3>() / marked.max(1e-12);
-            let normal = of_cell.iter().map(|share| share.3).sum::<Vec3>().normalize_or_zero();
-            SkinCell { cell: IVec3::from(of_cell[0].0), depth: SKIN * marked.min(1.5), place, normal, solid }
-        })
-        .collect()
-}
-
-/// Light that arrives in each cell from direction `-d`, before the cell takes its own part; `through` is what a cell
-/// leaves of it. It takes the place of what is in the cells, or is added to it; the border's cells stay as they are.
-fn carry_along<const ADDED: bool>(d: [i32; 3], size: UVec3, through: &[f32], light: &mut [f32]) {
-    let [nx, ny, nz] = [size.x, size.y, size.z].map(|n| n as i32);
-    let order = |n: i32, step: i32| (0..n).map(move |i| if step < 0 { n - 1 - i } else { i });
-    for z in order(nz, d[2]) {
-        for y in order(ny, d[1]) {
-            let (fy, fz) = (y - d[1], z - d[2]);
-            if !(0..ny).contains(&fy) || !(0..nz).contains(&fz) {
-                continue;
-            }
-            let width = nx as usize;
-            let (here, from) = (width * (y + ny * z) as usize, width * (fy + ny * fz) as usize);
-            if here == from {
-                for x in order(nx, d[0]) {
-                    let fx = x - d[0];
-                    if (0..nx).contains(&fx) {
-                        let i = from + fx as usize;
-                        let before = if ADDED { light[here + x as usize] } else { 0.0 };
-                        light[here + x as usize] = before + light[i] * through[i];
-                    }
-                }
-                continue;
-            }
-            let (to, source) = if here > from {
-                let (before, after) = light.split_at_mut(here);
-                (&mut after[..width], &before[from..from + width])
-            } else {
-                let (before, after) = light.split_at_mut(from);
-                (&mut before[here..here + width], &after[..width])
-            };
-            let (first, count) = (d[0].max(0) as usize, width - d[0].unsigned_abs() as usize);
-            let from_x = (-d[0]).max(0) as usize;
-            let through = &through[from + from_x..][..count];
-            for ((to, &light), &through) in to[first..][..count].iter_mut().zip(&source[from_x..][..count]).zip(through)
-            {
-                *to = if ADDED { *to } else { 0.0 } + light * through;
-            }
-        }
-    }
-}
-
-fn squared_length(d: [i32; 3]) -> i32 {
-    d.iter().map(|c| c * c).sum()
-}
-
-/// The part of the light from a direction of this height (-1..1) that counts as from above. The halves of the sky meet at the horizon,
-/// softly, so that a head that turns does not take its fourteen directions across it at once.
-fn above(height: f32) -> f32 {
-    0.5 + height * (0.75 - 0.25 * height * height)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -477,22 +406,32 @@ mod tests {
             sky
         };
         let sky = filled(0.0);
-        let at = sky.at(&[[0.0, 0.0, 100.0], [0.0, 5.4, 100.0], [0.0, 0.0, 100.0]]);
+        let at = sky.at(&sky.places(&[[0.0, 0.0, 100.0], [0.0, 5.4, 100.0], [0.0, 0.0, 100.0]]));
         let [middle, top, outside] = [0, 1, 2].map(|n| at.map(|quarter| quarter[n]));
         assert!(middle.iter().all(|&light| light < 0.05), "{middle:?}");
         assert!(top[FRONT_ABOVE] > 0.35 && top[FRONT_ABOVE] > 2.0 * top[FRONT_BELOW], "{top:?}");
         assert!(outside.iter().sum::<f32>() > 1.3, "{outside:?}");
         // Before the ball it is open toward the eye and closed behind; on its far side the other way round.
         let rims = [[5.4, -5.4], [0.0; 2], [0.0; 2]];
-        let [near, far] = [0, 1].map(|n| sky.at(&rims).map(|quarter| quarter[n]));
+        let [near, far] = [0, 1].map(|n| sky.at(&sky.places(&rims)).map(|quarter| quarter[n]));
         let open = |at: [f32; ARRIVING]| (at[FRONT_ABOVE] + at[FRONT_BELOW], at[BEHIND_ABOVE] + at[BEHIND_BELOW]);
         assert!(open(near).0 > 0.6 && open(near).1 < 0.1, "{near:?}");
         assert!(open(far).0 < open(near).0 - 0.2 && open(far).1 > open(near).1 + 0.2, "{far:?}");
+        // Toward a lamp at one side it is open there, and closed at the other.
+        let mut sky = sky;
+        sky.look_toward(&[lamp(Vec3::X)]);
+        let [lit, shaded] = sky.toward_lamp(0, &sky.places(&rims));
+        assert!(lit > 0.7 && shaded < 0.05, "{lit} {shaded}");
         // The other eye sees the same of the other side: the ball is the same to some hairs' places.
-        let opposite = filled(180.0).at(&rims);
+        let opposite = filled(180.0);
+        let opposite = opposite.at(&opposite.places(&rims));
         for (quarter, (near, far)) in near.into_iter().zip(far).enumerate() {
             assert!((opposite[quarter][1] - near).abs() < 0.03 && (opposite[quarter][0] - far).abs() < 0.03);
         }
+    }
+
+    fn lamp(toward: Vec3) -> Lamp {
+        Lamp { toward, strength: [1.0; 3], spread: 0.0 }
     }
 
     fn view_from(azimuth: f32) -> View {
@@ -508,10 +447,13 @@ mod tests {
             sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]));
             sky.fill(&[], &[], zenith);
             sky.gather(&view_from(47.0), |_, _, _| 0.0);
-            let at = sky.at(&[[0.3], [-0.7], [1.1]]).map(|quarter| quarter[0]);
+            let place = sky.places(&[[0.3], [-0.7], [1.1]]);
+            let at = sky.at(&place).map(|quarter| quarter[0]);
             // A dozen roundings of sums of 14 numbers.
             assert!((at[FRONT_ABOVE] + at[FRONT_BELOW] - 1.0).abs() < 1e-5, "{at:?}");
             assert!((at[BEHIND_ABOVE] + at[BEHIND_BELOW] - 1.0).abs() < 1e-5, "{at:?}");
+            sky.look_toward(&[lamp(zenith)]);
+            assert!((sky.toward_lamp(0, &place)[0] - 1.0).abs() < 1e-5);
             let above = sky.on_surface(Vec3::ZERO, Vec3::new(0.6, 0.0, 0.8));
             assert!(above[..2].iter().all(|open| (open - 1.0).abs() < 1e-5) && above[2] == 0.0, "{above:?}");
         }
