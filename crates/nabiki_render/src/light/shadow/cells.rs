@@ -120,7 +120,7 @@ impl Cells<'_> {
 /// The part of a tent about 0, of half width 1 and content 1, that lies below `x`.
 #[inline(always)]
 fn tent_up_to(x: f32) -> f32 {
-    let x = x.max(-1.0).min(1.0);
+    let x = x.clamp(-1.0, 1.0);
     0.5 + x - 0.5 * x * x.abs()
 }
 
