@@ -319,7 +319,7 @@ fn check_size(built: &BuiltScene) -> Result<(), Error> {
     Ok(())
 }
 
-/// As many of a take's strands, or of those that it is some of, as [are not refused](check_size).
+/// As many of a take's strands, or of those that it is some of, as `check_size` does not refuse.
 pub fn most_strands(take: &Take) -> usize {
     let (strands, points) = (take.strands().len().max(1), take.strands().points().len().max(1));
     let frames = take.frames() as usize + 1;
