@@ -1,12 +1,13 @@
 //! Elementary functions without branches, so that loops over many nodes become vector code and give the same bits on
 //! every machine.
 
+/// 1.5 * 2^23: added to a number it leaves the nearest whole one in the low bits.
+const SHIFT: f32 = 12_582_912.0;
+
 /// e^x for x up to 0 (relative error below 2e-5); within 1e-37 of it below x = -85.
 #[inline(always)]
 pub fn exp_of_negative(x: f32) -> f32 {
-    const SHIFT: f32 = 12_582_912.0;
     let y = (x * std::f32::consts::LOG2_E).max(-124.0);
-    // Adding 1.5 * 2^23 leaves the nearest whole number in the low bits.
     let shifted = y + SHIFT;
     let f = y - (shifted - SHIFT);
     let whole = shifted.to_bits() << 23;
@@ -28,6 +29,13 @@ pub fn ln(x: f32) -> f32 {
     let t = (m - 1.0) / (m + 1.0);
     let s = t * t;
     e * std::f32::consts::LN_2 + 2.0 * t * (1.0 + s * (1.0 / 3.0 + s * (0.2 + s * (1.0 / 7.0 + s * (1.0 / 9.0)))))
+}
+
+/// Rounded down, of what lies within four million of 0, or for a whole number the one before; without a conversion, which would keep its
+/// loop from being vectorised.
+#[inline(always)]
+pub fn floor(x: f32) -> i32 {
+    (x - 0.5 + SHIFT).to_bits() as i32 - SHIFT.to_bits() as i32
 }
 
 /// arccos of x in -1..1 (rad), to 1e-4: Abramowitz and Stegun 4.4.45.

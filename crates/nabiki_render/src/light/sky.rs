@@ -29,6 +29,7 @@ const COARSE: f32 = 0.9;
 const MOST_CELLS: f32 = 1_000_000.0;
 /// Most steps in which a piece of hair is laid into cells.
 const MOST_STEPS: i32 = 8;
+
 /// Means over the directions on the eye's side, and over those behind, of the light that arrives from above and from below: where all
 /// is open the two of a side add up to 1.
 pub const FRONT_ABOVE: usize = 0;

@@ -1,6 +1,7 @@
 //! The fibres that were laid down so far, in the cells of a lamp's map.
 
 use super::item::Fibre;
+use crate::light::approx::floor;
 
 /// Skin reads this many cells about its place to each side, lest single hairs streak it.
 pub const AROUND: usize = 2;
@@ -122,15 +123,6 @@ impl Cells<'_> {
 fn tent_up_to(x: f32) -> f32 {
     let x = x.clamp(-1.0, 1.0);
     0.5 + x - 0.5 * x * x.abs()
-}
-
-/// Rounded down, of what lies within four million of 0, or for a whole number the one before; without a conversion, which would keep its
-/// loop from being vectorised.
-#[inline(always)]
-fn floor(x: f32) -> i32 {
-    // Adding 1.5 * 2^23 leaves the nearest whole number in the low bits.
-    const SHIFT: f32 = 12_582_912.0;
-    (x - 0.5 + SHIFT).to_bits() as i32 - SHIFT.to_bits() as i32
 }
 
 #[cfg(test)]
