@@ -212,6 +212,16 @@ fn files_that_cannot_be_are_refused_by_name() {
 }
 
 #[test]
+fn hair_too_small_to_be_moved_names_its_unit() {
+    let folder = TempDir::new().unwrap();
+    let (hair, scene) = (path(&folder, "short.hair"), path(&folder, "short.toml"));
+    succeed(&["groom", GUST, "--strands", "60", "-o", &hair]);
+    fs::write(&scene, format!("[hair]\nfile = \"{hair}\"\nunit = 0.01\n\n[motion]\nform = \"free\"\n")).unwrap();
+    let said = refuse(&["simulate", &scene, "-o", &path(&folder, "m.nabiki")], folder.path());
+    assert!(said.contains("unstable") && said.contains("give hair.unit = \"cm\""), "{said}");
+}
+
+#[test]
 fn a_command_line_that_makes_no_sense_exits_with_2() {
     for arguments in
         [&["blow", GUST][..], &["run"], &["run", GUST, "--strands", "many"], &["run", GUST, "--threads", "0"]]

@@ -27,6 +27,13 @@ pub struct Advice {
     pub settings: Vec<Setting>,
 }
 
+impl Advice {
+    /// Whether a file's unit is to be mended.
+    pub(crate) fn is_of_unit(&self) -> bool {
+        self.settings.iter().any(|setting| setting.key.ends_with(".unit"))
+    }
+}
+
 /// A setting and its value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {

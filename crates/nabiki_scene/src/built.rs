@@ -274,8 +274,11 @@ impl BuiltScene {
         Some(Origin { placement, points: report.points_in_file as u64, groom: self.groom.clone() })
     }
 
-    /// A refused setting as an error that names the scene's file and line.
-    pub fn refusal(&self, refused: SettingError) -> Error {
+    /// A refused setting as an error that names the scene's file and line, and the unit to mend where hair or head have the
+    /// size of neither: no other setting would help then.
+    pub fn refusal(&self, mut refused: SettingError) -> Error {
+        let units = self.advice().into_iter().filter(Advice::is_of_unit);
+        units.for_each(|advice| refused.remedy += &format!("; look first at the size: {advice}"));
         self.scene.refusal(refused).into()
     }
 }
