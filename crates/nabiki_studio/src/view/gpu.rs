@@ -1,6 +1,8 @@
 //! The card's side of the view: what lies on it, and one picture drawn.
 
 mod headless;
+mod on_card;
+mod passes;
 mod pipelines;
 mod target;
 #[cfg(test)]
@@ -11,7 +13,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use eframe::wgpu;
 use glam::{Affine3A, Vec3};
 use nabiki::Strands;
-use nabiki_render::live::{self, FibreTables};
+use nabiki_render::live;
 use nabiki_render::settings::HairLook;
 use nabiki_render::tone_mapping::linear_from_srgb;
 use nabiki_render::{Picture, View, colour};
@@ -19,16 +21,17 @@ use nabiki_render::{Picture, View, colour};
 use crate::take::Take;
 
 use super::globals::{self, Globals, Locks, Show};
-use super::hair;
 use super::mesh::{Skin, Surface};
 use super::volume::{Casting, Volume, VolumeMaker};
-use pipelines::{Pipelines, RIBBON_BYTES, buffer};
+use on_card::{LookOnCard, StrandsOnCard, SurfaceOnCard};
+use passes::Passes;
+use pipelines::{Pipelines, buffer};
 use target::Target;
 
 pub use pipelines::Line;
 
-/// Hairs of a lock at most.
-const MOST_HAIRS: u32 = 8;
+/// Hairs of a lock at most, where there is time for them.
+pub const MOST_HAIRS: u32 = 8;
 
 /// What one picture is drawn from.
 pub struct Drawing<'a> {
@@ -42,6 +45,8 @@ pub struct Drawing<'a> {
     pub view: View,
     /// Lines among the hair (head space).
     pub lines: &'a [Line],
+    /// Hairs of a lock at most, [`MOST_HAIRS`] or fewer.
+    pub most_hairs: u32,
 }
 
 /// A card, and what of the scene lies on it.
@@ -52,33 +57,11 @@ pub struct Gpu {
     target: Option<Target>,
     globals: wgpu::Buffer,
     show: wgpu::Buffer,
-    fibre: Option<OnCard>,
+    fibre: Option<LookOnCard>,
     strands: Option<StrandsOnCard>,
     bodies: Option<Bodies>,
     volumes: VolumeMaker,
-    most_hairs: u32,
     failure: Arc<Mutex<Option<String>>>,
-}
-
-/// The tables of a look.
-struct OnCard {
-    look: HairLook,
-    tables: FibreTables,
-    lobes: wgpu::Buffer,
-    rows: wgpu::Buffer,
-}
-
-/// Strands of which only the points change.
-struct StrandsOnCard {
-    starts: Vec<u32>,
-    pieces: u32,
-    hairs: u32,
-    points: wgpu::Buffer,
-    marks: wgpu::Buffer,
-    lights: wgpu::Buffer,
-    ribbons: wgpu::Buffer,
-    indices: wgpu::Buffer,
-    index_count: u32,
 }
 
 /// The head with its stubble, and what else stands in the scene.
@@ -93,11 +76,7 @@ struct Bodies {
     others: Vec<Surface>,
     of_others: Vec<(usize, [f32; 3])>,
     at: Vec<Affine3A>,
-    corners: wgpu::Buffer,
-    corner_count: usize,
-    lights: wgpu::Buffer,
-    indices: wgpu::Buffer,
-    index_count: u32,
+    surface: SurfaceOnCard,
 }
 
 impl Gpu {
@@ -145,7 +124,6 @@ impl Gpu {
             strands: None,
             bodies: None,
             volumes: VolumeMaker::default(),
-            most_hairs: MOST_HAIRS,
             failure,
         })
     }
@@ -161,7 +139,7 @@ impl Gpu {
         if self.failure().is_some() {
             return None;
         }
-        let Drawing { take, picture, frame, view, lines } = drawing;
+        let Drawing { take, picture, frame, view, lines, most_hairs } = drawing;
         let (strands, pose) = (take.strands(), take.pose(*frame));
         let points = take.points(*frame);
         let share = take.built.strands_of_scene as f32 / strands.len().max(1) as f32;
@@ -170,7 +148,7 @@ impl Gpu {
             self.target = Some(Target::new(&self.device, view.size));
         }
         self.set_look(&picture.hair);
-        let locks = Locks::new(strands.len(), share, &take.built.head.ellipsoid, self.most_hairs);
+        let locks = Locks::new(strands.len(), share, &take.built.head.ellipsoid, *most_hairs);
         self.set_strands(strands, locks.hairs);
         self.set_bodies(take, picture, *frame, share);
         let lines_count = lines.len() as u32;
@@ -204,96 +182,19 @@ impl Gpu {
         queue.write_buffer(&on_card.points, 0, bytemuck::cast_slice(points));
 
         let scene = self.scene_group(&volume);
-        let group = |layout, buffers: &[&wgpu::Buffer]| {
-            let entries: Vec<_> = (0..)
-                .zip(buffers)
-                .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
-                .collect();
-            self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+        let passes = Passes {
+            device: &self.device,
+            pipelines: &self.pipelines,
+            target,
+            scene: &scene,
+            show: &self.show,
+            look: fibre,
+            strands: on_card,
+            surface: &bodies.surface,
+            lines: &lines,
+            line_count: lines_count,
         };
-        let of_strands = group(
-            &self.pipelines.strands,
-            &[&on_card.points, &on_card.marks, &fibre.lobes, &fibre.rows, &on_card.lights, &on_card.ribbons],
-        );
-        let of_bodies = group(&self.pipelines.bodies, &[&bodies.corners, &bodies.lights]);
-        let of_show = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &self.pipelines.show,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: self.show.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&target.light) },
-            ],
-        });
-
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_bind_group(0, &scene, &[]);
-            let nodes = points.len() * (on_card.pieces * on_card.hairs) as usize;
-            for (pipeline, group, threads) in [
-                (&self.pipelines.light, &of_bodies, bodies.corner_count),
-                (&self.pipelines.shade, &of_strands, points.len()),
-                (&self.pipelines.lay, &of_strands, nodes),
-            ] {
-                // A dimension of a dispatch holds 65,535 groups: rows of 1,024.
-                let groups = (threads as u32).div_ceil(64);
-                pass.set_pipeline(pipeline);
-                pass.set_bind_group(1, group, &[]);
-                pass.dispatch_workgroups(groups.min(1024), groups.div_ceil(1024), 1);
-            }
-        }
-        {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("scene"),
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: &target.samples,
-                    depth_slice: None,
-                    resolve_target: Some(&target.light),
-                    ops: wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                        store: wgpu::StoreOp::Discard,
-                    },
-                })],
-                depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                    view: &target.depth,
-                    depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
-                    stencil_ops: None,
-                }),
-                ..wgpu::RenderPassDescriptor::default()
-            });
-            pass.set_bind_group(0, &scene, &[]);
-            // The head first: what it hides is not shaded.
-            pass.set_pipeline(&self.pipelines.mesh);
-            pass.set_vertex_buffer(0, bodies.corners.slice(..));
-            pass.set_vertex_buffer(1, bodies.lights.slice(..));
-            pass.set_index_buffer(bodies.indices.slice(..), wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(0..bodies.index_count, 0, 0..1);
-            pass.set_pipeline(&self.pipelines.ribbon);
-            pass.set_vertex_buffer(0, on_card.ribbons.slice(..));
-            pass.set_index_buffer(on_card.indices.slice(..), wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(0..on_card.index_count, 0, 0..1);
-            if lines_count > 0 {
-                pass.set_pipeline(&self.pipelines.line);
-                pass.set_vertex_buffer(0, lines.slice(..));
-                pass.draw(0..4, 0..lines_count);
-            }
-        }
-        {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("show"),
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: &target.shown_view,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations::default(),
-                })],
-                ..wgpu::RenderPassDescriptor::default()
-            });
-            pass.set_pipeline(&self.pipelines.shown);
-            pass.set_bind_group(0, &of_show, &[]);
-            pass.draw(0..3, 0..1);
-        }
-        self.queue.submit([encoder.finish()]);
+        self.queue.submit([passes.commands()]);
         Some((&target.shown_view, is_new))
     }
 
@@ -301,53 +202,14 @@ impl Gpu {
         if self.fibre.as_ref().is_some_and(|fibre| fibre.look == *look) {
             return;
         }
-        let tables = FibreTables::new(look);
-        let of = |label, bytes| buffer(&self.device, &self.queue, label, bytes, wgpu::BufferUsages::STORAGE);
-        let lobes = of("lobes", bytemuck::cast_slice(&tables.lobes));
-        let rows = of("rows", bytemuck::cast_slice(&tables.rows));
-        self.fibre = Some(OnCard { look: *look, tables, lobes, rows });
+        self.fibre = Some(LookOnCard::new(&self.device, &self.queue, look));
     }
 
     fn set_strands(&mut self, strands: &Strands, hairs: u32) {
         if self.strands.as_ref().is_some_and(|on_card| on_card.hairs == hairs && on_card.starts == strands.starts()) {
             return;
         }
-        let count = strands.points().len();
-        let pieces = hair::pieces(count * hairs as usize);
-        let marks = hair::marks(strands);
-        let triangles = hair::triangles(strands, pieces, hairs);
-        let usage = wgpu::BufferUsages::STORAGE;
-        let room = |label, bytes: u64, usage| {
-            let size = bytes.max(64);
-            self.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
-        let count = count as u64;
-        self.strands = Some(StrandsOnCard {
-            starts: strands.starts().to_vec(),
-            pieces,
-            hairs,
-            points: room("points", 12 * count, usage | wgpu::BufferUsages::COPY_DST),
-            marks: buffer(&self.device, &self.queue, "marks", bytemuck::cast_slice(&marks), usage),
-            lights: room("lights", 16 * count, usage),
-            ribbons: room(
-                "ribbons",
-                2 * RIBBON_BYTES * count * u64::from(pieces * hairs),
-                usage | wgpu::BufferUsages::VERTEX,
-            ),
-            indices: buffer(
-                &self.device,
-                &self.queue,
-                "ribbon indices",
-                bytemuck::cast_slice(&triangles),
-                wgpu::BufferUsages::INDEX,
-            ),
-            index_count: triangles.len() as u32,
-        });
+        self.strands = Some(StrandsOnCard::new(&self.device, &self.queue, strands, hairs));
     }
 
     fn set_bodies(&mut self, take: &Take, picture: &Picture, frame: u32, share: f32) {
@@ -393,8 +255,6 @@ impl Gpu {
         };
         let mut all = Surface { corners: head.corners.clone(), indices: head.indices.clone() };
         others.iter().zip(&at).for_each(|(other, at)| all.add(other, at));
-        let of = |label, bytes, usage| buffer(&self.device, &self.queue, label, bytes, usage);
-        let storage = wgpu::BufferUsages::STORAGE;
         self.bodies = Some(Bodies {
             roots,
             shade,
@@ -406,11 +266,7 @@ impl Gpu {
             others,
             of_others: of_bodies,
             at,
-            corners: of("corners", bytemuck::cast_slice(&all.corners), wgpu::BufferUsages::VERTEX | storage),
-            corner_count: all.corners.len(),
-            lights: of("lights of corners", &vec![0; 16 * all.corners.len()], wgpu::BufferUsages::VERTEX | storage),
-            indices: of("skin indices", bytemuck::cast_slice(&all.indices), wgpu::BufferUsages::INDEX),
-            index_count: all.indices.len() as u32,
+            surface: SurfaceOnCard::new(&self.device, &self.queue, &all),
         });
     }
 

@@ -11,7 +11,7 @@ use nabiki_render::{Picture, View as Seen};
 use nabiki_scene::BuiltScene;
 
 use super::final_picture::Done;
-use super::gpu::{Drawing, Gpu, Line};
+use super::gpu::{Drawing, Gpu, Line, MOST_HAIRS};
 use super::{Shown, arrows, onion};
 
 /// The card, and what it has drawn.
@@ -21,7 +21,8 @@ pub struct Screen {
     texture: Option<TextureId>,
     drawn: Option<Drawn>,
     last: Option<TextureHandle>,
-    /// Whether the card is a processor: what moves is drawn in half the size then, and whole when it stands still.
+    /// Whether the card is a processor: what moves is drawn in half the size then, with half the hairs, and whole when it
+    /// stands still.
     is_slow: bool,
     /// Since when the picture has been one of half the size.
     coarse_since: Option<f64>,
@@ -98,14 +99,13 @@ impl Screen {
         is_new
     }
 
-    /// Draws the picture, each side `part` times smaller.
+    /// Draws the picture, each side `part` times smaller, and as many times fewer hairs in a lock.
     fn draw(&mut self, shown: &Shown<'_>, view: &Seen, part: u32) {
         let lines = lines(shown, view);
         let (take, picture, frame) = (shown.take, shown.picture, shown.frame);
         let view = Seen { size: view.size.map(|side| (side / part).max(1)), scale: view.scale / part as f32, ..*view };
-        let Some((texture, is_other)) = self.gpu.draw(&Drawing { take, picture, frame, view, lines: &lines }) else {
-            return;
-        };
+        let drawing = Drawing { take, picture, frame, view, lines: &lines, most_hairs: MOST_HAIRS / part };
+        let Some((texture, is_other)) = self.gpu.draw(&drawing) else { return };
         let mut renderer = self.state.renderer.write();
         let filter = wgpu::FilterMode::Linear;
         match self.texture {

@@ -55,6 +55,14 @@ pub struct Volume {
     pub open: Vec<[f16; 2]>,
 }
 
+impl Volume {
+    /// One in which nothing stands in the way of light.
+    pub fn empty() -> Self {
+        let (size, depth) = (UVec3::splat(2), vec![[f16::ZERO; LAMPS]; 8]);
+        Self { low: Vec3::ZERO, cell: 1.0, size, depth, open: vec![[f16::ONE; 2]] }
+    }
+}
+
 /// Makes volumes; it remembers where the head's skin is.
 #[derive(Debug, Default)]
 pub struct VolumeMaker {
@@ -82,9 +90,7 @@ impl VolumeMaker {
             (low, high) = (low.min(p), high.max(p));
         }
         if low.x > high.x || !(casting.shadows || casting.occlusion) {
-            let size = UVec3::splat(2);
-            let depth = vec![[f16::ZERO; LAMPS]; 8];
-            return Volume { low: Vec3::ZERO, cell: 1.0, size, depth, open: vec![[f16::ONE; 2]] };
+            return Volume::empty();
         }
         // Cells of a few sizes only, on a lattice that stands still: light that jumped with the hair would flicker.
         let mut cell = CELL;

@@ -37,7 +37,7 @@ fn gpu() -> Option<Gpu> {
 }
 
 fn drawn(gpu: &mut Gpu, take: &Take, picture: &Picture, lines: &[Line]) -> Vec<[u8; 4]> {
-    let bytes = gpu.picture(&Drawing { take, picture, frame: 0, view: view(), lines }).unwrap();
+    let bytes = gpu.picture(&Drawing { take, picture, frame: 0, view: view(), lines, most_hairs: MOST_HAIRS }).unwrap();
     bytes.chunks_exact(4).map(|p| [p[0], p[1], p[2], p[3]]).collect()
 }
 
@@ -150,7 +150,8 @@ fn a_lost_device_is_said_in_words() {
     drawn(&mut gpu, &take, &picture, &[]);
     assert_eq!(gpu.failure(), None);
     gpu.device.destroy();
-    let drawing = Drawing { take: &take, picture: &picture, frame: 0, view: view(), lines: &[] };
+    let drawing =
+        Drawing { take: &take, picture: &picture, frame: 0, view: view(), lines: &[], most_hairs: MOST_HAIRS };
     assert!(gpu.picture(&drawing).is_err());
     assert!(gpu.failure().is_some());
 }
