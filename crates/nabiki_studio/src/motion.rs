@@ -1,6 +1,7 @@
 //! The worker that moves hair: a thread that takes the newest scene asked for, builds what has changed of it and plays it
 //! whole.
 
+use std::cell::Cell;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -39,6 +40,8 @@ pub const MOST_BYTES: usize = 4 << 30;
 pub const MOST_POINTS: usize = 1 << 21;
 /// Points of a stretch, between two of which a worker that gives way looks whether it should: a few hundredths of a second.
 const STRETCH: usize = 4_000_000;
+/// How often the worker says how far it is: a picture of the window takes a core away from it.
+const TELLS: Duration = Duration::from_millis(250);
 
 /// The worker. Whatever is asked for while it works replaces what was asked for before and has not been begun.
 #[derive(Debug)]
@@ -185,11 +188,15 @@ fn work(manner: Manner, shared: &Shared, wake: &(impl Fn() + Sync)) {
         };
         let start = Instant::now();
         let number = request.number;
+        let told = Cell::new(start);
         let goes_on = |part: f32| {
             manner == Manner::Finishes || {
+                if told.get().elapsed() >= TELLS {
+                    told.set(Instant::now());
+                    wake();
+                }
                 let mut state = shared.lock();
                 state.part = part;
-                wake();
                 state.request.is_none() && !state.stopped
             }
         };

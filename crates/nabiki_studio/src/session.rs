@@ -242,7 +242,9 @@ impl Session {
 
     /// Seconds until there is something to do that nobody calls for.
     pub fn waits(&self) -> f64 {
-        self.deep.waits(self.clock).min(LOOK.as_secs_f64())
+        // More strands wait for the motion of the few, which calls when it is there.
+        let deep = if self.motion.is_working() { f64::INFINITY } else { self.deep.waits(self.clock) };
+        deep.min(LOOK.as_secs_f64())
     }
 
     /// The intervals chosen, in ascending order.

@@ -121,6 +121,22 @@ fn more_strands_than_a_touch_moves_follow_when_the_hand_rests() {
 }
 
 #[test]
+fn the_window_rests_while_a_motion_is_worked_out() {
+    let place = Place::new();
+    std::fs::write(place.file(), TEXT.replace("strands = 60", "strands = 2300")).unwrap();
+    let mut session = place.session();
+    session.apply(Command::Strands(crate::preferences::ALL));
+    session.wait();
+    session.apply(Command::Vector { interval: 0, vector: Vec3::X, phase: Phase::Dragging });
+    // What is to follow is due long since.
+    session.clock += 1.0;
+    let waits = session.waits();
+    assert!(waits > 0.5 || !session.motion.is_working(), "{waits}");
+    session.motion.wait();
+    assert_eq!(session.waits(), 0.0, "it is asked for as soon as the few are there");
+}
+
+#[test]
 fn what_is_moved_of_many_strands_gives_way() {
     let place = Place::new();
     let session = place.session();
