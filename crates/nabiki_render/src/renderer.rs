@@ -337,13 +337,12 @@ impl Renderer {
         rayon::join(cover, cast);
         if occluded {
             let crossings: Vec<&Crossings> = self.sweeps.iter().map(|s| &s.crossings).collect();
-            self.sky_map.look_toward(&still.lamps);
             let white = |colour: [f32; 3]| 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
             // The head's colour is that of all light from skin: a body counts as much more or less as it is lighter or darker.
             let as_head = |solid: u16| white(self.skins[usize::from(solid)]) / white(self.skins[0]).max(1e-3);
             let sky = &self.picture.sky;
             let first = nodes.len() + still.skin_places.len();
-            self.sky_map.gather(view, |map, i, skin| {
+            self.sky_map.gather(view, &still.lamps, |open, i, skin| {
                 let place = off_skin(skin.place, skin.normal).at;
                 let mut lit = 0.0;
                 for (l, lamp) in still.lamps.iter().enumerate() {
@@ -357,7 +356,7 @@ impl Renderer {
                     lit += white(lamp.strength) * facing * hair * solid;
                 }
                 let up = 0.5 + 0.5 * skin.normal.dot(self.zenith);
-                let [above, below, _] = map.on_surface(skin.place + 0.9 * skin.normal, skin.normal);
+                let [above, below, _] = open.at(skin.place + 0.9 * skin.normal, skin.normal);
                 let sky = sky.strength * (white(sky.above) * up * above + white(sky.below) * (1.0 - up) * below);
                 (lit + sky) * as_head(skin.solid)
             });
@@ -393,7 +392,6 @@ impl Renderer {
             first_receiver: self.curves.nodes.len(),
             sky: &self.picture.sky,
             zenith: self.zenith,
-            sky_map: self.occluded_sky(),
             skins: &self.skins,
             painted: &still.painted,
             hair: self.hair_colour(),

@@ -70,7 +70,9 @@ impl SolidShadows {
         let mut left = [1.0; N];
         for solid in &self.solids {
             let part = solid.visible(places);
-            left = std::array::from_fn(|n| left[n] * part[n]);
+            for n in 0..N {
+                left[n] *= part[n];
+            }
         }
         left
     }
@@ -233,24 +235,30 @@ impl SolidShadow {
     /// Part of the lamp that it leaves visible from places (x, y and z of all of them), 0..1.
     #[inline(always)]
     fn visible<const N: usize>(&self, [px, py, pz]: &[[f32; N]; 3]) -> [f32; N] {
-        let along = |axis: Vec3, n: usize| px[n] * axis.x + py[n] * axis.y + pz[n] * axis.z;
-        let distance: [f32; N] = std::array::from_fn(|n| -along(self.toward, n));
-        if distance.iter().all(|&d| d <= self.clear) {
-            return [1.0; N];
-        }
         let [width, height] = self.blurred_size;
         let per_cell = 1.0 / self.blurred_cell;
-        let [x, y]: [[f32; N]; 2] =
-            [0, 1].map(|i| std::array::from_fn(|n| (along(self.axes[i], n) - self.low[i]) * per_cell));
         let (most_x, most_y) = (width as f32 - 1.0, height as f32 - 1.0);
-        let beside: [bool; N] =
-            std::array::from_fn(|n| !(x[n] >= 0.0 && y[n] >= 0.0 && x[n] < most_x && y[n] < most_y));
-        if beside.iter().all(|&b| b) {
+        let mut distance = [0.0_f32; N];
+        let (mut x, mut y) = ([0.0_f32; N], [0.0_f32; N]);
+        let (mut column, mut row) = ([0_i32; N], [0_i32; N]);
+        let mut beside = [false; N];
+        let (mut any_far, mut any_within) = (false, false);
+        for n in 0..N {
+            distance[n] = -(px[n] * self.toward.x + py[n] * self.toward.y + pz[n] * self.toward.z);
+            let [across, down] = self.axes;
+            x[n] = (px[n] * across.x + py[n] * across.y + pz[n] * across.z - self.low[0]) * per_cell;
+            y[n] = (px[n] * down.x + py[n] * down.y + pz[n] * down.z - self.low[1]) * per_cell;
+            let within = x[n] >= 0.0 && y[n] >= 0.0 && x[n] < most_x && y[n] < most_y;
+            x[n] = if within { x[n] } else { 0.0 };
+            y[n] = if within { y[n] } else { 0.0 };
+            (column[n], row[n]) = (x[n] as i32, y[n] as i32);
+            beside[n] = !within;
+            any_far |= distance[n] > self.clear;
+            any_within |= within;
+        }
+        if !any_far || !any_within {
             return [1.0; N];
         }
-        let place = |c: f32, beside: bool| if beside { 0.0 } else { c };
-        let [x, y] = [x, y].map(|c| std::array::from_fn::<f32, N, _>(|n| place(c[n], beside[n])));
-        let [column, row] = [x, y].map(|c| c.map(|c| c as i32));
         // All that is read first, so that the waits for memory go on side by side.
         let mut corners = [[[0.0; N]; 2]; 4];
         for n in 0..N {
@@ -261,15 +269,19 @@ impl SolidShadow {
                 corner[1][n] = cell[1];
             }
         }
-        std::array::from_fn(|n| {
-            let hidden =
-                |c: usize| corners[c][0][n] * ((distance[n] - corners[c][1][n]) * (1.0 / SOFT) - 1.0).clamp(0.0, 1.0);
+        let mut visible = [1.0; N];
+        for n in 0..N {
+            let mut hidden = [0.0_f32; 4];
+            for (hidden, corner) in hidden.iter_mut().zip(&corners) {
+                *hidden = corner[0][n] * ((distance[n] - corner[1][n]) * (1.0 / SOFT) - 1.0).clamp(0.0, 1.0);
+            }
             let (u, v) = (x[n] - column[n] as f32, y[n] - row[n] as f32);
-            let upper = hidden(0) * (1.0 - u) + hidden(1) * u;
-            let lower = hidden(2) * (1.0 - u) + hidden(3) * u;
+            let upper = hidden[0] * (1.0 - u) + hidden[1] * u;
+            let lower = hidden[2] * (1.0 - u) + hidden[3] * u;
             let open = 1.0 - (upper + (lower - upper) * v);
-            if beside[n] { 1.0 } else { open }
-        })
+            visible[n] = if beside[n] { 1.0 } else { open };
+        }
+        visible
     }
 }
 

@@ -19,7 +19,8 @@ use super::kajiya::KajiyaKay;
 use super::lamps::Lamp;
 use super::shadow::Crossings;
 use super::sky::{
-    ARRIVING, BEHIND_ABOVE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BELOW, FRONT_GLOW, Places, SkyMap,
+    AT_ONCE, BEHIND_ABOVE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BELOW, FRONT_GLOW, Places, SkyMap,
+    TOWARD_LAMPS,
 };
 use crate::camera::View;
 use crate::colour::of_strand;
@@ -117,11 +118,15 @@ impl HairLight<'_> {
         });
     }
 
-    /// What arrives of the sky, as [`SkyMap::at`] has it.
+    /// What arrives of the sky: the first numbers of [`SkyMap::at`].
     #[inline(always)]
-    fn sky_at<const N: usize>(&self, places: Option<&Places<N>>) -> [[f32; N]; ARRIVING] {
-        let open = [[0.5; N], [0.5; N], [0.5; N], [0.5; N], [0.0; N], [0.0; N]];
-        self.sky_map.zip(places).map_or(open, |(map, places)| map.at(places))
+    fn sky_at<const N: usize>(&self, places: Option<&Places<N>>) -> [[f32; N]; AT_ONCE] {
+        let open = [[0.5; N], [0.5; N], [0.5; N], [0.5; N], [0.0; N], [0.0; N], [0.0; N], [0.0; N]];
+        // A closure here, as a few below, would be compiled by itself, without vectors.
+        match (self.sky_map, places) {
+            (Some(map), Some(places)) => map.at(places, 0),
+            _ => open,
+        }
     }
 
     fn kajiya(&self, model: &KajiyaKay, i: usize, node: &CurveNode) -> [f32; 3] {
@@ -181,7 +186,10 @@ impl HairLight<'_> {
         }
 
         let mut rows = Rows::default();
-        let places = self.sky_map.map(|map| map.places(&place));
+        let places = match self.sky_map {
+            Some(map) => Some(map.places(&place)),
+            None => None,
+        };
         let sky = self.sky_at(places.as_ref());
         for lane in 0..LANES {
             let row = tables[lane].row(sin_eye[lane].abs() * (ROWS - 1) as f32);
@@ -217,6 +225,7 @@ impl HairLight<'_> {
             }
         }
 
+        let mut known = sky;
         for (l, lamp) in self.lamps.iter().enumerate() {
             let toward = lamp.toward.to_array();
             let mut column = [0.0_f32; LANES];
@@ -237,21 +246,38 @@ impl HairLight<'_> {
                 }
                 along[3][lane] = wide.at(s, c, sin_eye[lane], cos_eye[lane]);
             }
-            let visible = self.solid_shadows.get(l).map_or([1.0; LANES], |s| s.visible(&place));
+            let visible = match self.solid_shadows.get(l) {
+                Some(shadows) => shadows.visible(&place),
+                None => [1.0; LANES],
+            };
             let mut crossed = [0.0_f32; LANES];
             let mut lobes = [[0.0_f32; LANES]; 8];
             for lane in 0..LANES {
                 let i = batch[lane];
-                crossed[lane] = self.crossings.get(l).map_or(0.0, |c| c.at(i));
+                crossed[lane] = match self.crossings.get(l) {
+                    Some(crossings) => crossings.at(i),
+                    None => 0.0,
+                };
                 let mixed = tables[lane].lobes(sin_eye[lane].abs() * (ROWS - 1) as f32, column[lane]);
                 for i in 0..8 {
                     lobes[i][lane] = mixed[i];
                 }
             }
             // Where it is not known what is about, as much as straight on.
-            let about = self.sky_map.zip(places.as_ref()).map(|(map, places)| map.toward_lamp(l, places));
-            let aside = about.map_or(crossed, |open| open.map(|open| -ln(open.clamp(1e-6, 1.0))));
-            let straight = crossed.map(|n| exp_of_negative(-n));
+            let mut aside = crossed;
+            if let (Some(map), Some(places)) = (self.sky_map, &places) {
+                let number = TOWARD_LAMPS + l;
+                if number % AT_ONCE == 0 {
+                    known = map.at(places, number / AT_ONCE);
+                }
+                for lane in 0..LANES {
+                    aside[lane] = -ln(known[number % AT_ONCE][lane].clamp(1e-6, 1.0));
+                }
+            }
+            let mut straight = [0.0_f32; LANES];
+            for lane in 0..LANES {
+                straight[lane] = exp_of_negative(-crossed[lane]);
+            }
             for c in 0..3 {
                 for lane in 0..LANES {
                     let cos = cos_azimuth[lane];

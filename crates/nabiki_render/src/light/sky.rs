@@ -5,16 +5,23 @@
 //! the eye's side is sent back by a fibre, what comes from behind passes through it; each from the upper and from the lower half
 //! of the sky.
 
+mod arriving;
 mod directions;
+mod on_skin;
 mod skin_cells;
 
 use glam::{IVec3, UVec3, Vec3};
 use nabiki::Mesh;
 use rayon::prelude::*;
 
+pub use self::arriving::{
+    AT_ONCE, BEHIND_ABOVE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BELOW, FRONT_GLOW, Places, TOWARD_LAMPS,
+};
+pub use self::on_skin::OnSkin;
 pub use self::skin_cells::SkinCell;
 
-use self::directions::{Direction, carry_along};
+use self::arriving::Numbers;
+use self::directions::{Carry, Direction};
 use self::skin_cells::skin_cells;
 use super::approx::exp_of_negative;
 use super::lamps::Lamp;
@@ -30,38 +37,6 @@ const MOST_CELLS: f32 = 1_000_000.0;
 /// Most steps in which a piece of hair is laid into cells.
 const MOST_STEPS: i32 = 8;
 
-/// Means over the directions on the eye's side, and over those behind, of the light that arrives from above and from below: where all
-/// is open the two of a side add up to 1.
-pub const FRONT_ABOVE: usize = 0;
-pub const FRONT_BELOW: usize = 1;
-pub const BEHIND_ABOVE: usize = 2;
-pub const BEHIND_BELOW: usize = 3;
-/// The same of the light that skin sends back, in parts of what an even white surface under it would show.
-pub const FRONT_GLOW: usize = 4;
-pub const BEHIND_GLOW: usize = 5;
-/// How many numbers a cell has.
-pub const ARRIVING: usize = 6;
-type Arriving = [f32; ARRIVING];
-
-/// Where some places lie among the cells.
-pub struct Places<const N: usize> {
-    /// The cell below each along all axes.
-    first: [usize; N],
-    /// How far into the next, 0..1, along each axis.
-    beyond: [[f32; N]; 3],
-}
-
-impl<const N: usize> Places<N> {
-    /// Between the values at the eight cells about place `n`, in proportion.
-    #[inline(always)]
-    fn between(&self, n: usize, corner: impl Fn(usize) -> f32) -> f32 {
-        let [u, v, w] = self.beyond.map(|beyond| beyond[n]);
-        let line = |i: usize| corner(i) + (corner(i + 1) - corner(i)) * u;
-        let plane = |i: usize| line(i) + (line(i + 2) - line(i)) * v;
-        plane(0) + (plane(4) - plane(0)) * w
-    }
-}
-
 /// The share of the sky that arrives in each cell about hair and head.
 #[derive(Default)]
 pub struct SkyMap {
@@ -75,9 +50,9 @@ pub struct SkyMap {
     /// What each cell leaves of light that crosses it straight, and aslant.
     through: [Vec<f32>; 2],
     carried: Vec<Vec<f32>>,
-    arriving: Vec<Arriving>,
-    /// For each lamp, how open each cell is about its direction, 0..1.
-    toward_lamps: Vec<Vec<f32>>,
+    /// Of each cell so many `parts`, each numbers that are read at once.
+    arriving: Vec<Numbers>,
+    parts: usize,
     /// The cells that the head's skin passes through, and their edge.
     head: Vec<SkinCell>,
     head_of: Option<f32>,
@@ -137,121 +112,19 @@ impl SkyMap {
         self.carry(zenith);
     }
 
-    /// Finds how open each cell is about the directions of the lamps: light that hair scatters forward strays from the lamp's direction,
-    /// and finds ways that are shorter than the straight one where that goes along the hair's surface.
-    pub fn look_toward(&mut self, lamps: &[Lamp]) {
-        self.toward_lamps.resize_with(lamps.len(), Vec::new);
-        let (directions, carried, cells) = (&self.directions, &self.carried, self.taken.len());
-        self.toward_lamps.par_iter_mut().zip(lamps).for_each(|(open, lamp)| {
-            let shares = || directions.iter().map(|d| d.weight * d.from.dot(lamp.toward).max(0.0).powi(2));
-            let all: f32 = shares().sum();
-            open.clear();
-            open.resize(cells, 0.0);
-            for (share, light) in shares().zip(carried).filter(|(share, _)| *share > 0.0) {
-                let share = share / all;
-                open.iter_mut().zip(light).for_each(|(open, light)| *open += share * light);
-            }
-        });
-    }
-
-    /// Sums what arrives in each cell for the eye of a view. `lit` is the light that falls onto the skin in each of its cells: skin sends it
-    /// on as an even white surface would.
-    pub fn gather(&mut self, view: &View, lit: impl Fn(&Self, usize, &SkinCell) -> f32 + Sync) {
+    /// Sums what arrives in each cell for the eye of a view, and for the lamps. `lit` is the light that falls onto the skin in each of its
+    /// cells: skin sends it on as an even white surface would.
+    pub fn gather(&mut self, view: &View, lamps: &[Lamp], lit: impl Fn(&mut OnSkin, usize, &SkinCell) -> f32 + Sync) {
         let mut of_skin = std::mem::take(&mut self.lit);
         let this = &*self;
         (0..this.skin.len())
             .into_par_iter()
             .with_min_len(256)
-            .map(|i| lit(this, i, &this.skin[i]))
+            .map_init(|| OnSkin::new(this), |sky, i| lit(sky, i, &this.skin[i]))
             .collect_into_vec(&mut of_skin);
         self.lit = of_skin;
         self.carry_glow();
-        self.sum(view);
-    }
-
-    /// What arrives at places, as the constants name it.
-    #[inline(always)]
-    pub fn at<const N: usize>(&self, places: &Places<N>) -> [[f32; N]; ARRIVING] {
-        // All that is read first, so that the waits for memory go on side by side.
-        let mut corners = [[[0.0; N]; ARRIVING]; 8];
-        for n in 0..N {
-            for (line, pair) in self.lines().into_iter().zip(corners.chunks_exact_mut(2)) {
-                let at = places.first[n] + line;
-                for (corner, cell) in pair.iter_mut().zip(&self.arriving[at..at + 2]) {
-                    for quarter in 0..ARRIVING {
-                        corner[quarter][n] = cell[quarter];
-                    }
-                }
-            }
-        }
-        std::array::from_fn(|quarter| std::array::from_fn(|n| places.between(n, |i| corners[i][quarter][n])))
-    }
-
-    /// How open it is about the direction of lamp `l` at places, 0..1.
-    #[inline(always)]
-    pub fn toward_lamp<const N: usize>(&self, l: usize, places: &Places<N>) -> [f32; N] {
-        let open = &self.toward_lamps[l];
-        let mut corners = [[0.0; N]; 8];
-        for n in 0..N {
-            for (line, pair) in self.lines().into_iter().zip(corners.chunks_exact_mut(2)) {
-                let at = places.first[n] + line;
-                for (corner, open) in pair.iter_mut().zip(&open[at..at + 2]) {
-                    corner[n] = *open;
-                }
-            }
-        }
-        std::array::from_fn(|n| places.between(n, |i| corners[i][n]))
-    }
-
-    /// Where places (x, y and z of all of them) lie among the cells; those outside at the border.
-    #[inline(always)]
-    pub fn places<const N: usize>(&self, places: &[[f32; N]; 3]) -> Places<N> {
-        let last = (self.size.as_vec3() - 1.001).max(Vec3::ZERO);
-        let per_cell = 1.0 / self.cell;
-        let c: [[f32; N]; 3] = std::array::from_fn(|axis| {
-            let (low, last) = (self.low[axis], last[axis]);
-            places[axis].map(|p| ((p - low) * per_cell - 0.5).max(0.0).min(last))
-        });
-        // Toward zero is down: there is nothing below.
-        let base = c.map(|c| c.map(|c| c as i32));
-        let [_, row, slice, _] = self.lines();
-        let first = std::array::from_fn(|n| {
-            let [x, y, z] = [0, 1, 2].map(|axis| base[axis][n] as usize);
-            x + row * y + slice * z
-        });
-        Places { first, beyond: std::array::from_fn(|i| std::array::from_fn(|n| c[i][n] - base[i][n] as f32)) }
-    }
-
-    /// From the first of the eight cells about a place to those that begin a pair along x.
-    #[inline(always)]
-    fn lines(&self) -> [usize; 4] {
-        let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
-        [0, row, slice, slice + row]
-    }
-
-    /// The shares of the sky above and of that below, 0..1 each, that arrive at a place on a surface with this unit normal, and the
-    /// light that other skin sends there.
-    pub fn on_surface(&self, place: Vec3, normal: Vec3) -> [f32; 3] {
-        let place = self.places(&place.to_array().map(|c| [c]));
-        let lines = self.lines();
-        let (mut arrives, mut all) = ([0.0_f32; 3], [1e-12_f32; 3]);
-        for (n, (direction, light)) in self.directions.iter().zip(&self.carried).enumerate() {
-            let facing = direction.weight * normal.dot(direction.from);
-            if facing <= 0.0 {
-                continue;
-            }
-            let between = |light: &[f32]| place.between(0, |i| light[place.first[0] + lines[i / 2] + i % 2]);
-            let open = between(light);
-            for half in 0..2 {
-                arrives[half] += facing * direction.halves[half] * open;
-                all[half] += facing * direction.halves[half];
-            }
-            // Skin to the side is mostly the same that curves away; what faces it counts.
-            let facing = facing * facing;
-            arrives[2] += facing * self.glow.get(n).filter(|glow| !glow.is_empty()).map_or(0.0, |glow| between(glow));
-            all[2] += facing;
-        }
-        std::array::from_fn(|i| arrives[i] / all[i])
+        self.sum(view, lamps);
     }
 
     fn index_of(&self, skin: &SkinCell) -> usize {
@@ -298,19 +171,21 @@ impl SkyMap {
     fn carry(&mut self, zenith: Vec3) {
         self.directions.clear();
         self.directions.extend(Direction::all(zenith));
-        let through = |length: f32| {
-            let taken = self.taken.par_iter().with_min_len(8192);
-            taken.map(move |t| exp_of_negative(-t * length)).collect::<Vec<f32>>()
-        };
-        let (straight, aslant) = rayon::join(|| through(1.0), || through(3.0_f32.sqrt()));
+        let taken = &self.taken;
+        for (through, length) in self.through.iter_mut().zip([1.0, 3.0_f32.sqrt()]) {
+            through.resize(taken.len(), 0.0);
+            through.par_chunks_mut(8192).zip(taken.par_chunks(8192)).for_each(|(through, taken)| {
+                pulp::Arch::new().dispatch(Through { taken, length, through });
+            });
+        }
         self.carried.resize_with(self.directions.len(), Vec::new);
-        let size = self.size;
+        let (size, through) = (self.size, &self.through);
         self.carried.par_iter_mut().zip(&self.directions).for_each(|(light, d)| {
             light.clear();
-            light.resize(straight.len(), 1.0);
-            carry_along::<false>(d.step, size, if d.is_aslant() { &aslant } else { &straight }, light);
+            light.resize(taken.len(), 1.0);
+            let through = &through[usize::from(d.is_aslant())];
+            pulp::Arch::new().dispatch(Carry::<false> { direction: d, size, through, light });
         });
-        self.through = [straight, aslant];
     }
 
     /// Carries the light that skin sends out, likewise: it arrives in the skin's own cell and in the next, and goes on from there.
@@ -334,45 +209,27 @@ impl SkyMap {
                     }
                 }
             }
-            carry_along::<true>(d.step, size, through, glow);
+            pulp::Arch::new().dispatch(Carry::<true> { direction: d, size, through, light: glow });
         });
     }
+}
 
-    /// Sums what arrives in each cell over the directions, as its eye sees it.
-    fn sum(&mut self, view: &View) {
-        self.arriving.resize(self.taken.len(), Arriving::default());
-        let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
-        let (low, cell, taken, directions) = (self.low, self.cell, &self.taken, &self.directions);
-        let (carried, glow, hair) = (&self.carried, &self.glow, &self.hair);
-        self.arriving.par_chunks_mut(row).enumerate().for_each(|(line, arriving)| {
-            let first = line * row;
-            let start = low + cell * (Vec3::new(0.0, (first % slice / row) as f32, (first / slice) as f32) + 0.5);
-            let eye: Vec<Vec3> = (0..row).map(|x| view.toward_eye(start + Vec3::X * cell * x as f32)).collect();
-            arriving.fill(Arriving::default());
-            for ((d, light), glow) in directions.iter().zip(carried).zip(glow) {
-                let [above, below] = d.halves.map(|half| d.weight * half);
-                for (((a, &l), &g), e) in arriving.iter_mut().zip(&light[first..]).zip(&glow[first..]).zip(&eye) {
-                    let aside = e.dot(d.from);
-                    // Each of mean 1 over all directions. What passes through a fibre goes on nearly straight.
-                    let away = (1.0 - aside) * (1.0 - aside);
-                    let (before, after) = (1.0 + aside, away * away * (1.0 / 3.2));
-                    let (front, behind) = (l * before, l * after);
-                    a[FRONT_GLOW] += d.weight * g * before;
-                    a[BEHIND_GLOW] += d.weight * g * after;
-                    a[FRONT_ABOVE] += above * front;
-                    a[FRONT_BELOW] += below * front;
-                    a[BEHIND_ABOVE] += above * behind;
-                    a[BEHIND_BELOW] += below * behind;
-                }
-            }
-            // What the eye sees of a cell lies on its near side: what comes from behind has to cross all of it.
-            for ((a, t), hair) in arriving.iter_mut().zip(&taken[first..]).zip(&hair[first..]) {
-                a[BEHIND_GLOW] *= exp_of_negative(-hair);
-                let own = exp_of_negative(-t);
-                a[BEHIND_ABOVE] *= own;
-                a[BEHIND_BELOW] *= own;
-            }
-        });
+/// What cells leave of light that goes so far in each (sides of a cell), compiled for each width of vectors that machines have; one is
+/// chosen at run time.
+struct Through<'a> {
+    taken: &'a [f32],
+    length: f32,
+    through: &'a mut [f32],
+}
+
+impl pulp::NullaryFnOnce for Through<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for (through, taken) in self.through.iter_mut().zip(self.taken) {
+            *through = exp_of_negative(-taken * self.length);
+        }
     }
 }
 
@@ -403,31 +260,30 @@ mod tests {
             let mut sky = SkyMap::default();
             sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]));
             sky.fill(&nodes, &radius, Vec3::Y);
-            sky.gather(&view_from(azimuth), |_, _, _| 0.0);
+            sky.gather(&view_from(azimuth), &[lamp(Vec3::X)], |_, _, _| 0.0);
             sky
         };
         let sky = filled(0.0);
-        let at = sky.at(&sky.places(&[[0.0, 0.0, 100.0], [0.0, 5.4, 100.0], [0.0, 0.0, 100.0]]));
-        let [middle, top, outside] = [0, 1, 2].map(|n| at.map(|quarter| quarter[n]));
+        let at = sky.at(&sky.places(&[[0.0, 0.0, 100.0], [0.0, 5.4, 100.0], [0.0, 0.0, 100.0]]), 0);
+        let [middle, top, outside]: [[f32; TOWARD_LAMPS]; 3] =
+            [0, 1, 2].map(|n| std::array::from_fn(|number| at[number][n]));
         assert!(middle.iter().all(|&light| light < 0.05), "{middle:?}");
         assert!(top[FRONT_ABOVE] > 0.35 && top[FRONT_ABOVE] > 2.0 * top[FRONT_BELOW], "{top:?}");
         assert!(outside.iter().sum::<f32>() > 1.3, "{outside:?}");
         // Before the ball it is open toward the eye and closed behind; on its far side the other way round.
         let rims = [[5.4, -5.4], [0.0; 2], [0.0; 2]];
-        let [near, far] = [0, 1].map(|n| sky.at(&sky.places(&rims)).map(|quarter| quarter[n]));
-        let open = |at: [f32; ARRIVING]| (at[FRONT_ABOVE] + at[FRONT_BELOW], at[BEHIND_ABOVE] + at[BEHIND_BELOW]);
+        let [near, far] = [0, 1].map(|n| sky.at(&sky.places(&rims), 0).map(|number| number[n]));
+        let open = |at: [f32; AT_ONCE]| (at[FRONT_ABOVE] + at[FRONT_BELOW], at[BEHIND_ABOVE] + at[BEHIND_BELOW]);
         assert!(open(near).0 > 0.6 && open(near).1 < 0.1, "{near:?}");
         assert!(open(far).0 < open(near).0 - 0.2 && open(far).1 > open(near).1 + 0.2, "{far:?}");
         // Toward a lamp at one side it is open there, and closed at the other.
-        let mut sky = sky;
-        sky.look_toward(&[lamp(Vec3::X)]);
-        let [lit, shaded] = sky.toward_lamp(0, &sky.places(&rims));
+        let (lit, shaded) = (near[TOWARD_LAMPS], far[TOWARD_LAMPS]);
         assert!(lit > 0.7 && shaded < 0.05, "{lit} {shaded}");
         // The other eye sees the same of the other side: the ball is the same to some hairs' places.
         let opposite = filled(180.0);
-        let opposite = opposite.at(&opposite.places(&rims));
-        for (quarter, (near, far)) in near.into_iter().zip(far).enumerate() {
-            assert!((opposite[quarter][1] - near).abs() < 0.03 && (opposite[quarter][0] - far).abs() < 0.03);
+        let opposite = opposite.at(&opposite.places(&rims), 0);
+        for (number, (near, far)) in near.into_iter().zip(far).enumerate().take(TOWARD_LAMPS) {
+            assert!((opposite[number][1] - near).abs() < 0.03 && (opposite[number][0] - far).abs() < 0.03);
         }
     }
 
@@ -447,15 +303,18 @@ mod tests {
             let bounds = [Vec3::splat(-3.0), Vec3::splat(3.0)];
             sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]));
             sky.fill(&[], &[], zenith);
-            sky.gather(&view_from(47.0), |_, _, _| 0.0);
+            // More lamps than have room beside the rest.
+            sky.gather(&view_from(47.0), &[lamp(zenith); 4], |_, _, _| 0.0);
             let place = sky.places(&[[0.3], [-0.7], [1.1]]);
-            let at = sky.at(&place).map(|quarter| quarter[0]);
+            let at = sky.at(&place, 0).map(|number| number[0]);
             // A dozen roundings of sums of 14 numbers.
             assert!((at[FRONT_ABOVE] + at[FRONT_BELOW] - 1.0).abs() < 1e-5, "{at:?}");
             assert!((at[BEHIND_ABOVE] + at[BEHIND_BELOW] - 1.0).abs() < 1e-5, "{at:?}");
-            sky.look_toward(&[lamp(zenith)]);
-            assert!((sky.toward_lamp(0, &place)[0] - 1.0).abs() < 1e-5);
-            let above = sky.on_surface(Vec3::ZERO, Vec3::new(0.6, 0.0, 0.8));
+            for number in TOWARD_LAMPS..TOWARD_LAMPS + 4 {
+                let open = sky.at(&place, number / AT_ONCE)[number % AT_ONCE][0];
+                assert!((open - 1.0).abs() < 1e-5, "{open}");
+            }
+            let above = OnSkin::new(&sky).at(Vec3::ZERO, Vec3::new(0.6, 0.0, 0.8));
             assert!(above[..2].iter().all(|open| (open - 1.0).abs() < 1e-5) && above[2] == 0.0, "{above:?}");
         }
     }

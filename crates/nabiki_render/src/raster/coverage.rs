@@ -109,7 +109,7 @@ impl CoverageTile {
         &mut self,
         tile: [usize; 2],
         pieces: impl Iterator<Item = (&'p Piece, Range<usize>)>,
-        skin: (&[SkinPixel], impl Fn(usize) -> Option<[f32; 3]>),
+        skin: (&[SkinPixel], impl FnMut(usize) -> Option<[f32; 3]>),
         watch: &mut impl Watch,
     ) {
         self.clear(skin.0);
@@ -145,7 +145,12 @@ impl CoverageTile {
         self.farthest = self.skin_far.iter().copied().fold(0.0, f32::max);
     }
 
-    fn add_skin(&mut self, skin: &[SkinPixel], light: impl Fn(usize) -> Option<[f32; 3]>, watch: &mut impl Watch) {
+    fn add_skin(
+        &mut self,
+        skin: &[SkinPixel],
+        mut light: impl FnMut(usize) -> Option<[f32; 3]>,
+        watch: &mut impl Watch,
+    ) {
         for (n, piece) in skin.iter().enumerate() {
             let i = usize::from(piece.pixel);
             if self.full[0][i / TILE] >> (i % TILE) & 1 == 1 {

@@ -7,6 +7,7 @@ use crate::backdrop::Backdrop;
 use crate::camera::View;
 use crate::curve::Curves;
 use crate::frame::{Frame, Layer, NO_DEPTH};
+use crate::light::sky::OnSkin;
 use crate::raster::bins::Row;
 use crate::raster::coverage::{CoverageTile, Watch};
 use crate::raster::oversample::OversampledTile;
@@ -30,8 +31,8 @@ impl Renderer {
         } else {
             self.nodes.par_iter().map(|n| n.recession.abs()).reduce(|| 0.0, f32::max)
         };
-        let work = || (CoverageTile::new(recession), Row::default());
-        rows.into_par_iter().enumerate().for_each_init(work, |(work, hair), (row, mut out)| {
+        let work = || (CoverageTile::new(recession), Row::default(), self.occluded_sky().map(OnSkin::new));
+        rows.into_par_iter().enumerate().for_each_init(work, |(work, hair, sky), (row, mut out)| {
             self.bins.row(row, &self.nodes, true, hair);
             for column in 0..self.bins.tiles[0] {
                 let tile = row * self.bins.tiles[0] + column;
@@ -42,7 +43,7 @@ impl Renderer {
                     out.put(column, size[0], |_, y| (backdrop.behind([0.0; 4], row * TILE + y), NO_DEPTH, None));
                     continue;
                 }
-                let light = |i: usize| self.skin_light_of(&skin_light, range.start + i, &pixels[i]);
+                let light = |i: usize| self.skin_light_of(&skin_light, range.start + i, &pixels[i], sky.as_mut());
                 let skin = (pixels, light);
                 let mut watch = LayerWatch {
                     curves: &self.curves,
@@ -76,14 +77,15 @@ impl Renderer {
         let samples = self.picture.samples as usize;
         let rows = rows_of_tiles(&mut frame);
         rows.into_par_iter().enumerate().for_each_init(
-            || (OversampledTile::new(samples), Row::default()),
-            |(work, hair), (row, mut out)| {
+            || (OversampledTile::new(samples), Row::default(), self.occluded_sky().map(OnSkin::new)),
+            |(work, hair, sky), (row, mut out)| {
                 self.bins.row(row, &self.nodes, false, hair);
                 for column in 0..self.bins.tiles[0] {
                     let tile = row * self.bins.tiles[0] + column;
                     let range = still.skin.tile(tile);
                     let pixels = &still.skin.pixels[range.clone()];
-                    let light: Vec<_> = range.zip(pixels).map(|(i, p)| self.skin_light_of(&skin_light, i, p)).collect();
+                    let light: Vec<_> =
+                        range.zip(pixels).map(|(i, p)| self.skin_light_of(&skin_light, i, p, sky.as_mut())).collect();
                     work.draw([column, row], hair.tile(column).map(|(piece, _)| piece), (pixels, &light));
                     out.put(column, width, |i, y| {
                         let (light, depth) = work.pixel(i);
@@ -96,8 +98,14 @@ impl Renderer {
     }
 
     /// Light from place `i` on the skin; none from a head that is not drawn.
-    fn skin_light_of(&self, light: &SkinLight, i: usize, place: &SkinPixel) -> Option<[f32; 3]> {
-        (place.solid > 0 || self.picture.head.visible).then(|| light.at(i, place))
+    fn skin_light_of(
+        &self,
+        light: &SkinLight,
+        i: usize,
+        place: &SkinPixel,
+        sky: Option<&mut OnSkin>,
+    ) -> Option<[f32; 3]> {
+        (place.solid > 0 || self.picture.head.visible).then(|| light.at(i, place, sky))
     }
 
     fn empty(&self, view: &View, layers: Vec<Layer>) -> Frame {

@@ -10,7 +10,7 @@ use crate::light::approx::{exp_of_negative, smooth};
 use crate::light::headlight::SolidShadows;
 use crate::light::lamps::Lamp;
 use crate::light::shadow::Crossings;
-use crate::light::sky::SkyMap;
+use crate::light::sky::OnSkin;
 use crate::scalp::Scalp;
 use crate::settings::{HeadLook, Sky};
 
@@ -24,7 +24,6 @@ pub struct SkinLight<'a> {
     pub sky: &'a Sky,
     /// Where the sky is above (head space, unit).
     pub zenith: Vec3,
-    pub sky_map: Option<&'a SkyMap>,
     /// Colours of bare skin, the head's and of each body (linear).
     pub skins: &'a [[f32; 3]],
     /// The colours of the head's skin at each place, where it is painted; empty where it has one colour.
@@ -83,8 +82,8 @@ impl SkinLight<'_> {
         pixels.par_iter().with_min_len(256).map(colour).collect()
     }
 
-    /// Light toward the eye (linear) from place `i` on the skin.
-    pub fn at(&self, i: usize, p: &SkinPixel) -> [f32; 3] {
+    /// Light toward the eye (linear) from place `i` on the skin, where something is in the way of the `sky`.
+    pub fn at(&self, i: usize, p: &SkinPixel, sky: Option<&mut OnSkin>) -> [f32; 3] {
         let soft = CREEPS.map(|s| s * self.look.softness);
         let least_facing = Self::least_facing(self.look);
         let eye = self.view.toward_eye(p.position);
@@ -107,7 +106,7 @@ impl SkinLight<'_> {
                 sheen[c] += lamp.strength[c] * lit[c] * (gloss + 0.5 * rim);
             }
         }
-        let arriving = self.sky_map.map(|s| s.on_surface(p.position + 0.9 * normal, normal));
+        let arriving = sky.map(|sky| sky.at(p.position + 0.9 * normal, normal));
         let open = |part: f32| if part < 1.0 { self.through(-part.max(1e-6).ln()) } else { [1.0; 3] };
         let (open_above, open_below) =
             arriving.map_or(([1.0; 3], [1.0; 3]), |[above, below, _]| (open(above), open(below)));

@@ -38,43 +38,59 @@ impl Direction {
     }
 }
 
-/// Light that arrives in each cell from direction `-d`, before the cell takes its own part; `through` is what a cell
-/// leaves of it. It takes the place of what is in the cells, or is added to it; the border's cells stay as they are.
-pub fn carry_along<const ADDED: bool>(d: [i32; 3], size: UVec3, through: &[f32], light: &mut [f32]) {
-    let [nx, ny, nz] = [size.x, size.y, size.z].map(|n| n as i32);
-    let order = |n: i32, step: i32| (0..n).map(move |i| if step < 0 { n - 1 - i } else { i });
-    for z in order(nz, d[2]) {
-        for y in order(ny, d[1]) {
-            let (fy, fz) = (y - d[1], z - d[2]);
-            if !(0..ny).contains(&fy) || !(0..nz).contains(&fz) {
-                continue;
-            }
-            let width = nx as usize;
-            let (here, from) = (width * (y + ny * z) as usize, width * (fy + ny * fz) as usize);
-            if here == from {
-                for x in order(nx, d[0]) {
-                    let fx = x - d[0];
-                    if (0..nx).contains(&fx) {
-                        let i = from + fx as usize;
-                        let before = if ADDED { light[here + x as usize] } else { 0.0 };
-                        light[here + x as usize] = before + light[i] * through[i];
-                    }
+/// Light that arrives in each cell along a lattice direction, before the cell takes its own part. It takes the place of what is in the
+/// cells, or is added to it; the border's cells stay as they are. Compiled for each width of vectors that machines have; one is chosen at
+/// run time.
+pub struct Carry<'a, const ADDED: bool> {
+    pub direction: &'a Direction,
+    pub size: UVec3,
+    /// What a cell leaves of the light.
+    pub through: &'a [f32],
+    pub light: &'a mut [f32],
+}
+
+impl<const ADDED: bool> pulp::NullaryFnOnce for Carry<'_, ADDED> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { direction: &Direction { step: d, .. }, size, through, light } = self;
+        let [nx, ny, nz] = [size.x, size.y, size.z].map(|n| n as i32);
+        let order = |n: i32, step: i32| (0..n).map(move |i| if step < 0 { n - 1 - i } else { i });
+        for z in order(nz, d[2]) {
+            for y in order(ny, d[1]) {
+                let (fy, fz) = (y - d[1], z - d[2]);
+                if !(0..ny).contains(&fy) || !(0..nz).contains(&fz) {
+                    continue;
                 }
-                continue;
-            }
-            let (to, source) = if here > from {
-                let (before, after) = light.split_at_mut(here);
-                (&mut after[..width], &before[from..from + width])
-            } else {
-                let (before, after) = light.split_at_mut(from);
-                (&mut before[here..here + width], &after[..width])
-            };
-            let (first, count) = (d[0].max(0) as usize, width - d[0].unsigned_abs() as usize);
-            let from_x = (-d[0]).max(0) as usize;
-            let through = &through[from + from_x..][..count];
-            for ((to, &light), &through) in to[first..][..count].iter_mut().zip(&source[from_x..][..count]).zip(through)
-            {
-                *to = if ADDED { *to } else { 0.0 } + light * through;
+                let width = nx as usize;
+                let (here, from) = (width * (y + ny * z) as usize, width * (fy + ny * fz) as usize);
+                if here == from {
+                    for x in order(nx, d[0]) {
+                        let fx = x - d[0];
+                        if (0..nx).contains(&fx) {
+                            let i = from + fx as usize;
+                            let before = if ADDED { light[here + x as usize] } else { 0.0 };
+                            light[here + x as usize] = before + light[i] * through[i];
+                        }
+                    }
+                    continue;
+                }
+                let (to, source) = if here > from {
+                    let (before, after) = light.split_at_mut(here);
+                    (&mut after[..width], &before[from..from + width])
+                } else {
+                    let (before, after) = light.split_at_mut(from);
+                    (&mut before[here..here + width], &after[..width])
+                };
+                let (first, count) = (d[0].max(0) as usize, width - d[0].unsigned_abs() as usize);
+                let from_x = (-d[0]).max(0) as usize;
+                let through = &through[from + from_x..][..count];
+                for ((to, &light), &through) in
+                    to[first..][..count].iter_mut().zip(&source[from_x..][..count]).zip(through)
+                {
+                    *to = if ADDED { *to } else { 0.0 } + light * through;
+                }
             }
         }
     }

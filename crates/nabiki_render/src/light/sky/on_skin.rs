@@ -1,0 +1,122 @@
+//! What of the sky reaches a surface.
+
+use glam::Vec3;
+
+use super::SkyMap;
+use super::arriving::between;
+
+/// At least as many lanes as there are directions.
+const LANES: usize = 16;
+/// Cells along each axis of which the last asked for are kept.
+const KEPT: usize = 8;
+
+/// Reads what arrives at places on surfaces. It keeps the cells that it was last asked for, with all directions of one side by side: places that
+/// follow each other lie in the same ones.
+pub struct OnSkin<'a> {
+    map: &'a SkyMap,
+    /// Of each direction where it comes from, and its weight; no weight for lanes without a direction.
+    from: [[f32; LANES]; 3],
+    weight: [f32; LANES],
+    halves: [[f32; LANES]; 2],
+    kept: Vec<Kept>,
+}
+
+/// The light that arrives in a cell along all directions, from the sky and from skin.
+#[derive(Clone, Copy)]
+struct Kept {
+    cell: usize,
+    light: [f32; LANES],
+    glow: [f32; LANES],
+}
+
+impl<'a> OnSkin<'a> {
+    pub fn new(map: &'a SkyMap) -> Self {
+        let of = |value: &dyn Fn(usize) -> f32| {
+            std::array::from_fn(|n| if n < map.directions.len() { value(n) } else { 0.0 })
+        };
+        let nothing = Kept { cell: usize::MAX, light: [0.0; LANES], glow: [0.0; LANES] };
+        Self {
+            map,
+            from: [0, 1, 2].map(|axis| of(&|n| map.directions[n].from[axis])),
+            weight: of(&|n| map.directions[n].weight),
+            halves: [0, 1].map(|half| of(&|n| map.directions[n].halves[half])),
+            kept: vec![nothing; KEPT * KEPT * KEPT],
+        }
+    }
+
+    /// The shares of the sky above and of that below, 0..1 each, that arrive at a place on a surface with this unit normal, and the
+    /// light that other skin sends there.
+    pub fn at(&mut self, place: Vec3, normal: Vec3) -> [f32; 3] {
+        let (base, beyond) = self.map.lattice(&place.to_array().map(|c| [c]));
+        let base = base.map(|c| c[0] as usize);
+        let [_, row, slice, _] = self.map.lines();
+        let kept_at: [usize; 8] = std::array::from_fn(|i| {
+            let c = [base[0] + i % 2, base[1] + i / 2 % 2, base[2] + i / 4];
+            let kept_at = c[0] % KEPT + KEPT * (c[1] % KEPT + KEPT * (c[2] % KEPT));
+            self.keep(kept_at, c[0] + row * c[1] + slice * c[2]);
+            kept_at
+        });
+        let (sky, corners) = (&*self, kept_at.map(|i| &self.kept[i]));
+        pulp::Arch::new().dispatch(Sum { sky, normal, corners, beyond: beyond.map(|beyond| beyond[0]) })
+    }
+
+    /// Has a cell at one of the places where cells are kept.
+    fn keep(&mut self, place: usize, cell: usize) {
+        let kept = &mut self.kept[place];
+        if kept.cell != cell {
+            kept.cell = cell;
+            for (kept, light) in kept.light.iter_mut().zip(&self.map.carried) {
+                *kept = light[cell];
+            }
+            for (kept, glow) in kept.glow.iter_mut().zip(&self.map.glow) {
+                *kept = glow.get(cell).copied().unwrap_or(0.0);
+            }
+        }
+    }
+}
+
+/// The sum over all directions, compiled for each width of vectors that machines have; one is chosen at run time.
+struct Sum<'a> {
+    sky: &'a OnSkin<'a>,
+    normal: Vec3,
+    corners: [&'a Kept; 8],
+    beyond: [f32; 3],
+}
+
+impl pulp::NullaryFnOnce for Sum<'_> {
+    type Output = [f32; 3];
+
+    #[inline(always)]
+    fn call(self) -> [f32; 3] {
+        let Self { sky: OnSkin { from, weight, halves, .. }, normal, corners: c, beyond } = self;
+        let open = between(
+            beyond,
+            [&c[0].light, &c[1].light, &c[2].light, &c[3].light, &c[4].light, &c[5].light, &c[6].light, &c[7].light],
+        );
+        let glow = between(
+            beyond,
+            [&c[0].glow, &c[1].glow, &c[2].glow, &c[3].glow, &c[4].glow, &c[5].glow, &c[6].glow, &c[7].glow],
+        );
+        let mut parts = [[0.0_f32; LANES]; 6];
+        for n in 0..LANES {
+            let cos = normal.x * from[0][n] + normal.y * from[1][n] + normal.z * from[2][n];
+            let facing = (weight[n] * cos).max(0.0);
+            let (above, below) = (facing * halves[0][n], facing * halves[1][n]);
+            // Skin to the side is mostly the same that curves away; what faces it counts.
+            let opposite = facing * facing;
+            parts[0][n] = above * open[n];
+            parts[1][n] = below * open[n];
+            parts[2][n] = opposite * glow[n];
+            parts[3][n] = above;
+            parts[4][n] = below;
+            parts[5][n] = opposite;
+        }
+        let mut sums = [0.0, 0.0, 0.0, 1e-12, 1e-12, 1e-12_f32];
+        for n in 0..LANES {
+            for i in 0..6 {
+                sums[i] += parts[i][n];
+            }
+        }
+        [sums[0] / sums[3], sums[1] / sums[4], sums[2] / sums[5]]
+    }
+}
