@@ -205,10 +205,27 @@ impl CoverageTile {
         let Lines { major, slope, start, end, .. } = lines;
         let minor = 1 - major;
 
+        // Between two pieces each cell belongs to one of them, or their shares would count as unrelated and leave gaps; at a strand's
+        // ends cells are shared in proportion.
+        let sharpness = |n: &End| if n.last { SIDE as f32 } else { 4096.0 };
+        let (sharp_a, sharp_b) = (sharpness(a), sharpness(b));
+        // Of each pixel how far off the piece it is, how far its corner lies beyond the two ends, and its place along the piece: what is
+        // there at the beginning of its line, and the growth from one pixel of a line to the next.
+        let per_minor = [1.0, cut[0][minor] * sharp_a, -cut[1][minor] * sharp_b, unit[minor] * per_length];
+        let per_major = [0.0, cut[0][major] * sharp_a, -cut[1][major] * sharp_b, unit[major] * per_length];
+        let mut at_line = [[0.0_f32; 4]; TILE];
+
         // All pixels first, then their work: a loop of unknown length within another would be mispredicted at each line.
         let mut pixels = [0_u8; 2 * PIXELS];
         let mut count = 0;
         for m in lines.first.max(among.start)..(lines.last + 1).min(among.end) {
+            let (from_start, from_end) = (m as f32 - start[major], m as f32 - end[major]);
+            at_line[m] = [
+                -lines.middle[m],
+                from_start * per_major[1] - start[minor] * per_minor[1] + 0.5,
+                from_end * per_major[2] - end[minor] * per_minor[2] + 0.5,
+                (from_start + 0.5) * per_major[3] + (0.5 - start[minor]) * per_minor[3],
+            ];
             let mut bits = lines.pixels[m] & !u32::from(self.full[minor][m]);
             for _ in 0..2 {
                 pixels[count % (2 * PIXELS)] = (m * TILE) as u8 | bits.trailing_zeros() as u8 & 15;
@@ -226,10 +243,6 @@ impl CoverageTile {
         }
 
         // Offsets of the cells: across the piece, and along the normals of its two ends.
-        // At a strand's ends cells are shared in proportion; between two pieces each belongs to one of them, or their shares would
-        // count as unrelated and leave gaps.
-        let sharpness = |n: &End| if n.last { SIDE as f32 } else { 4096.0 };
-        let (sharp_a, sharp_b) = (sharpness(a), sharpness(b));
         let mut across = [0.0_f32; CELLS];
         let mut from_a = [0.0_f32; CELLS];
         let mut from_b = [0.0_f32; CELLS];
@@ -247,18 +260,21 @@ impl CoverageTile {
             let (x, y) = if major == 0 { (m, q) } else { (q, m) };
             // Of eight bits, so that the compiler sees that it lies in the tile.
             let pixel = usize::from((y * TILE + x) as u8);
-            let aside = q as f32 + 0.5 - (lines.middle[m] + 0.5 * lines.slope);
-            let depth = lines.depth[m] + aside.max(-lines.sway).min(lines.sway) * lines.recession;
+            let mut depth = lines.depth[m];
+            if lines.recession != 0.0 {
+                let aside = q as f32 + 0.5 - (lines.middle[m] + 0.5 * lines.slope);
+                depth += aside.max(-lines.sway).min(lines.sway) * lines.recession;
+            }
             if depth > self.skin_far[pixel] {
                 continue;
             }
-            let off = simd.splat_f32s(q as f32 - lines.middle[m]);
+            let mut at = at_line[m];
+            for (at, per_minor) in at.iter_mut().zip(per_minor) {
+                *at += q as f32 * per_minor;
+            }
+            let [off, after_a, after_b] = [at[0], at[1], at[2]].map(|at| simd.splat_f32s(at));
             let (top, rise, fall) = (lines.top[m], lines.rise[m], lines.fall[m]);
             let (top, rise, fall) = (simd.splat_f32s(top), simd.splat_f32s(rise), simd.splat_f32s(fall));
-            let corner = [x as f32, y as f32];
-            let after_a = ((corner[0] - start[0]) * cut[0][0] + (corner[1] - start[1]) * cut[0][1]) * sharp_a;
-            let after_b = ((corner[0] - end[0]) * cut[1][0] + (corner[1] - end[1]) * cut[1][1]) * sharp_b;
-            let (after_a, after_b) = (simd.splat_f32s(after_a + 0.5), simd.splat_f32s(0.5 - after_b));
             let at_skin = depth > self.skin_near[pixel];
             let open = S::as_mut_simd_f32s(&mut self.open[pixel]).0;
             let mut taken = [0.0; CELLS];
@@ -279,13 +295,12 @@ impl CoverageTile {
             // Always in this order, however wide the vectors.
             let quarter = |c: usize| (taken[c] + taken[c + 4]) + (taken[c + 8] + taken[c + 12]);
             let sum = ((quarter(0) + quarter(1)) + (quarter(2) + quarter(3))) * (1.0 / CELLS as f32);
-            let along = [(x as f32 + 0.5 - start[0]) * unit[0], (y as f32 + 0.5 - start[1]) * unit[1]];
-            let t = ((along[0] + along[1]) * per_length).clamp(0.0, 1.0);
+            let t = at[3].clamp(0.0, 1.0);
             let light = &mut self.light[pixel];
             *light = std::array::from_fn(|c| light[c] + sum * (light_a[c] + (light_b[c] - light_a[c]) * t));
             // Where it covers nothing it only goes on to do nothing: cheaper than to ask.
             let seen = if sum > 0.0 { depth } else { f32::INFINITY };
-            self.nearest[pixel] = self.nearest[pixel].min(seen);
+            self.nearest[pixel] = if seen < self.nearest[pixel] { seen } else { self.nearest[pixel] };
             watch.hair(pixel, sum, t, *number);
             self.left[pixel] -= sum;
             if self.left[pixel] < NOTHING {
@@ -334,7 +349,7 @@ struct Lines {
 impl Lines {
     #[inline(always)]
     fn new(tile: [usize; 2], piece: &Piece) -> Self {
-        let Piece { a, b, unit, per_length, .. } = piece;
+        let Piece { a, b, cut, unit, per_length, .. } = piece;
         let corner = tile.map(|t| (t * TILE) as f32);
         // Walk along the axis that the piece follows more; across it, shares are taken along the other.
         let major = usize::from(unit[1].abs() > unit[0].abs());
@@ -353,11 +368,21 @@ impl Lines {
         let (across, in_depth) = (aside(a) + aside(b), deeper(a) + deeper(b));
         let recession = if across.abs() > MOVES { in_depth / across } else { 0.0 };
         let thickest = a.radius.max(b.radius);
-        let reach = thickest * widen + sway_a.max(sway_b) + 0.5 / SIDE as f32 + 0.5 * slope.abs();
-        // Beyond its ends a piece reaches half a cell, and at a border aslant by at most its radius.
-        let overhang = thickest + 0.2;
-        let low = start[major].min(end[major]) - overhang;
-        let high = start[major].max(end[major]) + overhang;
+        // Centres of cells that it may cover lie so far from its middle, and centres of pixels by half of a line's growth farther.
+        let beside = thickest * widen + sway_a.max(sway_b) + 0.5 / SIDE as f32;
+        let reach = beside + 0.5 * slope.abs();
+        // Beyond its ends it reaches as far as the border there goes aslant, and half a cell where the strand ends.
+        let overhang = |n: &End, cut: &[f32; 2]| {
+            let turn = cut[0] * unit[0] + cut[1] * unit[1];
+            let half = if n.last { 0.5 / SIDE as f32 } else { 0.0 };
+            (half + cut[minor].abs() * beside) / (turn * widen) + 1e-3
+        };
+        let (before, after) = (overhang(a, &cut[0]), overhang(b, &cut[1]));
+        let ahead = unit[major] > 0.0;
+        let (low, high) = if ahead { (start[major], end[major]) } else { (end[major], start[major]) };
+        let (low, high) = if ahead { (low - before, high + after) } else { (low - after, high + before) };
+        // Centres of cells are half a cell within their pixel.
+        let (low, high) = (low + 0.5 / SIDE as f32, high - 0.5 / SIDE as f32);
         let per_major = per_length * per_unit;
         let blank = [0.0; TILE];
         let (mut middle, mut depth, mut pixels) = (blank, blank, [0; TILE]);
