@@ -186,10 +186,10 @@ impl HairLight<'_> {
         }
 
         let mut rows = Rows::default();
-        let places = match self.sky_map {
-            Some(map) => Some(map.places(&place)),
-            None => None,
-        };
+        let mut places = None;
+        if let Some(map) = self.sky_map {
+            places = Some(map.places(&place));
+        }
         let sky = self.sky_at(places.as_ref());
         for lane in 0..LANES {
             let row = tables[lane].row(sin_eye[lane].abs() * (ROWS - 1) as f32);
@@ -267,7 +267,7 @@ impl HairLight<'_> {
             let mut aside = crossed;
             if let (Some(map), Some(places)) = (self.sky_map, &places) {
                 let number = TOWARD_LAMPS + l;
-                if number % AT_ONCE == 0 {
+                if number.is_multiple_of(AT_ONCE) {
                     known = map.at(places, number / AT_ONCE);
                 }
                 for lane in 0..LANES {

@@ -297,6 +297,26 @@ mod tests {
     }
 
     #[test]
+    fn what_reaches_a_surface_does_not_depend_on_what_was_asked_before() {
+        let nodes: Vec<CurveNode> = (0..300_u32)
+            .map(|i| {
+                let (strand, k) = (i / 3, (i % 3) as f32);
+                let position = crate::camera::direction(strand as f32 * 137.508, strand as f32 - 50.0) * (3.0 + k);
+                CurveNode { position, strand, ..CurveNode::default() }
+            })
+            .collect();
+        let mut sky = SkyMap::default();
+        sky.lay_out(crate::curve::bounds(&nodes), 0.0, (&Mesh::default(), &[]));
+        sky.fill(&nodes, &vec![0.1; nodes.len()], Vec3::Y);
+        sky.gather(&view_from(0.0), &[], |_, _, _| 0.0);
+        let mut one = OnSkin::new(&sky);
+        for node in &nodes {
+            let normal = node.position.normalize();
+            assert_eq!(one.at(node.position, normal), OnSkin::new(&sky).at(node.position, normal));
+        }
+    }
+
+    #[test]
     fn an_open_sky_arrives_whole_wherever_the_eye_is() {
         for zenith in [Vec3::Y, Vec3::new(0.36, -0.48, 0.8)] {
             let mut sky = SkyMap::default();

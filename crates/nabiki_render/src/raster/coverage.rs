@@ -218,6 +218,7 @@ impl CoverageTile {
         // All pixels first, then their work: a loop of unknown length within another would be mispredicted at each line.
         let mut pixels = [0_u8; 2 * PIXELS];
         let mut count = 0;
+        #[expect(clippy::needless_range_loop, reason = "a line is a number in several arrays and a place")]
         for m in lines.first.max(among.start)..(lines.last + 1).min(among.end) {
             let (from_start, from_end) = (m as f32 - start[major], m as f32 - end[major]);
             at_line[m] = [

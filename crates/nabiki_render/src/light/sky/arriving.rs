@@ -2,6 +2,8 @@
 //!
 //! All numbers of a cell lie side by side: a place is between eight cells, and each is then one reading.
 
+#![expect(clippy::needless_range_loop, reason = "lanes side by side read as vector code")]
+
 use glam::Vec3;
 use rayon::prelude::*;
 

@@ -113,8 +113,8 @@ impl pulp::NullaryFnOnce for Sum<'_> {
         }
         let mut sums = [0.0, 0.0, 0.0, 1e-12, 1e-12, 1e-12_f32];
         for n in 0..LANES {
-            for i in 0..6 {
-                sums[i] += parts[i][n];
+            for (sum, parts) in sums.iter_mut().zip(&parts) {
+                *sum += parts[n];
             }
         }
         [sums[0] / sums[3], sums[1] / sums[4], sums[2] / sums[5]]
