@@ -45,8 +45,13 @@ fn main() -> ExitCode {
     match run(scene) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
+            let what = match error {
+                // Its own words name a line of its source.
+                eframe::Error::WinitEventLoop(_) | eframe::Error::Winit(_) => "no window can be opened here".to_owned(),
+                other => other.to_string(),
+            };
             eprintln!(
-                "nabiki-studio: {error}; a window needs a display and a graphics driver (Vulkan, Metal, DirectX 12)"
+                "nabiki-studio: {what}; a window needs a display and a graphics driver (Vulkan, Metal, DirectX 12)"
             );
             ExitCode::FAILURE
         }

@@ -357,7 +357,7 @@ fn import(ui: &mut Ui, session: &Session, import: &Import, commands: &mut Comman
     super::fields::row(
         ui,
         "Unit",
-        "Needed where the file does not say it: .bvh, .tof, .abc, and most .obj and .ply that are not in cm.",
+        "Needed where the file does not say it: .bvh, .tof, .abc, and .hair, .tfx, .obj and .ply that are not in cm.",
         false,
         |ui| {
             choose(ui, "unit", &mut changed.unit, &["mm", "cm", "dm", "m", "in", "ft"]);
