@@ -4,6 +4,8 @@
 //! long as its next node stays clear of the head, it is taken. A node that would fall inside is turned back about the
 //! node before it until it lies where hair lies (method section 4), and the rest hangs from there.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use super::cantilever::{Beam, Hold, Workspace};
@@ -26,6 +28,13 @@ const SHARP: f64 = 0.9;
 /// the distance from the band within which it keeps none (cm).
 const EASE: f64 = 0.8;
 const NEAR_BAND: f64 = 3.0;
+
+/// The turn into a band is spread along the hair as a bell of this deviation (cm): no hair bends in a point.
+const BAND_BEND: f64 = 0.5;
+
+/// So far beyond its place in the band (cm, by the change of direction there) a strand turns, to pass it when the turn is spread:
+/// half of a bell's mean distance from its middle.
+const CORNER: f64 = 0.398_942_28 * BAND_BEND;
 
 /// Steepest rise of lying hair toward the layer that it belongs to (slope).
 const RISE: f64 = 0.4;
@@ -206,9 +215,13 @@ impl Ground<'_> {
             nodes.push(p);
             directions.push(taken);
         }
-        if touched && tied == 0 {
+        if (1..k).contains(&tied) {
+            bend_at(tied, d, directions);
+            self.lay(styled, None, d, directions, nodes);
+        } else if touched && tied == 0 {
             for _ in 0..ROUNDINGS {
-                self.round(styled, over_ears, d, directions, nodes);
+                round(directions, 1..k);
+                self.lay(styled, over_ears, d, directions, nodes);
             }
         }
     }
@@ -224,10 +237,15 @@ impl Ground<'_> {
         nodes: &mut Vec<DVec3>,
     ) {
         let (mut p, mut t) = (styled.root, styled.clamp);
-        while directions.len() < k && p.distance(tie.at) > 0.5 * d {
-            let wanted = (tie.at - p).normalize();
+        while directions.len() < k {
             // What would go away from the band turns at its root; near the band it aims at it.
-            let ease = if p.distance(tie.at) < NEAR_BAND { 0.0 } else { EASE };
+            let near = p.distance(tie.at) < NEAR_BAND;
+            let ease = if near { 0.0 } else { EASE };
+            let at = if near { tie.at + (t - tie.behind) * CORNER } else { tie.at };
+            if p.distance(at) < 0.5 * d {
+                break;
+            }
+            let wanted = (at - p).normalize();
             t = (wanted + t * ease).try_normalize().unwrap_or(wanted);
             let keep = self.keep(styled, None, p, (directions.len() + 1) as f64 * d, d);
             if self.spare(p, t * d, &keep) < 0.0 {
@@ -257,23 +275,8 @@ impl Ground<'_> {
         }
     }
 
-    /// Rounds the bends of a strand that lies on something, as its own stiffness and the hair around it do: over an
-    /// ear it lifts off above and comes down below. Nodes still keep their clearance.
-    fn round(
-        &self,
-        styled: &StrandStyle,
-        over_ears: Option<f64>,
-        d: f64,
-        directions: &mut [DVec3],
-        nodes: &mut [DVec3],
-    ) {
-        let mut before = directions[0];
-        for i in 1..directions.len() {
-            let t = directions[i];
-            let after = directions.get(i + 1).copied().unwrap_or(t);
-            directions[i] = (before + 2.0 * t + after).try_normalize().unwrap_or(t);
-            before = t;
-        }
+    /// Lays a strand anew along the directions of its segments; what would not keep its clearance is turned until it does.
+    fn lay(&self, styled: &StrandStyle, over_ears: Option<f64>, d: f64, directions: &mut [DVec3], nodes: &mut [DVec3]) {
         for (i, t) in directions.iter_mut().enumerate().skip(1) {
             let (p, s) = (nodes[i], (i + 1) as f64 * d);
             let keep = self.keep(styled, over_ears, p, s, d);
@@ -291,6 +294,29 @@ impl Ground<'_> {
                 beam.settle(loads, SETTLED, warm, free, workspace);
             }
         }
+    }
+}
+
+/// Rounds the bends of these segments once, as their own stiffness and the hair around them do: over an ear hair lifts off
+/// above and comes down below.
+fn round(directions: &mut [DVec3], segments: Range<usize>) {
+    let mut before = directions[segments.start - 1];
+    for i in segments {
+        let t = directions[i];
+        let after = directions.get(i + 1).copied().unwrap_or(t);
+        directions[i] = (before + 2.0 * t + after).try_normalize().unwrap_or(t);
+        before = t;
+    }
+}
+
+/// Spreads the turn at the start of segment `tied`, of segments of length `d` (cm), along the hair before and behind it.
+fn bend_at(tied: usize, d: f64, directions: &mut [DVec3]) {
+    // A rounding adds d^2 / 2 to the variance.
+    let roundings = (2.0 * (BAND_BEND / d).powi(2)).ceil() as usize;
+    let reach = (4.0 * BAND_BEND / d).ceil() as usize;
+    let bent = tied.saturating_sub(reach).max(1)..(tied + reach).min(directions.len());
+    for _ in 0..roundings {
+        round(directions, bent.clone());
     }
 }
 
