@@ -11,8 +11,8 @@ mod tests;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use eframe::wgpu;
-use glam::{Affine3A, Vec3};
-use nabiki::Strands;
+use glam::{Affine3A, UVec3, Vec3};
+use nabiki::{Mesh, Strands};
 use nabiki_render::live;
 use nabiki_render::settings::HairLook;
 use nabiki_render::tone_mapping::linear_from_srgb;
@@ -126,6 +126,30 @@ impl Gpu {
             volumes: VolumeMaker::default(),
             failure,
         })
+    }
+
+    /// Draws one of everything that a picture is made of, where nobody sees it: drivers that compile what they draw with only
+    /// when they do have done so by the first picture.
+    pub fn warm_up(&self) {
+        let (device, queue) = (&self.device, &self.queue);
+        let mut strand = Strands::default();
+        strand.push([Vec3::ZERO, Vec3::Y]);
+        let triangle =
+            Mesh { positions: vec![Vec3::X, Vec3::Y, Vec3::Z], triangles: vec![[0, 1, 2]], ..Mesh::default() };
+        let line = buffer(device, queue, "lines", bytemuck::bytes_of(&Line::default()), wgpu::BufferUsages::VERTEX);
+        let passes = Passes {
+            device,
+            pipelines: &self.pipelines,
+            target: &Target::new(device, [24, 24]),
+            scene: &self.scene_group(&Volume::empty(UVec3::splat(6))),
+            show: &self.show,
+            look: &LookOnCard::new(device, queue, &HairLook::default()),
+            strands: &StrandsOnCard::new(device, queue, &strand, 1),
+            surface: &SurfaceOnCard::new(device, queue, &Surface::of(&triangle, [0.5; 3])),
+            lines: &line,
+            line_count: 1,
+        };
+        queue.submit([passes.commands()]);
     }
 
     /// What went wrong on the card, if anything did. From then on nothing is drawn.

@@ -61,6 +61,7 @@ impl Screen {
     /// In words, if it cannot do what the view needs.
     pub fn new(state: &RenderState) -> Result<Self, String> {
         let gpu = Gpu::new(&state.device, &state.queue)?;
+        gpu.warm_up();
         let is_slow = state.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         Ok(Self { state: state.clone(), gpu, texture: None, drawn: None, last: None, is_slow, coarse_since: None })
     }

@@ -56,10 +56,11 @@ pub struct Volume {
 }
 
 impl Volume {
-    /// One in which nothing stands in the way of light.
-    pub fn empty() -> Self {
-        let (size, depth) = (UVec3::splat(2), vec![[f16::ZERO; LAMPS]; 8]);
-        Self { low: Vec3::ZERO, cell: 1.0, size, depth, open: vec![[f16::ONE; 2]] }
+    /// One of so many cells in which nothing stands in the way of light.
+    pub fn empty(size: UVec3) -> Self {
+        let cells = |size: UVec3| size.element_product() as usize;
+        let (depth, open) = (vec![[f16::ZERO; LAMPS]; cells(size)], vec![[f16::ONE; 2]; cells(size / 2)]);
+        Self { low: Vec3::ZERO, cell: 1.0, size, depth, open }
     }
 }
 
@@ -90,7 +91,7 @@ impl VolumeMaker {
             (low, high) = (low.min(p), high.max(p));
         }
         if low.x > high.x || !(casting.shadows || casting.occlusion) {
-            return Volume::empty();
+            return Volume::empty(UVec3::splat(2));
         }
         // Cells of a few sizes only, on a lattice that stands still: light that jumped with the hair would flicker.
         let mut cell = CELL;
