@@ -294,3 +294,54 @@ fn a_small_push_of_curved_hair_dies_out_where_it_settles_and_is_held() {
         assert!(farthest < 4e-6, "{farthest} cm left with stiffness {stiffness}");
     }
 }
+
+/// The tip comes down on a plane to which the strand stands at 20 degrees from head-on. The nearer way out than the wind's
+/// way in is along the plane, farther by 1 / sin of that angle: no throw.
+#[test]
+fn a_segment_that_points_steeply_into_a_body_is_not_thrown_out() {
+    let (sin, cos) = 20.0_f32.to_radians().sin_cos();
+    let mut strand = Strands::default();
+    // Its tip rests within the margin.
+    strand.push((0..=6).map(|i| Vec3::new(i as f32 * sin, (6 - i) as f32 * cos + 0.02, 0.0)));
+    let mut cube = nabiki::Mesh::default();
+    for i in 0..8 {
+        let side = |bit: u32| if i >> bit & 1 == 1 { 10.0 } else { -10.0 };
+        cube.positions.push(Vec3::new(side(0), side(1) - 10.0, side(2)));
+    }
+    for [a, b, c, d] in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]] {
+        cube.triangles.extend([[a, b, c], [a, c, d]]);
+    }
+    let table = Body {
+        name: "body[0]".to_owned(),
+        distance: Arc::new(nabiki::body::skin_of(cube, "body[0].mesh").unwrap()),
+        filled: None,
+        way: nabiki::body::BodyWay::WithHead,
+        contact: Contact::default(),
+    };
+    let mut dynamics = free(FreeMotion::default());
+    let blows = field(&[(40, [-20.0, 0.0, 0.0]), (1000, [0.0; 3])]);
+    let way =
+        |a: &Strands, b: &Strands| a.points().iter().zip(b.points()).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+    let motions = |dynamics: &Dynamics| {
+        let twins: [Box<dyn Stepper>; 2] =
+            [Box::new(exact(&strand, dynamics, &blows)), Box::new(fast(&strand, dynamics, &blows))];
+        twins.map(|mut stepper| {
+            let mut fastest = 0.0_f32;
+            for _ in 0..300 {
+                let before = stepper.strands().clone();
+                step(&mut *stepper, &blows);
+                fastest = fastest.max(way(&before, stepper.strands()));
+            }
+            (fastest, way(&strand, stepper.strands()))
+        })
+    };
+    let unhindered = motions(&dynamics);
+    if let Form::Free(motion) = &mut dynamics.form {
+        motion.bodies = vec![table];
+    }
+    for ((fastest, off), (free, _)) in motions(&dynamics).into_iter().zip(unhindered) {
+        println!("{fastest} cm a frame, {free} with nothing in the way; {off} cm from rest");
+        assert!(fastest < free / sin, "{fastest} cm in a frame, {free} with nothing in the way");
+        assert!(off < 0.05, "{off} cm off its rest shape");
+    }
+}

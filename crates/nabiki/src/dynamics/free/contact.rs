@@ -13,6 +13,9 @@ pub(in crate::dynamics) const PUSHES: usize = 6;
 /// Directions that are tried from there to the gradient where no turn along it is found.
 pub(in crate::dynamics) const FAN: usize = 4;
 
+/// Cosine and sine of the most that one of those turns may be (a tenth of a radian): what is curved is no plane far on.
+pub(in crate::dynamics) const TURN: [f32; 2] = [0.995_004_2, 0.099_833_42];
+
 /// How much deeper than its clearance a node may stay (cm): some roundings of a distance.
 pub(in crate::dynamics) const TOLERANCE_CM: f32 = 1e-4;
 
@@ -161,7 +164,7 @@ impl Obstacle {
         best
     }
 
-    /// Turns a segment along the gradient until its end keeps its clearance; how deep it then is.
+    /// Turns a segment out along the gradient until its end keeps its clearance; how deep it then is.
     #[inline]
     fn pushed_from(&self, skin: &SkinDistance, mut direction: Vec3, touch: &Touch) -> (Vec3, f32) {
         let &Touch { from, length, clearance, .. } = touch;
@@ -174,7 +177,7 @@ impl Obstacle {
                 return (direction, depth);
             }
             let normal = self.normal(&reading);
-            direction = (end + depth * normal - from).normalize_or(normal);
+            direction = turned_out(direction, normal, depth / length);
         }
         (direction, depth)
     }
@@ -194,4 +197,20 @@ impl Obstacle {
         // The transpose turns back.
         Vec3::from(self.body_from_head.matrix3.transpose() * glam::Vec3A::from(normal))
     }
+}
+
+/// Turned about its beginning, the nearest way, until its end is farther out along the normal by `rise` of its length: all
+/// the way out of a plane, however steeply it points in. By [`TURN`] at the most.
+#[inline]
+fn turned_out(direction: Vec3, normal: Vec3, rise: f32) -> Vec3 {
+    let along = direction.dot(normal);
+    let [cos, sin] = TURN;
+    let farthest = if along < cos { along * cos + (1.0 - along * along).max(0.0).sqrt() * sin } else { 1.0 };
+    let outward = (along + rise).min(farthest);
+    if outward >= 1.0 {
+        return normal;
+    }
+    // To what points straight in, all ways are alike.
+    let aside = (direction - along * normal).try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
+    ((1.0 - outward * outward).max(0.0).sqrt() * aside + outward * normal).normalize_or(normal)
 }

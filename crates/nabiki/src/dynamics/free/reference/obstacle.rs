@@ -5,7 +5,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use crate::body::{Body, Contact, Surface};
 use crate::distance::Reading;
 use crate::dynamics::FrameInput;
-use crate::dynamics::free::{FAN, NEAR, PUSHES, TOLERANCE_CM};
+use crate::dynamics::free::{FAN, NEAR, PUSHES, TOLERANCE_CM, TURN};
 use crate::pose::Pose;
 use crate::scalar::{Scalar, Vector};
 
@@ -123,7 +123,7 @@ impl<'a> Obstacle<'a> {
         best
     }
 
-    /// Turns a segment along the gradient until its end keeps its clearance; how deep it then is.
+    /// Turns a segment out along the gradient until its end keeps its clearance; how deep it then is.
     fn pushed_from<S: Scalar>(&self, mut direction: Vector<S>, touch: &Touch<S>) -> (Vector<S>, f64) {
         let &Touch { from, length, clearance, .. } = touch;
         let mut depth = 0.0;
@@ -135,7 +135,7 @@ impl<'a> Obstacle<'a> {
             if depth <= f64::from(TOLERANCE_CM) {
                 return (direction, depth);
             }
-            direction = (end + normal * inside - from).normalized_or(normal);
+            direction = turned_out(direction, normal, inside / S::from(length));
         }
         (direction, depth)
     }
@@ -161,6 +161,28 @@ impl<'a> Obstacle<'a> {
     fn reading(&self, p: DVec3, surface: Surface) -> Option<Reading> {
         self.body.surface(surface).read(self.body_from_head.transform_point3(p).as_vec3())
     }
+}
+
+/// Turned about its beginning, the nearest way, until its end is farther out along the normal by `rise` of its length: all
+/// the way out of a plane, however steeply it points in. By [`TURN`] at the most.
+fn turned_out<S: Scalar>(direction: Vector<S>, normal: Vector<S>, rise: S) -> Vector<S> {
+    let along = direction.dot(normal);
+    let [cos, sin] = TURN.map(f64::from);
+    let mut outward = along + rise;
+    if along.value() < cos {
+        // Nothing is differentiated where the sine of the angle to the normal vanishes.
+        let across = S::from(1.0) - along * along;
+        let across = if across.value() > 0.0 { across.sqrt() } else { S::from(0.0) };
+        let farthest = along.times(cos) + across.times(sin);
+        outward = if farthest.value() < outward.value() { farthest } else { outward };
+    }
+    if outward.value() >= 1.0 {
+        return normal;
+    }
+    // To what points straight in, all ways are alike.
+    let any = normal.value().any_orthonormal_vector().into();
+    let aside = (direction - normal * along).normalized_or(any);
+    (aside * (S::from(1.0) - outward * outward).sqrt() + normal * outward).normalized_or(normal)
 }
 
 fn exact(affine: glam::Affine3A) -> DAffine3 {
