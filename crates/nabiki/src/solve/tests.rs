@@ -220,16 +220,17 @@ fn tangents_are_what_differences_of_the_specification_say() {
     case("neighbours", among, none(), Ease::Stepped, false, &[Unknown::Vector(1)], &plain, &plain).1.errors();
     for (name, case) in &cases {
         for (number, errors) in case.errors().iter().enumerate() {
-            let [median, most, worst] = [STRANDS / 2, STRANDS * 3 / 4 - 1, STRANDS - 1].map(|i| errors[i]);
+            let [many, most, worst] = [STRANDS * 3 / 4 - 1, STRANDS * 9 / 10, STRANDS - 1].map(|i| errors[i]);
             let exact = errors.iter().filter(|&&error| error < 1e-4).count();
             println!(
-                "{name}, {number}: median {median:.1e}, three in four {most:.1e}, worst {worst:.1e}; \
+                "{name}, {number}: three in four {many:.1e}, nine in ten {most:.1e}, worst {worst:.1e}; \
                  {exact} of {STRANDS} strands below 1e-4"
             );
             // What is left where all is smooth are fields in f32: a few of their roundings, over the differences taken. A
-            // strand that comes to touch between two differences has no derivative that they could show.
-            let all = if case.smooth { 3e-4 } else { f64::INFINITY };
-            assert!(most < 1e-4 && worst < all, "{name}, number {number}: {median} {most} {worst}");
+            // strand that comes to touch between two differences has no derivative that they could show; a term left out would
+            // be an error of order 1 in all that touch.
+            let (few, all) = if case.smooth { (1e-4, 3e-4) } else { (0.1, f64::INFINITY) };
+            assert!(many < 1e-4 && most < few && worst < all, "{name}, number {number}: {many} {most} {worst}");
         }
     }
 }
