@@ -46,8 +46,9 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             let what = match error {
-                // Its own words name a line of its source.
+                // Their own words are about their source.
                 eframe::Error::WinitEventLoop(_) | eframe::Error::Winit(_) => "no window can be opened here".to_owned(),
+                eframe::Error::Wgpu(_) => "no graphics driver draws windows here".to_owned(),
                 other => other.to_string(),
             };
             eprintln!(
