@@ -3,7 +3,8 @@
 //! Both forms, with the same hair, wind and threads, are measured in turn; so is a loop that only reads and writes the
 //! bytes of the free form's step. The figures are the sum over frames of the fastest that each took in any round, in ns a
 //! segment and frame, all points written: a frame is short enough to be left alone by other programs now and then. Bodies
-//! and neighbours are met by hair that the wind blows against and over the built-in head.
+//! and neighbours are met by hair that the wind blows against and over the built-in head. Cases named behind `--`
+//! (`-- "free, head"`) are measured alone, beside the paper's form.
 
 #[path = "common/bytes.rs"]
 mod bytes;
@@ -53,10 +54,14 @@ fn main() {
         ("free, head, neighbours", Form::Free(with_all.clone()), &wind),
         ("the same, turbulence", Form::Free(with_all), &turbulent),
     ];
+    let named: Vec<String> = std::env::args().skip(1).filter(|name| !name.starts_with("--")).collect();
     let mut times = [[f64::INFINITY; FRAMES as usize]; 6];
     let mut bytes = Bytes::<6>::new(strands, 20);
     for _ in 0..ROUNDS {
-        for ((_, form, field), times) in cases.iter().zip(&mut times) {
+        for ((name, form, field), times) in cases.iter().zip(&mut times) {
+            if !named.is_empty() && !named.iter().any(|case| case == name) && *form != Form::Paper {
+                continue;
+            }
             let mut simulation =
                 Simulation::new(&hair, &dynamics(&head, form.clone()), *field).expect("settings in range");
             for (frame, time) in (1..).zip(times) {
