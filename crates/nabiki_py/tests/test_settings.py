@@ -49,12 +49,15 @@ mesh = "b.obj"
 distance = 1.0
 height = 1.0
 target = [0, 0, 0]
+f_stop = 2.0
+focus_distance = 1.0
 [picture.camera.to]
 azimuth = 1.0
 elevation = 1.0
 distance = 1.0
 fov = 1.0
 target = [0, 0, 0]
+focus_distance = 1.0
 [output]
 sheet = [0]
 [picture.video]

@@ -3,6 +3,7 @@
 use glam::{Mat3, Quat, Vec3};
 use nabiki::{Ellipsoid, Mesh, Pose, Strands};
 
+use crate::lens::Lens;
 use crate::settings::{Camera, Projection};
 
 /// Nearest depth drawn (cm): what is nearer to the eye than this, or behind it, is left out.
@@ -91,6 +92,8 @@ pub struct View {
     pub scale: f32,
     /// Width and height of the picture (pixels).
     pub size: [u32; 2],
+    /// The lens, for perspective; none is a pinhole.
+    pub lens: Option<Lens>,
 }
 
 /// The direction at `azimuth` and `elevation` (degrees): (0, 0) is +x, before the face; azimuth 90 is +z.
@@ -130,7 +133,7 @@ impl View {
                 };
                 let distance = camera.distance.unwrap_or_else(|| fit(target));
                 let eye = target + outward * distance;
-                Self { eye, right, up, forward, projection: camera.projection, scale, size }
+                Self { eye, right, up, forward, projection: camera.projection, scale, size, lens: Lens::of(camera) }
             }
             Projection::Orthographic => {
                 let target = camera.target.unwrap_or(centre);
@@ -144,7 +147,7 @@ impl View {
                 );
                 let deepest = reach.iter().fold(0.0_f32, |m, o| m.max(o.z.abs()));
                 let eye = target + outward * camera.distance.unwrap_or(2.0 * deepest + 2.0 * NEAR);
-                Self { eye, right, up, forward, projection: camera.projection, scale, size }
+                Self { eye, right, up, forward, projection: camera.projection, scale, size, lens: None }
             }
         }
     }
@@ -186,6 +189,7 @@ impl View {
             up: axes.y_axis,
             forward: -axes.z_axis,
             scale: a.scale + (b.scale - a.scale) * part,
+            lens: a.lens.zip(b.lens).map_or(b.lens, |(a, b)| Some(Lens::between(a, b, part))),
             ..*b
         }
     }
@@ -196,11 +200,31 @@ impl View {
         let p = p - self.eye;
         let depth = p.dot(self.forward);
         let scale = self.pixels_per_cm(depth);
-        Vec3::new(
+        let seen = Vec3::new(
             0.5 * self.size[0] as f32 + p.dot(self.right) * scale,
             0.5 * self.size[1] as f32 - p.dot(self.up) * scale,
             depth,
-        )
+        );
+        match &self.lens {
+            Some(lens) if lens.through != [0.0; 2] => {
+                let [x, y] = lens.shift(depth, self.scale);
+                Vec3::new(seen.x + x, seen.y + y, depth)
+            }
+            _ => seen,
+        }
+    }
+
+    /// Unit vector from a point toward the place of the lens that its rays go through: as [`toward_eye`](Self::toward_eye)
+    /// without a lens.
+    #[inline]
+    pub(crate) fn toward_lens(&self, p: Vec3) -> Vec3 {
+        match &self.lens {
+            Some(lens) if lens.through != [0.0; 2] => {
+                let [right, up] = lens.through.map(|c| 0.5 * lens.diameter * c);
+                (self.eye + self.right * right + self.up * up - p).normalize_or(-self.forward)
+            }
+            _ => self.toward_eye(p),
+        }
     }
 
     /// Pixels that 1 cm across the axis of view covers at a depth (cm).

@@ -27,6 +27,7 @@ pub mod colour;
 mod curve;
 mod error;
 pub mod frame;
+pub mod lens;
 mod light;
 pub mod live;
 mod moment;

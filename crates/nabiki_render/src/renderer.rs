@@ -1,16 +1,21 @@
 //! One frame, from strands to light.
 
 mod compose;
+mod depth_of_field;
+mod seen;
 
+use compose::Drawing;
 use glam::Vec3;
 use nabiki::{Head, Mesh, Strands};
 use rayon::prelude::*;
+use seen::Seen;
 
 use crate::RenderError;
-use crate::camera::{NEAR, View};
+use crate::camera::View;
 use crate::colour;
 use crate::curve::{Curves, bounds, drawable};
 use crate::frame::Frame;
+use crate::lens::{Spread, Subject};
 use crate::light::approx::exp_of_negative;
 use crate::light::fibre::Fibre;
 use crate::light::headlight::SolidShadows;
@@ -18,15 +23,15 @@ use crate::light::kajiya::KajiyaKay;
 use crate::light::lamps::{Lamp, lamps, zenith};
 use crate::light::shade::{HairLight, Model};
 use crate::light::shadow::{Crossings, Scene, SkinPlace, Sweep};
-use crate::light::sky::SkyMap;
+use crate::light::sky::{OnSkin, SkyMap};
 use crate::moment::{DrawnBody, FrameToDraw};
+use crate::raster::Node;
 use crate::raster::bins::Bins;
-use crate::raster::{Node, TILE};
 use crate::scalp::{Scalp, roots};
 use crate::settings::{Antialiasing, Picture, Shading};
 use crate::shutter::{Exposure, Shot};
-use crate::skin::{SkinLight, SkinView, Solids, placed};
-use crate::timing::{Stage, Timing};
+use crate::skin::{SkinLight, SkinPixel, SkinView, Solids, placed};
+use crate::timing::{Clock, Stage, Timing};
 use crate::tone_mapping::linear_from_srgb;
 
 /// How far off the skin (cm) it is asked how much hair lies before it: roots lie within.
@@ -45,6 +50,8 @@ pub struct Renderer {
     solids: Solids,
     /// Colours of the head and of the bodies (linear).
     skins: Vec<[f32; 3]>,
+    /// What a lens is focused on.
+    subject: Subject,
     model: Model,
     curves: Curves,
     radius: Vec<f32>,
@@ -57,12 +64,15 @@ pub struct Renderer {
     receivers: Vec<SkinPlace>,
     zenith: Vec3,
     still: Option<Still>,
+    /// Through how many points of a lens to draw, if that was asked for.
+    lens_points: Option<usize>,
     timing: Timing,
 }
 
 /// What stays the same from frame to frame for one view.
 struct Still {
     shot: Shot,
+    beside: f32,
     lamps: Vec<Lamp>,
     solid_shadows: Vec<SolidShadows>,
     /// The bodies where they are in head space.
@@ -109,6 +119,7 @@ impl Renderer {
             bodies: Vec::new(),
             solids: Solids::new(head, std::iter::empty()),
             skins: vec![picture.head.colour.map(linear_from_srgb)],
+            subject: Subject::of_mesh(head),
             model,
             curves: Curves::default(),
             radius: Vec::new(),
@@ -120,13 +131,16 @@ impl Renderer {
             receivers: Vec::new(),
             zenith: Vec3::Y,
             still: None,
+            lens_points: None,
             timing: Timing::default(),
         })
     }
 
-    /// Draws the face of the head whose mesh was given, if it has one and `picture.head.face` is wished for.
+    /// Draws the face of the head whose mesh was given, if it has one and `picture.head.face` is wished for. A lens that is given no
+    /// distance is focused on it.
     pub fn with_face(mut self, head: &Head) -> Self {
         self.face = head.is_builtin && self.picture.head.face;
+        self.subject = Subject(head.ellipsoid);
         self.still = None;
         self
     }
@@ -165,7 +179,8 @@ impl Renderer {
     }
 
     /// Draws one frame as a camera does whose shutter closes at it and opened `picture.shutter` of a frame earlier. Blur costs
-    /// little more than a sharp frame, however fast the hair; a head that moves on the picture costs as much as it moves far.
+    /// little more than a sharp frame, however fast the hair; a head that moves on the picture costs as much as it moves far. Where the
+    /// view has a lens, the frame is the mean of what its points see.
     ///
     /// # Errors
     /// If a point of a strand is not finite: which one. If the frame before has not the same strands. If there is not one pose for
@@ -177,37 +192,52 @@ impl Renderer {
                 return Err(RenderError::Geometry(format!("{given} poses for {bodies} bodies: give one for each")));
             }
         }
+        if frame.now.view.lens.is_some() {
+            return self.draw_through_lens(frame);
+        }
         let mut clock = self.timing.start();
         let exposure = Exposure::new(frame, self.picture.shutter)?;
-        self.curves.build(&exposure.strands, &exposure.moved, &self.picture.hair, &exposure.shot.middle)?;
-        clock.lap(&mut self.timing, Stage::Curves);
-        self.stand(&exposure);
-        clock.lap(&mut self.timing, Stage::Head);
-        self.project(&exposure.shot);
-        clock.lap(&mut self.timing, Stage::Projection);
-        self.occlude(&exposure.shot.middle);
-        clock.lap(&mut self.timing, Stage::Occlusion);
-        let view = &exposure.shot.middle;
-        self.shade(view);
-        clock.lap(&mut self.timing, Stage::Shading);
-        self.bins.fill(&self.nodes, view.size, MARGIN);
+        self.light(&exposure, &exposure.shot, 0.0, &mut clock)?;
+        let shot = &exposure.shot;
+        self.bins.fill(&self.nodes, shot.middle.size, MARGIN, Spread::default());
         clock.lap(&mut self.timing, Stage::Sorting);
+        let still = self.still.as_ref().expect("stands");
+        let seen = Drawing { shot, nodes: &self.nodes, bins: &self.bins, skin: &still.skin };
+        let crossings = self.crossings();
+        let light = self.skin_light(&crossings, &shot.middle);
+        let on_skin = |i: usize, place: &SkinPixel, sky: Option<&mut OnSkin>| self.skin_light_of(&light, i, place, sky);
         let frame = match self.picture.antialiasing {
-            Antialiasing::Coverage if self.layers => self.compose::<true>(&exposure.shot),
-            Antialiasing::Coverage => self.compose::<false>(&exposure.shot),
-            Antialiasing::Oversample => self.oversample(view),
+            Antialiasing::Coverage if self.layers => self.compose::<true>(&seen, on_skin),
+            Antialiasing::Coverage => self.compose::<false>(&seen, on_skin),
+            Antialiasing::Oversample => self.oversample(&seen, on_skin),
         };
         clock.lap(&mut self.timing, Stage::Pixels);
         Ok(frame)
     }
 
+    /// Lights hair and what of the skin can be seen. Skin is where it is in the shot `still`, or so many pixels `beside` it.
+    fn light(&mut self, exposure: &Exposure, still: &Shot, beside: f32, clock: &mut Clock) -> Result<(), RenderError> {
+        let view = &exposure.shot.middle;
+        self.curves.build(&exposure.strands, &exposure.moved, &self.picture.hair, view)?;
+        clock.lap(&mut self.timing, Stage::Curves);
+        self.stand(exposure, still, beside);
+        clock.lap(&mut self.timing, Stage::Head);
+        self.project(&exposure.shot);
+        clock.lap(&mut self.timing, Stage::Projection);
+        self.occlude(view);
+        clock.lap(&mut self.timing, Stage::Occlusion);
+        self.shade(view);
+        clock.lap(&mut self.timing, Stage::Shading);
+        Ok(())
+    }
+
     /// Prepares what stays the same while nothing but the hair moves.
-    fn stand(&mut self, exposure: &Exposure) {
+    fn stand(&mut self, exposure: &Exposure, shot: &Shot, beside: f32) {
         let lamps = lamps(&self.picture.lights, &exposure.view, &exposure.pose);
         self.zenith = zenith(&self.picture.sky, &exposure.pose);
         let strands = &exposure.strands;
         let before = self.still.take();
-        if let Some(mut still) = before.filter(|s| s.shot == exposure.shot && s.lamps == lamps) {
+        if let Some(mut still) = before.filter(|s| s.shot == *shot && s.beside == beside && s.lamps == lamps) {
             if !roots(strands).eq(still.roots.iter().copied()) {
                 still.grow(strands, &self.picture);
             }
@@ -215,34 +245,40 @@ impl Renderer {
             return;
         }
         let bodies: Vec<Mesh> =
-            self.bodies.iter().zip(&exposure.shot.bodies).map(|(mesh, at)| placed(mesh, &at.middle)).collect();
+            self.bodies.iter().zip(&shot.bodies).map(|(mesh, at)| placed(mesh, &at.middle)).collect();
         let solids = || std::iter::once(&self.head).chain(&bodies);
         let solid_shadows: Vec<_> = if self.picture.shadows {
             lamps.par_iter().map(|lamp| SolidShadows::new(lamp, solids())).collect()
         } else {
             Vec::new()
         };
-        let skin = SkinView::new(&self.solids, &exposure.shot);
+        let skin = SkinView::new(&self.solids, shot).seen_from_beside(beside, shot.middle.size);
         let skin_places = skin.pixels.iter().map(|p| off_skin(p.position, p.normal)).collect();
         let skin_unhidden = SkinLight::unhidden(&skin.pixels, &solid_shadows);
         let painted =
             if self.face { SkinLight::painted(&skin.pixels, self.skins[0], self.hair_colour()) } else { Vec::new() };
         let (roots, stubble) = (Vec::new(), Vec::new());
-        let shot = exposure.shot.clone();
-        let mut still =
-            Still { shot, lamps, solid_shadows, bodies, skin, skin_places, skin_unhidden, roots, stubble, painted };
+        let shot = shot.clone();
+        let mut still = Still {
+            shot,
+            beside,
+            lamps,
+            solid_shadows,
+            bodies,
+            skin,
+            skin_places,
+            skin_unhidden,
+            roots,
+            stubble,
+            painted,
+        };
         still.grow(strands, &self.picture);
         self.still = Some(still);
     }
 
     fn project(&mut self, shot: &Shot) {
-        let view = &shot.middle;
-        let still = self.still.as_ref().expect("stands");
         let look = &self.picture.hair;
-        let curve = &self.curves;
-        let tiles = view.size.map(|s| (s as usize).div_ceil(TILE));
-        let [width, height] = view.size.map(|s| s as f32);
-        curve
+        self.curves
             .nodes
             .par_iter()
             .with_min_len(4096)
@@ -251,46 +287,12 @@ impl Renderer {
                 0.5 * look.width * (1.0 - thin * (1.0 - look.tip))
             })
             .collect_into_vec(&mut self.radius);
-        let radius = &self.radius;
-        (0..curve.nodes.len())
+        let skin = &self.still.as_ref().expect("stands").skin;
+        let seen = Seen { curves: &self.curves, radius: &self.radius, shot, skin, spread: Spread::default() };
+        (0..self.curves.nodes.len())
             .into_par_iter()
             .with_min_len(4096)
-            .map(|i| {
-                let n = &curve.nodes[i];
-                let p = view.project(n.position);
-                if p.z < NEAR {
-                    return Node { strand: n.strand, ..Node::default() };
-                }
-                let eye = view.toward_eye(n.position);
-                let seen = n.tangent - eye * eye.dot(n.tangent);
-                let across = [seen.dot(view.right), -seen.dot(view.up)];
-                let length = (across[0] * across[0] + across[1] * across[1]).sqrt();
-                let motion = curve.velocities.get(i).map_or(Vec3::ZERO, |&v| shot.motion(n.position, v));
-                let behind_skin = |p: Vec3| {
-                    let beside = p.x < 0.0 || p.y < 0.0 || p.x >= width || p.y >= height;
-                    !beside && {
-                        let tile = (p.y as usize / TILE) * tiles[0] + p.x as usize / TILE;
-                        p.z > still.skin.hidden_beyond[tile] + 0.5
-                    }
-                };
-                let hidden = behind_skin(p)
-                    && (motion == Vec3::ZERO || behind_skin(p - 0.5 * motion) && behind_skin(p + 0.5 * motion));
-                Node {
-                    at: [p.x, p.y],
-                    depth: p.z,
-                    radius: radius[i] * view.pixels_per_cm(p.z),
-                    light: [0.0; 3],
-                    direction: if length > 1e-6 { across.map(|c| c / length) } else { [0.0; 2] },
-                    motion: [motion.x, motion.y],
-                    recession: motion.z,
-                    strand: n.strand,
-                    drawable: true,
-                    end: i == 0
-                        || curve.nodes[i - 1].strand != n.strand
-                        || curve.nodes.get(i + 1).is_none_or(|o| o.strand != n.strand),
-                    hidden,
-                }
-            })
+            .map(|i| seen.node(i))
             .collect_into_vec(&mut self.nodes);
         let shows = |n: &Node| n.drawable && !n.hidden;
         let nodes = &self.nodes;

@@ -179,6 +179,21 @@ impl Shot {
         Self { open: view, middle: view, close: view, between: None, bodies: Vec::new() }
     }
 
+    /// The same with other views: each of the camera's as `seen` makes it.
+    pub fn seen(&self, seen: impl Fn(&View) -> View) -> Self {
+        let between = self.between.as_ref().map(|views| Box::new(std::array::from_fn(|k| seen(&views[k]))));
+        let [open, middle, close] = [&self.open, &self.middle, &self.close].map(seen);
+        Self { open, middle, close, between, bodies: self.bodies.clone() }
+    }
+
+    /// The same halfway through, where nothing moves.
+    pub fn halfway(&self) -> Self {
+        Self {
+            bodies: self.bodies.iter().map(|body| Passage::still(body.middle)).collect(),
+            ..Self::sharp(self.middle)
+        }
+    }
+
     /// How a place on the head (solid 0) or on a body that is at `p` halfway through moves on the picture, as
     /// [`motion`](Self::motion).
     #[inline]

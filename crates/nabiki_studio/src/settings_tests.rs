@@ -18,8 +18,8 @@ fn scenes() -> Vec<Scene> {
          [free]\ntie = {{ at = [0, 0, 0], within = 1.0 }}\n[motion]\nform = \"free\"\n\
          [hair.style.ponytail]\nat = [-12, 0, 0]\n[[hair.style.cuts]]\npoint = [0, 0, 0]\nnormal = [0, -1, 0]\nregion = \"top\"\n\
          [[body]]\nmesh = \"b.obj\"\n{lie}motion = {motion}\n\
-         [picture.camera]\ndistance = 1.0\nheight = 1.0\ntarget = [0, 0, 0]\n\
-         [picture.camera.to]\nazimuth = 1.0\nelevation = 1.0\ndistance = 1.0\nfov = 1.0\ntarget = [0, 0, 0]\n\
+         [picture.camera]\ndistance = 1.0\nheight = 1.0\ntarget = [0, 0, 0]\nf_stop = 2.0\nfocus_distance = 1.0\n\
+         [picture.camera.to]\nazimuth = 1.0\nelevation = 1.0\ndistance = 1.0\nfov = 1.0\ntarget = [0, 0, 0]\nfocus_distance = 1.0\n\
          [output]\nsheet = [0]\n[picture.video]\nframe_rate = 24.0\n"
     );
     let imported = format!(

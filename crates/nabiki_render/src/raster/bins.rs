@@ -10,6 +10,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::{Node, Piece, TILE};
+use crate::lens::Spread;
 use crate::prefetch::prefetch;
 
 /// Nodes whose pieces one task brings to their rows.
@@ -25,6 +26,7 @@ pub struct Bins {
     /// Tiles across and down.
     pub tiles: [usize; 2],
     margin: f32,
+    spread: Spread,
     /// First and last tiles (left, top, right, bottom) of the piece that starts at each node.
     rectangles: Vec<[u16; 4]>,
     /// The pieces of each row of tiles, row after row, by the index of their first node; and where each row ends.
@@ -52,12 +54,13 @@ const PART_BITS: u32 = 3;
 impl Bins {
     /// Finds the tiles of all pieces between neighbouring nodes of the same strand.
     ///
-    /// `margin`: how much farther than half its thickness a piece may leave traces (pixels).
-    pub fn fill(&mut self, nodes: &[Node], size: [u32; 2], margin: f32) {
+    /// `margin`: how much farther than half its thickness a piece may leave traces (pixels), and `spread` by how much a lens widens it.
+    pub fn fill(&mut self, nodes: &[Node], size: [u32; 2], margin: f32, spread: Spread) {
         let tiles = size.map(|s| (s as usize).div_ceil(TILE));
         let bounds = size.map(|s| s as f32);
         self.tiles = tiles;
         self.margin = margin;
+        self.spread = spread;
         let count = nodes.len().saturating_sub(1);
         self.rectangles.resize(count, NOWHERE);
         let in_rows: Vec<Vec<usize>> = self
@@ -67,7 +70,7 @@ impl Bins {
             .map(|(chunk, rectangles)| {
                 let mut in_rows = vec![0; tiles[1]];
                 for (rectangle, pair) in rectangles.iter_mut().zip(nodes[chunk * CHUNK..].windows(2)) {
-                    *rectangle = rectangle_of(&pair[0], &pair[1], bounds, tiles, margin);
+                    *rectangle = rectangle_of(&pair[0], &pair[1], bounds, tiles, (margin, &spread));
                     rows_of(rectangle).for_each(|row| in_rows[row] += 1);
                 }
                 in_rows
@@ -121,7 +124,7 @@ impl Bins {
             prefetch(&nodes[later]);
             prefetch(&nodes[later + 1]);
             let [left, top, right, bottom] = self.rectangles[i as usize];
-            let Some(piece) = Piece::new(&nodes[i as usize], &nodes[i as usize + 1], i) else { continue };
+            let Some(piece) = Piece::new(&nodes[i as usize], &nodes[i as usize + 1], i, &self.spread) else { continue };
             let several = right > left && bottom > top;
             let place = out.pieces.len() as u64;
             let parts = if in_parts { parts(&piece) } else { Parts::WHOLE };
@@ -254,9 +257,10 @@ fn rows_of(rectangle: &[u16; 4]) -> Range<usize> {
 
 /// The tiles within reach of the piece between two nodes.
 #[inline]
-fn rectangle_of(a: &Node, b: &Node, bounds: [f32; 2], tiles: [usize; 2], margin: f32) -> [u16; 4] {
+fn rectangle_of(a: &Node, b: &Node, bounds: [f32; 2], tiles: [usize; 2], (margin, spread): (f32, &Spread)) -> [u16; 4] {
     let moved = |n: &Node| n.motion[0].abs().max(n.motion[1].abs());
-    let reach = 1.42 * a.radius.max(b.radius) + margin + moved(a).max(moved(b));
+    let thick = |n: &Node| n.radius.max(spread.at(n.depth));
+    let reach = 1.42 * thick(a).max(thick(b)) + margin + moved(a).max(moved(b));
     let low = [0, 1].map(|i| a.at[i].min(b.at[i]) - reach);
     let high = [0, 1].map(|i| a.at[i].max(b.at[i]) + reach);
     let shows = a.strand == b.strand
@@ -302,7 +306,7 @@ mod tests {
             let node = |at, depth| Node { at, depth, radius: 0.5 * width, drawable: true, ..Node::default() };
             let nodes = [node(from, depths[0]), node(to, depths[1])];
             let mut bins = Bins::default();
-            bins.fill(&nodes, [100, 100], 1.25);
+            bins.fill(&nodes, [100, 100], 1.25, Spread::default());
             let mut row = Row::default();
             for i in 0..=100 {
                 let t = i as f32 / 100.0;

@@ -362,6 +362,8 @@ impl Lines {
         // A hair that moves is as wide as it moves far, and as much more transparent: half of its movement.
         let sway = |n: &End| 0.5 * (n.motion[minor] - n.motion[major] * slope).abs();
         let (sway_a, sway_b) = (sway(a), sway(b));
+        // A lens spreads it across itself to both sides; what is wider anyhow stays as wide.
+        let (spread_a, spread_b) = (sway_a.max(a.spread * widen), sway_b.max(b.spread * widen));
         // Where it is farthest aside it is at the shutter's opening or closing, and as deep as it is then.
         let aside = |n: &End| n.motion[minor] - n.motion[major] * slope;
         let per_line = (b.depth - a.depth) * per_length * per_unit;
@@ -370,7 +372,7 @@ impl Lines {
         let recession = if across.abs() > MOVES { in_depth / across } else { 0.0 };
         let thickest = a.radius.max(b.radius);
         // Centres of cells that it may cover lie so far from its middle, and centres of pixels by half of a line's growth farther.
-        let beside = thickest * widen + sway_a.max(sway_b) + 0.5 / SIDE as f32;
+        let beside = thickest * widen + spread_a.max(spread_b) + 0.5 / SIDE as f32;
         let reach = beside + 0.5 * slope.abs();
         // Beyond its ends it reaches as far as the border there goes aslant, and half a cell where the strand ends.
         let overhang = |n: &End, cut: &[f32; 2]| {
@@ -395,7 +397,7 @@ impl Lines {
             let t = ((step + 0.5) * per_major).clamp(0.0, 1.0);
             depth[m] = a.depth + (b.depth - a.depth) * t;
             let half = (a.radius + (b.radius - a.radius) * t) * widen;
-            let spread = half.max(sway_a + (sway_b - sway_a) * t);
+            let spread = half.max(spread_a + (spread_b - spread_a) * t);
             let opacity = if spread > half { half / spread } else { 1.0 };
             top[m] = opacity * (2.0 * spread * SIDE as f32).min(1.0);
             rise[m] = opacity * (spread * SIDE as f32 + 0.5);

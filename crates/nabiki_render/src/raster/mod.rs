@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use crate::lens::Spread;
+
 pub mod bins;
 pub mod coverage;
 pub mod oversample;
@@ -72,6 +74,8 @@ pub struct End {
     /// Movement while the shutter is open (pixels), and growth of its depth (cm).
     pub motion: [f32; 2],
     pub recession: f32,
+    /// Half the width to which a lens spreads it (pixels).
+    pub spread: f32,
     /// Whether the strand begins or stops here.
     pub last: bool,
 }
@@ -79,7 +83,7 @@ pub struct End {
 impl Piece {
     /// Between node `number` and the next; none where that has no length on the picture.
     #[inline]
-    pub fn new(a: &Node, b: &Node, number: u32) -> Option<Self> {
+    pub fn new(a: &Node, b: &Node, number: u32, spread: &Spread) -> Option<Self> {
         let along = [b.at[0] - a.at[0], b.at[1] - a.at[1]];
         let length = (along[0] * along[0] + along[1] * along[1]).sqrt();
         if length.is_nan() || length < 1e-4 {
@@ -99,6 +103,7 @@ impl Piece {
             light: n.light,
             motion: n.motion,
             recession: n.recession,
+            spread: spread.at(n.depth),
             last: n.end,
         };
         Some(Self { a: end(a), b: end(b), cut: [border(a), border(b)], unit, per_length, number })
@@ -118,7 +123,7 @@ impl Piece {
         let major = self.major();
         let [start, end] = [self.a.at[major], self.b.at[major]].map(|c| c - corner[major]);
         // As far as drawing reaches beyond the ends.
-        let overhang = self.a.radius.max(self.b.radius) + 0.2;
+        let overhang = self.thickest() + 0.2;
         start.max(end) + overhang >= lines.start as f32 && start.min(end) - overhang <= lines.end as f32
     }
 
@@ -135,10 +140,16 @@ impl Piece {
         usize::from(self.unit[1].abs() > self.unit[0].abs())
     }
 
+    /// Half of its width at its thicker end, as far as a lens spreads it (pixels).
+    #[inline]
+    fn thickest(&self) -> f32 {
+        self.a.radius.max(self.b.radius).max(self.a.spread).max(self.b.spread)
+    }
+
     /// How far from its line the piece reaches (pixels), moving hair included.
     #[inline]
     pub fn reach(&self) -> f32 {
         let moved = |n: &End| n.motion[0].abs().max(n.motion[1].abs());
-        1.42 * self.a.radius.max(self.b.radius) + moved(&self.a).max(moved(&self.b))
+        1.42 * self.thickest() + moved(&self.a).max(moved(&self.b))
     }
 }

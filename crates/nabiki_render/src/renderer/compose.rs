@@ -8,19 +8,30 @@ use crate::camera::View;
 use crate::curve::Curves;
 use crate::frame::{Frame, Layer, NO_DEPTH};
 use crate::light::sky::OnSkin;
-use crate::raster::bins::Row;
+use crate::raster::bins::{Bins, Row};
 use crate::raster::coverage::{CoverageTile, Watch};
 use crate::raster::oversample::OversampledTile;
 use crate::raster::{Node, TILE};
 use crate::shutter::Shot;
-use crate::skin::{SkinLight, SkinPixel};
+use crate::skin::{SkinLight, SkinPixel, SkinView};
+
+/// What a frame is drawn from: hair and skin as one shot sees them.
+pub(super) struct Drawing<'a> {
+    pub shot: &'a Shot,
+    pub nodes: &'a [Node],
+    pub bins: &'a Bins,
+    pub skin: &'a SkinView,
+}
+
+/// Light from a place on the skin, by its number; none from a head that is not drawn.
+pub(super) trait LightOnSkin: Fn(usize, &SkinPixel, Option<&mut OnSkin>) -> Option<[f32; 3]> + Sync {}
+
+impl<F: Fn(usize, &SkinPixel, Option<&mut OnSkin>) -> Option<[f32; 3]> + Sync> LightOnSkin for F {}
 
 impl Renderer {
-    pub(super) fn compose<const LAYERS: bool>(&self, shot: &Shot) -> Frame {
+    pub(super) fn compose<const LAYERS: bool>(&self, seen: &Drawing, on_skin: impl LightOnSkin) -> Frame {
+        let Drawing { shot, nodes, bins, skin } = *seen;
         let view = &shot.middle;
-        let still = self.still.as_ref().expect("stands");
-        let crossings = self.crossings();
-        let skin_light = self.skin_light(&crossings, view);
         let size = view.size.map(|s| s as usize);
         let layers = vec![Layer::default(); if LAYERS { size[0] * size[1] } else { 0 }];
         let mut frame = self.empty(view, layers);
@@ -29,25 +40,25 @@ impl Renderer {
         let recession = if self.curves.velocities.is_empty() {
             0.0
         } else {
-            self.nodes.par_iter().map(|n| n.recession.abs()).reduce(|| 0.0, f32::max)
+            nodes.par_iter().map(|n| n.recession.abs()).reduce(|| 0.0, f32::max)
         };
         let work = || (CoverageTile::new(recession), Row::default(), self.occluded_sky().map(OnSkin::new));
         rows.into_par_iter().enumerate().for_each_init(work, |(work, hair, sky), (row, mut out)| {
-            self.bins.row(row, &self.nodes, true, hair);
-            for column in 0..self.bins.tiles[0] {
-                let tile = row * self.bins.tiles[0] + column;
+            bins.row(row, nodes, true, hair);
+            for column in 0..bins.tiles[0] {
+                let tile = row * bins.tiles[0] + column;
                 let pieces = hair.tile(column);
-                let range = still.skin.tile(tile);
-                let pixels = &still.skin.pixels[range.clone()];
+                let range = skin.tile(tile);
+                let pixels = &skin.pixels[range.clone()];
                 if pixels.is_empty() && hair.is_empty(column) {
                     out.put(column, size[0], |_, y| (backdrop.behind([0.0; 4], row * TILE + y), NO_DEPTH, None));
                     continue;
                 }
-                let light = |i: usize| self.skin_light_of(&skin_light, range.start + i, &pixels[i], sky.as_mut());
+                let light = |i: usize| on_skin(range.start + i, &pixels[i], sky.as_mut());
                 let skin = (pixels, light);
                 let mut watch = LayerWatch {
                     curves: &self.curves,
-                    nodes: &self.nodes,
+                    nodes,
                     skin: pixels,
                     shot,
                     layers: vec![Layer::default(); if LAYERS { TILE * TILE } else { 0 }],
@@ -67,10 +78,9 @@ impl Renderer {
         frame
     }
 
-    pub(super) fn oversample(&self, view: &View) -> Frame {
-        let still = self.still.as_ref().expect("stands");
-        let crossings = self.crossings();
-        let skin_light = self.skin_light(&crossings, view);
+    pub(super) fn oversample(&self, seen: &Drawing, on_skin: impl LightOnSkin) -> Frame {
+        let Drawing { shot, nodes, bins, skin } = *seen;
+        let view = &shot.middle;
         let mut frame = self.empty(view, Vec::new());
         let width = view.size[0] as usize;
         let backdrop = Backdrop::new(&self.picture, view.size[1] as usize);
@@ -79,13 +89,12 @@ impl Renderer {
         rows.into_par_iter().enumerate().for_each_init(
             || (OversampledTile::new(samples), Row::default(), self.occluded_sky().map(OnSkin::new)),
             |(work, hair, sky), (row, mut out)| {
-                self.bins.row(row, &self.nodes, false, hair);
-                for column in 0..self.bins.tiles[0] {
-                    let tile = row * self.bins.tiles[0] + column;
-                    let range = still.skin.tile(tile);
-                    let pixels = &still.skin.pixels[range.clone()];
-                    let light: Vec<_> =
-                        range.zip(pixels).map(|(i, p)| self.skin_light_of(&skin_light, i, p, sky.as_mut())).collect();
+                bins.row(row, nodes, false, hair);
+                for column in 0..bins.tiles[0] {
+                    let tile = row * bins.tiles[0] + column;
+                    let range = skin.tile(tile);
+                    let pixels = &skin.pixels[range.clone()];
+                    let light: Vec<_> = range.zip(pixels).map(|(i, p)| on_skin(i, p, sky.as_mut())).collect();
                     work.draw([column, row], hair.tile(column).map(|(piece, _)| piece), (pixels, &light));
                     out.put(column, width, |i, y| {
                         let (light, depth) = work.pixel(i);
@@ -98,17 +107,22 @@ impl Renderer {
     }
 
     /// Light from place `i` on the skin; none from a head that is not drawn.
-    fn skin_light_of(
+    pub(super) fn skin_light_of(
         &self,
         light: &SkinLight,
         i: usize,
         place: &SkinPixel,
         sky: Option<&mut OnSkin>,
     ) -> Option<[f32; 3]> {
-        (place.solid > 0 || self.picture.head.visible).then(|| light.at(i, place, sky))
+        self.shows(place.solid).then(|| light.at(i, place, sky))
     }
 
-    fn empty(&self, view: &View, layers: Vec<Layer>) -> Frame {
+    /// Whether a solid is drawn, and does not only hide.
+    pub(super) fn shows(&self, solid: u16) -> bool {
+        solid > 0 || self.picture.head.visible
+    }
+
+    pub(super) fn empty(&self, view: &View, layers: Vec<Layer>) -> Frame {
         let pixels = view.size[0] as usize * view.size[1] as usize;
         Frame { size: view.size, rgba: vec![[0.0; 4]; pixels], depth: vec![NO_DEPTH; pixels], layers }
     }

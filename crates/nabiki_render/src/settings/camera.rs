@@ -5,6 +5,8 @@ use nabiki::SettingError;
 use nabiki::error::{check_positive, check_range};
 use serde::{Deserialize, Serialize};
 
+use crate::camera::NEAR;
+
 /// How space becomes a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -36,6 +38,13 @@ pub struct Camera {
     /// The point looked at (cm), from the head's origin along the world's axes: the camera goes along with the head and does
     /// not turn with it. Default: the middle of what is framed.
     pub target: Option<Vec3>,
+    /// How far the lens is opened, for perspective: its focal length over its diameter, as photographers count it (0.1..128). Small numbers
+    /// blur much. The focal length is that of a picture 24 mm high on the sensor with this `fov`: 52 mm for 26 degrees. Default:
+    /// a pinhole, all is sharp.
+    pub f_stop: Option<f32>,
+    /// From the eye to the plane that is sharp, along the axis of view (cm, 1 to a million). Default: the side of the head that the
+    /// camera sees.
+    pub focus_distance: Option<f32>,
     /// Empty border around what is framed, as part of the picture's shorter side, 0..0.45. Default 0.06.
     pub margin: f32,
     /// Where the camera is at the last frame, `[picture.camera.to]`: it glides there from the values above.
@@ -56,6 +65,8 @@ pub struct CameraKey {
     pub fov: Option<f32>,
     /// Target at the end (cm); needs `target` at the start.
     pub target: Option<Vec3>,
+    /// Distance of what is sharp at the end (cm); needs `focus_distance` at the start.
+    pub focus_distance: Option<f32>,
 }
 
 impl Default for Camera {
@@ -68,6 +79,8 @@ impl Default for Camera {
             distance: None,
             height: None,
             target: None,
+            f_stop: None,
+            focus_distance: None,
             margin: 0.06,
             to: None,
         }
@@ -88,6 +101,7 @@ impl Camera {
             fov: mix(self.fov, to.fov),
             distance: self.distance.map(|d| mix(d, to.distance)),
             target: self.target.map(|a| to.target.map_or(a, |b| a * (1.0 - t) + b * t)),
+            focus_distance: self.focus_distance.map(|d| mix(d, to.focus_distance)),
             to: None,
             ..*self
         }
@@ -112,6 +126,16 @@ impl Camera {
             check_positive("picture.camera.height", height)?;
         }
         check_target("picture.camera.target", self.target)?;
+        if let Some(f_stop) = self.f_stop {
+            check_range("picture.camera.f_stop", f_stop, 0.1, 128.0)?;
+            if self.projection == Projection::Orthographic {
+                let way_out = "parallel rays have no lens: use projection = \"perspective\", or leave f_stop out";
+                return Err(SettingError::new("picture.camera.f_stop", f_stop, way_out));
+            }
+        }
+        if let Some(focus) = self.focus_distance {
+            check_focus("picture.camera.focus_distance", focus)?;
+        }
         check_range("picture.camera.margin", self.margin, 0.0, 0.45)?;
         let Some(to) = self.to else { return Ok(()) };
         check_angles("picture.camera.to", to.azimuth, to.elevation, to.fov)?;
@@ -121,6 +145,13 @@ impl Camera {
             if self.distance.is_none() {
                 let way_out = "give picture.camera.distance as well, to start from";
                 return Err(SettingError::new("picture.camera.to.distance", distance, way_out));
+            }
+        }
+        if let Some(focus) = to.focus_distance {
+            check_focus("picture.camera.to.focus_distance", focus)?;
+            if self.focus_distance.is_none() {
+                let way_out = "give picture.camera.focus_distance as well, to start from";
+                return Err(SettingError::new("picture.camera.to.focus_distance", focus, way_out));
             }
         }
         match to.target {
@@ -149,6 +180,11 @@ fn check_angles(
     Ok(())
 }
 
+/// What lies nearer to the eye than [`NEAR`] is not drawn, so nothing there can be sharp.
+fn check_focus(thing: &str, focus: f32) -> Result<(), SettingError> {
+    check_range(thing, focus, NEAR, 1e6)
+}
+
 fn check_target(thing: &str, target: Option<Vec3>) -> Result<(), SettingError> {
     match target {
         Some(t) if !(t.is_finite() && t.abs().max_element() <= 1e6) => {
@@ -168,12 +204,14 @@ mod tests {
             elevation: -3.3,
             distance: Some(70.7),
             target: Some(Vec3::new(0.1, 0.2, 0.3)),
+            focus_distance: Some(61.3),
             to: Some(CameraKey {
                 azimuth: Some(200.3),
                 elevation: Some(25.1),
                 distance: Some(41.9),
                 fov: Some(33.3),
                 target: Some(Vec3::new(-7.7, 1.1, 5.9)),
+                focus_distance: Some(38.3),
             }),
             ..Camera::default()
         }
@@ -189,6 +227,7 @@ mod tests {
         assert_eq!(Some(end.elevation), to.elevation);
         assert_eq!(Some(end.fov), to.fov);
         assert_eq!((end.distance, end.target, end.to), (to.distance, to.target, None));
+        assert_eq!(end.focus_distance, to.focus_distance);
     }
 
     #[test]

@@ -114,6 +114,10 @@ impl Picture {
             let way_out = "motion blur needs antialiasing = \"coverage\"; use that, or shutter = 0";
             return Err(SettingError::new("picture.shutter", self.shutter, way_out));
         }
+        if let (Some(f_stop), Antialiasing::Oversample) = (self.camera.f_stop, self.antialiasing) {
+            let way_out = "depth of field needs antialiasing = \"coverage\"; use that, or leave f_stop out";
+            return Err(SettingError::new("picture.camera.f_stop", f_stop, way_out));
+        }
         self.video.check()
     }
 }

@@ -112,9 +112,45 @@ fn moment_of(cell: usize) -> usize {
     SIDE * (x ^ y) + (TWICE[x] ^ y)
 }
 
+/// The cells that look, and one of them for each.
+#[derive(Clone, Copy)]
+struct Looking {
+    cells: u16,
+    /// Which of each square of four looks, if not each does.
+    of_four: Option<usize>,
+}
+
+impl Looking {
+    const ALL: Self = Self { cells: u16::MAX, of_four: None };
+
+    /// One of each square of four, in the order of `turn`.
+    fn quarter(turn: usize) -> Self {
+        let of_four = [0, 3, 1, 2][turn % 4];
+        let looks = |&cell: &usize| cell % SIDE % 2 == of_four % 2 && cell / SIDE % 2 == of_four / 2;
+        Self { cells: (0..CELLS).filter(looks).fold(0, |m, cell| m | 1 << cell), of_four: Some(of_four) }
+    }
+
+    /// The cell that looks for this one.
+    fn instead_of(self, cell: usize) -> usize {
+        let (x, y) = (cell % SIDE, cell / SIDE);
+        self.of_four.map_or(cell, |n| (2 * (y / 2) + n / 2) * SIDE + 2 * (x / 2) + n % 2)
+    }
+}
+
 impl SkinView {
     /// Draws head and bodies.
     pub fn new(solids: &Solids, shot: &Shot) -> Self {
+        Self::looking(solids, shot, Looking::ALL)
+    }
+
+    /// The same for one of many pictures of which the mean is taken: one cell of each square of four looks for all of them, another at
+    /// each `turn`. While something moves all look, each at its own moment.
+    pub fn in_turn(solids: &Solids, shot: &Shot, turn: usize) -> Self {
+        let looking = if shot.between.is_some() { Looking::ALL } else { Looking::quarter(turn) };
+        Self::looking(solids, shot, looking)
+    }
+
+    fn looking(solids: &Solids, shot: &Shot, looking: Looking) -> Self {
         let tiles = shot.middle.size.map(|s| (s as usize).div_ceil(TILE));
         let halfway = || shot.bodies.iter().map(|body| body.middle);
         let surface = Surface { solids, positions: solids.positions(halfway()), normals: solids.normals(halfway()) };
@@ -126,7 +162,7 @@ impl SkinView {
                     return (Vec::new(), f32::INFINITY);
                 }
                 let groups = groups(movement(solids, &seen, tile));
-                TileSurface::draw([tile % tiles[0], tile / tiles[0]], tile, solids, &seen)
+                TileSurface::draw([tile % tiles[0], tile / tiles[0]], tile, solids, &seen, looking)
                     .resolve(&surface, &seen, &groups)
             })
             .collect();
@@ -138,6 +174,32 @@ impl SkinView {
         }
         all.starts.push(all.pixels.len() as u32);
         all
+    }
+
+    /// The same, where nothing counts as hidden that may show to who looks from so far aside that what lies behind moves by `beside`
+    /// pixels against the surface.
+    pub fn seen_from_beside(mut self, beside: f32, size: [u32; 2]) -> Self {
+        if beside == 0.0 {
+            return self;
+        }
+        let [across, down] = size.map(|s| (s as usize).div_ceil(TILE));
+        let about = (beside / TILE as f32).ceil() as usize;
+        let farthest = |step: usize, count: usize, of: &dyn Fn(usize) -> f32| {
+            let whole = step >= about && step + about < count;
+            // Beyond the picture nothing is known to hide.
+            if whole { (step - about..=step + about).map(of).fold(0.0, f32::max) } else { f32::INFINITY }
+        };
+        for axis in [0, 1] {
+            let before = self.hidden_beyond.clone();
+            for (tile, hidden) in self.hidden_beyond.iter_mut().enumerate() {
+                let (x, y) = (tile % across, tile / across);
+                *hidden = match axis {
+                    0 => farthest(x, across, &|x| before[y * across + x]),
+                    _ => farthest(y, down, &|y| before[y * across + x]),
+                };
+            }
+        }
+        self
     }
 
     /// Where the pieces of a tile lie in `pixels`.
@@ -177,6 +239,7 @@ struct Surface<'a> {
 /// The nearest triangle in each cell of a tile.
 struct TileSurface {
     tile: [usize; 2],
+    looking: Looking,
     depth: Vec<[f32; CELLS]>,
     triangle: Vec<[u32; CELLS]>,
 }
@@ -184,12 +247,18 @@ struct TileSurface {
 const NONE: u32 = u32::MAX;
 
 impl TileSurface {
-    fn draw(tile: [usize; 2], number: usize, solids: &Solids, seen: &[Seen]) -> Self {
-        let mut surface =
-            Self { tile, depth: vec![[f32::INFINITY; CELLS]; TILE * TILE], triangle: vec![[NONE; CELLS]; TILE * TILE] };
+    fn draw(tile: [usize; 2], number: usize, solids: &Solids, seen: &[Seen], looking: Looking) -> Self {
+        let depth = vec![[f32::INFINITY; CELLS]; TILE * TILE];
+        let mut surface = Self { tile, looking, depth, triangle: vec![[NONE; CELLS]; TILE * TILE] };
         for seen in seen {
             for &t in &seen.lists[number] {
                 surface.triangle(t, solids, seen);
+            }
+        }
+        if looking.of_four.is_some() {
+            for (depth, triangle) in surface.depth.iter_mut().zip(&mut surface.triangle) {
+                *depth = std::array::from_fn(|cell| depth[looking.instead_of(cell)]);
+                *triangle = std::array::from_fn(|cell| triangle[looking.instead_of(cell)]);
             }
         }
         surface
@@ -206,7 +275,7 @@ impl TileSurface {
         };
         for y in span(1) {
             for x in span(0) {
-                for s in (0..CELLS).filter(|s| seen.cells >> s & 1 == 1) {
+                for s in (0..CELLS).filter(|s| (seen.cells & self.looking.cells) >> s & 1 == 1) {
                     let pixel = y * TILE + x;
                     let Some((_, depth)) = weights(c, self.place(pixel, s), &seen.view) else { continue };
                     if depth < self.depth[pixel][s] {
@@ -249,7 +318,8 @@ impl TileSurface {
         let count = cells().count() as f32;
         let middle = [0, 1].map(|i| cells().map(|s| cell_offset(s)[i]).sum::<f32>() / count);
         let off = |s: usize| (cell_offset(s)[0] - middle[0]).hypot(cell_offset(s)[1] - middle[1]);
-        let cell = cells().min_by(|&a, &b| off(a).total_cmp(&off(b)))?;
+        let looked = cells().filter(|&s| self.looking.cells >> s & 1 == 1);
+        let cell = looked.min_by(|&a, &b| off(a).total_cmp(&off(b)))?;
         let Seen { view, corners, .. } = &seen[moment_of(cell) * seen.len() / CELLS];
         let t = surface.solids.triangles[self.triangle[pixel][cell] as usize];
         let c = t.map(|v| &corners[v as usize]);

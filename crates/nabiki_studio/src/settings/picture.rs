@@ -81,6 +81,17 @@ pub(super) const GROUPS: &[Group] = &[
             fine("height", "Height", "cm", CM, 0.5, "Height of the picture in space, for orthographic views.")
                 .or("frames everything"),
             vector("target", "Target", "cm", 0.1, "The point looked at, from the head's origin.").or("the middle"),
+            fine(
+                "f_stop",
+                "f-stop",
+                "",
+                [0.1, 128.0],
+                0.02,
+                "Small numbers blur what is not in focus; for perspective.",
+            )
+            .or("all sharp"),
+            fine("focus_distance", "Focus distance", "cm", [1.0, 1e6], 0.5, "From the eye to the plane that is sharp.")
+                .or("the head"),
             number("margin", "Margin", "", [0.0, 0.45], "Empty border around what is framed."),
         ],
     )
@@ -95,6 +106,8 @@ pub(super) const GROUPS: &[Group] = &[
             fine("distance", "Distance", "cm", CM, 0.5, "Distance at the end; needs one at the start.").or("stays"),
             fine("fov", "Field of view", "degrees", [1.0, 150.0], 0.1, "Field of view at the end.").or("stays"),
             vector("target", "Target", "cm", 0.1, "Target at the end; needs one at the start.").or("stays"),
+            fine("focus_distance", "Focus distance", "cm", [1.0, 1e6], 0.5, "At the end; needs one at the start.")
+                .or("stays"),
         ],
     )
     .shaped(Shape::Optional("")),

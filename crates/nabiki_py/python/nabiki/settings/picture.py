@@ -232,6 +232,31 @@ class Camera(Table):
         self._set('target', value)
 
     @property
+    def f_stop(self) -> float | None:
+        """How far the lens is opened, for perspective: its focal length over its diameter, as photographers count it
+        (0.1..128). Small numbers blur much. The focal length is that of a picture 24 mm high on the sensor with this
+        `fov`: 52 mm for 26 degrees. Default: a pinhole, all is sharp.
+        """
+        value: float | None = self._get('f_stop')
+        return value
+
+    @f_stop.setter
+    def f_stop(self, value: float | None) -> None:
+        self._set('f_stop', value)
+
+    @property
+    def focus_distance(self) -> float | None:
+        """From the eye to the plane that is sharp, along the axis of view (cm, 1 to a million). Default: the side of the
+        head that the camera sees.
+        """
+        value: float | None = self._get('focus_distance')
+        return value
+
+    @focus_distance.setter
+    def focus_distance(self, value: float | None) -> None:
+        self._set('focus_distance', value)
+
+    @property
     def margin(self) -> float:
         """Empty border around what is framed, as part of the picture's shorter side, 0..0.45. Default 0.06."""
         value: float = self._get('margin')
@@ -305,6 +330,16 @@ class CameraKey(Table):
     @target.setter
     def target(self, value: Numbers | None) -> None:
         self._set('target', value)
+
+    @property
+    def focus_distance(self) -> float | None:
+        """Distance of what is sharp at the end (cm); needs `focus_distance` at the start."""
+        value: float | None = self._get('focus_distance')
+        return value
+
+    @focus_distance.setter
+    def focus_distance(self, value: float | None) -> None:
+        self._set('focus_distance', value)
 
 
 class HairLook(Table):

@@ -1,0 +1,186 @@
+//! The lens of a camera: a thin lens, whose points see what is in focus at one place and all else apart.
+//!
+//! Seen through the point o of the lens (cm, from its middle), what lies at depth z moves on the picture by `scale` o (1 / F - 1 / z), where
+//! F is the depth that is sharp: the circle of confusion is the lens itself, that much smaller. Straight lines stay straight.
+
+use glam::Vec3;
+use nabiki::{Ellipsoid, Mesh, SettingError};
+
+use crate::camera::{NEAR, View};
+use crate::settings::Camera;
+
+/// Height of the picture on the sensor (cm): that of a 35 mm camera, by which photographers know their lenses.
+const SENSOR_HEIGHT: f32 = 2.4;
+
+/// A thin lens, and the point of it that is looked through.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Diameter (cm).
+    pub diameter: f32,
+    /// Depth of what is sharp (cm along the axis of view); none where it is the near side of the head.
+    pub focus: Option<f32>,
+    /// The point that is looked through, right and up from the middle (radii of the lens).
+    pub through: [f32; 2],
+}
+
+impl Lens {
+    /// That of a scene's camera; none of a pinhole.
+    pub fn of(camera: &Camera) -> Option<Self> {
+        let focal_length = 0.5 * SENSOR_HEIGHT / (0.5 * camera.fov.to_radians()).tan();
+        let diameter = focal_length / camera.f_stop?;
+        Some(Self { diameter, focus: camera.focus_distance, through: [0.0; 2] })
+    }
+
+    /// A lens that is pulled from one focus to another: `part` (0..1) of the way from `a` to `b`.
+    pub(crate) fn between(a: Self, b: Self, part: f32) -> Self {
+        let mix = |a: f32, b: f32| a + (b - a) * part;
+        let focus = a.focus.zip(b.focus).map_or(b.focus, |(a, b)| Some(mix(a, b)));
+        Self { diameter: mix(a.diameter, b.diameter), focus, ..b }
+    }
+
+    /// How far off, for a point of the lens one radius off its middle, what lies at a depth (cm) appears, where 1 cm at depth 1 cm
+    /// is `scale` pixels: the radius of its circle of confusion (pixels), below 0 before the plane that is sharp.
+    #[inline]
+    pub(crate) fn blur(&self, depth: f32, scale: f32) -> f32 {
+        0.5 * self.diameter * scale * (self.focus.map_or(0.0, f32::recip) - depth.recip())
+    }
+
+    /// How far what lies at a depth moves on the picture (pixels right and down) for being seen through this point of the lens.
+    #[inline]
+    pub(crate) fn shift(&self, depth: f32, scale: f32) -> [f32; 2] {
+        let blur = self.blur(depth, scale);
+        [self.through[0] * blur, -self.through[1] * blur]
+    }
+}
+
+/// The points of a lens that a picture is the mean of, and how much of the lens each stands for.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct LensPoints {
+    /// Right and up from the middle (radii of the lens).
+    pub points: Vec<[f32; 2]>,
+    /// Half of the width to which hair is spread for each (radii of the circle of confusion).
+    pub spread: f32,
+}
+
+/// Half the width of the strip that hair becomes at one point of the lens, in radii of a disc with that point's share of the lens. So wide
+/// strips overlap, and no single ones show.
+const OVERLAP: f32 = 1.25;
+
+impl LensPoints {
+    /// As many points, in the order of a sunflower's seeds: each has an equal part of the disc, and from no side do many lie in a line.
+    /// They lie so much nearer to the middle that they and the strips together are as wide (root mean square) as the lens.
+    pub fn new(count: usize) -> Self {
+        let spread = OVERLAP / (count as f32).sqrt();
+        // Across a disc of radius 1 the mean square is 1/4, across a strip of half the width b it is b^2 / 3.
+        let reach = (1.0 - 4.0 / 3.0 * spread * spread).sqrt();
+        let turn = std::f32::consts::PI * (3.0 - 5.0_f32.sqrt());
+        let seed = |i: usize| {
+            let from_middle = reach * ((i as f32 + 0.5) / count as f32).sqrt();
+            let (sin, cos) = (i as f32 * turn).sin_cos();
+            [from_middle * cos, from_middle * sin]
+        };
+        Self { points: evened((0..count).map(seed).collect(), 0.5 * reach), spread }
+    }
+
+    /// Enough that no single ones show where the circles of confusion of hair and of skin have these radii (pixels): edges of skin are not
+    /// widened, and show more. A power of two, so that the mean of what is the same through all of them is that.
+    pub fn for_blur(hair: f32, skin: f32) -> Self {
+        let enough = [(16, 24.0, 6.0), (32, 64.0, 20.0)].into_iter().find(|&(_, h, s)| hair <= h && skin <= s);
+        Self::new(enough.map_or(64, |(count, ..)| count))
+    }
+}
+
+/// The points moved so little that their mean is the middle and that they are equally wide to all sides: what is blurred stays where it
+/// is. `width`: root mean square along any direction.
+fn evened(mut points: Vec<[f32; 2]>, width: f32) -> Vec<[f32; 2]> {
+    let count = points.len() as f32;
+    let mean = |points: &[[f32; 2]], of: fn(&[f32; 2]) -> f32| points.iter().map(of).sum::<f32>() / count;
+    let middle = [mean(&points, |p| p[0]), mean(&points, |p| p[1])];
+    points.iter_mut().for_each(|p| *p = [p[0] - middle[0], p[1] - middle[1]]);
+    let (xx, xy) = (mean(&points, |p| p[0] * p[0]), mean(&points, |p| p[0] * p[1]));
+    points.iter_mut().for_each(|p| p[1] -= xy / xx * p[0]);
+    let yy = mean(&points, |p| p[1] * p[1]);
+    points.iter().map(|p| [p[0] * width / xx.sqrt(), p[1] * width / yy.sqrt()]).collect()
+}
+
+/// By how much hair is spread on the picture at its depth, for one point of the lens.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Spread {
+    /// Pixels, for a difference of 1 between one over the depth and one over the depth that is sharp (1/cm); 0 without a lens.
+    per: f32,
+    per_focus: f32,
+}
+
+impl Spread {
+    /// At one of these points of the lens of a view.
+    pub fn new(view: &View, points: &LensPoints) -> Self {
+        view.lens.map_or(Self::default(), |lens| Self {
+            per: 0.5 * lens.diameter * view.scale * points.spread,
+            per_focus: lens.focus.map_or(0.0, f32::recip),
+        })
+    }
+
+    /// Half the width (pixels) at a depth (cm).
+    #[inline(always)]
+    pub fn at(&self, depth: f32) -> f32 {
+        if self.per == 0.0 { 0.0 } else { self.per * (self.per_focus - depth.recip()).abs() }
+    }
+}
+
+/// What a lens without a distance to focus on is focused on: a head.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Subject(pub Ellipsoid);
+
+impl Subject {
+    /// A head of which nothing but its surface is known.
+    pub fn of_mesh(head: &Mesh) -> Self {
+        let (low, high) = (head.positions.iter())
+            .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
+        let known = low.cmple(high).all();
+        let (center, half_axes) =
+            if known { (0.5 * (low + high), 0.5 * (high - low)) } else { (Vec3::ZERO, Vec3::ZERO) };
+        Self(Ellipsoid { center, half_axes })
+    }
+
+    /// The view (in head space) with its lens focused, on the near side of the head unless a distance is given.
+    pub fn focus(&self, view: &View) -> Result<View, SettingError> {
+        let Some(lens) = view.lens.filter(|lens| lens.focus.is_none()) else { return Ok(*view) };
+        let middle = (self.0.center - view.eye).dot(view.forward);
+        let near_side = middle - (self.0.half_axes * view.forward).length();
+        if near_side < NEAR {
+            let way_out = "the eye is not before the head, on which it would be focused: give a distance (cm)";
+            return Err(SettingError::new("picture.camera.focus_distance", "none", way_out));
+        }
+        Ok(View { lens: Some(Lens { focus: Some(near_side), ..lens }), ..*view })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_and_strips_together_are_as_wide_as_the_lens_on_every_side() {
+        for count in [16, 32, 64, 256] {
+            let LensPoints { points, spread } = LensPoints::new(count);
+            for side in 0..12 {
+                let (sin, cos) = (side as f32 * 15.0).to_radians().sin_cos();
+                let along = |p: &[f32; 2]| p[0] * cos + p[1] * sin;
+                let middle = points.iter().map(along).sum::<f32>() / count as f32;
+                let square = points.iter().map(|p| along(p).powi(2)).sum::<f32>() / count as f32;
+                // Rounding of sums of numbers up to 1.
+                assert!(middle.abs() < 1e-6, "{count} {side}: {middle}");
+                let wide = square + spread * spread / 3.0;
+                assert!((wide - 0.25).abs() < 1e-6, "{count} {side}: {wide}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_f_stop_counts_as_that_of_a_35_mm_camera() {
+        // 24 mm across 26 degrees: a lens of 52 mm.
+        let lens = Lens::of(&Camera { f_stop: Some(2.0), ..Camera::default() }).unwrap();
+        assert!((lens.diameter - 2.6).abs() < 0.01, "{}", lens.diameter);
+        assert_eq!(Lens::of(&Camera::default()), None);
+    }
+}
