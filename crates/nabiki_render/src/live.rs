@@ -6,15 +6,12 @@ use crate::settings::HairLook;
 
 pub use crate::light::fibre::{COLUMNS, GRADES, ROWS};
 pub use crate::light::lamps::{Lamp, lamps, zenith};
+pub use crate::light::shade::decay;
 
-/// Share of the light scattered by hair that stays within it.
-pub const DENSITY: f32 = shade::DENSITY;
-/// The same of the sky's light.
+/// Share of the sky's light scattered by hair that stays within it.
 pub const SKY_DENSITY: f32 = shade::SKY_DENSITY;
 /// Share of light scattered forward by hair that falls onto skin behind.
 pub const ON_SKIN: f32 = crate::skin::ON_SKIN;
-/// Variance along the hair of light scattered more than once (rad^2).
-pub const WIDE: f32 = shade::WIDE;
 /// Largest deviation of a strand's tilt (rad), for a variation of 1.
 pub const TILT_SPREAD: f32 = shade::TILT_SPREAD;
 

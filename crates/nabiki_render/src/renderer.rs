@@ -397,7 +397,7 @@ impl Renderer {
             skins: &self.skins,
             painted: &still.painted,
             hair: self.hair_colour(),
-            passed: self.model.passed_on(),
+            decay: self.model.decay(),
             unhidden: &still.skin_unhidden,
             stubble: &still.stubble,
             view,

@@ -45,8 +45,9 @@ pub struct Row {
 pub struct Fibre {
     /// From the least pigment to the most.
     pub grades: Vec<Table>,
-    /// Variances along the hair of R, TT and TRT, and their normalisations.
+    /// Shapes along the hair of R, TT and TRT, and their variances (rad^2).
     pub spread: [Longitudinal; 3],
+    pub variances: [f32; 3],
     /// Tilt of the scales (rad).
     pub tilt: f32,
 }
@@ -62,6 +63,13 @@ impl Longitudinal {
     pub fn new(variance: f32) -> Self {
         let per_variance = 1.0 / variance;
         Self { per_variance, norm: per_variance / (1.0 - (-2.0 * per_variance).exp()) }
+    }
+
+    /// The same within vector code.
+    #[inline(always)]
+    pub fn of(variance: f32) -> Self {
+        let per_variance = 1.0 / variance;
+        Self { per_variance, norm: per_variance / (1.0 - exp_of_negative(-2.0 * per_variance)) }
     }
 
     /// Density over directions: its integral times cos is 1 over all inclinations of the lamp. Arguments are the sines and
@@ -86,7 +94,8 @@ impl Fibre {
                 Table::new(base.map(|a| a * pigment), look.refraction, look.azimuthal_roughness)
             })
             .collect();
-        Self { grades, spread: Self::variances(look).map(Longitudinal::new), tilt: look.scale_tilt.to_radians() }
+        let variances = Self::variances(look);
+        Self { grades, spread: variances.map(Longitudinal::new), variances, tilt: look.scale_tilt.to_radians() }
     }
 
     /// Variances along the hair of R, TT and TRT (rad^2).

@@ -30,8 +30,8 @@ pub struct SkinLight<'a> {
     pub painted: &'a [[f32; 3]],
     /// Colour of a mass of the hair (linear), for what of it is too short to be drawn.
     pub hair: [f32; 3],
-    /// The part of its light that a hair passes on forward: what is scattered by hair in the way reaches skin as well.
-    pub passed: [f32; 3],
+    /// How fast light that hair in the way scatters grows less with each hair: it reaches skin as well.
+    pub decay: [f32; 3],
     /// What head and bodies leave of each lamp at each place; empty without shadows.
     pub unhidden: &'a [[f32; 3]],
     /// How much of each place is covered by hair too short to be drawn; empty without.
@@ -130,6 +130,6 @@ impl SkinLight<'_> {
     /// What arrives through hair that light crosses `n` times: unscattered, and scattered forward as among the hair itself.
     fn through(&self, n: f32) -> [f32; 3] {
         let straight = exp_of_negative(-n);
-        self.passed.map(|p| straight + ON_SKIN * (exp_of_negative(-n * (1.0 - p).max(0.0)) - straight).max(0.0))
+        self.decay.map(|k| straight + ON_SKIN * (exp_of_negative(-n * k) - straight).max(0.0))
     }
 }

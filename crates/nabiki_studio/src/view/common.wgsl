@@ -21,10 +21,10 @@ struct Globals {
     zenith: vec4f,
     skin: vec4f,        // softness last
     hair: vec4f,        // colour of a mass of hair, sheen of skin
-    passed: vec4f,      // what a hair passes on forward, DENSITY
+    decay: vec4f,       // how fast light that hair scatters grows less with each hair
     volume_low: vec4f,  // corner of the volume, 1 / cell
     volume_size: vec4f, // cells
-    spread: vec4f,      // variances of R, TT, TRT and of what is scattered more than once
+    spread: vec4f,      // variances of R, TT and TRT
     look: vec4f,        // tilt, spread of tilts, exponent of Kajiya and Kay's highlight, least half width (px)
     width: vec4f,       // half width at the root (cm), part of it at the tip, taper, half width of a lock (cm)
     centre: vec4f,      // of the head ellipsoid

@@ -41,7 +41,7 @@ pub struct Globals {
     zenith: [f32; 4],
     skin: [f32; 4],
     hair: [f32; 4],
-    passed: [f32; 4],
+    decay: [f32; 4],
     volume_low: [f32; 4],
     volume_size: [f32; 4],
     spread: [f32; 4],
@@ -107,9 +107,9 @@ pub fn globals(
     let strength = |c: [f32; 3]| c.map(|c| c * sky.strength);
     // Of middling pigment and lean to the light, as the renderer counts what reaches skin through hair.
     let middle = (live::GRADES / 2) * live::ROWS + live::ROWS / 2;
-    let passed = match look.shading {
-        Shading::Fibre => tables.rows.get(middle).map_or([0.0; 3], |row| [row[0], row[1], row[2]]),
-        Shading::KajiyaKay => [0.0; 3],
+    let decay = match (look.shading, tables.rows.get(middle)) {
+        (Shading::Fibre, Some(row)) => [0, 1, 2].map(|c| live::decay(row[c], row[4 + c])),
+        _ => [1.0; 3],
     };
     let [variance_r, variance_tt, variance_trt] = tables.variances;
     let is_parallel = f32::from(head.projection == Projection::Orthographic);
@@ -126,10 +126,10 @@ pub fn globals(
         zenith: of(live::zenith(sky, pose), 0.0),
         skin: of(Vec3::ZERO, picture.head.softness),
         hair: of(colour::of_mass(look).into(), picture.head.sheen),
-        passed: of(passed.into(), live::DENSITY),
+        decay: of(decay.into(), 0.0),
         volume_low: [0.0, 0.0, 0.0, 1.0],
         volume_size: [1.0; 4],
-        spread: [variance_r, variance_tt, variance_trt, live::WIDE],
+        spread: [variance_r, variance_tt, variance_trt, 0.0],
         look: [
             tables.tilt,
             live::TILT_SPREAD * look.variation,

@@ -130,9 +130,8 @@ fn arrives(open: vec2f, a: vec3f) -> vec3f {
     return 0.5 * (g.sky_above.rgb * open.x + g.sky_below.rgb * open.y) * gain(open, a);
 }
 
-// The renderer's fibre with dual scattering; see its light/shade.rs for the reasons.
+// The renderer's fibre and scattered light; see its light/shade.rs for the reasons. Behind every point there is hair without end here.
 fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec2f, behind: vec2f) -> vec3f {
-    let density = g.passed.w;
     let tilt = g.look.x + g.look.y * (of_strand(strand, 1u) + of_strand(strand, 2u) - 1.0);
     let grade = min(u32((of_strand(strand, 3u) + of_strand(strand, 4u)) * 0.5 * f32(GRADES)), GRADES - 1u);
     let se = clamp(dot(t, eye), -0.9995, 0.9995);
@@ -142,10 +141,13 @@ fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec2f,
     let b = row_at(grade, row, 1u);
     let rest = row_at(grade, row, 2u);
     let q = 1.0 - a * a + b * b;
-    let again = 2.0 * b / max(q + sqrt(max(q * q - 4.0 * b * b, vec3f(0.0))), vec3f(1e-6)) - b;
-    let from_behind = arrives(behind, a);
+    let whole = 2.0 * b / max(q + sqrt(max(q * q - 4.0 * b * b, vec3f(0.0))), vec3f(1e-6));
+    let lost = max(1.0 - a, vec3f(0.0));
+    let two_ways = sqrt(max(lost * lost - b * b, vec3f(1e-6)));
+    let decay = two_ways * (1.7 - 0.7 * two_ways);
     let closed = max(1.0 - 0.5 * (behind.x + behind.y) * gain(behind, a), vec3f(0.0));
-    var light = arrives(open, a) * (b + g.sky_above.w * again * closed) + from_behind * a;
+    var light = arrives(open, a) * (b + g.sky_above.w * (whole - b) * closed) + arrives(behind, a) * a;
+    let home = g.spread.z + g.spread.x * (a.g / decay.g - 1.0);
     for (var l = 0u; l < g.counts.x; l++) {
         let lamp = g.lamps[l];
         let sl = clamp(dot(t, lamp.toward), -0.9995, 0.9995);
@@ -159,16 +161,16 @@ fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec2f,
         let m_r = along(g.spread.x, sl, cl, s.x, c.x);
         let m_tt = along(g.spread.y, sl, cl, s.y, c.y);
         let m_trt = along(g.spread.z, sl, cl, s.z, c.z);
-        let m_wide = along(g.spread.w, sl, cl, se, ce);
         let same_side = 0.5 * (1.0 + azimuth) / PI;
         let far_side = 0.5 * (1.0 - azimuth) / PI;
         let n = crossed(lamp, depth);
         let straight = exp(-n);
         let once = m_r * seen.r + m_tt * seen.tt + m_trt * (seen.trt + rest);
-        let back = m_wide * again * same_side;
-        let many = m_wide * (b * same_side + a * far_side);
-        let scattered = max(exp(-n * max(1.0 - a, vec3f(0.0))) - straight, vec3f(0.0));
-        let part = straight * (once + back) + density * scattered * (many + back);
+        let variance = g.spread.x * (2.0 + n * a.g);
+        let scattered = exp(-n * decay);
+        let away = along(min(variance, 1.0), sl, cl, se, ce) * max(scattered - straight, vec3f(0.0));
+        let back = along(min(variance + home, 1.0), sl, cl, se, ce) * whole * scattered;
+        let part = straight * once + away * (b * same_side + a * far_side) + back * (a * same_side + b * far_side);
         light += PI * past_head(p, lamp.toward) * lamp.strength * part;
     }
     return light;

@@ -16,7 +16,7 @@ struct Corner {
 // What arrives through n hairs: unscattered, and scattered forward as among the hair itself.
 fn through(n: f32) -> vec3f {
     let straight = exp(-n);
-    return straight + g.sky_below.w * max(exp(-n * max(1.0 - g.passed.rgb, vec3f(0.0))) - straight, vec3f(0.0));
+    return straight + g.sky_below.w * max(exp(-n * g.decay.rgb) - straight, vec3f(0.0));
 }
 
 @compute @workgroup_size(64)

@@ -21,8 +21,9 @@ pub const BEHIND_BELOW: usize = 3;
 /// The same of the light that skin sends back, in parts of what an even white surface under it would show.
 pub const FRONT_GLOW: usize = 4;
 pub const BEHIND_GLOW: usize = 5;
-/// From here on, for each lamp: how open the cell is about its direction, 0..1. Light that hair scatters forward strays from the lamp's
-/// direction, and finds ways that are shorter than the straight one where that goes along the hair's surface.
+/// From here on, for each lamp: how open the cell is about its direction, 0..1, and about the opposite one. Light that hair scatters strays
+/// from the lamp's direction, and finds ways that are shorter than the straight one where that goes along the hair's surface; what lies
+/// opposite sends it back.
 pub const TOWARD_LAMPS: usize = 6;
 /// So many of a cell's numbers are read at once.
 pub const AT_ONCE: usize = 8;
@@ -97,14 +98,15 @@ impl SkyMap {
 
     /// Sums what arrives in each cell over the directions, as its eye and lamps see it.
     pub(super) fn sum(&mut self, view: &View, lamps: &[Lamp]) {
-        self.parts = (TOWARD_LAMPS + lamps.len()).div_ceil(AT_ONCE);
+        self.parts = (TOWARD_LAMPS + 2 * lamps.len()).div_ceil(AT_ONCE);
         let mut arriving = std::mem::take(&mut self.arriving);
         arriving.resize(self.taken.len() * self.parts, Numbers::default());
         // By the square of the cosine, of the directions on the lamp's side.
         let shares: Vec<Vec<f32>> = lamps
             .iter()
-            .map(|lamp| {
-                let shares = || self.directions.iter().map(|d| d.weight * d.from.dot(lamp.toward).max(0.0).powi(2));
+            .flat_map(|lamp| [lamp.toward, -lamp.toward])
+            .map(|toward| {
+                let shares = || self.directions.iter().map(|d| d.weight * d.from.dot(toward).max(0.0).powi(2));
                 let all: f32 = shares().sum();
                 shares().map(|share| share / all).collect()
             })
@@ -122,7 +124,7 @@ struct Sum<'a> {
     map: &'a SkyMap,
     line: usize,
     view: &'a View,
-    /// For each lamp, how much each direction counts.
+    /// For each lamp, how much each direction counts, and then for the opposite one.
     lamps: &'a [Vec<f32>],
     arriving: &'a mut [Numbers],
 }
