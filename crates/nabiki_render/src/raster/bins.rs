@@ -240,8 +240,9 @@ fn parts(piece: &Piece) -> Parts {
         [true, false] => 8,
         [false, false] => TILE as u8,
     };
-    // Thick hair beside thick hair goes alike into depth: at the same lines, both are right about which is before which.
-    if thickness > THICK[0] {
+    // Thick hair beside thick hair goes alike into depth: at the same lines, both are right about which is before which. What a lens
+    // spreads wider than that lies over much else, and the lines would show.
+    if thickness > THICK[0] && piece.a.spread.max(piece.b.spread) <= thickness {
         return Parts { length, offset: 0 };
     }
     // Bits of the golden ratio spread them.
