@@ -155,36 +155,56 @@ fn coverage_agrees_with_the_papers_oversampling_taken_to_its_limit() {
     assert!(difference(&picture, &coarse, &reference) > 1.5 * error);
 }
 
-#[test]
-fn no_edge_of_a_tile_shows() {
-    // Two layers of long straight hair that lean to either side, and so are not alike bright. The one is before the other above and
-    // behind it below; they pass through each other over some tiles.
+/// Two layers of long straight hair that lean to either side, and so are not alike bright. The one is before the other above and behind
+/// it below; they pass through each other over some tiles.
+fn crossing_layers(grooming: u32) -> Strands {
     let mut strands = Strands::default();
     for s in 0..8000_u32 {
-        let random = |k: u32| (((s * 4 + k) as f32 * 12.9898).sin() * 43758.547).rem_euclid(1.0) - 0.5;
+        let seed = (grooming * 8000 + s) * 4;
+        let random = |k: u32| (((seed + k) as f32 * 12.9898).sin() * 43758.547).rem_euclid(1.0) - 0.5;
         let side = if s % 2 == 0 { 1.0 } else { -1.0 };
         let (z, x) = (32.0 * random(0), random(1));
-        strands.push((0..=14).map(|k| {
-            let t = k as f32 / 7.0 - 1.0;
+        // No two have their nodes, at which light bends, on the same lines.
+        let first = random(2);
+        strands.push((-1..=15).map(|k| {
+            let t = (k as f32 + first) / 7.0 - 1.0;
             vec3(x + 0.8 * side * t, -14.0 * t, z + 5.0 * side * t)
         }));
     }
-    let mut picture = black([160, 160]);
-    picture.camera.azimuth = 0.0;
-    picture.shadows = false;
-    let frame = Renderer::new(&picture, &Mesh::default()).unwrap();
-    let frame = { frame }.draw(&FrameToDraw::at_rest(&strands, fixed_view(&picture))).unwrap();
-    let shown = ToneMapping::new(&picture).rgba8(&frame);
-    // Mean of each row, and how far it is from that of its neighbours.
-    let row = |y: usize| (40..120).map(|x| f64::from(shown[4 * (y * 160 + x) + 1])).sum::<f64>() / 80.0;
-    let step = |y: usize| (row(y) - row(y - 1) - 0.5 * (row(y + 1) - row(y) + row(y - 1) - row(y - 2))).abs();
-    let mean = |on_edge: bool| {
-        let rows: Vec<usize> = (48..=112).filter(|y| (y % 16 == 0) == on_edge).collect();
-        rows.iter().map(|&y| step(y)).sum::<f64>() / rows.len() as f64
-    };
-    // Three standard errors of the mean over five edges: the absolute value of what is spread normally deviates by three quarters
-    // of its mean.
-    assert!(mean(true) < (1.0 + 3.0 * 0.75 / 5.0_f64.sqrt()) * mean(false), "{} {}", mean(true), mean(false));
+    strands
+}
+
+#[test]
+fn neither_edges_of_tiles_nor_lines_within_them_show() {
+    let groomings = [0, 1, 2, 3].map(crossing_layers);
+    // A twentieth of a pixel wide, a third, and a whole one: they are told apart in depth at each 16, 4 and 2 lines.
+    for width in [0.014, 0.1, 0.3] {
+        let mut picture = black([160, 160]);
+        picture.camera.azimuth = 0.0;
+        picture.shadows = false;
+        picture.hair.width = width;
+        // The row of each step, and how far the row's mean is from that of its neighbours.
+        let mut steps: Vec<(usize, f64)> = Vec::new();
+        for strands in &groomings {
+            let mut renderer = Renderer::new(&picture, &Mesh::default()).unwrap();
+            let frame = renderer.draw(&FrameToDraw::at_rest(strands, fixed_view(&picture))).unwrap();
+            let shown = ToneMapping::new(&picture).rgba8(&frame);
+            let row = |y: usize| (40..120).map(|x| f64::from(shown[4 * (y * 160 + x) + 1])).sum::<f64>() / 80.0;
+            steps.extend(
+                (48..=112)
+                    .map(|y| (y, (row(y) - row(y - 1) - 0.5 * (row(y + 1) - row(y) + row(y - 1) - row(y - 2))).abs())),
+            );
+        }
+        for period in [4, 8, 16] {
+            let (on_edge, between): (Vec<_>, Vec<_>) = steps.iter().partition(|(y, _)| y % period == 0);
+            let mean = |steps: &[(usize, f64)]| steps.iter().map(|s| s.1).sum::<f64>() / steps.len() as f64;
+            // Three standard errors of the mean over the edges: the absolute value of what is spread normally deviates by three
+            // quarters of its mean.
+            let most = 1.0 + 3.0 * 0.75 / (on_edge.len() as f64).sqrt();
+            let (on_edge, between) = (mean(&on_edge), mean(&between));
+            assert!(on_edge < most * between, "{width} cm, every {period} lines: {on_edge} {between}");
+        }
+    }
 }
 
 #[test]

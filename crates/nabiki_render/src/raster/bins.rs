@@ -44,12 +44,12 @@ pub struct Row {
     order: Vec<u64>,
 }
 
-/// Parts are half as long as a tile, or a quarter, where hair is so thick (pixels) that the eye sees which is before which.
-const THICK: [f32; 2] = [0.2, 0.5];
-/// The same where it goes so far in depth over the length of a tile (cm).
-const STEEP: [f32; 2] = [0.4, 0.8];
-/// Bits for the number of a part within a tile: five at most, since parts do not begin where the tile does.
-const PART_BITS: u32 = 3;
+/// Parts are so many lines long where hair is thicker than this (pixels): the eye sees which is before which.
+const THICK: [(f32, u8); 2] = [(0.2, 4), (0.8, 2)];
+/// The same where it goes farther than this into depth over the length of a tile (cm).
+const STEEP: [(f32, u8); 2] = [(0.4, 8), (0.8, 4)];
+/// Bits for the number of a part within a tile: nine at most, since parts do not begin where the tile does.
+const PART_BITS: u32 = 4;
 
 impl Bins {
     /// Finds the tiles of all pieces between neighbouring nodes of the same strand.
@@ -235,17 +235,11 @@ impl Parts {
 fn parts(piece: &Piece) -> Parts {
     let thickness = 2.0 * piece.a.radius.max(piece.b.radius);
     let steepness = (piece.b.depth - piece.a.depth).abs() * piece.per_length * TILE as f32;
-    let length = match [0, 1].map(|i| thickness > THICK[i] || steepness > STEEP[i]) {
-        [_, true] => 4,
-        [true, false] => 8,
-        [false, false] => TILE as u8,
+    let of = |value: f32, limits: [(f32, u8); 2]| {
+        limits.iter().rev().find(|(limit, _)| value > *limit).map_or(TILE as u8, |&(_, length)| length)
     };
-    // Thick hair beside thick hair goes alike into depth: at the same lines, both are right about which is before which. What a lens
-    // spreads wider than that lies over much else, and the lines would show.
-    if thickness > THICK[0] && piece.a.spread.max(piece.b.spread) <= thickness {
-        return Parts { length, offset: 0 };
-    }
-    // Bits of the golden ratio spread them.
+    let length = of(thickness, THICK).min(of(steepness, STEEP));
+    // Lines at which all hair were taken up anew would show where locks pass through each other. Bits of the golden ratio spread them.
     let spread = (piece.number.wrapping_mul(0x9E37_79B1) >> 24) as u8;
     Parts { length, offset: spread % length }
 }
@@ -283,7 +277,7 @@ mod tests {
 
     #[test]
     fn parts_of_a_tile_make_a_whole_and_go_on_beyond_its_edge() {
-        for length in [4, 8, TILE as u8] {
+        for length in [2, 4, 8, TILE as u8] {
             for offset in 0..length {
                 let parts = Parts { length, offset };
                 let lines: Vec<usize> = (0..parts.in_tile()).flat_map(|part| parts.lines(part)).collect();
