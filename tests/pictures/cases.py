@@ -13,7 +13,7 @@ ABOVE, BELOW = (0.93, 0.97, 1.0), (0.55, 0.5, 0.47)
 SKIN = (0.56, 0.44, 0.37)
 
 # Hair as the scenes have it unless a view says otherwise.
-WIDTH, TIP, TAPER = 0.014, 0.3, 0.4
+WIDTH, TIP, TAPER = 0.0085, 0.1, 0.4
 VARIATION, ROUGHNESS, AROUND, TILT, REFRACTION = 0.25, 5.0, 0.35, 2.5, 1.55
 # Eumelanin and pheomelanin of the named colours.
 MELANIN = {"black": (8.0, 0.0), "brown": (1.1, 0.6), "blond": (0.03, 0.2), "red": (0.0, 1.9)}
@@ -33,6 +33,7 @@ class View:
     distance: float
     regions: dict
     width: float = WIDTH
+    tip: float = TIP
     fov: float = 26.0
 
 
@@ -114,6 +115,7 @@ FINE = View(
         "skin neck": (239, 279, 273, 321),
     },
     width=0.011,
+    tip=0.3,
 )
 
 CASES = [

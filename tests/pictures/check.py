@@ -51,7 +51,7 @@ def settings(case):
             "azimuth": view.azimuth, "elevation": view.elevation, "target": view.target, "distance": view.distance, "fov": view.fov,
         },
         "picture.hair": {
-            "colour": case.colour, "width": view.width, "tip": cases.TIP, "taper": cases.TAPER, "variation": cases.VARIATION,
+            "colour": case.colour, "width": view.width, "tip": view.tip, "taper": cases.TAPER, "variation": cases.VARIATION,
             "roughness": cases.ROUGHNESS, "azimuthal_roughness": cases.AROUND, "scale_tilt": cases.TILT,
             "refraction": cases.REFRACTION,
         },

@@ -97,7 +97,7 @@ def add_hair(points, counts, case):
     along -= np.repeat(along[starts], counts)
     along /= np.repeat(along[ends - 1], counts)
     thin = np.clip((along - 1.0 + cases.TAPER) / cases.TAPER, 0.0, 1.0)
-    radius = 0.5 * case.view.width * (1.0 - thin * (1.0 - cases.TIP))
+    radius = 0.5 * case.view.width * (1.0 - thin * (1.0 - case.view.tip))
     if "radius" not in data.attributes:
         data.attributes.new("radius", "FLOAT", "POINT")
     data.attributes["radius"].data.foreach_set("value", radius.astype("f4"))

@@ -28,11 +28,13 @@ use crate::settings::Sky;
 
 /// Nodes that are shaded together.
 const LANES: usize = 16;
-/// Share of a lamp's scattered light that comes by other ways than the straight one. Fitted.
-const STRAYS: f32 = 0.35;
+/// Of the light that a fibre lets through, the share that goes on by other ways than straight from the lamp. Fitted.
+const STRAYS: f32 = 0.4;
 /// Share of the sky's scattered light that stays within hair, and of what of it hair behind sends back: much of what lies behind sees
 /// less of the sky.
-pub const SKY_DENSITY: f32 = 0.5;
+pub const SKY_DENSITY: f32 = 0.45;
+/// So much nearer to the eye (cm) the sky is asked for: what the eye sees of a cell's hair lies on its near side. Fitted.
+const NEARER: f32 = 0.06;
 /// Depth of hair without end (fibres).
 const ENDLESS: f32 = 100.0;
 /// Light of this variance along the hair (rad^2) goes to all inclinations, near enough.
@@ -191,7 +193,13 @@ impl HairLight<'_> {
         let mut rows = Rows::default();
         let mut places = None;
         if let Some(map) = self.sky_map {
-            places = Some(map.places(&place));
+            let mut nearer = place;
+            for c in 0..3 {
+                for lane in 0..LANES {
+                    nearer[c][lane] += NEARER * eye[c][lane];
+                }
+            }
+            places = Some(map.places(&nearer));
         }
         let sky = self.sky_at(places.as_ref());
         for lane in 0..LANES {
@@ -229,12 +237,14 @@ impl HairLight<'_> {
             }
         }
 
-        // Light turns along the hair by the variance of R in each fibre that scatters it: in those before it arrives, the last of which is
-        // another than shows it, and in those behind on its way there and back, where one sends it back as TRT does. By green for all.
-        let [of_surface, _, of_return] = fibre.variances;
+        // Light turns along the hair in each fibre that scatters it: in those before it arrives, the last of which is another than shows it, and
+        // in those behind on its way there and back, where one sends it back as TRT does. What goes on forward is half R and half TT,
+        // near enough. By green for all.
+        let [of_surface, of_passing, of_return] = fibre.variances;
+        let of_forward = 0.5 * (of_surface + of_passing);
         let mut home = [0.0_f32; LANES];
         for lane in 0..LANES {
-            home[lane] = of_return + of_surface * (rows.forward[1][lane] / rows.decay[1][lane] - 1.0);
+            home[lane] = of_return + of_forward * (rows.forward[1][lane] / rows.decay[1][lane] - 1.0);
         }
 
         let mut known = sky;
@@ -294,7 +304,7 @@ impl HairLight<'_> {
             for lane in 0..LANES {
                 straight[lane] = exp_of_negative(-crossed[lane]);
                 let (s, c) = inclined[lane];
-                let away = of_surface * (2.0 + crossed[lane] * rows.forward[1][lane]);
+                let away = 2.0 * of_surface + of_forward * crossed[lane] * rows.forward[1][lane];
                 for (many, variance) in many.iter_mut().zip([away, away + home[lane]]) {
                     many[lane] = Longitudinal::of(variance.min(EVEN)).at(s, c, sin_eye[lane], cos_eye[lane]);
                 }
@@ -307,8 +317,9 @@ impl HairLight<'_> {
                     let (a, b, rest) = (rows.forward[c][lane], rows.back[c][lane], rows.rest[c][lane]);
                     let once = m[0] * lobes[0][lane] + m[1] * lobes[1 + c][lane] + m[2] * (lobes[4 + c][lane] + rest);
                     let lost = rows.decay[c][lane];
-                    let before = (1.0 - STRAYS) * exp_of_negative(-crossed[lane] * lost)
-                        + STRAYS * exp_of_negative(-aside[lane] * lost);
+                    let strays = STRAYS * a;
+                    let before = (1.0 - strays) * exp_of_negative(-crossed[lane] * lost)
+                        + strays * exp_of_negative(-aside[lane] * lost);
                     let [away, back] = slab(rows.whole[c][lane], before, exp_of_negative(-behind[lane] * lost));
                     let away = many[0][lane] * (away - straight[lane]).max(0.0);
                     let back = many[1][lane] * back;

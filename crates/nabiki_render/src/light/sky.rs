@@ -201,11 +201,13 @@ impl SkyMap {
             for ((&at, skin), &lit) in places.iter().zip(skin).zip(lit) {
                 // Only outward, away from where this direction's light comes from.
                 if skin.normal.dot(d.from) < 0.0 {
-                    let sent = lit * (1.0 - through[at]) * (skin.depth / taken[at]).min(1.0);
+                    // The cell's hair lies on its skin.
+                    let open = exp_of_negative(-hair[at]);
+                    let sent = lit * open * (1.0 - through[at]) * (skin.depth / taken[at]).min(1.0);
                     glow[at] += sent;
                     let next = at as i32 + d.step[0] + size.x as i32 * (d.step[1] + size.y as i32 * d.step[2]);
                     if let Some(next) = usize::try_from(next).ok().and_then(|next| glow.get_mut(next)) {
-                        *next += sent * exp_of_negative(-0.5 * hair[at]);
+                        *next += sent;
                     }
                 }
             }
