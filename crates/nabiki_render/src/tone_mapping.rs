@@ -102,7 +102,7 @@ impl ToneMapping {
 /// What is added to a colour before its fraction is cut off: the interleaved gradient noise of Jimenez (2014), whose values are spread
 /// evenly over every 3 x 3 pixels. It keeps off 0 and 1, so that a whole step to within rounding stays one.
 #[inline]
-pub fn threshold(x: usize, y: usize) -> f32 {
+pub(crate) fn threshold(x: usize, y: usize) -> f32 {
     // Kept small, so that no digits are lost far from the corner.
     let (x, y) = ((x % 1024) as f32, (y % 1024) as f32);
     let noise = (52.982_918 * (0.067_110_56 * x + 0.005_837_15 * y).fract()).fract();

@@ -191,19 +191,21 @@ impl SkyMap {
     /// Carries the light that skin sends out, likewise: it arrives in the skin's own cell and in the next, and goes on from there.
     fn carry_glow(&mut self) {
         self.glow.resize_with(self.directions.len(), Vec::new);
-        let places: Vec<usize> = self.skin.iter().map(|skin| self.index_of(skin)).collect();
-        let (size, skin, lit, taken, through) = (self.size, &self.skin, &self.lit, &self.taken, &self.through);
-        let hair = &self.hair;
+        // Where it starts, and how much of it: the cell's hair lies on its skin.
+        let start = |(skin, lit): (&SkinCell, &f32)| {
+            let at = self.index_of(skin);
+            (at, lit * exp_of_negative(-self.hair[at]))
+        };
+        let starts: Vec<(usize, f32)> = self.skin.iter().zip(&self.lit).map(start).collect();
+        let (size, skin, taken, through) = (self.size, &self.skin, &self.taken, &self.through);
         self.glow.par_iter_mut().zip(&self.directions).for_each(|(glow, d)| {
             let through = &through[usize::from(d.is_aslant())];
             glow.clear();
             glow.resize(taken.len(), 0.0);
-            for ((&at, skin), &lit) in places.iter().zip(skin).zip(lit) {
+            for (&(at, lit), skin) in starts.iter().zip(skin) {
                 // Only outward, away from where this direction's light comes from.
                 if skin.normal.dot(d.from) < 0.0 {
-                    // The cell's hair lies on its skin.
-                    let open = exp_of_negative(-hair[at]);
-                    let sent = lit * open * (1.0 - through[at]) * (skin.depth / taken[at]).min(1.0);
+                    let sent = lit * (1.0 - through[at]) * (skin.depth / taken[at]).min(1.0);
                     glow[at] += sent;
                     let next = at as i32 + d.step[0] + size.x as i32 * (d.step[1] + size.y as i32 * d.step[2]);
                     if let Some(next) = usize::try_from(next).ok().and_then(|next| glow.get_mut(next)) {
