@@ -4,8 +4,11 @@ import numpy as np
 
 
 def displayed(light):
-    """Linear display light (0..1) by Nabiki's filmic curve: straight to a half, then a shoulder."""
-    return np.where(light <= 0.5, np.maximum(light, 0.0), 1.0 - 0.5 * np.exp(-(light - 0.5) / 0.5))
+    """Linear display light (0..1) by Nabiki's filmic curve: straight to a half, then a shoulder; of the strongest colour."""
+    light = np.maximum(light, 0.0)
+    strongest = np.maximum(light.max(-1, keepdims=True), 1e-9)
+    shown = np.where(strongest <= 0.5, strongest, 1.0 - 0.5 * np.exp(-(strongest - 0.5) / 0.5))
+    return shown * (light / strongest) ** (shown / strongest)
 
 
 def srgb(light):

@@ -19,8 +19,9 @@ impl Backdrop {
                 }
                 let t = (y as f32 + 0.5) / height as f32;
                 let shown: [f32; 3] = std::array::from_fn(|c| look.top[c] + (look.bottom[c] - look.top[c]) * t);
-                let light = shown.map(|v| picture.tone_mapping.scene(linear_from_srgb(v)) * (-picture.exposure).exp2());
-                [light[0], light[1], light[2], 1.0]
+                let light = picture.tone_mapping.scene(shown.map(linear_from_srgb));
+                let [r, g, b] = light.map(|x| x * (-picture.exposure).exp2());
+                [r, g, b, 1.0]
             })
             .collect();
         Self { rows }

@@ -19,23 +19,42 @@ pub fn linear_from_srgb(x: f32) -> f32 {
 const KNEE: f32 = 0.5;
 
 impl ToneCurve {
-    /// Display light (0..1, linear) of scene light.
+    /// Display light (0..1, linear) of scene light: red, green and blue.
+    ///
+    /// The filmic curve bends the strongest of them and raises the shares that the others have of it to a power below 1, so that
+    /// what is brighter goes to white by way of its own hue: a curve of its own for each turns red into yellow on that way.
     #[inline]
-    pub fn display(self, x: f32) -> f32 {
-        match self {
-            Self::Linear => x.clamp(0.0, 1.0),
-            Self::Filmic if x <= KNEE => x.max(0.0),
-            Self::Filmic => 1.0 - (1.0 - KNEE) * (-(x - KNEE) / (1.0 - KNEE)).exp(),
+    pub fn display(self, light: [f32; 3]) -> [f32; 3] {
+        if self == Self::Linear {
+            return light.map(|x| x.clamp(0.0, 1.0));
         }
+        let strongest = strongest(light);
+        if strongest <= KNEE {
+            return light.map(|x| x.max(0.0));
+        }
+        let shown = 1.0 - (1.0 - KNEE) * (-(strongest - KNEE) / (1.0 - KNEE)).exp();
+        light.map(|x| shown * share(x, strongest).powf(shown / strongest))
     }
 
-    /// Scene light that is displayed as `y` (0..1, linear); just below white at most.
-    pub fn scene(self, y: f32) -> f32 {
-        match self {
-            Self::Filmic if y > KNEE => KNEE - (1.0 - KNEE) * ((1.0 - y.min(0.9999)) / (1.0 - KNEE)).ln(),
-            _ => y,
+    /// Scene light that is displayed as `shown` (0..1, linear); just below white at most.
+    pub fn scene(self, shown: [f32; 3]) -> [f32; 3] {
+        let strongest_shown = strongest(shown);
+        if self == Self::Linear || strongest_shown <= KNEE {
+            return shown;
         }
+        let below_white = strongest_shown.min(0.9999);
+        let strongest = KNEE - (1.0 - KNEE) * ((1.0 - below_white) / (1.0 - KNEE)).ln();
+        shown.map(|y| strongest * share(y, strongest_shown).powf(strongest / below_white))
     }
+}
+
+fn strongest(colour: [f32; 3]) -> f32 {
+    colour[0].max(colour[1]).max(colour[2])
+}
+
+/// The part that a colour is of the strongest, 0..=1; 1 where both are infinite.
+fn share(x: f32, strongest: f32) -> f32 {
+    (x.max(0.0) / strongest).min(1.0)
 }
 
 /// Steps of the table from linear light to sRGB: fine enough that 16 bit values are right to half a step above 1/256 of
@@ -57,18 +76,21 @@ impl ToneMapping {
         Self { gain: picture.exposure.exp2(), curve: picture.tone_mapping, table }
     }
 
-    /// sRGB display value (0..1) of scene light.
+    /// sRGB display values (0..1) of scene light: red, green and blue.
     #[inline]
-    pub fn value(&self, light: f32) -> f32 {
-        let x = self.curve.display(light * self.gain).sqrt() * STEPS as f32;
-        let i = (x as usize).min(STEPS);
-        self.table[i] + (self.table[i + 1] - self.table[i]) * (x - i as f32)
+    pub fn values(&self, light: [f32; 3]) -> [f32; 3] {
+        self.curve.display(light.map(|x| x * self.gain)).map(|x| {
+            let x = x.sqrt() * STEPS as f32;
+            let i = (x as usize).min(STEPS);
+            self.table[i] + (self.table[i + 1] - self.table[i]) * (x - i as f32)
+        })
     }
 
     fn pixel(&self, p: &[f32; 4]) -> [f32; 4] {
         let a = p[3].clamp(0.0, 1.0);
         let straight = if a > 0.0 { 1.0 / a } else { 0.0 };
-        [self.value(p[0] * straight), self.value(p[1] * straight), self.value(p[2] * straight), a]
+        let [r, g, b] = self.values([p[0] * straight, p[1] * straight, p[2] * straight]);
+        [r, g, b, a]
     }
 
     /// 8 bit sRGB with *straight* alpha, four bytes a pixel. Colours between two steps become one or the other from pixel to pixel, as
@@ -111,17 +133,61 @@ pub(crate) fn threshold(x: usize, y: usize) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
 
-    #[test]
-    fn a_curve_and_its_inverse_agree() {
-        for curve in [ToneCurve::Linear, ToneCurve::Filmic] {
-            for i in 0..100 {
-                let y = i as f32 / 100.0;
-                // A few roundings of numbers up to 1, amplified by the slope of at most 1.
-                assert!((curve.display(curve.scene(y)) - y).abs() < 1e-6, "{curve:?} {y}");
+    proptest! {
+        #[test]
+        fn a_curve_and_its_inverse_agree(shown in [0.0_f32..0.99, 0.0_f32..0.99, 0.0_f32..0.99]) {
+            for curve in [ToneCurve::Linear, ToneCurve::Filmic] {
+                let again = curve.display(curve.scene(shown));
+                for c in 0..3 {
+                    // A share is raised to a power of up to 2.5 and back. What it loses in that, some roundings of its logarithm
+                    // (88 at most) and of the power, are as many parts of the colour.
+                    prop_assert!((again[c] - shown[c]).abs() < 4.0 * 88.0 * f32::EPSILON, "{curve:?} {shown:?} {again:?}");
+                }
             }
         }
+
+        #[test]
+        fn filmic_keeps_the_order_of_colours_and_what_is_brighter_is_shown_brighter_and_paler(
+            light in [0.0_f32..4.0, 0.0_f32..4.0, 0.0_f32..4.0],
+            more in 1.0_f32..3.0,
+        ) {
+            let shown = ToneCurve::Filmic.display(light);
+            let brighter = ToneCurve::Filmic.display(light.map(|x| x * more));
+            let rounding = 8.0 * f32::EPSILON;
+            for c in 0..3 {
+                prop_assert!((0.0..=1.0).contains(&shown[c]));
+                prop_assert!(brighter[c] >= shown[c] - rounding);
+                for other in 0..3 {
+                    prop_assert!(light[c] < light[other] || shown[c] >= shown[other]);
+                    // Of what is shown no colour's share of another falls that was below it.
+                    prop_assert!(light[c] > light[other] || brighter[c] * shown[other] >= shown[c] * brighter[other] - rounding);
+                }
+            }
+        }
+
+        #[test]
+        fn filmic_shows_greys_by_one_curve_and_half_lights_as_they_are(grey in 0.0_f32..8.0, half in [0.0_f32..0.5, 0.0_f32..0.5, 0.0_f32..0.5]) {
+            let [r, g, b] = ToneCurve::Filmic.display([grey; 3]);
+            prop_assert!(r == g && g == b && r <= grey + f32::EPSILON);
+            prop_assert_eq!(ToneCurve::Filmic.display(half), half);
+        }
+    }
+
+    #[test]
+    fn no_light_is_too_strong_to_show() {
+        let [r, g, b] = ToneCurve::Filmic.display([f32::INFINITY, f32::MAX, 1.0]);
+        assert!(r == 1.0 && (0.0..=1.0).contains(&g) && (0.0..=1.0).contains(&b), "{r} {g} {b}");
+    }
+
+    #[test]
+    fn red_hair_lit_through_stays_nearer_to_red_than_to_yellow() {
+        // Light through red hair, three times white: a curve for each colour would show its green as 0.88 of its red.
+        let [r, g, b] = ToneCurve::Filmic.display([3.0, 1.2, 0.2]);
+        assert!(r > 0.99 && g < 0.8 * r && b < 0.6 * g, "{r} {g} {b}");
     }
 
     #[test]
@@ -129,7 +195,7 @@ mod tests {
         let tone_mapping = ToneMapping::new(&Picture { tone_mapping: ToneCurve::Linear, ..Picture::default() });
         for i in 0..=10_000 {
             let x = i as f32 / 10_000.0;
-            assert!((tone_mapping.value(x) - srgb_from_linear(x)).abs() < 0.1 / 255.0, "{x}");
+            assert!((tone_mapping.values([x; 3])[0] - srgb_from_linear(x)).abs() < 0.1 / 255.0, "{x}");
         }
     }
 

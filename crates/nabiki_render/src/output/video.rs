@@ -117,10 +117,9 @@ impl Movie {
     /// If the frame's size is not that of the picture the movie was created for.
     pub fn push(&mut self, frame: &Frame, tone_mapping: &ToneMapping) -> Result<(), RenderError> {
         let stride = frame.size[0] as usize;
-        let value = |light: f32| (tone_mapping.value(light) * 65535.0 + 0.5) as u16;
         let pixel = |x: usize, y: usize| {
             let [r, g, b, _] = frame.rgba[y * stride + x];
-            [value(r), value(g), value(b)]
+            tone_mapping.values([r, g, b]).map(|value| (value * 65535.0 + 0.5) as u16)
         };
         self.push_pixels(frame.size, pixel)
     }

@@ -98,7 +98,7 @@ impl Background {
 pub enum ToneCurve {
     /// Clipped at white.
     Linear,
-    /// Straight up to half of white, then a shoulder that rolls highlights off softly.
+    /// Straight up to half of white, then a shoulder that rolls highlights off softly, by way of their own hue.
     #[default]
     Filmic,
 }
