@@ -57,7 +57,7 @@ def settings(case):
         },
         "picture.lights": [dict(zip(names, lamp)) for lamp in case.lamps],
         "picture.sky": {"strength": case.sky, "above": cases.ABOVE, "below": cases.BELOW},
-        "picture.head": {"colour": cases.SKIN, "stubble": 0.0, "sheen": 0.0, "face": False},
+        "picture.head": {"colour": cases.SKIN, "stubble": 0.0, "sheen": 0.0, "softness": 0.0, "face": False},
         "picture.background.transparent": True,
         "picture.shutter": 0.0,
         "output.exr_frames": True,

@@ -14,7 +14,7 @@ pub struct HeadLook {
     pub visible: bool,
     /// Its colour (sRGB, 0..1). Default a neutral skin, dull enough to leave the eye to the hair.
     pub colour: [f32; 3],
-    /// How far light creeps past the terminator, as in skin, 0..1. Default 0.35.
+    /// How far light creeps past the terminator, as in skin, 0..1. Default 0.2.
     pub softness: f32,
     /// Strength of its sheen, 0..1. Default 0.25.
     pub sheen: f32,
@@ -28,7 +28,7 @@ pub struct HeadLook {
 
 impl Default for HeadLook {
     fn default() -> Self {
-        Self { visible: true, colour: [0.56, 0.44, 0.37], softness: 0.35, sheen: 0.25, stubble: 2.0, face: true }
+        Self { visible: true, colour: [0.56, 0.44, 0.37], softness: 0.2, sheen: 0.25, stubble: 2.0, face: true }
     }
 }
 

@@ -611,7 +611,7 @@ class HeadLook(Table):
 
     @property
     def softness(self) -> float:
-        """How far light creeps past the terminator, as in skin, 0..1. Default 0.35."""
+        """How far light creeps past the terminator, as in skin, 0..1. Default 0.2."""
         value: float = self._get('softness')
         return value
 
