@@ -170,7 +170,10 @@ mod tests {
         }
 
         #[test]
-        fn filmic_shows_greys_by_one_curve_and_half_lights_as_they_are(grey in 0.0_f32..8.0, half in [0.0_f32..0.5, 0.0_f32..0.5, 0.0_f32..0.5]) {
+        fn filmic_shows_greys_by_one_curve_and_half_lights_as_they_are(
+            grey in 0.0_f32..8.0,
+            half in [0.0_f32..0.5, 0.0_f32..0.5, 0.0_f32..0.5],
+        ) {
             let [r, g, b] = ToneCurve::Filmic.display([grey; 3]);
             prop_assert!(r == g && g == b && r <= grey + f32::EPSILON);
             prop_assert_eq!(ToneCurve::Filmic.display(half), half);

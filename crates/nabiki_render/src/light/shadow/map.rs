@@ -100,7 +100,7 @@ impl Map {
         let count = down + u8::from(f32::from(down) < wanted);
         let share = 1.0 / f32::from(count.max(1));
         let (part, across) = (way * share, across * share);
-        // And half of a cell farther, as far as what is spread over it lies in depth.
+        // What is spread over a cell beside it lies up to half of that farther along, and so deeper.
         let deep = part.z.abs();
         let behind = BEHIND * deep + (0.5 * deep / across.max(1e-6)).min(SPREAD_BEHIND);
         let fibre = Fibre { extent: [part.x, part.y], fibres: thickness * self.cells_per_cm * across };
