@@ -4,11 +4,20 @@ from dataclasses import dataclass, field
 
 SIZE = (480, 360)
 
-# The studio: azimuth from the camera and elevation (degrees), strength, colour, extent (degrees).
+# Azimuth from the camera and elevation (degrees), strength, colour, extent (degrees). By these lamps, all, the sky or the key alone,
+# what docs/rendering.md calls fitted was chosen.
 KEY = (30.0, 42.0, 2.9, (1.0, 0.97, 0.93), 4.0)
 FILL = (-50.0, 15.0, 0.6, (0.94, 0.97, 1.0), 20.0)
 RIM = (-155.0, 38.0, 0.9, (1.0, 0.97, 0.94), 4.0)
 SKY = 0.32
+# The light that scenes have unless they say otherwise: nothing was chosen by it.
+STUDIO = [
+    (32.0, 48.0, 3.1, (1.0, 0.96, 0.91), 6.0),
+    (-50.0, 14.0, 0.5, (0.92, 0.96, 1.0), 20.0),
+    (168.0, 40.0, 1.5, (1.0, 0.97, 0.94), 9.0),
+    (-130.0, 28.0, 1.3, (0.92, 0.96, 1.0), 9.0),
+]
+STUDIO_SKY = 0.24
 ABOVE, BELOW = (0.93, 0.97, 1.0), (0.55, 0.5, 0.47)
 SKIN = (0.56, 0.44, 0.37)
 
@@ -41,7 +50,7 @@ class View:
 class Case:
     view: View
     colour: str
-    light: str = "all"  # or "sky" or "key"
+    light: str = "all"  # or "sky", "key" or "studio"
 
     @property
     def name(self):
@@ -49,11 +58,11 @@ class Case:
 
     @property
     def lamps(self):
-        return {"all": [KEY, FILL, RIM], "sky": [], "key": [KEY]}[self.light]
+        return {"all": [KEY, FILL, RIM], "sky": [], "key": [KEY], "studio": STUDIO}[self.light]
 
     @property
     def sky(self):
-        return 0.0 if self.light == "key" else SKY
+        return {"key": 0.0, "studio": STUDIO_SKY}.get(self.light, SKY)
 
 
 GUST = View(
@@ -133,4 +142,8 @@ CASES = [
     Case(BOB, "brown"),
     Case(SHORT, "brown"),
     Case(FINE, "black"),
+    Case(GUST, "red", "studio"),
+    Case(GUST, "brown", "studio"),
+    Case(BOB, "blond", "studio"),
+    Case(FINE, "black", "studio"),
 ]
