@@ -10,7 +10,7 @@ KEY = (30.0, 42.0, 2.9, (1.0, 0.97, 0.93), 4.0)
 FILL = (-50.0, 15.0, 0.6, (0.94, 0.97, 1.0), 20.0)
 RIM = (-155.0, 38.0, 0.9, (1.0, 0.97, 0.94), 4.0)
 SKY = 0.32
-# The light that scenes have unless they say otherwise: nothing was chosen by it.
+# The light that scenes have unless they say otherwise, as `Light::studio` and `Sky` of nabiki_render have it: nothing was chosen by it.
 STUDIO = [
     (32.0, 48.0, 3.1, (1.0, 0.96, 0.91), 6.0),
     (-50.0, 14.0, 0.5, (0.92, 0.96, 1.0), 20.0),

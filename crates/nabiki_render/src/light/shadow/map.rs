@@ -19,9 +19,6 @@ const LARGEST: f32 = 4096.0;
 /// Pieces are cut into parts that reach no farther into depth than this, and are no longer (cm): each lies at one distance.
 const DEEPEST: f32 = 0.3;
 const LONGEST: f32 = 1.0;
-/// How far behind the middle of a part, in parts of its depth, it counts as before what reads. In thick hair all is read as if it lay so
-/// much nearer to the lamp; at 0 half of what lies beside a part would be in its shadow.
-pub const BEHIND: f32 = 0.2;
 const MOST_PARTS: f32 = 32.0;
 /// How far behind a part (cm) what is spread over cells beside it still counts as the same layer, at most.
 const SPREAD_BEHIND: f32 = 0.1;
@@ -100,9 +97,9 @@ impl Map {
         let count = down + u8::from(f32::from(down) < wanted);
         let share = 1.0 / f32::from(count.max(1));
         let (part, across) = (way * share, across * share);
-        // What is spread over a cell beside it lies up to half of that farther along, and so deeper.
+        // Hair beside it is not in its shadow: it counts for what lies behind its far half, and behind half of a cell beyond.
         let deep = part.z.abs();
-        let behind = BEHIND * deep + (0.5 * deep / across.max(1e-6)).min(SPREAD_BEHIND);
+        let behind = 0.25 * deep + (0.5 * deep / across.max(1e-6)).min(SPREAD_BEHIND);
         let fibre = Fibre { extent: [part.x, part.y], fibres: thickness * self.cells_per_cm * across };
         for k in 0..count {
             let at = from + part * (f32::from(k) + 0.5);
