@@ -80,8 +80,8 @@ impl BodyWay {
         let Self::InWorld(poses) = self else { return Ok(()) };
         if poses.len() != 1 && poses.len() <= frames as usize {
             let remedy =
-                format!("the body has a pose in {} frames; give one, or one for every frame from 0 on", poses.len());
-            return Err(SettingError::new(format!("{name}.motion"), format!("frame {frames}"), remedy));
+                format!("the scene goes on to frame {frames}: make motion.frames smaller, or the motion longer");
+            return Err(SettingError::new(format!("{name}.motion"), format!("{} frames", poses.len()), remedy));
         }
         match poses.iter().position(|pose| !pose.is_valid()) {
             None => Ok(()),
@@ -119,14 +119,20 @@ const MOST_FILLED: f32 = 2e7;
 /// Steps with which the filled head is sampled (cm).
 const FILLED_CM: f32 = 0.5;
 
-/// Coarsest steps with which the distance to a body is sampled near its skin (cm).
+/// Steps with which the distance to a body is sampled near its skin (cm): a twelfth of its thinnest side, between these.
+/// About a body thinner than the finest step distances are right from a step on, and less deep within.
+const FINEST_CM: f32 = 0.05;
 const COARSEST_CM: f32 = 0.4;
+/// How far about a body it is sampled (cm): hair is kept out from the margin on, which is 5 cm at the most.
+const AROUND_CM: f32 = 6.0;
+/// Samples of a body at most, 4 bytes each.
+const MOST_SAMPLES: f64 = 4e7;
 
 /// The distance to a body's skin, from its mesh (its own space, cm). Triangles that face inward are turned.
 ///
 /// # Errors
-/// Meshes without a triangle, with corners that are none, and sheets that enclose nothing; `thing` is what the mesh is
-/// called.
+/// Meshes without a triangle, with corners that are none, sheets that enclose nothing, and what is too large; `thing` is what
+/// the mesh is called.
 pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError> {
     let count = mesh.positions.len();
     let refused = |what: &str, remedy: &str| Err(SettingError::new(thing, what, remedy));
@@ -136,17 +142,25 @@ pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError
     if mesh.positions.iter().any(|p| !p.is_finite()) {
         return refused("a vertex that is no point", "every coordinate must be a finite number");
     }
-    if !mesh.turn_outward().has_inside {
-        return refused("a sheet", "encloses no space, so nothing can be told to be inside it: give it a thickness");
-    }
     let [low, high] = bounds(&mesh.positions);
-    let spacing = ((high - low).min_element() / 12.0).min(COARSEST_CM);
-    if spacing <= 0.0 {
-        return refused("a sheet", "encloses no space, so nothing can be told to be inside it: give it a thickness");
+    let side = |cm: f32| if cm < 1e5 { format!("{}", (1e3 * cm).round() / 1e3) } else { format!("{cm:.1e}") };
+    let size = format!("{} cm", (high - low).to_array().map(side).join(" x "));
+    // Before what may overflow in a mesh of such a size.
+    let spacing = ((high - low).min_element() / 12.0).clamp(FINEST_CM, COARSEST_CM);
+    let samples = SkinDistance::count_samples(&mesh, low - AROUND_CM, high + AROUND_CM, spacing);
+    if samples.is_nan() || samples > MOST_SAMPLES {
+        let remedy = format!(
+            "is too large to be sampled every {spacing:.2} cm: check its unit, cut away what no hair comes near, or make a thin \
+             one thicker"
+        );
+        return refused(&size, &remedy);
     }
-    // Hair is kept out from the margin on, which is 5 cm at the most.
-    let around = 6.0;
-    Ok(SkinDistance::new(&mesh, low - around, high + around, spacing))
+    if !mesh.turn_outward().has_inside {
+        let remedy =
+            "a sheet encloses no space, or next to none, so nothing can be told to be inside it: make it thicker";
+        return refused(&size, remedy);
+    }
+    Ok(SkinDistance::new(&mesh, low - AROUND_CM, high + AROUND_CM, spacing))
 }
 
 impl Body {
@@ -213,14 +227,42 @@ mod tests {
     use super::*;
     use crate::Ellipsoid;
 
-    /// A box about the origin with its ellipsoid.
-    fn boxed(half: f32) -> Head {
+    fn box_mesh(half: f32) -> Mesh {
         let corner = |i: u32| half * Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32) * 2.0 - half;
         let positions = (0..8).map(corner).collect();
         let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let triangles = sides.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        Mesh { positions, triangles, ..Mesh::default() }
+    }
+
+    /// A box about the origin with its ellipsoid.
+    fn boxed(half: f32) -> Head {
         let ellipsoid = Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::splat(half) };
-        Head::from_mesh(Mesh { positions, triangles, ..Mesh::default() }, Some(ellipsoid)).unwrap()
+        Head::from_mesh(box_mesh(half), Some(ellipsoid)).unwrap()
+    }
+
+    #[test]
+    fn bodies_of_any_size_are_sampled_or_refused() {
+        // A clip of thin metal: kept out of from the margin on.
+        let clip = |thickness: f32| {
+            let mut clip = box_mesh(2.0);
+            clip.positions.iter_mut().for_each(|p| p.y *= 0.25 * thickness);
+            skin_of(clip, "body[0].mesh")
+        };
+        for thickness in [0.2, 0.05, 0.02] {
+            let skin = clip(thickness).unwrap();
+            for at in [0.05, 0.1, 0.15] {
+                // Between samples a step apart, a distance bends at the middle of the metal and nowhere else near.
+                let read = skin.at(Vec3::new(0.37, 0.5 * thickness + at, -0.61));
+                assert!((read - at).abs() < 1e-3, "{thickness}: {read} at {at}");
+            }
+        }
+        for (half, of) in [(400.0, "800 x 800 x 800 cm"), (1e30, "2.0e30 x 2.0e30 x 2.0e30 cm")] {
+            let refused = skin_of(box_mesh(half), "body[0].mesh").unwrap_err();
+            assert_eq!((refused.thing.as_str(), refused.value.as_str()), ("body[0].mesh", of));
+            assert!(refused.remedy.contains("unit"), "{refused}");
+        }
+        assert!(skin_of(box_mesh(1e-6), "body[0].mesh").is_ok());
     }
 
     #[test]

@@ -154,6 +154,19 @@ impl SkinDistance {
         Self { tree: OnceLock::from(tree), mesh: Mesh::default(), samples }
     }
 
+    /// How many samples [`new`](Self::new) takes, about: at the coarse nodes, and in blocks on both sides of the mesh's triangles.
+    pub fn count_samples(mesh: &Mesh, low: Vec3, high: Vec3, spacing: f32) -> f64 {
+        let cell = f64::from(spacing) * FINE as f64;
+        let coarse = ((high - low).as_dvec3() / cell + 2.0).element_product();
+        let areas = mesh.triangles.iter().map(|corners| {
+            let [a, b, c] = corners.map(|v| mesh.positions[v as usize].as_dvec3());
+            0.5 * (b - a).cross(c - a).length()
+        });
+        // A cell has a block where its middle is nearer than half a diagonal and two steps.
+        let layers = 2.0 * (0.5 * 3.0_f64.sqrt() + 2.0 / FINE as f64);
+        coarse + layers * areas.sum::<f64>() / (cell * cell) * (EDGE * EDGE * EDGE) as f64
+    }
+
     /// The distance to `mesh`, where it was sampled before.
     pub(crate) fn from_samples(mesh: &Mesh, samples: Samples) -> Self {
         Self { tree: OnceLock::new(), mesh: mesh.clone(), samples }
