@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 use nabiki::Strands;
-use nabiki::dynamics::{Simulation, Stepper};
+use nabiki::dynamics::{Form, Simulation, Stepper};
+use nabiki::strands::not_finite;
 use nabiki_io::cache::Reader;
 
 use crate::built::BuiltScene;
@@ -57,8 +58,29 @@ impl<S: Stepper> FrameSource for Simulated<'_, S> {
         while self.stepper.frame() < n {
             self.stepper.step_frame(&self.built.input(self.stepper.frame() + 1));
         }
-        Ok(self.stepper.strands())
+        match not_finite(self.stepper.strands().points()) {
+            None => Ok(self.stepper.strands()),
+            Some(point) => Err(flown_off(self.built, n, point)),
+        }
     }
+}
+
+/// What is said of hair whose motion has grown beyond all numbers.
+fn flown_off(built: &BuiltScene, frame: u32, point: usize) -> Error {
+    let neighbours = match &built.dynamics.form {
+        Form::Free(free) => free.neighbours.as_ref(),
+        Form::Paper => None,
+    };
+    let way_out = match neighbours.map(|neighbours| &neighbours.forces) {
+        Some(forces) => format!(
+            "hair against hair has no bound by which it could be refused before: lower neighbours.cohesion = {} or \
+             neighbours.pressure = {}",
+            forces.cohesion, forces.pressure
+        ),
+        None => "lower the strengths of the fields".to_owned(),
+    };
+    let scene = built.scene.file().display();
+    Error::refused(format!("{scene}: frame {frame}: hair flies off beyond all numbers, point {point} first; {way_out}"))
 }
 
 /// Frames out of a motion cache.

@@ -136,10 +136,7 @@ fn settings_out_of_range_are_refused_with_their_line() {
         change("intensity = 0.2", "intensity = -1"),
         "fields.toml:12: gust.intensity = -1: must be a finite part of the wind of at least 0"
     );
-    assert_eq!(
-        change("[flow]", "[flow]\nthickness = nan"),
-        "fields.toml:14: flow.thickness = NaN: must be a finite length (cm) of at least 0"
-    );
+    assert_eq!(change("[flow]", "[flow]\nthickness = nan"), "fields.toml:14: flow.thickness = NaN: must lie in 0..100");
     assert_eq!(change("strength = 12", "octaves = 9"), "fields.toml:15: turbulence.octaves = 9: must lie in 1..8");
     assert_eq!(
         change("position = [20, 0, 0]", ""),
@@ -185,6 +182,38 @@ fn a_field_too_strong_is_blamed_by_its_table() {
             "{refused}"
         );
     }
+}
+
+#[test]
+fn what_an_override_is_wrong_about_is_the_override() {
+    let said = |key: &str, value: &str| match parse(FIELDS, &[(key, value)]).map(|scene| scene.build(Shown::All)) {
+        Err(refused) => refused.to_string(),
+        Ok(Err(refused)) => refused.to_string(),
+        Ok(Ok(_)) => panic!("{key}={value}"),
+    };
+    for (key, value, words) in [
+        ("fan.0.envelope", "[{frame=2}]", "fan[0].envelope[0].factor: is missing"),
+        ("force.0.vector", "[0, nan, 0]", "force[0].vector = [0, NaN, 0]"),
+        ("force.1.vector", "[1, 0, 0]", "force[1].through: is missing"),
+        ("free.stiffness", "[1, -1]", "free.stiffness[1] = -1"),
+        ("body.0.margin", "0.2", "body[0].mesh = nothing"),
+    ] {
+        let refused = said(key, value);
+        assert!(refused.starts_with(&format!("fields.toml: --set {key}={value}: {words}")), "{refused}");
+    }
+}
+
+#[test]
+fn hair_that_flies_off_is_one_line_with_what_may_be_lowered() {
+    let wild = [("free.stiffness", "0"), ("neighbours.cohesion", "1e12"), ("motion.form", "free")];
+    let built = built(FIELDS, &wild);
+    let mut frames = nabiki_scene::frames::Simulated::new(&built).unwrap();
+    let said =
+        (1..=8).find_map(|n| nabiki_scene::frames::FrameSource::frame(&mut frames, n).err()).unwrap().to_string();
+    assert!(
+        said.starts_with("fields.toml: frame ") && said.contains("lower neighbours.cohesion = 1000000000000"),
+        "{said}"
+    );
 }
 
 #[test]

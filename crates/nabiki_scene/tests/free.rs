@@ -190,11 +190,12 @@ fn bodies_that_are_none_are_refused() {
             "mesh = \"solid.obj\"",
             "mesh = \"solid.obj\"\nmotion = { file = \"short.csv\", up = \"+y\", facing = \"+x\" }"
         ),
-        "free.toml:13: body[0].motion = frame 3: the body has a pose in 3 frames; give one, or one for every frame from 0 on"
+        "free.toml:13: body[0].motion = 3 frames: the scene goes on to frame 3: make motion.frames smaller, or the motion longer"
     );
     assert_eq!(
         refused("solid.obj", "sheet.obj"),
-        "free.toml:12: body[0].mesh = a sheet: encloses no space, so nothing can be told to be inside it: give it a thickness"
+        "free.toml:12: body[0].mesh = 9 x 9 x 0 cm: a sheet encloses no space, or next to none, so nothing can be told to be \
+         inside it: make it thicker"
     );
     assert_eq!(
         refused("solid.obj", "no/hand.obj"),
@@ -221,7 +222,7 @@ fn bodies_that_are_none_are_refused() {
             "mesh = \"solid.obj\"",
             "mesh = \"sheet.obj\"\nsolid = false\nmotion = { file = \"short.csv\", up = \"+y\", facing = \"+x\" }"
         ),
-        "free.toml:14: body[0].motion = frame 3: the body has a pose in 3 frames; give one, or one for every frame from 0 on",
+        "free.toml:14: body[0].motion = 3 frames: the scene goes on to frame 3: make motion.frames smaller, or the motion longer",
         "a sheet will do for what is only drawn, a motion too short will not"
     );
     for (value, remedy) in [("smoothing = -1", "0..240"), ("speed = 0", "0.01..100"), ("speed = nan", "0.01..100")] {

@@ -16,4 +16,4 @@ use contact::{FAN, NEAR, PUSHES, TOLERANCE_CM, TURN};
 pub(super) use grid::Crowd;
 pub(super) use reference::{Reference, Setting, Springs, Strand};
 pub(super) use runner::Runner;
-pub(super) use segment::free_segments;
+pub(super) use segment::{FreeSegment, free_segments};

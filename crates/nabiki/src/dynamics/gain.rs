@@ -7,11 +7,12 @@
 //! which is i itself for segments as long as d. So 16 and 32 points of one strand move alike, up to the square of
 //! the segment's length.
 
-use super::free::free_segments;
+use super::free::{FreeSegment, free_segments};
 use super::{Dynamics, Form};
 use crate::error::SettingError;
 use crate::field::Field;
-use crate::strands::{Strands, length};
+use crate::free_form::FreeForm;
+use crate::strands::Strands;
 
 /// c_i of equation (8) (rad per unit of force and frame), for the segment at `position` = i of a strand `count` = k
 /// reference segments long. Both may be fractions, see the top of this file.
@@ -112,7 +113,10 @@ pub fn largest_gain(strands: &Strands, dynamics: &Dynamics) -> Result<f64, Setti
 /// # Errors
 /// As [`Simulation::new`](super::Simulation::new), but for settings out of range.
 pub fn check_field(strands: &Strands, dynamics: &Dynamics, field: &dyn Field) -> Result<(), SettingError> {
-    Stability::of(strands, dynamics)?.check(field)
+    if Stability::of(strands, dynamics)?.holds(field) {
+        return Ok(());
+    }
+    Err(unstable(&[("strand", strands)], dynamics, field))
 }
 
 /// What decides whether a field is stable: the segment for which the least force is too much.
@@ -122,11 +126,6 @@ pub(super) struct Stability {
     gain: f64,
     /// What pulls on it besides the field in the free form.
     own: f64,
-    /// Its strand, and the length of that (cm).
-    strand: usize,
-    length: f32,
-    /// The largest that the scene gives; none in the paper's form.
-    stiffness: Option<f32>,
 }
 
 impl Stability {
@@ -135,69 +134,203 @@ impl Stability {
         if strands.is_empty() {
             return Err(SettingError::new("hair", "0 strands", "there is nothing to move; give at least one strand"));
         }
-        let (mut worst, mut least) = ((0.0, 0.0, 0), f64::INFINITY);
+        let (mut worst, mut least) = (Self { gain: 0.0, own: 0.0 }, f64::INFINITY);
         for (s, strand) in strands.iter().enumerate() {
-            let own = own_strengths(dynamics, strand, s)?;
-            for (shape, own) in segment_shapes(dynamics, strand, s)?.iter().zip(own) {
-                let force = 4.0 / shape.gain - own;
+            for Pull { gain, own, .. } in pulls(dynamics, strand, s)? {
+                let own: f64 = own.iter().sum();
+                let force = 4.0 / gain - own;
                 if force < least {
-                    (worst, least) = ((shape.gain, own, s), force);
+                    (worst, least) = (Self { gain, own }, force);
                 }
             }
         }
-        let (gain, own, strand) = worst;
-        let stiffness = match &dynamics.form {
-            Form::Paper => None,
-            Form::Free(free) => Some(free.form.stiffness.largest()),
-        };
-        Ok(Self { gain, own, strand, length: length(strands.strand(strand)), stiffness })
+        Ok(worst)
     }
 
-    /// Refuses fields under which the scheme is unstable.
-    pub fn check(&self, field: &dyn Field) -> Result<(), SettingError> {
-        let Self { gain, own, strand, length, stiffness } = *self;
-        let free = stiffness.is_some();
-        let stiffness = stiffness.unwrap_or(0.0);
-        let strongest = f64::from(field.strongest());
-        if gain * (strongest + own) < 4.0 {
-            return Ok(());
-        }
-        let (largest, reached) = (4.0 / gain - own, gain * (strongest + own));
-        let what = if free { "c_i (|F| + 4 K + H + 2 gravity)" } else { "c_i |F|" };
-        let ways = "make motion.time_step smaller, or set motion.inertia_length_floor so that short hair is held by its \
-                    neighbours";
-        if largest <= 0.0 {
-            // What is asked for is given for segments of hair.segment_length; where it acts, it is larger by their cut.
-            let holds = 0.99 * f64::from(stiffness) * 4.0 / (gain * own);
-            let remedy = format!(
-                "unstable without any force: {what} reaches {:.3} at strand {strand} ({length:.2} cm long), and must \
-                 stay below 4; keep the largest stiffness below {holds:.0}, {ways}",
-                gain * own
-            );
-            return Err(SettingError::new("free.stiffness", stiffness, remedy));
-        }
-        // A force of exactly the largest is one too strong.
-        let below = largest.next_down();
-        let (thing, value) =
-            field.first_above(below).unwrap_or_else(|| ("force".to_owned(), field.strongest().to_string()));
-        let remedy = format!(
-            "unstable: {what} reaches {reached:.3} at the tip of strand {strand} ({length:.2} cm long), and must stay \
-             below 4; keep |F| below {largest:.4}, {ways}"
-        );
-        Err(SettingError::new(thing, value, remedy))
+    /// Whether the scheme is stable under a field.
+    pub fn holds(&self, field: &dyn Field) -> bool {
+        self.gain * (f64::from(field.strongest()) + self.own) < 4.0
     }
 }
 
-/// What pulls on each segment of a strand besides the field, at the most: by Gershgorin's circles twice the stiffness of
-/// both of its joints, H, and twice the weight.
-fn own_strengths(dynamics: &Dynamics, strand: &[glam::Vec3], s: usize) -> Result<Vec<f64>, SettingError> {
-    let Form::Free(free) = &dynamics.form else { return Ok(vec![0.0; strand.len() - 1]) };
+/// What pulls on a segment in the free form, by Gershgorin's circles the most that it can: twice the stiffness of both of its
+/// joints, H, and twice the weight.
+struct Pull {
+    gain: f64,
+    own: [f64; 3],
+    length: f64,
+}
+
+/// What these come from in a scene, what they are called, and what the largest of each is.
+fn owners(dynamics: &Dynamics) -> [(&'static str, &'static str, f32); 3] {
+    let of_form = |form: &FreeForm| [form.stiffness.largest(), form.hold.largest(), form.gravity];
+    let [stiffness, hold, gravity] = match &dynamics.form {
+        Form::Paper => [0.0; 3],
+        Form::Free(free) => of_form(&free.form),
+    };
+    [
+        ("free.stiffness", "the largest stiffness", stiffness),
+        ("free.hold", "the largest hold", hold),
+        ("free.gravity", "gravity", gravity),
+    ]
+}
+
+fn pulls(dynamics: &Dynamics, strand: &[glam::Vec3], s: usize) -> Result<Vec<Pull>, SettingError> {
+    let Form::Free(free) = &dynamics.form else {
+        let pull = |shape: SegmentShape| Pull { gain: shape.gain, own: [0.0; 3], length: shape.length };
+        return Ok(segment_shapes(dynamics, strand, s)?.into_iter().map(pull).collect());
+    };
     let segments = free_segments(dynamics, &free.form, strand, s)?;
     let after = segments.iter().skip(1).map(|segment| segment.stiffness).chain([0.0]);
     let weight = 2.0 * f64::from(free.form.gravity);
-    Ok(segments
-        .iter()
-        .zip(after)
-        .map(|(segment, after)| 2.0 * (segment.stiffness + after) + segment.hold + weight)
-        .collect())
+    let pull = |(segment, after): (&FreeSegment, f64)| Pull {
+        gain: segment.shape.gain,
+        own: [2.0 * (segment.stiffness + after), segment.hold, weight],
+        length: segment.shape.length,
+    };
+    Ok(segments.iter().zip(after).map(pull).collect())
+}
+
+/// Why hair that can be moved, each set of it with what one of its strands is called, is unstable under a field: what pulls most
+/// where it is least stable, and how much of that would hold beside all else.
+pub(super) fn unstable(hair: &[(&str, &Strands)], dynamics: &Dynamics, field: &dyn Field) -> SettingError {
+    let strongest = f64::from(field.strongest());
+    let parts = |pull: &Pull| [pull.own[0], pull.own[1], pull.own[2], strongest];
+    let reached = |pull: &Pull| pull.gain * parts(pull).iter().sum::<f64>();
+    let strands =
+        || hair.iter().flat_map(|&(name, hair)| hair.iter().enumerate().map(move |(s, strand)| (name, s, strand)));
+    let of = |s: usize, strand: &[glam::Vec3]| pulls(dynamics, strand, s).unwrap_or_default();
+    // Of each part, by how many times it may be as large as it is, all others being as they are.
+    let mut rooms = [f64::INFINITY; 4];
+    let (mut worst, mut most) = ((String::new(), [0.0; 4]), 0.0);
+    for (name, s, strand) in strands() {
+        let pulls = of(s, strand);
+        let moving = || pulls.iter().filter(|pull| pull.gain > 0.0);
+        for pull in moving() {
+            let parts = parts(pull);
+            let room = 4.0 / pull.gain - parts.iter().sum::<f64>();
+            for (of_part, part) in rooms.iter_mut().zip(parts).filter(|(_, part)| *part > 0.0) {
+                *of_part = of_part.min(1.0 + room / part);
+            }
+            if reached(pull) > most {
+                let length: f64 = moving().map(|pull| pull.length).sum();
+                let behind = if pulls.iter().any(|pull| pull.gain == 0.0) { " behind its tie" } else { "" };
+                (worst, most) = ((format!("{name} {s} ({length:.2} cm long{behind})"), parts), reached(pull));
+            }
+        }
+    }
+    let (place, parts) = worst;
+    let free = matches!(dynamics.form, Form::Free(_));
+    let what = if free { "c_i (|F| + 4 K + H + 2 gravity)" } else { "c_i |F|" };
+    let ways = "make motion.time_step smaller, or set motion.inertia_length_floor so that short hair is held by its neighbours";
+    let mut largest_first = [0, 1, 2, 3];
+    largest_first.sort_by(|&a, &b| parts[b].total_cmp(&parts[a]));
+    let blamed = largest_first.into_iter().find(|&part| rooms[part] > 0.0 && rooms[part].is_finite());
+    let refused = |thing: &str, value: String, keep: String| {
+        let remedy = format!("unstable: {what} reaches {most:.3} at {place}, and must stay below 4; {keep}, {ways}");
+        SettingError::new(thing, value, remedy)
+    };
+    let owners = owners(dynamics);
+    match blamed {
+        Some(3) => {
+            let largest = rooms[3] * strongest;
+            // A force of exactly the largest is one too strong.
+            let below = largest.next_down();
+            let (thing, value) =
+                field.first_above(below).unwrap_or_else(|| ("force".to_owned(), field.strongest().to_string()));
+            refused(&thing, value, format!("keep |F| below {largest:.4}"))
+        }
+        Some(part) => {
+            let (thing, named, value) = owners[part];
+            let holds = rounded_down(rooms[part] * f64::from(value));
+            refused(thing, value.to_string(), format!("keep {named} below {holds}"))
+        }
+        None => {
+            let (thing, _, value) = owners[if largest_first[0] < 3 { largest_first[0] } else { largest_first[1] }];
+            let others: Vec<&str> = (owners.iter().zip(parts))
+                .filter(|((other, ..), part)| *other != thing && *part > 0.0)
+                .map(|((other, ..), _)| *other)
+                .chain((strongest > 0.0).then_some("the forces"))
+                .collect();
+            refused(
+                thing,
+                value.to_string(),
+                format!("less of it alone does not mend it: lower {}, too", others.join(", ")),
+            )
+        }
+    }
+}
+
+/// With three digits, and not above the number.
+fn rounded_down(x: f64) -> f32 {
+    let unit = 10.0_f64.powf(x.log10().floor() - 2.0);
+    ((x / unit).floor() * unit) as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Ellipsoid;
+    use crate::dynamics::Motion;
+    use crate::field::{Keyframe, KeyframedField};
+    use crate::free_form::FreeMotion;
+    use crate::pseudo_force::PseudoForce;
+    use glam::Vec3;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn what_a_refusal_says_would_hold_holds(
+            powers in [1.0_f32..8.0, 1.0_f32..8.0, 1.0_f32..8.0, 1.0_f32..8.0],
+            cuts in prop::collection::vec((2_usize..12, 3.0_f32..20.0), 1..4),
+        ) {
+            let mut hair = Strands::default();
+            for (count, length) in cuts {
+                hair.push((0..=count).map(|i| Vec3::Y * length * (i as f32 / count as f32).powf(1.3)));
+            }
+            let mut free = FreeMotion::default();
+            let [stiffness, hold, gravity, mut force] = powers.map(|power| 10.0_f32.powf(power) - 10.0);
+            free.form.stiffness = stiffness.into();
+            free.form.hold = hold.into();
+            free.form.gravity = gravity;
+            let refused = |free: &FreeMotion, force: f32| {
+                let dynamics = Dynamics {
+                    motion: Motion::default(),
+                    segment_length: 1.0,
+                    pseudo_force: PseudoForce::default(),
+                    ellipsoid: Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::splat(9.0) },
+                    shell: 1.25,
+                    polar_axis: Vec3::Y,
+                    disturbance: None,
+                    form: Form::Free(free.clone()),
+                };
+                let field = KeyframedField::new(&[Keyframe { through: 9, vector: Vec3::X * force }]).unwrap();
+                check_field(&hair, &dynamics, &field).err()
+            };
+            // What is too much beside all else is named first, so a few lines mend any scene.
+            for _ in 0..5 {
+                let Some(error) = refused(&free, force) else { return Ok(()) };
+                let Some((_, limit)) = error.remedy.split_once(" below ").and_then(|(_, after)| after.split_once(" below ")) else {
+                    // Nothing alone mends it: the largest goes.
+                    match error.thing.as_str() {
+                        "free.stiffness" => free.form.stiffness = 0.0.into(),
+                        "free.hold" => free.form.hold = 0.0.into(),
+                        _ => free.form.gravity = 0.0,
+                    }
+                    continue;
+                };
+                let limit: f32 = limit.split(',').next().unwrap().parse().unwrap();
+                // Forces are given to four places.
+                let within = 0.999 * limit;
+                match error.thing.as_str() {
+                    "free.stiffness" => free.form.stiffness = within.into(),
+                    "free.hold" => free.form.hold = within.into(),
+                    "free.gravity" => free.form.gravity = within,
+                    _ => force = within,
+                }
+                prop_assert_eq!(refused(&free, force).map(|e| e.to_string()), None);
+            }
+            prop_assert!(false, "five lines do not mend it");
+        }
+    }
 }

@@ -55,15 +55,15 @@ impl Runner {
             Form::Free(free) => OfForm::Free(Box::new(free::Runner::new(strands, dynamics, free, known)?)),
         };
         let runner = Self { form, ids: ids.to_vec() };
-        runner.check_field(field)?;
+        runner.check_field(strands, field)?;
         Ok(runner)
     }
 
-    /// Refuses a field under which this hair cannot be stepped.
-    pub fn check_field(&self, field: &dyn Field) -> Result<(), SettingError> {
+    /// Refuses a field under which this hair cannot be stepped; `strands` are those that it was made of.
+    pub fn check_field(&self, strands: &Strands, field: &dyn Field) -> Result<(), SettingError> {
         match &self.form {
-            OfForm::Paper(runner) => runner.check_field(field),
-            OfForm::Free(runner) => runner.check_field(field),
+            OfForm::Paper(runner) => runner.check_field(strands, field),
+            OfForm::Free(runner) => runner.check_field(strands, field),
         }
     }
 

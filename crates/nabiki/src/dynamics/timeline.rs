@@ -205,7 +205,7 @@ impl Timeline {
     /// # Errors
     /// A field too strong for the step; the timeline is then as it was.
     pub fn set_field(&mut self, field: Arc<dyn Field>) -> Result<(), SettingError> {
-        self.runner.check_field(&*field)?;
+        self.runner.check_field(&self.hair, &*field)?;
         self.field = field;
         self.forget();
         Ok(())

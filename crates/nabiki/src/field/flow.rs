@@ -12,9 +12,9 @@ use serde::{Deserialize, Serialize};
 
 use super::head_track::{HeadTrack, Place};
 use super::lanes::{self, Lanes, by_part, get, set, times, transposed_times};
-use super::{Field, VectorRow, check_at_least_0};
+use super::{Field, VectorRow};
 use crate::ellipsoid::Ellipsoid;
-use crate::error::SettingError;
+use crate::error::{SettingError, check_range};
 use crate::pose::Pose;
 use crate::vector::{dot, scale, scale_add, subtract};
 use carlson::{alpha, expansion, mean_square};
@@ -23,7 +23,7 @@ use carlson::{alpha, expansion, mean_square};
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Flow {
-    /// What the wind goes round stands out so far from the head ellipsoid (cm, at least 0, default 0): as hair itself does.
+    /// What the wind goes round stands out so far from the head ellipsoid (cm, 0..100, default 0): as hair itself does.
     pub thickness: f32,
 }
 
@@ -33,7 +33,7 @@ impl Flow {
     /// # Errors
     /// Names the setting.
     pub fn check(&self) -> Result<(), SettingError> {
-        check_at_least_0("flow.thickness", self.thickness, "length (cm)")
+        check_range("flow.thickness", self.thickness, 0.0, 100.0)
     }
 }
 

@@ -25,7 +25,8 @@ impl Field for FieldSum {
     }
 
     fn strongest(&self) -> f32 {
-        self.parts.iter().map(|part| part.strongest()).sum()
+        // An empty sum of floats would be -0.
+        self.parts.iter().fold(0.0, |sum, part| sum + part.strongest())
     }
 
     /// A part that is too strong by itself, or else the sum of all.

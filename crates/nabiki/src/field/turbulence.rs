@@ -15,7 +15,7 @@ use super::head_track::{HeadTrack, Place};
 use super::lanes::{self, Lanes, by_part, get, set, times, transposed_times};
 use super::{Field, VectorRow, check_at_least_0, check_strength};
 use crate::ellipsoid::Ellipsoid;
-use crate::error::{SettingError, check_positive, check_range};
+use crate::error::{SettingError, check_range};
 use crate::pose::Pose;
 use crate::random;
 use crate::vector::{cross, dot, scale, scale_add, subtract};
@@ -29,7 +29,7 @@ use crate::vector::{cross, dot, scale, scale_add, subtract};
 pub struct Turbulence {
     /// Root mean square of |F| over space, far from the head, at least 0 (default 30).
     pub strength: f32,
-    /// Size of the largest swirls (cm), half of the wavelengths that they are made of, above 0 (default 10).
+    /// Size of the largest swirls (cm), half of the wavelengths that they are made of, 0.01..1e6 (default 10).
     pub swirl_size: f32,
     /// Frames in which a swirl turns into its opposite and back, about; 0: swirls drift and never change (default 48).
     /// Without drift the whole pattern comes again after 16 times as many.
@@ -77,7 +77,7 @@ impl Turbulence {
     /// Names the first such setting.
     pub fn check(&self) -> Result<(), SettingError> {
         check_strength("turbulence.strength", self.strength)?;
-        check_positive("turbulence.swirl_size", self.swirl_size)?;
+        check_range("turbulence.swirl_size", self.swirl_size, 0.01, 1e6)?;
         check_at_least_0("turbulence.pulse_length", self.pulse_length, "number of frames")?;
         check_range("turbulence.roughness", self.roughness, 0.0, 1.0)?;
         if !(1..=Self::MOST_OCTAVES).contains(&self.octaves) {

@@ -113,6 +113,7 @@ impl MotionSource {
         let is_clip = matches!(ending.as_str(), "glb" | "gltf");
         let useless = [
             (self.skeleton.is_some() && !self.has_skeleton(), "skeleton"),
+            (self.node != Self::default().node && ending == "csv", "node"),
             (self.frames_per_second.is_some() && ending != "amc", "frames_per_second"),
             (!self.clip.is_empty() && !is_clip, "clip"),
             (self.skip > 0 && is_clip, "skip"),

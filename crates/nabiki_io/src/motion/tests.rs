@@ -226,6 +226,7 @@ fn settings_without_effect_are_refused() {
         (MotionSource { skeleton: Some("a.asf".into()), ..of("a.bvh") }, "skeleton", "bvh"),
         (MotionSource { frames_per_second: Some(30.0), ..of("a.tof") }, "frames_per_second", "tof"),
         (MotionSource { clip: "Run".into(), ..of("a.csv") }, "clip", "csv"),
+        (MotionSource { node: "Hips".into(), ..of("a.csv") }, "node", "csv"),
         (MotionSource { skip: 1, ..of("a.glb") }, "skip", "glb"),
         (MotionSource { positions: Interpolation::Linear, ..of("a.gltf") }, "positions", "gltf"),
     ] {

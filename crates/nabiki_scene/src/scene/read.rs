@@ -123,7 +123,11 @@ impl de::Error for Refusal {
     }
 
     fn invalid_type(found: Unexpected, wanted: &dyn Expected) -> Self {
-        Self::new(Problem::Kind { found: found.to_string(), wanted: plain(wanted) })
+        let found = match found {
+            Unexpected::UnitVariant => "the name alone".to_owned(),
+            found => found.to_string(),
+        };
+        Self::new(Problem::Kind { found, wanted: plain(wanted) })
     }
 
     fn invalid_value(found: Unexpected, wanted: &dyn Expected) -> Self {
@@ -162,6 +166,7 @@ fn plain(wanted: &dyn Expected) -> String {
         "f32" | "f64" => "a number".to_owned(),
         "a boolean" => "true or false".to_owned(),
         "a map" => "a table".to_owned(),
+        "a sequence" => "a list".to_owned(),
         text if text.starts_with("struct ") => "a table".to_owned(),
         text if text.starts_with("a sequence of 3 f32") => "three numbers, [x, y, z]".to_owned(),
         text => text.to_owned(),
@@ -241,6 +246,14 @@ impl<'de> Deserializer<'de> for Node<'_> {
         }
     }
 
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+        if self.0.is_table() {
+            let wanted = "a list, even of one: each of its tables begins with two brackets, [[...]]".to_owned();
+            return Err(Refusal::new(Problem::Kind { found: "a table".to_owned(), wanted }));
+        }
+        self.deserialize_any(visitor)
+    }
+
     fn deserialize_struct<V: Visitor<'de>>(
         self,
         _: &'static str,
@@ -260,7 +273,7 @@ impl<'de> Deserializer<'de> for Node<'_> {
 
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf
-        unit unit_struct seq tuple tuple_struct map identifier ignored_any
+        unit unit_struct tuple tuple_struct map identifier ignored_any
     }
 }
 

@@ -48,6 +48,23 @@ impl Origins {
     }
 }
 
+impl Origins {
+    /// Notes that an override set the value at a path, and all below it, and made the tables on the way that the file has not.
+    fn override_at(&mut self, steps: &[String], text: &str) {
+        let path = steps.join(".");
+        let below = format!("{path}.");
+        self.lines.retain(|at, _| *at != path && !at.starts_with(&below));
+        self.overrides.retain(|at, _| !at.starts_with(&below));
+        for depth in 1..steps.len() {
+            let table = steps[..depth].join(".");
+            if !self.lines.contains_key(&table) {
+                self.overrides.entry(table).or_insert_with(|| text.to_owned());
+            }
+        }
+        self.overrides.insert(path, text.to_owned());
+    }
+}
+
 /// Settings that TOML cannot hold: why.
 #[derive(Debug)]
 pub(super) struct Unwritable(pub String);
@@ -82,7 +99,7 @@ pub(crate) fn parse(text: &str, file: &Path, overrides: &[(String, String)]) -> 
             key: String::new(),
             problem: Box::new(Problem::Other(what)),
         })?;
-        origins.overrides.insert(dotted(path).join("."), text);
+        origins.override_at(&dotted(path), &text);
     }
     Ok((table, origins))
 }

@@ -144,9 +144,9 @@ impl Packed {
         kept
     }
 
-    /// Refuses a field under which this hair cannot be stepped.
-    pub fn check_field(&self, field: &dyn Field) -> Result<(), SettingError> {
-        self.stability.check(field)
+    /// Whether this hair can be stepped under a field.
+    pub fn is_stable(&self, field: &dyn Field) -> bool {
+        self.stability.holds(field)
     }
 
     pub fn dynamics(&self) -> &Dynamics {

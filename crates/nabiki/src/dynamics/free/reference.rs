@@ -9,7 +9,7 @@ use self::obstacle::Obstacle;
 use super::grid::Crowd;
 use super::head_frame::{HeadFrame, weight};
 use crate::dynamics::air::Breeze;
-use crate::dynamics::gain::Stability;
+use crate::dynamics::gain::check_field;
 use crate::dynamics::{Dynamics, FrameInput, Stepper};
 use crate::error::SettingError;
 use crate::field::Field;
@@ -110,7 +110,7 @@ impl Stepper for Reference {
 
 impl Hair {
     fn new(strands: &Strands, dynamics: &Dynamics, free: &FreeMotion, field: &dyn Field) -> Result<Self, SettingError> {
-        Stability::of(strands, dynamics)?.check(field)?;
+        check_field(strands, dynamics, field)?;
         let springs = Springs::default();
         let hair = strands.iter().enumerate().map(|(s, strand)| Strand::new(dynamics, free, &springs, strand, s));
         let mut hair = Self {

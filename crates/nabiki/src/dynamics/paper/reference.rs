@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::polar::PolarAxis;
 use crate::dynamics::air::Breeze;
-use crate::dynamics::gain::Stability;
+use crate::dynamics::gain::check_field;
 use crate::dynamics::{Dynamics, FrameInput, Stepper};
 use crate::error::SettingError;
 use crate::field::Field;
@@ -27,7 +27,7 @@ pub(in crate::dynamics) struct Reference {
 
 impl Reference {
     pub fn new(strands: &Strands, ids: &[u32], dynamics: &Dynamics, field: &dyn Field) -> Result<Self, SettingError> {
-        Stability::of(strands, dynamics)?.check(field)?;
+        check_field(strands, dynamics, field)?;
         let setting =
             Setting { gamma: dynamics.gamma(), polar_from_head: PolarAxis::new(dynamics.polar_axis).polar_from_head() };
         let hair = strands.iter().enumerate().map(|(s, strand)| Strand::new(dynamics, &setting, strand, s));

@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::kernel::SegmentState;
 use super::packed::{Packed, Plan};
+use crate::dynamics::gain::unstable;
 use crate::dynamics::sweep::{Pages, sweep};
 use crate::dynamics::{Dynamics, FrameInput, VectorWidth};
 use crate::error::SettingError;
@@ -25,9 +26,12 @@ impl Runner {
         Ok(Self { states: packed.states(), packed })
     }
 
-    /// Refuses a field under which this hair cannot be stepped.
-    pub fn check_field(&self, field: &dyn Field) -> Result<(), SettingError> {
-        self.packed.check_field(field)
+    /// Refuses a field under which this hair cannot be stepped; `strands` are those that it was made of.
+    pub fn check_field(&self, strands: &Strands, field: &dyn Field) -> Result<(), SettingError> {
+        match self.packed.is_stable(field) {
+            true => Ok(()),
+            false => Err(unstable(&[("strand", strands)], self.dynamics(), field)),
+        }
     }
 
     pub fn dynamics(&self) -> &Dynamics {

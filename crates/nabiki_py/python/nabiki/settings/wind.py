@@ -169,7 +169,7 @@ class Flow(Table):
 
     @property
     def thickness(self) -> float:
-        """What the wind goes round stands out so far from the head ellipsoid (cm, at least 0, default 0): as hair itself
+        """What the wind goes round stands out so far from the head ellipsoid (cm, 0..100, default 0): as hair itself
         does.
         """
         value: float = self._get('thickness')
@@ -201,7 +201,7 @@ class Turbulence(Table):
 
     @property
     def swirl_size(self) -> float:
-        """Size of the largest swirls (cm), half of the wavelengths that they are made of, above 0 (default 10)."""
+        """Size of the largest swirls (cm), half of the wavelengths that they are made of, 0.01..1e6 (default 10)."""
         value: float = self._get('swirl_size')
         return value
 
