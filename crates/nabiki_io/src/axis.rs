@@ -29,6 +29,14 @@ pub enum Axis {
 }
 
 impl Axis {
+    /// All six.
+    pub const ALL: [Self; 6] = [Self::PlusX, Self::MinusX, Self::PlusY, Self::MinusY, Self::PlusZ, Self::MinusZ];
+
+    /// Whether it lies across another.
+    pub fn is_across(self, other: Self) -> bool {
+        self.vector().dot(other.vector()) == 0.0
+    }
+
     /// Its unit vector.
     pub fn vector(self) -> DVec3 {
         match self {

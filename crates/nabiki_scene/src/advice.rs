@@ -4,6 +4,7 @@
 use std::fmt;
 
 use nabiki::Head;
+use nabiki::dynamics::Form;
 use nabiki::head::Opening;
 use nabiki_io::info::Short;
 
@@ -59,8 +60,25 @@ pub(crate) fn advice(built: &BuiltScene) -> Vec<Advice> {
     let of_head = head_size(built);
     // Hair that goes by the unit of a wrong head cannot be judged.
     let of_hair = if of_head.is_none() { built.seat().and_then(|seat| of_seat(&seat)) } else { None };
-    advice.extend(of_head.into_iter().chain(of_hair));
+    advice.extend(of_head.into_iter().chain(of_hair).chain(untied(built)));
     advice
+}
+
+/// A tie that holds no hair.
+fn untied(built: &BuiltScene) -> Option<Advice> {
+    let Form::Free(free) = &built.dynamics.form else { return None };
+    let tie = free.form.tie?;
+    let strands = &built.hair.strands;
+    if strands.iter().any(|strand| tie.held(strand) > 0) {
+        return None;
+    }
+    let [x, y, z] = tie.at.to_array().map(Short);
+    let seen = format!(
+        "free.tie ties nothing: none of these {} strands comes within {} cm of ({x}, {y}, {z}) at rest",
+        strands.len(),
+        Short(tie.within)
+    );
+    Some(Advice { seen, settings: Vec::new() })
 }
 
 fn open_skull(head: &Head, hole: &Opening) -> Option<Advice> {
@@ -103,8 +121,10 @@ fn of_seat(seat: &Seat<'_>) -> Option<Advice> {
         return None;
     }
     let seen = wrong(&now);
-    let Some((Mended { unit, origin }, then)) = seat.mended() else {
-        let seen = format!("{seen}: it was made for another head, and no other hair.unit or hair.origin mends that");
+    let Some((Mended { facing, unit, origin }, then)) = seat.mended() else {
+        let seen = format!(
+            "{seen}: it was made for another head, and no other hair.facing, hair.unit or hair.origin mends that"
+        );
         return Some(Advice { seen, settings: Vec::new() });
     };
     let seen = if then.is_good() {
@@ -112,9 +132,10 @@ fn of_seat(seat: &Seat<'_>) -> Option<Advice> {
     } else {
         format!("{seen}. It was made for another head; at the best place found {}", wrong(&then))
     };
+    let facing = facing.map(|axis| Setting { key: "hair.facing", value: format!("\"{axis}\"") });
     let unit = unit.map(|value| Setting { key: "hair.unit", value });
     let origin = origin.map(|p| Setting { key: "hair.origin", value: vector(p) });
-    Some(Advice { seen, settings: unit.into_iter().chain(origin).collect() })
+    Some(Advice { seen, settings: facing.into_iter().chain(unit).chain(origin).collect() })
 }
 
 /// What is wrong with hair that lies so.

@@ -5,7 +5,7 @@
 
 use glam::{Mat3, Vec3};
 use nabiki::{Ellipsoid, Head, Strands};
-use nabiki_io::{DeclaredSpace, Placement, Unit};
+use nabiki_io::{Axis, DeclaredSpace, Placement, Unit};
 
 use crate::built::hair_placement;
 use crate::scene::ImportedHair;
@@ -64,6 +64,8 @@ impl Lie {
 /// Settings of `[hair]` that would seat it better; `None` leaves one as it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Mended {
+    /// `hair.facing`.
+    pub facing: Option<Axis>,
     /// `hair.unit`, in TOML.
     pub unit: Option<String>,
     /// `hair.origin` (the file's unit).
@@ -102,7 +104,7 @@ impl Seat<'_> {
         if now.is_good() {
             return None;
         }
-        let mended = self.best();
+        let mended = self.turned(&now).unwrap_or_else(|| self.best());
         let then = self.lie_at(&self.placement(&mended));
         then.is_better_than(&now).then_some((mended, then))
     }
@@ -111,6 +113,7 @@ impl Seat<'_> {
         let unit = mended.unit.as_deref().map(|text| Unit { cm: centimetres(text) });
         let settings = ImportedHair {
             unit: unit.or(self.settings.unit),
+            facing: mended.facing.or(self.settings.facing),
             origin: mended.origin.or(self.settings.origin),
             ..self.settings.clone()
         };
@@ -135,23 +138,52 @@ impl Seat<'_> {
         Lie { off, inside: inside as f32 / points.max(1) as f32, depth, on_skin }
     }
 
-    /// The unit by how far the roots spread, where no unit is stated and the scene's makes it no scalp; then the origin;
-    /// then a unit a little larger, if too much of the hair is inside.
-    fn best(&self) -> Mended {
+    /// Another facing, if that alone, or with a unit and an origin, makes it lie well, and as it faces now these do not.
+    fn turned(&self, now: &Lie) -> Option<Mended> {
+        // An origin that is given was found for the facing beside it.
+        if self.settings.origin.is_some() {
+            return None;
+        }
+        let placement = self.placement(&Mended::default());
+        let as_it_faces = self.lie_at(&self.placement(&self.moved(Mended::default())));
+        if as_it_faces.is_good() {
+            return None;
+        }
+        let around = Axis::ALL.into_iter().filter(|axis| axis.is_across(placement.up) && *axis != placement.facing);
+        let turned = || around.clone().map(|axis| Mended { facing: Some(axis), ..Mended::default() });
+        // Hair is about as long to all sides: what is little better may be so by chance.
+        let least = 0.5 * if now.on_skin { now.inside.min(as_it_faces.inside) } else { as_it_faces.inside };
+        let lies_well = |mended: &Mended| {
+            let lie = self.lie_at(&self.placement(mended));
+            lie.is_good() && lie.inside < least
+        };
+        turned().find(lies_well).or_else(|| turned().map(|mended| self.moved(mended)).find(lies_well))
+    }
+
+    /// With the unit by how far the roots spread, where no unit is stated and the scene's makes it no scalp; then with the origin.
+    fn moved(&self, mut best: Mended) -> Mended {
         let size = mean_half_axis(&self.head.ellipsoid);
-        let mut best = Mended::default();
-        let unit_is_open = self.declared.unit.is_none();
         let spread = spread(&self.roots());
         let placement = self.placement(&best);
-        if unit_is_open && spread > 0.0 && !SPREADS.contains(&(spread * placement.unit.cm / size)) {
+        if self.unit_is_open() && spread > 0.0 && !SPREADS.contains(&(spread * placement.unit.cm / size)) {
             best.unit = Some(unit_for(spread, SPREAD * size));
         }
         if !self.lie_at(&self.placement(&best)).on_skin {
             best.origin = Some(self.found_origin(&self.placement(&best)));
         }
+        best
+    }
+
+    fn unit_is_open(&self) -> bool {
+        self.declared.unit.is_none()
+    }
+
+    /// Moved so, and then with a unit a little larger, if too much of the hair is inside.
+    fn best(&self) -> Mended {
+        let best = self.moved(Mended::default());
         let lie = self.lie_at(&self.placement(&best));
-        if unit_is_open && lie.on_skin && lie.inside > INSIDE {
-            best = self.enlarged(&self.placement(&best)).unwrap_or(best);
+        if self.unit_is_open() && lie.on_skin && lie.inside > INSIDE {
+            return self.enlarged(&self.placement(&best)).unwrap_or(best);
         }
         best
     }
@@ -190,7 +222,7 @@ impl Seat<'_> {
             let unit = Unit { cm: centimetres(&text) };
             let turn = Placement { unit, origin: Vec3::ZERO, ..*placement };
             let origin = self.rounded(middle - turn.file_from_head().transform_vector3(center), unit);
-            let mended = Mended { unit: Some(text), origin: Some(origin) };
+            let mended = Mended { unit: Some(text), origin: Some(origin), ..Mended::default() };
             self.lie_at(&self.placement(&mended)).is_good().then_some(mended)
         })
     }

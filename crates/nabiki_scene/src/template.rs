@@ -329,11 +329,10 @@ fn facing_of(roots: &[Vec3], mesh: &Mesh, placement: &Placement) -> Option<Axis>
     let (low, high) = bounds(&around);
     let off = middle(roots) - 0.5 * (low + high);
     let level = off - off.dot(up) * up;
-    let axes = [Axis::PlusX, Axis::MinusX, Axis::PlusY, Axis::MinusY, Axis::PlusZ, Axis::MinusZ];
     // Heads are symmetric: sideways the roots are off by little.
     let clear = level.length() > 0.05 * (high - low).length();
     let away = |axis: Axis| axis.vector().as_vec3().dot(-level);
-    let best = axes.into_iter().filter(|axis| axis.vector().dot(placement.up.vector()) == 0.0);
+    let best = Axis::ALL.into_iter().filter(|axis| axis.is_across(placement.up));
     best.max_by(|a, b| away(*a).total_cmp(&away(*b))).filter(|_| clear)
 }
 
@@ -370,22 +369,21 @@ fn imported_hair(
             (&built_in, Placement::default())
         }
     };
-    if head.is_none() {
-        let facing = front_of(declared.up.unwrap_or(head_placement.up));
-        settings.facing = Some(facing);
-        text += &format!("facing = \"{facing}\"              # guessed: where the face looks\n");
-        guesses.push(format!("hair.facing = \"{facing}\", as most files have it"));
-    }
+    settings.facing = head.is_none().then(|| front_of(declared.up.unwrap_or(head_placement.up)));
     let seat = Seat { head: skin, strands, settings: &settings, head_placement: &head_placement, declared };
-    if let Some((Mended { unit, origin }, _)) = seat.mended() {
-        if let Some(unit) = unit {
-            text += &format!("unit = {unit:<20} # guessed\n");
-            guesses.push(format!("hair.unit = {unit}, by how the roots spread and lie on the head"));
-        }
-        if let Some(origin) = origin.map(vector) {
-            text += &format!("origin = {origin}   # guessed: the point of the file that is the middle of the head\n");
-            guesses.push(format!("hair.origin = {origin}, which brings the roots onto the scalp"));
-        }
+    let Mended { facing, unit, origin } = seat.mended().map(|(mended, _)| mended).unwrap_or_default();
+    let how = if facing.is_some() { "in which the hair lies on the head" } else { "as most files have it" };
+    if let Some(facing) = facing.or(settings.facing) {
+        text += &format!("facing = \"{facing}\"              # guessed: where the face looks\n");
+        guesses.push(format!("hair.facing = \"{facing}\", {how}"));
+    }
+    if let Some(unit) = unit {
+        text += &format!("unit = {unit:<20} # guessed\n");
+        guesses.push(format!("hair.unit = {unit}, by how the roots spread and lie on the head"));
+    }
+    if let Some(origin) = origin.map(vector) {
+        text += &format!("origin = {origin}   # guessed: the point of the file that is the middle of the head\n");
+        guesses.push(format!("hair.origin = {origin}, which brings the roots onto the scalp"));
     }
     text += "# strands = 5000           # an even choice of the file's\n";
     text += "# segments = 20            # cuts every strand anew into equal segments\n";
