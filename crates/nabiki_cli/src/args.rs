@@ -347,7 +347,8 @@ pub struct Render {
     #[arg(long, value_name = "N")]
     pub frame: Option<u32>,
 
-    /// Draw one frame (--frame, or else the first) from all around: a movie of N pictures, once round the head
+    /// Draw one frame (--frame, or else the first) from all around: a movie of N pictures, once round the head, or files
+    /// (output.movie = false, output.png_frames = true)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=100_000))]
     pub turntable: Option<u32>,
 
@@ -386,7 +387,8 @@ pub struct Solve {
     #[arg(long, value_name = "FILE")]
     pub wish: PathBuf,
 
-    /// The scene to write (TOML): this one with the numbers found, its comments and layout as they are
+    /// The scene to write (TOML): this one with the numbers found and what --set and --frames say, its comments and layout
+    /// as they are
     #[arg(long, short, value_name = "FILE")]
     pub output: PathBuf,
 

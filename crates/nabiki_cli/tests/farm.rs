@@ -319,7 +319,9 @@ fn frames_that_make_no_movie_are_refused() {
     draw("--set picture.size=[96,64] --frames 0..4 --out a");
     draw("--set picture.size=[64,64] --frames 2..2 --out b");
     draw("--set picture.size=[96,64] --set picture.background.transparent=true --frames 2..2 --out c");
-    for (from, to) in [("b", "other_2.png"), ("c", "clear_2.png")] {
+    fs::copy(folder.path().join("b/gust_frames/0002.png"), folder.path().join("small2.png")).unwrap();
+    for (from, to) in [("b", "other/f2.png"), ("c", "clear/f2.png")] {
+        fs::create_dir_all(folder.path().join(to).parent().unwrap()).unwrap();
         fs::copy(folder.path().join(format!("{from}/gust_frames/0002.png")), folder.path().join(to)).unwrap();
     }
     for n in [0, 1, 3, 4] {
@@ -328,17 +330,23 @@ fn frames_that_make_no_movie_are_refused() {
     }
     fs::write(folder.path().join("f2.png"), [0x5a; 500]).unwrap();
     fs::create_dir(folder.path().join("empty")).unwrap();
+    fs::write(folder.path().join("empty.png"), []).unwrap();
     let whole = format!("--scene {SCENES}/gust.toml --set output.sheet=[0]");
     for (words, why) in [
         ("f0.png f1.png f3.png -o m.mp4", "frame 2 is missing; draw with nabiki render SCENE --frames 2..2"),
         ("f0.png f4.png -o m.mp4", "frames 1 to 3 are missing; draw with nabiki render SCENE --frames 1..3"),
-        ("f0.png f1.png other_2.png f3.png -o m.mp4", "other_2.png: 64 x 64 pixels and f0.png has 96 x 64"),
-        ("f0.png f1.png clear_2.png f3.png -o m.mp4", "is transparent: only opaque pictures"),
+        ("f0.png f1.png other/f2.png f3.png -o m.mp4", "f2.png: 64 x 64 pixels and f0.png has 96 x 64"),
+        (
+            "f0.png f1.png small2.png f3.png -o m.mp4",
+            "f1.png and small2.png: have different names before their numbers",
+        ),
+        ("f0.png f1.png clear/f2.png f3.png -o m.mp4", "is transparent: only opaque pictures"),
         ("f0.png f1.png f2.png -o m.mp4", "f2.png: "),
-        ("a/gust_frames f1.png -o m.mp4", "is frame 1 as"),
+        ("f0.png f1.png a/../f1.png -o m.mp4", "is frame 1 as"),
         ("empty -o m.mp4", "no numbered PNG files are in this folder"),
-        ("f0.png none.png -o m.mp4", "none.png: no PNG file with a number"),
-        ("f0.png none_1.png -o m.mp4", "none_1.png: "),
+        ("f0.png none.png -o m.mp4", "none.png: there is no such file or folder"),
+        ("f0.png empty.png -o m.mp4", "empty.png: no PNG file with a number"),
+        ("f0.png none/f1.png -o m.mp4", "f1.png: "),
         ("a/gust_frames -o m.avi", "a movie ends in .mp4"),
         ("a/gust_frames -o none/m.mp4", "there is no folder none"),
         ("a/gust_frames -o m.mp4 WHOLE --set motion.frames=9", "frames 5 to 9 are missing"),

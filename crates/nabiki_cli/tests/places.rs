@@ -137,7 +137,7 @@ fn a_movie_too_large_for_its_codec() {
     let folder = TempDir::new().unwrap();
     let out = at(&folder, "new/out");
     let line = refuse(&["run", GUST, "--out", &out, "--set", "picture.size=[5000,3000]"], &folder);
-    assert!(line.contains("picture.size = 5000 x 3000"), "{line}");
+    assert!(line.contains("picture.size = 5000 x 3000") && line.contains("set output.movie = false"), "{line}");
 }
 
 #[cfg(unix)]

@@ -33,6 +33,22 @@ fn the_first_picture_is_the_frame_itself_and_half_a_turn_is_the_other_side() {
 }
 
 #[test]
+fn stills_alone_may_be_larger_than_a_movie_and_have_the_scenes_bits() {
+    let folder = tempfile::tempdir().unwrap();
+    let bits = |file: &str| std::fs::read(folder.path().join("out").join(file)).unwrap()[24];
+    let large = "--set picture.size=[3848,8] --set output.png_bits=16";
+    let movie = render(folder.path(), &format!("--turntable 2 {large}"));
+    let said = String::from_utf8_lossy(&movie.stderr).into_owned();
+    assert!(!movie.status.success() && said.contains("set output.movie = false"), "{said}");
+    let stills = render(folder.path(), &format!("--turntable 2 {large} --set output.movie=false"));
+    assert!(stills.status.success(), "{}", String::from_utf8_lossy(&stills.stderr));
+    assert!(!folder.path().join("out/gust_0000_turntable.mp4").exists());
+    assert_eq!(bits("gust_0000_turntable_frames/0001.png"), 16);
+    assert!(render(folder.path(), "--frame 0 --set output.png_bits=16").status.success());
+    assert_eq!(bits("gust_0000.png"), 16);
+}
+
+#[test]
 fn what_cannot_be_turned_is_one_line() {
     let folder = tempfile::tempdir().unwrap();
     for (arguments, code, words) in [

@@ -48,8 +48,7 @@ impl Stills {
     /// Writes frame `n`.
     pub fn write(&self, n: u32, frame: &Frame, tone_mapping: &ToneMapping) -> Result<()> {
         if self.output.png_frames {
-            let depth = if self.output.png_bits == 16 { png::Depth::Sixteen } else { png::Depth::Eight };
-            png::write(&still(&self.folder, n, "png"), frame, tone_mapping, depth)?;
+            png::write(&still(&self.folder, n, "png"), frame, tone_mapping, png_depth(&self.output))?;
         }
         if self.output.exr_frames {
             exr::write(&still(&self.folder, n, "exr"), frame)?;
@@ -61,6 +60,11 @@ impl Stills {
     pub fn folder(&self) -> &Path {
         &self.folder
     }
+}
+
+/// The bits of a scene's PNG files.
+pub(crate) fn png_depth(output: &Output) -> png::Depth {
+    if output.png_bits == 16 { png::Depth::Sixteen } else { png::Depth::Eight }
 }
 
 /// The folder of a scene's stills among its results.

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
-use nabiki::error::check_range;
 use nabiki_file::PartFile;
 use openh264::OpenH264API;
 use openh264::encoder::{
@@ -52,14 +51,20 @@ impl Movie {
     /// A size or frame rate that a movie cannot have.
     pub fn check(picture: &Picture, frame_rate: f64) -> Result<(), RenderError> {
         picture.check()?;
-        check_range("motion.frame_rate", frame_rate as f32, 1.0, 240.0)?;
+        if !(1.0..=240.0).contains(&frame_rate) {
+            let key = if picture.video.frame_rate.is_some() { "picture.video.frame_rate" } else { "motion.frame_rate" };
+            let remedy =
+                "a movie has 1 to 240 frames a second: give picture.video.frame_rate, or set output.movie = false";
+            return Err(nabiki::SettingError::new(key, frame_rate, remedy).into());
+        }
         let size = picture.size.map(|s| s as usize & !1);
         let (longer, shorter) = (size[0].max(size[1]), size[0].min(size[1]));
         if longer > 3840 || !(16..=2160).contains(&shorter) {
             return Err(nabiki::SettingError::new(
                 "picture.size",
                 format!("{} x {}", picture.size[0], picture.size[1]),
-                "a movie's sides must lie within 16 and 3840 x 2160 pixels; write PNG frames instead",
+                "a movie's sides must lie within 16 and 3840 x 2160 pixels: set output.movie = false, and output.png_frames = true \
+                 for frames as files",
             )
             .into());
         }

@@ -120,7 +120,7 @@ impl Camera {
     pub(crate) fn check(&self) -> Result<(), SettingError> {
         check_angles("picture.camera", Some(self.azimuth), Some(self.elevation), Some(self.fov))?;
         if let Some(distance) = self.distance {
-            check_positive("picture.camera.distance", distance)?;
+            check_range("picture.camera.distance", distance, NEAR, 1e6)?;
         }
         if let Some(height) = self.height {
             check_positive("picture.camera.height", height)?;
@@ -141,7 +141,7 @@ impl Camera {
         check_angles("picture.camera.to", to.azimuth, to.elevation, to.fov)?;
         check_target("picture.camera.to.target", to.target)?;
         if let Some(distance) = to.distance {
-            check_positive("picture.camera.to.distance", distance)?;
+            check_range("picture.camera.to.distance", distance, NEAR, 1e6)?;
             if self.distance.is_none() {
                 let way_out = "give picture.camera.distance as well, to start from";
                 return Err(SettingError::new("picture.camera.to.distance", distance, way_out));

@@ -2,11 +2,14 @@
 
 use std::fmt;
 
-use nabiki::Ellipsoid;
 use nabiki::field::{Ease, Keyframe};
+use nabiki::free_form::NeighbourForces;
+use nabiki::{Ellipsoid, Profile};
 use serde::Serialize;
 
-use crate::scene::{FieldBound, FieldSettings, GrownHair, HairSource, ImportedHair, Scene};
+use crate::scene::{
+    BodySettings, FieldBound, FieldSettings, FormChoice, Gravity, GrownHair, HairSource, ImportedHair, Scene,
+};
 use nabiki_io::info::Short;
 
 /// The outline of a scene; of what it names the head alone is loaded.
@@ -28,8 +31,12 @@ pub struct SceneInfo {
     pub time_step: f32,
     /// lambda.
     pub linear_density: f32,
-    /// alpha.
-    pub alpha: f32,
+    /// alpha; of the free form only where the pseudo-force weakens its field.
+    pub alpha: Option<f32>,
+    /// What holds and calms hair in the free form; none in the paper's.
+    pub free: Option<FreeInfo>,
+    /// What hair keeps out of besides the head, or is drawn with it, each by its table.
+    pub bodies: Vec<(String, String)>,
     /// The vectors of the field.
     pub force: Vec<Keyframe>,
     /// How they follow one another.
@@ -46,6 +53,37 @@ pub struct SceneInfo {
     pub picture: [u32; 2],
 }
 
+/// `[free]`, `[contact]` and `[neighbours]` of a scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FreeInfo {
+    /// K, from root to tip.
+    pub stiffness: Vec<f32>,
+    /// H, from root to tip.
+    pub hold: Vec<f32>,
+    /// Frames in which a swing dies to 1/e, from root to tip.
+    pub settle: Vec<f32>,
+    /// The strength of weight, or "earth".
+    pub gravity: Gravity,
+    /// How far from the head's skin nodes are kept (cm).
+    pub margin: f32,
+    /// Hair against hair, where it is on.
+    pub neighbours: Option<NeighbourForces>,
+}
+
+impl FreeInfo {
+    fn of(scene: &Scene) -> Option<Self> {
+        let values = |profile: &Profile| profile.values().to_vec();
+        (scene.form == FormChoice::Free).then(|| Self {
+            stiffness: values(&scene.free.stiffness),
+            hold: values(&scene.free.hold),
+            settle: values(&scene.free.settle),
+            gravity: scene.free.gravity,
+            margin: scene.contact.margin,
+            neighbours: scene.neighbours.clone(),
+        })
+    }
+}
+
 impl SceneInfo {
     /// Outlines `scene`.
     pub fn of(scene: &Scene) -> Self {
@@ -60,6 +98,7 @@ impl SceneInfo {
         };
         let head = scene.load_head();
         let bounds = if scene.field.is_the_papers() { Ok(Vec::new()) } else { scene.field_bounds() };
+        let free = FreeInfo::of(scene);
         Self {
             head: scene.head.mesh(),
             ellipsoid: head.as_ref().ok().map(|head| head.ellipsoid),
@@ -69,7 +108,14 @@ impl SceneInfo {
             frames: scene.motion.frames,
             time_step: scene.motion.time_step,
             linear_density: scene.motion.linear_density,
-            alpha: scene.pseudo_force.alpha,
+            alpha: (free.is_none() || scene.free.pseudo_force).then_some(scene.pseudo_force.alpha),
+            free,
+            bodies: scene
+                .bodies
+                .iter()
+                .enumerate()
+                .map(|(i, body)| (format!("body[{i}]"), body_in_words(body)))
+                .collect(),
             force: scene.field.force.clone(),
             ease: scene.field.wind.ease,
             fields: in_words(&scene.field),
@@ -95,9 +141,19 @@ impl fmt::Display for SceneInfo {
         }
         writeln!(f, "hair: {}", self.hair)?;
         let (step, density) = (Short(self.time_step), Short(self.linear_density));
-        write!(f, "motion: time step {step}, linear density {density}, alpha {}", Short(self.alpha))?;
+        let form = if self.free.is_some() { "free form, " } else { "" };
+        write!(f, "motion: {form}time step {step}, linear density {density}")?;
+        if let Some(alpha) = self.alpha {
+            write!(f, ", alpha {}", Short(alpha))?;
+        }
         if let Some(every) = self.disturbed_every {
             write!(f, ", disturbed every {every} frames")?;
+        }
+        if let Some(free) = &self.free {
+            write!(f, "\n{free}")?;
+        }
+        for (name, words) in &self.bodies {
+            write!(f, "\n{name}: {words}")?;
         }
         let mut first = 1;
         for key in &self.force {
@@ -126,6 +182,37 @@ impl fmt::Display for SceneInfo {
             (None, None) => Ok(()),
         }
     }
+}
+
+impl fmt::Display for FreeInfo {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { stiffness, hold, settle, gravity, margin, neighbours } = self;
+        let list =
+            |values: &[f32]| values.iter().map(|&value| Short(value).to_string()).collect::<Vec<_>>().join(" to ");
+        let (stiffness, hold, settle) = (list(stiffness), list(hold), list(settle));
+        write!(f, "free: stiffness {stiffness}, hold {hold}, settles in {settle} frames, gravity ")?;
+        match gravity {
+            Gravity::Strength(strength) => write!(f, "{}", Short(*strength))?,
+            Gravity::Earth => f.write_str("of the earth")?,
+        }
+        write!(f, "\ncontact: {} cm from the skin", Short(*margin))?;
+        if let Some(NeighbourForces { cohesion, pressure, .. }) = neighbours {
+            write!(f, "\nneighbours: cohesion {}, pressure {}", Short(*cohesion), Short(*pressure))?;
+        }
+        Ok(())
+    }
+}
+
+/// A body: its file, and how it goes and is felt.
+fn body_in_words(body: &BodySettings) -> String {
+    let way = match &body.motion {
+        _ if body.with_head => "goes with the head".to_owned(),
+        Some(motion) => format!("moved by {}", motion.file.display()),
+        None => "stands still".to_owned(),
+    };
+    let felt = if body.solid { format!("{} cm from its skin", Short(body.margin)) } else { "not felt".to_owned() };
+    let seen = if body.shown { "" } else { ", not shown" };
+    format!("{}, {way}, {felt}{seen}", body.mesh.display())
 }
 
 /// The fields beside `[[force]]`, each by its table.

@@ -72,11 +72,18 @@ fn numbered(given: &[PathBuf]) -> Result<Vec<(u32, PathBuf)>> {
             }
         } else {
             let Some(number) = number(path) else {
+                if !path.exists() {
+                    return Err(Error::refused(format!("{}: there is no such file or folder", path.display())));
+                }
                 let line = "no PNG file with a number at the end of its name, such as 0007.png";
                 return Err(Error::refused(format!("{}: {line}", path.display())));
             };
             frames.push((number, path.clone()));
         }
+    }
+    if let Some([(_, a), (_, b)]) = frames.windows(2).find(|pair| film(&pair[0].1) != film(&pair[1].1)) {
+        let line = "have different names before their numbers, as pictures of two films have; name those of one";
+        return Err(Error::refused(format!("{} and {}: {line}", a.display(), b.display())));
     }
     frames.sort();
     if let Some([a, b]) = frames.windows(2).find(|pair| pair[0].0 == pair[1].0).and_then(|pair| pair.first_chunk()) {
@@ -90,7 +97,12 @@ fn numbered(given: &[PathBuf]) -> Result<Vec<(u32, PathBuf)>> {
 fn number(file: &Path) -> Option<u32> {
     file.extension().filter(|ending| ending.eq_ignore_ascii_case("png"))?;
     let stem = file.file_stem()?.to_str()?;
-    stem[stem.trim_end_matches(|c: char| c.is_ascii_digit()).len()..].parse().ok()
+    stem[film(file)?.len()..].parse().ok()
+}
+
+/// What stands before the number in a file's name.
+fn film(file: &Path) -> Option<&str> {
+    Some(file.file_stem()?.to_str()?.trim_end_matches(|c: char| c.is_ascii_digit()))
 }
 
 /// Refuses a film in which frames are missing.

@@ -35,7 +35,8 @@ pub enum Pictures {
     /// The frames from the first through the second, as numbered stills: PNG files, and OpenEXR files if the scene asks
     /// for them. Each is, to the bit, as in any other division of the film.
     Run(u32, u32),
-    /// One frame from all around: a movie of so many pictures, a full turn, and stills if the scene asks for them.
+    /// One frame from all around: so many pictures, a full turn, as stills if the scene asks for them, and as a movie unless
+    /// it asks for stills alone.
     Turntable {
         /// The frame.
         frame: u32,
@@ -97,7 +98,7 @@ pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path
             place::not_inputs(&[&path], &inputs)?;
             let mut film = Film::new(&built, &scene.picture, source(&built, options)?.as_mut(), watch)?;
             let drawn = film.still(frame, source(&built, options)?.as_mut())?;
-            png::write(&path, &drawn, &ToneMapping::new(&scene.picture), png::Depth::Eight)?;
+            png::write(&path, &drawn, &ToneMapping::new(&scene.picture), outputs::png_depth(&scene.output))?;
             vec![path]
         }
         Pictures::Run(from, through) => {
@@ -127,28 +128,32 @@ fn turntable(
     let mut folders = Folders::default();
     folders.make(folder, outputs::WAY_OUT)?;
     let name = format!("{}_{frame:04}_turntable", scene.name());
-    let file = folder.join(format!("{name}.mp4"));
-    place::free(&file, outputs::WAY_OUT)?;
+    let (output, picture) = (&scene.output, &scene.picture);
+    let as_stills = output.png_frames || output.exr_frames;
+    let file = (output.movie || !as_stills).then(|| folder.join(format!("{name}.mp4")));
     let mut inputs = scene.inputs();
     inputs.extend(options.motion.clone());
-    place::not_inputs(&[&file], &inputs)?;
-    let (output, picture) = (&scene.output, &scene.picture);
-    let stills = (output.png_frames || output.exr_frames)
+    if let Some(file) = &file {
+        place::free(file, outputs::WAY_OUT)?;
+        place::not_inputs(&[file], &inputs)?;
+    }
+    let stills = as_stills
         .then(|| {
             let stills = outputs::stills_folder(folder, &name);
             Stills::begin(stills, output, 0..=pictures - 1, picture.size, &mut folders, watch)
         })
         .transpose()?;
-    let mut movie = Movie::create(&file, picture, picture.video.frame_rate.unwrap_or(scene.frame_rate()))?;
+    let frame_rate = picture.video.frame_rate.unwrap_or(scene.frame_rate());
+    let mut movie = file.as_ref().map(|file| Movie::create(file, picture, frame_rate)).transpose()?;
     let tone_mapping = ToneMapping::new(picture);
     let mut frames = source(built, options)?;
     let push = |n, drawn: &Frame| {
-        movie.push(drawn, &tone_mapping)?;
+        movie.as_mut().map_or(Ok(()), |movie| movie.push(drawn, &tone_mapping))?;
         stills.as_ref().map_or(Ok(()), |stills| stills.write(n, drawn, &tone_mapping))
     };
     Film::turntable(built, (frame, pictures), frames.as_mut(), push, watch)?;
-    movie.finish()?;
-    Ok([file].into_iter().chain(stills.map(|stills| stills.folder().to_owned())).collect())
+    movie.map_or(Ok(()), Movie::finish)?;
+    Ok(file.into_iter().chain(stills.map(|stills| stills.folder().to_owned())).collect())
 }
 
 /// Draws one frame of a scene that is built, as light. [`ToneMapping`] brings it into the range of a screen.
