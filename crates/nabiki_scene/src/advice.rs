@@ -1,15 +1,17 @@
-//! What looks wrong about the size and place of a head and its hair, before anything is drawn: a unit forgotten, hair beside
-//! the head or within it, a skull with a hole.
+//! What looks wrong before anything is drawn: about the size and place of a head and its hair, a unit forgotten, hair beside
+//! the head or within it, a skull with a hole; and settings that change nothing beside the others.
 
 use std::fmt;
 
 use nabiki::Head;
+use nabiki::body::Contact;
 use nabiki::dynamics::Form;
 use nabiki::head::Opening;
 use nabiki_io::info::Short;
+use nabiki_render::settings::{Camera, Projection};
 
 use crate::built::BuiltScene;
-use crate::scene::{EllipsoidChoice, HeadSource};
+use crate::scene::{EllipsoidChoice, FormChoice, FreeSettings, HeadSource, Scene};
 use crate::seat::{Lie, Mended, Seat};
 use crate::size::{HALF_AXIS, mean_half_axis, unit_for, vector};
 
@@ -60,8 +62,39 @@ pub(crate) fn advice(built: &BuiltScene) -> Vec<Advice> {
     let of_head = head_size(built);
     // Hair that goes by the unit of a wrong head cannot be judged.
     let of_hair = if of_head.is_none() { built.seat().and_then(|seat| of_seat(&seat)) } else { None };
-    advice.extend(of_head.into_iter().chain(of_hair).chain(untied(built)));
+    advice.extend(of_head.into_iter().chain(of_hair).chain(untied(built)).chain(unfelt(&built.scene)));
+    advice.extend(unseen(&built.scene.picture.camera));
     advice
+}
+
+/// Tables of the free form beside the paper's, which feels none of them.
+fn unfelt(scene: &Scene) -> Option<Advice> {
+    if scene.form == FormChoice::Free {
+        return None;
+    }
+    let tables = [
+        (scene.free != FreeSettings::default(), "[free]"),
+        (scene.contact != Contact::default(), "[contact]"),
+        (scene.bodies.iter().any(|body| body.solid), "[[body]]"),
+        (scene.neighbours.is_some(), "[neighbours]"),
+    ];
+    let given: Vec<&str> = tables.into_iter().filter(|&(given, _)| given).map(|(_, table)| table).collect();
+    if given.is_empty() {
+        return None;
+    }
+    let seen = format!("hair does not feel {} in the paper's form", given.join(", "));
+    Some(Advice { seen, settings: vec![Setting { key: "motion.form", value: "\"free\"".to_owned() }] })
+}
+
+/// Settings of the camera that change no picture beside the others.
+fn unseen(camera: &Camera) -> Vec<Advice> {
+    let focus = (camera.focus_distance.is_some() && camera.f_stop.is_none())
+        .then_some("picture.camera.focus_distance changes nothing: all is sharp without picture.camera.f_stop");
+    let height = (camera.height.is_some() && camera.projection == Projection::Perspective).then_some(
+        "picture.camera.height changes nothing in perspective: give picture.camera.distance or fov, or projection = \"orthographic\"",
+    );
+    let seen = focus.into_iter().chain(height);
+    seen.map(|seen| Advice { seen: seen.to_owned(), settings: Vec::new() }).collect()
 }
 
 /// A tie that holds no hair.

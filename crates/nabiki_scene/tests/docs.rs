@@ -77,6 +77,10 @@ fn stand_ins(scene: &Scene, bust: &BuiltScene) {
     }
     for body in &scene.bodies {
         std::fs::write(scene.resolve(&body.mesh), TETRAHEDRON).unwrap();
+        if let Some(motion) = &body.motion {
+            let rows: String = (0..60).map(|second| format!("{second},0,0,0,0,0,0,1\n")).collect();
+            std::fs::write(scene.resolve(&motion.file), format!("{COLUMNS}\n{rows}")).unwrap();
+        }
     }
     if let Some(motion) = &scene.head.motion {
         std::fs::write(scene.resolve(motion.skeleton.as_ref().unwrap()), SKELETON).unwrap();
@@ -85,6 +89,9 @@ fn stand_ins(scene: &Scene, bust: &BuiltScene) {
         std::fs::write(scene.resolve(&motion.file), format!(":FULLY-SPECIFIED\n:DEGREES\n{text}")).unwrap();
     }
 }
+
+/// Of a body's way.
+const COLUMNS: &str = "t_s,px_cm,py_cm,pz_cm,qx,qy,qz,qw";
 
 /// Beside the head.
 const TETRAHEDRON: &str = "v 30 0 0\nv 32 0 0\nv 30 2 0\nv 30 0 2\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";

@@ -234,3 +234,31 @@ fn bodies_that_are_none_are_refused() {
         );
     }
 }
+
+/// What is of the free form is said to be without effect in the paper's, and what of the camera changes no picture; what has an effect
+/// is not.
+#[test]
+fn settings_without_effect_are_said() {
+    let said = |settings: &[(&str, &str)]| -> Vec<String> {
+        let overrides: Vec<_> = settings.iter().map(|&(key, value)| (key.to_owned(), value.to_owned())).collect();
+        let built = Scene::parse("[[force]]\nthrough = 3\nvector = [-40, 0, 0]", Path::new("s.toml"), &overrides)
+            .unwrap()
+            .build(Shown::First(20))
+            .unwrap();
+        built.advice().iter().map(ToString::to_string).collect()
+    };
+    let paper = [("free.settle", "9"), ("neighbours.cohesion", "40")];
+    assert_eq!(
+        said(&paper),
+        ["hair does not feel [free], [neighbours] in the paper's form: give motion.form = \"free\""]
+    );
+    assert_eq!(said(&[paper[0], paper[1], ("motion.form", "\"free\"")]), [""; 0]);
+    let unseen = |settings: &[(&str, &str)]| {
+        said(settings).iter().map(|s| s.split(' ').next().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let (focus, height) = (("picture.camera.focus_distance", "60"), ("picture.camera.height", "40"));
+    assert_eq!(unseen(&[focus, height]), ["picture.camera.focus_distance", "picture.camera.height"]);
+    let orthographic = ("picture.camera.projection", "\"orthographic\"");
+    assert_eq!(unseen(&[height, orthographic]), [""; 0]);
+    assert_eq!(unseen(&[focus, ("picture.camera.f_stop", "4")]), [""; 0]);
+}
