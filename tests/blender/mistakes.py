@@ -111,7 +111,7 @@ def test_heads_that_are_none_are_refused(command, shared):
     ball = scenes.ball("Open", 0.05, scenes.PLACE + [0.2, 0, 0])
     ball.modifiers.new("Collision", "COLLISION")
     ball.data = sheet
-    refused(simulate, 'the body "Open": a sheet', "encloses no space")
+    refused(simulate, 'the body "Open":', "a sheet encloses no space")
 
 
 def test_sizes_that_are_wrong_are_refused(command, shared):
