@@ -145,8 +145,13 @@ pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError
     let [low, high] = bounds(&mesh.positions);
     let side = |cm: f32| if cm < 1e5 { format!("{}", (1e3 * cm).round() / 1e3) } else { format!("{cm:.1e}") };
     let size = format!("{} cm", (high - low).to_array().map(side).join(" x "));
+    let sheet = "a sheet encloses no space, or next to none, so nothing can be told to be inside it: make it thicker";
+    let thickness = (high - low).min_element();
+    if thickness <= 0.0 {
+        return refused(&size, sheet);
+    }
     // Before what may overflow in a mesh of such a size.
-    let spacing = ((high - low).min_element() / 12.0).clamp(FINEST_CM, COARSEST_CM);
+    let spacing = (thickness / 12.0).clamp(FINEST_CM, COARSEST_CM);
     let samples = SkinDistance::count_samples(&mesh, low - AROUND_CM, high + AROUND_CM, spacing);
     if samples.is_nan() || samples > MOST_SAMPLES {
         let remedy = format!(
@@ -156,9 +161,7 @@ pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError
         return refused(&size, &remedy);
     }
     if !mesh.turn_outward().has_inside {
-        let remedy =
-            "a sheet encloses no space, or next to none, so nothing can be told to be inside it: make it thicker";
-        return refused(&size, remedy);
+        return refused(&size, sheet);
     }
     Ok(SkinDistance::new(&mesh, low - AROUND_CM, high + AROUND_CM, spacing))
 }

@@ -338,7 +338,7 @@ fn frames_that_make_no_movie_are_refused() {
         ("f0.png f1.png other/f2.png f3.png -o m.mp4", "f2.png: 64 x 64 pixels and f0.png has 96 x 64"),
         (
             "f0.png f1.png small2.png f3.png -o m.mp4",
-            "f1.png and small2.png: have different names before their numbers",
+            "f0.png and small2.png: have different names before their numbers",
         ),
         ("f0.png f1.png clear/f2.png f3.png -o m.mp4", "is transparent: only opaque pictures"),
         ("f0.png f1.png f2.png -o m.mp4", "f2.png: "),

@@ -155,9 +155,9 @@ fn of_seat(seat: &Seat<'_>) -> Option<Advice> {
     }
     let seen = wrong(&now);
     let Some((Mended { facing, unit, origin }, then)) = seat.mended() else {
-        let seen = format!(
-            "{seen}: it was made for another head, and no other hair.facing, hair.unit or hair.origin mends that"
-        );
+        // Beside an origin that is given no other facing is sought.
+        let sought = if seat.has_origin() { "hair.unit" } else { "hair.facing, hair.unit" };
+        let seen = format!("{seen}: it was made for another head, and no other {sought} or hair.origin mends that");
         return Some(Advice { seen, settings: Vec::new() });
     };
     let seen = if then.is_good() {

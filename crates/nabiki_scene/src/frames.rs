@@ -57,11 +57,11 @@ impl<S: Stepper> FrameSource for Simulated<'_, S> {
     fn frame(&mut self, n: u32) -> Result<&Strands> {
         while self.stepper.frame() < n {
             self.stepper.step_frame(&self.built.input(self.stepper.frame() + 1));
+            if let Some(point) = not_finite(self.stepper.strands().points()) {
+                return Err(flown_off(self.built, self.stepper.frame(), point));
+            }
         }
-        match not_finite(self.stepper.strands().points()) {
-            None => Ok(self.stepper.strands()),
-            Some(point) => Err(flown_off(self.built, n, point)),
-        }
+        Ok(self.stepper.strands())
     }
 }
 
@@ -80,7 +80,9 @@ fn flown_off(built: &BuiltScene, frame: u32, point: usize) -> Error {
         None => "lower the strengths of the fields".to_owned(),
     };
     let scene = built.scene.file().display();
-    Error::refused(format!("{scene}: frame {frame}: hair flies off beyond all numbers, point {point} first; {way_out}"))
+    Error::refused(format!(
+        "{scene}: frame {frame}: hair flies off beyond all numbers, point {point} among others; {way_out}"
+    ))
 }
 
 /// Frames out of a motion cache.

@@ -1,7 +1,8 @@
 //! Where imported hair sits on a head: how well it lies there, and where it would lie better.
 //!
 //! All is told by an even choice of the file's own strands, whatever number of them is shown, and what is found depends on
-//! the file, the head, the axes and the unit alone. So what is advised, once followed, is not advised away.
+//! the file, the head, the axes and the unit alone; a facing is sought only where no origin is given. So what is advised, once
+//! followed, is not advised away.
 
 use glam::{Mat3, Vec3};
 use nabiki::{Ellipsoid, Head, Strands};
@@ -98,6 +99,11 @@ impl Seat<'_> {
         self.lie_at(&self.placement(&Mended::default()))
     }
 
+    /// Whether the scene gives the place of the head in the file.
+    pub fn has_origin(&self) -> bool {
+        self.settings.origin.is_some()
+    }
+
     /// What would make it lie clearly better, and how it would lie then.
     pub fn mended(&self) -> Option<(Mended, Lie)> {
         let now = self.lie();
@@ -141,7 +147,7 @@ impl Seat<'_> {
     /// Another facing, if that alone, or with a unit and an origin, makes it lie well, and as it faces now these do not.
     fn turned(&self, now: &Lie) -> Option<Mended> {
         // An origin that is given was found for the facing beside it.
-        if self.settings.origin.is_some() {
+        if self.has_origin() {
             return None;
         }
         let placement = self.placement(&Mended::default());

@@ -161,6 +161,9 @@ struct Pull {
     length: f64,
 }
 
+/// The number of the force among all that pulls.
+const FORCE: usize = 3;
+
 /// What these come from in a scene, what they are called, and what the largest of each is.
 fn owners(dynamics: &Dynamics) -> [(&'static str, &'static str, f32); 3] {
     let of_form = |form: &FreeForm| [form.stiffness.largest(), form.hold.largest(), form.gravity];
@@ -200,7 +203,7 @@ pub(super) fn unstable(hair: &[(&str, &Strands)], dynamics: &Dynamics, field: &d
     let strands =
         || hair.iter().flat_map(|&(name, hair)| hair.iter().enumerate().map(move |(s, strand)| (name, s, strand)));
     let of = |s: usize, strand: &[glam::Vec3]| pulls(dynamics, strand, s).unwrap_or_default();
-    // Of each part, by how many times it may be as large as it is, all others being as they are.
+    // All others being as they are: by how many times each part may be as large as it is, and how large the force.
     let mut rooms = [f64::INFINITY; 4];
     let (mut worst, mut most) = ((String::new(), [0.0; 4]), 0.0);
     for (name, s, strand) in strands() {
@@ -208,9 +211,11 @@ pub(super) fn unstable(hair: &[(&str, &Strands)], dynamics: &Dynamics, field: &d
         let moving = || pulls.iter().filter(|pull| pull.gain > 0.0);
         for pull in moving() {
             let parts = parts(pull);
-            let room = 4.0 / pull.gain - parts.iter().sum::<f64>();
-            for (of_part, part) in rooms.iter_mut().zip(parts).filter(|(_, part)| *part > 0.0) {
-                *of_part = of_part.min(1.0 + room / part);
+            for part in (0..4).filter(|&part| parts[part] > 0.0) {
+                // Never from the sum of all, in which one that is too large swallows the others.
+                let others: f64 = (0..4).filter(|&other| other != part).map(|other| parts[other]).sum();
+                let room = 4.0 / pull.gain - others;
+                rooms[part] = rooms[part].min(if part == FORCE { room } else { room / parts[part] });
             }
             if reached(pull) > most {
                 let length: f64 = moving().map(|pull| pull.length).sum();
@@ -227,13 +232,14 @@ pub(super) fn unstable(hair: &[(&str, &Strands)], dynamics: &Dynamics, field: &d
     largest_first.sort_by(|&a, &b| parts[b].total_cmp(&parts[a]));
     let blamed = largest_first.into_iter().find(|&part| rooms[part] > 0.0 && rooms[part].is_finite());
     let refused = |thing: &str, value: String, keep: String| {
-        let remedy = format!("unstable: {what} reaches {most:.3} at {place}, and must stay below 4; {keep}, {ways}");
+        let most = if most < 1e6 { format!("{most:.3}") } else { format!("{most:.1e}") };
+        let remedy = format!("unstable: {what} reaches {most} at {place}, and must stay below 4; {keep}, {ways}");
         SettingError::new(thing, value, remedy)
     };
     let owners = owners(dynamics);
     match blamed {
-        Some(3) => {
-            let largest = rooms[3] * strongest;
+        Some(FORCE) => {
+            let largest = rooms[FORCE];
             // A force of exactly the largest is one too strong.
             let below = largest.next_down();
             let (thing, value) =
@@ -246,7 +252,7 @@ pub(super) fn unstable(hair: &[(&str, &Strands)], dynamics: &Dynamics, field: &d
             refused(thing, value.to_string(), format!("keep {named} below {holds}"))
         }
         None => {
-            let (thing, _, value) = owners[if largest_first[0] < 3 { largest_first[0] } else { largest_first[1] }];
+            let (thing, _, value) = owners[if largest_first[0] != FORCE { largest_first[0] } else { largest_first[1] }];
             let others: Vec<&str> = (owners.iter().zip(parts))
                 .filter(|((other, ..), part)| *other != thing && *part > 0.0)
                 .map(|((other, ..), _)| *other)
@@ -281,7 +287,8 @@ mod tests {
     proptest! {
         #[test]
         fn what_a_refusal_says_would_hold_holds(
-            powers in [1.0_f32..8.0, 1.0_f32..8.0, 1.0_f32..8.0, 1.0_f32..8.0],
+            // Of moderate numbers, and of such as swallow all others or overflow.
+            powers in prop::array::uniform4(prop_oneof![3 => 1.0_f32..8.0, 1 => 8.0_f32..38.5]),
             cuts in prop::collection::vec((2_usize..12, 3.0_f32..20.0), 1..4),
         ) {
             let mut hair = Strands::default();
@@ -289,7 +296,7 @@ mod tests {
                 hair.push((0..=count).map(|i| Vec3::Y * length * (i as f32 / count as f32).powf(1.3)));
             }
             let mut free = FreeMotion::default();
-            let [stiffness, hold, gravity, mut force] = powers.map(|power| 10.0_f32.powf(power) - 10.0);
+            let [stiffness, hold, gravity, mut force] = powers.map(|power| (10.0_f32.powf(power) - 10.0).min(f32::MAX));
             free.form.stiffness = stiffness.into();
             free.form.hold = hold.into();
             free.form.gravity = gravity;

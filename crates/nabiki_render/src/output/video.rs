@@ -53,10 +53,9 @@ impl Movie {
     pub fn check(picture: &Picture, frame_rate: f64) -> Result<(), RenderError> {
         picture.check()?;
         if !(1.0..=240.0).contains(&frame_rate) {
-            let key = if picture.video.frame_rate.is_some() { "picture.video.frame_rate" } else { "motion.frame_rate" };
-            let remedy =
-                "a movie has 1 to 240 frames a second: give picture.video.frame_rate, or set output.movie = false";
-            return Err(nabiki::SettingError::new(key, frame_rate, remedy).into());
+            let remedy = "a movie has 1 to 240 frames a second: give picture.video.frame_rate, or set output.movie = false, and \
+                 output.png_frames = true for frames as files";
+            return Err(nabiki::SettingError::new("motion.frame_rate", frame_rate, remedy).into());
         }
         let size = picture.size.map(|s| s as usize & !1);
         let (longer, shorter) = (size[0].max(size[1]), size[0].min(size[1]));

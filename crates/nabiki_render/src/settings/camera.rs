@@ -31,7 +31,7 @@ pub struct Camera {
     pub elevation: f32,
     /// Vertical field of view (degrees, 1..150), for perspective. Default 26.
     pub fov: f32,
-    /// From the target to the eye (cm). Default: near enough to frame everything.
+    /// From the target to the eye (cm, 1 to a million). Default: near enough to frame everything.
     pub distance: Option<f32>,
     /// Height of the picture in space (cm), for orthographic views. Default: enough to frame everything.
     pub height: Option<f32>,
@@ -59,7 +59,7 @@ pub struct CameraKey {
     pub azimuth: Option<f32>,
     /// Elevation at the end (degrees).
     pub elevation: Option<f32>,
-    /// Distance at the end (cm); needs `distance` at the start.
+    /// Distance at the end (cm, 1 to a million); needs `distance` at the start.
     pub distance: Option<f32>,
     /// Field of view at the end (degrees).
     pub fov: Option<f32>,

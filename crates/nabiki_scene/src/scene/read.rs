@@ -248,7 +248,9 @@ impl<'de> Deserializer<'de> for Node<'_> {
 
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
         if self.0.is_table() {
-            let wanted = "a list, even of one: each of its tables begins with two brackets, [[...]]".to_owned();
+            let wanted =
+                "a list, even of one, in brackets; in a file each of a list of tables begins with two, [[...]]"
+                    .to_owned();
             return Err(Refusal::new(Problem::Kind { found: "a table".to_owned(), wanted }));
         }
         self.deserialize_any(visitor)

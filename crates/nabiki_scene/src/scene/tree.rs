@@ -46,9 +46,7 @@ impl Origins {
             }
         }
     }
-}
 
-impl Origins {
     /// Notes that an override set the value at a path, and all below it, and made the tables on the way that the file has not.
     fn override_at(&mut self, steps: &[String], text: &str) {
         let path = steps.join(".");
@@ -129,7 +127,9 @@ fn record_value(value: &DeValue, path: &str, line_at: &impl Fn(usize) -> usize, 
 
 /// The steps of a path, `force.1.vector` or `force[1].vector`.
 fn dotted(path: &str) -> Vec<String> {
-    path.replace('[', ".").replace(']', "").split('.').map(|step| step.trim().to_owned()).collect()
+    // A place in a list is called in one way only, by which errors find it again: 0, not 00.
+    let step = |step: &str| step.parse::<usize>().map_or_else(|_| step.to_owned(), |place| place.to_string());
+    path.replace('[', ".").replace(']', "").split('.').map(|name| step(name.trim())).collect()
 }
 
 /// Puts `text`, read as a TOML value or else as a string, at `path`, making tables on the way where there are none.

@@ -1,5 +1,6 @@
 //! A movie of pictures that are drawn already, here or on many machines.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use nabiki_render::output::png;
@@ -81,11 +82,16 @@ fn numbered(given: &[PathBuf]) -> Result<Vec<(u32, PathBuf)>> {
             frames.push((number, path.clone()));
         }
     }
-    if let Some([(_, a), (_, b)]) = frames.windows(2).find(|pair| film(&pair[0].1) != film(&pair[1].1)) {
-        let line = "have different names before their numbers, as pictures of two films have; name those of one";
-        return Err(Error::refused(format!("{} and {}: {line}", a.display(), b.display())));
-    }
     frames.sort();
+    // A picture of --frame has another name than those of --frames, in a folder of theirs, and may fill a gap among them.
+    let mut of_folder = BTreeMap::new();
+    for (_, b) in &frames {
+        let a = *of_folder.entry(b.parent()).or_insert(b);
+        if film(a) != film(b) {
+            let line = "have different names before their numbers, as pictures of two films have; name those of one";
+            return Err(Error::refused(format!("{} and {}: {line}", a.display(), b.display())));
+        }
+    }
     if let Some([a, b]) = frames.windows(2).find(|pair| pair[0].0 == pair[1].0).and_then(|pair| pair.first_chunk()) {
         let (b, a, n) = (b.1.display(), a.1.display(), a.0);
         return Err(Error::refused(format!("{b}: is frame {n} as {a} is; give each frame once")));

@@ -201,7 +201,7 @@ class Camera(Table):
 
     @property
     def distance(self) -> float | None:
-        """From the target to the eye (cm). Default: near enough to frame everything."""
+        """From the target to the eye (cm, 1 to a million). Default: near enough to frame everything."""
         value: float | None = self._get('distance')
         return value
 
@@ -303,7 +303,7 @@ class CameraKey(Table):
 
     @property
     def distance(self) -> float | None:
-        """Distance at the end (cm); needs `distance` at the start."""
+        """Distance at the end (cm, 1 to a million); needs `distance` at the start."""
         value: float | None = self._get('distance')
         return value
 
