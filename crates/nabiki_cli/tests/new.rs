@@ -33,6 +33,18 @@ fn a_new_scene_is_written_once_and_runs() {
 }
 
 #[test]
+fn a_scene_that_no_command_could_read_back_is_not_written() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["mine.txt", "mine"] {
+        let refused = nabiki(folder.path(), &["new", name]);
+        assert_eq!(refused.status.code(), Some(1));
+        let line = format!("nabiki: {name}: a scene ends in .toml; choose another name\n");
+        assert_eq!(text(&refused.stderr), line);
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
 fn a_file_that_is_no_head_leaves_no_scene() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("head.obj"), "v 0 0 0\n").unwrap();

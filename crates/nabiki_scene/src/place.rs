@@ -72,6 +72,14 @@ pub fn file(path: &Path) -> Result<()> {
     }
 }
 
+/// Refuses what no scene can be written as.
+pub fn scene(path: &Path) -> Result<()> {
+    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+        return Err(Error::refused(format!("{}: a scene ends in .toml; choose another name", path.display())));
+    }
+    file(path)
+}
+
 /// Refuses what no motion cache can be written as, or over.
 pub fn cache(path: &Path, inputs: &[PathBuf]) -> Result<()> {
     if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("nabiki")) {

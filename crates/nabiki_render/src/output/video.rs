@@ -57,9 +57,7 @@ impl Movie {
                  output.png_frames = true for frames as files";
             return Err(nabiki::SettingError::new("motion.frame_rate", frame_rate, remedy).into());
         }
-        let size = picture.size.map(|s| s as usize & !1);
-        let (longer, shorter) = (size[0].max(size[1]), size[0].min(size[1]));
-        if longer > 3840 || !(16..=2160).contains(&shorter) {
+        if !Self::takes(picture.size) {
             return Err(nabiki::SettingError::new(
                 "picture.size",
                 format!("{} x {}", picture.size[0], picture.size[1]),
@@ -69,6 +67,12 @@ impl Movie {
             .into());
         }
         Ok(())
+    }
+
+    /// Whether pictures of this size (pixels) can be a movie's: within 16 and 3840 x 2160, either way up.
+    pub fn takes(size: [u32; 2]) -> bool {
+        let size = size.map(|side| side & !1);
+        size[0].max(size[1]) <= 3840 && (16..=2160).contains(&size[0].min(size[1]))
     }
 
     /// Starts a movie at `path` with the size and quality of `picture`, of `frame_rate` frames a second (1..240).

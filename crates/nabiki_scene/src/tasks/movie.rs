@@ -146,9 +146,17 @@ fn whole(frames: &[(u32, PathBuf)], options: &MovieOptions) -> Result<()> {
     }
 }
 
-/// The size of all pictures.
+/// The size of all pictures, which a movie can have.
 fn one_size(files: &[PathBuf]) -> Result<[u32; 2]> {
     let size = png::read_size(&files[0])?;
+    if !Movie::takes(size) {
+        return Err(Error::refused(format!(
+            "{}: {} x {} pixels; a movie's sides must lie within 16 and 3840 x 2160: draw with another picture.size",
+            files[0].display(),
+            size[0],
+            size[1]
+        )));
+    }
     for file in &files[1..] {
         let other = png::read_size(file)?;
         if other != size {

@@ -37,7 +37,7 @@ pub struct NewOptions {
 /// Writes a commented scene that runs as it is, and says what it guessed.
 ///
 /// # Errors
-/// A file that cannot be read, a head without a skull, a place that is taken or cannot be written.
+/// A file that cannot be read, a head without a skull, a name that does not end in .toml, a place that is taken or cannot be written.
 pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<()> {
     if !options.replace && std::fs::symlink_metadata(path).is_ok() {
         return Err(Error::refused(format!(
@@ -45,7 +45,7 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
             path.display()
         )));
     }
-    place::file(path)?;
+    place::scene(path)?;
     let inputs: Vec<PathBuf> = options.head.iter().chain(&options.hair).cloned().collect();
     place::not_inputs(&[path], &inputs)?;
     super::reading(inputs, watch);

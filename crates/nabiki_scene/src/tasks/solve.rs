@@ -85,13 +85,7 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
 
 /// Refuses a place that cannot be written, or from which the files that the scene names are not found.
 fn check_place(output: &Path, inputs: &[PathBuf], scene: &Scene) -> Result<()> {
-    if !output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
-        return Err(Error::refused(format!(
-            "{}: a scene ends in .toml; give the result such a name",
-            output.display()
-        )));
-    }
-    place::file(output)?;
+    place::scene(output)?;
     place::not_inputs(&[output], inputs)?;
     let folder = |path: &Path| std::fs::canonicalize(nabiki_file::folder_of(path)).ok();
     if scene.inputs().len() > 1 && folder(output) != folder(scene.file()) {
