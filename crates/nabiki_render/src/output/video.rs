@@ -61,15 +61,17 @@ impl Movie {
             return Err(nabiki::SettingError::new(
                 "picture.size",
                 format!("{} x {}", picture.size[0], picture.size[1]),
-                "a movie's sides must lie within 16 and 3840 x 2160 pixels: set output.movie = false, and output.png_frames = true \
-                 for frames as files",
+                format!("{}: set output.movie = false, and output.png_frames = true for frames as files", Self::SIZES),
             )
             .into());
         }
         Ok(())
     }
 
-    /// Whether pictures of this size (pixels) can be a movie's: within 16 and 3840 x 2160, either way up.
+    /// What [`takes`](Self::takes) asks for, in words.
+    pub const SIZES: &str = "a movie's sides must lie within 16 and 3840 x 2160 pixels";
+
+    /// Whether pictures of this size (pixels) can be a movie's, either way up.
     pub fn takes(size: [u32; 2]) -> bool {
         let size = size.map(|side| side & !1);
         size[0].max(size[1]) <= 3840 && (16..=2160).contains(&size[0].min(size[1]))

@@ -151,10 +151,11 @@ fn one_size(files: &[PathBuf]) -> Result<[u32; 2]> {
     let size = png::read_size(&files[0])?;
     if !Movie::takes(size) {
         return Err(Error::refused(format!(
-            "{}: {} x {} pixels; a movie's sides must lie within 16 and 3840 x 2160: draw with another picture.size",
+            "{}: {} x {} pixels; {}: draw with another picture.size",
             files[0].display(),
             size[0],
-            size[1]
+            size[1],
+            Movie::SIZES
         )));
     }
     for file in &files[1..] {
