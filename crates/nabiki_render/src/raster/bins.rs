@@ -25,7 +25,6 @@ const NOWHERE: [u16; 4] = [u16::MAX, u16::MAX, 0, 0];
 pub struct Bins {
     /// Tiles across and down.
     pub tiles: [usize; 2],
-    margin: f32,
     spread: Spread,
     /// First and last tiles (left, top, right, bottom) of the piece that starts at each node.
     rectangles: Vec<[u16; 4]>,
@@ -59,7 +58,6 @@ impl Bins {
         let tiles = size.map(|s| (s as usize).div_ceil(TILE));
         let bounds = size.map(|s| s as f32);
         self.tiles = tiles;
-        self.margin = margin;
         self.spread = spread;
         let count = nodes.len().saturating_sub(1);
         self.rectangles.resize(count, NOWHERE);
@@ -123,22 +121,13 @@ impl Bins {
             let later = numbers[(n + AHEAD).min(numbers.len() - 1)] as usize;
             prefetch(&nodes[later]);
             prefetch(&nodes[later + 1]);
-            let [left, top, right, bottom] = self.rectangles[i as usize];
+            let [left, _, right, _] = self.rectangles[i as usize];
             let Some(piece) = Piece::new(&nodes[i as usize], &nodes[i as usize + 1], i, &self.spread) else { continue };
-            let several = right > left && bottom > top;
             let place = out.pieces.len() as u64;
             let parts = if in_parts { parts(&piece) } else { Parts::WHOLE };
             for x in left..=right {
                 let corner = [f32::from(x), row as f32].map(|c| c * TILE as f32);
-                // Half of a tile's diagonal, and a little for rounding.
-                let near = piece.reach() + self.margin + TILE as f32 * 0.7072;
-                if several && piece.distance(corner.map(|c| c + 0.5 * TILE as f32)) > near {
-                    continue;
-                }
-                for part in 0..parts.in_tile() {
-                    if !piece.reaches(corner, &parts.lines(part)) {
-                        continue;
-                    }
+                for part in parts.within(&piece, corner) {
                     let along = piece.along(corner, parts.middle(part));
                     let depth = piece.a.depth + (piece.b.depth - piece.a.depth) * along;
                     out.entries.push((x, u64::from(depth.to_bits()) << 32 | place << PART_BITS | part as u64));
@@ -223,6 +212,19 @@ impl Parts {
         start.max(0) as usize..((start + i32::from(self.length)) as usize).min(TILE)
     }
 
+    /// Those that may leave traces in the tile with a `corner` (pixels).
+    #[inline(always)]
+    fn within(self, piece: &Piece, corner: [f32; 2]) -> impl Iterator<Item = usize> {
+        let [low, high] = piece.lines(corner);
+        (0..self.in_tile()).filter(move |&part| {
+            let lines = self.lines(part);
+            let [first, end] = [lines.start as f32, lines.end as f32];
+            let [near, far] = piece.reach(corner, first.max(low - 1.0), (end - 1.0).min(high));
+            // A little for rounding.
+            first <= high && end > low && near < TILE as f32 + 1e-3 && far > -1e-3
+        })
+    }
+
     /// The middle of part `i`, within the tile or not (lines from its edge).
     #[inline]
     fn middle(self, i: usize) -> f32 {
@@ -272,6 +274,7 @@ fn rectangle_of(a: &Node, b: &Node, bounds: [f32; 2], tiles: [usize; 2], (margin
 
 #[cfg(test)]
 mod tests {
+    use super::super::SIDE;
     use super::*;
     use proptest::prelude::*;
 
@@ -292,7 +295,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn every_place_on_a_piece_is_listed_in_its_tile(
+        fn every_cell_that_a_piece_passes_is_listed_in_its_tile(
             from in [-20.0_f32..120.0, -20.0_f32..120.0],
             to in [-20.0_f32..120.0, -20.0_f32..120.0],
             width in 0.01_f32..3.0,
@@ -309,9 +312,14 @@ mod tests {
                 if !at.iter().all(|c| (0.0..100.0).contains(c)) || from[0].hypot(from[1]) == to[0].hypot(to[1]) {
                     continue;
                 }
+                let major = usize::from((to[1] - from[1]).abs() > (to[0] - from[0]).abs());
+                // Of a row of cells, what lies between its edge and its middle line is drawn if the middle is reached.
+                let middle = ((at[major] * SIDE as f32).floor() + 0.5) / SIDE as f32;
+                if middle < from[major].min(to[major]) || middle > from[major].max(to[major]) {
+                    continue;
+                }
                 let tile = at.map(|c| c as usize / TILE);
                 bins.row(tile[1], &nodes, true, &mut row);
-                let major = usize::from((to[1] - from[1]).abs() > (to[0] - from[0]).abs());
                 let line = at[major] as usize % TILE;
                 let listed = row.tile(tile[0]).filter(|(_, lines)| lines.contains(&line)).count();
                 prop_assert_eq!(listed, 1, "{:?} in {:?}", at, tile);

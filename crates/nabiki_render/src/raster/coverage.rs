@@ -9,7 +9,8 @@ use std::ops::Range;
 
 use pulp::{Simd, WithSimd};
 
-use super::{BURIED, CELLS, End, Piece, SIDE, TILE, cell_offset};
+use super::piece::{End, Piece};
+use super::{BURIED, CELLS, SIDE, TILE, cell_offset};
 use crate::skin::SkinPixel;
 
 /// Once less than this of a pixel is left open it counts as full, and what it holds stands for the rest of it.
@@ -18,9 +19,6 @@ const PIXELS: usize = TILE * TILE;
 /// Pieces that lie this much behind a full tile are no reason to look for nearer ones (cm): longer than half a piece, by
 /// which one may come nearer than where it was sorted.
 const SLACK: f32 = 1.0;
-
-/// Movement across (pixels, both ends together) below which hair is as deep as halfway through it.
-const MOVES: f32 = 0.05;
 
 /// Working memory for one tile.
 pub struct CoverageTile {
@@ -199,11 +197,17 @@ impl CoverageTile {
         among: &Range<usize>,
         watch: &mut impl Watch,
     ) {
-        let Piece { a, b, cut, unit, per_length, number } = piece;
+        let Piece { a, b, cut, unit, per_length, number, slope, .. } = piece;
         let (zero, one) = (simd.splat_f32s(0.0), simd.splat_f32s(1.0));
-        let lines = Lines::new(tile, piece);
-        let Lines { major, slope, start, end, .. } = lines;
-        let minor = 1 - major;
+        let (major, minor) = piece.axes();
+        let corner = tile.map(|t| (t * TILE) as f32);
+        let [near, far] = piece.reach(corner, among.start as f32, among.end as f32 - 1.0);
+        let within = between(near, far);
+        if among.clone().all(|m| within & !u32::from(self.full[minor][m]) == 0) {
+            return;
+        }
+        let lines = Lines::new(corner, piece);
+        let Lines { start, end, .. } = lines;
 
         // Between two pieces each cell belongs to one of them, or their shares would count as unrelated and leave gaps; at a strand's
         // ends cells are shared in proportion.
@@ -249,7 +253,7 @@ impl CoverageTile {
         let mut from_b = [0.0_f32; CELLS];
         for s in 0..CELLS {
             let o = cell_offset(s);
-            across[s] = o[minor] - o[major] * slope;
+            across[s] = o[minor] - o[major] * *slope;
             from_a[s] = (o[0] * cut[0][0] + o[1] * cut[0][1]) * sharp_a;
             from_b[s] = (o[0] * cut[1][0] + o[1] * cut[1][1]) * sharp_b;
         }
@@ -262,9 +266,9 @@ impl CoverageTile {
             // Of eight bits, so that the compiler sees that it lies in the tile.
             let pixel = usize::from((y * TILE + x) as u8);
             let mut depth = lines.depth[m];
-            if lines.recession != 0.0 {
-                let aside = q as f32 + 0.5 - (lines.middle[m] + 0.5 * lines.slope);
-                depth += aside.max(-lines.sway).min(lines.sway) * lines.recession;
+            if piece.recession != 0.0 {
+                let aside = q as f32 + 0.5 - (lines.middle[m] + 0.5 * slope);
+                depth += aside.max(-piece.sway).min(piece.sway) * piece.recession;
             }
             if depth > self.skin_far[pixel] {
                 continue;
@@ -322,12 +326,8 @@ impl CoverageTile {
     }
 }
 
-/// A piece line by line: rows of the tile if it is steep, columns if it is flat. Sixteen lines side by side.
+/// A piece line by line of the tile, sixteen lines side by side.
 struct Lines {
-    /// The axis that the piece follows more, 0 for x; lines are told apart along it, and cross it along the other.
-    major: usize,
-    /// Growth along the other axis for one pixel of this.
-    slope: f32,
     /// Ends, from the tile's corner (pixels).
     start: [f32; 2],
     end: [f32; 2],
@@ -338,9 +338,6 @@ struct Lines {
     /// The piece's middle on the near edge of the line (pixels), and its depth (cm).
     middle: [f32; TILE],
     depth: [f32; TILE],
-    /// Half of the farthest that the piece moves across itself (pixels), and the growth of its depth for a pixel of that (cm).
-    sway: f32,
-    recession: f32,
     /// A cell's share is `rise` less `fall` times its distance from the middle, and at most `top`.
     top: [f32; TILE],
     rise: [f32; TILE],
@@ -349,44 +346,14 @@ struct Lines {
 
 impl Lines {
     #[inline(always)]
-    fn new(tile: [usize; 2], piece: &Piece) -> Self {
-        let Piece { a, b, cut, unit, per_length, .. } = piece;
-        let corner = tile.map(|t| (t * TILE) as f32);
-        // Walk along the axis that the piece follows more; across it, shares are taken along the other.
-        let major = usize::from(unit[1].abs() > unit[0].abs());
-        let minor = 1 - major;
-        let per_unit = 1.0 / unit[major];
-        let (widen, slope) = (per_unit.abs(), unit[minor] * per_unit);
+    fn new(corner: [f32; 2], piece: &Piece) -> Self {
+        let &Piece { a, b, per_length, per_unit, slope, spreads, .. } = piece;
+        let (major, minor) = piece.axes();
         let start = [a.at[0] - corner[0], a.at[1] - corner[1]];
         let end = [b.at[0] - corner[0], b.at[1] - corner[1]];
-        // A hair that moves is as wide as it moves far, and as much more transparent: half of its movement.
-        let sway = |n: &End| 0.5 * (n.motion[minor] - n.motion[major] * slope).abs();
-        let (sway_a, sway_b) = (sway(a), sway(b));
-        // A lens spreads it across itself to both sides; what is wider anyhow stays as wide.
-        let (spread_a, spread_b) = (sway_a.max(a.spread * widen), sway_b.max(b.spread * widen));
-        // Where it is farthest aside it is at the shutter's opening or closing, and as deep as it is then.
-        let aside = |n: &End| n.motion[minor] - n.motion[major] * slope;
-        let per_line = (b.depth - a.depth) * per_length * per_unit;
-        let deeper = |n: &End| n.recession - n.motion[major] * per_line;
-        let (across, in_depth) = (aside(a) + aside(b), deeper(a) + deeper(b));
-        let recession = if across.abs() > MOVES { in_depth / across } else { 0.0 };
-        let thickest = a.radius.max(b.radius);
-        // Centres of cells that it may cover lie so far from its middle, and centres of pixels by half of a line's growth farther.
-        let beside = thickest * widen + spread_a.max(spread_b) + 0.5 / SIDE as f32;
-        let reach = beside + 0.5 * slope.abs();
-        // Beyond its ends it reaches as far as the border there goes aslant, and half a cell where the strand ends.
-        let overhang = |n: &End, cut: &[f32; 2]| {
-            let turn = cut[0] * unit[0] + cut[1] * unit[1];
-            let half = if n.last { 0.5 / SIDE as f32 } else { 0.0 };
-            (half + cut[minor].abs() * beside) / (turn * widen) + 1e-3
-        };
-        let (before, after) = (overhang(a, &cut[0]), overhang(b, &cut[1]));
-        let ahead = unit[major] > 0.0;
-        let (low, high) = if ahead { (start[major], end[major]) } else { (end[major], start[major]) };
-        let (low, high) = if ahead { (low - before, high + after) } else { (low - after, high + before) };
-        // Centres of cells are half a cell within their pixel.
-        let (low, high) = (low + 0.5 / SIDE as f32, high - 0.5 / SIDE as f32);
-        let per_major = per_length * per_unit;
+        let [low, high] = piece.lines(corner);
+        let reach = piece.beside + 0.5 * slope.abs();
+        let (widen, per_major) = (per_unit.abs(), per_length * per_unit);
         let blank = [0.0; TILE];
         let (mut middle, mut depth, mut pixels) = (blank, blank, [0; TILE]);
         let (mut top, mut rise, mut fall) = (blank, blank, blank);
@@ -397,7 +364,7 @@ impl Lines {
             let t = ((step + 0.5) * per_major).clamp(0.0, 1.0);
             depth[m] = a.depth + (b.depth - a.depth) * t;
             let half = (a.radius + (b.radius - a.radius) * t) * widen;
-            let spread = half.max(spread_a + (spread_b - spread_a) * t);
+            let spread = half.max(spreads[0] + (spreads[1] - spreads[0]) * t);
             let opacity = if spread > half { half / spread } else { 1.0 };
             top[m] = opacity * (2.0 * spread * SIDE as f32).min(1.0);
             rise[m] = opacity * (spread * SIDE as f32 + 0.5);
@@ -406,13 +373,17 @@ impl Lines {
             let centre = middle[m] + 0.5 * slope;
             let (left, right) = (centre - reach, centre + reach);
             let within = line + 1.0 > low && line <= high && left < TILE as f32 && right > 0.0;
-            let bits = u32::from(u16::MAX) << whole(left) & u32::from(u16::MAX) >> (15 - whole(right));
-            pixels[m] = if within { bits } else { 0 };
+            pixels[m] = if within { between(left, right) } else { 0 };
         }
         let (first, last) = (whole(low) as usize, whole(high) as usize);
-        let sway = sway_a.max(sway_b);
-        Self { major, slope, start, end, first, last, pixels, middle, depth, sway, recession, top, rise, fall }
+        Self { start, end, first, last, pixels, middle, depth, top, rise, fall }
     }
+}
+
+/// Pixels of a line of the tile from one coordinate to another, a bit each.
+#[inline(always)]
+fn between(from: f32, to: f32) -> u32 {
+    u32::from(u16::MAX) << whole(from) & u32::from(u16::MAX) >> (15 - whole(to))
 }
 
 /// The pixel, 0 to 15, that a coordinate lies in; the one before it for a coordinate on the border. Without a conversion,

@@ -73,10 +73,8 @@ impl OversampledTile {
     fn piece(&mut self, tile: [usize; 2], piece: &Piece) {
         let Piece { a, b, unit, per_length, cut, .. } = piece;
         // Walk along the axis that the piece follows more; across it the hair is a span.
-        let major = usize::from(unit[1].abs() > unit[0].abs());
-        let minor = 1 - major;
-        let slope = unit[minor] / unit[major];
-        let widen = 1.0 / unit[major].abs();
+        let (major, minor) = piece.axes();
+        let (slope, widen) = (piece.slope, piece.per_unit.abs());
         let widest = a.radius.max(b.radius) * (1.0 + widen);
         let low = a.at[major].min(b.at[major]) - widest;
         let high = a.at[major].max(b.at[major]) + widest;
