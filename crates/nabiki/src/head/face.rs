@@ -106,13 +106,14 @@ fn lashes(y: f32, z: f32) -> f32 {
     }
     let below = lid_line(t.clamp(-1.0, 1.0)) - y;
     let ends = (8.0 * (1.06 - t)).min(1.0) * (5.0 * (t + 1.02)).min(1.0);
-    let line = 1.0 - ((below - 0.015) / (0.075 + 0.02 * t)).powi(2);
-    // They hang from the line, longer and more slanted toward the outer corner.
-    let long = 0.24 + 0.12 * t;
-    let slant = z - 0.45 * t * below;
+    let line = 1.0 - ((below - 0.01) / (0.06 + 0.02 * t)).powi(2);
+    // They hang from the line, longer and more slanted toward the outer corner. A single one is thinner than a picture shows: they
+    // are a fringe, in tufts.
+    let long = 0.26 + 0.14 * t;
+    let slant = z - 0.6 * t * below;
     let fall = if below > 0.0 { 1.0 - below / long } else { 0.0 };
-    let hairs = smooth((grain(slant / 0.05) - 0.35) / 0.4) * smooth(1.6 * fall);
-    ends * line.max(0.0).max(0.75 * hairs)
+    let fringe = (0.3 + 0.7 * grain(slant / 0.1)) * smooth(fall);
+    ends * line.max(0.0).max(0.6 * fringe)
 }
 
 fn lips(y: f32, z: f32) -> f32 {

@@ -116,13 +116,16 @@ impl SkinLight<'_> {
             let sky = self.sky.above[c] * up * open_above[c] + self.sky.below[c] * (1.0 - up) * open_below[c];
             *diffuse += self.sky.strength * sky + self.skins[0][c] * glow;
         }
+        let bare_skin = self.skins[usize::from(p.solid)];
         let skin = match self.painted.get(i) {
             Some(&painted) if p.solid == 0 => painted,
-            _ => self.skins[usize::from(p.solid)],
+            _ => bare_skin,
         };
         let hair = self.stubble.get(i).copied().unwrap_or(0.0);
         std::array::from_fn(|c| {
-            let bare = skin[c] * diffuse[c] + self.look.sheen * sheen[c];
+            // Brows and lashes have none of the skin's sheen, and what is darker has less of it.
+            let covered = (skin[c] / bare_skin[c].max(1e-6)).min(1.0);
+            let bare = skin[c] * diffuse[c] + covered * self.look.sheen * sheen[c];
             bare + (self.hair[c] * diffuse[c] - bare) * hair
         })
     }
