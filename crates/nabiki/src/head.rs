@@ -47,7 +47,7 @@ impl Head {
     /// machine, and on both sides of z = 0, to the bit.
     pub fn builtin() -> Self {
         let (mesh, skin) = bust::read(bust::BAKED);
-        let orientation = Orientation { turned: 0, open_edges: 0, has_inside: true };
+        let orientation = Orientation { doubled: 0, turned: 0, open_edges: 0, has_inside: true };
         let (bounds, skin) = (bounds(&mesh.positions), Arc::new(skin));
         Self { bounds, mesh, ellipsoid: bust::ELLIPSOID, orientation, openings: Vec::new(), is_builtin: true, skin }
     }

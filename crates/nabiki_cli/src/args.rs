@@ -34,8 +34,8 @@ pub struct Cli {
     #[arg(long, short, global = true)]
     pub quiet: bool,
 
-    /// Threads to work with (default: all cores); the result is the same with any
-    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    /// Threads to work with, 512 at the most (default: all cores); the result is the same with any
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=512))]
     pub threads: Option<u16>,
 }
 
@@ -343,7 +343,7 @@ pub struct Render {
     #[arg(long, value_name = "FILE")]
     pub motion: Option<PathBuf>,
 
-    /// Draw this frame only, as a PNG
+    /// Draw this frame only, as a PNG, and as OpenEXR with output.exr_frames = true
     #[arg(long, value_name = "N")]
     pub frame: Option<u32>,
 

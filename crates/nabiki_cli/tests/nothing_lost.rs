@@ -329,3 +329,42 @@ fn what_a_file_says_of_its_space_is_not_overridden() {
     }
     assert!(!folder.path().join("out.usdc").exists());
 }
+
+#[test]
+fn pictures_are_written_as_the_scene_asks_or_refused() {
+    let folder = folder();
+    let small = "--strands 40 --set picture.size=[64,48] --set output.exr_frames=true";
+    succeed(&folder, &format!("render scene.toml --frame 2 --out one {small}"));
+    assert!(folder.path().join("one/scene_0002.png").exists() && folder.path().join("one/scene_0002.exr").exists());
+    let stills = |name: &str| {
+        let there = fs::read_dir(folder.path().join(name).join("scene_frames")).unwrap();
+        let mut names: Vec<String> = there.map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    };
+    succeed(&folder, &format!("render scene.toml --frames 2..2 --out run {small}"));
+    assert_eq!(stills("run"), ["0002.exr", "0002.png"]);
+    succeed(&folder, &format!("render scene.toml --frames 2..2 --out light {small} --set output.movie=false"));
+    assert_eq!(stills("light"), ["0002.exr"]);
+    let none = "--set output.movie=false --set output.sheet=[]";
+    for command in ["run", "preview", "render"] {
+        let line = refuse(&folder, &format!("{command} scene.toml --strands 40 --frames 2 --out none {none}"));
+        assert!(line.contains("nothing is to be written: output.movie, png_frames"), "{line}");
+        assert!(!folder.path().join("none").exists());
+    }
+}
+
+#[test]
+fn segments_of_a_whole_motion_are_refused_and_so_is_a_file_for_a_farms_results() {
+    let folder = folder();
+    succeed(&folder, &format!("simulate scene.toml -o m.nabiki {FEW}"));
+    let line = refuse(&folder, "convert m.nabiki m.usda --segments 3");
+    assert!(
+        line.contains("m.nabiki: --segments 3: all frames of a motion cache") && line.contains("--frame N"),
+        "{line}"
+    );
+    succeed(&folder, "convert m.nabiki m.hair --segments 3 --frame 1");
+    let line = refuse(&folder, "farm scene.toml --engine openjd -o job.yaml --out hair.hair");
+    assert!(line.contains("hair.hair: this is a file, not a folder"), "{line}");
+    assert!(!folder.path().join("job.yaml").exists());
+}

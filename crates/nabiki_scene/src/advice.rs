@@ -7,6 +7,7 @@ use nabiki::Head;
 use nabiki::body::Contact;
 use nabiki::dynamics::Form;
 use nabiki::head::Opening;
+use nabiki::pseudo_force::PseudoForce;
 use nabiki_io::info::Short;
 use nabiki_render::settings::{Camera, Projection};
 
@@ -63,6 +64,8 @@ pub(crate) fn advice(built: &BuiltScene) -> Vec<Advice> {
     // Hair that goes by the unit of a wrong head cannot be judged.
     let of_hair = if of_head.is_none() { built.seat().and_then(|seat| of_seat(&seat)) } else { None };
     advice.extend(of_head.into_iter().chain(of_hair).chain(untied(built)).chain(unfelt(&built.scene)));
+    advice.extend(open_bodies(built));
+    advice.extend(idle(&built.scene));
     advice.extend(unseen(&built.scene.picture.camera));
     advice
 }
@@ -86,6 +89,35 @@ fn unfelt(scene: &Scene) -> Option<Advice> {
     Some(Advice { seen, settings: vec![Setting { key: "motion.form", value: "\"free\"".to_owned() }] })
 }
 
+/// What hair of the free form does not feel, and bodies that are neither felt nor seen.
+fn idle(scene: &Scene) -> Vec<Advice> {
+    let mut seen = Vec::new();
+    let given = scene.pseudo_force != PseudoForce::default();
+    if scene.form == FormChoice::Free && given && !scene.free.pseudo_force {
+        let setting = Setting { key: "free.pseudo_force", value: "true".to_owned() };
+        seen.push(Advice {
+            seen: "hair does not feel [pseudo_force] in the free form".to_owned(),
+            settings: vec![setting],
+        });
+    }
+    for i in (0..scene.bodies.len()).filter(|&i| !scene.bodies[i].solid && !scene.bodies[i].shown) {
+        let line = format!("body[{i}] changes nothing: it is neither solid nor shown");
+        seen.push(Advice { seen: line, settings: Vec::new() });
+    }
+    seen
+}
+
+/// Bodies with openings, which count as closed: what is behind them, as within a cap, is inside.
+fn open_bodies(built: &BuiltScene) -> impl Iterator<Item = Advice> {
+    built.open_bodies().map(|(i, edges)| {
+        let seen = format!(
+            "body[{i}] is open along {edges} edges; an opening counts as closed straight across: close it in the file if that is \
+             not meant"
+        );
+        Advice { seen, settings: Vec::new() }
+    })
+}
+
 /// Settings of the camera that change no picture beside the others.
 fn unseen(camera: &Camera) -> Vec<Advice> {
     let focus = (camera.focus_distance.is_some() && camera.f_stop.is_none())
@@ -93,7 +125,9 @@ fn unseen(camera: &Camera) -> Vec<Advice> {
     let height = (camera.height.is_some() && camera.projection == Projection::Perspective).then_some(
         "picture.camera.height changes nothing in perspective: give picture.camera.distance or fov, or projection = \"orthographic\"",
     );
-    let seen = focus.into_iter().chain(height);
+    let fov = (camera.fov != Camera::default().fov && camera.projection == Projection::Orthographic)
+        .then_some("picture.camera.fov changes nothing in orthographic views: give picture.camera.height");
+    let seen = focus.into_iter().chain(height).chain(fov);
     seen.map(|seen| Advice { seen: seen.to_owned(), settings: Vec::new() }).collect()
 }
 

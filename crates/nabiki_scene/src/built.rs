@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use nabiki::body::BodyWay;
-use nabiki::dynamics::{Dynamics, FrameInput, Reference, Simulation, Timeline};
+use nabiki::dynamics::{Dynamics, Form, FrameInput, Reference, Simulation, Timeline};
 use nabiki::field::Field;
 use nabiki::roots::Root;
 use nabiki::{Hair, Head, Mesh, Pose, SettingError, Strands};
@@ -163,6 +163,13 @@ impl Shown {
 }
 
 impl BuiltScene {
+    /// Those of the bodies that hair feels that have openings, by number, and how many edges these have.
+    pub(crate) fn open_bodies(&self) -> impl Iterator<Item = (usize, usize)> {
+        let felt = self.bodies.iter().zip(&self.scene.bodies).enumerate().filter(|(_, (_, settings))| settings.solid);
+        let edges = felt.map(|(i, (body, _))| (i, body.mesh.clone().turn_outward().open_edges));
+        edges.filter(|(_, edges)| *edges > 0 && matches!(self.dynamics.form, Form::Free(_)))
+    }
+
     /// What [`Scene::build`] gives, for an editor in which a scene changes a little at a time: what the two scenes have
     /// alike is not read, grown or sampled again, so that files count as they were when this one was built.
     ///

@@ -9,7 +9,7 @@ use nabiki_render::output::{exr, png};
 use nabiki_render::{ContactSheet, Frame, Movie, Picture, RenderError, ToneMapping, View};
 
 use crate::built::BuiltScene;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::field_picture;
 use crate::place::{self, Folders};
 use crate::scene::Output;
@@ -98,6 +98,11 @@ impl<'a> PictureOutputs<'a> {
     ) -> Result<Self> {
         let (output, last) = (&built.scene.output, built.frames());
         let at = |ending: &str| folder.join(format!("{name}{ending}"));
+        let nothing = !(output.movie || output.png_frames || output.exr_frames || output.field);
+        if nothing && output.sheet_frames(last).is_empty() {
+            let line = "nothing is to be written: output.movie, png_frames, exr_frames, field and sheet are all off; give one of them";
+            return Err(Error::refused(format!("{}: {line}", built.scene.file().display())));
+        }
         folders.make(folder, WAY_OUT)?;
         let movie_file = output.movie.then(|| at(".mp4"));
         let (sheet_file, on_sheet) = (at("_sheet.png"), output.sheet_frames(last));

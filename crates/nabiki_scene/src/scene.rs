@@ -164,7 +164,8 @@ impl Scene {
 
     /// What the text says, whether or not it is in its ranges.
     fn read(text: &str, path: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
-        let (table, origins) = tree::parse(text, path, overrides)?;
+        let defaults = || Self::default().with_optional_tables().tree().unwrap_or_default();
+        let (table, origins) = tree::parse(text, path, overrides, defaults)?;
         match Self::of_tree(table) {
             Ok(scene) => Ok(Self { text: text.to_owned(), origins, ..scene }),
             Err(refusal) => {

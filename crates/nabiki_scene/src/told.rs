@@ -108,6 +108,8 @@ pub struct SceneSummary {
     pub head: String,
     /// Half axes of the head ellipsoid E (cm).
     pub half_axes: [f32; 3],
+    /// Triangles of the head's mesh that were there twice, and of which one is left.
+    pub doubled_triangles: usize,
     /// Triangles of the head's mesh that faced inward and were turned.
     pub turned_triangles: usize,
     /// Edges of the head's openings, which count as closed.
@@ -140,6 +142,7 @@ impl SceneSummary {
             file: built.scene.file().to_owned(),
             head: built.scene.head.mesh(),
             half_axes: built.head.ellipsoid.half_axes.to_array(),
+            doubled_triangles: built.head.orientation.doubled,
             turned_triangles: built.head.orientation.turned,
             open_edges: built.head.orientation.open_edges,
             skull_is_open: built.head.openings.iter().any(|opening| opening.missing.is_some()),
@@ -160,6 +163,9 @@ impl fmt::Display for SceneSummary {
         writeln!(f, "{}", self.file.display())?;
         let [x, y, z] = self.half_axes;
         writeln!(f, "  head    {}, ellipsoid {x:.1} x {y:.1} x {z:.1} cm", self.head)?;
+        if self.doubled_triangles > 0 {
+            writeln!(f, "          {} doubled triangles were left out", self.doubled_triangles)?;
+        }
         if self.turned_triangles > 0 {
             writeln!(f, "          {} triangles that faced inward were turned", self.turned_triangles)?;
         }

@@ -319,7 +319,11 @@ fn any_edit() -> impl Strategy<Value = Edit> {
         prop::option::of((0.0f32..1.0, 0u64..99)).prop_map(Edit::Gust),
         prop::option::of(0.0f32..3.0).prop_map(Edit::Flow),
         prop::option::of((0.0f32..99.0, 1u32..9)).prop_map(Edit::Turbulence),
-        prop::collection::vec((vector(), number()), 0..4).prop_map(Edit::Points),
+        prop::collection::vec(
+            (vector().prop_map(|place| place.clamp(Vec3::splat(-1e6), Vec3::splat(1e6))), number()),
+            0..4
+        )
+        .prop_map(Edit::Points),
         prop::collection::vec((1.0f32..90.0, 1u32..50), 0..3).prop_map(Edit::Fans),
         (1.0f64..240.0).prop_map(Edit::FrameRate),
         (

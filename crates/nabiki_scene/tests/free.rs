@@ -215,7 +215,7 @@ fn bodies_that_are_none_are_refused() {
     );
     assert_eq!(
         refused("mesh = \"solid.obj\"", "mesh = \"solid.obj\"\ncolour = \"grey\""),
-        "free.toml:13: body[0].colour: found string \"grey\", must be an array of length 3"
+        "free.toml:13: body[0].colour: found string \"grey\", must be three numbers, [x, y, z]"
     );
     assert_eq!(
         refused(

@@ -76,6 +76,32 @@ fn overrides_are_put_in_before_anything_is_read() {
 }
 
 #[test]
+fn an_entry_of_a_list_that_the_file_does_not_give_is_that_of_the_default() {
+    let default = Scene::default();
+    let scene = parse(GUST, &[("picture.lights.1.strength", "9"), ("free.stiffness[0]", "300")]).unwrap();
+    let mut lights = default.picture.lights.clone();
+    lights[1].strength = 9.0;
+    assert_eq!(scene.picture.lights, lights);
+    let mut stiffness = default.free.stiffness.values().to_vec();
+    stiffness[0] = 300.0;
+    assert_eq!(scene.free.stiffness.values(), stiffness);
+    assert_eq!(parse(GUST, &[("pseudo_force.coefficients.0", "0.01")]).unwrap().pseudo_force, default.pseudo_force);
+    let beyond = parse(GUST, &[("picture.lights.9.strength", "1")]).unwrap_err().to_string();
+    assert!(beyond.contains("picture.lights is a list of 4: name an entry by a number from 0 to 4"), "{beyond}");
+}
+
+#[test]
+fn a_value_meant_as_toml_and_none_of_it_is_refused() {
+    for value in [".1", "1.", "-.5", "[160,120", "{ a = 1", "\"open"] {
+        let line = parse(GUST, &[("motion.time_step", value)]).unwrap_err().to_string();
+        assert!(line.contains(&format!("{value} is no value of TOML: write 0.5 and not .5")), "{line}");
+    }
+    assert!(parse(GUST, &[("force[1.through", "4")]).unwrap_err().to_string().contains("write a key as"));
+    let scene = parse(GUST, &[("hair.file", "1993.05/hair.tfx")]).unwrap();
+    assert!(matches!(&scene.hair.source, HairSource::Imported(hair) if hair.file == Path::new("1993.05/hair.tfx")));
+}
+
+#[test]
 fn paths_are_relative_to_the_scene_file() {
     let scene = parse(GUST, &[]).unwrap();
     assert_eq!(scene.resolve("hair/a.tfx".as_ref()), Path::new("scenes/hair/a.tfx"));
@@ -135,7 +161,7 @@ fn errors_are_values() {
     assert_eq!(range.remedy(), "must be a finite number above 0");
     let kind = error("frames = 100", "frames = \"many\"");
     assert_eq!((kind.key.as_str(), kind.value(), kind.line), ("motion.frames", Some("string \"many\""), Some(5)));
-    assert_eq!(kind.remedy(), "must be a whole number, 0 or more");
+    assert_eq!(kind.remedy(), "must be a whole number, 0 to 4294967295");
     let unknown = error("time_step", "time_stpe");
     assert!(matches!(*unknown.problem, Problem::UnknownKey { near: Some(ref near), .. } if near == "motion.time_step"));
     let set = parse(GUST, &[("motion.time_step", "-1")]).unwrap_err();
@@ -146,11 +172,11 @@ fn errors_are_values() {
 fn wrong_types_say_what_was_found_and_what_must_be() {
     assert_eq!(
         refused("frames = 100", "frames = \"many\""),
-        "scenes/gust.toml:5: motion.frames: found string \"many\", must be a whole number, 0 or more"
+        "scenes/gust.toml:5: motion.frames: found string \"many\", must be a whole number, 0 to 4294967295"
     );
     assert_eq!(
         refused("frames = 100", "frames = -3"),
-        "scenes/gust.toml:5: motion.frames: found integer `-3`, must be a whole number, 0 or more"
+        "scenes/gust.toml:5: motion.frames: found integer `-3`, must be a whole number, 0 to 4294967295"
     );
     assert_eq!(
         refused("time_step = 0.1", "time_step = true"),
@@ -271,8 +297,8 @@ fn a_wrong_override_is_named_instead_of_a_line() {
     );
     assert_eq!(
         refused_override("force.0.vector", "[1,2"),
-        "scenes/gust.toml: --set force.0.vector=[1,2: force[0].vector: found string \"[1,2\", must be three numbers, \
-         [x, y, z]"
+        "scenes/gust.toml: --set force.0.vector=[1,2: [1,2 is no value of TOML: write 0.5 and not .5, close each bracket and \
+         quote"
     );
 }
 

@@ -221,6 +221,13 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
         ),
         (wish("vectors = [0]", "gust = true"), "wish.toml:2: unknowns.gust = true: the scene has no [gust]"),
         (
+            refusal(
+                &SCENE.replace("[motion]", "[free]\nsettle = 0\n\n[motion]"),
+                &WISHES.replace("vectors = [0]", "settle = true"),
+            ),
+            "wish.toml:2: unknowns.settle = true: it is 0 everywhere, and is found",
+        ),
+        (
             wish("vectors = [0]", "vektors = [0]"),
             "wish.toml:2: unknowns.vektors: unknown key; did you mean unknowns.vectors?",
         ),

@@ -23,6 +23,9 @@ pub(super) fn up() -> Vec3 {
     Vec3::Y
 }
 
+/// How far along an axis a local field may lie (cm): squares of distances are numbers of f32 then.
+const FARTHEST: f32 = 1e6;
+
 /// Refuses what no local field has.
 pub(super) fn check_place(
     name: &str,
@@ -31,8 +34,12 @@ pub(super) fn check_place(
     falloff: &Falloff,
     envelope: &[EnvelopeKey],
 ) -> Result<(), SettingError> {
-    if !position.is_finite() {
-        return Err(SettingError::new(format!("{name}.position"), position, "must be finite numbers (cm)"));
+    if !(position.is_finite() && position.abs().max_element() <= FARTHEST) {
+        return Err(SettingError::new(
+            format!("{name}.position"),
+            position,
+            "must be three numbers within a million cm",
+        ));
     }
     if !strength.is_finite() {
         return Err(SettingError::new(format!("{name}.strength"), strength, "must be a finite number"));

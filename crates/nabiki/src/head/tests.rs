@@ -144,6 +144,20 @@ fn a_triangle_that_is_turned_takes_its_texture_with_it() {
 }
 
 #[test]
+fn what_is_exported_with_two_sides_is_the_same_with_one() {
+    let one = egg(Ellipsoid { center: Vec3::ZERO, half_axes: vec3(9.0, 11.0, 8.0) }, 24);
+    let mut two = one.clone();
+    // By a copy of each vertex, as programs write sides apart.
+    let copies = two.positions.clone();
+    let first = copies.len() as u32;
+    two.positions.extend(copies);
+    two.triangles.extend(one.triangles.iter().map(|&[a, b, c]| [a + first, c + first, b + first]));
+    let orientation = two.turn_outward();
+    assert_eq!(orientation, crate::mesh::Orientation { doubled: one.triangles.len(), ..one.clone().turn_outward() });
+    assert_eq!(two.triangles, one.triangles);
+}
+
+#[test]
 fn what_is_no_mesh_is_refused_by_name() {
     let sound = egg(Ellipsoid { center: Vec3::ZERO, half_axes: vec3(9.0, 10.0, 8.0) }, 12);
     assert!(refused(Mesh::default(), None).starts_with("head.mesh = no triangles"));

@@ -1,6 +1,6 @@
 //! Turning a mesh so that its triangles face outward.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 
@@ -13,6 +13,8 @@ const FLAT: f64 = 1e-3;
 /// How the triangles of a mesh lay, and what had to be done about it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Orientation {
+    /// Triangles that were there already, facing either way, and are left out: what is exported with two sides has an inside once.
+    pub doubled: usize,
     /// Triangles that faced inward and were turned.
     pub turned: usize,
     /// Edges that belong to one triangle only: rims of openings.
@@ -22,13 +24,14 @@ pub struct Orientation {
 }
 
 impl Mesh {
-    /// Turns triangles until all face outward, and says how many were turned.
+    /// Turns triangles until all face outward, and says how many were turned. Of doubled ones the first stays.
     ///
     /// A piece is what hangs together by edges of two triangles each. Within it all triangles are made to agree; then
     /// it is turned as a whole if the space that it encloses, openings closed by fans, comes out negative. Each piece is
     /// judged by itself, so that a wall within another counts as solid, too. Flat pieces stay as they are.
     pub fn turn_outward(&mut self) -> Orientation {
         let joined = self.first_at_place();
+        let doubled = self.keep_once(&joined);
         let corners: Vec<[u32; 3]> = self.triangles.iter().map(|t| t.map(|v| joined[v as usize])).collect();
         let beside = neighbours(&corners);
         let open_edges = beside.values().filter(|sides| sides.len() == 1).count();
@@ -51,7 +54,29 @@ impl Mesh {
             turn[t] ^= whole[t];
         }
         self.turn(&whole);
-        Orientation { turned: turn.iter().filter(|turned| **turned).count(), open_edges, has_inside }
+        Orientation { doubled, turned: turn.iter().filter(|turned| **turned).count(), open_edges, has_inside }
+    }
+
+    /// Keeps the first of all triangles with the same corners, and says how many others there were.
+    fn keep_once(&mut self, joined: &[u32]) -> usize {
+        let mut known = HashSet::with_capacity(self.triangles.len());
+        let first: Vec<bool> = (self.triangles.iter())
+            .map(|triangle| {
+                let mut corners = triangle.map(|v| joined[v as usize]);
+                corners.sort_unstable();
+                known.insert(corners)
+            })
+            .collect();
+        let doubled = first.iter().filter(|first| !**first).count();
+        if doubled > 0 {
+            let mut keep = first.iter().copied();
+            self.triangles.retain(|_| keep.next().unwrap_or(true));
+            if let Some(uvs) = &mut self.corner_uvs {
+                let mut keep = first.iter().copied();
+                uvs.retain(|_| keep.next().unwrap_or(true));
+            }
+        }
+        doubled
     }
 
     fn turn(&mut self, which: &[bool]) {

@@ -7,6 +7,7 @@ use super::wind::Wind;
 use crate::dynamics::{Dynamics, Form};
 use crate::error::SettingError;
 use crate::field::{Gust, Keyframe};
+use crate::free_form::FreeForm;
 use crate::profile::Profile;
 
 /// Something that the solver may change. Intervals are counted from 0, as `force[j]`.
@@ -235,7 +236,12 @@ fn check(unknown: Unknown, intervals: usize, wind: &Wind, dynamics: &Dynamics) -
         1 => "there is one [[force]], number 0; or ask for a new interval".to_owned(),
         n => format!("there are {n} [[force]], 0 to {}; or ask for a new interval", n - 1),
     };
-    let free = |thing: &str| match &dynamics.form {
+    let free = |thing: &str, of: fn(&FreeForm) -> &Profile| match &dynamics.form {
+        Form::Free(free) if of(&free.form).values().iter().all(|&value| value == 0.0) => {
+            let remedy =
+                "it is 0 everywhere, and is found as a factor, which leaves it 0: give it a strength, or remove this";
+            Err(SettingError::new(thing, true, remedy))
+        }
         Form::Free(_) => Ok(()),
         Form::Paper => {
             let remedy = "hair of the paper's form has none: set motion.form = \"free\", or leave it as it is";
@@ -252,8 +258,8 @@ fn check(unknown: Unknown, intervals: usize, wind: &Wind, dynamics: &Dynamics) -
         Unknown::Gust if wind.gust.is_none() => {
             Err(SettingError::new("unknowns.gust", true, "the scene has no [gust]: give it one, or remove this"))
         }
-        Unknown::Stiffness => free("unknowns.stiffness"),
-        Unknown::Settle => free("unknowns.settle"),
+        Unknown::Stiffness => free("unknowns.stiffness", |form| &form.stiffness),
+        Unknown::Settle => free("unknowns.settle", |form| &form.settle),
         _ => Ok(()),
     }
 }

@@ -42,7 +42,7 @@ struct Columns<'a> {
 
 impl<'a> Columns<'a> {
     fn of(header: &'a str) -> Result<Self> {
-        let names: Vec<&str> = header.split(',').map(str::trim).collect();
+        let names: Vec<&str> = header.split(',').map(|name| name.trim().trim_matches('"')).collect();
         if let Some(separator) = [(';', "semicolons"), ('\t', "tabs")].iter().find(|(c, _)| header.contains(*c)) {
             return Err(Error::new(format!("columns are separated by {}: save the table with commas", separator.1)));
         }
@@ -144,6 +144,14 @@ mod tests {
     fn of_two_wrong_cells_the_first_is_named() {
         assert!(refused(&format!("{HEADER}\n0,1,x,3,0,0,0,y\n")).1.starts_with("py_cm = \"x\""));
         assert!(refused(&format!("other,{HEADER}\nfree text,u,1,x,3,0,0,0,y\n")).1.starts_with("t_s = \"u\""));
+    }
+
+    #[test]
+    fn a_header_may_be_quoted() {
+        let quoted: Vec<String> = HEADER.split(',').map(|name| format!("\"{name}\"")).collect();
+        let row = "0,1,2,3,0,0,0,1\n";
+        let samples = |header: &str| track(&format!("{header}\n{row}")).unwrap().samples;
+        assert_eq!(samples(&quoted.join(",")), samples(HEADER));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use nabiki::SettingError;
-use nabiki::error::{check_positive, check_range};
+use nabiki::error::check_range;
 use serde::{Deserialize, Serialize};
 
 use crate::camera::NEAR;
@@ -33,7 +33,7 @@ pub struct Camera {
     pub fov: f32,
     /// From the target to the eye (cm, 1 to a million). Default: near enough to frame everything.
     pub distance: Option<f32>,
-    /// Height of the picture in space (cm), for orthographic views. Default: enough to frame everything.
+    /// Height of the picture in space (cm, a thousandth to a million), for orthographic views. Default: enough to frame everything.
     pub height: Option<f32>,
     /// The point looked at (cm), from the head's origin along the world's axes: the camera goes along with the head and does
     /// not turn with it. Default: the middle of what is framed.
@@ -123,7 +123,7 @@ impl Camera {
             check_range("picture.camera.distance", distance, NEAR, 1e6)?;
         }
         if let Some(height) = self.height {
-            check_positive("picture.camera.height", height)?;
+            check_range("picture.camera.height", height, 1e-3, 1e6)?;
         }
         check_target("picture.camera.target", self.target)?;
         if let Some(f_stop) = self.f_stop {

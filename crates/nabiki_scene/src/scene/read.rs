@@ -135,7 +135,7 @@ impl de::Error for Refusal {
     }
 
     fn invalid_length(found: usize, wanted: &dyn Expected) -> Self {
-        Self::text(format!("has {found} entries, must be {}", plain(wanted)))
+        Self::text(format!("has {}, must be {}", entries_of(found), plain(wanted)))
     }
 
     fn unknown_variant(found: &str, known: &'static [&'static str]) -> Self {
@@ -158,19 +158,36 @@ impl de::Error for Refusal {
     }
 }
 
+fn entries_of(count: usize) -> String {
+    format!("{count} {}", if count == 1 { "entry" } else { "entries" })
+}
+
 /// Type names of the language as words of the user's.
 fn plain(wanted: &dyn Expected) -> String {
     match wanted.to_string().as_str() {
-        "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number, 0 or more".to_owned(),
+        "u8" => whole_up_to(u8::MAX.into()),
+        "u16" => whole_up_to(u16::MAX.into()),
+        "u32" => whole_up_to(u32::MAX.into()),
+        "u64" | "usize" => whole_up_to(i64::MAX as u64),
         "i8" | "i16" | "i32" | "i64" | "isize" => "a whole number".to_owned(),
         "f32" | "f64" => "a number".to_owned(),
         "a boolean" => "true or false".to_owned(),
         "a map" => "a table".to_owned(),
         "a sequence" => "a list".to_owned(),
         text if text.starts_with("struct ") => "a table".to_owned(),
-        text if text.starts_with("a sequence of 3 f32") => "three numbers, [x, y, z]".to_owned(),
+        text if text.starts_with("a sequence of 2 f32") || text == "an array of length 2" => {
+            "two numbers, [a, b]".to_owned()
+        }
+        text if text.starts_with("a sequence of 3 f32") || text == "an array of length 3" => {
+            "three numbers, [x, y, z]".to_owned()
+        }
         text => text.to_owned(),
     }
+}
+
+/// More than that TOML does not hold.
+fn whole_up_to(most: u64) -> String {
+    format!("a whole number, 0 to {most}")
 }
 
 fn unexpected(value: &Value) -> Unexpected<'_> {
@@ -211,7 +228,7 @@ impl<'de> Deserializer<'de> for Node<'_> {
                 let value = visitor.visit_seq(&mut entries)?;
                 match entries.next {
                     read if read < values.len() => {
-                        Err(Refusal::text(format!("has {} entries, must have {read}", values.len())))
+                        Err(Refusal::text(format!("has {}, must have {read}", entries_of(values.len()))))
                     }
                     _ => Ok(value),
                 }

@@ -75,7 +75,14 @@ pub(super) fn table_of(settings: &impl Serialize) -> Result<Table, Unwritable> {
 }
 
 /// Parses a scene's text and applies the overrides in order.
-pub(crate) fn parse(text: &str, file: &Path, overrides: &[(String, String)]) -> Result<(Table, Origins), SceneError> {
+///
+/// An override of an entry of a list that the text does not give changes that entry of the `defaults`.
+pub(crate) fn parse(
+    text: &str,
+    file: &Path,
+    overrides: &[(String, String)],
+    defaults: impl Fn() -> Table,
+) -> Result<(Table, Origins), SceneError> {
     let mut origins = Origins { file: file.to_owned(), ..Origins::default() };
     let line_starts: Vec<usize> = std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
     let line_at = |offset: usize| line_starts.partition_point(|&start| start <= offset);
@@ -90,7 +97,7 @@ pub(crate) fn parse(text: &str, file: &Path, overrides: &[(String, String)]) -> 
     let mut table: Table = toml::from_str(text).map_err(syntax)?;
     for (path, value) in overrides {
         let text = format!("{path}={value}");
-        set(&mut table, path, value).map_err(|what| SceneError {
+        set(&mut table, path, value, &defaults).map_err(|what| SceneError {
             file: file.to_owned(),
             line: None,
             set: Some(text.clone()),
@@ -133,15 +140,43 @@ fn dotted(path: &str) -> Vec<String> {
 }
 
 /// Puts `text`, read as a TOML value or else as a string, at `path`, making tables on the way where there are none.
-fn set(table: &mut Table, path: &str, text: &str) -> Result<(), String> {
-    let value: Value = text.trim().parse().unwrap_or_else(|_| Value::String(text.trim().to_owned()));
+fn set(table: &mut Table, path: &str, text: &str, defaults: &impl Fn() -> Table) -> Result<(), String> {
+    let text = text.trim();
+    let value: Value = match text.parse() {
+        Ok(value) => value,
+        Err(_) if begins_as_toml(text) => {
+            return Err(format!("{text} is no value of TOML: write 0.5 and not .5, close each bracket and quote"));
+        }
+        Err(_) => Value::String(text.to_owned()),
+    };
+    let steps = dotted(path);
+    if let Some(list) =
+        (1..steps.len()).find(|&depth| steps[depth].parse::<usize>().is_ok()).map(|depth| &steps[..depth])
+        && look(table, list).is_none()
+        && let Some(default @ Value::Array(_)) = look(&defaults(), list)
+    {
+        *place(table, &list.join("."))? = default.clone();
+    }
     place(table, path).map(|place| *place = value)
+}
+
+/// Whether a text that TOML does not take was meant as a number, a list or a table of it, and not as a word without its quotes.
+fn begins_as_toml(text: &str) -> bool {
+    let number = text.trim_start_matches(['+', '-']).trim_start_matches('.');
+    text.starts_with(['[', '{', '"', '\''])
+        || (number.starts_with(|c: char| c.is_ascii_digit()) && text.parse::<f64>().is_ok())
+}
+
+/// What is at the end of `steps`, names all of them.
+fn look<'a>(table: &'a Table, steps: &[String]) -> Option<&'a Value> {
+    let (last, way) = steps.split_last()?;
+    way.iter().try_fold(table, |table, step| table.get(step)?.as_table())?.get(last)
 }
 
 /// The place at `path`, with tables made on the way where there are none.
 fn place<'a>(table: &'a mut Table, path: &str) -> Result<&'a mut Value, String> {
     let steps = dotted(path);
-    if steps.iter().any(String::is_empty) {
+    if steps.iter().any(String::is_empty) || path.matches('[').count() != path.matches(']').count() {
         return Err("write a key as motion.time_step or force.0.vector".to_owned());
     }
     let mut place = table.entry(steps[0].clone()).or_insert_with(|| below(&steps, 1));

@@ -8,7 +8,7 @@ use nabiki::field::Keyframe;
 use nabiki::solve::{Goal, Prior, Search, Unknown, with_interval};
 use nabiki_io::input;
 use serde::Deserialize;
-use toml::Value;
+use toml::{Table, Value};
 
 use crate::scene::read::Node;
 use crate::scene::tree::{self, Origins};
@@ -217,7 +217,7 @@ impl WishFile {
     /// # Errors
     /// As [`load`](Self::load).
     pub fn parse(text: &str, path: &Path) -> Result<Self, SceneError> {
-        let (table, origins) = tree::parse(text, path, &[])?;
+        let (table, origins) = tree::parse(text, path, &[], Table::new)?;
         let wishes = Wishes::deserialize(Node(&Value::Table(table))).map_err(|refusal| {
             let (key, problem) = refusal.into_parts();
             origins.error(&key, problem)

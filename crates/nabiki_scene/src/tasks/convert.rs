@@ -48,6 +48,11 @@ pub fn convert(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
         let line = "--export-layer is for all frames of a motion cache, into .usda or .usdc";
         return Err(Error::refused(format!("{}: {line}", options.input.display())));
     }
+    if let (Input::Cache(_), Some(segments), true) = (&input, options.segments, moves) {
+        let line = "--segments {}: all frames of a motion cache are written as they are stored; leave it out, or take one frame with --frame N";
+        let line = line.replace("{}", &segments.to_string());
+        return Err(Error::refused(format!("{}: {line}", options.input.display())));
+    }
     match input {
         Input::Cache(cache) if moves => cached_frames(options, *cache, watch),
         Input::Groom(groom) if moves && frames > 1 => exchanged_frames(options, groom, watch),

@@ -100,6 +100,10 @@ fn plan(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Result<Pl
         Some(results) => from_root(results)?,
         None => folder.join(&name),
     };
+    if results.exists() && !results.is_dir() {
+        let line = "this is a file, not a folder; choose another folder with --out";
+        return Err(Error::refused(format!("{}: {line}", results.display())));
+    }
     let (last, movie, file) = (scene.motion.frames, scene.output.movie, from_root(scene.file())?);
     let built = super::build(scene, Shown::AtMost(options.strands.unwrap_or(TRIED).min(TRIED)), watch)?;
     // Refuses what cannot be stepped.

@@ -136,8 +136,8 @@ fn whole(frames: &[(u32, PathBuf)], options: &MovieOptions) -> Result<()> {
     let Some(scene) = &options.scene else { return Ok(()) };
     let last = scene.motion.frames;
     match frames.iter().find(|(n, _)| *n > last) {
-        Some((_, file)) => Err(Error::refused(format!(
-            "{}: the last frame of {} is motion.frames = {last}; leave it out, or say --frames",
+        Some((n, file)) => Err(Error::refused(format!(
+            "{}: the last frame of {} is motion.frames = {last}; leave it out, or say --set motion.frames={n}",
             file.display(),
             scene.file().display()
         ))),

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use nabiki_render::output::png;
+use nabiki_render::output::{exr, png};
 use nabiki_render::{Frame, Movie, ToneMapping};
 
+use crate::advice::Advice;
 use crate::built::{BuiltScene, Shown};
 use crate::error::{Error, Result};
 use crate::film::Film;
@@ -30,13 +31,12 @@ pub enum Pictures {
     /// All, into what the scene asks for: a movie, a contact sheet, stills.
     #[default]
     All,
-    /// One frame, as a PNG.
+    /// One frame, as a PNG, and as OpenEXR if the scene asks for it.
     One(u32),
     /// The frames from the first through the second, as numbered stills: PNG files, and OpenEXR files if the scene asks
-    /// for them. Each is, to the bit, as in any other division of the film.
+    /// for them; these alone if it wants no movie. Each is, to the bit, as in any other division of the film.
     Run(u32, u32),
-    /// One frame from all around: so many pictures, a full turn, as stills if the scene asks for them, and as a movie unless
-    /// it asks for stills alone.
+    /// One frame from all around: so many pictures, a full turn, as stills and as a movie, as the scene asks.
     Turntable {
         /// The frame.
         frame: u32,
@@ -74,7 +74,8 @@ impl Pictures {
 pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path, watch: &mut dyn Watch) -> Result<()> {
     options.pictures.check(scene.motion.frames)?;
     let mut scene = scene;
-    if matches!(options.pictures, Pictures::Run(..)) {
+    // A run of frames is for a movie, which is made of PNG files, unless the scene wants others alone.
+    if matches!(options.pictures, Pictures::Run(..)) && (scene.output.movie || !scene.output.exr_frames) {
         scene.output.png_frames = true;
     }
     let built = super::build(scene, shown, watch)?;
@@ -93,13 +94,16 @@ pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path
         }
         Pictures::One(frame) => {
             let path = folder.join(format!("{}_{frame:04}.png", scene.name()));
+            let light = scene.output.exr_frames.then(|| path.with_extension("exr"));
+            let files: Vec<&Path> = std::iter::once(&path).chain(&light).map(PathBuf::as_path).collect();
             folders.make(folder, outputs::WAY_OUT)?;
-            place::free(&path, outputs::WAY_OUT)?;
-            place::not_inputs(&[&path], &inputs)?;
+            files.iter().try_for_each(|file| place::free(file, outputs::WAY_OUT))?;
+            place::not_inputs(&files, &inputs)?;
             let mut film = Film::new(&built, &scene.picture, source(&built, options)?.as_mut(), watch)?;
             let drawn = film.still(frame, source(&built, options)?.as_mut())?;
             png::write(&path, &drawn, &ToneMapping::new(&scene.picture), outputs::png_depth(&scene.output))?;
-            vec![path]
+            light.iter().try_for_each(|file| exr::write(file, &drawn))?;
+            std::iter::once(path).chain(light).collect()
         }
         Pictures::Run(from, through) => {
             let mut frames = source(&built, options)?;
@@ -130,7 +134,16 @@ fn turntable(
     let name = format!("{}_{frame:04}_turntable", scene.name());
     let (output, picture) = (&scene.output, &scene.picture);
     let as_stills = output.png_frames || output.exr_frames;
-    let file = (output.movie || !as_stills).then(|| folder.join(format!("{name}.mp4")));
+    if !(output.movie || as_stills) {
+        let line =
+            "a turntable is a movie, or stills, and output.movie is off: give output.png_frames = true or exr_frames";
+        return Err(Error::refused(format!("{}: {line}", scene.file().display())));
+    }
+    if picture.camera.to.is_some() {
+        let seen = "picture.camera.to changes nothing: a turntable goes round from picture.camera.azimuth".to_owned();
+        watch.told(Told::Advice(Advice { seen, settings: Vec::new() }));
+    }
+    let file = output.movie.then(|| folder.join(format!("{name}.mp4")));
     let mut inputs = scene.inputs();
     inputs.extend(options.motion.clone());
     if let Some(file) = &file {

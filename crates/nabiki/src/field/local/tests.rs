@@ -117,6 +117,7 @@ fn settings_out_of_range_are_refused_by_name() {
     let plain = Point { position: POSITION, strength: 1.0, falloff: Falloff::default(), envelope: Vec::new() };
     let thing = |settings: Point| settings.check("point[2]").unwrap_err().thing;
     assert_eq!(thing(Point { position: Vec3::NAN, ..plain.clone() }), "point[2].position");
+    assert_eq!(thing(Point { position: Vec3::X * 1e7, ..plain.clone() }), "point[2].position");
     assert_eq!(thing(Point { strength: f32::INFINITY, ..plain.clone() }), "point[2].strength");
     let falloff = Falloff { radius: 0.0, ..Falloff::default() };
     assert_eq!(thing(Point { falloff, ..plain.clone() }), "point[2].falloff.radius");

@@ -211,7 +211,9 @@ class Camera(Table):
 
     @property
     def height(self) -> float | None:
-        """Height of the picture in space (cm), for orthographic views. Default: enough to frame everything."""
+        """Height of the picture in space (cm, a thousandth to a million), for orthographic views. Default: enough to
+        frame everything.
+        """
         value: float | None = self._get('height')
         return value
 
