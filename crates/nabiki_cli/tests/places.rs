@@ -203,4 +203,7 @@ fn a_link_into_a_folder_that_is_not_there_says_so_at_once() {
         let said = format!("{link}: is a link to {nowhere}/m.{}, and there is no folder {nowhere}; ", &name[5..]);
         assert!(line.contains(&said), "{line}");
     }
+    std::os::unix::fs::symlink("nowhere/gust.mp4", folder.path().join("gust.mp4")).unwrap();
+    let line = refuse(&["run", GUST, "--out", &at(&folder, "")], &folder);
+    assert!(line.contains("gust.mp4: is a link to ") && line.contains("choose another folder with --out"), "{line}");
 }

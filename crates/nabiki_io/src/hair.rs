@@ -50,7 +50,7 @@ impl Format {
                 Err(Error::new(what).in_file(path))
             }
             other => {
-                let known = ".hair, .tfx, .obj, .usda, .usdc or .abc";
+                let known = ".hair, .tfx, .usda, .usdc or .abc, and .obj to be read";
                 Err(Error::new(format!("ending \"{other}\" is not a hair format: {known}")).in_file(path))
             }
         }

@@ -76,6 +76,10 @@ pub fn info(path: &Path) -> Result<Info> {
         }
         "nabiki" => Ok(Info::Cache(CacheInfo::of(crate::cache::Reader::open(path)?)?)),
         other => {
+            // A name without an ending may be a slip, or a folder.
+            if other.is_empty() {
+                input::open(path)?;
+            }
             let known = ".hair, .tfx, .obj, .glb, .gltf, .ply, .tfxmesh, .usd, .usda, .usdc, .abc, .bvh, .csv, .amc, .asf, .tof, \
                          .nabiki or .toml";
             Err(Error::new(format!("ending \"{other}\" is not one of {known}")).in_file(path))

@@ -44,6 +44,10 @@ pub fn read(path: &Path, groups: &[String]) -> Result<Mesh> {
         "tfxmesh" => tfxmesh::from_bytes(&text()?).map_err(named),
         "abc" | "usd" | "usda" | "usdc" => exchange::mesh(path),
         other => {
+            // A name without an ending may be a slip, or a folder.
+            if other.is_empty() {
+                input::open(path)?;
+            }
             let known = ".obj, .glb, .gltf, .ply, .tfxmesh, .usda, .usdc or .abc";
             Err(named(Error::new(format!("ending \"{other}\" is not a mesh format: {known}"))))
         }

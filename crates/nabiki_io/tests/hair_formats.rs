@@ -155,7 +155,10 @@ fn a_missing_file_a_folder_and_a_strange_ending_are_named() {
     let error = hair::read(&named_folder).unwrap_err().to_string();
     assert_eq!(error, format!("{}: is a folder, not a regular file: give a file", named_folder.display()));
     let error = hair::read("hair.fbx".as_ref()).unwrap_err().to_string();
-    assert_eq!(error, "hair.fbx: ending \"fbx\" is not a hair format: .hair, .tfx, .obj, .usda, .usdc or .abc");
+    assert_eq!(
+        error,
+        "hair.fbx: ending \"fbx\" is not a hair format: .hair, .tfx, .usda, .usdc or .abc, and .obj to be read"
+    );
 }
 
 #[test]

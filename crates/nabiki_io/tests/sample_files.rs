@@ -442,4 +442,10 @@ fn the_endings_that_info_knows_name_scenes_too() {
         refused.contains("ending \"xyz\" is not one of .hair, ") && refused.ends_with(".nabiki or .toml"),
         "{refused}"
     );
+    let folder = tempfile::tempdir().unwrap();
+    for (name, said) in [("", "is a folder, not a regular file"), ("nope", "No such file or directory")] {
+        let path = folder.path().join(name);
+        assert!(info(&path).unwrap_err().to_string().contains(said), "{name}");
+        assert!(mesh::read(&path, &[]).unwrap_err().to_string().contains(said), "{name}");
+    }
 }

@@ -53,14 +53,6 @@ pub fn file(path: &Path) -> Result<()> {
     free(path, "choose another name")?;
     let target = behind_links(path).map_err(|e| refused(path, "cannot be written there", e, "choose another name"))?;
     let folder = folder_of(&target);
-    if target != path && !folder.exists() {
-        return Err(Error::refused(format!(
-            "{}: is a link to {}, and there is no folder {}; make it, or choose another name",
-            path.display(),
-            target.display(),
-            folder.display()
-        )));
-    }
     match writable(folder) {
         Ok(()) => Ok(()),
         Err(_) if !folder.exists() => Err(Error::refused(format!(
@@ -161,9 +153,25 @@ pub fn free(path: &Path, way_out: &str) -> Result<()> {
     let is = match fs::metadata(path) {
         Ok(there) if there.is_dir() => "a folder",
         Ok(there) if !there.is_file() => "a device or a pipe",
-        _ => return Ok(()),
+        Ok(_) => return Ok(()),
+        Err(_) => return leads_to_a_folder(path, way_out),
     };
     Err(Error::refused(format!("{}: this is {is}, not a file; move it away, or {way_out}", path.display())))
+}
+
+/// Refuses a link to a file in a folder that is not there.
+fn leads_to_a_folder(path: &Path, way_out: &str) -> Result<()> {
+    let target = behind_links(path).map_err(|e| refused(path, "cannot be written there", e, way_out))?;
+    let folder = folder_of(&target);
+    if target == path || folder.exists() {
+        return Ok(());
+    }
+    Err(Error::refused(format!(
+        "{}: is a link to {}, and there is no folder {}; make it, or {way_out}",
+        path.display(),
+        target.display(),
+        folder.display()
+    )))
 }
 
 /// Whether a folder takes files, by putting one there that has no name.

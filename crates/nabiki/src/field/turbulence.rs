@@ -135,6 +135,13 @@ impl TurbulenceField {
         Ok(field)
     }
 
+    /// The largest force, where |grad ramp| is at most `slope` (1 / cm).
+    fn strongest_with(&self, slope: f64) -> f32 {
+        // The bound of the profile leaves room for what rounding adds to the force itself.
+        let largest = self.octaves.iter().map(|octave| octave.largest(slope)).sum::<f64>() as f32;
+        largest * falloff::largest(&self.settings.envelope)
+    }
+
     /// Where the pattern has drifted to by a frame (cm).
     fn drifted(&self, frame: u32) -> DVec3 {
         let last = self.drifted.len() - 1;
@@ -294,17 +301,16 @@ impl Field for TurbulenceField {
         let axes = &self.head.ellipsoid.half_axes;
         let uneven = f64::from(mean_half_axis(&self.head.ellipsoid) / axes.min_element());
         let slope = if near > 0.0 { 1.875 / near * uneven } else { 0.0 };
-        // The bound of the profile leaves room for what rounding adds to the force itself.
-        let largest = self.octaves.iter().map(|octave| octave.largest(slope)).sum::<f64>() as f32;
-        largest * falloff::largest(&self.settings.envelope)
+        self.strongest_with(slope)
     }
 
     fn first_above(&self, limit: f64) -> Option<(String, String)> {
         let above = f64::from(self.strongest()) > limit;
-        above.then(|| {
-            let value = format!("{} (at most {})", self.settings.strength, self.strongest());
-            ("turbulence.strength".to_owned(), value)
-        })
+        // A ramp that ends nearly at once throws the force about without end.
+        let of_ramp = f64::from(self.strongest_with(0.0)) <= limit;
+        let Turbulence { strength, near_head, .. } = self.settings;
+        let (setting, value) = if of_ramp { ("near_head", near_head) } else { ("strength", strength) };
+        above.then(|| (format!("turbulence.{setting}"), format!("{value} (forces of up to {})", self.strongest())))
     }
 
     fn uniform(&self, frame: u32) -> Option<Vec3> {

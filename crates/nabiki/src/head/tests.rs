@@ -155,6 +155,10 @@ fn what_is_exported_with_two_sides_is_the_same_with_one() {
     let orientation = two.turn_outward();
     assert_eq!(orientation, crate::mesh::Orientation { doubled: one.triangles.len(), ..one.clone().turn_outward() });
     assert_eq!(two.triangles, one.triangles);
+    // A stray double is no second side.
+    let mut stray = one.clone();
+    stray.triangles.push(one.triangles[7]);
+    assert_eq!(stray.turn_outward().doubled, 0);
 }
 
 #[test]

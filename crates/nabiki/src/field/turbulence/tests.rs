@@ -186,4 +186,7 @@ fn settings_out_of_range_are_refused_by_name() {
     assert_eq!(refused.thing, "wind of frame 0");
     let blamed = field(&default()).first_above(10.0).unwrap();
     assert_eq!(blamed.0, "turbulence.strength");
+    let limit = 2.0 * f64::from(field(&default()).strongest());
+    let blamed = field(&Turbulence { near_head: 1e-3, ..default() }).first_above(limit).unwrap();
+    assert_eq!(blamed.0, "turbulence.near_head");
 }
