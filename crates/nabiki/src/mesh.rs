@@ -1,6 +1,7 @@
 //! Triangle meshes of heads and bodies.
 
 mod outward;
+mod two_sided;
 
 use std::collections::HashMap;
 

@@ -108,7 +108,7 @@ pub struct SceneSummary {
     pub head: String,
     /// Half axes of the head ellipsoid E (cm).
     pub half_axes: [f32; 3],
-    /// Triangles of the head's mesh that were there twice, and of which one is left.
+    /// Triangles of second sides of the head's mesh, which were left out.
     pub doubled_triangles: usize,
     /// Triangles of the head's mesh that faced inward and were turned.
     pub turned_triangles: usize,
@@ -164,7 +164,7 @@ impl fmt::Display for SceneSummary {
         let [x, y, z] = self.half_axes;
         writeln!(f, "  head    {}, ellipsoid {x:.1} x {y:.1} x {z:.1} cm", self.head)?;
         if self.doubled_triangles > 0 {
-            writeln!(f, "          {} doubled triangles were left out", self.doubled_triangles)?;
+            writeln!(f, "          {} triangles of second sides were left out", self.doubled_triangles)?;
         }
         if self.turned_triangles > 0 {
             writeln!(f, "          {} triangles that faced inward were turned", self.turned_triangles)?;

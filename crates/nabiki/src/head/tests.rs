@@ -144,21 +144,23 @@ fn a_triangle_that_is_turned_takes_its_texture_with_it() {
 }
 
 #[test]
-fn what_is_exported_with_two_sides_is_the_same_with_one() {
-    let one = egg(Ellipsoid { center: Vec3::ZERO, half_axes: vec3(9.0, 11.0, 8.0) }, 24);
+fn a_head_exported_with_two_sides_has_an_inside() {
+    let e = Ellipsoid { center: Vec3::ZERO, half_axes: vec3(9.0, 11.0, 8.0) };
+    let one = egg(e, 24);
     let mut two = one.clone();
     // By a copy of each vertex, as programs write sides apart.
-    let copies = two.positions.clone();
-    let first = copies.len() as u32;
-    two.positions.extend(copies);
+    let first = one.positions.len() as u32;
+    two.positions.extend(&one.positions);
     two.triangles.extend(one.triangles.iter().map(|&[a, b, c]| [a + first, c + first, b + first]));
-    let orientation = two.turn_outward();
-    assert_eq!(orientation, crate::mesh::Orientation { doubled: one.triangles.len(), ..one.clone().turn_outward() });
-    assert_eq!(two.triangles, one.triangles);
-    // A stray double is no second side.
-    let mut stray = one.clone();
-    stray.triangles.push(one.triangles[7]);
-    assert_eq!(stray.turn_outward().doubled, 0);
+    let head = Head::from_mesh(two, Some(e)).unwrap();
+    let slivers = 2 * 48;
+    assert!(head.orientation.doubled + slivers >= one.triangles.len(), "{:?}", head.orientation);
+    let alone = Head::from_mesh(one, Some(e)).unwrap();
+    assert!(head.contains(Vec3::ZERO) && !head.contains(vec3(0.0, 14.0, 0.0)));
+    // Near the skin both are that of the mesh.
+    for p in [vec3(8.8, 0.0, 0.0), vec3(9.2, 0.0, 0.0), vec3(0.0, 0.0, 8.3)] {
+        assert!((head.distance(p) - alone.distance(p)).abs() < 1e-4, "{p}");
+    }
 }
 
 #[test]

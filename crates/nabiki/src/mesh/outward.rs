@@ -13,7 +13,7 @@ const FLAT: f64 = 1e-3;
 /// How the triangles of a mesh lay, and what had to be done about it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Orientation {
-    /// Triangles of parts with two sides that were there already, facing either way, and are left out.
+    /// Triangles of second sides, which are left out.
     pub doubled: usize,
     /// Triangles that faced inward and were turned.
     pub turned: usize,
@@ -32,7 +32,7 @@ impl Mesh {
     /// judged by itself, so that a wall within another counts as solid, too. Flat pieces stay as they are.
     pub fn turn_outward(&mut self) -> Orientation {
         let joined = self.first_at_place();
-        let doubled = self.keep_once(&joined);
+        let doubled = self.keep_one_side(&joined);
         let corners: Vec<[u32; 3]> = self.triangles.iter().map(|t| t.map(|v| joined[v as usize])).collect();
         let beside = neighbours(&corners);
         let open_edges = beside.values().filter(|sides| sides.len() == 1).count();
@@ -56,39 +56,6 @@ impl Mesh {
         }
         self.turn(&whole);
         Orientation { doubled, turned: turn.iter().filter(|turned| **turned).count(), open_edges, has_inside }
-    }
-
-    /// Of the parts all of whose triangles are there twice, as programs export what has two sides, keeps each once; says how many that
-    /// leaves out. Stray doubles stay.
-    fn keep_once(&mut self, joined: &[u32]) -> usize {
-        let corners = |triangle: &[u32; 3]| {
-            let mut corners = triangle.map(|v| joined[v as usize]);
-            corners.sort_unstable();
-            corners
-        };
-        let mut times: HashMap<[u32; 3], u32> = HashMap::with_capacity(self.triangles.len());
-        self.triangles.iter().for_each(|triangle| *times.entry(corners(triangle)).or_default() += 1);
-        if times.values().all(|&times| times == 1) {
-            return 0;
-        }
-        let mut parts = Parts::new(joined.len());
-        self.triangles.iter().map(corners).for_each(|[a, b, c]| parts.join(a, b, c));
-        let mut single = vec![false; joined.len()];
-        for [a, ..] in times.iter().filter(|(_, times)| **times == 1).map(|(corners, _)| *corners) {
-            single[parts.of(a) as usize] = true;
-        }
-        let mut keep: Vec<bool> = Vec::with_capacity(self.triangles.len());
-        for corners in self.triangles.iter().map(corners) {
-            let first = times.insert(corners, 0) != Some(0);
-            keep.push(first || single[parts.of(corners[0]) as usize]);
-        }
-        let mut kept = keep.iter().copied();
-        self.triangles.retain(|_| kept.next().unwrap_or(true));
-        if let Some(uvs) = &mut self.corner_uvs {
-            let mut kept = keep.iter().copied();
-            uvs.retain(|_| kept.next().unwrap_or(true));
-        }
-        keep.iter().filter(|keep| !**keep).count()
     }
 
     fn turn(&mut self, which: &[bool]) {
@@ -117,33 +84,6 @@ impl Mesh {
             *area += 0.5 * (b - a).cross(c - a).length();
         }
         enclosed
-    }
-}
-
-/// Which vertices hang together by triangles.
-struct Parts(Vec<u32>);
-
-impl Parts {
-    fn new(vertices: usize) -> Self {
-        Self((0..vertices as u32).collect())
-    }
-
-    /// A vertex that stands for all of its part.
-    fn of(&mut self, mut v: u32) -> u32 {
-        while self.0[v as usize] != v {
-            let above = self.0[v as usize];
-            self.0[v as usize] = self.0[above as usize];
-            v = above;
-        }
-        v
-    }
-
-    fn join(&mut self, a: u32, b: u32, c: u32) {
-        let one = self.of(a);
-        for other in [b, c] {
-            let other = self.of(other);
-            self.0[other as usize] = one;
-        }
     }
 }
 
