@@ -127,7 +127,7 @@ impl Bins {
             let parts = if in_parts { parts(&piece) } else { Parts::WHOLE };
             for x in left..=right {
                 let corner = [f32::from(x), row as f32].map(|c| c * TILE as f32);
-                for part in parts.within(&piece, corner) {
+                for part in (0..parts.in_tile()).filter(|&part| !in_parts || parts.touches(part, &piece, corner)) {
                     let along = piece.along(corner, parts.middle(part));
                     let depth = piece.a.depth + (piece.b.depth - piece.a.depth) * along;
                     out.entries.push((x, u64::from(depth.to_bits()) << 32 | place << PART_BITS | part as u64));
@@ -212,17 +212,15 @@ impl Parts {
         start.max(0) as usize..((start + i32::from(self.length)) as usize).min(TILE)
     }
 
-    /// Those that may leave traces in the tile with a `corner` (pixels).
+    /// Whether part `i` may cover a cell of the tile with a `corner` (pixels). Points of oversampling lie nearer to its edges.
     #[inline(always)]
-    fn within(self, piece: &Piece, corner: [f32; 2]) -> impl Iterator<Item = usize> {
+    fn touches(self, i: usize, piece: &Piece, corner: [f32; 2]) -> bool {
         let [low, high] = piece.lines(corner);
-        (0..self.in_tile()).filter(move |&part| {
-            let lines = self.lines(part);
-            let [first, end] = [lines.start as f32, lines.end as f32];
-            let [near, far] = piece.reach(corner, first.max(low - 1.0), (end - 1.0).min(high));
-            // A little for rounding.
-            first <= high && end > low && near < TILE as f32 + 1e-3 && far > -1e-3
-        })
+        let lines = self.lines(i);
+        let [first, end] = [lines.start as f32, lines.end as f32];
+        let [near, far] = piece.reach(corner, first.max(low - 1.0), (end - 1.0).min(high));
+        // A little for rounding.
+        first <= high && end > low && near < TILE as f32 + 1e-3 && far > -1e-3
     }
 
     /// The middle of part `i`, within the tile or not (lines from its edge).
