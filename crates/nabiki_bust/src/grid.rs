@@ -11,7 +11,7 @@ use crate::layout::{self, POSITION, Quantised};
 
 /// Stretches of an axis: from the first number on (cm), the second is the step (cm). The last ends the axis.
 type Axis = &'static [(f32, f32)];
-const ALONG_X: Axis = &[(-14.0, 0.4), (-5.0, 0.25), (0.5, 0.35), (4.5, 0.2), (8.0, 0.13), (10.5, 0.2), (12.0, 0.0)];
+const ALONG_X: Axis = &[(-14.0, 0.4), (-4.6, 0.16), (0.0, 0.35), (4.5, 0.2), (8.0, 0.13), (10.5, 0.2), (12.0, 0.0)];
 const ALONG_Y: Axis = &[
     (-33.0, 0.5),
     (-20.0, 0.4),
@@ -33,7 +33,7 @@ const ALONG_Y: Axis = &[
     (12.4, 0.0),
 ];
 /// From the middle outward; the first plane lies as far from the middle as its mirror image.
-const ALONG_Z: Axis = &[(0.09, 0.18), (5.4, 0.26), (10.0, 0.5), (20.6, 0.0)];
+const ALONG_Z: Axis = &[(0.09, 0.18), (5.4, 0.24), (6.9, 0.13), (9.3, 0.5), (20.6, 0.0)];
 /// Nodes along a block's edge.
 const BLOCK: usize = 8;
 /// The field may change this many times faster than the distance.

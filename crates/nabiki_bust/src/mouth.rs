@@ -31,7 +31,7 @@ pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
     let mut skin = join(skin, upper, 0.4);
     skin = join(skin, lower, 0.45);
     // The corners are drawn in.
-    skin += 0.12 * swell(p, Vec3::new(8.4, -7.22, 2.7), Vec3::new(1.0, 0.8, 0.8));
+    skin += 0.07 * swell(p, Vec3::new(8.3, -7.22, 2.75), Vec3::new(1.2, 1.1, 1.1));
     // Groove between nose and lip.
     skin += 0.14 * swell(p, Vec3::new(9.5, -6.25, 0.0), Vec3::new(1.0, 0.7, 0.7));
     skin + parting(p) - vermilion(p)

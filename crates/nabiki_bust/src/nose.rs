@@ -1,6 +1,7 @@
 //! The nose.
 
 use glam::Vec3;
+use nabiki::head::face;
 
 use crate::shapes::{capsule, carve, ellipsoid, join, swell};
 
@@ -17,8 +18,8 @@ pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
     let base = ellipsoid(p, Vec3::new(9.85, -5.1, 0.0), Vec3::new(0.8, 0.4, 0.4));
     skin = join(skin, base, 0.6);
     skin = join(skin, wing, 0.6);
-    let nostril = ellipsoid(p, Vec3::new(9.75, -5.4, 0.58), Vec3::new(0.45, 0.28, 0.22));
-    skin = carve(skin, nostril, 0.3);
+    let nostril = ellipsoid(p, face::NOSTRIL, Vec3::new(0.45, 0.26, 0.24));
+    skin = carve(skin, nostril, 0.4);
     // The bridge is a little hollow in profile.
     skin + 0.13 * swell(p, Vec3::new(9.7, -2.0, 0.0), Vec3::new(1.2, 1.9, 1.2))
 }

@@ -37,6 +37,9 @@ pub fn along_lips(z: f32) -> f32 {
     z / 2.65
 }
 
+/// The middle of the hollow of a nostril.
+pub const NOSTRIL: Vec3 = Vec3::new(9.75, -5.4, 0.58);
+
 /// What covers the skin at a place, each 0..1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Paint {
@@ -48,6 +51,8 @@ pub struct Paint {
     pub lips: f32,
     /// Blood under the skin of cheeks, nose and ears.
     pub flush: f32,
+    /// The dark within the nostrils.
+    pub nostrils: f32,
 }
 
 impl Paint {
@@ -63,7 +68,14 @@ impl Paint {
         if p.x < 4.0 || !(-10.0..4.0).contains(&p.y) {
             return Self { flush: ears, ..Self::default() };
         }
-        Self { brow: brow(p.y, z), lashes: lashes(p.y, z), lips: lips(p.y, z), flush: (flush + ears).min(1.0) }
+        let nostrils = smooth(2.5 * near(NOSTRIL, 0.55));
+        Self {
+            brow: brow(p.y, z),
+            lashes: lashes(p.y, z),
+            lips: lips(p.y, z),
+            flush: (flush + ears).min(1.0),
+            nostrils,
+        }
     }
 
     /// The colour (linear) of skin so painted, on a head whose hair has such a colour.
@@ -76,6 +88,7 @@ impl Paint {
             let colour = toward(colour, skin[c] * LIPS[c], self.lips);
             // Brows and lashes are darker than hair, and always than skin.
             let colour = toward(colour, (0.5 * hair[c]).min(0.4 * skin[c]), 0.8 * self.brow);
+            let colour = toward(colour, 0.15 * FLUSH[c] * skin[c], self.nostrils);
             toward(colour, (0.25 * hair[c]).min(0.12 * skin[c]), self.lashes)
         })
     }
@@ -154,19 +167,23 @@ mod tests {
         for &p in &head.mesh.positions {
             let paint = Paint::at(p);
             assert_eq!(paint, Paint::at(Vec3::new(p.x, p.y, -p.z)));
-            let each = [paint.brow, paint.lashes, paint.lips, paint.flush];
+            let each = [paint.brow, paint.lashes, paint.lips, paint.flush, paint.nostrils];
             assert!(each.iter().all(|share| (0.0..=1.0).contains(share)), "{paint:?} at {p}");
             if p.x < 4.0 {
-                assert_eq!((paint.brow, paint.lashes, paint.lips), (0.0, 0.0, 0.0), "{p}");
+                assert_eq!(paint, Paint { flush: paint.flush, ..Paint::default() }, "{p}");
             }
             seen = Paint {
                 brow: seen.brow.max(paint.brow),
                 lashes: seen.lashes.max(paint.lashes),
                 lips: seen.lips.max(paint.lips),
                 flush: seen.flush.max(paint.flush),
+                nostrils: seen.nostrils.max(paint.nostrils),
             };
         }
-        assert!(seen.brow > 0.5 && seen.lashes > 0.5 && seen.lips > 0.9 && seen.flush > 0.3, "{seen:?}");
+        assert!(
+            seen.brow > 0.5 && seen.lashes > 0.5 && seen.lips > 0.9 && seen.flush > 0.3 && seen.nostrils > 0.9,
+            "{seen:?}"
+        );
     }
 
     #[test]
