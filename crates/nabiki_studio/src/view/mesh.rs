@@ -17,8 +17,8 @@ pub struct Corner {
     pub stubble: f32,
     /// Outward, unit.
     pub normal: [f32; 3],
-    /// Keeps the numbers at their places.
-    pub pad: f32,
+    /// Share of the skin's sheen that what is painted over it leaves, 0..1.
+    pub sheen: f32,
     /// Linear.
     pub colour: [f32; 3],
     /// Keeps the numbers at their places.
@@ -38,6 +38,11 @@ impl Skin {
     fn at(&self, p: Vec3) -> [f32; 3] {
         self.hair_of_face.map_or(self.colour, |hair| Paint::at(p).over(self.colour, hair))
     }
+
+    /// Brows and lashes have none of it, and what is darker than bare skin has less.
+    fn sheen(&self, painted: [f32; 3]) -> f32 {
+        (painted.iter().sum::<f32>() / self.colour.iter().sum::<f32>().max(1e-6)).min(1.0)
+    }
 }
 
 /// Triangles for the card.
@@ -56,6 +61,7 @@ impl Surface {
             place: place.to_array(),
             normal: normal.to_array(),
             colour,
+            sheen: 1.0,
             ..Corner::default()
         });
         Self { corners: corners.collect(), indices: mesh.triangles.iter().flatten().copied().collect() }
@@ -67,6 +73,7 @@ impl Surface {
         let mut surface = Self::of(mesh, skin.colour);
         for corner in &mut surface.corners {
             corner.colour = skin.at(corner.place.into());
+            corner.sheen = skin.sheen(corner.colour);
             corner.stubble = 1.0 - (-shade * share * scalp.density(corner.place.into())).exp();
         }
         surface

@@ -5,7 +5,7 @@ struct Corner {
     place: vec3f,
     stubble: f32, // part of the skin that hair too short to be drawn covers
     normal: vec3f,
-    pad: f32,
+    sheen: f32, // part of the skin's sheen that paint leaves
     colour: vec3f,
     pad_too: f32,
 }
@@ -53,6 +53,6 @@ fn light(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
     let up = 0.5 + 0.5 * dot(normal, g.zenith.xyz);
     diffuse += g.sky_above.rgb * up * through(-log(max(open.x, 1e-6)));
     diffuse += g.sky_below.rgb * (1.0 - up) * through(-log(max(open.y, 1e-6)));
-    let skin = corners[i].colour * diffuse + g.hair.w * sheen;
+    let skin = corners[i].colour * diffuse + g.hair.w * corners[i].sheen * sheen;
     lit[i] = vec4f(mix(skin, g.hair.rgb * diffuse, corners[i].stubble), 1.0);
 }
