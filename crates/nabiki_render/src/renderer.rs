@@ -255,8 +255,11 @@ impl Renderer {
         let skin = SkinView::new(&self.solids, shot).seen_from_beside(beside, shot.middle.size);
         let skin_places = skin.pixels.iter().map(|p| off_skin(p.position, p.normal)).collect();
         let skin_unhidden = SkinLight::unhidden(&skin.pixels, &solid_shadows);
-        let painted =
-            if self.face { SkinLight::painted(&skin.pixels, self.skins[0], self.hair_colour()) } else { Vec::new() };
+        let painted = if self.face {
+            SkinLight::painted(&skin.pixels, self.skins[0], self.hair_colour(), &shot.middle)
+        } else {
+            Vec::new()
+        };
         let (roots, stubble) = (Vec::new(), Vec::new());
         let shot = shot.clone();
         let mut still = Still {

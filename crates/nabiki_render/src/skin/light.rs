@@ -42,6 +42,10 @@ pub struct SkinLight<'a> {
 /// The share of light scattered forward by hair that falls onto skin behind: it goes on to all sides.
 pub const ON_SKIN: f32 = 0.4;
 
+/// What is painted is looked at in steps of so much (cm), and in at most so many along each side of a pixel.
+const FINEST_PAINT: f32 = 0.03;
+const MOST_PAINT: f32 = 6.0;
+
 /// How far light creeps past the terminator under skin of softness 1, red farthest (cosine).
 const CREEPS: [f32; 3] = [1.25, 0.8, 0.6];
 
@@ -76,9 +80,24 @@ impl SkinLight<'_> {
         if shade > 0.0 { pixels.par_iter().with_min_len(256).map(covered).collect() } else { Vec::new() }
     }
 
-    /// The colour of the built-in bust's skin at each place, under hair of a colour.
-    pub fn painted(pixels: &[SkinPixel], skin: [f32; 3], hair: [f32; 3]) -> Vec<[f32; 3]> {
-        let colour = |p: &SkinPixel| Paint::at(p.position).over(skin, hair);
+    /// The colour of the built-in bust's skin at each place, under hair of a colour: the mean over what the pixel shows, since lashes and the
+    /// hairs of brows are thinner.
+    pub fn painted(pixels: &[SkinPixel], skin: [f32; 3], hair: [f32; 3], view: &View) -> Vec<[f32; 3]> {
+        let colour = |p: &SkinPixel| {
+            let side = 1.0 / view.pixels_per_cm(p.depth);
+            let count = (side / FINEST_PAINT).ceil().clamp(1.0, MOST_PAINT) as u32;
+            let away = -view.toward_eye(p.position);
+            // At the outline a pixel shows much of the skin.
+            let along_normal = p.normal / away.dot(p.normal).min(-0.1);
+            let mut sum = Vec3::ZERO;
+            for k in 0..count * count {
+                let [right, down] = [k % count, k / count].map(|i| ((i as f32 + 0.5) / count as f32 - 0.5) * side);
+                let aside = view.right * right - view.up * down;
+                let on_skin = aside - away * aside.dot(along_normal);
+                sum += Vec3::from(Paint::at(p.position + on_skin).over(skin, hair));
+            }
+            (sum / (count * count) as f32).to_array()
+        };
         pixels.par_iter().with_min_len(256).map(colour).collect()
     }
 
@@ -134,5 +153,55 @@ impl SkinLight<'_> {
     fn through(&self, n: f32) -> [f32; 3] {
         let straight = exp_of_negative(-n);
         self.decay.map(|k| straight + ON_SKIN * (exp_of_negative(-n * k) - straight).max(0.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::Projection;
+
+    /// A lash is thinner than a pixel: what a large pixel shows of the closed eye is the mean of the small ones in it, up to a row of
+    /// what it looks at; the colour in its middle alone is not.
+    #[test]
+    fn a_pixel_shows_the_mean_of_what_is_painted_in_it() {
+        let side = 0.18; // cm
+        let view = |pixels_per_cm: f32| View {
+            eye: Vec3::new(100.0, 0.0, 0.0),
+            right: Vec3::NEG_Z,
+            up: Vec3::Y,
+            forward: Vec3::NEG_X,
+            projection: Projection::Orthographic,
+            scale: pixels_per_cm,
+            size: [64, 64],
+            lens: None,
+        };
+        let (skin, hair) = ([1.0; 3], [0.1; 3]);
+        let small = 0.01;
+        let mut middles_off = 0.0_f32;
+        // Straight before the eye, and turned from it about the vertical.
+        for normal in [Vec3::X, Vec3::new(0.8, 0.0, 0.6)] {
+            for k in 0..40 {
+                let middle = Vec3::new(8.5, -1.7 + 0.03 * k as f32, 3.1);
+                let pixel = |right: f32, up: f32| SkinPixel {
+                    position: middle + Vec3::new(right * normal.z / normal.x, up, -right),
+                    normal,
+                    pixel: 0,
+                    mask: u16::MAX,
+                    solid: 0,
+                    depth: 90.0,
+                    slope: [0.0; 2],
+                };
+                let shown = SkinLight::painted(&[pixel(0.0, 0.0)], skin, hair, &view(1.0 / side))[0][0];
+                let places = (0..18).map(|i| (i as f32 + 0.5) * small - 0.5 * side);
+                let within: Vec<SkinPixel> =
+                    places.clone().flat_map(|up| places.clone().map(move |right| pixel(right, up))).collect();
+                let fine = SkinLight::painted(&within, skin, hair, &view(1.0 / small));
+                let mean = fine.iter().map(|colour| colour[0]).sum::<f32>() / fine.len() as f32;
+                assert!((shown - mean).abs() < 1.0 / 6.0, "{shown} for {mean} at {middle}");
+                middles_off = middles_off.max((Paint::at(middle).over(skin, hair)[0] - mean).abs());
+            }
+        }
+        assert!(middles_off > 0.3, "{middles_off}");
     }
 }
