@@ -1,18 +1,17 @@
 //! What looks wrong before anything is drawn: about the size and place of a head and its hair, a unit forgotten, hair beside
 //! the head or within it, a skull with a hole; and settings that change nothing beside the others.
 
+mod unused;
+
 use std::fmt;
 
 use nabiki::Head;
-use nabiki::body::Contact;
 use nabiki::dynamics::Form;
 use nabiki::head::Opening;
-use nabiki::pseudo_force::PseudoForce;
 use nabiki_io::info::Short;
-use nabiki_render::settings::{Camera, Projection};
 
 use crate::built::BuiltScene;
-use crate::scene::{EllipsoidChoice, FormChoice, FreeSettings, HeadSource, Scene};
+use crate::scene::{EllipsoidChoice, HeadSource};
 use crate::seat::{Lie, Mended, Seat};
 use crate::size::{HALF_AXIS, mean_half_axis, unit_for, vector};
 
@@ -63,48 +62,10 @@ pub(crate) fn advice(built: &BuiltScene) -> Vec<Advice> {
     let of_head = head_size(built);
     // Hair that goes by the unit of a wrong head cannot be judged.
     let of_hair = if of_head.is_none() { built.seat().and_then(|seat| of_seat(&seat)) } else { None };
-    advice.extend(of_head.into_iter().chain(of_hair).chain(untied(built)).chain(unfelt(&built.scene)));
+    advice.extend(of_head.into_iter().chain(of_hair).chain(untied(built)));
     advice.extend(open_bodies(built));
-    advice.extend(idle(&built.scene));
-    advice.extend(unseen(&built.scene.picture.camera));
+    advice.extend(unused::unused(&built.scene));
     advice
-}
-
-/// Tables of the free form beside the paper's, which feels none of them.
-fn unfelt(scene: &Scene) -> Option<Advice> {
-    if scene.form == FormChoice::Free {
-        return None;
-    }
-    let tables = [
-        (scene.free != FreeSettings::default(), "[free]"),
-        (scene.contact != Contact::default(), "[contact]"),
-        (scene.bodies.iter().any(|body| body.solid), "[[body]]"),
-        (scene.neighbours.is_some(), "[neighbours]"),
-    ];
-    let given: Vec<&str> = tables.into_iter().filter(|&(given, _)| given).map(|(_, table)| table).collect();
-    if given.is_empty() {
-        return None;
-    }
-    let seen = format!("hair does not feel {} in the paper's form", given.join(", "));
-    Some(Advice { seen, settings: vec![Setting { key: "motion.form", value: "\"free\"".to_owned() }] })
-}
-
-/// What hair of the free form does not feel, and bodies that are neither felt nor seen.
-fn idle(scene: &Scene) -> Vec<Advice> {
-    let mut seen = Vec::new();
-    let given = scene.pseudo_force != PseudoForce::default();
-    if scene.form == FormChoice::Free && given && !scene.free.pseudo_force {
-        let setting = Setting { key: "free.pseudo_force", value: "true".to_owned() };
-        seen.push(Advice {
-            seen: "hair does not feel [pseudo_force] in the free form".to_owned(),
-            settings: vec![setting],
-        });
-    }
-    for i in (0..scene.bodies.len()).filter(|&i| !scene.bodies[i].solid && !scene.bodies[i].shown) {
-        let line = format!("body[{i}] changes nothing: it is neither solid nor shown");
-        seen.push(Advice { seen: line, settings: Vec::new() });
-    }
-    seen
 }
 
 /// Bodies with openings, which count as closed: what is behind them, as within a cap, is inside.
@@ -116,19 +77,6 @@ fn open_bodies(built: &BuiltScene) -> impl Iterator<Item = Advice> {
         );
         Advice { seen, settings: Vec::new() }
     })
-}
-
-/// Settings of the camera that change no picture beside the others.
-fn unseen(camera: &Camera) -> Vec<Advice> {
-    let focus = (camera.focus_distance.is_some() && camera.f_stop.is_none())
-        .then_some("picture.camera.focus_distance changes nothing: all is sharp without picture.camera.f_stop");
-    let height = (camera.height.is_some() && camera.projection == Projection::Perspective).then_some(
-        "picture.camera.height changes nothing in perspective: give picture.camera.distance or fov, or projection = \"orthographic\"",
-    );
-    let fov = (camera.fov != Camera::default().fov && camera.projection == Projection::Orthographic)
-        .then_some("picture.camera.fov changes nothing in orthographic views: give picture.camera.height");
-    let seen = focus.into_iter().chain(height).chain(fov);
-    seen.map(|seen| Advice { seen: seen.to_owned(), settings: Vec::new() }).collect()
 }
 
 /// A tie that holds no hair.

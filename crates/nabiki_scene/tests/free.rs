@@ -261,4 +261,29 @@ fn settings_without_effect_are_said() {
     let orthographic = ("picture.camera.projection", "\"orthographic\"");
     assert_eq!(unseen(&[height, orthographic]), [""; 0]);
     assert_eq!(unseen(&[focus, ("picture.camera.f_stop", "4")]), [""; 0]);
+    let still = ("force.0.vector", "[0, 0, 0]");
+    let each = [
+        ("gust.intensity", "0.2", still, "[gust]"),
+        ("flow.thickness", "1", still, "[flow]"),
+        ("turbulence.drift", "0.5", still, "turbulence.drift"),
+        ("turbulence.envelope", "[{ frame = 0, factor = 0 }]", ("motion.frames", "3"), "[turbulence]"),
+        ("picture.camera.margin", "0.2", ("picture.camera.distance", "80"), "picture.camera.margin"),
+        ("picture.samples", "8", ("motion.frames", "3"), "picture.samples"),
+        ("picture.hair.scale_tilt", "2", ("picture.hair.shading", "\"kajiya-kay\""), "picture.hair.scale_tilt"),
+        ("picture.hair.tip", "0.2", ("picture.hair.taper", "0"), "picture.hair.tip"),
+        ("picture.head.sheen", "0.6", ("picture.head.visible", "false"), "picture.head.sheen,"),
+    ];
+    for (key, value, beside, line) in each {
+        assert_eq!(unseen(&[(key, value), beside]), [line], "{key} beside {beside:?}");
+    }
+    let has_effect = [
+        ("gust.intensity", "0.2"),
+        ("flow.thickness", "1"),
+        ("turbulence.drift", "0.5"),
+        ("picture.camera.margin", "0.2"),
+        ("picture.hair.scale_tilt", "2"),
+        ("picture.hair.tip", "0.2"),
+        ("picture.head.sheen", "0.6"),
+    ];
+    assert_eq!(unseen(&has_effect), [""; 0]);
 }
