@@ -29,7 +29,7 @@ use crate::settings::Sky;
 /// Nodes that are shaded together.
 const LANES: usize = 16;
 /// Of the light that a fibre lets through, the share that goes on by other ways than straight from the lamp. Fitted.
-const STRAYS: f32 = 0.2;
+const STRAYS: f32 = 0.25;
 /// Share of the sky's scattered light that stays within hair, and of what of it hair behind sends back: much of what lies behind sees
 /// less of the sky.
 pub const SKY_DENSITY: f32 = 0.45;
