@@ -271,7 +271,8 @@ fn settings_without_effect_are_said() {
         ("picture.samples", "8", ("motion.frames", "3"), "picture.samples"),
         ("picture.hair.scale_tilt", "2", ("picture.hair.shading", "\"kajiya-kay\""), "picture.hair.scale_tilt"),
         ("picture.hair.tip", "0.2", ("picture.hair.taper", "0"), "picture.hair.tip"),
-        ("picture.head.sheen", "0.6", ("picture.head.visible", "false"), "picture.head.sheen,"),
+        ("picture.head.sheen", "0.6", ("picture.head.visible", "false"), "picture.head.sheen"),
+        ("picture.head.stubble", "1", ("picture.head.visible", "false"), "picture.head.stubble"),
     ];
     for (key, value, beside, line) in each {
         assert_eq!(unseen(&[(key, value), beside]), [line], "{key} beside {beside:?}");
@@ -286,4 +287,10 @@ fn settings_without_effect_are_said() {
         ("picture.head.sheen", "0.6"),
     ];
     assert_eq!(unseen(&has_effect), [""; 0]);
+
+    // A body that is shown is lit as the head is.
+    let ball = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/ball.toml");
+    let overrides = [("picture.head.sheen", "0.6"), ("picture.head.visible", "false")];
+    let overrides = overrides.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    assert_eq!(Scene::load(&ball, &overrides).unwrap().build(Shown::First(20)).unwrap().advice(), []);
 }

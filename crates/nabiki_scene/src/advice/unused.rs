@@ -12,7 +12,7 @@ use crate::scene::{FieldSettings, FormChoice, FreeSettings, Scene};
 /// What is given and changes nothing.
 pub(super) fn unused(scene: &Scene) -> Vec<Advice> {
     let mut advice: Vec<Advice> = unfelt(scene).into_iter().chain(idle(scene)).collect();
-    let lines = [field(&scene.field), camera(&scene.picture.camera), picture(&scene.picture)];
+    let lines = [field(&scene.field), camera(&scene.picture.camera), picture(scene)];
     let of_line = |(changes_nothing, line): (bool, &str)| {
         changes_nothing.then(|| Advice { seen: line.to_owned(), settings: Vec::new() })
     };
@@ -99,10 +99,14 @@ fn camera(camera: &Camera) -> Vec<(bool, &'static str)> {
 }
 
 /// The same of the look.
-fn picture(picture: &Picture) -> Vec<(bool, &'static str)> {
+fn picture(scene: &Scene) -> Vec<(bool, &'static str)> {
+    let picture = &scene.picture;
     let (hair, head) = (&picture.hair, &picture.head);
     let (usual, skin) = (HairLook::default(), HeadLook::default());
     let papers = hair.shading == Shading::KajiyaKay;
+    // Bodies are lit as the head is.
+    let no_skin = !head.visible && !scene.bodies.iter().any(|body| body.shown);
+    let unlike = head.sheen != skin.sheen || head.softness != skin.softness;
     vec![
         (
             picture.samples != Picture::default().samples && picture.antialiasing != Antialiasing::Oversample,
@@ -114,8 +118,12 @@ fn picture(picture: &Picture) -> Vec<(bool, &'static str)> {
         ),
         (hair.tip != usual.tip && hair.taper == 0.0, "picture.hair.tip changes nothing: picture.hair.taper is 0"),
         (
-            !head.visible && [head.sheen, head.softness, head.stubble] != [skin.sheen, skin.softness, skin.stubble],
-            "picture.head.sheen, softness and stubble change nothing: picture.head.visible is false",
+            no_skin && unlike,
+            "picture.head.sheen and softness change nothing: no skin is shown, the head's nor a body's",
+        ),
+        (
+            !head.visible && head.stubble != skin.stubble,
+            "picture.head.stubble changes nothing: picture.head.visible is false",
         ),
     ]
 }
