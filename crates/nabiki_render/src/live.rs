@@ -6,7 +6,7 @@ use crate::settings::HairLook;
 
 pub use crate::light::fibre::{COLUMNS, GRADES, ROWS};
 pub use crate::light::lamps::{Lamp, lamps, zenith};
-pub use crate::light::shade::decay;
+pub use crate::light::streams::decay;
 
 /// Share of the sky's light scattered by hair that stays within it.
 pub const SKY_DENSITY: f32 = shade::SKY_DENSITY;

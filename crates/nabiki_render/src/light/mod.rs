@@ -8,3 +8,4 @@ pub mod lamps;
 pub mod shade;
 pub mod shadow;
 pub mod sky;
+pub mod streams;

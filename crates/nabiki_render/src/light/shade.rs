@@ -20,6 +20,7 @@ use super::sky::{
     AT_ONCE, BEHIND_ABOVE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BELOW, FRONT_GLOW, Places, SkyMap,
     TOWARD_LAMPS,
 };
+use super::streams::{decay, sent_back, slab};
 use crate::camera::View;
 use crate::colour::of_strand;
 use crate::curve::CurveNode;
@@ -32,9 +33,9 @@ const LANES: usize = 16;
 const STRAYS: f32 = 0.25;
 /// Share of the sky's scattered light that stays within hair, and of what of it hair behind sends back: much of what lies behind sees
 /// less of the sky.
-pub const SKY_DENSITY: f32 = 0.45;
+pub const SKY_DENSITY: f32 = 0.6;
 /// So much nearer to the eye (cm) the sky is asked for: what the eye sees of a cell's hair lies on its near side. Fitted.
-const NEARER: f32 = 0.06;
+const NEARER: f32 = 0.09;
 /// Depth of hair without end (fibres).
 const ENDLESS: f32 = 100.0;
 /// Light of this variance along the hair (rad^2) goes to all inclinations, near enough.
@@ -233,7 +234,11 @@ impl HairLight<'_> {
                 let behind = self.sky.strength * colour(above, below) * gain + self.skin[c] * sky[BEHIND_GLOW][lane];
                 // Where it is open behind there is no hair that sends back.
                 let again = SKY_DENSITY * (whole - b) * (1.0 - (above + below) * gain).max(0.0);
-                light[c][lane] = front * (b + again) + behind * a;
+                // R and TRT keep the inclination, so the light that they send to the eye has come from the eye's side of hair seen
+                // across, and from behind hair that points at the eye: their cosine is 1 - 2 sin^2.
+                let from_behind = sin_eye[lane] * sin_eye[lane];
+                let once = front + from_behind * (behind - front);
+                light[c][lane] = once * b + front * again + behind * a;
             }
         }
 
@@ -334,38 +339,6 @@ impl HairLight<'_> {
     }
 }
 
-/// The part of even light that hair without end sends back, of which each fibre passes on the part `a` and sends back `b`.
-///
-/// One fibre more before it changes nothing: R = b + a^2 R / (1 - b R), whose smaller root this is. It is the sum over all
-/// numbers of reversals, of which Zinke et al. (2008) take one and three.
-#[inline(always)]
-pub fn sent_back(a: f32, b: f32) -> f32 {
-    let q = 1.0 - a * a + b * b;
-    2.0 * b / (q + (q * q - 4.0 * b * b).max(0.0).sqrt()).max(1e-12)
-}
-
-/// How fast scattered light grows less in hair of which each fibre passes on the part `a` and sends back `b`: e^-decay for each fibre
-/// on the straight way.
-///
-/// Two streams that go straight on and back would have sqrt((1 - a)^2 - b^2). Scattered light goes aslant, and so farther: of the
-/// eigenvalues of transport across parallel fibres, with the azimuths of all lobes, this is within 6 % for hair from blond to black.
-#[inline(always)]
-pub fn decay(a: f32, b: f32) -> f32 {
-    let lost = (1.0 - a).max(0.0);
-    let two_ways = (lost * lost - b * b).max(1e-6).sqrt();
-    two_ways * (1.7 - 0.7 * two_ways)
-}
-
-/// Of light that falls onto a slab of hair, the parts that go away from the lamp and back to it at a place within: hair without end would
-/// send back the part `whole`, and what grows less by `decay` arrives there with `before` and leaves the hair behind with `behind`.
-#[inline(always)]
-fn slab(whole: f32, before: f32, behind: f32) -> [f32; 2] {
-    let (far, sent) = (behind * behind, whole * whole);
-    // Of clear hair and no hair behind it nothing is left of either: nothing is scattered there.
-    let part = before / (1.0 - sent * before * before * far).max(1e-6);
-    [(1.0 - sent * far) * part, whole * (1.0 - far) * part]
-}
-
 /// Rows of the lanes' tables; what hair without end sends back, and how fast scattered light grows less in it.
 #[derive(Default)]
 struct Rows {
@@ -378,88 +351,50 @@ struct Rows {
 
 #[cfg(test)]
 mod tests {
+    use glam::{Vec3, vec3};
+    use nabiki::Mesh;
+
     use super::*;
-    use crate::light::fibre::Table;
+    use crate::camera::Bounds;
+    use crate::settings::{Camera, HairColour, HairLook};
 
     #[test]
-    fn scattered_light_grows_less_as_it_does_across_parallel_fibres() {
-        // Red, green and blue of blond hair, red of brown and green of red hair, and black hair (absorption per radius).
-        for absorption in [0.05, 0.10, 0.25, 0.57, 0.76, 3.4] {
-            let table = Table::new([absorption; 3], 1.55, 0.3);
-            let row = 0.4 * (ROWS - 1) as f32;
-            let of_row = table.row(row);
-            // Which part of its light a fibre turns by each of these angles, from straight on.
-            const STEPS: usize = 96;
-            let angle = |i: usize| (i as f32) * 2.0 * PI / STEPS as f32;
-            let turned: Vec<f32> = (0..STEPS)
-                .map(|i| {
-                    let lobes = table.lobes(row, (PI - angle(i)).abs() * COLUMNS as f32 / PI);
-                    (lobes[0] + lobes[1] + lobes[4] + of_row.rest[0]) * 2.0 * PI / STEPS as f32
-                })
-                .collect();
-            // Light that falls off as e^-kx has I = P I / (1 - k cos): that operator's largest eigenvalue is 1 for the true k.
-            let eigenvalue = |k: f32| {
-                let mut light = vec![1.0_f32; STEPS];
-                let mut value = 0.0;
-                for _ in 0..200 {
-                    let next: Vec<f32> = (0..STEPS)
-                        .map(|i| {
-                            let scattered: f32 = (0..STEPS).map(|j| turned[(i + STEPS - j) % STEPS] * light[j]).sum();
-                            scattered / (1.0 - k * angle(i).cos())
-                        })
-                        .collect();
-                    value = next.iter().copied().fold(0.0, f32::max);
-                    light = next.iter().map(|l| l / value).collect();
-                }
-                value
+    fn hair_seen_from_its_end_shows_the_light_from_behind_it() {
+        // Black hair, which lets nothing through, before a wall that the eye looks at; and the same without the wall.
+        let corners = [(-6.0, -6.0), (6.0, -6.0), (6.0, 6.0), (-6.0, 6.0)].map(|(y, z)| vec3(-1.0, y, z));
+        let wall = Mesh { positions: corners.to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() };
+        let view =
+            View::new(&Camera { azimuth: 0.0, elevation: 0.0, ..Camera::default() }, [64; 2], &Bounds::default());
+        let colour = HairColour::Melanin { eumelanin: 40.0, pheomelanin: 0.0 };
+        let model = Model::Fibre(Box::new(Fibre::new(&HairLook { colour, variation: 0.0, ..HairLook::default() })));
+        let sky = Sky::default();
+        let seen = |tangent: Vec3, behind: &Mesh| {
+            let mut sky_map = SkyMap::default();
+            sky_map.lay_out([Vec3::splat(-6.0), Vec3::splat(6.0)], 0.0, (behind, &[]));
+            sky_map.fill(&[], &[], Vec3::Y);
+            sky_map.gather(&view, &[], |_, _, _| 0.0);
+            let light = HairLight {
+                model: &model,
+                variation: 0.0,
+                lamps: &[],
+                crossings: &[],
+                solid_shadows: &[],
+                sky: &sky,
+                sky_map: Some(&sky_map),
+                skin: [0.0; 3],
+                view: &view,
             };
-            let (mut low, mut high) = (0.0, 0.999);
-            for _ in 0..14 {
-                let k = 0.5 * (low + high);
-                if eigenvalue(k) < 1.0 { low = k } else { high = k }
-            }
-            let fitted = decay(of_row.forward[0], of_row.back[0]);
-            assert!((fitted / low - 1.0).abs() < 0.06, "{absorption}: {fitted} for {low}");
-        }
-    }
-
-    #[test]
-    fn a_slab_loses_nothing_of_clear_hair_and_is_the_sum_of_its_layers() {
-        // Between two places no light arises: the streams differ by what gets through, here for hair that takes nearly nothing.
-        let (a, b) = (0.9, 0.0999);
-        let (whole, lost) = (sent_back(a, b), decay(a, b));
-        let at = |n: f32| slab(whole, (-lost * n).exp(), (-lost * (8.0 - n)).exp());
-        let net = |n: f32| at(n)[0] - at(n)[1];
-        assert!((net(0.0) - net(8.0)).abs() < 0.05 * net(0.0), "{} {}", net(0.0), net(8.0));
-        assert!((at(0.0)[0] - 1.0).abs() < 1e-5 && at(8.0)[1].abs() < 1e-5);
-        // The same place reached in two slabs: the first, with what the second sends back.
-        let (a, b) = (0.8, 0.1);
-        let (whole, lost) = (sent_back(a, b), decay(a, b));
-        let through = |n: f32| (-lost * n).exp();
-        let [_, sent] = slab(whole, 1.0, through(3.0));
-        let [away, back] = slab(whole, through(2.0), through(3.0));
-        assert!((back - sent * away).abs() < 1e-6);
-        // Deep hair sends back what hair without end does, and black hair nothing on its way.
-        assert!((slab(whole, 1.0, through(100.0))[1] - whole).abs() < 1e-5);
-        assert_eq!(slab(0.0, 0.25, 0.5), [0.25, 0.0]);
-        assert!([[1.0, 1.0, 1.0], [1.0, 0.0, 1.0]].iter().all(|&[r, n, m]| slab(r, n, m) == [0.0; 2]));
-    }
-
-    #[test]
-    fn what_hair_sends_back_is_the_sum_of_all_reversals_and_no_more_than_arrives() {
-        for (a, b) in [(0.05, 0.04), (0.5, 0.3), (0.75, 0.2), (0.3, 0.65), (0.8, 0.15), (0.0, 0.5), (0.0, 0.0)] {
-            // Layer upon layer: each new one before those that are there sends back what goes to and fro between them.
-            let mut sum = 0.0_f64;
-            for _ in 0..2000 {
-                sum = b + a * a * sum / (1.0 - b * sum);
-            }
-            // A few roundings; the root takes the half of the digits where a + b is near 1.
-            assert!((f64::from(sent_back(a as f32, b as f32)) - sum).abs() < 1e-5, "{a} {b}");
-            assert!(sum < 1.0);
-        }
-        // Clear hair sends back all, to the root of a rounding.
-        for b in [0.1, 0.5, 0.9] {
-            assert!((sent_back(1.0 - b, b) - 1.0).abs() < 3e-3, "{b}");
-        }
+            let mut nodes = [Node::default()];
+            light.shade(&[CurveNode { tangent, ..CurveNode::default() }], &[true], &mut nodes);
+            nodes[0].light[1]
+        };
+        let left = |inclination: f32| {
+            let tangent = vec3(inclination.sin(), 0.0, inclination.cos());
+            seen(tangent, &wall) / seen(tangent, &Mesh::default())
+        };
+        let [across, aslant, on_end] = [0.0, 0.8, 1.5].map(left);
+        // The wall takes what comes from behind, and so the part sin^2 of what arrives mirrored along the hair; not all of it,
+        // since whatever closes the view counts as hair, which passes on a part.
+        assert!(across > 0.4 && aslant < 0.8 * across && on_end < 0.5 * across, "{across} {aslant} {on_end}");
     }
 }

@@ -146,7 +146,9 @@ fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec2f,
     let two_ways = sqrt(max(lost * lost - b * b, vec3f(1e-6)));
     let decay = two_ways * (1.7 - 0.7 * two_ways);
     let closed = max(1.0 - 0.5 * (behind.x + behind.y) * gain(behind, a), vec3f(0.0));
-    var light = arrives(open, a) * (b + g.sky_above.w * (whole - b) * closed) + arrives(behind, a) * a;
+    let front = arrives(open, a);
+    let from_behind = arrives(behind, a);
+    var light = mix(front, from_behind, se * se) * b + front * g.sky_above.w * (whole - b) * closed + from_behind * a;
     let home = g.spread.z + g.spread.x * (a.g / decay.g - 1.0);
     for (var l = 0u; l < g.counts.x; l++) {
         let lamp = g.lamps[l];
