@@ -6,7 +6,6 @@ use crate::settings::HairLook;
 
 pub use crate::light::fibre::{COLUMNS, GRADES, ROWS};
 pub use crate::light::lamps::{Lamp, lamps, zenith};
-pub use crate::light::streams::decay;
 
 /// Share of the sky's light scattered by hair that stays within it.
 pub const SKY_DENSITY: f32 = shade::SKY_DENSITY;
@@ -26,6 +25,8 @@ pub struct FibreTables {
     pub rows: Vec<[f32; 12]>,
     /// Variances along the hair of R, TT and TRT (rad^2).
     pub variances: [f32; 3],
+    /// By how much less light arrives for each hair before a place, those of middling pigment (red, green, blue).
+    pub decay: [f32; 3],
     /// Tilt of the scales (rad): R turns by twice that toward the root, TT by once and TRT by three times toward the tip.
     pub tilt: f32,
 }
@@ -42,6 +43,7 @@ impl FibreTables {
             lobes: fibre.grades.iter().flat_map(|table| table.lobes_by_row().iter().copied()).collect(),
             rows: fibre.grades.iter().flat_map(|table| table.rows().iter().map(flat)).collect(),
             variances: Fibre::variances(look),
+            decay: fibre.grades[GRADES / 2].medium.decay,
             tilt: fibre.tilt,
         }
     }

@@ -9,6 +9,7 @@
 use std::f32::consts::PI;
 
 use super::approx::{exp_of_negative, scaled_bessel};
+use super::streams::{MIDDLING, Medium};
 use crate::colour::absorption;
 use crate::settings::HairLook;
 
@@ -29,6 +30,8 @@ pub struct Table {
     /// `ROWS` x (`COLUMNS` + 1) entries.
     lobes: Vec<Lobes>,
     rows: Vec<Row>,
+    /// Many such hairs.
+    pub medium: Medium,
 }
 
 /// What depends on the eye's inclination only.
@@ -123,7 +126,9 @@ impl Table {
             let entries = &mut lobes[r * (COLUMNS + 1)..(r + 1) * (COLUMNS + 1)];
             fill(row, entries, sin_eye, absorption, refraction, scale);
         }
-        Self { lobes, rows }
+        let mut table = Self { lobes, rows, medium: Medium::default() };
+        table.medium = Medium::of(&table.row(MIDDLING * (ROWS - 1) as f32));
+        table
     }
 
     /// The lobes, row after row.

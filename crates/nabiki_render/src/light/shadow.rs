@@ -38,6 +38,11 @@ impl Crossings {
     pub fn at(&self, i: usize) -> f32 {
         f32::from_bits(self.counts[i].load(Ordering::Relaxed))
     }
+
+    #[cfg(test)]
+    pub fn of(counts: &[f32]) -> Self {
+        Self { counts: counts.iter().map(|count| AtomicU32::new(count.to_bits())).collect() }
+    }
 }
 
 /// What the lamp sees: nodes that lay down fibre, and places on the skin that only read.

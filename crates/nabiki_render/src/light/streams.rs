@@ -1,5 +1,35 @@
 //! Light that hair scatters, in two streams: away from the lamp and back to it (Zinke et al. 2008, with all numbers of reversals).
 
+use std::f32::consts::PI;
+
+use super::fibre::Row;
+
+/// Sine of the inclination to the hair at which even light meets it in the mean: int sin cos^2 / int cos^2.
+///
+/// What light loses on its way through hair goes by how it crosses that hair, not by how the hair that shows it is seen: hair that
+/// points at the eye reflects all there is, and does not make clear what lies before it.
+pub const MIDDLING: f32 = 4.0 / (3.0 * PI);
+
+/// Hair as a medium: what each fibre does with light of middling inclination (red, green, blue).
+#[derive(Clone, Copy, Default)]
+pub struct Medium {
+    /// The parts that it passes on, and sends back.
+    pub forward: [f32; 3],
+    pub back: [f32; 3],
+    /// See [`sent_back`] and [`decay`].
+    pub whole: [f32; 3],
+    pub decay: [f32; 3],
+}
+
+impl Medium {
+    /// Of fibres with these parts at middling inclination.
+    pub fn of(row: &Row) -> Self {
+        let Row { forward, back, .. } = *row;
+        let of_each = |of: fn(f32, f32) -> f32| std::array::from_fn(|c| of(forward[c], back[c]));
+        Self { forward, back, whole: of_each(sent_back), decay: of_each(decay) }
+    }
+}
+
 /// The part of even light that hair without end sends back, of which each fibre passes on the part `a` and sends back `b`.
 ///
 /// One fibre more before it changes nothing: R = b + a^2 R / (1 - b R), whose smaller root this is. It is the sum over all
@@ -34,8 +64,6 @@ pub fn slab(whole: f32, before: f32, behind: f32) -> [f32; 2] {
 
 #[cfg(test)]
 mod tests {
-    use std::f32::consts::PI;
-
     use super::*;
     use crate::light::fibre::{COLUMNS, ROWS, Table};
 

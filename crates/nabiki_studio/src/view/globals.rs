@@ -105,11 +105,9 @@ pub fn globals(
         *to = Lamp { toward: lamp.toward.to_array(), channel, strength: lamp.strength, pad: 0.0 };
     }
     let strength = |c: [f32; 3]| c.map(|c| c * sky.strength);
-    // Of middling pigment and lean to the light, as the renderer counts what reaches skin through hair.
-    let middle = (live::GRADES / 2) * live::ROWS + live::ROWS / 2;
-    let decay = match (look.shading, tables.rows.get(middle)) {
-        (Shading::Fibre, Some(row)) => [0, 1, 2].map(|c| live::decay(row[c], row[4 + c])),
-        _ => [1.0; 3],
+    let decay = match look.shading {
+        Shading::Fibre => tables.decay,
+        Shading::KajiyaKay => [1.0; 3],
     };
     let [variance_r, variance_tt, variance_trt] = tables.variances;
     let is_parallel = f32::from(head.projection == Projection::Orthographic);

@@ -19,6 +19,8 @@ struct Vertex {
 const GRADES: u32 = 8u;
 const ROWS: u32 = 24u;
 const COLUMNS: u32 = 64u;
+// Sine of the inclination at which light crosses hair in the mean.
+const MIDDLING: f32 = 4.0 / (3.0 * PI);
 
 fn point(i: u32) -> vec3f {
     return vec3f(points[3u * i], points[3u * i + 1u], points[3u * i + 2u]);
@@ -140,16 +142,18 @@ fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec2f,
     let a = row_at(grade, row, 0u);
     let b = row_at(grade, row, 1u);
     let rest = row_at(grade, row, 2u);
-    let q = 1.0 - a * a + b * b;
-    let whole = 2.0 * b / max(q + sqrt(max(q * q - 4.0 * b * b, vec3f(0.0))), vec3f(1e-6));
-    let lost = max(1.0 - a, vec3f(0.0));
-    let two_ways = sqrt(max(lost * lost - b * b, vec3f(1e-6)));
+    let passed = row_at(grade, MIDDLING * f32(ROWS - 1u), 0u);
+    let sent = row_at(grade, MIDDLING * f32(ROWS - 1u), 1u);
+    let q = 1.0 - passed * passed + sent * sent;
+    let whole = 2.0 * sent / max(q + sqrt(max(q * q - 4.0 * sent * sent, vec3f(0.0))), vec3f(1e-6));
+    let lost = max(1.0 - passed, vec3f(0.0));
+    let two_ways = sqrt(max(lost * lost - sent * sent, vec3f(1e-6)));
     let decay = two_ways * (1.7 - 0.7 * two_ways);
-    let closed = max(1.0 - 0.5 * (behind.x + behind.y) * gain(behind, a), vec3f(0.0));
-    let front = arrives(open, a);
-    let from_behind = arrives(behind, a);
-    var light = mix(front, from_behind, se * se) * b + front * g.sky_above.w * (whole - b) * closed + from_behind * a;
-    let home = g.spread.z + g.spread.x * (a.g / decay.g - 1.0);
+    let closed = max(1.0 - 0.5 * (behind.x + behind.y) * gain(behind, passed), vec3f(0.0));
+    let again = g.sky_above.w * max(whole - sent, vec3f(0.0)) * closed;
+    let from_behind = arrives(behind, passed);
+    var light = mix(arrives(open, passed), from_behind, se * se) * (b + again) + from_behind * a;
+    let home = g.spread.z + g.spread.x * (passed.g / decay.g - 1.0);
     for (var l = 0u; l < g.counts.x; l++) {
         let lamp = g.lamps[l];
         let sl = clamp(dot(t, lamp.toward), -0.9995, 0.9995);
@@ -168,7 +172,7 @@ fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec2f,
         let n = crossed(lamp, depth);
         let straight = exp(-n);
         let once = m_r * seen.r + m_tt * seen.tt + m_trt * (seen.trt + rest);
-        let variance = g.spread.x * (2.0 + n * a.g);
+        let variance = g.spread.x * (2.0 + n * passed.g);
         let scattered = exp(-n * decay);
         let away = along(min(variance, 1.0), sl, cl, se, ce) * max(scattered - straight, vec3f(0.0));
         let back = along(min(variance + home, 1.0), sl, cl, se, ce) * whole * scattered;
