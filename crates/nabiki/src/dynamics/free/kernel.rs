@@ -160,7 +160,6 @@ impl<'a> Next<'a> {
 
 /// Moves segment i of every strand of a block from frame n to n + 1, as if nothing were in its way. `from` and `to` are
 /// p_(i-1) and p_i at frame n + 1.
-#[allow(clippy::too_many_arguments, reason = "rows, each of which the caller has elsewhere")]
 #[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "rows that lie in different places, none of which goes with another")]
 pub(super) fn step_segment(
