@@ -48,7 +48,9 @@ impl ContactSheet {
         let text = (height / 28.0).clamp(6.0, 18.0);
         picture.caption(&format!("frame {number}"), [text, 2.0 * text], text, INK);
         if let Some(force) = force {
-            let caption = format!("F = ({}, {}, {})", force.x, force.y, force.z);
+            // Between two keys a force has more digits than anybody reads; and no -0.
+            let [x, y, z] = force.to_array().map(|f| (100.0 * f).round() / 100.0 + 0.0);
+            let caption = format!("F = ({x}, {y}, {z})");
             let at = [text, height - text];
             picture.caption(&caption, at, 0.8 * text, INK);
             let [x, y] = view.in_picture(force);
