@@ -2,6 +2,7 @@
 
 use crate::light::fibre::{Fibre, Row};
 use crate::light::shade;
+use crate::light::streams::Medium;
 use crate::settings::HairLook;
 
 pub use crate::light::fibre::{COLUMNS, GRADES, ROWS};
@@ -25,8 +26,9 @@ pub struct FibreTables {
     pub rows: Vec<[f32; 12]>,
     /// Variances along the hair of R, TT and TRT (rad^2).
     pub variances: [f32; 3],
-    /// By how much less light arrives for each hair before a place, those of middling pigment (red, green, blue).
-    pub decay: [f32; 3],
+    /// For each grade, of many such hairs: the parts that each passes on and sends back, what hair without end sends back, and by how
+    /// much less light arrives for each hair before a place (red, green, blue each), with a 0 after each three.
+    pub mediums: Vec<[f32; 16]>,
     /// Tilt of the scales (rad): R turns by twice that toward the root, TT by once and TRT by three times toward the tip.
     pub tilt: f32,
 }
@@ -39,13 +41,26 @@ impl FibreTables {
             let [f, b, r] = [row.forward, row.back, row.rest];
             [f[0], f[1], f[2], 0.0, b[0], b[1], b[2], 0.0, r[0], r[1], r[2], 0.0]
         };
+        let medium = |m: &Medium| {
+            let mut flat = [0.0; 16];
+            for (to, part) in flat.chunks_exact_mut(4).zip([m.forward, m.back, m.whole, m.decay]) {
+                to[..3].copy_from_slice(&part);
+            }
+            flat
+        };
         Self {
             lobes: fibre.grades.iter().flat_map(|table| table.lobes_by_row().iter().copied()).collect(),
             rows: fibre.grades.iter().flat_map(|table| table.rows().iter().map(flat)).collect(),
             variances: Fibre::variances(look),
-            decay: fibre.grades[GRADES / 2].medium.decay,
+            mediums: fibre.grades.iter().map(|table| medium(&table.medium)).collect(),
             tilt: fibre.tilt,
         }
+    }
+
+    /// By how much less light arrives for each hair before a place, those of middling pigment (red, green, blue).
+    pub fn decay(&self) -> [f32; 3] {
+        let [.., r, g, b, _] = self.mediums[GRADES / 2];
+        [r, g, b]
     }
 }
 
@@ -59,6 +74,8 @@ mod tests {
         let (tables, fibre) = (FibreTables::new(&look), Fibre::new(&look));
         assert_eq!(tables.lobes.len(), GRADES * ROWS * (COLUMNS + 1));
         assert_eq!(tables.rows.len(), GRADES * ROWS);
+        assert_eq!(tables.decay(), fibre.grades[GRADES / 2].medium.decay);
+        assert_eq!(tables.mediums[3][8..11], fibre.grades[3].medium.whole);
         for (grade, row, column) in [(0, 0, 0), (3, 7, 21), (GRADES - 1, ROWS - 2, COLUMNS - 1)] {
             let at = (grade * ROWS + row) * (COLUMNS + 1) + column;
             assert_eq!(tables.lobes[at], fibre.grades[grade].lobes(row as f32, column as f32));

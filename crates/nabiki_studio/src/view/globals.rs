@@ -106,7 +106,7 @@ pub fn globals(
     }
     let strength = |c: [f32; 3]| c.map(|c| c * sky.strength);
     let decay = match look.shading {
-        Shading::Fibre => tables.decay,
+        Shading::Fibre => tables.decay(),
         Shading::KajiyaKay => [1.0; 3],
     };
     let [variance_r, variance_tt, variance_trt] = tables.variances;

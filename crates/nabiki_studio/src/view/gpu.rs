@@ -86,7 +86,7 @@ impl Gpu {
     /// In words, if the device cannot do what the view needs.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Self, String> {
         let limits = device.limits();
-        if limits.max_storage_buffers_per_shader_stage < 6 || limits.max_compute_invocations_per_workgroup < 64 {
+        if limits.max_storage_buffers_per_shader_stage < 7 || limits.max_compute_invocations_per_workgroup < 64 {
             return Err(
                 "This graphics driver has no compute shaders. The view needs Vulkan, Metal or Direct3D 12.".to_owned()
             );

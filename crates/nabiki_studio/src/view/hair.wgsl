@@ -9,18 +9,25 @@ struct Vertex {
     share: f32, // of a pixel, plus twice a whole number of the strand
 }
 
+// Many hairs of a grade, as light crosses them in the mean (the renderer's light/streams.rs).
+struct Medium {
+    forward: vec3f,
+    back: vec3f,
+    whole: vec3f,
+    decay: vec3f,
+}
+
 @group(1) @binding(0) var<storage, read> points: array<f32>;          // x, y, z of each
 @group(1) @binding(1) var<storage, read> marks: array<u32>;           // bit 0 root, bit 1 tip, bits 2-11 part of the length, strand
 @group(1) @binding(2) var<storage, read> lobes: array<f32>;           // FibreTables
 @group(1) @binding(3) var<storage, read> rows: array<f32>;
-@group(1) @binding(4) var<storage, read_write> lights: array<vec4f>;
-@group(1) @binding(5) var<storage, read_write> ribbons: array<Vertex>;
+@group(1) @binding(4) var<storage, read> mediums: array<Medium>;
+@group(1) @binding(5) var<storage, read_write> lights: array<vec4f>;
+@group(1) @binding(6) var<storage, read_write> ribbons: array<Vertex>;
 
 const GRADES: u32 = 8u;
 const ROWS: u32 = 24u;
 const COLUMNS: u32 = 64u;
-// Sine of the inclination at which light crosses hair in the mean.
-const MIDDLING: f32 = 4.0 / (3.0 * PI);
 
 fn point(i: u32) -> vec3f {
     return vec3f(points[3u * i], points[3u * i + 1u], points[3u * i + 2u]);
@@ -142,18 +149,12 @@ fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec2f,
     let a = row_at(grade, row, 0u);
     let b = row_at(grade, row, 1u);
     let rest = row_at(grade, row, 2u);
-    let passed = row_at(grade, MIDDLING * f32(ROWS - 1u), 0u);
-    let sent = row_at(grade, MIDDLING * f32(ROWS - 1u), 1u);
-    let q = 1.0 - passed * passed + sent * sent;
-    let whole = 2.0 * sent / max(q + sqrt(max(q * q - 4.0 * sent * sent, vec3f(0.0))), vec3f(1e-6));
-    let lost = max(1.0 - passed, vec3f(0.0));
-    let two_ways = sqrt(max(lost * lost - sent * sent, vec3f(1e-6)));
-    let decay = two_ways * (1.7 - 0.7 * two_ways);
-    let closed = max(1.0 - 0.5 * (behind.x + behind.y) * gain(behind, passed), vec3f(0.0));
-    let again = g.sky_above.w * max(whole - sent, vec3f(0.0)) * closed;
-    let from_behind = arrives(behind, passed);
-    var light = mix(arrives(open, passed), from_behind, se * se) * (b + again) + from_behind * a;
-    let home = g.spread.z + g.spread.x * (passed.g / decay.g - 1.0);
+    let medium = mediums[grade];
+    let closed = max(1.0 - 0.5 * (behind.x + behind.y) * gain(behind, medium.forward), vec3f(0.0));
+    let again = g.sky_above.w * max(medium.whole - medium.back, vec3f(0.0)) * closed;
+    let from_behind = arrives(behind, medium.forward);
+    var light = mix(arrives(open, medium.forward), from_behind, se * se) * (b + again) + from_behind * a;
+    let home = g.spread.z + g.spread.x * (medium.forward.g / medium.decay.g - 1.0);
     for (var l = 0u; l < g.counts.x; l++) {
         let lamp = g.lamps[l];
         let sl = clamp(dot(t, lamp.toward), -0.9995, 0.9995);
@@ -172,10 +173,10 @@ fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec2f,
         let n = crossed(lamp, depth);
         let straight = exp(-n);
         let once = m_r * seen.r + m_tt * seen.tt + m_trt * (seen.trt + rest);
-        let variance = g.spread.x * (2.0 + n * passed.g);
-        let scattered = exp(-n * decay);
+        let variance = g.spread.x * (2.0 + n * medium.forward.g);
+        let scattered = exp(-n * medium.decay);
         let away = along(min(variance, 1.0), sl, cl, se, ce) * max(scattered - straight, vec3f(0.0));
-        let back = along(min(variance + home, 1.0), sl, cl, se, ce) * whole * scattered;
+        let back = along(min(variance + home, 1.0), sl, cl, se, ce) * medium.whole * scattered;
         let part = straight * once + away * (b * same_side + a * far_side) + back * (a * same_side + b * far_side);
         light += PI * past_head(p, lamp.toward) * lamp.strength * part;
     }

@@ -15,6 +15,7 @@ pub struct LookOnCard {
     pub tables: FibreTables,
     pub lobes: wgpu::Buffer,
     pub rows: wgpu::Buffer,
+    pub mediums: wgpu::Buffer,
 }
 
 impl LookOnCard {
@@ -23,7 +24,8 @@ impl LookOnCard {
         let of = |label, bytes| buffer(device, queue, label, bytes, wgpu::BufferUsages::STORAGE);
         let lobes = of("lobes", bytemuck::cast_slice(&tables.lobes));
         let rows = of("rows", bytemuck::cast_slice(&tables.rows));
-        Self { look: *look, tables, lobes, rows }
+        let mediums = of("mediums", bytemuck::cast_slice(&tables.mediums));
+        Self { look: *look, tables, lobes, rows, mediums }
     }
 }
 

@@ -41,7 +41,15 @@ impl Passes<'_> {
         };
         let of_strands = group(
             &pipelines.strands,
-            &[&strands.points, &strands.marks, &look.lobes, &look.rows, &strands.lights, &strands.ribbons],
+            &[
+                &strands.points,
+                &strands.marks,
+                &look.lobes,
+                &look.rows,
+                &look.mediums,
+                &strands.lights,
+                &strands.ribbons,
+            ],
         );
         let of_bodies = group(&pipelines.bodies, &[&surface.corners, &surface.lights]);
         let nodes = strands.point_count * (strands.pieces * strands.hairs) as usize;

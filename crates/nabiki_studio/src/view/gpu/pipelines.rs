@@ -71,7 +71,7 @@ impl Pipelines {
         let read = storage(true);
         let written = storage(false);
         let compute = wgpu::ShaderStages::COMPUTE;
-        let strands = layout("strands", compute, &[read, read, read, read, written, written]);
+        let strands = layout("strands", compute, &[read, read, read, read, read, written, written]);
         let bodies = layout("bodies", compute, &[read, written]);
         let light = wgpu::BindingType::Texture {
             sample_type: wgpu::TextureSampleType::Float { filterable: false },
