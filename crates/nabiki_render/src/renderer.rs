@@ -347,7 +347,7 @@ impl Renderer {
             let as_head = |solid: u16| white(self.skins[usize::from(solid)]) / white(self.skins[0]).max(1e-3);
             let sky = &self.picture.sky;
             let first = nodes.len() + still.skin_places.len();
-            self.sky_map.gather(view, &still.lamps, |open, i, skin| {
+            self.sky_map.gather((nodes, &self.lit), view, &still.lamps, |open, i, skin| {
                 let place = off_skin(skin.place, skin.normal).at;
                 let mut lit = 0.0;
                 for (l, lamp) in still.lamps.iter().enumerate() {

@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 
 use glam::{UVec3, Vec3};
+use rayon::prelude::*;
 
 use super::{COARSE, EDGE, FINE, Samples, SkinDistance};
 use crate::Mesh;
@@ -26,16 +27,12 @@ impl SkinDistance {
         let cells = ((high - low) / (FINE as f32 * spacing)).floor().as_uvec3().max(UVec3::ONE);
         let nodes = FINE as u32 * cells + 1;
         let [nx, ny, nz] = nodes.to_array().map(|n| n as usize);
-        let mut distances = Vec::with_capacity(nx * ny * nz);
-        for k in 0..nz {
-            for j in 0..ny {
-                for i in 0..nx {
-                    // A hair within the box, where rounding may put the last samples.
-                    let p = (low + spacing * Vec3::new(i as f32, j as f32, k as f32)).min(high - 1e-3);
-                    distances.push(self.at(p));
-                }
-            }
-        }
+        let distance = |node: usize| {
+            let place = [node % nx, node / nx % ny, node / (nx * ny)].map(|index| index as f32);
+            // A hair within the box, where rounding may put the last samples.
+            self.at((low + spacing * Vec3::from(place)).min(high - 1e-3))
+        };
+        let distances: Vec<f32> = (0..nx * ny * nz).into_par_iter().with_min_len(4096).map(distance).collect();
         // How far it is to where a centre may be; below 0 there.
         let mut way: Vec<f32> =
             distances.iter().map(|&d| if d >= radius { radius - d } else { f32::INFINITY }).collect();
@@ -52,30 +49,36 @@ impl SkinDistance {
     /// Lowers samples so that what is read between them lies nowhere within this surface: by what interpolation cuts off
     /// of it in the middle of each cell near the skin, and in the middles of its faces and edges.
     fn enclose(&self, samples: &mut [f32], low: Vec3, step: f32, [nx, ny, nz]: [usize; 3]) {
-        let before = samples.to_vec();
+        let before = &*samples;
         let near = 1.5 * step;
-        for k in 0..nz - 1 {
-            for j in 0..ny - 1 {
-                for i in 0..nx - 1 {
-                    let corner = |c: usize| ((k + (c >> 2)) * ny + j + (c >> 1 & 1)) * nx + i + (c & 1);
-                    let values: [f32; 8] = std::array::from_fn(|c| before[corner(c)]);
-                    if values.iter().all(|v| v.abs() > near) {
-                        continue;
-                    }
-                    let mut cut = 0.0_f32;
-                    for place in 0..27 {
-                        let t = [place % 3, place / 3 % 3, place / 9].map(|half| 0.5 * half as f32);
-                        let weight = |c: usize| {
-                            (0..3).map(|axis| if c >> axis & 1 == 1 { t[axis] } else { 1.0 - t[axis] }).product::<f32>()
-                        };
-                        let read: f32 = (0..8).map(|c| weight(c) * values[c]).sum();
-                        let p = low + step * (Vec3::new(i as f32, j as f32, k as f32) + Vec3::from(t));
-                        cut = cut.max(read - self.at(p));
-                    }
-                    for c in 0..8 {
-                        samples[corner(c)] = samples[corner(c)].min(values[c] - cut);
-                    }
-                }
+        let corner = |node: usize, c: usize| node + ((c >> 2) * ny + (c >> 1 & 1)) * nx + (c & 1);
+        let cut_off = |node: usize| {
+            let place = [node % nx, node / nx % ny, node / (nx * ny)];
+            if place[0] + 1 == nx || place[1] + 1 == ny || place[2] + 1 == nz {
+                return None;
+            }
+            let values: [f32; 8] = std::array::from_fn(|c| before[corner(node, c)]);
+            if values.iter().all(|v| v.abs() > near) {
+                return None;
+            }
+            let mut cut = 0.0_f32;
+            for within in 0..27 {
+                let t = [within % 3, within / 3 % 3, within / 9].map(|half| 0.5 * half as f32);
+                let weight = |c: usize| {
+                    (0..3).map(|axis| if c >> axis & 1 == 1 { t[axis] } else { 1.0 - t[axis] }).product::<f32>()
+                };
+                let read: f32 = (0..8).map(|c| weight(c) * values[c]).sum();
+                let p = low + step * (Vec3::from(place.map(|index| index as f32)) + Vec3::from(t));
+                cut = cut.max(read - self.at(p));
+            }
+            Some((node, values.map(|value| value - cut)))
+        };
+        let nodes = (0..samples.len()).into_par_iter().with_min_len(4096);
+        let lowered: Vec<(usize, [f32; 8])> = nodes.filter_map(cut_off).collect();
+        for (node, values) in lowered {
+            for (c, value) in values.into_iter().enumerate() {
+                let sample = &mut samples[corner(node, c)];
+                *sample = sample.min(value);
             }
         }
     }

@@ -35,7 +35,7 @@ const STRAYS: f32 = 0.25;
 /// less of the sky.
 pub const SKY_DENSITY: f32 = 0.6;
 /// So much nearer to the eye (cm) the sky is asked for: what the eye sees of a cell's hair lies on its near side. Fitted.
-const NEARER: f32 = 0.09;
+pub const NEARER: f32 = 0.09;
 /// Depth of hair without end (fibres).
 const ENDLESS: f32 = 100.0;
 /// Light of this variance along the hair (rad^2) goes to all inclinations, near enough.
@@ -416,7 +416,7 @@ mod tests {
             let mut sky_map = SkyMap::default();
             sky_map.lay_out([Vec3::splat(-6.0), Vec3::splat(6.0)], 0.0, (behind, &[]));
             sky_map.fill(&[], &[], Vec3::Y);
-            sky_map.gather(&view, &[], |_, _, _| 0.0);
+            sky_map.gather((&[CurveNode::default()], &[true]), &view, &[], |_, _, _| 0.0);
             seen(&HairLight { sky_map: Some(&sky_map), ..under_nothing(&model, &sky, &view) }, inclination)
         };
         let [across, aslant, on_end] = [0.0, 0.8, 1.5].map(|lean| before(&wall, lean) / before(&Mesh::default(), lean));

@@ -10,6 +10,8 @@ mod directions;
 mod on_skin;
 mod skin_cells;
 
+use std::sync::atomic::AtomicBool;
+
 use glam::{IVec3, UVec3, Vec3};
 use nabiki::Mesh;
 use rayon::prelude::*;
@@ -53,6 +55,8 @@ pub struct SkyMap {
     /// Of each cell so many `parts`, each numbers that are read at once.
     arriving: Vec<Numbers>,
     parts: usize,
+    /// Which stretches of cells that are summed together anybody reads from, line after line.
+    read: Vec<AtomicBool>,
     /// The cells that the head's skin passes through, and their edge.
     head: Vec<SkinCell>,
     head_of: Option<f32>,
@@ -112,9 +116,15 @@ impl SkyMap {
         self.carry(zenith);
     }
 
-    /// Sums what arrives in each cell for the eye of a view, and for the lamps. `lit` is the light that falls onto the skin in each of its
-    /// cells: skin sends it on as an even white surface would.
-    pub fn gather(&mut self, view: &View, lamps: &[Lamp], lit: impl Fn(&mut OnSkin, usize, &SkinCell) -> f32 + Sync) {
+    /// Sums what arrives about those of the nodes that are `asked` for, as the eye of a view and the lamps need it. `lit` is the light that
+    /// falls onto the skin in each of its cells: skin sends it on as an even white surface would.
+    pub fn gather(
+        &mut self,
+        (nodes, asked): (&[CurveNode], &[bool]),
+        view: &View,
+        lamps: &[Lamp],
+        lit: impl Fn(&mut OnSkin, usize, &SkinCell) -> f32 + Sync,
+    ) {
         let mut of_skin = std::mem::take(&mut self.lit);
         let this = &*self;
         (0..this.skin.len())
@@ -124,6 +134,7 @@ impl SkyMap {
             .collect_into_vec(&mut of_skin);
         self.lit = of_skin;
         self.carry_glow();
+        self.mark(nodes, asked, view);
         self.sum(view, lamps);
     }
 
@@ -264,7 +275,8 @@ mod tests {
             let mut sky = SkyMap::default();
             sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]));
             sky.fill(&nodes, &radius, Vec3::Y);
-            sky.gather(&view_from(azimuth), &[lamp(Vec3::X)], |_, _, _| 0.0);
+            let asked = [Vec3::ZERO, Vec3::new(0.0, 5.4, 0.0), Vec3::splat(100.0), Vec3::X * 5.4, Vec3::X * -5.4];
+            sky.gather((&asked.map(at), &[true; 5]), &view_from(azimuth), &[lamp(Vec3::X)], |_, _, _| 0.0);
             sky
         };
         let sky = filled(0.0);
@@ -291,6 +303,10 @@ mod tests {
         }
     }
 
+    fn at(position: Vec3) -> CurveNode {
+        CurveNode { position, ..CurveNode::default() }
+    }
+
     fn lamp(toward: Vec3) -> Lamp {
         Lamp { toward, strength: [1.0; 3], spread: 0.0 }
     }
@@ -312,7 +328,7 @@ mod tests {
         let mut sky = SkyMap::default();
         sky.lay_out(crate::curve::bounds(&nodes), 0.0, (&Mesh::default(), &[]));
         sky.fill(&nodes, &vec![0.1; nodes.len()], Vec3::Y);
-        sky.gather(&view_from(0.0), &[], |_, _, _| 0.0);
+        sky.gather((&[], &[]), &view_from(0.0), &[], |_, _, _| 0.0);
         let mut one = OnSkin::new(&sky);
         for node in &nodes {
             let normal = node.position.normalize();
@@ -328,7 +344,8 @@ mod tests {
             sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]));
             sky.fill(&[], &[], zenith);
             // More lamps than have room beside the rest.
-            sky.gather(&view_from(47.0), &[lamp(zenith); 4], |_, _, _| 0.0);
+            let asked = [at(Vec3::new(0.3, -0.7, 1.1))];
+            sky.gather((&asked, &[true]), &view_from(47.0), &[lamp(zenith); 4], |_, _, _| 0.0);
             let place = sky.places(&[[0.3], [-0.7], [1.1]]);
             let at = sky.at(&place, 0).map(|number| number[0]);
             // A dozen roundings of sums of 14 numbers.

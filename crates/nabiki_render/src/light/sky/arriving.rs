@@ -4,13 +4,17 @@
 
 #![expect(clippy::needless_range_loop, reason = "lanes side by side read as vector code")]
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use glam::Vec3;
 use rayon::prelude::*;
 
 use super::SkyMap;
 use crate::camera::View;
+use crate::curve::CurveNode;
 use crate::light::approx::exp_of_negative;
 use crate::light::lamps::Lamp;
+use crate::light::shade::NEARER;
 
 /// Means over the directions on the eye's side, and over those behind, of the light that arrives from above and from below: where all
 /// is open the two of a side add up to 1.
@@ -96,7 +100,37 @@ impl SkyMap {
         [0, row, slice, slice + row]
     }
 
-    /// Sums what arrives in each cell over the directions, as its eye and lamps see it.
+    /// Marks the stretches of cells from which the nodes read that are `asked` for: at their place, or a little [`NEARER`] to the eye.
+    pub(super) fn mark(&mut self, nodes: &[CurveNode], asked: &[bool], view: &View) {
+        let mut read = std::mem::take(&mut self.read);
+        let (row, per_line) = (self.size.x as usize, self.stretches());
+        read.clear();
+        read.resize_with((self.size.y * self.size.z) as usize * per_line, AtomicBool::default);
+        let this = &*self;
+        nodes.par_iter().zip(asked).with_min_len(8192).filter(|(_, asked)| **asked).for_each(|(node, _)| {
+            let (place, eye) = (node.position, view.toward_eye(node.position));
+            let both = [0, 1, 2].map(|c| [place[c], place[c] + NEARER * eye[c]]);
+            for (first, line) in this.places(&both).first.into_iter().flat_map(|first| this.lines().map(|l| (first, l)))
+            {
+                let cell = first + line;
+                for x in [cell % row, cell % row + 1] {
+                    let read = &read[cell / row * per_line + x / LANES];
+                    // Most are marked already, and a line of memory that is only read is both cores'.
+                    if !read.load(Ordering::Relaxed) {
+                        read.store(true, Ordering::Relaxed);
+                    }
+                }
+            }
+        });
+        self.read = read;
+    }
+
+    /// Stretches of cells in a line that are summed together.
+    fn stretches(&self) -> usize {
+        (self.size.x as usize).div_ceil(LANES)
+    }
+
+    /// Sums what arrives in each cell that is read from over the directions, as its eye and lamps see it.
     pub(super) fn sum(&mut self, view: &View, lamps: &[Lamp]) {
         self.parts = (TOWARD_LAMPS + 2 * lamps.len()).div_ceil(AT_ONCE);
         let mut arriving = std::mem::take(&mut self.arriving);
@@ -138,7 +172,11 @@ impl pulp::NullaryFnOnce for Sum<'_> {
         let (row, slice) = (map.size.x as usize, (map.size.x * map.size.y) as usize);
         let first = line * row;
         let start = map.low + map.cell * (Vec3::new(0.0, (first % slice / row) as f32, (first / slice) as f32) + 0.5);
+        let read = &map.read[line * map.stretches()..];
         for (batch, arriving) in arriving.chunks_mut(LANES * map.parts).enumerate() {
+            if !read[batch].load(Ordering::Relaxed) {
+                continue;
+            }
             let skipped = batch * LANES;
             let mut eye = [[0.0_f32; LANES]; 3];
             for lane in 0..LANES {

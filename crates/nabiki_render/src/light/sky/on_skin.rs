@@ -111,12 +111,15 @@ impl pulp::NullaryFnOnce for Sum<'_> {
             parts[4][n] = below;
             parts[5][n] = opposite;
         }
-        let mut sums = [0.0, 0.0, 0.0, 1e-12, 1e-12, 1e-12_f32];
-        for n in 0..LANES {
-            for (sum, parts) in sums.iter_mut().zip(&parts) {
-                *sum += parts[n];
-            }
-        }
-        [sums[0] / sums[3], sums[1] / sums[4], sums[2] / sums[5]]
+        let sums = parts.map(total);
+        [0, 1, 2].map(|n| sums[n] / (sums[n + 3] + 1e-12))
     }
+}
+
+/// The sum over all lanes, halves onto halves: one after another each would wait for the one before.
+#[inline(always)]
+fn total(lanes: [f32; LANES]) -> f32 {
+    let eight: [f32; LANES / 2] = std::array::from_fn(|n| lanes[n] + lanes[n + 8]);
+    let four: [f32; LANES / 4] = std::array::from_fn(|n| eight[n] + eight[n + 4]);
+    (four[0] + four[2]) + (four[1] + four[3])
 }
