@@ -171,7 +171,7 @@ impl Velocities {
 }
 
 /// Takes one frame of the hair after another; the file has its name only once `finish` returned.
-pub trait FrameSink {
+pub trait FrameSink: Send {
     /// Writes the next frame.
     ///
     /// `strands`: head space, cm, point for point those of the groom. `world_from_head`: where the head is in

@@ -95,11 +95,15 @@ pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &m
     let mut summary = MotionSummary::default();
     each_frame(watch, "simulating", 0..=built.frames(), |n| {
         let strands = frames.frame(n)?;
-        summary.add(&built, n, strands);
-        if let Some(cache) = &mut scene_cache {
-            cache.push(n, strands)?;
-        }
-        exports.frame(n, strands, &built.pose(n))
+        let write = || {
+            if let Some(cache) = &mut scene_cache {
+                cache.push(n, strands)?;
+            }
+            exports.frame(n, strands, &built.pose(n))
+        };
+        // A disk takes one thread, and most of the time.
+        let (written, ()) = rayon::join(write, || summary.add(&built, n, strands));
+        written
     })?;
     scene_cache.map_or(Ok(()), SceneCache::finish)?;
     watch.told(Told::Motion(summary));
