@@ -213,7 +213,7 @@ fn shards_that_cannot_be_are_refused() {
     let folder = TempDir::new().unwrap();
     let scene = format!("{SCENES}/gust.toml --strands 20 --frames 2 --set output.sheet=[0]");
     for (words, why) in [
-        ("--shard 3/21 -o m.nabiki", "shard 3/21: there are 20 strands; part them into 20 shards at the most"),
+        ("--shard 3/21 -o m.nabiki", "shard 3/21: more shards than there are strands; part them into 20 at the most"),
         ("--shard 1/2 -o m.usdc", "a shard goes into a motion cache (.nabiki) alone"),
         ("--shard 1/2 -o m.nabiki --export m.usdc", "a shard goes into a motion cache (.nabiki) alone"),
         ("--shard 1/2 -o /proc/none/m.nabiki", "/proc/none"),
@@ -369,7 +369,10 @@ fn jobs_that_would_fail_on_the_farm_are_refused_at_once() {
         ("S --engine openjd -o job.sh", "ends in .yaml"),
         ("S --engine slurm -o job.yaml", "ends in .sh"),
         ("S --engine slurm -o none/job.sh", "there is no folder none"),
-        ("S --engine slurm --strands 20 --shards 21 -o job.sh", "there are 20 strands"),
+        (
+            "S --engine slurm --strands 20 --shards 21 -o job.sh",
+            "--shards 21: more than there are strands; give 20 at the most",
+        ),
         ("S --engine slurm --strands 99999999 -o job.sh", "ask for fewer"),
         ("S --engine slurm --set picture.size=[5000,3000] -o job.sh", "picture.size = 5000 x 3000"),
         ("S --engine slurm --set picture.background.transparent=true -o job.sh", "stills with alpha make no movie"),

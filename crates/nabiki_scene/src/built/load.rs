@@ -205,7 +205,7 @@ impl Wanted {
         let count = self.shown.of(of_scene)?;
         let Some(shard) = self.shard else { return Ok((count, 0..count)) };
         if shard.of() as usize > count {
-            let line = format!("shard {shard}: there are {count} strands; part them into {count} shards at the most");
+            let line = format!("shard {shard}: more shards than there are strands; part them into {count} at the most");
             return Err(Error::refused(line));
         }
         Ok((count, shard.range(count)))

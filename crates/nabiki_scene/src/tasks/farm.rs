@@ -111,8 +111,7 @@ fn plan(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Result<Pl
     let strands = Shown::of(options.strands.map_or(Shown::All, Shown::First), built.strands_of_scene)?;
     let shards = options.shards.unwrap_or(strands.div_ceil(STRANDS_A_SHARD) as u32);
     if shards as usize > strands {
-        let line =
-            format!("--shards {shards}: there are {strands} strands; part them into {strands} shards at the most");
+        let line = format!("--shards {shards}: more than there are strands; give {strands} at the most");
         return Err(Error::refused(line));
     }
     super::present(&built, watch);

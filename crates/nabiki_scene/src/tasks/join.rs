@@ -50,7 +50,8 @@ pub fn join(files: &[PathBuf], output: &Path, watch: &mut dyn Watch) -> Result<(
         Ok(())
     })?;
     writer.finish()?;
-    let holds = Some(format!("{frames} frames of {strands} strands, out of {} shards", pieces.len()));
+    let shards = if pieces.len() == 1 { "shard" } else { "shards" };
+    let holds = Some(format!("{frames} frames of {strands} strands, out of {} {shards}", pieces.len()));
     watch.told(Told::Wrote { file: output.to_owned(), holds });
     Ok(())
 }
