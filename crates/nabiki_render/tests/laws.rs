@@ -257,12 +257,15 @@ fn the_bits_do_not_depend_on_the_number_of_threads() {
 
 #[test]
 fn a_renderer_draws_a_frame_as_if_it_were_its_first() {
-    let picture = Picture { size: [80, 80], ..Picture::default() };
-    let view = fixed_view(&picture);
-    let mut renderer = Renderer::new(&picture, &octahedron()).unwrap();
-    renderer.draw(&FrameToDraw::at_rest(&wisps(900, 14), view)).unwrap();
-    let second = renderer.draw(&FrameToDraw::at_rest(&wisps(300, 9), view)).unwrap();
-    assert!(second == draw(&picture, &wisps(300, 9)));
+    for shading in [Shading::Fibre, Shading::KajiyaKay] {
+        let mut picture = Picture { size: [80, 80], ..Picture::default() };
+        picture.hair.shading = shading;
+        let view = fixed_view(&picture);
+        let mut renderer = Renderer::new(&picture, &octahedron()).unwrap();
+        renderer.draw(&FrameToDraw::at_rest(&wisps(900, 14), view)).unwrap();
+        let second = renderer.draw(&FrameToDraw::at_rest(&wisps(300, 9), view)).unwrap();
+        assert!(second == draw(&picture, &wisps(300, 9)), "{shading:?}");
+    }
 }
 
 #[test]

@@ -17,7 +17,7 @@ use super::kajiya::KajiyaKay;
 use super::lamps::Lamp;
 use super::shadow::Crossings;
 use super::sky::{
-    AT_ONCE, BEHIND_ABOVE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BELOW, FRONT_GLOW, Places, SkyMap,
+    AT_ONCE, BEHIND_ABOVE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BELOW, FRONT_GLOW, NEARER, Places, SkyMap,
     TOWARD_LAMPS,
 };
 use super::streams::{Medium, slab};
@@ -34,8 +34,6 @@ const STRAYS: f32 = 0.25;
 /// Share of the sky's scattered light that stays within hair, and of what of it hair behind sends back: much of what lies behind sees
 /// less of the sky.
 pub const SKY_DENSITY: f32 = 0.6;
-/// So much nearer to the eye (cm) the sky is asked for: what the eye sees of a cell's hair lies on its near side. Fitted.
-pub const NEARER: f32 = 0.09;
 /// Depth of hair without end (fibres).
 const ENDLESS: f32 = 100.0;
 /// Light of this variance along the hair (rad^2) goes to all inclinations, near enough.

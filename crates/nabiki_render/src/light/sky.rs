@@ -17,7 +17,8 @@ use nabiki::Mesh;
 use rayon::prelude::*;
 
 pub use self::arriving::{
-    AT_ONCE, BEHIND_ABOVE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BELOW, FRONT_GLOW, Places, TOWARD_LAMPS,
+    AT_ONCE, BEHIND_ABOVE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BELOW, FRONT_GLOW, NEARER, Places,
+    TOWARD_LAMPS,
 };
 pub use self::on_skin::OnSkin;
 pub use self::skin_cells::SkinCell;

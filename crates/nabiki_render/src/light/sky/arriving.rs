@@ -14,7 +14,6 @@ use crate::camera::View;
 use crate::curve::CurveNode;
 use crate::light::approx::exp_of_negative;
 use crate::light::lamps::Lamp;
-use crate::light::shade::NEARER;
 
 /// Means over the directions on the eye's side, and over those behind, of the light that arrives from above and from below: where all
 /// is open the two of a side add up to 1.
@@ -29,6 +28,8 @@ pub const BEHIND_GLOW: usize = 5;
 /// from the lamp's direction, and finds ways that are shorter than the straight one where that goes along the hair's surface; what lies
 /// opposite sends it back.
 pub const TOWARD_LAMPS: usize = 6;
+/// So much nearer to the eye (cm) than it lies a fibre reads: what the eye sees of a cell's hair lies on its near side. Fitted.
+pub const NEARER: f32 = 0.09;
 /// So many of a cell's numbers are read at once.
 pub const AT_ONCE: usize = 8;
 pub type Numbers = [f32; AT_ONCE];
