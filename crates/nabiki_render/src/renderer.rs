@@ -30,7 +30,7 @@ use crate::raster::bins::Bins;
 use crate::scalp::{Scalp, roots};
 use crate::settings::{Antialiasing, Picture, Shading};
 use crate::shutter::{Exposure, Shot};
-use crate::skin::{SkinLight, SkinPixel, SkinView, Solids, placed};
+use crate::skin::{FromLamp, SkinLight, SkinPixel, SkinView, Solids, placed};
 use crate::timing::{Clock, Stage, Timing};
 use crate::tone_mapping::linear_from_srgb;
 
@@ -79,7 +79,7 @@ struct Still {
     bodies: Vec<Mesh>,
     skin: SkinView,
     skin_places: Vec<SkinPlace>,
-    skin_unhidden: Vec<[f32; 3]>,
+    from_lamps: Vec<FromLamp>,
     roots: Vec<Vec3>,
     stubble: Vec<f32>,
     /// The colours of bare skin where it is painted; empty on heads that are not.
@@ -204,7 +204,7 @@ impl Renderer {
         let still = self.still.as_ref().expect("stands");
         let seen = Drawing { shot, nodes: &self.nodes, bins: &self.bins, skin: &still.skin };
         let crossings = self.crossings();
-        let light = self.skin_light(&crossings, &shot.middle);
+        let light = self.skin_light(&crossings);
         let on_skin = |i: usize, place: &SkinPixel, sky: Option<&mut OnSkin>| self.skin_light_of(&light, i, place, sky);
         let frame = match self.picture.antialiasing {
             Antialiasing::Coverage if self.layers => self.compose::<true>(&seen, on_skin),
@@ -244,6 +244,7 @@ impl Renderer {
             self.still = Some(still);
             return;
         }
+        self.sky_map.forget_seen();
         let bodies: Vec<Mesh> =
             self.bodies.iter().zip(&shot.bodies).map(|(mesh, at)| placed(mesh, &at.middle)).collect();
         let solids = || std::iter::once(&self.head).chain(&bodies);
@@ -254,7 +255,7 @@ impl Renderer {
         };
         let skin = SkinView::new(&self.solids, shot).seen_from_beside(beside, shot.middle.size);
         let skin_places = skin.pixels.iter().map(|p| off_skin(p.position, p.normal)).collect();
-        let skin_unhidden = SkinLight::unhidden(&skin.pixels, &solid_shadows);
+        let from_lamps = SkinLight::from_lamps(&skin.pixels, &lamps, &solid_shadows, &self.picture.head, &shot.middle);
         let painted = if self.face {
             SkinLight::painted(&skin.pixels, self.skins[0], self.hair_colour(), &shot.middle)
         } else {
@@ -270,7 +271,7 @@ impl Renderer {
             bodies,
             skin,
             skin_places,
-            skin_unhidden,
+            from_lamps,
             roots,
             stubble,
             painted,
@@ -317,7 +318,8 @@ impl Renderer {
         self.receivers.clear();
         self.receivers.extend_from_slice(&still.skin_places);
         if occluded {
-            sky_map.lay_out(bounds, self.picture.hair.width, (&self.head, &still.bodies));
+            let seen = still.skin.pixels.par_iter().map(|p| p.position);
+            sky_map.lay_out(bounds, self.picture.hair.width, (&self.head, &still.bodies), seen);
             self.receivers.extend(sky_map.skin().iter().map(|skin| off_skin(skin.place, skin.normal)));
         }
         let width = self.picture.hair.width;
@@ -361,7 +363,7 @@ impl Renderer {
                     lit += white(lamp.strength) * facing * hair * solid;
                 }
                 let up = 0.5 + 0.5 * skin.normal.dot(self.zenith);
-                let [above, below, _] = open.at(skin.place + 0.9 * skin.normal, skin.normal);
+                let [above, below] = open.at(skin.place + 0.9 * skin.normal, skin.normal);
                 let sky = sky.strength * (white(sky.above) * up * above + white(sky.below) * (1.0 - up) * below);
                 (lit + sky) * as_head(skin.solid)
             });
@@ -388,11 +390,12 @@ impl Renderer {
         self.nodes = nodes;
     }
 
-    fn skin_light<'a>(&'a self, crossings: &'a [&'a Crossings], view: &'a View) -> SkinLight<'a> {
+    fn skin_light<'a>(&'a self, crossings: &'a [&'a Crossings]) -> SkinLight<'a> {
         let still = self.still.as_ref().expect("stands");
         SkinLight {
             look: &self.picture.head,
-            lamps: &still.lamps,
+            from_lamps: &still.from_lamps,
+            lamps: still.lamps.len(),
             crossings,
             first_receiver: self.curves.nodes.len(),
             sky: &self.picture.sky,
@@ -401,9 +404,7 @@ impl Renderer {
             painted: &still.painted,
             hair: self.hair_colour(),
             decay: self.model.decay(),
-            unhidden: &still.skin_unhidden,
             stubble: &still.stubble,
-            view,
         }
     }
 

@@ -412,7 +412,7 @@ mod tests {
         let (model, sky, view) = (hair(40.0), Sky::default(), view());
         let before = |behind: &Mesh, inclination: f32| {
             let mut sky_map = SkyMap::default();
-            sky_map.lay_out([Vec3::splat(-6.0), Vec3::splat(6.0)], 0.0, (behind, &[]));
+            sky_map.lay_out([Vec3::splat(-6.0), Vec3::splat(6.0)], 0.0, (behind, &[]), rayon::iter::empty());
             sky_map.fill(&[], &[], Vec3::Y);
             sky_map.gather((&[CurveNode::default()], &[true]), &view, &[], |_, _, _| 0.0);
             seen(&HairLight { sky_map: Some(&sky_map), ..under_nothing(&model, &sky, &view) }, inclination)

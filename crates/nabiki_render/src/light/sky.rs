@@ -7,6 +7,7 @@
 
 mod arriving;
 mod directions;
+mod exchange;
 mod on_skin;
 mod skin_cells;
 
@@ -25,6 +26,7 @@ pub use self::skin_cells::SkinCell;
 
 use self::arriving::Numbers;
 use self::directions::{Carry, Direction};
+use self::exchange::Exchange;
 use self::skin_cells::skin_cells;
 use super::approx::exp_of_negative;
 use super::lamps::Lamp;
@@ -37,6 +39,8 @@ const CELL: f32 = 0.55;
 const WIDTHS: f32 = 8.0;
 const COARSE: f32 = 0.9;
 const MOST_CELLS: f32 = 1_000_000.0;
+/// Most cells in a box about all skin.
+const MOST_ABOUT_SKIN: f32 = 20_000_000.0;
 /// Most steps in which a piece of hair is laid into cells.
 const MOST_STEPS: i32 = 8;
 
@@ -58,18 +62,29 @@ pub struct SkyMap {
     parts: usize,
     /// Which stretches of cells that are summed together anybody reads from, line after line.
     read: Vec<AtomicBool>,
-    /// The cells that the head's skin passes through, and their edge.
+    /// The cells that the head's skin passes through, their edge, and the first and the last of the box about them.
     head: Vec<SkinCell>,
     head_of: Option<f32>,
-    /// Those within the map, the head's and the bodies', and the mean light that falls onto each.
+    about_head: [IVec3; 2],
+    /// What the head's and the bodies' cells send to each other; of which of them light is asked for, since they are among the hair or are
+    /// seen by others, and the mean light that falls onto each.
+    exchange: Exchange,
+    numbers: Vec<u32>,
     skin: Vec<SkinCell>,
     lit: Vec<f32>,
     glow: Vec<Vec<f32>>,
 }
 
 impl SkyMap {
-    /// Lays out the cells about hair (its box, and how thick it is, cm) and finds the skin in them, the head's and that of the `bodies`.
-    pub fn lay_out(&mut self, [mut low, mut high]: [Vec3; 2], width: f32, (head, bodies): (&Mesh, &[Mesh])) {
+    /// Lays out the cells about hair (its box, and how thick it is, cm) and finds the skin in them, the head's and that of the `bodies`, and
+    /// what sends light from there to the places on skin that are `seen`.
+    pub fn lay_out(
+        &mut self,
+        [mut low, mut high]: [Vec3; 2],
+        width: f32,
+        (head, bodies): (&Mesh, &[Mesh]),
+        seen: impl IndexedParallelIterator<Item = Vec3>,
+    ) {
         if !low.is_finite() {
             (low, high) = (Vec3::ZERO, Vec3::ZERO);
         }
@@ -84,20 +99,31 @@ impl SkyMap {
         if self.head_of != Some(self.cell) {
             self.head = skin_cells(head, self.cell, 0);
             self.head_of = Some(self.cell);
+            let of_all = |f: fn(IVec3, IVec3) -> IVec3| self.head.iter().map(|skin| skin.cell).reduce(f);
+            self.about_head = [of_all(IVec3::min), of_all(IVec3::max)].map(Option::unwrap_or_default);
         }
-        let (first, size) = ((self.low / self.cell).round().as_ivec3(), self.size.as_ivec3());
-        let within = |skin: &SkinCell| {
-            let c = skin.cell - first;
-            c.cmpge(IVec3::ZERO).all() && c.cmplt(size).all()
-        };
-        self.skin.clear();
-        self.skin.extend(self.head.iter().copied().filter(within));
-        for (i, body) in bodies.iter().enumerate() {
-            self.skin.extend(skin_cells(body, self.cell, i as u16 + 1).into_iter().filter(within));
-        }
+        let [first, last] = self.about_head;
+        // Skin far from the hair counts as well, unless there is too much room for it.
+        let has_room = (last - first).as_vec3().element_product() < MOST_ABOUT_SKIN;
+        let among_hair = |skin: &SkinCell| self.index_of(skin).is_some();
+        let near = |skin: &SkinCell| has_room && skin.cell.cmpge(first).all() && skin.cell.cmple(last).all();
+        let of_bodies = (1..).zip(bodies).flat_map(|(i, body)| skin_cells(body, self.cell, i));
+        let all = self.head.iter().copied().chain(of_bodies);
+        self.skin = all.filter(|skin| near(skin) || among_hair(skin)).collect();
+        self.exchange.lay_out(&self.skin, self.cell);
+        self.exchange.ask(seen);
+        let sends = self.exchange.sends();
+        let needed = |i: &u32| sends[*i as usize] || self.index_of(&self.skin[*i as usize]).is_some();
+        self.numbers = (0..self.skin.len() as u32).filter(needed).collect();
+        self.skin = self.numbers.iter().map(|&i| self.skin[i as usize]).collect();
     }
 
-    /// The skin in the cells.
+    /// Forgets which places on skin are seen.
+    pub fn forget_seen(&mut self) {
+        self.exchange.forget_asked();
+    }
+
+    /// The skin of which light is asked for.
     pub fn skin(&self) -> &[SkinCell] {
         &self.skin
     }
@@ -111,8 +137,9 @@ impl SkyMap {
         self.lay_hair(nodes, radius);
         self.hair.clone_from(&self.taken);
         for i in 0..self.skin.len() {
-            let at = self.index_of(&self.skin[i]);
-            self.taken[at] += self.skin[i].depth;
+            if let Some(at) = self.index_of(&self.skin[i]) {
+                self.taken[at] += self.skin[i].depth;
+            }
         }
         self.carry(zenith);
     }
@@ -133,14 +160,36 @@ impl SkyMap {
             .with_min_len(256)
             .map_init(|| OnSkin::new(this), |sky, i| lit(sky, i, &this.skin[i]))
             .collect_into_vec(&mut of_skin);
+        let mut exchange = std::mem::take(&mut self.exchange);
+        exchange.send(self.numbers.iter().copied().zip(of_skin.iter().copied()), |a, b| self.through_hair(a, b));
+        self.exchange = exchange;
         self.lit = of_skin;
         self.carry_glow();
         self.mark(nodes, asked, view);
         self.sum(view, lamps);
     }
 
-    fn index_of(&self, skin: &SkinCell) -> usize {
-        self.index((skin.cell - (self.low / self.cell).round().as_ivec3()).as_uvec3())
+    /// Where skin is among the cells about the hair.
+    fn index_of(&self, skin: &SkinCell) -> Option<usize> {
+        let c = skin.cell - (self.low / self.cell).round().as_ivec3();
+        let within = c.cmpge(IVec3::ZERO).all() && c.cmplt(self.size.as_ivec3()).all();
+        within.then(|| self.index(c.as_uvec3()))
+    }
+
+    /// What hair leaves of light between two places.
+    fn through_hair(&self, from: Vec3, to: Vec3) -> f32 {
+        let (from, to) = ((from - self.low) / self.cell, (to - self.low) / self.cell);
+        let way = from.distance(to);
+        let steps = (0.5 * way).ceil().max(1.0);
+        let size = self.size.as_vec3();
+        let (step, mut c, mut taken) = ((to - from) / steps, from + 0.5 * (to - from) / steps, 0.0);
+        for _ in 0..steps as u32 {
+            if c.cmpge(Vec3::ZERO).all() && c.cmplt(size).all() {
+                taken += self.hair[self.index(c.as_uvec3())];
+            }
+            c += step;
+        }
+        exp_of_negative(-taken * way / steps)
     }
 
     fn index(&self, c: UVec3) -> usize {
@@ -205,19 +254,19 @@ impl SkyMap {
         self.glow.resize_with(self.directions.len(), Vec::new);
         // Where it starts, and how much of it: the cell's hair lies on its skin.
         let start = |(skin, lit): (&SkinCell, &f32)| {
-            let at = self.index_of(skin);
-            (at, lit * exp_of_negative(-self.hair[at]))
+            let at = self.index_of(skin)?;
+            Some((skin.normal, at, lit * exp_of_negative(-self.hair[at]), skin.depth))
         };
-        let starts: Vec<(usize, f32)> = self.skin.iter().zip(&self.lit).map(start).collect();
-        let (size, skin, taken, through) = (self.size, &self.skin, &self.taken, &self.through);
+        let starts: Vec<(Vec3, usize, f32, f32)> = self.skin.iter().zip(&self.lit).filter_map(start).collect();
+        let (size, taken, through) = (self.size, &self.taken, &self.through);
         self.glow.par_iter_mut().zip(&self.directions).for_each(|(glow, d)| {
             let through = &through[usize::from(d.is_aslant())];
             glow.clear();
             glow.resize(taken.len(), 0.0);
-            for (&(at, lit), skin) in starts.iter().zip(skin) {
+            for &(normal, at, lit, depth) in &starts {
                 // Only outward, away from where this direction's light comes from.
-                if skin.normal.dot(d.from) < 0.0 {
-                    let sent = lit * (1.0 - through[at]) * (skin.depth / taken[at]).min(1.0);
+                if normal.dot(d.from) < 0.0 {
+                    let sent = lit * (1.0 - through[at]) * (depth / taken[at]).min(1.0);
                     glow[at] += sent;
                     let next = at as i32 + d.step[0] + size.x as i32 * (d.step[1] + size.y as i32 * d.step[2]);
                     if let Some(next) = usize::try_from(next).ok().and_then(|next| glow.get_mut(next)) {
@@ -274,7 +323,7 @@ mod tests {
         let bounds = crate::curve::bounds(&nodes);
         let filled = |azimuth: f32| {
             let mut sky = SkyMap::default();
-            sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]));
+            sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]), rayon::iter::empty());
             sky.fill(&nodes, &radius, Vec3::Y);
             let asked = [Vec3::ZERO, Vec3::new(0.0, 5.4, 0.0), Vec3::splat(100.0), Vec3::X * 5.4, Vec3::X * -5.4];
             sky.gather((&asked.map(at), &[true; 5]), &view_from(azimuth), &[lamp(Vec3::X)], |_, _, _| 0.0);
@@ -327,7 +376,7 @@ mod tests {
             })
             .collect();
         let mut sky = SkyMap::default();
-        sky.lay_out(crate::curve::bounds(&nodes), 0.0, (&Mesh::default(), &[]));
+        sky.lay_out(crate::curve::bounds(&nodes), 0.0, (&Mesh::default(), &[]), rayon::iter::empty());
         sky.fill(&nodes, &vec![0.1; nodes.len()], Vec3::Y);
         sky.gather((&[], &[]), &view_from(0.0), &[], |_, _, _| 0.0);
         let mut one = OnSkin::new(&sky);
@@ -342,7 +391,7 @@ mod tests {
         for zenith in [Vec3::Y, Vec3::new(0.36, -0.48, 0.8)] {
             let mut sky = SkyMap::default();
             let bounds = [Vec3::splat(-3.0), Vec3::splat(3.0)];
-            sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]));
+            sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]), rayon::iter::empty());
             sky.fill(&[], &[], zenith);
             // More lamps than have room beside the rest.
             let asked = [at(Vec3::new(0.3, -0.7, 1.1))];
@@ -357,7 +406,7 @@ mod tests {
                 assert!((open - 1.0).abs() < 1e-5, "{open}");
             }
             let above = OnSkin::new(&sky).at(Vec3::ZERO, Vec3::new(0.6, 0.0, 0.8));
-            assert!(above[..2].iter().all(|open| (open - 1.0).abs() < 1e-5) && above[2] == 0.0, "{above:?}");
+            assert!(above.iter().all(|open| (open - 1.0).abs() < 1e-5), "{above:?}");
         }
     }
 }

@@ -114,7 +114,7 @@ impl Renderer {
     fn lit_skin(&self, view: &View, beside: f32) -> LitSkin<'_> {
         let still = self.still.as_ref().expect("stands");
         let crossings = self.crossings();
-        let of_skin = self.skin_light(&crossings, view);
+        let of_skin = self.skin_light(&crossings);
         let light = (still.skin.pixels.par_iter().enumerate().with_min_len(256))
             .map_init(
                 || self.occluded_sky().map(OnSkin::new),

@@ -17,7 +17,9 @@ use crate::settings::{HeadLook, Sky};
 /// Light on skin.
 pub struct SkinLight<'a> {
     pub look: &'a HeadLook,
-    pub lamps: &'a [Lamp],
+    /// What arrives of each lamp at each place where no hair is in the way.
+    pub from_lamps: &'a [FromLamp],
+    pub lamps: usize,
     /// Fibres in front of each place, for each lamp; the first place is receiver `first_receiver`.
     pub crossings: &'a [&'a Crossings],
     pub first_receiver: usize,
@@ -32,11 +34,15 @@ pub struct SkinLight<'a> {
     pub hair: [f32; 3],
     /// How fast light that hair in the way scatters grows less with each hair: it reaches skin as well.
     pub decay: [f32; 3],
-    /// What head and bodies leave of each lamp at each place; empty without shadows.
-    pub unhidden: &'a [[f32; 3]],
     /// How much of each place is covered by hair too short to be drawn; empty without.
     pub stubble: &'a [f32],
-    pub view: &'a View,
+}
+
+/// A lamp's light on a place on skin that no hair hides: what falls onto it, and what its sheen sends toward the eye (linear).
+#[derive(Clone, Copy, Default)]
+pub struct FromLamp {
+    fallen: [f32; 3],
+    sheen: [f32; 3],
 }
 
 /// The share of light scattered forward by hair that falls onto skin behind: it goes on to all sides.
@@ -56,14 +62,41 @@ fn wrapped(facing: f32, soft: f32) -> f32 {
     if facing >= soft { facing } else { within * within / (4.0 * soft).max(1e-6) }
 }
 
+impl FromLamp {
+    /// Where so much of each colour gets past head and bodies, on skin with this look and unit normal, for an eye in this direction.
+    fn new(lamp: &Lamp, unhidden: [f32; 3], (look, normal, eye): (&HeadLook, Vec3, Vec3)) -> Self {
+        let facing = normal.dot(lamp.toward);
+        if facing <= SkinLight::least_facing(look) {
+            return Self::default();
+        }
+        let halfway = (lamp.toward + eye).normalize_or(eye);
+        let gloss = 0.045 * 9.0 * normal.dot(halfway).max(0.0).powi(18) * smooth(facing / 0.25);
+        let rim = (1.0 - eye.dot(normal).clamp(0.0, 1.0)).powi(4) * facing.max(0.0);
+        let arriving = [0, 1, 2].map(|c| lamp.strength[c] * unhidden[c]);
+        Self {
+            fallen: std::array::from_fn(|c| arriving[c] * wrapped(facing, CREEPS[c] * look.softness)),
+            sheen: arriving.map(|light| light * (gloss + 0.5 * rim)),
+        }
+    }
+}
+
 impl SkinLight<'_> {
-    /// What head and bodies leave of each lamp at each place: it does not change while they and the lamps stand still.
-    pub fn unhidden(pixels: &[SkinPixel], shadows: &[SolidShadows]) -> Vec<[f32; 3]> {
-        pixels
-            .par_iter()
-            .with_min_len(256)
-            .flat_map_iter(|p| shadows.iter().map(|shadow| shadow.visible_from_skin(p.solid, p.position, p.normal)))
-            .collect()
+    /// What arrives of each lamp at each place, of the first place from all `lamps` first, past head and bodies if they cast `shadows`: it
+    /// does not change while they, lamps and camera stand still.
+    pub fn from_lamps(
+        pixels: &[SkinPixel],
+        lamps: &[Lamp],
+        shadows: &[SolidShadows],
+        look: &HeadLook,
+        view: &View,
+    ) -> Vec<FromLamp> {
+        let from = |p: &SkinPixel, l: usize| {
+            let unhidden =
+                shadows.get(l).map_or([1.0; 3], |shadow| shadow.visible_from_skin(p.solid, p.position, p.normal));
+            FromLamp::new(&lamps[l], unhidden, (look, p.normal, view.toward_eye(p.position)))
+        };
+        let of_place = |p| (0..lamps.len()).map(move |l| from(p, l));
+        pixels.par_iter().with_min_len(256).flat_map_iter(of_place).collect()
     }
 
     /// The cosine of the angle to a lamp from which on skin takes of its light.
@@ -103,33 +136,25 @@ impl SkinLight<'_> {
 
     /// Light toward the eye (linear) from place `i` on the skin, where something is in the way of the `sky`.
     pub fn at(&self, i: usize, p: &SkinPixel, sky: Option<&mut OnSkin>) -> [f32; 3] {
-        let soft = CREEPS.map(|s| s * self.look.softness);
-        let least_facing = Self::least_facing(self.look);
-        let eye = self.view.toward_eye(p.position);
         let normal = p.normal;
         let mut diffuse = [0.0; 3];
         let mut sheen = [0.0; 3];
-        for (l, lamp) in self.lamps.iter().enumerate() {
-            let facing = normal.dot(lamp.toward);
-            if facing <= least_facing {
+        let count = self.lamps;
+        for (l, from) in self.from_lamps[i * count..][..count].iter().enumerate() {
+            if from.fallen == [0.0; 3] {
                 continue;
             }
             let hair = self.crossings.get(l).map_or([1.0; 3], |c| self.through(c.at(self.first_receiver + i)));
-            let solid = self.unhidden.get(i * self.lamps.len() + l).copied().unwrap_or([1.0; 3]);
-            let lit = [0, 1, 2].map(|c| hair[c] * solid[c]);
-            let halfway = (lamp.toward + eye).normalize_or(eye);
-            let gloss = 0.045 * 9.0 * normal.dot(halfway).max(0.0).powi(18) * smooth(facing / 0.25);
-            let rim = (1.0 - eye.dot(normal).clamp(0.0, 1.0)).powi(4) * facing.max(0.0);
             for c in 0..3 {
-                diffuse[c] += lamp.strength[c] * lit[c] * wrapped(facing, soft[c]);
-                sheen[c] += lamp.strength[c] * lit[c] * (gloss + 0.5 * rim);
+                diffuse[c] += hair[c] * from.fallen[c];
+                sheen[c] += hair[c] * from.sheen[c];
             }
         }
-        let arriving = sky.map(|sky| sky.at(p.position + 0.9 * normal, normal));
+        let arriving = sky.map(|sky| (sky.at(p.position + 0.9 * normal, normal), sky.glow(p.position, normal)));
         let open = |part: f32| if part < 1.0 { self.through(-part.max(1e-6).ln()) } else { [1.0; 3] };
         let (open_above, open_below) =
-            arriving.map_or(([1.0; 3], [1.0; 3]), |[above, below, _]| (open(above), open(below)));
-        let glow = arriving.map_or(0.0, |[.., glow]| glow);
+            arriving.map_or(([1.0; 3], [1.0; 3]), |([above, below], _)| (open(above), open(below)));
+        let glow = arriving.map_or(0.0, |(_, glow)| glow);
         let up = 0.5 + 0.5 * normal.dot(self.zenith);
         for (c, diffuse) in diffuse.iter_mut().enumerate() {
             let sky = self.sky.above[c] * up * open_above[c] + self.sky.below[c] * (1.0 - up) * open_below[c];

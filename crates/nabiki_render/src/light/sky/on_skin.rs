@@ -21,12 +21,11 @@ pub struct OnSkin<'a> {
     kept: Vec<Kept>,
 }
 
-/// The light that arrives in a cell along all directions, from the sky and from skin.
+/// The light of the sky that arrives in a cell along all directions.
 #[derive(Clone, Copy)]
 struct Kept {
     cell: usize,
     light: [f32; LANES],
-    glow: [f32; LANES],
 }
 
 impl<'a> OnSkin<'a> {
@@ -34,7 +33,7 @@ impl<'a> OnSkin<'a> {
         let of = |value: &dyn Fn(usize) -> f32| {
             std::array::from_fn(|n| if n < map.directions.len() { value(n) } else { 0.0 })
         };
-        let nothing = Kept { cell: usize::MAX, light: [0.0; LANES], glow: [0.0; LANES] };
+        let nothing = Kept { cell: usize::MAX, light: [0.0; LANES] };
         Self {
             map,
             from: [0, 1, 2].map(|axis| of(&|n| map.directions[n].from[axis])),
@@ -44,9 +43,8 @@ impl<'a> OnSkin<'a> {
         }
     }
 
-    /// The shares of the sky above and of that below, 0..1 each, that arrive at a place on a surface with this unit normal, and the
-    /// light that other skin sends there.
-    pub fn at(&mut self, place: Vec3, normal: Vec3) -> [f32; 3] {
+    /// The shares of the sky above and of that below, 0..1 each, that arrive at a place on a surface with this unit normal.
+    pub fn at(&mut self, place: Vec3, normal: Vec3) -> [f32; 2] {
         let (base, beyond) = self.map.lattice(&place.to_array().map(|c| [c]));
         let base = base.map(|c| c[0] as usize);
         let [_, row, slice, _] = self.map.lines();
@@ -60,6 +58,11 @@ impl<'a> OnSkin<'a> {
         pulp::Arch::new().dispatch(Sum { sky, normal, corners, beyond: beyond.map(|beyond| beyond[0]) })
     }
 
+    /// The light that other skin sends to a place on a surface with this unit normal.
+    pub fn glow(&self, place: Vec3, normal: Vec3) -> f32 {
+        self.map.exchange.at(place, normal)
+    }
+
     /// Has a cell at one of the places where cells are kept.
     fn keep(&mut self, place: usize, cell: usize) {
         let kept = &mut self.kept[place];
@@ -67,9 +70,6 @@ impl<'a> OnSkin<'a> {
             kept.cell = cell;
             for (kept, light) in kept.light.iter_mut().zip(&self.map.carried) {
                 *kept = light[cell];
-            }
-            for (kept, glow) in kept.glow.iter_mut().zip(&self.map.glow) {
-                *kept = glow.get(cell).copied().unwrap_or(0.0);
             }
         }
     }
@@ -84,35 +84,27 @@ struct Sum<'a> {
 }
 
 impl pulp::NullaryFnOnce for Sum<'_> {
-    type Output = [f32; 3];
+    type Output = [f32; 2];
 
     #[inline(always)]
-    fn call(self) -> [f32; 3] {
+    fn call(self) -> [f32; 2] {
         let Self { sky: OnSkin { from, weight, halves, .. }, normal, corners: c, beyond } = self;
         let open = between(
             beyond,
             [&c[0].light, &c[1].light, &c[2].light, &c[3].light, &c[4].light, &c[5].light, &c[6].light, &c[7].light],
         );
-        let glow = between(
-            beyond,
-            [&c[0].glow, &c[1].glow, &c[2].glow, &c[3].glow, &c[4].glow, &c[5].glow, &c[6].glow, &c[7].glow],
-        );
-        let mut parts = [[0.0_f32; LANES]; 6];
+        let mut parts = [[0.0_f32; LANES]; 4];
         for n in 0..LANES {
             let cos = normal.x * from[0][n] + normal.y * from[1][n] + normal.z * from[2][n];
             let facing = (weight[n] * cos).max(0.0);
             let (above, below) = (facing * halves[0][n], facing * halves[1][n]);
-            // Skin to the side is mostly the same that curves away; what faces it counts.
-            let opposite = facing * facing;
             parts[0][n] = above * open[n];
             parts[1][n] = below * open[n];
-            parts[2][n] = opposite * glow[n];
-            parts[3][n] = above;
-            parts[4][n] = below;
-            parts[5][n] = opposite;
+            parts[2][n] = above;
+            parts[3][n] = below;
         }
         let sums = parts.map(total);
-        [0, 1, 2].map(|n| sums[n] / (sums[n + 3] + 1e-12))
+        [0, 1].map(|n| sums[n] / (sums[n + 2] + 1e-12))
     }
 }
 

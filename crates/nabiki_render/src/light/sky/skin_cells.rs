@@ -4,10 +4,10 @@ use glam::{IVec3, Vec3};
 use nabiki::Mesh;
 
 /// Optical depth of skin, for each full crossing of a cell.
-const SKIN: f32 = 4.0;
+pub(super) const SKIN: f32 = 4.0;
 
 /// A cell that the surface of a head or body passes through.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct SkinCell {
     /// Its place on the lattice through the origin.
     pub cell: IVec3,
