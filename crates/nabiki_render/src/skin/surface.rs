@@ -250,11 +250,7 @@ impl TileSurface {
     fn draw(tile: [usize; 2], number: usize, solids: &Solids, seen: &[Seen], looking: Looking) -> Self {
         let depth = vec![[f32::INFINITY; CELLS]; TILE * TILE];
         let mut surface = Self { tile, looking, depth, triangle: vec![[NONE; CELLS]; TILE * TILE] };
-        for seen in seen {
-            for &t in &seen.lists[number] {
-                surface.triangle(t, solids, seen);
-            }
-        }
+        pulp::Arch::new().dispatch(DrawTriangles { surface: &mut surface, number, solids, seen });
         if looking.of_four.is_some() {
             for (depth, triangle) in surface.depth.iter_mut().zip(&mut surface.triangle) {
                 *depth = std::array::from_fn(|cell| depth[looking.instead_of(cell)]);
@@ -265,6 +261,7 @@ impl TileSurface {
     }
 
     /// Draws a triangle in the cells that see it at this moment.
+    #[inline(always)]
     fn triangle(&mut self, t: u32, solids: &Solids, seen: &Seen) {
         let c = solids.triangles[t as usize].map(|v| &seen.corners[v as usize]);
         let span = |i: usize| {
@@ -273,20 +270,23 @@ impl TileSurface {
             let high = c.iter().fold(f32::NEG_INFINITY, |m, c| m.max(c.at[i])) - first;
             low.max(0.0) as usize..((high.max(-1.0) + 1.0) as usize).min(TILE)
         };
+        let looks: [bool; CELLS] = std::array::from_fn(|s| (seen.cells & self.looking.cells) >> s & 1 == 1);
         for y in span(1) {
             for x in span(0) {
-                for s in (0..CELLS).filter(|s| (seen.cells & self.looking.cells) >> s & 1 == 1) {
-                    let pixel = y * TILE + x;
-                    let Some((_, depth)) = weights(c, self.place(pixel, s), &seen.view) else { continue };
-                    if depth < self.depth[pixel][s] {
-                        self.depth[pixel][s] = depth;
-                        self.triangle[pixel][s] = t;
-                    }
+                let pixel = y * TILE + x;
+                let places: [[f32; 2]; CELLS] = std::array::from_fn(|s| self.place(pixel, s));
+                let Some(depths) = depths(c, &places, &seen.view) else { continue };
+                let (nearest, triangle) = (&mut self.depth[pixel], &mut self.triangle[pixel]);
+                for s in 0..CELLS {
+                    let nearer = looks[s] && depths[s] < nearest[s];
+                    nearest[s] = if nearer { depths[s] } else { nearest[s] };
+                    triangle[s] = if nearer { t } else { triangle[s] };
                 }
             }
         }
     }
 
+    #[inline(always)]
     fn place(&self, pixel: usize, cell: usize) -> [f32; 2] {
         let offset = cell_offset(cell);
         let corner = [self.tile[0] * TILE + pixel % TILE, self.tile[1] * TILE + pixel / TILE];
@@ -346,22 +346,87 @@ impl TileSurface {
     }
 }
 
+/// All triangles of a tile, compiled for each width of vectors that machines have; one is chosen at run time.
+struct DrawTriangles<'a> {
+    surface: &'a mut TileSurface,
+    number: usize,
+    solids: &'a Solids,
+    seen: &'a [Seen],
+}
+
+impl pulp::NullaryFnOnce for DrawTriangles<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for seen in self.seen {
+            for &t in &seen.lists[self.number] {
+                self.surface.triangle(t, self.solids, seen);
+            }
+        }
+    }
+}
+
 /// Weights of a triangle's corners at a place of the picture and the depth there, if it is inside.
 fn weights(c: [&Corner; 3], p: [f32; 2], view: &View) -> Option<([f32; 3], f32)> {
-    let cross = |a: &Corner, b: &Corner, p: [f32; 2]| {
-        (b.at[0] - a.at[0]) * (p[1] - a.at[1]) - (b.at[1] - a.at[1]) * (p[0] - a.at[0])
-    };
-    let area = cross(c[0], c[1], c[2].at);
-    let mut w = [cross(c[1], c[2], p) / area, cross(c[2], c[0], p) / area, cross(c[0], c[1], p) / area];
-    if !w.iter().all(|w| *w >= 0.0) {
-        return None;
+    let areas = areas(c, p);
+    is_inside(areas, area(c)).then(|| mixed(c, areas, view))
+}
+
+/// The depth of a triangle at places of the picture: infinite at those outside it, nothing if all are.
+#[inline(always)]
+fn depths<const N: usize>(c: [&Corner; 3], places: &[[f32; 2]; N], view: &View) -> Option<[f32; N]> {
+    let all = area(c);
+    let (mut inside, mut any) = ([false; N], false);
+    for n in 0..N {
+        inside[n] = is_inside(areas(c, places[n]), all);
+        any |= inside[n];
     }
+    any.then(|| {
+        let mut depths = [f32::INFINITY; N];
+        for n in 0..N {
+            let (_, depth) = mixed(c, areas(c, places[n]), view);
+            depths[n] = if inside[n] { depth } else { f32::INFINITY };
+        }
+        depths
+    })
+}
+
+/// Twice the area between two corners and a place, positive to one side.
+#[inline(always)]
+fn cross(a: &Corner, b: &Corner, p: [f32; 2]) -> f32 {
+    (b.at[0] - a.at[0]) * (p[1] - a.at[1]) - (b.at[1] - a.at[1]) * (p[0] - a.at[0])
+}
+
+#[inline(always)]
+fn area(c: [&Corner; 3]) -> f32 {
+    cross(c[0], c[1], c[2].at)
+}
+
+/// Twice the areas between a place and the side that lies opposite to each corner.
+#[inline(always)]
+fn areas(c: [&Corner; 3], p: [f32; 2]) -> [f32; 3] {
+    [cross(c[1], c[2], p), cross(c[2], c[0], p), cross(c[0], c[1], p)]
+}
+
+/// Whether a place with these areas lies in a triangle of that area.
+#[inline(always)]
+fn is_inside([a, b, c]: [f32; 3], all: f32) -> bool {
+    let (front, back) = ((a >= 0.0) & (b >= 0.0) & (c >= 0.0), (a <= 0.0) & (b <= 0.0) & (c <= 0.0));
+    (front & (all > 0.0)) | (back & (all < 0.0))
+}
+
+/// What each corner counts at a place with these areas, and the depth there.
+#[inline(always)]
+fn mixed(c: [&Corner; 3], areas: [f32; 3], view: &View) -> ([f32; 3], f32) {
+    let all = area(c);
+    let mut w = areas.map(|a| a / all);
     if view.projection == Projection::Perspective {
-        let over = [0, 1, 2].map(|i| w[i] / c[i].depth);
-        let sum: f32 = over.iter().sum();
+        let over = [w[0] / c[0].depth, w[1] / c[1].depth, w[2] / c[2].depth];
+        let sum = over[0] + over[1] + over[2];
         w = over.map(|o| o / sum);
     }
-    Some((w, w[0] * c[0].depth + w[1] * c[1].depth + w[2] * c[2].depth))
+    (w, w[0] * c[0].depth + w[1] * c[1].depth + w[2] * c[2].depth)
 }
 
 /// Growth of a triangle's depth by a pixel right and down; at most so steep that a pixel spans `APART`.
