@@ -105,7 +105,7 @@ struct SolidShadow {
     /// For each cell of the blurred map, between it and the next: the distance from which on all is dark (cm); infinite where it never is.
     dark_beyond: Vec<f32>,
     /// Where skin looks from, around a place (cm), and each one's share for red, green and blue.
-    taps: [([f32; 2], [f32; 3]); TAPS],
+    taps: Spiral,
 }
 
 impl SolidShadow {
@@ -123,22 +123,23 @@ impl SolidShadow {
         let cell = CELL.max(extent / MOST_CELLS);
         let size = if seen.is_empty() { [0, 0] } else { [0, 1].map(|i| ((high[i] - low[i]) / cell) as usize + 2) };
         let mut distance = vec![f32::INFINITY; size[0] * size[1]];
-        for triangle in &solid.triangles {
-            let corners = triangle.map(|v| {
-                let p = seen[v as usize];
-                [(p[0] - low[0]) / cell, (p[1] - low[1]) / cell, p[2]]
-            });
-            draw(corners, size, &mut distance);
-        }
+        let on_map: Vec<[f32; 3]> =
+            seen.iter().map(|p| [(p[0] - low[0]) / cell, (p[1] - low[1]) / cell, p[2]]).collect();
+        pulp::Arch::new().dispatch(Draw {
+            triangles: &solid.triangles,
+            corners: &on_map,
+            size,
+            distance: &mut distance,
+        });
         let nearest = distance.iter().copied().fold(f32::INFINITY, f32::min);
         // Covered part and distance times covered part: both can be averaged.
         let mut cells: Vec<[f32; 2]> =
             distance.iter().map(|&d| if d < f32::INFINITY { [1.0, d] } else { [0.0; 2] }).collect();
         let radius = (blur / cell).round() as usize;
-        for _ in 0..2 {
-            for axis in 0..2 {
-                cells = blurred(&cells, size, axis, radius);
-            }
+        let mut before = cells.clone();
+        for axis in [0, 1, 0, 1] {
+            std::mem::swap(&mut cells, &mut before);
+            pulp::Arch::new().dispatch(Blur { cells: &before, size, axis, radius, out: &mut cells });
         }
         // Half of the blur's radius apart, what is kept holds all that is to be seen of it.
         let step = radius.div_ceil(2).max(1);
@@ -147,7 +148,7 @@ impl SolidShadow {
         let (blurred_cell, blurred_size) = (cell * step as f32, size.map(|s| s.div_ceil(step)));
         let penumbra = 2.5 * lamp.spread.tan();
         let clear = blurred.iter().filter(|c| c[0] > 0.0).map(|c| c[1]).fold(f32::INFINITY, f32::min) + SOFT;
-        let taps = taps(penumbra);
+        let taps = Spiral::new(penumbra);
         let width = blurred_size[0];
         let dark_beyond = (0..blurred.len())
             .map(|i| {
@@ -178,42 +179,16 @@ impl SolidShadow {
     /// Part of the lamp (red, green, blue) that it leaves to a place on its own skin, or another's, with this unit normal, 0..1. Light that
     /// enters beside the place and reaches it under the skin counts, red from farthest.
     fn visible_from_skin(&self, p: Vec3, normal: Vec3) -> [f32; 3] {
+        if self.distance.is_empty() {
+            return [1.0; 3];
+        }
         let facing = normal.dot(self.toward).max(0.12);
         // Growth of the tangent plane's distance from the lamp.
         let slope = self.axes.map(|a| normal.dot(a) / facing);
         let at = self.axes.map(|a| p.dot(a));
         let steps = self.cell * (slope[0].abs() + slope[1].abs());
         let distance = -p.dot(self.toward) - BEFORE - 0.7 * steps;
-        let mut visible = [0.0; 3];
-        for (offset, share) in &self.taps {
-            let plane = distance + slope[0] * offset[0] + slope[1] * offset[1];
-            let open = 1.0 - self.covered([at[0] + offset[0], at[1] + offset[1]], plane);
-            for c in 0..3 {
-                visible[c] += share[c] * open;
-            }
-        }
-        visible
-    }
-
-    /// How much of the four cells around a place (cm) hides what lies at a distance.
-    fn covered(&self, at: [f32; 2], distance: f32) -> f32 {
-        let Some((cell, [u, v])) = self.cell_at(at) else { return 0.0 };
-        let width = self.size[0];
-        let hidden = |i: usize| ((distance - self.distance[i]) / SETS_IN).clamp(0.0, 1.0);
-        let upper = hidden(cell) * (1.0 - u) + hidden(cell + 1) * u;
-        let lower = hidden(cell + width) * (1.0 - u) + hidden(cell + width + 1) * u;
-        upper + (lower - upper) * v
-    }
-
-    /// The cell below and left of a place on the map (cm), and how far into the next it lies.
-    fn cell_at(&self, at: [f32; 2]) -> Option<(usize, [f32; 2])> {
-        let [x, y] = [0, 1].map(|i| (at[i] - self.low[i]) / self.cell);
-        let [width, height] = self.size;
-        if !(x >= 0.0 && y >= 0.0 && x + 1.0 < width as f32 && y + 1.0 < height as f32) {
-            return None;
-        }
-        let (column, row) = (x as usize, y as usize);
-        Some((row * width + column, [x - column as f32, y - row as f32]))
+        pulp::Arch::new().dispatch(Taps { shadow: self, at, distance, slope })
     }
 
     /// Whether it leaves nothing of the lamp to a place.
@@ -285,67 +260,208 @@ impl SolidShadow {
     }
 }
 
-/// A spiral of places over a disc, and what each gives to each colour: the disc's outer part only to those that spread far under
-/// skin, or as far as the lamp's own blur (cm).
-fn taps(penumbra: f32) -> [([f32; 2], [f32; 3]); TAPS] {
-    let reach = UNDER_SKIN.map(|u| u.hypot(penumbra));
-    let widest = reach.into_iter().fold(0.0, f32::max);
-    let mut taps = std::array::from_fn(|i| {
-        let part = (i as f32 + 0.5) / TAPS as f32;
-        // The golden angle spreads them evenly.
-        let (sin, cos) = (2.399_963 * i as f32).sin_cos();
-        let radius = widest * part.sqrt();
-        ([radius * cos, radius * sin], reach.map(|r| (-2.0 * (radius / r).powi(2)).exp()))
-    });
-    for c in 0..3 {
-        let sum: f32 = taps.iter().map(|t| t.1[c]).sum();
-        taps.iter_mut().for_each(|t| t.1[c] /= sum);
-    }
-    taps
+/// What is left of the lamp to the places about one, compiled for each width of vectors that machines have; one is chosen at run time.
+struct Taps<'a> {
+    shadow: &'a SolidShadow,
+    /// Where on the map (cm).
+    at: [f32; 2],
+    /// The distance there, and its growth along both axes.
+    distance: f32,
+    slope: [f32; 2],
 }
 
-/// The mean over `radius` cells to both sides along one axis.
-fn blurred(cells: &[[f32; 2]], size: [usize; 2], axis: usize, radius: usize) -> Vec<[f32; 2]> {
-    let mut out = vec![[0.0; 2]; cells.len()];
-    let (length, step) = (size[axis], if axis == 0 { 1 } else { size[0] });
-    let per = 1.0 / (2 * radius + 1) as f64;
-    for line in 0..size[1 - axis] {
-        let first = if axis == 0 { line * size[0] } else { line };
+impl pulp::NullaryFnOnce for Taps<'_> {
+    type Output = [f32; 3];
+
+    #[inline(always)]
+    fn call(self) -> [f32; 3] {
+        let Self { shadow, at, distance, slope } = self;
+        let [width, height] = shadow.size;
+        let mut first = [0_i32; TAPS];
+        let (mut u, mut v) = ([0.0_f32; TAPS], [0.0_f32; TAPS]);
+        let mut plane = [0.0_f32; TAPS];
+        for n in 0..TAPS {
+            let offset = [shadow.taps.right[n], shadow.taps.up[n]];
+            let x = (at[0] + offset[0] - shadow.low[0]) / shadow.cell;
+            let y = (at[1] + offset[1] - shadow.low[1]) / shadow.cell;
+            let within = (x >= 0.0) & (y >= 0.0) & (x + 1.0 < width as f32) & (y + 1.0 < height as f32);
+            let (x, y) = if within { (x, y) } else { (0.0, 0.0) };
+            let (column, row) = (x as i32, y as i32);
+            first[n] = row * width as i32 + column;
+            (u[n], v[n]) = (x - column as f32, y - row as f32);
+            let there = distance + slope[0] * offset[0] + slope[1] * offset[1];
+            plane[n] = if within { there } else { f32::NEG_INFINITY };
+        }
+        // All that is read first, so that the waits for memory go on side by side.
+        let mut corners = [[0.0_f32; TAPS]; 4];
+        for n in 0..TAPS {
+            let first = first[n] as usize;
+            let (upper, lower) =
+                (&shadow.distance[first..first + 2], &shadow.distance[first + width..first + width + 2]);
+            (corners[0][n], corners[1][n], corners[2][n], corners[3][n]) = (upper[0], upper[1], lower[0], lower[1]);
+        }
+        let mut visible = [0.0; 3];
+        let mut open = [0.0_f32; TAPS];
+        for n in 0..TAPS {
+            let hidden = [0, 1, 2, 3].map(|i| ((plane[n] - corners[i][n]) / SETS_IN).clamp(0.0, 1.0));
+            let upper = hidden[0] * (1.0 - u[n]) + hidden[1] * u[n];
+            let lower = hidden[2] * (1.0 - u[n]) + hidden[3] * u[n];
+            open[n] = 1.0 - (upper + (lower - upper) * v[n]);
+        }
+        for (visible, shares) in visible.iter_mut().zip(&shadow.taps.shares) {
+            *visible = shares.iter().zip(&open).map(|(share, open)| share * open).sum();
+        }
+        visible
+    }
+}
+
+/// A spiral of places over a disc, and what each gives to red, green and blue: the disc's outer part only to those that spread far under
+/// skin, or as far as the lamp's own blur.
+struct Spiral {
+    right: [f32; TAPS],
+    up: [f32; TAPS],
+    shares: [[f32; TAPS]; 3],
+}
+
+impl Spiral {
+    /// For a lamp that blurs its shadows so far (cm).
+    fn new(penumbra: f32) -> Self {
+        let reach = UNDER_SKIN.map(|u| u.hypot(penumbra));
+        let widest = reach.into_iter().fold(0.0, f32::max);
+        let radius = |i: usize| widest * ((i as f32 + 0.5) / TAPS as f32).sqrt();
+        // The golden angle spreads them evenly.
+        let angle = |i: usize| 2.399_963 * i as f32;
+        let shares = reach.map(|reach| {
+            let share = |i: usize| (-2.0 * (radius(i) / reach).powi(2)).exp();
+            let sum: f32 = (0..TAPS).map(share).sum();
+            std::array::from_fn(|i| share(i) / sum)
+        });
+        Self {
+            right: std::array::from_fn(|i| radius(i) * angle(i).cos()),
+            up: std::array::from_fn(|i| radius(i) * angle(i).sin()),
+            shares,
+        }
+    }
+}
+
+/// The mean over `radius` cells to both sides along one axis; lines side by side. Compiled for each width of vectors that machines have; one is
+/// chosen at run time.
+struct Blur<'a> {
+    cells: &'a [[f32; 2]],
+    size: [usize; 2],
+    axis: usize,
+    radius: usize,
+    out: &'a mut [[f32; 2]],
+}
+
+/// Lines that are blurred together.
+const LINES: usize = 8;
+
+impl pulp::NullaryFnOnce for Blur<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(mut self) {
+        let lines = self.size[1 - self.axis];
+        let whole = lines - lines % LINES;
+        (0..whole).step_by(LINES).for_each(|line| self.lines::<LINES>(line));
+        (whole..lines).for_each(|line| self.lines::<1>(line));
+    }
+}
+
+impl Blur<'_> {
+    #[inline(always)]
+    fn lines<const N: usize>(&mut self, line: usize) {
+        let (length, row) = (self.size[self.axis], self.size[0]);
+        let (step, aside) = if self.axis == 0 { (1, row) } else { (row, 1) };
+        let first = line * aside;
+        let per = 1.0 / (2 * self.radius + 1) as f64;
         // A sum that slides along the line, in double precision so that nothing is left over at its end.
-        let mut sum = [0.0_f64; 2];
-        for i in 0..length + radius {
-            let entering = cells.get(first + i * step).filter(|_| i < length).copied().unwrap_or_default();
-            let leaving = i.checked_sub(2 * radius + 1).map_or([0.0; 2], |j| cells[first + j * step]);
-            for c in 0..2 {
-                sum[c] += f64::from(entering[c]) - f64::from(leaving[c]);
+        let mut sum = [[0.0_f64; 2]; N];
+        for i in 0..length + self.radius {
+            let entering = (i < length).then_some(first + i * step);
+            let leaving = i.checked_sub(2 * self.radius + 1).map(|j| first + j * step);
+            let of = |at: Option<usize>| -> [[f32; 2]; N] {
+                at.map_or([[0.0; 2]; N], |at| std::array::from_fn(|n| self.cells[at + n * aside]))
+            };
+            let (entering, leaving) = (of(entering), of(leaving));
+            for n in 0..N {
+                for c in 0..2 {
+                    sum[n][c] += f64::from(entering[n][c]) - f64::from(leaving[n][c]);
+                }
             }
-            if let Some(j) = i.checked_sub(radius) {
-                out[first + j * step] = sum.map(|s| (s * per) as f32);
+            if let Some(j) = i.checked_sub(self.radius) {
+                for n in 0..N {
+                    self.out[first + j * step + n * aside] = sum[n].map(|s| (s * per) as f32);
+                }
             }
         }
     }
-    out
 }
 
-/// Keeps the nearest distance of a triangle in the cells it covers.
-fn draw([a, b, c]: [[f32; 3]; 3], size: [usize; 2], distance: &mut [f32]) {
-    let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    if area == 0.0 || !area.is_finite() {
-        return;
-    }
-    let span = |i: usize| {
-        let low = a[i].min(b[i]).min(c[i]).max(0.0) as usize;
-        let high = a[i].max(b[i]).max(c[i]).max(0.0) as usize + 1;
-        low..high.min(size[i])
-    };
-    for y in span(1) {
-        for x in span(0) {
-            let p = [x as f32, y as f32];
-            let side = |q: [f32; 3], r: [f32; 3]| (r[0] - q[0]) * (p[1] - q[1]) - (r[1] - q[1]) * (p[0] - q[0]);
-            let (u, v, w) = (side(b, c) / area, side(c, a) / area, side(a, b) / area);
-            if u >= 0.0 && v >= 0.0 && w >= 0.0 {
-                let here = &mut distance[y * size[0] + x];
-                *here = here.min(u * a[2] + v * b[2] + w * c[2]);
+/// Keeps the nearest distance of triangles in the cells they cover. Compiled for each width of vectors that machines have; one is chosen at run
+/// time.
+struct Draw<'a> {
+    triangles: &'a [[u32; 3]],
+    /// On the map (cells), and the distance.
+    corners: &'a [[f32; 3]],
+    size: [usize; 2],
+    distance: &'a mut [f32],
+}
+
+/// Cells of a row that are drawn together.
+const CELLS: usize = 8;
+
+impl pulp::NullaryFnOnce for Draw<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { triangles, corners, size, distance } = self;
+        for triangle in triangles {
+            let [a, b, c] = triangle.map(|v| corners[v as usize]);
+            let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+            if area == 0.0 || !area.is_finite() {
+                continue;
+            }
+            let (turn, depths) = (area.signum(), [a[2], b[2], c[2]].map(|depth| depth / area));
+            let span = |i: usize| {
+                let low = a[i].min(b[i]).min(c[i]).max(0.0) as usize;
+                let high = a[i].max(b[i]).max(c[i]).max(0.0) as usize + 1;
+                low..high.min(size[i])
+            };
+            let columns = span(0);
+            let sides = [(b, c), (c, a), (a, b)];
+            for y in span(1) {
+                let row = &mut distance[y * size[0]..][..size[0]];
+                for first in columns.clone().step_by(CELLS) {
+                    let mut areas = [[0.0_f32; CELLS]; 3];
+                    for (areas, (q, r)) in areas.iter_mut().zip(sides) {
+                        let (across, along, down) = (r[0] - q[0], r[1] - q[1], y as f32 - q[1]);
+                        for n in 0..CELLS {
+                            areas[n] = across * down - along * ((first + n) as f32 - q[0]);
+                        }
+                    }
+                    let mut least = [0.0_f32; CELLS];
+                    let mut found = [0.0_f32; CELLS];
+                    for n in 0..CELLS {
+                        let [u, v, w] = [areas[0][n], areas[1][n], areas[2][n]];
+                        let (tu, tv, tw) = (u * turn, v * turn, w * turn);
+                        let least_two = if tu < tv { tu } else { tv };
+                        least[n] = if least_two < tw { least_two } else { tw };
+                        found[n] = u * depths[0] + v * depths[1] + w * depths[2];
+                    }
+                    for n in 0..CELLS {
+                        found[n] = if least[n] >= 0.0 { found[n] } else { f32::INFINITY };
+                    }
+                    if let Some(here) = row[first..].first_chunk_mut::<CELLS>() {
+                        for n in 0..CELLS {
+                            here[n] = if found[n] < here[n] { found[n] } else { here[n] };
+                        }
+                    } else {
+                        row[first..].iter_mut().zip(found).for_each(|(here, found)| *here = here.min(found));
+                    }
+                }
             }
         }
     }
