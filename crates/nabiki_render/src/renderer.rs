@@ -236,20 +236,28 @@ impl Renderer {
         let lamps = lamps(&self.picture.lights, &exposure.view, &exposure.pose);
         self.zenith = zenith(&self.picture.sky, &exposure.pose);
         let strands = &exposure.strands;
-        let before = self.still.take();
-        if let Some(mut still) = before.filter(|s| s.shot == *shot && s.beside == beside && s.lamps == lamps) {
-            if !roots(strands).eq(still.roots.iter().copied()) {
-                still.grow(strands, &self.picture);
+        let before = self.still.take().filter(|s| s.lamps == lamps);
+        let shadows = match before {
+            Some(mut still) if still.shot == *shot && still.beside == beside => {
+                if !roots(strands).eq(still.roots.iter().copied()) {
+                    still.grow(strands, &self.picture);
+                }
+                self.still = Some(still);
+                return;
             }
-            self.still = Some(still);
-            return;
-        }
+            // The head stands still in the same light, and so does its shadow.
+            Some(still) => still.solid_shadows,
+            None => Vec::new(),
+        };
         self.sky_map.forget_seen();
         let bodies: Vec<Mesh> =
             self.bodies.iter().zip(&shot.bodies).map(|(mesh, at)| placed(mesh, &at.middle)).collect();
-        let solids = || std::iter::once(&self.head).chain(&bodies);
         let solid_shadows: Vec<_> = if self.picture.shadows {
-            lamps.par_iter().map(|lamp| SolidShadows::new(lamp, solids())).collect()
+            let of_lamp = |(l, lamp)| match shadows.get(l) {
+                Some(before) => SolidShadows::with_bodies(before, lamp, &bodies),
+                None => SolidShadows::new(lamp, &self.head, &bodies),
+            };
+            lamps.par_iter().enumerate().map(of_lamp).collect()
         } else {
             Vec::new()
         };

@@ -3,6 +3,8 @@
 //! Hair reads a map that is blurred once, as the lamp is wide. Skin reads the sharp one, at places around its own, so that what
 //! lies in its own tangent plane never hides it.
 
+use std::sync::Arc;
+
 use glam::Vec3;
 use nabiki::Mesh;
 
@@ -32,13 +34,24 @@ const SETS_IN: f32 = 0.25;
 /// What a lamp sees of all that is solid, each by itself: what lies between two is in the shadow of one alone.
 pub struct SolidShadows {
     toward: Vec3,
-    solids: Vec<SolidShadow>,
+    /// The head's first.
+    solids: Vec<Arc<SolidShadow>>,
 }
 
 impl SolidShadows {
-    /// Draws each of the meshes (head space, cm) as the lamp sees it.
-    pub fn new<'a>(lamp: &Lamp, solids: impl Iterator<Item = &'a Mesh>) -> Self {
-        Self { toward: lamp.toward, solids: solids.map(|solid| SolidShadow::new(lamp, solid)).collect() }
+    /// Draws the head and the bodies (head space, cm) as the lamp sees them.
+    pub fn new(lamp: &Lamp, head: &Mesh, bodies: &[Mesh]) -> Self {
+        Self::about(lamp, Arc::new(SolidShadow::new(lamp, head)), bodies)
+    }
+
+    /// The same lamp's of the same head, where the bodies are elsewhere.
+    pub fn with_bodies(&self, lamp: &Lamp, bodies: &[Mesh]) -> Self {
+        Self::about(lamp, self.solids[0].clone(), bodies)
+    }
+
+    fn about(lamp: &Lamp, head: Arc<SolidShadow>, bodies: &[Mesh]) -> Self {
+        let of_bodies = bodies.iter().map(|body| Arc::new(SolidShadow::new(lamp, body)));
+        Self { toward: lamp.toward, solids: std::iter::once(head).chain(of_bodies).collect() }
     }
 
     /// Part of the lamp (red, green, blue) that is left to a place on the skin of solid number `own`, with this unit normal, 0..1.
