@@ -106,8 +106,9 @@ struct SolidShadow {
     size: [usize; 2],
     /// In each cell: the solid's distance (cm), infinite where there is none.
     distance: Vec<f32>,
-    /// The least of them.
+    /// The least of them, and the least in each block of cells (as wide as `taps` reach) and in those beside it.
     nearest: f32,
+    about: Blocks,
     /// Distance up to which it hides nothing (cm).
     clear: f32,
     /// The blurred map, in as fine cells as show in it: the part of its surroundings that the solid covers, and its mean
@@ -162,6 +163,7 @@ impl SolidShadow {
         let penumbra = 2.5 * lamp.spread.tan();
         let clear = blurred.iter().filter(|c| c[0] > 0.0).map(|c| c[1]).fold(f32::INFINITY, f32::min) + SOFT;
         let taps = Spiral::new(penumbra);
+        let about = Blocks::new(&distance, size, (taps.reach / cell) as usize + 2);
         let width = blurred_size[0];
         let dark_beyond = (0..blurred.len())
             .map(|i| {
@@ -180,6 +182,7 @@ impl SolidShadow {
             size,
             distance,
             nearest,
+            about,
             clear,
             blurred,
             blurred_cell,
@@ -201,6 +204,10 @@ impl SolidShadow {
         let at = self.axes.map(|a| p.dot(a));
         let steps = self.cell * (slope[0].abs() + slope[1].abs());
         let distance = -p.dot(self.toward) - BEFORE - 0.7 * steps;
+        let [x, y] = [0, 1].map(|i| (at[i] - self.low[i]) / self.cell);
+        if distance + self.taps.reach * slope[0].hypot(slope[1]) <= self.about.least(x, y) {
+            return self.taps.whole;
+        }
         pulp::Arch::new().dispatch(Taps { shadow: self, at, distance, slope })
     }
 
@@ -334,6 +341,9 @@ struct Spiral {
     right: [f32; TAPS],
     up: [f32; TAPS],
     shares: [[f32; TAPS]; 3],
+    /// How far out they lie (cm), and what all give together.
+    reach: f32,
+    whole: [f32; 3],
 }
 
 impl Spiral {
@@ -353,7 +363,43 @@ impl Spiral {
             right: std::array::from_fn(|i| radius(i) * angle(i).cos()),
             up: std::array::from_fn(|i| radius(i) * angle(i).sin()),
             shares,
+            reach: widest,
+            whole: shares.map(|shares| shares.iter().sum()),
         }
+    }
+}
+
+/// The least distance on a map in blocks of cells.
+struct Blocks {
+    side: usize,
+    size: [usize; 2],
+    /// In each block and in those beside it.
+    least: Vec<f32>,
+}
+
+impl Blocks {
+    /// In blocks of `side` times `side` cells of a map.
+    fn new(distance: &[f32], map: [usize; 2], side: usize) -> Self {
+        let size = map.map(|length| length.div_ceil(side));
+        let mut own = vec![f32::INFINITY; size[0] * size[1]];
+        for (y, row) in distance.chunks_exact(map[0].max(1)).enumerate() {
+            for (cells, least) in row.chunks(side).zip(&mut own[y / side * size[0]..]) {
+                *least = cells.iter().fold(*least, |least, &d| if d < least { d } else { least });
+            }
+        }
+        let beside = |at: usize, length: usize| at.saturating_sub(1)..(at + 2).min(length);
+        let about = |i: usize| {
+            let (x, y) = (i % size[0], i / size[0]);
+            let rows = beside(y, size[1]).map(|y| &own[y * size[0]..][beside(x, size[0])]);
+            rows.flatten().copied().fold(f32::INFINITY, f32::min)
+        };
+        Self { side, size, least: (0..own.len()).map(about).collect() }
+    }
+
+    /// The least about a place (cells); beyond the map at its edge.
+    fn least(&self, x: f32, y: f32) -> f32 {
+        let at = |x: f32, length: usize| (x.max(0.0) as usize / self.side).min(length - 1);
+        self.least[at(y, self.size[1]) * self.size[0] + at(x, self.size[0])]
     }
 }
 
