@@ -56,6 +56,16 @@ pub struct Paint {
 }
 
 impl Paint {
+    /// How far apart (cm) looks at what is painted about a place need to be: nearest on the hairs of brows and lashes.
+    pub fn detail(p: Vec3) -> f32 {
+        let z = p.z.abs();
+        match () {
+            () if p.x < 3.7 || z > 5.7 || !(-10.0..4.0).contains(&p.y) => 1.0,
+            () if (-2.3..3.5).contains(&p.y) => 0.03,
+            () => 0.1,
+        }
+    }
+
     /// What covers the built-in bust's skin at `p`.
     pub fn at(p: Vec3) -> Self {
         let z = p.z.abs();
@@ -194,6 +204,26 @@ mod tests {
             for paint in [Paint { brow: 1.0, ..Paint::default() }, Paint { lashes: 1.0, ..Paint::default() }] {
                 let painted = paint.over(skin, hair);
                 assert!((0..3).all(|c| painted[c] < 0.6 * skin[c]), "{painted:?}");
+            }
+        }
+    }
+
+    /// Where looks far apart are said to do, what is painted changes little from one to the next.
+    #[test]
+    fn what_is_painted_is_as_even_as_its_detail_says() {
+        let places = (0..60).flat_map(|i| (0..80).map(move |j| (0.25 * i as f32 - 8.0, 0.1 * j as f32 - 0.05)));
+        for (y, z) in places {
+            for x in [3.0, 5.0, 8.0, 10.0] {
+                let p = Vec3::new(x, y, z);
+                let step = 0.5 * Paint::detail(p).min(0.2);
+                if step < 0.03 {
+                    continue;
+                }
+                let (here, there) = (Paint::at(p), Paint::at(p + step * Vec3::Y));
+                assert_eq!((here.brow, here.lashes), (0.0, 0.0), "{p}");
+                // The edge of the lips rises from nothing to all of it in 0.2 cm, half as fast again in its middle.
+                assert!((here.lips - there.lips).abs() < 1.5 * step / 0.2 + 1e-6, "{p}");
+                assert!((here.flush - there.flush).abs() < step, "{p}");
             }
         }
     }

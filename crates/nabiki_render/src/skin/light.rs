@@ -48,8 +48,7 @@ pub struct FromLamp {
 /// The share of light scattered forward by hair that falls onto skin behind: it goes on to all sides.
 pub const ON_SKIN: f32 = 0.4;
 
-/// What is painted is looked at in steps of so much (cm), and in at most so many along each side of a pixel.
-const FINEST_PAINT: f32 = 0.03;
+/// What is painted is looked at in at most so many places along each side of a pixel.
 const MOST_PAINT: f32 = 6.0;
 
 /// How far light creeps past the terminator under skin of softness 1, red farthest (cosine).
@@ -118,7 +117,7 @@ impl SkinLight<'_> {
     pub fn painted(pixels: &[SkinPixel], skin: [f32; 3], hair: [f32; 3], view: &View) -> Vec<[f32; 3]> {
         let colour = |p: &SkinPixel| {
             let side = 1.0 / view.pixels_per_cm(p.depth);
-            let count = (side / FINEST_PAINT).ceil().clamp(1.0, MOST_PAINT) as u32;
+            let count = (side / Paint::detail(p.position)).ceil().clamp(1.0, MOST_PAINT) as u32;
             let away = -view.toward_eye(p.position);
             // At the outline a pixel shows much of the skin.
             let along_normal = p.normal / away.dot(p.normal).min(-0.1);
