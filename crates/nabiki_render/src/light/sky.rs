@@ -109,13 +109,13 @@ impl SkyMap {
         let near = |skin: &SkinCell| has_room && skin.cell.cmpge(first).all() && skin.cell.cmple(last).all();
         let of_bodies = (1..).zip(bodies).flat_map(|(i, body)| skin_cells(body, self.cell, i));
         let all = self.head.iter().copied().chain(of_bodies);
-        self.skin = all.filter(|skin| near(skin) || among_hair(skin)).collect();
-        self.exchange.lay_out(&self.skin, self.cell);
+        let all: Vec<SkinCell> = all.filter(|skin| near(skin) || among_hair(skin)).collect();
+        self.exchange.lay_out(&all, self.cell);
         self.exchange.ask(seen);
         let sends = self.exchange.sends();
-        let needed = |i: &u32| sends[*i as usize] || self.index_of(&self.skin[*i as usize]).is_some();
-        self.numbers = (0..self.skin.len() as u32).filter(needed).collect();
-        self.skin = self.numbers.iter().map(|&i| self.skin[i as usize]).collect();
+        let needed = |i: &u32| sends[*i as usize] || self.index_of(&all[*i as usize]).is_some();
+        self.numbers = (0..all.len() as u32).filter(needed).collect();
+        self.skin = self.numbers.iter().map(|&i| all[i as usize]).collect();
     }
 
     /// Forgets which places on skin are seen.

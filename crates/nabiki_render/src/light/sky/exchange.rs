@@ -17,6 +17,8 @@ const FACING: f32 = 0.1;
 /// A look goes on by so much at once, and where no skin is near by so much (sides of a cell).
 const STEP: f32 = 0.7;
 const BLOCK: u32 = 4;
+/// How far beyond the box of the head's cells skin of bodies counts (sides of a cell).
+const BESIDE: i32 = 16;
 const NOBODY: u32 = u32::MAX;
 
 /// What skin sees of other skin, and the light that comes from there.
@@ -25,13 +27,14 @@ pub struct Exchange {
     cells: Vec<SkinCell>,
     /// Side of a cell (cm).
     cell: f32,
-    /// The first cell of the box about all skin, its size, and the skin in each of its cells.
+    /// The first cell of a box about the head, its size, and the skin in each of its cells. Bodies do not change it: a frame would depend on those
+    /// before it.
     low: IVec3,
     size: UVec3,
     at: Vec<u32>,
-    /// The same box in blocks of cells: whether skin lies in one or beside it.
+    /// The same box in blocks of cells: what lies in one or beside it.
     blocks: UVec3,
-    near: Vec<bool>,
+    near: Vec<Near>,
     /// Which skin it is asked about, and which sends light there; empty if that is not known yet.
     asked: Vec<AtomicBool>,
     sends: Vec<bool>,
@@ -42,6 +45,13 @@ pub struct Exchange {
     pairs: Vec<Pair>,
     /// The light that arrives at each skin that is asked about, with its normal.
     light: Vec<(Vec3, f32)>,
+}
+
+/// Whether skin is near, and whether it is the head's.
+#[derive(Clone, Copy, Default)]
+struct Near {
+    any: bool,
+    head: bool,
 }
 
 /// Skin that other skin sees.
@@ -66,7 +76,7 @@ impl Exchange {
         }
         let of_head = |cells: &[SkinCell]| cells.partition_point(|skin| skin.solid == 0);
         let head = of_head(cells);
-        // What the head sees of itself does not depend on bodies: what one of them hides is seen for a moment more.
+        // The head sees itself through bodies: what it sees stays while they move.
         if self.cell != cell || self.cells[..of_head(&self.cells)] != cells[..head] {
             self.looks.clear();
             self.looks.resize(head, None);
@@ -76,15 +86,19 @@ impl Exchange {
         self.cell = cell;
         self.cells.clear();
         self.cells.extend_from_slice(cells);
-        self.low = cells.iter().map(|skin| skin.cell).reduce(IVec3::min).unwrap_or_default();
-        let high = cells.iter().map(|skin| skin.cell + 1).reduce(IVec3::max).unwrap_or_default();
-        self.size = (high - self.low).as_uvec3();
+        let of_head = || cells[..head].iter().map(|skin| skin.cell);
+        self.low = of_head().reduce(IVec3::min).unwrap_or_default() - BESIDE;
+        let high = of_head().reduce(IVec3::max).unwrap_or_default() + BESIDE;
+        self.size = (high - self.low + 1).as_uvec3();
         self.at.clear();
         self.at.resize(self.size.as_usizevec3().element_product(), NOBODY);
         self.blocks = self.size / BLOCK + 1;
         self.near.clear();
-        self.near.resize(self.blocks.as_usizevec3().element_product(), false);
+        self.near.resize(self.blocks.as_usizevec3().element_product(), Near::default());
         for (i, skin) in cells.iter().enumerate() {
+            if skin.cell.cmplt(self.low).any() || skin.cell.cmpgt(high).any() {
+                continue;
+            }
             let cell = (skin.cell - self.low).as_uvec3();
             let at = &mut self.at[index(cell, self.size)];
             if *at == NOBODY {
@@ -93,7 +107,8 @@ impl Exchange {
             for n in 0..27 {
                 let beside = cell / BLOCK + UVec3::new(n % 3, n / 3 % 3, n / 9);
                 if beside.cmpge(UVec3::ONE).all() && beside.cmple(self.blocks).all() {
-                    self.near[index(beside - 1, self.blocks)] = true;
+                    let near = &mut self.near[index(beside - 1, self.blocks)];
+                    *near = Near { any: true, head: near.head || i < head };
                 }
             }
         }
@@ -190,8 +205,8 @@ impl Exchange {
 
     /// The skin that faces skin `i` first along a direction.
     fn first_along(&self, i: usize, direction: Vec3) -> Option<u32> {
-        let (size, last) =
-            (self.size.as_vec3(), if i < self.looks.len() { self.looks.len() } else { self.cells.len() });
+        let of_head = i < self.looks.len();
+        let (size, last) = (self.size.as_vec3(), if of_head { self.looks.len() } else { self.cells.len() });
         let mut place = self.among(self.cells[i].place);
         while place.cmpge(Vec3::ZERO).all() && place.cmplt(size).all() {
             let cell = place.as_uvec3();
@@ -199,8 +214,9 @@ impl Exchange {
             if (skin as usize) < last && skin != i as u32 && self.cells[skin as usize].normal.dot(direction) < -FACING {
                 return Some(skin);
             }
-            let step = if self.near[index(cell / BLOCK, self.blocks)] { STEP } else { BLOCK as f32 };
-            place += step * direction;
+            let near = self.near[index(cell / BLOCK, self.blocks)];
+            let is_near = if of_head { near.head } else { near.any };
+            place += if is_near { STEP } else { BLOCK as f32 } * direction;
         }
         None
     }
@@ -254,7 +270,7 @@ impl Exchange {
     #[inline(always)]
     fn about(&self, place: Vec3) -> [Option<(usize, f32)>; 8] {
         // A cell lower, so that toward zero is down.
-        let place = (self.among(place) + 0.5).clamp(Vec3::ZERO, self.size.as_vec3() + 0.5);
+        let place = (self.among(place) + 0.5).clamp(Vec3::ZERO, self.size.as_vec3() + 1.0);
         let base = place.as_uvec3();
         let beyond = place - base.as_vec3();
         std::array::from_fn(|corner| {
@@ -277,9 +293,7 @@ fn index(cell: UVec3, size: UVec3) -> usize {
 /// One of the directions, which lie evenly all round (a spiral by the golden angle).
 fn direction(n: u32) -> Vec3 {
     let up = 1.0 - (2 * n + 1) as f32 / DIRECTIONS as f32;
-    let (sin, cos) = (n as f32 * 2.399_963).sin_cos();
-    let across = (1.0 - up * up).sqrt();
-    Vec3::new(across * cos, up, across * sin)
+    crate::camera::direction(137.507_76 * n as f32, up.asin().to_degrees())
 }
 
 #[cfg(test)]
@@ -409,6 +423,29 @@ mod tests {
         }
         for skin in &cells {
             assert_eq!(later.at(skin.place, skin.normal), whole.at(skin.place, skin.normal));
+        }
+    }
+
+    /// What a frame shows does not depend on where a body was in those before it, nor on whether they were drawn.
+    #[test]
+    fn what_arrives_does_not_depend_on_where_a_body_was() {
+        // So large that looks go on in long steps through its middle.
+        let head = skin_cells(&inside_out(ball(9.0)), CELL, 0);
+        let with_body = |height: f32| {
+            let mut cells = head.clone();
+            cells.extend(skin_cells(&square(1.5, height, 1.0), CELL, 1));
+            cells
+        };
+        let shown = |exchange: &mut Exchange, cells: &[SkinCell]| -> Vec<f32> {
+            exchange.lay_out(cells, CELL);
+            exchange.ask(cells.par_iter().map(|skin| skin.place));
+            exchange.send((0..).zip(cells.iter().map(|skin| 1.0 + skin.normal.y)), |_, _| 1.0);
+            cells.iter().map(|skin| exchange.at(skin.place, skin.normal)).collect()
+        };
+        let mut exchange = Exchange::default();
+        for height in [-2.1, 1.3, 7.4, 40.0] {
+            let cells = with_body(height);
+            assert_eq!(shown(&mut exchange, &cells), shown(&mut Exchange::default(), &cells), "{height}");
         }
     }
 }
