@@ -189,7 +189,8 @@ fn borders_stiffness_and_settling_are_found_again() {
     // What is preferred is small beside what is known, so that it moves nothing that is asked for here.
     let prior = Prior { keep: 0.001, alike: 0.0 };
     let problem = Problem { wishes, unknowns, prior, ..problem(&hair, &dynamics, start) };
-    let report = Solver::new(problem.clone()).unwrap().solve(&Search { near_cm: 0.01, ..Search::default() });
+    // Within a hundredth of a centimetre, firmer hair in a stronger wind still passes for the truth.
+    let report = Solver::new(problem.clone()).unwrap().solve(&Search { near_cm: 0.001, ..Search::default() });
     println!("{report:?}");
     assert_eq!(report.answer.keyframes[0].through, 43);
     assert!(error(&report.answer, &truth) < 1.0, "{:?}", report.answer.keyframes);

@@ -15,16 +15,16 @@ pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
     }
     let mut skin = skin;
     // The socket is deepest between eye and nose, and under the brow.
-    skin += 0.75 * swell(p, Vec3::new(8.9, -0.5, 2.4), Vec3::new(2.2, 2.2, 2.4));
-    skin += 0.30 * swell(p, Vec3::new(7.8, 0.1, 4.2), Vec3::new(2.0, 1.6, 1.9));
-    // The brow's bone follows the upper rim.
+    skin += 0.65 * swell(p, Vec3::new(8.9, -0.6, 2.4), Vec3::new(2.2, 2.2, 2.4));
+    skin += 0.20 * swell(p, Vec3::new(7.8, 0.1, 4.2), Vec3::new(2.0, 1.6, 1.9));
+    // The brow's bone follows the upper rim, and sinks into the temple.
     let brow = chain(
         p,
         &[
             (Vec3::new(8.55, 1.3, 1.4), 0.2),
             (Vec3::new(8.2, 1.75, 2.8), 0.28),
-            (Vec3::new(7.1, 1.7, 4.4), 0.2),
-            (Vec3::new(6.0, 1.0, 5.3), 0.1),
+            (Vec3::new(7.1, 1.7, 4.4), 0.1),
+            (Vec3::new(5.2, 0.8, 5.3), -0.6),
         ],
     );
     skin = join(skin, brow, 1.5);

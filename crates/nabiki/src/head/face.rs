@@ -73,7 +73,7 @@ impl Paint {
             let far = (Vec3::new(p.x, p.y, z) - centre).length_squared() / (reach * reach);
             if far < 1.0 { (1.0 - far) * (1.0 - far) } else { 0.0 }
         };
-        let flush = near(Vec3::new(6.6, -3.9, 4.3), 3.2) + 0.8 * near(Vec3::new(10.9, -3.9, 0.0), 1.6);
+        let flush = near(Vec3::new(6.0, -3.9, 4.3), 3.2) + 0.8 * near(Vec3::new(10.9, -3.9, 0.0), 1.6);
         let ears = 0.8 * near(Vec3::new(-0.5, -2.5, 8.2), 3.2);
         if p.x < 4.0 || !(-10.0..4.0).contains(&p.y) {
             return Self { flush: ears, ..Self::default() };
