@@ -8,8 +8,8 @@ use crate::settings::HairLook;
 pub use crate::light::fibre::{COLUMNS, GRADES, ROWS};
 pub use crate::light::lamps::{Lamp, lamps, zenith};
 
-/// Share of the sky's light scattered by hair that stays within it.
-pub const SKY_DENSITY: f32 = shade::SKY_DENSITY;
+/// Share of the sky's light that each scattering in hair keeps on its way.
+pub const SKY_KEPT: f32 = shade::SKY_KEPT;
 /// Share of light scattered forward by hair that falls onto skin behind.
 pub const ON_SKIN: f32 = crate::skin::ON_SKIN;
 /// Largest deviation of a strand's tilt (rad), for a variation of 1.

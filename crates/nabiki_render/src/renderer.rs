@@ -327,7 +327,7 @@ impl Renderer {
         self.receivers.extend_from_slice(&still.skin_places);
         if occluded {
             let seen = still.skin.pixels.par_iter().map(|p| p.position);
-            sky_map.lay_out(bounds, self.picture.hair.width, (&self.head, &still.bodies), seen);
+            sky_map.lay_out(bounds, self.picture.hair.width, (&self.head, &still.bodies), self.zenith, seen);
             self.receivers.extend(sky_map.skin().iter().map(|skin| off_skin(skin.place, skin.normal)));
         }
         let width = self.picture.hair.width;
@@ -345,7 +345,7 @@ impl Renderer {
         };
         let cover = || {
             if occluded {
-                sky_map.fill(nodes, &self.radius, self.zenith);
+                sky_map.fill(nodes, &self.radius);
             }
         };
         // Parts of each run on one core only; side by side they fill each other's gaps.

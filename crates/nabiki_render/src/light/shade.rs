@@ -31,9 +31,9 @@ use crate::settings::Sky;
 const LANES: usize = 16;
 /// Of the light that a fibre lets through, the share that goes on by other ways than straight from the lamp. Fitted.
 const STRAYS: f32 = 0.25;
-/// Share of the sky's scattered light that stays within hair, and of what of it hair behind sends back: much of what lies behind sees
-/// less of the sky.
-pub const SKY_DENSITY: f32 = 0.6;
+/// Share of the sky's light that goes on as it came at each scattering in hair, and of what hair behind sends back: the rest strays to where less of
+/// the sky is seen. Fitted.
+pub const SKY_KEPT: f32 = 0.75;
 /// Depth of hair without end (fibres).
 const ENDLESS: f32 = 100.0;
 /// Light of this variance along the hair (rad^2) goes to all inclinations, near enough.
@@ -211,13 +211,12 @@ impl HairLight<'_> {
         for c in 0..3 {
             for lane in 0..LANES {
                 let (a, b) = (rows.forward[c][lane], rows.back[c][lane]);
-                let lost = (1.0 - medium.forward[c][lane]).max(0.0);
+                let lost = (1.0 - SKY_KEPT * medium.forward[c][lane]).max(0.0);
                 // What hair in the way scatters forward arrives as well: on both sides as much more than what is open as the
                 // mean depth of the hair there says.
                 let more = |open: f32| {
                     let open = open.clamp(1e-6, 1.0);
-                    let scattered = exp_of_negative(ln(open) * lost);
-                    1.0 + SKY_DENSITY * (scattered / open - 1.0).max(0.0)
+                    (exp_of_negative(ln(open) * lost) / open).max(1.0)
                 };
                 let colour = |above: f32, below: f32| self.sky.above[c] * above + self.sky.below[c] * below;
                 let (above, below) = (sky[FRONT_ABOVE][lane], sky[FRONT_BELOW][lane]);
@@ -228,7 +227,7 @@ impl HairLight<'_> {
                 let behind = self.sky.strength * colour(above, below) * gain + self.skin[c] * sky[BEHIND_GLOW][lane];
                 // Where it is open behind there is no hair that sends back.
                 let of_those = (medium.whole[c][lane] - medium.back[c][lane]).max(0.0);
-                let again = SKY_DENSITY * of_those * (1.0 - (above + below) * gain).max(0.0);
+                let again = SKY_KEPT * of_those * (1.0 - (above + below) * gain).max(0.0);
                 // Fibres keep the inclination, so the light that they send back to the eye has come from the eye's side of hair seen
                 // across, and from behind hair that points at the eye: their cosine is 1 - 2 sin^2.
                 let from_behind = sin_eye[lane] * sin_eye[lane];
@@ -412,8 +411,8 @@ mod tests {
         let (model, sky, view) = (hair(40.0), Sky::default(), view());
         let before = |behind: &Mesh, inclination: f32| {
             let mut sky_map = SkyMap::default();
-            sky_map.lay_out([Vec3::splat(-6.0), Vec3::splat(6.0)], 0.0, (behind, &[]), rayon::iter::empty());
-            sky_map.fill(&[], &[], Vec3::Y);
+            sky_map.lay_out([Vec3::splat(-6.0), Vec3::splat(6.0)], 0.0, (behind, &[]), Vec3::Y, rayon::iter::empty());
+            sky_map.fill(&[], &[]);
             sky_map.gather((&[CurveNode::default()], &[true]), &view, &[], |_, _, _| 0.0);
             seen(&HairLight { sky_map: Some(&sky_map), ..under_nothing(&model, &sky, &view) }, inclination)
         };

@@ -9,6 +9,7 @@ mod arriving;
 mod directions;
 mod exchange;
 mod on_skin;
+mod outside;
 mod skin_cells;
 
 use std::sync::atomic::AtomicBool;
@@ -27,6 +28,7 @@ pub use self::skin_cells::SkinCell;
 use self::arriving::Numbers;
 use self::directions::{Carry, Direction};
 use self::exchange::Exchange;
+use self::outside::Outside;
 use self::skin_cells::skin_cells;
 use super::approx::exp_of_negative;
 use super::lamps::Lamp;
@@ -69,6 +71,8 @@ pub struct SkyMap {
     /// What the head's and the bodies' cells send to each other; of which of them light is asked for, since they are among the hair or are
     /// seen by others, and the mean light that falls onto each.
     exchange: Exchange,
+    /// And what those outside the box do to the light that comes into it; they are given by their place in `skin`.
+    outside: Outside,
     numbers: Vec<u32>,
     skin: Vec<SkinCell>,
     lit: Vec<f32>,
@@ -76,13 +80,14 @@ pub struct SkyMap {
 }
 
 impl SkyMap {
-    /// Lays out the cells about hair (its box, and how thick it is, cm) and finds the skin in them, the head's and that of the `bodies`, and
-    /// what sends light from there to the places on skin that are `seen`.
+    /// Lays out the cells about hair (its box, and how thick it is, cm) and finds the skin in them and about them, the head's and that of the
+    /// `bodies`, and what sends light from there to hair and to the places on skin that are `seen`. `zenith` is above (unit).
     pub fn lay_out(
         &mut self,
         [mut low, mut high]: [Vec3; 2],
         width: f32,
         (head, bodies): (&Mesh, &[Mesh]),
+        zenith: Vec3,
         seen: impl IndexedParallelIterator<Item = Vec3>,
     ) {
         if !low.is_finite() {
@@ -112,9 +117,18 @@ impl SkyMap {
         let all: Vec<SkinCell> = all.filter(|skin| near(skin) || among_hair(skin)).collect();
         self.exchange.lay_out(&all, self.cell);
         self.exchange.ask(seen);
-        let sends = self.exchange.sends();
-        let needed = |i: &u32| sends[*i as usize] || self.index_of(&all[*i as usize]).is_some();
-        self.numbers = (0..all.len() as u32).filter(needed).collect();
+        self.directions.clear();
+        self.directions.extend(Direction::all(zenith));
+        let origin = self.origin();
+        let (within, outside): (Vec<_>, Vec<_>) = (0..)
+            .zip(&all)
+            .map(|(i, skin)| (i, skin.cell - origin, *skin))
+            .partition(|(_, cell, _)| cell.cmpge(IVec3::ZERO).all() && cell.cmplt(self.size.as_ivec3()).all());
+        self.outside.lay_out(&outside, &self.directions, self.size);
+        let mut needed = self.exchange.sends().to_vec();
+        within.iter().for_each(|&(i, ..)| needed[i as usize] = true);
+        self.outside.senders().for_each(|i| needed[i as usize] = true);
+        self.numbers = (0..all.len() as u32).filter(|&i| needed[i as usize]).collect();
         self.skin = self.numbers.iter().map(|&i| all[i as usize]).collect();
     }
 
@@ -128,8 +142,8 @@ impl SkyMap {
         &self.skin
     }
 
-    /// Carries the sky's light through the hair (half thicknesses `radius`, cm) and past the skin; `zenith` is above (unit).
-    pub fn fill(&mut self, nodes: &[CurveNode], radius: &[f32], zenith: Vec3) {
+    /// Carries the sky's light through the hair (half thicknesses `radius`, cm) and past the skin.
+    pub fn fill(&mut self, nodes: &[CurveNode], radius: &[f32]) {
         // What skin sends out is not known yet, and not that of the frame before.
         self.glow.iter_mut().for_each(Vec::clear);
         self.taken.clear();
@@ -141,7 +155,7 @@ impl SkyMap {
                 self.taken[at] += self.skin[i].depth;
             }
         }
-        self.carry(zenith);
+        self.carry();
     }
 
     /// Sums what arrives about those of the nodes that are `asked` for, as the eye of a view and the lamps need it. `lit` is the light that
@@ -171,9 +185,14 @@ impl SkyMap {
 
     /// Where skin is among the cells about the hair.
     fn index_of(&self, skin: &SkinCell) -> Option<usize> {
-        let c = skin.cell - (self.low / self.cell).round().as_ivec3();
+        let c = skin.cell - self.origin();
         let within = c.cmpge(IVec3::ZERO).all() && c.cmplt(self.size.as_ivec3()).all();
         within.then(|| self.index(c.as_uvec3()))
+    }
+
+    /// The first cell about the hair, on the lattice through the origin.
+    fn origin(&self) -> IVec3 {
+        (self.low / self.cell).round().as_ivec3()
     }
 
     /// What hair leaves of light between two places.
@@ -229,9 +248,7 @@ impl SkyMap {
     }
 
     /// Carries light along the lattice directions, one after the other, slice by slice.
-    fn carry(&mut self, zenith: Vec3) {
-        self.directions.clear();
-        self.directions.extend(Direction::all(zenith));
+    fn carry(&mut self) {
         let taken = &self.taken;
         for (through, length) in self.through.iter_mut().zip([1.0, 3.0_f32.sqrt()]) {
             through.resize(taken.len(), 0.0);
@@ -240,10 +257,11 @@ impl SkyMap {
             });
         }
         self.carried.resize_with(self.directions.len(), Vec::new);
-        let (size, through) = (self.size, &self.through);
-        self.carried.par_iter_mut().zip(&self.directions).for_each(|(light, d)| {
+        let (size, through, outside) = (self.size, &self.through, &self.outside);
+        self.carried.par_iter_mut().zip(&self.directions).enumerate().for_each(|(n, (light, d))| {
             light.clear();
             light.resize(taken.len(), 1.0);
+            outside.take(n, light);
             let through = &through[usize::from(d.is_aslant())];
             pulp::Arch::new().dispatch(Carry::<false> { direction: d, size, through, light });
         });
@@ -258,14 +276,16 @@ impl SkyMap {
             Some((skin.normal, at, lit * exp_of_negative(-self.hair[at]), skin.depth))
         };
         let starts: Vec<(Vec3, usize, f32, f32)> = self.skin.iter().zip(&self.lit).filter_map(start).collect();
-        let (size, taken, through) = (self.size, &self.taken, &self.through);
-        self.glow.par_iter_mut().zip(&self.directions).for_each(|(glow, d)| {
+        let (size, taken, through, outside) = (self.size, &self.taken, &self.through, &self.outside);
+        let lit = self.exchange.lit();
+        self.glow.par_iter_mut().zip(&self.directions).enumerate().for_each(|(n, (glow, d))| {
             let through = &through[usize::from(d.is_aslant())];
             glow.clear();
             glow.resize(taken.len(), 0.0);
+            outside.send(n, lit, glow);
             for &(normal, at, lit, depth) in &starts {
                 // Only outward, away from where this direction's light comes from.
-                if normal.dot(d.from) < 0.0 {
+                if d.leaves(normal) {
                     let sent = lit * (1.0 - through[at]) * (depth / taken[at]).min(1.0);
                     glow[at] += sent;
                     let next = at as i32 + d.step[0] + size.x as i32 * (d.step[1] + size.y as i32 * d.step[2]);
@@ -323,8 +343,8 @@ mod tests {
         let bounds = crate::curve::bounds(&nodes);
         let filled = |azimuth: f32| {
             let mut sky = SkyMap::default();
-            sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]), rayon::iter::empty());
-            sky.fill(&nodes, &radius, Vec3::Y);
+            sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]), Vec3::Y, rayon::iter::empty());
+            sky.fill(&nodes, &radius);
             let asked = [Vec3::ZERO, Vec3::new(0.0, 5.4, 0.0), Vec3::splat(100.0), Vec3::X * 5.4, Vec3::X * -5.4];
             sky.gather((&asked.map(at), &[true; 5]), &view_from(azimuth), &[lamp(Vec3::X)], |_, _, _| 0.0);
             sky
@@ -376,8 +396,8 @@ mod tests {
             })
             .collect();
         let mut sky = SkyMap::default();
-        sky.lay_out(crate::curve::bounds(&nodes), 0.0, (&Mesh::default(), &[]), rayon::iter::empty());
-        sky.fill(&nodes, &vec![0.1; nodes.len()], Vec3::Y);
+        sky.lay_out(crate::curve::bounds(&nodes), 0.0, (&Mesh::default(), &[]), Vec3::Y, rayon::iter::empty());
+        sky.fill(&nodes, &vec![0.1; nodes.len()]);
         sky.gather((&[], &[]), &view_from(0.0), &[], |_, _, _| 0.0);
         let mut one = OnSkin::new(&sky);
         for node in &nodes {
@@ -391,8 +411,8 @@ mod tests {
         for zenith in [Vec3::Y, Vec3::new(0.36, -0.48, 0.8)] {
             let mut sky = SkyMap::default();
             let bounds = [Vec3::splat(-3.0), Vec3::splat(3.0)];
-            sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]), rayon::iter::empty());
-            sky.fill(&[], &[], zenith);
+            sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]), zenith, rayon::iter::empty());
+            sky.fill(&[], &[]);
             // More lamps than have room beside the rest.
             let asked = [at(Vec3::new(0.3, -0.7, 1.1))];
             sky.gather((&asked, &[true]), &view_from(47.0), &[lamp(zenith); 4], |_, _, _| 0.0);

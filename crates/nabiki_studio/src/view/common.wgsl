@@ -16,7 +16,7 @@ struct Globals {
     screen: vec4f,      // width and height (px), px that 1 cm at depth 1 cm covers, 1 if rays are parallel
     lamps: array<Lamp, 16>,
     counts: vec4u,      // lamps, points of strands, pieces of a segment + 65536 x hairs of a lock, 1 for Kajiya and Kay
-    sky_above: vec4f,   // SKY_DENSITY last
+    sky_above: vec4f,   // SKY_KEPT last
     sky_below: vec4f,   // ON_SKIN last
     zenith: vec4f,
     skin: vec4f,        // softness last

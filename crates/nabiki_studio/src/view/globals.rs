@@ -119,7 +119,7 @@ pub fn globals(
         screen: [head.size[0] as f32, head.size[1] as f32, head.scale, is_parallel],
         lamps: of_lamps,
         counts: [lit.len().min(MOST_LAMPS) as u32, 0, 0, u32::from(look.shading == Shading::KajiyaKay)],
-        sky_above: of(strength(sky.above).into(), live::SKY_DENSITY),
+        sky_above: of(strength(sky.above).into(), live::SKY_KEPT),
         sky_below: of(strength(sky.below).into(), live::ON_SKIN),
         zenith: of(live::zenith(sky, pose), 0.0),
         skin: of(Vec3::ZERO, picture.head.softness),

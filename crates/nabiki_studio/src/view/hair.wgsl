@@ -132,7 +132,7 @@ fn crossed(lamp: Lamp, depth: vec4f) -> f32 {
 // By how much more of the sky arrives than is open, since hair passes on a part a of it.
 fn gain(open: vec2f, a: vec3f) -> vec3f {
     let part = clamp(0.5 * (open.x + open.y), 1e-6, 1.0);
-    return 1.0 + g.sky_above.w * max(pow(vec3f(part), max(1.0 - a, vec3f(0.0))) / part - 1.0, vec3f(0.0));
+    return pow(vec3f(part), -g.sky_above.w * a);
 }
 
 fn arrives(open: vec2f, a: vec3f) -> vec3f {

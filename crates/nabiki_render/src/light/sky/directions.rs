@@ -36,6 +36,16 @@ impl Direction {
     pub fn is_aslant(&self) -> bool {
         squared_length(self.step) != 1
     }
+
+    /// How far light goes in each cell (sides of a cell).
+    pub fn cells(&self) -> f32 {
+        (squared_length(self.step) as f32).sqrt()
+    }
+
+    /// Whether light that goes this way leaves a surface with this normal.
+    pub fn leaves(&self, normal: Vec3) -> bool {
+        normal.dot(self.from) < 0.0
+    }
 }
 
 /// Light that arrives in each cell along a lattice direction, before the cell takes its own part. It takes the place of what is in the

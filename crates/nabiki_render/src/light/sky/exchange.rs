@@ -43,7 +43,8 @@ pub struct Exchange {
     seen: Vec<Seen>,
     /// Skin of the bodies, which move: pairs of skin that see each other.
     pairs: Vec<Pair>,
-    /// The light that arrives at each skin that is asked about, with its normal.
+    /// The light that falls onto each skin, as far as it is known, and what of it arrives at each that is asked about, with its normal.
+    lit: Vec<f32>,
     light: Vec<(Vec3, f32)>,
 }
 
@@ -228,13 +229,14 @@ impl Exchange {
 
     /// Sends the light that falls onto skin (by its number) on to what sees it and is asked about; `through` says what is left of it between two places.
     pub fn send(&mut self, sent: impl Iterator<Item = (u32, f32)>, through: impl Fn(Vec3, Vec3) -> f32 + Sync) {
-        let mut lit = vec![0.0; self.cells.len()];
-        sent.for_each(|(skin, light)| lit[skin as usize] = light);
+        self.lit.clear();
+        self.lit.resize(self.cells.len(), 0.0);
+        sent.for_each(|(skin, light)| self.lit[skin as usize] = light);
         let mut light = std::mem::take(&mut self.light);
         let this = &*self;
         let sent = |i: usize, seen: &Seen| {
             let other = seen.skin as usize;
-            let lit = seen.share * lit[other];
+            let lit = seen.share * this.lit[other];
             if lit > 0.0 { lit * through(this.cells[i].place, this.cells[other].place) } else { 0.0 }
         };
         let arriving = |i: usize| match this.looks.get(i) {
@@ -251,6 +253,11 @@ impl Exchange {
             light[pair.skin as usize].1 += sent;
         }
         self.light = light;
+    }
+
+    /// The light that falls onto each skin, as it was sent last.
+    pub fn lit(&self) -> &[f32] {
+        &self.lit
     }
 
     /// What arrives at a place on a surface with this unit normal: between the skin about it, of such as faces where it does.
