@@ -33,7 +33,7 @@ const LANES: usize = 16;
 const STRAYS: f32 = 0.25;
 /// Share of the sky's light that goes on as it came at each scattering in hair, and of what hair behind sends back: the rest strays to where less of
 /// the sky is seen. Fitted.
-pub const SKY_KEPT: f32 = 0.75;
+pub const SKY_KEPT: f32 = 0.65;
 /// Depth of hair without end (fibres).
 const ENDLESS: f32 = 100.0;
 /// Light of this variance along the hair (rad^2) goes to all inclinations, near enough.
