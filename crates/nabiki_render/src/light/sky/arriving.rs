@@ -94,6 +94,12 @@ impl SkyMap {
         (base, beyond)
     }
 
+    /// Whether a place lies in the box of cells.
+    pub(super) fn holds(&self, place: Vec3) -> bool {
+        let c = (place - self.low) / self.cell;
+        c.cmpge(Vec3::ZERO).all() && c.cmplt(self.size.as_vec3()).all()
+    }
+
     /// From the first of the eight cells about a place to those that begin a pair along x.
     #[inline(always)]
     pub(super) fn lines(&self) -> [usize; 4] {

@@ -21,10 +21,11 @@ pub struct OnSkin<'a> {
     kept: Vec<Kept>,
 }
 
-/// The light of the sky that arrives in a cell along all directions.
+/// The light of the sky that arrives in a cell along all directions, and whether it is that for places outside the box.
 #[derive(Clone, Copy)]
 struct Kept {
     cell: usize,
+    outside: bool,
     light: [f32; LANES],
 }
 
@@ -33,7 +34,7 @@ impl<'a> OnSkin<'a> {
         let of = |value: &dyn Fn(usize) -> f32| {
             std::array::from_fn(|n| if n < map.directions.len() { value(n) } else { 0.0 })
         };
-        let nothing = Kept { cell: usize::MAX, light: [0.0; LANES] };
+        let nothing = Kept { cell: usize::MAX, outside: false, light: [0.0; LANES] };
         Self {
             map,
             from: [0, 1, 2].map(|axis| of(&|n| map.directions[n].from[axis])),
@@ -47,11 +48,12 @@ impl<'a> OnSkin<'a> {
     pub fn at(&mut self, place: Vec3, normal: Vec3) -> [f32; 2] {
         let (base, beyond) = self.map.lattice(&place.to_array().map(|c| [c]));
         let base = base.map(|c| c[0] as usize);
+        let outside = !self.map.holds(place);
         let [_, row, slice, _] = self.map.lines();
         let kept_at: [usize; 8] = std::array::from_fn(|i| {
             let c = [base[0] + i % 2, base[1] + i / 2 % 2, base[2] + i / 4];
             let kept_at = c[0] % KEPT + KEPT * (c[1] % KEPT + KEPT * (c[2] % KEPT));
-            self.keep(kept_at, c[0] + row * c[1] + slice * c[2]);
+            self.keep(kept_at, (c, c[0] + row * c[1] + slice * c[2]), outside);
             kept_at
         });
         let (sky, corners) = (&*self, kept_at.map(|i| &self.kept[i]));
@@ -63,13 +65,17 @@ impl<'a> OnSkin<'a> {
         self.map.exchange.at(place, normal)
     }
 
-    /// Has a cell at one of the places where cells are kept.
-    fn keep(&mut self, place: usize, cell: usize) {
-        let kept = &mut self.kept[place];
-        if kept.cell != cell {
-            kept.cell = cell;
-            for (kept, light) in kept.light.iter_mut().zip(&self.map.carried) {
-                *kept = light[cell];
+    /// Has a cell, by its place in the box and its number, at one of the places where cells are kept. Places outside the box read the nearest cell, and
+    /// see the open sky where light comes into it: what skin outside takes there may be their own.
+    fn keep(&mut self, kept_at: usize, (c, cell): ([usize; 3], usize), outside: bool) {
+        let kept = &mut self.kept[kept_at];
+        if kept.cell != cell || kept.outside != outside {
+            (kept.cell, kept.outside) = (cell, outside);
+            let enters = |step: [i32; 3]| {
+                (0..3).any(|axis| !(0..self.map.size[axis] as i32).contains(&(c[axis] as i32 - step[axis])))
+            };
+            for ((kept, light), direction) in kept.light.iter_mut().zip(&self.map.carried).zip(&self.map.directions) {
+                *kept = if outside && enters(direction.step) { 1.0 } else { light[cell] };
             }
         }
     }
