@@ -71,7 +71,7 @@ pub struct SkyMap {
     /// What the head's and the bodies' cells send to each other; of which of them light is asked for, since they are among the hair or are
     /// seen by others, and the mean light that falls onto each.
     exchange: Exchange,
-    /// And what those outside the box do to the light that comes into it; they are given by their place in `skin`.
+    /// And what those outside the box do to the light that comes into it, by their number in the exchange.
     outside: Outside,
     numbers: Vec<u32>,
     skin: Vec<SkinCell>,
