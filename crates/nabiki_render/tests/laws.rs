@@ -218,9 +218,8 @@ fn nothing_is_brighter_than_the_even_sky_that_lights_it() {
     for strands in [0, 300, 6000] {
         let frame = draw(&picture, &wisps(strands, 12));
         let brightest = frame.rgba.iter().filter(|p| p[3] > 0.5).map(|p| p[1] / p[3]).fold(0.0, f32::max);
-        // What the eye's side sends and what comes from behind are weighted softly, so both count some light from beside a hair:
-        // among sparse hair over white skin, a twentieth.
-        assert!(brightest < 1.06 && brightest > 0.5, "{strands} strands: {brightest}");
+        // Skin that lights skin is summed in cells, which is good to a hundredth or two.
+        assert!(brightest < 1.02 && brightest > 0.5, "{strands} strands: {brightest}");
     }
 }
 

@@ -17,8 +17,8 @@ use super::kajiya::KajiyaKay;
 use super::lamps::Lamp;
 use super::shadow::Crossings;
 use super::sky::{
-    AT_ONCE, BEHIND_ABOVE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BELOW, FRONT_GLOW, NEARER, Places, SkyMap,
-    TOWARD_LAMPS,
+    AT_ONCE, BEHIND_ABOVE, BEHIND_BARE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BARE, FRONT_BELOW, FRONT_GLOW,
+    NEARER, Places, SkyMap, TOWARD_LAMPS,
 };
 use super::streams::{Medium, slab};
 use crate::camera::View;
@@ -33,7 +33,7 @@ const LANES: usize = 16;
 const STRAYS: f32 = 0.25;
 /// Share of the sky's light that goes on as it came at each scattering in hair, and of what hair behind sends back: the rest strays to where less of
 /// the sky is seen. Fitted.
-pub const SKY_KEPT: f32 = 0.65;
+pub const SKY_KEPT: f32 = 0.8;
 /// Depth of hair without end (fibres).
 const ENDLESS: f32 = 100.0;
 /// Light of this variance along the hair (rad^2) goes to all inclinations, near enough.
@@ -123,7 +123,7 @@ impl HairLight<'_> {
     /// What arrives of the sky: the first numbers of [`SkyMap::at`].
     #[inline(always)]
     fn sky_at<const N: usize>(&self, places: Option<&Places<N>>) -> [[f32; N]; AT_ONCE] {
-        let open = [[0.5; N], [0.5; N], [0.5; N], [0.5; N], [0.0; N], [0.0; N], [0.0; N], [0.0; N]];
+        let open = [[0.5; N], [0.5; N], [0.5; N], [0.5; N], [0.0; N], [0.0; N], [1.0; N], [1.0; N]];
         // A closure here, as a few below, would be compiled by itself, without vectors.
         match (self.sky_map, places) {
             (Some(map), Some(places)) => map.at(places, 0),
@@ -213,21 +213,22 @@ impl HairLight<'_> {
                 let (a, b) = (rows.forward[c][lane], rows.back[c][lane]);
                 let lost = (1.0 - SKY_KEPT * medium.forward[c][lane]).max(0.0);
                 // What hair in the way scatters forward arrives as well: on both sides as much more than what is open as the
-                // mean depth of the hair there says.
-                let more = |open: f32| {
-                    let open = open.clamp(1e-6, 1.0);
-                    (exp_of_negative(ln(open) * lost) / open).max(1.0)
-                };
+                // mean depth of the hair there says. What skin takes is gone.
+                let share = |open: f32, bare: f32| (open / bare.max(1e-6)).clamp(1e-6, 1.0);
+                let arrives = |share: f32| exp_of_negative(ln(share) * lost).max(share);
                 let colour = |above: f32, below: f32| self.sky.above[c] * above + self.sky.below[c] * below;
                 let (above, below) = (sky[FRONT_ABOVE][lane], sky[FRONT_BELOW][lane]);
-                let front = self.sky.strength * colour(above, below) * more(above + below)
+                let through = share(above + below, sky[FRONT_BARE][lane]);
+                let front = self.sky.strength * colour(above, below) * (arrives(through) / through)
                     + self.skin[c] * sky[FRONT_GLOW][lane];
                 let (above, below) = (sky[BEHIND_ABOVE][lane], sky[BEHIND_BELOW][lane]);
-                let gain = more(above + below);
-                let behind = self.sky.strength * colour(above, below) * gain + self.skin[c] * sky[BEHIND_GLOW][lane];
+                let through = share(above + below, sky[BEHIND_BARE][lane]);
+                let arriving = arrives(through);
+                let behind = self.sky.strength * colour(above, below) * (arriving / through)
+                    + self.skin[c] * sky[BEHIND_GLOW][lane];
                 // Where it is open behind there is no hair that sends back.
                 let of_those = (medium.whole[c][lane] - medium.back[c][lane]).max(0.0);
-                let again = SKY_KEPT * of_those * (1.0 - (above + below) * gain).max(0.0);
+                let again = SKY_KEPT * of_those * (1.0 - arriving);
                 // Fibres keep the inclination, so the light that they send back to the eye has come from the eye's side of hair seen
                 // across, and from behind hair that points at the eye: their cosine is 1 - 2 sin^2.
                 let from_behind = sin_eye[lane] * sin_eye[lane];

@@ -19,8 +19,8 @@ use nabiki::Mesh;
 use rayon::prelude::*;
 
 pub use self::arriving::{
-    AT_ONCE, BEHIND_ABOVE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BELOW, FRONT_GLOW, NEARER, Places,
-    TOWARD_LAMPS,
+    AT_ONCE, BEHIND_ABOVE, BEHIND_BELOW, BEHIND_BARE, BEHIND_GLOW, FRONT_ABOVE, FRONT_BARE, FRONT_BELOW, FRONT_GLOW,
+    NEARER, Places, TOWARD_LAMPS,
 };
 pub use self::on_skin::OnSkin;
 pub use self::skin_cells::SkinCell;
@@ -59,6 +59,10 @@ pub struct SkyMap {
     /// What each cell leaves of light that crosses it straight, and aslant.
     through: [Vec<f32>; 2],
     carried: Vec<Vec<f32>>,
+    /// The same of skin alone, as if there were no hair.
+    skin_depth: Vec<f32>,
+    through_skin: [Vec<f32>; 2],
+    bare: Vec<Vec<f32>>,
     /// Of each cell so many `parts`, each numbers that are read at once.
     arriving: Vec<Numbers>,
     parts: usize,
@@ -150,9 +154,12 @@ impl SkyMap {
         self.taken.resize(self.size.element_product() as usize, 0.0);
         self.lay_hair(nodes, radius);
         self.hair.clone_from(&self.taken);
+        self.skin_depth.clear();
+        self.skin_depth.resize(self.taken.len(), 0.0);
         for i in 0..self.skin.len() {
             if let Some(at) = self.index_of(&self.skin[i]) {
                 self.taken[at] += self.skin[i].depth;
+                self.skin_depth[at] += self.skin[i].depth;
             }
         }
         self.carry();
@@ -247,24 +254,28 @@ impl SkyMap {
         }
     }
 
-    /// Carries light along the lattice directions, one after the other, slice by slice.
+    /// Carries light along the lattice directions, one after the other, slice by slice: past hair and skin, and past the skin alone.
     fn carry(&mut self) {
-        let taken = &self.taken;
-        for (through, length) in self.through.iter_mut().zip([1.0, 3.0_f32.sqrt()]) {
-            through.resize(taken.len(), 0.0);
-            through.par_chunks_mut(8192).zip(taken.par_chunks(8192)).for_each(|(through, taken)| {
-                pulp::Arch::new().dispatch(Through { taken, length, through });
+        let (size, directions, outside) = (self.size, &self.directions, &self.outside);
+        let past = |taken: &[f32], all_through: &mut [Vec<f32>; 2], carried: &mut Vec<Vec<f32>>| {
+            for (through, length) in all_through.iter_mut().zip([1.0, 3.0_f32.sqrt()]) {
+                through.resize(taken.len(), 0.0);
+                through.par_chunks_mut(8192).zip(taken.par_chunks(8192)).for_each(|(through, taken)| {
+                    pulp::Arch::new().dispatch(Through { taken, length, through });
+                });
+            }
+            carried.resize_with(directions.len(), Vec::new);
+            let all_through = &*all_through;
+            carried.par_iter_mut().zip(directions).enumerate().for_each(|(n, (light, d))| {
+                light.clear();
+                light.resize(taken.len(), 1.0);
+                outside.take(n, light);
+                let through = &all_through[usize::from(d.is_aslant())];
+                pulp::Arch::new().dispatch(Carry::<false> { direction: d, size, through, light });
             });
-        }
-        self.carried.resize_with(self.directions.len(), Vec::new);
-        let (size, through, outside) = (self.size, &self.through, &self.outside);
-        self.carried.par_iter_mut().zip(&self.directions).enumerate().for_each(|(n, (light, d))| {
-            light.clear();
-            light.resize(taken.len(), 1.0);
-            outside.take(n, light);
-            let through = &through[usize::from(d.is_aslant())];
-            pulp::Arch::new().dispatch(Carry::<false> { direction: d, size, through, light });
-        });
+        };
+        past(&self.taken, &mut self.through, &mut self.carried);
+        past(&self.skin_depth, &mut self.through_skin, &mut self.bare);
     }
 
     /// Carries the light that skin sends out, likewise: it arrives in the skin's own cell and in the next, and goes on from there.
@@ -353,13 +364,19 @@ mod tests {
         let at = sky.at(&sky.places(&[[0.0, 0.0, 100.0], [0.0, 5.4, 100.0], [0.0, 0.0, 100.0]]), 0);
         let [middle, top, outside]: [[f32; TOWARD_LAMPS]; 3] =
             [0, 1, 2].map(|n| std::array::from_fn(|number| at[number][n]));
-        assert!(middle.iter().all(|&light| light < 0.05), "{middle:?}");
+        let arrives = |at: [f32; TOWARD_LAMPS]| at[..FRONT_GLOW].iter().sum::<f32>();
+        assert!(arrives(middle) < 0.05 && middle[FRONT_BARE] == 1.0 && middle[BEHIND_BARE] == 1.0, "{middle:?}");
         assert!(top[FRONT_ABOVE] > 0.35 && top[FRONT_ABOVE] > 2.0 * top[FRONT_BELOW], "{top:?}");
-        assert!(outside.iter().sum::<f32>() > 1.3, "{outside:?}");
+        assert!(arrives(outside) > 1.3, "{outside:?}");
         // Before the ball it is open toward the eye and closed behind; on its far side the other way round.
         let rims = [[5.4, -5.4], [0.0; 2], [0.0; 2]];
-        let [near, far] = [0, 1].map(|n| sky.at(&sky.places(&rims), 0).map(|number| number[n]));
-        let open = |at: [f32; AT_ONCE]| (at[FRONT_ABOVE] + at[FRONT_BELOW], at[BEHIND_ABOVE] + at[BEHIND_BELOW]);
+        let numbers = |sky: &SkyMap| -> [[f32; 2]; TOWARD_LAMPS + 1] {
+            let places = sky.places(&rims);
+            let at = [0, 1].map(|k| sky.at(&places, k)).concat();
+            std::array::from_fn(|number| at[number])
+        };
+        let [near, far] = [0, 1].map(|n| numbers(&sky).map(|number| number[n]));
+        let open = |at: [f32; TOWARD_LAMPS + 1]| (at[FRONT_ABOVE] + at[FRONT_BELOW], at[BEHIND_ABOVE] + at[BEHIND_BELOW]);
         assert!(open(near).0 > 0.6 && open(near).1 < 0.1, "{near:?}");
         assert!(open(far).0 < open(near).0 - 0.2 && open(far).1 > open(near).1 + 0.2, "{far:?}");
         // Toward a lamp at one side it is open there, and closed at the other.
@@ -367,7 +384,7 @@ mod tests {
         assert!(lit > 0.7 && shaded < 0.05, "{lit} {shaded}");
         // The other eye sees the same of the other side: the ball is the same to some hairs' places.
         let opposite = filled(180.0);
-        let opposite = opposite.at(&opposite.places(&rims), 0);
+        let opposite = numbers(&opposite);
         for (number, (near, far)) in near.into_iter().zip(far).enumerate().take(TOWARD_LAMPS) {
             assert!((opposite[number][1] - near).abs() < 0.03 && (opposite[number][0] - far).abs() < 0.03);
         }

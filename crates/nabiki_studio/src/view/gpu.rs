@@ -325,7 +325,7 @@ impl Gpu {
         );
         let open = texture(
             "open sky",
-            wgpu::TextureFormat::Rg16Float,
+            wgpu::TextureFormat::Rgba16Float,
             volume.size / 2,
             bytemuck::cast_slice(volume.open.as_flattened()),
         );

@@ -129,18 +129,23 @@ fn crossed(lamp: Lamp, depth: vec4f) -> f32 {
     return depth[lamp.channel];
 }
 
-// By how much more of the sky arrives than is open, since hair passes on a part a of it.
-fn gain(open: vec2f, a: vec3f) -> vec3f {
-    let part = clamp(0.5 * (open.x + open.y), 1e-6, 1.0);
-    return pow(vec3f(part), -g.sky_above.w * a);
+// What hair leaves of the sky's light, as a share: open is above, below, and of both without the hair.
+fn share(open: vec3f) -> f32 {
+    return clamp(0.5 * (open.x + open.y) / max(open.z, 1e-6), 1e-6, 1.0);
 }
 
-fn arrives(open: vec2f, a: vec3f) -> vec3f {
-    return 0.5 * (g.sky_above.rgb * open.x + g.sky_below.rgb * open.y) * gain(open, a);
+// The same with what it scatters forward, since hair passes on a part a.
+fn passed_on(share: f32, a: vec3f) -> vec3f {
+    return pow(vec3f(share), 1.0 - g.sky_above.w * a);
+}
+
+fn arrives(open: vec3f, a: vec3f) -> vec3f {
+    let part = share(open);
+    return 0.5 * (g.sky_above.rgb * open.x + g.sky_below.rgb * open.y) * passed_on(part, a) / part;
 }
 
 // The renderer's fibre and scattered light; see its light/shade.rs for the reasons. Behind every point there is hair without end here.
-fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec2f, behind: vec2f) -> vec3f {
+fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec3f, behind: vec3f) -> vec3f {
     let tilt = g.look.x + g.look.y * (of_strand(strand, 1u) + of_strand(strand, 2u) - 1.0);
     let grade = min(u32((of_strand(strand, 3u) + of_strand(strand, 4u)) * 0.5 * f32(GRADES)), GRADES - 1u);
     let se = clamp(dot(t, eye), -0.9995, 0.9995);
@@ -150,7 +155,7 @@ fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec2f,
     let b = row_at(grade, row, 1u);
     let rest = row_at(grade, row, 2u);
     let medium = mediums[grade];
-    let closed = max(1.0 - 0.5 * (behind.x + behind.y) * gain(behind, medium.forward), vec3f(0.0));
+    let closed = 1.0 - passed_on(share(behind), medium.forward);
     let again = g.sky_above.w * max(medium.whole - medium.back, vec3f(0.0)) * closed;
     let from_behind = arrives(behind, medium.forward);
     var light = mix(arrives(open, medium.forward), from_behind, se * se) * (b + again) + from_behind * a;
@@ -195,13 +200,13 @@ fn shade(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
     // Out of the cell that the hair itself fills: hair on the surface sees the lamp.
     let at = in_volume(p + outward_of(p) * 0.6 / g.volume_low.w);
     let depth = textureSampleLevel(hair_depth, between, at, 0.0);
-    let open = textureSampleLevel(sky_open, between, at, 0.0).xy;
+    let open = textureSampleLevel(sky_open, between, at, 0.0).xyz;
     // What passes through a fibre comes from behind: as open as it is there, and that by the hair's own depth once more.
-    let within = textureSampleLevel(sky_open, between, in_volume(p - eye), 0.0).xy;
+    let within = textureSampleLevel(sky_open, between, in_volume(p - eye), 0.0).xyz;
     let behind = within * within;
     var light: vec3f;
     if g.counts.w == 1u {
-        light = cylinder(p, t, eye, depth, open);
+        light = cylinder(p, t, eye, depth, open.xy);
     } else {
         light = fibre(p, t, eye, marks[i] >> 12u, depth, open, behind);
     }

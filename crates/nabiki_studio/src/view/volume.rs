@@ -20,6 +20,9 @@ const BORDER: f32 = 2.0;
 /// What skin takes of the sky's light in each full crossing of a cell, as the renderer has it.
 const SKIN: f32 = 4.0;
 
+/// A cell of the sky that nothing hides.
+const OPEN: [f16; 4] = [f16::ONE, f16::ONE, f16::ONE, f16::ZERO];
+
 /// What stands in the way of light.
 pub struct Casting<'a> {
     /// The points of the strands now (head space, cm).
@@ -51,15 +54,15 @@ pub struct Volume {
     pub size: UVec3,
     /// Hairs between each cell and each lamp, x fastest.
     pub depth: Vec<[f16; LAMPS]>,
-    /// Share of the sky above and of that below that arrives, in cells twice as wide.
-    pub open: Vec<[f16; 2]>,
+    /// Share of the sky above and of that below that arrives, in cells twice as wide, of all of it without the hair, and a 0.
+    pub open: Vec<[f16; 4]>,
 }
 
 impl Volume {
     /// One of so many cells in which nothing stands in the way of light.
     pub fn empty(size: UVec3) -> Self {
         let cells = |size: UVec3| size.element_product() as usize;
-        let (depth, open) = (vec![[f16::ZERO; LAMPS]; cells(size)], vec![[f16::ONE; 2]; cells(size / 2)]);
+        let (depth, open) = (vec![[f16::ZERO; LAMPS]; cells(size)], vec![OPEN; cells(size / 2)]);
         Self { low: Vec3::ZERO, cell: 1.0, size, depth, open }
     }
 }
@@ -118,20 +121,26 @@ impl VolumeMaker {
             }
         }
         let mut sky = hair.twice_as_wide();
-        let mut open = vec![[f16::ONE; 2]; sky.taken.len()];
+        let mut open = vec![OPEN; sky.taken.len()];
         if casting.occlusion {
             if self.skin_of != Some(wide) {
                 self.skin = skin_cells(head, wide);
                 self.skin_of = Some(wide);
             }
+            let mut bare = Cells { size: half, taken: vec![0.0; sky.taken.len()] };
             for &(at, taken) in &self.skin {
                 let c = at - first.as_ivec3();
                 if c.cmpge(IVec3::ZERO).all() && c.cmplt(half.as_ivec3()).all() {
                     let i = sky.index(c.as_uvec3());
                     sky.taken[i] += taken;
+                    bare.taken[i] += taken;
                 }
             }
-            sky.open(casting.zenith, &mut open);
+            let (all, without_hair) = (sky.open(casting.zenith), bare.open(casting.zenith));
+            for (open, ([above, below], bare)) in open.iter_mut().zip(all.into_iter().zip(without_hair)) {
+                let bare = 0.5 * (bare[0] + bare[1]);
+                *open = [f16::from_f32(above), f16::from_f32(below), f16::from_f32(bare), f16::ZERO];
+            }
         }
         Volume { low, cell, size, depth, open }
     }
@@ -245,7 +254,7 @@ impl Cells {
     }
 
     /// The share of the sky above and below that arrives in each cell, along fourteen lattice directions.
-    fn open(&self, zenith: Vec3, open: &mut [[f16; 2]]) {
+    fn open(&self, zenith: Vec3) -> Vec<[f32; 2]> {
         let directions: Vec<Vec3> = (0..27_i32)
             .map(|i| IVec3::new(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1))
             .filter(|d| matches!(d.length_squared(), 1 | 3))
@@ -256,14 +265,15 @@ impl Cells {
         let halves: Vec<[f32; 2]> =
             directions.iter().map(|d| d.dot(zenith)).map(|h| [0.5 + 0.5 * h, 0.5 - 0.5 * h]).collect();
         let all = halves.iter().fold([0.0, 0.0], |all, h| [all[0] + h[0], all[1] + h[1]]);
-        open.par_iter_mut().with_min_len(2048).enumerate().for_each(|(i, open)| {
+        let of_cell = |i: usize| {
             let mut sum = [0.0; 2];
             for (depth, half) in depths.iter().zip(&halves) {
                 let passed = (-depth[i]).exp();
                 sum = [sum[0] + half[0] * passed, sum[1] + half[1] * passed];
             }
-            *open = [f16::from_f32(sum[0] / all[0]), f16::from_f32(sum[1] / all[1])];
-        });
+            [sum[0] / all[0], sum[1] / all[1]]
+        };
+        (0..self.taken.len()).into_par_iter().with_min_len(2048).map(of_cell).collect()
     }
 }
 

@@ -24,10 +24,13 @@ pub const BEHIND_BELOW: usize = 3;
 /// The same of the light that skin sends back, in parts of what an even white surface under it would show.
 pub const FRONT_GLOW: usize = 4;
 pub const BEHIND_GLOW: usize = 5;
+/// Those means, above and below together, as they were without hair: skin takes what it takes.
+pub const FRONT_BARE: usize = 6;
+pub const BEHIND_BARE: usize = 7;
 /// From here on, for each lamp: how open the cell is about its direction, 0..1, and about the opposite one. Light that hair scatters strays
 /// from the lamp's direction, and finds ways that are shorter than the straight one where that goes along the hair's surface; what lies
 /// opposite sends it back.
-pub const TOWARD_LAMPS: usize = 6;
+pub const TOWARD_LAMPS: usize = 8;
 /// So much nearer to the eye (cm) than it lies a fibre reads: what the eye sees of a cell's hair lies on its near side. Fitted.
 pub const NEARER: f32 = 0.09;
 /// So many of a cell's numbers are read at once.
@@ -191,11 +194,11 @@ impl pulp::NullaryFnOnce for Sum<'_> {
                 (eye[0][lane], eye[1][lane], eye[2][lane]) = toward.into();
             }
             let mut sums = [[0.0_f32; LANES]; TOWARD_LAMPS];
-            for ((d, light), glow) in map.directions.iter().zip(&map.carried).zip(&map.glow) {
+            for (((d, light), glow), bare) in map.directions.iter().zip(&map.carried).zip(&map.glow).zip(&map.bare) {
                 let [above, below] = d.halves.map(|half| d.weight * half);
-                let (light, glow) = (lanes(light, first + skipped), lanes(glow, first + skipped));
+                let [light, glow, bare] = [light, glow, bare].map(|values| lanes(values, first + skipped));
                 for lane in 0..LANES {
-                    let (l, g) = (light[lane], glow[lane]);
+                    let (l, g, s) = (light[lane], glow[lane], bare[lane]);
                     let aside = eye[0][lane] * d.from.x + eye[1][lane] * d.from.y + eye[2][lane] * d.from.z;
                     // Each of mean 1 over all directions. What passes through a fibre goes on nearly straight.
                     let away = (1.0 - aside) * (1.0 - aside);
@@ -203,6 +206,8 @@ impl pulp::NullaryFnOnce for Sum<'_> {
                     let (front, behind) = (l * before, l * after);
                     sums[FRONT_GLOW][lane] += d.weight * g * before;
                     sums[BEHIND_GLOW][lane] += d.weight * g * after;
+                    sums[FRONT_BARE][lane] += d.weight * s * before;
+                    sums[BEHIND_BARE][lane] += d.weight * s * after;
                     sums[FRONT_ABOVE][lane] += above * front;
                     sums[FRONT_BELOW][lane] += below * front;
                     sums[BEHIND_ABOVE][lane] += above * behind;
@@ -210,9 +215,10 @@ impl pulp::NullaryFnOnce for Sum<'_> {
                 }
             }
             // What the eye sees of a cell lies on its near side: what comes from behind has to cross all of it.
-            let (taken, hair) = (lanes(&map.taken, first + skipped), lanes(&map.hair, first + skipped));
+            let [taken, hair, skin] = [&map.taken, &map.hair, &map.skin_depth].map(|of| lanes(of, first + skipped));
             for lane in 0..LANES {
                 sums[BEHIND_GLOW][lane] *= exp_of_negative(-hair[lane]);
+                sums[BEHIND_BARE][lane] *= exp_of_negative(-skin[lane]);
                 let own = exp_of_negative(-taken[lane]);
                 sums[BEHIND_ABOVE][lane] *= own;
                 sums[BEHIND_BELOW][lane] *= own;
