@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 
+use crate::error::SettingError;
+
 /// The first point that is NaN or infinite.
 ///
 /// Where all are finite, as they should be, this keeps up with the memory: no exponent is all ones, a greatest value
@@ -32,6 +34,19 @@ pub fn bounds(points: &[Vec3]) -> [Vec3; 2] {
         Vec3::from(numbers.fold([start; 3], |a, b| std::array::from_fn(|k| chosen(a[k], b[k]))))
     };
     [all(low, f32::INFINITY, &lower), all(high, f32::NEG_INFINITY, &higher)]
+}
+
+/// Refuses to cut so many strands into so many segments each that they have more points than [`Strands`] can count; `name` is
+/// where the number of segments was given.
+///
+/// # Errors
+/// Names the number of segments.
+pub fn check_points(name: &str, segments: usize, strands: usize) -> Result<(), SettingError> {
+    let points = segments.checked_add(1).and_then(|points| points.checked_mul(strands));
+    match points {
+        Some(points) if points <= u32::MAX as usize => Ok(()),
+        _ => Err(SettingError::new(name, segments, "more than 2^32 points in all: ask for fewer")),
+    }
 }
 
 /// The length of one strand, the sum of its segments' (in the unit of its points).
@@ -158,6 +173,15 @@ mod tests {
             points[i][i % 3] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY][i % 3];
             assert_eq!(not_finite(&points), Some(i));
         }
+    }
+
+    #[test]
+    fn as_many_points_as_32_bits_count_are_allowed_and_no_more() {
+        // 2^32 - 1 = 65,535 x 65,537.
+        assert_eq!(check_points("hair.segments", 65_536, 65_535), Ok(()));
+        let refused = check_points("hair.segments", 65_537, 65_535).unwrap_err();
+        assert_eq!(refused.to_string(), "hair.segments = 65537: more than 2^32 points in all: ask for fewer");
+        assert!(check_points("hair.segments", usize::MAX, 1).is_err());
     }
 
     #[test]

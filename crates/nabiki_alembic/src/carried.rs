@@ -9,6 +9,10 @@ use crate::property::Property;
 
 /// What an archive cannot keep of an attribute that is passed on, a phrase each.
 pub fn changes(other: &Other) -> Vec<String> {
+    if extent(other).is_none() {
+        let most = u8::MAX;
+        return vec![format!("{}: {} numbers a value, and Alembic has room for 1 to {most}", other.name, other.extent)];
+    }
     let list = (other.per == Per::Groom && !other.single && other.values.len() == other.extent)
         .then(|| format!("{} as a list of one value: it is that value there", other.name));
     // Of two numbers, texture coordinates are vectors, and of others the other way round.
@@ -22,8 +26,13 @@ pub fn changes(other: &Other) -> Vec<String> {
     type_change(other, stored(pod(kept(other))), other.role).into_iter().chain(role).chain(list).collect()
 }
 
-/// The property that holds it, without its value.
-pub fn property(other: &Other) -> Property {
+/// How many numbers make a value, where a header has room for it.
+fn extent(other: &Other) -> Option<u8> {
+    u8::try_from(other.extent).ok().filter(|&extent| extent > 0)
+}
+
+/// The property that holds it, without its value; `None` for values of more numbers than a property has.
+pub fn property(other: &Other) -> Option<Property> {
     let scope = match other.per {
         Per::Groom => "con",
         Per::Strand => "uni",
@@ -37,8 +46,8 @@ pub fn property(other: &Other) -> Property {
         (Role::Vector | Role::TextureCoordinate, _) => "vector",
         (Role::Normal, _) => "normal",
     };
-    let kind = Kind { pod: pod(kept(other)), extent: other.extent as u8 };
-    Property::attribute(&other.name, scope, interpretation, kind, 0)
+    let kind = Kind { pod: pod(kept(other)), extent: extent(other)? };
+    Some(Property::attribute(&other.name, scope, interpretation, kind, 0))
 }
 
 /// How its values are written: as they were stored, where they still fit.

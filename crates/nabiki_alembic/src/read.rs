@@ -321,7 +321,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
             let name = path.rsplit('/').next().unwrap_or_default().to_owned();
             let part = self.curves(object, time, segments, attributes);
             let (hair, world) = part.map_err(|e| Problem(format!("curves {path}: {e}")))?;
-            all.append(hair, world, (objects.len() > 1).then_some((group as i32, name)));
+            all.append(hair, world, (objects.len() > 1).then_some((group as i32, name)))?;
         }
         all.hair()
     }

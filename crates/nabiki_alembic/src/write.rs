@@ -8,7 +8,7 @@ use std::io;
 use std::path::Path;
 
 use glam::{Affine3A, Vec2, Vec3};
-use nabiki::hair::Attributes;
+use nabiki::hair::{Attributes, Other};
 use nabiki::strands::bounds;
 use nabiki::{Mesh, Strands};
 use nabiki_exchange::attributes::names;
@@ -264,7 +264,9 @@ impl Held<'_> {
 /// The geometry parameters. What was carried along goes before what is made here under the same name.
 fn parameters(more: &mut Held<'_>, export: &Export<'_>) -> io::Result<()> {
     let at = &export.hair.attributes;
-    let made = |name: &str| at.other.iter().all(|other| other.name != name);
+    let passed_on: Vec<(&Other, Property)> =
+        at.other.iter().filter_map(|other| Some((other, carried::property(other)?))).collect();
+    let made = |name: &str| passed_on.iter().all(|(other, _)| other.name != name);
     roots(more, at, &made)?;
     let points = export.hair.strands.points().len();
     let one_color = at.constant.colour.or(export.default_colour).map(|c| vec![c; points]);
@@ -283,7 +285,7 @@ fn parameters(more: &mut Held<'_>, export: &Export<'_>) -> io::Result<()> {
     if export.rest && made(names::REST) {
         more.by_point(names::REST, "point", POINT, bytemuck::cast_slice(&export.rest_points()))?;
     }
-    at.other.iter().try_for_each(|other| more.put(carried::property(other), &carried::bytes(other)))
+    passed_on.into_iter().try_for_each(|(other, property)| more.put(property, &carried::bytes(other)))
 }
 
 /// What strands have one of each: UVs of their roots, ids, groups, guides.

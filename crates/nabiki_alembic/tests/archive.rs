@@ -228,6 +228,23 @@ fn more_kinds_of_attributes_than_the_table_has_room_for_go_through() {
 }
 
 #[test]
+fn values_of_more_numbers_than_a_property_has_are_left_out_and_that_is_said() {
+    let mut hair = Hair::from(strands(0));
+    let of = |name: &str, extent: usize| {
+        let values = Values::Floats(vec![0.5; extent * hair.strands.len()]);
+        Other::new(name, Per::Strand, Role::Plain, extent, values)
+    };
+    // 256 and 300 are 0 and 44 in a byte.
+    hair.attributes.other = vec![of("a", 0), of("b", 255), of("c", 256), of("d", 300)];
+    let lost: Vec<String> = hair.attributes.other.iter().flat_map(nabiki_alembic::changes).collect();
+    let line = |name: &str, extent| format!("{name}: {extent} numbers a value, and Alembic has room for 1 to 255");
+    assert_eq!(lost, [line("a", 0), line("c", 256), line("d", 300)]);
+    let file = bytes(Export::new(&hair, 24.0), |_| Affine3A::IDENTITY);
+    let read = ArchiveReader::new(Cursor::new(&file)).unwrap().hair(0, None).unwrap();
+    assert_eq!(read.attributes.other, hair.attributes.other[1..2]);
+}
+
+#[test]
 fn hair_that_stands_still_is_stored_once() {
     let hair = Hair::from(strands(0));
     let folder = tempfile::tempdir().unwrap();

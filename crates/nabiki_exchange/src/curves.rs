@@ -6,6 +6,7 @@
 
 use glam::Vec3;
 use nabiki::Strands;
+use nabiki::strands::check_points;
 
 use crate::Problem;
 
@@ -83,7 +84,8 @@ impl Shape {
     /// points as they have control points. `points`: control points, curve after curve, root first.
     ///
     /// # Errors
-    /// A curve with too few control points for its basis, a number of segments that is 0; the text names the curve.
+    /// A curve with too few control points for its basis, the text names it; a number of segments that is 0, or so large that
+    /// all have more than 2^32 points.
     ///
     /// # Panics
     /// If the counts do not add up to the number of points.
@@ -91,6 +93,9 @@ impl Shape {
         assert_eq!(self.counts.iter().sum::<usize>(), points.len(), "counts and points");
         if segments == Some(0) {
             return Err(Problem::new("0 segments: a strand needs one at least"));
+        }
+        if let Some(segments) = segments {
+            check_points("segments", segments, self.counts.len()).map_err(|refused| Problem(refused.to_string()))?;
         }
         let pieces = self.counts.iter().enumerate().map(|(curve, &count)| {
             let pieces = self.pieces(count);
@@ -347,6 +352,14 @@ mod tests {
         assert_eq!(spline.strands.starts(), [0, 4, 9]);
         let refused = Shape { basis: Basis::Bezier, ..linear }.walk(points, None).unwrap_err();
         assert!(refused.0.starts_with("curve 1: 5 control"), "{refused}");
+    }
+
+    #[test]
+    fn more_points_than_strands_can_count_are_refused_before_any_is_made() {
+        let lines = Shape { counts: vec![2; 3], basis: Basis::Linear, pinned: false };
+        // 2^32 - 1 points are three times a third; each strand has a point more than segments.
+        let refused = lines.walk(vec![Vec3::X; 6], Some(u32::MAX as usize / 3)).unwrap_err();
+        assert_eq!(refused.0, "segments = 1431655765: more than 2^32 points in all: ask for fewer");
     }
 
     #[test]

@@ -20,7 +20,19 @@ pub struct Gathered {
 impl Gathered {
     /// Appends a part that lies below the transform `world_from_part`; `group` names it where it has no groups of its
     /// own. An attribute stays only if all parts have it, and is otherwise named among what is unread.
-    pub fn append(&mut self, mut part: Hair, world_from_part: Affine3A, group: Option<(i32, String)>) {
+    ///
+    /// # Errors
+    /// More points in all than strands can count.
+    pub fn append(
+        &mut self,
+        mut part: Hair,
+        world_from_part: Affine3A,
+        group: Option<(i32, String)>,
+    ) -> Result<(), Problem> {
+        let so_far = self.all.as_ref().map_or(0, |all| all.hair.strands.points().len());
+        if u32::try_from(so_far + part.strands.points().len()).is_err() {
+            return Err(Problem::new("has curves of more than 2^32 points in all: ask for fewer segments"));
+        }
         if let (Some((number, name)), None) = (group, &part.attributes.group) {
             part.attributes.group = Some(vec![number; part.strands.len()]);
             part.attributes.group_names = BTreeMap::from([(number, name)]);
@@ -28,7 +40,7 @@ impl Gathered {
         }
         let Some(mut all) = self.all.take() else {
             self.all = Some(InPlace { hair: part, world_from_hair: world_from_part });
-            return;
+            return Ok(());
         };
         if all.world_from_hair != world_from_part {
             if all.world_from_hair != Affine3A::IDENTITY {
@@ -39,6 +51,7 @@ impl Gathered {
         }
         join(&mut all.hair, part);
         self.all = Some(all);
+        Ok(())
     }
 
     /// The whole. Objects of one strand each, as some tools write them, are no groups.

@@ -140,7 +140,7 @@ impl Writer {
         if let Some((_, given)) = self.open {
             return refuse(format!("frame {frame}: {given} points, the cache is of {}", self.points));
         }
-        if !(head.position_cm.is_finite() && head.rotation.is_finite()) {
+        if !head.is_valid() {
             return refuse(format!("frame {frame}: the head is at {}, turned {}", head.position_cm, head.rotation));
         }
         let out = &mut self.file;
@@ -300,12 +300,15 @@ impl<R: std::io::Read + Seek> Reader<R> {
         self.source.seek(self.first_frame_at + frame * self.header.frame_bytes())?;
         let position_cm: Vec3 = self.source.value("head position")?;
         let rotation = Quat::from_array(self.source.value("head rotation")?);
+        let pose = Pose { position_cm, rotation };
         self.source.fill(strands.points_mut(), "points")?;
-        if !(position_cm.is_finite() && rotation.is_finite()) {
-            return Err(Error::new(format!("frame {frame}: the head's placement is not finite: the file is damaged")));
+        if !pose.is_valid() {
+            let line =
+                format!("the head is at {position_cm}, turned {rotation}, which is no pose: the file is damaged");
+            return Err(Error::new(format!("frame {frame}: {line}")));
         }
         finite::points(strands).map_err(|e| Error::new(format!("frame {frame}: {}", e.what)))?;
-        Ok(Pose { position_cm, rotation })
+        Ok(pose)
     }
 
     /// One frame as hair, with the attributes that the cache carries.

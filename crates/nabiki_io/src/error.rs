@@ -14,6 +14,8 @@ pub struct Error {
     pub line: Option<usize>,
     /// Thing, value and way out.
     pub what: String,
+    /// Whether `what` begins with the key of a setting, whose table a caller may know.
+    of_setting: bool,
     source: Option<io::Error>,
 }
 
@@ -21,11 +23,16 @@ pub struct Error {
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
 impl Error {
+    /// A refusal of, or for want of, a setting, with whose key it begins.
+    pub(crate) fn of_setting(what: impl Into<String>) -> Self {
+        Self { of_setting: true, ..Self::new(what) }
+    }
+
     /// A refusal of content.
     pub fn new(what: impl Into<String>) -> Self {
         // Messages of other crates may span lines; ours never do.
         let what = what.into().split_whitespace().collect::<Vec<_>>().join(" ");
-        Self { file: None, line: None, what, source: None }
+        Self { file: None, line: None, what, of_setting: false, source: None }
     }
 
     /// Names the file, unless a deeper caller has done so.
@@ -38,6 +45,14 @@ impl Error {
     pub fn under(mut self, thing: impl fmt::Display) -> Self {
         self.what = format!("{thing}: {}", self.what);
         self
+    }
+
+    /// Calls the setting that is refused, or wanted, by its whole name: `head.motion.up` below `head.motion`.
+    pub fn below(self, table: &str) -> Self {
+        if !self.of_setting {
+            return self;
+        }
+        Self { what: format!("{table}.{}", self.what), of_setting: false, ..self }
     }
 
     /// Names the line (from 1).
@@ -68,7 +83,13 @@ impl std::error::Error for Error {
 
 impl From<io::Error> for Error {
     fn from(source: io::Error) -> Self {
-        Self { what: Self::new(source.to_string()).what, source: Some(source), file: None, line: None }
+        Self {
+            what: Self::new(source.to_string()).what,
+            source: Some(source),
+            file: None,
+            line: None,
+            of_setting: false,
+        }
     }
 }
 

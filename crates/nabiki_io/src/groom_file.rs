@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use nabiki::Hair;
+use nabiki::strands::check_points;
 use nabiki_exchange::PrimKind;
 
 use crate::bytes::Bytes;
@@ -96,10 +97,9 @@ impl GroomFile {
             }
             Kind::Plain(_) => hair_file::from_source(&mut Bytes::open(path)?).map_err(named)?,
         };
-        Ok(match segments {
-            Some(segments) => hair.resampled(segments + 1),
-            None => hair,
-        })
+        let Some(segments) = segments else { return Ok(hair) };
+        check_points("segments", segments, hair.strands.len()).map_err(|refused| named(refused.into()))?;
+        Ok(hair.resampled(segments + 1))
     }
 
     /// Where the curves are, for a layer to be laid over them. `file`: the name that is remembered.

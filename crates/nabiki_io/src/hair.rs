@@ -166,7 +166,9 @@ pub fn losses(path: &Path, hair: &Hair) -> Result<Vec<String>> {
         Format::Hair => Ok(hair_file::losses(hair)),
         Format::Tfx => Ok(tfx::losses(hair)),
         Format::Usd | Format::Alembic => Ok(exchange::losses(path, hair)),
-        Format::ObjLines => Err(Error::new("hair is not written as .obj: write .hair or .tfx").in_file(path)),
+        Format::ObjLines => {
+            Err(Error::new("hair is not written as .obj: write .hair, .tfx, .usda, .usdc or .abc").in_file(path))
+        }
     }
 }
 

@@ -54,6 +54,7 @@ fn attributes_under_their_own_names_that_lie_are_refused() {
     assert!(refused(0, 2).ends_with("attribute clump: 3 numbers or words do not fit (1 a value, 3 strands, 9 points)"));
     assert!(refused(1, 6).ends_with("attribute other: a role beyond the sixth: the file is damaged"));
     assert!(refused(2, 4).ends_with("attribute other: values of an unknown kind: the file is damaged"));
+    assert!(refused(3, 0).ends_with("attribute other: values of no numbers: the file is damaged"));
     assert!(refused(3, u32::MAX).contains("attribute clump: 3 numbers or words do not fit (4294967295 a value"));
     assert!(refused(4, u32::MAX).ends_with("attribute other: a name longer than its block: the file is damaged"));
     let words = altered(numbers + 32, u32::MAX);
@@ -101,6 +102,27 @@ fn a_cache_cut_short_says_how_many_frames_it_holds() {
     let bytes = samples::cache_bytes();
     let error = Reader::from_bytes(&bytes[..bytes.len() - 1]).err().unwrap().to_string();
     assert!(error.contains("3 frames of 136 bytes from offset") && error.contains("(2 frames)"), "{error}");
+}
+
+#[test]
+fn a_rotation_of_another_length_than_1_is_neither_read_nor_written() {
+    let mut bytes = samples::cache_bytes();
+    // Of the last frame, of 28 + 12 x 9 bytes, behind the position.
+    let rotation = bytes.len() - 136 + 12;
+    bytes[rotation..rotation + 16].fill(0);
+    let mut reader = Reader::from_bytes(&bytes).unwrap();
+    let mut strands = reader.header().strands();
+    assert!(reader.read(1, &mut strands).is_ok());
+    let error = reader.read(2, &mut strands).unwrap_err().to_string();
+    assert!(error.contains("frame 2: the head is at") && error.ends_with("no pose: the file is damaged"), "{error}");
+
+    let folder = tempfile::tempdir().unwrap();
+    let hair = samples::hair(&[2]);
+    let path = folder.path().join("motion.nabiki");
+    let mut writer = Writer::create(&path, &Header::new(Default::default(), 24.0, &hair)).unwrap();
+    let flattened = nabiki::Pose { rotation: samples::pose(0).rotation * 0.5, ..samples::pose(0) };
+    let error = writer.push(&flattened, hair.strands.points()).unwrap_err().to_string();
+    assert!(error.contains("frame 0: the head is at"), "{error}");
 }
 
 // Frames of a turning head, whole and in parts of any size: the same file, which knows the box about all of them.

@@ -41,7 +41,7 @@ fn hair(counts: impl Strategy<Value = Vec<usize>>) -> impl Strategy<Value = Hair
 fn others(strands: usize, points: usize) -> impl Strategy<Value = Vec<Other>> {
     let per = prop_oneof![Just(Per::Groom), Just(Per::Strand), Just(Per::Point)];
     let roles = [Role::Plain, Role::Colour, Role::Point, Role::Vector, Role::Normal, Role::TextureCoordinate];
-    let other = (".*", per, proptest::sample::select(roles.to_vec()), 0usize..5, 0usize..3, 0usize..4);
+    let other = (".*", per, proptest::sample::select(roles.to_vec()), 1usize..5, 0usize..3, 0usize..4);
     let other = other.prop_flat_map(move |(name, per, role, extent, list, kind)| {
         let count = extent
             * match per {
@@ -100,11 +100,11 @@ proptest! {
             })
         }),
         scene: u128,
-        head in ([number(), number(), number()], [number(), number(), number(), number()]),
+        head in ([number(), number(), number()], [-1.0_f32..1.0, -1.0_f32..1.0, -1.0_f32..1.0, 0.1_f32..1.0]),
     ) {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("motion.nabiki");
-        let pose = Pose { position_cm: head.0.into(), rotation: Quat::from_array(head.1) };
+        let pose = Pose { position_cm: head.0.into(), rotation: Quat::from_array(head.1).normalize() };
         let header = Header::new(SceneId(scene), 23.976, &hair);
         let mut writer = Writer::create(&path, &header).unwrap();
         writer.push(&pose, hair.strands.points()).unwrap();

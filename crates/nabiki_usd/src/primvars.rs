@@ -160,6 +160,9 @@ pub struct Kind {
     pub extent: usize,
 }
 
+/// USD's longest vectors, and the sides of its largest matrices.
+const MOST_PARTS: usize = 4;
+
 /// What a type is made of: `color3f` is three floats that make a colour. `None` for a type that is not read.
 pub fn kind(type_name: &str) -> Option<Kind> {
     use Stored::{Bool, F16, F32, F64, I32, I64, Text, Token, U8, U32, U64};
@@ -169,7 +172,10 @@ pub fn kind(type_name: &str) -> Option<Kind> {
         "int64" | "uint64" => (type_name, ""),
         _ => type_name.split_at(split),
     };
-    let extent: usize = rest.trim_end_matches(['f', 'h', 'd']).parse().unwrap_or(1);
+    let extent = match rest.trim_end_matches(['f', 'h', 'd']) {
+        "" => 1,
+        digits => digits.parse::<usize>().ok().filter(|extent| (1..=MOST_PARTS).contains(extent))?,
+    };
     let precision = match rest.chars().last() {
         Some('d') => F64,
         Some('h') => F16,

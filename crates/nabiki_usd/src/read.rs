@@ -272,7 +272,7 @@ impl GroomReader for StageReader {
             let part = part.map_err(|e| Problem(format!("curves {}: {e}", self.layer.path(prim))))?;
             let name = self.layer.prims[prim].name.clone();
             let world = transform::world(&mut self.layer, prim, time)?.as_mat4();
-            all.append(part, Affine3A::from_mat4(world), (prims.len() > 1).then_some((group as i32, name)));
+            all.append(part, Affine3A::from_mat4(world), (prims.len() > 1).then_some((group as i32, name)))?;
         }
         all.hair()
     }

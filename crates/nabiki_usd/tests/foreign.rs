@@ -212,6 +212,18 @@ fn what_a_groom_carries_goes_through_and_what_does_not_is_named() {
 }
 
 #[test]
+fn types_of_more_parts_than_usd_has_are_not_read() {
+    for name in ["float0", "float5", "half256", "int300", "matrix5d", "matrix4294967296d", "color99999999999999f"] {
+        let indexed = format!("{name}[] primvars:stiffness = [0.25, 0.5]\nint[] primvars:stiffness:indices = [1, 0]");
+        let text = CARRIED.replace("float primvars:stiffness = 0.25 ( interpolation = \"constant\" )", &indexed);
+        let at = reader(text).hair(0, None).unwrap().attributes;
+        assert!(at.other.iter().all(|other| other.name != "stiffness"), "{name}");
+        let said = "stiffness, which is of a kind that is not read";
+        assert!(at.unread.iter().any(|line| line == said), "{name}: {:?}", at.unread);
+    }
+}
+
+#[test]
 fn types_of_what_is_passed_on_stay() {
     let hair = reader(CARRIED).hair(0, None).unwrap();
     let folder = tempfile::tempdir().unwrap();

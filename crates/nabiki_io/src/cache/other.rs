@@ -52,6 +52,9 @@ pub(super) fn bytes(other: &Other) -> Result<Vec<u8>> {
         Values::Integers(_) => INTEGERS,
         Values::Words(_) => WORDS,
     };
+    if other.extent == 0 {
+        return Err(Error::new(format!("attribute {}: values of no numbers: one at least", other.name)));
+    }
     let (extent, name) = (whole(other.extent, "an extent")?, whole(other.name.len(), "a name")?);
     let mut out = Vec::new();
     let stored = STORED.iter().position(|&stored| stored == other.stored).map_or(0, |at| at as u32 + 1);
@@ -82,6 +85,9 @@ pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, length: u64, strands: 
     let [per, role, kind, extent, name_bytes, stored]: [u32; 6] = source.value("attribute other")?;
     let per = *PER.get(per as usize).ok_or_else(|| damaged("of neither groom, strands nor points"))?;
     let role = *ROLES.get(role as usize).ok_or_else(|| damaged("a role beyond the sixth"))?;
+    if extent == 0 {
+        return Err(damaged("values of no numbers"));
+    }
     let name_room = u64::from(name_bytes).next_multiple_of(8);
     let left = (length - HEAD_BYTES).checked_sub(name_room).ok_or_else(|| damaged("a name longer than its block"))?;
     let mut name: Vec<u8> = source.array(name_room as usize, "attribute name")?;
@@ -96,7 +102,7 @@ pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, length: u64, strands: 
     };
     let (extent, found) = (extent as usize, values.len());
     let fits = match per {
-        Per::Groom => found.is_multiple_of(extent.max(1)),
+        Per::Groom => found.is_multiple_of(extent),
         Per::Strand => extent.checked_mul(strands) == Some(found),
         Per::Point => extent.checked_mul(points) == Some(found),
     };

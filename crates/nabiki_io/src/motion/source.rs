@@ -13,31 +13,31 @@ use crate::kind::extension;
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MotionSource {
-    /// A .bvh, .amc, .tof, .glb, .gltf, .abc, .usda or .usdc file, or a .csv with the columns t_s, px_m, py_m, pz_m, qx,
-    /// qy, qz, qw.
+    /// A .bvh, .amc, .tof, .glb, .gltf, .abc, .usd, .usda or .usdc file, or a .csv with the columns t_s, px_m, py_m, pz_m (or
+    /// _cm, _mm), qx, qy, qz, qw.
     pub file: PathBuf,
     /// File of the skeleton that the motion moves: the .asf of an .amc, the .tof with the skeleton of a .tof animation.
     /// Others have none.
     pub skeleton: Option<PathBuf>,
     /// Joint, bone or node that carries the head (default "Head"; capitals do not count). Not used for .csv.
     pub node: String,
-    /// Animation of a .glb by name; may stay empty where there is one only.
+    /// Animation of a .glb or .gltf by name; may stay empty where there is one only.
     pub clip: String,
-    /// Length of the file's unit (cm). Needed for .bvh, .tof and .abc; .glb is in metres unless said here, .amc in
+    /// Length of the file's unit (cm). Needed for .bvh, .tof and .abc; .glb and .gltf are in metres unless said here, .amc in
     /// inches times the `length` of its .asf; .csv and USD name their own.
     pub unit_cm: Option<f64>,
-    /// Up axis of the file's world. Needed for .bvh, .amc, .tof and .csv; +y in .glb and .abc; USD names its own.
+    /// Up axis of the file's world. Needed for .bvh, .amc, .tof and .csv; +y in .glb, .gltf and .abc; USD names its own.
     pub up: Option<Axis>,
-    /// Axis of the file's world that the character faces while the joint is unturned. Needed but for .glb:
-    /// +z in that, whose node is unturned as the file's still pose has it. A bone of an .amc is unturned as the .asf
+    /// Axis of the file's world that the character faces while the joint is unturned. Needed but for .glb and .gltf:
+    /// +z in those, whose node is unturned as the file's still pose has it. A bone of an .amc is unturned as the .asf
     /// has it, a joint of a .tof where its axes are the world's.
     pub facing: Option<Axis>,
     /// Samples a second. Needed for an .amc, which seldom says; all others say it themselves.
     pub frames_per_second: Option<f64>,
-    /// Samples dropped at the start (a T-pose, say; default 0). Not for .glb.
+    /// Samples dropped at the start (a T-pose, say; default 0). Not for .glb and .gltf.
     pub skip: usize,
     /// How positions between two samples are found (default cubic). Rotations turn at a constant rate (slerp). Not for
-    /// .glb, whose channels say it themselves.
+    /// .glb and .gltf, whose channels say it themselves.
     pub positions: Interpolation,
     /// How fast the motion is played, 0.01..100: 0.25 takes four times as long (default 1).
     pub speed: f64,
@@ -120,7 +120,7 @@ impl MotionSource {
             (self.positions != Interpolation::Cubic && is_clip, "positions"),
         ];
         match useless.into_iter().find(|&(given, _)| given) {
-            Some((_, key)) => Err(Error::new(format!("{key} has no effect on a .{ending} file: remove it"))),
+            Some((_, key)) => Err(Error::of_setting(format!("{key} has no effect on a .{ending} file: remove it"))),
             None => Ok(()),
         }
     }
@@ -128,5 +128,5 @@ impl MotionSource {
 
 /// A setting that a scene must give, since a file of this kind does not.
 pub(super) fn asked(key: &str, example: &str) -> Error {
-    Error::new(format!("{key} is not in the file: give {key} = {example} in the scene"))
+    Error::of_setting(format!("{key} is not in the file: give {key} = {example} in the scene"))
 }

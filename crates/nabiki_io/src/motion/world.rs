@@ -46,11 +46,11 @@ impl WorldFromFile {
         let up = up.ok_or_else(|| asked("up", "\"+y\""))?;
         let facing = facing.ok_or_else(|| asked("facing", "\"+z\""))?;
         if !(unit_cm.is_finite() && unit_cm > 0.0) {
-            return Err(Error::new(format!("unit_cm = {unit_cm}: must be a finite number above 0")));
+            return Err(Error::of_setting(format!("unit_cm = {unit_cm}: must be a finite number above 0")));
         }
         let (y, x) = (up.vector(), facing.vector());
         if y.dot(x) != 0.0 {
-            return Err(Error::new(format!("up = {up} and facing = {facing}: must be normal to each other")));
+            return Err(Error::of_setting(format!("up = {up} and facing = {facing}: must be normal to each other")));
         }
         let file_from_world = DQuat::from_mat3(&glam::DMat3::from_cols(x, y, x.cross(y)));
         Ok(Self { rotation: file_from_world.inverse(), unit_cm, up, facing })

@@ -280,9 +280,13 @@ impl<R: Read + Seek> CrateReader<R> {
             let bytes = self.bytes(place + skip, 4)?;
             (u64::from(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])), place + skip + 4)
         };
-        // Values that are not packed are read against the file's size.
-        if count > most_integers(self.size) {
-            return Err(Problem(format!("claims {count} elements at byte {place}, more than it can hold")));
+        // Packed numbers that are all alike take next to nothing. But they are of curves, of points or of the corners of meshes, and
+        // points are not packed: each takes six bytes at least, and about a vertex of a closed mesh six corners lie.
+        if count > self.size {
+            let size = self.size;
+            return Err(Problem(format!(
+                "claims {count} elements at byte {place}, more than a file of {size} bytes has"
+            )));
         }
         Ok((count as usize, start))
     }
@@ -428,4 +432,33 @@ fn paths(table: &mut Table) -> Result<Vec<Node>, Problem> {
 
 fn number(bytes: &[u8]) -> u64 {
     u64::from_le_bytes(bytes[..8].try_into().expect("eight bytes"))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use super::super::integers::pack_integers;
+    use super::*;
+
+    #[test]
+    fn an_array_has_no_more_elements_than_its_file_has_bytes() {
+        const COUNT: usize = 4096;
+        let packed = pack_integers(&[7; COUNT]);
+        let mut bytes = vec![0; HEADER];
+        bytes.extend((COUNT as u64).to_le_bytes());
+        bytes.extend((packed.len() as u64).to_le_bytes());
+        bytes.extend(packed);
+        let read = |size: usize| {
+            let mut bytes = bytes.clone();
+            bytes.resize(size, 0);
+            let (tokens, strings) = (Vec::new(), Vec::new());
+            let mut reader =
+                CrateReader { from: Cursor::new(bytes), size: size as u64, version: [0, 8, 0], tokens, strings };
+            reader.integers(Rep::array(types::INT, HEADER as u64).0 | Rep::COMPRESSED)
+        };
+        assert_eq!(read(COUNT).unwrap(), [7; COUNT]);
+        let refused = read(COUNT - 1).unwrap_err().to_string();
+        assert_eq!(refused, "claims 4096 elements at byte 88, more than a file of 4095 bytes has");
+    }
 }

@@ -209,7 +209,7 @@ impl<'a> Scanner<'a> {
 
     /// Passes over brackets and all that is in them. Parentheses in a list are left to whoever reads its values: most
     /// of a file is lists of points.
-    pub fn skip_brackets(&mut self) -> Result<(), Problem> {
+    fn skip_brackets(&mut self) -> Result<(), Problem> {
         let mut open: Vec<u8> = Vec::new();
         loop {
             let in_list = open.last() == Some(&b'[');
