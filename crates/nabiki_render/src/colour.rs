@@ -38,6 +38,11 @@ fn albedo_depth(b: f32) -> f32 {
     5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + b * 0.245))))
 }
 
+/// How light a colour is: its luminance, by the weights of Rec. 709.
+pub fn luminance([r, g, b]: [f32; 3]) -> f32 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}
+
 /// A number in 0..1 that belongs to a strand and a purpose, evenly spread (a mix of bits by multiplication and shift).
 pub fn of_strand(strand: u32, purpose: u32) -> f32 {
     let mut h = strand.wrapping_mul(0x9E37_79B1) ^ purpose.wrapping_mul(0x85EB_CA77);

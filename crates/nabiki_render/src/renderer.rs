@@ -12,7 +12,7 @@ use seen::Seen;
 
 use crate::RenderError;
 use crate::camera::View;
-use crate::colour;
+use crate::colour::{self, luminance};
 use crate::curve::{Curves, bounds, drawable};
 use crate::frame::Frame;
 use crate::lens::{Spread, Subject};
@@ -352,9 +352,8 @@ impl Renderer {
         rayon::join(cover, cast);
         if occluded {
             let crossings: Vec<&Crossings> = self.sweeps.iter().map(|s| &s.crossings).collect();
-            let white = |colour: [f32; 3]| 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
             // The head's colour is that of all light from skin: a body counts as much more or less as it is lighter or darker.
-            let as_head = |solid: u16| white(self.skins[usize::from(solid)]) / white(self.skins[0]).max(1e-3);
+            let as_head = |solid: u16| luminance(self.skins[usize::from(solid)]) / luminance(self.skins[0]).max(1e-3);
             let sky = &self.picture.sky;
             let first = nodes.len() + still.skin_places.len();
             self.sky_map.gather((nodes, &self.lit), view, &still.lamps, |open, i, skin| {
@@ -368,11 +367,12 @@ impl Renderer {
                     let hair = crossings.get(l).map_or(1.0, |c| exp_of_negative(-c.at(first + i)));
                     let solid =
                         still.solid_shadows.get(l).map_or(1.0, |s| s.visible(&place.to_array().map(|c| [c]))[0]);
-                    lit += white(lamp.strength) * facing * hair * solid;
+                    lit += luminance(lamp.strength) * facing * hair * solid;
                 }
                 let up = 0.5 + 0.5 * skin.normal.dot(self.zenith);
                 let [above, below] = open.at(skin.place + 0.9 * skin.normal, skin.normal);
-                let sky = sky.strength * (white(sky.above) * up * above + white(sky.below) * (1.0 - up) * below);
+                let sky =
+                    sky.strength * (luminance(sky.above) * up * above + luminance(sky.below) * (1.0 - up) * below);
                 (lit + sky) * as_head(skin.solid)
             });
         }

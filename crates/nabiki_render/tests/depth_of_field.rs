@@ -233,4 +233,12 @@ fn lenses_that_cannot_be_are_refused_in_a_line() {
     let mut renderer = Renderer::new(&within, &octahedron()).unwrap();
     let error = renderer.draw(&FrameToDraw::at_rest(&upright(0.0), view(&within))).unwrap_err().to_string();
     assert!(error.contains("give a distance") && error.lines().count() == 1, "{error}");
+
+    // A head blurred by 55 picture heights, whose light would take a picture a hundred times as wide.
+    let mut lost = picture(Some(0.1));
+    lost.camera.focus_distance = Some(1.0);
+    let mut renderer = Renderer::new(&lost, &octahedron()).unwrap();
+    let error = renderer.draw(&FrameToDraw::at_rest(&upright(0.0), view(&lost))).unwrap_err().to_string();
+    assert!(error.starts_with("picture.camera.f_stop = 0.1: with all sharp at 1 cm"), "{error}");
+    assert!(error.contains("set picture.camera.focus_distance") && error.lines().count() == 1, "{error}");
 }

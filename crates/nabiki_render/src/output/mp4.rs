@@ -20,9 +20,7 @@ pub(super) struct Track {
 
 impl Track {
     pub fn new(size: [u16; 2], frame_rate: f64) -> Self {
-        // The usual video clock, which 24, 25, 30, 50 and 60 frames a second divide.
-        let timescale = 90_000;
-        let frame_ticks = (f64::from(timescale) / frame_rate).round() as u32;
+        let [timescale, frame_ticks] = clock(frame_rate);
         Self { size, timescale, frame_ticks, sequence_set: vec![], picture_set: vec![], sizes: vec![], sync: vec![] }
     }
 
@@ -71,21 +69,28 @@ impl Track {
 
     fn index(&self, frames_at: u64) -> Vec<u8> {
         let count = self.sizes.len() as u32;
-        let ticks = count * self.frame_ticks;
+        let ticks = u64::from(count) * u64::from(self.frame_ticks);
         let [width, height] = self.size;
         let matrix = [0x1_0000_u32, 0, 0, 0, 0x1_0000, 0, 0, 0, 0x4000_0000];
 
-        let mvhd = Body::full(0, 0)
-            .words(&[0, 0, self.timescale, ticks, 0x1_0000])
+        // Version 1, whose times and durations have 64 bits: 32 are half a day of the usual clock, and less of a finer one.
+        let mvhd = Body::full(1, 0)
+            .longs(&[0, 0])
+            .words(&[self.timescale])
+            .longs(&[ticks])
+            .words(&[0x1_0000])
             .bytes(&[1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0])
             .words(&matrix)
             .words(&[0; 6])
             .words(&[2]);
-        let tkhd = Body::full(0, 3)
-            .words(&[0, 0, 1, 0, ticks, 0, 0, 0, 0])
+        let tkhd = Body::full(1, 3)
+            .longs(&[0, 0])
+            .words(&[1, 0])
+            .longs(&[ticks])
+            .words(&[0; 4])
             .words(&matrix)
             .words(&[u32::from(width) << 16, u32::from(height) << 16]);
-        let mdhd = Body::full(0, 0).words(&[0, 0, self.timescale, ticks]).bytes(&[0x55, 0xC4, 0, 0]);
+        let mdhd = Body::full(1, 0).longs(&[0, 0]).words(&[self.timescale]).longs(&[ticks]).bytes(&[0x55, 0xC4, 0, 0]);
         let hdlr = Body::full(0, 0).words(&[0]).bytes(b"vide").words(&[0, 0, 0]).bytes(b"video\0");
         let vmhd = Body::full(0, 1).words(&[0, 0]);
         let dref = Body::full(0, 0).words(&[1]).bytes(&boxed(b"url ", &Body::full(0, 1).0));
@@ -96,7 +101,7 @@ impl Track {
         let stss = Body::full(0, 0).words(&[self.sync.len() as u32]).words(&self.sync);
         let stsc = Body::full(0, 0).words(&[1, 1, count, 1]);
         let stsz = Body::full(0, 0).words(&[0, count]).words(&self.sizes);
-        let co64 = Body::full(0, 0).words(&[1]).bytes(&frames_at.to_be_bytes());
+        let co64 = Body::full(0, 0).words(&[1]).longs(&[frames_at]);
         let stbl = [
             boxed(b"stsd", &stsd.0),
             boxed(b"stts", &stts.0),
@@ -141,6 +146,19 @@ impl Track {
     }
 }
 
+/// Ticks a second and ticks a frame, whose quotient is the frame rate (1..240 a second) to a millionth of it.
+fn clock(frame_rate: f64) -> [u32; 2] {
+    // The usual video clock, where frames are whole ticks of it, as 24, 25, 30, 50 and 60 a second are. Elsewhere, as for
+    // 23.976, so many ticks a frame that what is rounded is less than a millionth.
+    const USUAL: f64 = 90_000.0;
+    const FINE: f64 = 1e6;
+    let ticks = (USUAL / frame_rate).round();
+    if (frame_rate * ticks / USUAL - 1.0).abs() < 1e-9 {
+        return [USUAL as u32, ticks as u32];
+    }
+    [(frame_rate * FINE).round() as u32, FINE as u32]
+}
+
 /// The units of an Annex B stream, without their start codes and trailing zeros.
 fn units(stream: &[u8]) -> impl Iterator<Item = &[u8]> {
     let starts: Vec<usize> =
@@ -163,6 +181,11 @@ impl Body {
 
     fn words(mut self, words: &[u32]) -> Self {
         self.0.extend(words.iter().flat_map(|w| w.to_be_bytes()));
+        self
+    }
+
+    fn longs(mut self, longs: &[u64]) -> Self {
+        self.0.extend(longs.iter().flat_map(|l| l.to_be_bytes()));
         self
     }
 
@@ -209,5 +232,28 @@ mod tests {
         let co64 = file.windows(4).position(|w| w == b"co64").unwrap();
         let frames_at = u64::from_be_bytes(file[co64 + 12..co64 + 20].try_into().unwrap()) as usize;
         assert_eq!(&file[frames_at..], [0, 0, 0, 3, 0x65, 7, 7, 0, 0, 0, 2, 0x41, 8]);
+    }
+
+    #[test]
+    fn ticks_a_second_by_ticks_a_frame_are_the_frame_rate() {
+        for rate in [0.5, 1.0, 1.0005, 12.3456, 23.976, 24.0, 29.97, 59.94, 60.0, 119.88, 239.999, 240.0, 1000.0] {
+            let [timescale, frame_ticks] = clock(rate).map(f64::from);
+            assert!((timescale / frame_ticks / rate - 1.0).abs() < 1e-6, "{rate}: {timescale} / {frame_ticks}");
+        }
+        assert_eq!([24.0, 25.0, 30.0, 60.0].map(clock), [3750, 3600, 3000, 1500].map(|ticks| [90_000, ticks]));
+    }
+
+    #[test]
+    fn a_movie_of_a_day_is_as_long_as_its_frames() {
+        let mut track = Track::new([16, 16], 1.0);
+        track.sizes = vec![0; 86_400];
+        let index = track.index(0);
+        // In boxes of version 1, behind kind, version and flags and two times: how far behind them the duration stands.
+        for (kind, further) in [(b"mvhd", 4), (b"tkhd", 8), (b"mdhd", 4)] {
+            let body = index.windows(4).position(|w| w == kind).unwrap() + 4;
+            assert_eq!(index[body], 1, "version");
+            let duration = &index[body + 4 + 16 + further..][..8];
+            assert_eq!(u64::from_be_bytes(duration.try_into().unwrap()), 86_400 * 90_000);
+        }
     }
 }

@@ -17,6 +17,7 @@ use super::mp4::Track;
 use super::png::Still;
 use super::{create_part, write_whole};
 use crate::RenderError;
+use crate::colour::luminance;
 use crate::frame::Frame;
 use crate::settings::Picture;
 use crate::tone_mapping::{ToneMapping, threshold};
@@ -233,7 +234,7 @@ fn planes([width, height]: [usize; 2], pixel: impl Fn(usize, usize) -> [u16; 3] 
             let mut differences = [0.0; 2];
             for (dy, dx) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let [r, g, b] = pixel(x + dx, 2 * pair + dy).map(|value| f32::from(value) / 65535.0);
-                let y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+                let y = luminance([r, g, b]);
                 luma[dy * width + x + dx] = (16.0 + 219.0 * y + threshold(x + dx, 2 * pair + dy)) as u8;
                 differences[0] += (b - y) / 1.8556;
                 differences[1] += (r - y) / 1.5748;

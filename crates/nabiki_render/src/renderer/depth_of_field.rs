@@ -5,6 +5,7 @@
 //! mean is the same for any number of them.
 
 use glam::Vec3;
+use nabiki::SettingError;
 use rayon::prelude::*;
 
 use super::compose::Drawing;
@@ -21,6 +22,10 @@ use crate::raster::bins::Bins;
 use crate::shutter::{Exposure, Shot};
 use crate::skin::{LitSkin, SkinPixel, SkinView};
 use crate::timing::Stage;
+
+/// The widest circle of confusion of skin that is drawn (radius, picture heights): skin is lit that far beyond every edge of
+/// the picture.
+const MOST_BLUR: f32 = 3.0;
 
 impl Renderer {
     /// Draws through this many points of a lens, instead of as many as its blur asks for.
@@ -41,6 +46,7 @@ impl Renderer {
         let mut exposure = Exposure::new(&frame, self.picture.shutter)?;
         let shot = exposure.shot;
         let skin = self.extent_of_skin(&shot);
+        self.check_blur(skin.blur, &shot.middle)?;
         // Wide enough for all that the points see past the picture's edges.
         let border = skin.blur.ceil() as u32;
         exposure.shot = shot.seen(|view| View { size: view.size.map(|side| side + 2 * border), ..*view });
@@ -97,6 +103,21 @@ impl Renderer {
             if shows { Extent { blur, beside } } else { Extent::default() }
         };
         positions.par_iter().enumerate().map(of).reduce(Extent::default, Extent::both)
+    }
+
+    /// Refuses a lens that blurs skin by so many pixels that what its points see is too large to be drawn.
+    fn check_blur(&self, blur: f32, view: &View) -> Result<(), SettingError> {
+        let heights = blur / view.size[1] as f32;
+        if heights <= MOST_BLUR {
+            return Ok(());
+        }
+        let f_stop = self.picture.camera.f_stop.map_or_else(|| "none".to_owned(), |f_stop| f_stop.to_string());
+        let focus = view.lens.and_then(|lens| lens.focus).unwrap_or_default();
+        let remedy = format!(
+            "with all sharp at {focus} cm the skin that is seen is blurred by {heights:.1} picture heights, and {MOST_BLUR} are the \
+             most that is drawn: make it larger, or set picture.camera.focus_distance to where the head is"
+        );
+        Err(SettingError::new("picture.camera.f_stop", f_stop, remedy))
     }
 
     /// The radius of the widest circle of confusion of lit hair on the picture (pixels), whose nodes were found `border` pixels off.

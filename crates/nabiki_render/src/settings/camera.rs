@@ -39,8 +39,8 @@ pub struct Camera {
     /// not turn with it. Default: the middle of what is framed.
     pub target: Option<Vec3>,
     /// How far the lens is opened, for perspective: its focal length over its diameter, as photographers count it (0.1..128). Small numbers
-    /// blur much. The focal length is that of a picture 24 mm high on the sensor with this `fov`: 52 mm for 26 degrees. Default:
-    /// a pinhole, all is sharp.
+    /// blur much; skin blurred by more than 3 picture heights is refused. The focal length is that of a picture 24 mm high on the sensor
+    /// with this `fov`: 52 mm for 26 degrees. Default: a pinhole, all is sharp.
     pub f_stop: Option<f32>,
     /// From the eye to the plane that is sharp, along the axis of view (cm, 1 to a million). Default: the side of the head that the
     /// camera sees.

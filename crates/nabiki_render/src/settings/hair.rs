@@ -19,7 +19,11 @@ pub enum Shading {
 
 /// The colour of hair: a name, amounts of pigment, or the colour that a mass of it shows.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case")]
+#[serde(
+    rename_all = "kebab-case",
+    rename_all_fields = "kebab-case",
+    expecting = "a name, as \"brown\", or { melanin = { eumelanin = 1.3, pheomelanin = 0.2 } } or { rgb = [r, g, b] }"
+)]
 pub enum HairColour {
     /// `colour = "black"`
     Black,

@@ -89,9 +89,9 @@ impl Light {
 pub struct Sky {
     /// Strength: an unhidden white surface is as bright as this, 0..1000. Default 0.24.
     pub strength: f32,
-    /// Colour of the light from straight above (linear, 0..1).
+    /// Colour of the light from straight above (linear, 0..1). Default `[0.93, 0.97, 1]`.
     pub above: [f32; 3],
-    /// Colour of the light from straight below (linear, 0..1).
+    /// Colour of the light from straight below (linear, 0..1). Default `[0.55, 0.5, 0.47]`.
     pub below: [f32; 3],
     /// Whether hair and head hide the sky from what lies within. Default true.
     pub occlusion: bool,

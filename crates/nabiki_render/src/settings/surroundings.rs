@@ -12,7 +12,7 @@ use super::check_colour;
 pub struct HeadLook {
     /// Whether the head is drawn; it hides hair behind it and throws shadows all the same. Default true.
     pub visible: bool,
-    /// Its colour (sRGB, 0..1). Default a neutral skin, dull enough to leave the eye to the hair.
+    /// Its colour (sRGB, 0..1). Default `[0.56, 0.44, 0.37]`, a neutral skin, dull enough to leave the eye to the hair.
     pub colour: [f32; 3],
     /// How far light creeps past the terminator, as in skin, 0..1. Default 0.2.
     pub softness: f32,
@@ -47,7 +47,7 @@ impl HeadLook {
 pub struct BodyLook {
     /// Whether it is drawn. What is not shown hides nothing and throws no shadow. Default true.
     pub shown: bool,
-    /// Its colour (sRGB, 0..1). Default a grey that is no skin.
+    /// Its colour (sRGB, 0..1). Default `[0.42, 0.46, 0.5]`, a grey that is no skin.
     pub colour: [f32; 3],
 }
 
@@ -71,9 +71,9 @@ impl BodyLook {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Background {
-    /// Colour at the top edge (sRGB as displayed, 0..1).
+    /// Colour at the top edge (sRGB as displayed, 0..1). Default `[0.36, 0.38, 0.41]`.
     pub top: [f32; 3],
-    /// Colour at the bottom edge (sRGB as displayed, 0..1).
+    /// Colour at the bottom edge (sRGB as displayed, 0..1). Default `[0.2, 0.21, 0.23]`.
     pub bottom: [f32; 3],
     /// Leave it out: alpha 0 where there is neither hair nor head. Default false.
     pub transparent: bool,

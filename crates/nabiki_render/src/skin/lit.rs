@@ -93,7 +93,7 @@ impl<'a> LitSkin<'a> {
             return None;
         }
         let of = |&i: &u32| (i as usize, self.pixels[i as usize].position.distance_squared(position));
-        self.pieces[(y * width + x) as usize]
+        self.pieces[y as usize * width as usize + x as usize]
             .iter()
             .filter(|&&i| i != NONE && self.pixels[i as usize].solid == solid)
             .map(of)
