@@ -10,7 +10,7 @@ use crate::distance::SkinDistance;
 use crate::error::SettingError;
 use crate::head::Head;
 use crate::mesh::Mesh;
-use crate::pose::Pose;
+use crate::pose::{Pose, check_poses};
 use crate::strands::bounds;
 
 /// How hair and a body touch.
@@ -83,20 +83,14 @@ impl BodyWay {
                 format!("the scene goes on to frame {frames}: make motion.frames smaller, or the motion longer");
             return Err(SettingError::new(format!("{name}.motion"), format!("{} frames", poses.len()), remedy));
         }
-        match poses.iter().position(|pose| !pose.is_valid()) {
-            None => Ok(()),
-            Some(n) => {
-                let remedy = "must be a finite position (cm) and a rotation of length 1";
-                Err(SettingError::new(format!("{name}.motion frame {n}"), format!("{:?}", poses[n]), remedy))
-            }
-        }
+        check_poses(&format!("{name}.motion"), poses)
     }
 }
 
 /// Something that hair does not enter.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// What a scene calls it, `head` or `body[0]`.
+    /// What a scene calls the table of its contact: `contact` for the head, `body[0]`.
     pub name: String,
     /// The distance to its skin, in its own space (cm).
     pub distance: Arc<SkinDistance>,
@@ -220,6 +214,7 @@ impl PartialEq for Body {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name
             && Arc::ptr_eq(&self.distance, &other.distance)
+            && self.filled.as_ref().map(Arc::as_ptr) == other.filled.as_ref().map(Arc::as_ptr)
             && self.way == other.way
             && self.contact == other.contact
     }
@@ -276,5 +271,12 @@ mod tests {
             let (_, clearance) = body.kept_from(Vec3::new(0.0, 1.05 * half, 0.0));
             assert!((0.0..=body.contact.margin).contains(&clearance), "{half} cm: {clearance}");
         }
+    }
+
+    #[test]
+    fn a_head_without_its_folds_filled_is_another_body() {
+        let filled = Body::head(&boxed(9.0), Contact::default());
+        assert_eq!(filled, filled.clone());
+        assert_ne!(filled, Body { filled: None, ..filled.clone() });
     }
 }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::Body;
 use crate::dynamics::{Dynamics, gain};
 use crate::error::{SettingError, check_positive, check_range};
-use crate::pose::Pose;
+use crate::pose::{Pose, check_poses};
 use crate::profile::Profile;
 use crate::strands::Strands;
 
@@ -177,10 +177,7 @@ impl FreeMotion {
     pub fn check(&self, frames: u32) -> Result<(), SettingError> {
         self.form.check()?;
         self.bodies.iter().try_for_each(|body| body.check(frames))?;
-        if !self.rest_pose.is_valid() {
-            let remedy = "must be a finite position (cm) and a rotation of length 1";
-            return Err(SettingError::new("head.motion frame 0", format!("{:?}", self.rest_pose), remedy));
-        }
+        check_poses("head.motion", &[self.rest_pose])?;
         match &self.neighbours {
             None => Ok(()),
             Some(Neighbours { forces, carriers }) => {

@@ -60,19 +60,11 @@ pub struct Growth<'a> {
 /// If a setting is out of its range, or the hairline leaves nothing of the scalp.
 pub fn grow(head: &Head, growth: &Growth<'_>, shown: usize) -> Result<Hair, SettingError> {
     let roots = roots::spread_first(head, growth.hairline, growth.strands, shown, growth.seed)?;
-    grow_from(head, growth, &roots)
+    grow_run(head, growth, &roots, 0)
 }
 
-/// The same from roots that are there already: the first of those that [`roots::spread_first`] gives for this hairline,
-/// number and seed. Another style does not move them.
-///
-/// # Errors
-/// As [`groom()`].
-pub fn grow_from(head: &Head, growth: &Growth<'_>, roots: &[Root]) -> Result<Hair, SettingError> {
-    grow_run(head, growth, roots, 0)
-}
-
-/// The same of a run of those roots that begins with number `first` of the order.
+/// The same from roots that are there already, a run of those that [`roots::spread_first`] gives for this hairline, number and
+/// seed, which begins with number `first` of the order. Another style does not move them.
 ///
 /// # Errors
 /// As [`groom()`].

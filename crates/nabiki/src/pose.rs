@@ -2,6 +2,8 @@
 
 use glam::{Affine3A, Quat, Vec3};
 
+use crate::error::SettingError;
+
 /// Where the head is in one frame: world = `rotation` head + `position_cm`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
@@ -38,6 +40,17 @@ impl Pose {
     /// Takes points of head space into the world (cm).
     pub fn world_from_head(&self) -> Affine3A {
         Affine3A::from_rotation_translation(self.rotation, self.position_cm)
+    }
+}
+
+/// Refuses poses that are none, one a frame; `name` is what the way through them is called.
+pub(crate) fn check_poses(name: &str, poses: &[Pose]) -> Result<(), SettingError> {
+    match poses.iter().position(|pose| !pose.is_valid()) {
+        None => Ok(()),
+        Some(n) => {
+            let remedy = "must be a finite position (cm) and a rotation of length 1";
+            Err(SettingError::new(format!("{name} frame {n}"), format!("{:?}", poses[n]), remedy))
+        }
     }
 }
 

@@ -31,6 +31,9 @@ pub struct Root {
 
 /// Candidates for each root asked for: with more the spacing gains little, with fewer it shows.
 const CANDIDATES: usize = 5;
+/// Roots that can be spread at most: their candidates are counted in 32 bits.
+pub const MOST_ROOTS: usize = 800_000_000;
+const _: () = assert!(MOST_ROOTS <= u32::MAX as usize / CANDIDATES);
 /// Places drawn at most for each candidate kept; a hairline that keeps less leaves no scalp to speak of.
 const TRIES: u64 = 64;
 
@@ -39,11 +42,22 @@ const LARGE: f32 = 0.1;
 /// So far below the hairline, in its unit, a corner still counts: farther than a small triangle reaches.
 const BELOW: f32 = 0.15;
 
+/// Refuses more roots than can be spread.
+///
+/// # Errors
+/// Names `hair.strands`.
+pub fn check_count(count: usize) -> Result<(), SettingError> {
+    if count <= MOST_ROOTS {
+        return Ok(());
+    }
+    Err(SettingError::new("hair.strands", count, format!("must be at most {MOST_ROOTS}: grow less")))
+}
+
 /// Spreads `count` roots evenly within `hairline`, in farthest-first order; the same `seed` gives the same roots to the
 /// bit.
 ///
 /// # Errors
-/// If the hairline is out of range, or leaves nothing of the scalp.
+/// If the hairline is out of range, or leaves nothing of the scalp; more than [`MOST_ROOTS`].
 pub fn spread(head: &Head, hairline: &Hairline, count: usize, seed: u64) -> Result<Vec<Root>, SettingError> {
     spread_first(head, hairline, count, count, seed)
 }
@@ -60,6 +74,7 @@ pub fn spread_first(
     seed: u64,
 ) -> Result<Vec<Root>, SettingError> {
     hairline.check()?;
+    check_count(count)?;
     let bald = || SettingError::new("hair.hairline", "no scalp", "leaves hardly a place for hair: widen it");
     let scalp = Scalp::new(head, hairline);
     if scalp.upto.is_empty() {

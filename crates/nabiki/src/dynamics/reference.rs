@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::{Dynamics, Form, FrameInput, Stepper, free, paper};
 use crate::error::SettingError;
 use crate::field::Field;
+use crate::scalar::Vector;
 use crate::strands::Strands;
 
 /// The f64 scalar stepper, twin of [`Simulation`](super::Simulation).
@@ -52,6 +53,18 @@ impl Reference {
             Twin::Paper(twin) => twin.positions(),
             Twin::Free(twin) => twin.positions(),
         }
+    }
+}
+
+/// Shows where the strands of a twin are: `points` in f64, and rounded as the points of `strands`.
+pub(super) fn publish<'a>(
+    points: impl Iterator<Item = &'a Vector<f64>>,
+    positions: &mut [DVec3],
+    strands: &mut Strands,
+) {
+    for ((position, point), p) in positions.iter_mut().zip(strands.points_mut()).zip(points) {
+        *position = p.value();
+        *point = position.as_vec3();
     }
 }
 

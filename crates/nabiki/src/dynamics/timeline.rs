@@ -16,7 +16,7 @@ use super::sweep::Pages;
 use super::{Dynamics, FrameInput, VectorWidth};
 use crate::error::SettingError;
 use crate::field::Field;
-use crate::pose::Pose;
+use crate::pose::{self, Pose};
 use crate::strands::Strands;
 
 /// Hair, what moves it, and the frames from rest to the last.
@@ -298,11 +298,5 @@ fn check_poses(poses: &[Pose], frames: u32) -> Result<(), SettingError> {
         );
         return Err(SettingError::new("motion.frames", frames, remedy));
     }
-    match poses.iter().position(|pose| !pose.is_valid()) {
-        None => Ok(()),
-        Some(n) => {
-            let remedy = "must be a finite position (cm) and a rotation of length 1";
-            Err(SettingError::new(format!("head.motion frame {n}"), format!("{:?}", poses[n]), remedy))
-        }
-    }
+    pose::check_poses("head.motion", poses)
 }

@@ -3,11 +3,10 @@
 use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
-use super::head_track::check_poses;
 use super::{Field, check_at_least_0};
 use crate::dynamics::ForceSpace;
 use crate::error::SettingError;
-use crate::pose::Pose;
+use crate::pose::{Pose, check_poses};
 use crate::smoothing::{self, smoothed};
 
 /// The settings of the wind from the head's own motion, uniform in space.
@@ -59,7 +58,7 @@ impl BodyWindField {
     /// Settings out of range, poses that are none, a rate that is not above 0.
     pub fn new(settings: &BodyWind, poses: &[Pose], frame_rate: f64, space: ForceSpace) -> Result<Self, SettingError> {
         settings.check()?;
-        check_poses(poses)?;
+        check_poses("pose of", poses)?;
         if !(frame_rate.is_finite() && frame_rate > 0.0) {
             let remedy = "must be a finite number of frames a second, above 0";
             return Err(SettingError::new("motion.frame_rate", frame_rate, remedy));

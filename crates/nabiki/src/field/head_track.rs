@@ -4,7 +4,7 @@ use glam::{Mat3, Vec3};
 
 use crate::ellipsoid::Ellipsoid;
 use crate::error::SettingError;
-use crate::pose::Pose;
+use crate::pose::{Pose, check_poses};
 
 /// The head ellipsoid on its way through the space of the field.
 #[derive(Clone, Debug)]
@@ -29,7 +29,7 @@ impl HeadTrack {
     /// An ellipsoid or a pose that is none.
     pub fn new(ellipsoid: Ellipsoid, poses: &[Pose]) -> Result<Self, SettingError> {
         ellipsoid.check("head.ellipsoid")?;
-        check_poses(poses)?;
+        check_poses("pose of", poses)?;
         let still = [Pose::STILL];
         let poses = if poses.is_empty() { &still } else { poses };
         let place = |pose: &Pose| Place {
@@ -47,16 +47,5 @@ impl HeadTrack {
     /// The centre of the ellipsoid in a frame.
     pub fn center(&self, frame: u32) -> Vec3 {
         Vec3::from_array(self.place(frame).center)
-    }
-}
-
-/// Refuses poses that are none.
-pub(super) fn check_poses(poses: &[Pose]) -> Result<(), SettingError> {
-    match poses.iter().position(|pose| !pose.is_valid()) {
-        None => Ok(()),
-        Some(n) => {
-            let remedy = "a pose is a finite place and a rotation";
-            Err(SettingError::new(format!("pose of frame {n}"), format!("{:?}", poses[n]), remedy))
-        }
     }
 }

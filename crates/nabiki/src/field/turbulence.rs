@@ -29,7 +29,8 @@ use crate::vector::{cross, dot, scale, scale_add, subtract};
 pub struct Turbulence {
     /// Root mean square of |F| over space, far from the head, at least 0 (default 30).
     pub strength: f32,
-    /// Size of the largest swirls (cm), half of the wavelengths that they are made of, 0.01..1e6 (default 10).
+    /// Size of the largest swirls (cm), half of the wavelengths that they are made of, 0.01..1e6 (default 10). Those of the last
+    /// octave must be as large as 0.01, too.
     pub swirl_size: f32,
     /// Frames in which a swirl turns into its opposite and back, about; 0: swirls drift and never change (default 48).
     /// Without drift the whole pattern comes again after 16 times as many.
@@ -70,6 +71,9 @@ impl Default for Turbulence {
 impl Turbulence {
     /// Most octaves: the eighth is 1/128 of the first.
     const MOST_OCTAVES: u32 = 8;
+    /// Size of the smallest swirls of any octave (cm): 600 m from the origin their wavelengths are still counted to the whole
+    /// (see `waves`).
+    const FINEST_CM: f32 = 0.01;
 
     /// Refuses what is out of its range.
     ///
@@ -77,12 +81,18 @@ impl Turbulence {
     /// Names the first such setting.
     pub fn check(&self) -> Result<(), SettingError> {
         check_strength("turbulence.strength", self.strength)?;
-        check_range("turbulence.swirl_size", self.swirl_size, 0.01, 1e6)?;
+        check_range("turbulence.swirl_size", self.swirl_size, Self::FINEST_CM, 1e6)?;
         check_at_least_0("turbulence.pulse_length", self.pulse_length, "number of frames")?;
         check_range("turbulence.roughness", self.roughness, 0.0, 1.0)?;
         if !(1..=Self::MOST_OCTAVES).contains(&self.octaves) {
             let remedy = format!("must lie in 1..{}", Self::MOST_OCTAVES);
             return Err(SettingError::new("turbulence.octaves", self.octaves, remedy));
+        }
+        let least = Self::FINEST_CM * (1_u32 << (self.octaves - 1)) as f32;
+        if self.swirl_size < least {
+            let remedy =
+                format!("must be at least {least} with {} octaves: take larger swirls or fewer octaves", self.octaves);
+            return Err(SettingError::new("turbulence.swirl_size", self.swirl_size, remedy));
         }
         check_at_least_0("turbulence.drift", self.drift, "length (cm a frame and unit of force)")?;
         check_at_least_0("turbulence.near_head", self.near_head, "distance (cm)")?;

@@ -2,7 +2,7 @@ use std::sync::LazyLock;
 
 use glam::Vec3;
 
-use super::{Hairline, Root, spread, spread_first};
+use super::{Hairline, MOST_ROOTS, Root, spread, spread_first};
 use crate::Head;
 
 static BUST: LazyLock<Head> = LazyLock::new(Head::builtin);
@@ -40,6 +40,12 @@ fn roots_lie_on_the_skin_and_point_out_of_it() {
         assert!((root.normal.length() - 1.0).abs() < 1e-5);
         assert!(BUST.outward(root.position).dot(root.normal) > 0.95);
     }
+}
+
+#[test]
+fn more_roots_than_their_candidates_can_be_counted_are_refused_by_name() {
+    let refused = spread_first(&BUST, &Hairline::default(), MOST_ROOTS + 1, 1, 1).unwrap_err();
+    assert_eq!(refused.to_string(), "hair.strands = 800000001: must be at most 800000000: grow less");
 }
 
 #[test]

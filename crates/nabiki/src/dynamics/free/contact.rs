@@ -8,7 +8,7 @@ use crate::dynamics::FrameInput;
 use crate::dynamics::row::{LANES, PointRow};
 
 /// Times that a segment is turned along the gradient before another way is tried.
-pub(in crate::dynamics) const PUSHES: usize = 6;
+pub(in crate::dynamics) const PUSHES: usize = 7;
 
 /// Directions that are tried from there to the gradient where no turn along it is found.
 pub(in crate::dynamics) const FAN: usize = 4;
@@ -164,12 +164,13 @@ impl Obstacle {
         best
     }
 
-    /// Turns a segment out along the gradient until its end keeps its clearance; how deep it then is.
+    /// Turns a segment out along the gradient until its end keeps its clearance; how deep it then is, or was before the last
+    /// turn where no turn was enough.
     #[inline]
     fn pushed_from(&self, skin: &SkinDistance, mut direction: Vec3, touch: &Touch) -> (Vec3, f32) {
         let &Touch { from, length, clearance, .. } = touch;
         let mut depth = 0.0;
-        for _ in 0..=PUSHES {
+        for _ in 0..PUSHES {
             let end = from + length * direction;
             let Some(reading) = skin.read(self.in_body(end)) else { return (direction, 0.0) };
             depth = clearance - reading.distance();

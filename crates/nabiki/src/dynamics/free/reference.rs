@@ -10,6 +10,7 @@ use super::grid::Crowd;
 use super::head_frame::{HeadFrame, weight};
 use crate::dynamics::air::Breeze;
 use crate::dynamics::gain::check_field;
+use crate::dynamics::reference::publish;
 use crate::dynamics::{Dynamics, FrameInput, Stepper};
 use crate::error::SettingError;
 use crate::field::Field;
@@ -141,10 +142,6 @@ impl Hair {
     }
 
     fn publish(&mut self) {
-        let points = self.hair.iter().flat_map(Strand::positions);
-        for ((position, point), p) in self.positions.iter_mut().zip(self.strands.points_mut()).zip(points) {
-            *position = p.value();
-            *point = position.as_vec3();
-        }
+        publish(self.hair.iter().flat_map(Strand::positions), &mut self.positions, &mut self.strands);
     }
 }

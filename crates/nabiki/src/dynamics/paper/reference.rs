@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::polar::PolarAxis;
 use crate::dynamics::air::Breeze;
 use crate::dynamics::gain::check_field;
+use crate::dynamics::reference::publish;
 use crate::dynamics::{Dynamics, FrameInput, Stepper};
 use crate::error::SettingError;
 use crate::field::Field;
@@ -49,11 +50,7 @@ impl Reference {
     }
 
     fn publish(&mut self) {
-        let points = self.hair.iter().flat_map(Strand::positions);
-        for ((position, point), p) in self.positions.iter_mut().zip(self.strands.points_mut()).zip(points) {
-            *position = p.value();
-            *point = position.as_vec3();
-        }
+        publish(self.hair.iter().flat_map(Strand::positions), &mut self.positions, &mut self.strands);
     }
 }
 

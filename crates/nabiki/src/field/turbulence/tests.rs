@@ -99,6 +99,24 @@ proptest! {
     }
 }
 
+// The smallest swirls that are allowed, 50 m from the origin, where the head may go: the force is what is said of it.
+#[test]
+fn the_smallest_swirls_stay_below_the_bound_far_from_the_origin() {
+    let settings = Turbulence { swirl_size: 1.28, octaves: 8, roughness: 1.0, ..Turbulence::default() };
+    for near_head in [0.0, 4.0] {
+        let field = field(&Turbulence { near_head, ..settings.clone() });
+        for i in 0..2000 {
+            let p = Vec3::new(0.618_034, 0.754_878, 0.569_840) * (i as f32 + 0.5);
+            let way = (2.0 * p.fract() - 1.0).normalize_or(Vec3::X);
+            let force = field.at(5000.0 * way, i);
+            assert!(force.is_finite() && force.length() <= field.strongest(), "{way}: {force}");
+        }
+    }
+    let below = Turbulence { swirl_size: 1.27, ..settings };
+    let refused = below.check().unwrap_err().to_string();
+    assert!(refused.starts_with("turbulence.swirl_size = 1.27: must be at least 1.28 with 8 octaves"), "{refused}");
+}
+
 #[test]
 fn its_root_mean_square_is_the_strength_in_every_direction() {
     // Means over points a swirl and more apart of a box of 1000 cm, over seeds.

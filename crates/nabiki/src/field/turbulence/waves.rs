@@ -30,7 +30,8 @@ const LARGEST_PROFILE: f64 = 1.02;
 /// Pulses after which every wave is as it was.
 pub(super) const LOOP: f64 = 16.0;
 
-/// Adding it to a number up to 2^22 rounds that to a whole one.
+/// Adding it to a number up to 2^22 rounds that to a whole one. Wavelengths are 1.6 times as long as the smallest swirls at least,
+/// which settings keep from being so small that more are counted within 600 m.
 const ROUND: f32 = 12_582_912.0;
 
 /// A wave, but for its phase.

@@ -123,11 +123,12 @@ impl<'a> Obstacle<'a> {
         best
     }
 
-    /// Turns a segment out along the gradient until its end keeps its clearance; how deep it then is.
+    /// Turns a segment out along the gradient until its end keeps its clearance; how deep it then is, or was before the last
+    /// turn where no turn was enough.
     fn pushed_from<S: Scalar>(&self, mut direction: Vector<S>, touch: &Touch<S>) -> (Vector<S>, f64) {
         let &Touch { from, length, clearance, .. } = touch;
         let mut depth = 0.0;
-        for _ in 0..=PUSHES {
+        for _ in 0..PUSHES {
             let end = from + direction.times(length);
             let Some((distance, normal)) = self.read(end, touch.surface) else { return (direction, 0.0) };
             let inside = S::from(clearance) - distance;
