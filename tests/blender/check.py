@@ -2,6 +2,7 @@
 
     python3 tests/blender/check.py                  builds the wheel and the extension, makes its own environment, tests
     python3 tests/blender/check.py --wheel FILE     the same with a wheel that is built already
+    python3 tests/blender/check.py --nabiki COMMAND with a command that is built already
     python3 tests/blender/check.py --bpy PYTHON     with another Python, one that has bpy: Blender 4.2, 4.5, 5.0 and 5.2 are known to do
 
 bpy comes from PyPI into target/interchange, where tests/interchange/check.py has it; where it cannot be had this says SKIPPED and
@@ -57,6 +58,7 @@ def valid(python, archive):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--wheel", type=Path, help="a wheel that is built already")
+    parser.add_argument("--nabiki", type=Path, help="a command that is built already")
     parser.add_argument("--bpy", type=Path, help="a Python that has the package bpy")
     parser.add_argument("tests", nargs="*", help="names of tests; all of them without any")
     arguments = parser.parse_args()
@@ -73,13 +75,14 @@ def main():
     build = module(ROOT / "integrations" / "blender" / "build.py")
     archive = build.build([(arguments.wheel or wheel()).resolve()], WORK)
     valid(python, archive)
-    run("cargo", "build", "--quiet", "--release", "-p", "nabiki_cli")
+    if not arguments.nabiki:
+        run("cargo", "build", "--quiet", "--release", "-p", "nabiki_cli")
 
     user = WORK / "user"
     for old in [user, WORK / "tests"]:
         shutil.rmtree(old, ignore_errors=True)
     user.mkdir(parents=True)
-    nabiki = ROOT / "target" / "release" / "nabiki"
+    nabiki = (arguments.nabiki or ROOT / "target" / "release" / "nabiki").resolve()
     shared = ROOT / ".." / "shared" / "data"
     # Nothing of the user's own Blender is read or written.
     places = {"BLENDER_USER_RESOURCES": str(user), "PYTHONDONTWRITEBYTECODE": "1"}

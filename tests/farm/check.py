@@ -35,11 +35,10 @@ def run(*command, **options):
     return subprocess.run([str(word) for word in command], check=True, cwd=ROOT, **options)
 
 
-def build(debug):
+def build():
     """The command, built now."""
-    run("cargo", "build", "--quiet", *([] if debug else ["--release"]), "-p", "nabiki_cli")
-    target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
-    return target / ("debug" if debug else "release") / "nabiki"
+    run("cargo", "build", "--quiet", "--release", "-p", "nabiki_cli")
+    return Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release" / "nabiki"
 
 
 def environment():
@@ -118,9 +117,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--slurm", action="store_true", help="submit to the Slurm of this machine, too")
     parser.add_argument("--nabiki", type=Path, help="the command, built already")
-    parser.add_argument("--debug", action="store_true", help="build without optimisation")
     arguments = parser.parse_args()
-    nabiki = arguments.nabiki or build(arguments.debug)
+    nabiki = arguments.nabiki or build()
     WORK.mkdir(parents=True, exist_ok=True)
     openjd = environment()
 

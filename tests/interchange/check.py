@@ -1,6 +1,7 @@
 """Opens what Nabiki writes with tools that are not Nabiki's, and takes hair through every pair of formats.
 
     python3 tests/interchange/check.py                  builds, makes its own environment, checks
+    python3 tests/interchange/check.py --nabiki COMMAND with a command that is built already, and examples/interchange beside it
     python3 tests/interchange/check.py --bpy PYTHON     the Blender part with another Python, one that has bpy
 
 usd-core, alembic3d and numpy come from PyPI into target/interchange. Blender comes along as the package bpy where there
@@ -175,22 +176,24 @@ def there_and_back(nabiki, samples):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bpy", type=Path, help="a Python that has the package bpy")
-    parser.add_argument("--debug", action="store_true", help="build without optimisation")
+    parser.add_argument("--nabiki", type=Path, help="a command that is built already, and examples/interchange beside it")
     arguments = parser.parse_args()
 
     WORK.mkdir(parents=True, exist_ok=True)
-    profile = [] if arguments.debug else ["--release"]
-    run("cargo", "build", "--quiet", *profile, "-p", "nabiki_cli", "-p", "nabiki_usd", "--bins", "--examples")
-    built = ROOT / "target" / ("debug" if arguments.debug else "release")
-    nabiki = built / "nabiki"
+    if arguments.nabiki:
+        nabiki = arguments.nabiki.resolve()
+    else:
+        run("cargo", "build", "--quiet", "--release", "-p", "nabiki_cli", "-p", "nabiki_usd", "--bins", "--examples")
+        nabiki = ROOT / "target" / "release" / "nabiki"
+    interchange = nabiki.parent / "examples" / "interchange"
     samples = WORK / "samples"
-    run(built / "examples" / "interchange", "write", samples)
+    run(interchange, "write", samples)
 
     round_trips(nabiki, samples)
     there_and_back(nabiki, samples)
     python = environment()
     types_stay(nabiki, python)
-    made_elsewhere(nabiki, built / "examples" / "interchange", python)
+    made_elsewhere(nabiki, interchange, python)
     run(python, HERE / "usd.py", samples)
     run(python, HERE / "alembic.py", samples)
 

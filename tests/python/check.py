@@ -8,6 +8,7 @@ maturin, numpy, pytest, mypy and nbclient come from PyPI into target/python.
 """
 
 import argparse
+import os
 import shutil
 import subprocess
 import sys
@@ -48,6 +49,7 @@ def wheel(python):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--wheel", type=Path, help="a wheel that is built already")
+    parser.add_argument("--nabiki", type=Path, help="a command that is built already")
     parser.add_argument("--speed", action="store_true", help="measure, too")
     arguments = parser.parse_args()
 
@@ -56,12 +58,15 @@ def main():
     run(python, CRATE / "generate.py", "--check")
     built = arguments.wheel or wheel(python)
     run(python, "-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps", built)
-    run("cargo", "build", "--quiet", "--release", "-p", "nabiki_cli")
+    if not arguments.nabiki:
+        run("cargo", "build", "--quiet", "--release", "-p", "nabiki_cli")
+    nabiki = (arguments.nabiki or ROOT / "target" / "release" / "nabiki").resolve()
 
     # Beside the sources Python would take these for the package.
     run(python, "-m", "mypy", "--strict", "-p", "nabiki", cwd=WORK)
     run(python, "-m", "mypy", "--strict", HERE / "typed.py", cwd=WORK)
-    run(python, "-m", "pytest", "-q", "-p", "no:cacheprovider", CRATE / "tests", cwd=WORK)
+    tests = ["pytest", "-q", "-p", "no:cacheprovider", CRATE / "tests"]
+    run(python, "-m", *tests, cwd=WORK, env={**os.environ, "NABIKI": str(nabiki)})
     run(python, HERE / "notebook.py", ROOT / "docs" / "python" / "gust.ipynb", WORK / "gust.ipynb")
     if arguments.speed:
         run(python, HERE / "speed.py")

@@ -1,5 +1,6 @@
 """The command and small scenes, for tests of the installed wheel."""
 
+import os
 import struct
 import subprocess
 from pathlib import Path
@@ -11,7 +12,7 @@ import nabiki
 
 ROOT = Path(__file__).resolve().parents[3]
 SCENES = ROOT / "scenes"
-COMMAND = ROOT / "target" / "release" / "nabiki"
+COMMAND = Path(os.environ.get("NABIKI", ROOT / "target" / "release" / "nabiki"))
 
 
 def command(*words):
