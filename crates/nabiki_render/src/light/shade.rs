@@ -18,7 +18,7 @@ use super::lamps::Lamp;
 use super::shadow::Crossings;
 use super::sky::{
     AT_ONCE, BEHIND_ABOVE, BEHIND_BARE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BARE, FRONT_BELOW, FRONT_GLOW,
-    NEARER, Places, SkyMap, TOWARD_LAMPS,
+    Places, SkyMap, TOWARD_LAMPS,
 };
 use super::streams::{Medium, slab};
 use crate::camera::View;
@@ -33,7 +33,7 @@ const LANES: usize = 16;
 const STRAYS: f32 = 0.25;
 /// Share of the sky's light that goes on as it came at each scattering in hair, and of what hair behind sends back: the rest strays to where less of
 /// the sky is seen. Fitted.
-pub const SKY_KEPT: f32 = 0.8;
+pub const SKY_KEPT: f32 = 0.7;
 /// Depth of hair without end (fibres).
 const ENDLESS: f32 = 100.0;
 /// Light of this variance along the hair (rad^2) goes to all inclinations, near enough.
@@ -189,13 +189,7 @@ impl HairLight<'_> {
         let (mut rows, mut medium) = (Rows::default(), MediumRows::default());
         let mut places = None;
         if let Some(map) = self.sky_map {
-            let mut nearer = place;
-            for c in 0..3 {
-                for lane in 0..LANES {
-                    nearer[c][lane] += NEARER * eye[c][lane];
-                }
-            }
-            places = Some(map.places(&nearer));
+            places = Some(map.places_seen(&place, &eye));
         }
         let sky = self.sky_at(places.as_ref());
         for lane in 0..LANES {

@@ -19,8 +19,8 @@ use nabiki::Mesh;
 use rayon::prelude::*;
 
 pub use self::arriving::{
-    AT_ONCE, BEHIND_ABOVE, BEHIND_BELOW, BEHIND_BARE, BEHIND_GLOW, FRONT_ABOVE, FRONT_BARE, FRONT_BELOW, FRONT_GLOW,
-    NEARER, Places, TOWARD_LAMPS,
+    AT_ONCE, BEHIND_ABOVE, BEHIND_BARE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BARE, FRONT_BELOW, FRONT_GLOW,
+    Places, TOWARD_LAMPS,
 };
 pub use self::on_skin::OnSkin;
 pub use self::skin_cells::SkinCell;
@@ -376,7 +376,8 @@ mod tests {
             std::array::from_fn(|number| at[number])
         };
         let [near, far] = [0, 1].map(|n| numbers(&sky).map(|number| number[n]));
-        let open = |at: [f32; TOWARD_LAMPS + 1]| (at[FRONT_ABOVE] + at[FRONT_BELOW], at[BEHIND_ABOVE] + at[BEHIND_BELOW]);
+        let open =
+            |at: [f32; TOWARD_LAMPS + 1]| (at[FRONT_ABOVE] + at[FRONT_BELOW], at[BEHIND_ABOVE] + at[BEHIND_BELOW]);
         assert!(open(near).0 > 0.6 && open(near).1 < 0.1, "{near:?}");
         assert!(open(far).0 < open(near).0 - 0.2 && open(far).1 > open(near).1 + 0.2, "{far:?}");
         // Toward a lamp at one side it is open there, and closed at the other.

@@ -32,7 +32,12 @@ pub const BEHIND_BARE: usize = 7;
 /// opposite sends it back.
 pub const TOWARD_LAMPS: usize = 8;
 /// So much nearer to the eye (cm) than it lies a fibre reads: what the eye sees of a cell's hair lies on its near side. Fitted.
-pub const NEARER: f32 = 0.09;
+const NEARER: f32 = 0.09;
+/// And so much further (cm) to where more of the sky arrives: what shows of hair is its surface, and cells are laid with hair to half a cell
+/// beyond it. Fitted.
+const OUTWARD: f32 = 0.1;
+/// Slopes below this are none.
+const FLAT: f32 = 1e-3;
 /// So many of a cell's numbers are read at once.
 pub const AT_ONCE: usize = 8;
 pub type Numbers = [f32; AT_ONCE];
@@ -65,6 +70,48 @@ impl SkyMap {
             }
         }
         at
+    }
+
+    /// Where a fibre reads at places: a little [`NEARER`] to the eye (unit vectors toward it), and a little outward.
+    #[inline(always)]
+    pub fn places_seen<const N: usize>(&self, places: &[[f32; N]; 3], eye: &[[f32; N]; 3]) -> Places<N> {
+        let mut seen = *places;
+        for c in 0..3 {
+            for n in 0..N {
+                seen[c][n] += NEARER * eye[c][n];
+            }
+        }
+        let slope = self.slope(&self.places(&seen));
+        for n in 0..N {
+            let steepness = (slope[0][n] * slope[0][n] + slope[1][n] * slope[1][n] + slope[2][n] * slope[2][n]).sqrt();
+            for c in 0..3 {
+                seen[c][n] += OUTWARD * slope[c][n] / (steepness + FLAT);
+            }
+        }
+        self.places(&seen)
+    }
+
+    /// By how much more of the sky arrives from each cell to the next, along each axis.
+    #[inline(always)]
+    fn slope<const N: usize>(&self, places: &Places<N>) -> [[f32; N]; 3] {
+        let lines = self.lines();
+        let mut slope = [[0.0; N]; 3];
+        for n in 0..N {
+            let mut c = [0.0; 8];
+            for (i, open) in c.iter_mut().enumerate() {
+                let numbers = &self.arriving[(places.first[n] + lines[i / 2] + i % 2) * self.parts];
+                *open = (numbers[FRONT_ABOVE] + numbers[FRONT_BELOW]) + (numbers[BEHIND_ABOVE] + numbers[BEHIND_BELOW]);
+            }
+            let [u, v, w] = [0, 1, 2].map(|axis| places.beyond[axis][n]);
+            let x = [0, 2, 4, 6].map(|i| c[i + 1] - c[i]);
+            let y = [0, 1, 4, 5].map(|i| c[i + 2] - c[i]);
+            let z = [0, 1, 2, 3].map(|i| c[i + 4] - c[i]);
+            for (slope, (of_pairs, s, t)) in slope.iter_mut().zip([(x, v, w), (y, u, w), (z, u, v)]) {
+                let [a, b, c, d] = of_pairs;
+                slope[n] = (1.0 - t) * (a + (b - a) * s) + t * (c + (d - c) * s);
+            }
+        }
+        slope
     }
 
     /// Where places (x, y and z of all of them) lie among the cells; those outside at the border.
@@ -110,21 +157,23 @@ impl SkyMap {
         [0, row, slice, slice + row]
     }
 
-    /// Marks the stretches of cells from which the nodes read that are `asked` for: at their place, or a little [`NEARER`] to the eye.
+    /// Marks the stretches of cells from which the nodes read that are `asked` for: at their place, and as far about it as
+    /// [`SkyMap::places_seen`] goes.
     pub(super) fn mark(&mut self, nodes: &[CurveNode], asked: &[bool], view: &View) {
         let mut read = std::mem::take(&mut self.read);
-        let (row, per_line) = (self.size.x as usize, self.stretches());
+        let (size, per_line) = (self.size.as_ivec3(), self.stretches());
         read.clear();
-        read.resize_with((self.size.y * self.size.z) as usize * per_line, AtomicBool::default);
+        read.resize_with((size.y * size.z) as usize * per_line, AtomicBool::default);
         let this = &*self;
         nodes.par_iter().zip(asked).with_min_len(8192).filter(|(_, asked)| **asked).for_each(|(node, _)| {
-            let (place, eye) = (node.position, view.toward_eye(node.position));
-            let both = [0, 1, 2].map(|c| [place[c], place[c] + NEARER * eye[c]]);
-            for (first, line) in this.places(&both).first.into_iter().flat_map(|first| this.lines().map(|l| (first, l)))
+            let (place, nearer) = (node.position, node.position + NEARER * view.toward_eye(node.position));
+            let (low, high) = (place.min(nearer) - OUTWARD, place.max(nearer) + OUTWARD);
+            let (base, _) = this.lattice(&[0, 1, 2].map(|axis| [low[axis], high[axis]]));
+            for (z, y) in (base[2][0]..=base[2][1] + 1).flat_map(|z| (base[1][0]..=base[1][1] + 1).map(move |y| (z, y)))
             {
-                let cell = first + line;
-                for x in [cell % row, cell % row + 1] {
-                    let read = &read[cell / row * per_line + x / LANES];
+                let line = (y + size.y * z) as usize;
+                for x in [base[0][0], base[0][1] + 1] {
+                    let read = &read[line * per_line + x as usize / LANES];
                     // Most are marked already, and a line of memory that is only read is both cores'.
                     if !read.load(Ordering::Relaxed) {
                         read.store(true, Ordering::Relaxed);
