@@ -172,11 +172,6 @@ impl View {
         Marks { nails, pulled }
     }
 
-    /// Pulls out all nails.
-    pub fn pull_nails(&mut self) {
-        self.nails.clear();
-    }
-
     /// The side on which a view of so many points has more room beside head and hair, and that room (points).
     pub fn free_side(&self, shown: &Shown<'_>, size: egui::Vec2) -> (egui::Align, f32) {
         let Some(orbit) = self.orbit else { return (egui::Align::Max, size.x) };
