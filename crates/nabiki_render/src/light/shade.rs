@@ -220,9 +220,9 @@ impl HairLight<'_> {
                 let arriving = arrives(through);
                 let behind = self.sky.strength * colour(above, below) * (arriving / through)
                     + self.skin[c] * sky[BEHIND_GLOW][lane];
-                // Where it is open behind there is no hair that sends back.
+                // Where it is open behind there is no hair that sends back; before skin there is.
                 let of_those = (medium.whole[c][lane] - medium.back[c][lane]).max(0.0);
-                let again = SKY_KEPT * of_those * (1.0 - arriving);
+                let again = SKY_KEPT * of_those * (1.0 - arriving * sky[BEHIND_BARE][lane]).max(0.0);
                 // Fibres keep the inclination, so the light that they send back to the eye has come from the eye's side of hair seen
                 // across, and from behind hair that points at the eye: their cosine is 1 - 2 sin^2.
                 let from_behind = sin_eye[lane] * sin_eye[lane];

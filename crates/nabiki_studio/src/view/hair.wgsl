@@ -155,7 +155,7 @@ fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec3f,
     let b = row_at(grade, row, 1u);
     let rest = row_at(grade, row, 2u);
     let medium = mediums[grade];
-    let closed = 1.0 - passed_on(share(behind), medium.forward);
+    let closed = 1.0 - behind.z * passed_on(share(behind), medium.forward);
     let again = g.sky_above.w * max(medium.whole - medium.back, vec3f(0.0)) * closed;
     let from_behind = arrives(behind, medium.forward);
     var light = mix(arrives(open, medium.forward), from_behind, se * se) * (b + again) + from_behind * a;
