@@ -22,7 +22,7 @@ use glam::Vec3;
 use crate::error::SettingError;
 
 pub use body_wind::{BodyWind, BodyWindField};
-pub use falloff::{EnvelopeKey, Falloff, FalloffLaw};
+pub use falloff::{EnvelopeKey, Falloff, FalloffLaw, envelope};
 pub use fan::{Fan, FanField};
 pub use flow::{Flow, FlowField};
 pub use gust::{Gust, GustField};

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Arg, Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use nabiki_io::Unit;
 use nabiki_io::cache::Shard;
 use nabiki_scene::exports::ExportOptions;
@@ -23,8 +23,9 @@ Start with:
   nabiki preview scenes/gust.toml --set 'force.0.vector=[-200,20,0]'
   nabiki run scenes/gust.toml                         the whole movie
 
-A scene is a TOML file: head, hair, motion, pseudo_force, force, picture, output. The files in scenes/ are
-commented. Exit codes: 0 done, 1 refused or failed (one line says why), 2 the command line makes no sense."
+A scene is a TOML file. Its tables: head, hair; motion, free, contact, body, neighbours, pseudo_force, disturbance;
+force, wind, gust, body_wind, flow, turbulence, point, vortex, fan; picture, output. The files in scenes/ are commented.
+Exit codes: 0 done, 1 refused or failed (one line says why), 2 the command line makes no sense, 130 ended by a signal."
 )]
 pub struct Cli {
     #[command(subcommand)]
@@ -50,6 +51,8 @@ pub enum Command {
     /// Before any step it prints how many frames a swing takes at the root, the middle and the tip of a strand under
     /// each force of the field. That is how to choose a force by thinking: T = 2 pi / acos(1 - c |F| / 2) frames, about
     /// 2 pi / sqrt(c |F|); four times the force halves the time.
+    ///
+    /// Pictures are small: of the same shape, 480 pixels on the longer side at the most. 960 x 540 become 480 x 270.
     Preview(Preview),
     /// Grow or import the hair of a scene and write it at rest, into a hair file
     Groom(Groom),
@@ -139,6 +142,14 @@ pub struct Run {
 }
 
 impl Cli {
+    /// What the command line says. A number below 0 is refused by the option that it is given to, with its range, and not taken
+    /// for an option itself.
+    pub fn read() -> Self {
+        let numbers = |arg: Arg| if arg.get_action().takes_values() { arg.allow_negative_numbers(true) } else { arg };
+        let command = Self::command().mut_args(numbers).mut_subcommands(|command| command.mut_args(numbers));
+        Self::from_arg_matches(&command.get_matches()).unwrap_or_else(|e| e.exit())
+    }
+
     /// Makes the threads that were asked for.
     pub fn use_threads(&self) -> Result<()> {
         let Some(threads) = self.threads else { return Ok(()) };
@@ -154,8 +165,9 @@ pub struct ExportArgs {
     #[arg(long, value_name = "FILE")]
     pub export: Vec<PathBuf>,
 
-    /// Write samples alone, to be laid over the groom at this prim path of the USD stage that the hair came from
-    #[arg(long, value_name = "PRIM", num_args = 0..=1, default_missing_value = "", value_parser = prim_path)]
+    /// Write samples alone, to be laid over the groom at this prim path of the USD stage that the hair came from, like
+    /// /character/hair; `nabiki info` on the groom's file lists them
+    #[arg(long, value_name = "PRIM", value_parser = prim_path)]
     pub export_layer: Option<String>,
 
     /// Put the head into .abc files too; Unreal then takes them for a mesh, not for a groom
@@ -174,9 +186,9 @@ pub struct Preview {
     #[command(flatten)]
     pub scene: SceneArgs,
 
-    /// Strands to show, chosen evenly over the scalp from all of the scene's
-    #[arg(long, value_name = "N", default_value_t = 300, value_parser = positive)]
-    pub strands: usize,
+    /// Strands to show, chosen evenly over the scalp from all of the scene's (default: 300, or all where it has fewer)
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub strands: Option<usize>,
 
     /// Write their motion into a cache (.nabiki), too
     #[arg(long, value_name = "FILE")]
@@ -328,7 +340,7 @@ pub struct Render {
     pub scene: PathBuf,
 
     /// Frames to simulate and draw, in place of motion.frames; or A..B, the frames from A through B alone, as numbered stills
-    #[arg(long, value_name = "N|A..B")]
+    #[arg(long, value_name = "N|A..B", allow_hyphen_values = true)]
     pub frames: Option<Frames>,
 
     /// Any setting of the scene in TOML, as often as wanted: motion.time_step=0.05, or in quotes force.0.vector=[0,-100,0]
@@ -414,7 +426,7 @@ pub struct Convert {
     #[arg(long, value_name = "N", value_parser = positive)]
     pub segments: Option<usize>,
 
-    /// Unit of the input, for a USD layer to name: mm, cm, dm, m, in, ft or a number of centimetres
+    /// Unit of the input, for a USD layer to name, as other files cannot: mm, cm, dm, m, in, ft or a number of centimetres
     #[arg(long, value_name = "UNIT")]
     pub unit: Option<Unit>,
 
@@ -423,9 +435,8 @@ pub struct Convert {
     pub z_up: bool,
 
     /// Write samples of a motion cache alone, to be laid over the groom at this prim path of the USD stage that the
-    /// hair came from
-    #[arg(long, value_name = "PRIM", conflicts_with = "frame", num_args = 0..=1, default_missing_value = "",
-          value_parser = prim_path)]
+    /// hair came from, like /character/hair; `nabiki info` on the groom's file lists them
+    #[arg(long, value_name = "PRIM", conflicts_with = "frame", value_parser = prim_path)]
     pub export_layer: Option<String>,
 }
 

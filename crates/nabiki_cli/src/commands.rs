@@ -1,8 +1,8 @@
 //! Each subcommand as the task that it asks for.
 
 use nabiki_scene::tasks::{
-    self, ConvertOptions, FarmOptions, MovieOptions, NewOptions, Pictures, RenderOptions, ShardOptions,
-    SimulateOptions, SolveOptions,
+    self, ConvertOptions, FarmOptions, MovieOptions, NewOptions, PREVIEW_STRANDS, Pictures, RenderOptions,
+    ShardOptions, SimulateOptions, SolveOptions,
 };
 use nabiki_scene::{Error, Result, Shown, shell};
 
@@ -27,7 +27,8 @@ pub fn run(args: &Run, terminal: &mut Terminal) -> Result<()> {
 }
 
 pub fn preview(args: &Preview, terminal: &mut Terminal) -> Result<()> {
-    tasks::preview(args.scene.load()?, args.strands, &args.out, args.cache.as_deref(), terminal)
+    let shown = args.strands.map_or(Shown::AtMost(PREVIEW_STRANDS), Shown::First);
+    tasks::preview(args.scene.load()?, shown, &args.out, args.cache.as_deref(), terminal)
 }
 
 pub fn groom(args: &Groom, terminal: &mut Terminal) -> Result<()> {

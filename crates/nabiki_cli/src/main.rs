@@ -9,14 +9,13 @@ mod terminal;
 
 use std::process::ExitCode;
 
-use clap::Parser;
 use nabiki_scene::Result;
 
 use args::{Cli, Command};
 use terminal::Terminal;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = Cli::read();
     ending::remove_parts_on_signals();
     match run(&cli) {
         Ok(()) => ExitCode::SUCCESS,

@@ -22,6 +22,10 @@ impl SceneArgs {
             overrides.push((key.trim().to_owned(), value.trim().to_owned()));
         }
         if let Some(frames) = self.frames {
+            if let Some((key, value)) = overrides.iter().find(|(key, _)| key == "motion.frames") {
+                let line = format!("--frames {frames} and --set {key}={value}: give one of them");
+                return Err(Error::refused(line));
+            }
             overrides.push(("motion.frames".to_owned(), frames.to_string()));
             if !overrides.iter().any(|(key, _)| key.starts_with("output.sheet")) {
                 overrides.extend(shorter_sheet(&self.scene, frames));

@@ -231,6 +231,76 @@ fn a_command_line_that_makes_no_sense_exits_with_2() {
 }
 
 #[test]
+fn numbers_below_0_are_refused_by_the_option_that_has_them() {
+    for (arguments, words) in [
+        (&["render", GUST, "--frame", "-1"][..], "'-1' for '--frame <N>'"),
+        (&["render", GUST, "--frames", "-1..3"], "write one whole number, or two"),
+        (&["preview", GUST, "--strands", "-5"], "must be a whole number of at least 1"),
+    ] {
+        let output = nabiki(arguments);
+        let said = text(&output.stderr);
+        assert!(output.status.code() == Some(2) && said.contains(words) && !said.contains("tip:"), "{said}");
+    }
+    let folder = TempDir::new().unwrap();
+    let unit = refuse(&["convert", "a.hair", &path(&folder, "a.usda"), "--unit", "-3"], folder.path());
+    assert!(unit.contains("--unit = -3: must be a finite number above 0"), "{unit}");
+}
+
+#[test]
+fn a_setting_that_is_given_twice_is_not_left_unread() {
+    let folder = TempDir::new().unwrap();
+    let out = path(&folder, "m.nabiki");
+    let line = refuse(&["simulate", GUST, "-o", &out, "--frames", "3", "--set", "motion.frames=-1"], folder.path());
+    assert!(line.contains("--frames 3 and --set motion.frames=-1: give one of them"), "{line}");
+}
+
+#[test]
+fn a_preview_of_more_strands_than_there_are_is_refused_where_their_number_is_given() {
+    let folder = TempDir::new().unwrap();
+    let out = path(&folder, "out");
+    let few =
+        ["preview", GUST, "--out", &out, "--frames", "1", "--set", "hair.strands=20", "--set", "output.sheet=[0]"];
+    let line = refuse(&[&few[..], &["--strands", "21"]].concat(), folder.path());
+    assert!(line.contains("21 strands are asked for and the scene has 20"), "{line}");
+    let cache = refuse(&[&few[..], &["--cache", &path(&folder, "c.usdc")]].concat(), folder.path());
+    assert!(cache.trim_end().ends_with("c.usdc: a motion cache ends in .nabiki; choose another name"), "{cache}");
+    assert!(succeed(&few).contains("20 strands"));
+}
+
+#[test]
+fn a_render_says_what_changes_nothing_as_a_run_does() {
+    let folder = TempDir::new().unwrap();
+    let (out, cache) = (path(&folder, "out"), path(&folder, "m.nabiki"));
+    let free = ["--set", "motion.form=\"free\"", "--set", "pseudo_force.alpha=0.5"];
+    let changes = [&SMALL[..], &free, &["--set", "picture.samples=8", "--set", "output.sheet=[0]"]].concat();
+    let render = [&["render", GUST, "--frame", "2", "--out", &out][..], &changes].concat();
+    let said = succeed(&render);
+    for line in ["  look    hair does not feel [pseudo_force]", "  look    picture.samples changes nothing"] {
+        assert!(said.contains(line), "{line}: {said}");
+    }
+    // Motion that is there already is not judged once more.
+    succeed(&[&["simulate", GUST, "-o", &cache][..], &changes].concat());
+    let said = succeed(&[&render[..], &["--motion", &cache]].concat());
+    assert!(said.contains("picture.samples changes nothing") && !said.contains("pseudo_force"), "{said}");
+}
+
+#[test]
+fn what_no_movie_can_be_is_refused_with_the_setting_before_anything_is_built() {
+    let folder = TempDir::new().unwrap();
+    let out = path(&folder, "out");
+    for (task, set, key) in [
+        ("run", "picture.size=[4000,100]", "picture.size = 4000 x 100: "),
+        ("preview", "motion.frame_rate=0.1", "motion.frame_rate = 0.1: "),
+        ("render", "motion.frame_rate=0.1", "motion.frame_rate = 0.1: "),
+    ] {
+        // A head that is not there would be refused first if anything were built.
+        let none = "head.mesh=missing.obj";
+        let line = refuse(&[task, GUST, "--out", &out, "--set", none, "--set", set], folder.path());
+        assert!(line.contains(&format!("gust.toml: --set {set}: {key}")), "{line}");
+    }
+}
+
+#[test]
 fn every_scene_shipped_moves() {
     let folder = TempDir::new().unwrap();
     let of_the_paper = Path::new(GUST).parent().unwrap();
@@ -305,7 +375,8 @@ fn what_a_motion_file_does_not_say_is_asked_for_one_by_one() {
         for (key, value) in given {
             let complete = arguments(&format!("{motion}}}"));
             let said = refuse(&complete.iter().map(String::as_str).collect::<Vec<_>>(), folder.path());
-            assert!(said.contains(&format!("{file}: {key} is not in the file: give {key} = ")), "{said}");
+            let asked = format!("{file}: head.motion.{key} is not in the file: give {key} = ");
+            assert!(said.contains(&asked), "{said}");
             motion += &format!(",{key}={value}");
         }
         let complete = arguments(&format!("{motion}}}"));

@@ -202,7 +202,7 @@ fn a_layer_out_of_a_cache_is_checked_against_the_groom_that_the_cache_remembers(
     assert!(line.contains("--export-layer /head/hair: give the layer's file, too"), "{line}");
     let wordless = nabiki(&folder, "simulate own.toml -o i.usdc --export-layer");
     let said = String::from_utf8(wordless.stderr).unwrap();
-    assert!(wordless.status.code() == Some(2) && said.contains("give the path of the groom's curves"), "{said}");
+    assert!(wordless.status.code() == Some(2) && said.contains("--export-layer <PRIM>"), "{said}");
 }
 
 #[test]
@@ -317,6 +317,14 @@ fn what_a_file_says_of_its_space_is_not_overridden() {
     succeed(&folder, "convert hair.hair z.usda --unit cm --z-up");
     let line = refuse(&folder, "convert y.usda out.usdc --z-up");
     assert_eq!(line, "nabiki: y.usda: --z-up: the file itself says +y; leave --z-up out\n");
+    let line = refuse(&folder, "convert y.usda out.usdc --unit m");
+    assert_eq!(line, "nabiki: y.usda: --unit m: the file itself says cm; leave --unit out\n");
+    // Where nothing can be said of it that is said in turn.
+    for (output, option) in [("x.hair", "--unit=m"), ("y.hair", "--z-up"), ("x.abc", "--z-up")] {
+        let said = succeed(&folder, &format!("convert hair.hair {output} {option}"));
+        let option = option.trim_end_matches("=m");
+        assert!(said.contains(&format!("  look    {option} changes nothing: {output} names neither")), "{said}");
+    }
     // What agrees says nothing new.
     succeed(&folder, "convert z.usda same.usdc --z-up");
     // An archive does not say.

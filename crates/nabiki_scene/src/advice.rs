@@ -15,6 +15,8 @@ use crate::scene::{EllipsoidChoice, HeadSource};
 use crate::seat::{Lie, Mended, Seat};
 use crate::size::{HALF_AXIS, mean_half_axis, unit_for, vector};
 
+pub(crate) use unused::of_pictures;
+
 /// Heads from a newborn's to half again an adult's are taken as they are: the mean half axis (cm).
 const HALF_AXES: [f32; 2] = [5.0, 14.0];
 
@@ -62,7 +64,7 @@ pub(crate) fn advice(built: &BuiltScene) -> Vec<Advice> {
     let of_head = head_size(built);
     // Hair that goes by the unit of a wrong head cannot be judged.
     let of_hair = if of_head.is_none() { built.seat().and_then(|seat| of_seat(&seat)) } else { None };
-    advice.extend(of_head.into_iter().chain(of_hair).chain(untied(built)));
+    advice.extend(of_head.into_iter().chain(of_hair).chain(untied(built)).chain(unbound(built)));
     advice.extend(open_bodies(built));
     advice.extend(unused::unused(&built.scene));
     advice
@@ -92,6 +94,25 @@ fn untied(built: &BuiltScene) -> Option<Advice> {
         "free.tie ties nothing: none of these {} strands comes within {} cm of ({x}, {y}, {z}) at rest",
         strands.len(),
         Short(tie.within)
+    );
+    Some(Advice { seen, settings: Vec::new() })
+}
+
+/// A ponytail whose band no hair comes to.
+fn unbound(built: &BuiltScene) -> Option<Advice> {
+    let style = &built.scene.hair.grown()?.style;
+    let tail = style.ponytail?;
+    // Nodes lie a segment apart at the most, and a curl winds its radius and what chance adds about the line that is tied.
+    let near = tail.radius + built.scene.hair.segment_length + 3.0 * style.curl.radius;
+    let strands = &built.hair.strands;
+    if strands.points().iter().any(|p| p.distance(tail.at) <= near) {
+        return None;
+    }
+    let [x, y, z] = tail.at.to_array().map(Short);
+    let seen = format!(
+        "hair.style.ponytail ties nothing: none of these {} strands reaches its band at ({x}, {y}, {z}); give longer hair, or \
+         another hair.style.ponytail.at",
+        strands.len()
     );
     Some(Advice { seen, settings: Vec::new() })
 }

@@ -189,5 +189,11 @@ mod tests {
         let odd = Plan { sets: vec!["head.mesh=\"{{x}}.obj\"".to_owned()], ..plan(10, 1) };
         assert!(odd.template().unwrap_err().to_string().contains("{{"));
         assert!(odd.script().contains("{{x}}"));
+        let named = Plan { name: "x{{y}}".to_owned(), scene: "/scenes/x{{y}}.toml".into(), ..plan(10, 1) };
+        let said = named.template().unwrap_err().to_string();
+        assert!(
+            said.starts_with("/scenes/x{{y}}.toml: its name holds {{") && said.ends_with("; rename the scene"),
+            "{said}"
+        );
     }
 }

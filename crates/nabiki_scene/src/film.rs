@@ -1,14 +1,15 @@
 //! The pictures of a scene, drawn one after another.
 
 use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
 
 use glam::{Quat, Vec3};
 use nabiki::Strands;
 use nabiki::dynamics::ForceSpace;
-use nabiki_render::{Bounds, Frame, FrameToDraw, Moment, Picture, Renderer, ToneMapping, View};
+use nabiki_render::{Bounds, Frame, FrameToDraw, Moment, Picture, RenderError, Renderer, ToneMapping, View};
 
 use crate::built::BuiltScene;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::frames::FrameSource;
 use crate::motion_summary::MotionSummary;
 use crate::outputs::{PictureOutputs, Stills};
@@ -21,6 +22,8 @@ pub(crate) struct Film<'a> {
     renderer: Renderer,
     tone_mapping: ToneMapping,
     bounds: Bounds,
+    /// The file that the motion comes from: a cache, or the scene.
+    motion: PathBuf,
     /// The frame before, where the shutter stays open.
     previous: Option<Strands>,
 }
@@ -33,7 +36,7 @@ impl<'a> Film<'a> {
         frames: &mut dyn FrameSource,
         watch: &mut dyn Watch,
     ) -> Result<Self> {
-        let mut film = Self::of_head(built, picture)?;
+        let mut film = Self::of_head(built, picture, frames)?;
         let bounds = &mut film.bounds;
         if !picture.camera.is_automatic() {
             // Nothing is left to be framed.
@@ -55,8 +58,8 @@ impl<'a> Film<'a> {
         Ok(film)
     }
 
-    /// Shows the scene as `picture` says, framed so that it holds the head.
-    fn of_head(built: &'a BuiltScene, picture: &Picture) -> Result<Self> {
+    /// Shows the scene, moved by `frames`, as `picture` says, framed so that it holds the head.
+    fn of_head(built: &'a BuiltScene, picture: &Picture, frames: &dyn FrameSource) -> Result<Self> {
         let head = &built.head;
         let renderer = Renderer::new(picture, &head.mesh)?.with_face(head).with_bodies(built.drawn_bodies())?;
         let mut bounds = Bounds::default();
@@ -67,6 +70,7 @@ impl<'a> Film<'a> {
             renderer: if built.scene.output.exr_frames { renderer.with_layers() } else { renderer },
             tone_mapping: ToneMapping::new(picture),
             bounds,
+            motion: frames.file().unwrap_or(built.scene.file()).to_owned(),
             previous: None,
         })
     }
@@ -120,7 +124,7 @@ impl<'a> Film<'a> {
         watch: &mut dyn Watch,
     ) -> Result<()> {
         let picture = Picture { shutter: 0.0, ..built.scene.picture.clone() };
-        let mut film = Self::of_head(built, &picture)?;
+        let mut film = Self::of_head(built, &picture, frames)?;
         let strands = frames.frame(n)?.clone();
         let pose = built.pose(n);
         strands.points().iter().for_each(|&p| film.bounds.include(pose.rotation * p));
@@ -131,7 +135,8 @@ impl<'a> Film<'a> {
             let view = views[k as usize];
             let view = View { eye: view.eye + pose.position_cm, ..view };
             let now = Moment { strands: &strands, pose, view, bodies: &bodies };
-            push(k, &film.renderer.draw(&FrameToDraw { now, before: None })?)
+            let drawn = film.renderer.draw(&FrameToDraw { now, before: None });
+            push(k, &drawn.map_err(|refused| in_frame(&film.motion, n, refused))?)
         })
     }
 
@@ -163,7 +168,8 @@ impl<'a> Film<'a> {
         let moment = |n, strands, bodies| Moment { strands, pose: built.pose(n), view: self.view_in_world(n), bodies };
         let now = moment(n, strands, bodies.as_slice());
         let before = previous.as_ref().filter(|_| n > 0).map(|previous| moment(n - 1, previous, &bodies_before));
-        let frame = self.renderer.draw(&FrameToDraw { now, before })?;
+        let drawn = self.renderer.draw(&FrameToDraw { now, before });
+        let frame = drawn.map_err(|refused| in_frame(&self.motion, n, refused))?;
         if self.picture.shutter > 0.0 {
             self.previous = Some(strands.clone());
         }
@@ -175,6 +181,14 @@ impl<'a> Film<'a> {
             }
         };
         Ok((frame, view))
+    }
+}
+
+/// Says in which frame of which motion there is what cannot be drawn.
+fn in_frame(motion: &Path, n: u32, refused: RenderError) -> Error {
+    match refused {
+        RenderError::Geometry(what) => Error::refused(format!("{}: frame {n}: {what}", motion.display())),
+        other => other.into(),
     }
 }
 

@@ -1,5 +1,7 @@
 //! Where the frames of a motion come from.
 
+use std::path::Path;
+
 use glam::Vec3;
 use nabiki::Strands;
 use nabiki::dynamics::{Form, Simulation, Stepper};
@@ -16,6 +18,11 @@ pub trait FrameSource {
     /// # Errors
     /// What is wrong with the file that they come from.
     fn frame(&mut self, n: u32) -> Result<&Strands>;
+
+    /// The file that they are read from, where they are.
+    fn file(&self) -> Option<&Path> {
+        None
+    }
 
     /// The box about the hair of the frames up to `last`, from the head's origin along the world's axes (cm), where it is
     /// known without looking at them.
@@ -96,7 +103,7 @@ impl Cached {
     ///
     /// # Errors
     /// A cache of another scene, or one that ends too soon.
-    pub fn of(built: &BuiltScene, cache: &std::path::Path) -> Result<Self> {
+    pub fn of(built: &BuiltScene, cache: &Path) -> Result<Self> {
         let reader = Reader::open(cache)?;
         let (file, scene) = (cache.display(), built.scene.file().display());
         if let Some(piece) = &reader.header().piece {
@@ -127,6 +134,10 @@ impl FrameSource for Cached {
     fn frame(&mut self, n: u32) -> Result<&Strands> {
         self.reader.read(n.into(), &mut self.strands)?;
         Ok(&self.strands)
+    }
+
+    fn file(&self) -> Option<&Path> {
+        Some(self.reader.path())
     }
 
     fn bounds(&self, last: u32) -> Option<[Vec3; 2]> {

@@ -12,7 +12,7 @@ use crate::built::BuiltScene;
 use crate::error::{Error, Result};
 use crate::field_picture;
 use crate::place::{self, Folders};
-use crate::scene::Output;
+use crate::scene::{Output, Scene};
 use crate::told::Told;
 use crate::watch::Watch;
 
@@ -60,6 +60,18 @@ impl Stills {
     pub fn folder(&self) -> &Path {
         &self.folder
     }
+}
+
+/// Refuses a size or frame rate that no movie has, where the scene wants one of these pictures, before there is any work.
+pub(crate) fn check_movie(scene: &Scene, picture: &Picture) -> Result<()> {
+    if !scene.output.movie {
+        return Ok(());
+    }
+    let rate = picture.video.frame_rate.unwrap_or(scene.frame_rate());
+    Movie::check(picture, rate).map_err(|refused| match refused {
+        RenderError::Setting(refused) => scene.refusal(refused).into(),
+        other => other.into(),
+    })
 }
 
 /// The bits of a scene's PNG files.

@@ -73,12 +73,12 @@ pub fn scene(path: &Path) -> Result<()> {
 }
 
 /// Refuses what no motion cache can be written as, or over.
-pub fn cache(path: &Path, inputs: &[PathBuf]) -> Result<()> {
+///
+/// `way_out` ends the line about a name that is none of a cache.
+pub fn cache(path: &Path, way_out: &str, inputs: &[PathBuf]) -> Result<()> {
     if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("nabiki")) {
-        return Err(Error::refused(format!(
-            "{}: a motion cache ends in .nabiki, moving hair for other tools in .usdc, .usda or .abc",
-            path.display()
-        )));
+        let path = path.display();
+        return Err(Error::refused(format!("{path}: a motion cache ends in .nabiki; {way_out}")));
     }
     file(path)?;
     not_inputs(&[path], inputs)

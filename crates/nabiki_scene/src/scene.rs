@@ -236,6 +236,11 @@ impl Scene {
         self.origins.error(&key, *problem)
     }
 
+    /// Whether an override set the value of this key (dotted).
+    pub(crate) fn is_overridden(&self, key: &str) -> bool {
+        self.origins.is_overridden(key)
+    }
+
     /// The scene file; empty for a scene made in code.
     pub fn file(&self) -> &Path {
         &self.origins.file

@@ -19,7 +19,7 @@ pub use groom::groom;
 pub use join::join;
 pub use movie::{MovieOptions, movie};
 pub use new::{NewOptions, new};
-pub use preview::preview;
+pub use preview::{PREVIEW_STRANDS, preview};
 pub use render::{Pictures, RenderOptions, draw, render};
 pub use run::run;
 pub use simulate::{ShardOptions, SimulateOptions, Twin, simulate};
@@ -29,6 +29,7 @@ use std::path::{Path, PathBuf};
 
 use nabiki_io::cache::Shard;
 
+use crate::advice::Advice;
 use crate::built::{BuiltScene, Shown};
 use crate::error::Result;
 use crate::scene::Scene;
@@ -57,7 +58,12 @@ fn reading(files: Vec<PathBuf>, watch: &mut dyn Watch) {
 /// Tells what there is to move, and what looks wrong about it.
 fn present(built: &BuiltScene, watch: &mut dyn Watch) {
     watch.told(Told::Scene(SceneSummary::of(built)));
-    built.advice().into_iter().for_each(|advice| watch.told(Told::Advice(advice)));
+    advise(built.advice(), watch);
+}
+
+/// Tells what deserves a look.
+fn advise(advice: impl IntoIterator<Item = Advice>, watch: &mut dyn Watch) {
+    advice.into_iter().for_each(|advice| watch.told(Told::Advice(advice)));
 }
 
 /// The same, and how long its swings will take.

@@ -261,15 +261,20 @@ fn settings_without_effect_are_said() {
     let orthographic = ("picture.camera.projection", "\"orthographic\"");
     assert_eq!(unseen(&[height, orthographic]), [""; 0]);
     assert_eq!(unseen(&[focus, ("picture.camera.f_stop", "4")]), [""; 0]);
-    let still = ("force.0.vector", "[0, 0, 0]");
+    const TAIL: &str = "{ at = [-11.4, 6.0, 0.0] }";
+    let (still, three) = (("force.0.vector", "[0, 0, 0]"), ("motion.frames", "3"));
     let each = [
         ("gust.intensity", "0.2", still, "[gust]"),
         ("flow.thickness", "1", still, "[flow]"),
         ("turbulence.drift", "0.5", still, "turbulence.drift"),
-        ("turbulence.envelope", "[{ frame = 0, factor = 0 }]", ("motion.frames", "3"), "[turbulence]"),
+        ("turbulence.envelope", "[{ frame = 0, factor = 0 }]", three, "[turbulence]"),
+        ("point", "[{ position = [30, 0, 0], envelope = [{ frame = 9, factor = 0 }] }]", three, "point[0]"),
+        ("hair.style.variation.cut", "0.5", three, "hair.style.variation.cut"),
+        ("hair.style.ponytail", TAIL, ("hair.style.length", "{ top = 3, sides = 3, back = 3 }"), "hair.style.ponytail"),
         ("picture.camera.margin", "0.2", ("picture.camera.distance", "80"), "picture.camera.margin"),
         ("picture.samples", "8", ("motion.frames", "3"), "picture.samples"),
         ("picture.hair.scale_tilt", "2", ("picture.hair.shading", "\"kajiya-kay\""), "picture.hair.scale_tilt"),
+        ("picture.hair.variation", "0.5", ("picture.hair.shading", "\"kajiya-kay\""), "picture.hair.variation"),
         ("picture.hair.tip", "0.2", ("picture.hair.taper", "0"), "picture.hair.tip"),
         ("picture.head.sheen", "0.6", ("picture.head.visible", "false"), "picture.head.sheen"),
         ("picture.head.stubble", "1", ("picture.head.visible", "false"), "picture.head.stubble"),
@@ -283,8 +288,13 @@ fn settings_without_effect_are_said() {
         ("turbulence.drift", "0.5"),
         ("picture.camera.margin", "0.2"),
         ("picture.hair.scale_tilt", "2"),
+        ("picture.hair.variation", "0.5"),
         ("picture.hair.tip", "0.2"),
         ("picture.head.sheen", "0.6"),
+        ("turbulence.envelope", "[{ frame = 3, factor = 0 }, { frame = 9, factor = 1 }]"),
+        ("hair.style.variation.cut", "0.5"),
+        ("hair.style.cuts", "[{ point = [0, -21, 0], normal = [0, -1, 0] }]"),
+        ("hair.style.ponytail", TAIL),
     ];
     assert_eq!(unseen(&has_effect), [""; 0]);
 
@@ -293,4 +303,28 @@ fn settings_without_effect_are_said() {
     let overrides = [("picture.head.sheen", "0.6"), ("picture.head.visible", "false")];
     let overrides = overrides.map(|(key, value)| (key.to_owned(), value.to_owned()));
     assert_eq!(Scene::load(&ball, &overrides).unwrap().build(Shown::First(20)).unwrap().advice(), []);
+}
+
+#[test]
+fn what_comes_after_the_last_frame_is_said_unless_fewer_frames_are_tried() {
+    let said = |through: u32, more: &str, overrides: &[(String, String)]| -> Vec<String> {
+        let text = format!(
+            "[motion]\nframes = 5\n[[force]]\nthrough = 5\nvector = [-40, 0, 0]\n[[force]]\nthrough = {through}\n\
+             vector = [0, -40, 0]\n{more}"
+        );
+        let built = Scene::parse(&text, Path::new("s.toml"), overrides).unwrap().build(Shown::First(2)).unwrap();
+        built.advice().iter().map(ToString::to_string).collect()
+    };
+    let after = "felt first in frame 6, and the last is motion.frames = 5";
+    assert_eq!(said(9, "", &[]), [format!("force[1] changes nothing: {after}")]);
+    let third = "[[force]]\nthrough = 12\nvector = [0, 0, 0]\n";
+    assert_eq!(said(9, third, &[]), [format!("force[1] and what comes after it change nothing: {after}")]);
+    // On its way from the middle of the first, frame 3, on.
+    assert_eq!(said(9, "[wind]\nease = \"smooth\"\n", &[]), [""; 0]);
+    // As a solver leaves it behind an interval of its own.
+    assert_eq!(said(6, "", &[]), [""; 0]);
+    let swirls = "[turbulence]\nenvelope = [{ frame = 5, factor = 0 }, { frame = 9, factor = 1 }]\n";
+    assert_eq!(said(6, swirls, &[]), ["[turbulence] changes nothing: its envelope is 0 in all frames"]);
+    let fewer = [("motion.frames".to_owned(), "2".to_owned())];
+    assert_eq!(said(9, swirls, &fewer), [""; 0]);
 }

@@ -35,6 +35,32 @@ fn a_scene_of_the_free_form_tells_what_moves_its_hair() {
 }
 
 #[test]
+fn what_moves_the_head_is_told() {
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/head_turn.toml");
+    let said = info(&scene).unwrap();
+    let line = "head: builtin:bust, moved by motion/turn.csv";
+    assert!(said.to_string().lines().any(|said| said == line), "{said}");
+    let value = toml::Value::try_from(said).unwrap();
+    assert_eq!(value["head_motion"].as_str(), Some("motion/turn.csv"));
+}
+
+#[test]
+fn files_that_are_missing_are_said_to_be_and_bodies_are_not_felt_in_the_papers_form() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    let text = "[hair]\nfile = \"nope.abc\"\n[[body]]\nmesh = \"ball.obj\"\nmotion = { file = \"way.csv\" }\n[[force]]\nthrough = 9\n\
+                vector = [-9, 0, 0]\n";
+    std::fs::write(&scene, text).unwrap();
+    std::fs::write(folder.path().join("ball.obj"), "").unwrap();
+    let said = info(&scene).unwrap().to_string();
+    for line in
+        ["hair: nope.abc (missing)", "body[0]: ball.obj, moved by way.csv (missing), not felt in the paper's form"]
+    {
+        assert!(said.lines().any(|said| said == line), "{line}: {said}");
+    }
+}
+
+#[test]
 fn what_is_no_scene_says_what_it_is() {
     let layer = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../nabiki_io/tests/files/groom.usdc"));
     let said = nabiki_scene::Scene::load(layer, &[]).unwrap_err().to_string();

@@ -147,6 +147,13 @@ fn fewer_strands_than_the_scene_has_are_the_first_of_them() {
 }
 
 #[test]
+fn where_no_hair_can_grow_the_ellipsoid_that_is_given_is_named() {
+    let small = [("head.ellipsoid", "{ center = [0, 0, 0], half_axes = [1, 1, 1] }")];
+    let refused = parse(GUST, &small).unwrap().build(Shown::First(2)).unwrap_err().to_string();
+    assert!(refused.contains("hair.hairline = no scalp: ") && refused.contains("or mend head.ellipsoid"), "{refused}");
+}
+
+#[test]
 fn a_key_that_was_renamed_is_told_its_new_name() {
     let video = refused("[motion]", "[picture.video]\nfps = 12\n[motion]");
     assert_eq!(video, "scenes/gust.toml:5: picture.video.fps: is now called motion.frame_rate: rename it");
@@ -202,6 +209,38 @@ fn wrong_types_say_what_was_found_and_what_must_be() {
         "scenes/gust.toml:5: head.up: found \"+w\", must be one of \"+x\", \"x\", \"-x\", \"+y\", \"y\", \"-y\", \"+z\", \
          \"z\", \"-z\"; did you mean \"+x\"?"
     );
+    assert_eq!(
+        refused("[motion]", "[[motion]]"),
+        "scenes/gust.toml:4: motion: found a list of tables, must be a table; in a file it begins with one bracket, [motion]"
+    );
+    assert_eq!(
+        parse("[force]\nthrough = 50\n", &[]).unwrap_err().to_string(),
+        "scenes/gust.toml:1: force: found a table, must be a list, even of one, in brackets; in a file each of a list of tables \
+         begins with two, [[force]]"
+    );
+    let table = refused("[-100, 0, 0]", "{ x = 1, y = 0, z = 0 }");
+    assert_eq!(table, "scenes/gust.toml:11: force[0].vector: found a table, must be three numbers, [x, y, z]");
+}
+
+#[test]
+fn a_choice_says_all_that_it_may_be() {
+    let shading = refused_override("picture.hair.shading", "3");
+    assert!(shading.ends_with("shading: found integer `3`, must be one of \"fibre\", \"kajiya-kay\""), "{shading}");
+    for (value, found) in
+        [("\"rgb\"", "\"rgb\" alone"), ("\"melanin\"", "\"melanin\" alone"), ("[0.5, 0.5, 0.1]", "a list")]
+    {
+        let said = refused_override("picture.hair.colour", value);
+        let colour = format!("picture.hair.colour: found {found}, must be a name, as \"brown\", or {{ melanin = ");
+        assert!(said.contains(&colour) && said.ends_with("or { rgb = [r, g, b] }"), "{said}");
+    }
+}
+
+#[test]
+fn a_number_too_large_for_what_keeps_it_is_said_as_it_was_given() {
+    for key in ["motion.time_step", "free.settle", "head.shell", "force.0.vector[1]"] {
+        let said = refused_override(key, "-1e300");
+        assert!(said.contains(" = -1e300: must lie in -3.4e38..3.4e38"), "{said}");
+    }
 }
 
 #[test]
@@ -215,6 +254,10 @@ fn values_out_of_range_are_refused_by_their_owners_with_the_line() {
         "scenes/gust.toml:7: motion.linear_density = 0: must be a finite number above 0"
     );
     assert_eq!(refused("strands = 100", "strands = 0"), "scenes/gust.toml:2: hair.strands = 0: must be at least 1");
+    assert_eq!(
+        refused("strands = 100", "strands = 800000001"),
+        "scenes/gust.toml:2: hair.strands = 800000001: must be at most 800000000: grow less"
+    );
     assert_eq!(
         refused("[motion]", "[pseudo_force]\nalpha = 1.5\n[motion]"),
         "scenes/gust.toml:5: pseudo_force.alpha = 1.5: must lie in -1..1"
@@ -307,7 +350,7 @@ fn what_is_no_toml_is_refused_with_its_line() {
     let error = refused("time_step = 0.1", "time_step = = 0.1");
     assert!(error.starts_with("scenes/gust.toml:6: not TOML: "), "{error}");
     let twice = refused("time_step = 0.1", "time_step = 0.1\ntime_step = 0.2");
-    assert!(twice.starts_with("scenes/gust.toml:7: not TOML: duplicate key"), "{twice}");
+    assert!(twice.starts_with("scenes/gust.toml:7: not TOML: duplicate key time_step: "), "{twice}");
     let error = Scene::load("no/such/scene.toml".as_ref(), &[]).unwrap_err().to_string();
     assert_eq!(error, "no/such/scene.toml: No such file or directory (os error 2)");
 }

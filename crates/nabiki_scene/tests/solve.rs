@@ -46,13 +46,16 @@ mean_moved = [-1, 2, -2]
 #[derive(Default)]
 struct Ear {
     solved: Option<Solved>,
+    advice: Vec<String>,
     stops: bool,
 }
 
 impl Watch for Ear {
     fn told(&mut self, told: Told) {
-        if let Told::Solved(solved) = told {
-            self.solved = Some(*solved);
+        match told {
+            Told::Solved(solved) => self.solved = Some(*solved),
+            Told::Advice(advice) => self.advice.push(advice.to_string()),
+            _ => {}
         }
     }
 
@@ -158,6 +161,28 @@ strands = [0, 1]
 }
 
 #[test]
+fn a_wind_that_no_wish_feels_stays_as_it_is_and_that_is_said() {
+    let place = Place::new(SCENE, &WISHES.replace("vectors = [0]", "vectors = [1, 0]"));
+    let mut ear = Ear::default();
+    let solved = place.solved(&mut ear).unwrap();
+    assert_eq!(solved.unknowns, [Unknown::Vector(0)]);
+    assert_eq!(solved.report.answer.keyframes[1].vector, Vec3::ZERO);
+    let said = "unknowns.vectors[0] = 1 stays as it is: first felt in frame 31, after the last that a wish or nail is about, 30";
+    assert_eq!(ear.advice, [said]);
+}
+
+#[test]
+fn what_a_border_or_an_ease_brings_within_reach_may_change() {
+    // Frame 30 is half on the way from the middle of interval 0, 15.5, to that of interval 1, 45.5.
+    let eased = format!("{SCENE}\n[wind]\nease = \"linear\"\n");
+    for (scene, unknowns) in [(eased.as_str(), "vectors = [1]"), (SCENE, "vectors = [1]\nborders = [0]")] {
+        let wishes = WISHES.replace("vectors = [0]", unknowns) + "[search]\niterations = 1\nstarts = 1\n";
+        let solved = Place::new(scene, &wishes).solved(&mut Ear::default()).unwrap();
+        assert!(solved.unknowns.contains(&Unknown::Vector(1)), "{unknowns}");
+    }
+}
+
+#[test]
 fn the_same_fields_surround_a_wind_that_is_solved_for() {
     let fields = "
 [gust]
@@ -219,6 +244,15 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
             wish("vectors = [0]", "borders = [1]"),
             "wish.toml:2: unknowns.borders[0] = 1: the last interval holds for good",
         ),
+        (
+            wish("vectors = [0]", "vectors = [1]"),
+            "wish.toml:2: unknowns.vectors[0] = 1: first felt in frame 31, after the last that a wish or nail is about, 30: free \
+             what blows before it, or wish for a later frame",
+        ),
+        (
+            wish("vectors = [0]", "interval = { from = 40, through = 50 }"),
+            "wish.toml:2: unknowns.interval.from = 40: first felt in frame 40, after the last",
+        ),
         (wish("vectors = [0]", "gust = true"), "wish.toml:2: unknowns.gust = true: the scene has no [gust]"),
         (
             refusal(
@@ -260,7 +294,7 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
         ),
         (
             wish("strands = [3, 7, 11]", "near = [-9, -12, 0]"),
-            "wish.toml:6: wish[0].near: found sequence, must be a table { point, radius, frame }",
+            "wish.toml:6: wish[0].near: found a list, must be a table { point, radius, frame }",
         ),
         (
             refusal(&SCENE.replace("form = \"free\"", ""), &WISHES.replace("vectors = [0]", "settle = true")),

@@ -102,7 +102,7 @@ pub struct EnvelopeKey {
 
 /// The part of the strength in a frame: on straight lines from key to key, the first before them and the last after them;
 /// all of it without keys.
-pub(super) fn envelope(keys: &[EnvelopeKey], frame: u32) -> f32 {
+pub fn envelope(keys: &[EnvelopeKey], frame: u32) -> f32 {
     let next = keys.partition_point(|key| key.frame < frame);
     match (next.checked_sub(1).map(|i| keys[i]), keys.get(next)) {
         (None, None) => 1.0,

@@ -113,6 +113,19 @@ impl KeyframedField {
         (f64::from(first) + f64::from(self.keyframes[j].through)) / 2.0
     }
 
+    /// The first frame that feels vector `j`: eased, the first after the middle of the interval before it.
+    ///
+    /// # Panics
+    /// If there is no such vector.
+    pub fn first_felt(&self, j: usize) -> u32 {
+        assert!(j < self.keyframes.len(), "vector {j} of {}", self.keyframes.len());
+        match (j.checked_sub(1), self.ease) {
+            (None, _) => 1,
+            (Some(before), Ease::Stepped) => self.keyframes[before].through + 1,
+            (Some(before), Ease::Linear | Ease::Smooth) => self.middle(before) as u32 + 1,
+        }
+    }
+
     /// How it goes from one vector to the next.
     pub fn ease(&self) -> Ease {
         self.ease
@@ -180,6 +193,18 @@ mod tests {
         assert_eq!(at(Ease::Linear, 8), 2.0);
         // 3/16 - 2/64 of 8.
         assert_eq!(at(Ease::Smooth, 8), 1.25);
+    }
+
+    #[test]
+    fn a_vector_is_first_felt_where_it_first_makes_a_difference() {
+        let frames = [10, 11, 20, 41];
+        for ease in [Ease::Stepped, Ease::Linear, Ease::Smooth] {
+            for j in 0..frames.len() {
+                let alone: Vec<Keyframe> = (0..frames.len()).map(|i| key(frames[i], f32::from(i == j))).collect();
+                let field = KeyframedField::new(&alone).unwrap().eased(ease);
+                assert_eq!((1..).find(|&n| field.vector(n).x != 0.0), Some(field.first_felt(j)), "{ease:?}, {j}");
+            }
+        }
     }
 
     #[test]

@@ -82,12 +82,24 @@ class Scene(SceneSettings):
         """Finds the wind that makes the hair do what is wished for. This scene stays; the answer has one of its own.
 
         `wishes`: a wish file, or what is in its `[[wish]]` tables; `nails`, `unknowns`, `space`, `prior` and `search` as
-        there. Without `unknowns` the vectors of all intervals may change. `strands`: among which locks near a point are
-        looked for. `progress` hears the steps done and the most that may be taken; it may end the search by raising.
+        there. Without `unknowns` the vectors of all intervals that wishes can feel may change. `strands`: among which locks
+        near a point are looked for. `progress` hears the steps done and the most that may be taken; it may end the search by
+        raising.
         """
         if isinstance(wishes, (str, os.PathLike)):
             return self._solve_file(wishes, strands=strands, progress=progress, report=report)
         problem: dict[str, Any] = {"space": space, "wish": list(wishes), "nail": list(nails)}
-        problem["unknowns"] = unknowns if unknowns is not None else {"vectors": list(range(len(self.force)))}
+        problem["unknowns"] = unknowns if unknowns is not None else {"vectors": self._felt(problem)}
         problem |= {name: value for name, value in [("prior", prior), ("search", search)] if value is not None}
         return self._solve(problem, strands=strands, progress=progress, report=report)
+
+    def _felt(self, problem: Mapping[str, Any]) -> list[int]:
+        """The intervals that a wish can feel; eased, one is felt before it begins. All, where nails ask for other frames."""
+        frames = [wish.get("frame") for wish in problem["wish"] if isinstance(wish, Mapping)]
+        numbers = [frame for frame in frames if isinstance(frame, int) and frame > 0]
+        every = list(range(len(self.force)))
+        if problem["nail"] or not numbers:
+            return every
+        begins = [0, *(force.through for force in self.force)]
+        early = 0 if self.wind.ease == "stepped" else 1
+        return [number for number in every if begins[max(number - early, 0)] < max(numbers)]

@@ -7,7 +7,7 @@ use nabiki_render::output::png;
 use nabiki_scene::Shown;
 use nabiki_scene::exports::ExportOptions;
 use nabiki_scene::solve::WishFile;
-use nabiki_scene::tasks::{self, SimulateOptions, Twin};
+use nabiki_scene::tasks::{self, PREVIEW_STRANDS, SimulateOptions, Twin};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -152,21 +152,20 @@ impl Scene {
         watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::run(scene, shown, &folder, &none, watch))
     }
 
-    /// The same with few strands, small, at once.
-    #[pyo3(signature = (folder="out".into(), *, strands=300, progress=None,
+    /// The same with few strands, 300 unless given, small, at once.
+    #[pyo3(signature = (folder="out".into(), *, strands=None, progress=None,
         report=None))]
     fn preview(
         &self,
         py: Python<'_>,
         folder: PathBuf,
-        strands: usize,
+        strands: Option<usize>,
         progress: Option<Given<'_, Progress>>,
         report: Option<Given<'_, Report>>,
     ) -> PyResult<()> {
         let (scene, fields) = (self.now(), self.functions());
-        watched(py, Ears::new(&progress, &report), &fields, |watch| {
-            tasks::preview(scene, strands, &folder, None, watch)
-        })
+        let shown = strands.map_or(Shown::AtMost(PREVIEW_STRANDS), Shown::First);
+        watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::preview(scene, shown, &folder, None, watch))
     }
 
     /// Writes the moving hair: .usdc, .usda or .abc for other programs, or a motion cache, .nabiki.

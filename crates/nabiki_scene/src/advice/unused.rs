@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 use nabiki::body::Contact;
-use nabiki::field::Turbulence;
+use nabiki::field::{EnvelopeKey, KeyframedField, Turbulence, envelope};
+use nabiki::groom::style::Variation;
 use nabiki::pseudo_force::PseudoForce;
 use nabiki_render::settings::{Antialiasing, Camera, HairLook, HeadLook, Picture, Projection, Shading};
 
@@ -11,13 +12,23 @@ use crate::scene::{FieldSettings, FormChoice, FreeSettings, Scene};
 
 /// What is given and changes nothing.
 pub(super) fn unused(scene: &Scene) -> Vec<Advice> {
-    let mut advice: Vec<Advice> = unfelt(scene).into_iter().chain(idle(scene)).collect();
-    let lines = [field(&scene.field), camera(&scene.picture.camera), picture(scene)];
+    let said = [uncut(scene), too_late(scene)].into_iter().flatten().chain(silent(scene));
+    let said = said.map(|seen| Advice { seen, settings: Vec::new() });
+    let moving = unfelt(scene).into_iter().chain(idle(scene)).chain(true_of(field(&scene.field))).chain(said);
+    moving.chain(of_pictures(scene)).collect()
+}
+
+/// The same of what is seen alone: all that a picture of motion that is made already can show.
+pub(crate) fn of_pictures(scene: &Scene) -> impl Iterator<Item = Advice> {
+    true_of(camera(&scene.picture.camera)).chain(true_of(picture(scene)))
+}
+
+/// The lines that are true.
+fn true_of(lines: Vec<(bool, &'static str)>) -> impl Iterator<Item = Advice> {
     let of_line = |(changes_nothing, line): (bool, &str)| {
         changes_nothing.then(|| Advice { seen: line.to_owned(), settings: Vec::new() })
     };
-    advice.extend(lines.into_iter().flatten().filter_map(of_line));
-    advice
+    lines.into_iter().filter_map(of_line)
 }
 
 /// Tables of the free form beside the paper's, which feels none of them.
@@ -57,12 +68,57 @@ fn idle(scene: &Scene) -> Vec<Advice> {
     seen
 }
 
+/// Differences of a cut that is not made.
+fn uncut(scene: &Scene) -> Option<String> {
+    let style = &scene.hair.grown()?.style;
+    let idle = style.cuts.is_empty() && style.variation.cut != Variation::default().cut;
+    idle.then(|| "hair.style.variation.cut changes nothing: there are no hair.style.cuts".to_owned())
+}
+
+/// The last frame; beyond all where an override says it: whoever tries fewer frames than there are knows that some are left out.
+fn last_frame(scene: &Scene) -> u32 {
+    if scene.is_overridden("motion.frames") { u32::MAX } else { scene.motion.frames.max(1) }
+}
+
+/// Intervals after the last frame.
+fn too_late(scene: &Scene) -> Option<String> {
+    let (force, last) = (&scene.field.force, last_frame(scene));
+    let wind = KeyframedField::new(force).ok()?.eased(scene.field.wind.ease);
+    // Behind a new interval that ends with the last frame a solver leaves one frame of what was there before.
+    let late = |&j: &usize| wind.first_felt(j) > last && force[j].through != last.saturating_add(1);
+    let j = (0..force.len()).find(late)?;
+    let change = if j + 1 == force.len() { "changes" } else { "and what comes after it change" };
+    let first = wind.first_felt(j);
+    Some(format!("force[{j}] {change} nothing: felt first in frame {first}, and the last is motion.frames = {last}"))
+}
+
+/// Fields whose envelope lets nothing through.
+fn silent(scene: &Scene) -> impl Iterator<Item = String> {
+    let FieldSettings { turbulence, point, vortex, fan, .. } = &scene.field;
+    let named = |kind: &str, i: usize| format!("{kind}[{i}]");
+    let turbulence = turbulence.iter().map(|field| ("[turbulence]".to_owned(), &field.envelope));
+    let points = point.iter().enumerate().map(move |(i, field)| (named("point", i), &field.envelope));
+    let vortices = vortex.iter().enumerate().map(move |(i, field)| (named("vortex", i), &field.envelope));
+    let fans = fan.iter().enumerate().map(move |(i, field)| (named("fan", i), &field.envelope));
+    let last = last_frame(scene);
+    let all = turbulence.chain(points).chain(vortices).chain(fans);
+    let silent = all.filter(move |(_, envelope)| is_silent(envelope, last));
+    silent.map(|(name, _)| format!("{name} changes nothing: its envelope is 0 in all frames"))
+}
+
+/// Whether an envelope is 0 in the frames from 1 through `last`. Between keys it is straight, so that the frames at them and
+/// beside them tell.
+fn is_silent(keys: &[EnvelopeKey], last: u32) -> bool {
+    let beside = |key: &EnvelopeKey| [key.frame.saturating_sub(1), key.frame, key.frame.saturating_add(1)];
+    let mut frames = keys.iter().flat_map(beside).chain([1, last]);
+    !keys.is_empty() && frames.all(|frame| envelope(keys, frame.clamp(1, last)) == 0.0)
+}
+
 /// Whether each of these lines is true of the field.
 fn field(settings: &FieldSettings) -> Vec<(bool, &'static str)> {
     let still = settings.force.iter().all(|key| key.vector == Vec3::ZERO);
     let no_wind = still && settings.body_wind.is_none();
     let turbulence = settings.turbulence.as_ref();
-    let silent = |t: &Turbulence| !t.envelope.is_empty() && t.envelope.iter().all(|key| key.factor == 0.0);
     vec![
         (settings.gust.is_some() && still, "[gust] changes nothing: the vectors of all [[force]] are 0"),
         (settings.flow.is_some() && no_wind, "[flow] changes nothing: the vectors of all [[force]] are 0"),
@@ -70,7 +126,6 @@ fn field(settings: &FieldSettings) -> Vec<(bool, &'static str)> {
             turbulence.is_some_and(|t| t.drift != Turbulence::default().drift && no_wind),
             "turbulence.drift changes nothing: there is no wind that swirls could go with",
         ),
-        (turbulence.is_some_and(silent), "[turbulence] changes nothing: all factors of its envelope are 0"),
     ]
 }
 
@@ -115,6 +170,10 @@ fn picture(scene: &Scene) -> Vec<(bool, &'static str)> {
         (
             papers && (hair.scale_tilt != usual.scale_tilt || hair.refraction != usual.refraction),
             "picture.hair.scale_tilt and refraction change nothing: they are of picture.hair.shading = \"fibre\"",
+        ),
+        (
+            papers && hair.variation != usual.variation,
+            "picture.hair.variation changes nothing: it is of picture.hair.shading = \"fibre\"",
         ),
         (hair.tip != usual.tip && hair.taper == 0.0, "picture.hair.tip changes nothing: picture.hair.taper is 0"),
         (

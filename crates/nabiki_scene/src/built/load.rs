@@ -11,6 +11,7 @@ use glam::Vec3;
 use nabiki::dynamics::{Dynamics, Form, straightened};
 use nabiki::groom::{Growth, grow_run};
 use nabiki::roots::{self, Root};
+use nabiki::strands::check_points;
 use nabiki::{Hair, Head, Pose, SettingError, Strands, subset};
 use nabiki_io::{
     DeclaredSpace, GroomCurves, GroomFile,
@@ -230,7 +231,7 @@ fn load_hair(
                 None => {
                     let GrownHair { strands, seed, hairline, .. } = settings;
                     let roots = roots::spread_first(head, hairline, *strands, rooted, *seed);
-                    roots.map_err(|refused| scene.refusal(refused))?.into()
+                    roots.map_err(|refused| no_scalp(scene, refused))?.into()
                 }
             };
             let (hair, first) = if run.start < first {
@@ -251,6 +252,14 @@ fn load_hair(
         }
         HairSource::Imported(settings) => import(scene, settings, head_placement, wanted),
     }
+}
+
+/// A refusal of roots. Hair grows where the skin lies near the ellipsoid: one that is given may be to blame as well.
+fn no_scalp(scene: &Scene, mut refused: SettingError) -> Error {
+    if refused.thing == "hair.hairline" && matches!(scene.head.ellipsoid, EllipsoidChoice::Given(_)) {
+        refused.remedy += ", or mend head.ellipsoid: hair grows where the skin lies near that";
+    }
+    scene.refusal(refused).into()
 }
 
 fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, wanted: Wanted) -> Result<LoadedHair> {
@@ -329,7 +338,7 @@ fn read_motion(scene: &Scene, source: &motion::MotionSource, key: &str) -> Resul
         skeleton: source.skeleton.as_ref().map(|file| there("skeleton", file)).transpose()?,
         ..source.clone()
     };
-    Ok(motion::read(&source, scene.frame_rate())?)
+    Ok(motion::read(&source, scene.frame_rate()).map_err(|e| e.below(key))?)
 }
 
 /// A head in its place.
@@ -440,11 +449,8 @@ fn grown(scene: &Scene, settings: &GrownHair, head: &Head, roots: &[Root], first
 
 /// The same strands in `segments` equally long segments each.
 fn cut_anew(hair: &Hair, segments: usize) -> std::result::Result<Hair, SettingError> {
-    let points = segments.checked_add(1).and_then(|points| points.checked_mul(hair.strands.len()));
-    match points {
-        Some(points) if points <= u32::MAX as usize => Ok(hair.resampled(segments + 1)),
-        _ => Err(SettingError::new("hair.segments", segments, "more than 2^32 points in all: ask for fewer")),
-    }
+    check_points("hair.segments", segments, hair.strands.len())?;
+    Ok(hair.resampled(segments + 1))
 }
 
 fn dynamics(scene: &Scene, head: &Head) -> Result<Dynamics> {

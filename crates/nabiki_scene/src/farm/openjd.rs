@@ -27,11 +27,12 @@ impl Plan {
         let name: String = format!("Nabiki {}", self.name).chars().take(LONGEST_NAME).collect();
         let scene = default_path(&self.scene, &self.folder);
         let results = default_path(&self.results, &self.folder);
-        for plain in self.sets.iter().chain([&name]) {
-            if plain.contains("{{") {
-                let line = "holds {{, which Open Job Description takes for the name of a parameter; leave it out";
-                return Err(Error::refused(format!("{plain}: {line}")));
-            }
+        let reserved = "holds {{, which Open Job Description takes for the name of a parameter";
+        if self.name.contains("{{") {
+            return Err(Error::refused(format!("{}: its name {reserved}; rename the scene", self.scene.display())));
+        }
+        if let Some(set) = self.sets.iter().find(|set| set.contains("{{")) {
+            return Err(Error::refused(format!("{set}: {reserved}; leave it out")));
         }
         let parameter = |name: &str, kind: &str, about: &str, default: Option<String>| {
             let default = default.map_or_else(String::new, |path| format!("    default: {}\n", text(&path)));

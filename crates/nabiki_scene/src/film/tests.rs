@@ -144,3 +144,12 @@ fn a_body_is_drawn_where_it_is_and_changes_no_pixel_when_it_is_not_shown() {
     assert!(apart(&shown, &later) > 30, "it rises");
     assert!(apart(&shown, &blue) > 300 && shown.depth == blue.depth);
 }
+
+#[test]
+fn what_cannot_be_drawn_is_said_with_its_frame_and_where_it_comes_from() {
+    let built = gust(&[]);
+    let mut strands = built.hair.strands.clone();
+    strands.points_mut()[3].x = 1e30;
+    let refused = film(&built, Camera::default()).draw(5, &strands).err().unwrap().to_string();
+    assert!(refused.contains("gust.toml: frame 5: strand 0, point 3 lies at "), "{refused}");
+}

@@ -1,6 +1,7 @@
 //! What is in a scene file.
 
 use std::fmt;
+use std::path::Path;
 
 use nabiki::field::{Ease, Keyframe};
 use nabiki::free_form::NeighbourForces;
@@ -11,8 +12,10 @@ use crate::scene::{
     BodySettings, FieldBound, FieldSettings, FormChoice, Gravity, GrownHair, HairSource, ImportedHair, Scene,
 };
 use nabiki_io::info::Short;
+use nabiki_io::motion::MotionSource;
 
-/// The outline of a scene; of what it names the head alone is loaded.
+/// The outline of a scene; of what it names the head and its motion alone are loaded. Other files that are not there are said to
+/// be missing beside their names.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SceneInfo {
     /// The head's mesh, as the scene names it.
@@ -23,6 +26,8 @@ pub struct SceneInfo {
     pub head_problem: Option<String>,
     /// C is E scaled by this.
     pub shell: f32,
+    /// The file that moves the head, where one does.
+    pub head_motion: Option<String>,
     /// The hair's file, or how it is grown.
     pub hair: String,
     /// Frames after the rest frame.
@@ -88,9 +93,9 @@ impl SceneInfo {
     /// Outlines `scene`.
     pub fn of(scene: &Scene) -> Self {
         let hair = match &scene.hair.source {
-            HairSource::Imported(ImportedHair { file, strands: None, .. }) => file.display().to_string(),
+            HairSource::Imported(ImportedHair { file, strands: None, .. }) => named(scene, file),
             HairSource::Imported(ImportedHair { file, strands: Some(count), .. }) => {
-                format!("{count} strands of {}", file.display())
+                format!("{count} strands of {}", named(scene, file))
             }
             HairSource::Grown(GrownHair { strands, segments, .. }) => {
                 format!("{strands} strands of at most {segments} x {} cm", scene.hair.segment_length)
@@ -104,6 +109,7 @@ impl SceneInfo {
             ellipsoid: head.as_ref().ok().map(|head| head.ellipsoid),
             head_problem: head.err().map(|problem| problem.to_string()),
             shell: scene.head.shell,
+            head_motion: scene.head.motion.as_ref().map(|motion| motion_in_words(scene, motion)),
             hair,
             frames: scene.motion.frames,
             time_step: scene.motion.time_step,
@@ -114,7 +120,7 @@ impl SceneInfo {
                 .bodies
                 .iter()
                 .enumerate()
-                .map(|(i, body)| (format!("body[{i}]"), body_in_words(body)))
+                .map(|(i, body)| (format!("body[{i}]"), body_in_words(scene, body)))
                 .collect(),
             force: scene.field.force.clone(),
             ease: scene.field.wind.ease,
@@ -130,7 +136,11 @@ impl SceneInfo {
 impl fmt::Display for SceneInfo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "scene: {} frames, {} x {} pixels", self.frames, self.picture[0], self.picture[1])?;
-        writeln!(f, "head: {}", self.head)?;
+        write!(f, "head: {}", self.head)?;
+        if let Some(motion) = &self.head_motion {
+            write!(f, ", moved by {motion}")?;
+        }
+        writeln!(f)?;
         if let Some(Ellipsoid { center, half_axes }) = self.ellipsoid {
             let [x, y, z] = center.to_array().map(Short);
             let [a, b, c] = half_axes.to_array().map(Short);
@@ -203,16 +213,32 @@ impl fmt::Display for FreeInfo {
     }
 }
 
+/// A file as the scene names it, and that it is missing if it is.
+fn named(scene: &Scene, file: &Path) -> String {
+    let missing = if scene.resolve(file).exists() { "" } else { " (missing)" };
+    format!("{}{missing}", file.display())
+}
+
+/// The file of a motion, and that of its skeleton.
+fn motion_in_words(scene: &Scene, motion: &MotionSource) -> String {
+    let skeleton = motion.skeleton.as_ref().map(|skeleton| format!(" of {}", named(scene, skeleton)));
+    named(scene, &motion.file) + &skeleton.unwrap_or_default()
+}
+
 /// A body: its file, and how it goes and is felt.
-fn body_in_words(body: &BodySettings) -> String {
+fn body_in_words(scene: &Scene, body: &BodySettings) -> String {
     let way = match &body.motion {
         _ if body.with_head => "goes with the head".to_owned(),
-        Some(motion) => format!("moved by {}", motion.file.display()),
+        Some(motion) => format!("moved by {}", motion_in_words(scene, motion)),
         None => "stands still".to_owned(),
     };
-    let felt = if body.solid { format!("{} cm from its skin", Short(body.margin)) } else { "not felt".to_owned() };
+    let felt = match scene.form {
+        _ if !body.solid => "not felt".to_owned(),
+        FormChoice::Paper => "not felt in the paper's form".to_owned(),
+        FormChoice::Free => format!("{} cm from its skin", Short(body.margin)),
+    };
     let seen = if body.shown { "" } else { ", not shown" };
-    format!("{}, {way}, {felt}{seen}", body.mesh.display())
+    format!("{}, {way}, {felt}{seen}", named(scene, &body.mesh))
 }
 
 /// The fields beside `[[force]]`, each by its table.

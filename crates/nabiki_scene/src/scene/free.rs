@@ -157,7 +157,7 @@ pub struct BodySettings {
     pub static_friction: f32,
     /// Whether it is drawn (default true).
     pub shown: bool,
-    /// Its colour in pictures (sRGB, 0..1; default a grey).
+    /// Its colour in pictures (sRGB, 0..1; default `[0.42, 0.46, 0.5]`, a grey).
     pub colour: [f32; 3],
 }
 

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use glam::Vec3;
-use nabiki::{SettingError, error::check_positive, groom::Style, roots::Hairline};
+use nabiki::roots::{self, Hairline};
+use nabiki::{SettingError, error::check_positive, groom::Style};
 use nabiki_io::Axis;
 use nabiki_io::Unit;
 use nabiki_io::hair::Cleaning;
@@ -38,7 +39,7 @@ pub enum HairSource {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct GrownHair {
-    /// Number of strands (default 19,330: Table 1).
+    /// Number of strands, 1..800,000,000 (default 19,330: Table 1).
     pub strands: usize,
     /// Most segments of a strand (default 18: the paper's k).
     pub segments: usize,
@@ -203,6 +204,7 @@ impl HairSettings {
 impl GrownHair {
     fn check(&self) -> Result<(), SettingError> {
         check_counts(Some(self.strands), Some(self.segments))?;
+        roots::check_count(self.strands)?;
         let points = self.strands.checked_mul(self.segments.saturating_add(1));
         if points.is_none_or(|points| points > u32::MAX as usize) {
             return Err(SettingError::new("hair.strands", self.strands, "more than 2^32 points in all: grow less"));

@@ -49,15 +49,36 @@ impl Refusal {
         Self { outward: vec![found.to_owned()], problem: Problem::UnknownKey { near, known } }
     }
 
+    /// A value of the wrong kind.
+    fn kind(found: impl Into<String>, wanted: impl Into<String>) -> Self {
+        Self::new(Problem::Kind { found: found.into(), wanted: wanted.into() })
+    }
+
+    /// A list where one table is wanted.
+    fn not_one_table(list: &[Value], wanted: &str) -> Self {
+        match list {
+            [Value::Table(_), ..] => {
+                Self::kind("a list of tables", format!("{wanted}; in a file it begins with one bracket, [...]"))
+            }
+            _ => Self::kind(words(Unexpected::Seq), wanted),
+        }
+    }
+
     /// The same with the value, where a choice of kinds says only what must be.
     fn found(self, value: &Value) -> Self {
         match &self.problem {
             Problem::Other(text) if self.outward.is_empty() => match text.strip_prefix("must be ") {
-                Some(wanted) => {
-                    Self::new(Problem::Kind { found: unexpected(value).to_string(), wanted: wanted.to_owned() })
-                }
+                Some(wanted) => Self::kind(words(unexpected(value)), wanted),
                 None => self,
             },
+            _ => self,
+        }
+    }
+
+    /// The same of a choice that was named without what belongs to it, of which `wanted` are all.
+    fn of_choice(self, name: &str, wanted: &str) -> Self {
+        match &self.problem {
+            Problem::Kind { found, .. } if found == ALONE => Self::kind(format!("\"{name}\" alone"), wanted),
             _ => self,
         }
     }
@@ -79,6 +100,10 @@ impl Refusal {
                     Problem::UnknownKey { near: near.as_ref().map(whole), known }
                 }
             },
+            Problem::Kind { found, wanted } => {
+                let names = self.outward.iter().rev().filter(|step| !is_index(step));
+                Problem::Kind { found, wanted: wanted.replace("[...]", &format!("[{}]", join(names))) }
+            }
             other => other,
         };
         (path, problem)
@@ -98,7 +123,7 @@ const RENAMED: [(&str, &str); 6] = [
 fn join<'a>(steps: impl Iterator<Item = &'a String>) -> String {
     let mut path = String::new();
     for step in steps {
-        if step.bytes().all(|b| b.is_ascii_digit()) {
+        if is_index(step) {
             path = format!("{path}[{step}]");
         } else if path.is_empty() {
             path.push_str(step);
@@ -107,6 +132,11 @@ fn join<'a>(steps: impl Iterator<Item = &'a String>) -> String {
         }
     }
     path
+}
+
+/// Whether a step of a path is a place in a list.
+fn is_index(step: &str) -> bool {
+    step.bytes().all(|b| b.is_ascii_digit())
 }
 
 impl Display for Refusal {
@@ -123,11 +153,7 @@ impl de::Error for Refusal {
     }
 
     fn invalid_type(found: Unexpected, wanted: &dyn Expected) -> Self {
-        let found = match found {
-            Unexpected::UnitVariant => "the name alone".to_owned(),
-            found => found.to_string(),
-        };
-        Self::new(Problem::Kind { found, wanted: plain(wanted) })
+        Self::kind(words(found), plain(wanted))
     }
 
     fn invalid_value(found: Unexpected, wanted: &dyn Expected) -> Self {
@@ -139,10 +165,8 @@ impl de::Error for Refusal {
     }
 
     fn unknown_variant(found: &str, known: &'static [&'static str]) -> Self {
-        let list: Vec<String> = known.iter().map(|name| format!("\"{name}\"")).collect();
         let hint = nearest(found, known.iter().copied()).map(|near| format!("; did you mean \"{near}\"?"));
-        let wanted = format!("one of {}{}", list.join(", "), hint.unwrap_or_default());
-        Self::new(Problem::Kind { found: format!("\"{found}\""), wanted })
+        Self::kind(format!("\"{found}\""), one_of(known) + &hint.unwrap_or_default())
     }
 
     fn unknown_field(found: &str, known: &'static [&'static str]) -> Self {
@@ -160,6 +184,24 @@ impl de::Error for Refusal {
 
 fn entries_of(count: usize) -> String {
     format!("{count} {}", if count == 1 { "entry" } else { "entries" })
+}
+
+fn one_of(names: &[&str]) -> String {
+    let list: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
+    format!("one of {}", list.join(", "))
+}
+
+/// What is found of a choice whose name stands there without what belongs to it.
+const ALONE: &str = "the name alone";
+
+/// What was found, in words of the user's.
+fn words(found: Unexpected) -> String {
+    match found {
+        Unexpected::UnitVariant => ALONE.to_owned(),
+        Unexpected::Seq => "a list".to_owned(),
+        Unexpected::Map => "a table".to_owned(),
+        found => found.to_string(),
+    }
 }
 
 /// Type names of the language as words of the user's.
@@ -220,6 +262,10 @@ impl<'de> Deserializer<'de> for Node<'_> {
         match self.0 {
             Value::String(text) => visitor.visit_str(text),
             Value::Integer(number) => visitor.visit_i64(*number),
+            // It would be infinite where it is kept, and would be refused as that.
+            Value::Float(number) if number.is_finite() && !(*number as f32).is_finite() => {
+                Err(Refusal::range(format!("{number:e}"), "must lie in -3.4e38..3.4e38".to_owned()))
+            }
             Value::Float(number) => visitor.visit_f64(*number),
             Value::Boolean(flag) => visitor.visit_bool(*flag),
             Value::Datetime(date) => Err(Refusal::text(format!("found the date {date}: no setting is a date"))),
@@ -248,29 +294,40 @@ impl<'de> Deserializer<'de> for Node<'_> {
     fn deserialize_enum<V: Visitor<'de>>(
         self,
         _: &'static str,
-        _: &'static [&'static str],
+        names: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Refusal> {
+        // A choice of more than names says itself what it may be.
+        let wanted = match plain(&visitor) {
+            text if text.starts_with("enum ") => one_of(names),
+            text => text,
+        };
         match self.0 {
-            Value::String(text) => visitor.visit_enum(StrDeserializer::new(text)),
+            Value::String(text) => {
+                visitor.visit_enum(StrDeserializer::new(text)).map_err(|e: Refusal| e.of_choice(text, &wanted))
+            }
             Value::Table(table) if table.len() == 1 => match table.iter().next() {
                 Some((name, content)) => visitor.visit_enum(Variant { name, content }),
                 None => Err(Refusal::text("is empty")),
             },
-            other => {
-                Err(Refusal::text(format!("found {} {other}, must be a name or a table of one name", other.type_str())))
-            }
+            other => Err(Refusal::kind(words(unexpected(other)), wanted)),
         }
     }
 
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
         if self.0.is_table() {
             let wanted =
-                "a list, even of one, in brackets; in a file each of a list of tables begins with two, [[...]]"
-                    .to_owned();
-            return Err(Refusal::new(Problem::Kind { found: "a table".to_owned(), wanted }));
+                "a list, even of one, in brackets; in a file each of a list of tables begins with two, [[...]]";
+            return Err(Refusal::kind(words(Unexpected::Map), wanted));
         }
         self.deserialize_any(visitor)
+    }
+
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+        match self.0 {
+            Value::Array(list) => Err(Refusal::not_one_table(list, "a table")),
+            _ => self.deserialize_any(visitor),
+        }
     }
 
     fn deserialize_struct<V: Visitor<'de>>(
@@ -280,19 +337,19 @@ impl<'de> Deserializer<'de> for Node<'_> {
         visitor: V,
     ) -> Result<V::Value, Refusal> {
         // Serde would take an array for the fields in their order.
-        if self.0.is_array() {
+        if let Value::Array(list) = self.0 {
             let wanted = match fields.len() {
                 ..=MOST_NAMED => format!("a table {{ {} }}", fields.join(", ")),
                 _ => "a table".to_owned(),
             };
-            return Err(Refusal::new(Problem::Kind { found: unexpected(self.0).to_string(), wanted }));
+            return Err(Refusal::not_one_table(list, &wanted));
         }
         self.deserialize_any(visitor)
     }
 
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf
-        unit unit_struct tuple tuple_struct map identifier ignored_any
+        unit unit_struct tuple tuple_struct identifier ignored_any
     }
 }
 

@@ -47,6 +47,11 @@ impl Origins {
         }
     }
 
+    /// Whether an override set the value at a path (dotted).
+    pub fn is_overridden(&self, path: &str) -> bool {
+        self.overrides.contains_key(path)
+    }
+
     /// Notes that an override set the value at a path, and all below it, and made the tables on the way that the file has not.
     fn override_at(&mut self, steps: &[String], text: &str) {
         let path = steps.join(".");
@@ -88,7 +93,12 @@ pub(crate) fn parse(
     let line_at = |offset: usize| line_starts.partition_point(|&start| start <= offset);
     let syntax = |e: toml::de::Error| {
         let line = e.span().map(|span| line_at(span.start));
-        let message = e.message().split_whitespace().collect::<Vec<_>>().join(" ");
+        let mut message = e.message().split_whitespace().collect::<Vec<_>>().join(" ");
+        if message == "duplicate key"
+            && let Some(key) = e.span().and_then(|span| text.get(span))
+        {
+            message = format!("duplicate key {key}: it is given above already, give it once");
+        }
         let problem = Box::new(Problem::NotToml(message));
         SceneError { file: file.to_owned(), line, set: None, key: String::new(), problem }
     };

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::Vec3;
 use nabiki::SettingError;
-use nabiki::field::Keyframe;
+use nabiki::field::{Ease, Keyframe, KeyframedField};
 use nabiki::solve::{Goal, Prior, Search, Unknown, with_interval};
 use nabiki_io::input;
 use serde::Deserialize;
@@ -310,6 +310,53 @@ impl Unknowns {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Those of the unknowns that a wish can feel, and of each vector that none can, which stays as it is, what is said of
+    /// it. `force` and `unknowns`: what [`of`](Self::of) gives; `last`: the last frame that a wish or nail is about.
+    ///
+    /// # Errors
+    /// Names the first vector, where nothing is left that may change.
+    pub(crate) fn within_reach(
+        &self,
+        force: &[Keyframe],
+        ease: Ease,
+        unknowns: &[Unknown],
+        last: u32,
+    ) -> Result<(Vec<Unknown>, Vec<String>), SettingError> {
+        let first_felt = |unknown: Unknown| match unknown {
+            // A border that may change may bring what comes behind it nearer.
+            Unknown::Vector(j) if !unknowns.iter().any(|u| matches!(u, Unknown::Border(before) if *before < j)) => {
+                KeyframedField::new(force).map(|field| field.eased(ease).first_felt(j))
+            }
+            _ => Ok(1),
+        };
+        let (mut felt, mut out_of_reach) = (Vec::new(), Vec::new());
+        for &unknown in unknowns {
+            let first = first_felt(unknown)?;
+            if first <= last {
+                felt.push(unknown);
+                continue;
+            }
+            let why = format!("first felt in frame {first}, after the last that a wish or nail is about, {last}");
+            let named = self.vectors.iter().position(|&j| unknown == Unknown::Vector(j));
+            let (key, value) = match (named, self.interval) {
+                (Some(i), _) => (format!("unknowns.vectors[{i}]"), self.vectors[i].to_string()),
+                (None, interval) => {
+                    let from = interval.map_or(first, |interval| interval.from);
+                    ("unknowns.interval.from".to_owned(), from.to_string())
+                }
+            };
+            out_of_reach.push((key, value, why));
+        }
+        if felt.is_empty()
+            && let Some((key, value, why)) = out_of_reach.first()
+        {
+            let remedy = format!("{why}: free what blows before it, or wish for a later frame");
+            return Err(SettingError::new(key.as_str(), value, remedy));
+        }
+        let line = |(key, value, why): (String, String, String)| format!("{key} = {value} stays as it is: {why}");
+        Ok((felt, out_of_reach.into_iter().map(line).collect()))
     }
 
     /// The intervals of a scene with the new one, if there is one, and all that may change.

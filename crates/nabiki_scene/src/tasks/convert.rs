@@ -2,13 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use nabiki::{Hair, Pose, error::check_positive};
+use nabiki::{Hair, Pose, SettingError, error::check_positive, strands::check_points};
 use nabiki_io::Axis;
 use nabiki_io::cache::Reader;
 use nabiki_io::exchange::{self, DeclaredSpace};
 use nabiki_io::hair;
 use nabiki_io::{GroomFile, Placement, Unit};
 
+use crate::advice::Advice;
 use crate::error::{Error, Result};
 use crate::place;
 use crate::scene::HairSettings;
@@ -26,7 +27,7 @@ pub struct ConvertOptions {
     pub frame: Option<u32>,
     /// Segments into which every strand is walked; without it as the file has them.
     pub segments: Option<usize>,
-    /// Unit of the input, for a USD layer to name.
+    /// Unit of the input, for a USD layer to name; refused where the input says otherwise.
     pub unit: Option<Unit>,
     /// Whether z is up in the input, for a USD layer to name; refused where the input says otherwise.
     pub z_up: bool,
@@ -53,6 +54,7 @@ pub fn convert(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
         let line = line.replace("{}", &segments.to_string());
         return Err(Error::refused(format!("{}: {line}", options.input.display())));
     }
+    advise_space(options, watch);
     match input {
         Input::Cache(cache) if moves => cached_frames(options, *cache, watch),
         Input::Groom(groom) if moves && frames > 1 => exchanged_frames(options, groom, watch),
@@ -85,14 +87,31 @@ fn check_space(options: &ConvertOptions) -> Result<()> {
     if let Some(unit) = options.unit {
         check_positive("--unit", unit.cm).map_err(|e| Error::refused(e.to_string()))?;
     }
-    let useless = [(options.unit.is_some(), "--unit"), (options.z_up, "--z-up")];
-    match useless.into_iter().find(|&(given, _)| given && is_cache(&options.input)) {
+    match given_space(options).next().filter(|_| is_cache(&options.input)) {
         None => Ok(()),
-        Some((_, option)) => {
+        Some(option) => {
             let (input, why) = (options.input.display(), "a motion cache knows its unit and axes");
             Err(Error::refused(format!("{input}: {option}: {why}; leave {option} out")))
         }
     }
+}
+
+/// The options that say a space.
+fn given_space(options: &ConvertOptions) -> impl Iterator<Item = &'static str> {
+    let all = [(options.unit.is_some(), "--unit"), (options.z_up, "--z-up")];
+    all.into_iter().filter(|&(given, _)| given).map(|(_, option)| option)
+}
+
+/// Says that a space is given in vain, where the output cannot name it.
+fn advise_space(options: &ConvertOptions, watch: &mut dyn Watch) {
+    if exchange::is_usd(&options.output) {
+        return;
+    }
+    let output = options.output.display();
+    let line = |option: &str| {
+        format!("{option} changes nothing: {output} names neither unit nor axes, and no number is converted")
+    };
+    super::advise(given_space(options).map(|option| Advice { seen: line(option), settings: Vec::new() }), watch);
 }
 
 fn is_cache(path: &Path) -> bool {
@@ -146,10 +165,10 @@ impl Input {
                     Some(placement) => hair.transformed(&placement.file_from_head()),
                     None => hair,
                 };
-                Ok(match options.segments {
-                    Some(segments) => (hair.resampled(segments + 1), pose),
-                    None => (hair, pose),
-                })
+                let Some(segments) = options.segments else { return Ok((hair, pose)) };
+                let refused = |e: SettingError| Error::refused(format!("{}: {e}", input.display()));
+                check_points("--segments", segments, hair.strands.len()).map_err(refused)?;
+                Ok((hair.resampled(segments + 1), pose))
             }
             Self::Groom(groom) => {
                 let frame = options.frame.unwrap_or(0);
@@ -237,10 +256,10 @@ fn said(options: &ConvertOptions, in_file: DeclaredSpace) -> Result<DeclaredSpac
         && (given.cm - stated.cm).abs() > 1e-6 * stated.cm
     {
         return Err(Error::refused(format!(
-            "{}: --unit {}: the file itself says {}; leave --unit out",
+            "{}: --unit {}: the file itself says {stated}; leave --unit out",
             options.input.display(),
-            given.cm,
-            stated.cm
+            // As it is typed: a name, or a number alone.
+            given.to_string().trim_end_matches(" cm"),
         )));
     }
     // That of an archive is an agreement, and is not in the file.

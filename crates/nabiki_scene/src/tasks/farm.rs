@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use nabiki_file::{PartFile, folder_of};
-use nabiki_render::Movie;
 
 use crate::built::Shown;
 use crate::error::{Error, Result};
 use crate::farm::{Engine, Plan};
+use crate::outputs;
 use crate::place;
 use crate::scene::Scene;
 use crate::told::Told;
@@ -89,8 +89,7 @@ fn check_movie(scene: &Scene) -> Result<()> {
              false"
         )));
     }
-    let rate = scene.picture.video.frame_rate.unwrap_or(scene.frame_rate());
-    Ok(Movie::check(&scene.picture, rate)?)
+    outputs::check_movie(scene, &scene.picture)
 }
 
 fn plan(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Result<Plan> {

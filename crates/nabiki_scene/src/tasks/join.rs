@@ -18,7 +18,7 @@ use crate::watch::{Watch, each_frame};
 /// Files that are not the shards of one motion; a missing one, with the command that makes it; a place that cannot be
 /// written; cancelled by `watch`.
 pub fn join(files: &[PathBuf], output: &Path, watch: &mut dyn Watch) -> Result<()> {
-    place::cache(output, files)?;
+    place::cache(output, "choose another name", files)?;
     let mut pieces = sorted(files)?;
     let header = whole(&pieces)?;
     let frames = pieces[0].reader.frame_count();

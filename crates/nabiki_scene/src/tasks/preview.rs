@@ -9,25 +9,28 @@ use crate::cache_file::write_cache;
 use crate::error::Result;
 use crate::film::Film;
 use crate::frames::Simulated;
-use crate::outputs::PictureOutputs;
+use crate::outputs::{self, PictureOutputs};
 use crate::place::{self, Folders};
 use crate::scene::Scene;
 use crate::told::Told;
 use crate::watch::Watch;
 
+/// Strands that a preview shows, or all where a scene has fewer, unless it is told how many.
+pub const PREVIEW_STRANDS: usize = 300;
+
 /// Longer side of a preview's frames (pixels).
 const LONGER_SIDE: u32 = 480;
 
-/// Draws at most `strands` of a scene's strands, small, into `folder`; their motion goes into `cache`, too, if one is
-/// named.
+/// Draws some of a scene's strands, small, into `folder`; their motion goes into `cache`, too, if one is named.
 ///
 /// # Errors
 /// As [`run`](super::run()).
-pub fn preview(scene: Scene, strands: usize, folder: &Path, cache: Option<&Path>, watch: &mut dyn Watch) -> Result<()> {
+pub fn preview(scene: Scene, shown: Shown, folder: &Path, cache: Option<&Path>, watch: &mut dyn Watch) -> Result<()> {
     if let Some(cache) = cache {
-        place::cache(cache, &scene.inputs())?;
+        place::cache(cache, "choose another name", &scene.inputs())?;
     }
-    let built = super::build(scene, Shown::AtMost(strands), watch)?;
+    outputs::check_movie(&scene, &small(&scene.picture, 1.0))?;
+    let built = super::build(scene, shown, watch)?;
     let simulated = Simulated::new(&built)?;
     let scene = &built.scene;
     let share = built.strands_of_scene as f32 / built.hair.strands.len() as f32;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use nabiki_render::output::{exr, png};
 use nabiki_render::{Frame, Movie, ToneMapping};
 
-use crate::advice::Advice;
+use crate::advice::{Advice, of_pictures};
 use crate::built::{BuiltScene, Shown};
 use crate::error::{Error, Result};
 use crate::film::Film;
@@ -40,12 +40,15 @@ pub enum Pictures {
     Turntable {
         /// The frame.
         frame: u32,
-        /// Pictures in the turn, at least 2.
+        /// Pictures in the turn, 2..[`MOST_PICTURES`](Pictures::MOST_PICTURES).
         pictures: u32,
     },
 }
 
 impl Pictures {
+    /// The most pictures of a turntable: their views are all known before the first is drawn.
+    pub const MOST_PICTURES: u32 = 100_000;
+
     /// Refuses frames that are not there.
     fn check(self, last: u32) -> Result<()> {
         let reaches = format!("the last frame is motion.frames = {last}");
@@ -59,8 +62,9 @@ impl Pictures {
             Self::Run(from, through) if through > last => {
                 Err(Error::refused(format!("--frames {from}..{through}: {reaches}")))
             }
-            Self::Turntable { pictures, .. } if pictures < 2 => {
-                Err(Error::refused(format!("--turntable {pictures}: a turn takes 2 pictures at least")))
+            Self::Turntable { pictures, .. } if !(2..=Self::MOST_PICTURES).contains(&pictures) => {
+                let most = Self::MOST_PICTURES;
+                Err(Error::refused(format!("--turntable {pictures}: a turn takes 2 to {most} pictures")))
             }
             _ => Ok(()),
         }
@@ -78,8 +82,16 @@ pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path
     if matches!(options.pictures, Pictures::Run(..)) && (scene.output.movie || !scene.output.exr_frames) {
         scene.output.png_frames = true;
     }
+    if matches!(options.pictures, Pictures::All | Pictures::Turntable { .. }) {
+        outputs::check_movie(&scene, &scene.picture)?;
+    }
     let built = super::build(scene, shown, watch)?;
     let scene = &built.scene;
+    match options.motion {
+        None => super::advise(built.advice(), watch),
+        // What is to be said of the hair and of what moves it was said when that was done.
+        Some(_) => super::advise(of_pictures(scene), watch),
+    }
     let mut folders = Folders::default();
     let mut inputs = scene.inputs();
     inputs.extend(options.motion.clone());
@@ -190,5 +202,21 @@ fn source<'a>(built: &'a BuiltScene, options: &RenderOptions) -> Result<Box<dyn 
     match &options.motion {
         Some(cache) => Ok(Box::new(Cached::of(built, cache)?)),
         None => Ok(Box::new(Simulated::new(built)?)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turn_of_fewer_than_two_or_of_endless_pictures_is_refused() {
+        let said = |pictures| Pictures::Turntable { frame: 0, pictures }.check(9).map_err(|e| e.to_string());
+        for pictures in [2, Pictures::MOST_PICTURES] {
+            assert_eq!(said(pictures), Ok(()));
+        }
+        for pictures in [0, 1, 100_001, u32::MAX] {
+            assert_eq!(said(pictures), Err(format!("--turntable {pictures}: a turn takes 2 to 100000 pictures")));
+        }
     }
 }

@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::exports::{ExportOptions, Exports};
 use crate::film::Film;
 use crate::frames::{FrameSource, Simulated};
-use crate::outputs::PictureOutputs;
+use crate::outputs::{self, PictureOutputs};
 use crate::place::{self, Folders};
 use crate::scene::Scene;
 use crate::told::Told;
@@ -25,6 +25,7 @@ pub fn run(scene: Scene, shown: Shown, folder: &Path, exports: &ExportOptions, w
     let files: Vec<&Path> = exports.files.iter().map(|file| file.as_path()).collect();
     place::distinct(&files)?;
     place::not_inputs(&files, &scene.inputs())?;
+    outputs::check_movie(&scene, &scene.picture)?;
     let built = super::build(scene, shown, watch)?;
     let simulated = Simulated::new(&built)?;
     let scene = &built.scene;

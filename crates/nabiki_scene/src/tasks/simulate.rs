@@ -71,7 +71,7 @@ pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &m
         folders.make(folder_of(cache), "choose another name")?;
     }
     match cache {
-        Some(cache) => place::cache(cache, &scene.inputs())?,
+        Some(cache) => place::cache(cache, "moving hair for other tools in .usdc, .usda or .abc", &scene.inputs())?,
         None => exports.files.insert(0, options.output.clone()),
     }
     exports.check()?;

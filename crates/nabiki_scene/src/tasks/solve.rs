@@ -7,10 +7,11 @@ use std::time::Instant;
 use nabiki::SettingError;
 use nabiki::solve::{Problem, Search, Solver, Wish};
 
+use crate::advice::Advice;
 use crate::built::Shown;
 use crate::error::{Error, Result};
 use crate::place;
-use crate::scene::{HairSource, Scene};
+use crate::scene::{FieldSettings, HairSource, Scene};
 use crate::solve::{Solved, WishFile};
 use crate::told::Told;
 use crate::watch::Watch;
@@ -58,6 +59,11 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
     super::present(&built, watch);
     let named = file.about(&built)?;
     let (names, list): (Vec<String>, Vec<Wish>) = named.into_iter().map(|named| (named.name, named.wish)).unzip();
+    let last = list.iter().map(|wish| wish.frame).max().unwrap_or(0);
+    let FieldSettings { force, wind, .. } = &built.scene.field;
+    let within_reach = wishes.unknowns.within_reach(force, wind.ease, &unknowns, last);
+    let (unknowns, held) = within_reach.map_err(in_file)?;
+    super::advise(held.into_iter().map(|seen| Advice { seen, settings: Vec::new() }), watch);
     let strands: BTreeSet<u32> = list.iter().flat_map(|wish| wish.nodes.iter().map(|node| node.strand)).collect();
     let problem = Problem { prior: wishes.prior.into(), ..built.problem(unknowns.clone(), list) };
     let begun = Instant::now();

@@ -43,7 +43,7 @@ class HairSettings(Table):
 
     @property
     def strands(self) -> int:
-        """Number of strands (default 19,330: Table 1)."""
+        """Number of strands, 1..800,000,000 (default 19,330: Table 1)."""
         value: int = self._get('strands')
         return value
 

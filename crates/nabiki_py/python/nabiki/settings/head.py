@@ -114,8 +114,8 @@ class MotionSource(Table):
 
     @property
     def file(self) -> str:
-        """A .bvh, .amc, .tof, .glb, .gltf, .abc, .usda or .usdc file, or a .csv with the columns t_s, px_m, py_m, pz_m,
-        qx, qy, qz, qw.
+        """A .bvh, .amc, .tof, .glb, .gltf, .abc, .usd, .usda or .usdc file, or a .csv with the columns t_s, px_m, py_m,
+        pz_m (or _cm, _mm), qx, qy, qz, qw.
         """
         value: str = self._get('file')
         return value
@@ -148,7 +148,7 @@ class MotionSource(Table):
 
     @property
     def clip(self) -> str:
-        """Animation of a .glb by name; may stay empty where there is one only."""
+        """Animation of a .glb or .gltf by name; may stay empty where there is one only."""
         value: str = self._get('clip')
         return value
 
@@ -158,8 +158,8 @@ class MotionSource(Table):
 
     @property
     def unit_cm(self) -> float | None:
-        """Length of the file's unit (cm). Needed for .bvh, .tof and .abc; .glb is in metres unless said here, .amc in
-        inches times the `length` of its .asf; .csv and USD name their own.
+        """Length of the file's unit (cm). Needed for .bvh, .tof and .abc; .glb and .gltf are in metres unless said here,
+        .amc in inches times the `length` of its .asf; .csv and USD name their own.
         """
         value: float | None = self._get('unit_cm')
         return value
@@ -170,7 +170,9 @@ class MotionSource(Table):
 
     @property
     def up(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
-        """Up axis of the file's world. Needed for .bvh, .amc, .tof and .csv; +y in .glb and .abc; USD names its own."""
+        """Up axis of the file's world. Needed for .bvh, .amc, .tof and .csv; +y in .glb, .gltf and .abc; USD names its
+        own.
+        """
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('up')
         return value
 
@@ -180,9 +182,9 @@ class MotionSource(Table):
 
     @property
     def facing(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
-        """Axis of the file's world that the character faces while the joint is unturned. Needed but for .glb: +z in
-        that, whose node is unturned as the file's still pose has it. A bone of an .amc is unturned as the .asf has
-        it, a joint of a .tof where its axes are the world's.
+        """Axis of the file's world that the character faces while the joint is unturned. Needed but for .glb and .gltf:
+        +z in those, whose node is unturned as the file's still pose has it. A bone of an .amc is unturned as the .asf
+        has it, a joint of a .tof where its axes are the world's.
         """
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('facing')
         return value
@@ -203,7 +205,7 @@ class MotionSource(Table):
 
     @property
     def skip(self) -> int:
-        """Samples dropped at the start (a T-pose, say; default 0). Not for .glb."""
+        """Samples dropped at the start (a T-pose, say; default 0). Not for .glb and .gltf."""
         value: int = self._get('skip')
         return value
 
@@ -214,7 +216,7 @@ class MotionSource(Table):
     @property
     def positions(self) -> Literal["linear", "cubic"]:
         """How positions between two samples are found (default cubic). Rotations turn at a constant rate (slerp). Not
-        for .glb, whose channels say it themselves.
+        for .glb and .gltf, whose channels say it themselves.
         """
         value: Literal["linear", "cubic"] = self._get('positions')
         return value
@@ -392,7 +394,7 @@ class BodySettings(Table):
 
     @property
     def colour(self) -> tuple[float, float, float]:
-        """Its colour in pictures (sRGB, 0..1; default a grey)."""
+        """Its colour in pictures (sRGB, 0..1; default `[0.42, 0.46, 0.5]`, a grey)."""
         value: tuple[float, float, float] = self._get('colour')
         return value
 

@@ -236,8 +236,9 @@ class Camera(Table):
     @property
     def f_stop(self) -> float | None:
         """How far the lens is opened, for perspective: its focal length over its diameter, as photographers count it
-        (0.1..128). Small numbers blur much. The focal length is that of a picture 24 mm high on the sensor with this
-        `fov`: 52 mm for 26 degrees. Default: a pinhole, all is sharp.
+        (0.1..128). Small numbers blur much; skin blurred by more than 3 picture heights is refused. The focal length
+        is that of a picture 24 mm high on the sensor with this `fov`: 52 mm for 26 degrees. Default: a pinhole, all
+        is sharp.
         """
         value: float | None = self._get('f_stop')
         return value
@@ -547,7 +548,7 @@ class Sky(Table):
 
     @property
     def above(self) -> tuple[float, float, float]:
-        """Colour of the light from straight above (linear, 0..1)."""
+        """Colour of the light from straight above (linear, 0..1). Default `[0.93, 0.97, 1]`."""
         value: tuple[float, float, float] = self._get('above')
         return value
 
@@ -557,7 +558,7 @@ class Sky(Table):
 
     @property
     def below(self) -> tuple[float, float, float]:
-        """Colour of the light from straight below (linear, 0..1)."""
+        """Colour of the light from straight below (linear, 0..1). Default `[0.55, 0.5, 0.47]`."""
         value: tuple[float, float, float] = self._get('below')
         return value
 
@@ -603,7 +604,9 @@ class HeadLook(Table):
 
     @property
     def colour(self) -> tuple[float, float, float]:
-        """Its colour (sRGB, 0..1). Default a neutral skin, dull enough to leave the eye to the hair."""
+        """Its colour (sRGB, 0..1). Default `[0.56, 0.44, 0.37]`, a neutral skin, dull enough to leave the eye to the
+        hair.
+        """
         value: tuple[float, float, float] = self._get('colour')
         return value
 

@@ -201,7 +201,9 @@ class Turbulence(Table):
 
     @property
     def swirl_size(self) -> float:
-        """Size of the largest swirls (cm), half of the wavelengths that they are made of, 0.01..1e6 (default 10)."""
+        """Size of the largest swirls (cm), half of the wavelengths that they are made of, 0.01..1e6 (default 10). Those
+        of the last octave must be as large as 0.01, too.
+        """
         value: float = self._get('swirl_size')
         return value
 
