@@ -40,7 +40,6 @@ SPECIAL = {
     "Gravity": ("float | str", "float | str"),
     "Unit": ("str | float", "str | float"),
     "Axis": ('Literal["+x", "-x", "+y", "-y", "+z", "-z"]',) * 2,
-    "Background": ("str | tuple[float, ...]", "str | Numbers"),
 }
 # Which module holds a table of the scene.
 MODULES = {

@@ -17,12 +17,12 @@ use crate::strands::bounds;
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Contact {
-    /// How far from the skin nodes are kept (cm), 0..=5. A node that lies closer at rest is kept where it lies.
+    /// How far from the skin nodes are kept (cm), 0..=5 (default 0.1). A node that lies closer at rest is kept where it lies.
     pub margin: f32,
-    /// The part of the push that sliding hair loses of its speed along the skin (Coulomb), 0..=10.
+    /// The part of the push that sliding hair loses of its speed along the skin (Coulomb), 0..=10 (default 0.1).
     pub friction: f32,
     /// The same for hair that does not slide: it stays as long as what would move it is below this part of the push.
-    /// At least `friction`.
+    /// At least `friction` (default 0.15).
     pub static_friction: f32,
 }
 

@@ -9,6 +9,8 @@ use nabiki::Head;
 use nabiki::dynamics::Form;
 use nabiki::head::Opening;
 use nabiki_io::info::Short;
+use nabiki_render::settings::Projection;
+use nabiki_render::{Bounds, View};
 
 use crate::built::BuiltScene;
 use crate::scene::{EllipsoidChoice, HeadSource};
@@ -66,6 +68,7 @@ pub(crate) fn advice(built: &BuiltScene) -> Vec<Advice> {
     let of_hair = if of_head.is_none() { built.seat().and_then(|seat| of_seat(&seat)) } else { None };
     advice.extend(of_head.into_iter().chain(of_hair).chain(untied(built)).chain(unbound(built)));
     advice.extend(open_bodies(built));
+    advice.extend(within_the_head(built));
     advice.extend(unused::unused(&built.scene));
     advice
 }
@@ -79,6 +82,25 @@ fn open_bodies(built: &BuiltScene) -> impl Iterator<Item = Advice> {
         );
         Advice { seen, settings: Vec::new() }
     })
+}
+
+/// A camera that sees the head from within, which is next to nothing.
+fn within_the_head(built: &BuiltScene) -> Option<Advice> {
+    let (picture, head) = (&built.scene.picture, &built.head);
+    // An automatic one stands outside, and so does an orthographic one.
+    picture.camera.distance.filter(|_| picture.camera.projection == Projection::Perspective)?;
+    let mut framed = Bounds::default();
+    head.mesh.positions.iter().chain(built.hair.strands.points()).for_each(|&p| framed.include(p));
+    let eye = View::new(&picture.camera, picture.size, &framed).eye;
+    if head.ellipsoid.value(built.pose(0).rotation.inverse() * eye) >= 0.0 {
+        return None;
+    }
+    let [x, y, z] = eye.to_array().map(Short);
+    let seen = format!(
+        "picture.camera stands in the head, at ({x}, {y}, {z}), and sees next to nothing: give a larger picture.camera.distance, \
+         or another target"
+    );
+    Some(Advice { seen, settings: Vec::new() })
 }
 
 /// A tie that holds no hair.

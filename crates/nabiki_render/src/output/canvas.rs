@@ -112,8 +112,16 @@ impl Canvas {
     /// letters, F and common signs; any other character is a space.
     pub fn caption(&mut self, text: &str, at: [f32; 2], height: f32, colour: [u8; 3]) {
         for stroke in font::strokes(text, at[0], at[1], height) {
-            self.stroke(&stroke, (height / 7.0).max(1.0), colour);
+            self.stroke(&stroke, thickness(height), colour);
         }
+    }
+
+    /// The same with an edge about it, to be read on any picture.
+    pub fn label(&mut self, text: &str, at: [f32; 2], height: f32, colour: [u8; 3], edge: [u8; 3]) {
+        for stroke in font::strokes(text, at[0], at[1], height) {
+            self.stroke(&stroke, 3.0 * thickness(height), edge);
+        }
+        self.caption(text, at, height, colour);
     }
 
     /// Width of a caption (pixels).
@@ -157,9 +165,32 @@ impl Canvas {
     }
 }
 
+/// Thickness of the strokes of letters (pixels).
+fn thickness(height: f32) -> f32 {
+    (height / 7.0).max(1.0)
+}
+
 fn distance_to_segment(p: [f32; 2], a: [f32; 2], b: [f32; 2]) -> f32 {
     let (ab, ap) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let squared = ab[0] * ab[0] + ab[1] * ab[1];
     let t = if squared > 0.0 { ((ap[0] * ab[0] + ap[1] * ab[1]) / squared).clamp(0.0, 1.0) } else { 0.0 };
     (ap[0] - t * ab[0]).hypot(ap[1] - t * ab[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_label_can_be_read_on_its_own_colour_and_on_its_edges() {
+        let (ink, edge) = ([235; 3], [24; 3]);
+        for ground in [ink, edge] {
+            let mut canvas = Canvas::new([80, 20], ground);
+            canvas.label("frame 8", [6.0, 14.0], 8.0, ink, edge);
+            let bright = canvas.rgb.chunks_exact(3).filter(|pixel| pixel[0] > 130).count();
+            // Six letters of 8 pixels at the least, with edges as wide at either side.
+            let most = 80 * 20 - 6 * 8;
+            assert!((6 * 8..most - 6 * 8).contains(&bright), "{bright}");
+        }
+    }
 }

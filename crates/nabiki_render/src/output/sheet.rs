@@ -46,13 +46,13 @@ impl ContactSheet {
         let mut picture = Canvas::shrunk(size, &tone_mapping.rgba8(frame), size[0].div_ceil(WIDEST));
         let [width, height] = picture.size().map(|s| s as f32);
         let text = (height / 28.0).clamp(6.0, 18.0);
-        picture.caption(&format!("frame {number}"), [text, 2.0 * text], text, INK);
+        picture.label(&format!("frame {number}"), [text, 2.0 * text], text, INK, PAPER);
         if let Some(force) = force {
             // Between two keys a force has more digits than anybody reads; and no -0.
             let [x, y, z] = force.to_array().map(|f| (100.0 * f).round() / 100.0 + 0.0);
             let caption = format!("F = ({x}, {y}, {z})");
             let at = [text, height - text];
-            picture.caption(&caption, at, 0.8 * text, INK);
+            picture.label(&caption, at, 0.8 * text, INK, PAPER);
             let [x, y] = view.in_picture(force);
             let reach = 0.09 * width.min(height);
             let middle = [text + reach, height - 2.6 * text - reach];
@@ -90,7 +90,7 @@ impl ContactSheet {
             }
         }
         let text = (height / 28.0).clamp(6.0, 18.0);
-        picture.caption(&format!("largest F = {largest:.1}"), [text, height - text], 0.8 * text, INK);
+        picture.label(&format!("largest F = {largest:.1}"), [text, height - text], 0.8 * text, INK, PAPER);
     }
 
     /// Whether nothing was added yet.

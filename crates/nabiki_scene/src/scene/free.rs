@@ -149,11 +149,11 @@ pub struct BodySettings {
     pub with_head: bool,
     /// Whether hair keeps out of it (default true); otherwise it is drawn and no more, and may be open.
     pub solid: bool,
-    /// How far from its skin nodes are kept (cm).
+    /// How far from its skin nodes are kept (cm; default 0.1).
     pub margin: f32,
-    /// The part of a push that sliding hair loses of its speed.
+    /// The part of a push that sliding hair loses of its speed (default 0.1).
     pub friction: f32,
-    /// The same for hair that does not slide, at least `friction`.
+    /// The same for hair that does not slide, at least `friction` (default 0.15).
     pub static_friction: f32,
     /// Whether it is drawn (default true).
     pub shown: bool,

@@ -10,7 +10,7 @@ from ._table import Table, Tables
 from .hair import Clumps, Comb, Curl, Cut, Fringe, HairSettings, Hairline, Length, Lift, Parting, Ponytail, Stiffness, Style, Variation, Volume
 from .head import BodySettings, HeadSettings, MotionSource
 from .motion import Contact, Disturbance, FreeSettings, Motion, NeighbourForces, PseudoForce, Tie
-from .picture import Camera, CameraKey, HairLook, HeadLook, Light, Output, Picture, Sky, Video
+from .picture import Background, Camera, CameraKey, HairLook, HeadLook, Light, Output, Picture, Sky, Video
 from .wind import BodyWind, EnvelopeKey, Falloff, Fan, Flow, Gust, Keyframe, Point, Turbulence, Vortex, Wind
 
 

@@ -354,7 +354,7 @@ class BodySettings(Table):
 
     @property
     def margin(self) -> float:
-        """How far from its skin nodes are kept (cm)."""
+        """How far from its skin nodes are kept (cm; default 0.1)."""
         value: float = self._get('margin')
         return value
 
@@ -364,7 +364,7 @@ class BodySettings(Table):
 
     @property
     def friction(self) -> float:
-        """The part of a push that sliding hair loses of its speed."""
+        """The part of a push that sliding hair loses of its speed (default 0.1)."""
         value: float = self._get('friction')
         return value
 
@@ -374,7 +374,7 @@ class BodySettings(Table):
 
     @property
     def static_friction(self) -> float:
-        """The same for hair that does not slide, at least `friction`."""
+        """The same for hair that does not slide, at least `friction` (default 0.15)."""
         value: float = self._get('static_friction')
         return value
 

@@ -221,7 +221,9 @@ class Contact(Table):
 
     @property
     def margin(self) -> float:
-        """How far from the skin nodes are kept (cm), 0..=5. A node that lies closer at rest is kept where it lies."""
+        """How far from the skin nodes are kept (cm), 0..=5 (default 0.1). A node that lies closer at rest is kept where
+        it lies.
+        """
         value: float = self._get('margin')
         return value
 
@@ -231,7 +233,7 @@ class Contact(Table):
 
     @property
     def friction(self) -> float:
-        """The part of the push that sliding hair loses of its speed along the skin (Coulomb), 0..=10."""
+        """The part of the push that sliding hair loses of its speed along the skin (Coulomb), 0..=10 (default 0.1)."""
         value: float = self._get('friction')
         return value
 
@@ -242,7 +244,7 @@ class Contact(Table):
     @property
     def static_friction(self) -> float:
         """The same for hair that does not slide: it stays as long as what would move it is below this part of the push.
-        At least `friction`.
+        At least `friction` (default 0.15).
         """
         value: float = self._get('static_friction')
         return value

@@ -7,7 +7,18 @@ from typing import Any, Literal
 
 from ._table import Arrays, File, Numbers, Table, Tables
 
-__all__ = ["Camera", "CameraKey", "HairLook", "HeadLook", "Light", "Output", "Picture", "Sky", "Video"]
+__all__ = [
+    "Background",
+    "Camera",
+    "CameraKey",
+    "HairLook",
+    "HeadLook",
+    "Light",
+    "Output",
+    "Picture",
+    "Sky",
+    "Video",
+]
 
 
 class Picture(Table):
@@ -101,13 +112,12 @@ class Picture(Table):
         self._set('head', value)
 
     @property
-    def background(self) -> str | tuple[float, ...]:
+    def background(self) -> Background:
         """What is behind it all."""
-        value: str | tuple[float, ...] = self._get('background')
-        return value
+        return Background(self._scene, self._key_of('background'))
 
     @background.setter
-    def background(self, value: str | Numbers | None) -> None:
+    def background(self, value: Background | Mapping[str, Any] | None) -> None:
         self._set('background', value)
 
     @property
@@ -657,6 +667,42 @@ class HeadLook(Table):
     @face.setter
     def face(self, value: bool | None) -> None:
         self._set('face', value)
+
+
+class Background(Table):
+    """`[picture.background]`: a vertical gradient, or nothing."""
+
+    __slots__ = ()
+
+    @property
+    def top(self) -> tuple[float, float, float]:
+        """Colour at the top edge (sRGB as displayed, 0..1). Default `[0.36, 0.38, 0.41]`."""
+        value: tuple[float, float, float] = self._get('top')
+        return value
+
+    @top.setter
+    def top(self, value: Numbers | None) -> None:
+        self._set('top', value)
+
+    @property
+    def bottom(self) -> tuple[float, float, float]:
+        """Colour at the bottom edge (sRGB as displayed, 0..1). Default `[0.2, 0.21, 0.23]`."""
+        value: tuple[float, float, float] = self._get('bottom')
+        return value
+
+    @bottom.setter
+    def bottom(self, value: Numbers | None) -> None:
+        self._set('bottom', value)
+
+    @property
+    def transparent(self) -> bool:
+        """Leave it out: alpha 0 where there is neither hair nor head. Default false."""
+        value: bool = self._get('transparent')
+        return value
+
+    @transparent.setter
+    def transparent(self, value: bool | None) -> None:
+        self._set('transparent', value)
 
 
 class Video(Table):
