@@ -334,8 +334,8 @@ mod tests {
     use super::*;
     use crate::settings::Camera;
 
-    #[test]
-    fn the_sky_reaches_the_outside_of_a_ball_of_hair_and_not_its_middle() {
+    /// Hairs that stand out from a ball of 1 cm, to 5.5 cm from its middle.
+    fn ball() -> Vec<CurveNode> {
         let mut nodes = vec![];
         for s in 0..4000_u32 {
             let direction = crate::camera::direction(
@@ -350,6 +350,33 @@ mod tests {
                 });
             }
         }
+        nodes
+    }
+
+    #[test]
+    fn hair_is_read_at_its_surface() {
+        let nodes = ball();
+        let mut sky = SkyMap::default();
+        sky.lay_out(crate::curve::bounds(&nodes), 0.0, (&Mesh::default(), &[]), Vec3::Y, rayon::iter::empty());
+        sky.fill(&nodes, &vec![0.05; nodes.len()]);
+        sky.gather((&nodes, &vec![true; nodes.len()]), &view_from(0.0), &[], |_, _, _| 0.0);
+        let open = |places: &arriving::Places<1>| sky.at(places, 0)[..FRONT_GLOW].iter().map(|of| of[0]).sum::<f32>();
+        let one = |p: Vec3| p.to_array().map(|c| [c]);
+        for (azimuth, elevation) in [(20.0, 10.0), (100.0, 50.0), (200.0, -30.0), (300.0, 80.0)] {
+            let outward = crate::camera::direction(azimuth, elevation);
+            let from = 5.0 * outward;
+            let here = open(&sky.places(&one(from)));
+            let farther = open(&sky.places(&one(from + 0.1 * outward)));
+            let seen = open(&sky.places_seen(&one(from), &one(Vec3::ZERO)));
+            // The cells' lattice bends what is outward by some degrees.
+            let part = (seen - here) / (farther - here);
+            assert!(farther > here && (0.9..1.2).contains(&part), "{azimuth}, {elevation}: {here} {farther} {seen}");
+        }
+    }
+
+    #[test]
+    fn the_sky_reaches_the_outside_of_a_ball_of_hair_and_not_its_middle() {
+        let nodes = ball();
         let radius = vec![0.05; nodes.len()];
         let bounds = crate::curve::bounds(&nodes);
         let filled = |azimuth: f32| {
