@@ -8,7 +8,7 @@ use nabiki_io::Unit;
 use nabiki_io::cache::Shard;
 use nabiki_scene::exports::ExportOptions;
 use nabiki_scene::farm::Engine;
-use nabiki_scene::tasks::Twin;
+use nabiki_scene::tasks::{Pictures, Twin};
 use nabiki_scene::{Error, Result};
 
 /// Hair in the wind: groom it, blow on it, draw it.
@@ -361,7 +361,7 @@ pub struct Render {
 
     /// Draw one frame (--frame, or else the first) from all around: a movie of N pictures, once round the head, or files
     /// (output.movie = false, output.png_frames = true)
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=i64::from(Pictures::MOST_PICTURES)))]
     pub turntable: Option<u32>,
 
     /// Folder for the pictures, made if it is not there

@@ -85,14 +85,16 @@ fn open_bodies(built: &BuiltScene) -> impl Iterator<Item = Advice> {
 }
 
 /// A camera that sees the head from within, which is next to nothing.
-fn within_the_head(built: &BuiltScene) -> Option<Advice> {
+pub(crate) fn within_the_head(built: &BuiltScene) -> Option<Advice> {
     let (picture, head) = (&built.scene.picture, &built.head);
     // An automatic one stands outside, and so does an orthographic one.
     picture.camera.distance.filter(|_| picture.camera.projection == Projection::Perspective)?;
+    let turn = built.pose(0).rotation;
     let mut framed = Bounds::default();
-    head.mesh.positions.iter().chain(built.hair.strands.points()).for_each(|&p| framed.include(p));
-    let eye = View::new(&picture.camera, picture.size, &framed).eye;
-    if head.ellipsoid.value(built.pose(0).rotation.inverse() * eye) >= 0.0 {
+    framed.include_head(&head.mesh, &head.ellipsoid);
+    built.hair.strands.points().iter().for_each(|&p| framed.include(turn * p));
+    let eye = View::new(&picture.camera.at(0.0), picture.size, &framed).eye;
+    if head.ellipsoid.value(turn.inverse() * eye) >= 0.0 {
         return None;
     }
     let [x, y, z] = eye.to_array().map(Short);

@@ -1,7 +1,7 @@
 //! The pictures of a scene, drawn one after another.
 
 use std::ops::RangeInclusive;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use glam::{Quat, Vec3};
 use nabiki::Strands;
@@ -136,7 +136,7 @@ impl<'a> Film<'a> {
             let view = View { eye: view.eye + pose.position_cm, ..view };
             let now = Moment { strands: &strands, pose, view, bodies: &bodies };
             let drawn = film.renderer.draw(&FrameToDraw { now, before: None });
-            push(k, &drawn.map_err(|refused| in_frame(&film.motion, n, refused))?)
+            push(k, &drawn.map_err(|refused| film.in_frame(n, refused))?)
         })
     }
 
@@ -169,7 +169,7 @@ impl<'a> Film<'a> {
         let now = moment(n, strands, bodies.as_slice());
         let before = previous.as_ref().filter(|_| n > 0).map(|previous| moment(n - 1, previous, &bodies_before));
         let drawn = self.renderer.draw(&FrameToDraw { now, before });
-        let frame = drawn.map_err(|refused| in_frame(&self.motion, n, refused))?;
+        let frame = drawn.map_err(|refused| self.in_frame(n, refused))?;
         if self.picture.shutter > 0.0 {
             self.previous = Some(strands.clone());
         }
@@ -182,13 +182,18 @@ impl<'a> Film<'a> {
         };
         Ok((frame, view))
     }
-}
 
-/// Says in which frame of which motion there is what cannot be drawn.
-fn in_frame(motion: &Path, n: u32, refused: RenderError) -> Error {
-    match refused {
-        RenderError::Geometry(what) => Error::refused(format!("{}: frame {n}: {what}", motion.display())),
-        other => other.into(),
+    /// Says in which frame of which motion there is what cannot be drawn, or whose setting it is.
+    fn in_frame(&self, n: u32, refused: RenderError) -> Error {
+        match refused {
+            // A scene made in code has no file.
+            RenderError::Geometry(what) if self.motion.as_os_str().is_empty() => {
+                Error::refused(format!("frame {n}: {what}"))
+            }
+            RenderError::Geometry(what) => Error::refused(format!("{}: frame {n}: {what}", self.motion.display())),
+            RenderError::Setting(refused) => self.built.scene.refusal(refused).into(),
+            other => other.into(),
+        }
     }
 }
 

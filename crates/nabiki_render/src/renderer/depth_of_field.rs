@@ -113,9 +113,13 @@ impl Renderer {
         }
         let f_stop = self.picture.camera.f_stop.map_or_else(|| "none".to_owned(), |f_stop| f_stop.to_string());
         let focus = view.lens.and_then(|lens| lens.focus).unwrap_or_default();
+        let way_out = match self.picture.camera.focus_distance {
+            Some(_) => "set picture.camera.focus_distance to where the head is",
+            None => "keep bodies farther from the camera",
+        };
         let remedy = format!(
-            "with all sharp at {focus} cm the skin that is seen is blurred by {heights:.1} picture heights, and {MOST_BLUR} are the \
-             most that is drawn: make it larger, or set picture.camera.focus_distance to where the head is"
+            "with all sharp at {focus} cm, head or body is blurred by {heights:.1} picture heights, and {MOST_BLUR} are the \
+             most that is drawn: make it larger, or {way_out}"
         );
         Err(SettingError::new("picture.camera.f_stop", f_stop, remedy))
     }

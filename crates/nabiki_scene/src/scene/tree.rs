@@ -47,9 +47,11 @@ impl Origins {
         }
     }
 
-    /// Whether an override set the value at a path (dotted).
+    /// Whether an override set the value at a path (dotted), or a table that it stands in.
     pub fn is_overridden(&self, path: &str) -> bool {
-        self.overrides.contains_key(path)
+        self.overrides
+            .keys()
+            .any(|set| path.strip_prefix(set.as_str()).is_some_and(|rest| rest.is_empty() || rest.starts_with('.')))
     }
 
     /// Notes that an override set the value at a path, and all below it, and made the tables on the way that the file has not.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use nabiki_render::output::{exr, png};
 use nabiki_render::{Frame, Movie, ToneMapping};
 
-use crate::advice::{Advice, of_pictures};
+use crate::advice::{Advice, of_pictures, within_the_head};
 use crate::built::{BuiltScene, Shown};
 use crate::error::{Error, Result};
 use crate::film::Film;
@@ -90,7 +90,7 @@ pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path
     match options.motion {
         None => super::advise(built.advice(), watch),
         // What is to be said of the hair and of what moves it was said when that was done.
-        Some(_) => super::advise(of_pictures(scene), watch),
+        Some(_) => super::advise(within_the_head(&built).into_iter().chain(of_pictures(scene)), watch),
     }
     let mut folders = Folders::default();
     let mut inputs = scene.inputs();

@@ -448,17 +448,17 @@ mod tests {
         // A layer of numbers that are all alike has fewer bytes than they are.
         let packed = pack_integers(&[7; 4096]);
         assert!(packed.len() < 1000);
-        let read = |count: u64| {
+        let read = |count: u64, size: u64| {
             let mut bytes = vec![0; HEADER];
             bytes.extend(count.to_le_bytes());
             bytes.extend((packed.len() as u64).to_le_bytes());
             bytes.extend(&packed);
-            let (size, tokens, strings) = (2000, Vec::new(), Vec::new());
+            let (tokens, strings) = (Vec::new(), Vec::new());
             let mut reader = CrateReader { from: Cursor::new(bytes), size, version: [0, 8, 0], tokens, strings };
             reader.integers(Rep::array(types::INT, HEADER as u64).0 | Rep::COMPRESSED)
         };
-        assert_eq!(read(4096).unwrap(), [7; 4096]);
-        let refused = read(MANY + 1).unwrap_err().to_string();
-        assert_eq!(refused, "claims 16777217 elements at byte 88, more than a file of 2000 bytes has");
+        assert_eq!(read(4096, 2000).unwrap(), [7; 4096]);
+        let refused = read(MANY + 1, 1 << 20).unwrap_err().to_string();
+        assert_eq!(refused, "claims 16777217 elements at byte 88, more than a file of 1048576 bytes has");
     }
 }
