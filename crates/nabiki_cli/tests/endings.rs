@@ -7,16 +7,17 @@ use std::process::{Child, Command, Stdio};
 
 use tempfile::TempDir;
 
-const GUST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/paper/gust.toml");
+const GUST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/gust.toml");
 
 fn names(folder: &Path) -> Vec<PathBuf> {
     fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect()
 }
 
-/// A simulation into `cache` that goes on until it is stopped, and has begun to write.
+/// A simulation into `cache` that goes on until it is stopped, and has begun to write. Carriers make it slow and not large, since
+/// what a disk cannot hold is refused.
 fn begun(cache: &Path) -> Child {
     let mut child = Command::new(env!("CARGO_BIN_EXE_nabiki"))
-        .args(["simulate", GUST, "--strands", "2", "--frames", "9000000", "-o"])
+        .args(["simulate", GUST, "--strands", "2", "--frames", "20000", "--set", "neighbours.carriers=4096", "-o"])
         .arg(cache)
         .stdout(Stdio::null())
         .stderr(Stdio::null())
