@@ -7,6 +7,7 @@ use std::fmt;
 
 use nabiki::Head;
 use nabiki::dynamics::Form;
+use nabiki::groom::style::Cut;
 use nabiki::head::Opening;
 use nabiki_io::info::Short;
 use nabiki_render::settings::Projection;
@@ -67,6 +68,7 @@ pub(crate) fn advice(built: &BuiltScene) -> Vec<Advice> {
     // Hair that goes by the unit of a wrong head cannot be judged.
     let of_hair = if of_head.is_none() { built.seat().and_then(|seat| of_seat(&seat)) } else { None };
     advice.extend(of_head.into_iter().chain(of_hair).chain(untied(built)).chain(unbound(built)));
+    advice.extend(cropped(built));
     advice.extend(open_bodies(built));
     advice.extend(within_the_head(built));
     advice.extend(unused::unused(&built.scene));
@@ -139,6 +141,23 @@ fn unbound(built: &BuiltScene) -> Option<Advice> {
         strands.len()
     );
     Some(Advice { seen, settings: Vec::new() })
+}
+
+/// Cuts that take off all that they may: the plane has the roots of all hair on its wrong side.
+fn cropped(built: &BuiltScene) -> impl Iterator<Item = Advice> {
+    let cuts = built.scene.hair.grown().map_or(&[][..], |hair| &hair.style.cuts);
+    let roots = built.hair.strands.iter().map(|strand| strand[0]).collect::<Vec<_>>();
+    let all =
+        move |cut: &Cut| cut.region.is_none() && roots.iter().all(|&root| (root - cut.point).dot(cut.normal) > 0.0);
+    cuts.iter().enumerate().filter(move |(_, cut)| all(cut)).map(|(i, cut)| {
+        let [x, y, z] = (-cut.normal).to_array().map(|value| Short(value + 0.0));
+        let seen = format!(
+            "hair.style.cuts[{i}] cuts all hair to {} cm: every root lies where its normal points; if that is not meant, \
+             turn it, normal = [{x}, {y}, {z}]",
+            Short(cut.shortest)
+        );
+        Advice { seen, settings: Vec::new() }
+    })
 }
 
 fn open_skull(head: &Head, hole: &Opening) -> Option<Advice> {

@@ -271,6 +271,7 @@ fn settings_without_effect_are_said() {
         ("point", "[{ position = [30, 0, 0], envelope = [{ frame = 9, factor = 0 }] }]", three, "point[0]"),
         ("hair.style.variation.cut", "0.5", three, "hair.style.variation.cut"),
         ("hair.style.ponytail", TAIL, ("hair.style.length", "{ top = 3, sides = 3, back = 3 }"), "hair.style.ponytail"),
+        ("hair.style.cuts", "[{ point = [0, -21, 0], normal = [0, 1, 0] }]", three, "hair.style.cuts[0]"),
         ("picture.camera.margin", "0.2", ("picture.camera.distance", "80"), "picture.camera.margin"),
         ("picture.camera.distance", "3", three, "picture.camera"),
         ("picture.samples", "8", three, "picture.samples"),

@@ -172,6 +172,21 @@ fn a_wind_that_no_wish_feels_stays_as_it_is_and_that_is_said() {
 }
 
 #[test]
+fn without_unknowns_every_wind_that_a_wish_feels_may_change() {
+    let (_, wishes) = WISHES.split_once("\n\n").unwrap();
+    let early = format!("{wishes}[search]\niterations = 1\nstarts = 1\n");
+    let late = early.replace("frame = 30", "frame = 31");
+    for (wishes, free) in [(early, 1), (late, 2)] {
+        let mut ear = Ear::default();
+        let solved = Place::new(SCENE, &wishes).solved(&mut ear).unwrap();
+        assert_eq!(solved.unknowns, (0..free).map(Unknown::Vector).collect::<Vec<_>>());
+        assert_eq!(ear.advice, [""; 0]);
+    }
+    let calm = SCENE.split_once("# first").unwrap().0;
+    assert!(refusal(calm, wishes).starts_with("wish.toml: unknowns = none: nothing may change"));
+}
+
+#[test]
 fn what_a_border_or_an_ease_brings_within_reach_may_change() {
     // Frame 30 is half on the way from the middle of interval 0, 15.5, to that of interval 1, 45.5.
     let eased = format!("{SCENE}\n[wind]\nease = \"linear\"\n");
@@ -350,7 +365,8 @@ fn the_wishes_that_come_with_the_scenes_are_about_their_hair() {
         let wishes = entry.unwrap().path();
         let file = WishFile::load(&wishes).unwrap();
         let scene = Scene::load(&scenes.join(wishes.file_name().unwrap()), &[]).unwrap();
-        let (force, _) = file.wishes.unknowns.of(&scene.field.force, scene.motion.frames).unwrap();
+        let (force, _) =
+            file.wishes.unknowns(scene.field.force.len()).of(&scene.field.force, scene.motion.frames).unwrap();
         assert!(force.windows(2).all(|pair: &[Keyframe]| pair[0].through < pair[1].through));
         let built = scene.build(Shown::AtMost(400)).unwrap();
         let named = file.about(&built).unwrap();

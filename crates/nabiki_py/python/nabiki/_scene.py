@@ -89,17 +89,6 @@ class Scene(SceneSettings):
         if isinstance(wishes, (str, os.PathLike)):
             return self._solve_file(wishes, strands=strands, progress=progress, report=report)
         problem: dict[str, Any] = {"space": space, "wish": list(wishes), "nail": list(nails)}
-        problem["unknowns"] = unknowns if unknowns is not None else {"vectors": self._felt(problem)}
-        problem |= {name: value for name, value in [("prior", prior), ("search", search)] if value is not None}
+        given = {"unknowns": unknowns, "prior": prior, "search": search}
+        problem |= {name: value for name, value in given.items() if value is not None}
         return self._solve(problem, strands=strands, progress=progress, report=report)
-
-    def _felt(self, problem: Mapping[str, Any]) -> list[int]:
-        """The intervals that a wish can feel; eased, one is felt before it begins. All, where nails ask for other frames."""
-        frames = [wish.get("frame") for wish in problem["wish"] if isinstance(wish, Mapping)]
-        numbers = [frame for frame in frames if isinstance(frame, int) and frame > 0]
-        every = list(range(len(self.force)))
-        if problem["nail"] or not numbers:
-            return every
-        begins = [0, *(force.through for force in self.force)]
-        early = 0 if self.wind.ease == "stepped" else 1
-        return [number for number in every if begins[max(number - early, 0)] < max(numbers)]

@@ -28,8 +28,8 @@ pub struct WishFile {
 pub struct Wishes {
     /// The space that its points are in (default: the world).
     pub space: WishSpace,
-    /// What may change.
-    pub unknowns: Unknowns,
+    /// What may change; without it the vectors of all intervals that wishes and nails can feel.
+    pub unknowns: Option<Unknowns>,
     /// What should be where.
     pub wish: Vec<WishEntry>,
     /// What should stay.
@@ -249,7 +249,7 @@ impl Wishes {
             let remedy = "there is nothing to solve for: give a [[wish]] with frame, strands or near, and where to";
             return Err(SettingError::new("wish", "none", remedy));
         }
-        self.unknowns.check()?;
+        self.unknowns.as_ref().map_or(Ok(()), Unknowns::check)?;
         for (i, wish) in self.wish.iter().enumerate() {
             let name = format!("wish[{i}]");
             wish.lock().check(&name)?;
@@ -280,6 +280,12 @@ impl Wishes {
             }
         }
         Ok(())
+    }
+
+    /// What may change of a scene with so many `intervals` of the force.
+    pub fn unknowns(&self, intervals: usize) -> Unknowns {
+        let all = || Unknowns { vectors: (0..intervals).collect(), ..Unknowns::default() };
+        self.unknowns.clone().unwrap_or_else(all)
     }
 
     /// The largest number of a strand that it names.

@@ -52,7 +52,8 @@ pub fn solve(scene: Scene, options: &SolveOptions, watch: &mut dyn Watch) -> Res
 pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn Watch) -> Result<(Scene, Solved)> {
     let wishes = &file.wishes;
     let in_file = |refused: SettingError| Error::from(file.refusal(refused));
-    let (force, unknowns) = wishes.unknowns.of(&scene.field.force, scene.motion.frames).map_err(in_file)?;
+    let free = wishes.unknowns(scene.field.force.len());
+    let (force, unknowns) = free.of(&scene.field.force, scene.motion.frames).map_err(in_file)?;
     scene.field.force = force;
     let shown = shown(file, strands, &scene)?;
     let mut built = super::build(scene, shown, watch)?;
@@ -61,9 +62,10 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
     let (names, list): (Vec<String>, Vec<Wish>) = named.into_iter().map(|named| (named.name, named.wish)).unzip();
     let last = list.iter().map(|wish| wish.frame).max().unwrap_or(0);
     let FieldSettings { force, wind, .. } = &built.scene.field;
-    let within_reach = wishes.unknowns.within_reach(force, wind.ease, &unknowns, last);
-    let (unknowns, held) = within_reach.map_err(in_file)?;
-    super::advise(held.into_iter().map(|seen| Advice { seen, settings: Vec::new() }), watch);
+    let (unknowns, held) = free.within_reach(force, wind.ease, &unknowns, last).map_err(in_file)?;
+    // Nobody has asked for those that are free because nothing is said.
+    let said = held.into_iter().filter(|_| wishes.unknowns.is_some());
+    super::advise(said.map(|seen| Advice { seen, settings: Vec::new() }), watch);
     let strands: BTreeSet<u32> = list.iter().flat_map(|wish| wish.nodes.iter().map(|node| node.strand)).collect();
     let problem = Problem { prior: wishes.prior.into(), ..built.problem(unknowns.clone(), list) };
     let begun = Instant::now();
