@@ -26,7 +26,7 @@ pub use self::on_skin::OnSkin;
 pub use self::skin_cells::SkinCell;
 
 use self::arriving::Numbers;
-use self::directions::{Carry, Direction};
+use self::directions::{Carry, Direction, LENGTHS};
 use self::exchange::Exchange;
 use self::outside::Outside;
 use self::skin_cells::skin_cells;
@@ -258,7 +258,7 @@ impl SkyMap {
     fn carry(&mut self) {
         let (size, directions, outside) = (self.size, &self.directions, &self.outside);
         let past = |taken: &[f32], all_through: &mut [Vec<f32>; 2], carried: &mut Vec<Vec<f32>>| {
-            for (through, length) in all_through.iter_mut().zip([1.0, 3.0_f32.sqrt()]) {
+            for (through, length) in all_through.iter_mut().zip(LENGTHS) {
                 through.resize(taken.len(), 0.0);
                 through.par_chunks_mut(8192).zip(taken.par_chunks(8192)).for_each(|(through, taken)| {
                     pulp::Arch::new().dispatch(Through { taken, length, through });
@@ -270,7 +270,7 @@ impl SkyMap {
                 light.clear();
                 light.resize(taken.len(), 1.0);
                 outside.take(n, light);
-                let through = &all_through[usize::from(d.is_aslant())];
+                let through = &all_through[d.length()];
                 pulp::Arch::new().dispatch(Carry::<false> { direction: d, size, through, light });
             });
         };
@@ -290,7 +290,7 @@ impl SkyMap {
         let (size, taken, through, outside) = (self.size, &self.taken, &self.through, &self.outside);
         let lit = self.exchange.lit();
         self.glow.par_iter_mut().zip(&self.directions).enumerate().for_each(|(n, (glow, d))| {
-            let through = &through[usize::from(d.is_aslant())];
+            let through = &through[d.length()];
             glow.clear();
             glow.resize(taken.len(), 0.0);
             outside.send(n, lit, glow);
@@ -333,6 +333,13 @@ impl pulp::NullaryFnOnce for Through<'_> {
 mod tests {
     use super::*;
     use crate::settings::Camera;
+
+    /// A square about a middle, with sides along two vectors; it faces along their cross product.
+    pub(super) fn square(middle: Vec3, along: Vec3, across: Vec3) -> Mesh {
+        let positions =
+            [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[u, v]| middle + u * along + v * across).to_vec();
+        Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], corner_uvs: None }
+    }
 
     /// Hairs that stand out from a ball of 1 cm, to 5.5 cm from its middle.
     fn ball() -> Vec<CurveNode> {

@@ -7,6 +7,9 @@ use glam::{UVec3, Vec3};
 const ALONG_AXIS: f32 = 1.0 / 15.0;
 const ALONG_DIAGONAL: f32 = 3.0 / 40.0;
 
+/// How far light goes in each cell, along the axes and along the diagonals (sides of a cell).
+pub const LENGTHS: [f32; 2] = [1.0, 1.732_050_8];
+
 /// A lattice direction in which light travels.
 pub struct Direction {
     pub step: [i32; 3],
@@ -32,14 +35,9 @@ impl Direction {
         })
     }
 
-    /// Whether it leads from a cell to one that shares a corner only, and not a face.
-    pub fn is_aslant(&self) -> bool {
-        squared_length(self.step) != 1
-    }
-
-    /// How far light goes in each cell (sides of a cell).
-    pub fn cells(&self) -> f32 {
-        (squared_length(self.step) as f32).sqrt()
+    /// Which of [`LENGTHS`] its light goes in each cell.
+    pub fn length(&self) -> usize {
+        usize::from(squared_length(self.step) != 1)
     }
 
     /// Whether light that goes this way leaves a surface with this normal.

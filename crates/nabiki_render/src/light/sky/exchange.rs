@@ -308,6 +308,7 @@ mod tests {
     use nabiki::Mesh;
 
     use super::super::skin_cells::skin_cells;
+    use super::super::tests::square;
     use super::*;
 
     const CELL: f32 = 0.5;
@@ -342,13 +343,9 @@ mod tests {
         mesh
     }
 
-    /// A square of this half side at a height, that faces up or down.
-    fn square(half: f32, height: f32, faces: f32) -> Mesh {
-        let positions = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-            .map(|[x, z]| Vec3::new(half * x, height, half * z))
-            .to_vec();
-        let up = Mesh { positions, triangles: vec![[0, 2, 1], [0, 3, 2]], corner_uvs: None };
-        if faces > 0.0 { up } else { inside_out(up) }
+    /// A level square of this half side at a height, that faces up or down.
+    fn level(half: f32, height: f32, faces: f32) -> Mesh {
+        square(height * Vec3::Y, half * Vec3::Z, faces * half * Vec3::X)
     }
 
     fn asked_about(cells: &[SkinCell]) -> Exchange {
@@ -400,8 +397,8 @@ mod tests {
         let ray = 2.0 / DIRECTIONS as f32;
         let expected = view_factor(height) - ray..view_factor(height - CELL) + ray;
         for (below, above) in [(0, 0), (0, 1), (1, 0)] {
-            let mut cells = skin_cells(&square(1.5, -2.1, 1.0), CELL, below);
-            cells.extend(skin_cells(&square(half, -2.1 + height, -1.0), CELL, above));
+            let mut cells = skin_cells(&level(1.5, -2.1, 1.0), CELL, below);
+            cells.extend(skin_cells(&level(half, -2.1 + height, -1.0), CELL, above));
             cells.sort_by_key(|skin| skin.solid);
             let found = arriving(&cells, |skin| if skin.normal.y < 0.0 { 1.0 } else { 0.0 });
             let of_middle = cells
@@ -440,7 +437,7 @@ mod tests {
         let head = skin_cells(&inside_out(ball(9.0)), CELL, 0);
         let with_body = |height: f32| {
             let mut cells = head.clone();
-            cells.extend(skin_cells(&square(1.5, height, 1.0), CELL, 1));
+            cells.extend(skin_cells(&level(1.5, height, 1.0), CELL, 1));
             cells
         };
         let shown = |exchange: &mut Exchange, cells: &[SkinCell]| -> Vec<f32> {

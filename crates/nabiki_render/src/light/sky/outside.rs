@@ -6,7 +6,7 @@
 use glam::{IVec3, UVec3};
 use rayon::prelude::*;
 
-use super::directions::Direction;
+use super::directions::{Direction, LENGTHS};
 use super::skin_cells::SkinCell;
 use crate::light::approx::exp_of_negative;
 
@@ -38,7 +38,7 @@ impl Outside {
         self.entering.par_iter_mut().zip(directions).for_each(|(entering, direction)| {
             entering.clear();
             let step = IVec3::from(direction.step);
-            let length = direction.cells();
+            let length = LENGTHS[direction.length()];
             entering.extend(skin.iter().filter_map(|&(skin, from, SkinCell { depth, normal, .. })| {
                 let steps = steps_into(from, step, size)?;
                 let c = (from + steps * step).as_uvec3();
@@ -95,19 +95,13 @@ mod tests {
     use glam::Vec3;
     use nabiki::Mesh;
 
+    use super::super::tests::square;
     use super::super::{AT_ONCE, SkyMap};
     use super::SkinCell;
     use crate::camera::{Bounds, View};
     use crate::curve::{CurveNode, bounds};
     use crate::light::lamps::Lamp;
     use crate::settings::Camera;
-
-    /// A square about a middle, with sides along two vectors; it faces along their cross product.
-    fn square(middle: Vec3, along: Vec3, across: Vec3) -> Mesh {
-        let positions =
-            [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[u, v]| middle + u * along + v * across).to_vec();
-        Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], corner_uvs: None }
-    }
 
     /// What arrives at hair is the same whether the box is about the hair alone or about the skin as well.
     #[test]
