@@ -5,6 +5,7 @@ mod unused;
 
 use std::fmt;
 
+use glam::Vec3;
 use nabiki::Head;
 use nabiki::dynamics::Form;
 use nabiki::groom::style::Cut;
@@ -146,15 +147,15 @@ fn unbound(built: &BuiltScene) -> Option<Advice> {
 /// Cuts that take off all that they may: the plane has the roots of all hair on its wrong side.
 fn cropped(built: &BuiltScene) -> impl Iterator<Item = Advice> {
     let cuts = built.scene.hair.grown().map_or(&[][..], |hair| &hair.style.cuts);
-    let roots = built.hair.strands.iter().map(|strand| strand[0]).collect::<Vec<_>>();
-    let all =
-        move |cut: &Cut| cut.region.is_none() && roots.iter().all(|&root| (root - cut.point).dot(cut.normal) > 0.0);
+    let strands = &built.hair.strands;
+    let beyond = |cut: &Cut| strands.iter().all(|strand| (strand[0] - cut.point).dot(cut.normal) > 0.0);
+    let all = move |cut: &Cut| cut.region.is_none() && beyond(cut);
     cuts.iter().enumerate().filter(move |(_, cut)| all(cut)).map(|(i, cut)| {
-        let [x, y, z] = (-cut.normal).to_array().map(|value| Short(value + 0.0));
         let seen = format!(
             "hair.style.cuts[{i}] cuts all hair to {} cm: every root lies where its normal points; if that is not meant, \
-             turn it, normal = [{x}, {y}, {z}]",
-            Short(cut.shortest)
+             turn it, normal = {}",
+            Short(cut.shortest),
+            vector(Vec3::ZERO - cut.normal)
         );
         Advice { seen, settings: Vec::new() }
     })

@@ -270,7 +270,7 @@ impl SkyMap {
                 light.clear();
                 light.resize(taken.len(), 1.0);
                 outside.take(n, light);
-                let through = &all_through[d.length()];
+                let through = &all_through[d.length_index()];
                 pulp::Arch::new().dispatch(Carry::<false> { direction: d, size, through, light });
             });
         };
@@ -290,7 +290,7 @@ impl SkyMap {
         let (size, taken, through, outside) = (self.size, &self.taken, &self.through, &self.outside);
         let lit = self.exchange.lit();
         self.glow.par_iter_mut().zip(&self.directions).enumerate().for_each(|(n, (glow, d))| {
-            let through = &through[d.length()];
+            let through = &through[d.length_index()];
             glow.clear();
             glow.resize(taken.len(), 0.0);
             outside.send(n, lit, glow);

@@ -36,7 +36,7 @@ impl Direction {
     }
 
     /// Which of [`LENGTHS`] its light goes in each cell.
-    pub fn length(&self) -> usize {
+    pub fn length_index(&self) -> usize {
         usize::from(squared_length(self.step) != 1)
     }
 

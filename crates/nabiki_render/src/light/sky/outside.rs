@@ -38,7 +38,7 @@ impl Outside {
         self.entering.par_iter_mut().zip(directions).for_each(|(entering, direction)| {
             entering.clear();
             let step = IVec3::from(direction.step);
-            let length = LENGTHS[direction.length()];
+            let length = LENGTHS[direction.length_index()];
             entering.extend(skin.iter().filter_map(|&(skin, from, SkinCell { depth, normal, .. })| {
                 let steps = steps_into(from, step, size)?;
                 let c = (from + steps * step).as_uvec3();
