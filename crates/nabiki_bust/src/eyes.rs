@@ -6,7 +6,7 @@ use nabiki::head::face;
 use crate::shapes::{chain, join, ridge, swell, turned_ellipsoid};
 
 /// Middle of the eyeball.
-const EYE: Vec3 = Vec3::new(7.1, -0.8, 3.15);
+const EYE: Vec3 = Vec3::new(7.25, -0.85, 3.15);
 
 /// Sinks the sockets, sets the lidded eyes into them and raises the brows.
 pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
@@ -15,8 +15,8 @@ pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
     }
     let mut skin = skin;
     // The socket is deepest between eye and nose, and under the brow.
-    skin += 0.65 * swell(p, Vec3::new(8.9, -0.6, 2.4), Vec3::new(2.2, 2.2, 2.4));
-    skin += 0.20 * swell(p, Vec3::new(7.8, 0.1, 4.2), Vec3::new(2.0, 1.6, 1.9));
+    skin += 0.6 * swell(p, Vec3::new(8.9, -0.7, 2.2), Vec3::new(2.2, 2.2, 2.2));
+    skin -= 0.25 * swell(p, Vec3::new(7.9, 0.6, 4.1), Vec3::new(2.4, 1.5, 2.4));
     // The brow's bone follows the upper rim, and sinks into the temple.
     let brow = chain(
         p,
