@@ -1,7 +1,7 @@
 //! What the window looks like, where there is a graphics adapter, a software one included: against pictures that were looked
 //! at, and against the final renderer.
 //!
-//!     cargo test --release -p nabiki_studio --test pictures
+//!     cargo test -p nabiki_studio --test pictures
 //!
 //! With NABIKI_PICTURES=write the pictures beside this file are written anew, and whole into the temporary folder, to be looked
 //! at before they are kept. Those kept are a quarter of the window's size: enough to see that something moved.
