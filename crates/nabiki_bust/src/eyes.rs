@@ -14,7 +14,7 @@ pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
         return skin;
     }
     let mut skin = skin;
-    // The socket is deepest between eye and nose, and under the brow.
+    // The socket is deepest between eye and nose; under the outer half of the brow it is full.
     skin += 0.6 * swell(p, Vec3::new(8.9, -0.7, 2.2), Vec3::new(2.2, 2.2, 2.2));
     skin -= 0.25 * swell(p, Vec3::new(7.9, 0.6, 4.1), Vec3::new(2.4, 1.5, 2.4));
     // The brow's bone follows the upper rim, and sinks into the temple.
