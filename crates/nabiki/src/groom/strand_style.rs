@@ -200,13 +200,13 @@ pub(super) fn strand_style(
     let shares = shares(&head.ellipsoid, style, position, strand);
     let region = region_of(shares);
 
-    let comb = if region == Region::Fringe {
-        DVec3::new(f64::from(style.fringe.forward), 0.0, f64::from(style.fringe.aside))
+    let (comb, off_face) = if region == Region::Fringe {
+        (DVec3::new(f64::from(style.fringe.forward), 0.0, f64::from(style.fringe.aside)), DVec3::ZERO)
     } else {
         let away = away_from_parting(style, root, strand, clump);
         let front = (position.x - head.ellipsoid.center.x) / head.ellipsoid.half_axes.x;
         let off_face = f64::from(style.comb.off_face * smooth((front - 0.3) / 0.5));
-        away * f64::from(style.comb.away) + style.comb.sweep.as_dvec3() + DVec3::NEG_X * off_face
+        (away * f64::from(style.comb.away) + style.comb.sweep.as_dvec3(), DVec3::NEG_X * off_face)
     };
     let variation = &style.variation;
     let stray = if strand.unit(channel::STRAY) < f64::from(variation.strays) { 4.0 } else { 1.0 };
@@ -217,7 +217,9 @@ pub(super) fn strand_style(
     let shared = f64::from(style.clumps.direction_degrees).to_radians();
 
     // Along the scalp: as combed on top, where that says little (on the sides) as the hair falls.
-    let wanted = comb + DVec3::NEG_Y * (1.0 + comb.length() * (1.0 - normal.y).clamp(0.0, 1.0).powi(2));
+    let falls = 1.0 + comb.length() * (1.0 - normal.y).clamp(0.0, 1.0).powi(2);
+    let comb = comb + off_face;
+    let wanted = comb + DVec3::NEG_Y * falls;
     let along = wanted - normal * wanted.dot(normal);
     let along = along.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
     let lift = mean(style.lift_degrees.each(), shares).to_radians();
