@@ -1,6 +1,6 @@
-"""Writes python/nabiki/settings/ from the doc comments of the structs that a scene is read into.
+"""Writes python/nabiki/settings/ and docs/settings.md from the doc comments of the structs that a scene is read into.
 
-    python3 crates/nabiki_py/generate.py            writes the modules
+    python3 crates/nabiki_py/generate.py            writes the modules and the page
     python3 crates/nabiki_py/generate.py --check    says whether they are current
 
 The Rust structs are the only place where a setting has its type, unit, range and default in words.
@@ -14,9 +14,12 @@ import textwrap
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from settings_page import Source, page
+
 HERE = Path(__file__).resolve().parent
 CRATES = HERE.parent
 TARGET = HERE / "python" / "nabiki" / "settings"
+PAGE = CRATES.parent / "docs" / "settings.md"
 
 # The structs of the tables that several share, which the scene takes apart itself: the table's docs, then its keys.
 SHARED = {
@@ -57,6 +60,7 @@ class Field:
     name: str
     type: str
     doc: str
+    must: bool = False
 
 
 @dataclass
@@ -66,28 +70,33 @@ class Struct:
     fields: list = field(default_factory=list)
 
 
-def parse():
-    """Structs and enums of the crates that scenes are made of, by name."""
+def sources():
+    """The text of every file of the crates that scenes are made of, by path."""
+    crates = [CRATES / crate / "src" for crate in ["nabiki", "nabiki_io", "nabiki_render", "nabiki_scene"]]
+    return {file: file.read_text() for crate in crates for file in sorted(crate.rglob("*.rs"))}
+
+
+def parse(files):
+    """Structs and enums by name."""
     structs, enums = {}, {}
     item = re.compile(
         r"(?P<head>(?:[ \t]*(?:///.*|#\[.*\])\n)+)[ \t]*(?:pub(?:\([^)]*\))? )?(?P<kind>struct|enum) (?P<name>\$?\w+) \{(?P<body>(?:\n.*)*?)\n[ \t]*\}",
     )
-    for crate in ["nabiki", "nabiki_io", "nabiki_render", "nabiki_scene"]:
-        for file in sorted((CRATES / crate / "src").rglob("*.rs")):
-            text = file.read_text()
-            for found in item.finditer(text):
-                head, name = found["head"], found["name"]
-                if "Deserialize" not in head and name not in ["HeadSettings", "HairSettings", "Scene"]:
-                    continue
-                if found["kind"] == "struct":
-                    struct = Struct(name, docs(head), list(fields(found["body"])))
-                    if name in structs and structs[name] != struct:
-                        raise SystemExit(f"two structs are called {name}: {file}")
-                    structs[name] = struct
-                else:
-                    enums[name] = variants(head, found["body"])
-            for found in re.finditer(r"by_region!\(\n(?P<head>(?:\s*///.*\n)+)\s*(?P<name>\w+),", text):
-                structs[found["name"]] = Struct(found["name"], docs(found["head"]), structs["$name"].fields)
+    for file, text in files.items():
+        for found in item.finditer(text):
+            head, name = found["head"], found["name"]
+            if "Deserialize" not in head and name not in ["HeadSettings", "HairSettings", "Scene"]:
+                continue
+            if found["kind"] == "struct":
+                must = "Deserialize" in head and not re.search(r"serde\(.*\bdefault\b", head)
+                struct = Struct(name, docs(head), list(fields(found["body"], must)))
+                if name in structs and structs[name] != struct:
+                    raise SystemExit(f"two structs are called {name}: {file}")
+                structs[name] = struct
+            else:
+                enums[name] = variants(head, found["body"])
+        for found in re.finditer(r"by_region!\(\n(?P<head>(?:\s*///.*\n)+)\s*(?P<name>\w+),", text):
+            structs[found["name"]] = Struct(found["name"], docs(found["head"]), structs["$name"].fields)
     return structs, enums
 
 
@@ -99,8 +108,9 @@ def docs(text):
     return "\n\n".join(part.strip() for part in text.split("\n\n"))
 
 
-def fields(body):
-    doc, name = [], None
+def fields(body, must):
+    """The fields of a struct; `must`: those without a default of their own must be given."""
+    doc, name, optional = [], None, False
     for line in body.splitlines():
         line = line.strip()
         if line.startswith("///"):
@@ -109,10 +119,12 @@ def fields(body):
             name = found[1]
         elif line.startswith("#[serde(skip)]"):
             name = ""
+        elif re.match(r"#\[serde\(.*\bdefault\b", line):
+            optional = True
         elif found := re.match(r"(?:pub )?(\w+): (.*),$", line):
             if name != "":
-                yield Field(name or found[1], found[2], docs("\n".join(doc)))
-            doc, name = [], None
+                yield Field(name or found[1], found[2], docs("\n".join(doc)), must and not optional)
+            doc, name, optional = [], None, False
 
 
 def variants(head, body):
@@ -253,9 +265,8 @@ TITLES = {
 }
 
 
-def modules():
+def modules(structs, enums):
     """The text of every module by its file's name."""
-    structs, enums = parse()
     writer = Writer(structs, enums)
     tables = {field.name: field for field in structs["Tables"].fields}
     scene_docs = {field.name: field.doc for field in structs["Scene"].fields}
@@ -314,18 +325,20 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true", help="write nothing")
     check = parser.parse_args().check
-    wanted = modules()
-    found = {path.name for path in TARGET.glob("*.py")} - {"_table.py"}
-    old = sorted(found - wanted.keys())
-    for name, text in wanted.items():
-        path = TARGET / name
+    files = sources()
+    structs, enums = parse(files)
+    wanted = {TARGET / name: text for name, text in modules(structs, enums).items()}
+    wanted[PAGE] = page(structs, enums, SHARED, EXPLAINED, Source(files.values(), docs))
+    old = sorted(set(TARGET.glob("*.py")) - wanted.keys() - {TARGET / "_table.py"})
+    for path, text in wanted.items():
         if not path.exists() or path.read_text() != text:
-            old.append(name)
+            old.append(path)
             if not check:
                 path.write_text(text)
     if check and old:
-        sys.exit(f"{', '.join(old)}: not what the Rust structs say; run python3 crates/nabiki_py/generate.py")
-    print(f"settings: {len(wanted)} modules, {'current' if check or not old else 'written'}")
+        names = ", ".join(path.name for path in old)
+        sys.exit(f"{names}: not what the Rust structs say; run python3 crates/nabiki_py/generate.py")
+    print(f"settings: {len(wanted) - 1} modules and a page, {'current' if check or not old else 'written'}")
 
 
 if __name__ == "__main__":

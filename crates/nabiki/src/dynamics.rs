@@ -33,6 +33,7 @@ use crate::pose::Pose;
 use crate::pseudo_force::{Gamma, PseudoForce};
 use crate::strands::Strands;
 
+pub(crate) use gain::Stability;
 pub use gain::{check_field, gain, largest_gain, period};
 pub use reference::Reference;
 pub use simulation::{Simulation, VectorWidth};
@@ -59,7 +60,8 @@ pub struct Motion {
     /// Segments that hang within this of the vertical at rest are made to hang exactly so (degrees, 0..45), and are
     /// then free to swing in the plane of any force (section 4.2). A segment nearly vertical is not: it keeps the
     /// plane of its small lean, and hair that leans this way and that is blown apart. 0, the paper's way, leaves
-    /// the hair as it is. It belongs to the making of the rest shape, see [`straightened`]; steppers take hair as it is.
+    /// the hair as it is.
+    // It belongs to the making of the rest shape, see `straightened`: steppers take hair as it is.
     pub straighten: f32,
     /// Space of the forces; it matters where the head turns.
     pub force_space: ForceSpace,

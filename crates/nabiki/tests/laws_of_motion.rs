@@ -220,6 +220,24 @@ fn a_field_too_strong_for_the_step_is_refused_with_the_largest_that_holds() {
     }
 }
 
+#[test]
+fn a_strand_too_short_for_a_field_is_named_by_its_number_in_the_whole() {
+    let hair = hair(20, 18);
+    let dynamics = gust();
+    let largest = 4.0 / largest_gain(&hair, &dynamics).unwrap() as f32;
+    let strong: Arc<dyn Field> = Arc::new(field(&[(100, [largest * 1.001, 0.0, 0.0])]));
+    let whole = check_field(&hair, &dynamics, &*strong).unwrap_err().to_string();
+    let named = |error: &str| -> usize {
+        let (_, after) = error.split_once("at strand ").unwrap();
+        after.split(' ').next().unwrap().parse().unwrap()
+    };
+    // The weakest strand and its neighbours, as a shard has them.
+    let ids: Vec<u32> = (named(&whole) as u32..hair.len() as u32).collect();
+    let some = hair.select(&ids.iter().map(|&id| id as usize).collect::<Vec<_>>());
+    let refused = Timeline::with_ids(&some, &ids, &dynamics, strong, Vec::new(), 1).err().unwrap();
+    assert_eq!(refused.to_string(), whole);
+}
+
 /// What both twins refuse, in the same words.
 fn refusal(hair: &Strands, dynamics: &Dynamics, field: &dyn Field) -> SettingError {
     let refused = Simulation::new(hair, dynamics, field).expect_err("the fast twin refuses");

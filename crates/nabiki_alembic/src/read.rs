@@ -288,9 +288,15 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
                 }
                 "AbcGeom_Curve" => {
                     let (curves, points) = (self.count(named("nVertices"))?, self.count(named("P"))?);
+                    let cubic = match named("curveBasisAndType") {
+                        Some(header) => basis(&self.tree.sample(header, 0)?)? != Basis::Linear,
+                        None => false,
+                    };
+                    let time = self.time_of(0)?;
+                    let world_from_curves = Affine3A::from_mat4(self.world(i, time)?.as_mat4());
                     Prim {
                         path,
-                        kind: PrimKind::Curves { curves, points },
+                        kind: PrimKind::Curves { curves, points, cubic, world_from_curves },
                         samples: samples("P"),
                         relationships: Vec::new(),
                     }

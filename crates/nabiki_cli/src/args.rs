@@ -171,7 +171,7 @@ pub struct ExportArgs {
     pub export_layer: Option<String>,
 
     /// Put the head into .abc files too; Unreal then takes them for a mesh, not for a groom
-    #[arg(long, requires = "export")]
+    #[arg(long)]
     pub export_head: bool,
 }
 

@@ -92,7 +92,12 @@ pub fn movie(args: &Movie, terminal: &mut Terminal) -> Result<()> {
         let scene = SceneArgs { scene: scene.clone(), frames: None, sets: args.sets.clone() };
         scene.load()
     });
-    let options = MovieOptions { frames: args.frames.clone(), output: args.output.clone(), scene: scene.transpose()? };
+    let options = MovieOptions {
+        frames: args.frames.clone(),
+        output: args.output.clone(),
+        scene: scene.transpose()?,
+        sets: args.sets.clone(),
+    };
     tasks::movie(&options, terminal)
 }
 

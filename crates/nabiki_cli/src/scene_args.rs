@@ -19,7 +19,9 @@ impl SceneArgs {
             let (key, value) = set.split_once('=').ok_or_else(|| {
                 Error::refused(format!("--set {set}: write KEY=VALUE, as in --set motion.time_step=0.05"))
             })?;
-            overrides.push((key.trim().to_owned(), value.trim().to_owned()));
+            // Spaces about dots are TOML's.
+            let key: Vec<&str> = key.split('.').map(str::trim).collect();
+            overrides.push((key.join("."), value.trim().to_owned()));
         }
         if let Some(frames) = self.frames {
             if let Some((key, value)) = overrides.iter().find(|(key, _)| key == "motion.frames") {
@@ -27,9 +29,13 @@ impl SceneArgs {
                 return Err(Error::refused(line));
             }
             overrides.push(("motion.frames".to_owned(), frames.to_string()));
-            if !overrides.iter().any(|(key, _)| key.starts_with("output.sheet")) {
-                overrides.extend(shorter_sheet(&self.scene, frames));
-            }
+        }
+        let of_sheet = |key: &str| key == "output" || key.starts_with("output.sheet");
+        let frames = overrides.iter().rfind(|(key, _)| key == "motion.frames").map(|(_, frames)| frames.parse());
+        if let Some(Ok(frames)) = frames
+            && !overrides.iter().any(|(key, _)| of_sheet(key))
+        {
+            overrides.extend(shorter_sheet(&self.scene, frames));
         }
         Ok(overrides)
     }

@@ -312,6 +312,27 @@ fn the_command_that_join_names_makes_what_is_missing() {
 }
 
 #[test]
+fn the_command_that_a_gap_is_answered_with_fills_it() {
+    let folder = TempDir::new().unwrap();
+    fs::copy(format!("{SCENES}/gust.toml"), folder.path().join("gust.toml")).unwrap();
+    let changes = "--set motion.frames=3 --set hair.strands=20 --set picture.size=[96,64]";
+    fs::create_dir(folder.path().join("some")).unwrap();
+    succeed(&folder, &format!("simulate gust.toml {changes} -o some/gust.nabiki"));
+    let deep = "--set output.png_bits=16";
+    succeed(&folder, &format!("render gust.toml {changes} --motion some/gust.nabiki {deep} --frames 0..3 --out some"));
+    let movie = format!("movie some/gust_frames --scene gust.toml {changes} -o gap.mp4");
+    let gap = folder.path().join("some/gust_frames/0002.png");
+    let was = fs::read(&gap).unwrap();
+    fs::remove_file(&gap).unwrap();
+    let line = refuse(&folder, &movie);
+    let (_, command) = line.trim_end().split_once("draw with nabiki ").unwrap();
+    assert!(command.contains("--motion some/gust.nabiki"), "{command}");
+    succeed(&folder, &command.replace('\'', ""));
+    assert!(fs::read(&gap).unwrap() == was, "the same picture, to the bit");
+    succeed(&folder, &movie);
+}
+
+#[test]
 fn frames_that_make_no_movie_are_refused() {
     let folder = TempDir::new().unwrap();
     let small = "--strands 20 --set output.sheet=[0] --set motion.frames=4 --quiet";

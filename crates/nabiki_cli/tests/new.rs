@@ -70,3 +70,19 @@ fn a_new_scene_of_hair_with_short_segments_is_as_stiff_as_they_allow() {
     let run = nabiki(folder.path(), &["simulate", "mine.toml", "--frames", "2", "-o", "m.nabiki"]);
     assert!(run.status.success(), "{}", text(&run.stderr));
 }
+
+#[test]
+fn a_unit_that_a_file_names_wrongly_is_seen_to_be_wrong() {
+    let folder = tempfile::tempdir().unwrap();
+    let gust = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/gust.toml");
+    assert!(nabiki(folder.path(), &["groom", gust, "--strands", "120", "-o", "cm.usda"]).status.success());
+    let groom = std::fs::read_to_string(folder.path().join("cm.usda")).unwrap();
+    let metres = groom.replace("metersPerUnit = 0.01", "metersPerUnit = 1");
+    assert_ne!(groom, metres);
+    std::fs::write(folder.path().join("m.usda"), metres).unwrap();
+    let new = nabiki(folder.path(), &["new", "mine.toml", "--hair", "m.usda"]);
+    assert!(new.status.success() && text(&new.stdout).contains("guessed hair.unit ="), "{}", text(&new.stdout));
+    let words = ["simulate", "mine.toml", "--frames", "1", "-o", "m.nabiki"];
+    let said = text(&nabiki(folder.path(), &words).stdout);
+    assert!(said.contains("inside  0.") && !said.contains("made for another head"), "{said}");
+}

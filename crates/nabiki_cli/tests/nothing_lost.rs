@@ -289,6 +289,52 @@ fn a_preview_writes_the_motion_that_it_shows() {
 }
 
 #[test]
+fn a_shorter_motion_has_a_sheet_of_the_frames_it_reaches_however_it_is_asked_for() {
+    let folder = folder();
+    let sheet = "[output]\nmovie = false\nsheet = [0, 2, 40]\n";
+    let scene = String::from_utf8(bytes(&folder, "scene.toml")).unwrap();
+    let (before, _) = scene.split_once("[output]").unwrap();
+    fs::write(folder.path().join("scene.toml"), format!("{before}{sheet}")).unwrap();
+    let small = "--strands 5 --set picture.size=[96,64]";
+    for (name, frames) in
+        [("a", "--frames 3"), ("b", "--set motion.frames=3"), ("c", "--set motion.frames=3 --set output.sheet=[0,2]")]
+    {
+        succeed(&folder, &format!("run scene.toml {small} {frames} --out {name}"));
+    }
+    assert!(bytes(&folder, "a/scene_sheet.png") == bytes(&folder, "b/scene_sheet.png"));
+    assert!(bytes(&folder, "a/scene_sheet.png") == bytes(&folder, "c/scene_sheet.png"));
+    let line = refuse(&folder, &format!("run scene.toml {small} --set motion.frames=3 --set output.sheet=[9] --out d"));
+    assert!(
+        line.contains("output.sheet[0] = 9: the last frame is motion.frames = 3; take it out of the sheet"),
+        "{line}"
+    );
+}
+
+#[test]
+fn what_nodes_may_be_inside_of_is_what_they_are_held_against() {
+    let folder = folder();
+    let ball = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/motion/ball.obj");
+    let body =
+        format!("[[body]]\nmesh = \"{ball}\"\nwith_head = true\n\n[[force]]\nthrough = 2\nvector = [0, -1, 0]\n");
+    for (form, said) in [("paper", "inside the head at frame"), ("free", "inside the head or a body at frame")] {
+        fs::write(folder.path().join("b.toml"), format!("[motion]\nform = \"{form}\"\nframes = 2\n{body}")).unwrap();
+        let told = succeed(&folder, "simulate b.toml -o b.nabiki --strands 9 --set free.stiffness=[1000,100]");
+        assert!(told.contains(said), "{told}");
+    }
+}
+
+#[test]
+fn the_head_goes_into_an_archive_that_is_the_result_itself_and_nowhere_unasked() {
+    let folder = folder();
+    let faces = |name: &str| succeed(&folder, &format!("info {name}")).contains(" faces");
+    succeed(&folder, &format!("simulate scene.toml {FEW} -o with.abc --export-head"));
+    succeed(&folder, &format!("simulate scene.toml {FEW} -o without.abc"));
+    assert!(faces("with.abc") && !faces("without.abc"));
+    let line = refuse(&folder, &format!("simulate scene.toml {FEW} -o m.nabiki --export m.usda --export-head"));
+    assert!(line.contains("--export-head: puts the head into .abc files, and none is written"), "{line}");
+}
+
+#[test]
 fn the_summary_says_the_worst_frame() {
     let folder = folder();
     let said = succeed(&folder, "simulate scene.toml --strands 200 -o m.nabiki");

@@ -33,6 +33,23 @@ fn the_first_picture_is_the_frame_itself_and_half_a_turn_is_the_other_side() {
 }
 
 #[test]
+fn a_shorter_turn_leaves_nothing_of_a_longer_one() {
+    let folder = tempfile::tempdir().unwrap();
+    for (pictures, removed) in [(5, false), (3, true)] {
+        let arguments = format!("--turntable {pictures} --set output.movie=false");
+        let mut words: Vec<&str> = arguments.split(' ').collect();
+        words.extend(["--set", "output.png_frames=true", "--set", "picture.size=[96,64]", "--strands", "40"]);
+        let mut command = Command::new(env!("CARGO_BIN_EXE_nabiki"));
+        let output = command.current_dir(folder.path()).args(["render", GUST]).args(words).output().unwrap();
+        let said = String::from_utf8(output.stdout).unwrap();
+        assert!(output.status.success());
+        assert_eq!(said.contains("removed 2 files of frames after 2"), removed, "{said}");
+        let stills = std::fs::read_dir(folder.path().join("out/gust_0000_turntable_frames")).unwrap();
+        assert_eq!(stills.count(), pictures);
+    }
+}
+
+#[test]
 fn stills_alone_may_be_larger_than_a_movie_and_have_the_scenes_bits() {
     let folder = tempfile::tempdir().unwrap();
     let bits = |file: &str| std::fs::read(folder.path().join("out").join(file)).unwrap()[24];

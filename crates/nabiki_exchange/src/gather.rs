@@ -19,7 +19,7 @@ pub struct Gathered {
 
 impl Gathered {
     /// Appends a part that lies below the transform `world_from_part`; `group` names it where it has no groups of its
-    /// own. An attribute stays only if all parts have it, and is otherwise named among what is unread.
+    /// own. An attribute stays only if all parts that have curves have it, and is otherwise named among what is unread.
     ///
     /// # Errors
     /// More points in all than strands can count.
@@ -29,6 +29,9 @@ impl Gathered {
         world_from_part: Affine3A,
         group: Option<(i32, String)>,
     ) -> Result<(), Problem> {
+        if part.strands.is_empty() {
+            return Ok(());
+        }
         let so_far = self.all.as_ref().map_or(0, |all| all.hair.strands.points().len());
         if u32::try_from(so_far + part.strands.points().len()).is_err() {
             return Err(Problem::new("has curves of more than 2^32 points in all: ask for fewer segments"));
@@ -128,4 +131,31 @@ fn extend<T>(a: &mut Option<Vec<T>>, b: Option<Vec<T>>) -> bool {
 
 fn same_kind(a: &Other, b: &Other) -> bool {
     (&a.name, a.per, a.role, a.extent) == (&b.name, b.per, b.role, b.extent)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+    use nabiki::Strands;
+
+    #[test]
+    fn an_object_without_curves_takes_nothing_from_the_others() {
+        let mut strands = Strands::default();
+        strands.push([Vec3::ZERO, Vec3::Y]);
+        let mut part = Hair::from(strands);
+        part.attributes.width = Some(vec![0.1, 0.05]);
+        for empty_first in [true, false] {
+            let mut all = Gathered::default();
+            let mut parts = [Hair::default(), part.clone()];
+            if !empty_first {
+                parts.swap(0, 1);
+            }
+            for (n, part) in parts.into_iter().enumerate() {
+                all.append(part, Affine3A::IDENTITY, Some((n as i32, format!("part {n}")))).unwrap();
+            }
+            let found = all.hair().unwrap().hair;
+            assert_eq!((&found.attributes.width, &found.attributes.unread), (&part.attributes.width, &Vec::new()));
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! What every reader of grooms answers, whatever the format.
 
-use glam::{DQuat, DVec3};
+use glam::{Affine3A, DQuat, DVec3};
 use nabiki::{Hair, Mesh};
 
 use crate::Problem;
@@ -98,6 +98,10 @@ pub enum PrimKind {
         curves: usize,
         /// Their control points.
         points: usize,
+        /// Whether these bend cubics, and are not on the curves.
+        cubic: bool,
+        /// Takes them to the file's world at the first frame.
+        world_from_curves: Affine3A,
     },
     /// A mesh of polygons.
     Mesh {

@@ -83,13 +83,11 @@ impl std::error::Error for Error {
 
 impl From<io::Error> for Error {
     fn from(source: io::Error) -> Self {
-        Self {
-            what: Self::new(source.to_string()).what,
-            source: Some(source),
-            file: None,
-            line: None,
-            of_setting: false,
-        }
+        let what = match source.kind() {
+            io::ErrorKind::NotFound => "there is no such file or folder".to_owned(),
+            _ => source.to_string(),
+        };
+        Self { what: Self::new(what).what, source: Some(source), file: None, line: None, of_setting: false }
     }
 }
 

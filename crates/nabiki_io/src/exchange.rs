@@ -11,6 +11,7 @@ use nabiki_usd::{Form, HairStage, StageReader};
 
 use crate::axis::Axis;
 use crate::error::{Error, Result};
+use crate::groom_file::CurvePrim;
 use crate::input;
 use crate::kind::extension;
 use crate::motion::track::{Sample, Track};
@@ -207,6 +208,23 @@ pub fn export<'a>(hair: &'a Hair, frame_rate: f64, placement: Option<&Placement>
         export.z_up = placement.up == Axis::PlusZ;
     }
     export
+}
+
+/// Samples for a layer over `groom`: in the space below the transforms above its curves, which these will place.
+///
+/// The transforms are those of the first frame, in which the hair was read.
+pub fn under_groom(export: &mut Export<'_>, groom: &CurvePrim) {
+    export.file_from_head = groom.world_from_curves.inverse() * export.file_from_head;
+}
+
+/// What samples over a groom cannot hold, as phrases. `head_moves`: whether the head of the motion does.
+pub fn layer_losses(groom: &CurvePrim, head_moves: bool) -> Vec<String> {
+    let cubic = groom.cubic.then_some(
+        "the bend of the groom's cubic curves: its points lie on the curves, which as control points bend a little less",
+    );
+    let moves =
+        head_moves.then_some("the motion of the head: its stage must move the groom, or leave out --export-layer");
+    cubic.into_iter().chain(moves).map(str::to_owned).collect()
 }
 
 /// Refuses to lay a layer over a groom of `in_file` points (`None` for one grown here) whose import kept `used`.

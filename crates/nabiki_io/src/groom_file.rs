@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use glam::Affine3A;
 use nabiki::Hair;
 use nabiki::strands::check_points;
 use nabiki_exchange::PrimKind;
@@ -28,16 +29,20 @@ enum Kind {
 }
 
 /// Curves of a layer or archive.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct CurvePrim {
     /// Where they stand in it.
     pub path: String,
     /// Their control points.
     pub points: u64,
+    /// Whether these bend cubics, and are not on the curves.
+    pub cubic: bool,
+    /// Takes them to the file's world at the first frame.
+    pub world_from_curves: Affine3A,
 }
 
 /// The file that a groom came from, and where its curves are in it.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct GroomCurves {
     /// The file, as it was named.
     pub file: String,
@@ -112,7 +117,9 @@ impl GroomFile {
             Kind::Exchange(opened) => opened.ask(|r| r.prims())?,
         };
         let curves = prims.into_iter().filter_map(|prim| match prim.kind {
-            PrimKind::Curves { points, .. } => Some(CurvePrim { path: prim.path, points: points as u64 }),
+            PrimKind::Curves { points, cubic, world_from_curves, .. } => {
+                Some(CurvePrim { path: prim.path, points: points as u64, cubic, world_from_curves })
+            }
             _ => None,
         });
         Ok(GroomCurves { file: file.display().to_string(), curves: curves.collect() })
@@ -131,17 +138,21 @@ impl GroomFile {
 }
 
 impl GroomCurves {
-    /// Refuses to lay a layer over the prim `path` where it is not the one that holds the groom's curves.
+    /// The curves that a layer over the prim `path` is about.
     ///
     /// # Errors
-    /// One line with the paths that are.
-    pub fn check_layer(&self, path: &str) -> Result<()> {
+    /// The prim is not the one that holds the groom's curves: one line with the paths that do; a transform above it that
+    /// flattens space.
+    pub fn under_layer(&self, path: &str) -> Result<&CurvePrim> {
         let refuse =
             |why: String| Err(Error::new(format!("--export-layer {path}: {why}")).in_file(Path::new(&self.file)));
         let listed = self.curves.iter().take(8).map(|prim| format!("{} ({} points)", prim.path, prim.points));
         let list = listed.collect::<Vec<_>>().join(", ");
         match &self.curves[..] {
-            [only] if only.path == path => Ok(()),
+            [only] if only.path == path => {
+                let inverse = only.world_from_curves.inverse();
+                if inverse.is_finite() { Ok(only) } else { refuse("a transform above it flattens space".to_owned()) }
+            }
             [] => refuse("it has no curves over which a layer could lie".to_owned()),
             [_] => refuse(format!("its curves are at {list}")),
             several => {

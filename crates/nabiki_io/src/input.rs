@@ -121,6 +121,6 @@ mod tests {
         assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
         assert_eq!(refused(&pipe), is("a device or a pipe", &pipe));
         let missing = folder.path().join("no.csv");
-        assert!(refused(&missing).contains("No such file"), "{}", refused(&missing));
+        assert!(refused(&missing).contains("there is no such file"), "{}", refused(&missing));
     }
 }

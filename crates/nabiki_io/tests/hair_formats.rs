@@ -149,7 +149,7 @@ fn a_missing_file_a_folder_and_a_strange_ending_are_named() {
     let folder = tempfile::tempdir().unwrap();
     let missing = folder.path().join("no.hair");
     let error = hair::read(&missing).unwrap_err().to_string();
-    assert_eq!(error, format!("{}: No such file or directory (os error 2)", missing.display()));
+    assert_eq!(error, format!("{}: there is no such file or folder", missing.display()));
     let named_folder = folder.path().join("folder.hair");
     std::fs::create_dir(&named_folder).unwrap();
     let error = hair::read(&named_folder).unwrap_err().to_string();

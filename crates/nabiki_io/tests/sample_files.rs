@@ -443,7 +443,7 @@ fn the_endings_that_info_knows_name_scenes_too() {
         "{refused}"
     );
     let folder = tempfile::tempdir().unwrap();
-    for (name, said) in [("", "is a folder, not a regular file"), ("nope", "No such file or directory")] {
+    for (name, said) in [("", "is a folder, not a regular file"), ("nope", "there is no such file or folder")] {
         let path = folder.path().join(name);
         assert!(info(&path).unwrap_err().to_string().contains(said), "{name}");
         assert!(mesh::read(&path, &[]).unwrap_err().to_string().contains(said), "{name}");

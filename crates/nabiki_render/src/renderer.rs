@@ -295,7 +295,7 @@ impl Renderer {
             .par_iter()
             .with_min_len(4096)
             .map(|n| {
-                let thin = ((n.along - 1.0 + look.taper) / look.taper.max(1e-6)).clamp(0.0, 1.0);
+                let thin = ((n.along.min(1.0) - 1.0 + look.taper) / look.taper.max(1e-6)).clamp(0.0, 1.0);
                 0.5 * look.width * (1.0 - thin * (1.0 - look.tip))
             })
             .collect_into_vec(&mut self.radius);

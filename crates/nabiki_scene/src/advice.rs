@@ -19,7 +19,7 @@ use crate::scene::{EllipsoidChoice, HeadSource};
 use crate::seat::{Lie, Mended, Seat};
 use crate::size::{HALF_AXIS, mean_half_axis, unit_for, vector};
 
-pub(crate) use unused::of_pictures;
+pub(crate) use unused::{of_pictures, unused};
 
 /// Heads from a newborn's to half again an adult's are taken as they are: the mean half axis (cm).
 const HALF_AXES: [f32; 2] = [5.0, 14.0];
@@ -72,7 +72,7 @@ pub(crate) fn advice(built: &BuiltScene) -> Vec<Advice> {
     advice.extend(cropped(built));
     advice.extend(open_bodies(built));
     advice.extend(within_the_head(built));
-    advice.extend(unused::unused(&built.scene));
+    advice.extend(unused(&built.scene));
     advice
 }
 

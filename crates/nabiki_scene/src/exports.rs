@@ -34,6 +34,10 @@ impl ExportOptions {
                 "--export-layer {prim}: give the layer's file, too: --export FILE.usdc"
             )));
         }
+        if self.head && !self.files.iter().any(|file| exchange::is_alembic(file)) {
+            let line = "--export-head: puts the head into .abc files, and none is written; other files have it without";
+            return Err(Error::refused(line));
+        }
         self.files.iter().try_for_each(|file| {
             let way_out = match (exchange::is_usd(file), exchange::is_alembic(file), &self.layer) {
                 (true, _, _) | (_, true, None) => return place::file(file),
@@ -62,12 +66,14 @@ impl<'a> Exports<'a> {
             export.default_colour = Some(colour::of_mass(&built.scene.picture.hair));
             export.head = (!exchange::is_alembic(path) || options.head).then_some(&built.head.mesh);
             if let Some(prim) = &options.layer {
-                if let Some(groom) = &built.groom {
-                    groom.check_layer(prim)?;
-                }
                 let in_file = built.import_report.map(|report| report.points_in_file as u64);
                 let used = built.hair.strands.points().len();
                 exchange::check_layer(in_file, used).map_err(|e| e.in_file(path))?;
+                if let Some(groom) = &built.groom {
+                    let curves = groom.under_layer(prim)?;
+                    exchange::under_groom(&mut export, curves);
+                    super::tasks::lost(path, exchange::layer_losses(curves, built.head_moves()), watch);
+                }
             }
             let bytes = exchange::least_bytes(path, &export, u64::from(built.frames()) + 1, options.layer.is_some());
             place::room(path, bytes, watch)?;

@@ -121,7 +121,7 @@ impl Cached {
         let (last, given) = (u64::from(built.frames()), reader.frame_count());
         if given <= last {
             return Err(Error::refused(format!(
-                "{file}: holds {given} frames and {scene} has {}; draw fewer with --frames {}",
+                "{file}: holds {given} frames and {scene} has {}; draw fewer with --set motion.frames={}",
                 last + 1,
                 given.saturating_sub(1)
             )));

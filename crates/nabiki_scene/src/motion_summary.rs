@@ -93,6 +93,8 @@ pub struct MotionSummary {
     pub farthest_jump: FrameSummary,
     /// The last frame.
     pub last: FrameSummary,
+    /// What nodes may be inside of, in words.
+    met: &'static str,
     before: Vec<Vec3>,
 }
 
@@ -100,6 +102,7 @@ impl MotionSummary {
     /// Takes in the next frame; each once, from 0 on.
     pub fn add(&mut self, built: &BuiltScene, frame: u32, strands: &Strands) {
         let now = FrameSummary::of(built, frame, strands, &self.before);
+        self.met = if others(built, frame).is_empty() { "the head" } else { "the head or a body" };
         self.add_frame(now);
         self.before.clear();
         self.before.extend_from_slice(strands.points());
@@ -107,9 +110,9 @@ impl MotionSummary {
 
     fn add_frame(&mut self, now: FrameSummary) {
         if now.frame == 0 {
-            let before = std::mem::take(&mut self.before);
+            let (met, before) = (self.met, std::mem::take(&mut self.before));
             let [rest, worst, deepest, most_kinked, farthest_jump, last] = [now; 6];
-            *self = Self { rest, worst, deepest, most_kinked, farthest_jump, last, before };
+            *self = Self { rest, worst, deepest, most_kinked, farthest_jump, last, met, before };
         }
         self.last = now;
         let more = |most: &mut FrameSummary, of: fn(&FrameSummary) -> f64| {
@@ -126,11 +129,10 @@ impl MotionSummary {
 
 impl fmt::Display for MotionSummary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { rest, worst, deepest, most_kinked, farthest_jump, last, .. } = self;
+        let Self { rest, worst, deepest, most_kinked, farthest_jump, last, met, .. } = self;
         write!(
             f,
-            "  inside  {:.2} % of the nodes are inside the head or a body at frame {} ({:.2} % at rest, at worst {:.2} % \
-             at frame {})",
+            "  inside  {:.2} % of the nodes are inside {met} at frame {} ({:.2} % at rest, at worst {:.2} % at frame {})",
             100.0 * last.inside,
             last.frame,
             100.0 * rest.inside,

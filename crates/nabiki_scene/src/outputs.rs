@@ -56,6 +56,20 @@ impl Stills {
         Ok(())
     }
 
+    /// Removes those after `last`, so that the folder holds one film. Whatever has another name, or is no ordinary file, stays.
+    pub fn remove_beyond(&self, last: u32, watch: &mut dyn Watch) -> Result<()> {
+        let is_file = |file: &Path| fs::symlink_metadata(file).is_ok_and(|about| about.is_file());
+        let there = numbered(&self.folder, &self.output).into_iter();
+        let beyond: Vec<_> = there.filter(|(n, file)| *n > last && is_file(file)).collect();
+        for (_, file) in &beyond {
+            fs::remove_file(file).map_err(|e| nabiki_io::Error::from(e).in_file(file))?;
+        }
+        if !beyond.is_empty() {
+            watch.told(Told::Removed { folder: self.folder.clone(), frames: beyond.len(), last });
+        }
+        Ok(())
+    }
+
     /// Where they are.
     pub fn folder(&self) -> &Path {
         &self.folder
@@ -166,7 +180,7 @@ impl<'a> PictureOutputs<'a> {
     /// Completes the files, and removes the frames that a longer run left beyond the last. Returns what was written.
     pub fn finish(self, watch: &mut dyn Watch) -> Result<Vec<PathBuf>> {
         if let Some(stills) = &self.stills {
-            remove_beyond(self.built.frames(), &stills.folder, &stills.output, watch)?;
+            stills.remove_beyond(self.built.frames(), watch)?;
         }
         let mut written = Vec::new();
         if let Some((file, movie)) = self.movie {
@@ -196,20 +210,6 @@ fn numbered(stills: &Path, output: &Output) -> Vec<(u32, PathBuf)> {
         (written(ending) && still(stills, number, ending) == path).then_some((number, path))
     };
     fs::read_dir(stills).into_iter().flatten().flatten().filter_map(|there| frame(there.path())).collect()
-}
-
-/// Removes the frames after `last`, so that the folder holds one motion. Whatever has another name, or is no ordinary
-/// file, stays.
-fn remove_beyond(last: u32, stills: &Path, output: &Output, watch: &mut dyn Watch) -> Result<()> {
-    let is_file = |file: &Path| fs::symlink_metadata(file).is_ok_and(|about| about.is_file());
-    let beyond: Vec<_> = numbered(stills, output).into_iter().filter(|(n, file)| *n > last && is_file(file)).collect();
-    for (_, file) in &beyond {
-        fs::remove_file(file).map_err(|e| nabiki_io::Error::from(e).in_file(file))?;
-    }
-    if !beyond.is_empty() {
-        watch.told(Told::Removed { folder: stills.to_owned(), frames: beyond.len(), last });
-    }
-    Ok(())
 }
 
 /// Bytes that the stills of a frame take at least. A bald head before an empty ground takes a twelfth of a byte for a pixel

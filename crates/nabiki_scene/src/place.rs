@@ -122,9 +122,10 @@ const LARGE: u64 = 1 << 30;
 
 /// Says that a file will be large, and refuses one that the disk cannot hold. `bytes`: what it will take at least.
 pub fn room(path: &Path, bytes: u64, watch: &mut dyn Watch) -> Result<()> {
-    let folder = folder_of(path);
+    // What a link leads to is what is written.
+    let target = behind_links(path).unwrap_or_else(|_| path.to_owned());
     // A file system that does not say what it has left is tried.
-    if let Ok(left) = nabiki_file::available_bytes(folder)
+    if let Ok(left) = nabiki_file::available_bytes(folder_of(&target))
         && bytes > left
     {
         return Err(Error::refused(format!(

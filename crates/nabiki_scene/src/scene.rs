@@ -312,7 +312,10 @@ impl Scene {
             self.origins.error("", problem)
         })?;
         edit::apply(&mut document, &held, &wanted, &defaults);
-        Ok(document.to_string())
+        let text = document.to_string();
+        // The editor of TOML knows but one end of a line.
+        let of_two = self.text.contains("\r\n");
+        Ok(if of_two { text.replace("\r\n", "\n").replace('\n', "\r\n") } else { text })
     }
 
     /// Writes [`to_toml`](Self::to_toml) to `path`; the file appears when whole. From then on it is the scene's file, to

@@ -112,7 +112,25 @@ impl Seat<'_> {
         }
         let mended = self.turned(&now).unwrap_or_else(|| self.best());
         let then = self.lie_at(&self.placement(&mended));
+        if !then.is_good()
+            && let Some(other) = self.in_another_unit(&now)
+        {
+            return Some(other);
+        }
         then.is_better_than(&now).then_some((mended, then))
+    }
+
+    /// As if the file named no unit, if that makes it lie well: programs name one that is not theirs.
+    fn in_another_unit(&self, now: &Lie) -> Option<(Mended, Lie)> {
+        if self.unit_is_open() || self.settings.unit.is_some() {
+            return None;
+        }
+        let open = Seat { declared: DeclaredSpace { unit: None, ..self.declared }, ..*self };
+        let mut mended = open.turned(now).unwrap_or_else(|| open.best());
+        let unit = open.placement(&mended).unit;
+        mended.unit.get_or_insert_with(|| decimal(unit.cm, 3));
+        let then = self.lie_at(&self.placement(&mended));
+        then.is_good().then_some((mended, then))
     }
 
     fn placement(&self, mended: &Mended) -> Placement {

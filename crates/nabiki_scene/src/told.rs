@@ -3,6 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use glam::Vec3;
 use nabiki::dynamics::{Form, gain, period};
 use nabiki_io::hair::ImportReport;
 
@@ -216,8 +217,10 @@ impl fmt::Display for SceneSummary {
 /// any step (section 4.3 of the paper).
 #[derive(Clone, Debug, PartialEq)]
 pub struct SwingTable {
-    /// Length of the strand, the median of the hair's (cm).
+    /// Length of the strand, the median of the hair's (cm); of what is tied, behind its tie.
     pub length: f32,
+    /// Whether that is so of half of the hair or more.
+    pub tied: bool,
     /// A row for each interval of `[[force]]`.
     pub rows: Vec<SwingRow>,
     /// What the bound of all fields together would do, where there is more than `[[force]]`, stepped.
@@ -239,9 +242,19 @@ pub struct SwingRow {
 impl SwingTable {
     /// Of a built scene whose field is not too strong for its hair.
     pub fn of(built: &BuiltScene) -> Self {
-        let mut lengths: Vec<f32> = built.hair.strands.lengths().collect();
+        let tie = match &built.dynamics.form {
+            Form::Paper => None,
+            Form::Free(free) => free.form.tie,
+        };
+        // What is held does not swing.
+        let swinging = |strand: &[Vec3]| {
+            let held = tie.map_or(0, |tie| tie.held(strand));
+            (strand[held..].windows(2).map(|w| w[0].distance(w[1])).sum::<f32>(), held > 0)
+        };
+        let (mut lengths, tied): (Vec<f32>, Vec<bool>) = built.hair.strands.iter().map(swinging).unzip();
         lengths.sort_by(f32::total_cmp);
         let length = lengths[lengths.len() / 2];
+        let tied = 2 * tied.iter().filter(|&&tied| tied).count() >= lengths.len();
         let count = f64::from(length) / f64::from(built.dynamics.segment_length);
         let held = |position: f64| match &built.dynamics.form {
             Form::Paper => 0.0,
@@ -253,21 +266,28 @@ impl SwingTable {
             SwingRow { frames, force, periods: [1.0, (count + 1.0) / 2.0, count].map(swing) }
         };
         let mut first = 1;
-        let field = &built.scene.field;
-        let rows = field.force.iter().map(|key| {
-            let row = row([first, key.through], key.vector.length());
+        let (field, last) = (&built.scene.field, built.frames());
+        let reached = field.force.iter().scan(0, |before, key| {
+            let begins = *before < last;
+            *before = key.through;
+            begins.then_some(key)
+        });
+        let rows = reached.map(|key| {
+            let row = row([first, key.through.min(last)], key.vector.length());
             first = key.through + 1;
             row
         });
         let rows = rows.collect();
-        let at_most = (!field.is_the_papers()).then(|| row([1, built.frames()], built.field.strongest()));
-        Self { length, rows, at_most }
+        let at_most = (!field.is_the_papers()).then(|| row([1, last], built.field.strongest()));
+        Self { length, tied, rows, at_most }
     }
 }
 
 impl fmt::Display for SwingTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "  swing   frames of one swing of a strand of {:.1} cm: at its root, middle, tip", self.length)?;
+        let (root, tied) = if self.tied { ("tie", " behind its tie") } else { ("root", "") };
+        let length = self.length;
+        write!(f, "  swing   frames of one swing of a strand of {length:.1} cm{tied}: at its {root}, middle, tip")?;
         let told = self.rows.iter().map(|row| ('=', row)).chain(self.at_most.iter().map(|row| ('<', row)));
         for (sign, SwingRow { frames: [first, last], force, periods: [root, middle, tip] }) in told {
             let interval = format!("{first} to {last}");

@@ -61,6 +61,16 @@ fn files_that_are_missing_are_said_to_be_and_bodies_are_not_felt_in_the_papers_f
 }
 
 #[test]
+fn what_changes_nothing_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, "[contact]\nmargin = 0.3\n\n[[force]]\nthrough = 9\nvector = [-9, 0, 0]\n").unwrap();
+    let said = info(&path).unwrap().to_string();
+    let line = "look: hair does not feel [contact] in the paper's form: give motion.form = \"free\"";
+    assert!(said.lines().any(|said| said == line), "{said}");
+}
+
+#[test]
 fn what_is_no_scene_says_what_it_is() {
     let layer = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../nabiki_io/tests/files/groom.usdc"));
     let said = nabiki_scene::Scene::load(layer, &[]).unwrap_err().to_string();

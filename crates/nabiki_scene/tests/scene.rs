@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use glam::Vec3;
+use nabiki::dynamics::Form;
+use nabiki_scene::told::SwingTable;
 use nabiki_scene::{
     BuiltScene, Scene, Shown,
     scene::{EllipsoidChoice, GrownHair, HairSource, HeadSource, Problem, SceneError},
@@ -284,7 +286,7 @@ fn values_out_of_range_are_refused_by_their_owners_with_the_line() {
     );
     assert_eq!(
         refused("[motion]", "[output]\nsheet = [0, 101]\n[motion]"),
-        "scenes/gust.toml:5: output.sheet[1] = 101: the last frame is motion.frames = 100"
+        "scenes/gust.toml:5: output.sheet[1] = 101: the last frame is motion.frames = 100; take it out of the sheet"
     );
 }
 
@@ -352,7 +354,7 @@ fn what_is_no_toml_is_refused_with_its_line() {
     let twice = refused("time_step = 0.1", "time_step = 0.1\ntime_step = 0.2");
     assert!(twice.starts_with("scenes/gust.toml:7: not TOML: duplicate key time_step: "), "{twice}");
     let error = Scene::load("no/such/scene.toml".as_ref(), &[]).unwrap_err().to_string();
-    assert_eq!(error, "no/such/scene.toml: No such file or directory (os error 2)");
+    assert_eq!(error, "no/such/scene.toml: there is no such file or folder");
 }
 
 #[test]
@@ -442,4 +444,33 @@ fn imported_hair_is_cut_into_the_segments_asked_for() {
     assert!(cut.iter().next().unwrap()[4].distance(corner) < 1e-5);
     let refused = built(&format!("segments = {}", usize::MAX / 2)).unwrap_err().to_string();
     assert!(refused.contains("hair.segments") && refused.contains("must lie in 1..65535"), "{refused}");
+}
+
+#[test]
+fn a_file_keeps_the_ends_of_its_lines() {
+    let text = "[motion]\n# as long as the wind\nframes = 9\n\n[[force]]\nthrough = 9\nvector = [-1, 0, 0]\n";
+    for text in [text.to_owned(), text.replace('\n', "\r\n")] {
+        let mut scene = Scene::parse(&text, Path::new("a.toml"), &[]).unwrap();
+        scene.motion.frames = 12;
+        assert_eq!(scene.to_toml().unwrap(), text.replace("frames = 9", "frames = 12"));
+    }
+}
+
+#[test]
+fn what_is_tied_swings_as_hair_of_the_length_behind_its_tie() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/ponytail.toml");
+    let few = [("hair.strands".to_owned(), "40".to_owned())];
+    let built = Scene::load(&path, &few).unwrap().build(Shown::All).unwrap();
+    let table = SwingTable::of(&built);
+    let Form::Free(free) = &built.dynamics.form else { panic!("the ponytail is of the free form") };
+    let tie = free.form.tie.expect("it is tied");
+    let mut behind: Vec<f32> = built
+        .hair
+        .strands
+        .iter()
+        .map(|strand| strand[tie.held(strand)..].windows(2).map(|w| w[0].distance(w[1])).sum())
+        .collect();
+    behind.sort_by(f32::total_cmp);
+    assert!(table.tied && table.to_string().contains("cm behind its tie: at its tie, middle, tip"), "{table}");
+    assert_eq!(table.length, behind[behind.len() / 2]);
 }

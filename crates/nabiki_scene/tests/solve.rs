@@ -124,6 +124,51 @@ fn the_solved_scene_moves_as_reported_and_keeps_its_comments_and_layout() {
 }
 
 #[test]
+fn no_wind_is_found_that_hair_which_is_not_shown_cannot_bear() {
+    // Of 1200 strands the shortest have a fifth of the length, and bear less than the first three.
+    let scene = "\
+[hair]
+strands = 1200
+segments = 18
+
+[hair.style]
+variation = { length = 0.8 }
+
+[motion]
+frames = 14
+
+[[force]]
+through = 14
+vector = [-10, 0, 0]
+";
+    let wishes = "\
+[unknowns]
+vectors = [0]
+
+[[wish]]
+frame = 6
+strands = [0, 1, 2]
+along = [0.5, 1]
+mean_moved = [-4, 4, 0]
+";
+    let place = Place::new(scene, wishes);
+    let options = SolveOptions { strands: 3, ..place.options() };
+    let (shown, whole) = (Shown::AtMost(3), Shown::All);
+    let bears = |built: &nabiki_scene::BuiltScene| {
+        4.0 / nabiki::dynamics::largest_gain(&built.hair.strands, &built.dynamics).unwrap()
+    };
+    let load = |name: &str| Scene::load(&place.path(name), &[]).unwrap();
+    let [some, all] = [shown, whole].map(|shown| bears(&load("scene.toml").build(shown).unwrap()));
+    assert!(some > 1.2 * all, "the shown strands bear more: {some} {all}");
+    let mut ear = Ear::default();
+    solve(load("scene.toml"), &options, &mut ear).unwrap();
+    let solved = load("solved.toml");
+    let strength = solved.field.force[0].vector.length();
+    solved.build(Shown::All).unwrap().simulation().expect("the scene that was found can be run");
+    assert!(f64::from(strength) > 0.5 * all, "and goes as far as it may: {strength} of {all}");
+}
+
+#[test]
 fn a_new_interval_and_its_border_come_into_the_file_where_they_belong() {
     let wishes = "\
 [unknowns]

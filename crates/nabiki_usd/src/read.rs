@@ -237,7 +237,11 @@ impl GroomReader for StageReader {
                 }
                 "BasisCurves" => {
                     let curves = self.count(i, "curveVertexCounts")?;
-                    PrimKind::Curves { curves, points: self.point_count(i)? }
+                    // What is not said is cubic in USD.
+                    let cubic = self.layer.word(i, "type")?.is_none_or(|word| word != "linear");
+                    let time = self.code_of(0)?;
+                    let world = Affine3A::from_mat4(transform::world(&mut self.layer, i, time)?.as_mat4());
+                    PrimKind::Curves { curves, points: self.point_count(i)?, cubic, world_from_curves: world }
                 }
                 "Mesh" => {
                     let faces = self.count(i, "faceVertexCounts")?;

@@ -116,12 +116,12 @@ pub fn check_field(strands: &Strands, dynamics: &Dynamics, field: &dyn Field) ->
     if Stability::of(strands, dynamics)?.holds(field) {
         return Ok(());
     }
-    Err(unstable(&[("strand", strands)], dynamics, field))
+    Err(unstable(&[Named { name: "strand", strands, ids: &[] }], dynamics, field))
 }
 
 /// What decides whether a field is stable: the segment for which the least force is too much.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stability {
+pub(crate) struct Stability {
     /// c_i.
     gain: f64,
     /// What pulls on it besides the field in the free form.
@@ -194,14 +194,26 @@ fn pulls(dynamics: &Dynamics, strand: &[glam::Vec3], s: usize) -> Result<Vec<Pul
     Ok(segments.iter().zip(after).map(pull).collect())
 }
 
-/// Why hair that can be moved, each set of it with what one of its strands is called, is unstable under a field: what pulls most
-/// where it is least stable, and how much of that would hold beside all else.
-pub(super) fn unstable(hair: &[(&str, &Strands)], dynamics: &Dynamics, field: &dyn Field) -> SettingError {
+/// Some hair, and what one of its strands is called.
+pub(super) struct Named<'a> {
+    pub name: &'a str,
+    pub strands: &'a Strands,
+    /// Their numbers in the set that they are some of; none where they are all.
+    pub ids: &'a [u32],
+}
+
+/// Why hair that can be moved is unstable under a field: what pulls most where it is least stable, and how much of that would
+/// hold beside all else.
+pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Field) -> SettingError {
     let strongest = f64::from(field.strongest());
     let parts = |pull: &Pull| [pull.own[0], pull.own[1], pull.own[2], strongest];
     let reached = |pull: &Pull| pull.gain * parts(pull).iter().sum::<f64>();
-    let strands =
-        || hair.iter().flat_map(|&(name, hair)| hair.iter().enumerate().map(move |(s, strand)| (name, s, strand)));
+    let strands = || {
+        hair.iter().flat_map(|&Named { name, strands, ids }| {
+            let number = move |s: usize| ids.get(s).map_or(s, |&id| id as usize);
+            strands.iter().enumerate().map(move |(s, strand)| (name, number(s), strand))
+        })
+    };
     let of = |s: usize, strand: &[glam::Vec3]| pulls(dynamics, strand, s).unwrap_or_default();
     // All others being as they are: by how many times each part may be as large as it is, and how large the force.
     let mut rooms = [f64::INFINITY; 4];
@@ -249,7 +261,8 @@ pub(super) fn unstable(hair: &[(&str, &Strands)], dynamics: &Dynamics, field: &d
         Some(part) => {
             let (thing, named, value) = owners[part];
             let holds = rounded_down(rooms[part] * f64::from(value));
-            refused(thing, value.to_string(), format!("keep {named} below {holds}"))
+            let others = if has_others(dynamics, thing) { ", the others in proportion" } else { "" };
+            refused(thing, value.to_string(), format!("keep {named} below {holds}{others}"))
         }
         None => {
             let (thing, _, value) = owners[if largest_first[0] != FORCE { largest_first[0] } else { largest_first[1] }];
@@ -264,6 +277,16 @@ pub(super) fn unstable(hair: &[(&str, &Strands)], dynamics: &Dynamics, field: &d
                 format!("less of it alone does not mend it: lower {}, too", others.join(", ")),
             )
         }
+    }
+}
+
+/// Whether a setting has more numbers than its largest, from root to tip.
+fn has_others(dynamics: &Dynamics, thing: &str) -> bool {
+    let Form::Free(free) = &dynamics.form else { return false };
+    match thing {
+        "free.stiffness" => free.form.stiffness.values().len() > 1,
+        "free.hold" => free.form.hold.values().len() > 1,
+        _ => false,
     }
 }
 

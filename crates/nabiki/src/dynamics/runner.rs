@@ -62,8 +62,8 @@ impl Runner {
     /// Refuses a field under which this hair cannot be stepped; `strands` are those that it was made of.
     pub fn check_field(&self, strands: &Strands, field: &dyn Field) -> Result<(), SettingError> {
         match &self.form {
-            OfForm::Paper(runner) => runner.check_field(strands, field),
-            OfForm::Free(runner) => runner.check_field(strands, field),
+            OfForm::Paper(runner) => runner.check_field(strands, &self.ids, field),
+            OfForm::Free(runner) => runner.check_field(strands, &self.ids, field),
         }
     }
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::Field;
 use crate::error::SettingError;
 
-/// One interval of a field: `vector` drives every frame after the previous keyframe's and up to `through`.
+/// One interval of the wind: `vector` drives every frame after the interval before it, up to `through`.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Keyframe {
@@ -35,7 +35,7 @@ pub enum Ease {
     Smooth,
 }
 
-/// How the vectors of a [`KeyframedField`] follow one another.
+/// How the vectors of the intervals follow one another.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Wind {

@@ -15,7 +15,7 @@ use crate::{Head, SettingError};
 pub struct Style {
     /// (E I / w)^(1/3): over about this length hair bends under its own weight (cm, default 2).
     pub stiffness: Stiffness,
-    /// Length before any cut (cm, default 18); at most hair.segments x hair.segment_length.
+    /// Length before any cut (cm, default 18); at most `hair.segments` x `hair.segment_length`.
     pub length: Length,
     /// Angle between a root and the scalp (degrees, default 20): 90 is along the normal, as in the paper.
     pub lift_degrees: Lift,
@@ -52,7 +52,7 @@ pub enum Region {
     Sides,
     /// Below it, behind.
     Back,
-    /// What [`Fringe`] says.
+    /// The hair over the forehead that is combed forward.
     Fringe,
 }
 

@@ -13,7 +13,8 @@ use crate::strands::Strands;
 /// Hair, what moves it, what may change, and what is wished for.
 #[derive(Clone, Debug)]
 pub struct Problem {
-    /// The hair at rest (head space, cm): all of a scene's, or some. Only what wishes name is ever stepped.
+    /// The hair at rest (head space, cm): all of a scene's, or some. Only what wishes name is ever stepped; no answer is too
+    /// strong for any of it.
     pub hair: Strands,
     /// The strands' numbers in the set they are some of.
     pub ids: Vec<u32>,

@@ -13,7 +13,7 @@ use super::report::Step;
 use super::unknowns::{Answer, Guess, Layout, Unknown};
 use super::wind::Gusts;
 use super::wish::Goal;
-use crate::dynamics::{Change, Dynamics, Form, Moved, Timeline, tangents};
+use crate::dynamics::{Change, Dynamics, Form, Moved, Stability, Timeline, check_field, tangents};
 use crate::error::SettingError;
 use crate::field::{Field, Keyframe, KeyframedField};
 use crate::profile::Profile;
@@ -34,6 +34,8 @@ pub struct Solver {
     strands: Strands,
     ids: Vec<u32>,
     timeline: Timeline,
+    /// What field all hair of the problem bears, as it answers now.
+    steady: Stability,
     frames: Vec<u32>,
     large: Vec<f64>,
     /// What the problem has, from which changes are counted.
@@ -101,6 +103,8 @@ impl Solver {
         let strands = hair.select(&aims.strands);
         let ids: Vec<u32> = aims.strands.iter().map(|&s| ids[s]).collect();
         let poses = if poses.is_empty() { Vec::new() } else { poses[..poses.len().min(last as usize + 1)].to_vec() };
+        check_field(hair, dynamics, &*field)?;
+        let steady = Stability::of(hair, dynamics)?;
         let timeline = Timeline::with_ids(&strands, &ids, dynamics, field, poses, last)?;
         let start = layout.start(wind);
         aims.set_now(&vec![DVec3::ZERO; aims.spots.len()], &problem.wishes);
@@ -114,6 +118,7 @@ impl Solver {
             strands,
             ids,
             timeline,
+            steady,
             frames,
             large,
             start,
@@ -254,6 +259,11 @@ impl Solver {
             // Under the old field the new settings might not be steppable, and the other way round.
             self.timeline.set_field(Arc::new(crate::field::FieldSum::default()))?;
             self.timeline.set_dynamics(&dynamics)?;
+            self.steady = Stability::of(&self.problem.hair, &dynamics)?;
+        }
+        if !self.steady.holds(&*field) {
+            let remedy = "too strong for some of the hair";
+            return Err(SettingError::new("force", field.strongest(), remedy));
         }
         self.timeline.set_field(field)?;
         Ok(self.looked_at())

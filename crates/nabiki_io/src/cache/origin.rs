@@ -1,6 +1,6 @@
 //! The file that a cache's hair came from, so that it can go back into that file's own space.
 
-use glam::Vec3;
+use glam::{Affine3A, Vec3};
 
 use crate::{
     axis::Axis,
@@ -60,16 +60,23 @@ impl Origin {
     }
 }
 
-/// Two numbers, of the name's bytes and of the curves, the name, then of each curves' points, its path's bytes, and it.
+/// Two numbers, of the name's bytes and of the curves, the name, then of each curves' points, its path's bytes, and it. Where
+/// some curves are cubic or below a transform, there follow for each a number, 1 for cubics, and that transform's columns.
 pub(super) fn groom_bytes(groom: &GroomCurves) -> Result<Vec<u8>> {
     let whole = |n: usize| u32::try_from(n).map_err(|_| Error::new("the groom's file: a name of 2^32 bytes or more"));
     let mut out = Vec::new();
     put(&mut out, &[whole(groom.file.len())?, whole(groom.curves.len())?])?;
     out.extend_from_slice(groom.file.as_bytes());
-    for CurvePrim { path, points } in &groom.curves {
+    for CurvePrim { path, points, .. } in &groom.curves {
         put(&mut out, &[*points])?;
         put(&mut out, &[whole(path.len())?])?;
         out.extend_from_slice(path.as_bytes());
+    }
+    if groom.curves.iter().any(|prim| prim.cubic || prim.world_from_curves != Affine3A::IDENTITY) {
+        for CurvePrim { cubic, world_from_curves, .. } in &groom.curves {
+            put(&mut out, &[u32::from(*cubic)])?;
+            put(&mut out, &world_from_curves.to_cols_array())?;
+        }
     }
     Ok(out)
 }
@@ -93,7 +100,22 @@ pub(super) fn groom_from_bytes(bytes: &[u8]) -> Result<GroomCurves> {
         let mut curves = Vec::new();
         for _ in 0..count {
             let (points, length) = (u64::from_le_bytes(number(&mut rest)?), number(&mut rest)?);
-            curves.push(CurvePrim { points, path: text(&mut rest, length)? });
+            let path = text(&mut rest, length)?;
+            curves.push(CurvePrim { path, points, cubic: false, world_from_curves: Affine3A::IDENTITY });
+        }
+        if !rest.is_empty() {
+            for prim in &mut curves {
+                prim.cubic = match u32::from_le_bytes(number(&mut rest)?) {
+                    0 => false,
+                    1 => true,
+                    _ => return None,
+                };
+                let mut columns = [0.0; 12];
+                for number_there in &mut columns {
+                    *number_there = f32::from_le_bytes(number(&mut rest)?);
+                }
+                prim.world_from_curves = Affine3A::from_cols_array(&columns);
+            }
         }
         rest.is_empty().then_some(GroomCurves { file, curves })
     };
@@ -102,6 +124,8 @@ pub(super) fn groom_from_bytes(bytes: &[u8]) -> Result<GroomCurves> {
 
 #[cfg(test)]
 mod tests {
+    use glam::Quat;
+
     use super::*;
 
     #[test]
@@ -129,14 +153,23 @@ mod tests {
 
     #[test]
     fn the_curves_of_a_groom_come_back_and_a_damaged_list_is_refused() {
-        let prim = |path: &str, points| CurvePrim { path: path.to_owned(), points };
-        let curves = vec![prim("/head/hair", 1 << 40), prim("/head/\u{30d2}\u{30b2}", 3)];
-        let groom = GroomCurves { file: "grooms/a b.usdc".to_owned(), curves };
-        let bytes = groom_bytes(&groom).unwrap();
-        assert_eq!(groom_from_bytes(&bytes).unwrap(), groom);
-        for length in 0..bytes.len() {
-            assert!(groom_from_bytes(&bytes[..length]).is_err(), "{length} bytes");
+        let prim = |path: &str, points, cubic, world_from_curves| {
+            let path = path.to_owned();
+            CurvePrim { path, points, cubic, world_from_curves }
+        };
+        let turned = Affine3A::from_rotation_translation(Quat::from_rotation_x(0.4), Vec3::new(0.0, 150.0, -2.5));
+        for (cubic, world_from_curves) in [(false, Affine3A::IDENTITY), (true, Affine3A::IDENTITY), (false, turned)] {
+            let second = prim("/head/\u{30d2}\u{30b2}", 3, cubic, world_from_curves);
+            let curves = vec![prim("/head/hair", 1 << 40, false, Affine3A::IDENTITY), second];
+            let groom = GroomCurves { file: "grooms/a b.usdc".to_owned(), curves };
+            let bytes = groom_bytes(&groom).unwrap();
+            assert_eq!(groom_from_bytes(&bytes).unwrap(), groom);
+            // What places curves is a block that older caches lack.
+            let placed = if cubic || world_from_curves != Affine3A::IDENTITY { 2 * 52 } else { 0 };
+            for length in (0..bytes.len()).filter(|&length| length != bytes.len() - placed) {
+                assert!(groom_from_bytes(&bytes[..length]).is_err(), "{length} bytes");
+            }
+            assert!(groom_from_bytes(&[&bytes[..], &[0]].concat()).is_err());
         }
-        assert!(groom_from_bytes(&[&bytes[..], &[0]].concat()).is_err());
     }
 }

@@ -56,7 +56,7 @@ impl From<Prim> for PrimSummary {
     fn from(prim: Prim) -> Self {
         let mut named = Vec::new();
         let what = match prim.kind {
-            PrimKind::Curves { curves, points } => format!("{curves} curves, {points} points"),
+            PrimKind::Curves { curves, points, .. } => format!("{curves} curves, {points} points"),
             PrimKind::Mesh { faces, points } => format!("mesh, {faces} faces, {points} points"),
             PrimKind::Transform => "transform".to_owned(),
             PrimKind::Skeleton { joints } => {

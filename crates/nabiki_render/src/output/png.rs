@@ -5,7 +5,7 @@ use std::io::{BufReader, Write};
 use std::path::Path;
 
 use image::codecs::png::{CompressionType, FilterType, PngDecoder, PngEncoder};
-use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, ImageResult};
+use image::{ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, ImageResult};
 
 use super::write_whole;
 use crate::RenderError;
@@ -38,6 +38,16 @@ pub struct Still {
 pub fn read_size(path: &Path) -> Result<[u32; 2], RenderError> {
     let (width, height) = decoder(path)?.dimensions();
     Ok([width, height])
+}
+
+/// The depth of a PNG file's channels.
+///
+/// # Errors
+/// As [`read_size`].
+pub fn read_depth(path: &Path) -> Result<Depth, RenderError> {
+    let of_sixteen =
+        matches!(decoder(path)?.color_type(), ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16);
+    Ok(if of_sixteen { Depth::Sixteen } else { Depth::Eight })
 }
 
 /// Reads an opaque PNG file.

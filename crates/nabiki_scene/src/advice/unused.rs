@@ -11,7 +11,7 @@ use super::{Advice, Setting};
 use crate::scene::{FieldSettings, FormChoice, FreeSettings, Scene};
 
 /// What is given and changes nothing.
-pub(super) fn unused(scene: &Scene) -> Vec<Advice> {
+pub(crate) fn unused(scene: &Scene) -> Vec<Advice> {
     let said = [uncut(scene), too_late(scene)].into_iter().flatten().chain(silent(scene));
     let said = said.map(|seen| Advice { seen, settings: Vec::new() });
     let moving = unfelt(scene).into_iter().chain(idle(scene)).chain(true_of(field(&scene.field))).chain(said);

@@ -8,6 +8,7 @@ use nabiki::free_form::NeighbourForces;
 use nabiki::{Ellipsoid, Profile};
 use serde::Serialize;
 
+use crate::advice::{Advice, unused};
 use crate::scene::{
     BodySettings, FieldBound, FieldSettings, FormChoice, Gravity, GrownHair, HairSource, ImportedHair, Scene,
 };
@@ -56,6 +57,8 @@ pub struct SceneInfo {
     pub disturbed_every: Option<u32>,
     /// Width and height of the pictures (pixels).
     pub picture: [u32; 2],
+    /// What is given and changes nothing, a line each.
+    pub unused: Vec<String>,
 }
 
 /// `[free]`, `[contact]` and `[neighbours]` of a scene.
@@ -129,6 +132,7 @@ impl SceneInfo {
             bounds_problem: bounds.err().map(|problem| problem.to_string()),
             disturbed_every: scene.disturbance.as_ref().map(|d| d.every),
             picture: scene.picture.size,
+            unused: unused(scene).iter().map(Advice::to_string).collect(),
         }
     }
 }
@@ -187,10 +191,11 @@ impl fmt::Display for SceneInfo {
             }
         }
         match (self.bounds.iter().find(|bound| bound.name == "all"), &self.bounds_problem) {
-            (Some(all), _) => write!(f, "\nall fields: |F| at most {}", Short(all.at_most)),
-            (None, Some(problem)) => write!(f, "\nall fields: bound unknown, {problem}"),
-            (None, None) => Ok(()),
+            (Some(all), _) => write!(f, "\nall fields: |F| at most {}", Short(all.at_most))?,
+            (None, Some(problem)) => write!(f, "\nall fields: bound unknown, {problem}")?,
+            (None, None) => {}
         }
+        self.unused.iter().try_for_each(|line| write!(f, "\nlook: {line}"))
     }
 }
 

@@ -36,7 +36,7 @@ impl Output {
         }
         match self.sheet.iter().flatten().enumerate().find(|&(_, &frame)| frame > frames) {
             Some((i, frame)) => {
-                let remedy = format!("the last frame is motion.frames = {frames}");
+                let remedy = format!("the last frame is motion.frames = {frames}; take it out of the sheet");
                 Err(SettingError::new(format!("output.sheet[{i}]"), frame, remedy))
             }
             None => Ok(()),

@@ -7,7 +7,7 @@ use nabiki_io::Axis;
 use nabiki_io::cache::Reader;
 use nabiki_io::exchange::{self, DeclaredSpace};
 use nabiki_io::hair;
-use nabiki_io::{GroomFile, Placement, Unit};
+use nabiki_io::{CurvePrim, GroomFile, Placement, Unit};
 
 use crate::advice::Advice;
 use crate::error::{Error, Result};
@@ -293,14 +293,14 @@ fn space_of(cache: &Reader) -> DeclaredSpace {
     DeclaredSpace { unit: Some(unit), up: Some(up) }
 }
 
-/// Refuses a layer over what is not known to be the groom that the cache was made from.
-fn check_layer(options: &ConvertOptions, prim: &str, cache: &Reader) -> Result<()> {
+/// The curves that a layer lies over. Refuses what is not known to be the groom that the cache was made from.
+fn under_layer<'c>(options: &ConvertOptions, prim: &str, cache: &'c Reader) -> Result<&'c CurvePrim> {
     let header = cache.header();
     let points = header.starts.last().map_or(0, |&n| n as usize);
     let in_file = header.origin.as_ref().map(|origin| origin.points);
     exchange::check_layer(in_file, points).map_err(|e| e.in_file(&options.output))?;
     match header.origin.as_ref().and_then(|origin| origin.groom.as_ref()) {
-        Some(groom) => Ok(groom.check_layer(prim)?),
+        Some(groom) => Ok(groom.under_layer(prim)?),
         None => Err(Error::refused(format!(
             "{}: --export-layer {prim}: this cache is older than the note of where its groom's curves are; make it again \
              with nabiki simulate, or leave out --export-layer for a complete stage",
@@ -314,12 +314,13 @@ fn check_layer(options: &ConvertOptions, prim: &str, cache: &Reader) -> Result<(
 fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Watch) -> Result<()> {
     let output = options.output.as_path();
     let layer = options.layer.as_deref();
-    if let Some(prim) = layer {
-        check_layer(options, prim, &cache)?;
-    }
+    let curves = layer.map(|prim| under_layer(options, prim, &cache).cloned()).transpose()?;
     let hair = cache.hair(0)?;
     let placement = placement(&cache);
-    let export = exchange::export(&hair, cache.header().frame_rate, placement.as_ref());
+    let mut export = exchange::export(&hair, cache.header().frame_rate, placement.as_ref());
+    if let Some(curves) = &curves {
+        exchange::under_groom(&mut export, curves);
+    }
     let failed = |e: std::io::Error| Error::from(nabiki_io::Error::from(e).in_file(output));
     let frames = cache.frame_count();
     place::room(output, exchange::least_bytes(output, &export, frames, layer.is_some()), watch)?;
@@ -327,12 +328,18 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
     let mut strands = cache.header().strands();
     // The header of a cache holds fewer frames than that.
     let last = u32::try_from(frames.saturating_sub(1)).unwrap_or(u32::MAX);
+    let mut head_moves = false;
     each_frame(watch, "converting", 0..=last, |frame| {
         let pose = cache.read(frame.into(), &mut strands)?;
+        head_moves |= pose != Pose::STILL;
         sink.frame(&strands, &pose.world_from_head()).map_err(failed)
     })?;
     sink.finish().map_err(failed)?;
-    let losses = exchange::losses(output, &hair).into_iter().chain(unsaid_space(options, space_of(&cache))).collect();
+    let mut losses: Vec<String> =
+        exchange::losses(output, &hair).into_iter().chain(unsaid_space(options, space_of(&cache))).collect();
+    if let Some(curves) = &curves {
+        losses.extend(exchange::layer_losses(curves, head_moves));
+    }
     finish(options, losses, format!("{frames} frames of {} strands", hair.strands.len()), watch);
     Ok(())
 }

@@ -13,11 +13,11 @@ use crate::scene::Scene;
 use crate::told::Told;
 use crate::watch::Watch;
 
+/// Strands by which a scene is tried first, which is quick where it is refused.
+const TRIED: usize = 300;
+
 /// Strands that a shard has at the most unless a number of shards is given.
 const STRANDS_A_SHARD: usize = 100_000;
-
-/// Strands by which a scene is tried before it becomes a job.
-const TRIED: usize = 300;
 
 /// Which job [`farm`] writes.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ pub struct FarmOptions {
 }
 
 /// Writes the job that simulates a scene in shards, joins them, draws the frames and codes the movie. The scene is built
-/// with a few strands before, so that what can be refused is refused here and not on a hundred machines.
+/// before, up to the strands of one shard, so that what can be refused is refused here and not on a hundred machines.
 ///
 /// # Errors
 /// A scene that cannot be built or stepped, more shards than strands, a place that cannot be written.
@@ -112,6 +112,10 @@ fn plan(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Result<Pl
     if shards as usize > strands {
         let line = format!("--shards {shards}: more than there are strands; give {strands} at the most");
         return Err(Error::refused(line));
+    }
+    if strands > TRIED {
+        // A short strand among the others bears less.
+        built.scene.clone().build(Shown::AtMost(strands.min(STRANDS_A_SHARD)))?.simulation()?;
     }
     super::present(&built, watch);
     Ok(Plan {

@@ -22,6 +22,8 @@ pub struct MovieOptions {
     /// The scene that they show, which then says how many there are, the frame rate and the quality; without it they
     /// begin anywhere and are 24 a second.
     pub scene: Option<Scene>,
+    /// Changes to the scene file that make it this scene, `motion.frames=40`.
+    pub sets: Vec<String>,
 }
 
 /// Codes numbered pictures, without a gap, as a movie. Of PNG files of 16 bits it is, to the bit, the movie that
@@ -118,14 +120,11 @@ fn whole(frames: &[(u32, PathBuf)], options: &MovieOptions) -> Result<()> {
     };
     let mut next = if options.scene.is_some() { 0 } else { *first };
     let missing = |from: u32, through: u32| {
-        let scene = options.scene.as_ref().map_or("SCENE".to_owned(), |scene| scene.file().display().to_string());
         let which =
             if from == through { format!("frame {from} is") } else { format!("frames {from} to {through} are") };
         let of = frames[0].1.parent().unwrap_or(Path::new("")).display();
-        Err(Error::refused(format!(
-            "{of}: {which} missing; draw with nabiki render {} --frames {from}..{through}",
-            crate::shell::quoted(&scene)
-        )))
+        let command = drawing(&frames[0].1, (from, through), options);
+        Err(Error::refused(format!("{of}: {which} missing; draw with {command}")))
     };
     for &(n, _) in frames {
         if n > next {
@@ -144,6 +143,28 @@ fn whole(frames: &[(u32, PathBuf)], options: &MovieOptions) -> Result<()> {
         None if next <= last => missing(next, last),
         None => Ok(()),
     }
+}
+
+/// The command that draws frames of the film that `file` is of, beside it.
+fn drawing(file: &Path, (from, through): (u32, u32), options: &MovieOptions) -> String {
+    let mut words = vec!["nabiki".to_owned(), "render".to_owned()];
+    let scene = options.scene.as_ref();
+    words.push(scene.map_or("SCENE".to_owned(), |scene| scene.file().display().to_string()));
+    words.extend(["--frames".to_owned(), format!("{from}..{through}")]);
+    let folder = file.parent().unwrap_or(Path::new(""));
+    if let Some(scene) = scene.filter(|scene| folder.file_name() == Some(format!("{}_frames", scene.name()).as_ref())) {
+        let beside = nabiki_file::folder_of(folder);
+        words.extend(["--out".to_owned(), beside.display().to_string()]);
+        let motion = beside.join(format!("{}.nabiki", scene.name()));
+        if motion.exists() {
+            words.extend(["--motion".to_owned(), motion.display().to_string()]);
+        }
+    }
+    words.extend(options.sets.iter().flat_map(|set| ["--set".to_owned(), set.clone()]));
+    if png::read_depth(file).is_ok_and(|depth| depth == png::Depth::Sixteen) {
+        words.extend(["--set".to_owned(), "output.png_bits=16".to_owned()]);
+    }
+    crate::shell::command(&words)
 }
 
 /// The size of all pictures, which a movie can have.

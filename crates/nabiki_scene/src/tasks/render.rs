@@ -177,6 +177,9 @@ fn turntable(
         stills.as_ref().map_or(Ok(()), |stills| stills.write(n, drawn, &tone_mapping))
     };
     Film::turntable(built, (frame, pictures), frames.as_mut(), push, watch)?;
+    if let Some(stills) = &stills {
+        stills.remove_beyond(pictures - 1, watch)?;
+    }
     movie.map_or(Ok(()), Movie::finish)?;
     Ok(file.into_iter().chain(stills.map(|stills| stills.folder().to_owned())).collect())
 }

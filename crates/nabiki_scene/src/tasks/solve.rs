@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use nabiki::SettingError;
-use nabiki::solve::{Problem, Search, Solver, Wish};
+use nabiki::solve::{Problem, Report, Search, Solver, Wish};
 
 use crate::advice::Advice;
-use crate::built::Shown;
+use crate::built::{BuiltScene, Shown};
 use crate::error::{Error, Result};
 use crate::place;
 use crate::scene::{FieldSettings, HairSource, Scene};
@@ -56,7 +56,7 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
     let (force, unknowns) = free.of(&scene.field.force, scene.motion.frames).map_err(in_file)?;
     scene.field.force = force;
     let shown = shown(file, strands, &scene)?;
-    let mut built = super::build(scene, shown, watch)?;
+    let built = super::build(scene, shown, watch)?;
     super::present(&built, watch);
     let named = file.about(&built)?;
     let (names, list): (Vec<String>, Vec<Wish>) = named.into_iter().map(|named| (named.name, named.wish)).unzip();
@@ -67,28 +67,43 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
     let said = held.into_iter().filter(|_| wishes.unknowns.is_some());
     super::advise(said.map(|seen| Advice { seen, settings: Vec::new() }), watch);
     let strands: BTreeSet<u32> = list.iter().flat_map(|wish| wish.nodes.iter().map(|node| node.strand)).collect();
-    let problem = Problem { prior: wishes.prior.into(), ..built.problem(unknowns.clone(), list) };
     let begun = Instant::now();
-    let refused = |refused: SettingError| match refused.thing.starts_with("unknowns") {
-        true => in_file(refused),
-        false => built.refusal(refused),
-    };
-    let mut solver = Solver::new(problem).map_err(refused)?;
     let search: Search = wishes.search.into();
+    let answer = |built: &BuiltScene, watch: &mut dyn Watch| -> Result<(Scene, Report)> {
+        let problem = Problem { prior: wishes.prior.into(), ..built.problem(unknowns.clone(), list.clone()) };
+        let refused = |refused: SettingError| match refused.thing.starts_with("unknowns") {
+            true => in_file(refused),
+            false => built.refusal(refused),
+        };
+        let report = searched(Solver::new(problem).map_err(refused)?, &search, watch)?;
+        let mut scene = built.scene.clone();
+        scene.accept(&report.answer);
+        Ok((scene, report))
+    };
+    let (mut scene, mut report) = answer(&built, watch)?;
+    // Hair that is not shown may bear less.
+    if built.ids().len() < built.strands_of_scene {
+        let whole = super::build(scene.clone(), Shown::All, watch)?;
+        if whole.simulation().is_err() {
+            let as_it_was = super::build(built.scene.clone(), Shown::All, watch)?;
+            (scene, report) = answer(&as_it_was, watch)?;
+        }
+    }
+    let seconds = begun.elapsed().as_secs_f64();
+    Ok((scene, Solved { report, names, unknowns, strands: strands.len(), seconds }))
+}
+
+/// The whole search, unless it is cancelled.
+fn searched(mut solver: Solver, search: &Search, watch: &mut dyn Watch) -> Result<Report> {
     let mut cancelled = false;
     watch.begin("solving", (search.starts * search.iterations) as u64);
-    let report = solver.solve_watched(&search, &mut |_| {
+    let report = solver.solve_watched(search, &mut |_| {
         watch.step();
         cancelled = watch.cancelled();
         !cancelled
     });
     watch.end();
-    if cancelled {
-        return Err(Error::Cancelled);
-    }
-    let seconds = begun.elapsed().as_secs_f64();
-    built.scene.accept(&report.answer);
-    Ok((built.scene, Solved { report, names, unknowns, strands: strands.len(), seconds }))
+    if cancelled { Err(Error::Cancelled) } else { Ok(report) }
 }
 
 /// Refuses a place that cannot be written, or from which the files that the scene names are not found.

@@ -8,7 +8,7 @@ use super::contact::Obstacle;
 use super::grid::Crowd;
 use super::kernel::FreeState;
 use super::packed::{Packed, Plan};
-use crate::dynamics::gain::unstable;
+use crate::dynamics::gain::{Named, unstable};
 use crate::dynamics::sweep::{Pages, sweep};
 use crate::dynamics::{Dynamics, FrameInput, VectorWidth};
 use crate::error::SettingError;
@@ -47,15 +47,16 @@ impl Runner {
         Ok(Self { states: packed.states(), packed, carriers, obstacles })
     }
 
-    /// Refuses a field under which this hair, or its carriers, cannot be stepped; `strands` are those that it was made of.
-    pub fn check_field(&self, strands: &Strands, field: &dyn Field) -> Result<(), SettingError> {
+    /// Refuses a field under which this hair, or its carriers, cannot be stepped; `strands` are those that it was made of, `ids`
+    /// their numbers.
+    pub fn check_field(&self, strands: &Strands, ids: &[u32], field: &dyn Field) -> Result<(), SettingError> {
         let carriers = self.carriers.as_ref();
         if self.packed.is_stable(field) && carriers.is_none_or(|carriers| carriers.hair.packed.is_stable(field)) {
             return Ok(());
         }
-        let hair =
-            [("strand", strands)].into_iter().chain(carriers.map(|carriers| ("carrier", &*carriers.hair.strands)));
-        Err(unstable(&hair.collect::<Vec<_>>(), self.dynamics(), field))
+        let mut hair = vec![Named { name: "strand", strands, ids }];
+        hair.extend(carriers.map(|carriers| Named { name: "carrier", strands: &carriers.hair.strands, ids: &[] }));
+        Err(unstable(&hair, self.dynamics(), field))
     }
 
     pub fn dynamics(&self) -> &Dynamics {

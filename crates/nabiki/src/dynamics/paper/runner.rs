@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::kernel::SegmentState;
 use super::packed::{Packed, Plan};
-use crate::dynamics::gain::unstable;
+use crate::dynamics::gain::{Named, unstable};
 use crate::dynamics::sweep::{Pages, sweep};
 use crate::dynamics::{Dynamics, FrameInput, VectorWidth};
 use crate::error::SettingError;
@@ -26,11 +26,11 @@ impl Runner {
         Ok(Self { states: packed.states(), packed })
     }
 
-    /// Refuses a field under which this hair cannot be stepped; `strands` are those that it was made of.
-    pub fn check_field(&self, strands: &Strands, field: &dyn Field) -> Result<(), SettingError> {
+    /// Refuses a field under which this hair cannot be stepped; `strands` are those that it was made of, `ids` their numbers.
+    pub fn check_field(&self, strands: &Strands, ids: &[u32], field: &dyn Field) -> Result<(), SettingError> {
         match self.packed.is_stable(field) {
             true => Ok(()),
-            false => Err(unstable(&[("strand", strands)], self.dynamics(), field)),
+            false => Err(unstable(&[Named { name: "strand", strands, ids }], self.dynamics(), field)),
         }
     }
 

@@ -112,10 +112,14 @@ impl Solver {
         let Answer { keyframes, gust, stiffness, settle } = answer.clone();
         let wind = Wind { keyframes, gust, ease: self.problem.wind.ease };
         let mut dynamics = self.problem.dynamics.clone();
-        if let (Form::Free(free), Some(stiffness), Some(settle)) = (&mut dynamics.form, stiffness, settle) {
-            (free.form.stiffness, free.form.settle) = (stiffness, settle);
-        }
-        let dynamics = (dynamics != self.problem.dynamics).then_some(dynamics);
+        // The trial before may have left others, so these are given even where they are the problem's own.
+        let dynamics = match (&mut dynamics.form, stiffness, settle) {
+            (Form::Free(free), Some(stiffness), Some(settle)) => {
+                (free.form.stiffness, free.form.settle) = (stiffness, settle);
+                Some(dynamics)
+            }
+            _ => None,
+        };
         self.simulated(wind.field(self.problem.dynamics.motion.frame_rate)?, dynamics)
     }
 

@@ -261,7 +261,7 @@ class Style(Table):
 
     @property
     def length(self) -> Length:
-        """Length before any cut (cm, default 18); at most hair.segments x hair.segment_length."""
+        """Length before any cut (cm, default 18); at most `hair.segments` x `hair.segment_length`."""
         return Length(self._scene, self._key_of('length'))
 
     @length.setter

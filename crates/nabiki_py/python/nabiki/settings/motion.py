@@ -74,7 +74,7 @@ class Motion(Table):
         """Segments that hang within this of the vertical at rest are made to hang exactly so (degrees, 0..45), and are
         then free to swing in the plane of any force (section 4.2). A segment nearly vertical is not: it keeps the
         plane of its small lean, and hair that leans this way and that is blown apart. 0, the paper's way, leaves the
-        hair as it is. It belongs to the making of the rest shape, see `straightened`; steppers take hair as it is.
+        hair as it is.
         """
         value: float = self._get('straighten')
         return value

@@ -23,7 +23,7 @@ __all__ = [
 
 
 class Keyframe(Table):
-    """One interval of a field: `vector` drives every frame after the previous keyframe's and up to `through`."""
+    """One interval of the wind: `vector` drives every frame after the interval before it, up to `through`."""
 
     __slots__ = ()
 
@@ -49,7 +49,7 @@ class Keyframe(Table):
 
 
 class Wind(Table):
-    """How the vectors of a `KeyframedField` follow one another."""
+    """How the vectors of the intervals follow one another."""
 
     __slots__ = ()
 
