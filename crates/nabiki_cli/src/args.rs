@@ -83,7 +83,7 @@ pub enum Command {
     Solve(Solve),
     /// Turn a hair file, or a motion cache or a frame of it, into another format
     Convert(Convert),
-    /// Say what is in a scene, hair file, motion cache or mesh
+    /// Say what is in a scene, hair file, motion cache, mesh or motion of a head
     Info(Info),
 }
 
@@ -442,7 +442,7 @@ pub struct Convert {
 
 #[derive(Args)]
 pub struct Info {
-    /// A scene, hair file, motion cache or mesh
+    /// A scene, hair file, motion cache, mesh or motion of a head
     pub file: PathBuf,
 
     /// Write JSON, for programs to read

@@ -350,7 +350,7 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
         ),
         (
             wish("strands = [3, 7, 11]", "near = { point = [90, 0, 0], radius = 2 }"),
-            "wish.toml:6: wish[0].near.radius = 2: no hair is there in that frame",
+            "wish.toml:6: wish[0].near.radius = 2: no hair is so near to (",
         ),
         (
             wish("strands = [3, 7, 11]", "near = [-9, -12, 0]"),

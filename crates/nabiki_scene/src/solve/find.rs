@@ -6,6 +6,7 @@ use glam::Vec3;
 use nabiki::SettingError;
 use nabiki::dynamics::Timeline;
 use nabiki::solve::{Goal, Node, Wish, nodes_near, nodes_of};
+use nabiki_io::info::Short;
 
 use super::wishes::{Lock, WishFile, WishSpace, Wishes};
 use crate::built::BuiltScene;
@@ -115,7 +116,10 @@ impl Finder<'_> {
             nodes = nodes.into_iter().flat_map(|node| part(node.strand as usize, along)).collect();
         }
         if nodes.is_empty() {
-            let remedy = "no hair is there in that frame: give a larger radius, or another point";
+            let [x, y, z] = near.point.to_array().map(Short);
+            let remedy = format!(
+                "no hair is so near to ({x}, {y}, {z}) in frame {looked_at}: give a larger radius, or another point"
+            );
             return Err(self.refused(&format!("{name}.near.radius"), near.radius.to_string(), remedy));
         }
         Ok(nodes)

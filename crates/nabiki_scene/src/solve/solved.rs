@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use nabiki::solve::{Report, Unknown};
+use nabiki::solve::{Report, Unknown, WishLeft};
 
 /// A wish is met where no more is left of it than this (cm, root mean square over its nodes).
 pub const MET_CM: f64 = 0.5;
@@ -68,11 +68,15 @@ impl fmt::Display for Solved {
         }
         for (name, wish) in names.iter().zip(&report.wishes) {
             if wish.after_cm > MET_CM {
-                write!(
-                    f,
-                    "\n  far     {name} is not reached: {:.1} cm are left of {:.1}; no nearer motion was found",
-                    wish.after_cm, wish.before_cm
-                )?;
+                let WishLeft { before_cm, after_cm } = wish;
+                // What is to stay is where it should be before.
+                match *before_cm == 0.0 {
+                    true => write!(f, "\n  far     {name} has moved by {after_cm:.1} cm; no nearer motion was found")?,
+                    false => write!(
+                        f,
+                        "\n  far     {name} is not reached: {after_cm:.1} cm are left of {before_cm:.1}; no nearer motion was found"
+                    )?,
+                }
             }
         }
         Ok(())
