@@ -371,7 +371,8 @@ fn imported_hair(
     };
     settings.facing = head.is_none().then(|| front_of(declared.up.unwrap_or(head_placement.up)));
     let seat = Seat { head: skin, strands, settings: &settings, head_placement: &head_placement, declared };
-    let Mended { facing, unit, origin } = seat.mended().map(|(mended, _)| mended).unwrap_or_default();
+    let (Mended { facing, unit, origin }, on_skin) =
+        seat.mended().map_or((Mended::default(), true), |(mended, then)| (mended, then.on_skin));
     let how = if facing.is_some() { "in which the hair lies on the head" } else { "as most files have it" };
     if let Some(facing) = facing.or(settings.facing) {
         text += &format!("facing = \"{facing}\"              # guessed: where the face looks\n");
@@ -383,7 +384,8 @@ fn imported_hair(
     }
     if let Some(origin) = origin.map(vector) {
         text += &format!("origin = {origin}   # guessed: the point of the file that is the middle of the head\n");
-        guesses.push(format!("hair.origin = {origin}, which brings the roots onto the scalp"));
+        let there = if on_skin { "onto the scalp" } else { "as near to the skin as any" };
+        guesses.push(format!("hair.origin = {origin}, which brings the roots {there}"));
     }
     text += "# strands = 5000           # an even choice of the file's\n";
     text += "# segments = 20            # cuts every strand anew into equal segments\n";

@@ -70,13 +70,11 @@ impl fmt::Display for Solved {
             if wish.after_cm > MET_CM {
                 let WishLeft { before_cm, after_cm } = wish;
                 // What is to stay is where it should be before.
-                match *before_cm == 0.0 {
-                    true => write!(f, "\n  far     {name} has moved by {after_cm:.1} cm; no nearer motion was found")?,
-                    false => write!(
-                        f,
-                        "\n  far     {name} is not reached: {after_cm:.1} cm are left of {before_cm:.1}; no nearer motion was found"
-                    )?,
-                }
+                let far = match *before_cm == 0.0 {
+                    true => format!("has moved by {after_cm:.1} cm"),
+                    false => format!("is not reached: {after_cm:.1} cm are left of {before_cm:.1}"),
+                };
+                write!(f, "\n  far     {name} {far}; no nearer motion was found in {} steps", report.iterations)?;
             }
         }
         Ok(())

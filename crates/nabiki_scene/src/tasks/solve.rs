@@ -67,15 +67,17 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
     let said = held.into_iter().filter(|_| wishes.unknowns.is_some());
     super::advise(said.map(|seen| Advice { seen, settings: Vec::new() }), watch);
     let strands: BTreeSet<u32> = list.iter().flat_map(|wish| wish.nodes.iter().map(|node| node.strand)).collect();
-    let begun = Instant::now();
     let search: Search = wishes.search.into();
-    let answer = |built: &BuiltScene, watch: &mut dyn Watch| -> Result<(Scene, Report)> {
+    let mut seconds = 0.0;
+    let mut answer = |built: &BuiltScene, watch: &mut dyn Watch| -> Result<(Scene, Report)> {
+        let begun = Instant::now();
         let problem = Problem { prior: wishes.prior.into(), ..built.problem(unknowns.clone(), list.clone()) };
         let refused = |refused: SettingError| match refused.thing.starts_with("unknowns") {
             true => in_file(refused),
             false => built.refusal(refused),
         };
         let report = searched(Solver::new(problem).map_err(refused)?, &search, watch)?;
+        seconds += begun.elapsed().as_secs_f64();
         let mut scene = built.scene.clone();
         scene.accept(&report.answer);
         Ok((scene, report))
@@ -83,13 +85,11 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
     let (mut scene, mut report) = answer(&built, watch)?;
     // Hair that is not shown may bear less.
     if built.ids().len() < built.strands_of_scene {
-        let whole = super::build(scene.clone(), Shown::All, watch)?;
+        let whole = built.changed_to(scene.clone(), Shown::All)?;
         if whole.simulation().is_err() {
-            let as_it_was = super::build(built.scene.clone(), Shown::All, watch)?;
-            (scene, report) = answer(&as_it_was, watch)?;
+            (scene, report) = answer(&whole.changed_to(built.scene.clone(), Shown::All)?, watch)?;
         }
     }
-    let seconds = begun.elapsed().as_secs_f64();
     Ok((scene, Solved { report, names, unknowns, strands: strands.len(), seconds }))
 }
 
