@@ -169,7 +169,10 @@ impl Scene {
         match Self::of_tree(table) {
             Ok(scene) => Ok(Self { text: text.to_owned(), origins, ..scene }),
             Err(refusal) => {
-                let (key, problem) = refusal.into_parts();
+                let (key, mut problem) = refusal.into_parts();
+                if let Problem::UnknownKey { near: near @ None, .. } = &mut problem {
+                    *near = tree::elsewhere(&defaults(), &key);
+                }
                 Err(origins.error(&key, problem))
             }
         }

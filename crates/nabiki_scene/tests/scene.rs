@@ -474,3 +474,17 @@ fn what_is_tied_swings_as_hair_of_the_length_behind_its_tie() {
     assert!(table.tied && table.to_string().contains("cm behind its tie: at its tie, middle, tip"), "{table}");
     assert_eq!(table.length, behind[behind.len() / 2]);
 }
+
+#[test]
+fn a_setting_whose_first_table_was_forgotten_is_found() {
+    for (key, line) in [
+        ("hair.smooth", "hair.smooth: unknown key; did you mean picture.hair.smooth?"),
+        ("hair.width", "hair.width: unknown key; did you mean picture.hair.width?"),
+        ("camera.azimuth", "camera: unknown key; did you mean picture.camera?"),
+        ("parting.wobble", "parting: unknown key; did you mean hair.style.parting?"),
+    ] {
+        let sets = [(key.to_owned(), "1".to_owned())];
+        let refused = Scene::parse(GUST, Path::new("scenes/gust.toml"), &sets).unwrap_err().to_string();
+        assert!(refused.ends_with(line), "{refused}");
+    }
+}

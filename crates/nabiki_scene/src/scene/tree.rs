@@ -254,3 +254,12 @@ fn below(steps: &[String], depth: usize) -> Value {
         _ => Value::Table(Table::new()),
     }
 }
+
+/// The setting of `tree` whose path ends as `key` does, and begins with a table that was forgotten.
+pub(crate) fn elsewhere(tree: &Table, key: &str) -> Option<String> {
+    tree.iter().find_map(|(name, value)| {
+        let below = value.as_table()?;
+        let there = key.split('.').try_fold(value, |value, step| value.get(step)).map(|_| key.to_owned());
+        there.or_else(|| elsewhere(below, key)).map(|path| format!("{name}.{path}"))
+    })
+}
