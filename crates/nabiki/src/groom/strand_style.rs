@@ -216,7 +216,8 @@ pub(super) fn strand_style(
     let own = f64::from(variation.direction_degrees).to_radians() * stray * (1.0 + 3.0 * short);
     let shared = f64::from(style.clumps.direction_degrees).to_radians();
 
-    // Along the scalp: as combed on top, where that says little (on the sides) as the hair falls.
+    // Along the scalp: as combed on top, where that says little (on the sides) as the hair falls. What keeps it off the face
+    // says as much on a steep forehead.
     let falls = 1.0 + comb.length() * (1.0 - normal.y).clamp(0.0, 1.0).powi(2);
     let comb = comb + off_face;
     let wanted = comb + DVec3::NEG_Y * falls;
