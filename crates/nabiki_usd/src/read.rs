@@ -229,6 +229,8 @@ impl GroomReader for StageReader {
 
     fn prims(&mut self) -> Result<Vec<Prim>, Problem> {
         let mut prims = Vec::with_capacity(self.layer.prims.len());
+        // Found by looking at all curves: once, not for each of thousands.
+        let time = if self.layer.of_type("BasisCurves").is_empty() { 0.0 } else { self.code_of(0)? };
         for i in 0..self.layer.prims.len() {
             let type_name = self.layer.prims[i].type_name.clone();
             let kind = match type_name.as_str() {
@@ -239,7 +241,6 @@ impl GroomReader for StageReader {
                     let curves = self.count(i, "curveVertexCounts")?;
                     // What is not said is cubic in USD.
                     let cubic = self.layer.word(i, "type")?.is_none_or(|word| word != "linear");
-                    let time = self.code_of(0)?;
                     let world = Affine3A::from_mat4(transform::world(&mut self.layer, i, time)?.as_mat4());
                     PrimKind::Curves { curves, points: self.point_count(i)?, cubic, world_from_curves: world }
                 }

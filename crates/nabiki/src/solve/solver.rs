@@ -103,8 +103,10 @@ impl Solver {
         let strands = hair.select(&aims.strands);
         let ids: Vec<u32> = aims.strands.iter().map(|&s| ids[s]).collect();
         let poses = if poses.is_empty() { Vec::new() } else { poses[..poses.len().min(last as usize + 1)].to_vec() };
-        check_field(hair, dynamics, &*field)?;
         let steady = Stability::of(hair, dynamics)?;
+        if !steady.holds(&*field) {
+            check_field(hair, dynamics, &*field)?;
+        }
         let timeline = Timeline::with_ids(&strands, &ids, dynamics, field, poses, last)?;
         let start = layout.start(wind);
         aims.set_now(&vec![DVec3::ZERO; aims.spots.len()], &problem.wishes);

@@ -115,7 +115,7 @@ fn plan(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Result<Pl
     }
     if strands > TRIED {
         // A short strand among the others bears less.
-        built.scene.clone().build(Shown::AtMost(strands.min(STRANDS_A_SHARD)))?.simulation()?;
+        built.changed_to(built.scene.clone(), Shown::AtMost(strands.min(STRANDS_A_SHARD)))?.simulation()?;
     }
     super::present(&built, watch);
     Ok(Plan {
