@@ -48,8 +48,10 @@ pub(super) struct Touch {
     pub length: f32,
     /// How far p_i is kept from the skin.
     pub clearance: f32,
-    /// d at frame n.
+    /// d at frame n, turned back by the head's turn as far as it lags behind that.
     pub was: Vec3,
+    /// What that has moved d by.
+    pub lagged: Vec3,
 }
 
 /// Direction and increment of a segment.
@@ -59,10 +61,12 @@ pub(super) struct Going {
     pub increment: Vec3,
 }
 
-/// How far at least a point at a sampled distance is from touching what it keeps clear of.
+/// How far at least a point at a sampled distance is from touching what it keeps clear of; below 0 where it does. What may be off is the
+/// distance, and not only what it is more than the clearance; inside, where samples of other fineness meet, nothing is sure.
 #[inline(always)]
 pub(super) fn gap(distance: f32, clearance: f32) -> f32 {
-    SURE * (distance - clearance)
+    let (inward, sure) = (distance - clearance, SURE * distance - clearance.max(0.0));
+    if inward < 0.0 { inward } else { sure.max(0.0) }
 }
 
 impl Obstacle {
@@ -109,7 +113,7 @@ impl Obstacle {
     /// Keeps a segment out of the body; `None` where it touches nothing.
     #[inline(always)]
     pub fn stop(&self, skin: &SkinDistance, going: Going, touch: &Touch) -> Option<Going> {
-        let &Touch { from, length, clearance, .. } = touch;
+        let &Touch { from, length, clearance, lagged, .. } = touch;
         let end = from + length * going.direction;
         let reading = skin.read(self.in_body(end))?;
         if reading.distance() >= clearance {
@@ -117,7 +121,7 @@ impl Obstacle {
         }
         let normal = self.normal(&reading);
         let of_body = if self.moves { end - self.before_from_now.transform_point3(end) } else { Vec3::ZERO };
-        let change = self.slowed(length * going.increment - of_body, normal);
+        let change = self.slowed(length * (going.increment + lagged) - of_body, normal);
         let direction = (length * going.direction + change).normalize_or(normal);
         let increment = going.increment + change / length;
         let direction = self.pushed_out(skin, direction, touch);

@@ -3,6 +3,8 @@
 //! As in the paper's kernel every lane does the same operations whatever the machine's vectors hold, and multiplies and
 //! adds are fused by name: the bits do not depend on the vector width, nor on the other lanes.
 
+use glam::Vec3;
+
 use super::segment::FreeSegment;
 use crate::dynamics::row::{LANES, PointRow, Row, beyond, lane as lane_of, set_lane};
 use crate::dynamics::trigonometry::sin_cos;
@@ -250,6 +252,14 @@ pub(super) fn ends(state: &FreeState, row: &FreeRow, from: &PointRow) -> PointRo
         set_lane(&mut to, lane, beyond(from, lane, row.length.0[lane], lane_of(&state.direction, lane)));
     }
     to
+}
+
+/// A vector turned about an axis of length 1 (rad).
+#[inline(always)]
+pub(super) fn turned_about(axis: [f32; 3], angle: f32, v: Vec3) -> Vec3 {
+    let (sin, cos) = sin_cos(0.5 * angle);
+    let u = scale(sin, axis);
+    Vec3::from(turned(u, cos, 2.0 / cos.mul_add(cos, dot(u, u)), v.to_array()))
 }
 
 /// Turns a segment of every strand back by the part of the head's turn that it lags behind: `axis` of length 1, `angle`

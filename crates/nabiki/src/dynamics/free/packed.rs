@@ -36,7 +36,7 @@ pub(super) struct Packed {
     /// Of every row, or a single one where they are all alike.
     strengths: Vec<StrengthRow>,
     /// The part of the head's turn that segments lag behind.
-    lags: Vec<Row>,
+    pub lags: Vec<Row>,
     /// eps_i, where the scene has a pseudo-force.
     pub weakening: Option<(Surroundings, Vec<Row>)>,
     /// For each body, what the ends of the segments are kept out of.
@@ -226,7 +226,7 @@ pub(super) struct Step<'a> {
     /// All forces, where they are.
     pub everywhere: Option<[f32; 3]>,
     /// The head's turn: axis and angle (rad).
-    turn: Option<([f32; 3], f32)>,
+    pub turn: Option<([f32; 3], f32)>,
     pub weight: Weight,
     pub felt: Option<Felt>,
     pub obstacles: &'a [Obstacle],

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::contact::{Going, Touch, gap};
-use super::kernel::{Forces, FreeRow, FreeState, Next, Walk, Weight, ends, step_segment};
+use super::kernel::{Forces, FreeRow, FreeState, Next, Walk, Weight, ends, step_segment, turned_about};
 use super::packed::{Felt, Packed, Step};
 use crate::dynamics::block::{Block, Pass, RUN, RunPass};
 use crate::dynamics::paper::Force;
@@ -227,7 +227,8 @@ impl<'a, 's> Among<'a, 's> {
             let way = subtract(lane_of(to, lane), lane_of(&self.walk.before, lane));
             let gap = state.gap.0[lane] - (dot(way, way).sqrt() + closer);
             state.gap.0[lane] = gap;
-            near |= u32::from((gap < 0.0) & (row.length.0[lane] > 0.0)) << lane;
+            // What is held, and what is no segment, has no gain.
+            near |= u32::from((gap < 0.0) & (row.gain.0[lane] > 0.0)) << lane;
         }
         near
     }
@@ -261,6 +262,15 @@ impl<'a, 's> Among<'a, 's> {
         }
     }
 
+    /// What the head's turn has moved a direction by that lags behind it.
+    #[inline(always)]
+    fn lagged(&self, was: Vec3, lane: usize) -> Vec3 {
+        match self.step.turn {
+            Some((axis, angle)) => was - turned_about(axis, angle * self.packed.lags[self.at].0[lane], was),
+            None => Vec3::ZERO,
+        }
+    }
+
     /// Turns a segment out of the bodies that its end touches.
     #[inline(always)]
     fn keep_one_out(
@@ -275,10 +285,18 @@ impl<'a, 's> Among<'a, 's> {
         let at = |row: &PointRow| Vec3::from(lane_of(row, lane));
         let mut going = Going { direction: at(&state.direction), increment: at(&state.increment) };
         let (from, length, was) = (at(from), row.length.0[lane], at(was));
+        let lagged = self.lagged(was, lane);
+        let mut stopped = false;
         for (b, obstacle) in self.step.obstacles.iter().enumerate() {
             let (skin, clearance) = self.packed.kept_out_of(b, self.at, lane);
-            let touch = Touch { from, length, clearance, was };
-            going = obstacle.stop(skin, going, &touch).unwrap_or(going);
+            let touch = Touch { from, length, clearance, was, lagged };
+            if let Some(there) = obstacle.stop(skin, going, &touch) {
+                (going, stopped) = (there, true);
+            }
+        }
+        // What touches nothing keeps its bits: when it is asked for depends on the hair that is stepped with it.
+        if !stopped {
+            return;
         }
         set_lane(&mut state.direction, lane, going.direction.to_array());
         set_lane(&mut state.increment, lane, going.increment.to_array());

@@ -35,8 +35,10 @@ pub struct Touch<S> {
     pub length: f64,
     /// How far p_i is kept from the skin.
     pub clearance: f64,
-    /// d at frame n.
+    /// d at frame n, turned back by the head's turn as far as it lags behind that.
     pub was: Vector<S>,
+    /// What that has moved d by.
+    pub lagged: Vector<S>,
     /// What p_i is kept out of.
     pub surface: Surface,
 }
@@ -72,11 +74,11 @@ impl<'a> Obstacle<'a> {
         mut increment: Vector<S>,
         touch: &Touch<S>,
     ) -> (Vector<S>, Vector<S>) {
-        let &Touch { from, length, surface, .. } = touch;
+        let &Touch { from, length, surface, lagged, .. } = touch;
         let end = from + direction.times(length);
         let Some((_, normal)) = self.read(end, surface) else { return (direction, increment) };
         let of_body = end - end.taken_by(&self.before_from_now);
-        let change = self.slowed(increment.times(length) - of_body, normal);
+        let change = self.slowed((increment + lagged).times(length) - of_body, normal);
         direction = (direction.times(length) + change).normalized_or(normal);
         increment += change / S::from(length);
         direction = self.pushed_out(direction, touch);

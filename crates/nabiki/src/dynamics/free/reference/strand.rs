@@ -67,6 +67,13 @@ impl<S: Scalar> Segment<S> {
         self.increment = lag.of(self.increment);
     }
 
+    /// What that has moved its direction by.
+    fn lagged(&self, turn: Option<(DVec3, f64)>) -> Vector<S> {
+        let Some((axis, angle)) = turn else { return Vector::zero() };
+        let before = Turn::from(DQuat::from_axis_angle(axis, self.moved_by.lag * angle));
+        self.direction - before.of(self.direction)
+    }
+
     /// The moment of the joint at its beginning: what turns d toward where the segment before it carries its rest
     /// direction, and that one back. `carried`: that direction, R_(i-1) r_i.
     #[inline(always)]
@@ -177,10 +184,13 @@ impl<S: Scalar> Strand<S> {
             segment.drive(field.times(eps) + felt + others + weight, moment - next);
             moment = next;
             let was = segment.direction;
+            let lagged = segment.lagged(head.turn);
             let (mut direction, mut increment) = segment.turned();
+            // What is held goes with the head, whatever passes.
+            let obstacles = if shape.gain == 0.0 { &[][..] } else { obstacles };
             for (obstacle, kept_from) in obstacles.iter().zip(kept_from.iter()) {
                 let (surface, clearance) = kept_from[i + 1];
-                let touch = Touch { from, length: shape.length, clearance, was, surface };
+                let touch = Touch { from, length: shape.length, clearance, was, lagged, surface };
                 (direction, increment) = obstacle.stop(direction, increment, &touch);
             }
             (segment.direction, segment.increment) = (direction, increment);
