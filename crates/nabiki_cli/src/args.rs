@@ -438,6 +438,11 @@ pub struct Convert {
     /// hair came from, like /character/hair; `nabiki info` on the groom's file lists them
     #[arg(long, value_name = "PRIM", conflicts_with = "frame", value_parser = prim_path)]
     pub export_layer: Option<String>,
+
+    /// Number of the first frame on the time line of the file that is written (default: as a USD layer, an Alembic archive or the
+    /// cache has it; see output.first_frame)
+    #[arg(long, value_name = "N", allow_negative_numbers = true, conflicts_with = "frame")]
+    pub first_frame: Option<i32>,
 }
 
 #[derive(Args)]

@@ -128,6 +128,7 @@ pub fn convert(args: &Convert, terminal: &mut Terminal) -> Result<()> {
         unit: args.unit,
         z_up: args.z_up,
         layer: args.export_layer.clone(),
+        first_frame: args.first_frame,
     };
     tasks::convert(&options, terminal)
 }

@@ -33,6 +33,8 @@ const FRAMES_AT: u64 = 24;
 const POSE_BYTES: u64 = 28;
 /// The block of the box about all frames.
 const BOUNDS_TAG: &[u8; 8] = b"bounds  ";
+/// The block of the number of frame 0, where that is not 0.
+const START_TAG: &[u8; 8] = b"start   ";
 
 /// What is the same in every frame of a cache.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +43,8 @@ pub struct Header {
     pub scene: SceneId,
     /// Frames a second at which the motion is meant to be seen.
     pub frame_rate: f64,
+    /// Number of frame 0 on the time line of the shot, from which files for other programs go on.
+    pub first_frame: i32,
     /// Where each strand's points start, and the number of points at the end ([`Strands::starts`]).
     pub starts: Vec<u32>,
     /// What the groom carries beside its points (widths in cm).
@@ -56,7 +60,8 @@ impl Header {
     /// The header of a scene's hair, grown here until `origin` says otherwise.
     pub fn new(scene: SceneId, frame_rate: f64, hair: &Hair) -> Self {
         let starts = hair.strands.starts().to_vec();
-        Self { scene, frame_rate, starts, attributes: hair.attributes.clone(), origin: None, piece: None }
+        let attributes = hair.attributes.clone();
+        Self { scene, frame_rate, first_frame: 0, starts, attributes, origin: None, piece: None }
     }
 
     /// The same for strands that are a piece of a motion.
@@ -220,6 +225,8 @@ fn write_header(out: &mut dyn Write, header: &Header) -> Result<u64> {
     }
     let piece = header.piece.as_ref().map(Piece::bytes).transpose()?;
     attributes::block(&mut blocks, piece::TAG, piece.as_deref())?;
+    let start = (header.first_frame != 0).then_some([header.first_frame]);
+    attributes::block(&mut blocks, START_TAG, start.as_ref().map(|start| &start[..]))?;
     let none = [Vec3::INFINITY, Vec3::NEG_INFINITY];
     attributes::block(&mut blocks, BOUNDS_TAG, Some(&none))?;
     out.write_all(MAGIC)?;
@@ -361,7 +368,7 @@ fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<Start> 
     }
     let blocks_at = HEADER_BYTES + (starts.len() as u64 * 4).next_multiple_of(8);
     source.seek(blocks_at)?;
-    let attributes::Blocks { attributes, origin, piece, bounds } =
+    let attributes::Blocks { attributes, origin, piece, bounds, first_frame } =
         attributes::read(source, first_frame_at, strand_count as usize, point_count as usize)?;
     if let Some(piece) = &piece {
         let expected = piece.shard.range(usize::try_from(piece.strands).unwrap_or(usize::MAX)).len();
@@ -370,6 +377,6 @@ fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<Start> 
             return Err(Error::new(what));
         }
     }
-    let header = Header { scene, frame_rate, starts, attributes, origin, piece };
+    let header = Header { scene, frame_rate, first_frame, starts, attributes, origin, piece };
     Ok(Start { header, bounds, frames, first_frame_at })
 }

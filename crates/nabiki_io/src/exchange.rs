@@ -237,7 +237,7 @@ pub fn check_layer(in_file: Option<u64>, used: usize) -> Result<()> {
         None => refuse("its hair is grown here; leave out --export-layer for a complete stage".to_owned()),
         Some(points) if points != used as u64 => refuse(format!(
             "{used} of its {points} points are used; set hair.join_within = 0 and hair.drop_shorter_than = 0, leave \
-             out hair.strands and hair.segments, and take strands without extent out of the file"
+             out hair.strands and hair.segments, and take doubled points and strands without extent out of the file"
         )),
         Some(_) => Ok(()),
     }

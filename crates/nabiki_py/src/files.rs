@@ -18,10 +18,11 @@ use crate::watched::{Ears, watched};
 /// .nabiki.
 ///
 /// `frame`: this frame alone. `segments`: cuts every strand anew into so many. `unit` and `z_up`: what the input does not say
-/// of itself, for a USD layer to name. `layer`: the prim path of the groom over which samples alone are laid.
+/// of itself, for a USD layer to name. `layer`: the prim path of the groom over which samples alone are laid. `first_frame`: number of
+/// the first frame on the time line of the output, in the place of the input's own.
 #[pyfunction]
 #[pyo3(signature = (input, output, *, frame=None, segments=None, unit=None, z_up=false, layer=None,
-    progress=None, report=None))]
+    first_frame=None, progress=None, report=None))]
 #[expect(clippy::too_many_arguments, reason = "named in Python")]
 pub fn convert(
     py: Python<'_>,
@@ -32,11 +33,12 @@ pub fn convert(
     unit: Option<Given<'_, UnitName>>,
     z_up: bool,
     layer: Option<String>,
+    first_frame: Option<i32>,
     progress: Option<Given<'_, Progress>>,
     report: Option<Given<'_, Report>>,
 ) -> PyResult<()> {
     let unit = unit.as_ref().map(unit_of).transpose()?;
-    let options = ConvertOptions { input, output, frame, segments, unit, z_up, layer };
+    let options = ConvertOptions { input, output, frame, segments, unit, z_up, layer, first_frame };
     let ears = Ears::new(&progress, &report);
     watched(py, ears, &[], |watch| tasks::convert(&options, watch))
 }

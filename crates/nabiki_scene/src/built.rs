@@ -70,6 +70,8 @@ pub struct BuiltScene {
     judged: Strands,
     /// How the head's motion was read and converted, in one line.
     pub motion_report: Option<String>,
+    /// Number of the first frame of the head's motion on the time line of its file; 0 where that has none.
+    pub motion_begins: i32,
     /// The scene's bodies, in their order; none in the paper's form.
     bodies: Vec<BuiltBody>,
     /// Number of each strand in the whole hair.
@@ -279,6 +281,11 @@ impl BuiltScene {
     pub fn hair_origin(&self) -> Option<Origin> {
         let (placement, report) = (self.hair_placement?, self.import_report?);
         Some(Origin { placement, points: report.points_in_file as u64, groom: self.groom.clone() })
+    }
+
+    /// Number of frame 0 on the time line of the shot, from which exports go on.
+    pub fn first_frame(&self) -> i32 {
+        self.scene.output.first_frame.unwrap_or(self.motion_begins)
     }
 
     /// A refused setting as an error that names the scene's file and line, and the unit to mend where hair or head have the

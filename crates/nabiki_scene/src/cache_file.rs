@@ -23,6 +23,7 @@ impl<'a> SceneCache<'a> {
         // A pose of seven numbers and the points, all of four bytes.
         place::room(path, (u64::from(built.frames()) + 1) * (28 + 12 * points), watch)?;
         let mut header = Header::new(built.identity()?, built.scene.frame_rate(), &built.hair);
+        header.first_frame = built.first_frame();
         header.origin = built.hair_origin();
         if let Some(piece) = piece {
             header = header.of_piece(piece);

@@ -62,6 +62,7 @@ impl<'a> Exports<'a> {
         for path in &options.files {
             let frame_rate = built.scene.frame_rate();
             let mut export = exchange::export(&built.hair, frame_rate, built.hair_placement.as_ref());
+            export.first_frame = built.first_frame();
             export.default_width = Some(built.scene.picture.hair.width);
             export.default_colour = Some(colour::of_mass(&built.scene.picture.hair));
             export.head = (!exchange::is_alembic(path) || options.head).then_some(&built.head.mesh);

@@ -42,7 +42,7 @@ pub(crate) use field::{FieldParts, FieldPlace};
 pub use free::{BodySettings, FormChoice, FreeSettings, Gravity};
 pub use hair::{GrownHair, HairSettings, HairSource, ImportedHair};
 pub use head::{EllipsoidChoice, HeadSettings, HeadSource, ImportedHead};
-pub use output::Output;
+pub use output::{Output, check_first_frame};
 
 use read::{Node, Refusal};
 use tree::{Unwritable, table_of};

@@ -330,3 +330,29 @@ fn what_comes_after_the_last_frame_is_said_unless_fewer_frames_are_tried() {
     let fewer = [("motion.frames".to_owned(), "2".to_owned())];
     assert_eq!(said(9, swirls, &fewer), [""; 0]);
 }
+
+/// Files have their strands in the order of place: the first of them would lie together.
+#[test]
+fn carriers_of_imported_hair_are_spread_over_all_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut text = String::new();
+    for s in 0..200 {
+        let z = -8.0 + 0.08 * s as f32;
+        for x in 8..12 {
+            text += &format!("v {x} 5 {z}\n");
+        }
+        text += &format!("l {} {} {} {}\n", 4 * s + 1, 4 * s + 2, 4 * s + 3, 4 * s + 4);
+    }
+    std::fs::write(folder.path().join("sorted.obj"), text).unwrap();
+    let scene = "[hair]\nfile = \"sorted.obj\"\nunit = \"cm\"\nup = \"+y\"\nfacing = \"+x\"\n[motion]\nform = \"free\"\nframes = 1\n[neighbours]\n\
+                 carriers = 9\n";
+    let built = Scene::parse(scene, &folder.path().join("scene.toml"), &[]).unwrap().build(Shown::First(20)).unwrap();
+    let nabiki::dynamics::Form::Free(free) = &built.dynamics.form else { panic!("the free form") };
+    let carriers = &free.neighbours.as_ref().unwrap().carriers;
+    let mut roots: Vec<f32> = carriers.iter().map(|strand| strand[0].z).collect();
+    roots.sort_by(f32::total_cmp);
+    // The ends, the middle, the quarters and the eighths of the row.
+    assert_eq!(roots.len(), 9);
+    assert!(roots.windows(2).all(|pair| pair[1] - pair[0] < 2.1), "{roots:?}");
+    assert!(roots[8] - roots[0] > 15.8, "{roots:?}");
+}

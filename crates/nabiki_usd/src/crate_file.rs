@@ -53,6 +53,7 @@ pub mod types {
     pub const VARIABILITY: u8 = 44;
     pub const TIME_SAMPLES: u8 = 46;
     pub const DOUBLE_VECTOR: u8 = 48;
+    pub const VALUE_BLOCK: u8 = 51;
 }
 
 /// What a path names.

@@ -45,6 +45,8 @@ pub enum Value {
     One(Box<Value>),
     /// `matrix4d`, row by row as USD multiplies rows from the left
     Matrix([f64; 16]),
+    /// No value, whatever weaker layers say
+    Blocked,
 }
 
 /// A property of a prim.

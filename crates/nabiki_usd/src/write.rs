@@ -182,6 +182,11 @@ impl Rest<'_> {
             to.append(velocities)?;
             to.end_samples(depth)?;
         }
+        if !self.is_stage {
+            for attribute in blocked() {
+                to.attribute(&attribute, depth)?;
+            }
+        }
         to.close(depth - 1)?;
         if self.is_stage {
             for attribute in transform(transforms, |values| Ok(timed(values)))? {
@@ -218,6 +223,9 @@ impl Rest<'_> {
         if !velocities.is_empty() {
             hair.attributes.push(Attribute::sampled("velocities", "vector3f[]", velocities));
         }
+        if !self.is_stage {
+            hair.attributes.extend(blocked());
+        }
         let mut prim = hair;
         for name in above.iter().rev() {
             let type_name = if self.is_stage { "Xform" } else { "" };
@@ -231,6 +239,11 @@ impl Rest<'_> {
         }
         to.finish(metadata, &[prim], self.times)
     }
+}
+
+/// What a groom may say of the motion of its own points, which is not that of a layer's.
+fn blocked<S>() -> impl Iterator<Item = Attribute<S>> {
+    ["velocities", "accelerations"].into_iter().map(|name| Attribute::new(name, "vector3f[]", Value::Blocked))
 }
 
 /// The attributes of a transform that is a matrix: one where all are equal, otherwise the samples that `timed` makes.

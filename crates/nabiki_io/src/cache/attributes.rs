@@ -6,7 +6,7 @@ use glam::Vec3;
 use nabiki::hair::Attributes;
 
 use super::{
-    BOUNDS_TAG,
+    BOUNDS_TAG, START_TAG,
     origin::{self, Origin},
     other,
     piece::{self, Piece},
@@ -61,11 +61,12 @@ pub(super) struct Blocks {
     pub origin: Option<Origin>,
     pub piece: Option<Piece>,
     pub bounds: Option<[Vec3; 2]>,
+    pub first_frame: i32,
 }
 
 /// Reads the blocks up to the offset `end`; tags of later versions are passed over.
 pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, end: u64, strands: usize, points: usize) -> Result<Blocks> {
-    let Blocks { attributes: mut a, mut origin, mut piece, mut bounds } = Blocks::default();
+    let Blocks { attributes: mut a, mut origin, mut piece, mut bounds, mut first_frame } = Blocks::default();
     let mut groom = None;
     while source.at() < end {
         let tag: [u8; 8] = source.value("attribute tag")?;
@@ -104,12 +105,13 @@ pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, end: u64, strands: usi
                 let corners: Vec<Vec3> = block.values(2)?;
                 bounds = <[Vec3; 2]>::try_from(corners).ok().filter(|[low, high]| low.is_finite() && high.is_finite());
             }
+            START_TAG => first_frame = block.values(1)?[0],
             other::TAG => a.other.push(other::read(source, length, strands, points)?),
             _ => {}
         }
         source.seek(next)?;
     }
-    Ok(Blocks { attributes: a, origin: origin.map(|origin| Origin { groom, ..origin }), piece, bounds })
+    Ok(Blocks { attributes: a, origin: origin.map(|origin| Origin { groom, ..origin }), piece, bounds, first_frame })
 }
 
 /// The values of one block.

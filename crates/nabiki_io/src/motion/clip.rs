@@ -87,7 +87,8 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
         end - start,
         source.changes(),
     );
-    Ok(HeadMotion { frame_rate, poses: poses(&world_from_file, samples.into_iter(), source)?, report })
+    let poses = poses(&world_from_file, samples.into_iter(), source)?;
+    Ok(HeadMotion { frame_rate, poses, first_frame: 0, report })
 }
 
 /// The nodes from the scene's root down to the one named.

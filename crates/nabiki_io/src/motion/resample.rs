@@ -4,6 +4,7 @@ use super::source::{Interpolation, MotionSource};
 use super::track::Track;
 use super::world::{HeadMotion, WorldFromFile, frame_count, poses};
 use crate::error::{Error, Result};
+use crate::exchange;
 use crate::short::Short;
 
 impl Track {
@@ -37,8 +38,11 @@ impl Track {
         });
         let poses = poses(&world_from_file, samples, source).map_err(named)?;
         let rate = (self.times.len() - 1) as f64 / duration.max(f64::MIN_POSITIVE);
+        let of_shot = (exchange::is_usd(&source.file) || exchange::is_alembic(&source.file)) && source.speed == 1.0;
+        let first_frame = if of_shot { (self.times[0] * frame_rate).round() as i32 } else { 0 };
+        let shot = if first_frame == 0 { String::new() } else { format!(" from frame {first_frame} of the shot on") };
         let report = format!(
-            "{}: {}, {} samples at {} Hz ({:.3} s) -> {} frames at {} Hz{} (positions {}, rotations slerp; unit {} cm, \
+            "{}: {}, {} samples at {} Hz ({:.3} s) -> {} frames at {} Hz{shot}{} (positions {}, rotations slerp; unit {} cm, \
              up {}, face {})",
             source.file.display(),
             self.what,
@@ -56,7 +60,7 @@ impl Track {
             world_from_file.up,
             world_from_file.facing,
         );
-        Ok(HeadMotion { frame_rate, poses, report })
+        Ok(HeadMotion { frame_rate, poses, first_frame, report })
     }
 }
 

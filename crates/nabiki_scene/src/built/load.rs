@@ -51,13 +51,14 @@ pub(super) fn build(
         None => load_head(&scene)?,
     };
     let same_rate = known.filter(|known| known.scene.frame_rate() == scene.frame_rate());
-    let (poses, motion_report) = match same_rate.filter(|known| known.scene.head.motion == scene.head.motion) {
-        Some(known) => {
-            check_length(&scene, &known.poses)?;
-            (known.poses.clone(), known.motion_report.clone())
-        }
-        None => head_motion(&scene)?.map_or_else(Default::default, |m| (m.poses, Some(m.report))),
-    };
+    let (poses, motion_report, motion_begins) =
+        match same_rate.filter(|known| known.scene.head.motion == scene.head.motion) {
+            Some(known) => {
+                check_length(&scene, &known.poses)?;
+                (known.poses.clone(), known.motion_report.clone(), known.motion_begins)
+            }
+            None => head_motion(&scene)?.map_or_else(Default::default, |m| (m.poses, Some(m.report), m.first_frame)),
+        };
     let mut dynamics = dynamics(&scene, &head)?;
     let rest_pose = poses.first().copied().unwrap_or_default();
     dynamics.polar_axis = rest_pose.up_in_head();
@@ -114,6 +115,7 @@ pub(super) fn build(
         hair_declared,
         judged,
         motion_report,
+        motion_begins,
         bodies,
         ids,
         poses,
@@ -278,7 +280,7 @@ fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, wa
     };
     let of_scene = hair.strands.len();
     let first = free::first_wanted(scene).min(of_scene);
-    let first = if first == 0 { Hair::default() } else { hair.select(&evenly(&hair, first)) };
+    let first = if first == 0 { Hair::default() } else { hair.select(&farthest_first(&hair, first)) };
     let (count, run) = wanted.of(of_scene)?;
     let shard = wanted.shard.map(|shard| {
         let groom = StrandSum::of(&hair.strands, 0..of_scene, None);
@@ -301,10 +303,15 @@ fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, wa
     Ok(LoadedHair { hair, roots: Arc::default(), ids, of_scene, shard, first, imported, frames })
 }
 
-/// `count` strands of the farthest-first order of the roots, in the order of the file.
-fn evenly(hair: &Hair, count: usize) -> Vec<usize> {
+/// The first `count` strands of the farthest-first order of the roots.
+fn farthest_first(hair: &Hair, count: usize) -> Vec<usize> {
     let roots: Vec<Vec3> = hair.strands.iter().map(|strand| strand[0]).collect();
-    let mut chosen = subset::evenly(&roots, count);
+    subset::evenly(&roots, count)
+}
+
+/// The same in the order of the file.
+fn evenly(hair: &Hair, count: usize) -> Vec<usize> {
+    let mut chosen = farthest_first(hair, count);
     chosen.sort_unstable();
     chosen
 }

@@ -20,11 +20,33 @@ pub struct Output {
     pub field: bool,
     /// Frames of the contact sheet (default: four, evenly from frame 0 on, as the paper's Figure 6 has them).
     pub sheet: Option<Vec<u32>>,
+    /// Number of frame 0 on the time line of the shot: exports of moving hair (USD, Alembic) go on from it, pictures keep the numbers of the
+    /// scene. -10000000..10000000 (default: that of the head's motion, where it is from USD or Alembic and plays at its own speed, else 0).
+    pub first_frame: Option<i32>,
+}
+
+/// Refuses a number of frame 0 that is farther from 0 than a motion can be long.
+///
+/// # Errors
+/// Says the range.
+pub fn check_first_frame(name: &str, first: i32) -> Result<(), SettingError> {
+    if (-10_000_000..=10_000_000).contains(&first) {
+        return Ok(());
+    }
+    Err(SettingError::new(name, first, "must lie in -10000000..10000000"))
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Self { movie: true, png_frames: false, png_bits: 8, exr_frames: false, field: false, sheet: None }
+        Self {
+            movie: true,
+            png_frames: false,
+            png_bits: 8,
+            exr_frames: false,
+            field: false,
+            sheet: None,
+            first_frame: None,
+        }
     }
 }
 
@@ -33,6 +55,9 @@ impl Output {
     pub fn check(&self, frames: u32) -> Result<(), SettingError> {
         if !matches!(self.png_bits, 8 | 16) {
             return Err(SettingError::new("output.png_bits", self.png_bits, "must be 8 or 16"));
+        }
+        if let Some(first) = self.first_frame {
+            check_first_frame("output.first_frame", first)?;
         }
         match self.sheet.iter().flatten().enumerate().find(|&(_, &frame)| frame > frames) {
             Some((i, frame)) => {

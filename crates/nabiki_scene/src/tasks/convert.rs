@@ -12,7 +12,7 @@ use nabiki_io::{CurvePrim, GroomFile, Placement, Unit};
 use crate::advice::Advice;
 use crate::error::{Error, Result};
 use crate::place;
-use crate::scene::HairSettings;
+use crate::scene::{HairSettings, check_first_frame};
 use crate::told::Told;
 use crate::watch::{Watch, each_frame};
 
@@ -33,6 +33,8 @@ pub struct ConvertOptions {
     pub z_up: bool,
     /// Prim path of the groom over which samples alone are laid.
     pub layer: Option<String>,
+    /// Number of the first frame on the time line of the output, in the place of the input's own.
+    pub first_frame: Option<i32>,
 }
 
 /// Reads hair of one format and writes it in another.
@@ -52,6 +54,10 @@ pub fn convert(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
     if let (Input::Cache(_), Some(segments), true) = (&input, options.segments, moves) {
         let line = "--segments {}: all frames of a motion cache are written as they are stored; leave it out, or take one frame with --frame N";
         let line = line.replace("{}", &segments.to_string());
+        return Err(Error::refused(format!("{}: {line}", options.input.display())));
+    }
+    if let (Some(first), false) = (options.first_frame, moves && frames > 1) {
+        let line = format!("--first-frame {first}: a single frame stands in no time; leave it out");
         return Err(Error::refused(format!("{}: {line}", options.input.display())));
     }
     advise_space(options, watch);
@@ -76,6 +82,9 @@ fn check_output(options: &ConvertOptions) -> Result<()> {
     }
     hair::losses(output, &Hair::default())?;
     check_space(options)?;
+    if let Some(first) = options.first_frame {
+        check_first_frame("--first-frame", first).map_err(|e| Error::refused(e.to_string()))?;
+    }
     if let Some(segments) = options.segments {
         HairSettings::check_segments("--segments", segments).map_err(|e| Error::refused(e.to_string()))?;
     }
@@ -318,6 +327,7 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
     let hair = cache.hair(0)?;
     let placement = placement(&cache);
     let mut export = exchange::export(&hair, cache.header().frame_rate, placement.as_ref());
+    export.first_frame = options.first_frame.unwrap_or(cache.header().first_frame);
     if let Some(curves) = &curves {
         exchange::under_groom(&mut export, curves);
     }
@@ -352,6 +362,7 @@ fn exchanged_frames(options: &ConvertOptions, mut groom: GroomFile, watch: &mut 
     let hair = moving.hair().clone();
     let declared = said(options, in_file)?;
     let mut export = moving.export(&hair);
+    export.first_frame = options.first_frame.unwrap_or(export.first_frame);
     export.meters_per_unit = declared.unit.map_or(export.meters_per_unit, |unit| f64::from(unit.cm) / 100.0);
     export.z_up = declared.up == Some(Axis::PlusZ);
     let failed = |e: std::io::Error| Error::from(nabiki_io::Error::from(e).in_file(output));

@@ -117,6 +117,7 @@ impl<W: Write + Seek> CrateWriter<W> {
             Value::Bytes(values) => self.array(types::UCHAR, values),
             Value::Unsigned(values) => self.array(types::UINT, values),
             Value::UnsignedLongs(values) => self.array(types::UINT64, values),
+            Value::Blocked => Ok(Rep::inlined(types::VALUE_BLOCK, 0)),
             Value::One(list) => self.one(list),
             Value::Matrix(m) => {
                 let place = self.put(&[bytemuck::cast_slice(m)])?;

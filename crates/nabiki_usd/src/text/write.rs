@@ -145,6 +145,7 @@ impl<W: Write + Seek> TextWriter<W> {
             Value::Bools(values) | Value::Bytes(values) => list(to, values, |line, &x| display(line, x)),
             Value::Unsigned(values) => list(to, values, |line, &x| display(line, x)),
             Value::UnsignedLongs(values) => list(to, values, |line, &x| display(line, x)),
+            Value::Blocked => write!(to, "None"),
             Value::Token(word) => write!(to, "{}", Quoted(word)),
             Value::Tokens(words) | Value::Texts(words) => list(to, words, |line, word| display(line, Quoted(word))),
             Value::Double(x) => write!(to, "{x}"),
