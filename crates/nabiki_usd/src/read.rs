@@ -9,6 +9,7 @@ use nabiki_exchange::curves::{Basis, Shape, checked_counts};
 use nabiki_exchange::{Contents, Gathered, GroomReader, InPlace, Placed, Polygons, Prim, PrimKind, Uvs, add_polygons};
 
 use crate::Problem;
+use crate::meshes;
 use crate::opened::Layer;
 use crate::primvars::Primvars;
 use crate::skeleton::{self, Joint};
@@ -285,7 +286,7 @@ impl GroomReader for StageReader {
     fn mesh(&mut self) -> Result<Mesh, Problem> {
         let mut mesh = Mesh::default();
         let time = self.code_of(0)?;
-        for prim in self.layer.of_type("Mesh") {
+        for prim in meshes::chosen(&mut self.layer)?.prims {
             let path = self.layer.path(prim);
             let problem = |what: &str| Problem(format!("mesh {path}: {what}"));
             let layer = &mut self.layer;
@@ -305,6 +306,10 @@ impl GroomReader for StageReader {
             None if mesh.triangles.is_empty() => Err(Problem::new("has no meshes")),
             None => Ok(mesh),
         }
+    }
+
+    fn mesh_unread(&mut self) -> Result<Vec<String>, Problem> {
+        Ok(meshes::chosen(&mut self.layer)?.unread)
     }
 
     fn motion(&mut self, node: &str) -> Result<Vec<Placed>, Problem> {

@@ -1,0 +1,72 @@
+//! What of a layer is on its stage and shows, and what is said of the rest.
+
+use std::io::Cursor;
+
+use nabiki_exchange::GroomReader;
+use nabiki_usd::StageReader;
+
+fn reader(text: &str) -> StageReader {
+    StageReader::new(Cursor::new(format!("#usda 1.0\n{text}").into_bytes())).unwrap()
+}
+
+/// A closed mesh of four vertices, with something else said of it.
+fn mesh(name: &str, more: &str) -> String {
+    format!(
+        "def Mesh \"{name}\" {{ point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]\n\
+         int[] faceVertexCounts = [3, 3, 3, 3]\n int[] faceVertexIndices = [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]\n{more} }}\n"
+    )
+}
+
+/// How many such meshes are read, and what is said of them.
+fn meshes(text: &str) -> (usize, Vec<String>) {
+    let mut stage = reader(text);
+    (stage.mesh().unwrap().positions.len() / 4, stage.mesh_unread().unwrap())
+}
+
+#[test]
+fn meshes_that_do_not_show_are_left_out_beside_those_that_do_and_that_is_said() {
+    let head = mesh("head", "uniform token purpose = \"render\"");
+    assert_eq!(meshes(&head), (1, Vec::new()));
+    for (mark, value) in
+        [("uniform token purpose", "proxy"), ("uniform token purpose", "guide"), ("token visibility", "invisible")]
+    {
+        let name = mark.rsplit(' ').next().unwrap();
+        let own = mesh("other", &format!("{mark} = \"{value}\""));
+        let said = format!("mesh /other, which does not show: {name} of /other is \"{value}\"");
+        assert_eq!(meshes(&format!("{head}{own}")), (1, vec![said]));
+        let above = format!("def Xform \"a\" {{ {mark} = \"{value}\"\n {} }}\n", mesh("b", ""));
+        let said = format!("mesh /a/b, which does not show: {name} of /a is \"{value}\"");
+        assert_eq!(meshes(&format!("{above}{head}")), (1, vec![said]));
+        // Alone it is the head.
+        assert_eq!(meshes(&own), (1, vec![format!("{name} of /other: it is \"{value}\" there")]));
+    }
+    // The nearest purpose holds; an invisible prim hides whatever is below it.
+    let nearest = format!(
+        "def Xform \"a\" {{ uniform token purpose = \"guide\"\n {} }}\n",
+        mesh("b", "uniform token purpose = \"default\"")
+    );
+    assert_eq!(meshes(&format!("{nearest}{head}")), (2, Vec::new()));
+    let hidden = format!(
+        "def Xform \"a\" {{ token visibility = \"invisible\"\n {} }}\n",
+        mesh("b", "token visibility = \"inherited\"")
+    );
+    assert_eq!(meshes(&format!("{hidden}{head}")).0, 1);
+    // Neither says anything on a prim without a type.
+    let untyped = format!("def \"a\" {{ token visibility = \"invisible\"\n {} }}\n", mesh("b", ""));
+    assert_eq!(meshes(&format!("{untyped}{head}")), (2, Vec::new()));
+}
+
+#[test]
+fn holes_and_meshes_invisible_at_times_are_kept_and_said() {
+    let holed = mesh(
+        "head",
+        "int[] holeIndices = [1, 3]\n token visibility.timeSamples = { 1: \"invisible\", 5: \"inherited\" }",
+    );
+    let said = [
+        "holeIndices of /head: the 2 faces that they take out are kept",
+        "visibility of /head: it is \"invisible\" there at some frames",
+    ];
+    assert_eq!(meshes(&format!("{holed}{}", mesh("neck", ""))), (2, said.map(str::to_owned).to_vec()));
+    let never = mesh("ghost", "token visibility.timeSamples = { 1: \"invisible\", 5: \"invisible\" }");
+    assert_eq!(meshes(&format!("{never}{}", mesh("head", ""))).0, 1);
+}
