@@ -17,6 +17,20 @@ fn mesh(name: &str, more: &str) -> String {
     )
 }
 
+/// A curve of two points, with something else said of it.
+fn curve(name: &str, more: &str) -> String {
+    format!(
+        "def BasisCurves \"{name}\" {{ uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n\
+         point3f[] points = [(0, 0, 0), (1, 0, 0)]\n{more} }}\n"
+    )
+}
+
+/// How many such curves are read, and what is said of them.
+fn curves(text: &str) -> (usize, Vec<String>) {
+    let hair = reader(text).hair(0, None).unwrap();
+    (hair.strands.len(), hair.attributes.unread)
+}
+
 /// How many such meshes are read, and what is said of them.
 fn meshes(text: &str) -> (usize, Vec<String>) {
     let mut stage = reader(text);
@@ -69,4 +83,24 @@ fn holes_and_meshes_invisible_at_times_are_kept_and_said() {
     assert_eq!(meshes(&format!("{holed}{}", mesh("neck", ""))), (2, said.map(str::to_owned).to_vec()));
     let never = mesh("ghost", "token visibility.timeSamples = { 1: \"invisible\", 5: \"invisible\" }");
     assert_eq!(meshes(&format!("{never}{}", mesh("head", ""))).0, 1);
+}
+
+#[test]
+fn curves_that_do_not_show_are_read_and_that_is_said_once() {
+    let below = |mark: &str| format!("def Xform \"a\" {{ {mark}\n {}{} }}\n", curve("h", ""), curve("i", ""));
+    for (mark, said) in [
+        ("token visibility = \"invisible\"", "visibility of /a: it is \"invisible\" there"),
+        ("uniform token purpose = \"guide\"", "purpose of /a: it is \"guide\" there"),
+        (
+            "token visibility.timeSamples = { 1: \"inherited\", 5: \"invisible\" }",
+            "visibility of /a: it is \"invisible\" there at some frames",
+        ),
+    ] {
+        assert_eq!(curves(&below(mark)), (2, vec![said.to_owned()]));
+    }
+    let nearest = format!(
+        "def Xform \"a\" {{ uniform token purpose = \"guide\"\n {} }}\n",
+        curve("h", "uniform token purpose = \"render\"")
+    );
+    assert_eq!(curves(&nearest), (1, Vec::new()));
 }
