@@ -27,6 +27,7 @@
 
 #![forbid(unsafe_code)]
 
+mod arcs;
 mod carried;
 mod content;
 mod crate_file;

@@ -214,6 +214,15 @@ impl Layer {
         }
     }
 
+    /// Whether other layers stand below this one.
+    pub fn has_sublayers(&mut self) -> Result<bool, Problem> {
+        let Some(&list) = self.metadata.get("subLayers") else { return Ok(false) };
+        match &mut self.values {
+            Values::Text(from) => text::holds_any(&mut **from, list),
+            Values::Binary(reader) => reader.holds_any(list.0),
+        }
+    }
+
     /// A number the layer says about itself.
     pub fn metadata_number(&mut self, name: &str) -> Result<Option<f64>, Problem> {
         match self.metadata.get(name).copied() {

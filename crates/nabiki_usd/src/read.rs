@@ -9,6 +9,7 @@ use nabiki_exchange::curves::{Basis, Shape, checked_counts};
 use nabiki_exchange::{Contents, Gathered, GroomReader, InPlace, Placed, Polygons, Prim, PrimKind, Uvs, add_polygons};
 
 use crate::Problem;
+use crate::arcs;
 use crate::meshes;
 use crate::opened::Layer;
 use crate::primvars::Primvars;
@@ -268,9 +269,7 @@ impl GroomReader for StageReader {
             if let Some(found) = OTHERS.into_iter().find(|name| !self.layer.of_type(name).is_empty()) {
                 return Err(Problem(format!("has {found} and no BasisCurves, which alone are read: convert them")));
             }
-            return Err(Problem::new(
-                "has no BasisCurves: if they come by reference, flatten it first (usdcat --flatten IN -o OUT)",
-            ));
+            return Err(Problem(format!("has no BasisCurves: if they come by reference, {}", arcs::FLATTEN)));
         }
         let mut all = Gathered::default();
         for (group, &prim) in prims.iter().enumerate() {
@@ -280,7 +279,11 @@ impl GroomReader for StageReader {
             let world = transform::world(&mut self.layer, prim, time)?.as_mat4();
             all.append(part, Affine3A::from_mat4(world), (prims.len() > 1).then_some((group as i32, name)))?;
         }
-        all.hair()
+        let mut placed = all.hair()?;
+        if attributes {
+            placed.hair.attributes.unread.extend(arcs::unread(&mut self.layer)?);
+        }
+        Ok(placed)
     }
 
     fn mesh(&mut self) -> Result<Mesh, Problem> {
@@ -303,13 +306,18 @@ impl GroomReader for StageReader {
         }
         match mesh.positions.iter().find(|p| !p.is_finite()) {
             Some(p) => Err(Problem(format!("has a vertex at {p}"))),
-            None if mesh.triangles.is_empty() => Err(Problem::new("has no meshes")),
+            None if mesh.triangles.is_empty() => match arcs::unread(&mut self.layer)? {
+                Some(_) => Err(Problem(format!("has no meshes: if they come by reference, {}", arcs::FLATTEN))),
+                None => Err(Problem::new("has no meshes")),
+            },
             None => Ok(mesh),
         }
     }
 
     fn mesh_unread(&mut self) -> Result<Vec<String>, Problem> {
-        Ok(meshes::chosen(&mut self.layer)?.unread)
+        let mut unread = meshes::chosen(&mut self.layer)?.unread;
+        unread.extend(arcs::unread(&mut self.layer)?);
+        Ok(unread)
     }
 
     fn motion(&mut self, node: &str) -> Result<Vec<Placed>, Problem> {

@@ -21,6 +21,8 @@ pub struct PrimInfo {
     pub attributes: HashMap<String, AttributeInfo>,
     /// Names of its relationships: `material:binding`.
     pub relationships: Vec<String>,
+    /// Arcs by which content from elsewhere comes to it, by the words of text layers: `references`.
+    pub arcs: Vec<&'static str>,
 }
 
 /// An attribute of a prim.

@@ -104,3 +104,47 @@ fn curves_that_do_not_show_are_read_and_that_is_said_once() {
     );
     assert_eq!(curves(&nearest), (1, Vec::new()));
 }
+
+const FLATTEN: &str = "flatten it first (usdcat --flatten IN -o OUT)";
+
+#[test]
+fn what_comes_by_arcs_is_said_in_one_line() {
+    let own = curve("own", "");
+    for (arc, line) in [
+        ("references = @r.usda@", Some("references of /a")),
+        ("prepend references = [ @r.usda@</x> ( offset = 10 ), </own> ]", Some("references of /a")),
+        ("payload = @p.usda@", Some("payload of /a")),
+        ("prepend inherits = </own>", Some("inherits of /a")),
+        ("specializes = </own>", Some("specializes of /a")),
+        ("prepend variantSets = \"style\"", Some("variantSets of /a")),
+        ("clips = { dictionary default = { asset[] assetPaths = [@c.usda@] } }", Some("clips of /a")),
+        ("references = None", None),
+        ("references = [ ]", None),
+        ("delete references = @r.usda@", None),
+        ("customData = { string references = \"none\" }", None),
+        ("references = @r.usda@\n active = false", None),
+    ] {
+        let (count, unread) = curves(&format!("{own}def Xform \"a\" ( {arc} ) {{ }}\n"));
+        let said: Vec<String> = line.iter().map(|line| format!("what comes by {line}: {FLATTEN}")).collect();
+        assert_eq!((count, unread), (1, said), "{arc}");
+    }
+    let two = "( subLayers = [ @s.usda@ ] )\ndef Xform \"a\" ( references = @r.usda@ ) { }\n";
+    let said = format!("what comes by subLayers of the layer, and by 1 more of its arcs: {FLATTEN}");
+    assert_eq!(curves(&format!("{two}{own}")), (1, vec![said.clone()]));
+    assert_eq!(curves(&format!("( subLayers = [] )\n{own}")), (1, Vec::new()));
+    assert_eq!(meshes(&format!("{two}{}", mesh("head", ""))), (1, vec![said]));
+    let refused = reader(two).mesh().unwrap_err().to_string();
+    assert_eq!(refused, format!("has no meshes: if they come by reference, {FLATTEN}"));
+}
+
+/// The second is the first as usd-core exports it. Variants hold curves, which are on no stage by themselves.
+#[test]
+fn arcs_and_variants_are_alike_in_text_and_in_binary() {
+    for name in ["composed.usda", "composed.usdc"] {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files").join(name);
+        let mut stage = StageReader::open(&path).unwrap();
+        assert_eq!(stage.contents().unwrap().curves, ["/own"], "{name}");
+        let said = format!("what comes by subLayers of the layer, and by 5 more of its arcs: {FLATTEN}");
+        assert_eq!(stage.hair(0, None).unwrap().attributes.unread, [said], "{name}");
+    }
+}

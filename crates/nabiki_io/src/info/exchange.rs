@@ -106,6 +106,8 @@ impl ExchangeInfo {
         let (hair, mut mesh) = (hair.as_ref().map(HairInfo::of), mesh.as_ref().map(MeshInfo::of));
         if let Some(mesh) = &mut mesh {
             mesh.unread = file.ask(|r| r.mesh_unread())?;
+            // What the hair says already.
+            mesh.unread.retain(|line| hair.as_ref().is_none_or(|hair| !hair.unread.contains(line)));
         }
         // One guess for the whole file, and only of what it leaves open.
         let likely = hair.as_ref().map(|hair| hair.guess).or(mesh.as_ref().map(|mesh| mesh.guess)).flatten();
