@@ -64,8 +64,9 @@ impl Primvars<'_> {
     }
 
     fn named(&self, name: &str) -> Option<Handle> {
-        let plain = if name == "widths" { self.layer.at(self.prim, name, self.time) } else { None };
-        plain.or_else(|| self.layer.at(self.prim, &format!("primvars:{name}"), self.time))
+        let primvar = self.layer.at(self.prim, &format!("primvars:{name}"), self.time);
+        // The primvar wins over the attribute of its name.
+        primvar.or_else(|| if name == "widths" { self.layer.at(self.prim, name, self.time) } else { None })
     }
 
     fn indices(&mut self, name: &str) -> Result<Option<Vec<i64>>, Problem> {
