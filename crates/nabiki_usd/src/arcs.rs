@@ -22,7 +22,7 @@ pub fn unread(layer: &mut Layer) -> Result<Option<String>, Problem> {
     if layer.has_sublayers()? {
         found.push("subLayers of the layer".to_owned());
     }
-    for prim in (0..layer.prims.len()).filter(|&prim| layer.is_on_stage(prim)) {
+    for prim in (0..layer.prims.len()).filter(|&prim| layer.is_active(prim)) {
         found.extend(layer.prims[prim].arcs.iter().map(|arc| format!("{arc} of {}", layer.path(prim))));
     }
     let Some(first) = found.first() else { return Ok(None) };

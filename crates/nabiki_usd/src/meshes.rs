@@ -15,11 +15,11 @@ pub struct Chosen {
 /// The meshes that show; all, where none does.
 pub fn chosen(layer: &mut Layer) -> Result<Chosen, Problem> {
     let mut all = Vec::new();
-    for prim in layer.of_type("Mesh") {
+    for prim in layer.with_points("Mesh") {
         all.push((prim, hidden(layer, prim)?));
     }
     let any_shows = all.iter().any(|(_, hidden)| hidden.iter().all(|hidden| hidden.at_times));
-    let (mut prims, mut unread) = (Vec::new(), Vec::new());
+    let (mut prims, mut unread) = (Vec::new(), layer.without_points("Mesh", "mesh"));
     for (prim, hidden) in all {
         let path = layer.path(prim);
         match hidden.iter().find(|hidden| !hidden.at_times) {

@@ -216,7 +216,10 @@ enum Mover {
 
 impl GroomReader for StageReader {
     fn contents(&mut self) -> Result<Contents, Problem> {
-        let paths = |layer: &Layer, kind: &str| layer.of_type(kind).into_iter().map(|i| layer.path(i)).collect();
+        let paths = |layer: &Layer, kind: &str| {
+            let prims = layer.of_type(kind).into_iter().filter(|&i| layer.has_points(i));
+            prims.map(|i| layer.path(i)).collect()
+        };
         let (codes, step) = self.frame_codes()?;
         let codes_a_second = self.codes_a_second()?;
         Ok(Contents {
@@ -237,7 +240,8 @@ impl GroomReader for StageReader {
             let type_name = self.layer.prims[i].type_name.clone();
             let kind = match type_name.as_str() {
                 _ if !self.layer.is_on_stage(i) => {
-                    PrimKind::Other(format!("{type_name} (inactive or of a class)").trim_start().to_owned())
+                    let why = if self.layer.is_active(i) { "an over" } else { "inactive or of a class" };
+                    PrimKind::Other(format!("{type_name} ({why})").trim_start().to_owned())
                 }
                 "BasisCurves" => {
                     let curves = self.count(i, "curveVertexCounts")?;
@@ -263,8 +267,17 @@ impl GroomReader for StageReader {
 
     fn hair_in_place(&mut self, frame: usize, segments: Option<usize>, attributes: bool) -> Result<InPlace, Problem> {
         let time = self.code_of(frame)?;
-        let prims = self.layer.of_type("BasisCurves");
+        let prims = self.layer.with_points("BasisCurves");
         if prims.is_empty() {
+            let all = 0..self.layer.prims.len();
+            let is_over = |&i: &usize| self.layer.prims[i].type_name == "BasisCurves" && self.layer.is_active(i);
+            if let Some(over) = all.into_iter().find(is_over) {
+                let path = self.layer.path(over);
+                return Err(Problem(format!(
+                    "curves {path}: an over defines nothing by itself: give the layer that defines it, or {}",
+                    arcs::FLATTEN
+                )));
+            }
             const OTHERS: [&str; 3] = ["HermiteCurves", "NurbsCurves", "Points"];
             if let Some(found) = OTHERS.into_iter().find(|name| !self.layer.of_type(name).is_empty()) {
                 return Err(Problem(format!("has {found} and no BasisCurves, which alone are read: convert them")));
@@ -281,7 +294,9 @@ impl GroomReader for StageReader {
         }
         let mut placed = all.hair()?;
         if attributes {
-            placed.hair.attributes.unread.extend(arcs::unread(&mut self.layer)?);
+            let unread = &mut placed.hair.attributes.unread;
+            unread.extend(self.layer.without_points("BasisCurves", "curves"));
+            unread.extend(arcs::unread(&mut self.layer)?);
         }
         Ok(placed)
     }

@@ -15,6 +15,8 @@ pub struct PrimInfo {
     pub type_name: String,
     /// Whether it is a class or inactive: neither it nor what is below it is on the stage then.
     pub is_off_stage: bool,
+    /// Whether it is an `over`, which adds to what another layer defines and defines nothing by itself.
+    pub is_over: bool,
     /// The prim above it in the list.
     pub parent: Option<usize>,
     /// Attributes by name.

@@ -148,3 +148,34 @@ fn arcs_and_variants_are_alike_in_text_and_in_binary() {
         assert_eq!(stage.hair(0, None).unwrap().attributes.unread, [said], "{name}");
     }
 }
+
+#[test]
+fn what_is_empty_is_left_out_beside_what_is_not() {
+    let (empty, hair) = ("def BasisCurves \"e\" { }\n", curve("h", ""));
+    for text in [format!("{empty}{hair}"), format!("{hair}{empty}")] {
+        assert_eq!(curves(&text), (1, vec!["curves /e: no points".to_owned()]));
+        assert_eq!(reader(&text).contents().unwrap().curves, ["/h"]);
+    }
+    assert_eq!(reader(empty).hair(0, None).unwrap_err().to_string(), "curves /e: have no points");
+    let (empty, head) = ("def Mesh \"e\" { }\n", mesh("head", ""));
+    for text in [format!("{empty}{head}"), format!("{head}{empty}")] {
+        assert_eq!(meshes(&text), (1, vec!["mesh /e: no points".to_owned()]));
+    }
+    assert_eq!(reader(empty).contents().unwrap().meshes, [""; 0]);
+    assert_eq!(reader(empty).mesh().unwrap_err().to_string(), "mesh /e: has no points");
+}
+
+#[test]
+fn an_over_without_a_def_is_not_on_the_stage() {
+    let curves_of = |name: &str| curve(name, "").replace("def ", "over ");
+    assert_eq!(curves(&format!("{}{}", curve("h", ""), curves_of("o"))), (1, Vec::new()));
+    assert_eq!(curves(&format!("{}over \"a\" {{ {} }}\n", curve("h", ""), curve("i", ""))), (1, Vec::new()));
+    let head = mesh("head", "");
+    assert_eq!(meshes(&format!("{head}{}", mesh("o", "").replace("def ", "over "))), (1, Vec::new()));
+    let refused = reader(&curves_of("o")).hair(0, None).unwrap_err().to_string();
+    let why = "an over defines nothing by itself: give the layer that defines it";
+    assert_eq!(refused, format!("curves /o: {why}, or {FLATTEN}"));
+    // What another layer may define comes by its arcs.
+    let arc = format!("{}over \"a\" ( references = @r.usda@ ) {{ }}\n", curve("h", ""));
+    assert_eq!(curves(&arc), (1, vec![format!("what comes by references of /a: {FLATTEN}")]));
+}

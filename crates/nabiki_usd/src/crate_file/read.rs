@@ -124,9 +124,11 @@ impl<R: Read + Seek> CrateReader<R> {
                     }
                     let type_name = word(field("typeName"));
                     prim_of_node.insert(i, layer.0.len());
+                    const OVER: u64 = 1;
                     const CLASS: u64 = 2;
                     let is = |name: &str, value: u64| field(name).is_some_and(|rep| Rep(rep).payload() == value);
                     let is_off_stage = is("specifier", CLASS) || is("active", 0);
+                    let is_over = is("specifier", OVER);
                     let named_arcs = arcs::OF_PRIMS.map(|(arc, name)| (arc, field(name)));
                     let mut arcs = Vec::new();
                     for (arc, rep) in named_arcs {
@@ -136,7 +138,8 @@ impl<R: Read + Seek> CrateReader<R> {
                             arcs.push(arc);
                         }
                     }
-                    layer.0.push(PrimInfo { name, type_name, is_off_stage, parent, arcs, ..PrimInfo::default() });
+                    let prim = PrimInfo { name, type_name, is_off_stage, is_over, parent, arcs, ..PrimInfo::default() };
+                    layer.0.push(prim);
                 }
                 specs::ATTRIBUTE => {
                     let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&p)) else { continue };

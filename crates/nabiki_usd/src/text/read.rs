@@ -54,7 +54,8 @@ pub fn parse(from: &mut dyn Source, length: u64) -> Result<Parsed, Problem> {
                     return Err(text.problem("prims nested deeper than any scene is"));
                 }
                 let is_off_stage = word == "class";
-                prims.push(PrimInfo { name, type_name, is_off_stage, parent, ..PrimInfo::default() });
+                let is_over = word == "over";
+                prims.push(PrimInfo { name, type_name, is_off_stage, is_over, parent, ..PrimInfo::default() });
             }
             "variantSet" => {
                 text.quoted()?;
