@@ -48,6 +48,8 @@ impl Primvars<'_> {
             .iter()
             .filter(|(name, a)| (name.starts_with("primvars:") || name.as_str() == "widths") && a.samples.len() > 1);
         unread.extend(moving.map(|(name, _)| format!("motion of {name}: its first value is kept")));
+        let splines = prim.attributes.iter().filter(|(name, a)| name.starts_with("primvars:") && a.has_spline);
+        unread.extend(splines.map(|(name, _)| format!("the spline of {name}")));
         unread.append(&mut marks);
         for above in self.layer.upward(self.prim).skip(1) {
             let names = self.layer.prims[above].attributes.keys();

@@ -36,6 +36,8 @@ pub struct AttributeInfo {
     pub is_array: bool,
     /// Value without a time.
     pub default: Option<Handle>,
+    /// Whether a spline moves it, which is not read.
+    pub has_spline: bool,
     /// Time codes and values, times growing.
     pub samples: Vec<(f64, Handle)>,
     /// What says how many values there are: in text all that stands in parentheses behind the value.

@@ -179,3 +179,23 @@ fn an_over_without_a_def_is_not_on_the_stage() {
     let arc = format!("{}over \"a\" ( references = @r.usda@ ) {{ }}\n", curve("h", ""));
     assert_eq!(curves(&arc), (1, vec![format!("what comes by references of /a: {FLATTEN}")]));
 }
+
+#[test]
+fn splines_are_refused_as_such_in_transforms_and_said_elsewhere() {
+    let spline = "{\n 0: 0; pre (0, 0); post held,\n 10: 90; post held,\n }";
+    let turned = |more: &str| {
+        let order = "uniform token[] xformOpOrder = [\"xformOp:rotateX\"]";
+        format!(
+            "def Xform \"a\" {{ float xformOp:rotateX.spline = {spline}\n {more}\n {order}\n {} }}\n",
+            curve("h", "")
+        )
+    };
+    let why = "prim /a: xformOp:rotateX is a spline, which is not read: bake it to time samples";
+    for more in ["", "float xformOp:rotateX = 3"] {
+        assert_eq!(reader(&turned(more)).hair(0, None).unwrap_err().to_string(), why);
+    }
+    // Samples win over a spline, as USD has it.
+    assert_eq!(curves(&turned("float xformOp:rotateX.timeSamples = { 0: 3 }")), (1, Vec::new()));
+    let (count, unread) = curves(&curve("h", &format!("float primvars:x = 3\n float primvars:x.spline = {spline}")));
+    assert!(count == 1 && unread.contains(&"the spline of primvars:x".to_owned()), "{unread:?}");
+}

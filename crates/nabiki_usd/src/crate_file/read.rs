@@ -148,11 +148,12 @@ impl<R: Read + Seek> CrateReader<R> {
                     let is_array = type_name.ends_with("[]");
                     let type_name = type_name.trim_end_matches("[]").to_owned();
                     let interpolation = field("interpolation").map(|rep| (rep, 0));
+                    let has_spline = field("spline").is_some();
                     let samples = field("timeSamples");
                     let samples = samples.map(|rep| reader.samples(Rep(rep))).transpose()?.unwrap_or_default();
+                    let read = AttributeInfo { type_name, is_array, default, has_spline, samples, interpolation };
                     let prim: &mut PrimInfo = &mut layer.0[prim];
-                    prim.attributes
-                        .insert(name, AttributeInfo { type_name, is_array, default, samples, interpolation });
+                    prim.attributes.insert(name, read);
                 }
                 specs::RELATIONSHIP => {
                     let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&p)) else { continue };

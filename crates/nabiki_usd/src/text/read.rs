@@ -179,6 +179,10 @@ fn property(text: &mut Scanner<'_>, first: String, prim: &mut PrimInfo) -> Resul
         Some(name) => (name, true),
         None => (name.as_str(), false),
     };
+    let (name, is_spline) = match name.strip_suffix(".spline") {
+        Some(name) => (name, true),
+        None => (name, false),
+    };
     let connection = name.ends_with(".connect");
     if text.peek()? == Some(b'=') {
         text.pass();
@@ -191,10 +195,11 @@ fn property(text: &mut Scanner<'_>, first: String, prim: &mut PrimInfo) -> Resul
             let samples = if timed { Some(samples(text)?) } else { None };
             let value = if timed { None } else { Some(text.skip_value()?) };
             let attribute = prim.attributes.entry(name.to_owned()).or_default();
+            attribute.has_spline |= is_spline;
             attribute.type_name.clone_from(type_name);
             attribute.is_array = is_array;
             attribute.samples = samples.unwrap_or(std::mem::take(&mut attribute.samples));
-            attribute.default = value.or(attribute.default);
+            attribute.default = value.filter(|_| !is_spline).or(attribute.default);
         }
     }
     if text.peek()? == Some(b'(') {
