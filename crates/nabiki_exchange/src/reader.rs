@@ -39,11 +39,20 @@ pub trait GroomReader {
         self.hair_in_place(frame, segments, true)?.in_world()
     }
 
-    /// All meshes at the first frame, cut into triangles, transforms applied, as one.
+    /// The meshes at the first frame, cut into triangles, transforms applied, as one: those that show, or all where none
+    /// does.
     ///
     /// # Errors
     /// No mesh, or one whose numbers contradict each other.
     fn mesh(&mut self) -> Result<Mesh, Problem>;
+
+    /// What of its meshes [`mesh`](Self::mesh) leaves out or does not obey, a phrase each.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    fn mesh_unread(&mut self) -> Result<Vec<String>, Problem> {
+        Ok(Vec::new())
+    }
 
     /// The way of the object at the path `node`, or of the first of that name, at all times at which it moves.
     ///

@@ -111,12 +111,20 @@ pub fn frames(path: &Path) -> Result<usize> {
     Ok(Opened::new(path)?.ask(|r| r.contents())?.times.len().max(1))
 }
 
-/// Reads all meshes, in the file's own unit and axes.
+/// Reads the meshes, in the file's own unit and axes: those that show, or all where none does.
 ///
 /// # Errors
 /// What is wrong with the file.
 pub fn mesh(path: &Path) -> Result<Mesh> {
     Opened::new(path)?.ask(|r| r.mesh())
+}
+
+/// As [`mesh`], with what of the meshes is left out or not obeyed, a phrase each.
+///
+/// # Errors
+/// What is wrong with the file.
+pub(crate) fn mesh_and_unread(path: &Path) -> Result<(Mesh, Vec<String>)> {
+    Opened::new(path)?.ask(|r| Ok((r.mesh()?, r.mesh_unread()?)))
 }
 
 /// Reads the way of the object, prim or joint `node`.

@@ -117,7 +117,7 @@ impl GroomFile {
             Kind::Exchange(opened) => opened.ask(|r| r.prims())?,
         };
         let curves = prims.into_iter().filter_map(|prim| match prim.kind {
-            PrimKind::Curves { points, cubic, world_from_curves, .. } => {
+            PrimKind::Curves { points, cubic, world_from_curves, .. } if points > 0 => {
                 Some(CurvePrim { path: prim.path, points: points as u64, cubic, world_from_curves })
             }
             _ => None,

@@ -21,7 +21,7 @@ use crate::{
 };
 
 /// What a mesh import gave, before and after cleaning.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct MeshReport {
     /// Vertices of the chosen groups as the file has them.
     pub vertices_in_file: usize,
@@ -29,6 +29,8 @@ pub struct MeshReport {
     pub joined_vertices: usize,
     /// Triangles dropped because two of their corners coincide.
     pub dropped_triangles: usize,
+    /// What of the file's meshes is left out or not obeyed, a phrase each.
+    pub unread: Vec<String>,
 }
 
 /// Reads the triangles of a mesh file in its own unit and axes. `groups`: names of .obj groups or objects, or of
@@ -87,7 +89,12 @@ pub fn from_bytes(bytes: &[u8], extension: &str, groups: &[String]) -> Result<Me
 /// Reads a mesh into head space, joins vertices at the same place and drops triangles without area.
 pub fn import(path: &Path, placement: &Placement, groups: &[String]) -> Result<(Mesh, MeshReport)> {
     placement.check("head").map_err(|e| Error::from(e).in_file(path))?;
-    place_and_weld(read(path, groups)?, placement).map_err(|e| e.in_file(path))
+    let (mesh, unread) = match exchange::is_usd(path) || exchange::is_alembic(path) {
+        true => exchange::mesh_and_unread(path)?,
+        false => (read(path, groups)?, Vec::new()),
+    };
+    let (mesh, report) = place_and_weld(mesh, placement).map_err(|e| e.in_file(path))?;
+    Ok((mesh, MeshReport { unread, ..report }))
 }
 
 /// The same for a mesh already read, by this crate or another.
@@ -108,6 +115,7 @@ pub fn place_and_weld(mesh: Mesh, placement: &Placement) -> Result<(Mesh, MeshRe
         vertices_in_file,
         joined_vertices: vertices_in_file - welded.positions.len(),
         dropped_triangles: triangles_in_file - welded.triangles.len(),
+        unread: Vec::new(),
     };
     if welded.triangles.is_empty() {
         return Err(Error::new(
@@ -184,7 +192,10 @@ mod tests {
         let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\nf 4 6 5\nf 1 4 2\n";
         let mesh = from_bytes(text.as_bytes(), "obj", &[]).unwrap();
         let (mesh, report) = place_and_weld(mesh, &Placement::default()).unwrap();
-        assert_eq!(report, MeshReport { vertices_in_file: 6, joined_vertices: 2, dropped_triangles: 1 });
+        assert_eq!(
+            report,
+            MeshReport { vertices_in_file: 6, joined_vertices: 2, dropped_triangles: 1, unread: Vec::new() }
+        );
         assert_eq!((mesh.positions.len(), mesh.triangles.len()), (4, 2));
     }
 
@@ -194,7 +205,10 @@ mod tests {
                     f 1/1 2/2 3/3 4/4\nf 5/-1 7/-2/1 6/2/2\nf 5/1 1/1 2/2\n";
         let mesh = from_bytes(text.as_bytes(), "obj", &[]).unwrap();
         let (mesh, report) = place_and_weld(mesh, &Placement::default()).unwrap();
-        assert_eq!(report, MeshReport { vertices_in_file: 7, joined_vertices: 2, dropped_triangles: 1 });
+        assert_eq!(
+            report,
+            MeshReport { vertices_in_file: 7, joined_vertices: 2, dropped_triangles: 1, unread: Vec::new() }
+        );
         let [a, b, c, d] = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::new(0.5, 0.0)];
         assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [0, 4, 1]]);
         assert_eq!(mesh.corner_uvs, Some(vec![[a, b, c], [a, c, d], [d, c, b]]));

@@ -9,7 +9,7 @@ use nabiki_io::GroomFile;
 use nabiki_io::exchange::{self, DeclaredSpace, MovingHair};
 use nabiki_io::info::ExchangeInfo;
 use nabiki_io::motion::{self, Axis, MotionSource};
-use nabiki_io::placement::Unit;
+use nabiki_io::placement::{Placement, Unit};
 use nabiki_io::{hair, mesh};
 
 const FRAMES: usize = 11;
@@ -158,4 +158,23 @@ fn a_layer_of_alembic_and_an_unknown_ending_are_refused_by_name() {
     };
     assert_eq!(refused("hair.abc", Some("/a")), "hair.abc: Alembic has no layers: write .usda or .usdc");
     assert_eq!(refused("hair.fbx", None), "hair.fbx: moving hair is written as .usda, .usdc or .abc");
+}
+
+#[test]
+fn what_of_a_layers_meshes_is_left_out_is_reported() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("head.usda");
+    let mesh = |name: &str, more: &str| {
+        format!(
+            "def Mesh \"{name}\" {{ point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n int[] faceVertexCounts = [3]\n\
+             int[] faceVertexIndices = [0, 1, 2]\n{more} }}\n"
+        )
+    };
+    let text = format!("#usda 1.0\n{}{}", mesh("head", ""), mesh("low", "uniform token purpose = \"proxy\""));
+    std::fs::write(&file, text).unwrap();
+    let (mesh, report) = mesh::import(&file, &Placement::default(), &[]).unwrap();
+    let said = "mesh /low, which does not show: purpose of /low is \"proxy\"";
+    assert_eq!((mesh.triangles.len(), report.unread), (1, vec![said.to_owned()]));
+    let info = ExchangeInfo::of_file(&file).unwrap().to_string();
+    assert!(info.lines().any(|line| line == format!("not read: {said}")), "{info}");
 }

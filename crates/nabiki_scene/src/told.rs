@@ -117,6 +117,8 @@ pub struct SceneSummary {
     pub open_edges: usize,
     /// Whether one of them lies where hair grows.
     pub skull_is_open: bool,
+    /// What of the meshes of the head's file is left out or not obeyed, a phrase each.
+    pub unread: Vec<String>,
     /// Frames of the hair's file, of which the first is taken; 1 for hair that stands still.
     pub frames_in_file: usize,
     /// How the head's motion was read and converted.
@@ -147,6 +149,7 @@ impl SceneSummary {
             turned_triangles: built.head.orientation.turned,
             open_edges: built.head.orientation.open_edges,
             skull_is_open: built.head.openings.iter().any(|opening| opening.missing.is_some()),
+            unread: built.mesh_report.as_ref().map_or_else(Vec::new, |report| report.unread.clone()),
             frames_in_file: built.frames_in_file,
             motion: built.motion_report.clone(),
             strands: strands.len(),
@@ -177,6 +180,9 @@ impl fmt::Display for SceneSummary {
                 "          it is open along {} edges, {place}; an opening counts as closed straight across",
                 self.open_edges
             )?;
+        }
+        for unread in &self.unread {
+            writeln!(f, "          not read of its file: {unread}")?;
         }
         if let Some(motion) = &self.motion {
             writeln!(f, "          {motion}")?;

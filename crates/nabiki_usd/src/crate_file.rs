@@ -48,12 +48,16 @@ pub mod types {
     pub const VEC4F: u8 = 28;
     pub const VEC4H: u8 = 29;
     pub const VEC4I: u8 = 30;
+    pub const TOKEN_LIST: u8 = 32;
+    pub const REFERENCE_LIST: u8 = 35;
     pub const TOKEN_VECTOR: u8 = 41;
     pub const SPECIFIER: u8 = 42;
     pub const VARIABILITY: u8 = 44;
     pub const TIME_SAMPLES: u8 = 46;
     pub const DOUBLE_VECTOR: u8 = 48;
+    pub const STRING_VECTOR: u8 = 50;
     pub const VALUE_BLOCK: u8 = 51;
+    pub const PAYLOAD_LIST: u8 = 55;
 }
 
 /// What a path names.

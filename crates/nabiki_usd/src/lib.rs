@@ -27,13 +27,16 @@
 
 #![forbid(unsafe_code)]
 
+mod arcs;
 mod carried;
 mod content;
 mod crate_file;
 mod layer;
+mod meshes;
 mod opened;
 mod primvars;
 mod read;
+mod shown;
 mod skeleton;
 mod source;
 mod text;

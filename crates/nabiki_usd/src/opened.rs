@@ -197,8 +197,33 @@ impl Layer {
     }
 
     /// Whether neither a prim nor any above it is inactive or a class.
-    pub fn is_on_stage(&self, prim: usize) -> bool {
+    pub fn is_active(&self, prim: usize) -> bool {
         self.upward(prim).all(|i| !self.prims[i].is_off_stage)
+    }
+
+    /// Whether this layer by itself has a prim on its stage.
+    pub fn is_on_stage(&self, prim: usize) -> bool {
+        self.is_active(prim) && self.upward(prim).all(|i| !self.prims[i].is_over)
+    }
+
+    /// Prims of a type that are on the stage and have points; all that are there, where none has.
+    pub fn with_points(&self, wanted: &str) -> Vec<usize> {
+        let (some, none): (Vec<usize>, Vec<usize>) =
+            self.of_type(wanted).into_iter().partition(|&i| self.has_points(i));
+        if some.is_empty() { none } else { some }
+    }
+
+    /// Prims of a type that [`with_points`](Self::with_points) leaves out, a phrase each. `what`: the type's word.
+    pub fn without_points(&self, wanted: &str, what: &str) -> Vec<String> {
+        let (some, none): (Vec<usize>, Vec<usize>) =
+            self.of_type(wanted).into_iter().partition(|&i| self.has_points(i));
+        let none = none.into_iter().filter(|_| !some.is_empty());
+        none.map(|prim| format!("{what} {}: no points", self.path(prim))).collect()
+    }
+
+    /// Whether a prim has points at any time.
+    pub fn has_points(&self, prim: usize) -> bool {
+        self.prims[prim].attributes.get("points").is_some_and(|a| a.default.is_some() || !a.samples.is_empty())
     }
 
     /// A prim and those above it, from below.
@@ -211,6 +236,15 @@ impl Layer {
         match self.at(prim, name, f64::NEG_INFINITY) {
             Some(handle) => Ok(self.words(handle)?.into_iter().next()),
             None => Ok(None),
+        }
+    }
+
+    /// Whether other layers stand below this one.
+    pub fn has_sublayers(&mut self) -> Result<bool, Problem> {
+        let Some(&list) = self.metadata.get("subLayers") else { return Ok(false) };
+        match &mut self.values {
+            Values::Text(from) => text::holds_any(&mut **from, list),
+            Values::Binary(reader) => reader.holds_any(list.0),
         }
     }
 

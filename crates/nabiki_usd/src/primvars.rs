@@ -5,6 +5,7 @@ use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values
 
 use crate::Problem;
 use crate::opened::Layer;
+use crate::shown::{Hidden, hidden};
 use crate::source::Handle;
 
 /// What a prim carries at a time code: its primvars, and `widths`, which is an attribute of its own.
@@ -35,13 +36,7 @@ const KNOWN: [&str; 11] = [
 impl Primvars<'_> {
     /// What the prim says of itself that is not read, a phrase each.
     pub fn unread(&mut self) -> Result<Vec<String>, Problem> {
-        let hidden = [("visibility", "invisible"), ("purpose", "guide"), ("purpose", "proxy")];
-        let mut marks = Vec::new();
-        for (name, mark) in hidden {
-            if self.layer.word(self.prim, name)?.as_deref() == Some(mark) {
-                marks.push(format!("{name} of {}: it is \"{mark}\" there", self.layer.path(self.prim)));
-            }
-        }
+        let mut marks: Vec<String> = hidden(self.layer, self.prim)?.iter().map(Hidden::kept).collect();
         let prim = &self.layer.prims[self.prim];
         let other = |name: &&String| {
             !KNOWN.contains(&name.as_str()) && !name.starts_with("primvars:") && !name.starts_with("xformOp:")
@@ -53,6 +48,8 @@ impl Primvars<'_> {
             .iter()
             .filter(|(name, a)| (name.starts_with("primvars:") || name.as_str() == "widths") && a.samples.len() > 1);
         unread.extend(moving.map(|(name, _)| format!("motion of {name}: its first value is kept")));
+        let splines = prim.attributes.iter().filter(|(name, a)| name.starts_with("primvars:") && a.has_spline);
+        unread.extend(splines.map(|(name, _)| format!("the spline of {name}")));
         unread.append(&mut marks);
         for above in self.layer.upward(self.prim).skip(1) {
             let names = self.layer.prims[above].attributes.keys();
@@ -69,8 +66,9 @@ impl Primvars<'_> {
     }
 
     fn named(&self, name: &str) -> Option<Handle> {
-        let plain = if name == "widths" { self.layer.at(self.prim, name, self.time) } else { None };
-        plain.or_else(|| self.layer.at(self.prim, &format!("primvars:{name}"), self.time))
+        let primvar = self.layer.at(self.prim, &format!("primvars:{name}"), self.time);
+        // The primvar wins over the attribute of its name.
+        primvar.or_else(|| if name == "widths" { self.layer.at(self.prim, name, self.time) } else { None })
     }
 
     fn indices(&mut self, name: &str) -> Result<Option<Vec<i64>>, Problem> {

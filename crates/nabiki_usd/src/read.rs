@@ -9,6 +9,8 @@ use nabiki_exchange::curves::{Basis, Shape, checked_counts};
 use nabiki_exchange::{Contents, Gathered, GroomReader, InPlace, Placed, Polygons, Prim, PrimKind, Uvs, add_polygons};
 
 use crate::Problem;
+use crate::arcs;
+use crate::meshes;
 use crate::opened::Layer;
 use crate::primvars::Primvars;
 use crate::skeleton::{self, Joint};
@@ -214,7 +216,10 @@ enum Mover {
 
 impl GroomReader for StageReader {
     fn contents(&mut self) -> Result<Contents, Problem> {
-        let paths = |layer: &Layer, kind: &str| layer.of_type(kind).into_iter().map(|i| layer.path(i)).collect();
+        let paths = |layer: &Layer, kind: &str| {
+            let prims = layer.of_type(kind).into_iter().filter(|&i| layer.has_points(i));
+            prims.map(|i| layer.path(i)).collect()
+        };
         let (codes, step) = self.frame_codes()?;
         let codes_a_second = self.codes_a_second()?;
         Ok(Contents {
@@ -235,7 +240,8 @@ impl GroomReader for StageReader {
             let type_name = self.layer.prims[i].type_name.clone();
             let kind = match type_name.as_str() {
                 _ if !self.layer.is_on_stage(i) => {
-                    PrimKind::Other(format!("{type_name} (inactive or of a class)").trim_start().to_owned())
+                    let why = if self.layer.is_active(i) { "an over" } else { "inactive or of a class" };
+                    PrimKind::Other(format!("{type_name} ({why})").trim_start().to_owned())
                 }
                 "BasisCurves" => {
                     let curves = self.count(i, "curveVertexCounts")?;
@@ -261,15 +267,22 @@ impl GroomReader for StageReader {
 
     fn hair_in_place(&mut self, frame: usize, segments: Option<usize>, attributes: bool) -> Result<InPlace, Problem> {
         let time = self.code_of(frame)?;
-        let prims = self.layer.of_type("BasisCurves");
+        let prims = self.layer.with_points("BasisCurves");
         if prims.is_empty() {
+            let all = 0..self.layer.prims.len();
+            let is_over = |&i: &usize| self.layer.prims[i].type_name == "BasisCurves" && self.layer.is_active(i);
+            if let Some(over) = all.into_iter().find(is_over) {
+                let path = self.layer.path(over);
+                return Err(Problem(format!(
+                    "curves {path}: an over defines nothing by itself: give the layer that defines it, or {}",
+                    arcs::FLATTEN
+                )));
+            }
             const OTHERS: [&str; 3] = ["HermiteCurves", "NurbsCurves", "Points"];
             if let Some(found) = OTHERS.into_iter().find(|name| !self.layer.of_type(name).is_empty()) {
                 return Err(Problem(format!("has {found} and no BasisCurves, which alone are read: convert them")));
             }
-            return Err(Problem::new(
-                "has no BasisCurves: if they come by reference, flatten it first (usdcat --flatten IN -o OUT)",
-            ));
+            return Err(Problem(format!("has no BasisCurves: if they come by reference, {}", arcs::FLATTEN)));
         }
         let mut all = Gathered::default();
         for (group, &prim) in prims.iter().enumerate() {
@@ -279,13 +292,19 @@ impl GroomReader for StageReader {
             let world = transform::world(&mut self.layer, prim, time)?.as_mat4();
             all.append(part, Affine3A::from_mat4(world), (prims.len() > 1).then_some((group as i32, name)))?;
         }
-        all.hair()
+        let mut placed = all.hair()?;
+        if attributes {
+            let unread = &mut placed.hair.attributes.unread;
+            unread.extend(self.layer.without_points("BasisCurves", "curves"));
+            unread.extend(arcs::unread(&mut self.layer)?);
+        }
+        Ok(placed)
     }
 
     fn mesh(&mut self) -> Result<Mesh, Problem> {
         let mut mesh = Mesh::default();
         let time = self.code_of(0)?;
-        for prim in self.layer.of_type("Mesh") {
+        for prim in meshes::chosen(&mut self.layer)?.prims {
             let path = self.layer.path(prim);
             let problem = |what: &str| Problem(format!("mesh {path}: {what}"));
             let layer = &mut self.layer;
@@ -302,9 +321,18 @@ impl GroomReader for StageReader {
         }
         match mesh.positions.iter().find(|p| !p.is_finite()) {
             Some(p) => Err(Problem(format!("has a vertex at {p}"))),
-            None if mesh.triangles.is_empty() => Err(Problem::new("has no meshes")),
+            None if mesh.triangles.is_empty() => match arcs::unread(&mut self.layer)? {
+                Some(_) => Err(Problem(format!("has no meshes: if they come by reference, {}", arcs::FLATTEN))),
+                None => Err(Problem::new("has no meshes")),
+            },
             None => Ok(mesh),
         }
+    }
+
+    fn mesh_unread(&mut self) -> Result<Vec<String>, Problem> {
+        let mut unread = meshes::chosen(&mut self.layer)?.unread;
+        unread.extend(arcs::unread(&mut self.layer)?);
+        Ok(unread)
     }
 
     fn motion(&mut self, node: &str) -> Result<Vec<Placed>, Problem> {

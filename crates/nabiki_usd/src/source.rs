@@ -15,12 +15,16 @@ pub struct PrimInfo {
     pub type_name: String,
     /// Whether it is a class or inactive: neither it nor what is below it is on the stage then.
     pub is_off_stage: bool,
+    /// Whether it is an `over`, which adds to what another layer defines and defines nothing by itself.
+    pub is_over: bool,
     /// The prim above it in the list.
     pub parent: Option<usize>,
     /// Attributes by name.
     pub attributes: HashMap<String, AttributeInfo>,
     /// Names of its relationships: `material:binding`.
     pub relationships: Vec<String>,
+    /// Arcs by which content from elsewhere comes to it, by the words of text layers: `references`.
+    pub arcs: Vec<&'static str>,
 }
 
 /// An attribute of a prim.
@@ -32,6 +36,8 @@ pub struct AttributeInfo {
     pub is_array: bool,
     /// Value without a time.
     pub default: Option<Handle>,
+    /// Whether a spline moves it, which is not read.
+    pub has_spline: bool,
     /// Time codes and values, times growing.
     pub samples: Vec<(f64, Handle)>,
     /// What says how many values there are: in text all that stands in parentheses behind the value.

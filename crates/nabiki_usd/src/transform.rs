@@ -42,6 +42,12 @@ fn local(layer: &mut Layer, prim: usize, time: f64) -> Result<(DMat4, bool), Pro
             None => (false, word.as_str()),
         };
         let kind = name.strip_prefix("xformOp:").unwrap_or(name).split(':').next().unwrap_or_default();
+        if layer.prims[prim].attributes.get(name).is_some_and(|a| a.has_spline && a.samples.is_empty()) {
+            let path = layer.path(prim);
+            return Err(Problem(format!(
+                "prim {path}: {name} is a spline, which is not read: bake it to time samples"
+            )));
+        }
         let operation = if kind == "orient" {
             let turn = layer.quaternions_at(prim, name, time)?;
             turn.map(|turn| turn.first().map(|&turn| DMat4::from_quat(turn)))

@@ -389,3 +389,18 @@ fn classes_and_inactive_prims_are_no_hair_and_absent_values_are_said() {
     let refused = hermite.hair(0, None).unwrap_err().to_string();
     assert_eq!(refused, "has HermiteCurves and no BasisCurves, which alone are read: convert them");
 }
+
+#[test]
+fn widths_as_a_primvar_win_over_the_attribute() {
+    for (widths, expected) in [
+        ("float[] widths = [0.5, 0.5]", 0.5),
+        ("float[] primvars:widths = [0.25, 0.25] ( interpolation = \"vertex\" )", 0.25),
+        ("float[] widths = [0.5, 0.5]\n float[] primvars:widths = [0.25, 0.25] ( interpolation = \"vertex\" )", 0.25),
+    ] {
+        let mut stage = reader(format!(
+            "#usda 1.0\ndef BasisCurves \"h\" {{ uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n\
+             point3f[] points = [(0, 0, 0), (1, 0, 0)]\n{widths} }}\n"
+        ));
+        assert_eq!(stage.hair(0, None).unwrap().attributes.width, Some(vec![expected; 2]), "{widths}");
+    }
+}

@@ -142,6 +142,34 @@ fn text_is_the_same_wherever_it_is_cut_into_parts() {
 }
 
 #[test]
+fn comments_of_any_kind_stand_between_prims_and_values_also_at_the_end_of_a_window() {
+    let text = "/* a * block { */ def Xform \"a\" // a line {\n{ /* of\n two ** lines */ def BasisCurves \"h\" /**/ {\n\
+                rel x = [</a/b>, /* </c */ </d>]\n uniform token type = \"linear\" // no cubic\n int[] curveVertexCounts = [2]\n\
+                point3f[] points = [(0, 0, 0), /* ) ] 7 */ (1, // 8 ]\n 2, 3)] # (\n } // }\n }\n//";
+    // The window holds 2^18 bytes: a comment before it moves its end through all that follows.
+    for length in (0..8).chain((1 << 18) - text.len() - 40..(1 << 18)) {
+        let hair = reader(format!("#usda 1.0\n#{}\n{text}", "x".repeat(length))).hair(0, None).unwrap();
+        assert_eq!(hair.strands.points(), [Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0)], "moved by {length}");
+    }
+    let open = StageReader::new(Cursor::new(b"#usda 1.0\n/* def".to_vec())).map(|_| ()).unwrap_err().to_string();
+    assert_eq!(open, "line 2: a comment that is never closed");
+}
+
+#[test]
+fn paths_of_files_may_hold_the_sign_that_encloses_them() {
+    for path in ["@a.usd@", "@@@a@b.usd@@@", "@@@a\\@@@b.usd@@@", "@@@a@b@@@@@", "@@@a@@@", "@@"] {
+        for value in [format!("{path}</x>"), format!("[{path}, {path}</x>]")] {
+            let text = format!(
+                "#usda 1.0\ndef Xform \"a\" ( payload = {value} ) {{ asset b = {path} }}\n\
+                 def BasisCurves \"h\" {{ uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n\
+                 point3f[] points = [(0, 0, 0), (1, 0, 0)] }}\n"
+            );
+            assert_eq!(reader(text).hair(0, None).unwrap().strands.len(), 1, "{value}");
+        }
+    }
+}
+
+#[test]
 fn the_moving_head_carries_hair_and_skin() {
     let (hair, mesh) = (groom(), tetrahedron());
     for name in NAMES {

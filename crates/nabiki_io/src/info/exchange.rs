@@ -103,7 +103,12 @@ impl ExchangeInfo {
         let has = |paths: &[String]| !paths.is_empty();
         let hair = has(&contents.curves).then(|| file.ask(|r| r.hair(0, None))).transpose()?;
         let mesh = has(&contents.meshes).then(|| file.ask(|r| r.mesh())).transpose()?;
-        let (hair, mesh) = (hair.as_ref().map(HairInfo::of), mesh.as_ref().map(MeshInfo::of));
+        let (hair, mut mesh) = (hair.as_ref().map(HairInfo::of), mesh.as_ref().map(MeshInfo::of));
+        if let Some(mesh) = &mut mesh {
+            mesh.unread = file.ask(|r| r.mesh_unread())?;
+            // What the hair says already.
+            mesh.unread.retain(|line| hair.as_ref().is_none_or(|hair| !hair.unread.contains(line)));
+        }
         // One guess for the whole file, and only of what it leaves open.
         let likely = hair.as_ref().map(|hair| hair.guess).or(mesh.as_ref().map(|mesh| mesh.guess)).flatten();
         let guess = likely

@@ -34,6 +34,9 @@ pub struct MeshInfo {
     pub open_edges: usize,
     /// Edges with more than two triangles.
     pub crowded_edges: usize,
+    /// What of the file's meshes is left out or not obeyed, a phrase each.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub unread: Vec<String>,
     /// Unit that would make it a person's head, bust or body, if y is up; `None` where it is known.
     #[serde(flatten)]
     pub guess: Option<Guess>,
@@ -94,6 +97,7 @@ impl MeshInfo {
             crowded_edges: edges.values().filter(|&&n| n > 2).count(),
             guess: Some(Guess { likely_unit: likely_unit(bounds.max[1] - bounds.min[1]), likely_up: None }),
             bounds,
+            unread: Vec::new(),
             unit_cm: None,
             up: None,
             clips: Vec::new(),
@@ -122,6 +126,9 @@ impl fmt::Display for MeshInfo {
         writeln!(f, "edges: {} open, {} with more than two triangles", self.open_edges, self.crowded_edges)?;
         let (doubled, degenerate) = (self.doubled_vertices, self.degenerate_triangles);
         write!(f, "degenerate: {degenerate} triangles without area; {doubled} doubled vertices")?;
+        for unread in &self.unread {
+            write!(f, "\nnot read: {unread}")?;
+        }
         if !self.clips.is_empty() {
             let clips = self.clips.iter().map(|clip| match clip.end {
                 Some(end) => format!("{} ({end:.3} s)", clip.name),

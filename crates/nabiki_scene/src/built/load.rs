@@ -360,7 +360,7 @@ impl LoadedHead {
     /// That of a scene that is built.
     fn of(built: &BuiltScene) -> Self {
         let (head, placement) = (built.head.clone(), built.placement);
-        Self { head, placement, report: built.mesh_report, declared: built.head_declared }
+        Self { head, placement, report: built.mesh_report.clone(), declared: built.head_declared }
     }
 }
 

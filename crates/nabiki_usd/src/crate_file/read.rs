@@ -9,6 +9,7 @@ use super::integers::{most_integers, unpack, unpack_integers};
 use super::numbers::{Scalar, inlined, shape};
 use super::{END_OF_SET, HEADER, MAGIC, Rep, specs, types};
 use crate::Problem;
+use crate::arcs;
 use crate::source::{AttributeInfo, Handle, PrimInfo};
 
 /// Arrays shorter than this are not packed even where they say so.
@@ -115,13 +116,30 @@ impl<R: Read + Seek> CrateReader<R> {
                     layer.1.extend(named.iter().map(|&(name, rep)| (name.to_owned(), (rep, 0))));
                 }
                 specs::PRIM if !node.is_property => {
-                    let parent = node.parent.and_then(|p| prim_of_node.get(&p).copied());
+                    let above = node.parent.filter(|&p| nodes[p].parent.is_some());
+                    let parent = above.and_then(|p| prim_of_node.get(&p).copied());
+                    // In a variant.
+                    if above.is_some() && parent.is_none() {
+                        continue;
+                    }
                     let type_name = word(field("typeName"));
                     prim_of_node.insert(i, layer.0.len());
+                    const OVER: u64 = 1;
                     const CLASS: u64 = 2;
                     let is = |name: &str, value: u64| field(name).is_some_and(|rep| Rep(rep).payload() == value);
                     let is_off_stage = is("specifier", CLASS) || is("active", 0);
-                    layer.0.push(PrimInfo { name, type_name, is_off_stage, parent, ..PrimInfo::default() });
+                    let is_over = is("specifier", OVER);
+                    let named_arcs = arcs::OF_PRIMS.map(|(arc, name)| (arc, field(name)));
+                    let mut arcs = Vec::new();
+                    for (arc, rep) in named_arcs {
+                        if let Some(rep) = rep
+                            && reader.holds_any(rep)?
+                        {
+                            arcs.push(arc);
+                        }
+                    }
+                    let prim = PrimInfo { name, type_name, is_off_stage, is_over, parent, arcs, ..PrimInfo::default() };
+                    layer.0.push(prim);
                 }
                 specs::ATTRIBUTE => {
                     let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&p)) else { continue };
@@ -130,11 +148,12 @@ impl<R: Read + Seek> CrateReader<R> {
                     let is_array = type_name.ends_with("[]");
                     let type_name = type_name.trim_end_matches("[]").to_owned();
                     let interpolation = field("interpolation").map(|rep| (rep, 0));
+                    let has_spline = field("spline").is_some();
                     let samples = field("timeSamples");
                     let samples = samples.map(|rep| reader.samples(Rep(rep))).transpose()?.unwrap_or_default();
+                    let read = AttributeInfo { type_name, is_array, default, has_spline, samples, interpolation };
                     let prim: &mut PrimInfo = &mut layer.0[prim];
-                    prim.attributes
-                        .insert(name, AttributeInfo { type_name, is_array, default, samples, interpolation });
+                    prim.attributes.insert(name, read);
                 }
                 specs::RELATIONSHIP => {
                     let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&p)) else { continue };
@@ -144,6 +163,19 @@ impl<R: Read + Seek> CrateReader<R> {
             }
         }
         Ok((reader, layer.0, layer.1))
+    }
+
+    /// Whether what names other content names any.
+    pub fn holds_any(&mut self, rep: u64) -> Result<bool, Problem> {
+        let rep = Rep(rep);
+        match rep.kind() {
+            // Flags come first: those of lists that are set, or that items are added, prepended or appended to.
+            types::TOKEN_LIST..=types::REFERENCE_LIST | types::PAYLOAD_LIST => {
+                Ok(self.bytes(rep.payload(), 1)?[0] & 0b0110_0110 != 0)
+            }
+            types::STRING_VECTOR => Ok(number(&self.bytes(rep.payload(), 8)?) != 0),
+            _ => Ok(true),
+        }
     }
 
     /// Time codes and values of an attribute.

@@ -73,7 +73,19 @@ pub struct Numbers<T> {
     pub found: Vec<T>,
     /// Parentheses that are open.
     open: usize,
-    in_comment: bool,
+    comment: Comment,
+}
+
+/// What of a comment was read last.
+#[derive(Clone, Copy, PartialEq)]
+enum Comment {
+    None,
+    /// A slash, which may begin one.
+    Slash,
+    Line,
+    Block,
+    /// A star in a block, which a slash would close.
+    Star,
 }
 
 /// Whether a byte can be part of a number or of what stands for one.
@@ -84,7 +96,7 @@ pub fn is_part(byte: u8) -> bool {
 impl<T: Number> Numbers<T> {
     /// None so far.
     pub fn new() -> Self {
-        Self { found: Vec::new(), open: 0, in_comment: false }
+        Self { found: Vec::new(), open: 0, comment: Comment::None }
     }
 
     /// Reads on in text that neither begins nor ends within a number. `inf`, `nan`, `true` and `false` count, other words
@@ -92,14 +104,26 @@ impl<T: Number> Numbers<T> {
     pub fn read(&mut self, text: &[u8]) -> Result<(), Problem> {
         let mut at = 0;
         while let Some(&byte) = text.get(at) {
-            if self.in_comment {
-                self.in_comment = byte != b'\n';
+            if self.comment != Comment::None {
+                self.comment = match (self.comment, byte) {
+                    (Comment::Line, b'\n') | (Comment::Star, b'/') => Comment::None,
+                    (Comment::Block | Comment::Star, b'*') => Comment::Star,
+                    (Comment::Star, _) => Comment::Block,
+                    (Comment::Slash, b'/') => Comment::Line,
+                    (Comment::Slash, b'*') => Comment::Block,
+                    (Comment::Slash, _) => {
+                        self.comment = Comment::None;
+                        continue;
+                    }
+                    (comment, _) => comment,
+                };
                 at += 1;
             } else if !is_part(byte) {
                 match byte {
                     b'(' => self.open += 1,
                     b')' => self.open = self.open.checked_sub(1).ok_or_else(unmatched)?,
-                    b'#' => self.in_comment = true,
+                    b'#' => self.comment = Comment::Line,
+                    b'/' => self.comment = Comment::Slash,
                     _ => {}
                 }
                 at += 1;

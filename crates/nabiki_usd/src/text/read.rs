@@ -7,6 +7,7 @@ use std::str::FromStr;
 use super::numbers::{Number, Numbers, is_part};
 use super::scan::{Scanner, WINDOW};
 use crate::Problem;
+use crate::arcs;
 use crate::source::{Handle, PrimInfo, Source};
 
 /// Prims below prims.
@@ -53,7 +54,8 @@ pub fn parse(from: &mut dyn Source, length: u64) -> Result<Parsed, Problem> {
                     return Err(text.problem("prims nested deeper than any scene is"));
                 }
                 let is_off_stage = word == "class";
-                prims.push(PrimInfo { name, type_name, is_off_stage, parent, ..PrimInfo::default() });
+                let is_over = word == "over";
+                prims.push(PrimInfo { name, type_name, is_off_stage, is_over, parent, ..PrimInfo::default() });
             }
             "variantSet" => {
                 text.quoted()?;
@@ -73,16 +75,16 @@ pub fn parse(from: &mut dyn Source, length: u64) -> Result<Parsed, Problem> {
         return Err(Problem(format!("ends within prim {}: is it whole?", prims[prim].name)));
     }
     for (prim, details) in details {
-        prims[prim].is_off_stage |= is_inactive(from, details)?;
+        note_details(from, details, &mut prims[prim])?;
     }
     Ok((prims, metadata))
 }
 
-/// Whether `active = false` stands among the details of a prim.
-fn is_inactive(from: &mut dyn Source, details: Handle) -> Result<bool, Problem> {
+/// Notes of the details of a prim whether `active = false` stands there, and which arcs.
+fn note_details(from: &mut dyn Source, details: Handle, prim: &mut PrimInfo) -> Result<(), Problem> {
     let mut text = Scanner::new(from, details)?;
     text.expect(b'(')?;
-    let mut asked = false;
+    let (mut asked, mut takes_away) = (false, false);
     while let Some(byte) = text.peek()? {
         match byte {
             b'"' | b'\'' | b'@' | b'<' | b'[' | b'(' | b'{' => {
@@ -90,15 +92,36 @@ fn is_inactive(from: &mut dyn Source, details: Handle) -> Result<bool, Problem> 
             }
             b if b.is_ascii_alphanumeric() => {
                 let word = text.word()?;
-                if asked && matches!(word.as_str(), "false" | "0") {
-                    return Ok(true);
-                }
+                prim.is_off_stage |= asked && matches!(word.as_str(), "false" | "0");
                 asked = word == "active";
+                let arc = arcs::OF_PRIMS.into_iter().map(|(arc, _)| arc).find(|&arc| arc == word);
+                if let Some(arc) = arc.filter(|_| !takes_away)
+                    && text.peek()? == Some(b'=')
+                {
+                    text.pass();
+                    if begins_to_hold_any(&mut text)? && !prim.arcs.contains(&arc) {
+                        prim.arcs.push(arc);
+                    }
+                }
+                takes_away = matches!(word.as_str(), "delete" | "reorder");
             }
             _ => text.pass(),
         }
     }
-    Ok(false)
+    Ok(())
+}
+
+/// Whether anything stands in a value, the bracket of whose list is passed over: it is neither `None` nor an empty list.
+fn begins_to_hold_any(text: &mut Scanner<'_>) -> Result<bool, Problem> {
+    if text.peek()? == Some(b'[') {
+        text.pass();
+    }
+    Ok(text.peek()?.is_some_and(|b| b != b']' && !b.is_ascii_alphabetic()))
+}
+
+/// Whether a value is neither `None` nor an empty list.
+pub fn holds_any(from: &mut dyn Source, value: Handle) -> Result<bool, Problem> {
+    begins_to_hold_any(&mut Scanner::new(from, value)?)
 }
 
 /// Passes over the layer's metadata in parentheses, noting `name = value`.
@@ -156,6 +179,10 @@ fn property(text: &mut Scanner<'_>, first: String, prim: &mut PrimInfo) -> Resul
         Some(name) => (name, true),
         None => (name.as_str(), false),
     };
+    let (name, is_spline) = match name.strip_suffix(".spline") {
+        Some(name) => (name, true),
+        None => (name, false),
+    };
     let connection = name.ends_with(".connect");
     if text.peek()? == Some(b'=') {
         text.pass();
@@ -168,10 +195,11 @@ fn property(text: &mut Scanner<'_>, first: String, prim: &mut PrimInfo) -> Resul
             let samples = if timed { Some(samples(text)?) } else { None };
             let value = if timed { None } else { Some(text.skip_value()?) };
             let attribute = prim.attributes.entry(name.to_owned()).or_default();
+            attribute.has_spline |= is_spline;
             attribute.type_name.clone_from(type_name);
             attribute.is_array = is_array;
             attribute.samples = samples.unwrap_or(std::mem::take(&mut attribute.samples));
-            attribute.default = value.or(attribute.default);
+            attribute.default = value.filter(|_| !is_spline).or(attribute.default);
         }
     }
     if text.peek()? == Some(b'(') {

@@ -84,11 +84,12 @@ impl<'a> Scanner<'a> {
     pub fn peek(&mut self) -> Result<Option<u8>, Problem> {
         while let Some(byte) = self.here()? {
             match byte {
-                b'#' => {
-                    while self.here()?.is_some_and(|b| b != b'\n') {
-                        self.at += 1;
-                    }
-                }
+                b'#' => self.skip_line()?,
+                b'/' => match self.after_next()? {
+                    Some(b'/') => self.skip_line()?,
+                    Some(b'*') => self.skip_block()?,
+                    _ => return Ok(Some(b'/')),
+                },
                 b if b.is_ascii_whitespace() => {
                     self.line_ended |= b == b'\n';
                     self.at += 1;
@@ -97,6 +98,42 @@ impl<'a> Scanner<'a> {
             }
         }
         Ok(None)
+    }
+
+    /// The byte after the next one.
+    fn after_next(&mut self) -> Result<Option<u8>, Problem> {
+        if self.at + 1 == self.window.len() && self.after > 0 {
+            let more = self.after.min(WINDOW as u64 - 1);
+            self.before += self.at as u64;
+            self.window.drain(..self.at);
+            self.at = 0;
+            self.window.resize(1 + more as usize, 0);
+            self.from.read_exact(&mut self.window[1..])?;
+            self.after -= more;
+        }
+        Ok(self.window.get(self.at + 1).copied())
+    }
+
+    /// Passes over a comment up to the end of the line.
+    fn skip_line(&mut self) -> Result<(), Problem> {
+        while self.here()?.is_some_and(|b| b != b'\n') {
+            self.at += 1;
+        }
+        Ok(())
+    }
+
+    /// Passes over a comment between `/*` and `*/`.
+    fn skip_block(&mut self) -> Result<(), Problem> {
+        self.at += 2;
+        let mut starred = false;
+        while let Some(byte) = self.here()? {
+            self.at += 1;
+            if starred && byte == b'/' {
+                return Ok(());
+            }
+            starred = byte == b'*';
+        }
+        Err(self.problem("a comment that is never closed"))
     }
 
     /// Passes over the byte that [`peek`](Self::peek) gave.
@@ -187,7 +224,7 @@ impl<'a> Scanner<'a> {
             Some(b'"' | b'\'') => {
                 self.quoted()?;
             }
-            Some(b'@') => self.skip_until(b'@')?,
+            Some(b'@') => self.skip_asset()?,
             Some(b'<') => self.skip_until(b'>')?,
             _ => {
                 self.word()?;
@@ -196,8 +233,45 @@ impl<'a> Scanner<'a> {
         Ok((start, self.place() - start))
     }
 
+    /// Passes over the path of a file, which three signs enclose where one is in it.
+    fn skip_asset(&mut self) -> Result<(), Problem> {
+        let mut opening = 0;
+        while opening < 3 && self.here()? == Some(b'@') {
+            opening += 1;
+            self.pass();
+        }
+        if opening == 1 {
+            return self.skip_to(b'@');
+        }
+        let mut closing = if opening == 2 { 3 } else { 0 };
+        let mut escaped = false;
+        while closing < 3 {
+            let Some(byte) = self.here()? else { return Err(self.problem("a path that is never closed")) };
+            self.pass();
+            // Of three after a backslash none closes.
+            for _ in 0..2 {
+                if byte == b'@' && escaped && self.here()? == Some(b'@') {
+                    self.pass();
+                }
+            }
+            closing = if byte == b'@' && !escaped { closing + 1 } else { 0 };
+            escaped = byte == b'\\';
+        }
+        // Up to two more belong to the path.
+        for _ in 0..2 {
+            if opening == 3 && self.here()? == Some(b'@') {
+                self.pass();
+            }
+        }
+        Ok(())
+    }
+
     fn skip_until(&mut self, end: u8) -> Result<(), Problem> {
         self.pass();
+        self.skip_to(end)
+    }
+
+    fn skip_to(&mut self, end: u8) -> Result<(), Problem> {
         while let Some(byte) = self.here()? {
             self.pass();
             if byte == end {
@@ -232,7 +306,7 @@ impl<'a> Scanner<'a> {
                 Some(b'"' | b'\'') => {
                     self.quoted()?;
                 }
-                Some(b'@') => self.skip_until(b'@')?,
+                Some(b'@') => self.skip_asset()?,
                 Some(_) => self.pass(),
                 None => return Err(self.problem("a bracket that is never closed: is the file whole?")),
             }
@@ -244,9 +318,9 @@ impl<'a> Scanner<'a> {
 
     /// Passes over bytes that mean nothing within a list of numbers.
     fn skip_unmarked(&mut self) -> Result<(), Problem> {
-        // Closing and opening brackets and braces differ in three bits only; the few letters that share the others
-        // are let go by the caller.
-        let is_mark = |b: u8| (b | 0x26 == 0x7f) | (b == b'"') | (b == b'\'') | (b == b'#') | (b == b'@');
+        // Closing and opening brackets and braces differ in three bits only, quotation marks and what begins comments in
+        // one each; the few letters that share the others are let go by the caller.
+        let is_mark = |b: u8| (b | 0x26 == 0x7f) | (b | 1 == b'#') | (b | 8 == b'/') | (b == b'@');
         while self.fill()? {
             let rest = &self.window[self.at..];
             let (blocks, _) = rest.as_chunks::<64>();

@@ -1,0 +1,34 @@
+//! Composition arcs, by which a layer takes content from elsewhere: they are not followed, which is said.
+
+use crate::Problem;
+use crate::opened::Layer;
+
+/// The arcs of prims, each by the word of text layers and by that of binary ones. Of value clips samples come.
+pub const OF_PRIMS: [(&str, &str); 6] = [
+    ("references", "references"),
+    ("payload", "payload"),
+    ("inherits", "inheritPaths"),
+    ("specializes", "specializes"),
+    ("variantSets", "variantSetNames"),
+    ("clips", "clips"),
+];
+
+/// How to have them followed.
+pub const FLATTEN: &str = "flatten it first (usdcat --flatten IN -o OUT)";
+
+/// What comes to the stage by arcs, as a phrase.
+pub fn unread(layer: &mut Layer) -> Result<Option<String>, Problem> {
+    let mut found = Vec::new();
+    if layer.has_sublayers()? {
+        found.push("subLayers of the layer".to_owned());
+    }
+    for prim in (0..layer.prims.len()).filter(|&prim| layer.is_active(prim)) {
+        found.extend(layer.prims[prim].arcs.iter().map(|arc| format!("{arc} of {}", layer.path(prim))));
+    }
+    let Some(first) = found.first() else { return Ok(None) };
+    let more = match found.len() - 1 {
+        0 => String::new(),
+        more => format!(", and by {more} more of its arcs"),
+    };
+    Ok(Some(format!("what comes by {first}{more}: {FLATTEN}")))
+}

@@ -1,0 +1,41 @@
+//! Which meshes of a layer make its head, and what is said of them.
+
+use crate::Problem;
+use crate::opened::Layer;
+use crate::shown::hidden;
+
+/// The meshes that make a head.
+pub struct Chosen {
+    /// Their prims.
+    pub prims: Vec<usize>,
+    /// What is left out or not obeyed, a phrase each.
+    pub unread: Vec<String>,
+}
+
+/// The meshes that show; all, where none does.
+pub fn chosen(layer: &mut Layer) -> Result<Chosen, Problem> {
+    let mut all = Vec::new();
+    for prim in layer.with_points("Mesh") {
+        all.push((prim, hidden(layer, prim)?));
+    }
+    let any_shows = all.iter().any(|(_, hidden)| hidden.iter().all(|hidden| hidden.at_times));
+    let (mut prims, mut unread) = (Vec::new(), layer.without_points("Mesh", "mesh"));
+    for (prim, hidden) in all {
+        let path = layer.path(prim);
+        match hidden.iter().find(|hidden| !hidden.at_times) {
+            Some(hidden) if any_shows => {
+                unread.push(format!("mesh {path}, which does not show: {}", hidden.reason()));
+                continue;
+            }
+            _ => unread.extend(hidden.iter().map(|hidden| hidden.kept())),
+        }
+        let holes = layer.at(prim, "holeIndices", f64::NEG_INFINITY).map(|holes| layer.integers(holes)).transpose()?;
+        if let Some(holes) = holes.filter(|holes| !holes.is_empty()) {
+            unread.push(format!("holeIndices of {path}: the {} faces that they take out are kept", holes.len()));
+        }
+        prims.push(prim);
+    }
+    unread.sort();
+    unread.dedup();
+    Ok(Chosen { prims, unread })
+}

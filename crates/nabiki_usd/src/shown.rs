@@ -1,0 +1,70 @@
+//! Visibility and purpose, which come down from the prims above.
+
+use crate::Problem;
+use crate::opened::Layer;
+use crate::source::Handle;
+
+/// What keeps a prim out of a final picture.
+pub struct Hidden {
+    /// The path of the prim that says so.
+    by: String,
+    /// The attribute that does.
+    name: &'static str,
+    value: String,
+    /// Whether it holds in some frames only.
+    pub at_times: bool,
+}
+
+impl Hidden {
+    /// The same as a phrase about what is read all the same.
+    pub fn kept(&self) -> String {
+        let Self { by, name, value, at_times } = self;
+        format!("{name} of {by}: it is \"{value}\" there{}", if *at_times { " at some frames" } else { "" })
+    }
+
+    /// The same as a reason.
+    pub fn reason(&self) -> String {
+        format!("{} of {} is \"{}\"", self.name, self.by, self.value)
+    }
+}
+
+/// What keeps a prim out of a final picture; nothing for one that shows.
+pub fn hidden(layer: &mut Layer, prim: usize) -> Result<Vec<Hidden>, Problem> {
+    // A prim without a type has neither in USD.
+    let upward: Vec<usize> = layer.upward(prim).filter(|&i| !layer.prims[i].type_name.is_empty()).collect();
+    let mut found = Vec::new();
+    for &i in &upward {
+        if let Some(at_times) = invisible(layer, i)? {
+            found.push(Hidden { by: layer.path(i), name: "visibility", value: "invisible".to_owned(), at_times });
+        }
+    }
+    for &i in &upward {
+        let Some(value) = layer.word(i, "purpose")? else { continue };
+        // The nearest that says one has it for all below.
+        if matches!(value.as_str(), "guide" | "proxy") {
+            found.push(Hidden { by: layer.path(i), name: "purpose", value, at_times: false });
+        }
+        break;
+    }
+    Ok(found)
+}
+
+/// Whether a prim is itself invisible: `Some(true)` at some of its time codes, `Some(false)` at all.
+fn invisible(layer: &mut Layer, prim: usize) -> Result<Option<bool>, Problem> {
+    let Some(attribute) = layer.prims[prim].attributes.get("visibility") else { return Ok(None) };
+    let values: Vec<Handle> = match &attribute.samples[..] {
+        [] => attribute.default.into_iter().collect(),
+        samples => samples.iter().map(|&(_, value)| value).collect(),
+    };
+    let (mut seen, mut unseen) = (false, false);
+    for value in values {
+        match layer.words(value)?.first().map(String::as_str) {
+            Some("invisible") => unseen = true,
+            _ => seen = true,
+        }
+        if seen && unseen {
+            break;
+        }
+    }
+    Ok(unseen.then_some(seen))
+}

@@ -1,0 +1,201 @@
+//! What of a layer is on its stage and shows, and what is said of the rest.
+
+use std::io::Cursor;
+
+use nabiki_exchange::GroomReader;
+use nabiki_usd::StageReader;
+
+fn reader(text: &str) -> StageReader {
+    StageReader::new(Cursor::new(format!("#usda 1.0\n{text}").into_bytes())).unwrap()
+}
+
+/// A closed mesh of four vertices, with something else said of it.
+fn mesh(name: &str, more: &str) -> String {
+    format!(
+        "def Mesh \"{name}\" {{ point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]\n\
+         int[] faceVertexCounts = [3, 3, 3, 3]\n int[] faceVertexIndices = [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]\n{more} }}\n"
+    )
+}
+
+/// A curve of two points, with something else said of it.
+fn curve(name: &str, more: &str) -> String {
+    format!(
+        "def BasisCurves \"{name}\" {{ uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n\
+         point3f[] points = [(0, 0, 0), (1, 0, 0)]\n{more} }}\n"
+    )
+}
+
+/// How many such curves are read, and what is said of them.
+fn curves(text: &str) -> (usize, Vec<String>) {
+    let hair = reader(text).hair(0, None).unwrap();
+    (hair.strands.len(), hair.attributes.unread)
+}
+
+/// How many such meshes are read, and what is said of them.
+fn meshes(text: &str) -> (usize, Vec<String>) {
+    let mut stage = reader(text);
+    (stage.mesh().unwrap().positions.len() / 4, stage.mesh_unread().unwrap())
+}
+
+#[test]
+fn meshes_that_do_not_show_are_left_out_beside_those_that_do_and_that_is_said() {
+    let head = mesh("head", "uniform token purpose = \"render\"");
+    assert_eq!(meshes(&head), (1, Vec::new()));
+    for (mark, value) in
+        [("uniform token purpose", "proxy"), ("uniform token purpose", "guide"), ("token visibility", "invisible")]
+    {
+        let name = mark.rsplit(' ').next().unwrap();
+        let own = mesh("other", &format!("{mark} = \"{value}\""));
+        let said = format!("mesh /other, which does not show: {name} of /other is \"{value}\"");
+        assert_eq!(meshes(&format!("{head}{own}")), (1, vec![said]));
+        let above = format!("def Xform \"a\" {{ {mark} = \"{value}\"\n {} }}\n", mesh("b", ""));
+        let said = format!("mesh /a/b, which does not show: {name} of /a is \"{value}\"");
+        assert_eq!(meshes(&format!("{above}{head}")), (1, vec![said]));
+        // Alone it is the head.
+        assert_eq!(meshes(&own), (1, vec![format!("{name} of /other: it is \"{value}\" there")]));
+    }
+    // The nearest purpose holds; an invisible prim hides whatever is below it.
+    let nearest = format!(
+        "def Xform \"a\" {{ uniform token purpose = \"guide\"\n {} }}\n",
+        mesh("b", "uniform token purpose = \"default\"")
+    );
+    assert_eq!(meshes(&format!("{nearest}{head}")), (2, Vec::new()));
+    let hidden = format!(
+        "def Xform \"a\" {{ token visibility = \"invisible\"\n {} }}\n",
+        mesh("b", "token visibility = \"inherited\"")
+    );
+    assert_eq!(meshes(&format!("{hidden}{head}")).0, 1);
+    // Neither says anything on a prim without a type.
+    let untyped = format!("def \"a\" {{ token visibility = \"invisible\"\n {} }}\n", mesh("b", ""));
+    assert_eq!(meshes(&format!("{untyped}{head}")), (2, Vec::new()));
+}
+
+#[test]
+fn holes_and_meshes_invisible_at_times_are_kept_and_said() {
+    let holed = mesh(
+        "head",
+        "int[] holeIndices = [1, 3]\n token visibility.timeSamples = { 1: \"invisible\", 5: \"inherited\" }",
+    );
+    let said = [
+        "holeIndices of /head: the 2 faces that they take out are kept",
+        "visibility of /head: it is \"invisible\" there at some frames",
+    ];
+    assert_eq!(meshes(&format!("{holed}{}", mesh("neck", ""))), (2, said.map(str::to_owned).to_vec()));
+    let never = mesh("ghost", "token visibility.timeSamples = { 1: \"invisible\", 5: \"invisible\" }");
+    assert_eq!(meshes(&format!("{never}{}", mesh("head", ""))).0, 1);
+}
+
+#[test]
+fn curves_that_do_not_show_are_read_and_that_is_said_once() {
+    let below = |mark: &str| format!("def Xform \"a\" {{ {mark}\n {}{} }}\n", curve("h", ""), curve("i", ""));
+    for (mark, said) in [
+        ("token visibility = \"invisible\"", "visibility of /a: it is \"invisible\" there"),
+        ("uniform token purpose = \"guide\"", "purpose of /a: it is \"guide\" there"),
+        (
+            "token visibility.timeSamples = { 1: \"inherited\", 5: \"invisible\" }",
+            "visibility of /a: it is \"invisible\" there at some frames",
+        ),
+    ] {
+        assert_eq!(curves(&below(mark)), (2, vec![said.to_owned()]));
+    }
+    let nearest = format!(
+        "def Xform \"a\" {{ uniform token purpose = \"guide\"\n {} }}\n",
+        curve("h", "uniform token purpose = \"render\"")
+    );
+    assert_eq!(curves(&nearest), (1, Vec::new()));
+}
+
+const FLATTEN: &str = "flatten it first (usdcat --flatten IN -o OUT)";
+
+#[test]
+fn what_comes_by_arcs_is_said_in_one_line() {
+    let own = curve("own", "");
+    for (arc, line) in [
+        ("references = @r.usda@", Some("references of /a")),
+        ("prepend references = [ @r.usda@</x> ( offset = 10 ), </own> ]", Some("references of /a")),
+        ("payload = @p.usda@", Some("payload of /a")),
+        ("prepend inherits = </own>", Some("inherits of /a")),
+        ("specializes = </own>", Some("specializes of /a")),
+        ("prepend variantSets = \"style\"", Some("variantSets of /a")),
+        ("clips = { dictionary default = { asset[] assetPaths = [@c.usda@] } }", Some("clips of /a")),
+        ("references = None", None),
+        ("references = [ ]", None),
+        ("delete references = @r.usda@", None),
+        ("customData = { string references = \"none\" }", None),
+        ("references = @r.usda@\n active = false", None),
+    ] {
+        let (count, unread) = curves(&format!("{own}def Xform \"a\" ( {arc} ) {{ }}\n"));
+        let said: Vec<String> = line.iter().map(|line| format!("what comes by {line}: {FLATTEN}")).collect();
+        assert_eq!((count, unread), (1, said), "{arc}");
+    }
+    let two = "( subLayers = [ @s.usda@ ] )\ndef Xform \"a\" ( references = @r.usda@ ) { }\n";
+    let said = format!("what comes by subLayers of the layer, and by 1 more of its arcs: {FLATTEN}");
+    assert_eq!(curves(&format!("{two}{own}")), (1, vec![said.clone()]));
+    assert_eq!(curves(&format!("( subLayers = [] )\n{own}")), (1, Vec::new()));
+    assert_eq!(meshes(&format!("{two}{}", mesh("head", ""))), (1, vec![said]));
+    let refused = reader(two).mesh().unwrap_err().to_string();
+    assert_eq!(refused, format!("has no meshes: if they come by reference, {FLATTEN}"));
+}
+
+/// The second is the first as usd-core exports it. Variants hold curves, which are on no stage by themselves.
+#[test]
+fn arcs_and_variants_are_alike_in_text_and_in_binary() {
+    for name in ["composed.usda", "composed.usdc"] {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files").join(name);
+        let mut stage = StageReader::open(&path).unwrap();
+        assert_eq!(stage.contents().unwrap().curves, ["/own"], "{name}");
+        let said = format!("what comes by subLayers of the layer, and by 5 more of its arcs: {FLATTEN}");
+        assert_eq!(stage.hair(0, None).unwrap().attributes.unread, [said], "{name}");
+    }
+}
+
+#[test]
+fn what_is_empty_is_left_out_beside_what_is_not() {
+    let (empty, hair) = ("def BasisCurves \"e\" { }\n", curve("h", ""));
+    for text in [format!("{empty}{hair}"), format!("{hair}{empty}")] {
+        assert_eq!(curves(&text), (1, vec!["curves /e: no points".to_owned()]));
+        assert_eq!(reader(&text).contents().unwrap().curves, ["/h"]);
+    }
+    assert_eq!(reader(empty).hair(0, None).unwrap_err().to_string(), "curves /e: have no points");
+    let (empty, head) = ("def Mesh \"e\" { }\n", mesh("head", ""));
+    for text in [format!("{empty}{head}"), format!("{head}{empty}")] {
+        assert_eq!(meshes(&text), (1, vec!["mesh /e: no points".to_owned()]));
+    }
+    assert_eq!(reader(empty).contents().unwrap().meshes, [""; 0]);
+    assert_eq!(reader(empty).mesh().unwrap_err().to_string(), "mesh /e: has no points");
+}
+
+#[test]
+fn an_over_without_a_def_is_not_on_the_stage() {
+    let curves_of = |name: &str| curve(name, "").replace("def ", "over ");
+    assert_eq!(curves(&format!("{}{}", curve("h", ""), curves_of("o"))), (1, Vec::new()));
+    assert_eq!(curves(&format!("{}over \"a\" {{ {} }}\n", curve("h", ""), curve("i", ""))), (1, Vec::new()));
+    let head = mesh("head", "");
+    assert_eq!(meshes(&format!("{head}{}", mesh("o", "").replace("def ", "over "))), (1, Vec::new()));
+    let refused = reader(&curves_of("o")).hair(0, None).unwrap_err().to_string();
+    let why = "an over defines nothing by itself: give the layer that defines it";
+    assert_eq!(refused, format!("curves /o: {why}, or {FLATTEN}"));
+    // What another layer may define comes by its arcs.
+    let arc = format!("{}over \"a\" ( references = @r.usda@ ) {{ }}\n", curve("h", ""));
+    assert_eq!(curves(&arc), (1, vec![format!("what comes by references of /a: {FLATTEN}")]));
+}
+
+#[test]
+fn splines_are_refused_as_such_in_transforms_and_said_elsewhere() {
+    let spline = "{\n 0: 0; pre (0, 0); post held,\n 10: 90; post held,\n }";
+    let turned = |more: &str| {
+        let order = "uniform token[] xformOpOrder = [\"xformOp:rotateX\"]";
+        format!(
+            "def Xform \"a\" {{ float xformOp:rotateX.spline = {spline}\n {more}\n {order}\n {} }}\n",
+            curve("h", "")
+        )
+    };
+    let why = "prim /a: xformOp:rotateX is a spline, which is not read: bake it to time samples";
+    for more in ["", "float xformOp:rotateX = 3"] {
+        assert_eq!(reader(&turned(more)).hair(0, None).unwrap_err().to_string(), why);
+    }
+    // Samples win over a spline, as USD has it.
+    assert_eq!(curves(&turned("float xformOp:rotateX.timeSamples = { 0: 3 }")), (1, Vec::new()));
+    let (count, unread) = curves(&curve("h", &format!("float primvars:x = 3\n float primvars:x.spline = {spline}")));
+    assert!(count == 1 && unread.contains(&"the spline of primvars:x".to_owned()), "{unread:?}");
+}
