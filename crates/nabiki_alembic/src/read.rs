@@ -55,6 +55,9 @@ impl<R: Read + Seek> ArchiveReader<R> {
     ) -> Result<(Hair, Affine3A), Problem> {
         let inside = self.schema(object)?;
         let positions = required(&inside, "P", "")?;
+        if positions.samples == 0 {
+            return Ok((Hair::default(), Affine3A::IDENTITY));
+        }
         let (frame, share) = self.tree.timings[positions.timing].at(time, positions.samples);
         let mut points = self.tree.points(positions, frame)?;
         let header = required(&inside, "nVertices", "")?;
@@ -188,6 +191,9 @@ impl<R: Read + Seek> ArchiveReader<R> {
             if header.samples > MOST_FRAMES {
                 return Err(Problem(format!("its curves have {} samples, more than is read", header.samples)));
             }
+            if header.samples == 0 {
+                continue;
+            }
             let mut motion = Motion::default();
             motion.add(&self.tree.timings[header.timing], header.samples);
             if motion.times.len() < 2 {
@@ -299,7 +305,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
                 "AbcGeom_Curve" => {
                     let (curves, points) = (self.count(named("nVertices"))?, self.count(named("P"))?);
                     let cubic = match named("curveBasisAndType") {
-                        Some(header) => basis(&self.tree.sample(header, 0)?)? != Basis::Linear,
+                        Some(header) if header.samples > 0 => basis(&self.tree.sample(header, 0)?)? != Basis::Linear,
                         _ => false,
                     };
                     let time = self.time_of(0)?;

@@ -1,4 +1,4 @@
-//! Archives whose samples stand at other times than evenly spaced ones.
+//! Archives whose samples stand at other times than evenly spaced ones, or that lack some.
 
 use std::io::{Cursor, Read, Seek};
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use glam::{Affine3A, Vec3};
 use nabiki::{Hair, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
-use nabiki_exchange::{Export, FrameSink, GroomReader};
+use nabiki_exchange::{Export, FrameSink, GroomReader, PrimKind};
 
 const FRAME: f64 = 1.0 / 24.0;
 /// The cycle of times that follow no rule.
@@ -120,4 +120,13 @@ fn shutter_samples_of_alembics_own_library_are_read_at_whole_frames() {
     for placed in motion {
         assert!((placed.position.x - placed.time / FRAME).abs() < 1e-12, "{placed:?}");
     }
+}
+
+#[test]
+fn curves_without_a_sample_are_an_empty_object() {
+    let mut archive = foreign("empty_beside.abc");
+    assert_eq!(archive.hair(0, None).unwrap().strands.len(), 2);
+    let prims = archive.prims().unwrap();
+    assert!(matches!(prims[0].kind, PrimKind::Curves { curves: 0, points: 0, .. }), "{:?}", prims[0]);
+    assert_eq!(prims.len(), 2);
 }

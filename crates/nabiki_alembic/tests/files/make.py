@@ -4,7 +4,8 @@
     python3 crates/nabiki_alembic/tests/files/make.py
 
 Each holds two strands. In shutter.abc their points are sampled at each of three frames and a quarter of a frame later,
-in shutter_xf.abc the transform above them is: z and x are the time in frames.
+in shutter_xf.abc the transform above them is: z and x are the time in frames. In empty_beside.abc they stand beside
+curves that were never given a sample.
 """
 
 import gc
@@ -52,7 +53,12 @@ def moving_transform(archive):
     AbcGeom.OCurves(transform, "hair").getSchema().set(hair())
 
 
-for name, fill in [("shutter", moving_points), ("shutter_xf", moving_transform)]:
+def empty_beside(archive):
+    AbcGeom.OCurves(archive.getTop(), "bald")
+    AbcGeom.OCurves(archive.getTop(), "hair").getSchema().set(hair())
+
+
+for name, fill in [("shutter", moving_points), ("shutter_xf", moving_transform), ("empty_beside", empty_beside)]:
     archive = Abc.OArchive(str(HERE / f"{name}.abc"))
     fill(archive)
     # It is written whole when nothing holds it.
