@@ -285,7 +285,7 @@ fn root_uvs_under_a_name_of_their_own_keep_it_and_ids_that_are_none_are_said() {
     assert_eq!(at.root_uv, Some(vec![[0.0, 0.5], [1.0, 0.25]]));
     assert!(at.other.iter().any(|o| o.name == "rootuv"));
     assert_eq!(at.id, Some(vec![7, 7]));
-    let said = "ids that tell its strands apart: 1 strands have the id of another";
+    let said = "an id of its own for each strand: as read, 1 strand has the id of another";
     assert!(at.unread.iter().any(|line| line == said), "{:?}", at.unread);
 }
 
