@@ -8,21 +8,23 @@ use glam::{Affine3A, DMat4, DVec3, Vec3};
 use nabiki::hair::Stored;
 use nabiki::{Hair, Mesh};
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
-use nabiki_exchange::{Contents, Gathered, GroomReader, InPlace, Placed, Polygons, Prim, PrimKind, add_polygons};
+use nabiki_exchange::{
+    Contents, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Polygons, Prim, PrimKind, add_polygons,
+};
 
 use crate::Problem;
 use crate::attributes::Parameters;
-use crate::tree::{Form, Header, SAME_TIME, Tree};
+use crate::tree::{Form, Header, SAME_TIME, Timing, Tree};
 use crate::values::{doubles, integers, singles};
 
-/// Samples of a motion that are read at most: three hours of frames.
-const MOST_SAMPLES: usize = 1 << 18;
+/// Frames a second where an archive does not say.
+const DEFAULT_RATE: f64 = 24.0;
 
 /// An archive to read hair, heads and motion from. Alembic names no unit, and y is up.
 pub struct ArchiveReader<R = File> {
     tree: Tree<R>,
-    /// Times of the frames, once they have been asked for (s).
-    frame_times: Option<Vec<f64>>,
+    /// The frames, once they have been asked for (s).
+    frames: Option<Frames>,
 }
 
 impl ArchiveReader<File> {
@@ -41,7 +43,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
     /// # Errors
     /// What is wrong with it.
     pub fn new(from: R) -> Result<Self, Problem> {
-        Ok(Self { tree: Tree::new(from)?, frame_times: None })
+        Ok(Self { tree: Tree::new(from)?, frames: None })
     }
 
     fn curves(
@@ -53,10 +55,17 @@ impl<R: Read + Seek> ArchiveReader<R> {
     ) -> Result<(Hair, Affine3A), Problem> {
         let inside = self.schema(object)?;
         let positions = required(&inside, "P", "")?;
-        let (frame, _) = self.tree.timings[positions.timing].at(time, positions.samples);
-        let points = self.tree.points(positions, frame)?;
-        let counts = required(&inside, "nVertices", "")?;
-        let counts = integers(counts.kind, &self.tree.sample(counts, frame)?)?;
+        if positions.samples == 0 {
+            return Ok((Hair::default(), Affine3A::IDENTITY));
+        }
+        let (frame, share) = self.tree.timings[positions.timing].at(time, positions.samples);
+        let mut points = self.tree.points(positions, frame)?;
+        let header = required(&inside, "nVertices", "")?;
+        let counts = integers(header.kind, &self.tree.sample(header, frame)?)?;
+        if share > 0.0 && self.tree.sample(header, frame)? == self.tree.sample(header, frame + 1)? {
+            let next = self.tree.points(positions, frame + 1)?;
+            points.iter_mut().zip(next).for_each(|(a, b)| *a = a.lerp(b, share as f32));
+        }
         let counts = checked_counts(&counts, points.len())?;
         let basis = match inside.iter().find(|h| h.name == "curveBasisAndType") {
             Some(header) => basis(&self.tree.sample(header, frame)?)?,
@@ -165,34 +174,47 @@ impl<R: Read + Seek> ArchiveReader<R> {
         Ok(moving)
     }
 
-    /// Times of the frames: of the curves with the most samples, or of what moves them whole (s).
-    fn frame_times(&mut self) -> Result<Vec<f64>, Problem> {
-        let mut most = Vec::new();
+    /// The frames (s): the samples of the curves with the most, or of what moves them whole. Samples at uneven times, and
+    /// those of a shutter about a frame, give way to the whole frames, between which there is interpolation.
+    fn frames(&mut self) -> Result<&Frames, Problem> {
+        if self.frames.is_none() {
+            self.frames = Some(self.find_frames()?);
+        }
+        Ok(self.frames.as_ref().expect("found above"))
+    }
+
+    fn find_frames(&mut self) -> Result<Frames, Problem> {
+        let mut most = Motion::default();
         for object in self.of_schema("AbcGeom_Curve") {
             let inside = self.schema(object)?;
             let header = required(&inside, "P", &self.tree.objects[object].path)?;
-            if header.samples > MOST_SAMPLES {
+            if header.samples > MOST_FRAMES {
                 return Err(Problem(format!("its curves have {} samples, more than is read", header.samples)));
             }
-            let timing = &self.tree.timings[header.timing];
-            let mut times: Vec<f64> = (0..header.samples).map(|n| timing.time(n)).collect();
-            if times.len() < 2 {
-                let above = self.times(object)?;
-                times = if above.len() > 1 { above } else { times };
+            if header.samples == 0 {
+                continue;
             }
-            if times.len() > most.len() {
-                most = times;
+            let mut motion = Motion::default();
+            motion.add(&self.tree.timings[header.timing], header.samples);
+            if motion.times.len() < 2 {
+                let above = self.above(object)?;
+                motion = if above.times.len() > 1 { above } else { motion };
+            }
+            if motion.times.len() > most.times.len() {
+                most = motion;
             }
         }
-        Ok(most)
+        let as_sampled = Frames::as_sampled(&most.times).filter(|frames| !most.shutter || frames.are_whole());
+        let period = most.period.unwrap_or(1.0 / self.tree.frame_rate.unwrap_or(DEFAULT_RATE));
+        as_sampled.or_else(|| Frames::whole(&most.times, period)).ok_or_else(|| {
+            let [first, last] = [most.times[0], most.times[most.times.len() - 1]];
+            Problem(format!("its curves move from {first} s to {last} s, longer than is read"))
+        })
     }
 
     /// When a frame is (s); the last after those there are.
     fn time_of(&mut self, frame: usize) -> Result<f64, Problem> {
-        if self.frame_times.is_none() {
-            self.frame_times = Some(self.frame_times()?);
-        }
-        let times = self.frame_times.as_deref().unwrap_or_default();
+        let times = &self.frames()?.times;
         Ok(times.get(frame).or(times.last()).copied().unwrap_or(0.0))
     }
 
@@ -210,27 +232,27 @@ impl<R: Read + Seek> ArchiveReader<R> {
         Ok(inside.into_iter().find(|h| h.name == ".vals" && h.different_samples() > 1))
     }
 
-    /// The times at which `object` or one above it moves (s).
-    fn times(&mut self, object: usize) -> Result<Vec<f64>, Problem> {
-        let mut times = Vec::new();
+    /// How `object` and those above it move.
+    fn above(&mut self, object: usize) -> Result<Motion, Problem> {
+        let mut motion = Motion::default();
         let mut above = Some(object);
         while let Some(i) = above {
             if let Some(values) = self.moving(i)? {
-                let (timing, samples) = (&self.tree.timings[values.timing], values.different_samples());
-                if samples + times.len() > MOST_SAMPLES {
+                let samples = values.different_samples();
+                if samples + motion.times.len() > MOST_FRAMES {
                     let path = &self.tree.objects[i].path;
                     return Err(Problem(format!("object {path}: moves over {samples} samples, more than is read")));
                 }
-                times.extend((0..samples).map(|n| timing.time(n)));
+                motion.add(&self.tree.timings[values.timing], samples);
             }
             above = self.tree.objects[i].parent;
         }
-        times.sort_by(f64::total_cmp);
-        times.dedup_by(|b, a| *b - *a <= SAME_TIME);
-        if times.is_empty() {
-            times.push(0.0);
+        motion.times.sort_by(f64::total_cmp);
+        motion.times.dedup_by(|b, a| *b - *a <= SAME_TIME);
+        if motion.times.is_empty() {
+            motion.times.push(0.0);
         }
-        Ok(times)
+        Ok(motion)
     }
 
     /// Values of an array property in its first sample.
@@ -249,21 +271,15 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
         let mut contents = Contents {
             curves: paths(self, "AbcGeom_Curve"),
             meshes: paths(self, "AbcGeom_PolyMesh"),
-            frame_rate: 24.0,
+            frame_rate: DEFAULT_RATE,
             z_up: Some(false),
             ..Contents::default()
         };
-        contents.times = self.frame_times()?;
-        if let [first, .., last] = contents.times[..]
-            && last > first
-        {
-            contents.frame_rate = (contents.times.len() - 1) as f64 / (last - first);
+        let frames = self.frames()?;
+        if frames.step > 0.0 {
+            contents.frame_rate = frames.rate(1.0);
         }
-        // A rate that is a whole number but for the rounding of its period is that number.
-        let whole = contents.frame_rate.round();
-        if (contents.frame_rate - whole).abs() < 1e-9 * whole {
-            contents.frame_rate = whole;
-        }
+        contents.times.clone_from(&frames.times);
         Ok(contents)
     }
 
@@ -289,8 +305,8 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
                 "AbcGeom_Curve" => {
                     let (curves, points) = (self.count(named("nVertices"))?, self.count(named("P"))?);
                     let cubic = match named("curveBasisAndType") {
-                        Some(header) => basis(&self.tree.sample(header, 0)?)? != Basis::Linear,
-                        None => false,
+                        Some(header) if header.samples > 0 => basis(&self.tree.sample(header, 0)?)? != Basis::Linear,
+                        _ => false,
                     };
                     let time = self.time_of(0)?;
                     let world_from_curves = Affine3A::from_mat4(self.world(i, time)?.as_mat4());
@@ -329,7 +345,11 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
             let (hair, world) = part.map_err(|e| Problem(format!("curves {path}: {e}")))?;
             all.append(hair, world, (objects.len() > 1).then_some((group as i32, name)))?;
         }
-        all.hair()
+        let mut all = all.hair()?;
+        if attributes {
+            all.hair.attributes.unread.extend(self.frames()?.unread(1.0));
+        }
+        Ok(all)
     }
 
     fn mesh(&mut self) -> Result<Mesh, Problem> {
@@ -372,7 +392,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
         let Some(object) = self.tree.objects.iter().position(|o| named(o) && !o.path.is_empty()) else {
             return Err(Problem(format!("has no object {node}: node can be {}", self.movers()?.join(", "))));
         };
-        let times = self.times(object)?;
+        let times = self.above(object)?.times;
         let mut motion = Vec::with_capacity(times.len());
         for time in times {
             let world = self.world(object, time)?;
@@ -383,6 +403,27 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
             motion.push(Placed { time, position, rotation });
         }
         Ok(motion)
+    }
+}
+
+/// When something moves.
+#[derive(Default)]
+struct Motion {
+    /// Times of its samples (s).
+    times: Vec<f64>,
+    /// The shortest cycle in which they repeat (s), where they do.
+    period: Option<f64>,
+    /// Whether a cycle has several samples, as motion blur wants them.
+    shutter: bool,
+}
+
+impl Motion {
+    fn add(&mut self, timing: &Timing, samples: usize) {
+        self.times.extend((0..samples).map(|n| timing.time(n)));
+        if let Some(period) = timing.cycle() {
+            self.period = Some(self.period.map_or(period, |shortest| shortest.min(period)));
+            self.shutter |= timing.times.len() > 1;
+        }
     }
 }
 

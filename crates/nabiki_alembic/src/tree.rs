@@ -48,10 +48,15 @@ impl Timing {
     /// When sample `i` is (s).
     pub fn time(&self, i: usize) -> f64 {
         let n = self.times.len();
-        if self.period > 1e10 {
-            return self.times[i.min(n - 1)];
+        match self.cycle() {
+            None => self.times[i.min(n - 1)],
+            Some(period) => self.times[i % n] + (i / n) as f64 * period,
         }
-        self.times[i % n] + (i / n) as f64 * self.period
+    }
+
+    /// Length of a cycle (s), where the times follow one.
+    pub fn cycle(&self) -> Option<f64> {
+        (self.period <= 1e10).then_some(self.period)
     }
 }
 
@@ -136,6 +141,8 @@ pub struct Tree<R> {
     metadata: Vec<String>,
     /// Time samplings.
     pub timings: Vec<Timing>,
+    /// Frames a second in the program that wrote it, where it says so.
+    pub frame_rate: Option<f64>,
     /// All objects, parents before their children; the first is the top.
     pub objects: Vec<Object>,
 }
@@ -144,7 +151,7 @@ impl<R: Read + Seek> Tree<R> {
     /// Reads the tables and lists the objects.
     pub fn new(from: R) -> Result<Self, Problem> {
         let (mut from, root) = Reader::new(from)?;
-        let &[version, _, top, _, timing, metadata] = root.get(..6).unwrap_or(&[]) else {
+        let &[version, _, top, about, timing, metadata] = root.get(..6).unwrap_or(&[]) else {
             return Err(Problem(format!("has {} parts at its root, where Alembic puts 6", root.len())));
         };
         let version = from.data(version)?;
@@ -153,7 +160,10 @@ impl<R: Read + Seek> Tree<R> {
         }
         let timings = timings(&from.data(timing)?)?;
         let metadata = table(&from.data(metadata)?)?;
-        let mut tree = Self { from, metadata, timings, objects: Vec::new() };
+        let about = String::from_utf8_lossy(&from.data(about).unwrap_or_default()).into_owned();
+        let frame_rate = about.split(';').find_map(|entry| entry.strip_prefix("_ai_DCC_FPS=")?.parse().ok());
+        let frame_rate = frame_rate.filter(|rate: &f64| rate.is_finite() && *rate > 0.0);
+        let mut tree = Self { from, metadata, timings, frame_rate, objects: Vec::new() };
         tree.list(Object { path: String::new(), metadata: String::new(), place: top, parent: None }, 0)?;
         Ok(tree)
     }

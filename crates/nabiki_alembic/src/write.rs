@@ -8,7 +8,7 @@ use std::io;
 use std::path::Path;
 
 use glam::{Affine3A, Vec2, Vec3};
-use nabiki::hair::{Attributes, Other};
+use nabiki::hair::{Attributes, Other, Per, Stored};
 use nabiki::strands::bounds;
 use nabiki::{Mesh, Strands};
 use nabiki_exchange::attributes::names;
@@ -220,7 +220,10 @@ fn curves(
     own.put(Property::array("nVertices", "", INTEGER, FRAMES), bytemuck::cast_slice(&counts))?;
     // Linear, not periodic, no basis.
     own.put(Property::scalar("curveBasisAndType", "", Kind { pod: Pod::U8, extent: 4 }, FRAMES), &[1, 0, 0, 0])?;
-    if let Some(uv) = &attributes.root_uv {
+    if let Some(other) = attributes.other.iter().find(|other| is_own_uv(other)) {
+        let scope = if other.per == Per::Point { "vtx" } else { "uni" };
+        own.put(Property::attribute("uv", scope, "vector", UV, FRAMES), &carried::bytes(other))?;
+    } else if let Some(uv) = &attributes.root_uv {
         own.put(Property::attribute("uv", "uni", "vector", UV, FRAMES), bytemuck::cast_slice(uv))?;
     }
     if let Some(widths) = export.widths() {
@@ -232,6 +235,11 @@ fn curves(
     let more = more.inside;
     inside.nest(to, table, ".arbGeomParams", "", more)?;
     Object::with_schema(to, table, Schema::Curves, inside)
+}
+
+/// Whether what is passed on is the texture coordinates for which the schema of curves has a place of its own.
+fn is_own_uv(other: &Other) -> bool {
+    other.name == "uv" && other.per != Per::Groom && (other.stored, other.extent) == (Stored::F32, 2)
 }
 
 /// Properties with one value for all frames.
@@ -264,8 +272,9 @@ impl Held<'_> {
 /// The geometry parameters. What was carried along goes before what is made here under the same name.
 fn parameters(more: &mut Held<'_>, export: &Export<'_>) -> io::Result<()> {
     let at = &export.hair.attributes;
+    let others = at.other.iter().filter(|other| !is_own_uv(other));
     let passed_on: Vec<(&Other, Property)> =
-        at.other.iter().filter_map(|other| Some((other, carried::property(other)?))).collect();
+        others.filter_map(|other| Some((other, carried::property(other)?))).collect();
     let made = |name: &str| passed_on.iter().all(|(other, _)| other.name != name);
     roots(more, at, &made)?;
     let points = export.hair.strands.points().len();

@@ -215,6 +215,21 @@ fn attributes_of_any_name_go_through() {
 }
 
 #[test]
+fn texture_coordinates_of_points_stay_by_point() {
+    let mut hair = groom();
+    let roots = hair.attributes.root_uv.clone().unwrap();
+    let of_strand = |(strand, &[u, v]): (&[Vec3], &[f32; 2])| (0..strand.len()).flat_map(move |p| [u, v + p as f32]);
+    let values: Vec<f32> = hair.strands.iter().zip(&roots).flat_map(of_strand).collect();
+    let uv = |name: &str| Other::new(name, Per::Point, Role::TextureCoordinate, 2, Values::Floats(values.clone()));
+    for name in ["st", "uv"] {
+        hair.attributes.other = vec![uv(name)];
+        let file = bytes(Export::new(&hair, 24.0), |_| Affine3A::IDENTITY);
+        let read = ArchiveReader::new(Cursor::new(&file)).unwrap().hair(0, None).unwrap();
+        assert_eq!(read.attributes, hair.attributes);
+    }
+}
+
+#[test]
 fn more_kinds_of_attributes_than_the_table_has_room_for_go_through() {
     let mut hair = Hair::from(strands(0));
     let of = |extent: usize| {

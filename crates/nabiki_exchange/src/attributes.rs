@@ -291,7 +291,10 @@ impl<F: NamedValues> Search<'_, F> {
             let Some(values) = self.file.tuples::<2>(name)?.filter(|values| !values.is_empty()) else { continue };
             match &root_uv {
                 None => {
-                    self.used.insert(name);
+                    // What each point has stays under its name: the roots' values are not all of it.
+                    if values.len() != self.lines.control_points() {
+                        self.used.insert(name);
+                    }
                     root_uv = self.at_roots(name, &values);
                 }
                 // A copy under another program's name says nothing new.

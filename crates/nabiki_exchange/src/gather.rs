@@ -1,10 +1,10 @@
 //! Curves that lie in several objects of a file, as one groom.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::Affine3A;
 use nabiki::Hair;
-use nabiki::hair::Other;
+use nabiki::hair::{Other, Per};
 
 use crate::Problem;
 use crate::in_place::{InPlace, check_extent};
@@ -15,6 +15,8 @@ pub struct Gathered {
     all: Option<InPlace>,
     /// Parts that were grouped by their object.
     named: usize,
+    /// Names of what some parts have and the whole has not.
+    dropped: BTreeSet<String>,
 }
 
 impl Gathered {
@@ -52,7 +54,7 @@ impl Gathered {
             }
             part = part.transformed(&world_from_part);
         }
-        join(&mut all.hair, part);
+        join(&mut all.hair, part, &mut self.dropped);
         self.all = Some(all);
         Ok(())
     }
@@ -69,7 +71,8 @@ impl Gathered {
         }
         let repeated = all.hair.attributes.repeated_ids();
         if repeated > 0 {
-            let line = format!("ids that tell its strands apart: {repeated} strands have the id of another");
+            let have = if repeated == 1 { "strand has" } else { "strands have" };
+            let line = format!("an id of its own for each strand: as read, {repeated} {have} the id of another");
             all.hair.attributes.unread.push(line);
         }
         check_extent(all.hair.strands.points())?;
@@ -77,7 +80,8 @@ impl Gathered {
     }
 }
 
-fn join(all: &mut Hair, part: Hair) {
+/// Appends `part`; `dropped`: names of what parts before it had, and which stays away.
+fn join(all: &mut Hair, part: Hair, dropped: &mut BTreeSet<String>) {
     for strand in part.strands.iter() {
         all.strands.push(strand.iter().copied());
     }
@@ -85,7 +89,7 @@ fn join(all: &mut Hair, part: Hair) {
     let (mut lost, mut retyped) = (Vec::new(), Vec::new());
     let mut both = |name: &str, joined: bool| {
         if !joined {
-            lost.push(format!("{name}, which only some of its objects have"));
+            lost.push(format!("{name}, {SOME}"));
         }
     };
     both("ids", extend(&mut a.id, b.id));
@@ -98,17 +102,24 @@ fn join(all: &mut Hair, part: Hair) {
     both("point UVs", extend(&mut a.point_uv, b.point_uv));
     both("held points", extend(&mut a.inverse_mass, b.inverse_mass));
     let mut others = b.other;
+    others.retain(|theirs| !dropped.contains(&theirs.name));
     a.other.retain_mut(|mine| {
-        let found = others.iter().position(|theirs| same_kind(mine, theirs));
         let stored = mine.stored;
-        let joined = found.is_some_and(|i| mine.append(others.swap_remove(i)));
-        both(&mine.name, joined);
-        if joined && mine.stored != stored {
-            retyped.push(format!("the types of {}, which its objects store in several", mine.name));
-        }
-        joined
+        let theirs = others.iter().position(|theirs| theirs.name == mine.name).map(|i| others.swap_remove(i));
+        let Err(why) = append(mine, theirs) else {
+            if mine.stored != stored {
+                retyped.push(format!("the types of {}, which its objects store in several", mine.name));
+            }
+            return true;
+        };
+        lost.push(format!("{}, {why}", mine.name));
+        dropped.insert(mine.name.clone());
+        false
     });
-    others.iter().for_each(|theirs| both(&theirs.name, false));
+    for theirs in others {
+        lost.push(format!("{}, {SOME}", theirs.name));
+        dropped.insert(theirs.name);
+    }
     a.group_names.extend(b.group_names);
     lost.append(&mut retyped);
     lost.extend(b.unread);
@@ -129,8 +140,20 @@ fn extend<T>(a: &mut Option<Vec<T>>, b: Option<Vec<T>>) -> bool {
     true
 }
 
-fn same_kind(a: &Other, b: &Other) -> bool {
-    (&a.name, a.per, a.role, a.extent) == (&b.name, b.per, b.role, b.extent)
+/// Why the whole has not what some of its objects have.
+const SOME: &str = "which only some of its objects have";
+
+/// Appends what a further object has under the same name, or says why the two cannot be one.
+fn append(mine: &mut Other, theirs: Option<Other>) -> Result<(), &'static str> {
+    let theirs = theirs.ok_or(SOME)?;
+    let kind = |other: &Other| (other.per, other.role, other.extent);
+    let same = kind(mine) == kind(&theirs);
+    let differs = mine.per == Per::Groom && mine.stored == theirs.stored && mine.values != theirs.values;
+    match same {
+        true if mine.append(theirs) => Ok(()),
+        true if differs => Err("of which its objects have several values"),
+        _ => Err("which its objects have in several kinds"),
+    }
 }
 
 #[cfg(test)]
@@ -138,12 +161,64 @@ mod tests {
     use super::*;
     use glam::Vec3;
     use nabiki::Strands;
+    use nabiki::hair::{Role, Values};
 
-    #[test]
-    fn an_object_without_curves_takes_nothing_from_the_others() {
+    fn part(other: Vec<Other>) -> Hair {
         let mut strands = Strands::default();
         strands.push([Vec3::ZERO, Vec3::Y]);
         let mut part = Hair::from(strands);
+        part.attributes.other = other;
+        part
+    }
+
+    #[test]
+    fn what_objects_have_unlike_one_another_is_said_once_and_why() {
+        let constant = |value: f32| Other::new("con", Per::Groom, Role::Plain, 1, Values::Floats(vec![value]));
+        let mixed = |values| Other::new("mix", Per::Strand, Role::Plain, 1, values);
+        let point = Other::new("own", Per::Point, Role::Plain, 1, Values::Floats(vec![0.0, 1.0]));
+        let per_point = Other { name: "per".to_owned(), ..point.clone() };
+        let per_strand = Other::new("per", Per::Strand, Role::Plain, 1, Values::Floats(vec![1.0]));
+        let both = Other::new("same", Per::Groom, Role::Plain, 1, Values::Floats(vec![1.0]));
+        let integer = mixed(Values::Integers(vec![1]));
+        let word = mixed(Values::Words(vec!["a".to_owned()]));
+        let first = vec![constant(1.0), integer.clone(), per_point, both.clone()];
+        let second = vec![constant(2.0), word, per_strand, point, both.clone()];
+        let third = vec![both.clone(), integer, constant(2.0)];
+        let mut all = Gathered::default();
+        for other in [first, second, third] {
+            all.append(part(other), Affine3A::IDENTITY, None).unwrap();
+        }
+        let found = all.hair().unwrap().hair.attributes;
+        assert_eq!(found.other, [both]);
+        let mut unread = found.unread;
+        unread.sort();
+        assert_eq!(
+            unread,
+            [
+                "con, of which its objects have several values",
+                "mix, which its objects have in several kinds",
+                "own, which only some of its objects have",
+                "per, which its objects have in several kinds",
+            ]
+        );
+    }
+
+    #[test]
+    fn ids_that_objects_share_stay_and_that_is_said() {
+        let mut all = Gathered::default();
+        for id in [3, 3, 4] {
+            let mut part = part(Vec::new());
+            part.attributes.id = Some(vec![id]);
+            all.append(part, Affine3A::IDENTITY, None).unwrap();
+        }
+        let found = all.hair().unwrap().hair.attributes;
+        assert_eq!(found.id, Some(vec![3, 3, 4]));
+        assert_eq!(found.unread, ["an id of its own for each strand: as read, 1 strand has the id of another"]);
+    }
+
+    #[test]
+    fn an_object_without_curves_takes_nothing_from_the_others() {
+        let mut part = part(Vec::new());
         part.attributes.width = Some(vec![0.1, 0.05]);
         for empty_first in [true, false] {
             let mut all = Gathered::default();

@@ -1,7 +1,7 @@
 //! What the formats that exchange grooms between programs share, apart from how each is stored.
 //!
 //! [`curves`] turns curves into strands, [`attributes`] knows the names by which programs call what curves carry,
-//! [`Gathered`] joins curves of several objects, [`export`] is what a writer of moving hair is told, and
+//! [`Gathered`] joins curves of several objects, [`Frames`] are those of samples at any times, [`export`] is what a writer of moving hair is told, and
 //! [`GroomReader`] what a reader answers.
 //!
 //! ```
@@ -24,6 +24,7 @@
 pub mod attributes;
 pub mod curves;
 pub mod export;
+mod frames;
 mod gather;
 mod in_place;
 mod polygons;
@@ -31,6 +32,7 @@ mod problem;
 mod reader;
 
 pub use export::{Export, FrameSink, Velocities};
+pub use frames::{Frames, MOST_FRAMES};
 pub use gather::Gathered;
 pub use in_place::InPlace;
 pub use polygons::{Polygons, Uvs, add_polygons};

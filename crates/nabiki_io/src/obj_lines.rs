@@ -13,7 +13,7 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Hair> {
     let mut vertices: Vec<Vec3> = Vec::new();
     let mut strands = Strands::default();
     for (i, line) in obj_text::text(bytes).lines().enumerate() {
-        let mut words = line.split_ascii_whitespace();
+        let mut words = obj_text::words(line);
         match words.next() {
             Some("v") => vertices.push(obj_text::place(words, line, i + 1)?),
             Some("l") => {

@@ -7,9 +7,43 @@ use glam::{Vec2, Vec3};
 use crate::error::{Error, Result};
 use crate::input::BYTE_ORDER_MARK;
 
-/// The lines of a file with their numbers from 1. Names in other encodings than UTF-8 do no harm.
+/// The text of a file in whole lines, each at its number. Names in other encodings than UTF-8 do no harm.
 pub(crate) fn text(bytes: &[u8]) -> Cow<'_, str> {
-    String::from_utf8_lossy(bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes))
+    let text = String::from_utf8_lossy(bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes));
+    let ends_with_cr = text.as_bytes().windows(2).any(|pair| pair[0] == b'\r' && pair[1] != b'\n');
+    if ends_with_cr || text.contains('\\') { Cow::Owned(whole_lines(&text)) } else { text }
+}
+
+/// Puts what a backslash continues into the line that it ends, and as many empty lines behind it.
+fn whole_lines(text: &str) -> String {
+    let text = text.replace("\r\n", "\n").replace('\r', "\n");
+    let mut whole = String::with_capacity(text.len() + 1);
+    let mut continued = 0;
+    for line in text.lines() {
+        let commented = line.split_ascii_whitespace().any(is_comment);
+        match line.trim_ascii_end().strip_suffix('\\').filter(|_| !commented) {
+            Some(begun) => {
+                whole.push_str(begun);
+                whole.push(' ');
+                continued += 1;
+            }
+            None => {
+                whole.push_str(line);
+                whole.extend(std::iter::repeat_n('\n', continued + 1));
+                continued = 0;
+            }
+        }
+    }
+    whole
+}
+
+/// The words of a line before its comment.
+pub(crate) fn words(line: &str) -> impl Iterator<Item = &str> + Clone {
+    line.split_ascii_whitespace().take_while(|word| !is_comment(word))
+}
+
+fn is_comment(word: &str) -> bool {
+    word.starts_with('#')
 }
 
 /// The place that follows a `v`.
@@ -65,4 +99,36 @@ pub(crate) fn refusal(line: &str, number: usize, why: &str) -> Error {
         short.push_str("...");
     }
     Error::new(format!("\"{short}\": {why}")).at_line(Some(number))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{mesh, obj_lines};
+
+    const PLAIN: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\ng face\nf 1 2 3\nl 1 2 3\n";
+
+    #[test]
+    fn comments_continued_lines_and_any_line_ends_change_nothing() {
+        let read = |text: &str| {
+            let bytes = text.as_bytes();
+            let groups = ["face".to_owned()];
+            (mesh::from_bytes(bytes, "obj", &groups).unwrap(), obj_lines::from_bytes(bytes).unwrap().strands)
+        };
+        for text in [
+            PLAIN.replace("0\n", "0 # c\n").replace("3\n", "3 # 4 \\\n"),
+            PLAIN.replace("2 3", "2 \\\n 3").replace("1 1 0", "1 \\\n1\\ \n 0"),
+            PLAIN.replace('\n', "\r"),
+            PLAIN.replace('\n', "\r\n").replace("2 3", "2 \\\r\n3"),
+            PLAIN.replace("2 3", "2 \\\n3").replace('\n', "\r"),
+            format!("# in C:\\hair\\\n{PLAIN}"),
+        ] {
+            assert_eq!(read(&text), read(PLAIN), "{text:?}");
+        }
+    }
+
+    #[test]
+    fn lines_behind_a_continued_one_keep_their_numbers() {
+        let text = PLAIN.replace("1 1 0", "1 \\\n1 \\\n0").replace("f 1 2 3", "f 1 2 9");
+        assert_eq!(mesh::from_bytes(text.as_bytes(), "obj", &[]).unwrap_err().line, Some(7));
+    }
 }

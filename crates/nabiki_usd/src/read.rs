@@ -6,7 +6,9 @@ use glam::{Affine3A, Vec3};
 use nabiki::{Hair, Mesh};
 use nabiki_exchange::attributes::NamedValues;
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
-use nabiki_exchange::{Contents, Gathered, GroomReader, InPlace, Placed, Polygons, Prim, PrimKind, Uvs, add_polygons};
+use nabiki_exchange::{
+    Contents, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Polygons, Prim, PrimKind, Uvs, add_polygons,
+};
 
 use crate::Problem;
 use crate::arcs;
@@ -21,9 +23,6 @@ use crate::transform;
 pub struct StageReader {
     layer: Layer,
 }
-
-/// Frames a layer may have: what more would be is no time.
-const MOST_SAMPLES: usize = 1 << 18;
 
 /// Time codes apart by less than this, as a share of a frame, are the same.
 const SAME_TIME: f64 = 1e-6;
@@ -71,10 +70,9 @@ impl StageReader {
         Ok(rate.unwrap_or(24.0))
     }
 
-    /// Time codes of the frames of the curves with the most samples, or of what moves them whole, and how far apart they
-    /// are. Samples at uneven times, or farther apart than frames, give way to the frames, between which there is
-    /// interpolation.
-    fn frame_codes(&mut self) -> Result<(Vec<f64>, f64), Problem> {
+    /// The frames of the curves with the most samples, or of what moves them whole, in time codes. Samples at uneven
+    /// times, or farther apart than frames, give way to the frames, between which there is interpolation.
+    fn frames(&mut self) -> Result<Frames, Problem> {
         let a_frame = self.codes_a_frame()?;
         let samples = |i: usize| self.layer.prims[i].attributes.get("points").map(|a| &a.samples[..]).unwrap_or(&[]);
         let most = self.layer.of_type("BasisCurves").into_iter().map(samples).max_by_key(|s| s.len());
@@ -86,18 +84,11 @@ impl StageReader {
             above.dedup();
             codes = if above.len() > 1 { above } else { codes };
         }
-        let [first, second, ..] = codes[..] else { return Ok((codes, 1.0)) };
-        let (last, step) = (codes[codes.len() - 1], second - first);
-        let even = |(n, &code): (usize, &f64)| (code - (first + n as f64 * step)).abs() <= SAME_TIME * step;
-        let sparse = step > a_frame * (1.0 + SAME_TIME);
-        if step > 0.0 && !sparse && codes.iter().enumerate().all(even) {
-            return Ok((codes, step));
-        }
-        let frames = ((last - first) / a_frame + SAME_TIME).floor();
-        if frames >= MOST_SAMPLES as f64 {
-            return Err(Problem(format!("its curves move from time code {first} to {last}, longer than is read")));
-        }
-        Ok(((0..=frames as usize).map(|n| first + n as f64 * a_frame).collect(), a_frame))
+        let as_sampled = Frames::as_sampled(&codes).filter(|frames| frames.step <= a_frame * (1.0 + SAME_TIME));
+        as_sampled.or_else(|| Frames::whole(&codes, a_frame)).ok_or_else(|| {
+            let [first, last] = [codes[0], codes[codes.len() - 1]];
+            Problem(format!("its curves move from time code {first} to {last}, longer than is read"))
+        })
     }
 
     /// Time codes from one frame to the next.
@@ -111,7 +102,7 @@ impl StageReader {
 
     /// The time code of a frame; that of the last after those there are.
     fn code_of(&mut self, frame: usize) -> Result<f64, Problem> {
-        let (codes, _) = self.frame_codes()?;
+        let codes = self.frames()?.times;
         Ok(codes.get(frame).or(codes.last()).copied().unwrap_or(0.0))
     }
 
@@ -220,13 +211,13 @@ impl GroomReader for StageReader {
             let prims = layer.of_type(kind).into_iter().filter(|&i| layer.has_points(i));
             prims.map(|i| layer.path(i)).collect()
         };
-        let (codes, step) = self.frame_codes()?;
+        let frames = self.frames()?;
         let codes_a_second = self.codes_a_second()?;
         Ok(Contents {
             curves: paths(&self.layer, "BasisCurves"),
             meshes: paths(&self.layer, "Mesh"),
-            times: codes.into_iter().map(|code| code / codes_a_second).collect(),
-            frame_rate: codes_a_second / step,
+            frame_rate: if frames.step > 0.0 { frames.rate(codes_a_second) } else { codes_a_second },
+            times: frames.times.into_iter().map(|code| code / codes_a_second).collect(),
             meters_per_unit: self.positive("metersPerUnit", "0.01 for centimetres")?,
             z_up: self.z_up()?,
         })
@@ -294,7 +285,9 @@ impl GroomReader for StageReader {
         }
         let mut placed = all.hair()?;
         if attributes {
+            let (frames, codes_a_second) = (self.frames()?, self.codes_a_second()?);
             let unread = &mut placed.hair.attributes.unread;
+            unread.extend(frames.unread(codes_a_second));
             unread.extend(self.layer.without_points("BasisCurves", "curves"));
             unread.extend(arcs::unread(&mut self.layer)?);
         }
@@ -346,14 +339,14 @@ impl GroomReader for StageReader {
         times.dedup();
         // Between two keys each operation goes its own way, a parent's turn about another: whole codes follow it.
         if let [first, .., last] = times[..] {
-            if last - first > MOST_SAMPLES as f64 {
+            if last - first > MOST_FRAMES as f64 {
                 return Err(Problem(format!("{node}: moves from time code {first} to {last}, longer than is read")));
             }
             times.extend((first.ceil() as i64..=last.floor() as i64).map(|code| code as f64));
             times.sort_by(f64::total_cmp);
             times.dedup_by(|a, b| (*a - *b).abs() <= SAME_TIME);
         }
-        if times.len() > MOST_SAMPLES {
+        if times.len() > MOST_FRAMES {
             return Err(Problem(format!("{node}: moves at {} time codes, more than is read", times.len())));
         }
         if times.is_empty() {

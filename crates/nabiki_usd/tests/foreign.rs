@@ -84,6 +84,20 @@ fn frames_at_uneven_times_are_read_at_whole_codes_between_their_samples() {
 }
 
 #[test]
+fn samples_between_whole_codes_are_said() {
+    let mut stage = reader(
+        "#usda 1.0\ndef BasisCurves \"h\" { uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n\
+         point3f[] points.timeSamples = { 0.75: [(0, 0, 0), (3, 0, 0)], 1.25: [(0, 0, 0), (5, 0, 0)], \
+         2: [(0, 0, 0), (8, 0, 0)] } }\n",
+    );
+    let frames = stage.contents().unwrap();
+    assert_eq!((frames.times, frames.frame_rate), (vec![1.0 / 24.0, 2.0 / 24.0], 24.0));
+    let hair = stage.hair(0, None).unwrap();
+    assert_eq!(hair.strands.strand(0)[1], Vec3::X * 4.0);
+    assert_eq!(hair.attributes.unread, ["2 samples between frames, of which there are 24 a second"]);
+}
+
+#[test]
 fn hair_that_only_its_transform_moves_has_the_frames_of_that() {
     let mut stage = reader(
         "#usda 1.0\ndef Xform \"a\" { double xformOp:translateX.timeSamples = { 0: 0, 1: 5, 2: 7 }\n\
@@ -271,8 +285,31 @@ fn root_uvs_under_a_name_of_their_own_keep_it_and_ids_that_are_none_are_said() {
     assert_eq!(at.root_uv, Some(vec![[0.0, 0.5], [1.0, 0.25]]));
     assert!(at.other.iter().any(|o| o.name == "rootuv"));
     assert_eq!(at.id, Some(vec![7, 7]));
-    let said = "ids that tell its strands apart: 1 strands have the id of another";
+    let said = "an id of its own for each strand: as read, 1 strand has the id of another";
     assert!(at.unread.iter().any(|line| line == said), "{:?}", at.unread);
+}
+
+#[test]
+fn texture_coordinates_of_points_stay_by_point() {
+    let uvs = "[(0, 0), (0, 1), (0.5, 0), (0.5, 1)]";
+    let text = format!(
+        "#usda 1.0\ndef BasisCurves \"h\" {{ uniform token type = \"linear\"\n int[] curveVertexCounts = [2, 2]\n\
+         point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 0, 1), (1, 0, 1)]\n\
+         texCoord2f[] primvars:st = {uvs} ( interpolation = \"vertex\" ) }}\n"
+    );
+    let hair = reader(text).hair(0, None).unwrap();
+    assert_eq!(hair.attributes.root_uv, Some(vec![[0.0, 0.0], [0.5, 0.0]]));
+    assert_eq!(hair.attributes.unread, Vec::<String>::new());
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("back.usda");
+    let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), Form::Stage).unwrap());
+    sink.frame(&hair.strands, &Affine3A::IDENTITY).unwrap();
+    sink.finish().unwrap();
+    let written = std::fs::read_to_string(path).unwrap();
+    let st = written.split("primvars:st = ").nth(1).unwrap();
+    assert!(st.starts_with(uvs) && st[uvs.len()..].trim_start().starts_with("(\n"), "{written}");
+    assert!(st[..200].contains("interpolation = \"vertex\""), "{written}");
+    assert_eq!(reader(written).hair(0, None).unwrap().attributes, hair.attributes);
 }
 
 const SKELETON: &str = "#usda 1.0

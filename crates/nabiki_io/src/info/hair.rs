@@ -18,7 +18,7 @@ pub struct HairInfo {
     pub strands: usize,
     /// Number of points of all strands.
     pub points: usize,
-    /// Fewest and most segments of a strand.
+    /// Fewest and most segments of a strand; 0 where there are none.
     pub segments: [usize; 2],
     /// Around all points.
     pub bounds: Box3,
@@ -50,8 +50,8 @@ impl HairInfo {
         let lengths: Vec<f32> = strands.iter().map(length).collect();
         let segments: Vec<f32> =
             strands.iter().flat_map(|strand| strand.windows(2).map(|w| w[0].distance(w[1]))).collect();
-        let counts = strands.iter().map(|strand| strand.len().saturating_sub(1));
-        let (fewest, most) = counts.fold((usize::MAX, 0), |(low, high), n| (low.min(n), high.max(n)));
+        let counts = || strands.iter().map(|strand| strand.len().saturating_sub(1));
+        let (fewest, most) = (counts().min().unwrap_or(0), counts().max().unwrap_or(0));
         let bounds = Box3::of(strands.points());
         Self {
             strands: strands.len(),
@@ -66,7 +66,8 @@ impl HairInfo {
             carried: hair.attributes.other.iter().map(Carried::of).collect(),
             unread: hair.attributes.unread.clone(),
             // A crop to hair down to the knees.
-            guess: Some(Guess { likely_unit: guess_unit(bounds.diagonal(), 15.0, 140.0), likely_up: up(hair) }),
+            guess: (!strands.is_empty())
+                .then(|| Guess { likely_unit: guess_unit(bounds.diagonal(), 15.0, 140.0), likely_up: up(hair) }),
             bounds,
         }
     }
@@ -156,6 +157,26 @@ fn up(hair: &Hair) -> Option<&'static str> {
 
 impl fmt::Display for HairInfo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.strands > 0 {
+            self.shape(f)?;
+        } else {
+            write!(f, "hair: 0 strands")?;
+        }
+        for carried in &self.carried {
+            write!(f, "\npassed on: {carried}")?;
+        }
+        for unread in &self.unread {
+            write!(f, "\nnot read: {unread}")?;
+        }
+        match self.guess {
+            Some(guess) => write!(f, "\n{guess}"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl HairInfo {
+    fn shape(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [fewest, most] = self.segments;
         let of = if fewest == most { format!("{most}") } else { format!("{fewest} to {most}") };
         writeln!(f, "hair: {} strands of {of} segments, {} points", self.strands, self.points)?;
@@ -167,16 +188,20 @@ impl fmt::Display for HairInfo {
             writeln!(f, "held: {} strands at both ends; here their tips swing freely", self.held_at_both_ends)?;
         }
         let carried = if self.attributes.is_empty() { "nothing".to_owned() } else { self.attributes.join(", ") };
-        write!(f, "beside the points: {carried}")?;
-        for carried in &self.carried {
-            write!(f, "\npassed on: {carried}")?;
-        }
-        for unread in &self.unread {
-            write!(f, "\nnot read: {unread}")?;
-        }
-        match self.guess {
-            Some(guess) => write!(f, "\n{guess}"),
-            None => Ok(()),
-        }
+        write!(f, "beside the points: {carried}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_no_strands_nothing_is_measured() {
+        let mut hair = Hair::default();
+        hair.attributes.unread = vec!["material:binding".to_owned()];
+        let info = HairInfo::of(&hair);
+        assert_eq!(info.to_string(), "hair: 0 strands\nnot read: material:binding");
+        assert_eq!((info.segments, info.bounds.max, info.guess), ([0, 0], [0.0; 3], None));
     }
 }

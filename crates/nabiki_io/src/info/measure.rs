@@ -17,8 +17,11 @@ pub struct Box3 {
 }
 
 impl Box3 {
-    /// The box of `points`, of which there is at least one.
+    /// The box of `points`; all 0 where there are none.
     pub fn of(points: &[Vec3]) -> Self {
+        if points.is_empty() {
+            return Self { min: [0.0; 3], max: [0.0; 3] };
+        }
         let (min, max) =
             points.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
         Self { min: min.to_array(), max: max.to_array() }

@@ -24,7 +24,7 @@ pub(super) fn from_bytes(bytes: &[u8], groups: &[String]) -> Result<Mesh> {
     let wanted = |name: &str| groups.iter().any(|group| group == name);
     let (mut in_object, mut in_group) = (false, false);
     for (i, line) in text.lines().enumerate() {
-        let mut words = line.split_ascii_whitespace();
+        let mut words = obj_text::words(line);
         match words.next() {
             Some("v") => mesh.positions.push(obj_text::place(words, line, i + 1)?),
             Some("vt") => uvs.push(obj_text::texture_coordinates(words, line, i + 1)?),
@@ -66,7 +66,7 @@ pub(super) fn groups(bytes: &[u8]) -> Vec<(String, usize)> {
     let mut faces: BTreeMap<&str, usize> = BTreeMap::new();
     let (mut object, mut groups) = (None, Vec::new());
     for line in text.lines() {
-        let mut words = line.split_ascii_whitespace();
+        let mut words = obj_text::words(line);
         match words.next() {
             Some("f") => groups.iter().copied().chain(object).for_each(|name| *faces.entry(name).or_default() += 1),
             Some("o") => object = Some(line.trim_start()[1..].trim()),

@@ -116,7 +116,7 @@ fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize)> {
                 if word == "JOINT" && current.is_none() {
                     return Err(words.refusal(word, "a joint hangs below another; the first is a ROOT"));
                 }
-                let name = words.next("a joint's name")?.to_owned();
+                let name = words.line_before('{', "a joint's name")?.to_owned();
                 words.expect("{")?;
                 open.push(Some(joints.len()));
                 let first_column = columns;

@@ -30,6 +30,16 @@ pub(super) fn track(text: &str) -> Result<Track> {
     Ok(track)
 }
 
+/// The cells of a line. Quotes hold one cell together, and are no part of it.
+fn cells(line: &str) -> Vec<&str> {
+    let mut quoted = false;
+    let cells = line.split(|c| {
+        quoted ^= c == '"';
+        c == ',' && !quoted
+    });
+    cells.map(|cell| cell.trim().trim_matches('"').trim()).collect()
+}
+
 /// Where in a row the wanted numbers stand.
 struct Columns<'a> {
     /// Names of all columns.
@@ -42,7 +52,7 @@ struct Columns<'a> {
 
 impl<'a> Columns<'a> {
     fn of(header: &'a str) -> Result<Self> {
-        let names: Vec<&str> = header.split(',').map(|name| name.trim().trim_matches('"')).collect();
+        let names: Vec<&str> = cells(header);
         if let Some(separator) = [(';', "semicolons"), ('\t', "tabs")].iter().find(|(c, _)| header.contains(*c)) {
             return Err(Error::new(format!("columns are separated by {}: save the table with commas", separator.1)));
         }
@@ -77,7 +87,7 @@ impl<'a> Columns<'a> {
 
     /// Time (s) and pose of a row; of several wrong cells the first one is named.
     fn row(&self, line: &str) -> Result<(f64, Sample)> {
-        let cells: Vec<&str> = line.split(',').map(str::trim).collect();
+        let cells: Vec<&str> = cells(line);
         let (found, wanted) = (cells.len(), self.names.len());
         // Some programs end rows with a comma.
         if found < wanted || cells[wanted..].iter().any(|cell| !cell.is_empty()) {
@@ -147,11 +157,20 @@ mod tests {
     }
 
     #[test]
-    fn a_header_may_be_quoted() {
-        let quoted: Vec<String> = HEADER.split(',').map(|name| format!("\"{name}\"")).collect();
-        let row = "0,1,2,3,0,0,0,1\n";
-        let samples = |header: &str| track(&format!("{header}\n{row}")).unwrap().samples;
-        assert_eq!(samples(&quoted.join(",")), samples(HEADER));
+    fn any_cell_may_be_quoted() {
+        let quoted = |line: &str| line.split(',').map(|cell| format!("\"{cell}\"")).collect::<Vec<_>>().join(",");
+        let row = "0,1,2,3,0,0,0,1";
+        let read = |header: &str, row: &str| {
+            let track = track(&format!("{header}\n{row}\n")).unwrap();
+            (track.times, track.samples)
+        };
+        let plain = read(HEADER, row);
+        assert_eq!(read(&quoted(HEADER), row), plain);
+        assert_eq!(read(&quoted(HEADER), &quoted(row)), plain);
+        assert_eq!(read(HEADER, &row.replace("1", "\" 1\" ")), plain);
+        assert_eq!(read(&format!("note,{HEADER}"), &format!("\"one, \"\"two\"\"\",{row}")), plain);
+        let (_, said) = refused(&format!("{HEADER}\n\"0,5\",1,2,3,0,0,0,1\n"));
+        assert_eq!(said, "t_s = \"0,5\": must be a finite number");
     }
 
     #[test]

@@ -45,6 +45,20 @@ fn channels_count_in_the_order_in_which_they_stand() {
 }
 
 #[test]
+fn a_joints_name_is_the_rest_of_its_line() {
+    let text = bvh("Zrotation Xrotation Yrotation", "3 1 2 0 0 90 0 0 0");
+    let plain = bvh::track(&text, "Head").unwrap().samples;
+    for (joint, name) in
+        [("Head Top \n{", "Head Top"), ("Head\t1 {", "Head\t1"), ("Head{", "Head"), ("\nHead\r\n{", "Head")]
+    {
+        let text = text.replace("Head\n{", joint);
+        assert_eq!(bvh::track(&text, name).unwrap().samples, plain, "{joint:?}");
+    }
+    let refused = bvh::track(&text.replace("JOINT Head", "JOINT"), "Head").unwrap_err();
+    assert_eq!((refused.line, &*refused.what), (Some(7), "\"{\": a joint's name should stand here"));
+}
+
+#[test]
 fn position_channels_replace_the_offset_of_any_joint() {
     let text = bvh("Yposition Zrotation Xrotation", "3 1 2 0 0 90 7 0 0");
     let text = text.replace("OFFSET 0 5 0", "OFFSET 4 5 6");

@@ -37,6 +37,18 @@ impl<'a> Words<'a> {
         Ok(&rest[..length])
     }
 
+    /// The rest of the line, or as much of it as stands before `end`; `wanted` says what it should be.
+    pub fn line_before(&mut self, end: char, wanted: &str) -> Result<&'a str> {
+        self.next(wanted)?;
+        let rest = &self.text[self.last..];
+        let length = rest.find(['\n', '\r', end]).unwrap_or(rest.len());
+        self.rest = self.last + length;
+        match rest[..length].trim_ascii_end() {
+            "" => Err(self.refusal(&rest[..end.len_utf8()], &format!("{wanted} should stand here"))),
+            line => Ok(line),
+        }
+    }
+
     /// Takes `wanted` itself; capitals do not count.
     pub fn expect(&mut self, wanted: &str) -> Result<()> {
         match self.next(wanted)? {

@@ -1,0 +1,98 @@
+//! The frames of a motion whose samples may stand at any times.
+
+/// Frames of one motion that are read at most: three hours of them.
+pub const MOST_FRAMES: usize = 1 << 18;
+
+/// Times apart by no more than this, as a share of a frame, are the same: files round them to a few digits.
+const SAME_TIME: f64 = 1e-3;
+
+/// The frames of a motion, in the unit in which its file counts time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frames {
+    /// When they are.
+    pub times: Vec<f64>,
+    /// From one to the next; 0 where there is none.
+    pub step: f64,
+    /// Samples that stand at none of them.
+    pub between: usize,
+}
+
+impl Frames {
+    /// Evenly spaced samples as frames; `None` for others.
+    pub fn as_sampled(samples: &[f64]) -> Option<Self> {
+        let (&first, &last) = (samples.first()?, samples.last()?);
+        let step = (last - first) / (samples.len() - 1).max(1) as f64;
+        let even = |(n, &time): (usize, &f64)| (time - (first + n as f64 * step)).abs() <= SAME_TIME * step;
+        let even = samples.len() == 1 || step > 0.0 && samples.iter().enumerate().all(even);
+        even.then(|| Self { times: samples.to_vec(), step, between: 0 })
+    }
+
+    /// The whole frames, `step` apart from time 0 on, from the first sample to the last; the first sample where no whole
+    /// frame lies among them. `None` for more than [`MOST_FRAMES`].
+    pub fn whole(samples: &[f64], step: f64) -> Option<Self> {
+        let Some((&first, &last)) = samples.first().zip(samples.last()) else { return Some(Self::default()) };
+        let (from, to) = ((first / step - SAME_TIME).ceil(), (last / step + SAME_TIME).floor());
+        if to - from >= MOST_FRAMES as f64 {
+            return None;
+        }
+        let count = (to - from + 1.0).max(0.0) as usize;
+        // Within the samples, of which rounding may have put the outermost frames out.
+        let mut times: Vec<f64> = (0..count).map(|n| ((from + n as f64) * step).max(first).min(last)).collect();
+        if times.is_empty() {
+            times.push(first);
+        }
+        let at_frame = |time: &&f64| (**time / step - (**time / step).round()).abs() <= SAME_TIME;
+        let met = if count == 0 { 1 } else { samples.iter().filter(at_frame).count() };
+        let between = samples.len() - met;
+        Some(Self { times, step, between })
+    }
+
+    /// Whether whole frames, as [`whole`](Self::whole) counts them, are among these.
+    pub fn are_whole(&self) -> bool {
+        let number = self.times.first().map_or(0.0, |first| first / self.step);
+        self.step > 0.0 && (number - number.round()).abs() <= SAME_TIME
+    }
+
+    /// Frames a second, of which `second` is the length; a rate that is whole but for rounding is whole.
+    pub fn rate(&self, second: f64) -> f64 {
+        let rate = second / self.step;
+        if (rate - rate.round()).abs() < 1e-9 * rate.round() { rate.round() } else { rate }
+    }
+
+    /// What is not read of the samples, as a phrase.
+    pub fn unread(&self, second: f64) -> Option<String> {
+        (self.between > 0).then(|| {
+            format!("{} samples between frames, of which there are {} a second", self.between, self.rate(second))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_that_files_round_are_frames_as_they_are() {
+        let samples: Vec<f64> = (0..5000).map(|n| f64::from((1001 + n) as f32 / 24.0)).collect();
+        let frames = Frames::as_sampled(&samples).unwrap();
+        assert_eq!((&frames.times, frames.between), (&samples, 0));
+        assert_eq!(Frames::as_sampled(&[0.0, 1.0, 2.1]), None);
+        assert_eq!(Frames::as_sampled(&[0.0, 0.0]), None);
+    }
+
+    #[test]
+    fn whole_frames_lie_among_the_samples_and_count_those_they_miss() {
+        for (samples, times, between) in [
+            (&[0.0, 0.25, 1.0, 1.25][..], &[0.0, 1.0][..], 2),
+            (&[-0.25, 0.25], &[0.0], 2),
+            (&[0.25, 0.5], &[0.25], 1),
+            (&[1.0, 4.0, 5.0], &[1.0, 2.0, 3.0, 4.0, 5.0], 0),
+            (&[2.0, 1.0], &[2.0], 1),
+            (&[], &[], 0),
+        ] {
+            let frames = Frames::whole(samples, 1.0).unwrap();
+            assert_eq!((&frames.times[..], frames.between), (times, between));
+        }
+        assert_eq!(Frames::whole(&[0.0, 1e9], 1.0), None);
+    }
+}
