@@ -99,3 +99,30 @@ fn what_hair_that_is_not_shown_can_bear_is_found_for_the_strands_that_were_meant
     let left = mean(&scene.build(shown).unwrap(), 20, &nodes).distance(goal);
     assert!((left - reported).abs() < 1e-5, "{left} cm are left, and {reported} are reported");
 }
+
+#[test]
+fn strands_are_counted_among_those_that_a_scene_keeps() {
+    let place = Place::new();
+    let refused = |hair: &str, strand: usize| {
+        let wishes = format!("[[wish]]\nframe = 20\nstrands = [{strand}]\nmean_moved = [0, 0, -2]\n");
+        let wishes = WishFile::parse(&wishes, &place.path("wish.toml")).unwrap();
+        let built = place.scene(hair).build(Shown::All).unwrap();
+        wishes
+            .about(&built)
+            .err()
+            .map(|refused| refused.to_string().replace(&format!("{}/", place.folder.path().display()), ""))
+    };
+    let all = STRANDS + BESIDE.len();
+    assert_eq!(refused("", all - 1), None);
+    let said = format!("wish.toml:3: wish[0].strands[0] = {all}: the scene's strands are 0 to {}", all - 1);
+    assert_eq!(refused("", all), Some(said));
+    for (hair, kept) in [("strands = 12", 12), ("drop_shorter_than = 5", STRANDS)] {
+        assert_eq!(refused(hair, kept - 1), None);
+        let said = format!(
+            "wish.toml:3: wish[0].strands[0] = {kept}: the scene's strands are 0 to {}, those of its file's {all} that it keeps: \
+             count these alone",
+            kept - 1
+        );
+        assert_eq!(refused(hair, kept), Some(said));
+    }
+}

@@ -136,7 +136,7 @@ fn check_place(output: &Path, inputs: &[PathBuf], scene: &Scene) -> Result<()> {
 fn shown(file: &WishFile, strands: usize, scene: &Scene) -> Result<Shown> {
     match (&scene.hair.source, file.wishes.largest_strand()) {
         (_, None) => Ok(Shown::AtMost(strands)),
-        // The numbers of imported strands are those of the file.
+        // Imported strands are numbered as they follow one another in the file, and those of a preview are any of them.
         (HairSource::Imported(_), Some(_)) => Ok(Shown::All),
         (HairSource::Grown(_), Some(largest)) => Ok(Shown::AtMost(strands.max(largest as usize + 1))),
     }
