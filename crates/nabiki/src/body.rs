@@ -78,12 +78,26 @@ impl BodyWay {
     /// Names the frame.
     pub fn check(&self, name: &str, frames: u32) -> Result<(), SettingError> {
         let Self::InWorld(poses) = self else { return Ok(()) };
-        if poses.len() != 1 && poses.len() <= frames as usize {
-            let remedy =
-                format!("the scene goes on to frame {frames}: make motion.frames smaller, or the motion longer");
-            return Err(SettingError::new(format!("{name}.motion"), format!("{} frames", poses.len()), remedy));
+        if poses.len() != 1 {
+            self.check_length(name, frames)?;
         }
         check_poses(&format!("{name}.motion"), poses)
+    }
+
+    /// Refuses a way that ends before `frames`, and a single pose as well: that of a motion which is too short.
+    ///
+    /// # Errors
+    /// Names the length.
+    pub fn check_length(&self, name: &str, frames: u32) -> Result<(), SettingError> {
+        match self {
+            Self::InWorld(poses) if poses.len() <= frames as usize => {
+                let length = if poses.len() == 1 { "1 frame".to_owned() } else { format!("{} frames", poses.len()) };
+                let remedy =
+                    format!("the scene goes on to frame {frames}: make motion.frames smaller, or the motion longer");
+                Err(SettingError::new(format!("{name}.motion"), length, remedy))
+            }
+            _ => Ok(()),
+        }
     }
 }
 

@@ -40,7 +40,8 @@ pub struct FreeForm {
 
 /// A band that ties hair: a strand that passes it at rest does not move before it, but goes with the head, and moves behind
 /// it as one that is rooted there. Its segments up to the node nearest to the band have no gain, as points of no inverse
-/// mass have, and lengths, gains and what varies along a strand count from there.
+/// mass have, and lengths, gains and what varies along a strand count from there. A strand that passes between two nodes,
+/// neither of them near enough, is tied at the nearer one, and never at its root.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tie {
@@ -51,12 +52,27 @@ pub struct Tie {
 }
 
 impl Tie {
-    /// How many segments of a strand are held: those before its node nearest to the band, if that is near enough.
+    /// How many segments of a strand are held: those before its node nearest to the band, if that is near enough; or else
+    /// those before the nearer node of the segment that is, at least one.
     pub fn held(&self, strand: &[Vec3]) -> usize {
         let far = |p: &Vec3| p.distance_squared(self.at);
+        let near_enough = |far: f32| far <= self.within * self.within;
         let nearest = strand.iter().enumerate().min_by(|a, b| far(a.1).total_cmp(&far(b.1)));
-        nearest.filter(|(_, p)| far(p) <= self.within * self.within).map_or(0, |(i, _)| i)
+        if let Some((i, _)) = nearest.filter(|(_, p)| near_enough(far(p))) {
+            return i;
+        }
+        let between = |(i, pair): (usize, &[Vec3])| (i, far(&nearest_between(pair[0], pair[1], self.at)));
+        let segments = strand.windows(2).enumerate().map(between);
+        let nearest = segments.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|&(_, far)| near_enough(far));
+        nearest.map_or(0, |(i, _)| if far(&strand[i]) < far(&strand[i + 1]) { i.max(1) } else { i + 1 })
     }
+}
+
+/// The point of a segment that is nearest to a place.
+fn nearest_between(from: Vec3, to: Vec3, place: Vec3) -> Vec3 {
+    let way = to - from;
+    let part = (place - from).dot(way) / way.length_squared().max(f32::MIN_POSITIVE);
+    from + part.clamp(0.0, 1.0) * way
 }
 
 impl Default for FreeForm {
@@ -213,6 +229,20 @@ mod tests {
         assert_eq!(refused(NeighbourForces { pressure: -1.0, ..Default::default() }), "neighbours.pressure");
         assert_eq!(refused(NeighbourForces { cohesion: f32::NAN, ..Default::default() }), "neighbours.cohesion");
         assert_eq!(refused(NeighbourForces { cell: 0.1, ..Default::default() }), "neighbours.cell");
+    }
+
+    #[test]
+    fn hair_that_passes_a_band_between_two_nodes_is_tied_at_the_nearer_one() {
+        let strand: Vec<Vec3> = (0..5).map(|i| Vec3::new(i as f32, 0.0, 0.0)).collect();
+        let held = |x: f32, y: f32, within: f32| Tie { at: Vec3::new(x, y, 0.0), within }.held(&strand);
+        // No node lies within.
+        assert_eq!([0.4, 0.6, 1.4, 1.6, 2.5, 3.6].map(|x| held(x, 0.1, 0.3)), [1, 1, 1, 2, 3, 4]);
+        // One does: it decides, be it the root.
+        assert_eq!([0.1, 1.2, 3.9, 4.2].map(|x| held(x, 0.1, 0.3)), [0, 1, 4, 4]);
+        // The strand does not come so near.
+        assert_eq!([held(1.5, 0.4, 0.3), held(-0.3, 0.1, 0.3), held(4.4, 0.0, 0.3)], [0; 3]);
+        let doubled = [strand[1]; 3];
+        assert_eq!(Tie { at: Vec3::ZERO, within: 0.5 }.held(&doubled), 0);
     }
 
     #[test]

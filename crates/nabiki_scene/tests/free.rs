@@ -107,6 +107,9 @@ fn refused(from: &str, to: &str) -> String {
     let columns = "t_s,px_m,py_m,pz_m,qx,qy,qz,qw";
     let short = format!("{columns}\n0,0,1.6,0,0,0,0,1\n0.09,0.5,1.6,0,0,0,0,1\n");
     std::fs::write(folder.path().join("short.csv"), short).unwrap();
+    // Less than a frame at 24 a second.
+    let brief = format!("{columns}\n0,0,1.6,0,0,0,0,1\n0.0166,0.5,1.6,0,0,0,0,1\n");
+    std::fs::write(folder.path().join("brief.csv"), brief).unwrap();
     assert_eq!(FREE.matches(from).count(), 1, "the sample has one {from:?}");
     let path = folder.path().join("free.toml");
     let built = Scene::parse(&FREE.replacen(from, to, 1), &path, &[]).map_err(nabiki_scene::Error::from);
@@ -191,6 +194,14 @@ fn bodies_that_are_none_are_refused() {
             "mesh = \"solid.obj\"\nmotion = { file = \"short.csv\", up = \"+y\", facing = \"+x\" }"
         ),
         "free.toml:13: body[0].motion = 3 frames: the scene goes on to frame 3: make motion.frames smaller, or the motion longer"
+    );
+    assert_eq!(
+        refused(
+            "mesh = \"solid.obj\"",
+            "mesh = \"solid.obj\"\nmotion = { file = \"brief.csv\", up = \"+y\", facing = \"+x\" }"
+        ),
+        "free.toml:13: body[0].motion = 1 frame: the scene goes on to frame 3: make motion.frames smaller, or the motion longer",
+        "a motion of one pose is not a body that stands still"
     );
     assert_eq!(
         refused("solid.obj", "sheet.obj"),

@@ -163,6 +163,11 @@ impl Timeline {
             let mut film = std::mem::take(&mut self.film);
             self.play_into(&mut film);
             (self.film, self.played) = (film, true);
+        } else if self.frame < self.frames {
+            let points = self.strands.points_mut();
+            points.copy_from_slice(&self.film[self.film.len() - points.len()..]);
+            // The states are still those of another frame. Nothing goes on from the last: what lies behind begins at rest.
+            self.frame = self.frames;
         }
         Film { points: &self.film, hair: &self.hair }
     }

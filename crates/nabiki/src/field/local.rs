@@ -84,7 +84,8 @@ impl<S: Shape> LocalField<S> {
             position: self.position.to_array(),
             strength: self.strength * falloff::envelope(&self.envelope, frame),
             falloff: self.falloff,
-            core_squared: core * core,
+            // Above 0 whatever the radius: at the centre of a smaller one F would be 0 times infinity.
+            core_squared: (core * core).max(f32::MIN_POSITIVE),
             shape: self.shape,
         }
     }

@@ -89,7 +89,12 @@ impl Finder<'_> {
             let mut nodes = Vec::new();
             for (k, id) in lock.strands.iter().enumerate() {
                 let Some(&s) = self.places.get(id) else {
-                    let remedy = format!("the scene's strands are 0 to {}", self.built.strands_of_scene - 1);
+                    let kept = self.built.strands_of_scene;
+                    let mut remedy = format!("the scene's strands are 0 to {}", kept - 1);
+                    if let Some(report) = self.built.import_report.filter(|report| report.strands_in_file > kept) {
+                        let of_file = report.strands_in_file;
+                        remedy += &format!(", those of its file's {of_file} that it keeps: count these alone");
+                    }
                     return Err(self.refused(&format!("{name}.strands[{k}]"), id.to_string(), remedy));
                 };
                 nodes.extend(part(s, along));

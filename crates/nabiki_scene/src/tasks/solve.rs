@@ -1,6 +1,6 @@
 //! Which wind makes the hair do this: a scene with wishes, and the scene that meets them.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -69,9 +69,9 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
     let strands: BTreeSet<u32> = list.iter().flat_map(|wish| wish.nodes.iter().map(|node| node.strand)).collect();
     let search: Search = wishes.search.into();
     let mut seconds = 0.0;
-    let mut answer = |built: &BuiltScene, watch: &mut dyn Watch| -> Result<(Scene, Report)> {
+    let mut answer = |built: &BuiltScene, list: Vec<Wish>, watch: &mut dyn Watch| -> Result<(Scene, Report)> {
         let begun = Instant::now();
-        let problem = Problem { prior: wishes.prior.into(), ..built.problem(unknowns.clone(), list.clone()) };
+        let problem = Problem { prior: wishes.prior.into(), ..built.problem(unknowns.clone(), list) };
         let refused = |refused: SettingError| match refused.thing.starts_with("unknowns") {
             true => in_file(refused),
             false => built.refusal(refused),
@@ -82,15 +82,25 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
         scene.accept(&report.answer);
         Ok((scene, report))
     };
-    let (mut scene, mut report) = answer(&built, watch)?;
+    let (mut scene, mut report) = answer(&built, list.clone(), watch)?;
     // Hair that is not shown may bear less.
     if built.ids().len() < built.strands_of_scene {
         let whole = built.changed_to(scene.clone(), Shown::All)?;
         if whole.simulation().is_err() {
-            (scene, report) = answer(&whole.changed_to(built.scene.clone(), Shown::All)?, watch)?;
+            let whole = whole.changed_to(built.scene.clone(), Shown::All)?;
+            (scene, report) = answer(&whole, among(&whole, &built, list), watch)?;
         }
     }
     Ok((scene, Solved { report, names, unknowns, strands: strands.len(), seconds }))
+}
+
+/// Wishes about `some` of the strands of `whole`, as wishes about `whole`: the same hair has another place there.
+fn among(whole: &BuiltScene, some: &BuiltScene, mut wishes: Vec<Wish>) -> Vec<Wish> {
+    let places: HashMap<u32, u32> = whole.ids().iter().copied().zip(0..).collect();
+    for node in wishes.iter_mut().flat_map(|wish| &mut wish.nodes) {
+        node.strand = places[&some.ids()[node.strand as usize]];
+    }
+    wishes
 }
 
 /// The whole search, unless it is cancelled.
@@ -126,7 +136,7 @@ fn check_place(output: &Path, inputs: &[PathBuf], scene: &Scene) -> Result<()> {
 fn shown(file: &WishFile, strands: usize, scene: &Scene) -> Result<Shown> {
     match (&scene.hair.source, file.wishes.largest_strand()) {
         (_, None) => Ok(Shown::AtMost(strands)),
-        // The numbers of imported strands are those of the file.
+        // Imported strands are numbered as they follow one another in the file, and those of a preview are any of them.
         (HairSource::Imported(_), Some(_)) => Ok(Shown::All),
         (HairSource::Grown(_), Some(largest)) => Ok(Shown::AtMost(strands.max(largest as usize + 1))),
     }

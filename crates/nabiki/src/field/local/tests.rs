@@ -113,6 +113,23 @@ proptest! {
 }
 
 #[test]
+fn none_pushes_at_its_centre_however_small_its_radius() {
+    let laws =
+        [FalloffLaw::None, FalloffLaw::Linear, FalloffLaw::Smooth, FalloffLaw::Inverse, FalloffLaw::InverseSquare];
+    for (law, radius) in laws.into_iter().flat_map(|law| [1e-30, 1e-20, 1e-3].map(|radius| (law, radius))) {
+        let falloff = Falloff { law, radius };
+        let fields: [&dyn Field; 3] =
+            [&point(40.0, falloff, &[]), &vortex(Vec3::Y, 40.0, falloff, &[]), &fan(Vec3::X, 30.0, 40.0, falloff, &[])];
+        for field in fields {
+            assert_eq!(field.at(POSITION, 1), Vec3::ZERO, "{field:?}");
+            assert_eq!(forces(field, [POSITION; ROW], 1), [Vec3::ZERO; ROW], "{field:?}");
+            let force = field.at(POSITION + Vec3::X, 1);
+            assert!(force.is_finite() && force.length() <= field.strongest(), "{force} of {field:?}");
+        }
+    }
+}
+
+#[test]
 fn settings_out_of_range_are_refused_by_name() {
     let plain = Point { position: POSITION, strength: 1.0, falloff: Falloff::default(), envelope: Vec::new() };
     let thing = |settings: Point| settings.check("point[2]").unwrap_err().thing;

@@ -188,7 +188,8 @@ class FreeSettings(Table):
 class Tie(Table):
     """A band that ties hair: a strand that passes it at rest does not move before it, but goes with the head, and moves
     behind it as one that is rooted there. Its segments up to the node nearest to the band have no gain, as points of
-    no inverse mass have, and lengths, gains and what varies along a strand count from there.
+    no inverse mass have, and lengths, gains and what varies along a strand count from there. A strand that passes
+    between two nodes, neither of them near enough, is tied at the nearer one, and never at its root.
     """
 
     __slots__ = ()

@@ -69,7 +69,9 @@ pub(super) fn set(
                 (BuiltBody { mesh, way }, None)
             }
         };
-        way.check(&name, scene.motion.frames).map_err(|refused| scene.refusal(refused))?;
+        let frames = scene.motion.frames;
+        let long_enough = if settings.motion.is_some() { way.check_length(&name, frames) } else { Ok(()) };
+        long_enough.and_then(|()| way.check(&name, frames)).map_err(|refused| scene.refusal(refused))?;
         if settings.solid {
             let distance = match distance {
                 Some(distance) => distance,
