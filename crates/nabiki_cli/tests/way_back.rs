@@ -123,6 +123,37 @@ fn over_a_groom_at_rest_a_layer_has_its_own_points_whatever_stands_above_them() 
     }
 }
 
+/// A shot that begins at time code 1001 goes on there: a layer that began at 0 would show its last frame all the time.
+#[test]
+fn what_goes_back_stands_on_the_time_line_of_the_shot() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let moving = BELOW.replace(
+        "double3 xformOp:translate = (3, 150, -40)",
+        "double3 xformOp:translate.timeSamples = {1001: (3, 150, -40), 1004: (6, 150, -40)}",
+    );
+    fs::write(folder.join("shot.usda"), moving).unwrap();
+    let scene = "[hair]\nfile = \"shot.usda\"\norigin = [3, 150, -40]\njoin_within = 0\n\n[head.motion]\nfile = \"shot.usda\"\n\
+                 node = \"/root\"\nup = \"+y\"\nfacing = \"+x\"\n\n[motion]\nframes = 3\n\n[[force]]\nthrough = 3\nvector = [-1, 0, 0]\n";
+    fs::write(folder.join("scene.toml"), scene).unwrap();
+    succeed(folder, "simulate scene.toml -o m.nabiki --export direct.usda --export-layer /root/h --export whole.usdc");
+    succeed(folder, "convert m.nabiki later.usda --export-layer /root/h");
+    succeed(folder, "convert m.nabiki other.usda --first-frame -5");
+    succeed(folder, "simulate scene.toml -o n.nabiki --export said.usda --set output.first_frame=40");
+    for (name, first) in [("direct.usda", 1001), ("later.usda", 1001), ("other.usda", -5), ("said.usda", 40)] {
+        let text = fs::read_to_string(folder.join(name)).unwrap();
+        assert!(text.contains(&format!("startTimeCode = {first}\n")), "{name}: {}", &text[..300]);
+        for (n, there) in [(first - 1, false), (first, true), (first + 3, true), (first + 4, false)] {
+            assert_eq!(text.contains(&format!(" {n}: [")), there, "{name}: frame {n}");
+        }
+        // What the groom says of how its own points move is not true of these.
+        let blocked = ["velocities", "accelerations"].map(|name| text.contains(&format!("vector3f[] {name} = None")));
+        assert_eq!(blocked, [["direct.usda", "later.usda"].contains(&name); 2], "{name}");
+    }
+    let refused = refuse(folder, "convert m.nabiki x.usda --first-frame 10000001");
+    assert!(refused.contains("--first-frame = 10000001: must lie in -10000000..10000000"), "{refused}");
+}
+
 #[test]
 fn what_a_layer_cannot_hold_is_said() {
     let folder = tempfile::tempdir().unwrap();

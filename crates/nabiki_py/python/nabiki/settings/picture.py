@@ -799,3 +799,16 @@ class Output(Table):
     @sheet.setter
     def sheet(self, value: Sequence[int] | None) -> None:
         self._set('sheet', value)
+
+    @property
+    def first_frame(self) -> int | None:
+        """Number of frame 0 on the time line of the shot: exports of moving hair (USD, Alembic) go on from it, pictures
+        keep the numbers of the scene. -10000000..10000000 (default: that of the head's motion, where it is from USD
+        or Alembic and plays at its own speed, else 0).
+        """
+        value: int | None = self._get('first_frame')
+        return value
+
+    @first_frame.setter
+    def first_frame(self, value: int | None) -> None:
+        self._set('first_frame', value)
