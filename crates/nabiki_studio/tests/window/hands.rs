@@ -1,0 +1,57 @@
+//! What a hand begins and does not end as it meant to: Escape, numbers that are none, Enter.
+
+use super::*;
+
+fn vector(window: &Window<'_>) -> glam::Vec3 {
+    window.session().document().unwrap().scene().field.force[0].vector
+}
+
+fn escape(window: &mut Window<'_>) {
+    window.harness.key_press(Key::Escape);
+    window.harness.step();
+    window.settle();
+}
+
+#[test]
+fn escape_gives_up_a_pull_and_all_is_as_it_was() {
+    let mut window = Window::open();
+    window.harness.state_mut().session_mut().apply(Command::Go(30));
+    window.harness.state_mut().session_mut().apply(Command::Choose(vec![1]));
+    window.settle();
+    let force = |window: &Window<'_>| window.session().document().unwrap().scene().field.force.clone();
+    let before = force(&window);
+    let held = window.take_hold();
+    window.pull(held + vec2(-40.0, -30.0));
+    escape(&mut window);
+    assert_eq!(force(&window), before);
+    assert_eq!(window.session().document().unwrap().undo_name(), None);
+    assert_eq!(window.session().chosen(), [1], "it means but one thing at a time");
+    window.harness.hover_at(held + vec2(30.0, 30.0));
+    window.harness.step();
+    window.button(held + vec2(30.0, 30.0), false);
+    window.settle();
+    assert_eq!(force(&window), before, "the hand is empty");
+    escape(&mut window);
+    assert_eq!(window.session().chosen(), [] as [usize; 0]);
+}
+
+#[test]
+fn escape_gives_up_a_border() {
+    let mut window = Window::open();
+    let start = window.place_of("Border 1");
+    window.harness.hover_at(start);
+    window.harness.step();
+    window.button(start, true);
+    for n in 1..=4 {
+        window.harness.hover_at(start + vec2(15.0 * n as f32, 0.0));
+        window.harness.step();
+    }
+    assert_ne!(window.ends(), [20, 40]);
+    escape(&mut window);
+    window.harness.hover_at(start + vec2(90.0, 0.0));
+    window.harness.step();
+    window.button(start + vec2(90.0, 0.0), false);
+    window.settle();
+    assert_eq!(window.ends(), [20, 40]);
+    assert_eq!(window.session().document().unwrap().undo_name(), None);
+}
