@@ -4,6 +4,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use eframe::egui::{self, Key, Ui};
 
+use super::number::Number;
 use super::{Commands, files, theme};
 use crate::actions::{ACTIONS, Entry, MENUS, matching};
 use crate::command::Command;
@@ -228,13 +229,19 @@ fn preferences(ui: &mut Ui, session: &Session, commands: &mut Commands) {
     super::fields::row(ui, "Strands", "Shown, and moved with every touch.", false, |ui| {
         let value = egui::DragValue::new(&mut changed.strands).range(1..=ALL).speed(10.0);
         let words = |n: f64, _| if n >= ALL as f64 { "all".to_owned() } else { format!("{n:.0}") };
-        let number = |words: &str| if words.trim() == "all" { Some(ALL as f64) } else { words.trim().parse().ok() };
-        ui.add(value.custom_formatter(words).custom_parser(number)).accessible_name("Strands shown at first");
+        let number = |words: &str| match words.trim() {
+            "all" => Some(ALL as f64),
+            words => words.parse::<usize>().ok().filter(|strands| (1..=ALL).contains(strands)).map(|n| n as f64),
+        };
+        let value = value.custom_formatter(words).custom_parser(number).update_while_editing(false);
+        ui.add(value).accessible_name("Strands shown at first");
     });
     super::fields::row(ui, "Size", "Of type and panels, by what the system says.", false, |ui| {
-        let mut percent = (100.0 * changed.zoom).round();
-        ui.add(egui::DragValue::new(&mut percent).range(50.0..=400.0).suffix(" %").update_while_editing(false));
-        changed.zoom = percent / 100.0;
+        let mut percent = f64::from((100.0 * changed.zoom).round());
+        let field = Number { range: 50.0..=400.0, decimals: 0, unit: "%", ..Number::default() };
+        if field.ui(ui, &mut percent, commands).changed() {
+            changed.zoom = percent as f32 / 100.0;
+        }
     });
     super::fields::row(
         ui,
@@ -305,7 +312,10 @@ fn export(ui: &mut Ui, session: &Session, order: &Order, commands: &mut Commands
     );
     if order.kind == Kind::Still {
         super::fields::row(ui, "Frame", "The frame that is drawn.", false, |ui| {
-            ui.add(egui::DragValue::new(&mut changed.frame).range(0..=document.scene().motion.frames));
+            let mut frame = f64::from(changed.frame);
+            let range = 0.0..=f64::from(document.scene().motion.frames);
+            Number { range, decimals: 0, ..Number::default() }.ui(ui, &mut frame, commands);
+            changed.frame = frame as u32;
         });
     }
     super::fields::row(ui, "Strands", "All of the scene's, or the first few for a try.", false, |ui| {
@@ -317,7 +327,9 @@ fn export(ui: &mut Ui, session: &Session, order: &Order, commands: &mut Commands
             (false, some) => some,
         };
         if let Some(strands) = &mut changed.strands {
-            ui.add(egui::DragValue::new(strands).range(1..=10_000_000).speed(10.0));
+            let mut number = *strands as f64;
+            Number { range: 1.0..=1e7, step: 10.0, decimals: 0, ..Number::default() }.ui(ui, &mut number, commands);
+            *strands = number as usize;
         }
     });
     if changed != *order && commands.is_empty() {

@@ -55,3 +55,42 @@ fn escape_gives_up_a_border() {
     assert_eq!(window.ends(), [20, 40]);
     assert_eq!(window.session().document().unwrap().undo_name(), None);
 }
+
+#[test]
+fn what_is_typed_and_is_no_number_leaves_the_field_as_it_was() {
+    let mut window = Window::open();
+    window.click("Interval 1");
+    window.click("Style");
+    let before = vector(&window);
+    let fields = ["Force x", "Force y", "Strength of the interval", "Last frame of the interval", "Strands Strands"];
+    for field in fields {
+        for text in ["nan", "inf", "1e99", "-5e30"] {
+            window.type_into(field, text);
+            assert_eq!(window.session().document().unwrap().undo_name(), None, "{field}: {text}");
+            let said = window.session().words().last().map(|word| word.text.clone());
+            assert!(said.as_ref().is_some_and(|said| said.contains(text)), "{field}: {text} is not said: {said:?}");
+            window.harness.state_mut().session_mut().apply(Command::Heard(0));
+            window.settle();
+        }
+    }
+    window.type_into("Strength of the interval", "-5");
+    assert_eq!(vector(&window), before);
+    window.type_into("Strength of the interval", "60");
+    assert_eq!(vector(&window), glam::Vec3::new(-60.0, 0.0, 0.0), "its direction stays");
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(vector(&window), before);
+    assert_eq!(window.session().document().unwrap().undo_name(), None);
+}
+
+#[test]
+fn a_value_out_of_the_range_of_its_field_stays_until_a_hand_changes_it() {
+    let mut window = Window::of(&TEXT.replace("[-100, 0, 0]", "[-2000000, 0, 0]"), vec2(1280.0, 720.0));
+    window.click("Interval 1");
+    for _ in 0..4 {
+        window.harness.step();
+    }
+    assert_eq!(vector(&window).x, -2e6);
+    assert!(!window.session().document().unwrap().is_dirty());
+    window.type_into("Force x", "-100");
+    assert_eq!(vector(&window).x, -100.0);
+}
