@@ -41,7 +41,8 @@ impl App {
         let ctx = cc.egui_ctx.clone();
         let mut session = Session::new(folder, move || ctx.request_repaint())?;
         session.begin(scene.as_deref());
-        let layout = session.folder().and_then(|folder| Layout::read(&folder.join(LAYOUT))).unwrap_or_default();
+        let (layout, said) = session.folder().map(|folder| Layout::load(&folder.join(LAYOUT))).unwrap_or_default();
+        said.into_iter().for_each(|said| session.say(said, true));
         let view = View::new(cc.wgpu_render_state.as_ref());
         let (remembered, zoom) = (session.preferences().clone(), 0.0);
         Ok(Self { session, view, layout, fps: 0.0, title: String::new(), remembered, zoom })

@@ -336,7 +336,9 @@ fn a_broken_layout_and_broken_preferences_do_not_stop_the_start() {
     let harness = harness(folder.path().to_owned(), None, vec2(1280.0, 720.0));
     let session = harness.state().session();
     assert!(session.take().is_some());
-    assert!(session.words().iter().any(|word| word.text.contains("studio.toml")));
+    for file in ["studio.toml", "layout.json"] {
+        assert!(session.words().iter().any(|word| word.text.contains(file)), "{file} is not said");
+    }
     assert!(harness.query_by_label("Style").is_some());
 }
 
