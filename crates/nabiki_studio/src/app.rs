@@ -79,9 +79,11 @@ impl App {
             self.zoom = zoom;
         }
         self.remember_window(ctx);
-        let title = match self.session.document() {
-            Some(document) => format!("{}{} - Nabiki", if document.is_dirty() { "*" } else { "" }, document.name()),
-            None => "Nabiki".to_owned(),
+        let mark = |changed| if changed { "*" } else { "" };
+        let title = match (self.session.broken(), self.session.document()) {
+            (Some(broken), _) => format!("{}{} - Nabiki", mark(broken.is_changed()), broken.name()),
+            (None, Some(document)) => format!("{}{} - Nabiki", mark(document.is_dirty()), document.name()),
+            (None, None) => "Nabiki".to_owned(),
         };
         if title != self.title {
             ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));

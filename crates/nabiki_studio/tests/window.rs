@@ -305,7 +305,7 @@ fn a_file_that_another_program_has_changed_is_asked_for() {
     window.drag("Border 1", vec2(60.0, 0.0));
     std::fs::write(window.file(), TEXT.replace("-100", "-30")).unwrap();
     window.press(Modifiers::COMMAND, Key::S);
-    assert!(matches!(window.session().dialog(), Some(Dialog::Conflict(_))));
+    assert!(matches!(window.session().dialog(), Some(Dialog::Conflict(..))));
     assert!(std::fs::read_to_string(window.file()).unwrap().contains("-30"));
     window.click("Save over it");
     assert!(std::fs::read_to_string(window.file()).unwrap().contains("-100"));

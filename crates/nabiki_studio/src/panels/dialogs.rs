@@ -30,8 +30,9 @@ pub fn ui(ctx: &egui::Context, session: &Session, commands: &mut Commands) {
         ui.set_width(wide.min(ctx.content_rect().width() - 60.0));
         match dialog {
             Dialog::File(chooser) => files::ui(ui, session, chooser, commands),
-            Dialog::Conflict(path) => conflict(ui, path, commands),
+            Dialog::Conflict(path, _) => conflict(ui, path, commands),
             Dialog::Unsaved(next) => unsaved(ui, session, next, commands),
+            Dialog::Exporting => exporting(ui, commands),
             Dialog::Recover(kept) => recover(ui, kept, commands),
             Dialog::Palette { query, line } => palette(ui, query, *line, commands),
             Dialog::Keys => keys(ui, commands),
@@ -42,7 +43,7 @@ pub fn ui(ctx: &egui::Context, session: &Session, commands: &mut Commands) {
         }
     });
     // A question of what is lost is answered, not passed by.
-    let must = matches!(dialog, Dialog::Conflict(_) | Dialog::Recover(_));
+    let must = matches!(dialog, Dialog::Conflict(..) | Dialog::Recover(_));
     if response.should_close() && !must {
         commands.push(Command::CloseDialog);
     }
@@ -78,10 +79,15 @@ fn conflict(ui: &mut Ui, path: &std::path::Path, commands: &mut Commands) {
 }
 
 fn unsaved(ui: &mut Ui, session: &Session, next: &Next, commands: &mut Commands) {
-    let name = session.document().map(|document| document.name()).unwrap_or_default();
+    let text = session.broken().filter(|_| session.loses_text(next)).map(|broken| broken.name());
+    let name = text.or_else(|| session.document().map(|document| document.name())).unwrap_or_default();
     ui.heading("Save the changes?");
     ui.add_space(6.0);
-    let what = if *next == Next::Quit { "the window is closed" } else { "another scene is opened" };
+    let what = match next {
+        Next::Quit => "the window is closed",
+        Next::LeaveText => "its text is left",
+        Next::Open(_) | Next::Recover(_) | Next::UseMended => "another scene is opened",
+    };
     paragraph(ui, format!("{name} has changes that are lost when {what}."));
     buttons(ui, |ui| {
         if ui.button("Cancel").clicked() {
@@ -91,7 +97,21 @@ fn unsaved(ui: &mut Ui, session: &Session, next: &Next, commands: &mut Commands)
             commands.push(Command::GoOn);
         }
         if ui.button("Save").clicked() {
-            commands.extend([Command::Act(crate::actions::Action::Save), Command::GoOnIfSaved(next.clone())]);
+            commands.push(Command::SaveAndGoOn(next.clone()));
+        }
+    });
+}
+
+fn exporting(ui: &mut Ui, commands: &mut Commands) {
+    ui.heading("Stop what is being exported?");
+    ui.add_space(6.0);
+    paragraph(ui, "An export runs. When the window is closed it ends, and leaves nothing.");
+    buttons(ui, |ui| {
+        if ui.button("Cancel").clicked() {
+            commands.push(Command::CloseDialog);
+        }
+        if ui.button("Stop and close").clicked() {
+            commands.push(Command::GoOn);
         }
     });
 }
