@@ -23,10 +23,11 @@ pub fn ui(ui: &mut Ui, session: &Session, chooser: &Chooser, commands: &mut Comm
     let mut path = chooser.path.clone();
     let edit = egui::TextEdit::singleline(&mut path).desired_width(f32::INFINITY).hint_text("a path");
     let response = ui.add(edit).accessible_name("Path");
+    // To be asked first: whoever has the focus again has not lost it.
+    let entered = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
     if ui.memory(|memory| memory.focused().is_none()) {
         response.request_focus();
     }
-    let entered = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
     if response.changed() {
         commands.push(show(Chooser { path: path.clone(), ..chooser.clone() }));
     }

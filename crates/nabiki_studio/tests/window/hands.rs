@@ -94,3 +94,17 @@ fn a_value_out_of_the_range_of_its_field_stays_until_a_hand_changes_it() {
     window.type_into("Force x", "-100");
     assert_eq!(vector(&window).x, -100.0);
 }
+
+#[test]
+fn enter_opens_what_was_typed() {
+    let mut window = Window::open();
+    let other = window.folder.path().join("other.toml");
+    std::fs::write(&other, TEXT).unwrap();
+    window.press(Modifiers::COMMAND, Key::O);
+    window.harness.event(Event::Text("other.toml".to_owned()));
+    window.harness.step();
+    window.harness.step();
+    window.press(Modifiers::NONE, Key::Enter);
+    assert_eq!(window.session().dialog(), None);
+    assert_eq!(window.session().document().unwrap().path(), Some(other.as_path()));
+}
