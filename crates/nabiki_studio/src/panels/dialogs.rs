@@ -24,7 +24,8 @@ pub fn ui(ctx: &egui::Context, session: &Session, commands: &mut Commands) {
         _ => 460.0,
     };
     let frame = egui::Frame::window(&ctx.global_style()).inner_margin(egui::Margin::same(18));
-    let modal = egui::Modal::new(egui::Id::unique("dialog")).frame(frame);
+    // Each kind has a size of its own.
+    let modal = egui::Modal::new(egui::Id::unique(("dialog", std::mem::discriminant(dialog)))).frame(frame);
     let modal = modal.backdrop_color(egui::Color32::from_black_alpha(120));
     let response = modal.show(ctx, |ui| {
         ui.set_width(wide.min(ctx.content_rect().width() - 60.0));
@@ -51,7 +52,8 @@ pub fn ui(ctx: &egui::Context, session: &Session, commands: &mut Commands) {
 
 fn buttons(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
     ui.add_space(10.0);
-    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), add);
+    // In a row as high as they are: a layout that is centred would take all the height there is.
+    ui.horizontal(|ui| ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), add));
 }
 
 fn paragraph(ui: &mut Ui, text: impl Into<egui::WidgetText>) {

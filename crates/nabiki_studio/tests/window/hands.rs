@@ -108,3 +108,22 @@ fn enter_opens_what_was_typed() {
     assert_eq!(window.session().dialog(), None);
     assert_eq!(window.session().document().unwrap().path(), Some(other.as_path()));
 }
+
+#[test]
+fn a_dialog_is_as_high_as_what_is_in_it() {
+    let mut window = Window::open();
+    window.drag("Border 1", vec2(60.0, 0.0));
+    let asked = |window: &mut Window<'_>| {
+        window.press(Modifiers::COMMAND, Key::Q);
+        let place = window.place_of("Do not save");
+        window.click("Cancel");
+        place
+    };
+    let before = asked(&mut window);
+    window.press(Modifiers::NONE, Key::F1);
+    escape(&mut window);
+    assert_eq!(window.session().dialog(), None);
+    window.press(Modifiers::COMMAND, Key::O);
+    window.click("Cancel");
+    assert!((asked(&mut window) - before).length() < 1.0);
+}
