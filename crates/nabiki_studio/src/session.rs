@@ -81,6 +81,8 @@ pub struct Session {
     trouble: Option<Trouble>,
     took: Duration,
     asked: u64,
+    /// The first motion that was asked for of this scene.
+    first_asked: u64,
     chosen: Vec<usize>,
     clip: Clip,
     dialog: Option<Dialog>,
@@ -135,6 +137,7 @@ impl Session {
             trouble: None,
             took: Duration::ZERO,
             asked: 0,
+            first_asked: 0,
             chosen: Vec::new(),
             clip: Clip::default(),
             dialog: None,
@@ -321,6 +324,9 @@ impl Session {
     }
 
     fn receive_touched(&mut self, Moved { number, result, took }: Moved) {
+        if number < self.first_asked {
+            return;
+        }
         match result {
             Ok((take, swings)) => {
                 self.play.set_last(take.frames());

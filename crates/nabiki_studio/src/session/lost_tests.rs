@@ -186,3 +186,17 @@ fn a_text_that_a_killed_window_had_is_offered_and_goes_on_being_mended() {
     assert_eq!((broken.text.as_str(), &broken.path), ("half", &path));
     assert!(broken.is_changed() && session.dialog().is_none());
 }
+
+#[test]
+fn a_scene_that_cannot_move_does_not_show_the_hair_of_the_one_before() {
+    let place = Place::new();
+    let mut session = place.session();
+    let still = place.0.path().join("still.toml");
+    std::fs::write(&still, TEXT.replace("-100", "-1000000")).unwrap();
+    session.apply(Command::Open(still));
+    session.wait();
+    assert!(session.trouble().is_some() && session.take().is_none() && session.swings().is_none());
+    session.apply(Command::Open(place.file()));
+    session.wait();
+    assert!(session.trouble().is_none() && session.take().is_some());
+}

@@ -127,3 +127,19 @@ fn a_dialog_is_as_high_as_what_is_in_it() {
     window.click("Cancel");
     assert!((asked(&mut window) - before).length() < 1.0);
 }
+
+#[test]
+fn what_cannot_be_undone_is_not_offered_to_be() {
+    let mut window = Window::open();
+    let still = window.folder.path().join("still.toml");
+    std::fs::write(&still, TEXT.replace("[-100, 0, 0]", "[-2000000, 0, 0]")).unwrap();
+    window.harness.state_mut().session_mut().apply(Command::Open(still));
+    window.settle();
+    assert!(window.session().trouble().is_some() && window.session().take().is_none());
+    assert!(window.harness.query_by_label_contains("This scene does not move yet").is_some());
+    assert!(window.harness.query_by_label("Undo").is_none());
+    window.click("Interval 1");
+    window.type_into("Force x", "3000");
+    window.type_into("Force x", "900000");
+    assert!(window.session().trouble().is_some() && window.harness.query_by_label("Undo").is_some());
+}
