@@ -328,12 +328,7 @@ impl Scene {
     /// As there, and what the disk says.
     pub fn save(&mut self, path: &Path) -> Result<(), SceneError> {
         let text = self.to_toml()?;
-        let write = || {
-            let mut file = PartFile::create(path)?;
-            file.write_all(text.as_bytes())?;
-            file.finish()
-        };
-        write().map_err(|e: std::io::Error| file_error(path, e.to_string()))?;
+        write_scene(path, &text)?;
         *self = Self { origins: Self::read(&text, path, &[])?.origins, text, ..self.clone() };
         Ok(())
     }
@@ -375,6 +370,26 @@ impl Scene {
         self.picture.camera = Camera { to: Some(CameraKey::default()), ..self.picture.camera };
         self
     }
+}
+
+/// Writes the text of a scene to `path`, as it is; the file appears when whole.
+///
+/// # Errors
+/// What the disk says.
+pub fn write_scene(path: &Path, text: &str) -> Result<(), SceneError> {
+    let write = || {
+        let mut file = PartFile::create(path)?;
+        file.write_all(text.as_bytes())?;
+        file.finish()
+    };
+    write().map_err(|e: std::io::Error| {
+        let what = match e.kind() {
+            // The file need not be there, only where it goes.
+            std::io::ErrorKind::NotFound => "there is no such folder".to_owned(),
+            _ => e.to_string(),
+        };
+        file_error(path, what)
+    })
 }
 
 pub(crate) fn file_error(path: &Path, what: String) -> SceneError {

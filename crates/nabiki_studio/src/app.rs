@@ -8,7 +8,7 @@ use egui_tiles::{SimplificationOptions, TileId, UiResponse};
 use crate::actions::{ACTIONS, Action};
 use crate::command::Command;
 use crate::dialog::Dialog;
-use crate::document::Phase;
+use crate::document::{Document, Phase};
 use crate::layout::{Layout, Pane};
 use crate::panels::{Commands, dialogs, mend, menu, page, status, theme, timeline, welcome};
 use crate::preferences::{LAYOUT, Preferences};
@@ -41,7 +41,8 @@ impl App {
         let ctx = cc.egui_ctx.clone();
         let mut session = Session::new(folder, move || ctx.request_repaint())?;
         session.begin(scene.as_deref());
-        let layout = session.folder().and_then(|folder| Layout::read(&folder.join(LAYOUT))).unwrap_or_default();
+        let (layout, said) = session.folder().map(|folder| Layout::load(&folder.join(LAYOUT))).unwrap_or_default();
+        said.into_iter().for_each(|said| session.say(said, true));
         let view = View::new(cc.wgpu_render_state.as_ref());
         let (remembered, zoom) = (session.preferences().clone(), 0.0);
         Ok(Self { session, view, layout, fps: 0.0, title: String::new(), remembered, zoom })
@@ -78,9 +79,11 @@ impl App {
             self.zoom = zoom;
         }
         self.remember_window(ctx);
-        let title = match self.session.document() {
-            Some(document) => format!("{}{} - Nabiki", if document.is_dirty() { "*" } else { "" }, document.name()),
-            None => "Nabiki".to_owned(),
+        let mark = |changed| if changed { "*" } else { "" };
+        let title = match (self.session.broken(), self.session.document()) {
+            (Some(broken), _) => format!("{}{} - Nabiki", mark(broken.is_changed()), broken.name()),
+            (None, Some(document)) => format!("{}{} - Nabiki", mark(document.is_dirty()), document.name()),
+            (None, None) => "Nabiki".to_owned(),
         };
         if title != self.title {
             ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
@@ -120,10 +123,12 @@ impl App {
         } else if self.session.dialog().is_some() {
             return;
         }
-        if ctx.egui_wants_keyboard_input() {
+        let dragged = self.session.document().is_some_and(Document::is_dragging);
+        let held = self.view.is_held() || (dragged && ctx.input(|input| input.pointer.any_down()));
+        if ctx.egui_wants_keyboard_input() && !held {
             return;
         }
-        keys(ctx, commands);
+        keys(ctx, held, commands);
     }
 
     fn carry_out(&mut self, ctx: &egui::Context, commands: Commands) {
@@ -195,37 +200,43 @@ impl eframe::App for App {
     }
 }
 
-/// The keys of all actions.
-fn keys(ctx: &egui::Context, commands: &mut Commands) {
+/// The keys of all actions, in the order in which they were pressed. `held`: something is being dragged, which Escape gives
+/// up before it means anything else.
+fn keys(ctx: &egui::Context, mut held: bool, commands: &mut Commands) {
     ctx.input_mut(|input| {
-        // The system has its own words for these three.
-        for event in &input.events {
-            match event {
-                egui::Event::Copy => commands.push(Command::Act(Action::Copy)),
-                egui::Event::Cut => commands.push(Command::Act(Action::Cut)),
-                egui::Event::Paste(_) => commands.push(Command::Act(Action::Paste)),
-                _ => {}
+        input.events.retain(|event| {
+            let (action, is_key) = match event {
+                // The system has its own words for these three.
+                egui::Event::Copy => (Some(Action::Copy), false),
+                egui::Event::Cut => (Some(Action::Cut), false),
+                egui::Event::Paste(_) => (Some(Action::Paste), false),
+                // The keys held are those of the event: by the end of a slow picture they may have been let go.
+                egui::Event::Key { key, modifiers, pressed: true, .. } => (action_of(*key, *modifiers), true),
+                _ => (None, false),
+            };
+            let Some(action) = action else { return true };
+            if action == Action::SelectNone && std::mem::take(&mut held) {
+                // The view is to see it, too.
+                commands.push(Command::GiveUpDrag);
+                return true;
             }
-        }
-        // Those that hold more come first, or Ctrl+Z would take Ctrl+Shift+Z.
-        let mut entries: Vec<_> = ACTIONS.iter().filter_map(|entry| entry.key.map(|key| (key, entry.action))).collect();
-        entries.sort_by_key(|(key, _)| std::cmp::Reverse(u8::from(key.command) + u8::from(key.shift)));
-        for (shortcut, action) in entries {
-            let Some(key) = Key::from_name(shortcut.key) else { continue };
-            let modifiers = Modifiers { command: shortcut.command, shift: shortcut.shift, ..Modifiers::NONE };
-            // The keys held are those of the event: by the end of a slow picture they may have been let go. And in one
-            // picture a key may have been pressed more than once.
-            let presses = input.count_and_consume_key(modifiers, key);
-            commands.extend(std::iter::repeat_n(Command::Act(action), presses));
-        }
-        // A second name on keyboards where + is a key of its own, and the other usual key for redo.
-        if input.consume_key(Modifiers::COMMAND, Key::Plus) {
-            commands.push(Command::Act(Action::ZoomIn));
-        }
-        if input.consume_key(Modifiers::COMMAND, Key::Y) {
-            commands.push(Command::Act(Action::Redo));
-        }
+            commands.push(Command::Act(action));
+            !is_key
+        });
     });
+}
+
+/// What a key does. Of two that fit it is the one that holds more, or Ctrl+Z would take Ctrl+Shift+Z.
+fn action_of(key: Key, modifiers: Modifiers) -> Option<Action> {
+    let held = |command, shift| Modifiers { command, shift, ..Modifiers::NONE };
+    let named = ACTIONS.iter().filter_map(|entry| entry.key.map(|shortcut| (shortcut, entry.action)));
+    let named = named.filter(|(shortcut, _)| Key::from_name(shortcut.key) == Some(key));
+    let named = named.map(|(shortcut, action)| (held(shortcut.command, shortcut.shift), action));
+    // A second name on keyboards where + is a key of its own, and the other usual key for redo.
+    let second = [(Key::Plus, Action::ZoomIn), (Key::Y, Action::Redo)];
+    let second = second.into_iter().filter(|(name, _)| *name == key).map(|(_, action)| (Modifiers::COMMAND, action));
+    let fitting = named.chain(second).filter(|(wanted, _)| modifiers.matches_logically(*wanted));
+    fitting.max_by_key(|(wanted, _)| u8::from(wanted.command) + u8::from(wanted.shift)).map(|(_, action)| action)
 }
 
 struct Panes<'a> {
@@ -331,5 +342,54 @@ impl egui_tiles::Behavior<Pane> for Panes<'_> {
 
     fn tab_bar_color(&self, _: &egui::Visuals) -> egui::Color32 {
         theme::GROUND
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use eframe::egui::{Event, RawInput};
+
+    use super::*;
+
+    fn pressed(held: bool, keys: &[(Key, Modifiers)]) -> Vec<Command> {
+        let event = |&(key, modifiers): &(Key, Modifiers)| Event::Key {
+            key,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers,
+        };
+        let input = RawInput { events: keys.iter().map(event).collect(), ..RawInput::default() };
+        let mut commands = Commands::new();
+        let _ = egui::Context::default().run_ui(input, |ui| self::keys(ui.ctx(), held, &mut commands));
+        commands
+    }
+
+    fn actions(commands: &[Command]) -> Vec<Action> {
+        let action = |command: &Command| match command {
+            Command::Act(action) => *action,
+            other => panic!("{other:?} is no action"),
+        };
+        commands.iter().map(action).collect()
+    }
+
+    #[test]
+    fn keys_of_one_picture_do_what_they_do_in_the_order_in_which_they_were_pressed() {
+        let (none, command, both) = (Modifiers::NONE, Modifiers::COMMAND, Modifiers::COMMAND | Modifiers::SHIFT);
+        let keys = [(Key::S, none), (Key::Z, command), (Key::End, none), (Key::Z, both), (Key::Y, command)];
+        let wanted = [Action::Split, Action::Undo, Action::Last, Action::Redo, Action::Redo];
+        assert_eq!(actions(&pressed(false, &keys)), wanted);
+        assert_eq!(actions(&pressed(false, &[(Key::End, none), (Key::S, none)])), [Action::Last, Action::Split]);
+    }
+
+    #[test]
+    fn escape_gives_up_what_is_held_and_chooses_none_otherwise() {
+        let escape = (Key::Escape, Modifiers::NONE);
+        assert_eq!(actions(&pressed(false, &[escape])), [Action::SelectNone]);
+        assert!(matches!(pressed(true, &[escape])[..], [Command::GiveUpDrag]));
+        assert!(matches!(
+            pressed(true, &[escape, escape])[..],
+            [Command::GiveUpDrag, Command::Act(Action::SelectNone)]
+        ));
     }
 }

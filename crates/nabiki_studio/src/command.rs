@@ -95,10 +95,10 @@ pub enum Command {
     Chosen(Box<Chooser>, PathBuf),
     /// The dialog goes.
     CloseDialog,
-    /// Goes on without saving.
+    /// Goes on although something is lost by it.
     GoOn,
-    /// Goes on if everything is saved by now; asks for a name first if it was not because it has none.
-    GoOnIfSaved(crate::dialog::Next),
+    /// Saves what this would lose, asks for a name if there is none, and goes on with it.
+    SaveAndGoOn(crate::dialog::Next),
     /// Begins an export.
     Export(Order),
     /// Stops the export of this number.

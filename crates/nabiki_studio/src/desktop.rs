@@ -44,7 +44,7 @@ impl Asked {
         // Some systems show dialogs on the thread of the window only: what is sent to the other one is the waiting.
         let answer: std::pin::Pin<Box<dyn Future<Output = _> + Send>> = match chooser.purpose {
             Purpose::Open | Purpose::Setting(_) => Box::pin(dialog.pick_file()),
-            Purpose::SaveAs | Purpose::Export(_) => {
+            Purpose::SaveAs(_) | Purpose::Export(_) => {
                 Box::pin(dialog.set_file_name(name.unwrap_or_default()).save_file())
             }
         };

@@ -10,10 +10,12 @@ use crate::tasks;
 pub enum Dialog {
     /// Which file?
     File(Chooser),
-    /// Somebody else has written the scene's file.
-    Conflict(PathBuf),
+    /// Somebody else has written the file that is to be saved; what comes after it.
+    Conflict(PathBuf, Option<Next>),
     /// Something is not saved, and would be lost by what is to come.
     Unsaved(Next),
+    /// An export runs, and would end with the window.
+    Exporting,
     /// Scenes that were not saved when windows were killed.
     Recover(Vec<Kept>),
     /// Which command?
@@ -44,6 +46,8 @@ pub enum Next {
     Recover(Box<Kept>),
     /// The text that was mended.
     UseMended,
+    /// The scene behind the text that is being mended.
+    LeaveText,
     /// The end.
     Quit,
 }
@@ -53,8 +57,8 @@ pub enum Next {
 pub enum Purpose {
     /// To be opened.
     Open,
-    /// To be written.
-    SaveAs,
+    /// To be written; what comes after it.
+    SaveAs(Option<Box<Next>>),
     /// To be named by a setting.
     Setting(String),
     /// To be exported into; for which order.
@@ -88,7 +92,7 @@ impl Chooser {
     pub fn title(&self) -> &'static str {
         match self.purpose {
             Purpose::Open => "Open",
-            Purpose::SaveAs => "Save as",
+            Purpose::SaveAs(_) => "Save as",
             Purpose::Setting(_) => "Choose a file",
             Purpose::Export(_) => "Export to",
         }

@@ -142,6 +142,11 @@ impl Document {
         }
     }
 
+    /// Whether the last step is still being dragged.
+    pub fn is_dragging(&self) -> bool {
+        self.dragging
+    }
+
     /// What is changed next is another step.
     pub fn end_drag(&mut self) {
         // A drag that came back to where it began is no step.

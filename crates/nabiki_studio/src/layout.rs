@@ -53,15 +53,30 @@ impl Default for Layout {
 }
 
 impl Layout {
-    /// As it was written, if that can be read and nothing is missing.
-    pub fn read(file: &Path) -> Option<Self> {
-        let tree: Tree<Pane> = serde_json::from_str(&std::fs::read_to_string(file).ok()?).ok()?;
+    /// As it was written; what cannot be read, or lacks a panel, is as at the first start, and said.
+    pub fn load(file: &Path) -> (Self, Option<String>) {
+        let text = match std::fs::read_to_string(file) {
+            Ok(text) => Ok(text),
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return (Self::default(), None),
+            Err(e) => Err(e.to_string()),
+        };
+        match text.and_then(|text| Self::read(&text)) {
+            Ok(layout) => (layout, None),
+            Err(why) => {
+                let said = format!("{}: {why}; the panels are as at the first start", file.display());
+                (Self::default(), Some(said))
+            }
+        }
+    }
+
+    fn read(text: &str) -> Result<Self, String> {
+        let tree: Tree<Pane> = serde_json::from_str(text).map_err(|e| e.to_string())?;
         let whole = [Pane::View, Pane::Timeline]
             .into_iter()
             .chain(Page::ALL.map(Pane::Page))
             .all(|pane| tree.tiles.find_pane(&pane).is_some_and(|id| tree.tiles.is_visible(id)));
-        let root = tree.root()?;
-        (whole && tree.tiles.get(root).is_some()).then_some(Self { tree })
+        let has_root = tree.root().is_some_and(|root| tree.tiles.get(root).is_some());
+        if whole && has_root { Ok(Self { tree }) } else { Err("a panel is missing".to_owned()) }
     }
 
     /// Writes it. A layout that is not remembered is no loss.
@@ -186,14 +201,17 @@ mod tests {
     }
 
     #[test]
-    fn a_layout_comes_back_and_a_broken_one_does_not() {
+    fn a_layout_comes_back_and_a_broken_one_is_said() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("layout.json");
-        assert!(Layout::read(&file).is_none());
+        let said = || Layout::load(&file).1;
+        assert_eq!(said(), None, "before the first start there is none");
         Layout::default().write(&file);
-        assert!(Layout::read(&file).is_some());
+        assert_eq!(said(), None);
         let text = std::fs::read_to_string(&file).unwrap();
         std::fs::write(&file, text.replace("Timeline", "View")).unwrap();
-        assert!(Layout::read(&file).is_none(), "a panel is missing");
+        assert!(said().is_some_and(|said| said.contains("layout.json: a panel is missing")));
+        std::fs::write(&file, "{ \"root\": 17 }").unwrap();
+        assert!(said().is_some_and(|said| said.contains("layout.json") && !said.contains('\n')));
     }
 }

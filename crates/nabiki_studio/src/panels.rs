@@ -6,6 +6,7 @@ pub mod files;
 pub mod interval;
 pub mod mend;
 pub mod menu;
+pub mod number;
 pub mod page;
 pub mod status;
 pub mod theme;

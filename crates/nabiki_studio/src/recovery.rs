@@ -22,6 +22,8 @@ pub struct Keeper {
     _held: File,
     /// The version of the document that is kept.
     kept: Option<u64>,
+    /// The text that is kept.
+    text: Option<String>,
 }
 
 /// A scene that was not saved.
@@ -53,7 +55,7 @@ impl Keeper {
             let held = File::options().create(true).append(true).open(&lock)?;
             match held.try_lock() {
                 Ok(()) => {
-                    let keeper = Self { file: lock.with_extension("toml"), lock, _held: held, kept: None };
+                    let keeper = Self { file: lock.with_extension("toml"), lock, _held: held, kept: None, text: None };
                     // A process of the same number may have left something that nobody has asked for yet.
                     if !keeper.file.exists() {
                         return Ok(keeper);
@@ -76,23 +78,33 @@ impl Keeper {
         }
         if document.is_dirty() {
             let scene = document.scene();
-            let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |passed| passed.as_secs());
-            let kept = Kept {
-                path: std::path::absolute(scene.file())?,
-                has_file: document.path().is_some(),
-                seconds,
-                text: scene.to_toml().map_err(io::Error::other)?,
-                place: PathBuf::new(),
-            };
-            let text = toml::to_string(&kept).map_err(io::Error::other)?;
-            let mut file = PartFile::create(&self.file)?;
-            file.write_all(text.as_bytes())?;
-            file.finish()?;
+            self.write(scene.file(), document.path().is_some(), scene.to_toml().map_err(io::Error::other)?)?;
         } else {
             self.forget();
         }
         self.kept = Some(document.version());
         Ok(())
+    }
+
+    /// Keeps a text that is no scene yet, if it is not kept yet.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn keep_text(&mut self, path: &Path, text: &str) -> io::Result<()> {
+        if self.text.as_deref() != Some(text) {
+            self.write(path, true, text.to_owned())?;
+            self.text = Some(text.to_owned());
+        }
+        Ok(())
+    }
+
+    fn write(&self, path: &Path, has_file: bool, text: String) -> io::Result<()> {
+        let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |passed| passed.as_secs());
+        let kept = Kept { path: std::path::absolute(path)?, has_file, seconds, text, place: PathBuf::new() };
+        let text = toml::to_string(&kept).map_err(io::Error::other)?;
+        let mut file = PartFile::create(&self.file)?;
+        file.write_all(text.as_bytes())?;
+        file.finish()
     }
 
     /// Nothing is kept any more: it is saved, or to be lost.

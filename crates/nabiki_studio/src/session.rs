@@ -4,19 +4,19 @@
 mod deep;
 mod edit;
 mod files;
+mod lost;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use nabiki_scene::scene::SceneError;
 use nabiki_scene::told::SwingTable;
 use toml::Table;
 
 use crate::actions::Action;
 use crate::command::Command;
 use crate::desktop::Asked;
-use crate::dialog::{Dialog, Next};
+use crate::dialog::Dialog;
 use crate::document::Document;
 use crate::motion::{Manner, Motion, Moved};
 use crate::play::{Ending, Play};
@@ -26,6 +26,7 @@ use crate::take::{TOUCHED, Take};
 use crate::tasks::Task;
 use crate::timeline::Clip;
 use deep::Deep;
+pub use lost::Broken;
 
 /// Between two looks at the scene's file, and between the last change and its being kept.
 const LOOK: Duration = Duration::from_secs(1);
@@ -39,19 +40,6 @@ pub struct Word {
     pub wrong: bool,
     /// When it was said, by the session's clock (seconds).
     pub at: f64,
-}
-
-/// The text of a scene that cannot be read, being mended.
-#[derive(Clone, Debug)]
-pub struct Broken {
-    /// The file.
-    pub path: PathBuf,
-    /// Its text, as it has been mended so far.
-    pub text: String,
-    /// What is wrong; none once nothing is.
-    pub error: Option<SceneError>,
-    /// What is in the file.
-    on_disk: Vec<u8>,
 }
 
 /// What only the window itself can do.
@@ -93,6 +81,8 @@ pub struct Session {
     trouble: Option<Trouble>,
     took: Duration,
     asked: u64,
+    /// The first motion that was asked for of this scene.
+    first_asked: u64,
     chosen: Vec<usize>,
     clip: Clip,
     dialog: Option<Dialog>,
@@ -102,6 +92,8 @@ pub struct Session {
     preferences: Preferences,
     folder: Option<PathBuf>,
     keeper: Option<Keeper>,
+    /// Keeps the text being mended, while it is not saved.
+    text_keeper: Option<Keeper>,
     clock: f64,
     looked: Instant,
     said_changed: bool,
@@ -145,6 +137,7 @@ impl Session {
             trouble: None,
             took: Duration::ZERO,
             asked: 0,
+            first_asked: 0,
             chosen: Vec::new(),
             clip: Clip::default(),
             dialog: None,
@@ -154,6 +147,7 @@ impl Session {
             play: Play::new(preferences.ending),
             preferences,
             keeper: None,
+            text_keeper: None,
             folder,
             clock: 0.0,
             looked: Instant::now(),
@@ -330,6 +324,9 @@ impl Session {
     }
 
     fn receive_touched(&mut self, Moved { number, result, took }: Moved) {
+        if number < self.first_asked {
+            return;
+        }
         match result {
             Ok((take, swings)) => {
                 self.play.set_last(take.frames());
@@ -346,14 +343,6 @@ impl Session {
                 self.trouble = Some(Trouble { text: error.to_string(), key });
             }
             Err(_) => {}
-        }
-    }
-
-    /// Keeps what is not saved.
-    fn keep(&mut self) {
-        let (Some(keeper), Some(document)) = (&mut self.keeper, &self.document) else { return };
-        if let Err(e) = keeper.keep(document) {
-            self.say(format!("{e}: what is not saved cannot be kept in case this window is killed"), true);
         }
     }
 
@@ -404,6 +393,10 @@ impl Session {
             Command::Export(order) => self.export(order),
             command => self.apply_to_document(command),
         }
+        self.move_if_changed();
+    }
+
+    fn move_if_changed(&mut self) {
         if self.document.as_ref().is_some_and(|document| document.version() != self.seen_version) {
             self.move_again(false);
         }
@@ -439,16 +432,14 @@ impl Session {
         }
     }
 
-    /// Whether the window may close now; asks if something would be lost.
-    pub fn may_close(&mut self) -> bool {
-        if self.document.as_ref().is_some_and(Document::is_dirty) {
-            self.dialog = Some(Dialog::Unsaved(Next::Quit));
-            return false;
-        }
-        true
-    }
-
     fn act(&mut self, action: Action) {
+        if let Some(broken) = &self.broken
+            && edit::CHANGES.contains(&action)
+        {
+            let text = format!("{}: mend it or leave it first; the scene behind it stays as it is", broken.name());
+            self.say(text, false);
+            return;
+        }
         match action {
             Action::Play => self.play.set_playing(!self.play.is_playing()),
             Action::Forward => self.play.step(1),

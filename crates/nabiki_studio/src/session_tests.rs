@@ -4,25 +4,26 @@ use glam::Vec3;
 use nabiki::field::Keyframe;
 
 use super::*;
+use crate::dialog::Next;
 use crate::document::Phase;
 
-const TEXT: &str = "[hair]\nstrands = 60\nsegments = 18\n[motion]\nform = \"free\"\nframes = 20\n\
+pub(super) const TEXT: &str = "[hair]\nstrands = 60\nsegments = 18\n[motion]\nform = \"free\"\nframes = 20\n\
                     [[force]]\nthrough = 10     # then calm\nvector = [-100, 0, 0]\n[[force]]\nthrough = 20\nvector = [0, 0, 0]\n";
 
-struct Place(tempfile::TempDir);
+pub(super) struct Place(pub(super) tempfile::TempDir);
 
 impl Place {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         let place = Self(tempfile::tempdir().unwrap());
         std::fs::write(place.file(), TEXT).unwrap();
         place
     }
 
-    fn file(&self) -> PathBuf {
+    pub(super) fn file(&self) -> PathBuf {
         self.0.path().join("wind.toml")
     }
 
-    fn session(&self) -> Session {
+    pub(super) fn session(&self) -> Session {
         let mut session = Session::new(Some(self.0.path().join("config")), || ()).unwrap();
         session.begin(Some(&self.file()));
         session.wait();

@@ -172,6 +172,11 @@ impl View {
         Marks { nails, pulled }
     }
 
+    /// Whether a hand holds hair or an arrow.
+    pub fn is_held(&self) -> bool {
+        self.hand.is_busy()
+    }
+
     /// The side on which a view of so many points has more room beside head and hair, and that room (points).
     pub fn free_side(&self, shown: &Shown<'_>, size: egui::Vec2) -> (egui::Align, f32) {
         let Some(orbit) = self.orbit else { return (egui::Align::Max, size.x) };

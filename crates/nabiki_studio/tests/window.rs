@@ -11,6 +11,9 @@ use nabiki_studio::command::Command;
 use nabiki_studio::dialog::Dialog;
 use nabiki_studio::session::Session;
 
+#[path = "window/hands.rs"]
+mod hands;
+
 const TEXT: &str = "# A breeze.\n[hair]\nstrands = 60\nsegments = 18\n[motion]\nform = \"free\"\nframes = 40\n\n\
                     [[force]]\nthrough = 20     # then calm\nvector = [-100, 0, 0]\n\n[[force]]\nthrough = 40\nvector = [0, 0, 0]\n";
 
@@ -85,6 +88,48 @@ impl Window<'_> {
         let event = Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
         self.harness.event(event);
         self.harness.step();
+    }
+
+    /// The frame in which hair is pulled.
+    fn pulled(&self) -> Option<u32> {
+        self.harness.state().view().marks().pulled
+    }
+
+    /// Takes hold of some hair: somewhere it is under the pointer.
+    fn take_hold(&mut self) -> Pos2 {
+        let view = self.harness.get_by_label("View of the hair").rect();
+        let mut places =
+            (0..400).map(|n| view.min + view.size() * vec2((n % 20) as f32 + 0.5, (n / 20) as f32 + 0.5) / 20.0);
+        let held = places.find(|&at| {
+            self.harness.hover_at(at);
+            self.button(at, true);
+            self.pulled().is_some() || {
+                self.button(at, false);
+                false
+            }
+        });
+        held.expect("no hair in sight")
+    }
+
+    /// Pulls what is held until the wind follows.
+    fn pull(&mut self, to: Pos2) {
+        let force = |window: &Self| window.session().document().unwrap().scene().field.force.clone();
+        let before = force(self);
+        let clock = std::time::Instant::now();
+        self.harness.hover_at(to);
+        while force(self) == before {
+            assert!(clock.elapsed().as_secs() < 60, "the wind never followed");
+            self.harness.step();
+        }
+    }
+
+    /// Clicks a field of a number, types and ends with Enter.
+    fn type_into(&mut self, label: &str, text: &str) {
+        self.click(label);
+        self.harness.event(Event::Text(text.to_owned()));
+        self.harness.step();
+        self.press(Modifiers::NONE, Key::Enter);
+        self.settle();
     }
 
     fn click(&mut self, label: &str) {
@@ -174,29 +219,12 @@ fn a_lock_is_pulled_the_wind_follows_and_one_step_undoes_it() {
     window.harness.state_mut().session_mut().apply(Command::Go(30));
     window.settle();
     let before = window.session().document().unwrap().scene().field.force.clone();
-    let view = window.harness.get_by_label("View of the hair").rect();
-    let pulled = |window: &Window| window.harness.state().view().marks().pulled;
-    // Somewhere there is hair under the pointer.
-    let places = (0..400).map(|n| view.min + view.size() * vec2((n % 20) as f32 + 0.5, (n / 20) as f32 + 0.5) / 20.0);
-    let held = places.into_iter().find(|&at| {
-        window.harness.hover_at(at);
-        window.button(at, true);
-        pulled(&window).is_some() || {
-            window.button(at, false);
-            false
-        }
-    });
-    let held = held.expect("no hair in sight");
-    assert_eq!(pulled(&window), Some(30), "the timeline marks the frame");
-    let clock = std::time::Instant::now();
-    window.harness.hover_at(held + vec2(-40.0, -30.0));
-    while window.session().document().unwrap().scene().field.force == before {
-        assert!(clock.elapsed().as_secs() < 60, "the wind never followed");
-        window.harness.step();
-    }
+    let held = window.take_hold();
+    assert_eq!(window.pulled(), Some(30), "the timeline marks the frame");
+    window.pull(held + vec2(-40.0, -30.0));
     window.button(held + vec2(-40.0, -30.0), false);
     window.settle();
-    assert_eq!(pulled(&window), None);
+    assert_eq!(window.pulled(), None);
     assert_eq!(window.session().document().unwrap().undo_name(), Some("Pull the hair"));
     window.press(Modifiers::COMMAND, Key::Z);
     assert_eq!(window.session().document().unwrap().scene().field.force, before, "one pull is one step");
@@ -277,7 +305,7 @@ fn a_file_that_another_program_has_changed_is_asked_for() {
     window.drag("Border 1", vec2(60.0, 0.0));
     std::fs::write(window.file(), TEXT.replace("-100", "-30")).unwrap();
     window.press(Modifiers::COMMAND, Key::S);
-    assert!(matches!(window.session().dialog(), Some(Dialog::Conflict(_))));
+    assert!(matches!(window.session().dialog(), Some(Dialog::Conflict(..))));
     assert!(std::fs::read_to_string(window.file()).unwrap().contains("-30"));
     window.click("Save over it");
     assert!(std::fs::read_to_string(window.file()).unwrap().contains("-100"));
@@ -308,7 +336,9 @@ fn a_broken_layout_and_broken_preferences_do_not_stop_the_start() {
     let harness = harness(folder.path().to_owned(), None, vec2(1280.0, 720.0));
     let session = harness.state().session();
     assert!(session.take().is_some());
-    assert!(session.words().iter().any(|word| word.text.contains("studio.toml")));
+    for file in ["studio.toml", "layout.json"] {
+        assert!(session.words().iter().any(|word| word.text.contains(file)), "{file} is not said");
+    }
     assert!(harness.query_by_label("Style").is_some());
 }
 

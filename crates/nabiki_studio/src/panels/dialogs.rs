@@ -4,6 +4,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use eframe::egui::{self, Key, Ui};
 
+use super::number::Number;
 use super::{Commands, files, theme};
 use crate::actions::{ACTIONS, Entry, MENUS, matching};
 use crate::command::Command;
@@ -23,14 +24,16 @@ pub fn ui(ctx: &egui::Context, session: &Session, commands: &mut Commands) {
         _ => 460.0,
     };
     let frame = egui::Frame::window(&ctx.global_style()).inner_margin(egui::Margin::same(18));
-    let modal = egui::Modal::new(egui::Id::unique("dialog")).frame(frame);
+    // Each kind has a size of its own.
+    let modal = egui::Modal::new(egui::Id::unique(("dialog", std::mem::discriminant(dialog)))).frame(frame);
     let modal = modal.backdrop_color(egui::Color32::from_black_alpha(120));
     let response = modal.show(ctx, |ui| {
         ui.set_width(wide.min(ctx.content_rect().width() - 60.0));
         match dialog {
             Dialog::File(chooser) => files::ui(ui, session, chooser, commands),
-            Dialog::Conflict(path) => conflict(ui, path, commands),
+            Dialog::Conflict(path, _) => conflict(ui, path, commands),
             Dialog::Unsaved(next) => unsaved(ui, session, next, commands),
+            Dialog::Exporting => exporting(ui, commands),
             Dialog::Recover(kept) => recover(ui, kept, commands),
             Dialog::Palette { query, line } => palette(ui, query, *line, commands),
             Dialog::Keys => keys(ui, commands),
@@ -41,7 +44,7 @@ pub fn ui(ctx: &egui::Context, session: &Session, commands: &mut Commands) {
         }
     });
     // A question of what is lost is answered, not passed by.
-    let must = matches!(dialog, Dialog::Conflict(_) | Dialog::Recover(_));
+    let must = matches!(dialog, Dialog::Conflict(..) | Dialog::Recover(_));
     if response.should_close() && !must {
         commands.push(Command::CloseDialog);
     }
@@ -49,7 +52,8 @@ pub fn ui(ctx: &egui::Context, session: &Session, commands: &mut Commands) {
 
 fn buttons(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
     ui.add_space(10.0);
-    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), add);
+    // In a row as high as they are: a layout that is centred would take all the height there is.
+    ui.horizontal(|ui| ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), add));
 }
 
 fn paragraph(ui: &mut Ui, text: impl Into<egui::WidgetText>) {
@@ -77,10 +81,15 @@ fn conflict(ui: &mut Ui, path: &std::path::Path, commands: &mut Commands) {
 }
 
 fn unsaved(ui: &mut Ui, session: &Session, next: &Next, commands: &mut Commands) {
-    let name = session.document().map(|document| document.name()).unwrap_or_default();
+    let text = session.broken().filter(|_| session.loses_text(next)).map(|broken| broken.name());
+    let name = text.or_else(|| session.document().map(|document| document.name())).unwrap_or_default();
     ui.heading("Save the changes?");
     ui.add_space(6.0);
-    let what = if *next == Next::Quit { "the window is closed" } else { "another scene is opened" };
+    let what = match next {
+        Next::Quit => "the window is closed",
+        Next::LeaveText => "its text is left",
+        Next::Open(_) | Next::Recover(_) | Next::UseMended => "another scene is opened",
+    };
     paragraph(ui, format!("{name} has changes that are lost when {what}."));
     buttons(ui, |ui| {
         if ui.button("Cancel").clicked() {
@@ -90,7 +99,21 @@ fn unsaved(ui: &mut Ui, session: &Session, next: &Next, commands: &mut Commands)
             commands.push(Command::GoOn);
         }
         if ui.button("Save").clicked() {
-            commands.extend([Command::Act(crate::actions::Action::Save), Command::GoOnIfSaved(next.clone())]);
+            commands.push(Command::SaveAndGoOn(next.clone()));
+        }
+    });
+}
+
+fn exporting(ui: &mut Ui, commands: &mut Commands) {
+    ui.heading("Stop what is being exported?");
+    ui.add_space(6.0);
+    paragraph(ui, "An export runs. When the window is closed it ends, and leaves nothing.");
+    buttons(ui, |ui| {
+        if ui.button("Cancel").clicked() {
+            commands.push(Command::CloseDialog);
+        }
+        if ui.button("Stop and close").clicked() {
+            commands.push(Command::GoOn);
         }
     });
 }
@@ -228,13 +251,19 @@ fn preferences(ui: &mut Ui, session: &Session, commands: &mut Commands) {
     super::fields::row(ui, "Strands", "Shown, and moved with every touch.", false, |ui| {
         let value = egui::DragValue::new(&mut changed.strands).range(1..=ALL).speed(10.0);
         let words = |n: f64, _| if n >= ALL as f64 { "all".to_owned() } else { format!("{n:.0}") };
-        let number = |words: &str| if words.trim() == "all" { Some(ALL as f64) } else { words.trim().parse().ok() };
-        ui.add(value.custom_formatter(words).custom_parser(number)).accessible_name("Strands shown at first");
+        let number = |words: &str| match words.trim() {
+            "all" => Some(ALL as f64),
+            words => words.parse::<usize>().ok().filter(|strands| (1..=ALL).contains(strands)).map(|n| n as f64),
+        };
+        let value = value.custom_formatter(words).custom_parser(number).update_while_editing(false);
+        ui.add(value).accessible_name("Strands shown at first");
     });
     super::fields::row(ui, "Size", "Of type and panels, by what the system says.", false, |ui| {
-        let mut percent = (100.0 * changed.zoom).round();
-        ui.add(egui::DragValue::new(&mut percent).range(50.0..=400.0).suffix(" %").update_while_editing(false));
-        changed.zoom = percent / 100.0;
+        let mut percent = f64::from((100.0 * changed.zoom).round());
+        let field = Number { range: 50.0..=400.0, decimals: 0, unit: "%", ..Number::default() };
+        if field.ui(ui, &mut percent, commands).changed() {
+            changed.zoom = percent as f32 / 100.0;
+        }
     });
     super::fields::row(
         ui,
@@ -305,7 +334,10 @@ fn export(ui: &mut Ui, session: &Session, order: &Order, commands: &mut Commands
     );
     if order.kind == Kind::Still {
         super::fields::row(ui, "Frame", "The frame that is drawn.", false, |ui| {
-            ui.add(egui::DragValue::new(&mut changed.frame).range(0..=document.scene().motion.frames));
+            let mut frame = f64::from(changed.frame);
+            let range = 0.0..=f64::from(document.scene().motion.frames);
+            Number { range, decimals: 0, ..Number::default() }.ui(ui, &mut frame, commands);
+            changed.frame = frame as u32;
         });
     }
     super::fields::row(ui, "Strands", "All of the scene's, or the first few for a try.", false, |ui| {
@@ -317,7 +349,9 @@ fn export(ui: &mut Ui, session: &Session, order: &Order, commands: &mut Commands
             (false, some) => some,
         };
         if let Some(strands) = &mut changed.strands {
-            ui.add(egui::DragValue::new(strands).range(1..=10_000_000).speed(10.0));
+            let mut number = *strands as f64;
+            Number { range: 1.0..=1e7, step: 10.0, decimals: 0, ..Number::default() }.ui(ui, &mut number, commands);
+            *strands = number as usize;
         }
     });
     if changed != *order && commands.is_empty() {

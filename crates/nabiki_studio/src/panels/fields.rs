@@ -1,8 +1,9 @@
 //! One setting as a field.
 
-use eframe::egui::{self, DragValue, Response, Ui};
+use eframe::egui::{self, Response, Ui};
 use toml::{Table, Value};
 
+use super::number::Number;
 use super::{Commands, theme};
 use crate::command::Command;
 use crate::dialog::{Chooser, Dialog, Purpose, as_folder};
@@ -90,17 +91,18 @@ impl Field<'_> {
         match self.setting.kind {
             Kind::Number { least, most, step } => {
                 let mut number = value.and_then(number_of).unwrap_or_default();
-                let drag = drag(&mut number, step, unit).range(least..=most);
-                let response = name(ui.add_sized([wide.min(110.0), ui.spacing().interact_size.y], drag), self);
+                let wide = Some(wide.min(110.0));
+                let field = Number { range: least..=most, step, unit, wide, ..Number::default() };
+                let response = name(field.ui(ui, &mut number, commands), self);
                 self.sent(&response, commands, Value::Float(number));
             }
             Kind::Whole { least, most } => {
-                let mut number = value.and_then(Value::as_integer).unwrap_or_default();
-                let speed = (number.unsigned_abs() as f64 * 0.005).clamp(0.1, 1e4);
-                let drag = DragValue::new(&mut number).speed(speed).range(least..=most).suffix(suffix(unit));
-                let drag = drag.update_while_editing(false);
-                let response = name(ui.add_sized([wide.min(110.0), ui.spacing().interact_size.y], drag), self);
-                self.sent(&response, commands, Value::Integer(number));
+                let mut number = value.and_then(number_of).unwrap_or_default();
+                let step = (number.abs() * 0.005).clamp(0.1, 1e4);
+                let (range, wide) = (least as f64..=most as f64, Some(wide.min(110.0)));
+                let field = Number { range, step, unit, wide, decimals: 0, ..Number::default() };
+                let response = name(field.ui(ui, &mut number, commands), self);
+                self.sent(&response, commands, Value::Integer(number as i64));
             }
             Kind::Flag => {
                 let mut flag = value.and_then(Value::as_bool).unwrap_or_default();
@@ -112,17 +114,15 @@ impl Field<'_> {
                 choose(ui, self, now, words, commands, |word| Value::String(word.to_owned()));
             }
             Kind::Numbers { names, step } => {
-                self.numbers(ui, value, names, commands, |ui, number, _| ui.add(drag(number, step, "")), Value::Float)
+                self.numbers(ui, value, names, commands, Number { step, ..Number::default() }, Value::Float)
             }
             Kind::Wholes { names, least, most } => self.numbers(
                 ui,
                 value,
                 names,
                 commands,
-                |ui, number, _| {
-                    ui.add(DragValue::new(number).speed(1.0).range(least as f64..=most as f64).max_decimals(0))
-                },
-                |number| Value::Integer(number.round() as i64),
+                Number { range: least as f64..=most as f64, decimals: 0, ..Number::default() },
+                |number| Value::Integer(number as i64),
             ),
             Kind::Colour { linear } => self.colour(ui, value, linear, commands),
             Kind::HairColour => self.hair_colour(ui, value, commands),
@@ -135,7 +135,8 @@ impl Field<'_> {
                 }
                 if !is_word {
                     let mut number = value.and_then(number_of).unwrap_or_default();
-                    let response = name(ui.add(drag(&mut number, step, unit).range(0.0..=most)), self);
+                    let field = Number { range: 0.0..=most, step, unit, ..Number::default() };
+                    let response = name(field.ui(ui, &mut number, commands), self);
                     self.sent(&response, commands, Value::Float(number));
                 }
             }
@@ -159,7 +160,7 @@ impl Field<'_> {
                     let words = text.split([',', ' ']).map(str::trim).filter(|word| !word.is_empty());
                     let number = |word: &str| match whole {
                         true => word.parse().ok().map(Value::Integer),
-                        false => word.parse().ok().map(Value::Float),
+                        false => finite(word).map(Value::Float),
                     };
                     words.map(number).collect::<Option<Vec<_>>>().map(Value::Array)
                 });
@@ -170,7 +171,7 @@ impl Field<'_> {
                     other => format!("{other}"),
                 });
                 self.text(ui, now, commands, |text| {
-                    text.parse().map(Value::Float).ok().or_else(|| Some(Value::String(text.to_owned())))
+                    finite(text).map(Value::Float).or_else(|| Some(Value::String(text.to_owned())))
                 });
             }
             Kind::Envelope => self.envelope(ui, value, commands),
@@ -183,7 +184,7 @@ impl Field<'_> {
         value: Option<&Value>,
         names: &[&str],
         commands: &mut Commands,
-        field: impl Fn(&mut Ui, &mut f64, usize) -> Response,
+        field: Number<'_>,
         wrap: impl Fn(f64) -> Value,
     ) {
         let mut numbers: Vec<f64> =
@@ -197,7 +198,7 @@ impl Field<'_> {
             let response = ui.scope(|ui| {
                 ui.spacing_mut().interact_size.x = wide;
                 ui.spacing_mut().button_padding.x = 2.0;
-                field(ui, &mut numbers[i], i)
+                field.ui(ui, &mut numbers[i], commands)
             });
             let response = response.inner.on_hover_text(names[i]);
             let response = response.accessible_name(format!("{} {}: {}", self.group, self.setting.label, names[i]));
@@ -242,8 +243,8 @@ impl Field<'_> {
         if let Some(melanin) = inner.get("melanin") {
             for (pigment, letter) in [("eumelanin", "e "), ("pheomelanin", "p ")] {
                 let mut amount = melanin.get(pigment).and_then(number_of).unwrap_or_default();
-                let response = ui.add(drag(&mut amount, 0.01, "").range(0.0..=100.0).prefix(letter));
-                let response = response.on_hover_text(pigment);
+                let field = Number { range: 0.0..=100.0, step: 0.01, before: letter, ..Number::default() };
+                let response = field.ui(ui, &mut amount, commands).on_hover_text(pigment);
                 let mut melanin = melanin.as_table().cloned().unwrap_or_default();
                 melanin.insert(pigment.to_owned(), amount.into());
                 self.sent(&response, commands, table([("melanin", melanin.into())]));
@@ -279,7 +280,8 @@ impl Field<'_> {
             };
             ui.spacing_mut().interact_size.x = 44.0;
             let step = step.max(numbers[i].abs() * 0.005);
-            let response = ui.add(drag(&mut numbers[i], step, "").range(0.0..=most)).on_hover_text(place);
+            let field = Number { range: 0.0..=most, step, ..Number::default() };
+            let response = field.ui(ui, &mut numbers[i], commands).on_hover_text(place);
             let response = response.accessible_name(format!("{} {}: {place}", self.group, self.setting.label));
             self.sent(&response, commands, wrap(&numbers));
         }
@@ -309,7 +311,7 @@ impl Field<'_> {
                     let numbers = value.as_array().into_iter().flatten().map(Value::to_string);
                     let text = numbers.collect::<Vec<_>>().join(", ");
                     self.text(ui, text, commands, |text| {
-                        let numbers = text.split(',').map(|word| word.trim().parse().ok().map(Value::Float));
+                        let numbers = text.split(',').map(|word| finite(word.trim()).map(Value::Float));
                         let mut given = given.clone();
                         given.insert(key.clone(), numbers.collect::<Option<Vec<_>>>()?.into());
                         Some(given.into())
@@ -358,11 +360,11 @@ impl Field<'_> {
         ui.vertical(|ui| {
             for i in 0..keys.len() {
                 ui.horizontal(|ui| {
-                    let mut frame = keys[i].get("frame").and_then(Value::as_integer).unwrap_or_default();
+                    let mut frame = keys[i].get("frame").and_then(number_of).unwrap_or_default();
                     let mut factor = keys[i].get("factor").and_then(number_of).unwrap_or_default();
-                    let changed = |frame: i64, factor: f64| {
+                    let changed = |frame: f64, factor: f64| {
                         let mut keys = keys.clone();
-                        keys[i].insert("frame".to_owned(), frame.into());
+                        keys[i].insert("frame".to_owned(), (frame as i64).into());
                         keys[i].insert("factor".to_owned(), factor.into());
                         wrap(&keys)
                     };
@@ -371,9 +373,12 @@ impl Field<'_> {
                         .get(i + 1)
                         .and_then(|key| key.get("frame")?.as_integer())
                         .map_or(i64::from(u32::MAX), |n| n - 1);
-                    let response = ui.add(DragValue::new(&mut frame).range(low..=high).prefix("frame "));
+                    let field = Number { before: "frame ", decimals: 0, ..Number::default() };
+                    let field = Number { range: low as f64..=high as f64, ..field };
+                    let response = field.ui(ui, &mut frame, commands);
                     self.sent(&response, commands, changed(frame, factor));
-                    let response = ui.add(drag(&mut factor, 0.01, "")).on_hover_text("Part of the strength.");
+                    let field = Number { step: 0.01, ..Number::default() };
+                    let response = field.ui(ui, &mut factor, commands).on_hover_text("Part of the strength.");
                     self.sent(&response, commands, changed(frame, factor));
                     if ui.small_button("x").clicked() {
                         let mut keys = keys.clone();
@@ -391,19 +396,6 @@ impl Field<'_> {
                 self.set(commands, Some(wrap(&keys)), Phase::Done);
             }
         });
-    }
-}
-
-/// A field for a number that is taken when it is finished or dragged.
-pub fn drag<'a>(number: &'a mut f64, step: f64, unit: &str) -> DragValue<'a> {
-    DragValue::new(number).speed(step).max_decimals(6).suffix(suffix(unit)).update_while_editing(false)
-}
-
-fn suffix(unit: &str) -> String {
-    match unit {
-        "" => String::new(),
-        "degrees" => "\u{b0}".to_owned(),
-        unit => format!(" {unit}"),
     }
 }
 
@@ -456,6 +448,11 @@ fn first_value(kind: Kind) -> Value {
         Kind::Unit => Value::String("cm".to_owned()),
         _ => Value::String(String::new()),
     }
+}
+
+/// The number that a word is, if it has an end.
+fn finite(word: &str) -> Option<f64> {
+    word.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
 /// A number, whole or not.

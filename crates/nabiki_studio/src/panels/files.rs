@@ -13,7 +13,7 @@ use crate::session::Session;
 pub fn ui(ui: &mut Ui, session: &Session, chooser: &Chooser, commands: &mut Commands) {
     let verb = match &chooser.purpose {
         Purpose::Open => "Open",
-        Purpose::SaveAs => "Save",
+        Purpose::SaveAs(_) => "Save",
         Purpose::Setting(_) | Purpose::Export(_) => "Choose",
     };
     ui.heading(chooser.title());
@@ -23,10 +23,11 @@ pub fn ui(ui: &mut Ui, session: &Session, chooser: &Chooser, commands: &mut Comm
     let mut path = chooser.path.clone();
     let edit = egui::TextEdit::singleline(&mut path).desired_width(f32::INFINITY).hint_text("a path");
     let response = ui.add(edit).accessible_name("Path");
+    // To be asked first: whoever has the focus again has not lost it.
+    let entered = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
     if ui.memory(|memory| memory.focused().is_none()) {
         response.request_focus();
     }
-    let entered = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
     if response.changed() {
         commands.push(show(Chooser { path: path.clone(), ..chooser.clone() }));
     }
@@ -57,7 +58,7 @@ pub fn ui(ui: &mut Ui, session: &Session, chooser: &Chooser, commands: &mut Comm
     let is_file = !path.is_empty() && !path.ends_with(std::path::is_separator);
     let may = match chooser.purpose {
         Purpose::Open | Purpose::Setting(_) => chosen.is_file(),
-        Purpose::SaveAs | Purpose::Export(_) => is_file && !chosen.is_dir(),
+        Purpose::SaveAs(_) | Purpose::Export(_) => is_file && !chosen.is_dir(),
     };
     ui.horizontal(|ui| {
         if !session.has_desktop() {
@@ -70,8 +71,10 @@ pub fn ui(ui: &mut Ui, session: &Session, chooser: &Chooser, commands: &mut Comm
             commands.push(Command::AskDesktop);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let replaces = matches!(chooser.purpose, Purpose::SaveAs) && chosen.is_file();
-            let own = session.document().and_then(|document| document.path()).is_some_and(|own| own == chosen);
+            let replaces = matches!(chooser.purpose, Purpose::SaveAs(_)) && chosen.is_file();
+            let seen = session.broken().map(|broken| broken.path.as_path());
+            let seen = seen.or_else(|| session.document().and_then(|document| document.path()));
+            let own = seen.is_some_and(|own| own == chosen);
             let verb = if replaces && !own { "Replace" } else { verb };
             let done = ui.add_enabled(may, egui::Button::new(verb)).clicked();
             if (done || entered) && may {

@@ -1,15 +1,19 @@
 //! The chosen interval in numbers.
 
-use eframe::egui::{self, DragValue, Sense, Stroke, Ui, pos2, vec2};
+use eframe::egui::{self, Sense, Stroke, Ui, pos2, vec2};
 use glam::Vec3;
 use nabiki::field::Ease;
 
-use super::fields::{drag, row, send};
+use super::fields::{row, send};
+use super::number::Number;
 use super::{Commands, theme};
 use crate::command::Command;
 use crate::document::Phase;
 use crate::session::Session;
 use crate::timeline;
+
+/// The strongest wind that a field takes.
+const MOST: f64 = 1e6;
 
 /// Draws it into so much height, or more where that is too little.
 pub fn ui(ui: &mut Ui, session: &Session, height: f32, commands: &mut Commands) {
@@ -41,13 +45,14 @@ pub fn ui(ui: &mut Ui, session: &Session, height: f32, commands: &mut Commands) 
     row(ui, "Frames", "First and last frame that feel this vector.", false, |ui| {
         ui.spacing_mut().interact_size.x = 46.0;
         ui.label(theme::faint(format!("{} to", frames.start())));
-        let mut through = *frames.end();
+        let mut through = f64::from(*frames.end());
         let high = keys.get(j + 1).map_or(10_000_000, |next| next.through - 1);
-        let field = DragValue::new(&mut through).range(*frames.start()..=high).speed(0.25);
-        let response = ui.add(field).accessible_name("Last frame of the interval");
+        let range = f64::from(*frames.start())..=f64::from(high);
+        let field = Number { range, step: 0.25, decimals: 0, ..Number::default() };
+        let response = field.ui(ui, &mut through, commands).accessible_name("Last frame of the interval");
         send(&response, commands, |phase| Command::Intervals {
             name: "Move a border",
-            keys: timeline::move_border(keys, j, through, false),
+            keys: timeline::move_border(keys, j, through as u32, false),
             chosen: None,
             phase,
         });
@@ -65,7 +70,8 @@ pub fn ui(ui: &mut Ui, session: &Session, height: f32, commands: &mut Commands) 
             for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
                 let mut number = f64::from(vector[axis]);
                 let mut changed = vector;
-                let response = ui.add(drag(&mut number, 0.5, "").max_decimals(2)).on_hover_text(name);
+                let field = Number { range: -MOST..=MOST, step: 0.5, decimals: 2, ..Number::default() };
+                let response = field.ui(ui, &mut number, commands).on_hover_text(name);
                 let rect = response.rect;
                 ui.painter().hline(
                     rect.x_range().shrink(4.0),
@@ -81,9 +87,8 @@ pub fn ui(ui: &mut Ui, session: &Session, height: f32, commands: &mut Commands) 
     row(ui, "Strength", "|F|: its direction stays.", false, |ui| {
         let mut length = f64::from(vector.length());
         ui.spacing_mut().interact_size.x = 64.0;
-        let response = ui
-            .add(drag(&mut length, 0.5, "").range(0.0..=1e6).max_decimals(1))
-            .accessible_name("Strength of the interval");
+        let field = Number { range: 0.0..=MOST, step: 0.5, decimals: 1, ..Number::default() };
+        let response = field.ui(ui, &mut length, commands).accessible_name("Strength of the interval");
         let direction = vector.try_normalize().unwrap_or(Vec3::NEG_X);
         send(&response, commands, |phase| Command::Vector {
             interval: j,

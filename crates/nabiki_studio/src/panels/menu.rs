@@ -36,7 +36,8 @@ pub fn ui(ui: &mut Ui, session: &Session, commands: &mut Commands) {
 
 fn item(ui: &mut Ui, session: &Session, action: Action, commands: &mut Commands) {
     let entry = action.entry();
-    let document = session.document();
+    // What is behind a text that is being mended is left alone.
+    let document = session.document().filter(|_| session.broken().is_none());
     let (name, enabled) = match action {
         Action::Undo => named(entry.name, document.and_then(|document| document.undo_name())),
         Action::Redo => named(entry.name, document.and_then(|document| document.redo_name())),

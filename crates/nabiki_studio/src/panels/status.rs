@@ -30,8 +30,8 @@ pub fn words(ui: &mut Ui, session: &Session, commands: &mut Commands) {
 fn bars(ui: &mut Ui, session: &Session, commands: &mut Commands) {
     if let Some(trouble) = session.trouble() {
         bar(ui, theme::WRONG, |ui| {
-            let button = ui.button("Undo");
-            if button.clicked() {
+            let may_undo = session.document().is_some_and(|document| document.undo_name().is_some());
+            if may_undo && ui.button("Undo").clicked() {
                 commands.push(Command::Act(crate::actions::Action::Undo));
             }
             let text = egui::RichText::new(&trouble.text).color(theme::TEXT);

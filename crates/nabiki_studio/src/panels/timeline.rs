@@ -6,6 +6,7 @@ mod tracks;
 
 use eframe::egui::{self, Align2, Color32, Rect, Sense, Stroke, Ui, pos2, vec2};
 
+use super::number::Number;
 use super::{Commands, interval, theme};
 use crate::actions::Action;
 use crate::command::Command;
@@ -117,11 +118,13 @@ fn transport(ui: &mut Ui, session: &Session, commands: &mut Commands) {
             }
         }
         ui.add_space(8.0);
-        let mut frame = session.play.frame();
-        let field = egui::DragValue::new(&mut frame).range(0..=session.play.last()).speed(0.25);
-        let response = ui.add_sized([46.0, 20.0], field).on_hover_text("The frame shown.").accessible_name("Frame");
+        let frame = session.play.frame();
+        let mut wanted = f64::from(frame);
+        let range = 0.0..=f64::from(session.play.last());
+        let field = Number { range, step: 0.25, decimals: 0, wide: Some(46.0), ..Number::default() };
+        let response = field.ui(ui, &mut wanted, commands).on_hover_text("The frame shown.").accessible_name("Frame");
         if response.changed() {
-            commands.push(Command::Go(frame));
+            commands.push(Command::Go(wanted as u32));
         }
         ui.add_space(4.0);
         let rate = session.document().map_or(24.0, |document| document.scene().frame_rate());

@@ -9,6 +9,20 @@ use crate::command::Command;
 use crate::document::Phase;
 use crate::timeline;
 
+/// What changes the scene.
+pub(super) const CHANGES: [Action; 10] = [
+    Action::Undo,
+    Action::Redo,
+    Action::Cut,
+    Action::Paste,
+    Action::Delete,
+    Action::Add,
+    Action::Split,
+    Action::Join,
+    Action::Ease,
+    Action::UseCamera,
+];
+
 impl Session {
     pub(super) fn apply_to_document(&mut self, command: Command) {
         match command {

@@ -10,7 +10,7 @@ use crate::actions::Action;
 use crate::command::Command;
 use crate::desktop::{Answer, Asked};
 use crate::dialog::{Chooser, Dialog, Import, Next, Purpose, Role, as_folder};
-use crate::document::{Document, Phase, SaveError};
+use crate::document::{Document, Phase};
 use crate::recovery::Kept;
 use crate::tasks;
 
@@ -47,20 +47,14 @@ impl Session {
         self.chosen = strongest.map(|(j, _)| j).into_iter().collect();
         self.document = Some(document);
         (self.broken, self.trouble, self.said_changed) = (None, None, false);
+        // The hair of another scene is not this one's, nor is what is still on its way.
+        (self.take, self.swings) = (None, None);
         self.play.go(0);
         self.move_again(true);
+        self.first_asked = self.asked;
     }
 
-    /// Whether what is open may go; if it may not, asks what to do, and goes on with `next` afterwards.
-    fn may_go(&mut self, next: Next) -> bool {
-        let dirty = self.document.as_ref().is_some_and(Document::is_dirty);
-        if dirty {
-            self.dialog = Some(Dialog::Unsaved(next));
-        }
-        !dirty
-    }
-
-    fn open(&mut self, path: &Path) {
+    pub(super) fn open(&mut self, path: &Path) {
         match Document::open(path) {
             Ok(document) => {
                 self.preferences.used(path);
@@ -79,10 +73,10 @@ impl Session {
     pub(super) fn apply_to_files(&mut self, command: Command) {
         match command {
             Command::Open(path) => self.open_any(path),
-            Command::SaveTo(path) => self.save_to(&path),
+            Command::SaveTo(path) => self.save_to(&path, None),
             Command::SaveOver => {
-                self.dialog = None;
-                self.save(true);
+                let Some(Dialog::Conflict(_, next)) = self.dialog.take() else { return };
+                self.save(next, true);
             }
             Command::Recover(n) => {
                 let Some(Dialog::Recover(kept)) = &self.dialog else { return };
@@ -97,20 +91,13 @@ impl Session {
             }
             Command::Mend(text) => {
                 if let Some(broken) = &mut self.broken {
-                    broken.error = Scene::parse(&text, &broken.path, &[]).err();
-                    broken.text = text;
+                    broken.mend(text);
                 }
             }
             Command::UseMended if self.may_go(Next::UseMended) => self.use_mended(),
-            Command::LeaveBroken => self.broken = None,
-            Command::GoOnIfSaved(next) if !self.document.as_ref().is_some_and(Document::is_dirty) => {
-                self.dialog = None;
-                self.go_on(next);
-            }
-            Command::GoOn => {
-                let Some(Dialog::Unsaved(next)) = self.dialog.take() else { return };
-                self.go_on(next);
-            }
+            Command::LeaveBroken if self.may_go(Next::LeaveText) => self.broken = None,
+            Command::SaveAndGoOn(next) => self.save(Some(next), false),
+            Command::GoOn => self.go_on_anyway(),
             _ => {}
         }
     }
@@ -124,7 +111,7 @@ impl Session {
         }
     }
 
-    fn recover(&mut self, kept: Kept) {
+    pub(super) fn recover(&mut self, kept: Kept) {
         match Scene::parse(&kept.text, &kept.path, &[]) {
             Ok(scene) => {
                 let on_disk = kept.has_file.then(|| std::fs::read(&kept.path).unwrap_or_default());
@@ -132,30 +119,27 @@ impl Session {
                 self.take_over(Document::unsaved(scene, on_disk));
                 kept.remove();
             }
-            Err(e) => self.say(format!("what was kept cannot be read: {e}"), true),
+            // What was being mended can go on being so.
+            Err(error) => {
+                let on_disk = std::fs::read(&kept.path).unwrap_or_default();
+                let (path, text) = (kept.path.clone(), kept.text.clone());
+                self.dialog = None;
+                self.broken = Some(Broken { path, text, error: Some(error), on_disk });
+                self.keep();
+                kept.remove();
+            }
         }
     }
 
-    fn use_mended(&mut self) {
+    pub(super) fn use_mended(&mut self) {
         let Some(Broken { path, text, error: None, on_disk }) = &self.broken else { return };
-        if let Ok(scene) = Scene::parse(text, path, &[]) {
+        if text.as_bytes() == on_disk {
+            let path = path.clone();
+            self.open(&path);
+        } else if let Ok(scene) = Scene::parse(text, path, &[]) {
             let document = Document::unsaved(scene, Some(on_disk.clone()));
             self.preferences.used(&path.clone());
             self.take_over(document);
-        }
-    }
-
-    /// Goes on with what a question stood before; what is not saved is lost.
-    fn go_on(&mut self, next: Next) {
-        match next {
-            Next::Open(path) => self.open(&path),
-            Next::Recover(kept) => self.recover(*kept),
-            Next::UseMended => self.use_mended(),
-            Next::Quit => {
-                self.document = None;
-                self.keeper.iter_mut().for_each(crate::recovery::Keeper::forget);
-                self.wishes.push(Wish::Quit);
-            }
         }
     }
 
@@ -215,7 +199,10 @@ impl Session {
     pub(super) fn chosen_file(&mut self, chooser: Chooser, path: PathBuf) {
         match chooser.purpose {
             Purpose::Open => self.apply(Command::Open(path)),
-            Purpose::SaveAs => self.apply(Command::SaveTo(path)),
+            Purpose::SaveAs(next) => {
+                self.save_to(&path, next.map(|next| *next));
+                self.move_if_changed();
+            }
             Purpose::Setting(key) => {
                 self.apply(Command::CloseDialog);
                 let value = Some(self.from_scene(&path).display().to_string().into());
@@ -227,48 +214,6 @@ impl Session {
         }
     }
 
-    fn save(&mut self, replace: bool) {
-        let Some(document) = &mut self.document else { return };
-        match document.save(replace) {
-            Ok(()) => self.saved(),
-            Err(SaveError::Changed(path)) => self.dialog = Some(Dialog::Conflict(path)),
-            Err(SaveError::NoFile) => self.ask_save_as(),
-            Err(e @ SaveError::Scene(_)) => self.say(format!("not saved: {e}"), true),
-        }
-    }
-
-    fn save_to(&mut self, path: &Path) {
-        let Some(document) = &mut self.document else { return };
-        let path = if path.extension().is_none() { path.with_extension("toml") } else { path.to_owned() };
-        match document.save_as(&path) {
-            Ok(()) => {
-                self.preferences.used(&path);
-                self.dialog = None;
-                self.saved();
-            }
-            Err(e) => self.say(format!("not saved: {e}"), true),
-        }
-    }
-
-    fn saved(&mut self) {
-        self.said_changed = false;
-        self.keep();
-        // What was wrong with the file is so no longer.
-        let file = self.document.as_ref().and_then(Document::path).map(|path| path.display().to_string());
-        if let Some(file) = file {
-            self.words.retain(|word| !word.text.starts_with(&file));
-        }
-        let name = self.document.as_ref().map(Document::name).unwrap_or_default();
-        self.say(format!("Saved {name}"), false);
-    }
-
-    fn ask_save_as(&mut self) {
-        let Some(document) = &self.document else { return };
-        let path = std::path::absolute(document.scene().file()).unwrap_or_default();
-        let chooser = Chooser { purpose: Purpose::SaveAs, path: path.display().to_string(), endings: vec!["toml"] };
-        self.dialog = Some(Dialog::File(chooser));
-    }
-
     pub(super) fn act_on_files(&mut self, action: Action) {
         match action {
             Action::Open => {
@@ -278,9 +223,17 @@ impl Session {
                 let path = folder.unwrap_or_default();
                 self.dialog = Some(Dialog::File(Chooser { purpose: Purpose::Open, path, endings: vec!["toml"] }));
             }
-            Action::Save => self.save(false),
-            Action::SaveAs => self.ask_save_as(),
-            Action::Reload => self.reload(true),
+            Action::Save => self.save(None, false),
+            Action::SaveAs => self.ask_save_as(None),
+            Action::Reload => match &self.broken {
+                Some(broken) if broken.is_changed() || !self.is_open(&broken.path) => {
+                    let path = broken.path.clone();
+                    if self.may_go(Next::Open(path.clone())) {
+                        self.open(&path);
+                    }
+                }
+                _ => self.reload(true),
+            },
             Action::Export => {
                 let Some(document) = &self.document else { return };
                 let kind = tasks::Kind::Movie;
@@ -293,8 +246,12 @@ impl Session {
         }
     }
 
+    fn is_open(&self, path: &Path) -> bool {
+        self.document.as_ref().and_then(Document::path) == Some(path)
+    }
+
     /// Reads the scene's file again. `fresh`: and all files that it names.
-    fn reload(&mut self, fresh: bool) {
+    pub(super) fn reload(&mut self, fresh: bool) {
         let Some(document) = &mut self.document else { return };
         let Some(path) = document.path().map(Path::to_owned) else {
             self.move_again(fresh);
@@ -317,6 +274,10 @@ impl Session {
 
     /// Notices that somebody else has written the file, or taken it away.
     pub(super) fn look_at_file(&mut self) {
+        if self.broken.as_ref().is_some_and(Broken::is_changed) {
+            // A text that is being mended does not give way.
+            return;
+        }
         let Some(document) = &self.document else { return };
         let Some(path) = document.path().map(Path::to_owned) else { return };
         match document.changed_on_disk() {

@@ -1,0 +1,202 @@
+use glam::Vec3;
+
+use super::super::tests::{Place, TEXT};
+use super::*;
+use crate::actions::Action;
+use crate::command::Command;
+use crate::document::Phase;
+use crate::tasks::{Kind, Order};
+
+/// A window in which a scene is open, and over it the text of one that cannot be read.
+fn with_text(place: &Place) -> (Session, PathBuf) {
+    let mut session = place.session();
+    let path = place.0.path().join("broken.toml");
+    std::fs::write(&path, TEXT.replace("through = 20", "trough = 20")).unwrap();
+    session.apply(Command::Open(path.clone()));
+    assert!(session.broken().is_some_and(|broken| broken.error.is_some() && !broken.is_changed()));
+    (session, path)
+}
+
+fn edit(session: &mut Session) {
+    session.apply(Command::Vector { interval: 0, vector: Vec3::X, phase: Phase::Done });
+}
+
+fn asks(session: &Session, next: &Next) -> bool {
+    matches!(session.dialog(), Some(Dialog::Unsaved(asked)) if asked == next)
+}
+
+#[test]
+fn a_text_that_is_mended_is_not_lost_unasked() {
+    let place = Place::new();
+    let (mut session, _) = with_text(&place);
+    assert!(session.may_close(), "nothing of it was changed");
+    session.apply(Command::Mend("half".to_owned()));
+    for (command, next) in [
+        (Command::Act(Action::Quit), Next::Quit),
+        (Command::Open(place.file()), Next::Open(place.file())),
+        (Command::LeaveBroken, Next::LeaveText),
+    ] {
+        session.apply(command);
+        assert!(asks(&session, &next), "{next:?}");
+        session.apply(Command::CloseDialog);
+        assert_eq!(session.broken().unwrap().text, "half");
+    }
+    std::fs::write(place.file(), TEXT.replace("-100", "-50")).unwrap();
+    session.look_at_file();
+    assert!(session.broken().is_some(), "a change of the other file does not take it away");
+    session.apply(Command::LeaveBroken);
+    session.apply(Command::GoOn);
+    assert!(session.broken().is_none() && session.dialog().is_none() && session.may_close());
+}
+
+#[test]
+fn text_and_scene_behind_it_are_asked_for_one_after_the_other() {
+    let place = Place::new();
+    let (mut session, path) = with_text(&place);
+    edit(&mut session);
+    session.apply(Command::Mend("half".to_owned()));
+    assert!(!session.may_close() && session.loses_text(&Next::Quit));
+    session.apply(Command::SaveAndGoOn(Next::Quit));
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "half");
+    assert!(asks(&session, &Next::Quit) && !session.loses_text(&Next::Quit));
+    session.apply(Command::SaveAndGoOn(Next::Quit));
+    assert_eq!(session.wishes(), [Wish::Quit]);
+    assert!(!std::fs::read_to_string(place.file()).unwrap().contains("-100"));
+}
+
+#[test]
+fn what_is_seen_is_saved_and_what_is_behind_it_is_left_alone() {
+    let place = Place::new();
+    let (mut session, path) = with_text(&place);
+    edit(&mut session);
+    session.apply(Command::Mend("half".to_owned()));
+    for action in [Action::Undo, Action::Delete, Action::Save] {
+        session.apply(Command::Act(action));
+    }
+    assert_eq!(session.document().unwrap().scene().field.force[0].vector, Vec3::X);
+    assert_eq!(std::fs::read_to_string(place.file()).unwrap(), TEXT);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "half");
+    assert!(session.broken().is_some_and(|broken| !broken.is_changed()));
+    std::fs::write(&path, "theirs").unwrap();
+    session.apply(Command::Mend(TEXT.to_owned()));
+    session.apply(Command::Act(Action::Save));
+    assert!(matches!(session.dialog(), Some(Dialog::Conflict(asked, None)) if *asked == path));
+    session.apply(Command::SaveOver);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), TEXT);
+    assert!(session.broken().is_some(), "the scene behind it is not saved");
+    session.apply(Command::UseMended);
+    assert!(asks(&session, &Next::UseMended));
+    session.apply(Command::SaveAndGoOn(Next::UseMended));
+    assert_eq!(session.document().unwrap().path(), Some(path.as_path()));
+    assert!(session.broken().is_none() && !session.document().unwrap().is_dirty());
+    assert!(!std::fs::read_to_string(place.file()).unwrap().contains("-100"));
+}
+
+#[test]
+fn a_text_that_is_right_and_saved_is_opened() {
+    let place = Place::new();
+    let (mut session, path) = with_text(&place);
+    session.apply(Command::Mend(TEXT.to_owned()));
+    session.apply(Command::Act(Action::Save));
+    assert!(session.broken().is_none());
+    assert_eq!(session.document().unwrap().path(), Some(path.as_path()));
+    assert!(!session.document().unwrap().is_dirty());
+}
+
+#[test]
+fn a_scene_without_a_file_is_given_a_name_and_then_the_window_closes() {
+    let place = Place::new();
+    let mut session = Session::new(None, || ()).unwrap();
+    session.begin(None);
+    edit(&mut session);
+    session.apply(Command::Act(Action::Quit));
+    session.apply(Command::SaveAndGoOn(Next::Quit));
+    let Some(Dialog::File(chooser)) = session.dialog() else { panic!("no name is asked for") };
+    let chooser = Box::new(chooser.clone());
+    let nowhere = place.0.path().join("no/such/folder.toml");
+    session.apply(Command::Chosen(chooser.clone(), nowhere));
+    assert!(session.words().iter().any(|word| word.text.contains("there is no such folder")));
+    assert_eq!(session.wishes(), []);
+    let path = place.0.path().join("mine.toml");
+    session.apply(Command::Chosen(chooser, path.clone()));
+    assert!(path.is_file());
+    assert_eq!(session.wishes(), [Wish::Quit]);
+}
+
+#[test]
+fn what_another_program_has_written_is_saved_over_and_then_the_window_closes() {
+    let place = Place::new();
+    let mut session = place.session();
+    edit(&mut session);
+    std::fs::write(place.file(), "theirs").unwrap();
+    session.apply(Command::SaveAndGoOn(Next::Quit));
+    assert!(matches!(session.dialog(), Some(Dialog::Conflict(_, Some(Next::Quit)))));
+    session.apply(Command::SaveOver);
+    assert_eq!(session.wishes(), [Wish::Quit]);
+}
+
+#[test]
+fn an_export_that_runs_is_asked_for() {
+    let place = Place::new();
+    let mut session = place.session();
+    let (gate, opened) = std::sync::mpsc::channel::<()>();
+    let order = Order { kind: Kind::Usd, place: place.0.path().join("hair.usda"), frame: 0, strands: None };
+    let scene = session.document().unwrap().scene().clone();
+    // It stands still at its first word until the gate goes.
+    let task = Task::begin(order, scene, move || opened.recv().unwrap_or_default()).unwrap();
+    session.tasks.push(task);
+    assert!(!session.may_close());
+    assert_eq!(session.dialog(), Some(&Dialog::Exporting));
+    session.apply(Command::CloseDialog);
+    assert!(!session.tasks()[0].is_cancelled());
+    edit(&mut session);
+    assert!(!session.may_close() && asks(&session, &Next::Quit));
+    session.apply(Command::GoOn);
+    assert_eq!(session.dialog(), Some(&Dialog::Exporting), "that is another question");
+    session.apply(Command::CloseDialog);
+    assert!(session.document().unwrap().is_dirty(), "nothing is lost yet");
+    session.apply(Command::Act(Action::Quit));
+    session.apply(Command::GoOn);
+    session.apply(Command::GoOn);
+    assert_eq!(session.wishes(), [Wish::Quit]);
+    assert!(session.tasks()[0].is_cancelled() && session.may_close());
+    drop(gate);
+    while !session.tasks()[0].has_ended() {
+        std::thread::yield_now();
+    }
+}
+
+#[test]
+fn a_text_that_a_killed_window_had_is_offered_and_goes_on_being_mended() {
+    let place = Place::new();
+    let (mut session, path) = with_text(&place);
+    session.apply(Command::Mend("half".to_owned()));
+    session.keep();
+    let recovery = place.0.path().join("config/recovery");
+    let kept = std::fs::read_dir(&recovery).unwrap().flatten().map(|entry| entry.path());
+    let kept: Vec<PathBuf> = kept.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
+    assert_eq!(kept.len(), 1);
+    let text = std::fs::read_to_string(&kept[0]).unwrap();
+    drop(session);
+    assert!(!kept[0].exists(), "a window that closes has asked");
+    std::fs::write(recovery.join("1-0.toml"), text).unwrap();
+    let mut session = place.session();
+    session.apply(Command::Recover(0));
+    let broken = session.broken().unwrap();
+    assert_eq!((broken.text.as_str(), &broken.path), ("half", &path));
+    assert!(broken.is_changed() && session.dialog().is_none());
+}
+
+#[test]
+fn a_scene_that_cannot_move_does_not_show_the_hair_of_the_one_before() {
+    let place = Place::new();
+    let mut session = place.session();
+    let still = place.0.path().join("still.toml");
+    std::fs::write(&still, TEXT.replace("-100", "-1000000")).unwrap();
+    session.apply(Command::Open(still));
+    session.wait();
+    assert!(session.trouble().is_some() && session.take().is_none() && session.swings().is_none());
+    session.apply(Command::Open(place.file()));
+    session.wait();
+    assert!(session.trouble().is_none() && session.take().is_some());
+}
