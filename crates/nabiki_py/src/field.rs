@@ -122,8 +122,11 @@ impl PythonField {
             let force = [force[0], force[1], force[2]];
             let strength = force.iter().map(|&x| f64::from(x).powi(2)).sum::<f64>().sqrt();
             if strength.is_nan() || strength > most {
-                let way_out =
-                    format!("is above its bound in frame {frame}: give Field(function, strongest=...) a larger one");
+                let way_out = if strength.is_nan() {
+                    format!("is no number in frame {frame}: let the function return finite forces")
+                } else {
+                    format!("is above its bound in frame {frame}: give Field(function, strongest=...) a larger one")
+                };
                 return Err(error::argument(py, "a field's force", strength, &way_out));
             }
             found.push(force);

@@ -134,9 +134,10 @@ fn whole(frames: &[(u32, PathBuf)], options: &MovieOptions) -> Result<()> {
     }
     let Some(scene) = &options.scene else { return Ok(()) };
     let last = scene.motion.frames;
-    match frames.iter().find(|(n, _)| *n > last) {
-        Some((n, file)) => Err(Error::refused(format!(
-            "{}: the last frame of {} is motion.frames = {last}; leave it out, or say --set motion.frames={n}",
+    match frames.iter().find(|(n, _)| *n > last).zip(frames.last()) {
+        Some(((_, file), (end, _))) => Err(Error::refused(format!(
+            "{}: the last frame of {} is motion.frames = {last}; take out what an earlier run has left beyond it, or say --set \
+             motion.frames={end}",
             file.display(),
             scene.file().display()
         ))),
