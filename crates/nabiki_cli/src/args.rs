@@ -94,7 +94,7 @@ pub struct SceneArgs {
     pub scene: PathBuf,
 
     /// Frames to simulate, in place of motion.frames; the contact sheet goes without those it does not reach
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N")]
     pub frames: Option<u32>,
 
     /// Any setting of the scene in TOML, as often as wanted: motion.time_step=0.05, or in quotes force.0.vector=[0,-100,0]
