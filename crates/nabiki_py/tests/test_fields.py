@@ -68,7 +68,7 @@ def failing(points, frame):
         (lambda points, frame: WIND[:2], nabiki.Error, "shape"),
         (lambda points, frame: points[:3], nabiki.Error, "shape"),
         (lambda points, frame: (71, 0, 0), nabiki.Error, "strongest"),
-        (lambda points, frame: (float("nan"), 0, 0), nabiki.Error, "strongest"),
+        (lambda points, frame: (float("nan"), 0, 0), nabiki.Error, "finite forces"),
         (lambda points, frame: None, nabiki.Error, "shape"),
         (lambda points, frame: "wind", ValueError, "convert"),
         (lambda points: WIND, TypeError, "positional"),

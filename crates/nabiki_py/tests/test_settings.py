@@ -60,6 +60,7 @@ target = [0, 0, 0]
 focus_distance = 1.0
 [output]
 sheet = [0]
+first_frame = 1001
 [picture.video]
 frame_rate = 24.0
 """
