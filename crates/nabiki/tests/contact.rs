@@ -2,36 +2,15 @@
 
 mod common;
 
-use std::f32::consts::{PI, TAU};
 use std::sync::Arc;
 
-use common::{bits, exact, fast, field, gust, run_under};
+use common::{ball, bits, exact, fast, field, gust, run_under};
 use glam::{Quat, Vec3};
 use nabiki::body::{Body, BodyWay, Contact, skin_of};
 use nabiki::dynamics::{Dynamics, Form, Stepper};
 use nabiki::free_form::{FreeForm, FreeMotion, Tie};
 use nabiki::pseudo_force::PseudoForce;
 use nabiki::{Mesh, Pose, Profile, Strands};
-
-fn ball(radius: f32) -> Mesh {
-    let (rings, sides) = (16_u32, 32_u32);
-    let mut mesh = Mesh::default();
-    for i in 0..=rings {
-        for j in 0..sides {
-            let (polar, azimuth) = (PI * i as f32 / rings as f32, TAU * j as f32 / sides as f32);
-            let ring = Vec3::new(polar.sin() * azimuth.cos(), polar.cos(), polar.sin() * azimuth.sin());
-            mesh.positions.push(radius * ring);
-        }
-    }
-    for i in 0..rings {
-        for j in 0..sides {
-            let at = |i: u32, j: u32| i * sides + j % sides;
-            mesh.triangles.push([at(i, j), at(i, j + 1), at(i + 1, j)]);
-            mesh.triangles.push([at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)]);
-        }
-    }
-    mesh
-}
 
 /// A box about the origin.
 fn board(half: Vec3) -> Mesh {

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use common::{
-    bits, exact, fast, field, gust, hair, map, mixed_hair, quarter_turn, run, run_under, step, way_of_a_head,
+    ball, bits, exact, fast, field, gust, hair, map, mixed_hair, quarter_turn, run, run_under, step, way_of_a_head,
 };
 use glam::{DVec3, Quat, Vec3};
 use nabiki::body::{Body, BodyWay, Contact};
@@ -362,27 +362,6 @@ fn energy_does_not_grow_under_a_constant_force() {
             }
         }
     }
-}
-
-/// A ball of mesh.
-fn ball(radius: f32) -> nabiki::Mesh {
-    let (rings, sides) = (16, 24);
-    let mut mesh = nabiki::Mesh::default();
-    for i in 0..=rings {
-        for j in 0..sides {
-            let (polar, azimuth) = (PI as f32 * i as f32 / rings as f32, TAU as f32 * j as f32 / sides as f32);
-            let ring = Vec3::new(polar.sin() * azimuth.cos(), polar.cos(), polar.sin() * azimuth.sin());
-            mesh.positions.push(radius * ring);
-        }
-    }
-    let at = |i: u32, j: u32| i * sides + j % sides;
-    for i in 0..rings as u32 {
-        for j in 0..sides {
-            mesh.triangles.push([at(i, j), at(i, j + 1), at(i + 1, j)]);
-            mesh.triangles.push([at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)]);
-        }
-    }
-    mesh
 }
 
 /// A ball that comes from behind, passes through the hair beside the jaw and goes on, without touching the head.

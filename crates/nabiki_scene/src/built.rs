@@ -71,7 +71,7 @@ pub struct BuiltScene {
     /// How the head's motion was read and converted, in one line.
     pub motion_report: Option<String>,
     /// Number of the first frame of the head's motion on the time line of its file; 0 where that has none.
-    pub motion_begins: i32,
+    motion_begins: i32,
     /// The scene's bodies, in their order; none in the paper's form.
     bodies: Vec<BuiltBody>,
     /// Number of each strand in the whole hair.

@@ -1,11 +1,13 @@
 //! Hair and settings for the laws: arcs of equal segments from a spiral of roots on an ellipsoid.
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
+use std::f32::consts::{PI, TAU};
+
 use glam::{EulerRot, Quat, Vec3, Vec3Swizzles};
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Reference, Simulation, Stepper};
 use nabiki::field::{Field, Keyframe, KeyframedField};
 use nabiki::pseudo_force::PseudoForce;
-use nabiki::{Ellipsoid, Pose, Strands};
+use nabiki::{Ellipsoid, Mesh, Pose, Strands};
 
 /// Round about y, so that a turned head is the same head.
 pub const HEAD: Ellipsoid = Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::new(9.0, 11.0, 9.0) };
@@ -99,6 +101,27 @@ pub fn fast(hair: &Strands, dynamics: &Dynamics, field: &dyn Field) -> Simulatio
 
 pub fn exact(hair: &Strands, dynamics: &Dynamics, field: &dyn Field) -> Reference {
     Reference::new(hair, dynamics, field).unwrap()
+}
+
+/// A ball of mesh.
+pub fn ball(radius: f32) -> Mesh {
+    let (rings, sides) = (16_u32, 24_u32);
+    let mut mesh = Mesh::default();
+    for i in 0..=rings {
+        for j in 0..sides {
+            let (polar, azimuth) = (PI * i as f32 / rings as f32, TAU * j as f32 / sides as f32);
+            let ring = Vec3::new(polar.sin() * azimuth.cos(), polar.cos(), polar.sin() * azimuth.sin());
+            mesh.positions.push(radius * ring);
+        }
+    }
+    let at = |i: u32, j: u32| i * sides + j % sides;
+    for i in 0..rings {
+        for j in 0..sides {
+            mesh.triangles.push([at(i, j), at(i, j + 1), at(i + 1, j)]);
+            mesh.triangles.push([at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)]);
+        }
+    }
+    mesh
 }
 
 /// One frame, of a head that stands still.

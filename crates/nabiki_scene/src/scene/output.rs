@@ -1,6 +1,7 @@
 //! `[output]`: what a run writes.
 
 use nabiki::SettingError;
+use nabiki::dynamics::Motion;
 use serde::{Deserialize, Serialize};
 
 /// `[output]`: what a run writes. Where it goes is the command line's affair.
@@ -30,10 +31,11 @@ pub struct Output {
 /// # Errors
 /// Says the range.
 pub fn check_first_frame(name: &str, first: i32) -> Result<(), SettingError> {
-    if (-10_000_000..=10_000_000).contains(&first) {
+    let most = Motion::MOST_FRAMES;
+    if first.unsigned_abs() <= most {
         return Ok(());
     }
-    Err(SettingError::new(name, first, "must lie in -10000000..10000000"))
+    Err(SettingError::new(name, first, format!("must lie in -{most}..{most}")))
 }
 
 impl Default for Output {
