@@ -28,9 +28,16 @@ pub struct Bins {
     spread: Spread,
     /// First and last tiles (left, top, right, bottom) of the piece that starts at each node.
     rectangles: Vec<[u16; 4]>,
-    /// The pieces of each row of tiles, row after row, by the index of their first node; and where each row ends.
-    listed: Vec<u32>,
+    /// The pieces of each row of tiles, row after row, and where each row ends.
+    listed: Vec<Listed>,
     ends: Vec<usize>,
+}
+
+/// A piece in a row of tiles: the index of its first node, and its first and last column there.
+#[derive(Clone, Copy, Default)]
+struct Listed {
+    first: u32,
+    columns: [u16; 2],
 }
 
 /// The pieces of one row of tiles; kept from row to row for its memory.
@@ -85,10 +92,11 @@ impl Bins {
             sum += in_rows.iter().map(|in_rows| in_rows[row]).sum::<usize>();
             sum
         }));
-        self.listed.resize(sum, 0);
+        self.listed.resize(sum, Listed::default());
         // To each chunk its own part of every row.
         let mut rest = &mut self.listed[..];
-        let mut parts: Vec<Vec<&mut [u32]>> = in_rows.iter().map(|in_rows| Vec::with_capacity(in_rows.len())).collect();
+        let mut parts: Vec<Vec<&mut [Listed]>> =
+            in_rows.iter().map(|in_rows| Vec::with_capacity(in_rows.len())).collect();
         for row in 0..self.tiles[1] {
             for (parts, in_rows) in parts.iter_mut().zip(in_rows) {
                 let (part, after) = std::mem::take(&mut rest).split_at_mut(in_rows[row]);
@@ -100,8 +108,10 @@ impl Bins {
             |(chunk, (mut parts, rectangles))| {
                 let mut filled = vec![0; parts.len()];
                 for (i, rectangle) in rectangles.iter().enumerate() {
+                    let [left, _, right, _] = *rectangle;
+                    let listed = Listed { first: (chunk * CHUNK + i) as u32, columns: [left, right] };
                     for row in rows_of(rectangle) {
-                        parts[row][filled[row]] = (chunk * CHUNK + i) as u32;
+                        parts[row][filled[row]] = listed;
                         filled[row] += 1;
                     }
                 }
@@ -115,28 +125,52 @@ impl Bins {
         out.entries.clear();
         out.starts.clear();
         out.starts.resize(self.tiles[0] + 1, 0);
-        let numbers = &self.listed[row.checked_sub(1).map_or(0, |above| self.ends[above])..self.ends[row]];
-        for (n, &i) in numbers.iter().enumerate() {
+        pulp::Arch::new().dispatch(Collect { bins: self, row, nodes, in_parts, out: &mut *out });
+        out.sort();
+    }
+}
+
+/// What collects the pieces of a row, compiled for each width of vectors that machines have; one is chosen at run time.
+struct Collect<'a> {
+    bins: &'a Bins,
+    row: usize,
+    nodes: &'a [Node],
+    in_parts: bool,
+    out: &'a mut Row,
+}
+
+impl pulp::NullaryFnOnce for Collect<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { bins, row, nodes, in_parts, out } = self;
+        let listed = &bins.listed[row.checked_sub(1).map_or(0, |above| bins.ends[above])..bins.ends[row]];
+        for (n, &Listed { first, columns: [left, right] }) in listed.iter().enumerate() {
             // Nodes come from all over memory: asking for those of later pieces now hides most of the wait.
-            let later = numbers[(n + AHEAD).min(numbers.len() - 1)] as usize;
+            let later = listed[(n + AHEAD).min(listed.len() - 1)].first as usize;
             prefetch(&nodes[later]);
             prefetch(&nodes[later + 1]);
-            let [left, _, right, _] = self.rectangles[i as usize];
-            let Some(piece) = Piece::new(&nodes[i as usize], &nodes[i as usize + 1], i, &self.spread) else { continue };
+            let Some(piece) = Piece::new(&nodes[first as usize], &nodes[first as usize + 1], first, &bins.spread)
+            else {
+                continue;
+            };
             let place = out.pieces.len() as u64;
             let parts = if in_parts { parts(&piece) } else { Parts::WHOLE };
             for x in left..=right {
                 let corner = [f32::from(x), row as f32].map(|c| c * TILE as f32);
-                for part in (0..parts.in_tile()).filter(|&part| !in_parts || parts.touches(part, &piece, corner)) {
-                    let along = piece.along(corner, parts.middle(part));
-                    let depth = piece.a.depth + (piece.b.depth - piece.a.depth) * along;
-                    out.entries.push((x, u64::from(depth.to_bits()) << 32 | place << PART_BITS | part as u64));
-                    out.starts[usize::from(x)] += 1;
+                let depths = parts.depths(&piece, corner);
+                let mut listed = if in_parts { parts.touching(&piece, corner) } else { 1 };
+                out.starts[usize::from(x)] += listed.count_ones();
+                while listed != 0 {
+                    let part = listed.trailing_zeros();
+                    let depth = depths[part as usize & (TILE - 1)].to_bits();
+                    out.entries.push((x, u64::from(depth) << 32 | place << PART_BITS | u64::from(part)));
+                    listed &= listed - 1;
                 }
             }
             out.pieces.push((piece, parts));
         }
-        out.sort();
     }
 }
 
@@ -193,13 +227,13 @@ impl Parts {
     const WHOLE: Self = Self { length: TILE as u8, offset: 0 };
 
     /// How many of them lie in a tile, or reach into it.
-    #[inline]
+    #[inline(always)]
     fn in_tile(self) -> usize {
         TILE / usize::from(self.length) + usize::from(self.offset > 0)
     }
 
     /// Where part `i` begins (lines from the tile's edge): the first before it, if it reaches in.
-    #[inline]
+    #[inline(always)]
     fn start(self, i: usize) -> i32 {
         let before = if self.offset > 0 { i32::from(self.length) } else { 0 };
         i as i32 * i32::from(self.length) + i32::from(self.offset) - before
@@ -212,26 +246,43 @@ impl Parts {
         start.max(0) as usize..((start + i32::from(self.length)) as usize).min(TILE)
     }
 
-    /// Whether part `i` may cover a cell of the tile with a `corner` (pixels). Points of oversampling lie nearer to its edges.
+    /// Which parts may cover a cell of the tile with a `corner` (pixels), a bit each. Points of oversampling lie nearer to its edges.
     #[inline(always)]
-    fn touches(self, i: usize, piece: &Piece, corner: [f32; 2]) -> bool {
+    fn touching(self, piece: &Piece, corner: [f32; 2]) -> u32 {
         let [low, high] = piece.lines(corner);
-        let lines = self.lines(i);
-        let [first, end] = [lines.start as f32, lines.end as f32];
-        let [near, far] = piece.reach(corner, first.max(low - 1.0), (end - 1.0).min(high));
-        // A little for rounding.
-        first <= high && end > low && near < TILE as f32 + 1e-3 && far > -1e-3
+        let (length, count) = (f32::from(self.length), self.in_tile());
+        let mut touching = 0;
+        for i in 0..TILE {
+            let start = self.start(i) as f32;
+            let [first, end] = [start.max(0.0), (start + length).min(TILE as f32)];
+            let [near, far] = piece.reach(corner, first.max(low - 1.0), (end - 1.0).min(high));
+            // A little for rounding.
+            let touches = (first <= high) & (end > low) & (near < TILE as f32 + 1e-3) & (far > -1e-3);
+            touching |= u32::from(touches & (i < count)) << i;
+        }
+        touching
+    }
+
+    /// How deep each part lies in its middle, in the tile with a `corner` or beside it (cm).
+    #[inline(always)]
+    fn depths(self, piece: &Piece, corner: [f32; 2]) -> [f32; TILE] {
+        let growth = piece.b.depth - piece.a.depth;
+        let mut depths = [0.0; TILE];
+        for (i, depth) in depths.iter_mut().enumerate() {
+            *depth = piece.a.depth + growth * piece.along(corner, self.middle(i));
+        }
+        depths
     }
 
     /// The middle of part `i`, within the tile or not (lines from its edge).
-    #[inline]
+    #[inline(always)]
     fn middle(self, i: usize) -> f32 {
         self.start(i) as f32 + 0.5 * f32::from(self.length)
     }
 }
 
 /// Into what a piece is divided.
-#[inline]
+#[inline(always)]
 fn parts(piece: &Piece) -> Parts {
     let thickness = 2.0 * piece.a.radius.max(piece.b.radius);
     let steepness = (piece.b.depth - piece.a.depth).abs() * piece.per_length * TILE as f32;

@@ -49,7 +49,7 @@ pub struct End {
 
 impl Piece {
     /// Between node `number` and the next; none where that has no length on the picture.
-    #[inline]
+    #[inline(always)]
     pub fn new(a: &Node, b: &Node, number: u32, spread: &Spread) -> Option<Self> {
         let along = [b.at[0] - a.at[0], b.at[1] - a.at[1]];
         let length = (along[0] * along[0] + along[1] * along[1]).sqrt();
