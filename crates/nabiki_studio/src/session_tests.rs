@@ -174,6 +174,37 @@ fn a_scene_that_cannot_move_keeps_the_last_good_motion_and_says_why() {
 }
 
 #[test]
+fn a_shorter_motion_takes_its_frames_out_of_the_sheet_in_one_step_and_says_so() {
+    let place = Place::new();
+    std::fs::write(place.file(), format!("{TEXT}[output]\nsheet = [0, 10, 15, 20]\n")).unwrap();
+    let mut session = place.session();
+    let set = |session: &mut Session, frames: i64, phase| {
+        session.apply(Command::Set { key: "motion.frames".to_owned(), value: Some(frames.into()), phase });
+        session.wait();
+        assert_eq!((session.trouble(), session.take().unwrap().frames()), (None, frames as u32));
+        let said = session.words().iter().map(|word| word.text.clone()).collect::<Vec<_>>();
+        (session.document().unwrap().scene().output.sheet.clone().unwrap(), said)
+    };
+    for (frames, sheet) in [(17, vec![0, 10, 15]), (5, vec![0]), (12, vec![0, 10])] {
+        let (has, said) = set(&mut session, frames, Phase::Dragging);
+        assert_eq!((has, said.len()), (sheet, 1));
+    }
+    let (has, said) = set(&mut session, 20, Phase::Dragging);
+    assert_eq!((has, said), (vec![0, 10, 15, 20], Vec::new()), "a drag back brings back what it took");
+    session.apply(Command::EndDrag);
+    assert_eq!(session.document().unwrap().undo_name(), None);
+    let (has, said) = set(&mut session, 12, Phase::Done);
+    assert_eq!(has, [0, 10]);
+    assert!(said[0].contains("frames 15, 20"), "{said:?}");
+    set(&mut session, 20, Phase::Done);
+    assert!(session.document().unwrap().scene().check().is_ok());
+    for _ in 0..2 {
+        session.apply(Command::Act(Action::Undo));
+    }
+    assert!(!session.document().unwrap().is_dirty(), "one step has both");
+}
+
+#[test]
 fn a_file_with_errors_is_mended_in_the_window() {
     let place = Place::new();
     let mut session = place.session();
