@@ -355,6 +355,10 @@ impl Session {
             Err(e) => self.trouble = Some(Trouble { text: e.to_string(), key: None }),
         }
         self.play.set_last(document.scene().motion.frames);
+        if !document.is_dragging() {
+            // Only a hand that drags wants to see what it has left behind.
+            self.motion.stop();
+        }
         self.asked = self.motion.ask(document.scene().clone(), self.preferences.strands.min(TOUCHED), fresh);
         let intervals = document.scene().field.force.len();
         self.chosen.retain(|&j| j < intervals);
