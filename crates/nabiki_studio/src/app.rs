@@ -189,7 +189,7 @@ impl eframe::App for App {
     }
 
     fn on_exit(&mut self) {
-        self.session.remember();
+        self.session.end();
         if let Some(folder) = self.session.folder() {
             self.layout.write(&folder.join(LAYOUT));
         }

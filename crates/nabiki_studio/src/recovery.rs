@@ -55,10 +55,11 @@ impl Keeper {
             let held = File::options().create(true).append(true).open(&lock)?;
             match held.try_lock() {
                 Ok(()) => {
-                    let keeper = Self { file: lock.with_extension("toml"), lock, _held: held, kept: None, text: None };
-                    // A process of the same number may have left something that nobody has asked for yet.
-                    if !keeper.file.exists() {
-                        return Ok(keeper);
+                    let file = lock.with_extension("toml");
+                    // A process of the same number may have left something that nobody has asked for yet. No keeper is made for
+                    // it, which would take it away when it goes.
+                    if !file.exists() {
+                        return Ok(Self { file, lock, _held: held, kept: None, text: None });
                     }
                 }
                 Err(TryLockError::WouldBlock) => {}
@@ -202,6 +203,19 @@ mod tests {
         assert!(!keeper.file.exists());
         drop(keeper);
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "only what was saved");
+    }
+
+    #[test]
+    fn what_a_process_of_the_same_number_has_left_stays_until_it_is_asked_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut dead = Keeper::begin(folder.path()).unwrap();
+        dead.keep(&edited()).unwrap();
+        dead._held.unlock().unwrap();
+        std::mem::forget(dead);
+        let alive = Keeper::begin(folder.path()).unwrap();
+        assert_eq!(left_behind(folder.path()).len(), 1);
+        drop(alive);
+        assert_eq!(left_behind(folder.path()).len(), 1);
     }
 
     #[test]

@@ -428,6 +428,13 @@ impl Session {
         }
     }
 
+    /// The window has closed: what it remembers is written, and what it kept in case it would be killed goes, before threads are
+    /// waited for.
+    pub fn end(&mut self) {
+        self.remember();
+        (self.keeper, self.text_keeper) = (None, None);
+    }
+
     /// Remembers the preferences. What goes wrong is said, and matters to nobody else.
     pub fn remember(&mut self) {
         let Some(folder) = &self.folder else { return };

@@ -200,3 +200,16 @@ fn a_scene_that_cannot_move_does_not_show_the_hair_of_the_one_before() {
     session.wait();
     assert!(session.trouble().is_none() && session.take().is_some());
 }
+
+#[test]
+fn a_window_that_has_closed_leaves_nothing_beside_the_preferences() {
+    let place = Place::new();
+    let (mut session, _) = with_text(&place);
+    session.apply(Command::Mend("half".to_owned()));
+    session.keep();
+    let recovery = place.0.path().join("config/recovery");
+    let left = || std::fs::read_dir(&recovery).unwrap().count();
+    assert_eq!(left(), 3, "two locks and the text");
+    session.end();
+    assert_eq!(left(), 0);
+}
