@@ -444,11 +444,7 @@ impl Session {
     }
 
     fn act(&mut self, action: Action) {
-        if let Some(broken) = &self.broken
-            && edit::CHANGES.contains(&action)
-        {
-            let text = format!("{}: mend it or leave it first; the scene behind it stays as it is", broken.name());
-            self.say(text, false);
+        if edit::CHANGES.contains(&action) && self.is_behind_text() {
             return;
         }
         match action {

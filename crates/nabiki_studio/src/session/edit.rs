@@ -27,8 +27,22 @@ pub(super) const CHANGES: [Action; 10] = [
 const SHEET_LOST: &str = "the contact sheet goes without frames ";
 
 impl Session {
+    /// Whether a text is being mended, behind which the scene is left alone; says so.
+    pub(super) fn is_behind_text(&mut self) -> bool {
+        let Some(broken) = &self.broken else { return false };
+        let text = format!("{}: mend it or leave it first; the scene behind it stays as it is", broken.name());
+        self.say(text, false);
+        true
+    }
+
     pub(super) fn apply_to_document(&mut self, command: Command) {
         match command {
+            Command::Set { .. }
+            | Command::SetAll { .. }
+            | Command::Intervals { .. }
+            | Command::Vector { .. }
+            | Command::Scene { .. }
+                if self.is_behind_text() => {}
             Command::Set { key, value, phase } => self.set(&key, value, phase),
             Command::SetAll { name, settings } => self.set_all(&name, &settings),
             Command::Intervals { name, keys, chosen, phase } => {
