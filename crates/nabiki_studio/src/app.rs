@@ -64,8 +64,8 @@ impl App {
     }
 
     fn passes(&mut self, ctx: &egui::Context) {
-        let seconds = f64::from(ctx.input(|input| input.stable_dt)).min(0.25);
-        self.session.tick(seconds);
+        let (passed, seconds) = ctx.input(|input| (f64::from(input.unstable_dt), f64::from(input.stable_dt).min(0.25)));
+        self.session.tick(passed, seconds);
         if self.session.play.is_playing() {
             self.fps += 0.1 * (1.0 / seconds.max(1e-4) as f32 - self.fps);
             ctx.request_repaint();
@@ -173,13 +173,12 @@ impl eframe::App for App {
         egui::Panel::bottom("status").frame(bar(theme::PANEL)).show(ui, |ui| {
             status::line(ui, &self.session, self.fps, &mut commands);
         });
-        if status::has_words(&self.session) {
-            let panel = egui::Panel::bottom("words").frame(egui::Frame::new()).show_separator_line(false);
-            panel.show(ui, |ui| status::words(ui, &self.session, &mut commands));
-        }
         egui::CentralPanel::default().frame(egui::Frame::new().fill(theme::GROUND)).show(ui, |ui| {
-            let mut panes = Panes { session: &self.session, view: &mut self.view, commands: &mut commands };
+            let (session, view, all) = (&self.session, &mut self.view, ui.max_rect());
+            let mut panes = Panes { session, view, place: None, commands: &mut commands };
             self.layout.ui(&mut panes, ui);
+            let place = panes.place.unwrap_or(all);
+            status::words(ui.ctx(), place, &self.session, &mut commands);
         });
         dialogs::ui(&ctx, &self.session, &mut commands);
         if ctx.input(|input| input.pointer.any_released()) {
@@ -242,13 +241,20 @@ fn action_of(key: Key, modifiers: Modifiers) -> Option<Action> {
 struct Panes<'a> {
     session: &'a Session,
     view: &'a mut View,
+    /// Where the view is, if it is not behind another pane.
+    place: Option<egui::Rect>,
     commands: &'a mut Commands,
 }
 
 impl Panes<'_> {
     fn view(&mut self, ui: &mut Ui) {
+        self.place = Some(ui.max_rect());
         if self.session.broken().is_some() {
-            egui::Frame::new().inner_margin(10.0).show(ui, |ui| mend::ui(ui, self.session, self.commands));
+            // What is said lies over a picture, but not over a text.
+            let mut room = ui.available_rect_before_wrap();
+            room.max.y -= status::height_of_words(ui.ctx(), self.session);
+            let mut above = ui.new_child(egui::UiBuilder::new().max_rect(room));
+            egui::Frame::new().inner_margin(10.0).show(&mut above, |ui| mend::ui(ui, self.session, self.commands));
             return;
         }
         let (Some(document), Some(take)) = (self.session.document(), self.session.take()) else {

@@ -294,11 +294,12 @@ impl Session {
         self.words.push(word);
     }
 
-    /// Lets time pass, and takes what has come of what was asked for.
-    pub fn tick(&mut self, seconds: f64) {
-        self.clock += seconds;
+    /// Lets so many seconds pass, and takes what has come of what was asked for. `played`: those that a play goes on by; it
+    /// does not leap over what a window has rested for.
+    pub fn tick(&mut self, passed: f64, played: f64) {
+        self.clock += passed;
         if let Some(document) = &self.document {
-            self.play.advance(seconds, document.scene().frame_rate());
+            self.play.advance(played, document.scene().frame_rate());
         }
         self.receive();
         self.hear_desktop();

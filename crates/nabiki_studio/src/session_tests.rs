@@ -102,9 +102,9 @@ fn more_strands_than_a_touch_moves_follow_when_the_hand_rests() {
         assert_eq!(shown(&session), crate::take::TOUCHED, "a touch does not wait for all");
     }
     let few = session.take().unwrap().clone();
-    session.tick(0.01);
+    session.tick(0.01, 0.01);
     assert!(!session.is_moving(), "the hand has not rested");
-    session.tick(0.2);
+    session.tick(0.2, 0.2);
     session.wait();
     let all = session.take().unwrap();
     assert_eq!((all.strands().len(), session.trouble()), (2300, None));
@@ -135,6 +135,26 @@ fn the_window_rests_while_a_motion_is_worked_out() {
     assert!(waits > 0.5 || !session.motion.is_working(), "{waits}");
     session.motion.wait();
     assert_eq!(session.waits(), 0.0, "it is asked for as soon as the few are there");
+}
+
+#[test]
+fn what_went_well_is_said_for_six_seconds_and_what_went_wrong_until_it_is_read() {
+    let place = Place::new();
+    let mut session = place.session();
+    session.say("well", false);
+    session.say("wrong", true);
+    let said = |session: &Session| session.words().iter().map(|word| word.text.clone()).collect::<Vec<_>>();
+    session.apply(Command::Act(Action::Play));
+    // A window at rest looks up now and then only.
+    for _ in 0..5 {
+        session.tick(1.0, 0.0);
+    }
+    assert_eq!(said(&session), ["well", "wrong"]);
+    session.tick(1.5, 0.0);
+    assert_eq!(said(&session), ["wrong"]);
+    assert_eq!(session.play.frame(), 0, "a rest is not played");
+    session.apply(Command::Heard(0));
+    assert!(said(&session).is_empty());
 }
 
 #[test]
@@ -355,7 +375,7 @@ fn the_desktops_answer_is_taken_and_a_desktop_without_a_dialog_said() {
         };
         session.desktop = Some(Asked::asks(chooser.clone(), answer, || ()).unwrap());
         while session.asks_desktop() {
-            session.tick(0.001);
+            session.tick(0.001, 0.001);
         }
     };
     ask(&mut session, Some(other.clone()), Duration::ZERO);
