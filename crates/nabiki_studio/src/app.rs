@@ -25,6 +25,8 @@ pub struct App {
     title: String,
     remembered: Preferences,
     zoom: f32,
+    /// What waits for the field that is typed into to be left.
+    waiting: Vec<Action>,
 }
 
 impl App {
@@ -45,7 +47,7 @@ impl App {
         said.into_iter().for_each(|said| session.say(said, true));
         let view = View::new(cc.wgpu_render_state.as_ref());
         let (remembered, zoom) = (session.preferences().clone(), 0.0);
-        Ok(Self { session, view, layout, fps: 0.0, title: String::new(), remembered, zoom })
+        Ok(Self { session, view, layout, fps: 0.0, title: String::new(), remembered, zoom, waiting: Vec::new() })
     }
 
     /// What the window knows.
@@ -126,9 +128,23 @@ impl App {
         let dragged = self.session.document().is_some_and(Document::is_dragging);
         let held = self.view.is_held() || (dragged && ctx.input(|input| input.pointer.any_down()));
         if ctx.egui_wants_keyboard_input() && !held {
+            self.waiting = keys_of_files(ctx);
+            if !self.waiting.is_empty() {
+                ctx.request_repaint();
+            }
             return;
         }
         keys(ctx, held, commands);
+    }
+
+    /// What has waited for the field that was typed into: it is left now, and takes what was typed before any of it is done. A
+    /// text being mended goes on being typed.
+    fn leave_field(&mut self, ctx: &egui::Context) -> Vec<Action> {
+        let waited = std::mem::take(&mut self.waiting);
+        if !waited.is_empty() && self.session.broken().is_none() {
+            ctx.memory_mut(|memory| memory.focused().into_iter().for_each(|field| memory.surrender_focus(field)));
+        }
+        waited
     }
 
     fn carry_out(&mut self, ctx: &egui::Context, commands: Commands) {
@@ -167,6 +183,7 @@ impl eframe::App for App {
         let ctx = ui.ctx().clone();
         self.passes(&ctx);
         let mut commands = Commands::new();
+        let waited = self.leave_field(&ctx);
         self.inputs(&ctx, &mut commands);
         let bar = |fill| egui::Frame::new().fill(fill).inner_margin(egui::Margin::symmetric(4, 1));
         egui::Panel::top("menu").frame(bar(theme::PANEL)).show(ui, |ui| menu::ui(ui, &self.session, &mut commands));
@@ -184,6 +201,7 @@ impl eframe::App for App {
         if ctx.input(|input| input.pointer.any_released()) {
             commands.push(Command::EndDrag);
         }
+        commands.extend(waited.into_iter().map(Command::Act));
         self.carry_out(&ctx, commands);
     }
 
@@ -223,6 +241,20 @@ fn keys(ctx: &egui::Context, mut held: bool, commands: &mut Commands) {
             !is_key
         });
     });
+}
+
+/// The keys of the file menu, while a field is typed into: they have no meaning there. All others are the field's.
+fn keys_of_files(ctx: &egui::Context) -> Vec<Action> {
+    let mut found = Vec::new();
+    ctx.input_mut(|input| {
+        input.events.retain(|event| {
+            let egui::Event::Key { key, modifiers, pressed: true, .. } = event else { return true };
+            let action = action_of(*key, *modifiers).filter(|action| action.entry().menu == "File");
+            found.extend(action);
+            action.is_none()
+        });
+    });
+    found
 }
 
 /// What a key does. Of two that fit it is the one that holds more, or Ctrl+Z would take Ctrl+Shift+Z.
