@@ -134,7 +134,7 @@ impl App {
             }
             return;
         }
-        keys(ctx, held, commands);
+        keys(ctx, held, egui::Popup::is_any_open(ctx), commands);
     }
 
     /// What has waited for the field that was typed into: it is left now, and takes what was typed before any of it is done. A
@@ -218,8 +218,8 @@ impl eframe::App for App {
 }
 
 /// The keys of all actions, in the order in which they were pressed. `held`: something is being dragged, which Escape gives
-/// up before it means anything else.
-fn keys(ctx: &egui::Context, mut held: bool, commands: &mut Commands) {
+/// up before it means anything else. `menu`: one is open, which Escape closes.
+fn keys(ctx: &egui::Context, mut held: bool, menu: bool, commands: &mut Commands) {
     ctx.input_mut(|input| {
         input.events.retain(|event| {
             let (action, is_key) = match event {
@@ -235,6 +235,9 @@ fn keys(ctx: &egui::Context, mut held: bool, commands: &mut Commands) {
             if action == Action::SelectNone && std::mem::take(&mut held) {
                 // The view is to see it, too.
                 commands.push(Command::GiveUpDrag);
+                return true;
+            }
+            if action == Action::SelectNone && menu {
                 return true;
             }
             commands.push(Command::Act(action));
@@ -260,13 +263,10 @@ fn keys_of_files(ctx: &egui::Context) -> Vec<Action> {
 /// What a key does. Of two that fit it is the one that holds more, or Ctrl+Z would take Ctrl+Shift+Z.
 fn action_of(key: Key, modifiers: Modifiers) -> Option<Action> {
     let held = |command, shift| Modifiers { command, shift, ..Modifiers::NONE };
-    let named = ACTIONS.iter().filter_map(|entry| entry.key.map(|shortcut| (shortcut, entry.action)));
+    let named = ACTIONS.iter().flat_map(|entry| entry.keys().map(|shortcut| (shortcut, entry.action)));
     let named = named.filter(|(shortcut, _)| Key::from_name(shortcut.key) == Some(key));
     let named = named.map(|(shortcut, action)| (held(shortcut.command, shortcut.shift), action));
-    // A second name on keyboards where + is a key of its own, and the other usual key for redo.
-    let second = [(Key::Plus, Action::ZoomIn), (Key::Y, Action::Redo)];
-    let second = second.into_iter().filter(|(name, _)| *name == key).map(|(_, action)| (Modifiers::COMMAND, action));
-    let fitting = named.chain(second).filter(|(wanted, _)| modifiers.matches_logically(*wanted));
+    let fitting = named.filter(|(wanted, _)| modifiers.matches_logically(*wanted));
     fitting.max_by_key(|(wanted, _)| u8::from(wanted.command) + u8::from(wanted.shift)).map(|(_, action)| action)
 }
 
@@ -399,7 +399,7 @@ mod tests {
         };
         let input = RawInput { events: keys.iter().map(event).collect(), ..RawInput::default() };
         let mut commands = Commands::new();
-        let _ = egui::Context::default().run_ui(input, |ui| self::keys(ui.ctx(), held, &mut commands));
+        let _ = egui::Context::default().run_ui(input, |ui| self::keys(ui.ctx(), held, false, &mut commands));
         commands
     }
 

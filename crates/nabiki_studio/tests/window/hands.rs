@@ -180,3 +180,30 @@ fn a_text_that_is_saved_goes_on_being_typed() {
         assert!(!window.session().broken().unwrap().is_changed());
     }
 }
+
+#[test]
+fn escape_closes_a_menu_and_means_nothing_else() {
+    let mut window = Window::open();
+    window.click("Interval 1");
+    window.click("File");
+    assert!(window.harness.query_by_label_contains("Save as").is_some());
+    escape(&mut window);
+    assert!(window.harness.query_by_label_contains("Save as").is_none());
+    assert_eq!(window.session().chosen(), [0]);
+    escape(&mut window);
+    assert_eq!(window.session().chosen(), [] as [usize; 0]);
+}
+
+#[test]
+fn the_list_of_keys_has_all_of_them_and_fits_a_small_window() {
+    let mut window = Window::open();
+    window.press(Modifiers::NONE, Key::F1);
+    for entry in nabiki_studio::actions::ACTIONS.iter().filter(|entry| entry.key.is_some()) {
+        assert!(window.harness.query_all_by_label(&entry.keys_text()).count() > 0, "{}", entry.name);
+    }
+    for gesture in nabiki_studio::gestures::GESTURES {
+        assert!(window.harness.query_all_by_label(gesture.hand).count() > 0, "{}", gesture.hand);
+    }
+    let close = window.harness.get_by_label("Close").rect();
+    assert!(close.right() < 1280.0 && close.bottom() < 720.0, "{close}");
+}
