@@ -423,7 +423,7 @@ impl View {
             thread.ask(wanted);
         }
         if let Some(waits) = self.rest.waits(now) {
-            // What is still being drawn is of before the touch, and takes cores from the motion.
+            // What is still being drawn is of before the touch.
             self.final_picture.iter().for_each(FinalPicture::cancel);
             ui.ctx().request_repaint_after_secs(waits as f32);
             return;
