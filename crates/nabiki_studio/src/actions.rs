@@ -113,7 +113,7 @@ impl Shortcut {
             "ArrowLeft" => "Left",
             "ArrowUp" => "Up",
             "ArrowDown" => "Down",
-            "Equals" => "+",
+            "Equals" | "Plus" => "+",
             "Minus" => "-",
             "OpenBracket" => "[",
             "CloseBracket" => "]",
@@ -137,6 +137,27 @@ pub struct Entry {
     /// What it does, in a sentence.
     pub help: &'static str,
 }
+
+impl Entry {
+    /// All its keys, the one of the menus first.
+    pub fn keys(&self) -> impl Iterator<Item = Shortcut> {
+        let second = SECOND.into_iter().filter(|(action, _)| *action == self.action).map(|(_, key)| key);
+        self.key.into_iter().chain(second)
+    }
+
+    /// These as they are written on a list.
+    pub fn keys_text(&self) -> String {
+        let mut texts: Vec<String> = self.keys().map(|key| key.text()).collect();
+        texts.dedup();
+        texts.join(", ")
+    }
+}
+
+/// Second keys: on keyboards where + is a key of its own, and the other usual key for redo.
+const SECOND: [(Action, Shortcut); 2] = [
+    (Action::ZoomIn, Shortcut { command: true, shift: false, key: "Plus" }),
+    (Action::Redo, Shortcut { command: true, shift: false, key: "Y" }),
+];
 
 /// The menus, in their order.
 pub const MENUS: [&str; 6] = ["File", "Edit", "Wind", "Play", "View", "Help"];
@@ -188,7 +209,13 @@ pub const ACTIONS: &[Entry] = &[
     entry(Action::Paste, "Edit", "Paste", command("V"), "Lays what was copied over the wind, from this frame on."),
     entry(Action::Delete, "Edit", "Delete", plain("Delete"), "Removes the chosen intervals; the one before goes on."),
     entry(Action::SelectAll, "Edit", "Choose all", command("A"), "Chooses all intervals."),
-    entry(Action::SelectNone, "Edit", "Choose none", plain("Escape"), "Chooses no interval."),
+    entry(
+        Action::SelectNone,
+        "Edit",
+        "Choose none",
+        plain("Escape"),
+        "Closes a menu, gives up a drag, or chooses no interval.",
+    ),
     entry(Action::Add, "Wind", "Add interval", plain("A"), "A new interval at this frame, or after the last one."),
     entry(Action::Split, "Wind", "Split", plain("S"), "Cuts the interval at this frame in two."),
     entry(
@@ -300,7 +327,7 @@ mod tests {
     fn no_key_means_two_things() {
         for (i, a) in ACTIONS.iter().enumerate() {
             for b in &ACTIONS[i + 1..] {
-                assert!(a.key.is_none() || a.key != b.key, "{} and {}", a.name, b.name);
+                assert!(a.keys().all(|key| b.keys().all(|other| key != other)), "{} and {}", a.name, b.name);
                 assert_ne!(a.action, b.action);
             }
             assert!(MENUS.contains(&a.menu));
@@ -311,8 +338,7 @@ mod tests {
     fn every_key_stands_in_the_documentation() {
         let text = include_str!("../../../docs/studio.md");
         for entry in ACTIONS {
-            let key = entry.key.map(|key| key.text()).unwrap_or_default();
-            let row = format!("| {} | {} | {} |", key, entry.name.trim_end_matches("..."), entry.help);
+            let row = format!("| {} | {} | {} |", entry.keys_text(), entry.name.trim_end_matches("..."), entry.help);
             assert!(text.contains(&row), "docs/studio.md lacks this row:\n{row}");
         }
     }

@@ -25,6 +25,8 @@ pub struct App {
     title: String,
     remembered: Preferences,
     zoom: f32,
+    /// What waits for the field that is typed into to be left.
+    waiting: Vec<Action>,
 }
 
 impl App {
@@ -45,7 +47,7 @@ impl App {
         said.into_iter().for_each(|said| session.say(said, true));
         let view = View::new(cc.wgpu_render_state.as_ref());
         let (remembered, zoom) = (session.preferences().clone(), 0.0);
-        Ok(Self { session, view, layout, fps: 0.0, title: String::new(), remembered, zoom })
+        Ok(Self { session, view, layout, fps: 0.0, title: String::new(), remembered, zoom, waiting: Vec::new() })
     }
 
     /// What the window knows.
@@ -64,8 +66,8 @@ impl App {
     }
 
     fn passes(&mut self, ctx: &egui::Context) {
-        let seconds = f64::from(ctx.input(|input| input.stable_dt)).min(0.25);
-        self.session.tick(seconds);
+        let (passed, seconds) = ctx.input(|input| (f64::from(input.unstable_dt), f64::from(input.stable_dt).min(0.25)));
+        self.session.tick(passed, seconds);
         if self.session.play.is_playing() {
             self.fps += 0.1 * (1.0 / seconds.max(1e-4) as f32 - self.fps);
             ctx.request_repaint();
@@ -126,9 +128,23 @@ impl App {
         let dragged = self.session.document().is_some_and(Document::is_dragging);
         let held = self.view.is_held() || (dragged && ctx.input(|input| input.pointer.any_down()));
         if ctx.egui_wants_keyboard_input() && !held {
+            self.waiting = keys_of_files(ctx);
+            if !self.waiting.is_empty() {
+                ctx.request_repaint();
+            }
             return;
         }
-        keys(ctx, held, commands);
+        keys(ctx, held, egui::Popup::is_any_open(ctx), commands);
+    }
+
+    /// What has waited for the field that was typed into: it is left now, and takes what was typed before any of it is done. A
+    /// text being mended goes on being typed.
+    fn leave_field(&mut self, ctx: &egui::Context) -> Vec<Action> {
+        let waited = std::mem::take(&mut self.waiting);
+        if !waited.is_empty() && self.session.broken().is_none() {
+            ctx.memory_mut(|memory| memory.focused().into_iter().for_each(|field| memory.surrender_focus(field)));
+        }
+        waited
     }
 
     fn carry_out(&mut self, ctx: &egui::Context, commands: Commands) {
@@ -167,29 +183,30 @@ impl eframe::App for App {
         let ctx = ui.ctx().clone();
         self.passes(&ctx);
         let mut commands = Commands::new();
+        let waited = self.leave_field(&ctx);
         self.inputs(&ctx, &mut commands);
         let bar = |fill| egui::Frame::new().fill(fill).inner_margin(egui::Margin::symmetric(4, 1));
         egui::Panel::top("menu").frame(bar(theme::PANEL)).show(ui, |ui| menu::ui(ui, &self.session, &mut commands));
         egui::Panel::bottom("status").frame(bar(theme::PANEL)).show(ui, |ui| {
             status::line(ui, &self.session, self.fps, &mut commands);
         });
-        if status::has_words(&self.session) {
-            let panel = egui::Panel::bottom("words").frame(egui::Frame::new()).show_separator_line(false);
-            panel.show(ui, |ui| status::words(ui, &self.session, &mut commands));
-        }
         egui::CentralPanel::default().frame(egui::Frame::new().fill(theme::GROUND)).show(ui, |ui| {
-            let mut panes = Panes { session: &self.session, view: &mut self.view, commands: &mut commands };
+            let (session, view, all) = (&self.session, &mut self.view, ui.max_rect());
+            let mut panes = Panes { session, view, place: None, commands: &mut commands };
             self.layout.ui(&mut panes, ui);
+            let place = panes.place.unwrap_or(all);
+            status::words(ui.ctx(), place, &self.session, &mut commands);
         });
         dialogs::ui(&ctx, &self.session, &mut commands);
         if ctx.input(|input| input.pointer.any_released()) {
             commands.push(Command::EndDrag);
         }
+        commands.extend(waited.into_iter().map(Command::Act));
         self.carry_out(&ctx, commands);
     }
 
     fn on_exit(&mut self) {
-        self.session.remember();
+        self.session.end();
         if let Some(folder) = self.session.folder() {
             self.layout.write(&folder.join(LAYOUT));
         }
@@ -201,8 +218,8 @@ impl eframe::App for App {
 }
 
 /// The keys of all actions, in the order in which they were pressed. `held`: something is being dragged, which Escape gives
-/// up before it means anything else.
-fn keys(ctx: &egui::Context, mut held: bool, commands: &mut Commands) {
+/// up before it means anything else. `menu`: one is open, which Escape closes.
+fn keys(ctx: &egui::Context, mut held: bool, menu: bool, commands: &mut Commands) {
     ctx.input_mut(|input| {
         input.events.retain(|event| {
             let (action, is_key) = match event {
@@ -220,35 +237,56 @@ fn keys(ctx: &egui::Context, mut held: bool, commands: &mut Commands) {
                 commands.push(Command::GiveUpDrag);
                 return true;
             }
+            if action == Action::SelectNone && menu {
+                return true;
+            }
             commands.push(Command::Act(action));
             !is_key
         });
     });
 }
 
+/// The keys of the file menu, while a field is typed into: they have no meaning there. All others are the field's.
+fn keys_of_files(ctx: &egui::Context) -> Vec<Action> {
+    let mut found = Vec::new();
+    ctx.input_mut(|input| {
+        input.events.retain(|event| {
+            let egui::Event::Key { key, modifiers, pressed: true, .. } = event else { return true };
+            let action = action_of(*key, *modifiers).filter(|action| action.entry().menu == "File");
+            found.extend(action);
+            action.is_none()
+        });
+    });
+    found
+}
+
 /// What a key does. Of two that fit it is the one that holds more, or Ctrl+Z would take Ctrl+Shift+Z.
 fn action_of(key: Key, modifiers: Modifiers) -> Option<Action> {
     let held = |command, shift| Modifiers { command, shift, ..Modifiers::NONE };
-    let named = ACTIONS.iter().filter_map(|entry| entry.key.map(|shortcut| (shortcut, entry.action)));
+    let named = ACTIONS.iter().flat_map(|entry| entry.keys().map(|shortcut| (shortcut, entry.action)));
     let named = named.filter(|(shortcut, _)| Key::from_name(shortcut.key) == Some(key));
     let named = named.map(|(shortcut, action)| (held(shortcut.command, shortcut.shift), action));
-    // A second name on keyboards where + is a key of its own, and the other usual key for redo.
-    let second = [(Key::Plus, Action::ZoomIn), (Key::Y, Action::Redo)];
-    let second = second.into_iter().filter(|(name, _)| *name == key).map(|(_, action)| (Modifiers::COMMAND, action));
-    let fitting = named.chain(second).filter(|(wanted, _)| modifiers.matches_logically(*wanted));
+    let fitting = named.filter(|(wanted, _)| modifiers.matches_logically(*wanted));
     fitting.max_by_key(|(wanted, _)| u8::from(wanted.command) + u8::from(wanted.shift)).map(|(_, action)| action)
 }
 
 struct Panes<'a> {
     session: &'a Session,
     view: &'a mut View,
+    /// Where the view is, if it is not behind another pane.
+    place: Option<egui::Rect>,
     commands: &'a mut Commands,
 }
 
 impl Panes<'_> {
     fn view(&mut self, ui: &mut Ui) {
+        self.place = Some(ui.max_rect());
         if self.session.broken().is_some() {
-            egui::Frame::new().inner_margin(10.0).show(ui, |ui| mend::ui(ui, self.session, self.commands));
+            // What is said lies over a picture, but not over a text.
+            let mut room = ui.available_rect_before_wrap();
+            room.max.y -= status::height_of_words(ui.ctx(), self.session);
+            let mut above = ui.new_child(egui::UiBuilder::new().max_rect(room));
+            egui::Frame::new().inner_margin(10.0).show(&mut above, |ui| mend::ui(ui, self.session, self.commands));
             return;
         }
         let (Some(document), Some(take)) = (self.session.document(), self.session.take()) else {
@@ -361,7 +399,7 @@ mod tests {
         };
         let input = RawInput { events: keys.iter().map(event).collect(), ..RawInput::default() };
         let mut commands = Commands::new();
-        let _ = egui::Context::default().run_ui(input, |ui| self::keys(ui.ctx(), held, &mut commands));
+        let _ = egui::Context::default().run_ui(input, |ui| self::keys(ui.ctx(), held, false, &mut commands));
         commands
     }
 

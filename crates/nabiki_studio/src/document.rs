@@ -147,6 +147,12 @@ impl Document {
         self.dragging
     }
 
+    /// The scene as it was before the drag of this name that goes on; as it is where none does.
+    pub fn before_drag(&self, name: &str) -> &Scene {
+        let step = self.undo.last().filter(|step| self.dragging && step.name == name);
+        step.map_or(&self.scene, |step| &step.scene)
+    }
+
     /// What is changed next is another step.
     pub fn end_drag(&mut self) {
         // A drag that came back to where it began is no step.

@@ -10,8 +10,8 @@ use crate::settings::Page;
 
 /// Width without which a page of settings would be cut (points).
 const PAGE_WIDTH: f32 = 292.0;
-/// Height without which a timeline shows no blocks (points).
-const TIMELINE_HEIGHT: f32 = 176.0;
+/// Height without which the circles of a chosen interval would be cut (points).
+const TIMELINE_HEIGHT: f32 = 222.0;
 /// Most of a window that panels take for being as large as they must.
 const MOST: f32 = 0.5;
 
@@ -192,7 +192,7 @@ mod tests {
         for size in [[720.0, 400.0], [1280.0, 670.0], [640.0, 370.0]] {
             let [view, timeline, pages] = rooms(&layout, size);
             assert!(pages[0] >= PAGE_WIDTH.min(MOST * size[0]) - 0.01, "{size:?}: {pages:?}");
-            assert!(timeline[1] >= TIMELINE_HEIGHT - 0.01, "{size:?}: {timeline:?}");
+            assert!(timeline[1] >= TIMELINE_HEIGHT.min(MOST * size[1]) - 0.01, "{size:?}: {timeline:?}");
             assert!(view[0] >= MOST * size[0] - 0.01 && view[1] >= MOST * size[1] - 0.01, "{size:?}: {view:?}");
             assert!((view[0] + pages[0] - size[0]).abs() < 0.01 && (view[1] + timeline[1] - size[1]).abs() < 0.01);
         }

@@ -51,7 +51,8 @@ pub struct Motion {
     number: u64,
 }
 
-/// What a worker does with a motion that is no longer the newest asked for.
+/// What a worker does with a motion that is no longer the newest asked for. One that is [stopped](Motion::stop) it gives up
+/// in any manner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Manner {
     /// It ends it first: a hand that drags sees the hair follow all the while.
@@ -75,9 +76,23 @@ struct State {
     part: f32,
     /// What is being worked on is wanted no more.
     stopped: bool,
+    /// Files were to be read again for a request that was given up, and are for the next.
+    fresh: bool,
     /// What is kept for the next request is to go.
     forget: bool,
     quit: bool,
+}
+
+impl State {
+    /// Whether what is being worked on is to be ended.
+    fn goes_on(&self, manner: Manner) -> bool {
+        !self.stopped && (manner == Manner::Finishes || self.request.is_none())
+    }
+
+    /// Whether files are to be read again for whatever is begun next; once.
+    fn reads_again(&mut self) -> bool {
+        std::mem::take(&mut self.fresh) || self.request.as_ref().is_some_and(|waiting| waiting.fresh)
+    }
 }
 
 impl Shared {
@@ -110,7 +125,7 @@ impl Motion {
     pub fn ask(&mut self, scene: Scene, strands: usize, fresh: bool) -> u64 {
         self.number += 1;
         let mut state = self.shared.lock();
-        let fresh = fresh || state.request.as_ref().is_some_and(|waiting| waiting.fresh);
+        let fresh = state.reads_again() || fresh;
         state.request = Some(Request { scene, strands, number: self.number, fresh });
         self.shared.changed.notify_all();
         self.number
@@ -124,6 +139,7 @@ impl Motion {
     /// What was asked for is wanted no more: it does not come, nor does what was there already and has not been taken.
     pub fn stop(&self) {
         let mut state = self.shared.lock();
+        state.fresh = state.reads_again();
         (state.request, state.done, state.stopped) = (None, None, state.working);
         self.shared.changed.notify_all();
     }
@@ -190,15 +206,13 @@ fn work(manner: Manner, shared: &Shared, wake: &(impl Fn() + Sync)) {
         let number = request.number;
         let told = Cell::new(start);
         let goes_on = |part: f32| {
-            manner == Manner::Finishes || {
-                if told.get().elapsed() >= TELLS {
-                    told.set(Instant::now());
-                    wake();
-                }
-                let mut state = shared.lock();
-                state.part = part;
-                state.request.is_none() && !state.stopped
+            if manner == Manner::GivesWay && told.get().elapsed() >= TELLS {
+                told.set(Instant::now());
+                wake();
             }
+            let mut state = shared.lock();
+            state.part = part;
+            state.goes_on(manner)
         };
         let result = player.play(request, goes_on);
         let mut state = shared.lock();
@@ -334,4 +348,48 @@ pub fn most_strands(take: &Take) -> usize {
     // A hundredth is left for hair that is not of one length.
     let fit = (points_in_all as f64 * 0.99 * strands as f64 / points as f64) as usize;
     take.built.strands_of_scene.min(fit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene() -> Scene {
+        let text = "[hair]\nstrands = 8\n[motion]\nframes = 5\n[[force]]\nthrough = 5\nvector = [1, 2, 3]\n";
+        Scene::parse(text, "wind.toml".as_ref(), &[]).unwrap()
+    }
+
+    #[test]
+    fn a_newer_motion_stops_one_that_gives_way_and_a_word_stops_any() {
+        let request = Some(Request { scene: scene(), strands: 8, number: 2, fresh: false });
+        for (manner, goes_on) in [(Manner::Finishes, true), (Manner::GivesWay, false)] {
+            assert!(State { working: true, ..State::default() }.goes_on(manner));
+            assert!(!State { working: true, stopped: true, ..State::default() }.goes_on(manner));
+            let newer = State { working: true, request: request.clone(), ..State::default() };
+            assert_eq!(newer.goes_on(manner), goes_on);
+        }
+    }
+
+    #[test]
+    fn what_is_stopped_never_comes_and_what_is_asked_for_afterwards_does() {
+        for manner in [Manner::Finishes, Manner::GivesWay] {
+            let mut motion = Motion::start(manner, || ()).unwrap();
+            motion.ask(scene(), 8, false);
+            motion.stop();
+            motion.wait();
+            assert!(motion.take().is_none(), "{manner:?}");
+            let wanted = motion.ask(scene(), 8, false);
+            motion.wait();
+            assert_eq!(motion.take().unwrap().number, wanted);
+        }
+    }
+
+    #[test]
+    fn files_that_were_to_be_read_again_are_whatever_is_given_up() {
+        let mut state =
+            State { request: Some(Request { scene: scene(), strands: 8, number: 1, fresh: true }), ..State::default() };
+        assert!(state.reads_again());
+        (state.fresh, state.request) = (true, None);
+        assert!(state.reads_again() && !state.reads_again());
+    }
 }

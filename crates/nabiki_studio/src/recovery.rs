@@ -49,16 +49,20 @@ impl Keeper {
     /// What the disk says.
     pub fn begin(folder: &Path) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
+        sweep(folder);
         let process = std::process::id();
         for n in 0.. {
             let lock = folder.join(format!("{process}-{n}.lock"));
             let held = File::options().create(true).append(true).open(&lock)?;
             match held.try_lock() {
+                // A window that has just begun, too, has swept it away as nobody's.
+                Ok(()) if !lock.exists() => {}
                 Ok(()) => {
-                    let keeper = Self { file: lock.with_extension("toml"), lock, _held: held, kept: None, text: None };
-                    // A process of the same number may have left something that nobody has asked for yet.
-                    if !keeper.file.exists() {
-                        return Ok(keeper);
+                    let file = lock.with_extension("toml");
+                    // A process of the same number may have left something that nobody has asked for yet. No keeper is made for
+                    // it, which would take it away when it goes.
+                    if !file.exists() {
+                        return Ok(Self { file, lock, _held: held, kept: None, text: None });
                     }
                 }
                 Err(TryLockError::WouldBlock) => {}
@@ -120,6 +124,19 @@ impl Drop for Keeper {
     fn drop(&mut self) {
         self.forget();
         let _ = fs::remove_file(&self.lock);
+    }
+}
+
+/// Takes away the locks of windows that were killed and had nothing to keep.
+fn sweep(folder: &Path) {
+    for lock in fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
+        if lock.extension().is_some_and(|ending| ending == "lock")
+            && !lock.with_extension("toml").exists()
+            && let Ok(held) = File::open(&lock)
+            && held.try_lock().is_ok()
+        {
+            let _ = fs::remove_file(&lock);
+        }
     }
 }
 
@@ -202,6 +219,31 @@ mod tests {
         assert!(!keeper.file.exists());
         drop(keeper);
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "only what was saved");
+    }
+
+    #[test]
+    fn what_a_process_of_the_same_number_has_left_stays_until_it_is_asked_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut dead = Keeper::begin(folder.path()).unwrap();
+        dead.keep(&edited()).unwrap();
+        dead._held.unlock().unwrap();
+        std::mem::forget(dead);
+        let alive = Keeper::begin(folder.path()).unwrap();
+        assert_eq!(left_behind(folder.path()).len(), 1);
+        drop(alive);
+        assert_eq!(left_behind(folder.path()).len(), 1);
+    }
+
+    #[test]
+    fn locks_that_nobody_holds_are_swept_away_and_no_others() {
+        let folder = tempfile::tempdir().unwrap();
+        let alive = Keeper::begin(folder.path()).unwrap();
+        fs::write(folder.path().join("7-0.lock"), "").unwrap();
+        fs::write(folder.path().join("8-0.lock"), "").unwrap();
+        fs::write(folder.path().join("8-0.toml"), "").unwrap();
+        let other = Keeper::begin(folder.path()).unwrap();
+        assert!(alive.lock.exists() && other.lock.exists() && folder.path().join("8-0.lock").exists());
+        assert!(!folder.path().join("7-0.lock").exists());
     }
 
     #[test]

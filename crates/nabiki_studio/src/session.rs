@@ -294,11 +294,12 @@ impl Session {
         self.words.push(word);
     }
 
-    /// Lets time pass, and takes what has come of what was asked for.
-    pub fn tick(&mut self, seconds: f64) {
-        self.clock += seconds;
+    /// Lets so many seconds pass, and takes what has come of what was asked for. `played`: those that a play goes on by; it
+    /// does not leap over what a window has rested for.
+    pub fn tick(&mut self, passed: f64, played: f64) {
+        self.clock += passed;
         if let Some(document) = &self.document {
-            self.play.advance(seconds, document.scene().frame_rate());
+            self.play.advance(played, document.scene().frame_rate());
         }
         self.receive();
         self.hear_desktop();
@@ -355,6 +356,10 @@ impl Session {
             Err(e) => self.trouble = Some(Trouble { text: e.to_string(), key: None }),
         }
         self.play.set_last(document.scene().motion.frames);
+        if !document.is_dragging() {
+            // Only a hand that drags wants to see what it has left behind.
+            self.motion.stop();
+        }
         self.asked = self.motion.ask(document.scene().clone(), self.preferences.strands.min(TOUCHED), fresh);
         let intervals = document.scene().field.force.len();
         self.chosen.retain(|&j| j < intervals);
@@ -424,6 +429,13 @@ impl Session {
         }
     }
 
+    /// The window has closed: what it remembers is written, and what it kept in case it would be killed goes, before threads are
+    /// waited for.
+    pub fn end(&mut self) {
+        self.remember();
+        (self.keeper, self.text_keeper) = (None, None);
+    }
+
     /// Remembers the preferences. What goes wrong is said, and matters to nobody else.
     pub fn remember(&mut self) {
         let Some(folder) = &self.folder else { return };
@@ -433,11 +445,7 @@ impl Session {
     }
 
     fn act(&mut self, action: Action) {
-        if let Some(broken) = &self.broken
-            && edit::CHANGES.contains(&action)
-        {
-            let text = format!("{}: mend it or leave it first; the scene behind it stays as it is", broken.name());
-            self.say(text, false);
+        if edit::CHANGES.contains(&action) && self.is_behind_text() {
             return;
         }
         match action {

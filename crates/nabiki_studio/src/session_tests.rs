@@ -102,9 +102,9 @@ fn more_strands_than_a_touch_moves_follow_when_the_hand_rests() {
         assert_eq!(shown(&session), crate::take::TOUCHED, "a touch does not wait for all");
     }
     let few = session.take().unwrap().clone();
-    session.tick(0.01);
+    session.tick(0.01, 0.01);
     assert!(!session.is_moving(), "the hand has not rested");
-    session.tick(0.2);
+    session.tick(0.2, 0.2);
     session.wait();
     let all = session.take().unwrap();
     assert_eq!((all.strands().len(), session.trouble()), (2300, None));
@@ -135,6 +135,26 @@ fn the_window_rests_while_a_motion_is_worked_out() {
     assert!(waits > 0.5 || !session.motion.is_working(), "{waits}");
     session.motion.wait();
     assert_eq!(session.waits(), 0.0, "it is asked for as soon as the few are there");
+}
+
+#[test]
+fn what_went_well_is_said_for_six_seconds_and_what_went_wrong_until_it_is_read() {
+    let place = Place::new();
+    let mut session = place.session();
+    session.say("well", false);
+    session.say("wrong", true);
+    let said = |session: &Session| session.words().iter().map(|word| word.text.clone()).collect::<Vec<_>>();
+    session.apply(Command::Act(Action::Play));
+    // A window at rest looks up now and then only.
+    for _ in 0..5 {
+        session.tick(1.0, 0.0);
+    }
+    assert_eq!(said(&session), ["well", "wrong"]);
+    session.tick(1.5, 0.0);
+    assert_eq!(said(&session), ["wrong"]);
+    assert_eq!(session.play.frame(), 0, "a rest is not played");
+    session.apply(Command::Heard(0));
+    assert!(said(&session).is_empty());
 }
 
 #[test]
@@ -171,6 +191,37 @@ fn a_scene_that_cannot_move_keeps_the_last_good_motion_and_says_why() {
     session.apply(Command::Act(Action::Undo));
     session.wait();
     assert_eq!(session.trouble(), None);
+}
+
+#[test]
+fn a_shorter_motion_takes_its_frames_out_of_the_sheet_in_one_step_and_says_so() {
+    let place = Place::new();
+    std::fs::write(place.file(), format!("{TEXT}[output]\nsheet = [0, 10, 15, 20]\n")).unwrap();
+    let mut session = place.session();
+    let set = |session: &mut Session, frames: i64, phase| {
+        session.apply(Command::Set { key: "motion.frames".to_owned(), value: Some(frames.into()), phase });
+        session.wait();
+        assert_eq!((session.trouble(), session.take().unwrap().frames()), (None, frames as u32));
+        let said = session.words().iter().map(|word| word.text.clone()).collect::<Vec<_>>();
+        (session.document().unwrap().scene().output.sheet.clone().unwrap(), said)
+    };
+    for (frames, sheet) in [(17, vec![0, 10, 15]), (5, vec![0]), (12, vec![0, 10])] {
+        let (has, said) = set(&mut session, frames, Phase::Dragging);
+        assert_eq!((has, said.len()), (sheet, 1));
+    }
+    let (has, said) = set(&mut session, 20, Phase::Dragging);
+    assert_eq!((has, said), (vec![0, 10, 15, 20], Vec::new()), "a drag back brings back what it took");
+    session.apply(Command::EndDrag);
+    assert_eq!(session.document().unwrap().undo_name(), None);
+    let (has, said) = set(&mut session, 12, Phase::Done);
+    assert_eq!(has, [0, 10]);
+    assert!(said[0].contains("frames 15, 20"), "{said:?}");
+    set(&mut session, 20, Phase::Done);
+    assert!(session.document().unwrap().scene().check().is_ok());
+    for _ in 0..2 {
+        session.apply(Command::Act(Action::Undo));
+    }
+    assert!(!session.document().unwrap().is_dirty(), "one step has both");
 }
 
 #[test]
@@ -324,7 +375,7 @@ fn the_desktops_answer_is_taken_and_a_desktop_without_a_dialog_said() {
         };
         session.desktop = Some(Asked::asks(chooser.clone(), answer, || ()).unwrap());
         while session.asks_desktop() {
-            session.tick(0.001);
+            session.tick(0.001, 0.001);
         }
     };
     ask(&mut session, Some(other.clone()), Duration::ZERO);

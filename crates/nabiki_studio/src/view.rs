@@ -423,6 +423,8 @@ impl View {
             thread.ask(wanted);
         }
         if let Some(waits) = self.rest.waits(now) {
+            // What is still being drawn is of before the touch.
+            self.final_picture.iter().for_each(FinalPicture::cancel);
             ui.ctx().request_repaint_after_secs(waits as f32);
             return;
         }
@@ -476,10 +478,9 @@ impl View {
 
 /// The node under the pointer.
 fn picked(shown: &Shown<'_>, view: &Seen, pixel: glam::Vec2, scale: f32) -> Option<pick::Picked> {
-    let take = shown.take;
-    let in_head = view.in_head(&take.pose(shown.frame));
-    let ellipsoid = &take.built.head.ellipsoid;
-    pick::nearest(&in_head, take.points(shown.frame), take.strands(), take.at_hand(), ellipsoid, pixel, REACH * scale)
+    let (take, in_head) = (shown.take, view.in_head(&shown.take.pose(shown.frame)));
+    let skins = pick::Skins::of(take, shown.frame);
+    pick::nearest(&in_head, take.points(shown.frame), take.strands(), take.at_hand(), &skins, pixel, REACH * scale)
 }
 
 /// Head and hair of some frames, from the head's origin along the world's axes.

@@ -324,6 +324,17 @@ fn a_scene_with_errors_shows_its_line() {
     assert_eq!(error.line, Some(6));
     assert!(window.harness.query_by_label_contains("broken.toml:6:").is_some(), "the error is not on the screen");
     assert!(window.session().take().is_some());
+    assert!(window.harness.query_by_label_contains("The scene behind it stays").is_some());
+    window.harness.state_mut().session_mut().say("something that went wrong", true);
+    window.settle();
+    let [text, words] = ["Text of the scene", "something that went wrong"];
+    let [text, words] = [text, words].map(|label| window.harness.get_by_label(label).rect());
+    assert!(text.bottom() <= words.top(), "{words} lies over {text}");
+    window.harness.state_mut().session_mut().apply(Command::Heard(0));
+    for label in ["Border 1", "Interval 1"] {
+        window.drag(label, vec2(60.0, 0.0));
+    }
+    assert_eq!(window.session().document().unwrap().undo_name(), None, "the scene behind a text is left alone");
     window.click("Leave it");
     assert!(window.session().broken().is_none());
 }
@@ -453,4 +464,36 @@ fn the_slider_of_strands_goes_from_300_to_all() {
     }
     assert_eq!(window.session().preferences().strands, nabiki_studio::preferences::ALL);
     assert!(window.harness.query_by_label("all 2100").is_some());
+}
+
+#[test]
+fn what_is_said_lies_over_the_view_and_changes_the_size_of_nothing() {
+    let mut window = Window::open();
+    let labels = ["View of the hair", "Ruler", "Interval 1", "Strands shown"];
+    let places = |window: &Window<'_>| labels.map(|label| window.harness.get_by_label(label).rect());
+    let before = places(&window);
+    for n in 0..3 {
+        window.harness.state_mut().session_mut().say(format!("{n}: something that went wrong"), true);
+        window.harness.step();
+        window.harness.step();
+        assert_eq!(places(&window), before);
+    }
+    let words = window.harness.get_by_label("0: something that went wrong").rect();
+    assert!(before[0].contains_rect(words), "{words} in {}", before[0]);
+    for n in (0..3).rev() {
+        window.harness.state_mut().session_mut().apply(Command::Heard(n));
+    }
+    window.settle();
+    assert_eq!(places(&window), before);
+}
+
+#[test]
+fn the_circles_of_an_interval_are_whole_in_a_small_window() {
+    let mut window = Window::open();
+    window.click("Interval 1");
+    let below = window.harness.get_by_label("Strands shown").rect().top();
+    for dial in ["Dial from the right", "Dial from above"] {
+        let rect = window.harness.get_by_label(dial).rect();
+        assert!(rect.width() >= 56.0 && rect.height() >= 56.0 && rect.bottom() < below, "{dial}: {rect}");
+    }
 }

@@ -9,6 +9,7 @@ use super::{Commands, files, theme};
 use crate::actions::{ACTIONS, Entry, MENUS, matching};
 use crate::command::Command;
 use crate::dialog::{Chooser, Dialog, Import, Next, Purpose, Role, as_folder};
+use crate::gestures::{GESTURES, PLACES};
 use crate::preferences::{ALL, Preferences};
 use crate::recovery::Kept;
 use crate::session::Session;
@@ -19,7 +20,7 @@ use crate::view::Navigation;
 pub fn ui(ctx: &egui::Context, session: &Session, commands: &mut Commands) {
     let Some(dialog) = session.dialog().filter(|dialog| **dialog != Dialog::Welcome) else { return };
     let wide: f32 = match dialog {
-        Dialog::Keys => 760.0,
+        Dialog::Keys => 1080.0,
         Dialog::File(_) | Dialog::Recover(_) => 560.0,
         _ => 460.0,
     };
@@ -36,7 +37,7 @@ pub fn ui(ctx: &egui::Context, session: &Session, commands: &mut Commands) {
             Dialog::Exporting => exporting(ui, commands),
             Dialog::Recover(kept) => recover(ui, kept, commands),
             Dialog::Palette { query, line } => palette(ui, query, *line, commands),
-            Dialog::Keys => keys(ui, commands),
+            Dialog::Keys => keys(ui, session, commands),
             Dialog::Welcome => {}
             Dialog::Preferences => preferences(ui, session, commands),
             Dialog::Export(order) => export(ui, session, order, commands),
@@ -193,43 +194,29 @@ fn palette(ui: &mut Ui, query: &str, line: usize, commands: &mut Commands) {
     });
 }
 
-fn keys(ui: &mut Ui, commands: &mut Commands) {
+fn keys(ui: &mut Ui, session: &Session, commands: &mut Commands) {
     ui.heading("Keys");
     ui.add_space(6.0);
-    egui::ScrollArea::vertical().max_height(ui.ctx().content_rect().height() - 180.0).show(ui, |ui| {
-        ui.columns(2, |columns| {
+    let height = (ui.ctx().content_rect().height() - 150.0).max(100.0);
+    let scrolled = egui::ScrollArea::vertical().max_height(height).min_scrolled_height(height);
+    scrolled.show(ui, |ui| {
+        (ui.spacing_mut().item_spacing.y, ui.spacing_mut().interact_size.y) = (2.0, 16.0);
+        // As many columns as have room for their words.
+        let count = ((ui.available_width() / 330.0) as usize).clamp(1, 3);
+        ui.columns(count, |columns| {
+            let column = |n: usize| n.min(count - 1);
             for (n, menu) in MENUS.into_iter().enumerate() {
-                let ui = &mut columns[usize::from(n >= 3)];
-                ui.label(egui::RichText::new(menu).color(theme::ACCENT));
-                for entry in ACTIONS.iter().filter(|entry| entry.menu == menu && entry.key.is_some()) {
-                    ui.horizontal(|ui| {
-                        let key = entry.key.map(|key| key.text()).unwrap_or_default();
-                        ui.add_sized(
-                            [92.0, 18.0],
-                            egui::Label::new(egui::RichText::new(key).monospace()).halign(egui::Align::LEFT),
-                        );
-                        ui.add(egui::Label::new(entry.name.trim_end_matches("...")).truncate())
-                            .on_hover_text(entry.help);
-                    });
-                }
-                ui.add_space(8.0);
+                let rows = ACTIONS.iter().filter(|entry| entry.menu == menu && entry.key.is_some());
+                let rows = rows.map(|entry| (entry.keys_text(), entry.name.trim_end_matches("..."), entry.help));
+                key_rows(&mut columns[column(usize::from(n >= 3))], menu, 120.0, rows);
             }
-            let ui = &mut columns[0];
-            ui.label(egui::RichText::new("Mouse").color(theme::ACCENT));
-            for (keys, what) in [
-                ("Middle", "turn (Maya: Alt + left)"),
-                ("Shift+Middle", "shift (Maya: Alt + middle)"),
-                ("Wheel", "nearer, farther"),
-                ("Shift+drag", "a border, with what comes after"),
-                ("Wheel", "over the timeline: fewer frames, more"),
-            ] {
-                ui.horizontal(|ui| {
-                    ui.add_sized(
-                        [92.0, 18.0],
-                        egui::Label::new(egui::RichText::new(keys).monospace()).halign(egui::Align::LEFT),
-                    );
-                    ui.label(what);
-                });
+            let ui = &mut columns[column(2)];
+            let camera = session.preferences().navigation.hands();
+            let camera = camera.map(|(hand, what)| (hand.to_owned(), what, "As the preferences say."));
+            key_rows(ui, "Camera", 140.0, camera.into_iter());
+            for place in PLACES {
+                let rows = GESTURES.iter().filter(|gesture| gesture.place == place);
+                key_rows(ui, place, 140.0, rows.map(|gesture| (gesture.hand.to_owned(), gesture.what, gesture.what)));
             }
         });
     });
@@ -238,6 +225,22 @@ fn keys(ui: &mut Ui, commands: &mut Commands) {
             commands.push(Command::CloseDialog);
         }
     });
+}
+
+/// Keys, or what a hand does, with what comes of it. `wide`: room of the first.
+fn key_rows(ui: &mut Ui, title: &str, wide: f32, rows: impl Iterator<Item = (String, &'static str, &'static str)>) {
+    ui.label(egui::RichText::new(title).color(theme::ACCENT));
+    for (key, what, help) in rows {
+        ui.horizontal_top(|ui| {
+            let left = egui::Layout::left_to_right(egui::Align::Center);
+            ui.allocate_ui_with_layout(egui::vec2(wide, 16.0), left, |ui| {
+                ui.set_min_width(wide);
+                ui.add(egui::Label::new(egui::RichText::new(key).size(theme::SMALL)).truncate());
+            });
+            ui.add(egui::Label::new(what).wrap()).on_hover_text(help);
+        });
+    }
+    ui.add_space(8.0);
 }
 
 fn preferences(ui: &mut Ui, session: &Session, commands: &mut Commands) {

@@ -32,6 +32,12 @@ pub fn ui(ui: &mut Ui, session: &Session, page: Page, commands: &mut Commands) {
         When::Imported => scene.hair.imported().is_some(),
         When::ImportedHead => scene.head.mesh() != nabiki_scene::scene::HeadSettings::BUILTIN,
     };
+    if let Some(broken) = session.broken() {
+        let words = format!("{} is being mended. The scene behind it stays as it is.", broken.name());
+        ui.add(egui::Label::new(theme::faint(words)).wrap());
+        ui.add_space(4.0);
+        ui.disable();
+    }
     let list = Panel { session, folder: scene.file().parent().unwrap_or(Path::new("")) };
     egui::ScrollArea::vertical().id_salt(page).auto_shrink(false).show(ui, |ui| {
         ui.set_width(ui.available_width() - 6.0);

@@ -13,18 +13,38 @@ use crate::session::Session;
 use crate::take::{TOUCHED, Take};
 use crate::tasks::{Ended, Task};
 
-/// Most of a window that is taken by what has to be said; the rest is scrolled.
+/// Most of a window that is covered by what has to be said; the rest is scrolled.
 const MOST_WORDS: f32 = 0.3;
 
-/// Whether there is anything to be said above the line.
-pub fn has_words(session: &Session) -> bool {
+fn has_words(session: &Session) -> bool {
     session.trouble().is_some() || !session.words().is_empty() || !session.tasks().is_empty()
 }
 
-/// Draws what has to be said above the line: trouble, words and tasks.
-pub fn words(ui: &mut Ui, session: &Session, commands: &mut Commands) {
-    let most = MOST_WORDS * ui.ctx().content_rect().height();
-    egui::ScrollArea::vertical().max_height(most).auto_shrink([false, true]).show(ui, |ui| bars(ui, session, commands));
+/// What is said, as an area of the window.
+fn area() -> egui::Id {
+    egui::Id::unique("words")
+}
+
+/// Draws what has to be said: trouble, words and tasks. It lies over the lower end of a place, so that nothing changes its size
+/// when words come and go.
+pub fn words(ctx: &egui::Context, over: egui::Rect, session: &Session, commands: &mut Commands) {
+    if !has_words(session) {
+        return;
+    }
+    let area = egui::Area::new(area()).order(egui::Order::Middle).movable(false).constrain(false).fade_in(false);
+    area.pivot(egui::Align2::LEFT_BOTTOM).fixed_pos(over.left_bottom()).show(ctx, |ui| {
+        ui.set_width(over.width());
+        ui.spacing_mut().item_spacing.y = 1.0;
+        let most = (MOST_WORDS * ctx.content_rect().height()).min(over.height());
+        let scrolled = egui::ScrollArea::vertical().max_height(most).auto_shrink([false, true]);
+        scrolled.show(ui, |ui| bars(ui, session, commands));
+    });
+}
+
+/// How high that is (points).
+pub fn height_of_words(ctx: &egui::Context, session: &Session) -> f32 {
+    let drawn = ctx.memory(|memory| memory.area_rect(area())).filter(|_| has_words(session));
+    drawn.map_or(0.0, |rect| rect.height())
 }
 
 fn bars(ui: &mut Ui, session: &Session, commands: &mut Commands) {

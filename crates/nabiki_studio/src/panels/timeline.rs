@@ -27,6 +27,10 @@ const BLOCKS: f32 = 62.0;
 
 /// Draws the panel. `marks`: where hair is wished to be somewhere.
 pub fn ui(ui: &mut Ui, session: &Session, marks: &Marks, commands: &mut Commands) {
+    if session.broken().is_some() {
+        // The pages say why.
+        ui.disable();
+    }
     transport(ui, session, commands);
     ui.add_space(2.0);
     let Some(document) = session.document() else { return };

@@ -23,9 +23,26 @@ pub(super) const CHANGES: [Action; 10] = [
     Action::UseCamera,
 ];
 
+/// How it is said that the contact sheet has fewer frames.
+const SHEET_LOST: &str = "the contact sheet goes without frames ";
+
 impl Session {
+    /// Whether a text is being mended, behind which the scene is left alone; says so.
+    pub(super) fn is_behind_text(&mut self) -> bool {
+        let Some(broken) = &self.broken else { return false };
+        let text = format!("{}: mend it or leave it first; the scene behind it stays as it is", broken.name());
+        self.say(text, false);
+        true
+    }
+
     pub(super) fn apply_to_document(&mut self, command: Command) {
         match command {
+            Command::Set { .. }
+            | Command::SetAll { .. }
+            | Command::Intervals { .. }
+            | Command::Vector { .. }
+            | Command::Scene { .. }
+                if self.is_behind_text() => {}
             Command::Set { key, value, phase } => self.set(&key, value, phase),
             Command::SetAll { name, settings } => self.set_all(&name, &settings),
             Command::Intervals { name, keys, chosen, phase } => {
@@ -55,11 +72,25 @@ impl Session {
     fn set(&mut self, key: &str, value: Option<toml::Value>, phase: Phase) {
         let Some(document) = &mut self.document else { return };
         match document.scene().with_setting(key, value) {
-            Ok(scene) => document.edit(&name_of(key), scene, phase),
+            Ok(mut scene) => {
+                let name = name_of(key);
+                let lost = (key == "motion.frames").then(|| shorten_sheet(&mut scene, document.before_drag(&name)));
+                document.edit(&name, scene, phase);
+                lost.into_iter().for_each(|lost| self.say_what_the_sheet_lost(&lost));
+            }
             Err(refused) => {
                 let text = refused.to_string();
                 self.say(text, true);
             }
+        }
+    }
+
+    fn say_what_the_sheet_lost(&mut self, frames: &[u32]) {
+        // Of a drag the last word counts.
+        self.words.retain(|word| !word.text.starts_with(SHEET_LOST));
+        if !frames.is_empty() {
+            let frames = frames.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+            self.say(format!("{SHEET_LOST}{frames}, which the motion does not reach any more"), false);
         }
     }
 
@@ -140,6 +171,16 @@ impl Session {
             };
         });
     }
+}
+
+/// Takes the frames out of the contact sheet that a shorter motion does not reach: nobody who drags its length thinks of them,
+/// and with them no scene is right. They are those of the scene `before` the drag, so that a drag back brings them back. Returns
+/// what was taken out.
+fn shorten_sheet(scene: &mut Scene, before: &Scene) -> Vec<u32> {
+    let Some(sheet) = &before.output.sheet else { return Vec::new() };
+    let (kept, lost) = sheet.iter().partition(|&&frame| frame <= scene.motion.frames);
+    scene.output.sheet = Some(kept);
+    lost
 }
 
 /// Puts intervals into a scene. Without any there is nothing to ease and nothing to make gusty.

@@ -17,8 +17,11 @@ fn with_text(place: &Place) -> (Session, PathBuf) {
     (session, path)
 }
 
+/// Changes the scene, as if no text lay over it yet.
 fn edit(session: &mut Session) {
+    let text = session.broken.take();
     session.apply(Command::Vector { interval: 0, vector: Vec3::X, phase: Phase::Done });
+    session.broken = text;
 }
 
 fn asks(session: &Session, next: &Next) -> bool {
@@ -199,4 +202,44 @@ fn a_scene_that_cannot_move_does_not_show_the_hair_of_the_one_before() {
     session.apply(Command::Open(place.file()));
     session.wait();
     assert!(session.trouble().is_none() && session.take().is_some());
+}
+
+#[test]
+fn a_window_that_has_closed_leaves_nothing_beside_the_preferences() {
+    let place = Place::new();
+    let (mut session, _) = with_text(&place);
+    session.apply(Command::Mend("half".to_owned()));
+    session.keep();
+    let recovery = place.0.path().join("config/recovery");
+    let left = || std::fs::read_dir(&recovery).unwrap().count();
+    assert_eq!(left(), 3, "two locks and the text");
+    session.end();
+    assert_eq!(left(), 0);
+}
+
+#[test]
+fn nothing_changes_the_scene_behind_a_text_and_that_is_said() {
+    let place = Place::new();
+    let (mut session, _) = with_text(&place);
+    let scene = session.document().unwrap().scene().clone();
+    let key = "motion.frames".to_owned();
+    for command in [
+        Command::Set { key: key.clone(), value: Some(10.into()), phase: Phase::Done },
+        Command::SetAll { name: "Length".to_owned(), settings: vec![(key, Some(10.into()))] },
+        Command::Vector { interval: 0, vector: Vec3::X, phase: Phase::Dragging },
+        Command::Intervals { name: "Cut", keys: Vec::new(), chosen: None, phase: Phase::Done },
+        Command::Scene { name: "Camera".to_owned(), scene: Box::default(), phase: Phase::Done },
+        Command::Act(Action::SelectAll),
+        Command::Act(Action::Delete),
+        Command::Act(Action::Split),
+    ] {
+        session.words.clear();
+        let chooses = matches!(command, Command::Act(Action::SelectAll));
+        session.apply(command.clone());
+        assert_eq!(*session.document().unwrap().scene(), scene, "{command:?}");
+        assert_eq!(session.words().iter().any(|word| word.text.contains("mend it")), !chooses, "{command:?}");
+    }
+    session.apply(Command::LeaveBroken);
+    edit(&mut session);
+    assert!(session.document().unwrap().is_dirty());
 }

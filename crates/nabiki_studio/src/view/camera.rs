@@ -40,6 +40,18 @@ pub struct Held {
 }
 
 impl Navigation {
+    /// What it has hands do, in words.
+    pub const fn hands(self) -> [(&'static str, &'static str); 3] {
+        match self {
+            Self::Blender => [
+                ("Middle, or Alt+left", "Turns."),
+                ("The same with Shift", "Shifts."),
+                ("The same with Ctrl", "Nearer, farther."),
+            ],
+            Self::Maya => [("Alt+left", "Turns."), ("Alt+middle", "Shifts."), ("Alt+right", "Nearer, farther.")],
+        }
+    }
+
     /// What a drag with this held does, if it is the camera's.
     pub fn gesture(self, held: Held) -> Option<Gesture> {
         match self {

@@ -1,6 +1,6 @@
 //! What is drawn over the picture: the handle, the thread from hand to hair, nails, words.
 
-use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
+use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, vec2};
 use glam::Vec3;
 use nabiki_render::View;
 
@@ -13,6 +13,9 @@ const ACCENT: Color32 = Color32::from_rgb(255, 176, 64);
 const HELD: Color32 = Color32::from_rgb(255, 222, 150);
 /// About lines, so that they show on bright hair as on dark.
 const OUTLINE: Color32 = Color32::from_black_alpha(140);
+
+/// Between words and the ring about the end of their line (points).
+const BESIDE: f32 = 12.0;
 
 /// The painter of a view, which knows where places of space are.
 pub struct Overlay<'a> {
@@ -55,7 +58,7 @@ impl Overlay<'_> {
         self.painter.circle_stroke(tip, radius + 1.0, Stroke::new(1.5, colour));
         let force = arrow.force();
         let number = format!("{:.0}   ({:.0}, {:.0}, {:.0})", force.length(), force.x, force.y, force.z);
-        self.words(tip + vec2(14.0, -14.0), &number, colour);
+        self.words([foot, tip], &number, colour);
     }
 
     /// The thread from where the hand holds to where the hair is.
@@ -68,7 +71,7 @@ impl Overlay<'_> {
         self.painter.circle_stroke(from, 8.0, Stroke::new(1.5, HELD));
         let left = hand.distance(hair);
         if left > 0.05 {
-            self.words(from + vec2(14.0, -12.0), &format!("{left:.1} cm left"), HELD);
+            self.words([to, from], &format!("{left:.1} cm left"), HELD);
         }
     }
 
@@ -91,16 +94,12 @@ impl Overlay<'_> {
         }
     }
 
-    /// Small words with a dark ground.
-    fn words(&self, at: Pos2, words: &str, colour: Color32) {
+    /// Small words with a dark ground, at the second end of a line.
+    fn words(&self, line: [Pos2; 2], words: &str, colour: Color32) {
         let galley = self.painter.layout_no_wrap(words.to_owned(), FontId::proportional(13.0), colour);
-        // Within the view, whatever they belong to.
-        let room = (self.rect.size() - galley.size() - vec2(8.0, 6.0)).max(Vec2::ZERO);
-        let low = self.rect.min + vec2(4.0, 3.0);
-        let at = pos2(at.x.clamp(low.x, low.x + room.x), at.y.clamp(low.y, low.y + room.y));
-        let ground = Rect::from_min_size(at, galley.size()).expand2(vec2(4.0, 2.0));
+        let ground = beside(self.rect, line, galley.size() + vec2(8.0, 4.0));
         self.painter.rect_filled(ground, 3.0, Color32::from_black_alpha(150));
-        self.painter.galley(at, galley, colour);
+        self.painter.galley(ground.min + vec2(4.0, 2.0), galley, colour);
     }
 
     /// Words where there is no picture.
@@ -114,5 +113,61 @@ impl Overlay<'_> {
         );
         let at = Align2::CENTER_CENTER.anchor_size(self.rect.center(), galley.size());
         self.painter.galley(at.min, galley, Color32::from_gray(190));
+    }
+}
+
+/// The place of words of such a size within a view: on past the second end of a line, or beside it, or before its first end, so
+/// that they do not cover it.
+fn beside(view: Rect, [from, to]: [Pos2; 2], size: Vec2) -> Rect {
+    let way = to - from;
+    let along = if way.length() > 1.0 { way.normalized() } else { vec2(1.0, -1.0).normalized() };
+    // Upward first.
+    let across = if along.x > 0.0 { vec2(along.y, -along.x) } else { vec2(-along.y, along.x) };
+    let at = |end: Pos2, d: Vec2| {
+        let half = 0.5 * (d.x.abs() * size.x + d.y.abs() * size.y);
+        Rect::from_center_size(end + d * (half + BESIDE), size)
+    };
+    let room = view.shrink(3.0);
+    let within = |place: Rect| {
+        let spare = (room.size() - size).max(Vec2::ZERO);
+        Rect::from_min_size(place.min.clamp(room.min, room.min + spare), size)
+    };
+    let points = (way.length() / 4.0) as usize + 1;
+    let is_clear = |place: &Rect| {
+        let about = place.expand(0.7 * BESIDE);
+        (0..=points).all(|n| !about.contains(from + way * (n as f32 / points as f32)))
+    };
+    let places = [at(to, along), at(to, across), at(to, -across), at(from, -along)].map(within);
+    places.into_iter().find(is_clear).unwrap_or(places[0])
+}
+
+#[cfg(test)]
+mod tests {
+    use eframe::egui::pos2;
+
+    use super::*;
+
+    #[test]
+    fn words_lie_within_the_view_and_not_on_their_line() {
+        let view = Rect::from_min_size(pos2(10.0, 20.0), vec2(900.0, 480.0));
+        let size = vec2(120.0, 20.0);
+        for turn in 0..24 {
+            for length in [0.0, 12.0, 60.0, 300.0] {
+                for to in
+                    [pos2(35.0, 45.0), pos2(450.0, 45.0), pos2(880.0, 45.0), pos2(450.0, 240.0), pos2(885.0, 475.0)]
+                {
+                    let way = Vec2::angled(turn as f32 * std::f32::consts::TAU / 24.0) * length;
+                    let from = to - way;
+                    if !view.contains(from) {
+                        continue;
+                    }
+                    let place = beside(view, [from, to], size);
+                    assert!(view.contains_rect(place), "{from} {to}: {place}");
+                    let least =
+                        (0..=50).map(|n| place.distance_to_pos(from + way * (n as f32 / 50.0))).fold(1e9, f32::min);
+                    assert!(least >= 7.0, "{from} {to}: {place} is {least} from its line");
+                }
+            }
+        }
     }
 }

@@ -1,14 +1,20 @@
 //! What is under the pointer: the strand that a hand means, and the lock about it.
 
-use glam::{Vec2, Vec3};
-use nabiki::{Ellipsoid, Strands};
+use glam::{Affine3A, Vec2, Vec3};
+use nabiki::Strands;
+use nabiki::distance::SkinDistance;
+use nabiki::dynamics::Form;
 use nabiki_render::View;
 use nabiki_render::camera::NEAR;
 
+use crate::take::Take;
+
 /// How much farther a strand may be for each pixel that it is nearer to the pointer, in pixels of depth.
 const DEPTH_PER_PIXEL: f32 = 6.0;
-/// What lies deeper in the head than this is hidden by it (cm): hair lies on skin that is not quite the ellipsoid.
-const HIDDEN_CM: f32 = 1.5;
+/// What is seen past a skin goes no deeper into it than this (cm): hair lies on the skin, and the skin is read from samples.
+const GRAZES_CM: f32 = 0.05;
+/// Share by which a distance that is read far from a skin may be too large.
+const SLACK: f32 = 0.05;
 
 /// A node of a strand, and where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,19 +29,76 @@ pub struct Picked {
     pub apart: f32,
 }
 
+/// What hides hair in a frame: the head, and the bodies that are shown and solid. Others have no distance.
+#[derive(Clone, Debug)]
+pub struct Skins<'a> {
+    /// The middle of the head (head space, cm).
+    middle: Vec3,
+    /// The distance to each, and the way from head space into its own.
+    each: Vec<(&'a SkinDistance, Affine3A)>,
+}
+
+impl<'a> Skins<'a> {
+    /// Those of a frame.
+    pub fn of(take: &'a Take, frame: u32) -> Self {
+        let (built, pose) = (&take.built, take.pose(frame));
+        let bodies = match &built.dynamics.form {
+            Form::Free(free) => free.bodies.as_slice(),
+            Form::Paper => &[],
+        };
+        let settings = built.scene.bodies.iter().enumerate();
+        let shown = settings.filter(|(_, body)| body.shown).map(|(i, _)| format!("body[{i}]"));
+        let shown = shown.filter_map(|name| bodies.iter().find(|body| body.name == name));
+        let shown = shown.map(|body| (&*body.distance, body.head_from_body(frame, &pose).inverse()));
+        let each = [(&**built.head.skin(), Affine3A::IDENTITY)].into_iter().chain(shown).collect();
+        Self { middle: built.head.ellipsoid.center, each }
+    }
+
+    /// Whether one of them lies between a place (head space, cm) and the eye.
+    fn hide(&self, view: &View, place: Vec3) -> bool {
+        let toward = view.toward_eye(place);
+        let to_eye = view.project(place).z / -toward.dot(view.forward);
+        self.each.iter().any(|(skin, from_head)| {
+            hides(skin, from_head.transform_point3(place), from_head.transform_vector3(toward), to_eye)
+        })
+    }
+}
+
+/// Whether the way from a place in a unit direction, so many cm long, goes through a skin. All are in the skin's space.
+fn hides(skin: &SkinDistance, place: Vec3, toward: Vec3, length: f32) -> bool {
+    // Beyond the box distances are dear, and skin is far from hair. Rounding stays within, too.
+    let [low, high] = skin.sampled_box();
+    let (a, b) = ((low + 1e-3 - place) / toward, (high - 1e-3 - place) / toward);
+    let mut at = a.min(b).max_element().max(0.0);
+    let end = a.max(b).min_element().min(length);
+    if at >= end {
+        return false;
+    }
+    // Hair that does not fit its head lies in it: what counts is how much deeper the way goes.
+    let least = skin.at(place + toward * at).min(0.0) - GRAZES_CM;
+    while at < end {
+        let left = skin.at(place + toward * at) - least;
+        if left <= 0.0 {
+            return true;
+        }
+        at += (left * (1.0 - SLACK)).max(0.2 * GRAZES_CM);
+    }
+    false
+}
+
 /// The node that is meant by a pixel, of the first `among` strands: of the segments within `reach` pixels of it, and not behind
-/// the head, the one nearest to pointer and eye; of its ends the nearer one. `view` and `points` are in head space.
+/// a skin, the one nearest to pointer and eye; of its ends the nearer one. `view` and `points` are in head space.
 pub fn nearest(
     view: &View,
     points: &[Vec3],
     strands: &Strands,
     among: usize,
-    head: &Ellipsoid,
+    skins: &Skins<'_>,
     pixel: Vec2,
     reach: f32,
 ) -> Option<Picked> {
     let mut best: Option<(f32, Picked)> = None;
-    let per_cm = view.pixels_per_cm(view.project(head.center).z.max(NEAR));
+    let per_cm = view.pixels_per_cm(view.project(skins.middle).z.max(NEAR));
     for strand in 0..strands.len().min(among) {
         let of = &points[strands.range(strand)];
         for (i, pair) in of.windows(2).enumerate() {
@@ -54,7 +117,7 @@ pub fn nearest(
             if best.is_some_and(|(least, _)| cost >= least) {
                 continue;
             }
-            if behind(view, head, pair[0].lerp(pair[1], t)) {
+            if skins.hide(view, pair[0].lerp(pair[1], t)) {
                 continue;
             }
             let node = if t < 0.5 && i > 0 { i } else { i + 1 };
@@ -64,20 +127,6 @@ pub fn nearest(
         }
     }
     best.map(|(_, picked)| picked)
-}
-
-/// Whether the head hides a place.
-fn behind(view: &View, head: &Ellipsoid, place: Vec3) -> bool {
-    // Where the way from the place to the eye leaves the head, in the space in which it is a ball.
-    let toward = view.toward_eye(place);
-    let (q, d) = ((place - head.center) / head.half_axes, toward / head.half_axes);
-    let (a, b, c) = (d.length_squared(), q.dot(d), q.length_squared() - 1.0);
-    let root = b * b - a * c;
-    // What is before the place and long enough inside.
-    root > 0.0 && {
-        let (enter, leave) = ((-b - root.sqrt()) / a, (-b + root.sqrt()) / a);
-        leave - enter.max(0.0) > HIDDEN_CM
-    }
 }
 
 /// A lock: of each of the first `among` strands that has a node within `radius` (cm) of a place, the node nearest to it, roots left out. The picked
@@ -103,13 +152,20 @@ pub fn lock(points: &[Vec3], strands: &Strands, among: usize, picked: &Picked, r
 
 #[cfg(test)]
 mod tests {
+    use std::sync::LazyLock;
+
+    use nabiki::Head;
     use nabiki_render::Bounds;
     use nabiki_render::settings::Camera;
 
     use super::*;
     use crate::view::camera::Orbit;
 
-    const HEAD: Ellipsoid = Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::new(9.0, 11.0, 8.0) };
+    static BUST: LazyLock<Head> = LazyLock::new(Head::builtin);
+
+    fn skins() -> Skins<'static> {
+        Skins { middle: BUST.ellipsoid.center, each: vec![(&**BUST.skin(), Affine3A::IDENTITY)] }
+    }
 
     /// Strands that hang straight down at these places of the horizontal plane.
     fn hanging(at: &[[f32; 2]]) -> Strands {
@@ -138,13 +194,14 @@ mod tests {
         let view = view();
         for (strand, node) in [(0, 3), (1, 9), (2, 1)] {
             let pixel = view.project(strands.strand(strand)[node]).truncate();
-            let found = nearest(&view, strands.points(), &strands, usize::MAX, &HEAD, pixel + Vec2::new(2.0, 1.0), 8.0)
-                .unwrap();
+            let found =
+                nearest(&view, strands.points(), &strands, usize::MAX, &skins(), pixel + Vec2::new(2.0, 1.0), 8.0)
+                    .unwrap();
             assert_eq!((found.strand, found.node), (strand, node));
             assert_eq!(found.place, strands.strand(strand)[node]);
         }
         let pixel = view.project(Vec3::new(12.0, 0.0, 2.0)).truncate();
-        assert_eq!(nearest(&view, strands.points(), &strands, usize::MAX, &HEAD, pixel, 8.0), None);
+        assert_eq!(nearest(&view, strands.points(), &strands, usize::MAX, &skins(), pixel, 8.0), None);
     }
 
     #[test]
@@ -152,10 +209,10 @@ mod tests {
         let strands = hanging(&[[10.0, 0.0], [14.0, 0.0]]);
         let view = view();
         let pixel = view.project(strands.strand(0)[4]).truncate();
-        let found = nearest(&view, strands.points(), &strands, usize::MAX, &HEAD, pixel, 8.0).unwrap();
+        let found = nearest(&view, strands.points(), &strands, usize::MAX, &skins(), pixel, 8.0).unwrap();
         assert_eq!(found.strand, 1);
         let root = view.project(strands.strand(1)[0]).truncate();
-        let found = nearest(&view, strands.points(), &strands, usize::MAX, &HEAD, root, 8.0).unwrap();
+        let found = nearest(&view, strands.points(), &strands, usize::MAX, &skins(), root, 8.0).unwrap();
         assert!(found.node > 0);
     }
 
@@ -164,7 +221,93 @@ mod tests {
         let strands = hanging(&[[-12.0, 0.0]]);
         let view = view();
         let pixel = view.project(strands.strand(0)[5]).truncate();
-        assert_eq!(nearest(&view, strands.points(), &strands, usize::MAX, &HEAD, pixel, 8.0), None);
+        assert_eq!(nearest(&view, strands.points(), &strands, usize::MAX, &skins(), pixel, 8.0), None);
+    }
+
+    #[test]
+    fn hair_behind_chin_neck_and_shoulders_is_not_taken_hold_of() {
+        let view = view();
+        for (y, hidden) in [(-9.0, true), (-12.0, true), (-16.0, true), (-20.0, true), (16.0, false)] {
+            let mut strands = Strands::default();
+            strands.push((0..4).map(|k| Vec3::new(-20.0, y - 0.5 * k as f32, 0.0)));
+            let pixel = view.project(strands.strand(0)[2]).truncate();
+            let found = nearest(&view, strands.points(), &strands, usize::MAX, &skins(), pixel, 8.0);
+            assert_eq!(found.is_none(), hidden, "at {y}");
+        }
+    }
+
+    #[test]
+    fn a_body_hides_hair_where_it_is_unless_it_is_not_shown() {
+        let folder = tempfile::tempdir().unwrap();
+        let corners = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(|side| 6 * side - 3));
+        let corners: String = corners.map(|[x, y, z]| format!("v {x} {y} {z}\n")).collect();
+        let sides = "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+        std::fs::write(folder.path().join("box.obj"), corners + sides).unwrap();
+        // The origin of its file is the point that stands at the world's.
+        let text = "[hair]\nstrands = 1\n[motion]\nform = \"free\"\nframes = 1\n\
+                    [[body]]\nmesh = \"box.obj\"\nunit = \"cm\"\nup = \"+y\"\nfacing = \"+x\"\norigin = [-30, 0, 0]\n";
+        for (shown, hidden) in [(true, true), (false, false)] {
+            let text = format!("{text}shown = {shown}\n");
+            let scene = nabiki_scene::Scene::parse(&text, &folder.path().join("a.toml"), &[]).unwrap();
+            let built = std::sync::Arc::new(scene.build(nabiki_scene::Shown::All).unwrap());
+            let points = built.hair.strands.points().to_vec();
+            let take = Take { built, film: [points.clone(), points].concat().into(), number: 1 };
+            let skins = Skins::of(&take, 1);
+            let hides = |y: f32| skins.hide(&view(), Vec3::new(20.0, y, 0.0));
+            assert_eq!([hides(0.0), hides(8.0)], [hidden, false]);
+        }
+    }
+
+    /// How far along a way the triangles of the bust are crossed (cm), in order.
+    fn crossings(from: Vec3, way: Vec3) -> Vec<f32> {
+        let crossed = |corners: &[u32; 3]| {
+            let [a, b, c] = corners.map(|v| BUST.mesh.positions[v as usize]);
+            let (ab, ac, p) = (b - a, c - a, way.cross(c - a));
+            let inverse = 1.0 / ab.dot(p);
+            let u = (from - a).dot(p) * inverse;
+            let q = (from - a).cross(ab);
+            let (v, t) = (way.dot(q) * inverse, ac.dot(q) * inverse);
+            (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0).then_some(t)
+        };
+        let mut all: Vec<f32> = BUST.mesh.triangles.iter().filter_map(crossed).collect();
+        all.sort_by(f32::total_cmp);
+        all
+    }
+
+    #[test]
+    fn what_is_hidden_is_what_the_mesh_lies_before() {
+        let (mut seen, mut hidden) = (0, 0);
+        for (azimuth, elevation) in [(0.0, 10.0), (75.0, -15.0), (200.0, 40.0)] {
+            let camera =
+                Camera { azimuth, elevation, distance: Some(80.0), target: Some(Vec3::ZERO), ..Camera::default() };
+            let view = Orbit::new(&camera, [800, 600], &Bounds::default()).view([800, 600], Vec3::ZERO);
+            let places = (0..7 * 9 * 7).map(|i| Vec3::new((i % 7) as f32, (i / 7 % 9) as f32, (i / 63) as f32));
+            let places = places.map(|at| (at - Vec3::new(3.0, 5.3, 3.0)) * Vec3::new(4.7, 4.3, 4.9));
+            for place in places.filter(|&place| BUST.distance(place) > 0.0) {
+                let hides = skins().hide(&view, place);
+                let way = view.toward_eye(place);
+                let crossed = crossings(place, way);
+                let deep =
+                    crossed.windows(2).any(|pair| BUST.exact_distance(place + way * 0.5 * (pair[0] + pair[1])) < -0.2);
+                assert!(!deep || hides, "{place} is seen through the skin");
+                assert!(!crossed.is_empty() || !hides, "{place} is hidden by nothing");
+                seen += usize::from(!hides);
+                hidden += usize::from(hides);
+            }
+        }
+        assert!(seen > 200 && hidden > 100, "{seen} are seen and {hidden} hidden");
+    }
+
+    #[test]
+    fn hair_that_lies_on_the_skin_is_seen_from_outside_and_not_from_behind() {
+        let view = view();
+        for (i, &p) in BUST.mesh.positions.iter().enumerate().step_by(97) {
+            let out = BUST.outward(p);
+            let facing = out.dot(view.toward_eye(p));
+            if facing.abs() > 0.5 && crossings(p + out * 0.05, view.toward_eye(p)).is_empty() == (facing > 0.0) {
+                assert_eq!(skins().hide(&view, p - out * 0.05), facing < 0.0, "vertex {i} at {p}");
+            }
+        }
     }
 
     #[test]

@@ -95,8 +95,8 @@ impl Window {
             let at = self.on_screen(self.take.points(self.frame)[tip]);
             let pixel = glam::Vec2::new(at.x - self.rect.min.x, at.y - self.rect.min.y);
             let shown = self.take.points(self.frame);
-            let ellipsoid = &self.take.built.head.ellipsoid;
-            if pick::nearest(&self.seen(), shown, self.take.strands(), usize::MAX, ellipsoid, pixel, 2.0).is_some() {
+            let skins = pick::Skins::of(&self.take, self.frame);
+            if pick::nearest(&self.seen(), shown, self.take.strands(), usize::MAX, &skins, pixel, 2.0).is_some() {
                 return at;
             }
         }

@@ -143,3 +143,67 @@ fn what_cannot_be_undone_is_not_offered_to_be() {
     window.type_into("Force x", "900000");
     assert!(window.session().trouble().is_some() && window.harness.query_by_label("Undo").is_some());
 }
+
+#[test]
+fn saving_takes_what_is_being_typed() {
+    let mut window = Window::open();
+    window.click("Interval 1");
+    window.click("Force x");
+    // Typed and saved between two pictures, as where they are slow.
+    window.harness.event(Event::Text("-55".to_owned()));
+    window.harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    window.settle();
+    assert_eq!(vector(&window).x, -55.0);
+    assert!(std::fs::read_to_string(window.file()).unwrap().contains("[-55"));
+    assert!(!window.session().document().unwrap().is_dirty());
+    window.click("Picture");
+    window.click("Force x");
+    window.harness.event(Event::Text("nan".to_owned()));
+    window.press(Modifiers::COMMAND, Key::S);
+    assert_eq!(vector(&window).x, -55.0, "what is no number is not taken");
+    window.press(Modifiers::NONE, Key::S);
+    assert_eq!(window.ends(), [20, 40], "split at frame 0 does nothing");
+}
+
+#[test]
+fn a_text_that_is_saved_goes_on_being_typed() {
+    let mut window = Window::open();
+    let broken = window.folder.path().join("broken.toml");
+    std::fs::write(&broken, TEXT.replace("\"free\"", "\"fre\"")).unwrap();
+    window.harness.state_mut().session_mut().apply(Command::Open(broken.clone()));
+    window.settle();
+    window.click("Text of the scene");
+    for letter in ["x", "y"] {
+        window.harness.event(Event::Text(letter.to_owned()));
+        window.press(Modifiers::COMMAND, Key::S);
+        assert!(std::fs::read_to_string(&broken).unwrap().contains(letter));
+        assert!(!window.session().broken().unwrap().is_changed());
+    }
+}
+
+#[test]
+fn escape_closes_a_menu_and_means_nothing_else() {
+    let mut window = Window::open();
+    window.click("Interval 1");
+    window.click("File");
+    assert!(window.harness.query_by_label_contains("Save as").is_some());
+    escape(&mut window);
+    assert!(window.harness.query_by_label_contains("Save as").is_none());
+    assert_eq!(window.session().chosen(), [0]);
+    escape(&mut window);
+    assert_eq!(window.session().chosen(), [] as [usize; 0]);
+}
+
+#[test]
+fn the_list_of_keys_has_all_of_them_and_fits_a_small_window() {
+    let mut window = Window::open();
+    window.press(Modifiers::NONE, Key::F1);
+    for entry in nabiki_studio::actions::ACTIONS.iter().filter(|entry| entry.key.is_some()) {
+        assert!(window.harness.query_all_by_label(&entry.keys_text()).count() > 0, "{}", entry.name);
+    }
+    for gesture in nabiki_studio::gestures::GESTURES {
+        assert!(window.harness.query_all_by_label(gesture.hand).count() > 0, "{}", gesture.hand);
+    }
+    let close = window.harness.get_by_label("Close").rect();
+    assert!(close.right() < 1280.0 && close.bottom() < 720.0, "{close}");
+}
