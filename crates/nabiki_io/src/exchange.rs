@@ -73,7 +73,7 @@ impl Opened {
 }
 
 fn meters_per_unit(declared: DeclaredSpace) -> f64 {
-    declared.unit.map_or(0.01, |unit| f64::from(unit.cm) / 100.0)
+    declared.unit.map_or(0.01, Unit::metres)
 }
 
 fn named(path: &Path, problem: Problem) -> Error {
@@ -134,7 +134,7 @@ pub(crate) fn track(path: &Path, node: &str) -> Result<Track> {
     let DeclaredSpace { unit, up } = file.declared_space()?;
     let sample = |placed: Placed| (placed.time, Sample { position: placed.position, rotation: placed.rotation });
     let (times, samples) = motion.into_iter().map(sample).unzip();
-    Ok(Track { times, samples, what: format!("object {node}"), unit_cm: unit.map(|unit| f64::from(unit.cm)), up })
+    Ok(Track { times, samples, what: format!("object {node}"), unit_cm: unit.map(|unit| 100.0 * unit.metres()), up })
 }
 
 /// Moving hair of a layer or archive, read one frame after another.
@@ -212,7 +212,7 @@ pub fn export<'a>(hair: &'a Hair, frame_rate: f64, placement: Option<&Placement>
     export.velocities = true;
     if let Some(placement) = placement {
         export.file_from_head = placement.file_from_head();
-        export.meters_per_unit = f64::from(placement.unit.cm) / 100.0;
+        export.meters_per_unit = placement.unit.metres();
         export.z_up = placement.up == Axis::PlusZ;
     }
     export

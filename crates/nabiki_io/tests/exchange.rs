@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 
 use glam::{Affine3A, Quat, Vec3};
 use nabiki::{Hair, Mesh, Strands};
-use nabiki_exchange::Export;
+use nabiki_exchange::{Export, GroomReader};
 use nabiki_io::GroomFile;
 use nabiki_io::exchange::{self, DeclaredSpace, MovingHair};
 use nabiki_io::info::ExchangeInfo;
 use nabiki_io::motion::{self, Axis, MotionSource};
 use nabiki_io::placement::{Placement, Unit};
 use nabiki_io::{hair, mesh};
+use nabiki_usd::StageReader;
 
 const FRAMES: usize = 11;
 
@@ -78,6 +79,19 @@ fn unit_and_up_axis_are_what_the_layer_says() {
     exchange::write(&path, &Hair::from(strands()), said).unwrap();
     assert_eq!(exchange::declared_space(&path).unwrap(), said);
     assert_eq!(hair::read(&path).unwrap().strands, strands());
+    // Most decimals are no single: what a layer says in doubles comes back as it was.
+    for metres in [1.0, 0.1, 0.01, 0.001, 0.0254, 0.3048, 0.9144, 1e-9, 1e6] {
+        let from = folder.path().join("from.usda");
+        let curves = "def BasisCurves \"h\" { uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n\
+                      point3f[] points = [(0, 0, 0), (1, 0, 0)] }";
+        std::fs::write(&from, format!("#usda 1.0\n( metersPerUnit = {metres} )\n{curves}\n")).unwrap();
+        for name in ["to.usda", "to.usdc"] {
+            let to = folder.path().join(name);
+            exchange::write(&to, &hair::read(&from).unwrap(), exchange::declared_space(&from).unwrap()).unwrap();
+            let said = StageReader::open(&to).unwrap().contents().unwrap().meters_per_unit;
+            assert_eq!(said, Some(metres), "{name}");
+        }
+    }
     let archive = folder.path().join("hair.abc");
     hair::write(&archive, &Hair::from(strands())).unwrap();
     assert_eq!(exchange::declared_space(&archive).unwrap(), DeclaredSpace { unit: None, up: Some(Axis::PlusY) });

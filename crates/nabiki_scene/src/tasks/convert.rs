@@ -363,7 +363,7 @@ fn exchanged_frames(options: &ConvertOptions, mut groom: GroomFile, watch: &mut 
     let declared = said(options, in_file)?;
     let mut export = moving.export(&hair);
     export.first_frame = options.first_frame.unwrap_or(export.first_frame);
-    export.meters_per_unit = declared.unit.map_or(export.meters_per_unit, |unit| f64::from(unit.cm) / 100.0);
+    export.meters_per_unit = declared.unit.map_or(export.meters_per_unit, Unit::metres);
     export.z_up = declared.up == Some(Axis::PlusZ);
     let failed = |e: std::io::Error| Error::from(nabiki_io::Error::from(e).in_file(output));
     let frames = moving.frames() as u32;
