@@ -279,7 +279,7 @@ impl<F: NamedValues> Search<'_, F> {
         for name in self.readable(names) {
             if let Some(values) = self.file.integers(name)?.filter(|values| !values.is_empty()) {
                 self.used.insert(name);
-                return Ok(self.at_roots(name, &values));
+                return Ok(self.of_strands(name, &values));
             }
         }
         Ok(None)
@@ -314,7 +314,7 @@ impl<F: NamedValues> Search<'_, F> {
         for name in self.readable(names::GROUP_NAME) {
             let Some(words) = self.file.words(name)?.filter(|words| !words.is_empty()) else { continue };
             self.used.insert(name);
-            let Some(words) = self.at_roots(name, &words) else { return Ok(()) };
+            let Some(words) = self.of_strands(name, &words) else { return Ok(()) };
             let groups = found.group.get_or_insert_with(|| {
                 let mut numbers = std::collections::BTreeMap::new();
                 let number = |word: &String| {
@@ -356,6 +356,19 @@ impl<F: NamedValues> Search<'_, F> {
         }
         others.sort_by(|a, b| a.name.cmp(&b.name));
         Ok(others)
+    }
+
+    /// One value for each strand. Where points have values unlike that of their root, that is said, unless they all stay under
+    /// this name.
+    fn of_strands<T: Clone + PartialEq>(&mut self, name: &str, values: &[T]) -> Option<Vec<T>> {
+        let changing = self.lines.changing(values);
+        if changing > 0 && names::WRITTEN.contains(&name) {
+            let curves = self.lines.shape.counts.len();
+            let line =
+                format!("{name} from point to point: it changes along {changing} of {curves} curves, and a strand has");
+            self.unread.push(line + " that of its root alone");
+        }
+        self.at_roots(name, values)
     }
 
     fn at_roots<T: Clone>(&mut self, name: &str, values: &[T]) -> Option<Vec<T>> {

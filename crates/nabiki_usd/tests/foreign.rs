@@ -290,6 +290,41 @@ fn root_uvs_under_a_name_of_their_own_keep_it_and_ids_that_are_none_are_said() {
 }
 
 #[test]
+fn what_strands_have_one_of_may_be_given_by_point_and_is_said_where_it_changes_along_a_curve() {
+    let read = |numbers: &str, words: &str| {
+        let by_point = "( interpolation = \"vertex\" )";
+        let text = CARRIED.replace(
+            "groom_id = [1, 2, 3] ( interpolation = \"uniform\" )",
+            &format!("groom_id = [{numbers}] {by_point}"),
+        );
+        let groups = format!(
+            "int[] primvars:groom_guide = [{numbers}] {by_point}\n int[] primvars:hairId = [1, 2, 3, 4, 5] {by_point}\n\
+             string[] primvars:groom_group_name = [{words}] {by_point}\n int[] primvars:groom_group_id = [{numbers}] {by_point}"
+        );
+        reader(text.replace("float3[] accelerations = [(0, 0, 0)]", &groups)).hair(0, None).unwrap().attributes
+    };
+    let said = |at: &nabiki::hair::Attributes| -> Vec<String> {
+        at.unread.iter().filter(|line| line.contains(" from point to point")).cloned().collect()
+    };
+    let at = read("7, 7, 0, 0, 0", "\"a\", \"a\", \"b\", \"b\", \"b\"");
+    assert_eq!((&at.id, &at.group, &at.guide), (&Some(vec![7, 0]), &Some(vec![7, 0]), &Some(vec![true, false])));
+    assert_eq!(at.group_names, [(7, "a".to_owned()), (0, "b".to_owned())].into());
+    assert_eq!(said(&at), Vec::<String>::new());
+    let at = read("7, 7, 0, 0, 1", "\"a\", \"\", \"b\", \"b\", \"c\"");
+    assert_eq!((&at.id, &at.group, &at.guide), (&Some(vec![7, 0]), &Some(vec![7, 0]), &Some(vec![true, false])));
+    let line = |name: &str, curves: usize| {
+        format!(
+            "{name} from point to point: it changes along {curves} of 2 curves, and a strand has that of its root alone"
+        )
+    };
+    // The ids under another program's name are all there, by point.
+    assert!(at.other.iter().any(|other| other.name == "hairId" && other.per == Per::Point));
+    let expected =
+        [line("groom_id", 1), line("groom_group_id", 1), line("groom_guide", 1), line("groom_group_name", 2)];
+    assert_eq!(said(&at), expected);
+}
+
+#[test]
 fn texture_coordinates_of_points_stay_by_point() {
     let uvs = "[(0, 0), (0, 1), (0.5, 0), (0.5, 1)]";
     let text = format!(
