@@ -96,6 +96,8 @@ pub struct ShardOf {
 struct BuiltBody {
     /// Its own space (cm).
     mesh: Mesh,
+    /// What of the meshes of its file is left out or not obeyed, a phrase each.
+    unread: Vec<String>,
     way: BodyWay,
 }
 
@@ -170,6 +172,11 @@ impl BuiltScene {
         let felt = self.bodies.iter().zip(&self.scene.bodies).enumerate().filter(|(_, (_, settings))| settings.solid);
         let edges = felt.map(|(i, (body, _))| (i, body.mesh.clone().turn_outward().open_edges));
         edges.filter(|(_, edges)| *edges > 0 && matches!(self.dynamics.form, Form::Free(_)))
+    }
+
+    /// What of the meshes of the bodies' files is left out or not obeyed, a phrase each with the number of its body.
+    pub(crate) fn unread_of_bodies(&self) -> impl Iterator<Item = (usize, &String)> {
+        self.bodies.iter().enumerate().flat_map(|(i, body)| body.unread.iter().map(move |unread| (i, unread)))
     }
 
     /// What [`Scene::build`] gives, for an editor in which a scene changes a little at a time: what the two scenes have
