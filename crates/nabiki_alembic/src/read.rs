@@ -280,6 +280,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
             contents.frame_rate = frames.rate(1.0);
         }
         contents.times.clone_from(&frames.times);
+        contents.start = contents.times.first().copied();
         Ok(contents)
     }
 

@@ -155,6 +155,57 @@ fn what_goes_back_stands_on_the_time_line_of_the_shot() {
 }
 
 #[test]
+fn where_the_head_is_of_no_shot_the_grooms_file_says_when_the_shot_begins() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let scene = |hair: &str| {
+        let rest = "[motion]\nframes = 2\nframe_rate = 48\n\n[[force]]\nthrough = 2\nvector = [-1, 0, 0]\n";
+        format!("[hair]\nfile = \"{hair}\"\norigin = [3, 150, -40]\njoin_within = 0\n\n{rest}")
+    };
+    let begins = |metadata: &str, points: &str, more: &str| {
+        let groom = BELOW.replace("upAxis = \"Y\"", &format!("upAxis = \"Y\"\n{metadata}"));
+        let still = "points = [(0, 6, 0), (0, 7.5, 0), (0, 9, 1), (-1.5, 5.5, 0), (-2, 7, 0), (-2.5, 8.5, 1)]";
+        assert!(groom.contains(still));
+        let samples = |codes: &str| {
+            let all = codes.split(' ').map(|code| format!("{code}: {}, ", still.trim_start_matches("points = ")));
+            format!("points.timeSamples = {{ {} }}", all.collect::<String>())
+        };
+        let groom = if points.is_empty() { groom } else { groom.replace(still, &samples(points)) };
+        fs::write(folder.join("groom.usda"), groom).unwrap();
+        fs::write(folder.join("scene.toml"), scene("groom.usda")).unwrap();
+        fs::write(folder.join("way.csv"), "t_s,px_cm,py_cm,pz_cm,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n1,20,0,0,0,0,0,1\n")
+            .unwrap();
+        succeed(folder, &format!("simulate scene.toml -o m.nabiki --export l.usda --export l.abc{more}"));
+        succeed(folder, "convert m.nabiki later.usda");
+        let start = |name: &str| -> f64 {
+            let text = fs::read_to_string(folder.join(name)).unwrap();
+            let (_, start) = text.split_once("startTimeCode = ").unwrap();
+            start.split_once('\n').unwrap().0.parse().unwrap()
+        };
+        assert_eq!(start("l.usda"), start("later.usda"));
+        start("l.usda")
+    };
+    // 24 codes a second, 48 frames a second.
+    assert_eq!(begins("startTimeCode = 1001", "", ""), 2002.0);
+    assert_eq!(begins("startTimeCode = 1001\ntimeCodesPerSecond = 48", "", ""), 1001.0);
+    assert_eq!(
+        begins("startTimeCode = 1001", "", " --set head.motion={file=\"way.csv\",up=\"+y\",facing=\"+x\"}"),
+        2002.0
+    );
+    assert_eq!(begins("startTimeCode = 1001", "", " --set output.first_frame=0"), 0.0);
+    // The hair that is read is that of the first sample of several.
+    assert_eq!(begins("startTimeCode = 1001", "990 991 992", ""), 1980.0);
+    assert_eq!(begins("", "7", ""), 0.0);
+    assert_eq!(begins("startTimeCode = 1e300", "", ""), 0.0);
+    // An archive stands in time by its samples.
+    begins("startTimeCode = 60", "", "");
+    let archive = scene("l.abc").replace("join_within", "unit = \"cm\"\njoin_within");
+    fs::write(folder.join("archive.toml"), archive).unwrap();
+    succeed(folder, "simulate archive.toml -o n.nabiki --export n.usda");
+    assert!(fs::read_to_string(folder.join("n.usda")).unwrap().contains("startTimeCode = 120\n"));
+}
+
+#[test]
 fn what_a_layer_cannot_hold_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();

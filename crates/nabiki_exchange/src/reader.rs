@@ -70,6 +70,9 @@ pub struct Contents {
     pub meshes: Vec<String>,
     /// Times of the curves' frames (s); none for curves that stand still.
     pub times: Vec<f64>,
+    /// When the shot begins (s): with the first of several frames of the curves, or else as the file says; `None` where nothing
+    /// does.
+    pub start: Option<f64>,
     /// Frames a second; 24 where nothing says so.
     pub frame_rate: f64,
     /// Length of the unit (m), where the file says it.

@@ -85,6 +85,17 @@ impl GroomFile {
         }
     }
 
+    /// When the shot begins that the file is of (s), where it says so.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn start(&mut self) -> Result<Option<f64>> {
+        match &mut self.kind {
+            Kind::Plain(_) => Ok(None),
+            Kind::Exchange(file) => Ok(file.ask(|r| r.contents())?.start),
+        }
+    }
+
     /// Reads the hair of frame `frame` (the last one after those there are), in the file's own unit and axes.
     /// `segments`: walks every curve of a layer or archive into as many, and cuts other strands anew; `None` keeps
     /// polylines as they are.

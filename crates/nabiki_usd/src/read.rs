@@ -213,7 +213,13 @@ impl GroomReader for StageReader {
         };
         let frames = self.frames()?;
         let codes_a_second = self.codes_a_second()?;
+        // Curves that move begin with the hair that is read first, whatever of the stage comes before or after.
+        let start = match frames.times[..] {
+            [first, _, ..] => Some(first),
+            _ => self.layer.metadata_number("startTimeCode")?.filter(|code| code.is_finite()),
+        };
         Ok(Contents {
+            start: start.map(|code| code / codes_a_second),
             curves: paths(&self.layer, "BasisCurves"),
             meshes: paths(&self.layer, "Mesh"),
             frame_rate: if frames.step > 0.0 { frames.rate(codes_a_second) } else { codes_a_second },
