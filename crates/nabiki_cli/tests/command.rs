@@ -233,7 +233,9 @@ fn a_command_line_that_makes_no_sense_exits_with_2() {
 #[test]
 fn numbers_below_0_are_refused_by_the_option_that_has_them() {
     for (arguments, words) in [
-        (&["render", GUST, "--frame", "-1"][..], "'-1' for '--frame <N>'"),
+        (&["render", GUST, "--frame", "-1"][..], "'-1' for '--frame <N>': must be a whole number, 0 to 10000000\n"),
+        (&["run", GUST, "--frames", "-1"], "'-1' for '--frames <N>': must be a whole number, 1 to 10000000\n"),
+        (&["run", GUST, "--frames", "99999999999"], "for '--frames <N>': must be a whole number, 1 to 10000000\n"),
         (&["render", GUST, "--frames", "-1..3"], "write one whole number, or two"),
         (&["preview", GUST, "--strands", "-5"], "must be a whole number of at least 1"),
     ] {
