@@ -202,8 +202,12 @@ pub struct Preview {
 
 #[derive(Args)]
 pub struct Groom {
-    #[command(flatten)]
-    pub scene: SceneArgs,
+    /// The scene (TOML)
+    pub scene: PathBuf,
+
+    /// Any setting of the scene in TOML, as often as wanted: hair.strands=5000, or in quotes hair.origin=[0,1.6,0]
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub sets: Vec<String>,
 
     /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
     #[arg(long, value_name = "N", value_parser = positive::<usize>)]

@@ -223,9 +223,14 @@ fn hair_too_small_to_be_moved_names_its_unit() {
 
 #[test]
 fn a_command_line_that_makes_no_sense_exits_with_2() {
-    for arguments in
-        [&["blow", GUST][..], &["run"], &["run", GUST, "--strands", "many"], &["run", GUST, "--threads", "0"]]
-    {
+    for arguments in [
+        &["blow", GUST][..],
+        &["run"],
+        &["run", GUST, "--strands", "many"],
+        &["run", GUST, "--threads", "0"],
+        // Hair at rest has no frames.
+        &["groom", GUST, "-o", "nowhere/a.hair", "--frames", "3"],
+    ] {
         assert_eq!(nabiki(arguments).status.code(), Some(2), "{arguments:?}");
     }
 }
