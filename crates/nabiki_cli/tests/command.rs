@@ -262,6 +262,37 @@ fn a_setting_that_is_given_twice_is_not_left_unread() {
 }
 
 #[test]
+fn a_preview_says_that_the_whole_would_be_refused() {
+    let folder = TempDir::new().unwrap();
+    let hair = |last: f32| {
+        // The last root is beside the first and nearer to the others, and so the last to be chosen.
+        let roots = (0..8).map(|s| (9.0 + s as f32, 6.0)).chain([(9.01, last)]);
+        let points: Vec<String> = roots.map(|(x, length)| format!("({x}, 1, 0), ({x}, {}, 0)", 1.0 + length)).collect();
+        format!(
+            "#usda 1.0\ndef BasisCurves \"h\" {{ uniform token type = \"linear\"\n int[] curveVertexCounts = [{}]\n\
+             point3f[] points = [{}] }}\n",
+            ["2"; 9].join(", "),
+            points.join(", ")
+        )
+    };
+    let scene = "[hair]\nfile = \"hair.usda\"\n[motion]\nframes = 1\n[output]\nsheet = [0]\n[picture]\nsize = [32, 32]\n[[force]]\n\
+                 through = 1\nvector = [0, 0, 100]\n";
+    let (file, out) = (path(&folder, "scene.toml"), path(&folder, "out"));
+    fs::write(&file, scene).unwrap();
+    for (last, said_so) in [(0.25, true), (5.0, false)] {
+        fs::write(path(&folder, "hair.usda"), hair(last)).unwrap();
+        let said = succeed(&["preview", &file, "--strands", "4", "--out", &out]);
+        let line = "4 strands of 9 are moved; all of them would be refused: ";
+        assert_eq!(said.contains(line), said_so, "{said}");
+        if said_so {
+            let refused = refuse(&["simulate", &file, "-o", &path(&folder, "m.nabiki")], folder.path());
+            let why = refused.trim_start_matches("nabiki: ").trim_end();
+            assert!(said.contains(&format!("{line}{why}")), "{said}{refused}");
+        }
+    }
+}
+
+#[test]
 fn a_preview_of_more_strands_than_there_are_is_refused_where_their_number_is_given() {
     let folder = TempDir::new().unwrap();
     let out = path(&folder, "out");
