@@ -184,11 +184,13 @@ impl Polylines {
             id: search.by_strand(names::ID)?,
             ..Attributes::default()
         };
-        // What stands beside transparencies is the same said the other way.
-        search.used.extend(found.transparency.iter().map(|_| "displayOpacity"));
-        if found.transparency.is_none() {
-            let opacity = search.by_point::<1>(names::OPACITY)?;
-            found.transparency = opacity.map(|o| o.into_iter().map(|[x]| 1.0 - x).collect());
+        if let Some(opacity) = search.by_point::<1>(names::OPACITY)? {
+            let same = |transparency: &[f32]| transparency.iter().zip(&opacity).all(|(t, [o])| 1.0 - t == *o);
+            let transparency = || opacity.iter().map(|[o]| 1.0 - o).collect::<Vec<f32>>();
+            // One of which that cannot be made again stays under its own name: 1 - (1 - 0.1) is another number.
+            if !same(found.transparency.get_or_insert_with(transparency)) {
+                search.used.retain(|name| !names::OPACITY.contains(name));
+            }
         }
         found.root_uv = search.root_uv()?;
         found.group = search.by_strand(names::GROUP)?.map(|g| g.into_iter().map(|g| g as i32).collect());

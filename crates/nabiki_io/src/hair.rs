@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use nabiki::{Hair, SettingError, error::check_range, hair::Degenerate, strands::not_finite};
+use nabiki_exchange::attributes::names;
 use nabiki_file::PartFile;
 use serde::{Deserialize, Serialize};
 
@@ -174,7 +175,9 @@ pub fn losses(path: &Path, hair: &Hair) -> Result<Vec<String>> {
 
 /// What only formats with attributes of any name pass on, and what was not read.
 pub(crate) fn passed_on(hair: &Hair) -> Vec<String> {
-    let names = hair.attributes.other.iter().map(|other| other.name.clone());
+    // What is said a second time, the other way, is held.
+    let again = |name: &str| names::OPACITY.contains(&name) && hair.attributes.transparency.is_some();
+    let names = hair.attributes.other.iter().map(|other| other.name.clone()).filter(|name| !again(name));
     names.chain(hair.attributes.unread.iter().cloned()).collect()
 }
 

@@ -98,6 +98,31 @@ fn unit_and_up_axis_are_what_the_layer_says() {
 }
 
 #[test]
+fn opacities_keep_their_digits_and_are_transparencies_where_a_format_has_no_other_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let groom = "#usda 1.0\ndef BasisCurves \"h\" { uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n\
+                 point3f[] points = [(0, 0, 0), (1, 0, 0)]\n\
+                 float[] primvars:displayOpacity = [OPACITY, OPACITY] ( interpolation = \"vertex\" ) }\n";
+    // In singles 1 - (1 - 0.1) is another number than 0.1, and 1 - (1 - 0.25) is 0.25.
+    for (opacity, kept) in [(0.1_f32, true), (0.25, false)] {
+        std::fs::write(at("groom.usda"), groom.replace("OPACITY", &opacity.to_string())).unwrap();
+        let mut from = at("groom.usda");
+        for name in ["1.usda", "2.usdc", "3.abc", "4.usda"] {
+            let hair = hair::read(&from).unwrap();
+            assert_eq!(hair.attributes.transparency, Some(vec![1.0 - opacity; 2]), "{name}");
+            assert_eq!(hair.attributes.other.iter().any(|other| other.name == "displayOpacity"), kept, "{name}");
+            assert_eq!(hair::write(&at(name), &hair).unwrap(), Vec::<String>::new(), "{name}");
+            from = at(name);
+        }
+        let text = std::fs::read_to_string(&from).unwrap();
+        let (_, written) = text.split_once("displayOpacity = [").unwrap();
+        assert!(written.starts_with(&opacity.to_string()), "{text}");
+        assert_eq!(hair::write(&at("h.hair"), &hair::read(&from).unwrap()).unwrap(), Vec::<String>::new());
+    }
+}
+
+#[test]
 fn moving_hair_goes_from_format_to_format_with_all_its_frames() {
     let folder = tempfile::tempdir().unwrap();
     let hair = Hair::from(strands());
