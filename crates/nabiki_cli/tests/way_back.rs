@@ -123,6 +123,41 @@ fn over_a_groom_at_rest_a_layer_has_its_own_points_whatever_stands_above_them() 
     }
 }
 
+#[test]
+fn a_kilometre_away_a_layer_has_the_points_that_it_has_at_home() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let layer = |place: &str, origin: &str, name: &str| {
+        fs::write(folder.join("groom.usda"), BELOW.replace("(3, 150, -40)", place)).unwrap();
+        let scene = format!(
+            "[hair]\nfile = \"groom.usda\"\norigin = {origin}\njoin_within = 0\n\n[motion]\nframes = 2\n\n\
+             [[force]]\nthrough = 2\nvector = [-1, 0, 0]\n"
+        );
+        fs::write(folder.join("scene.toml"), scene).unwrap();
+        succeed(folder, &format!("simulate scene.toml -o m.nabiki --export {name}.usda --export-layer /root/h"));
+        succeed(folder, "convert m.nabiki later.usda --export-layer /root/h");
+        [format!("{name}.usda"), "later.usda".to_owned()].map(|name| {
+            let text = fs::read_to_string(folder.join(name)).unwrap();
+            let (_, samples) = text.split_once("points.timeSamples = {").unwrap();
+            let (samples, _) = samples.split_once('}').unwrap();
+            samples
+                .split(['(', ')', ',', ' ', '[', ']', '\n'])
+                .filter_map(|word| word.parse().ok())
+                .collect::<Vec<f32>>()
+        })
+    };
+    // As far from the origin in both: 12 cm aside of it, and 0.789 cm behind it.
+    let near = layer("(12, 150, -0.789)", "[0, 150, 0]", "near");
+    let far = layer("(100012, 150, -123456.789)", "[100000, 150, -123456]", "far");
+    for (near, far) in near.iter().zip(&far) {
+        assert_eq!((near.len(), far.len()), (3 * 18, 3 * 18));
+        for (a, b) in near.iter().zip(far) {
+            // Two roundings in head space, of numbers below 32 cm, and what the motion makes of them.
+            assert!((a - b).abs() < 8.0 * 32.0 * f32::EPSILON, "{near:?} {far:?}");
+        }
+    }
+}
+
 /// A shot that begins at time code 1001 goes on there: a layer that began at 0 would show its last frame all the time.
 #[test]
 fn what_goes_back_stands_on_the_time_line_of_the_shot() {

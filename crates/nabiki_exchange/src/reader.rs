@@ -1,6 +1,6 @@
 //! What every reader of grooms answers, whatever the format.
 
-use glam::{Affine3A, DQuat, DVec3};
+use glam::{DAffine3, DQuat, DVec3};
 use nabiki::{Hair, Mesh};
 
 use crate::Problem;
@@ -113,7 +113,7 @@ pub enum PrimKind {
         /// Whether these bend cubics, and are not on the curves.
         cubic: bool,
         /// Takes them to the file's world at the first frame.
-        world_from_curves: Affine3A,
+        world_from_curves: DAffine3,
     },
     /// A mesh of polygons.
     Mesh {

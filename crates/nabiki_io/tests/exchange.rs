@@ -2,22 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
-use glam::{Affine3A, Quat, Vec3};
+use glam::{DAffine3, DVec3, Quat, Vec3};
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_exchange::{Export, GroomReader};
-use nabiki_io::GroomFile;
 use nabiki_io::exchange::{self, DeclaredSpace, MovingHair};
 use nabiki_io::info::ExchangeInfo;
 use nabiki_io::motion::{self, Axis, MotionSource};
 use nabiki_io::placement::{Placement, Unit};
+use nabiki_io::{GroomCurves, GroomFile};
 use nabiki_io::{hair, mesh};
 use nabiki_usd::StageReader;
 
 const FRAMES: usize = 11;
 
-fn pose(frame: usize) -> Affine3A {
+fn pose(frame: usize) -> DAffine3 {
     let turn = Quat::from_rotation_y(0.05 * frame as f32);
-    Affine3A::from_rotation_translation(turn, Vec3::new(2.0 * frame as f32, 150.0, 0.0))
+    DAffine3::from_rotation_translation(turn.as_dquat(), Vec3::new(2.0 * frame as f32, 150.0, 0.0).as_dvec3())
 }
 
 fn strands() -> Strands {
@@ -59,15 +59,15 @@ fn the_transforms_of_layers_and_archives_move_a_head() {
         assert!(motion.report.contains("11 samples at 20 Hz (0.500 s) -> 6 frames at 10 Hz"), "{}", motion.report);
         for (n, found) in motion.poses.iter().enumerate() {
             let expected = pose(2 * n);
-            assert!(found.position_cm.distance(expected.translation.into()) < 1e-4, "{name}, frame {n}");
+            assert!(found.position_cm.distance(expected.translation.as_vec3()) < 1e-4, "{name}, frame {n}");
             assert!(
-                (found.rotation * Vec3::X).distance(expected.transform_vector3(Vec3::X)) < 1e-6,
+                (found.rotation * Vec3::X).distance(expected.transform_vector3(DVec3::X).as_vec3()) < 1e-6,
                 "{name}, frame {n}"
             );
         }
         let head = mesh::read(&file, &[]).unwrap();
         assert_eq!(head.triangles.len(), 1);
-        assert_eq!(head.positions[0], Vec3::from(pose(0).translation));
+        assert_eq!(head.positions[0], pose(0).translation.as_vec3());
     }
 }
 
@@ -135,6 +135,8 @@ fn moving_hair_goes_from_format_to_format_with_all_its_frames() {
     let mut export = Export::new(&hair, 30.0);
     export.first_frame = 5;
     let mut sink = exchange::sink(&first, export, None).unwrap();
+    // A kilometre away a single is 0.008 cm from the next.
+    let pose = |n: usize| DAffine3::from_translation(DVec3::new(0.0, 0.0, -123_456.789)) * pose(n);
     for n in 0..FRAMES {
         sink.frame(&frame(n), &pose(n)).unwrap();
     }
@@ -167,6 +169,9 @@ fn a_layer_goes_over_the_prim_of_the_curves_and_over_no_other() {
         let line = format!("--export-layer {path}: its curves are at /head/hair (5 points)");
         assert!(refused.ends_with(&line), "{refused}");
     }
+    // Points under a transform that a cache has not kept would go where nobody wants them.
+    let refused = GroomCurves { placed: false, ..groom }.under_layer("/head/hair").unwrap_err().to_string();
+    assert!(refused.contains("this cache is older than") && refused.contains("nabiki simulate"), "{refused}");
 }
 
 #[test]

@@ -275,7 +275,7 @@ fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, wa
     let declared = groom.declared_space()?;
     let placement = hair_placement(settings, head_placement, declared);
     placement.check("hair").map_err(|refused| scene.refusal(refused))?;
-    let in_file = groom.hair(0, None)?;
+    let in_file = groom.hair_in_place(0, None)?;
     let judged = seat::judged(&in_file);
     let placed = hair::place_and_clean(in_file, &placement, &settings.cleaning());
     let (hair, report) = placed.map_err(|e| e.in_file(&file))?;
