@@ -92,7 +92,8 @@ pub(crate) fn held_at_both_ends(hair: &Hair) -> usize {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Cleaning {
-    /// Neighbouring points of a strand this close are joined (cm, default 0.001).
+    /// Neighbouring points of a strand this close are joined (cm, default 0.001; 0 joins those alone that lie in one place, between which a
+    /// strand has no direction to move in).
     pub join_within: f32,
     /// Strands shorter than this are dropped (cm, default 0: none).
     pub drop_shorter_than: f32,
