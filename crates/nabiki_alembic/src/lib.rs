@@ -7,7 +7,7 @@
 //! cameras, and all schemas but transform, curves and polygon mesh.
 //!
 //! ```
-//! use glam::{Affine3A, Vec3};
+//! use glam::{DAffine3, Vec3};
 //! use nabiki::{Hair, Strands};
 //! use nabiki_exchange::{Export, FrameSink, GroomReader, Problem};
 //! use nabiki_alembic::{ArchiveReader, HairArchive};
@@ -18,7 +18,7 @@
 //!     let hair = Hair::from(strands);
 //!     let path = std::env::temp_dir().join(format!("nabiki_alembic_{}.abc", std::process::id()));
 //!     let mut file = Box::new(HairArchive::create(&path, Export::new(&hair, 24.0))?);
-//!     file.frame(&hair.strands, &Affine3A::IDENTITY)?;
+//!     file.frame(&hair.strands, &DAffine3::IDENTITY)?;
 //!     file.finish()?;
 //!     let read = ArchiveReader::open(&path)?.hair(0, None)?;
 //!     assert_eq!(read.strands, hair.strands);

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
 
-use glam::{Affine3A, DMat4, DVec3, Vec3};
+use glam::{Affine3A, DAffine3, DMat4, DVec3, Vec3};
 use nabiki::hair::Stored;
 use nabiki::{Hair, Mesh};
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
@@ -52,11 +52,11 @@ impl<R: Read + Seek> ArchiveReader<R> {
         time: f64,
         segments: Option<usize>,
         attributes: bool,
-    ) -> Result<(Hair, Affine3A), Problem> {
+    ) -> Result<(Hair, DAffine3), Problem> {
         let inside = self.schema(object)?;
         let positions = required(&inside, "P", "")?;
         if positions.samples == 0 {
-            return Ok((Hair::default(), Affine3A::IDENTITY));
+            return Ok((Hair::default(), DAffine3::IDENTITY));
         }
         let (frame, share) = self.tree.timings[positions.timing].at(time, positions.samples);
         let mut points = self.tree.points(positions, frame)?;
@@ -72,7 +72,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
             None => return Err(Problem::new("do not say whether they are straight or cubic")),
         };
         let lines = Shape { counts, basis, pinned: false }.walk(points, segments)?;
-        let world = Affine3A::from_mat4(self.world(object, time)?.as_mat4());
+        let world = DAffine3::from_mat4(self.world(object, time)?);
         if !attributes {
             return Ok((Hair::from(lines.strands), world));
         }
@@ -280,6 +280,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
             contents.frame_rate = frames.rate(1.0);
         }
         contents.times.clone_from(&frames.times);
+        contents.start = contents.times.first().copied();
         Ok(contents)
     }
 
@@ -309,7 +310,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
                         _ => false,
                     };
                     let time = self.time_of(0)?;
-                    let world_from_curves = Affine3A::from_mat4(self.world(i, time)?.as_mat4());
+                    let world_from_curves = DAffine3::from_mat4(self.world(i, time)?);
                     Prim {
                         path,
                         kind: PrimKind::Curves { curves, points, cubic, world_from_curves },

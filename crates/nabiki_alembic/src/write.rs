@@ -7,7 +7,7 @@
 use std::io;
 use std::path::Path;
 
-use glam::{Affine3A, Vec2, Vec3};
+use glam::{DAffine3, Vec2, Vec3};
 use nabiki::hair::{Attributes, Other, Per, Stored};
 use nabiki::strands::bounds;
 use nabiki::{Mesh, Strands};
@@ -123,7 +123,7 @@ impl<'a> HairArchive<'a> {
 }
 
 impl FrameSink for HairArchive<'_> {
-    fn frame(&mut self, strands: &Strands, world_from_head: &Affine3A) -> io::Result<()> {
+    fn frame(&mut self, strands: &Strands, world_from_head: &DAffine3) -> io::Result<()> {
         let points = self.export.points(strands, &mut self.points)?;
         self.positions.put(&mut self.to, bytemuck::cast_slice(points))?;
         self.bounds.put(&mut self.to, &box_of(points))?;
@@ -133,7 +133,7 @@ impl FrameSink for HairArchive<'_> {
             self.moving.put(&mut self.to, bytemuck::cast_slice(found))?;
         }
         // Alembic multiplies rows from the left.
-        let parent = self.export.parent(world_from_head).to_cols_array().map(f64::from);
+        let parent = self.export.parent(world_from_head).to_cols_array();
         let rest = self.rest_transform.get_or_insert(parent);
         for (moved, (a, b)) in self.moved_channels.iter_mut().zip(rest.iter().zip(&parent)) {
             *moved |= a != b;
@@ -332,9 +332,8 @@ fn roots(more: &mut Held<'_>, at: &Attributes, made: &dyn Fn(&str) -> bool) -> i
 
 /// The head, which keeps its shape.
 fn polygons(to: &mut Archive, table: &mut MetadataTable, mesh: &Mesh, export: &Export<'_>) -> io::Result<Object> {
-    let positions: Vec<Vec3> = mesh.positions.iter().map(|&p| export.file_from_head.transform_point3(p)).collect();
+    let (positions, mirrored) = export.skin(mesh);
     // Alembic winds faces clockwise; a mirroring turns them once more.
-    let mirrored = export.file_from_head.matrix3.determinant() < 0.0;
     let wound = |&[a, b, c]: &[u32; 3]| if mirrored { [a, b, c] } else { [c, b, a] };
     let corners: Vec<i32> = mesh.triangles.iter().flat_map(wound).map(|v| v as i32).collect();
     let counts = vec![3i32; mesh.triangles.len()];

@@ -3,7 +3,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use glam::{Affine3A, Quat, Vec2, Vec3};
+use glam::{DAffine3, Quat, Vec2, Vec3};
 use nabiki::hair::{Attributes, Other, Per, Role, Stored, Values};
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
@@ -41,12 +41,12 @@ fn groom() -> Hair {
     hair
 }
 
-fn pose(frame: usize) -> Affine3A {
+fn pose(frame: usize) -> DAffine3 {
     let turn = Quat::from_rotation_y(0.1 * frame as f32);
-    Affine3A::from_rotation_translation(turn, Vec3::new(frame as f32, 150.0, 0.0))
+    DAffine3::from_rotation_translation(turn.as_dquat(), Vec3::new(frame as f32, 150.0, 0.0).as_dvec3())
 }
 
-fn write(path: &Path, export: Export<'_>, poses: impl Fn(usize) -> Affine3A) {
+fn write(path: &Path, export: Export<'_>, poses: impl Fn(usize) -> DAffine3) {
     let mut sink = Box::new(HairArchive::create(path, export).unwrap());
     for frame in 0..FRAMES {
         sink.frame(&strands(frame), &poses(frame)).unwrap();
@@ -54,7 +54,7 @@ fn write(path: &Path, export: Export<'_>, poses: impl Fn(usize) -> Affine3A) {
     sink.finish().unwrap();
 }
 
-fn bytes(export: Export<'_>, poses: impl Fn(usize) -> Affine3A) -> Vec<u8> {
+fn bytes(export: Export<'_>, poses: impl Fn(usize) -> DAffine3) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("hair.abc");
     write(&path, export, poses);
@@ -93,8 +93,8 @@ fn the_skin_keeps_its_texture_coordinates_also_where_it_is_mirrored() {
     let (hair, mesh) = (groom(), textured());
     for scale in [Vec3::ONE, Vec3::new(-1.0, 1.0, 1.0)] {
         let mut export = Export::new(&hair, 24.0);
-        (export.head, export.file_from_head) = (Some(&mesh), Affine3A::from_scale(scale));
-        let file = bytes(export, |_| Affine3A::IDENTITY);
+        (export.head, export.file_from_head) = (Some(&mesh), DAffine3::from_scale(scale.as_dvec3()));
+        let file = bytes(export, |_| DAffine3::IDENTITY);
         let skin = ArchiveReader::new(Cursor::new(&file)).unwrap().mesh().unwrap();
         assert_eq!(corners(&skin), corners(&mesh), "{scale}");
     }
@@ -103,7 +103,7 @@ fn the_skin_keeps_its_texture_coordinates_also_where_it_is_mirrored() {
 #[test]
 fn every_frame_and_attribute_comes_back_to_the_bit() {
     let hair = groom();
-    let file = bytes(Export::new(&hair, 24.0), |_| Affine3A::IDENTITY);
+    let file = bytes(Export::new(&hair, 24.0), |_| DAffine3::IDENTITY);
     let mut archive = ArchiveReader::new(Cursor::new(&file)).unwrap();
     let contents = archive.contents().unwrap();
     assert_eq!((contents.times.len(), contents.frame_rate), (FRAMES, 24.0));
@@ -119,7 +119,7 @@ fn ids_beyond_32_bits_and_one_width_for_all_survive() {
     let mut hair = Hair::from(strands(0));
     hair.attributes.id = Some((0..40).map(|s| (1i64 << 40) + s).collect());
     hair.attributes.constant.width = Some(0.007);
-    let file = bytes(Export::new(&hair, 30.0), |_| Affine3A::IDENTITY);
+    let file = bytes(Export::new(&hair, 30.0), |_| DAffine3::IDENTITY);
     let read = ArchiveReader::new(Cursor::new(&file)).unwrap().hair(3, None).unwrap();
     assert_eq!(read.attributes.id, hair.attributes.id);
     assert_eq!(read.attributes.width, Some(vec![0.007; hair.strands.points().len()]));
@@ -137,20 +137,20 @@ fn the_moving_head_carries_hair_and_skin() {
     for frame in 0..FRAMES {
         let read = archive.hair(frame, None).unwrap();
         for (&p, &q) in read.strands.points().iter().zip(strands(frame).points()) {
-            assert!(p.distance(pose(frame).transform_point3(q)) < 5e-5, "f32 near 150");
+            assert!(p.as_dvec3().distance(pose(frame).transform_point3(q.as_dvec3())) < 5e-5, "f32 near 150");
         }
     }
     let motion = archive.motion("head").unwrap();
     assert_eq!(motion.len(), FRAMES);
     for (frame, Placed { time, position, rotation }) in motion.into_iter().enumerate() {
         assert!((time - (10 + frame) as f64 / 24.0).abs() < 1e-12);
-        assert_eq!(position.as_vec3(), Vec3::from(pose(frame).translation));
+        assert_eq!(position.as_vec3(), pose(frame).translation.as_vec3());
         let turn = Quat::from_rotation_y(0.1 * frame as f32);
         assert!(1.0 - rotation.as_quat().dot(turn).abs() < 1e-6);
     }
     let skin = archive.mesh().unwrap();
     assert_eq!(skin.triangles.len(), 4);
-    assert_eq!(skin.positions[1], pose(0).transform_point3(Vec3::X));
+    assert_eq!(skin.positions[1], pose(0).transform_point3(glam::DVec3::X).as_vec3());
     // Corners may begin anywhere, but which side is outside must stay.
     let [a, b, c] = skin.triangles[3].map(|v| skin.positions[v as usize]);
     assert!((b - a).cross(c - a).dot(Vec3::ONE) > 0.0, "the outside stays outside");
@@ -162,7 +162,7 @@ fn a_mirrored_mesh_keeps_its_outside_outside() {
     for scale in [Vec3::ONE, Vec3::new(-1.0, 1.0, 1.0), Vec3::NEG_ONE] {
         let mut export = Export::new(&hair, 24.0);
         export.head = Some(&mesh);
-        let file = bytes(export, |_| Affine3A::from_scale(scale));
+        let file = bytes(export, |_| DAffine3::from_scale(scale.as_dvec3()));
         let skin = ArchiveReader::new(Cursor::new(&file)).unwrap().mesh().unwrap();
         let corners = skin.triangles.iter().map(|t| t.map(|v| skin.positions[v as usize]));
         // Six times the volume that the faces enclose, above 0 where they look outwards.
@@ -198,7 +198,7 @@ fn attributes_of_any_name_go_through() {
         Other { single: true, ..other("one", Per::Groom, Role::Plain, 1, Values::Floats(vec![0.1])) },
         other("tint", Per::Strand, Role::Colour, 3, Values::Floats(numbers(3 * strands).map(|x| x as f32).collect())),
     ];
-    let file = bytes(Export::new(&hair, 24.0), |_| Affine3A::IDENTITY);
+    let file = bytes(Export::new(&hair, 24.0), |_| DAffine3::IDENTITY);
     let read = ArchiveReader::new(Cursor::new(&file)).unwrap().hair(0, None).unwrap();
     hair.attributes.other.sort_by(|a, b| a.name.cmp(&b.name));
     assert_eq!(read.attributes, hair.attributes);
@@ -223,7 +223,7 @@ fn texture_coordinates_of_points_stay_by_point() {
     let uv = |name: &str| Other::new(name, Per::Point, Role::TextureCoordinate, 2, Values::Floats(values.clone()));
     for name in ["st", "uv"] {
         hair.attributes.other = vec![uv(name)];
-        let file = bytes(Export::new(&hair, 24.0), |_| Affine3A::IDENTITY);
+        let file = bytes(Export::new(&hair, 24.0), |_| DAffine3::IDENTITY);
         let read = ArchiveReader::new(Cursor::new(&file)).unwrap().hair(0, None).unwrap();
         assert_eq!(read.attributes, hair.attributes);
     }
@@ -237,7 +237,7 @@ fn more_kinds_of_attributes_than_the_table_has_room_for_go_through() {
         Other::new(format!("a{extent:03}"), Per::Strand, Role::Plain, extent, values)
     };
     hair.attributes.other = (1..256).map(of).collect();
-    let file = bytes(Export::new(&hair, 24.0), |_| Affine3A::IDENTITY);
+    let file = bytes(Export::new(&hair, 24.0), |_| DAffine3::IDENTITY);
     let read = ArchiveReader::new(Cursor::new(&file)).unwrap().hair(0, None).unwrap();
     assert_eq!(read.attributes.other, hair.attributes.other);
 }
@@ -254,7 +254,7 @@ fn values_of_more_numbers_than_a_property_has_are_left_out_and_that_is_said() {
     let lost: Vec<String> = hair.attributes.other.iter().flat_map(nabiki_alembic::changes).collect();
     let line = |name: &str, extent| format!("{name}: {extent} numbers a value, and Alembic has room for 1 to 255");
     assert_eq!(lost, [line("a", 0), line("c", 256), line("d", 300)]);
-    let file = bytes(Export::new(&hair, 24.0), |_| Affine3A::IDENTITY);
+    let file = bytes(Export::new(&hair, 24.0), |_| DAffine3::IDENTITY);
     let read = ArchiveReader::new(Cursor::new(&file)).unwrap().hair(0, None).unwrap();
     assert_eq!(read.attributes.other, hair.attributes.other[1..2]);
 }
@@ -267,7 +267,7 @@ fn hair_that_stands_still_is_stored_once() {
         let path = folder.path().join("still.abc");
         let mut sink = Box::new(HairArchive::create(&path, Export::new(&hair, 24.0)).unwrap());
         for _ in 0..frames {
-            sink.frame(&hair.strands, &Affine3A::IDENTITY).unwrap();
+            sink.frame(&hair.strands, &DAffine3::IDENTITY).unwrap();
         }
         sink.finish().unwrap();
         std::fs::metadata(&path).unwrap().len()
@@ -283,7 +283,7 @@ fn a_pause_in_the_motion_keeps_every_frame_in_its_place() {
     let path = folder.path().join("pause.abc");
     let mut sink = Box::new(HairArchive::create(&path, Export::new(&hair, 24.0)).unwrap());
     for frame in order {
-        sink.frame(&strands(frame), &Affine3A::IDENTITY).unwrap();
+        sink.frame(&strands(frame), &DAffine3::IDENTITY).unwrap();
     }
     sink.finish().unwrap();
     let mut archive = ArchiveReader::open(&path).unwrap();
@@ -300,10 +300,10 @@ fn frames_that_do_not_fit_the_groom_are_refused_and_leave_no_file() {
     let mut sink = HairArchive::create(&path, Export::new(&hair, 24.0)).unwrap();
     let mut other = strands(0);
     other.push([Vec3::ZERO, Vec3::X]);
-    assert!(sink.frame(&other, &Affine3A::IDENTITY).unwrap_err().to_string().contains("strands may not change"));
+    assert!(sink.frame(&other, &DAffine3::IDENTITY).unwrap_err().to_string().contains("strands may not change"));
     let mut bad = strands(0);
     bad.points_mut()[3].x = f32::NAN;
-    assert!(sink.frame(&bad, &Affine3A::IDENTITY).unwrap_err().to_string().contains("point 3"));
+    assert!(sink.frame(&bad, &DAffine3::IDENTITY).unwrap_err().to_string().contains("point 3"));
     drop(sink);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     assert!(HairArchive::create(&path, Export::new(&hair, 0.0)).is_err());

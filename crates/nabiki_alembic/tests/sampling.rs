@@ -3,7 +3,7 @@
 use std::io::{Cursor, Read, Seek};
 use std::path::Path;
 
-use glam::{Affine3A, Vec3};
+use glam::{DAffine3, Vec3};
 use nabiki::{Hair, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
 use nabiki_exchange::{Export, FrameSink, GroomReader, PrimKind};
@@ -29,7 +29,7 @@ fn archive(times: &[f64], period: f64, in_cycle: usize, hair_moves: bool) -> Arc
     for &time in times {
         let time = time as f32;
         let (z, x) = if hair_moves { (time, 0.0) } else { (0.0, time) };
-        sink.frame(&strands(z), &Affine3A::from_translation(Vec3::X * x)).unwrap();
+        sink.frame(&strands(z), &DAffine3::from_translation((Vec3::X * x).as_dvec3())).unwrap();
     }
     sink.finish().unwrap();
     let mut file = std::fs::read(path).unwrap();

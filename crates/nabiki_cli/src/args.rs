@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::{Arg, Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+use nabiki::dynamics::Motion;
 use nabiki_io::Unit;
 use nabiki_io::cache::Shard;
 use nabiki_scene::exports::ExportOptions;
@@ -94,7 +95,7 @@ pub struct SceneArgs {
     pub scene: PathBuf,
 
     /// Frames to simulate, in place of motion.frames; the contact sheet goes without those it does not reach
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = frames)]
     pub frames: Option<u32>,
 
     /// Any setting of the scene in TOML, as often as wanted: motion.time_step=0.05, or in quotes force.0.vector=[0,-100,0]
@@ -130,7 +131,7 @@ pub struct Run {
     pub scene: SceneArgs,
 
     /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
-    #[arg(long, value_name = "N", value_parser = positive)]
+    #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 
     /// Folder for the pictures, made if it is not there
@@ -187,7 +188,7 @@ pub struct Preview {
     pub scene: SceneArgs,
 
     /// Strands to show, chosen evenly over the scalp from all of the scene's (default: 300, or all where it has fewer)
-    #[arg(long, value_name = "N", value_parser = positive)]
+    #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 
     /// Write their motion into a cache (.nabiki), too
@@ -201,11 +202,15 @@ pub struct Preview {
 
 #[derive(Args)]
 pub struct Groom {
-    #[command(flatten)]
-    pub scene: SceneArgs,
+    /// The scene (TOML)
+    pub scene: PathBuf,
+
+    /// Any setting of the scene in TOML, as often as wanted: hair.strands=5000, or in quotes hair.origin=[0,1.6,0]
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub sets: Vec<String>,
 
     /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
-    #[arg(long, value_name = "N", value_parser = positive)]
+    #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 
     /// The hair file to write: .hair, .tfx, .usda, .usdc or .abc
@@ -219,7 +224,7 @@ pub struct Simulate {
     pub scene: SceneArgs,
 
     /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
-    #[arg(long, value_name = "N", value_parser = positive)]
+    #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 
     /// The motion cache to write (.nabiki), or moving hair for other tools (.usdc, .usda, .abc)
@@ -274,7 +279,7 @@ pub struct Farm {
     pub scene: SceneArgs,
 
     /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
-    #[arg(long, value_name = "N", value_parser = positive)]
+    #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 
     /// The engine that runs the job
@@ -282,11 +287,11 @@ pub struct Farm {
     pub engine: EngineName,
 
     /// Shards to simulate apart (default: as many as hold 100,000 strands each)
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = positive::<u32>)]
     pub shards: Option<u32>,
 
     /// Frames that one task draws
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = positive::<u32>)]
     pub frames_a_task: u32,
 
     /// The job to write: a template (.yaml) for openjd, a script (.sh) for slurm
@@ -348,7 +353,7 @@ pub struct Render {
     pub sets: Vec<String>,
 
     /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
-    #[arg(long, value_name = "N", value_parser = positive)]
+    #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 
     /// The motion cache to draw, written from the same scene by `simulate`; without it the scene is simulated
@@ -356,7 +361,7 @@ pub struct Render {
     pub motion: Option<PathBuf>,
 
     /// Draw this frame only, as a PNG, and as OpenEXR with output.exr_frames = true
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = frame)]
     pub frame: Option<u32>,
 
     /// Draw one frame (--frame, or else the first) from all around: a movie of N pictures, once round the head, or files
@@ -386,7 +391,9 @@ impl FromStr for Frames {
             Some((from, through)) => from.parse().ok().zip(through.parse().ok()).map(|(a, b)| Self::Run(a, b)),
             None => text.parse().ok().map(Self::Count),
         };
-        found.ok_or_else(|| "write one whole number, or two as in 10..19 for the frames from 10 through 19".to_owned())
+        let most = Motion::MOST_FRAMES;
+        let way_out = "write one whole number, or two as in 10..19 for the frames from 10 through 19";
+        found.ok_or_else(|| format!("{way_out}; {most} at the most"))
     }
 }
 
@@ -405,7 +412,7 @@ pub struct Solve {
     pub output: PathBuf,
 
     /// Strands among which locks near a point are looked for, chosen evenly over the scalp
-    #[arg(long, value_name = "N", default_value_t = 300, value_parser = positive)]
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = positive::<usize>)]
     pub strands: usize,
 }
 
@@ -419,11 +426,11 @@ pub struct Convert {
     pub output: PathBuf,
 
     /// Frame to take out of a motion cache, a USD layer or an Alembic archive
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = frame)]
     pub frame: Option<u32>,
 
     /// Segments into which every strand is walked (default: as the file has them)
-    #[arg(long, value_name = "N", value_parser = positive)]
+    #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub segments: Option<usize>,
 
     /// Unit of the input, for a USD layer to name, as other files cannot: mm, cm, dm, m, in, ft or a number of centimetres
@@ -465,9 +472,19 @@ fn prim_path(text: &str) -> Result<String, String> {
         .into())
 }
 
-fn positive(text: &str) -> Result<usize, String> {
+fn positive<N: FromStr + From<bool> + PartialOrd>(text: &str) -> Result<N, String> {
     match text.parse() {
-        Ok(n) if n > 0 => Ok(n),
+        Ok(n) if n >= N::from(true) => Ok(n),
         _ => Err("must be a whole number of at least 1".into()),
     }
+}
+
+/// The number of a frame; which there are is known later.
+fn frame(text: &str) -> Result<u32, String> {
+    text.parse().map_err(|_| format!("must be a whole number, 0 to {}", Motion::MOST_FRAMES))
+}
+
+/// A number of frames; the scene's own check refuses one that it cannot have.
+fn frames(text: &str) -> Result<u32, String> {
+    text.parse().map_err(|_| format!("must be a whole number, 1 to {}", Motion::MOST_FRAMES))
 }

@@ -32,7 +32,9 @@ pub fn preview(args: &Preview, terminal: &mut Terminal) -> Result<()> {
 }
 
 pub fn groom(args: &Groom, terminal: &mut Terminal) -> Result<()> {
-    tasks::groom(args.scene.load()?, shown(args.strands), &args.output, terminal)
+    // Hair at rest has no frames.
+    let scene = SceneArgs { scene: args.scene.clone(), frames: None, sets: args.sets.clone() };
+    tasks::groom(scene.load()?, shown(args.strands), &args.output, terminal)
 }
 
 pub fn simulate(args: &Simulate, terminal: &mut Terminal) -> Result<()> {

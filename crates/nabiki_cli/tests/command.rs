@@ -223,9 +223,14 @@ fn hair_too_small_to_be_moved_names_its_unit() {
 
 #[test]
 fn a_command_line_that_makes_no_sense_exits_with_2() {
-    for arguments in
-        [&["blow", GUST][..], &["run"], &["run", GUST, "--strands", "many"], &["run", GUST, "--threads", "0"]]
-    {
+    for arguments in [
+        &["blow", GUST][..],
+        &["run"],
+        &["run", GUST, "--strands", "many"],
+        &["run", GUST, "--threads", "0"],
+        // Hair at rest has no frames.
+        &["groom", GUST, "-o", "nowhere/a.hair", "--frames", "3"],
+    ] {
         assert_eq!(nabiki(arguments).status.code(), Some(2), "{arguments:?}");
     }
 }
@@ -233,7 +238,9 @@ fn a_command_line_that_makes_no_sense_exits_with_2() {
 #[test]
 fn numbers_below_0_are_refused_by_the_option_that_has_them() {
     for (arguments, words) in [
-        (&["render", GUST, "--frame", "-1"][..], "'-1' for '--frame <N>'"),
+        (&["render", GUST, "--frame", "-1"][..], "'-1' for '--frame <N>': must be a whole number, 0 to 10000000\n"),
+        (&["run", GUST, "--frames", "-1"], "'-1' for '--frames <N>': must be a whole number, 1 to 10000000\n"),
+        (&["run", GUST, "--frames", "99999999999"], "for '--frames <N>': must be a whole number, 1 to 10000000\n"),
         (&["render", GUST, "--frames", "-1..3"], "write one whole number, or two"),
         (&["preview", GUST, "--strands", "-5"], "must be a whole number of at least 1"),
     ] {
@@ -252,6 +259,37 @@ fn a_setting_that_is_given_twice_is_not_left_unread() {
     let out = path(&folder, "m.nabiki");
     let line = refuse(&["simulate", GUST, "-o", &out, "--frames", "3", "--set", "motion.frames=-1"], folder.path());
     assert!(line.contains("--frames 3 and --set motion.frames=-1: give one of them"), "{line}");
+}
+
+#[test]
+fn a_preview_says_that_the_whole_would_be_refused() {
+    let folder = TempDir::new().unwrap();
+    let hair = |last: f32| {
+        // The last root is beside the first and nearer to the others, and so the last to be chosen.
+        let roots = (0..8).map(|s| (9.0 + s as f32, 6.0)).chain([(9.01, last)]);
+        let points: Vec<String> = roots.map(|(x, length)| format!("({x}, 1, 0), ({x}, {}, 0)", 1.0 + length)).collect();
+        format!(
+            "#usda 1.0\ndef BasisCurves \"h\" {{ uniform token type = \"linear\"\n int[] curveVertexCounts = [{}]\n\
+             point3f[] points = [{}] }}\n",
+            ["2"; 9].join(", "),
+            points.join(", ")
+        )
+    };
+    let scene = "[hair]\nfile = \"hair.usda\"\n[motion]\nframes = 1\n[output]\nsheet = [0]\n[picture]\nsize = [32, 32]\n[[force]]\n\
+                 through = 1\nvector = [0, 0, 100]\n";
+    let (file, out) = (path(&folder, "scene.toml"), path(&folder, "out"));
+    fs::write(&file, scene).unwrap();
+    for (last, said_so) in [(0.25, true), (5.0, false)] {
+        fs::write(path(&folder, "hair.usda"), hair(last)).unwrap();
+        let said = succeed(&["preview", &file, "--strands", "4", "--out", &out]);
+        let line = "4 strands of 9 are moved; all of them would be refused: ";
+        assert_eq!(said.contains(line), said_so, "{said}");
+        if said_so {
+            let refused = refuse(&["simulate", &file, "-o", &path(&folder, "m.nabiki")], folder.path());
+            let why = refused.trim_start_matches("nabiki: ").trim_end();
+            assert!(said.contains(&format!("{line}{why}")), "{said}{refused}");
+        }
+    }
 }
 
 #[test]

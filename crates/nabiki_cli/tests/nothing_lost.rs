@@ -231,6 +231,28 @@ fn what_is_not_read_of_a_groom_is_said_wherever_it_goes() {
 }
 
 #[test]
+fn meshes_of_a_bodys_file_that_do_not_show_are_said_as_those_of_a_heads_are() {
+    let folder = folder();
+    let mesh = |name: &str, more: &str| {
+        format!(
+            "def Mesh \"{name}\" {{ point3f[] points = [(30, 0, 0), (36, 0, 0), (30, 6, 0), (30, 0, 6)]\n\
+             int[] faceVertexCounts = [3, 3, 3, 3]\n int[] faceVertexIndices = [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]\n{more} }}\n"
+        )
+    };
+    let hidden = "token visibility = \"invisible\"";
+    let text = format!("#usda 1.0\n{}{}", mesh("hand", ""), mesh("low", hidden));
+    fs::write(folder.path().join("hand.usda"), text).unwrap();
+    let scene = "[motion]\nform = \"free\"\nframes = 2\n[[body]]\nmesh = \"scenes/ball.obj\"\n[[body]]\nmesh = \"hand.usda\"\n\
+                 [[force]]\nthrough = 2\nvector = [0, -1, 0]\n";
+    let ball = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/motion/ball.obj");
+    fs::write(folder.path().join("own.toml"), scene.replace("scenes/ball.obj", ball)).unwrap();
+    let said = succeed(&folder, "simulate own.toml -o m.nabiki --strands 9");
+    let line =
+        "\n  body[1] not read of its file: mesh /low, which does not show: visibility of /low is \"invisible\"\n";
+    assert!(said.contains(line) && said.matches("not read").count() == 1, "{said}");
+}
+
+#[test]
 fn a_groom_that_stands_still_has_its_points_at_rest() {
     let folder = folder();
     for name in ["groom.usdc", "groom.abc"] {

@@ -9,7 +9,7 @@ use tempfile::TempDir;
 const GUST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/paper/gust.toml");
 
 /// A scene that would be stepped and drawn for days: a refusal that came after its frames would never come.
-const ENDLESS: [&str; 4] = ["--frames", "4000000", "--set", "hair.strands=200"];
+const ENDLESS: [&str; 4] = ["--set", "motion.frames=4000000", "--set", "hair.strands=200"];
 
 /// All that lies below `folder`, with the length of files.
 fn everything(folder: &Path) -> Vec<(PathBuf, u64)> {

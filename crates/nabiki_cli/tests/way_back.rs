@@ -123,6 +123,41 @@ fn over_a_groom_at_rest_a_layer_has_its_own_points_whatever_stands_above_them() 
     }
 }
 
+#[test]
+fn a_kilometre_away_a_layer_has_the_points_that_it_has_at_home() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let layer = |place: &str, origin: &str, name: &str| {
+        fs::write(folder.join("groom.usda"), BELOW.replace("(3, 150, -40)", place)).unwrap();
+        let scene = format!(
+            "[hair]\nfile = \"groom.usda\"\norigin = {origin}\njoin_within = 0\n\n[motion]\nframes = 2\n\n\
+             [[force]]\nthrough = 2\nvector = [-1, 0, 0]\n"
+        );
+        fs::write(folder.join("scene.toml"), scene).unwrap();
+        succeed(folder, &format!("simulate scene.toml -o m.nabiki --export {name}.usda --export-layer /root/h"));
+        succeed(folder, "convert m.nabiki later.usda --export-layer /root/h");
+        [format!("{name}.usda"), "later.usda".to_owned()].map(|name| {
+            let text = fs::read_to_string(folder.join(name)).unwrap();
+            let (_, samples) = text.split_once("points.timeSamples = {").unwrap();
+            let (samples, _) = samples.split_once('}').unwrap();
+            samples
+                .split(['(', ')', ',', ' ', '[', ']', '\n'])
+                .filter_map(|word| word.parse().ok())
+                .collect::<Vec<f32>>()
+        })
+    };
+    // As far from the origin in both: 12 cm aside of it, and 0.789 cm behind it.
+    let near = layer("(12, 150, -0.789)", "[0, 150, 0]", "near");
+    let far = layer("(100012, 150, -123456.789)", "[100000, 150, -123456]", "far");
+    for (near, far) in near.iter().zip(&far) {
+        assert_eq!((near.len(), far.len()), (3 * 18, 3 * 18));
+        for (a, b) in near.iter().zip(far) {
+            // Two roundings in head space, of numbers below 32 cm, and what the motion makes of them.
+            assert!((a - b).abs() < 8.0 * 32.0 * f32::EPSILON, "{near:?} {far:?}");
+        }
+    }
+}
+
 /// A shot that begins at time code 1001 goes on there: a layer that began at 0 would show its last frame all the time.
 #[test]
 fn what_goes_back_stands_on_the_time_line_of_the_shot() {
@@ -152,6 +187,57 @@ fn what_goes_back_stands_on_the_time_line_of_the_shot() {
     }
     let refused = refuse(folder, "convert m.nabiki x.usda --first-frame 10000001");
     assert!(refused.contains("--first-frame = 10000001: must lie in -10000000..10000000"), "{refused}");
+}
+
+#[test]
+fn where_the_head_is_of_no_shot_the_grooms_file_says_when_the_shot_begins() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let scene = |hair: &str| {
+        let rest = "[motion]\nframes = 2\nframe_rate = 48\n\n[[force]]\nthrough = 2\nvector = [-1, 0, 0]\n";
+        format!("[hair]\nfile = \"{hair}\"\norigin = [3, 150, -40]\njoin_within = 0\n\n{rest}")
+    };
+    let begins = |metadata: &str, points: &str, more: &str| {
+        let groom = BELOW.replace("upAxis = \"Y\"", &format!("upAxis = \"Y\"\n{metadata}"));
+        let still = "points = [(0, 6, 0), (0, 7.5, 0), (0, 9, 1), (-1.5, 5.5, 0), (-2, 7, 0), (-2.5, 8.5, 1)]";
+        assert!(groom.contains(still));
+        let samples = |codes: &str| {
+            let all = codes.split(' ').map(|code| format!("{code}: {}, ", still.trim_start_matches("points = ")));
+            format!("points.timeSamples = {{ {} }}", all.collect::<String>())
+        };
+        let groom = if points.is_empty() { groom } else { groom.replace(still, &samples(points)) };
+        fs::write(folder.join("groom.usda"), groom).unwrap();
+        fs::write(folder.join("scene.toml"), scene("groom.usda")).unwrap();
+        fs::write(folder.join("way.csv"), "t_s,px_cm,py_cm,pz_cm,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n1,20,0,0,0,0,0,1\n")
+            .unwrap();
+        succeed(folder, &format!("simulate scene.toml -o m.nabiki --export l.usda --export l.abc{more}"));
+        succeed(folder, "convert m.nabiki later.usda");
+        let start = |name: &str| -> f64 {
+            let text = fs::read_to_string(folder.join(name)).unwrap();
+            let (_, start) = text.split_once("startTimeCode = ").unwrap();
+            start.split_once('\n').unwrap().0.parse().unwrap()
+        };
+        assert_eq!(start("l.usda"), start("later.usda"));
+        start("l.usda")
+    };
+    // 24 codes a second, 48 frames a second.
+    assert_eq!(begins("startTimeCode = 1001", "", ""), 2002.0);
+    assert_eq!(begins("startTimeCode = 1001\ntimeCodesPerSecond = 48", "", ""), 1001.0);
+    assert_eq!(
+        begins("startTimeCode = 1001", "", " --set head.motion={file=\"way.csv\",up=\"+y\",facing=\"+x\"}"),
+        2002.0
+    );
+    assert_eq!(begins("startTimeCode = 1001", "", " --set output.first_frame=0"), 0.0);
+    // The hair that is read is that of the first sample of several.
+    assert_eq!(begins("startTimeCode = 1001", "990 991 992", ""), 1980.0);
+    assert_eq!(begins("", "7", ""), 0.0);
+    assert_eq!(begins("startTimeCode = 1e300", "", ""), 0.0);
+    // An archive stands in time by its samples.
+    begins("startTimeCode = 60", "", "");
+    let archive = scene("l.abc").replace("join_within", "unit = \"cm\"\njoin_within");
+    fs::write(folder.join("archive.toml"), archive).unwrap();
+    succeed(folder, "simulate archive.toml -o n.nabiki --export n.usda");
+    assert!(fs::read_to_string(folder.join("n.usda")).unwrap().contains("startTimeCode = 120\n"));
 }
 
 #[test]

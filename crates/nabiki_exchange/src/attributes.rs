@@ -184,11 +184,13 @@ impl Polylines {
             id: search.by_strand(names::ID)?,
             ..Attributes::default()
         };
-        // What stands beside transparencies is the same said the other way.
-        search.used.extend(found.transparency.iter().map(|_| "displayOpacity"));
-        if found.transparency.is_none() {
-            let opacity = search.by_point::<1>(names::OPACITY)?;
-            found.transparency = opacity.map(|o| o.into_iter().map(|[x]| 1.0 - x).collect());
+        if let Some(opacity) = search.by_point::<1>(names::OPACITY)? {
+            let same = |transparency: &[f32]| transparency.iter().zip(&opacity).all(|(t, [o])| 1.0 - t == *o);
+            let transparency = || opacity.iter().map(|[o]| 1.0 - o).collect::<Vec<f32>>();
+            // One of which that cannot be made again stays under its own name: 1 - (1 - 0.1) is another number.
+            if !same(found.transparency.get_or_insert_with(transparency)) {
+                search.used.retain(|name| !names::OPACITY.contains(name));
+            }
         }
         found.root_uv = search.root_uv()?;
         found.group = search.by_strand(names::GROUP)?.map(|g| g.into_iter().map(|g| g as i32).collect());
@@ -279,7 +281,7 @@ impl<F: NamedValues> Search<'_, F> {
         for name in self.readable(names) {
             if let Some(values) = self.file.integers(name)?.filter(|values| !values.is_empty()) {
                 self.used.insert(name);
-                return Ok(self.at_roots(name, &values));
+                return Ok(self.of_strands(name, &values));
             }
         }
         Ok(None)
@@ -314,7 +316,7 @@ impl<F: NamedValues> Search<'_, F> {
         for name in self.readable(names::GROUP_NAME) {
             let Some(words) = self.file.words(name)?.filter(|words| !words.is_empty()) else { continue };
             self.used.insert(name);
-            let Some(words) = self.at_roots(name, &words) else { return Ok(()) };
+            let Some(words) = self.of_strands(name, &words) else { return Ok(()) };
             let groups = found.group.get_or_insert_with(|| {
                 let mut numbers = std::collections::BTreeMap::new();
                 let number = |word: &String| {
@@ -356,6 +358,19 @@ impl<F: NamedValues> Search<'_, F> {
         }
         others.sort_by(|a, b| a.name.cmp(&b.name));
         Ok(others)
+    }
+
+    /// One value for each strand. Where points have values unlike that of their root, that is said, unless they all stay under
+    /// this name.
+    fn of_strands<T: Clone + PartialEq>(&mut self, name: &str, values: &[T]) -> Option<Vec<T>> {
+        let changing = self.lines.changing(values);
+        if changing > 0 && names::WRITTEN.contains(&name) {
+            let curves = self.lines.shape.counts.len();
+            let line =
+                format!("{name} from point to point: it changes along {changing} of {curves} curves, and a strand has");
+            self.unread.push(line + " that of its root alone");
+        }
+        self.at_roots(name, values)
     }
 
     fn at_roots<T: Clone>(&mut self, name: &str, values: &[T]) -> Option<Vec<T>> {

@@ -263,6 +263,20 @@ impl Polylines {
             _ => None,
         }
     }
+
+    /// Curves along which `values` are not all that of the root: none, where there is not one a control point.
+    pub fn changing<T: PartialEq>(&self, values: &[T]) -> usize {
+        let counts = &self.shape.counts;
+        if values.len() != self.control_points() || values.len() == counts.len() {
+            return 0;
+        }
+        let of_curves = counts.iter().scan(values, |rest, &count| {
+            let (curve, after) = rest.split_at(count);
+            *rest = after;
+            Some(curve)
+        });
+        of_curves.filter(|curve| curve.iter().any(|value| *value != curve[0])).count()
+    }
 }
 
 impl Blend {

@@ -2,10 +2,12 @@
 
 use std::io;
 
-use glam::{Affine3A, Mat4, Vec3};
+use glam::{DAffine3, DMat4, Vec3};
 
 use nabiki::strands::not_finite;
 use nabiki::{Hair, Mesh, Strands};
+
+use crate::in_place::point;
 
 /// A groom at rest and the world in which its file is to show it.
 #[derive(Clone, Debug)]
@@ -28,7 +30,7 @@ pub struct Export<'a> {
     /// Number of the first frame given.
     pub first_frame: i32,
     /// Takes head space to the space of the file's hair: the inverse of what an importer applied, or identity.
-    pub file_from_head: Affine3A,
+    pub file_from_head: DAffine3,
     /// Length of the file's unit (m): 0.01 while `file_from_head` keeps centimetres.
     pub meters_per_unit: f64,
     /// Whether +z rather than +y is up in the file. It names the axis; `file_from_head` does the turning.
@@ -47,7 +49,7 @@ impl<'a> Export<'a> {
             velocities: false,
             frame_rate,
             first_frame: 0,
-            file_from_head: Affine3A::IDENTITY,
+            file_from_head: DAffine3::IDENTITY,
             meters_per_unit: 0.01,
             z_up: false,
         }
@@ -55,7 +57,7 @@ impl<'a> Export<'a> {
 
     /// Diameter by point in the file's unit, where the hair has any.
     pub fn widths(&self) -> Option<Vec<f32>> {
-        let scale = self.file_from_head.matrix3.determinant().abs().cbrt();
+        let scale = self.file_from_head.matrix3.determinant().abs().cbrt() as f32;
         let points = self.hair.strands.points().len();
         let attributes = &self.hair.attributes;
         let constant = attributes.constant.width.or(self.default_width);
@@ -66,7 +68,7 @@ impl<'a> Export<'a> {
     /// The points at rest in the file's space.
     pub fn rest_points(&self) -> Vec<[f32; 3]> {
         let points = self.hair.strands.points().iter();
-        points.map(|&p| self.file_from_head.transform_point3(p).to_array()).collect()
+        points.map(|&p| point(&self.file_from_head, p).to_array()).collect()
     }
 
     /// 0 opaque .. 1 invisible, by point; `None` where all is opaque.
@@ -113,11 +115,11 @@ impl<'a> Export<'a> {
             let (found, expected) = (strands.points().len(), self.hair.strands.points().len());
             return invalid(format!("a frame of {found} points for a groom of {expected}: strands may not change"));
         }
-        let points = if self.file_from_head == Affine3A::IDENTITY {
+        let points = if self.file_from_head == DAffine3::IDENTITY {
             strands.points()
         } else {
             room.clear();
-            room.extend(strands.points().iter().map(|&p| self.file_from_head.transform_point3(p)));
+            room.extend(strands.points().iter().map(|&p| point(&self.file_from_head, p)));
             room
         };
         match not_finite(points) {
@@ -126,13 +128,19 @@ impl<'a> Export<'a> {
         }
     }
 
+    /// The points of the head in the file's space, and whether that is mirrored.
+    pub fn skin(&self, mesh: &Mesh) -> (Vec<Vec3>, bool) {
+        let points = mesh.positions.iter().map(|&p| point(&self.file_from_head, p)).collect();
+        (points, self.file_from_head.matrix3.determinant() < 0.0)
+    }
+
     /// The transform of the prim or object above the hair, which moves as the head does. Its columns are the rows of
     /// formats that multiply rows from the left.
-    pub fn parent(&self, world_from_head: &Affine3A) -> Mat4 {
-        if *world_from_head == Affine3A::IDENTITY {
-            return Mat4::IDENTITY;
+    pub fn parent(&self, world_from_head: &DAffine3) -> DMat4 {
+        if *world_from_head == DAffine3::IDENTITY {
+            return DMat4::IDENTITY;
         }
-        Mat4::from(self.file_from_head * *world_from_head * self.file_from_head.inverse())
+        DMat4::from(self.file_from_head * *world_from_head * self.file_from_head.inverse())
     }
 }
 
@@ -179,7 +187,7 @@ pub trait FrameSink: Send {
     ///
     /// # Errors
     /// What the disk says, strands that do not match the groom, points that are not finite.
-    fn frame(&mut self, strands: &Strands, world_from_head: &Affine3A) -> io::Result<()>;
+    fn frame(&mut self, strands: &Strands, world_from_head: &DAffine3) -> io::Result<()>;
 
     /// Completes the file and gives it its name.
     ///

@@ -2,12 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use glam::Affine3A;
+use glam::DAffine3;
 use nabiki::Hair;
 use nabiki::hair::{Other, Per};
 
 use crate::Problem;
-use crate::in_place::{InPlace, check_extent};
+use crate::in_place::{InPlace, check_extent, transformed};
 
 /// Hair from several objects.
 #[derive(Default)]
@@ -28,7 +28,7 @@ impl Gathered {
     pub fn append(
         &mut self,
         mut part: Hair,
-        world_from_part: Affine3A,
+        world_from_part: DAffine3,
         group: Option<(i32, String)>,
     ) -> Result<(), Problem> {
         if part.strands.is_empty() {
@@ -48,11 +48,11 @@ impl Gathered {
             return Ok(());
         };
         if all.world_from_hair != world_from_part {
-            if all.world_from_hair != Affine3A::IDENTITY {
-                all.hair = all.hair.transformed(&all.world_from_hair);
-                all.world_from_hair = Affine3A::IDENTITY;
+            if all.world_from_hair != DAffine3::IDENTITY {
+                all.hair = transformed(all.hair, &all.world_from_hair);
+                all.world_from_hair = DAffine3::IDENTITY;
             }
-            part = part.transformed(&world_from_part);
+            part = transformed(part, &world_from_part);
         }
         join(&mut all.hair, part, &mut self.dropped);
         self.all = Some(all);
@@ -64,7 +64,7 @@ impl Gathered {
     /// # Errors
     /// A point that is not finite; points so far apart that their distance is not.
     pub fn hair(self) -> Result<InPlace, Problem> {
-        let mut all = self.all.unwrap_or(InPlace { hair: Hair::default(), world_from_hair: Affine3A::IDENTITY });
+        let mut all = self.all.unwrap_or(InPlace { hair: Hair::default(), world_from_hair: DAffine3::IDENTITY });
         if self.named >= all.hair.strands.len() {
             all.hair.attributes.group = None;
             all.hair.attributes.group_names.clear();
@@ -186,7 +186,7 @@ mod tests {
         let third = vec![both.clone(), integer, constant(2.0)];
         let mut all = Gathered::default();
         for other in [first, second, third] {
-            all.append(part(other), Affine3A::IDENTITY, None).unwrap();
+            all.append(part(other), DAffine3::IDENTITY, None).unwrap();
         }
         let found = all.hair().unwrap().hair.attributes;
         assert_eq!(found.other, [both]);
@@ -209,7 +209,7 @@ mod tests {
         for id in [3, 3, 4] {
             let mut part = part(Vec::new());
             part.attributes.id = Some(vec![id]);
-            all.append(part, Affine3A::IDENTITY, None).unwrap();
+            all.append(part, DAffine3::IDENTITY, None).unwrap();
         }
         let found = all.hair().unwrap().hair.attributes;
         assert_eq!(found.id, Some(vec![3, 3, 4]));
@@ -227,7 +227,7 @@ mod tests {
                 parts.swap(0, 1);
             }
             for (n, part) in parts.into_iter().enumerate() {
-                all.append(part, Affine3A::IDENTITY, Some((n as i32, format!("part {n}")))).unwrap();
+                all.append(part, DAffine3::IDENTITY, Some((n as i32, format!("part {n}")))).unwrap();
             }
             let found = all.hair().unwrap().hair;
             assert_eq!((&found.attributes.width, &found.attributes.unread), (&part.attributes.width, &Vec::new()));

@@ -1,6 +1,6 @@
 //! Curves where they stand in a file.
 
-use glam::{Affine3A, Vec3};
+use glam::{DAffine3, Vec3};
 use nabiki::Hair;
 use nabiki::hair::Role;
 use nabiki::strands::{bounds, not_finite};
@@ -14,7 +14,25 @@ pub struct InPlace {
     pub hair: Hair,
     /// Takes them to the file's world; identity where objects of different transforms were joined, which are in the
     /// world already.
-    pub world_from_hair: Affine3A,
+    pub world_from_hair: DAffine3,
+}
+
+/// Hair taken through a transform. Its points are singles before and after, and what is between them is not: far from an origin,
+/// a transform and what brings its points back from there would cost a single its digits.
+pub fn transformed(mut hair: Hair, target_from_source: &DAffine3) -> Hair {
+    if *target_from_source == DAffine3::IDENTITY {
+        return hair;
+    }
+    let scale = target_from_source.matrix3.determinant().abs().cbrt() as f32;
+    hair.strands.points_mut().iter_mut().for_each(|p| *p = point(target_from_source, *p));
+    let widths = hair.attributes.width.iter_mut().flatten();
+    widths.chain(&mut hair.attributes.constant.width).for_each(|width| *width *= scale);
+    hair
+}
+
+/// A point taken through a transform.
+pub fn point(target_from_source: &DAffine3, p: Vec3) -> Vec3 {
+    target_from_source.transform_point3(p.as_dvec3()).as_vec3()
 }
 
 impl InPlace {
@@ -23,15 +41,25 @@ impl InPlace {
     /// # Errors
     /// Points that leave the range of numbers.
     pub fn in_world(self) -> Result<Hair, Problem> {
-        if self.world_from_hair == Affine3A::IDENTITY {
+        if self.world_from_hair == DAffine3::IDENTITY {
             return Ok(self.hair);
         }
-        let mut hair = self.hair.transformed(&self.world_from_hair);
-        let attributes = &mut hair.attributes;
-        let placed = attributes.other.iter().filter(|o| matches!(o.role, Role::Point | Role::Vector | Role::Normal));
-        attributes.unread.extend(placed.map(|o| format!("the transform above {}: it stays in its own space", o.name)));
+        let hair = self.through(&DAffine3::IDENTITY);
         check_extent(hair.strands.points())?;
         Ok(hair)
+    }
+
+    /// The curves where `target_from_world` takes them from the file's world: in one step, which loses nothing on the way.
+    pub fn through(self, target_from_world: &DAffine3) -> Hair {
+        let mut hair = transformed(self.hair, &(*target_from_world * self.world_from_hair));
+        if self.world_from_hair != DAffine3::IDENTITY {
+            let attributes = &mut hair.attributes;
+            let placed =
+                attributes.other.iter().filter(|o| matches!(o.role, Role::Point | Role::Vector | Role::Normal));
+            let line = |name: &str| format!("the transform above {name}: it stays in its own space");
+            attributes.unread.extend(placed.map(|o| line(&o.name)));
+        }
+        hair
     }
 }
 

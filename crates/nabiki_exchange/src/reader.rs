@@ -1,6 +1,6 @@
 //! What every reader of grooms answers, whatever the format.
 
-use glam::{Affine3A, DQuat, DVec3};
+use glam::{DAffine3, DQuat, DVec3};
 use nabiki::{Hair, Mesh};
 
 use crate::Problem;
@@ -70,6 +70,9 @@ pub struct Contents {
     pub meshes: Vec<String>,
     /// Times of the curves' frames (s); none for curves that stand still.
     pub times: Vec<f64>,
+    /// When the shot begins (s): with the first of several frames of the curves, or else as the file says; `None` where nothing
+    /// does.
+    pub start: Option<f64>,
     /// Frames a second; 24 where nothing says so.
     pub frame_rate: f64,
     /// Length of the unit (m), where the file says it.
@@ -110,7 +113,7 @@ pub enum PrimKind {
         /// Whether these bend cubics, and are not on the curves.
         cubic: bool,
         /// Takes them to the file's world at the first frame.
-        world_from_curves: Affine3A,
+        world_from_curves: DAffine3,
     },
     /// A mesh of polygons.
     Mesh {

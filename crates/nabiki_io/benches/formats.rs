@@ -10,7 +10,7 @@ use std::io::{Read, Write};
 use std::path::Path;
 use std::time::Instant;
 
-use glam::{Affine3A, Vec3};
+use glam::{DAffine3, Vec3};
 use nabiki::Pose;
 use nabiki::{Hair, Strands};
 use nabiki_alembic::ArchiveReader;
@@ -82,7 +82,7 @@ fn write_moving(path: &Path, frames: &[Strands]) {
         return;
     }
     let mut sink: Box<dyn FrameSink> = exchange::sink(path, Export::new(&hair, 24.0), None).expect("created");
-    frames.iter().for_each(|strands| sink.frame(strands, &Affine3A::IDENTITY).expect("written"));
+    frames.iter().for_each(|strands| sink.frame(strands, &DAffine3::IDENTITY).expect("written"));
     sink.finish().expect("finished");
 }
 

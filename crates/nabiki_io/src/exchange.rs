@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use glam::Affine3A;
+use glam::DAffine3;
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
 use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, Problem};
@@ -73,7 +73,7 @@ impl Opened {
 }
 
 fn meters_per_unit(declared: DeclaredSpace) -> f64 {
-    declared.unit.map_or(0.01, |unit| f64::from(unit.cm) / 100.0)
+    declared.unit.map_or(0.01, Unit::metres)
 }
 
 fn named(path: &Path, problem: Problem) -> Error {
@@ -134,7 +134,7 @@ pub(crate) fn track(path: &Path, node: &str) -> Result<Track> {
     let DeclaredSpace { unit, up } = file.declared_space()?;
     let sample = |placed: Placed| (placed.time, Sample { position: placed.position, rotation: placed.rotation });
     let (times, samples) = motion.into_iter().map(sample).unzip();
-    Ok(Track { times, samples, what: format!("object {node}"), unit_cm: unit.map(|unit| f64::from(unit.cm)), up })
+    Ok(Track { times, samples, what: format!("object {node}"), unit_cm: unit.map(|unit| 100.0 * unit.metres()), up })
 }
 
 /// Moving hair of a layer or archive, read one frame after another.
@@ -186,7 +186,7 @@ impl MovingHair {
     ///
     /// # Errors
     /// What is wrong with the file.
-    pub fn frame(&mut self, frame: usize) -> Result<(Strands, Affine3A)> {
+    pub fn frame(&mut self, frame: usize) -> Result<(Strands, DAffine3)> {
         let segments = self.segments;
         let InPlace { hair, world_from_hair } = self.file.ask(|r| r.hair_in_place(frame, segments, false))?;
         Ok((hair.strands, world_from_hair))
@@ -211,8 +211,8 @@ pub fn export<'a>(hair: &'a Hair, frame_rate: f64, placement: Option<&Placement>
     export.rest = true;
     export.velocities = true;
     if let Some(placement) = placement {
-        export.file_from_head = placement.file_from_head();
-        export.meters_per_unit = f64::from(placement.unit.cm) / 100.0;
+        export.file_from_head = placement.file_from_head_in_doubles();
+        export.meters_per_unit = placement.unit.metres();
         export.z_up = placement.up == Axis::PlusZ;
     }
     export
@@ -306,7 +306,7 @@ pub fn write_still(path: &Path, export: Export<'_>) -> Result<()> {
     let hair = export.hair;
     let mut sink = sink(path, export, None)?;
     let named = |e: std::io::Error| Error::from(e).in_file(path);
-    sink.frame(&hair.strands, &Affine3A::IDENTITY).map_err(named)?;
+    sink.frame(&hair.strands, &DAffine3::IDENTITY).map_err(named)?;
     sink.finish().map_err(named)
 }
 

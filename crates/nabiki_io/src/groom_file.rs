@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use glam::Affine3A;
+use glam::DAffine3;
 use nabiki::Hair;
 use nabiki::strands::check_points;
-use nabiki_exchange::PrimKind;
+use nabiki_exchange::{InPlace, PrimKind};
 
 use crate::bytes::Bytes;
 use crate::declared::DeclaredSpace;
@@ -38,7 +38,7 @@ pub struct CurvePrim {
     /// Whether these bend cubics, and are not on the curves.
     pub cubic: bool,
     /// Takes them to the file's world at the first frame.
-    pub world_from_curves: Affine3A,
+    pub world_from_curves: DAffine3,
 }
 
 /// The file that a groom came from, and where its curves are in it.
@@ -48,6 +48,8 @@ pub struct GroomCurves {
     pub file: String,
     /// Its curves, in their order; none in a file of hair alone.
     pub curves: Vec<CurvePrim>,
+    /// Whether it is known what these are, cubic or not, and what stands above them: not of a cache from before that was kept.
+    pub placed: bool,
 }
 
 impl GroomFile {
@@ -85,6 +87,17 @@ impl GroomFile {
         }
     }
 
+    /// When the shot begins that the file is of (s), where it says so.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn start(&mut self) -> Result<Option<f64>> {
+        match &mut self.kind {
+            Kind::Plain(_) => Ok(None),
+            Kind::Exchange(file) => Ok(file.ask(|r| r.contents())?.start),
+        }
+    }
+
     /// Reads the hair of frame `frame` (the last one after those there are), in the file's own unit and axes.
     /// `segments`: walks every curve of a layer or archive into as many, and cuts other strands anew; `None` keeps
     /// polylines as they are.
@@ -92,19 +105,29 @@ impl GroomFile {
     /// # Errors
     /// What is wrong with the file.
     pub fn hair(&mut self, frame: usize, segments: Option<usize>) -> Result<Hair> {
+        let placed = self.hair_in_place(frame, segments)?;
+        placed.in_world().map_err(|problem| Error::new(problem.to_string()).in_file(&self.path))
+    }
+
+    /// The same below the transform that the file has above its curves.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn hair_in_place(&mut self, frame: usize, segments: Option<usize>) -> Result<InPlace> {
         let path = self.path.as_path();
         let named = |e: Error| e.in_file(path);
+        let in_world = |hair| InPlace { hair, world_from_hair: DAffine3::IDENTITY };
         let hair = match &mut self.kind {
-            Kind::Exchange(file) => return file.ask(|r| r.hair(frame, segments)),
+            Kind::Exchange(file) => return file.ask(|r| r.hair_in_place(frame, segments, true)),
             Kind::Plain(Format::Tfx) => tfx::from_source(&mut Bytes::open(path)?).map_err(named)?,
             Kind::Plain(Format::ObjLines) => {
                 obj_lines::from_bytes(&input::read(path, MOST_TEXT_BYTES)?).map_err(named)?
             }
             Kind::Plain(_) => hair_file::from_source(&mut Bytes::open(path)?).map_err(named)?,
         };
-        let Some(segments) = segments else { return Ok(hair) };
+        let Some(segments) = segments else { return Ok(in_world(hair)) };
         check_points("segments", segments, hair.strands.len()).map_err(|refused| named(refused.into()))?;
-        Ok(hair.resampled(segments + 1))
+        Ok(in_world(hair.resampled(segments + 1)))
     }
 
     /// Where the curves are, for a layer to be laid over them. `file`: the name that is remembered.
@@ -122,7 +145,7 @@ impl GroomFile {
             }
             _ => None,
         });
-        Ok(GroomCurves { file: file.display().to_string(), curves: curves.collect() })
+        Ok(GroomCurves { file: file.display().to_string(), curves: curves.collect(), placed: true })
     }
 
     /// Its frames, one after another. `segments`: as for [`hair`](Self::hair).
@@ -149,6 +172,11 @@ impl GroomCurves {
         let listed = self.curves.iter().take(8).map(|prim| format!("{} ({} points)", prim.path, prim.points));
         let list = listed.collect::<Vec<_>>().join(", ");
         match &self.curves[..] {
+            [only] if only.path == path && !self.placed => refuse(
+                "this cache is older than the note of what stands above its groom's curves; make it again with nabiki simulate, or \
+                 leave out --export-layer for a complete stage"
+                    .to_owned(),
+            ),
             [only] if only.path == path => {
                 let inverse = only.world_from_curves.inverse();
                 if inverse.is_finite() { Ok(only) } else { refuse("a transform above it flattens space".to_owned()) }

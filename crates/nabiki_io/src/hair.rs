@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use nabiki::{Hair, SettingError, error::check_range, hair::Degenerate, strands::not_finite};
+use nabiki_exchange::{InPlace, attributes::names};
 use nabiki_file::PartFile;
 use serde::{Deserialize, Serialize};
 
@@ -91,7 +92,8 @@ pub(crate) fn held_at_both_ends(hair: &Hair) -> usize {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Cleaning {
-    /// Neighbouring points of a strand this close are joined (cm, default 0.001).
+    /// Neighbouring points of a strand this close are joined (cm, default 0.001; 0 joins those alone that lie in one place, between which a
+    /// strand has no direction to move in).
     pub join_within: f32,
     /// Strands shorter than this are dropped (cm, default 0: none).
     pub drop_shorter_than: f32,
@@ -121,16 +123,17 @@ pub fn import(path: &Path, placement: &Placement, cleaning: &Cleaning) -> Result
     let named = |e: Error| e.in_file(path);
     placement.check("hair").map_err(|e| Error::from(e).in_file(path))?;
     cleaning.check().map_err(|e| Error::from(e).in_file(path))?;
-    place_and_clean(read(path)?, placement, cleaning).map_err(named)
+    place_and_clean(GroomFile::open(path)?.hair_in_place(0, None)?, placement, cleaning).map_err(named)
 }
 
 /// Coordinates of hair beyond this are a wrong unit: ten thousand kilometres (cm).
 const FARTHEST: f32 = 1e9;
 
 /// The same for hair already read, by this crate or another.
-pub fn place_and_clean(hair: Hair, placement: &Placement, cleaning: &Cleaning) -> Result<(Hair, ImportReport)> {
-    let (strands_in_file, points_in_file) = (hair.strands.len(), hair.strands.points().len());
-    let placed = hair.transformed(&placement.head_from_file());
+pub fn place_and_clean(read: InPlace, placement: &Placement, cleaning: &Cleaning) -> Result<(Hair, ImportReport)> {
+    let strands = &read.hair.strands;
+    let (strands_in_file, points_in_file) = (strands.len(), strands.points().len());
+    let placed = read.through(&placement.head_from_file_in_doubles());
     if let Some(p) = not_finite(placed.strands.points()) {
         return Err(Error::new(format!("point {p} leaves the range of f32 when converted to cm: check hair.unit")));
     }
@@ -174,7 +177,9 @@ pub fn losses(path: &Path, hair: &Hair) -> Result<Vec<String>> {
 
 /// What only formats with attributes of any name pass on, and what was not read.
 pub(crate) fn passed_on(hair: &Hair) -> Vec<String> {
-    let names = hair.attributes.other.iter().map(|other| other.name.clone());
+    // What is said a second time, the other way, is held.
+    let again = |name: &str| names::OPACITY.contains(&name) && hair.attributes.transparency.is_some();
+    let names = hair.attributes.other.iter().map(|other| other.name.clone()).filter(|name| !again(name));
     names.chain(hair.attributes.unread.iter().cloned()).collect()
 }
 

@@ -1,6 +1,6 @@
 //! Where a file's coordinates lie in head space: unit, up axis, facing and origin, applied once, at the door.
 
-use glam::{Affine3A, Mat3, Vec3};
+use glam::{Affine3A, DAffine3, Mat3, Vec3};
 use nabiki::SettingError;
 use serde::{Deserialize, Serialize};
 
@@ -59,6 +59,19 @@ impl Placement {
         let matrix = self.head_from_file_rotation().transpose() * self.unit.cm.recip();
         Affine3A { matrix3: matrix.into(), translation: self.origin.into() }
     }
+
+    /// As [`head_from_file`](Self::head_from_file) in doubles, to be put together with the transforms of a file before any
+    /// point is moved.
+    pub fn head_from_file_in_doubles(&self) -> DAffine3 {
+        let matrix3 = self.head_from_file_rotation().as_dmat3() * f64::from(self.unit.cm);
+        DAffine3 { matrix3, translation: matrix3 * -self.origin.as_dvec3() }
+    }
+
+    /// As [`file_from_head`](Self::file_from_head) in doubles.
+    pub fn file_from_head_in_doubles(&self) -> DAffine3 {
+        let matrix3 = self.head_from_file_rotation().transpose().as_dmat3() * f64::from(self.unit.cm).recip();
+        DAffine3 { matrix3, translation: self.origin.as_dvec3() }
+    }
 }
 
 #[cfg(test)]
@@ -88,6 +101,8 @@ mod tests {
                 assert_eq!(placement.head_from_file().matrix3.determinant(), 64.0);
                 let there_and_back = placement.file_from_head() * placement.head_from_file();
                 assert_eq!(there_and_back, Affine3A::IDENTITY, "up {up}, facing {facing}: all products are exact");
+                assert_eq!(placement.head_from_file_in_doubles().as_affine3a(), placement.head_from_file());
+                assert_eq!(placement.file_from_head_in_doubles().as_affine3a(), placement.file_from_head());
             }
         }
     }

@@ -14,6 +14,14 @@ pub struct Unit {
     pub cm: f32,
 }
 
+impl Unit {
+    /// Metres in one unit, by the shortest decimals of its centimetres: 2.54 cm are 0.0254 m, and not the metres of the single
+    /// nearest to 2.54.
+    pub fn metres(self) -> f64 {
+        format!("{}e-2", self.cm).parse().unwrap_or(f64::from(self.cm) / 100.0)
+    }
+}
+
 impl Default for Unit {
     fn default() -> Self {
         Self { cm: 1.0 }
@@ -88,6 +96,9 @@ mod tests {
         }
         assert_eq!(Unit { cm: (0.0254_f64 * 100.0) as f32 }.to_string(), "in");
         assert_eq!(Unit { cm: 2.54 / 0.45 }.to_string(), "5.644 cm");
+        for metres in [1.0, 0.01, 0.001, 0.0254, 0.3048, 0.9144, 1e-9, 1e6] {
+            assert_eq!(Unit { cm: (metres * 100.0) as f32 }.metres(), metres);
+        }
         assert!("mile".parse::<Unit>().unwrap_err().contains("is not a unit"));
     }
 }

@@ -2,21 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
-use glam::{Affine3A, Quat, Vec3};
+use glam::{DAffine3, DVec3, Quat, Vec3};
 use nabiki::{Hair, Mesh, Strands};
-use nabiki_exchange::Export;
-use nabiki_io::GroomFile;
+use nabiki_exchange::{Export, GroomReader};
 use nabiki_io::exchange::{self, DeclaredSpace, MovingHair};
 use nabiki_io::info::ExchangeInfo;
 use nabiki_io::motion::{self, Axis, MotionSource};
 use nabiki_io::placement::{Placement, Unit};
+use nabiki_io::{GroomCurves, GroomFile};
 use nabiki_io::{hair, mesh};
+use nabiki_usd::StageReader;
 
 const FRAMES: usize = 11;
 
-fn pose(frame: usize) -> Affine3A {
+fn pose(frame: usize) -> DAffine3 {
     let turn = Quat::from_rotation_y(0.05 * frame as f32);
-    Affine3A::from_rotation_translation(turn, Vec3::new(2.0 * frame as f32, 150.0, 0.0))
+    DAffine3::from_rotation_translation(turn.as_dquat(), Vec3::new(2.0 * frame as f32, 150.0, 0.0).as_dvec3())
 }
 
 fn strands() -> Strands {
@@ -58,15 +59,15 @@ fn the_transforms_of_layers_and_archives_move_a_head() {
         assert!(motion.report.contains("11 samples at 20 Hz (0.500 s) -> 6 frames at 10 Hz"), "{}", motion.report);
         for (n, found) in motion.poses.iter().enumerate() {
             let expected = pose(2 * n);
-            assert!(found.position_cm.distance(expected.translation.into()) < 1e-4, "{name}, frame {n}");
+            assert!(found.position_cm.distance(expected.translation.as_vec3()) < 1e-4, "{name}, frame {n}");
             assert!(
-                (found.rotation * Vec3::X).distance(expected.transform_vector3(Vec3::X)) < 1e-6,
+                (found.rotation * Vec3::X).distance(expected.transform_vector3(DVec3::X).as_vec3()) < 1e-6,
                 "{name}, frame {n}"
             );
         }
         let head = mesh::read(&file, &[]).unwrap();
         assert_eq!(head.triangles.len(), 1);
-        assert_eq!(head.positions[0], Vec3::from(pose(0).translation));
+        assert_eq!(head.positions[0], pose(0).translation.as_vec3());
     }
 }
 
@@ -78,9 +79,47 @@ fn unit_and_up_axis_are_what_the_layer_says() {
     exchange::write(&path, &Hair::from(strands()), said).unwrap();
     assert_eq!(exchange::declared_space(&path).unwrap(), said);
     assert_eq!(hair::read(&path).unwrap().strands, strands());
+    // Most decimals are no single: what a layer says in doubles comes back as it was.
+    for metres in [1.0, 0.1, 0.01, 0.001, 0.0254, 0.3048, 0.9144, 1e-9, 1e6] {
+        let from = folder.path().join("from.usda");
+        let curves = "def BasisCurves \"h\" { uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n\
+                      point3f[] points = [(0, 0, 0), (1, 0, 0)] }";
+        std::fs::write(&from, format!("#usda 1.0\n( metersPerUnit = {metres} )\n{curves}\n")).unwrap();
+        for name in ["to.usda", "to.usdc"] {
+            let to = folder.path().join(name);
+            exchange::write(&to, &hair::read(&from).unwrap(), exchange::declared_space(&from).unwrap()).unwrap();
+            let said = StageReader::open(&to).unwrap().contents().unwrap().meters_per_unit;
+            assert_eq!(said, Some(metres), "{name}");
+        }
+    }
     let archive = folder.path().join("hair.abc");
     hair::write(&archive, &Hair::from(strands())).unwrap();
     assert_eq!(exchange::declared_space(&archive).unwrap(), DeclaredSpace { unit: None, up: Some(Axis::PlusY) });
+}
+
+#[test]
+fn opacities_keep_their_digits_and_are_transparencies_where_a_format_has_no_other_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let groom = "#usda 1.0\ndef BasisCurves \"h\" { uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n\
+                 point3f[] points = [(0, 0, 0), (1, 0, 0)]\n\
+                 float[] primvars:displayOpacity = [OPACITY, OPACITY] ( interpolation = \"vertex\" ) }\n";
+    // In singles 1 - (1 - 0.1) is another number than 0.1, and 1 - (1 - 0.25) is 0.25.
+    for (opacity, kept) in [(0.1_f32, true), (0.25, false)] {
+        std::fs::write(at("groom.usda"), groom.replace("OPACITY", &opacity.to_string())).unwrap();
+        let mut from = at("groom.usda");
+        for name in ["1.usda", "2.usdc", "3.abc", "4.usda"] {
+            let hair = hair::read(&from).unwrap();
+            assert_eq!(hair.attributes.transparency, Some(vec![1.0 - opacity; 2]), "{name}");
+            assert_eq!(hair.attributes.other.iter().any(|other| other.name == "displayOpacity"), kept, "{name}");
+            assert_eq!(hair::write(&at(name), &hair).unwrap(), Vec::<String>::new(), "{name}");
+            from = at(name);
+        }
+        let text = std::fs::read_to_string(&from).unwrap();
+        let (_, written) = text.split_once("displayOpacity = [").unwrap();
+        assert!(written.starts_with(&opacity.to_string()), "{text}");
+        assert_eq!(hair::write(&at("h.hair"), &hair::read(&from).unwrap()).unwrap(), Vec::<String>::new());
+    }
 }
 
 #[test]
@@ -96,6 +135,8 @@ fn moving_hair_goes_from_format_to_format_with_all_its_frames() {
     let mut export = Export::new(&hair, 30.0);
     export.first_frame = 5;
     let mut sink = exchange::sink(&first, export, None).unwrap();
+    // A kilometre away a single is 0.008 cm from the next.
+    let pose = |n: usize| DAffine3::from_translation(DVec3::new(0.0, 0.0, -123_456.789)) * pose(n);
     for n in 0..FRAMES {
         sink.frame(&frame(n), &pose(n)).unwrap();
     }
@@ -128,6 +169,9 @@ fn a_layer_goes_over_the_prim_of_the_curves_and_over_no_other() {
         let line = format!("--export-layer {path}: its curves are at /head/hair (5 points)");
         assert!(refused.ends_with(&line), "{refused}");
     }
+    // Points under a transform that a cache has not kept would go where nobody wants them.
+    let refused = GroomCurves { placed: false, ..groom }.under_layer("/head/hair").unwrap_err().to_string();
+    assert!(refused.contains("this cache is older than") && refused.contains("nabiki simulate"), "{refused}");
 }
 
 #[test]

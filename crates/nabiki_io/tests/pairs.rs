@@ -185,7 +185,7 @@ fn no_file_is_smaller_than_it_is_said_to_be_at_least() {
     let least = exchange::least_bytes(&path, &export, 5, false);
     let mut sink = exchange::sink(&path, export, None).unwrap();
     for _ in 0..5 {
-        sink.frame(&groom.strands, &glam::Affine3A::IDENTITY).unwrap();
+        sink.frame(&groom.strands, &glam::DAffine3::IDENTITY).unwrap();
     }
     sink.finish().unwrap();
     let text = std::fs::read_to_string(&path).unwrap();

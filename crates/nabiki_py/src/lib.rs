@@ -24,6 +24,10 @@ use pyo3::prelude::*;
 /// Hair in the wind.
 #[pymodule]
 mod _nabiki {
+    /// The version of the package.
+    #[pymodule_export]
+    #[allow(non_upper_case_globals)]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
     #[pymodule_export]
     use crate::arrays::Points;
     #[pymodule_export]

@@ -1,6 +1,8 @@
 """Pictures, files and answers are the command's; what is stopped leaves nothing."""
 
+import importlib.metadata
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -15,6 +17,11 @@ import nabiki
 
 GUST = SCENES / "gust.toml"
 SMALL = ["--set", "motion.frames=12", "--set", "picture.size=[160,90]", "--set", "output.sheet=[0]", "--quiet"]
+
+
+def test_the_version_is_that_of_the_crates_and_of_the_package():
+    said = re.search(r'^version = "(.*)"$', (ROOT / "Cargo.toml").read_text(), flags=re.M)[1]
+    assert nabiki.__version__ == said == importlib.metadata.version("nabiki")
 
 
 def test_a_picture_is_the_commands(gust, tmp_path):

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use nabiki::body::BodyWay;
-use nabiki::dynamics::{Dynamics, Form, FrameInput, Reference, Simulation, Timeline};
+use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Reference, Simulation, Timeline};
 use nabiki::field::Field;
 use nabiki::roots::Root;
 use nabiki::{Hair, Head, Mesh, Pose, SettingError, Strands};
@@ -70,8 +70,10 @@ pub struct BuiltScene {
     judged: Strands,
     /// How the head's motion was read and converted, in one line.
     pub motion_report: Option<String>,
-    /// Number of the first frame of the head's motion on the time line of its file; 0 where that has none.
-    motion_begins: i32,
+    /// Number of the first frame of the head's motion on the time line of its file, where that has one.
+    motion_begins: Option<i32>,
+    /// When the shot begins that the hair's file is of (s), where it says so.
+    hair_begins: Option<f64>,
     /// The scene's bodies, in their order; none in the paper's form.
     bodies: Vec<BuiltBody>,
     /// Number of each strand in the whole hair.
@@ -96,6 +98,8 @@ pub struct ShardOf {
 struct BuiltBody {
     /// Its own space (cm).
     mesh: Mesh,
+    /// What of the meshes of its file is left out or not obeyed, a phrase each.
+    unread: Vec<String>,
     way: BodyWay,
 }
 
@@ -170,6 +174,11 @@ impl BuiltScene {
         let felt = self.bodies.iter().zip(&self.scene.bodies).enumerate().filter(|(_, (_, settings))| settings.solid);
         let edges = felt.map(|(i, (body, _))| (i, body.mesh.clone().turn_outward().open_edges));
         edges.filter(|(_, edges)| *edges > 0 && matches!(self.dynamics.form, Form::Free(_)))
+    }
+
+    /// What of the meshes of the bodies' files is left out or not obeyed, a phrase each with the number of its body.
+    pub(crate) fn unread_of_bodies(&self) -> impl Iterator<Item = (usize, &String)> {
+        self.bodies.iter().enumerate().flat_map(|(i, body)| body.unread.iter().map(move |unread| (i, unread)))
     }
 
     /// What [`Scene::build`] gives, for an editor in which a scene changes a little at a time: what the two scenes have
@@ -283,9 +292,15 @@ impl BuiltScene {
         Some(Origin { placement, points: report.points_in_file as u64, groom: self.groom.clone() })
     }
 
-    /// Number of frame 0 on the time line of the shot, from which exports go on.
+    /// Number of frame 0 on the time line of the shot, from which exports go on: as the scene says, or else as the head's motion, or
+    /// else the hair's file begins; 0 where neither is of a shot.
     pub fn first_frame(&self) -> i32 {
-        self.scene.output.first_frame.unwrap_or(self.motion_begins)
+        let of_hair = || {
+            let first = (self.hair_begins? * self.scene.frame_rate()).round() as i32;
+            // A number that no shot has is a program's way of saying none.
+            (first.unsigned_abs() <= Motion::MOST_FRAMES).then_some(first)
+        };
+        self.scene.output.first_frame.or(self.motion_begins).or_else(of_hair).unwrap_or(0)
     }
 
     /// A refused setting as an error that names the scene's file and line, and the unit to mend where hair or head have the

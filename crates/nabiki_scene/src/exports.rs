@@ -93,7 +93,7 @@ impl<'a> Exports<'a> {
         }
         self.next += 1;
         for (path, sink) in &mut self.sinks {
-            sink.frame(strands, &pose.world_from_head()).map_err(|e| named(e, path))?;
+            sink.frame(strands, &pose.world_from_head().as_daffine3()).map_err(|e| named(e, path))?;
         }
         Ok(())
     }

@@ -6,6 +6,7 @@
 
 use glam::{Mat3, Vec3};
 use nabiki::{Ellipsoid, Head, Strands};
+use nabiki_exchange::{InPlace, transformed};
 use nabiki_io::{Axis, DeclaredSpace, Placement, Unit};
 
 use crate::built::hair_placement;
@@ -73,12 +74,12 @@ pub(crate) struct Mended {
     pub origin: Option<Vec3>,
 }
 
-/// An even choice of a file's strands, as they are in it.
-pub(crate) fn judged(hair: &nabiki::Hair) -> Strands {
-    let step = hair.strands.len().div_ceil(JUDGED).max(1);
-    let mut strands = Strands::default();
-    hair.strands.iter().step_by(step).filter(|strand| !strand.is_empty()).for_each(|s| strands.push(s.iter().copied()));
-    strands
+/// An even choice of a file's strands, as they are in its world.
+pub(crate) fn judged(read: &InPlace) -> Strands {
+    let all = &read.hair.strands;
+    let step = all.len().div_ceil(JUDGED).max(1);
+    let chosen: Vec<usize> = (0..all.len()).step_by(step).filter(|&s| !all.strand(s).is_empty()).collect();
+    transformed(all.select(&chosen).into(), &read.world_from_hair).strands
 }
 
 /// Hair of a file on a head.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::Vec3;
 use nabiki::{Ellipsoid, Head, Mesh, Strands};
-use nabiki_io::{Axis, DeclaredSpace, Error, Placement, Result, Unit, declared_space, hair, info, mesh};
+use nabiki_io::{Axis, DeclaredSpace, Error, GroomFile, Placement, Result, Unit, declared_space, info, mesh};
 
 use crate::scene::ImportedHair;
 use crate::seat::{self, Mended, Seat, centimetres};
@@ -347,7 +347,7 @@ fn about(points: &[Vec3], placement: &Placement) -> Ellipsoid {
 
 /// The strands by which a hair file is judged.
 fn strands_of(file: &Path) -> Result<Strands> {
-    let strands = seat::judged(&hair::read(file)?);
+    let strands = seat::judged(&GroomFile::open(file)?.hair_in_place(0, None)?);
     if strands.is_empty() { Err(Error::new("holds no strands").in_file(file)) } else { Ok(strands) }
 }
 

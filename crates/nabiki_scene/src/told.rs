@@ -119,6 +119,8 @@ pub struct SceneSummary {
     pub skull_is_open: bool,
     /// What of the meshes of the head's file is left out or not obeyed, a phrase each.
     pub unread: Vec<String>,
+    /// The same of the bodies' files, each with the number of its body.
+    pub unread_of_bodies: Vec<(usize, String)>,
     /// Frames of the hair's file, of which the first is taken; 1 for hair that stands still.
     pub frames_in_file: usize,
     /// How the head's motion was read and converted.
@@ -150,6 +152,7 @@ impl SceneSummary {
             open_edges: built.head.orientation.open_edges,
             skull_is_open: built.head.openings.iter().any(|opening| opening.missing.is_some()),
             unread: built.mesh_report.as_ref().map_or_else(Vec::new, |report| report.unread.clone()),
+            unread_of_bodies: built.unread_of_bodies().map(|(i, unread)| (i, unread.clone())).collect(),
             frames_in_file: built.frames_in_file,
             motion: built.motion_report.clone(),
             strands: strands.len(),
@@ -186,6 +189,9 @@ impl fmt::Display for SceneSummary {
         }
         if let Some(motion) = &self.motion {
             writeln!(f, "          {motion}")?;
+        }
+        for (i, unread) in &self.unread_of_bodies {
+            writeln!(f, "  body[{i}] not read of its file: {unread}")?;
         }
         write!(f, "  hair    {} strands", self.strands)?;
         if self.strands < self.strands_of_scene {

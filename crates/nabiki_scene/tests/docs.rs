@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use glam::{Affine3A, Vec3};
+use glam::{DAffine3, Vec3};
 use nabiki::dynamics::Stepper;
 use nabiki_io::Axis;
 use nabiki_io::exchange;
@@ -71,7 +71,7 @@ fn stand_ins(scene: &Scene, bust: &BuiltScene) {
             let mut export = exchange::export(&bust.hair, 24.0, Some(&placement));
             export.head = Some(&bust.head.mesh);
             let mut sink = exchange::sink(&scene.resolve(file), export, None).unwrap();
-            sink.frame(&bust.hair.strands, &Affine3A::IDENTITY).unwrap();
+            sink.frame(&bust.hair.strands, &DAffine3::IDENTITY).unwrap();
             sink.finish().unwrap();
         }
     }

@@ -7,7 +7,7 @@
 use std::fs;
 use std::path::Path;
 
-use glam::{Affine3A, Quat, Vec3};
+use glam::{DAffine3, Quat, Vec3};
 use nabiki::hair::Attributes;
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::HairArchive;
@@ -44,9 +44,9 @@ fn groom() -> Hair {
     hair
 }
 
-fn pose(frame: usize) -> Affine3A {
+fn pose(frame: usize) -> DAffine3 {
     let turn = Quat::from_rotation_y(0.1 * frame as f32);
-    Affine3A::from_rotation_translation(turn, Vec3::new(0.0, frame as f32, 0.0))
+    DAffine3::from_rotation_translation(turn.as_dquat(), Vec3::new(0.0, frame as f32, 0.0).as_dvec3())
 }
 
 fn skin() -> Mesh {
@@ -59,7 +59,7 @@ fn skin() -> Mesh {
 
 fn fill(mut sink: Box<dyn FrameSink + '_>, moving: bool) -> std::io::Result<()> {
     for frame in 0..FRAMES {
-        sink.frame(&strands(frame), &if moving { pose(frame) } else { Affine3A::IDENTITY })?;
+        sink.frame(&strands(frame), &if moving { pose(frame) } else { DAffine3::IDENTITY })?;
     }
     sink.finish()
 }
@@ -84,7 +84,7 @@ fn write(folder: &Path) -> std::io::Result<()> {
         fill(Box::new(HairStage::create(&folder.join(name), still.clone(), form)?), false)?;
     }
     let mut rest = Box::new(HairStage::create(&folder.join("rest.usda"), still, Form::Stage)?);
-    rest.frame(&hair.strands, &Affine3A::IDENTITY)?;
+    rest.frame(&hair.strands, &DAffine3::IDENTITY)?;
     rest.finish()?;
     // Strands of one number of points, which every format holds.
     let mut even = Strands::default();
@@ -93,13 +93,13 @@ fn write(folder: &Path) -> std::io::Result<()> {
     }
     let even = Hair::from(even);
     let mut sink = Box::new(HairStage::create(&folder.join("even.usda"), Export::new(&even, 24.0), Form::Stage)?);
-    sink.frame(&even.strands, &Affine3A::IDENTITY)?;
+    sink.frame(&even.strands, &DAffine3::IDENTITY)?;
     sink.finish()?;
 
     let (mut frames, mut poses) = (Vec::new(), Vec::new());
     for frame in 0..FRAMES {
         frames.extend_from_slice(strands(frame).points());
-        poses.extend(glam::Mat4::from(pose(frame)).to_cols_array());
+        poses.extend(glam::DMat4::from(pose(frame)).as_mat4().to_cols_array());
     }
     fs::write(folder.join("poses.f32"), bytemuck::cast_slice(&poses))?;
     fs::write(folder.join("points.f32"), bytemuck::cast_slice(&frames))?;

@@ -102,8 +102,7 @@ pub fn primvar(name: &str) -> String {
 
 /// The head.
 pub fn skin<S>(mesh: &Mesh, export: &Export<'_>) -> Prim<S> {
-    let points: Vec<Vec3> = mesh.positions.iter().map(|&p| export.file_from_head.transform_point3(p)).collect();
-    let mirrored = export.file_from_head.matrix3.determinant() < 0.0;
+    let (points, mirrored) = export.skin(mesh);
     let corners = mesh.triangles.iter().flat_map(|&[a, b, c]| if mirrored { [c, b, a] } else { [a, b, c] });
     let mut attributes = vec![
         Attribute::uniform("subdivisionScheme", "token", Value::Token("none".to_owned())),

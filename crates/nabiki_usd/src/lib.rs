@@ -6,7 +6,7 @@
 //! be flattened first (`usdcat --flatten`).
 //!
 //! ```
-//! use glam::{Affine3A, Vec3};
+//! use glam::{DAffine3, Vec3};
 //! use nabiki::{Hair, Strands};
 //! use nabiki_exchange::{Export, FrameSink, GroomReader, Problem};
 //! use nabiki_usd::{Form, HairStage, StageReader};
@@ -17,7 +17,7 @@
 //!     let hair = Hair::from(strands);
 //!     let path = std::env::temp_dir().join(format!("nabiki_usd_{}.usdc", std::process::id()));
 //!     let mut file = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), Form::Stage)?);
-//!     file.frame(&hair.strands, &Affine3A::IDENTITY)?;
+//!     file.frame(&hair.strands, &DAffine3::IDENTITY)?;
 //!     file.finish()?;
 //!     let read = StageReader::open(&path)?.hair(0, None)?;
 //!     assert_eq!(read.strands, hair.strands);

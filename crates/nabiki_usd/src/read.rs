@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, DAffine3, Vec3};
 use nabiki::{Hair, Mesh};
 use nabiki_exchange::attributes::NamedValues;
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
@@ -213,7 +213,13 @@ impl GroomReader for StageReader {
         };
         let frames = self.frames()?;
         let codes_a_second = self.codes_a_second()?;
+        // Curves that move begin with the hair that is read first, whatever of the stage comes before or after.
+        let start = match frames.times[..] {
+            [first, _, ..] => Some(first),
+            _ => self.layer.metadata_number("startTimeCode")?.filter(|code| code.is_finite()),
+        };
         Ok(Contents {
+            start: start.map(|code| code / codes_a_second),
             curves: paths(&self.layer, "BasisCurves"),
             meshes: paths(&self.layer, "Mesh"),
             frame_rate: if frames.step > 0.0 { frames.rate(codes_a_second) } else { codes_a_second },
@@ -238,7 +244,7 @@ impl GroomReader for StageReader {
                     let curves = self.count(i, "curveVertexCounts")?;
                     // What is not said is cubic in USD.
                     let cubic = self.layer.word(i, "type")?.is_none_or(|word| word != "linear");
-                    let world = Affine3A::from_mat4(transform::world(&mut self.layer, i, time)?.as_mat4());
+                    let world = DAffine3::from_mat4(transform::world(&mut self.layer, i, time)?);
                     PrimKind::Curves { curves, points: self.point_count(i)?, cubic, world_from_curves: world }
                 }
                 "Mesh" => {
@@ -280,8 +286,8 @@ impl GroomReader for StageReader {
             let part = self.curves(prim, time, segments, attributes);
             let part = part.map_err(|e| Problem(format!("curves {}: {e}", self.layer.path(prim))))?;
             let name = self.layer.prims[prim].name.clone();
-            let world = transform::world(&mut self.layer, prim, time)?.as_mat4();
-            all.append(part, Affine3A::from_mat4(world), (prims.len() > 1).then_some((group as i32, name)))?;
+            let world = transform::world(&mut self.layer, prim, time)?;
+            all.append(part, DAffine3::from_mat4(world), (prims.len() > 1).then_some((group as i32, name)))?;
         }
         let mut placed = all.hair()?;
         if attributes {

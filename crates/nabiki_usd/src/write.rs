@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::Path;
 
-use glam::{Affine3A, Vec3};
+use glam::{DAffine3, Vec3};
 use nabiki::Strands;
 use nabiki_exchange::{Export, FrameSink, Velocities};
 use nabiki_file::{PartFile, folder_of};
@@ -262,7 +262,7 @@ fn transform<S>(
 }
 
 impl FrameSink for HairStage<'_> {
-    fn frame(&mut self, strands: &Strands, world_from_head: &Affine3A) -> io::Result<()> {
+    fn frame(&mut self, strands: &Strands, world_from_head: &DAffine3) -> io::Result<()> {
         let points = self.export.points(strands, &mut self.points)?;
         let time = self.metadata.start + self.times.len() as f64;
         self.extents.push(Value::Triples(extent(points, self.margin)));
@@ -288,7 +288,7 @@ impl FrameSink for HairStage<'_> {
         }
         // USD multiplies rows from the left.
         let parent = self.export.parent(world_from_head);
-        self.transforms.push(Value::Matrix(parent.to_cols_array().map(f64::from)));
+        self.transforms.push(Value::Matrix(parent.to_cols_array()));
         self.times.push(time);
         Ok(())
     }

@@ -3,7 +3,7 @@
 
 use std::io::Cursor;
 
-use glam::{Affine3A, DQuat, DVec3, Vec3};
+use glam::{DAffine3, DQuat, DVec3, Vec3};
 use nabiki::Mesh;
 use nabiki::hair::{Other, Per, Role, Stored, Values};
 use nabiki_exchange::{Export, FrameSink, GroomReader, PrimKind};
@@ -107,7 +107,7 @@ fn hair_that_only_its_transform_moves_has_the_frames_of_that() {
     assert_eq!(stage.contents().unwrap().times, [0.0, 1.0, 2.0].map(|t| t / 24.0));
     for (frame, x) in [0.0, 5.0, 7.0].into_iter().enumerate() {
         let placed = stage.hair_in_place(frame, None, false).unwrap();
-        assert_eq!(placed.world_from_hair, Affine3A::from_translation(Vec3::X * x));
+        assert_eq!(placed.world_from_hair, DAffine3::from_translation(DVec3::X * f64::from(x)));
         assert_eq!(stage.hair(frame, None).unwrap().strands.strand(0)[0], Vec3::X * x);
     }
 }
@@ -216,7 +216,7 @@ fn what_a_groom_carries_goes_through_and_what_does_not_is_named() {
     for name in ["again.usda", "again.usdc"] {
         let path = folder.path().join(name);
         let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), Form::Stage).unwrap());
-        sink.frame(&hair.strands, &Affine3A::IDENTITY).unwrap();
+        sink.frame(&hair.strands, &DAffine3::IDENTITY).unwrap();
         sink.finish().unwrap();
         let again = StageReader::open(&path).unwrap().hair(0, None).unwrap();
         assert_eq!(again.attributes.other, at.other, "{name}");
@@ -243,7 +243,7 @@ fn types_of_what_is_passed_on_stay() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("again.usda");
     let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), Form::Stage).unwrap());
-    sink.frame(&hair.strands, &Affine3A::IDENTITY).unwrap();
+    sink.frame(&hair.strands, &DAffine3::IDENTITY).unwrap();
     sink.finish().unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
     for line in [
@@ -290,6 +290,41 @@ fn root_uvs_under_a_name_of_their_own_keep_it_and_ids_that_are_none_are_said() {
 }
 
 #[test]
+fn what_strands_have_one_of_may_be_given_by_point_and_is_said_where_it_changes_along_a_curve() {
+    let read = |numbers: &str, words: &str| {
+        let by_point = "( interpolation = \"vertex\" )";
+        let text = CARRIED.replace(
+            "groom_id = [1, 2, 3] ( interpolation = \"uniform\" )",
+            &format!("groom_id = [{numbers}] {by_point}"),
+        );
+        let groups = format!(
+            "int[] primvars:groom_guide = [{numbers}] {by_point}\n int[] primvars:hairId = [1, 2, 3, 4, 5] {by_point}\n\
+             string[] primvars:groom_group_name = [{words}] {by_point}\n int[] primvars:groom_group_id = [{numbers}] {by_point}"
+        );
+        reader(text.replace("float3[] accelerations = [(0, 0, 0)]", &groups)).hair(0, None).unwrap().attributes
+    };
+    let said = |at: &nabiki::hair::Attributes| -> Vec<String> {
+        at.unread.iter().filter(|line| line.contains(" from point to point")).cloned().collect()
+    };
+    let at = read("7, 7, 0, 0, 0", "\"a\", \"a\", \"b\", \"b\", \"b\"");
+    assert_eq!((&at.id, &at.group, &at.guide), (&Some(vec![7, 0]), &Some(vec![7, 0]), &Some(vec![true, false])));
+    assert_eq!(at.group_names, [(7, "a".to_owned()), (0, "b".to_owned())].into());
+    assert_eq!(said(&at), Vec::<String>::new());
+    let at = read("7, 7, 0, 0, 1", "\"a\", \"\", \"b\", \"b\", \"c\"");
+    assert_eq!((&at.id, &at.group, &at.guide), (&Some(vec![7, 0]), &Some(vec![7, 0]), &Some(vec![true, false])));
+    let line = |name: &str, curves: usize| {
+        format!(
+            "{name} from point to point: it changes along {curves} of 2 curves, and a strand has that of its root alone"
+        )
+    };
+    // The ids under another program's name are all there, by point.
+    assert!(at.other.iter().any(|other| other.name == "hairId" && other.per == Per::Point));
+    let expected =
+        [line("groom_id", 1), line("groom_group_id", 1), line("groom_guide", 1), line("groom_group_name", 2)];
+    assert_eq!(said(&at), expected);
+}
+
+#[test]
 fn texture_coordinates_of_points_stay_by_point() {
     let uvs = "[(0, 0), (0, 1), (0.5, 0), (0.5, 1)]";
     let text = format!(
@@ -303,7 +338,7 @@ fn texture_coordinates_of_points_stay_by_point() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("back.usda");
     let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), Form::Stage).unwrap());
-    sink.frame(&hair.strands, &Affine3A::IDENTITY).unwrap();
+    sink.frame(&hair.strands, &DAffine3::IDENTITY).unwrap();
     sink.finish().unwrap();
     let written = std::fs::read_to_string(path).unwrap();
     let st = written.split("primvars:st = ").nth(1).unwrap();
@@ -368,7 +403,7 @@ fn velocities_take_the_points_of_a_frame_to_those_of_the_next() {
         for frame in 0..3 {
             let mut strands = hair.strands.clone();
             strands.points_mut().iter_mut().for_each(|p| *p += Vec3::Y * (frame * frame) as f32);
-            sink.frame(&strands, &Affine3A::IDENTITY).unwrap();
+            sink.frame(&strands, &DAffine3::IDENTITY).unwrap();
         }
         sink.finish().unwrap();
         let again = StageReader::open(&path).unwrap().hair(2, None).unwrap();

@@ -4,7 +4,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use glam::{Affine3A, Quat, Vec2, Vec3};
+use glam::{DAffine3, Quat, Vec2, Vec3};
 use nabiki::hair::Attributes;
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_exchange::{Export, FrameSink, GroomReader, Placed};
@@ -43,12 +43,12 @@ fn groom() -> Hair {
     hair
 }
 
-fn pose(frame: usize) -> Affine3A {
+fn pose(frame: usize) -> DAffine3 {
     let turn = Quat::from_rotation_y(0.1 * frame as f32);
-    Affine3A::from_rotation_translation(turn, Vec3::new(frame as f32, 150.0, 0.0))
+    DAffine3::from_rotation_translation(turn.as_dquat(), Vec3::new(frame as f32, 150.0, 0.0).as_dvec3())
 }
 
-fn bytes(name: &str, export: Export<'_>, form: Form, poses: impl Fn(usize) -> Affine3A) -> Vec<u8> {
+fn bytes(name: &str, export: Export<'_>, form: Form, poses: impl Fn(usize) -> DAffine3) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     let mut sink = Box::new(HairStage::create(&path, export, form).unwrap());
@@ -95,8 +95,8 @@ fn the_skin_keeps_its_texture_coordinates_also_where_it_is_mirrored() {
     let (hair, mesh) = (groom(), textured());
     for (name, scale) in NAMES.into_iter().flat_map(|name| [Vec3::ONE, Vec3::new(-1.0, 1.0, 1.0)].map(|s| (name, s))) {
         let mut export = Export::new(&hair, 24.0);
-        (export.head, export.file_from_head) = (Some(&mesh), Affine3A::from_scale(scale));
-        let skin = reader(bytes(name, export, Form::Stage, |_| Affine3A::IDENTITY)).mesh().unwrap();
+        (export.head, export.file_from_head) = (Some(&mesh), DAffine3::from_scale(scale.as_dvec3()));
+        let skin = reader(bytes(name, export, Form::Stage, |_| DAffine3::IDENTITY)).mesh().unwrap();
         assert_eq!(corners(&skin), corners(&mesh), "{name}, {scale}");
     }
 }
@@ -107,7 +107,7 @@ fn every_frame_and_attribute_comes_back_to_the_bit() {
     for name in NAMES {
         let mut export = Export::new(&hair, 30.0);
         export.first_frame = -3;
-        let mut stage = reader(bytes(name, export, Form::Stage, |_| Affine3A::IDENTITY));
+        let mut stage = reader(bytes(name, export, Form::Stage, |_| DAffine3::IDENTITY));
         let contents = stage.contents().unwrap();
         assert_eq!(contents.curves, ["/head/hair"]);
         assert_eq!((contents.meters_per_unit, contents.z_up, contents.frame_rate), (Some(0.01), Some(false), 30.0));
@@ -131,7 +131,7 @@ fn text_is_the_same_wherever_it_is_cut_into_parts() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("long.usda");
     let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), Form::Stage).unwrap());
-    sink.frame(&hair.strands, &Affine3A::IDENTITY).unwrap();
+    sink.frame(&hair.strands, &DAffine3::IDENTITY).unwrap();
     sink.finish().unwrap();
     let text = std::fs::read_to_string(path).unwrap();
     assert!(text.len() > 3 << 18);
@@ -179,19 +179,19 @@ fn the_moving_head_carries_hair_and_skin() {
         for frame in 0..FRAMES {
             let read = stage.hair(frame, None).unwrap();
             for (&p, &q) in read.strands.points().iter().zip(strands(frame).points()) {
-                assert!(p.distance(pose(frame).transform_point3(q)) < 5e-5, "f32 near 150");
+                assert!(p.as_dvec3().distance(pose(frame).transform_point3(q.as_dvec3())) < 5e-5, "f32 near 150");
             }
         }
         let motion = stage.motion("head").unwrap();
         assert_eq!(motion.len(), FRAMES);
         for (frame, Placed { time, position, rotation }) in motion.into_iter().enumerate() {
             assert!((time - frame as f64 / 24.0).abs() < 1e-12);
-            assert_eq!(position.as_vec3(), Vec3::from(pose(frame).translation));
+            assert_eq!(position.as_vec3(), pose(frame).translation.as_vec3());
             assert!(1.0 - rotation.as_quat().dot(Quat::from_rotation_y(0.1 * frame as f32)).abs() < 1e-6);
         }
         let skin = stage.mesh().unwrap();
         assert_eq!(skin.triangles, mesh.triangles);
-        assert_eq!(skin.positions[1], pose(0).transform_point3(Vec3::X));
+        assert_eq!(skin.positions[1], pose(0).transform_point3(glam::DVec3::X).as_vec3());
     }
 }
 
@@ -218,8 +218,8 @@ fn a_layer_of_samples_holds_nothing_else() {
 #[test]
 fn a_groom_goes_back_into_its_own_space() {
     // A file in metres with z up: what an importer would have applied, and its inverse for the way back.
-    let head_from_file = Affine3A::from_scale(Vec3::splat(100.0))
-        * Affine3A::from_mat3(glam::Mat3::from_cols(Vec3::X, Vec3::NEG_Z, Vec3::Y));
+    let head_from_file = DAffine3::from_scale(glam::DVec3::splat(100.0))
+        * DAffine3::from_mat3(glam::DMat3::from_cols(glam::DVec3::X, glam::DVec3::NEG_Z, glam::DVec3::Y));
     let mut hair = Hair::from(strands(0));
     hair.attributes.constant.width = Some(0.01);
     let mut export = Export::new(&hair, 24.0);
@@ -231,8 +231,8 @@ fn a_groom_goes_back_into_its_own_space() {
         assert_eq!(stage.contents().unwrap().z_up, Some(true));
         let read = stage.hair(4, None).unwrap();
         for (&p, &q) in read.strands.points().iter().zip(strands(4).points()) {
-            let expected = head_from_file.inverse().transform_point3(pose(4).transform_point3(q));
-            assert!(p.distance(expected) < 1e-6, "{p} {expected}");
+            let expected = (head_from_file.inverse() * pose(4)).transform_point3(q.as_dvec3());
+            assert!(p.as_dvec3().distance(expected) < 1e-6, "{p} {expected}");
         }
         assert!((read.attributes.width.unwrap()[0] - 1e-4).abs() < 1e-10);
     }

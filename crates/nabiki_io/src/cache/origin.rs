@@ -1,6 +1,6 @@
 //! The file that a cache's hair came from, so that it can go back into that file's own space.
 
-use glam::{Affine3A, Vec3};
+use glam::{DAffine3, Vec3};
 
 use crate::{
     axis::Axis,
@@ -60,8 +60,13 @@ impl Origin {
     }
 }
 
-/// Two numbers, of the name's bytes and of the curves, the name, then of each curves' points, its path's bytes, and it. Where
-/// some curves are cubic or below a transform, there follow for each a number, 1 for cubics, and that transform's columns.
+/// What the number of each curves says before their transform: that they are cubic, and that its columns are doubles, as all are
+/// that are written now.
+const CUBIC: u32 = 1;
+const DOUBLES: u32 = 2;
+
+/// Two numbers, of the name's bytes and of the curves, the name, then of each curves' points, its path's bytes, and it. There follow
+/// for each a number, of [`CUBIC`] and [`DOUBLES`], and the columns of the transform above it.
 pub(super) fn groom_bytes(groom: &GroomCurves) -> Result<Vec<u8>> {
     let whole = |n: usize| u32::try_from(n).map_err(|_| Error::new("the groom's file: a name of 2^32 bytes or more"));
     let mut out = Vec::new();
@@ -72,11 +77,9 @@ pub(super) fn groom_bytes(groom: &GroomCurves) -> Result<Vec<u8>> {
         put(&mut out, &[whole(path.len())?])?;
         out.extend_from_slice(path.as_bytes());
     }
-    if groom.curves.iter().any(|prim| prim.cubic || prim.world_from_curves != Affine3A::IDENTITY) {
-        for CurvePrim { cubic, world_from_curves, .. } in &groom.curves {
-            put(&mut out, &[u32::from(*cubic)])?;
-            put(&mut out, &world_from_curves.to_cols_array())?;
-        }
+    for CurvePrim { cubic, world_from_curves, .. } in &groom.curves {
+        put(&mut out, &[DOUBLES + if *cubic { CUBIC } else { 0 }])?;
+        put(&mut out, &world_from_curves.to_cols_array())?;
     }
     Ok(out)
 }
@@ -101,30 +104,34 @@ pub(super) fn groom_from_bytes(bytes: &[u8]) -> Result<GroomCurves> {
         for _ in 0..count {
             let (points, length) = (u64::from_le_bytes(number(&mut rest)?), number(&mut rest)?);
             let path = text(&mut rest, length)?;
-            curves.push(CurvePrim { path, points, cubic: false, world_from_curves: Affine3A::IDENTITY });
+            curves.push(CurvePrim { path, points, cubic: false, world_from_curves: DAffine3::IDENTITY });
         }
-        if !rest.is_empty() {
-            for prim in &mut curves {
-                prim.cubic = match u32::from_le_bytes(number(&mut rest)?) {
-                    0 => false,
-                    1 => true,
-                    _ => return None,
-                };
-                let mut columns = [0.0; 12];
-                for number_there in &mut columns {
-                    *number_there = f32::from_le_bytes(number(&mut rest)?);
-                }
-                prim.world_from_curves = Affine3A::from_cols_array(&columns);
+        // Caches of before transforms were kept end here.
+        let placed = curves.is_empty() || !rest.is_empty();
+        for prim in curves.iter_mut().filter(|_| placed) {
+            let kind = u32::from_le_bytes(number(&mut rest)?);
+            if kind > CUBIC + DOUBLES {
+                return None;
             }
+            prim.cubic = kind & CUBIC != 0;
+            let mut columns = [0.0; 12];
+            for column in &mut columns {
+                *column = if kind & DOUBLES != 0 {
+                    f64::from_le_bytes(number(&mut rest)?)
+                } else {
+                    f64::from(f32::from_le_bytes(number(&mut rest)?))
+                };
+            }
+            prim.world_from_curves = DAffine3::from_cols_array(&columns);
         }
-        rest.is_empty().then_some(GroomCurves { file, curves })
+        rest.is_empty().then_some(GroomCurves { file, curves, placed })
     };
     read().ok_or_else(damaged)
 }
 
 #[cfg(test)]
 mod tests {
-    use glam::Quat;
+    use glam::{DQuat, DVec3};
 
     use super::*;
 
@@ -157,19 +164,34 @@ mod tests {
             let path = path.to_owned();
             CurvePrim { path, points, cubic, world_from_curves }
         };
-        let turned = Affine3A::from_rotation_translation(Quat::from_rotation_x(0.4), Vec3::new(0.0, 150.0, -2.5));
-        for (cubic, world_from_curves) in [(false, Affine3A::IDENTITY), (true, Affine3A::IDENTITY), (false, turned)] {
+        let far = DVec3::new(0.0, 150.0, -123_456.789);
+        let turned = DAffine3::from_rotation_translation(DQuat::from_rotation_x(0.4), far);
+        for (cubic, world_from_curves) in [(false, DAffine3::IDENTITY), (true, DAffine3::IDENTITY), (false, turned)] {
             let second = prim("/head/\u{30d2}\u{30b2}", 3, cubic, world_from_curves);
-            let curves = vec![prim("/head/hair", 1 << 40, false, Affine3A::IDENTITY), second];
-            let groom = GroomCurves { file: "grooms/a b.usdc".to_owned(), curves };
+            let curves = vec![prim("/head/hair", 1 << 40, false, DAffine3::IDENTITY), second];
+            let groom = GroomCurves { file: "grooms/a b.usdc".to_owned(), curves, placed: true };
             let bytes = groom_bytes(&groom).unwrap();
             assert_eq!(groom_from_bytes(&bytes).unwrap(), groom);
-            // What places curves is a block that older caches lack.
-            let placed = if cubic || world_from_curves != Affine3A::IDENTITY { 2 * 52 } else { 0 };
-            for length in (0..bytes.len()).filter(|&length| length != bytes.len() - placed) {
+            // Older caches lack what places the curves, and those after them have it in singles.
+            let unplaced = bytes.len() - 2 * 100;
+            for length in (0..bytes.len()).filter(|&length| length != unplaced) {
                 assert!(groom_from_bytes(&bytes[..length]).is_err(), "{length} bytes");
             }
             assert!(groom_from_bytes(&[&bytes[..], &[0]].concat()).is_err());
+            let old = groom_from_bytes(&bytes[..unplaced]).unwrap();
+            assert!(!old.placed && old.curves.iter().all(|prim| prim.world_from_curves == DAffine3::IDENTITY));
+            let mut singles = bytes[..unplaced].to_vec();
+            for CurvePrim { cubic, world_from_curves, .. } in &groom.curves {
+                singles.extend(u32::from(*cubic).to_le_bytes());
+                singles
+                    .extend(world_from_curves.to_cols_array().map(|x| x as f32).into_iter().flat_map(f32::to_le_bytes));
+            }
+            let read = groom_from_bytes(&singles).unwrap();
+            for (found, prim) in read.curves.iter().zip(&groom.curves) {
+                assert_eq!((read.placed, found.cubic), (true, prim.cubic));
+                let singles = prim.world_from_curves.to_cols_array().map(|x| f64::from(x as f32));
+                assert_eq!(found.world_from_curves.to_cols_array(), singles);
+            }
         }
     }
 }

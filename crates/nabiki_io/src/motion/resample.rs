@@ -39,8 +39,9 @@ impl Track {
         let poses = poses(&world_from_file, samples, source).map_err(named)?;
         let rate = (self.times.len() - 1) as f64 / duration.max(f64::MIN_POSITIVE);
         let of_shot = (exchange::is_usd(&source.file) || exchange::is_alembic(&source.file)) && source.speed == 1.0;
-        let first_frame = if of_shot { (self.times[0] * frame_rate).round() as i32 } else { 0 };
-        let shot = if first_frame == 0 { String::new() } else { format!(" from frame {first_frame} of the shot on") };
+        let first_frame = of_shot.then(|| (self.times[0] * frame_rate).round() as i32);
+        let shot = first_frame.filter(|&first| first != 0);
+        let shot = shot.map_or_else(String::new, |first| format!(" from frame {first} of the shot on"));
         let report = format!(
             "{}: {}, {} samples at {} Hz ({:.3} s) -> {} frames at {} Hz{shot}{} (positions {}, rotations slerp; unit {} cm, \
              up {}, face {})",

@@ -20,9 +20,9 @@ pub struct HeadMotion {
     pub frame_rate: f64,
     /// World poses, one for each frame.
     pub poses: Vec<Pose>,
-    /// Number of the first frame on the time line of the shot, which files of whole scenes (USD, Alembic) have; 0 in others, and where
-    /// the motion plays at another speed.
-    pub first_frame: i32,
+    /// Number of the first frame on the time line of the shot, which files of whole scenes (USD, Alembic) have; `None` in others, and
+    /// where the motion plays at another speed.
+    pub first_frame: Option<i32>,
     /// What was read and how it was converted, in one line for the user.
     pub report: String,
 }

@@ -9,7 +9,7 @@
 """
 
 from ._error import Error
-from ._nabiki import Field, Frame, Simulation, Solution, Timeline, convert, info, new, write_hair
+from ._nabiki import Field, Frame, Simulation, Solution, Timeline, __version__, convert, info, new, write_hair
 from ._scene import Scene
 
 __all__ = [
@@ -20,6 +20,7 @@ __all__ = [
     "Simulation",
     "Solution",
     "Timeline",
+    "__version__",
     "convert",
     "info",
     "new",

@@ -72,7 +72,7 @@ pub(super) fn build(
             && known.shard.is_none()
             && shown.of(known.strands_of_scene).is_ok_and(|count| count == known.hair.strands.len())
     });
-    let LoadedHair { mut hair, roots, ids, of_scene, shard, first, imported, frames } = match same_hair {
+    let LoadedHair { mut hair, roots, ids, of_scene, shard, first, imported, frames, begins } = match same_hair {
         Some(known) => LoadedHair::of(known),
         None => {
             let mut loaded = load_hair(&scene, &head, &placement, Wanted { shown, shard }, same_head)?;
@@ -116,6 +116,7 @@ pub(super) fn build(
         judged,
         motion_report,
         motion_begins,
+        hair_begins: begins,
         bodies,
         ids,
         poses,
@@ -158,6 +159,8 @@ struct LoadedHair {
     imported: Option<Imported>,
     /// Frames of the file.
     frames: usize,
+    /// When the shot begins that the file is of (s), where it says so.
+    begins: Option<f64>,
 }
 
 /// What there is to know of a hair file.
@@ -190,6 +193,7 @@ impl LoadedHair {
             first: built.first.clone(),
             imported,
             frames: built.frames_in_file,
+            begins: built.hair_begins,
         }
     }
 }
@@ -250,7 +254,8 @@ fn load_hair(
             };
             let ids = run.map(|number| number as u32).collect();
             let shard = wanted.shard.map(|shard| ShardOf { shard, strands: count, groom: StrandSum::default() });
-            Ok(LoadedHair { hair, roots, ids, of_scene: settings.strands, shard, first, imported: None, frames: 1 })
+            let of_scene = settings.strands;
+            Ok(LoadedHair { hair, roots, ids, of_scene, shard, first, imported: None, frames: 1, begins: None })
         }
         HairSource::Imported(settings) => import(scene, settings, head_placement, wanted),
     }
@@ -270,7 +275,7 @@ fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, wa
     let declared = groom.declared_space()?;
     let placement = hair_placement(settings, head_placement, declared);
     placement.check("hair").map_err(|refused| scene.refusal(refused))?;
-    let in_file = groom.hair(0, None)?;
+    let in_file = groom.hair_in_place(0, None)?;
     let judged = seat::judged(&in_file);
     let placed = hair::place_and_clean(in_file, &placement, &settings.cleaning());
     let (hair, report) = placed.map_err(|e| e.in_file(&file))?;
@@ -298,9 +303,9 @@ fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, wa
         None => Ok(hair),
     };
     let (hair, first) = (cut(hair)?, cut(first)?.strands);
-    let (frames, groom) = (groom.frames()?, groom.curves(&settings.file)?);
+    let (frames, begins, groom) = (groom.frames()?, groom.start()?, groom.curves(&settings.file)?);
     let imported = Some(Imported { placement, groom, report, declared, judged });
-    Ok(LoadedHair { hair, roots: Arc::default(), ids, of_scene, shard, first, imported, frames })
+    Ok(LoadedHair { hair, roots: Arc::default(), ids, of_scene, shard, first, imported, frames, begins })
 }
 
 /// The first `count` strands of the farthest-first order of the roots.

@@ -69,7 +69,8 @@ pub struct ImportedHair {
     pub facing: Option<Axis>,
     /// Point of the file that becomes the origin of head space (file units; default: the same place as the head's).
     pub origin: Option<Vec3>,
-    /// Neighbouring points of a strand this close are joined (cm, default 0.001).
+    /// Neighbouring points of a strand this close are joined (cm, default 0.001; 0 joins those alone that lie in one place, between which a
+    /// strand has no direction to move in).
     pub join_within: f32,
     /// Strands shorter than this are dropped (cm, default 0: only those without any extent).
     pub drop_shorter_than: f32,

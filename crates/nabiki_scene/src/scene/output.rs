@@ -22,7 +22,8 @@ pub struct Output {
     /// Frames of the contact sheet (default: four, evenly from frame 0 on, as the paper's Figure 6 has them).
     pub sheet: Option<Vec<u32>>,
     /// Number of frame 0 on the time line of the shot: exports of moving hair (USD, Alembic) go on from it, pictures keep the numbers of the
-    /// scene. -10000000..10000000 (default: that of the head's motion, where it is from USD or Alembic and plays at its own speed, else 0).
+    /// scene. -10000000..10000000 (default: that of the head's motion, where it is from USD or Alembic and plays at its own speed, else that of
+    /// the hair's USD layer, `startTimeCode`, or Alembic archive, else 0).
     pub first_frame: Option<i32>,
 }
 

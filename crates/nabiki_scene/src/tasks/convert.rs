@@ -171,7 +171,7 @@ impl Input {
                 let pose = cache.read(frame.into(), &mut cache.header().strands())?;
                 let hair = cache.hair(frame.into())?;
                 let hair = match placement(cache) {
-                    Some(placement) => hair.transformed(&placement.file_from_head()),
+                    Some(placement) => nabiki_exchange::transformed(hair, &placement.file_from_head_in_doubles()),
                     None => hair,
                 };
                 let Some(segments) = options.segments else { return Ok((hair, pose)) };
@@ -342,7 +342,7 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
     each_frame(watch, "converting", 0..=last, |frame| {
         let pose = cache.read(frame.into(), &mut strands)?;
         head_moves |= pose != Pose::STILL;
-        sink.frame(&strands, &pose.world_from_head()).map_err(failed)
+        sink.frame(&strands, &pose.world_from_head().as_daffine3()).map_err(failed)
     })?;
     sink.finish().map_err(failed)?;
     let mut losses: Vec<String> =
@@ -363,7 +363,7 @@ fn exchanged_frames(options: &ConvertOptions, mut groom: GroomFile, watch: &mut 
     let declared = said(options, in_file)?;
     let mut export = moving.export(&hair);
     export.first_frame = options.first_frame.unwrap_or(export.first_frame);
-    export.meters_per_unit = declared.unit.map_or(export.meters_per_unit, |unit| f64::from(unit.cm) / 100.0);
+    export.meters_per_unit = declared.unit.map_or(export.meters_per_unit, Unit::metres);
     export.z_up = declared.up == Some(Axis::PlusZ);
     let failed = |e: std::io::Error| Error::from(nabiki_io::Error::from(e).in_file(output));
     let frames = moving.frames() as u32;

@@ -2,9 +2,11 @@
 
 use std::path::Path;
 
+use nabiki::dynamics::check_field;
 use nabiki_render::Picture;
 
-use crate::built::Shown;
+use crate::advice::Advice;
+use crate::built::{BuiltScene, Shown};
 use crate::cache_file::write_cache;
 use crate::error::Result;
 use crate::film::Film;
@@ -39,6 +41,7 @@ pub fn preview(scene: Scene, shown: Shown, folder: &Path, cache: Option<&Path>, 
     let name = format!("{}_preview", scene.name());
     let mut outputs = PictureOutputs::begin(&built, &picture, folder, &name, &scene.inputs(), &mut folders, watch)?;
     super::introduce(&built, watch);
+    super::advise(whole_is_refused(&built)?, watch);
     let mut film = Film::new(&built, &picture, &mut simulated.again(), watch)?;
     let mut frames = simulated.again();
     let summary = film.shoot(&mut frames, &mut outputs, watch)?;
@@ -50,6 +53,19 @@ pub fn preview(scene: Scene, shown: Shown, folder: &Path, cache: Option<&Path>, 
     }
     super::wrote(written, watch);
     Ok(())
+}
+
+/// That all strands of a hair file would be refused where those shown are not: one that is shorter than these may be among them.
+/// Grown hair would have to be grown whole to know.
+fn whole_is_refused(built: &BuiltScene) -> Result<Option<Advice>> {
+    let (shown, all) = (built.hair.strands.len(), built.strands_of_scene);
+    if built.scene.hair.imported().is_none() || shown == all {
+        return Ok(None);
+    }
+    let whole = built.changed_to(built.scene.clone(), Shown::All)?;
+    let Err(refused) = check_field(&whole.hair.strands, &whole.dynamics, &*whole.field) else { return Ok(None) };
+    let seen = format!("{shown} strands of {all} are moved; all of them would be refused: {}", whole.refusal(refused));
+    Ok(Some(Advice { seen, settings: Vec::new() }))
 }
 
 /// A smaller picture of thicker hair: each strand stands for `share` of them, but is not drawn as thick as rope.

@@ -141,7 +141,9 @@ class HairSettings(Table):
 
     @property
     def join_within(self) -> float:
-        """Neighbouring points of a strand this close are joined (cm, default 0.001)."""
+        """Neighbouring points of a strand this close are joined (cm, default 0.001; 0 joins those alone that lie in one
+        place, between which a strand has no direction to move in).
+        """
         value: float = self._get('join_within')
         return value
 

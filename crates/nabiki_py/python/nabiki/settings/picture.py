@@ -804,7 +804,8 @@ class Output(Table):
     def first_frame(self) -> int | None:
         """Number of frame 0 on the time line of the shot: exports of moving hair (USD, Alembic) go on from it, pictures
         keep the numbers of the scene. -10000000..10000000 (default: that of the head's motion, where it is from USD
-        or Alembic and plays at its own speed, else 0).
+        or Alembic and plays at its own speed, else that of the hair's USD layer, `startTimeCode`, or Alembic archive,
+        else 0).
         """
         value: int | None = self._get('first_frame')
         return value

@@ -7,7 +7,7 @@ use nabiki::distance::SkinDistance;
 use nabiki::dynamics::{Dynamics, Form};
 use nabiki::free_form::{FreeMotion, Neighbours, earth_gravity};
 use nabiki::pseudo_force::PseudoForce;
-use nabiki::{Head, Mesh, Pose, Strands};
+use nabiki::{Head, Pose, Strands};
 use nabiki_io::{declared_space, mesh};
 
 use super::{read_motion, there};
@@ -62,13 +62,11 @@ pub(super) fn set(
     for (i, settings) in scene.bodies.iter().enumerate() {
         let name = format!("body[{i}]");
         let known = known.same_rate.and_then(|known| known_body(known, settings, i));
-        let (BuiltBody { mesh, way }, distance) = match known {
+        let (body, distance) = match known {
             Some((body, distance)) => (body, distance),
-            None => {
-                let (mesh, way) = mesh_and_way(scene, settings, &name)?;
-                (BuiltBody { mesh, way }, None)
-            }
+            None => (load(scene, settings, &name)?, None),
         };
+        let BuiltBody { mesh, way, .. } = &body;
         let frames = scene.motion.frames;
         let long_enough = if settings.motion.is_some() { way.check_length(&name, frames) } else { Ok(()) };
         long_enough.and_then(|()| way.check(&name, frames)).map_err(|refused| scene.refusal(refused))?;
@@ -82,7 +80,7 @@ pub(super) fn set(
             };
             bodies.push(Body { name, distance, filled: None, way: way.clone(), contact: settings.contact() });
         }
-        drawn.push(BuiltBody { mesh, way });
+        drawn.push(body);
     }
     let neighbours = scene.neighbours.as_ref().map(|forces| {
         let carriers = (forces.carriers as usize).min(first.len());
@@ -122,16 +120,16 @@ fn known_body(known: &BuiltScene, settings: &BodySettings, i: usize) -> Option<(
     Some((body, solid.map(|body| body.distance.clone())))
 }
 
-fn mesh_and_way(scene: &Scene, settings: &BodySettings, name: &str) -> Result<(Mesh, BodyWay)> {
+fn load(scene: &Scene, settings: &BodySettings, name: &str) -> Result<BuiltBody> {
     let file = there(scene, &format!("{name}.mesh"), &settings.mesh)?;
     let declared = declared_space(&file)?;
     let placement = settings.placement(declared.unit, declared.up);
     placement.check(name).map_err(|refused| scene.refusal(refused))?;
-    let (mesh, _) = mesh::import(&file, &placement, &settings.groups)?;
+    let (mesh, report) = mesh::import(&file, &placement, &settings.groups)?;
     let way = match &settings.motion {
         _ if settings.with_head => BodyWay::WithHead,
         None => BodyWay::InWorld(Arc::new([Pose::STILL])),
         Some(source) => BodyWay::InWorld(read_motion(scene, source, &format!("{name}.motion"))?.poses.into()),
     };
-    Ok((mesh, way))
+    Ok(BuiltBody { mesh, unread: report.unread, way })
 }
