@@ -47,8 +47,8 @@ pub use timeline::{Film, Timeline};
 pub struct Motion {
     /// Frames after the rest frame 0 (N_f).
     pub frames: u32,
-    /// Frames in a second, finite and above 0. The steppers count frames and never see it: it says where a recorded
-    /// head is in each of them, and how fast the frames are shown.
+    /// Frames in a second, finite and above 0. Hair moves by frames, whatever this is: it says where a recorded head is in each
+    /// of them, how fast they are shown, and in the free form how strongly accelerations of the head are felt.
     pub frame_rate: f64,
     /// Delta t of equation (7), above 0 (its unit is the step's own: a frame is one step).
     pub time_step: f32,
@@ -184,21 +184,30 @@ impl Dynamics {
 }
 
 /// What a step needs to know of the frame that it arrives at.
+///
+/// Where the head's way is known beforehand, [`new`](Self::new) takes it from there. An engine, which knows only where the head is
+/// now, fills in the fields: `before` is then `[pose of the last step, of the step before that]`. A head that jumps has
+/// `before: [pose; 2]`: hair goes along as it is, and feels nothing of the jump; see [`Simulation::jumped`] for bodies.
+///
+/// A step takes all of it as it is: poses are to be [valid](Pose::is_valid), forces finite and within the bound of the field that
+/// the stepper was built with. A NaN stays in the hair until it is put back to rest.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameInput<'a> {
-    /// Number n + 1 of the frame to arrive at; 1 is the first after rest.
+    /// Number n + 1 of the frame to arrive at; 1 is the first after rest. Fields, bodies on their way and disturbances go by it; it
+    /// need not follow the last one, and may lie beyond [`Motion::frames`].
     pub frame: u32,
     /// Where the head is in that frame. Forces given in the world act on the hair as it would stand if it only went
     /// along with the head: F(n + 1) is asked for at p_i of frame n, carried by this pose.
     pub pose: Pose,
     /// Where it was in the two frames before, the later one first: the free form feels turns and accelerations.
     pub before: [Pose; 2],
-    /// What pulls. Its strength is bounded when a stepper is built, and taken as it is here.
+    /// What pulls, any field in any step. Its strength is bounded when a stepper is built, and taken as it is here: see
+    /// [`Simulation::strongest_force`].
     pub field: &'a dyn Field,
 }
 
 impl<'a> FrameInput<'a> {
-    /// A frame from 1 on of a head whose `poses` are given from frame 0 on; none for a head that stands still, and the last
+    /// A frame from 1 on of a head whose `poses`, all of them, are given from frame 0 on; none for a head that stands still, and the last
     /// one holds for good. Before frame 0 the head went as it goes from there on.
     pub fn new(frame: u32, poses: &[Pose], field: &'a dyn Field) -> Self {
         let pose = |n: u32| poses.get(n as usize).or(poses.last()).copied().unwrap_or_default();

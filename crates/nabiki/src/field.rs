@@ -44,6 +44,9 @@ pub type VectorRow = [[f32; ROW]; 3];
 /// are in the world (cm, y up), or in head space where `motion.force_space` says that forces turn with the head. The
 /// answer depends on point and frame only and is finite: hair moves to the same bits whoever asks, and in whatever
 /// order.
+///
+/// Wind that changes as a game goes on is a field that holds the wind of now and is changed between steps, with the most
+/// that it will ever be as its `strongest`; `crates/nabiki/examples/engine.rs` has one.
 pub trait Field: Debug + Send + Sync {
     /// The force at a point (cm) in a frame.
     fn at(&self, point: Vec3, frame: u32) -> Vec3;

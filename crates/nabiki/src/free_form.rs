@@ -171,7 +171,8 @@ impl NeighbourForces {
 pub struct Neighbours {
     /// Strengths.
     pub forces: NeighbourForces,
-    /// The carriers at rest (head space, cm), whichever strands are stepped.
+    /// The carriers at rest (head space, cm), whichever strands are stepped: of hair of one's own
+    /// `hair.select(&evenly(&roots, 256))`, see [`evenly`](crate::subset::evenly).
     pub carriers: Arc<Strands>,
 }
 

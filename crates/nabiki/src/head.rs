@@ -61,7 +61,7 @@ impl Head {
         Ok(Self { ellipsoid, ..self })
     }
 
-    /// Any head from its mesh, face toward +x. Without an `ellipsoid`, E is fitted to the skull above the ears and
+    /// Any head from its mesh in cm, face toward +x; a person's head has half axes of about 9, which tells a wrong unit. Without an `ellipsoid`, E is fitted to the skull above the ears and
     /// behind the face, whatever the size of the head and where the origin lies.
     ///
     /// Triangles that face inward are turned ([`Mesh::turn_outward`]), and [`orientation`](Self::orientation) says how

@@ -8,6 +8,12 @@
 //! radians, time is counted in frames. Forces are directions with a strength, not newtons: only their product with
 //! the gain c_i of equation (8) moves hair.
 //!
+//! # Where to begin
+//!
+//! [`Head::from_mesh`] and [`Strands::push`] take a head and hair of one's own, [`groom::grow`] grows some;
+//! [`Simulation`](dynamics::Simulation) moves it frame by frame, as an engine does (`crates/nabiki/examples/engine.rs`), and
+//! [`Timeline`](dynamics::Timeline) has all frames at hand, as an editor does.
+//!
 //! # A program
 //!
 //! ```
@@ -26,6 +32,7 @@
 //!     let (hairline, style) = (Hairline::default(), Style::default());
 //!     let growth =
 //!         Growth { hairline: &hairline, style: &style, strands: 2_000, segments: 18, segment_length: 1.0, seed: 1 };
+//!     // The first 20 of the 2,000, which move as they do among all.
 //!     let hair = grow(&head, &growth, 20)?;
 //!     let dynamics = Dynamics {
 //!         motion: Motion { inertia_length_floor: 18.0, ..Motion::default() },

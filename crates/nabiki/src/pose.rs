@@ -37,7 +37,18 @@ impl Pose {
         Self { position_cm, rotation: (turn * self.rotation).normalize() }
     }
 
+    /// The pose at a part of the way to `next`, 0..1: for steps that lie between two known poses. Places go straight, rotations by
+    /// the smaller turn at an even rate.
+    #[must_use]
+    pub fn between(&self, next: &Self, part: f32) -> Self {
+        Self {
+            position_cm: self.position_cm.lerp(next.position_cm, part),
+            rotation: self.rotation.slerp(next.rotation, part).normalize(),
+        }
+    }
+
     /// Takes points of head space into the world (cm).
+    #[must_use]
     pub fn world_from_head(&self) -> Affine3A {
         Affine3A::from_rotation_translation(self.rotation, self.position_cm)
     }

@@ -149,7 +149,20 @@ impl Stability {
 
     /// Whether the scheme is stable under a field.
     pub fn holds(&self, field: &dyn Field) -> bool {
-        self.gain * (f64::from(field.strongest()) + self.own) < 4.0
+        self.holds_force(field.strongest())
+    }
+
+    fn holds_force(&self, force: f32) -> bool {
+        self.gain * (f64::from(force) + self.own) < 4.0
+    }
+
+    /// The strongest force that [`holds`](Self::holds), of hair that is stable without one.
+    pub fn strongest_force(&self) -> f32 {
+        let mut force = ((4.0 / self.gain - self.own) as f32).min(f32::MAX);
+        while force > 0.0 && !self.holds_force(force) {
+            force = force.next_down();
+        }
+        force.max(0.0)
     }
 }
 

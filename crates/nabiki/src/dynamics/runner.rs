@@ -74,6 +74,32 @@ impl Runner {
         }
     }
 
+    /// The strongest force under which this hair can be stepped.
+    pub fn strongest_force(&self) -> f32 {
+        match &self.form {
+            OfForm::Paper(runner) => runner.strongest_force(),
+            OfForm::Free(runner) => runner.strongest_force(),
+        }
+    }
+
+    /// Stands where a clone stands; `false`, and no change, if `of` is none.
+    pub fn set_state(&mut self, of: &Self) -> bool {
+        match (&mut self.form, &of.form) {
+            (OfForm::Paper(runner), OfForm::Paper(of)) => runner.set_state(of),
+            (OfForm::Free(runner), OfForm::Free(of)) => runner.set_state(of),
+            _ => false,
+        }
+    }
+
+    /// The head or a body came at once where it is in the next step.
+    pub fn jumped(&mut self) {
+        match &mut self.form {
+            // It knows no bodies.
+            OfForm::Paper(_) => {}
+            OfForm::Free(runner) => runner.jumped(),
+        }
+    }
+
     /// Puts the hair back to rest.
     pub fn rewind(&mut self, width: VectorWidth, page: &mut [Vec3]) {
         match &mut self.form {

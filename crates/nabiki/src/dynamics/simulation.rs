@@ -22,7 +22,16 @@ pub enum VectorWidth {
 
 /// The fast stepper, twin of [`Reference`](super::Reference): one frame at a time, none of them kept.
 ///
-/// Nothing is allocated in a step. Threads are those of the rayon pool that calls.
+/// Nothing is allocated in a step. Threads are those of the rayon pool that calls; called from outside of any, rayon's global
+/// pool is started, and the caller waits for it. To hand a call to a pool from outside, as
+/// [`install`](rayon::ThreadPool::install) does, too, is rayon's work, and allocates once in some forty times. An engine that
+/// must not steps on threads of its pool, or on one of its own that it made a pool of one (`num_threads(1).use_current_thread()`,
+/// see [`ThreadPoolBuilder`](rayon::ThreadPoolBuilder::use_current_thread)): then no other thread takes part.
+///
+/// A clone moves by itself. What no frame changes is shared by all clones, so that many heads of the same groom cost little more
+/// than what moves, and a clone is a saved state: see [`set_state`](Self::set_state).
+///
+/// `crates/nabiki/examples/engine.rs` steps hair in an engine's loop, and docs/engine.md has all that such a loop should know.
 #[derive(Clone, Debug)]
 pub struct Simulation {
     runner: Runner,
@@ -63,12 +72,44 @@ impl Simulation {
     }
 
     /// The same simulation with vectors of another width.
+    #[must_use]
     pub fn with_vector_width(mut self, width: VectorWidth) -> Self {
         self.width = width;
         self
     }
 
-    /// Puts the hair back to rest, at frame 0.
+    /// How the hair moves.
+    #[must_use]
+    pub fn dynamics(&self) -> &Dynamics {
+        self.runner.dynamics()
+    }
+
+    /// The strongest |F| (in the unit of forces) with which the step is stable: what a field that changes at run time must not
+    /// exceed, since a step does not look. Of the hair's carriers, too.
+    #[must_use]
+    pub fn strongest_force(&self) -> f32 {
+        self.runner.strongest_force()
+    }
+
+    /// Stands where `of` stands, to the bit and without an allocation: to save a state into a clone, and to restore it. Points
+    /// written by [`step_frame_into`](Self::step_frame_into) are the caller's, and not part of it.
+    ///
+    /// # Panics
+    /// If neither is a clone of the other, or of the same simulation.
+    pub fn set_state(&mut self, of: &Self) {
+        assert!(self.runner.set_state(&of.runner), "a state is that of a clone of this simulation");
+        self.strands.points_mut().copy_from_slice(of.strands.points());
+        self.frame = of.frame;
+    }
+
+    /// Says that the head came at once where it is in the next step, whose [`FrameInput::before`] is that place, too. Among bodies
+    /// that do not go with the head hair would else not look for contact there, until it moves; nor after a
+    /// [`rewind`](Self::rewind) in such a place. It changes nothing else, and costs that step some distances.
+    pub fn jumped(&mut self) {
+        self.runner.jumped();
+    }
+
+    /// Puts the hair back to rest, at frame 0; [`strands`](Stepper::strands) shows it. Nothing is allocated.
     pub fn rewind(&mut self) {
         self.runner.rewind(self.width, self.strands.points_mut());
         self.frame = 0;

@@ -92,6 +92,7 @@ impl Timeline {
     }
 
     /// The same timeline with vectors of another width.
+    #[must_use]
     pub fn with_vector_width(mut self, width: VectorWidth) -> Self {
         self.width = width;
         self

@@ -72,7 +72,7 @@ pub(super) fn gap(distance: f32, clearance: f32) -> f32 {
 impl Obstacle {
     pub fn new(body: &Body, input: &FrameInput) -> Self {
         let now = body.head_from_body(input.frame, &input.pose);
-        let before = body.head_from_body(input.frame - 1, &input.before[0]);
+        let before = body.head_from_body(input.frame.saturating_sub(1), &input.before[0]);
         Self {
             static_friction: body.contact.static_friction,
             friction: body.contact.friction,

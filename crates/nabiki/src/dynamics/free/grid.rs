@@ -98,6 +98,14 @@ impl Crowd {
         self.pull();
     }
 
+    /// Takes what the same carriers left in another frame, into the room that is there.
+    pub fn take(&mut self, other: &Self) {
+        self.filled = other.filled;
+        self.content.copy_from_slice(&other.content);
+        self.excess.copy_from_slice(&other.excess);
+        self.pull.copy_from_slice(&other.pull);
+    }
+
     /// Spreads every point over the eight nodes about it, one after another: the sums do not depend on threads.
     fn splat(&mut self, points: &[Vec3], velocities: &[Vec3]) {
         for row in rows(self.nodes, self.filled[0]) {

@@ -9,6 +9,7 @@ use super::grid::Crowd;
 use super::kernel::FreeState;
 use super::packed::{Packed, Plan};
 use crate::dynamics::gain::{Named, unstable};
+use crate::dynamics::row::{LANES, Row};
 use crate::dynamics::sweep::{Pages, sweep};
 use crate::dynamics::{Dynamics, FrameInput, VectorWidth};
 use crate::error::SettingError;
@@ -19,7 +20,8 @@ use crate::strands::Strands;
 /// Some hair, what moves before it, and the frame that both are at.
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Runner {
-    packed: Packed,
+    /// Shared by all clones.
+    packed: Arc<Packed>,
     states: Vec<FreeState>,
     carriers: Option<Carriers>,
     /// Room for the bodies in one frame.
@@ -34,12 +36,12 @@ impl Runner {
         free: &FreeMotion,
         known: Option<&Self>,
     ) -> Result<Self, SettingError> {
-        let packed = Packed::new(strands, dynamics, free, known.map(|known| &known.packed))?;
+        let packed = Arc::new(Packed::new(strands, dynamics, free, known.map(|known| &*known.packed))?);
         let carriers = match &free.neighbours {
             None => None,
             Some(neighbours) => {
                 let known = known.and_then(|known| known.carriers.as_ref()).map(|carriers| &carriers.hair);
-                let known = known.filter(|known| known.strands == neighbours.carriers).map(|known| &known.packed);
+                let known = known.filter(|known| known.strands == neighbours.carriers).map(|known| &*known.packed);
                 Some(Carriers::new(Packed::new(&neighbours.carriers, dynamics, free, known)?, neighbours)?)
             }
         };
@@ -63,9 +65,36 @@ impl Runner {
         self.packed.dynamics()
     }
 
+    /// The strongest force under which this hair and its carriers can be stepped.
+    pub fn strongest_force(&self) -> f32 {
+        let of_carriers = self.carriers.as_ref().map(|carriers| carriers.hair.packed.strongest_force());
+        self.packed.strongest_force().min(of_carriers.unwrap_or(f32::MAX))
+    }
+
+    /// Stands where a clone stands; `false`, and no change, if `of` is none.
+    pub fn set_state(&mut self, of: &Self) -> bool {
+        let is_clone = Arc::ptr_eq(&self.packed, &of.packed);
+        if is_clone {
+            self.states.copy_from_slice(&of.states);
+            if let (Some(carriers), Some(of)) = (&mut self.carriers, &of.carriers) {
+                carriers.hair.states.copy_from_slice(&of.hair.states);
+                carriers.crowd.take(&of.crowd);
+            }
+        }
+        is_clone
+    }
+
+    /// Forgets how far all of it is from the bodies, so that the next step asks.
+    pub fn jumped(&mut self) {
+        let of_carriers = self.carriers.iter_mut().flat_map(|carriers| &mut carriers.hair.states);
+        for state in self.states.iter_mut().chain(of_carriers) {
+            state.gap = Row([f32::NEG_INFINITY; LANES]);
+        }
+    }
+
     /// Puts the hair back to rest.
     pub fn rewind(&mut self, width: VectorWidth, page: &mut [Vec3]) {
-        sweep(&self.packed, &[Plan::Rest], width, &mut self.states, Pages::Last(page));
+        sweep(&*self.packed, &[Plan::Rest], width, &mut self.states, Pages::Last(page));
         if let Some(carriers) = &mut self.carriers {
             carriers.rewind();
         }
@@ -77,14 +106,14 @@ impl Runner {
         packed.obstacles(input, obstacles);
         let Some(carriers) = carriers else {
             let plan = packed.plan(input, obstacles, None);
-            return sweep(&*packed, &[plan], width, states, Pages::Last(page));
+            return sweep(&**packed, &[plan], width, states, Pages::Last(page));
         };
         let Carriers { hair, crowd, next } = carriers;
         let plan = packed.plan(input, obstacles, Some(crowd));
         // What the carriers leave is one thread's work: it begins first.
         rayon::join(
             || hair.step(input, obstacles, width, crowd, next),
-            || sweep(&*packed, &[plan], width, states, Pages::Last(page)),
+            || sweep(&**packed, &[plan], width, states, Pages::Last(page)),
         );
         std::mem::swap(crowd, next);
     }
@@ -117,7 +146,7 @@ impl Runner {
         let steps = inputs.iter().zip(&obstacles).enumerate();
         let steps = steps.map(|(n, (input, obstacles))| packed.plan(input, obstacles, crowds.get(n)));
         let plans: Vec<Plan> = from_rest.then_some(Plan::Rest).into_iter().chain(steps).collect();
-        sweep(&*packed, &plans, width, states, pages);
+        sweep(&**packed, &plans, width, states, pages);
     }
 }
 
@@ -135,11 +164,11 @@ struct Carriers {
 struct CarrierHair {
     /// At rest, as given.
     strands: Arc<Strands>,
-    packed: Packed,
+    packed: Arc<Packed>,
     states: Vec<FreeState>,
     points: Vec<Vec3>,
     velocities: Vec<Vec3>,
-    crowd_at_rest: Crowd,
+    crowd_at_rest: Arc<Crowd>,
 }
 
 impl Carriers {
@@ -149,15 +178,16 @@ impl Carriers {
         let crowd = Crowd::new(neighbours, &points)?;
         let velocities = vec![Vec3::ZERO; points.len()];
         let strands = neighbours.carriers.clone();
-        let hair = CarrierHair { strands, states, packed, points, velocities, crowd_at_rest: crowd.clone() };
+        let (packed, crowd_at_rest) = (Arc::new(packed), Arc::new(crowd.clone()));
+        let hair = CarrierHair { strands, states, packed, points, velocities, crowd_at_rest };
         Ok(Self { hair, next: crowd.clone(), crowd })
     }
 
     fn rewind(&mut self) {
         let Self { hair, crowd, next } = self;
         hair.states.copy_from_slice(hair.packed.at_rest());
-        crowd.clone_from(&hair.crowd_at_rest);
-        next.clone_from(&hair.crowd_at_rest);
+        crowd.take(&hair.crowd_at_rest);
+        next.take(&hair.crowd_at_rest);
     }
 }
 
@@ -172,8 +202,8 @@ impl CarrierHair {
         next: &mut Crowd,
     ) {
         let plan = self.packed.plan(input, obstacles, Some(crowd));
-        sweep(&self.packed, &[plan], width, &mut self.states, Pages::Last(&mut self.points));
-        sweep(&self.packed, &[Plan::Velocities], width, &mut self.states, Pages::Last(&mut self.velocities));
+        sweep(&*self.packed, &[plan], width, &mut self.states, Pages::Last(&mut self.points));
+        sweep(&*self.packed, &[Plan::Velocities], width, &mut self.states, Pages::Last(&mut self.velocities));
         next.fill(&self.points, &self.velocities);
     }
 }

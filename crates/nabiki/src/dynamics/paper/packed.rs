@@ -82,6 +82,11 @@ impl Packed {
         self.stability.holds(field)
     }
 
+    /// The strongest force under which this hair can be stepped.
+    pub fn strongest_force(&self) -> f32 {
+        self.stability.strongest_force()
+    }
+
     pub fn dynamics(&self) -> &Dynamics {
         &self.dynamics
     }

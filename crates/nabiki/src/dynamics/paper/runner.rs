@@ -1,5 +1,7 @@
 //! The paper's form on its way through the frames.
 
+use std::sync::Arc;
+
 use glam::Vec3;
 
 use super::kernel::SegmentState;
@@ -14,7 +16,8 @@ use crate::strands::Strands;
 /// Some hair, and the frame that it is at.
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Runner {
-    packed: Packed,
+    /// Shared by all clones.
+    packed: Arc<Packed>,
     states: Vec<SegmentState>,
 }
 
@@ -22,7 +25,7 @@ impl Runner {
     /// Hair at rest in the given shape, whose settings have been checked; `ids` are the strands' numbers in the set they
     /// are some of.
     pub fn new(strands: &Strands, ids: &[u32], dynamics: &Dynamics) -> Result<Self, SettingError> {
-        let packed = Packed::new(strands, ids, dynamics)?;
+        let packed = Arc::new(Packed::new(strands, ids, dynamics)?);
         Ok(Self { states: packed.states(), packed })
     }
 
@@ -38,21 +41,35 @@ impl Runner {
         self.packed.dynamics()
     }
 
+    /// The strongest force under which this hair can be stepped.
+    pub fn strongest_force(&self) -> f32 {
+        self.packed.strongest_force()
+    }
+
+    /// Stands where a clone stands; `false`, and no change, if `of` is none.
+    pub fn set_state(&mut self, of: &Self) -> bool {
+        let is_clone = Arc::ptr_eq(&self.packed, &of.packed);
+        if is_clone {
+            self.states.copy_from_slice(&of.states);
+        }
+        is_clone
+    }
+
     /// Puts the hair back to rest.
     pub fn rewind(&mut self, width: VectorWidth, page: &mut [Vec3]) {
-        sweep(&self.packed, &[Plan::Rest], width, &mut self.states, Pages::Last(page));
+        sweep(&*self.packed, &[Plan::Rest], width, &mut self.states, Pages::Last(page));
     }
 
     /// Moves the hair by one frame.
     pub fn step(&mut self, input: &FrameInput, width: VectorWidth, page: &mut [Vec3]) {
         let plan = self.packed.plan(input);
-        sweep(&self.packed, &[plan], width, &mut self.states, Pages::Last(page));
+        sweep(&*self.packed, &[plan], width, &mut self.states, Pages::Last(page));
     }
 
     /// Moves the hair through many frames, the first of them rest itself if `from_rest`.
     pub fn run(&mut self, from_rest: bool, inputs: &[FrameInput], width: VectorWidth, pages: Pages) {
         let steps = inputs.iter().map(|input| self.packed.plan(input));
         let plans: Vec<Plan> = from_rest.then_some(Plan::Rest).into_iter().chain(steps).collect();
-        sweep(&self.packed, &plans, width, &mut self.states, pages);
+        sweep(&*self.packed, &plans, width, &mut self.states, pages);
     }
 }

@@ -27,8 +27,9 @@ class Motion(Table):
 
     @property
     def frame_rate(self) -> float:
-        """Frames in a second, finite and above 0. The steppers count frames and never see it: it says where a recorded
-        head is in each of them, and how fast the frames are shown.
+        """Frames in a second, finite and above 0. Hair moves by frames, whatever this is: it says where a recorded head
+        is in each of them, how fast they are shown, and in the free form how strongly accelerations of the head are
+        felt.
         """
         value: float = self._get('frame_rate')
         return value

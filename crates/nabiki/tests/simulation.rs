@@ -1,0 +1,203 @@
+//! The fast stepper as an engine uses it: on any thread, under wind that is bounded beforehand, saved, restored and put back to
+//! rest without an allocation.
+
+#[path = "common/allocations.rs"]
+mod allocations;
+mod common;
+
+use std::sync::Arc;
+
+use allocations::allocations;
+use common::{ball, bits, fast, field, gust, hair, way_of_a_head, wind};
+use glam::{Quat, Vec3};
+use nabiki::body::{Body, BodyWay, Contact, skin_of};
+use nabiki::dynamics::{Dynamics, Film, Form, FrameInput, Motion, Reference, Simulation, Stepper, Timeline};
+use nabiki::field::{Field, FieldSum};
+use nabiki::free_form::{FreeMotion, NeighbourForces, Neighbours};
+use nabiki::pseudo_force::PseudoForce;
+use nabiki::{Head, Pose, Profile, Strands};
+
+/// The free form among a head and neighbours.
+fn crowded() -> Dynamics {
+    let neighbours = Neighbours { forces: NeighbourForces::default(), carriers: Arc::new(hair(24, 18)) };
+    let mut free = FreeMotion { neighbours: Some(neighbours), rest_pose: way_of_a_head(0)[0], ..Default::default() };
+    free.bodies = vec![Body::head(&Head::builtin(), Contact::default())];
+    Dynamics { pseudo_force: PseudoForce::off(), form: Form::Free(free), ..gust() }
+}
+
+fn farthest(a: &Strands, b: &Strands) -> f32 {
+    a.points().iter().zip(b.points()).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max)
+}
+
+fn run(simulation: &mut Simulation, frames: std::ops::RangeInclusive<u32>) -> Vec<[u32; 3]> {
+    let poses = way_of_a_head(40);
+    for frame in frames {
+        simulation.step_frame(&FrameInput::new(frame, &poses, &wind()));
+    }
+    bits(simulation.strands())
+}
+
+#[test]
+fn what_an_engine_holds_goes_to_any_thread() {
+    fn is_free<T: Send + Sync>() {}
+    is_free::<Simulation>();
+    is_free::<Timeline>();
+    is_free::<Reference>();
+    is_free::<Film>();
+    is_free::<Head>();
+    is_free::<Dynamics>();
+    is_free::<FrameInput>();
+}
+
+#[test]
+fn a_saved_state_moves_on_to_the_same_bits_and_nothing_is_allocated_to_save_it() {
+    for dynamics in [gust(), crowded()] {
+        // Few enough strands for one thread, whose allocations are counted.
+        let mut simulation = fast(&hair(100, 18), &dynamics, &wind());
+        let at_rest = bits(simulation.strands());
+        let mut saved = simulation.clone();
+        let tenth = run(&mut simulation, 1..=10);
+        let before = allocations();
+        saved.set_state(&simulation);
+        assert_eq!(allocations(), before);
+        let twentieth = run(&mut simulation, 11..=20);
+        assert!(tenth != twentieth);
+        let before = allocations();
+        simulation.set_state(&saved);
+        assert_eq!(allocations(), before);
+        assert!((simulation.frame(), bits(simulation.strands())) == (10, tenth));
+        assert!(run(&mut simulation, 11..=20) == twentieth);
+        assert!(run(&mut saved, 11..=20) == twentieth);
+
+        let before = allocations();
+        simulation.rewind();
+        assert_eq!(allocations(), before);
+        assert!((simulation.frame(), bits(simulation.strands())) == (0, at_rest));
+        run(&mut simulation, 1..=10);
+        assert!(run(&mut simulation, 11..=20) == twentieth);
+    }
+}
+
+#[test]
+#[should_panic(expected = "a state is that of a clone of this simulation")]
+fn the_state_of_another_simulation_is_none() {
+    let [mut one, other] = [(); 2].map(|()| fast(&hair(10, 18), &crowded(), &wind()));
+    one.set_state(&other);
+}
+
+#[test]
+fn the_strongest_force_is_the_last_that_is_not_refused() {
+    for dynamics in [gust(), crowded()] {
+        let hair = hair(20, 18);
+        let strongest = fast(&hair, &dynamics, &FieldSum::default()).strongest_force();
+        let of = |strength: f32| field(&[(1, [-strength, 0.0, 0.0])]);
+        let accepted = |strength: f32| Simulation::new(&hair, &dynamics, &of(strength)).is_ok();
+        assert_eq!([strongest, strongest.next_up()].map(accepted), [true, false], "{strongest}");
+    }
+}
+
+#[test]
+fn a_frame_that_is_none_does_not_panic() {
+    let mut simulation = fast(&hair(20, 18), &crowded(), &wind());
+    let mut reference = Reference::new(&hair(20, 18), &crowded(), &wind()).unwrap();
+    let (poses, calm) = (way_of_a_head(1), FieldSum::default());
+    let input = FrameInput::new(0, &poses, &calm);
+    simulation.step_frame(&input);
+    reference.step_frame(&input);
+    assert_eq!((simulation.frame(), reference.frame()), (0, 0));
+}
+
+#[test]
+fn a_head_that_jumps_takes_its_hair_along() {
+    let dynamics = Dynamics { form: Form::Free(FreeMotion::default()), pseudo_force: PseudoForce::off(), ..gust() };
+    let hair = hair(20, 18);
+    let mut simulation = fast(&hair, &dynamics, &FieldSum::default());
+    let there = Pose { position_cm: Vec3::new(1e4, -3e3, 2.0), rotation: Quat::from_rotation_y(2.0) };
+    let calm: &dyn Field = &FieldSum::default();
+    let input = |before| FrameInput { frame: 1, pose: there, before, field: calm };
+    simulation.step_frame(&input([there; 2]));
+    // But for the rounding of its weight under a head that is turned otherwise.
+    assert!(farthest(simulation.strands(), &hair) < 1e-5);
+    simulation.step_frame(&input([Pose::STILL; 2]));
+    assert!(farthest(simulation.strands(), &hair) > 1.0);
+}
+
+#[test]
+fn a_head_that_jumps_beside_a_body_of_the_world_keeps_its_hair_out_of_it() {
+    let skin = Arc::new(skin_of(ball(5.0), "ball").unwrap());
+    // Where hair rests that hangs before the face, without the head.
+    let beside = Vec3::new(15.0, 2.0, 0.0);
+    let way = BodyWay::InWorld([Pose { position_cm: Vec3::new(200.0, 0.0, 0.0), ..Pose::STILL }].into());
+    let body = Body { name: "body[0]".into(), distance: skin.clone(), filled: None, way, contact: Contact::default() };
+    let free = FreeMotion { bodies: vec![body], ..Default::default() };
+    let dynamics = Dynamics { form: Form::Free(free), pseudo_force: PseudoForce::off(), ..gust() };
+    let (hair, calm) = (hair(200, 18), FieldSum::default());
+    let pose = Pose { position_cm: Vec3::new(200.0, 0.0, 0.0) - beside, ..Pose::STILL };
+    let inside = |simulation: &Simulation| {
+        simulation.strands().points().iter().filter(|p| skin.at(**p - beside) < -0.01).count()
+    };
+    let mut simulation = fast(&hair, &dynamics, &calm);
+    assert!(inside(&simulation) > 20, "{}", inside(&simulation));
+    for rewound in [false, true] {
+        if rewound {
+            simulation.rewind();
+        }
+        simulation.jumped();
+        simulation.step_frame(&FrameInput { frame: 1, pose, before: [pose; 2], field: &calm });
+        assert_eq!(inside(&simulation), 0, "rewound: {rewound}");
+    }
+}
+
+#[test]
+fn to_look_for_contact_anew_changes_no_bit() {
+    let mut simulation = fast(&hair(100, 18), &crowded(), &wind());
+    let mut looking = simulation.clone();
+    for frame in 1..=20 {
+        looking.jumped();
+        assert!(run(&mut simulation, frame..=frame) == run(&mut looking, frame..=frame), "frame {frame}");
+    }
+}
+
+#[test]
+fn hair_stepped_twice_as_often_moves_alike() {
+    let hair = hair(60, 18);
+    let pose = |seconds: f32| Pose {
+        position_cm: Vec3::new(20.0 * (3.0 * seconds).sin(), 0.0, 0.0),
+        rotation: Quat::from_rotation_y(0.6 * (4.0 * seconds).sin()),
+    };
+    let after_a_second = |rate: u32, time_step: f32| {
+        let mut free = FreeMotion::default();
+        free.form.settle = Profile::Even(rate as f32 / 3.0);
+        let motion = Motion { frame_rate: f64::from(rate), time_step, ..Motion::default() };
+        let dynamics = Dynamics { motion, pseudo_force: PseudoForce::off(), form: Form::Free(free), ..gust() };
+        let poses: Vec<Pose> = (0..=rate).map(|n| pose(n as f32 / rate as f32)).collect();
+        let mut simulation = fast(&hair, &dynamics, &wind());
+        for frame in 1..=rate {
+            let vector = [-150.0 * (2.0 * frame as f32 / rate as f32).sin(), 0.0, 40.0];
+            simulation.step_frame(&FrameInput::new(frame, &poses, &field(&[(1, vector)])));
+        }
+        simulation.strands().clone()
+    };
+    let mean = |a: &Strands, b: &Strands| {
+        a.points().iter().zip(b.points()).map(|(a, b)| a.distance(*b)).sum::<f32>() / a.points().len() as f32
+    };
+    let at = [(60, 0.16), (120, 0.08), (240, 0.04)].map(|(rate, time_step)| after_a_second(rate, time_step));
+    let [way, once, twice] = [mean(&at[0], &hair), mean(&at[0], &at[1]), mean(&at[1], &at[2])];
+    // The scheme's error is of first order: it halves.
+    assert!(once < 0.05 * way && (0.4..0.6).contains(&(twice / once)), "{way} {once} {twice}");
+    assert!(mean(&at[0], &after_a_second(120, 0.16)) > 10.0 * once);
+}
+
+#[test]
+fn a_pose_between_two_lies_on_the_shorter_way() {
+    let from = Pose { position_cm: Vec3::X, rotation: Quat::from_rotation_y(0.2) };
+    // The same rotation with the other sign.
+    let to = Pose { position_cm: Vec3::new(3.0, 4.0, 0.0), rotation: -Quat::from_rotation_y(1.0) };
+    let near = |a: Pose, b: Pose| {
+        a.position_cm.distance(b.position_cm) < 1e-6 && a.rotation.dot(b.rotation).abs() > 1.0 - 1e-6 && a.is_valid()
+    };
+    assert!(near(from.between(&to, 0.0), from) && near(from.between(&to, 1.0), to));
+    let quarter = Pose { position_cm: Vec3::new(1.5, 1.0, 0.0), rotation: Quat::from_rotation_y(0.4) };
+    assert!(near(from.between(&to, 0.25), quarter));
+    assert!(near(from.between(&from, 0.5), from));
+}
