@@ -155,6 +155,28 @@ mod tests {
     }
 
     #[test]
+    fn each_law_is_its_formula() {
+        let formulas: [(FalloffLaw, fn(f64) -> f64); 5] = [
+            (FalloffLaw::None, |_| 1.0),
+            (FalloffLaw::Linear, |x| 1.0 - x),
+            (FalloffLaw::Smooth, |x| 1.0 - 3.0 * x * x + 2.0 * x.powi(3)),
+            (FalloffLaw::Inverse, |x| 1.0 / (1.0 + x)),
+            (FalloffLaw::InverseSquare, |x| 1.0 / (1.0 + x * x)),
+        ];
+        for (law, formula) in formulas {
+            for i in 0..100 {
+                let r = 0.4 * i as f32;
+                let x = f64::from(r) / 20.0;
+                let ends = matches!(law, FalloffLaw::Linear | FalloffLaw::Smooth) && x > 1.0;
+                let expected = if ends { 0.0 } else { formula(x) };
+                // A few roundings of numbers below 3.
+                let part = f64::from(Falloff { law, radius: 20.0 }.at(r));
+                assert!((part - expected).abs() < 1e-6, "{law:?} at {x}: {part}, not {expected}");
+            }
+        }
+    }
+
+    #[test]
     fn an_envelope_goes_straight_from_key_to_key() {
         let keys = [(10, 0.0), (20, 2.0), (40, -1.0)].map(|(frame, factor)| EnvelopeKey { frame, factor });
         for (frame, factor) in [(0, 0.0), (10, 0.0), (15, 1.0), (20, 2.0), (30, 0.5), (40, -1.0), (99, -1.0)] {
