@@ -208,6 +208,32 @@ fn a_strand_off_the_head_is_the_cantilever() {
     }
 }
 
+/// The same of a fringe, under its comb: forward along x, aside along z, both down to 1/e over the comb's decay.
+#[test]
+fn a_fringe_off_the_head_is_the_cantilever_under_its_comb() {
+    let mut style = plain();
+    style.length = Length { top: 18.0, sides: 18.0, back: 18.0, fringe: 18.0 };
+    style.stiffness = Stiffness { top: 2.0, sides: 2.0, back: 2.0, fringe: 2.0 };
+    (style.fringe.half_width, style.fringe.forward) = (1.0, 1.5);
+    let root = Root { position: Vec3::new(60.0, 40.0, 0.5), normal: Vec3::X, uv: Vec2::ZERO, above_hairline: 1.0 };
+    for (aside, decay) in [(-0.8, 3.0), (0.8, 6.0), (0.0, 6.0)] {
+        (style.fringe.aside, style.comb.decay) = (aside, decay);
+        let strands = groom(&HEAD, &[root], &style, 18, 1.0, 1).unwrap();
+        let beam = Beam { stiffness: 8.0, segment: 1.0, clamp: DVec3::X, hold: Hold::Clamped };
+        let comb = DVec3::new(1.5, 0.0, f64::from(aside));
+        let load = |i: usize| DVec3::NEG_Y + comb * (-(i as f64 + 0.5) / f64::from(decay)).exp();
+        let mut directions = Vec::new();
+        let loads: Vec<DVec3> = (0..18).map(load).collect();
+        beam.settle(&loads, 1e-12, false, &mut directions, &mut Workspace::default());
+        let mut p = root.position.as_dvec3();
+        for (i, direction) in directions.iter().enumerate() {
+            p += *direction;
+            let node = strands.strand(0)[i + 1].as_dvec3();
+            assert!((p - node).length() < 1e-3, "node {} aside by {aside}: {node}, not {p}", i + 1);
+        }
+    }
+}
+
 /// Trimming stops within 0.01 cm of the plane; a strand that the cut would leave shorter than `shortest` may pass it.
 #[test]
 fn a_cut_takes_off_what_lies_beyond_its_plane() {
