@@ -161,6 +161,30 @@ fn a_push_from_rest_turns_each_segment_by_its_gain_and_its_settling() {
     }
 }
 
+/// eps_i is that of the segment's own number. All of a strand about the head lies in Gamma where alpha is 1.
+#[test]
+fn the_pseudo_force_weakens_the_field_by_the_number_of_the_segment() {
+    let mut strands = Strands::default();
+    let angle = 2.0 * (0.75_f32 / 10.0).asin();
+    strands.push((0..=6).map(|i| 10.0 * Vec3::new((angle * i as f32).cos(), 0.0, (angle * i as f32).sin())));
+    let force = DVec3::new(-30.0, 50.0, 20.0);
+    let coefficients = vec![0.05, 0.2, 0.3, 0.5, 0.7, 1.0];
+    let mut dynamics = free(FreeForm::default(), Pose::STILL);
+    dynamics.motion.inertia_length_floor = 18.0;
+    dynamics.pseudo_force = PseudoForce { alpha: 1.0, coefficients: coefficients.clone() };
+    let blows = field(&[(9, force.as_vec3().to_array())]);
+    let mut reference = exact(&strands, &dynamics, &blows);
+    step(&mut reference, &blows);
+    let d = directions(reference.positions());
+    for (i, rest) in at_rest(strands.strand(0)).into_iter().enumerate() {
+        let c = gain(&dynamics, i as f64 + 1.0, 6.0) * f64::from(coefficients[i]);
+        let expected = (-2.0_f64 / 20.0).exp() * c * force.reject_from(rest.direction).length();
+        let tangent = rest.direction.cross(d[i]).length() / rest.direction.dot(d[i]);
+        // The segments are 1.5 cm long to a rounding of points of 10 cm.
+        assert!((tangent / expected - 1.0).abs() < 1e-5, "segment {}: {tangent}, not {expected}", i + 1);
+    }
+}
+
 /// f across d, and d x (M_i - M_(i+1)), add up to nothing on every segment of hair that has settled: K_i is that of the place of
 /// its joint, for its length, and the frame of the segment before carries rest shape and the weight that it bore.
 #[test]

@@ -234,6 +234,31 @@ fn a_fringe_off_the_head_is_the_cantilever_under_its_comb() {
     }
 }
 
+/// Straight hair of a clump hangs toward the clump's middle: of what its roots are apart its tips keep 1 - gather, and what they do not
+/// come along near the root, where the clamp holds them: gather times sqrt(E I / w L) / L.
+#[test]
+fn the_tips_of_a_clump_draw_together() {
+    let (length, d, gather) = (18.0_f32, 0.3, 0.8);
+    let mut style = plain();
+    style.length = Length { top: length, sides: length, back: length, fringe: length };
+    style.stiffness = Stiffness { top: 2.0, sides: 2.0, back: 2.0, fringe: 2.0 };
+    (style.clumps.gather, style.clumps.size) = (gather, 1.2);
+    let place = |i: usize| Vec3::new(60.0, 40.0, -50.0) + Vec3::new(0.03, 0.0, 0.04) * i as f32;
+    let root = |position| Root { position, normal: Vec3::NEG_Y, uv: Vec2::ZERO, above_hairline: 1.0 };
+    let roots: Vec<Root> = (0..60).map(place).map(root).collect();
+    let strands = groom(&HEAD, &roots, &style, 60, d, 1).unwrap();
+    let tip = |i: usize| strands.strand(i)[60];
+    let kept = (0..59).filter(|&i| {
+        let share = tip(i).distance(tip(i + 1)) / place(i).distance(place(i + 1));
+        let expected = 1.0 - gather * (1.0 - (8.0 / length).sqrt() / length);
+        // The tension falls along the hair, and segments are straight: each of the order of d and of the clamp's reach over the length.
+        (share - expected).abs() < gather * (d + (8.0 / length).sqrt()) / length
+    });
+    // Neighbours on the two sides of a border go apart: 3 cm cross cells of 1.2 cm and their neighbours' borders eight times at the most.
+    let kept = kept.count();
+    assert!(kept >= 51, "{kept} of 59 neighbours");
+}
+
 /// Trimming stops within 0.01 cm of the plane; a strand that the cut would leave shorter than `shortest` may pass it.
 #[test]
 fn a_cut_takes_off_what_lies_beyond_its_plane() {
