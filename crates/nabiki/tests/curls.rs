@@ -134,9 +134,10 @@ fn flat_curls_wave_in_a_plane() {
 /// are at one place.
 #[test]
 fn the_hair_of_a_clump_closes_to_one_lock() {
-    let style = hanging(Curl { gather: 1.0, ..EVEN }, 18.0);
+    let mut style = hanging(Curl { gather: 1.0, ..EVEN }, 18.0);
+    style.clumps.size = 12.0;
     let middle = Vec3::new(40.0, 30.0, -50.0);
-    let roots = in_the_air((0..60).map(|i| middle + Vec3::new(0.0, 0.004, 0.003) * i as f32));
+    let roots = in_the_air((0..60).map(|i| middle + Vec3::new(0.0, 0.04, 0.03) * i as f32));
     let strands = groom(&HEAD, &roots, &style, 60, 0.3, 1).unwrap();
     let mut kept = 0;
     for (a, b) in strands.iter().zip(strands.iter().skip(1)) {
@@ -145,7 +146,7 @@ fn the_hair_of_a_clump_closes_to_one_lock() {
         let apart = a[30..50].iter().map(|p| nearest(*p, b)).fold(0.0, f32::max);
         kept += usize::from(apart < sagitta + 10.0 * ROUNDING);
     }
-    // 0.24 cm of the side of a cell of 1.2 cm cross the border of a clump three times at the most.
+    // 2.4 cm of the side of a cell of 12 cm cross the border of a clump three times at the most.
     assert!(kept >= 56, "{kept} of 59 neighbours lie on each other");
 }
 

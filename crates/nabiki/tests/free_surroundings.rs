@@ -273,6 +273,58 @@ fn strengths_too_great_for_the_step_are_refused_and_those_below_hold() {
     assert!((1e-3..0.1).contains(&farthest), "{farthest}");
 }
 
+/// By c_i (|F| + 4 K + H + 2 gravity) < 4 on the segment that moves most, the tip's, where nothing else pulls.
+#[test]
+fn hold_and_gravity_are_refused_from_the_bound_on() {
+    let strands = hair(3, 18);
+    let with = |hold: f64, gravity: f64| {
+        let form = FreeForm {
+            stiffness: 0.0.into(),
+            hold: (hold as f32).into(),
+            gravity: gravity as f32,
+            ..Default::default()
+        };
+        free(FreeMotion { form, ..Default::default() })
+    };
+    let length = f64::from(strands.lengths().next().unwrap());
+    // Chords are a little shorter than 1 cm: a tenth of a percent in the length makes less than one in the gain.
+    let most = 4.0 / gain(&with(0.0, 0.0), length, length);
+    for (hold, gravity, thing) in [(most, 0.0, "free.hold"), (0.0, most / 2.0, "free.gravity")] {
+        assert!(Simulation::new(&strands, &with(0.99 * hold, 0.99 * gravity), &calm()).is_ok(), "{thing}");
+        let refused = Simulation::new(&strands, &with(1.01 * hold, 1.01 * gravity), &calm()).err();
+        assert_eq!(refused.map(|refused| refused.thing).as_deref(), Some(thing));
+    }
+}
+
+/// What the carriers leave is read alike by both, and what it drags is each hair's own motion.
+#[test]
+fn the_twins_agree_among_other_hair() {
+    let (strands, wind) = (hair(48, 18), wind());
+    let mut dynamics = everything(strands.select(&(0..24).collect::<Vec<_>>()), Pose::STILL);
+    let mut farthest = |with_neighbours: bool| {
+        if let Form::Free(motion) = &mut dynamics.form {
+            motion.bodies.clear();
+            if !with_neighbours {
+                motion.neighbours = None;
+            }
+        }
+        let (mut reference, mut simulation) = (exact(&strands, &dynamics, &*wind), fast(&strands, &dynamics, &*wind));
+        let mut apart = 0.0_f64;
+        for _ in 0..FRAMES {
+            step(&mut reference, &*wind);
+            step(&mut simulation, &*wind);
+            let pairs = reference.positions().iter().zip(simulation.strands().points());
+            apart = pairs.map(|(a, b)| a.distance(b.as_dvec3())).fold(apart, f64::max);
+        }
+        (simulation.strands().clone(), apart)
+    };
+    let ((among, apart), (alone, _)) = (farthest(true), farthest(false));
+    let felt = among.points().iter().zip(alone.points()).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+    assert!(felt > 0.1, "{felt} cm by the neighbours");
+    // A direction is rounded to 6e-8 in each frame, and 18 segments of 1 cm may all be off the same way.
+    assert!(apart < 18.0 * 30.0 * 6e-8, "{apart:e} cm");
+}
+
 /// Curved hair gathers speed from the turning of its frames, which settling has to outdo.
 #[test]
 fn a_small_push_of_curved_hair_dies_out_where_it_settles_and_is_held() {

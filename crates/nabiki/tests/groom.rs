@@ -208,6 +208,57 @@ fn a_strand_off_the_head_is_the_cantilever() {
     }
 }
 
+/// The same of a fringe, under its comb: forward along x, aside along z, both down to 1/e over the comb's decay.
+#[test]
+fn a_fringe_off_the_head_is_the_cantilever_under_its_comb() {
+    let mut style = plain();
+    style.length = Length { top: 18.0, sides: 18.0, back: 18.0, fringe: 18.0 };
+    style.stiffness = Stiffness { top: 2.0, sides: 2.0, back: 2.0, fringe: 2.0 };
+    (style.fringe.half_width, style.fringe.forward) = (1.0, 1.5);
+    let root = Root { position: Vec3::new(60.0, 40.0, 0.5), normal: Vec3::X, uv: Vec2::ZERO, above_hairline: 1.0 };
+    for (aside, decay) in [(-0.8, 3.0), (0.8, 6.0), (0.0, 6.0)] {
+        (style.fringe.aside, style.comb.decay) = (aside, decay);
+        let strands = groom(&HEAD, &[root], &style, 18, 1.0, 1).unwrap();
+        let beam = Beam { stiffness: 8.0, segment: 1.0, clamp: DVec3::X, hold: Hold::Clamped };
+        let comb = DVec3::new(1.5, 0.0, f64::from(aside));
+        let load = |i: usize| DVec3::NEG_Y + comb * (-(i as f64 + 0.5) / f64::from(decay)).exp();
+        let mut directions = Vec::new();
+        let loads: Vec<DVec3> = (0..18).map(load).collect();
+        beam.settle(&loads, 1e-12, false, &mut directions, &mut Workspace::default());
+        let mut p = root.position.as_dvec3();
+        for (i, direction) in directions.iter().enumerate() {
+            p += *direction;
+            let node = strands.strand(0)[i + 1].as_dvec3();
+            assert!((p - node).length() < 1e-3, "node {} aside by {aside}: {node}, not {p}", i + 1);
+        }
+    }
+}
+
+/// Straight hair of a clump hangs toward the clump's middle: of what its roots are apart its tips keep 1 - gather, and what they do not
+/// come along near the root, where the clamp holds them: gather times sqrt(E I / w L) / L.
+#[test]
+fn the_tips_of_a_clump_draw_together() {
+    let (length, d, gather) = (18.0_f32, 0.3, 0.8);
+    let mut style = plain();
+    style.length = Length { top: length, sides: length, back: length, fringe: length };
+    style.stiffness = Stiffness { top: 2.0, sides: 2.0, back: 2.0, fringe: 2.0 };
+    (style.clumps.gather, style.clumps.size) = (gather, 1.2);
+    let place = |i: usize| Vec3::new(60.0, 40.0, -50.0) + Vec3::new(0.03, 0.0, 0.04) * i as f32;
+    let root = |position| Root { position, normal: Vec3::NEG_Y, uv: Vec2::ZERO, above_hairline: 1.0 };
+    let roots: Vec<Root> = (0..60).map(place).map(root).collect();
+    let strands = groom(&HEAD, &roots, &style, 60, d, 1).unwrap();
+    let tip = |i: usize| strands.strand(i)[60];
+    let kept = (0..59).filter(|&i| {
+        let share = tip(i).distance(tip(i + 1)) / place(i).distance(place(i + 1));
+        let expected = 1.0 - gather * (1.0 - (8.0 / length).sqrt() / length);
+        // The tension falls along the hair, and segments are straight: each of the order of d and of the clamp's reach over the length.
+        (share - expected).abs() < gather * (d + (8.0 / length).sqrt()) / length
+    });
+    // Neighbours on the two sides of a border go apart: 3 cm cross cells of 1.2 cm and their neighbours' borders eight times at the most.
+    let kept = kept.count();
+    assert!(kept >= 51, "{kept} of 59 neighbours");
+}
+
 /// Trimming stops within 0.01 cm of the plane; a strand that the cut would leave shorter than `shortest` may pass it.
 #[test]
 fn a_cut_takes_off_what_lies_beyond_its_plane() {

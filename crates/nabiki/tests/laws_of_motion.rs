@@ -129,6 +129,22 @@ fn only_gain_times_force_matters() {
     assert_eq!(bits(&run(&mut a, &wind(), 100)), bits(&run(&mut b, &weak, 100)));
 }
 
+/// The floor is a length in cm, whatever the unit d in which the strand is counted.
+#[test]
+fn hair_below_the_floor_has_the_inertia_of_hair_as_long_as_that() {
+    for segment_length in [0.5, 1.0, 1.5] {
+        let bare = Dynamics { segment_length, ..gust() };
+        let mut floored = bare.clone();
+        floored.motion.inertia_length_floor = 12.0;
+        let count = |length: f64| length / f64::from(segment_length);
+        for place in [0.5, 3.0, 6.0] {
+            let i = count(place) + 0.5;
+            assert_eq!(gain(&floored, i, count(6.0)), gain(&bare, i, count(12.0)), "d = {segment_length}");
+            assert_eq!(gain(&floored, i, count(20.0)), gain(&bare, i, count(20.0)), "d = {segment_length}");
+        }
+    }
+}
+
 #[test]
 fn far_from_the_head_nothing_feels_the_pseudo_force() {
     let hair = hair(100, 18);

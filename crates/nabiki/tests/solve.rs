@@ -12,7 +12,8 @@ use nabiki::field::{Ease, Keyframe};
 use nabiki::groom::{Growth, Style, grow};
 use nabiki::roots::Hairline;
 use nabiki::solve::{
-    Answer, Drag, Goal, Node, OpenAir, Prior, Problem, Report, Search, Solver, Unknown, Wind, Wish, nodes_of,
+    Answer, Drag, Goal, Node, OpenAir, Prior, Problem, Report, Search, Solver, Unknown, Wind, Wish, nodes_near,
+    nodes_of,
 };
 use nabiki::{Head, Strands};
 
@@ -258,6 +259,44 @@ fn a_drag_follows_the_hand_and_nails_hold() {
     assert!(missed < 0.2 && moved < 0.5, "{missed} {moved}");
     let left = drag.into_solver().solve(&Search { starts: 1, ..Search::default() });
     assert!(left.after_cm < 0.2, "{left:?}");
+}
+
+/// Two wishes for one tip that cannot both come true: it ends where the sum of their squares by weight is least, which divides the
+/// way between the two as the weights do, but for what the prior takes.
+#[test]
+fn wishes_count_by_their_weights() {
+    let head = Head::builtin();
+    let hair = hair(&head, 4);
+    let dynamics = dynamics(&head, Form::Paper);
+    let tip = Node { strand: 1, node: hair.strand(1).len() as u32 - 1 };
+    let wish = |z: f32, weight: f32| {
+        let goal = Goal::Moved(Vec3::new(0.0, 0.0, z));
+        Wish { frame: 60, nodes: vec![tip], goal, weight }
+    };
+    for [a, b] in [[3.0, 1.0], [1.0, 3.0]] {
+        let problem = Problem { wishes: vec![wish(3.0, a), wish(-1.0, b)], ..problem(&hair, &dynamics, table_1()) };
+        let report = Solver::new(problem).unwrap().solve(&Search { starts: 1, ..Search::default() });
+        let [first, second] = &report.wishes[..] else { unreachable!() };
+        println!("{a} : {b}: {:.3} and {:.3} cm left", first.after_cm, second.after_cm);
+        let mean = |x: f64, y: f64| ((f64::from(a) * x * x + f64::from(b) * y * y) / f64::from(a + b)).sqrt();
+        assert!((report.before_cm - mean(first.before_cm, second.before_cm)).abs() < 1e-9);
+        assert!((report.after_cm - mean(first.after_cm, second.after_cm)).abs() < 1e-9);
+        assert!((first.after_cm - f64::from(b)).abs() < 0.1 && (second.after_cm - f64::from(a)).abs() < 0.1);
+    }
+}
+
+#[test]
+fn nodes_near_a_point_are_those_within_the_radius_but_for_roots() {
+    let mut hair = Strands::default();
+    for y in [0.0, 1.0] {
+        hair.push((0..=8).map(|i| Vec3::new(i as f32, y, 0.0)));
+    }
+    let near = |point: Vec3, radius: f32| -> Vec<(u32, u32)> {
+        nodes_near(&hair, point, radius).iter().map(|node| (node.strand, node.node)).collect()
+    };
+    assert_eq!(near(Vec3::new(4.0, 0.0, 0.0), 2.0), [(0, 2), (0, 3), (0, 4), (0, 5), (0, 6), (1, 3), (1, 4), (1, 5)]);
+    assert_eq!(near(Vec3::new(0.0, 0.0, 0.0), 0.5), []);
+    assert_eq!(near(Vec3::new(0.9, 1.2, 0.0), 0.5), [(1, 1)]);
 }
 
 #[test]

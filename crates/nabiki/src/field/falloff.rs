@@ -155,6 +155,29 @@ mod tests {
     }
 
     #[test]
+    fn each_law_is_its_formula() {
+        let formula = |law: FalloffLaw, x: f64| match law {
+            FalloffLaw::None => 1.0,
+            FalloffLaw::Linear => 1.0 - x.min(1.0),
+            FalloffLaw::Smooth => 1.0 - 3.0 * x.min(1.0).powi(2) + 2.0 * x.min(1.0).powi(3),
+            FalloffLaw::Inverse => 1.0 / (1.0 + x),
+            FalloffLaw::InverseSquare => 1.0 / (1.0 + x * x),
+        };
+        let laws =
+            [FalloffLaw::None, FalloffLaw::Linear, FalloffLaw::Smooth, FalloffLaw::Inverse, FalloffLaw::InverseSquare];
+        for law in laws {
+            for i in 0..100 {
+                let r = 0.4 * i as f32;
+                let x = f64::from(r) / 20.0;
+                let expected = formula(law, x);
+                // A few roundings of numbers below 3.
+                let part = f64::from(Falloff { law, radius: 20.0 }.at(r));
+                assert!((part - expected).abs() < 1e-6, "{law:?} at {x}: {part}, not {expected}");
+            }
+        }
+    }
+
+    #[test]
     fn an_envelope_goes_straight_from_key_to_key() {
         let keys = [(10, 0.0), (20, 2.0), (40, -1.0)].map(|(frame, factor)| EnvelopeKey { frame, factor });
         for (frame, factor) in [(0, 0.0), (10, 0.0), (15, 1.0), (20, 2.0), (30, 0.5), (40, -1.0), (99, -1.0)] {

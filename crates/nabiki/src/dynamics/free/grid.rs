@@ -1,5 +1,8 @@
 //! Hair against hair: what the carriers leave in a grid, and what every strand feels of it.
 
+#[cfg(test)]
+mod tests;
+
 use std::ops::Range;
 
 use glam::{DVec3, UVec3, Vec3, Vec4};

@@ -109,6 +109,36 @@ proptest! {
     }
 }
 
+/// A wind that differs from place to place.
+#[derive(Debug)]
+struct Sheared;
+
+impl Field for Sheared {
+    fn at(&self, p: Vec3, _frame: u32) -> Vec3 {
+        Vec3::new(-p.y, 2.0 * p.x, p.z)
+    }
+
+    fn strongest(&self) -> f32 {
+        1000.0
+    }
+}
+
+#[test]
+fn a_wind_that_is_not_uniform_counts_as_it_is_at_the_centre_of_the_head() {
+    let pose = Pose { position_cm: Vec3::new(30.0, 16.0, -8.0), rotation: Quat::from_rotation_y(0.7) };
+    let flow = |wind: Arc<dyn Field>| FlowField::new(&Flow::default(), wind, HEAD, &[Pose::STILL, pose]).unwrap();
+    let sheared = flow(Arc::new(Sheared));
+    for (frame, pose) in [(0, Pose::STILL), (1, pose), (9, pose)] {
+        let center = pose.world_from_head().transform_point3(HEAD.center);
+        let uniform = flow(wind(Sheared.at(center, frame)));
+        for at in [Vec3::new(12.0, 4.0, 3.0), Vec3::new(-40.0, 20.0, 9.0)] {
+            // A centre 35 cm off is rounded to 4e-6 cm, over which the wind changes by twice that.
+            let left = (sheared.at(center + at, frame) - uniform.at(center + at, frame)).length();
+            assert!(left < 100.0 * ROUNDING, "frame {frame}: {left}");
+        }
+    }
+}
+
 #[test]
 fn lambda_is_the_root_for_any_point() {
     for axes in [[9.5_f32, 11.0, 8.0], [12.0, 4.0, 6.0], [5.0, 5.0, 15.0]] {

@@ -147,6 +147,79 @@ fn its_root_mean_square_is_the_strength_in_every_direction() {
     }
 }
 
+/// Of a wave s(kappa . p + rate t) with the parabola s the mean square of s' is 64/3, and of s 8/15: so its slope by place is
+/// sqrt(40) |kappa| times its strength, and by time sqrt(40) times its rate. Of octaves the squares add up.
+#[test]
+fn octaves_are_half_as_large_as_strong_as_roughness_says_and_faster() {
+    const STEP: f32 = 0.125;
+    const FRAMES: u32 = 8;
+    let (seeds, count) = (60, 400);
+    for (octaves, roughness) in [(1, 0.5), (2, 0.5), (2, 1.0), (3, 0.6)] {
+        let (mut force, mut by_place, mut by_time) = (0.0, 0.0, 0.0);
+        let pulse_length = 4800.0;
+        for seed in 0..seeds {
+            let settings = Turbulence {
+                octaves,
+                roughness,
+                pulse_length,
+                near_head: 0.0,
+                drift: 0.0,
+                seed,
+                ..Turbulence::default()
+            };
+            let field = field(&settings);
+            for i in 0..count {
+                let p = 100.0 * (Vec3::new(0.618_034, 0.754_878, 0.569_840) * (i as f32 + 0.5)).fract() - 50.0;
+                let square = |v: Vec3| f64::from(v.length_squared());
+                force += square(field.at(p, FRAMES));
+                for axis in Vec3::AXES {
+                    by_place +=
+                        square((field.at(p + STEP * axis, FRAMES) - field.at(p - STEP * axis, FRAMES)) / (2.0 * STEP));
+                }
+                by_time += square((field.at(p, 2 * FRAMES) - field.at(p, 0)) / (2 * FRAMES) as f32);
+            }
+        }
+        let parts = |of: fn(f64) -> f64| {
+            let power = |i: u32| f64::from(roughness).powi(2 * i as i32);
+            let sum: f64 = (0..octaves).map(|i| power(i) * of(f64::from(i))).sum();
+            sum / (0..octaves).map(power).sum::<f64>()
+        };
+        // Wavelengths are evenly spread in their inverse, 3/4 to 5/4 of that of two swirls: mean square 1 + 1/48. Rates are the
+        // odd sixteenths from 9 to 23 of a turn a pulse, and i + 1 times that.
+        let kappa = (1.0 + 1.0 / 48.0) / (2.0 * f64::from(Turbulence::default().swirl_size)).powi(2);
+        let rate =
+            (0..8).map(|m| f64::from(9 + 2 * m).powi(2)).sum::<f64>() / (8.0 * 256.0) / f64::from(pulse_length).powi(2);
+        // A seed's kappas are of chance, 0.3 of their squares over the root of eight; its points, each with 24 waves and less, of as
+        // much again. Five times that over the root of the seeds; differences over a hundredth of a turn take less.
+        let tolerance = 5.0 * 2.0_f64.sqrt() * 0.3 / (8.0 * f64::from(seeds as u32)).sqrt();
+        for (what, found, expected) in [
+            ("place", by_place / force, 40.0 * kappa * parts(|i| 4.0_f64.powf(i))),
+            ("time", by_time / force, 40.0 * rate * parts(|i| (i + 1.0).powi(2))),
+        ] {
+            let ratio = found / expected;
+            assert!(
+                (ratio - 1.0).abs() < tolerance,
+                "{octaves} octaves, {roughness}: by {what} {ratio} +- {tolerance}"
+            );
+        }
+    }
+}
+
+#[test]
+fn it_drifts_on_by_the_wind_of_each_frame_that_it_comes_to() {
+    let wind: Vec<Vec3> = (0..12).map(|n| Vec3::new(-60.0 + 9.0 * n as f32, 5.0 * (n % 3) as f32, 40.0)).collect();
+    let settings = Turbulence { pulse_length: 0.0, near_head: 0.0, drift: 0.05, ..Turbulence::default() };
+    let (still, p) = (field(&settings), Vec3::new(14.0, 3.0, 2.0));
+    let drifting = TurbulenceField::new(&settings, HEAD, &[], &wind).unwrap();
+    let mut way = Vec3::ZERO;
+    for frame in 1..30 {
+        way += settings.drift * wind[11.min(frame)];
+        let left = (drifting.at(p + way, frame as u32) - still.at(p, frame as u32)).length();
+        // A way of up to 100 cm is rounded to 2e-5 cm in sum, in which a swirl of 5 cm turns by that over 5 of the strength.
+        assert!(left < settings.strength * 1e-3, "frame {frame}: {left}");
+    }
+}
+
 #[test]
 fn seeds_differ_and_strength_scales() {
     let one = field(&Turbulence::default());
