@@ -6,7 +6,7 @@ mod resample;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use glam::{Affine3A, Vec3};
+use glam::{DAffine3, Vec3};
 
 use crate::Strands;
 
@@ -162,18 +162,18 @@ impl Hair {
     }
 
     /// The hair in another space: points mapped by `target_from_source`, widths multiplied by its scale
-    /// (the cube root of its determinant).
-    pub fn transformed(mut self, target_from_source: &Affine3A) -> Self {
-        let scale = target_from_source.matrix3.determinant().abs().cbrt();
+    /// (the cube root of its determinant). Points are singles before and after, and what is between them is not: far from an
+    /// origin, a transform and what brings its points back from there would cost a single its digits.
+    pub fn transformed(mut self, target_from_source: &DAffine3) -> Self {
+        if *target_from_source == DAffine3::IDENTITY {
+            return self;
+        }
+        let scale = target_from_source.matrix3.determinant().abs().cbrt() as f32;
         for p in self.strands.points_mut() {
-            *p = target_from_source.transform_point3(*p);
+            *p = target_from_source.transform_point3(p.as_dvec3()).as_vec3();
         }
-        for width in self.attributes.width.iter_mut().flatten() {
-            *width *= scale;
-        }
-        if let Some(width) = &mut self.attributes.constant.width {
-            *width *= scale;
-        }
+        let widths = self.attributes.width.iter_mut().flatten();
+        widths.chain(&mut self.attributes.constant.width).for_each(|width| *width *= scale);
         self
     }
 }
@@ -216,6 +216,8 @@ impl Attributes {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
 
     /// Three strands: one sound, one with a point met twice, one without any extent.
@@ -282,7 +284,7 @@ mod tests {
 
     #[test]
     fn widths_scale_with_the_points() {
-        let hair = mixed().transformed(&Affine3A::from_scale(Vec3::splat(100.0)));
+        let hair = mixed().transformed(&DAffine3::from_scale(DVec3::splat(100.0)));
         assert_eq!(hair.strands.strand(0)[1], Vec3::new(100.0, 0.0, 0.0));
         let error = (hair.attributes.width.unwrap()[3] - 300.0).abs();
         assert!(error <= 300.0 * 4.0 * f32::EPSILON, "a cube root and two products, each within an ulp: {error}");

@@ -7,7 +7,7 @@ use nabiki::Hair;
 use nabiki::hair::{Other, Per};
 
 use crate::Problem;
-use crate::in_place::{InPlace, check_extent, transformed};
+use crate::in_place::{InPlace, check_extent};
 
 /// Hair from several objects.
 #[derive(Default)]
@@ -49,10 +49,10 @@ impl Gathered {
         };
         if all.world_from_hair != world_from_part {
             if all.world_from_hair != DAffine3::IDENTITY {
-                all.hair = transformed(all.hair, &all.world_from_hair);
+                all.hair = all.hair.transformed(&all.world_from_hair);
                 all.world_from_hair = DAffine3::IDENTITY;
             }
-            part = transformed(part, &world_from_part);
+            part = part.transformed(&world_from_part);
         }
         join(&mut all.hair, part, &mut self.dropped);
         self.all = Some(all);

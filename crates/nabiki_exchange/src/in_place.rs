@@ -17,19 +17,6 @@ pub struct InPlace {
     pub world_from_hair: DAffine3,
 }
 
-/// Hair taken through a transform. Its points are singles before and after, and what is between them is not: far from an origin,
-/// a transform and what brings its points back from there would cost a single its digits.
-pub fn transformed(mut hair: Hair, target_from_source: &DAffine3) -> Hair {
-    if *target_from_source == DAffine3::IDENTITY {
-        return hair;
-    }
-    let scale = target_from_source.matrix3.determinant().abs().cbrt() as f32;
-    hair.strands.points_mut().iter_mut().for_each(|p| *p = point(target_from_source, *p));
-    let widths = hair.attributes.width.iter_mut().flatten();
-    widths.chain(&mut hair.attributes.constant.width).for_each(|width| *width *= scale);
-    hair
-}
-
 /// A point taken through a transform.
 pub fn point(target_from_source: &DAffine3, p: Vec3) -> Vec3 {
     target_from_source.transform_point3(p.as_dvec3()).as_vec3()
@@ -51,7 +38,7 @@ impl InPlace {
 
     /// The curves where `target_from_world` takes them from the file's world: in one step, which loses nothing on the way.
     pub fn through(self, target_from_world: &DAffine3) -> Hair {
-        let mut hair = transformed(self.hair, &(*target_from_world * self.world_from_hair));
+        let mut hair = self.hair.transformed(&(*target_from_world * self.world_from_hair));
         if self.world_from_hair != DAffine3::IDENTITY {
             let attributes = &mut hair.attributes;
             let placed =

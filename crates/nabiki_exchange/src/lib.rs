@@ -34,7 +34,7 @@ mod reader;
 pub use export::{Export, FrameSink, Velocities};
 pub use frames::{Frames, MOST_FRAMES};
 pub use gather::Gathered;
-pub use in_place::{InPlace, transformed};
+pub use in_place::InPlace;
 pub use polygons::{Polygons, Uvs, add_polygons};
 pub use problem::Problem;
 pub use reader::{Contents, GroomReader, Placed, Prim, PrimKind};

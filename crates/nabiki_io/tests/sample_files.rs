@@ -198,7 +198,7 @@ fn the_cache_is_read_as_its_page_says() {
     assert_eq!((placement.origin, origin.points), (Vec3::new(0.0, 1.5, 0.0), 12));
     let hair = reader.hair(24).unwrap();
     assert_eq!(hair.attributes.id, Some(vec![7, 8, 9]));
-    is_the_groom(&hair.transformed(&placement.file_from_head()), "motion.nabiki");
+    is_the_groom(&hair.transformed(&placement.file_from_head_in_doubles()), "motion.nabiki");
     let mut strands = reader.header().strands();
     let pose = reader.read(24, &mut strands).unwrap();
     assert_eq!(pose.position_cm, Vec3::new(150.0, 150.0, 0.0));

@@ -5,8 +5,8 @@
 //! followed, is not advised away.
 
 use glam::{Mat3, Vec3};
-use nabiki::{Ellipsoid, Head, Strands};
-use nabiki_exchange::{InPlace, transformed};
+use nabiki::{Ellipsoid, Hair, Head, Strands};
+use nabiki_exchange::InPlace;
 use nabiki_io::{Axis, DeclaredSpace, Placement, Unit};
 
 use crate::built::hair_placement;
@@ -79,7 +79,7 @@ pub(crate) fn judged(read: &InPlace) -> Strands {
     let all = &read.hair.strands;
     let step = all.len().div_ceil(JUDGED).max(1);
     let chosen: Vec<usize> = (0..all.len()).step_by(step).filter(|&s| !all.strand(s).is_empty()).collect();
-    transformed(all.select(&chosen).into(), &read.world_from_hair).strands
+    Hair::from(all.select(&chosen)).transformed(&read.world_from_hair).strands
 }
 
 /// Hair of a file on a head.

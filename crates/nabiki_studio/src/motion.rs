@@ -84,7 +84,7 @@ struct State {
 }
 
 impl State {
-    /// Whether what is being worked on is to be ended.
+    /// Whether what is being worked on is to be worked out to its end.
     fn goes_on(&self, manner: Manner) -> bool {
         !self.stopped && (manner == Manner::Finishes || self.request.is_none())
     }

@@ -171,7 +171,7 @@ impl Input {
                 let pose = cache.read(frame.into(), &mut cache.header().strands())?;
                 let hair = cache.hair(frame.into())?;
                 let hair = match placement(cache) {
-                    Some(placement) => nabiki_exchange::transformed(hair, &placement.file_from_head_in_doubles()),
+                    Some(placement) => hair.transformed(&placement.file_from_head_in_doubles()),
                     None => hair,
                 };
                 let Some(segments) = options.segments else { return Ok((hair, pose)) };
