@@ -1,16 +1,18 @@
-//! Hair in an engine's loop: frames of any length, wind of the game, a head that moves, contact, a jump, a saved state.
+//! Hair in an engine's loop: frames of any length, wind of the game, a head that moves, a player's hand, a jump, a saved state.
 //!
 //!     cargo run --release -p nabiki --example engine
 
+use std::sync::Arc;
+
 use glam::{Quat, Vec3};
-use nabiki::body::{Body, Contact};
+use nabiki::body::{Body, BodyWay, Contact, skin_of};
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Simulation, Stepper};
 use nabiki::field::{Field, FieldSum};
 use nabiki::free_form::FreeMotion;
 use nabiki::groom::{Growth, Style, grow};
 use nabiki::pseudo_force::PseudoForce;
 use nabiki::roots::Hairline;
-use nabiki::{Head, Pose, SettingError};
+use nabiki::{Head, Mesh, Pose, SettingError};
 
 /// Steps a second, however many pictures are drawn.
 const RATE: f64 = 60.0;
@@ -33,35 +35,66 @@ impl Field for Wind {
     }
 }
 
+/// Where something is that the game moves: in the last picture, and in the last two steps, the later one first.
+struct Way {
+    drawn: Pose,
+    stepped: [Pose; 2],
+}
+
+impl Way {
+    fn at(pose: Pose) -> Self {
+        Self { drawn: pose, stepped: [pose; 2] }
+    }
+
+    /// The pose in a step at `part` of the time from the last picture to the next one, and in the two steps before.
+    fn step(&mut self, next: &Pose, part: f32) -> [Pose; 3] {
+        let (pose, [before, earlier]) = (self.drawn.between(next, part), self.stepped);
+        self.stepped = [pose, before];
+        [pose, before, earlier]
+    }
+}
+
 /// One head of hair.
 struct Wig {
     simulation: Simulation,
     wind: Wind,
     steps: f64,
-    /// The head in the last picture, and in the last two steps, the later one first.
-    head: Pose,
-    before: [Pose; 2],
+    head: Way,
+    hand: Way,
 }
 
 impl Wig {
-    /// Goes on by `seconds`, in which the head went to `head`, or jumped there. `vertices`: the engine's (head space, cm).
-    fn update(&mut self, seconds: f64, head: Pose, jumped: bool, wind: Vec3, vertices: &mut [Vec3]) {
+    /// Goes on by `seconds`, in which head and hand went to `head` and `hand`, or jumped there. `vertices`: the engine's (head space,
+    /// cm).
+    fn update(&mut self, seconds: f64, [head, hand]: [Pose; 2], jumped: bool, wind: Vec3, vertices: &mut [Vec3]) {
         self.wind.0 = wind.clamp_length_max(self.simulation.strongest_force());
         let (from, to) = (self.steps, self.steps + seconds * RATE);
         if jumped || to as u32 - from as u32 > MOST_STEPS {
             // Hair goes along as it is in the head; `self.simulation.rewind()` would put it to rest.
             self.simulation.jumped();
-            self.before = [head; 2];
+            (self.head, self.hand) = (Way::at(head), Way::at(hand));
         } else {
             for frame in from as u32 + 1..=to as u32 {
-                let pose = self.head.between(&head, ((f64::from(frame) - from) / (to - from)) as f32);
-                self.simulation.step_frame(&FrameInput { frame, pose, before: self.before, field: &self.wind });
-                self.before = [pose, self.before[0]];
+                let part = ((f64::from(frame) - from) / (to - from)) as f32;
+                let ([pose, before, earlier], [hand, hand_before, _]) =
+                    (self.head.step(&head, part), self.hand.step(&hand, part));
+                // By their number among the bodies: the head goes with the head.
+                let bodies = &[None, Some([hand, hand_before])];
+                let before = [before, earlier];
+                self.simulation.step_frame(&FrameInput { frame, pose, before, field: &self.wind, bodies });
             }
         }
-        (self.steps, self.head) = (to, head);
+        (self.steps, self.head.drawn, self.hand.drawn) = (to, head, hand);
         vertices.copy_from_slice(self.simulation.strands().points());
     }
+}
+
+/// What stands for the mesh of a hand: a box about the origin (cm).
+fn palm() -> Mesh {
+    let corner = |i: u32| Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32) - 0.5;
+    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let triangles = sides.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    Mesh { positions: (0..8).map(|i| Vec3::new(18.0, 9.0, 3.0) * corner(i)).collect(), triangles, ..Mesh::default() }
 }
 
 fn main() -> Result<(), SettingError> {
@@ -70,7 +103,15 @@ fn main() -> Result<(), SettingError> {
     let growth =
         Growth { hairline: &hairline, style: &style, strands: 999, segments: 18, segment_length: 1.0, seed: 1 };
     let hair = grow(&head, &growth, growth.strands)?.strands;
-    let bodies = vec![Body::head(&head, Contact::default())];
+    let aside = Pose { position_cm: Vec3::new(-60.0, 0.0, 12.0), ..Pose::STILL };
+    let hand = Body {
+        name: "hand".to_owned(),
+        distance: Arc::new(skin_of(palm(), "hand")?),
+        filled: None,
+        way: BodyWay::InWorld([aside].into()),
+        contact: Contact::default(),
+    };
+    let bodies = vec![Body::head(&head, Contact::default()), hand];
     let dynamics = Dynamics {
         motion: Motion { frame_rate: RATE, inertia_length_floor: 18.0, ..Motion::default() },
         segment_length: 1.0,
@@ -83,14 +124,17 @@ fn main() -> Result<(), SettingError> {
     };
     let simulation = Simulation::new(&hair, &dynamics, &FieldSum::default())?;
     let mut saved = simulation.clone();
-    let mut wig = Wig { simulation, wind: Wind(Vec3::ZERO), steps: 0.0, head: Pose::STILL, before: [Pose::STILL; 2] };
+    let (head, hand) = (Way::at(Pose::STILL), Way::at(aside));
+    let mut wig = Wig { simulation, wind: Wind(Vec3::ZERO), steps: 0.0, head, hand };
     let mut vertices = hair.points().to_vec();
     // Pictures of 30, 60 and 144 Hz, and a hitch.
     for (pictures, rate) in [(30, 30.0), (60, 60.0), (144, 144.0), (1, 2.0)] {
         saved.set_state(&wig.simulation);
         for time in (0..pictures).map(|n| f64::from(n) / rate) {
             let head = Pose { rotation: Quat::from_rotation_y((3.0 * time).sin() as f32), ..Pose::STILL };
-            wig.update(1.0 / rate, head, false, Vec3::NEG_X * 150.0 * time as f32, &mut vertices);
+            // Through the hair behind the head, to the side and back.
+            let hand = Pose { position_cm: Vec3::new(-14.0, -8.0, 30.0 * (2.0 * time).cos() as f32), ..Pose::STILL };
+            wig.update(1.0 / rate, [head, hand], false, Vec3::NEG_X * 150.0 * time as f32, &mut vertices);
         }
         println!("frame {}: a tip is at {}", wig.simulation.frame(), vertices[hair.range(0).end - 1]);
     }

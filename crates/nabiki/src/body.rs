@@ -60,8 +60,8 @@ pub enum BodyWay {
     /// Its space is head space: the head itself, a hat.
     WithHead,
     /// In the world: the pose of every frame from 0 on, or a single one for a body that stands still. Every frame up to
-    /// `motion.frames` needs one, and the last holds for good. The way is known when a stepper is built, and cannot be changed
-    /// in it.
+    /// `motion.frames` needs one, and the last holds for good. A body whose way is not known beforehand has its pose at rest here
+    /// alone; [`FrameInput::bodies`](crate::dynamics::FrameInput::bodies) says where it is in each step.
     InWorld(Arc<[Pose]>),
 }
 

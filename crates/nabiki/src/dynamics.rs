@@ -21,9 +21,10 @@ mod transpose;
 mod trigonometry;
 mod wind;
 
-use glam::Vec3;
+use glam::{Affine3A, Vec3};
 use serde::{Deserialize, Serialize};
 
+use crate::body::Body;
 use crate::disturbance::Disturbance;
 use crate::ellipsoid::Ellipsoid;
 use crate::error::{SettingError, check_positive, check_range};
@@ -187,7 +188,8 @@ impl Dynamics {
 ///
 /// Where the head's way is known beforehand, [`new`](Self::new) takes it from there. An engine, which knows only where the head is
 /// now, fills in the fields: `before` is then `[pose of the last step, of the step before that]`. A head that jumps has
-/// `before: [pose; 2]`: hair goes along as it is, and feels nothing of the jump; see [`Simulation::jumped`] for bodies.
+/// `before: [pose; 2]`: hair goes along as it is, and feels nothing of the jump; see [`Simulation::jumped`] for bodies. What else the
+/// engine moves is told in [`bodies`](Self::bodies).
 ///
 /// A step takes all of it as it is: poses are to be [valid](Pose::is_valid), forces finite and within the bound of the field that
 /// the stepper was built with. A NaN stays in the hair until it is put back to rest.
@@ -204,11 +206,17 @@ pub struct FrameInput<'a> {
     /// What pulls, any field in any step. Its strength is bounded when a stepper is built, and taken as it is here: see
     /// [`Simulation::strongest_force`].
     pub field: &'a dyn Field,
+    /// Where bodies are in the world in that frame, and where they were in the frame before, by their number among
+    /// [`FreeMotion::bodies`]: a hand that a player moves. `None`, and no entry, for a body that goes its [`BodyWay`]. What it does
+    /// between the two frames is not seen: a blade that goes farther in a step than it is wide may pass hair by.
+    ///
+    /// [`BodyWay`]: crate::body::BodyWay
+    pub bodies: &'a [Option<[Pose; 2]>],
 }
 
 impl<'a> FrameInput<'a> {
     /// A frame from 1 on of a head whose `poses`, all of them, are given from frame 0 on; none for a head that stands still, and the last
-    /// one holds for good. Before frame 0 the head went as it goes from there on.
+    /// one holds for good. Before frame 0 the head went as it goes from there on. All bodies go their ways.
     pub fn new(frame: u32, poses: &[Pose], field: &'a dyn Field) -> Self {
         let pose = |n: u32| poses.get(n as usize).or(poses.last()).copied().unwrap_or_default();
         let before = frame.saturating_sub(1);
@@ -216,7 +224,17 @@ impl<'a> FrameInput<'a> {
             Some(earlier) => pose(earlier),
             None => pose(0).continued_back_from(&pose(1)),
         };
-        Self { frame, pose: pose(frame), before: [pose(before), earlier], field }
+        Self { frame, pose: pose(frame), before: [pose(before), earlier], field, bodies: &[] }
+    }
+
+    /// Takes points of the space of body number `b` into head space: in this frame, and in the one before.
+    fn head_from_body(&self, b: usize, body: &Body) -> [Affine3A; 2] {
+        let (frames, heads) = ([self.frame, self.frame.saturating_sub(1)], [self.pose, self.before[0]]);
+        let told = self.bodies.get(b).copied().flatten();
+        [0, 1].map(|i| match &told {
+            Some(poses) => heads[i].world_from_head().inverse() * poses[i].world_from_head(),
+            None => body.head_from_body(frames[i], &heads[i]),
+        })
     }
 }
 

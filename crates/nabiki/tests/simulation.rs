@@ -114,7 +114,7 @@ fn a_head_that_jumps_takes_its_hair_along() {
     let mut simulation = fast(&hair, &dynamics, &FieldSum::default());
     let there = Pose { position_cm: Vec3::new(1e4, -3e3, 2.0), rotation: Quat::from_rotation_y(2.0) };
     let calm: &dyn Field = &FieldSum::default();
-    let input = |before| FrameInput { frame: 1, pose: there, before, field: calm };
+    let input = |before| FrameInput { before, ..FrameInput::new(1, &[there], calm) };
     simulation.step_frame(&input([there; 2]));
     // But for the rounding of its weight under a head that is turned otherwise.
     assert!(farthest(simulation.strands(), &hair) < 1e-5);
@@ -143,7 +143,7 @@ fn a_head_that_jumps_beside_a_body_of_the_world_keeps_its_hair_out_of_it() {
             simulation.rewind();
         }
         simulation.jumped();
-        simulation.step_frame(&FrameInput { frame: 1, pose, before: [pose; 2], field: &calm });
+        simulation.step_frame(&FrameInput::new(1, &[pose], &calm));
         assert_eq!(inside(&simulation), 0, "rewound: {rewound}");
     }
 }

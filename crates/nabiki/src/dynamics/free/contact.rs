@@ -70,9 +70,9 @@ pub(super) fn gap(distance: f32, clearance: f32) -> f32 {
 }
 
 impl Obstacle {
-    pub fn new(body: &Body, input: &FrameInput) -> Self {
-        let now = body.head_from_body(input.frame, &input.pose);
-        let before = body.head_from_body(input.frame.saturating_sub(1), &input.before[0]);
+    /// Body number `b`.
+    pub fn new(b: usize, body: &Body, input: &FrameInput) -> Self {
+        let [now, before] = input.head_from_body(b, body);
         Self {
             static_friction: body.contact.static_friction,
             friction: body.contact.friction,

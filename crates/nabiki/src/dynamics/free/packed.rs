@@ -171,7 +171,7 @@ impl Packed {
     /// The bodies in a frame.
     pub fn obstacles(&self, input: &FrameInput, obstacles: &mut Vec<Obstacle>) {
         obstacles.clear();
-        obstacles.extend(self.free.bodies.iter().map(|body| Obstacle::new(body, input)));
+        obstacles.extend(self.free.bodies.iter().enumerate().map(|(b, body)| Obstacle::new(b, body, input)));
     }
 
     /// What a frame does to every block. `crowd`: what the carriers left in the frame before.

@@ -54,7 +54,7 @@ impl<'a> Setting<'a> {
             gamma: dynamics.gamma(),
             head: HeadFrame::new(input, gravity, dynamics.motion.frame_rate),
             rest_weight: weight(&free.rest_pose, gravity),
-            obstacles: free.bodies.iter().map(|body| Obstacle::new(body, input)).collect(),
+            obstacles: free.bodies.iter().enumerate().map(|(b, body)| Obstacle::new(b, body, input)).collect(),
         }
     }
 }

@@ -44,9 +44,9 @@ pub struct Touch<S> {
 }
 
 impl<'a> Obstacle<'a> {
-    pub fn new(body: &'a Body, input: &FrameInput) -> Self {
-        let now = exact(body.head_from_body(input.frame, &input.pose));
-        let before = exact(body.head_from_body(input.frame.saturating_sub(1), &input.before[0]));
+    /// Body number `b`.
+    pub fn new(b: usize, body: &'a Body, input: &FrameInput) -> Self {
+        let [now, before] = input.head_from_body(b, body).map(exact);
         Self { body, contact: body.contact, body_from_head: now.inverse(), before_from_now: before * now.inverse() }
     }
 
