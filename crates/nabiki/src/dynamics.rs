@@ -13,6 +13,7 @@ mod reference;
 mod row;
 mod runner;
 mod simulation;
+mod state;
 mod straighten;
 mod sweep;
 mod tangents;

@@ -5,6 +5,7 @@ use std::ops::Range;
 use glam::Vec3;
 
 use super::row::{LANES, PointRow, Row};
+use super::state::Identity;
 use super::transpose::write_points;
 
 /// Rows of points kept on the stack before they are written out strand by strand.
@@ -46,6 +47,12 @@ impl Block {
             block.segments = block.segments.max(segments as u32);
         }
         block
+    }
+
+    /// Adds to what tells its hair from other hair: where it is rooted, and into how many points it is cut.
+    pub fn identify(&self, identity: &mut Identity) {
+        self.roots.iter().for_each(|row| identity.numbers(&row.0));
+        self.points.iter().for_each(|&count| identity.word(count));
     }
 
     /// Where its segments lie among those of all blocks.

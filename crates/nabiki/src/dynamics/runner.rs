@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::state::{Header, Reader, Writer};
 use super::sweep::Pages;
 use super::{Dynamics, Form, FrameInput, VectorWidth, free, paper};
 use crate::error::SettingError;
@@ -89,6 +90,42 @@ impl Runner {
             (OfForm::Free(runner), OfForm::Free(of)) => runner.set_state(of),
             _ => false,
         }
+    }
+
+    /// Where it stands, as bytes, with the frame and the points that are shown.
+    pub fn state_bytes(&self, frame: u32, points: &[Vec3]) -> Vec<u8> {
+        let mut writer = Writer::new(&Header { frame, ..self.header(points) });
+        writer.points(points);
+        match &self.form {
+            OfForm::Paper(runner) => runner.write(&mut writer),
+            OfForm::Free(runner) => runner.write(&mut writer),
+        }
+        writer.finish()
+    }
+
+    /// Stands where such bytes say, and gives their frame; no change if they are refused.
+    pub fn set_state_bytes(
+        &mut self,
+        bytes: &[u8],
+        width: VectorWidth,
+        points: &mut [Vec3],
+    ) -> Result<u32, SettingError> {
+        let own = self.header(points);
+        let mut reader = Reader::new(bytes, &own)?;
+        reader.points(points);
+        match &mut self.form {
+            OfForm::Paper(runner) => runner.read(&mut reader),
+            OfForm::Free(runner) => runner.read(&mut reader, &own, width),
+        }
+        Ok(reader.header.frame)
+    }
+
+    fn header(&self, points: &[Vec3]) -> Header {
+        let header = match &self.form {
+            OfForm::Paper(runner) => runner.header(),
+            OfForm::Free(runner) => runner.header(),
+        };
+        Header { points: points.len() as u32, numbers: header.numbers + 3 * points.len() as u64, ..header }
     }
 
     /// The head or a body came at once where it is in the next step.

@@ -21,6 +21,21 @@ pub(super) struct FreeState {
     pub gap: Row,
 }
 
+impl FreeState {
+    /// Of all its rows.
+    pub const NUMBERS: usize = 7 * LANES;
+
+    pub fn rows(&self) -> [&Row; 7] {
+        let Self { direction: [x, y, z], increment: [u, v, w], gap } = self;
+        [x, y, z, u, v, w, gap]
+    }
+
+    pub fn rows_mut(&mut self) -> [&mut Row; 7] {
+        let Self { direction: [x, y, z], increment: [u, v, w], gap } = self;
+        [x, y, z, u, v, w, gap]
+    }
+}
+
 /// One segment of every strand of a block. All 0 where a strand has no such segment.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]

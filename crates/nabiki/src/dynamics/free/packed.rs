@@ -10,12 +10,13 @@ use super::head_frame::{HeadFrame, weight};
 use super::kernel::{FreeRow, FreeState, StrengthRow, Walk, Weight, ends, lag_behind};
 use super::passes::{Among, Free, Place, Velocities};
 use super::segment::{FreeSegment, free_segments};
-use crate::body::{Body, Surface};
+use crate::body::{Body, BodyWay, Surface};
 use crate::distance::SkinDistance;
 use crate::dynamics::block::Block;
 use crate::dynamics::gain::Stability;
 use crate::dynamics::paper::Surroundings;
-use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of};
+use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
+use crate::dynamics::state::Identity;
 use crate::dynamics::sweep::Form;
 use crate::dynamics::wind::FieldFrame;
 use crate::dynamics::{Dynamics, FrameInput};
@@ -144,6 +145,37 @@ impl Packed {
         kept
     }
 
+    /// What tells this hair at rest from other hair, whatever moves it.
+    pub fn identity(&self) -> u64 {
+        let mut identity = Identity::new();
+        self.blocks.iter().for_each(|block| block.identify(&mut identity));
+        for FreeRow { length, rest: [x, y, z], .. } in &self.rows {
+            [length, x, y, z].into_iter().for_each(|row| identity.numbers(&row.0));
+        }
+        identity.get()
+    }
+
+    /// What tells the bodies that its gaps are gaps to from others; 0 without any.
+    pub fn bodies_identity(&self) -> u64 {
+        if self.free.bodies.is_empty() {
+            return 0;
+        }
+        let mut identity = Identity::new();
+        for (body, kept) in self.free.bodies.iter().zip(&self.kept_from) {
+            body.distance.sampled_box().iter().for_each(|corner| identity.numbers(&corner.to_array()));
+            identity.numbers(&[body.contact.margin]);
+            if let BodyWay::InWorld(poses) = &body.way {
+                poses.iter().for_each(|pose| {
+                    identity.numbers(&pose.position_cm.to_array());
+                    identity.numbers(&pose.rotation.to_array());
+                });
+            }
+            kept.clearances.iter().for_each(|row| identity.numbers(&row.0));
+            kept.filled.iter().for_each(|&filled| identity.word(u32::from(filled)));
+        }
+        identity.get()
+    }
+
     /// Whether this hair can be stepped under a field.
     pub fn is_stable(&self, field: &dyn Field) -> bool {
         self.stability.holds(field)
@@ -163,9 +195,14 @@ impl Packed {
         self.rest.clone()
     }
 
-    /// The state of every segment at rest.
-    pub fn at_rest(&self) -> &[FreeState] {
-        &self.rest
+    /// Puts to rest what is held: tied hair, whose tie may be another than that under which it came where it is.
+    pub fn hold(&self, states: &mut [FreeState]) {
+        for ((state, row), rest) in states.iter_mut().zip(&self.rows).zip(&self.rest) {
+            for lane in (0..LANES).filter(|&lane| row.gain.0[lane] == 0.0) {
+                set_lane(&mut state.direction, lane, lane_of(&rest.direction, lane));
+                set_lane(&mut state.increment, lane, lane_of(&rest.increment, lane));
+            }
+        }
     }
 
     /// The bodies in a frame.

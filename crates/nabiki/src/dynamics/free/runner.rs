@@ -10,6 +10,7 @@ use super::kernel::FreeState;
 use super::packed::{Packed, Plan};
 use crate::dynamics::gain::{Named, unstable};
 use crate::dynamics::row::{LANES, Row};
+use crate::dynamics::state::{Header, Reader, Writer};
 use crate::dynamics::sweep::{Pages, sweep};
 use crate::dynamics::{Dynamics, FrameInput, VectorWidth};
 use crate::error::SettingError;
@@ -78,10 +79,54 @@ impl Runner {
             self.states.copy_from_slice(&of.states);
             if let (Some(carriers), Some(of)) = (&mut self.carriers, &of.carriers) {
                 carriers.hair.states.copy_from_slice(&of.hair.states);
+                carriers.hair.points.copy_from_slice(&of.hair.points);
                 carriers.crowd.take(&of.crowd);
             }
         }
         is_clone
+    }
+
+    /// What it is that it holds the state of.
+    pub fn header(&self) -> Header {
+        let carriers = self.carriers.as_ref().map(|carriers| &carriers.hair);
+        let of_carriers = carriers.map_or(0, |hair| 3 * hair.points.len() + hair.states.len() * FreeState::NUMBERS);
+        Header {
+            is_free: true,
+            numbers: (self.states.len() * FreeState::NUMBERS) as u64,
+            of_carriers: of_carriers as u64,
+            hair: self.packed.identity(),
+            carriers: carriers.map_or(0, |hair| hair.packed.identity()),
+            bodies: self.packed.bodies_identity(),
+            ..Header::default()
+        }
+    }
+
+    /// Writes where it stands.
+    pub fn write(&self, writer: &mut Writer) {
+        writer.rows(self.states.iter().flat_map(FreeState::rows));
+        if let Some(Carriers { hair, .. }) = &self.carriers {
+            writer.points(&hair.points);
+            writer.rows(hair.states.iter().flat_map(FreeState::rows));
+        }
+    }
+
+    /// Stands where the same hair stood when it was written, be it among other bodies or carriers. `own`: its header.
+    pub fn read(&mut self, reader: &mut Reader, own: &Header, width: VectorWidth) {
+        reader.rows(self.states.iter_mut().flat_map(FreeState::rows_mut));
+        self.packed.hold(&mut self.states);
+        if let Some(carriers) = &mut self.carriers {
+            let Header { carriers: identity, of_carriers, .. } = reader.header;
+            if (identity, of_carriers) == (own.carriers, own.of_carriers) {
+                reader.points(&mut carriers.hair.points);
+                reader.rows(carriers.hair.states.iter_mut().flat_map(FreeState::rows_mut));
+                carriers.fill(width);
+            } else {
+                carriers.rewind(width);
+            }
+        }
+        if reader.header.bodies != own.bodies {
+            self.jumped();
+        }
     }
 
     /// Forgets how far all of it is from the bodies, so that the next step asks.
@@ -96,7 +141,7 @@ impl Runner {
     pub fn rewind(&mut self, width: VectorWidth, page: &mut [Vec3]) {
         sweep(&*self.packed, &[Plan::Rest], width, &mut self.states, Pages::Last(page));
         if let Some(carriers) = &mut self.carriers {
-            carriers.rewind();
+            carriers.rewind(width);
         }
     }
 
@@ -132,7 +177,7 @@ impl Runner {
             None => Vec::new(),
             Some(carriers) => {
                 if from_rest {
-                    carriers.rewind();
+                    carriers.rewind(width);
                 }
                 let before = |(input, obstacles): (&FrameInput, &Vec<Obstacle>)| {
                     let Carriers { hair, crowd, next } = &mut *carriers;
@@ -166,6 +211,7 @@ struct CarrierHair {
     strands: Arc<Strands>,
     packed: Arc<Packed>,
     states: Vec<FreeState>,
+    /// Where they are, as the step put them together.
     points: Vec<Vec3>,
     velocities: Vec<Vec3>,
     crowd_at_rest: Arc<Crowd>,
@@ -183,11 +229,18 @@ impl Carriers {
         Ok(Self { hair, next: crowd.clone(), crowd })
     }
 
-    fn rewind(&mut self) {
+    fn rewind(&mut self, width: VectorWidth) {
         let Self { hair, crowd, next } = self;
-        hair.states.copy_from_slice(hair.packed.at_rest());
+        sweep(&*hair.packed, &[Plan::Rest], width, &mut hair.states, Pages::Last(&mut hair.points));
         crowd.take(&hair.crowd_at_rest);
         next.take(&hair.crowd_at_rest);
+    }
+
+    /// Leaves what the carriers are who were put elsewhere.
+    fn fill(&mut self, width: VectorWidth) {
+        let Self { hair, crowd, .. } = self;
+        sweep(&*hair.packed, &[Plan::Velocities], width, &mut hair.states, Pages::Last(&mut hair.velocities));
+        crowd.fill(&hair.points, &hair.velocities);
     }
 }
 

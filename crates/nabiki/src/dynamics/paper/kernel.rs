@@ -39,6 +39,21 @@ pub(super) struct SegmentState {
     pub phi_increment: Row,
 }
 
+impl SegmentState {
+    /// Of all its rows.
+    pub const NUMBERS: usize = 6 * LANES;
+
+    pub fn rows(&self) -> [&Row; 6] {
+        let Self { theta, phi, theta_increment, phi_increment } = self;
+        [&theta.sin, &theta.cos, &phi.sin, &phi.cos, theta_increment, phi_increment]
+    }
+
+    pub fn rows_mut(&mut self) -> [&mut Row; 6] {
+        let Self { theta, phi, theta_increment, phi_increment } = self;
+        [&mut theta.sin, &mut theta.cos, &mut phi.sin, &mut phi.cos, theta_increment, phi_increment]
+    }
+}
+
 impl Default for SegmentState {
     fn default() -> Self {
         let zero = TurnRow { sin: Row::default(), cos: Row([1.0; LANES]) };

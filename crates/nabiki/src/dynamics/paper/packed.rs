@@ -12,6 +12,7 @@ use crate::disturbance::Part;
 use crate::dynamics::block::{Block, Pass};
 use crate::dynamics::gain::{SegmentShape, Stability, segment_shapes};
 use crate::dynamics::row::{LANES, PointRow, Row};
+use crate::dynamics::state::Identity;
 use crate::dynamics::sweep::Form;
 use crate::dynamics::{Dynamics, FrameInput};
 use crate::error::SettingError;
@@ -75,6 +76,15 @@ impl Packed {
         }
         self.blocks.push(block);
         Ok(())
+    }
+
+    /// What tells this hair at rest from other hair, whatever moves it.
+    pub fn identity(&self) -> u64 {
+        let mut identity = Identity::new();
+        self.blocks.iter().for_each(|block| block.identify(&mut identity));
+        self.shapes.iter().for_each(|shape| identity.numbers(&shape.length.0));
+        self.rest.iter().flat_map(SegmentState::rows).for_each(|row| identity.numbers(&row.0));
+        identity.get()
     }
 
     /// Whether this hair can be stepped under a field.

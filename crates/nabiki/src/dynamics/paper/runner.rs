@@ -7,6 +7,7 @@ use glam::Vec3;
 use super::kernel::SegmentState;
 use super::packed::{Packed, Plan};
 use crate::dynamics::gain::{Named, unstable};
+use crate::dynamics::state::{Header, Reader, Writer};
 use crate::dynamics::sweep::{Pages, sweep};
 use crate::dynamics::{Dynamics, FrameInput, VectorWidth};
 use crate::error::SettingError;
@@ -53,6 +54,22 @@ impl Runner {
             self.states.copy_from_slice(&of.states);
         }
         is_clone
+    }
+
+    /// What it is that it holds the state of.
+    pub fn header(&self) -> Header {
+        let numbers = (self.states.len() * SegmentState::NUMBERS) as u64;
+        Header { is_free: false, numbers, hair: self.packed.identity(), ..Header::default() }
+    }
+
+    /// Writes where it stands.
+    pub fn write(&self, writer: &mut Writer) {
+        writer.rows(self.states.iter().flat_map(SegmentState::rows));
+    }
+
+    /// Stands where the same hair stood when it was written.
+    pub fn read(&mut self, reader: &mut Reader) {
+        reader.rows(self.states.iter_mut().flat_map(SegmentState::rows_mut));
     }
 
     /// Puts the hair back to rest.
