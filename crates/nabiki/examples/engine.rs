@@ -14,7 +14,7 @@ use nabiki::pseudo_force::PseudoForce;
 use nabiki::roots::Hairline;
 use nabiki::{Head, Mesh, Pose, SettingError};
 
-/// Steps a second, however many pictures are drawn.
+/// Steps a second, however many pictures are drawn; hair is shown up to one step late.
 const RATE: f64 = 60.0;
 /// Steps that one picture may wait for; of a longer hitch hair feels nothing.
 const MOST_STEPS: u32 = 4;
@@ -59,6 +59,8 @@ struct Wig {
     simulation: Simulation,
     wind: Wind,
     steps: f64,
+    /// Points of the step before the last one.
+    earlier: Vec<Vec3>,
     head: Way,
     hand: Way,
 }
@@ -73,6 +75,7 @@ impl Wig {
             // Hair goes along as it is in the head; `self.simulation.rewind()` would put it to rest.
             self.simulation.jumped();
             (self.head, self.hand) = (Way::at(head), Way::at(hand));
+            self.earlier.copy_from_slice(self.simulation.strands().points());
         } else {
             for frame in from as u32 + 1..=to as u32 {
                 let part = ((f64::from(frame) - from) / (to - from)) as f32;
@@ -81,11 +84,12 @@ impl Wig {
                 // By their number among the bodies: the head goes with the head.
                 let bodies = &[None, Some([hand, hand_before])];
                 let before = [before, earlier];
+                self.earlier.copy_from_slice(self.simulation.strands().points());
                 self.simulation.step_frame(&FrameInput { frame, pose, before, field: &self.wind, bodies });
             }
         }
         (self.steps, self.head.drawn, self.hand.drawn) = (to, head, hand);
-        vertices.copy_from_slice(self.simulation.strands().points());
+        self.simulation.strands().between(&self.earlier, to.fract() as f32, vertices);
     }
 }
 
@@ -124,9 +128,8 @@ fn main() -> Result<(), SettingError> {
     };
     let simulation = Simulation::new(&hair, &dynamics, &FieldSum::default())?;
     let mut saved = simulation.clone();
-    let (head, hand) = (Way::at(Pose::STILL), Way::at(aside));
-    let mut wig = Wig { simulation, wind: Wind(Vec3::ZERO), steps: 0.0, head, hand };
-    let mut vertices = hair.points().to_vec();
+    let (head, hand, mut vertices) = (Way::at(Pose::STILL), Way::at(aside), hair.points().to_vec());
+    let mut wig = Wig { simulation, wind: Wind(Vec3::ZERO), steps: 0.0, earlier: vertices.clone(), head, hand };
     // Pictures of 30, 60 and 144 Hz, and a hitch.
     for (pictures, rate) in [(30, 30.0), (60, 60.0), (144, 144.0), (1, 2.0)] {
         saved.set_state(&wig.simulation);

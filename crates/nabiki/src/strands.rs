@@ -136,6 +136,35 @@ impl Strands {
         &self.points
     }
 
+    /// Points between those of the same strands some time before and these, for pictures between two steps: `part`, 0..=1, of the
+    /// way (head space, cm). Roots go straight; each segment turns from its direction then to that of now, and keeps its length, of
+    /// which a mean of points loses up to all. A segment that turned right about takes the direction that is nearer in time.
+    ///
+    /// # Panics
+    /// If there are not as many points in each as these strands have.
+    pub fn between(&self, before: &[Vec3], part: f32, points: &mut [Vec3]) {
+        assert_eq!(before.len(), self.points.len(), "points before, of the same strands");
+        assert_eq!(points.len(), self.points.len(), "room for every point");
+        for s in 0..self.len() {
+            let range = self.range(s);
+            let (then, now, between) = (&before[range.clone()], self.strand(s), &mut points[range]);
+            let (Some((a, then)), Some((b, now))) = (then.split_first(), now.split_first()) else { continue };
+            let (mut a, mut b, mut p) = (*a, *b, a.lerp(*b, part));
+            between[0] = p;
+            for ((next_a, next_b), point) in then.iter().zip(now).zip(&mut between[1..]) {
+                let (from, to) = (*next_a - a, *next_b - b);
+                let (length_from, length_to) = (from.length(), to.length());
+                let length = length_from + part * (length_to - length_from);
+                let mean = from.lerp(to, part);
+                let nearer = if part < 0.5 { from } else { to };
+                // What is left of two that all but cancel has no direction.
+                let way = if mean.length_squared() > 1e-8 * length * length { mean } else { nearer };
+                p += length * way.normalize_or_zero();
+                (a, b, *point) = (*next_a, *next_b, p);
+            }
+        }
+    }
+
     /// All points, strand after strand; their number and owners stay as they are.
     pub fn points_mut(&mut self) -> &mut [Vec3] {
         &mut self.points

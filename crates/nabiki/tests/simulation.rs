@@ -201,3 +201,55 @@ fn a_pose_between_two_lies_on_the_shorter_way() {
     assert!(near(from.between(&to, 0.25), quarter));
     assert!(near(from.between(&from, 0.5), from));
 }
+
+#[test]
+fn between_two_steps_segments_keep_their_length() {
+    let hair = hair(30, 18);
+    let mut simulation = fast(&hair, &gust(), &wind());
+    run(&mut simulation, 1..=19);
+    let before = simulation.strands().points().to_vec();
+    run(&mut simulation, 20..=20);
+    let now = simulation.strands();
+    let mut points = before.clone();
+    let lengths = |points: &[Vec3]| -> Vec<f32> {
+        points
+            .chunks(19)
+            .flat_map(|strand| strand.windows(2).map(|w| w[0].distance(w[1])).collect::<Vec<_>>())
+            .collect()
+    };
+    let shorter =
+        |points: &[Vec3]| lengths(&before).iter().zip(lengths(points)).map(|(a, b)| a - b).fold(0.0, f32::max);
+    for part in [0.0, 0.25, 0.5, 0.9, 1.0] {
+        now.between(&before, part, &mut points);
+        // Coordinates of up to 32 cm, rounded at both ends of both.
+        assert!(shorter(&points) < 2e-5, "{part}: {}", shorter(&points));
+        let farthest = |to: &[Vec3]| points.iter().zip(to).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+        // Eighteen roundings of up to 2e-6 cm.
+        assert!(part != 0.0 || farthest(&before) < 5e-5);
+        assert!(part != 1.0 || farthest(now.points()) < 5e-5);
+    }
+    let mean: Vec<Vec3> = before.iter().zip(now.points()).map(|(a, b)| 0.5 * (*a + *b)).collect();
+    assert!(shorter(&mean) > 1e-3, "a mean of points shortens segments: {}", shorter(&mean));
+
+    // In the middle of a turn by 80 degrees: at 40, and 10 cm long. Right about: the nearer in time.
+    let straight = |angle: f32| [Vec3::ZERO, 10.0 * Vec3::new(angle.cos(), angle.sin(), 0.0)];
+    let turned = |by: f32, part: f32| {
+        let mut strands = Strands::default();
+        strands.push(straight(by.to_radians()));
+        let mut points = [Vec3::ZERO; 2];
+        strands.between(&straight(0.0), part, &mut points);
+        points[1]
+    };
+    assert!(turned(80.0, 0.5).distance(straight(40_f32.to_radians())[1]) < 1e-5);
+    for (part, angle) in [(0.0, 0.0), (0.499_999_9, 0.0), (0.5, 180.0), (1.0, 180.0)] {
+        assert!(turned(180.0, part).distance(straight(f32::to_radians(angle))[1]) < 1e-5, "{part}");
+    }
+    // Strands of no segment, and none.
+    let mut lone = Strands::default();
+    lone.push([Vec3::X]);
+    lone.push([]);
+    let mut point = [Vec3::ZERO];
+    lone.between(&[Vec3::ZERO], 0.25, &mut point);
+    assert_eq!(point, [Vec3::new(0.25, 0.0, 0.0)]);
+    Strands::default().between(&[], 0.5, &mut []);
+}
