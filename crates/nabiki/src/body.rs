@@ -74,6 +74,21 @@ impl BodyWay {
         }
     }
 
+    /// The same way in `frames` frames that takes `of` frames now.
+    pub(crate) fn resampled(&self, of: u32, frames: u32) -> Self {
+        match self {
+            Self::InWorld(poses) if poses.len() > 1 => {
+                let pose = |n: usize| poses[n.min(poses.len() - 1)];
+                let at = |n: u32| {
+                    let place = f64::from(n) * f64::from(of) / f64::from(frames);
+                    pose(place as usize).between(&pose(place as usize + 1), place.fract() as f32)
+                };
+                Self::InWorld((0..=frames).map(at).collect())
+            }
+            way => way.clone(),
+        }
+    }
+
     /// Refuses a way that ends before `frames` or leads through places that are none; `name` is what the body is called.
     ///
     /// # Errors

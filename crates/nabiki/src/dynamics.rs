@@ -180,6 +180,43 @@ impl Dynamics {
         }
     }
 
+    /// The same motion in seconds, to first order, at another rate of steps (frames a second): R times as many steps are a time step of
+    /// 1 / R, settling and disturbances over R times as many frames, a cohesion R times as strong for each cm a frame, and
+    /// [`Motion::frames`] R times as many. Ways of bodies have poses between theirs. Forces, stiffness, hold, gravity, pressure, lag and
+    /// contact stay as they are. What a field counts in frames is the field's, and is to be given anew; disturbances are other ones.
+    ///
+    /// A lower rate may be too low for the stiffness, which a stepper then refuses.
+    ///
+    /// # Errors
+    /// A rate that is none, or gives more frames than may be; settings out of range.
+    pub fn at_frame_rate(&self, rate: f64) -> Result<Self, SettingError> {
+        self.check()?;
+        let ratio = rate / self.motion.frame_rate;
+        let frames = |count: u32| (f64::from(count) * ratio).round().max(1.0) as u32;
+        let mut dynamics = self.clone();
+        let motion = &mut dynamics.motion;
+        motion.frame_rate = rate;
+        motion.frames = frames(motion.frames);
+        motion.time_step = (f64::from(motion.time_step) / ratio) as f32;
+        motion.check()?;
+        if let Some(disturbance) = &mut dynamics.disturbance {
+            disturbance.every = frames(disturbance.every);
+            disturbance.from = frames(disturbance.from);
+            disturbance.over = frames(disturbance.over).min(disturbance.every);
+        }
+        if let Form::Free(free) = &mut dynamics.form {
+            free.form.settle = free.form.settle.times(ratio);
+            if let Some(neighbours) = &mut free.neighbours {
+                neighbours.forces.cohesion = (f64::from(neighbours.forces.cohesion) * ratio) as f32;
+            }
+            for body in &mut free.bodies {
+                body.way = body.way.resampled(self.motion.frames, dynamics.motion.frames);
+            }
+        }
+        dynamics.check()?;
+        Ok(dynamics)
+    }
+
     fn gamma(&self) -> Gamma {
         Gamma { ellipsoid: self.ellipsoid, shell: self.shell, alpha: self.pseudo_force.alpha }
     }

@@ -34,6 +34,16 @@ impl Profile {
         }
     }
 
+    /// All its numbers times `factor`.
+    #[must_use]
+    pub(crate) fn times(&self, factor: f64) -> Self {
+        let times = |value: f32| (f64::from(value) * factor) as f32;
+        match self {
+            Self::Even(value) => Self::Even(times(*value)),
+            Self::RootToTip(values) => Self::RootToTip(values.iter().copied().map(times).collect()),
+        }
+    }
+
     /// The largest of its numbers.
     pub fn largest(&self) -> f32 {
         self.values().iter().copied().fold(f32::NEG_INFINITY, f32::max)
