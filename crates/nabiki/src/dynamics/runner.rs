@@ -83,11 +83,11 @@ impl Runner {
         }
     }
 
-    /// Stands where a clone stands; `false`, and no change, if `of` is none.
-    pub fn set_state(&mut self, of: &Self) -> bool {
+    /// Stands where the same hair stands, be it under other settings; `false`, and no change, if `of` is other hair.
+    pub fn set_state(&mut self, of: &Self, width: VectorWidth) -> bool {
         match (&mut self.form, &of.form) {
             (OfForm::Paper(runner), OfForm::Paper(of)) => runner.set_state(of),
-            (OfForm::Free(runner), OfForm::Free(of)) => runner.set_state(of),
+            (OfForm::Free(runner), OfForm::Free(of)) => runner.set_state(of, width),
             _ => false,
         }
     }

@@ -91,18 +91,23 @@ impl Simulation {
         self.runner.strongest_force()
     }
 
-    /// Stands where `of` stands, to the bit and without an allocation: to save a state into a clone, and to restore it. Points
+    /// Stands where `of` stands, without an allocation: to save a state into a clone, to restore it, and to go on under other settings
+    /// than those of `of`, with which this was built of the same hair. To the bit if the settings are the same. Points
     /// written by [`step_frame_into`](Self::step_frame_into) are the caller's, and not part of it.
     ///
+    /// What is tied here lies as at rest from the next step on, and carriers that `of` has not begin at rest. That hair is the same
+    /// takes some milliseconds to see, where neither is a clone of the other, or of the same simulation.
+    ///
     /// # Panics
-    /// If neither is a clone of the other, or of the same simulation.
+    /// If it is other hair at rest, or hair of the other form of the motion.
     pub fn set_state(&mut self, of: &Self) {
-        assert!(self.runner.set_state(&of.runner), "a state is that of a clone of this simulation");
+        assert!(self.runner.set_state(&of.runner, self.width), "a state is that of the same hair in the same form");
         self.strands.points_mut().copy_from_slice(of.strands.points());
         self.frame = of.frame;
     }
 
-    /// Where it stands, as bytes: for a saved game, another machine, the report of a crash. Of 3,000 strands of 18 segments 2.2 MB.
+    /// Where it stands, as bytes: for a saved game, another machine, the report of a crash. Of 3,000 strands of 18 segments 2.4 MB
+    /// among neighbours.
     ///
     /// They hold the frame, the points that [`strands`](Stepper::strands) shows and what moves, and neither hair nor settings.
     #[must_use]

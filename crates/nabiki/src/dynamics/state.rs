@@ -36,6 +36,11 @@ pub(super) struct Header {
 }
 
 impl Header {
+    /// Whether both have the same carriers.
+    pub fn has_carriers_of(&self, other: &Self) -> bool {
+        (self.carriers, self.of_carriers) == (other.carriers, other.of_carriers)
+    }
+
     /// Refuses the state of what this is not.
     fn check(&self, own: &Self) -> Result<(), SettingError> {
         let form = |header: &Self| if header.is_free { "the free form" } else { "the paper's form" };

@@ -72,8 +72,8 @@ impl Runner {
         self.packed.strongest_force().min(of_carriers.unwrap_or(f32::MAX))
     }
 
-    /// Stands where a clone stands; `false`, and no change, if `of` is none.
-    pub fn set_state(&mut self, of: &Self) -> bool {
+    /// Stands where the same hair stands, be it among other bodies or carriers; `false`, and no change, if `of` is other hair.
+    pub fn set_state(&mut self, of: &Self, width: VectorWidth) -> bool {
         let is_clone = Arc::ptr_eq(&self.packed, &of.packed);
         if is_clone {
             self.states.copy_from_slice(&of.states);
@@ -82,8 +82,37 @@ impl Runner {
                 carriers.hair.points.copy_from_slice(&of.hair.points);
                 carriers.crowd.take(&of.crowd);
             }
+            return true;
         }
-        is_clone
+        let (own, header) = (self.header(), of.header());
+        let is_same = (own.hair, own.numbers) == (header.hair, header.numbers);
+        if is_same {
+            self.states.copy_from_slice(&of.states);
+            if let (Some(carriers), Some(of)) = (&mut self.carriers, &of.carriers)
+                && own.has_carriers_of(&header)
+            {
+                carriers.hair.points.copy_from_slice(&of.hair.points);
+                carriers.hair.states.copy_from_slice(&of.hair.states);
+            }
+            self.settle_in(&own, &header, width);
+        }
+        is_same
+    }
+
+    /// After states and points of other settings, which had the header `of`, have taken the place of its own.
+    fn settle_in(&mut self, own: &Header, of: &Header, width: VectorWidth) {
+        self.packed.hold(&mut self.states);
+        if let Some(carriers) = &mut self.carriers {
+            if own.has_carriers_of(of) {
+                carriers.hair.packed.hold(&mut carriers.hair.states);
+                carriers.fill(width);
+            } else {
+                carriers.rewind(width);
+            }
+        }
+        if own.bodies != of.bodies {
+            self.jumped();
+        }
     }
 
     /// What it is that it holds the state of.
@@ -113,20 +142,13 @@ impl Runner {
     /// Stands where the same hair stood when it was written, be it among other bodies or carriers. `own`: its header.
     pub fn read(&mut self, reader: &mut Reader, own: &Header, width: VectorWidth) {
         reader.rows(self.states.iter_mut().flat_map(FreeState::rows_mut));
-        self.packed.hold(&mut self.states);
-        if let Some(carriers) = &mut self.carriers {
-            let Header { carriers: identity, of_carriers, .. } = reader.header;
-            if (identity, of_carriers) == (own.carriers, own.of_carriers) {
-                reader.points(&mut carriers.hair.points);
-                reader.rows(carriers.hair.states.iter_mut().flat_map(FreeState::rows_mut));
-                carriers.fill(width);
-            } else {
-                carriers.rewind(width);
-            }
+        if let Some(Carriers { hair, .. }) = &mut self.carriers
+            && own.has_carriers_of(&reader.header)
+        {
+            reader.points(&mut hair.points);
+            reader.rows(hair.states.iter_mut().flat_map(FreeState::rows_mut));
         }
-        if reader.header.bodies != own.bodies {
-            self.jumped();
-        }
+        self.settle_in(own, &reader.header, width);
     }
 
     /// Forgets how far all of it is from the bodies, so that the next step asks.

@@ -47,13 +47,13 @@ impl Runner {
         self.packed.strongest_force()
     }
 
-    /// Stands where a clone stands; `false`, and no change, if `of` is none.
+    /// Stands where the same hair stands; `false`, and no change, if `of` is other hair.
     pub fn set_state(&mut self, of: &Self) -> bool {
-        let is_clone = Arc::ptr_eq(&self.packed, &of.packed);
-        if is_clone {
+        let is_same = Arc::ptr_eq(&self.packed, &of.packed) || self.header() == of.header();
+        if is_same {
             self.states.copy_from_slice(&of.states);
         }
-        is_clone
+        is_same
     }
 
     /// What it is that it holds the state of.

@@ -1,0 +1,85 @@
+//! Settings that change while hair moves.
+
+#[path = "common/allocations.rs"]
+mod allocations;
+mod common;
+
+use std::sync::Arc;
+
+use allocations::allocations;
+use common::{bits, fast, gust, hair, way_of_a_head, wind};
+use nabiki::Strands;
+use nabiki::dynamics::{Dynamics, Form, FrameInput, Simulation, Stepper, gain};
+use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours, Tie};
+use nabiki::pseudo_force::PseudoForce;
+
+fn free(form: FreeForm) -> Dynamics {
+    Dynamics { pseudo_force: PseudoForce::off(), form: Form::Free(FreeMotion { form, ..Default::default() }), ..gust() }
+}
+
+fn with_neighbours(mut dynamics: Dynamics) -> Dynamics {
+    if let Form::Free(free) = &mut dynamics.form {
+        free.neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers: Arc::new(hair(24, 18)) });
+    }
+    dynamics
+}
+
+fn run(simulation: &mut Simulation, frames: std::ops::RangeInclusive<u32>) -> Vec<[u32; 3]> {
+    let poses = way_of_a_head(40);
+    frames.for_each(|frame| simulation.step_frame(&FrameInput::new(frame, &poses, &wind())));
+    bits(simulation.strands())
+}
+
+#[test]
+fn hair_goes_on_under_other_settings_from_where_it_is() {
+    let hair = hair(60, 18);
+    let light = with_neighbours(free(FreeForm { gravity: 100.0, ..FreeForm::default() }));
+    let heavy = with_neighbours(free(FreeForm { gravity: 120.0, ..FreeForm::default() }));
+    let mut old = fast(&hair, &light, &wind());
+    run(&mut old, 1..=15);
+    // Built of its own with the same settings: to the bit.
+    let mut same = fast(&hair, &light, &wind());
+    same.set_state(&old);
+    let mut other = fast(&hair, &heavy, &wind());
+    let before = allocations();
+    other.set_state(&old);
+    assert_eq!(allocations(), before);
+    let mut read = fast(&hair, &heavy, &wind());
+    read.set_state_bytes(&old.state_bytes()).unwrap();
+    assert!((other.frame(), bits(other.strands())) == (15, bits(old.strands())));
+    // An increment differs by what 20 more of weight, now and at rest, and of acceleration give: |a| / 981 of it at the most.
+    let [next, goes_on, next_read] = [&mut old, &mut other, &mut read].map(|simulation| run(simulation, 16..=16));
+    assert!(goes_on == next_read && goes_on != next);
+    run(&mut same, 16..=16);
+    assert!(bits(same.strands()) == next);
+    let weight = 20.0 * 2.0;
+    let gains = (0..18).map(|i| gain(&heavy, f64::from(i) + 1.0, 18.0));
+    let felt = {
+        let poses = way_of_a_head(16);
+        let second = (poses[16].position_cm - 2.0 * poses[15].position_cm + poses[14].position_cm).length();
+        // And of the turn, 30 cm from its middle: 0.4 rad in 5 frames and less, squared.
+        20.0 / 981.0 * 576.0 * f64::from(second + 30.0 * 0.01)
+    };
+    let bound = gains.sum::<f64>() * (weight + felt);
+    let farthest = |a: &Strands, b: &Strands| {
+        a.points().iter().zip(b.points()).map(|(a, b)| f64::from(a.distance(*b))).fold(0.0, f64::max)
+    };
+    let apart = farthest(old.strands(), other.strands());
+    println!("{apart} {bound}");
+    assert!(apart > 1e-5 && apart < bound, "{apart} cm, at most {bound}");
+}
+
+#[test]
+fn hair_that_is_tied_in_flight_lies_as_at_rest_before_its_band() {
+    let hair = hair(20, 18);
+    let form = FreeForm { stiffness: 2000.0.into(), ..FreeForm::default() };
+    let mut old = fast(&hair, &free(form.clone()), &wind());
+    run(&mut old, 1..=15);
+    let tie = Some(Tie { at: hair.strand(3)[9], within: 0.5 });
+    let mut tied = fast(&hair, &free(FreeForm { tie, ..form }), &wind());
+    tied.set_state(&old);
+    run(&mut tied, 16..=20);
+    let moved = |i: usize| tied.strands().strand(3)[i].distance(hair.strand(3)[i]);
+    assert!((0..=9).all(|i| moved(i) < 1e-5) && moved(18) > 0.1);
+    assert!(old.strands().strand(3)[9].distance(hair.strand(3)[9]) > 0.1);
+}
