@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{Quat, Vec3};
 use nabiki::body::{Body, BodyWay, Contact, skin_of};
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Simulation, Stepper};
-use nabiki::field::{Field, FieldSum};
+use nabiki::field::UniformField;
 use nabiki::free_form::FreeMotion;
 use nabiki::groom::{Growth, Style, grow};
 use nabiki::pseudo_force::PseudoForce;
@@ -18,22 +18,6 @@ use nabiki::{Head, Mesh, Pose, SettingError};
 const RATE: f64 = 60.0;
 /// Steps that one picture may wait for; of a longer hitch hair feels nothing.
 const MOST_STEPS: u32 = 4;
-
-/// Wind that the game sets from step to step.
-#[derive(Debug)]
-struct Wind(Vec3);
-
-impl Field for Wind {
-    fn at(&self, _point: Vec3, _frame: u32) -> Vec3 {
-        self.0
-    }
-    fn strongest(&self) -> f32 {
-        self.0.length()
-    }
-    fn uniform(&self, _frame: u32) -> Option<Vec3> {
-        Some(self.0)
-    }
-}
 
 /// Where something is that the game moves: in the last picture, and in the last two steps, the later one first.
 struct Way {
@@ -57,7 +41,7 @@ impl Way {
 /// One head of hair.
 struct Wig {
     simulation: Simulation,
-    wind: Wind,
+    wind: UniformField,
     steps: f64,
     /// Points of the step before the last one.
     earlier: Vec<Vec3>,
@@ -126,10 +110,10 @@ fn main() -> Result<(), SettingError> {
         disturbance: None,
         form: Form::Free(FreeMotion { bodies, ..FreeMotion::default() }),
     };
-    let simulation = Simulation::new(&hair, &dynamics, &FieldSum::default())?;
+    let simulation = Simulation::new(&hair, &dynamics, &UniformField::default())?;
     let mut saved = simulation.clone();
     let (head, hand, mut vertices) = (Way::at(Pose::STILL), Way::at(aside), hair.points().to_vec());
-    let mut wig = Wig { simulation, wind: Wind(Vec3::ZERO), steps: 0.0, earlier: vertices.clone(), head, hand };
+    let mut wig = Wig { simulation, wind: UniformField::default(), steps: 0.0, earlier: vertices.clone(), head, hand };
     // Pictures of 30, 60 and 144 Hz, and a hitch.
     for (pictures, rate) in [(30, 30.0), (60, 60.0), (144, 144.0), (1, 2.0)] {
         saved.set_state(&wig.simulation);

@@ -13,6 +13,7 @@ mod point;
 mod sine;
 mod sum;
 mod turbulence;
+mod uniform;
 mod vortex;
 
 use std::fmt::Debug;
@@ -30,6 +31,7 @@ pub use keyframed::{Ease, Keyframe, KeyframedField, Wind};
 pub use point::{Point, PointField};
 pub use sum::FieldSum;
 pub use turbulence::{Turbulence, TurbulenceField};
+pub use uniform::UniformField;
 pub use vortex::{Vortex, VortexField};
 
 /// Points or vectors of a [row](Field::at_row).
@@ -45,8 +47,8 @@ pub type VectorRow = [[f32; ROW]; 3];
 /// answer depends on point and frame only and is finite: hair moves to the same bits whoever asks, and in whatever
 /// order.
 ///
-/// Wind that changes as a game goes on is a field that holds the wind of now and is changed between steps, with the most
-/// that it will ever be as its `strongest`; `crates/nabiki/examples/engine.rs` has one.
+/// Wind that changes as a game goes on is a field that holds the wind of now and is changed between steps, as a [`UniformField`] is,
+/// within [`Simulation::strongest_force`](crate::dynamics::Simulation::strongest_force).
 pub trait Field: Debug + Send + Sync {
     /// The force at a point (cm) in a frame.
     fn at(&self, point: Vec3, frame: u32) -> Vec3;

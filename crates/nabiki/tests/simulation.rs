@@ -12,7 +12,7 @@ use common::{ball, bits, fast, field, gust, hair, way_of_a_head, wind};
 use glam::{Quat, Vec3};
 use nabiki::body::{Body, BodyWay, Contact, skin_of};
 use nabiki::dynamics::{Dynamics, Film, Form, FrameInput, Motion, Reference, Simulation, Stepper, Timeline};
-use nabiki::field::{Field, FieldSum};
+use nabiki::field::{Field, FieldSum, UniformField};
 use nabiki::free_form::{FreeMotion, NeighbourForces, Neighbours};
 use nabiki::pseudo_force::PseudoForce;
 use nabiki::{Head, Pose, Profile, Strands};
@@ -252,4 +252,52 @@ fn between_two_steps_segments_keep_their_length() {
     lone.between(&[Vec3::ZERO], 0.25, &mut point);
     assert_eq!(point, [Vec3::new(0.25, 0.0, 0.0)]);
     Strands::default().between(&[], 0.5, &mut []);
+}
+
+#[test]
+fn a_uniform_field_is_the_wind_that_it_is_set_to() {
+    for dynamics in [gust(), crowded()] {
+        let [mut set, mut given] = [(); 2].map(|()| fast(&hair(20, 18), &dynamics, &UniformField::default()));
+        let mut wind = UniformField::default();
+        for (frame, vector) in (1..).zip([[-90.0, 10.0, 0.0], [0.0; 3], [0.0, -40.0, 70.0]]) {
+            wind.0 = vector.into();
+            set.step_frame(&FrameInput::new(frame, &[], &wind));
+            given.step_frame(&FrameInput::new(frame, &[], &field(&[(frame, vector)])));
+            assert!(bits(set.strands()) == bits(given.strands()));
+        }
+        assert_eq!((wind.strongest(), UniformField(Vec3::new(2.0, 3.0, 6.0)).strongest()), (wind.0.length(), 7.0));
+    }
+}
+
+#[test]
+fn a_clone_of_the_reference_moves_on_by_itself() {
+    for dynamics in [gust(), crowded()] {
+        let mut reference = Reference::new(&hair(4, 18), &dynamics, &wind()).unwrap();
+        common::step(&mut reference, &wind());
+        let mut saved = reference.clone();
+        let first = reference.positions().to_vec();
+        common::step(&mut reference, &wind());
+        assert!(saved.positions() == first && reference.positions() != first);
+        common::step(&mut saved, &wind());
+        assert!(saved.positions() == reference.positions());
+    }
+}
+
+#[test]
+fn unstable_hair_that_may_be_in_metres_is_said_to_be() {
+    let refusal = |scale: f32, head: f32, force: f32| {
+        let mut dynamics = gust();
+        dynamics.ellipsoid.half_axes *= head;
+        let blows = field(&[(1, [force, 0.0, 0.0])]);
+        let hair = common::map(&hair(5, 18), |p| scale * p);
+        Simulation::new(&hair, &dynamics, &blows).err().map(|refused| refused.to_string())
+    };
+    let metres = refusal(0.01, 0.01, 100.0).unwrap();
+    let hint = "; the longest strand is 0.18 cm and the head's mean half axis is 0.10 cm: if that is in metres, give it in cm, times 100";
+    assert!(metres.ends_with(hint), "{metres}");
+    assert!(refusal(0.01, 1.0, 100.0).unwrap().contains("strand is 0.18 cm: if"));
+    assert!(refusal(1.0, 0.01, 1e5).unwrap().contains("axis is 0.10 cm: if"));
+    // Too strong a force on hair and head of a person's, and hair in metres under forces that it bears.
+    assert!(!refusal(1.0, 1.0, 1e5).unwrap().contains("metres"));
+    assert_eq!(refusal(0.01, 0.01, 1e-9), None);
 }

@@ -258,7 +258,9 @@ pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Fiel
     let blamed = largest_first.into_iter().find(|&part| rooms[part] > 0.0 && rooms[part].is_finite());
     let refused = |thing: &str, value: String, keep: String| {
         let most = if most < 1e6 { format!("{most:.3}") } else { format!("{most:.1e}") };
-        let remedy = format!("unstable: {what} reaches {most} at {place}, and must stay below 4; {keep}, {ways}");
+        let metres = in_metres(hair, dynamics);
+        let remedy =
+            format!("unstable: {what} reaches {most} at {place}, and must stay below 4; {keep}, {ways}{metres}");
         SettingError::new(thing, value, remedy)
     };
     let owners = owners(dynamics);
@@ -291,6 +293,22 @@ pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Fiel
             )
         }
     }
+}
+
+/// Hair shorter than this (cm) at its longest, about a head whose mean half axis is below it: a person's in metres, not in cm.
+const METRES_CM: f32 = 1.0;
+
+/// What else may be wrong with hair that is unstable: its unit.
+fn in_metres(hair: &[Named<'_>], dynamics: &Dynamics) -> String {
+    let longest = hair.iter().flat_map(|named| named.strands.lengths()).fold(0.0, f32::max);
+    let head = dynamics.ellipsoid.half_axes.element_product().cbrt();
+    let things = [("the longest strand", longest), ("the head's mean half axis", head)];
+    let small = things.into_iter().filter(|&(_, cm)| cm < METRES_CM).map(|(what, cm)| format!("{what} is {cm:.2} cm"));
+    let small: Vec<String> = small.collect();
+    if small.is_empty() {
+        return String::new();
+    }
+    format!("; {}: if that is in metres, give it in cm, times 100", small.join(" and "))
 }
 
 /// Whether a setting has more numbers than its largest, from root to tip.

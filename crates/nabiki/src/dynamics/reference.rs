@@ -8,9 +8,11 @@ use crate::field::Field;
 use crate::scalar::Vector;
 use crate::strands::Strands;
 
-/// The f64 scalar stepper, twin of [`Simulation`](super::Simulation).
+/// The f64 scalar stepper, twin of [`Simulation`](super::Simulation). A clone moves by itself, and is a saved state.
+#[derive(Clone, Debug)]
 pub struct Reference(Twin);
 
+#[derive(Clone, Debug)]
 enum Twin {
     Paper(Box<paper::Reference>),
     Free(Box<free::Reference>),

@@ -21,6 +21,7 @@ use crate::strands::Strands;
 pub(in crate::dynamics) use strand::{Springs, Strand};
 
 /// The free form of [`Reference`](crate::dynamics::Reference).
+#[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Reference {
     hair: Hair,
     /// The carriers, and what they left in the frame before.
@@ -38,6 +39,7 @@ pub(in crate::dynamics) struct Setting<'a> {
 }
 
 /// Some strands, and what moves them.
+#[derive(Clone, Debug)]
 struct Hair {
     dynamics: Dynamics,
     free: FreeMotion,

@@ -16,6 +16,7 @@ use crate::strands::Strands;
 pub(in crate::dynamics) use strand::{Setting, Strand};
 
 /// The paper's form of [`Reference`](crate::dynamics::Reference).
+#[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Reference {
     dynamics: Dynamics,
     setting: Setting,

@@ -14,7 +14,7 @@ use crate::free_form::FreeMotion;
 use crate::scalar::{Scalar, Turn, Vector};
 
 /// A strand at some frame.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Strand<S> {
     segments: Vec<Segment<S>>,
     /// Root first (head space, cm).
@@ -24,7 +24,7 @@ pub(in crate::dynamics) struct Strand<S> {
 }
 
 /// One segment: its direction d at frame n and its increment w (rad a frame), normal to d; both in head space.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 struct Segment<S> {
     moved_by: FreeSegment,
     /// K of the joint at its beginning.

@@ -11,6 +11,7 @@ use crate::pseudo_force::Gamma;
 use crate::scalar::{Scalar, Vector};
 
 /// What all strands have in common.
+#[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Setting {
     pub gamma: Gamma,
     /// From head space to the space whose y is the polar axis, in which angles are counted.
@@ -18,7 +19,7 @@ pub(in crate::dynamics) struct Setting {
 }
 
 /// A strand at some frame.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Strand<S> {
     segments: Vec<Segment<S>>,
     /// Root first (head space, cm).
@@ -26,7 +27,7 @@ pub(in crate::dynamics) struct Strand<S> {
 }
 
 /// One segment s_i: its angles at frame n, and what moves it.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 struct Segment<S> {
     shape: SegmentShape,
     theta: S,
