@@ -207,3 +207,6 @@ impl CarrierHair {
         next.fill(&self.points, &self.velocities);
     }
 }
+
+#[cfg(test)]
+mod tests;
