@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 use nabiki::groom::cantilever::{Beam, Hold, Workspace};
 use nabiki::groom::style::{Cut, Length, LeverArms, Lift, Region, Stiffness};
 use nabiki::groom::{GUIDES, Growth, Style, groom, grow};
@@ -257,6 +257,57 @@ fn the_tips_of_a_clump_draw_together() {
     // Neighbours on the two sides of a border go apart: 3 cm cross cells of 1.2 cm and their neighbours' borders eight times at the most.
     let kept = kept.count();
     assert!(kept >= 51, "{kept} of 59 neighbours");
+}
+
+/// Hair that hangs swings to its sides in waves of the length and of about the height that are asked for, more and more over the first;
+/// each clump is at another place of its waves.
+#[test]
+fn waves_have_their_length_and_height_begin_at_the_root_and_differ_from_clump_to_clump() {
+    let (d, length, height, wave_length) = (0.25_f32, 18.0_f32, 0.3_f32, 4.0_f32);
+    let mut style = plain();
+    style.length = Length { top: length, sides: length, back: length, fringe: length };
+    (style.clumps.wave, style.clumps.wave_length, style.clumps.size) = (height, wave_length, 1.0);
+    // Two roots of a clump, as a rule, and the next pair in another.
+    let place = |i: usize| Vec3::new(60.0, 40.0, -50.0) + Vec3::X * (3.0 * (i / 2) as f32 + 0.01 * (i % 2) as f32);
+    let root = |i: usize| Root { position: place(i), normal: Vec3::NEG_Y, uv: Vec2::ZERO, above_hairline: 1.0 };
+    let roots: Vec<Root> = (0..80).map(root).collect();
+    let strands = groom(&HEAD, &roots, &style, 72, d, 1).unwrap();
+    let per_wave = (wave_length / d) as usize;
+    let angle = |i: f64| std::f64::consts::TAU * (i + 0.5) / per_wave as f64;
+    // Each strand's own waves are up to a fifth higher; those of a clump lean from across, too.
+    let steepest = 1.2 * std::f64::consts::TAU * f64::from(height / wave_length);
+    let (mut phases, mut alike) = (DVec2::ZERO, 0.0);
+    let slopes = |strand: &[Vec3]| -> Vec<DVec3> {
+        let segments = strand.windows(2).map(|w| (w[1] - w[0]).as_dvec3());
+        segments.map(|segment| segment.with_y(0.0) / -segment.y).collect()
+    };
+    let all: Vec<Vec<DVec3>> = strands.iter().map(slopes).collect();
+    for (s, slopes) in all.iter().enumerate() {
+        for (i, slope) in slopes[..4 * per_wave].iter().enumerate() {
+            let most = steepest * ((i as f64 + 0.5) / per_wave as f64).min(1.0);
+            // Points of 80 cm are rounded to 4e-6 cm, segments are 0.25 cm long and up to 40 degrees aslant.
+            assert!(slope.length() < most / (1.0 - most) + 1e-4, "strand {s}, segment {i}: {slope}");
+            if i >= per_wave && i < 3 * per_wave {
+                let next = slopes[i + per_wave];
+                assert!(slope.distance(next) < 1e-4, "strand {s}, segment {i}: {slope}, and a wave later {next}");
+            }
+        }
+        // Where it goes over to the other side it is a quarter of a wave from its steepest: which side comes first is not to be seen.
+        let turns = (per_wave..2 * per_wave).find(|&i| slopes[i].dot(slopes[i + 1]) <= 0.0).unwrap();
+        let [before, after] = [turns, turns + 1].map(|i| slopes[i].length());
+        let phase = 0.25 * std::f64::consts::TAU - angle(turns as f64 + before / (before + after));
+        phases += DVec2::from_angle(2.0 * phase) / all.len() as f64;
+    }
+    for pair in all.chunks(2) {
+        let product =
+            |a: &[DVec3], b: &[DVec3]| -> f64 { (per_wave..3 * per_wave).map(|i| a[i].dot(b[i])).sum::<f64>() };
+        let [a, b] = pair else { unreachable!() };
+        alike += product(a, b) / (product(a, a) * product(b, b)).sqrt() / (all.len() / 2) as f64;
+    }
+    // Of 40 clumps the mean of directions of any angle is 1 / sqrt(40) long, and one in 8000 is three times as long (e^-9).
+    assert!(phases.length() < 3.0 / 40.0_f64.sqrt(), "{phases} is the mean of all phases");
+    // A strand's own chance deviates by half a radian: of two of a clump the cosine between is e^-1/4 in the mean, and a few pairs are none.
+    assert!(alike > 0.5, "{alike} of their waves the two of a clump have alike");
 }
 
 /// Trimming stops within 0.01 cm of the plane; a strand that the cut would leave shorter than `shortest` may pass it.

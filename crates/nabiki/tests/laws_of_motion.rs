@@ -390,6 +390,10 @@ fn straightened_hair_hangs_straight_and_takes_the_plane_of_the_wind() {
                 assert!((w[1] - w[0]).cross(axis).length() < 4e-6, "{} is not vertical", w[1] - w[0]);
             }
             assert!((length(now) - length(before)).abs() < 18.0 * 4e-6);
+            // Turned by the two degrees that it was off, and not over.
+            for (now, before) in now.windows(2).zip(before.windows(2)) {
+                assert!((now[1] - now[0]).angle_between(before[1] - before[0]) < 2.1_f32.to_radians());
+            }
         }
         let again = straightened(&straight, &motion, axis);
         let moved = again.points().iter().zip(straight.points()).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
@@ -407,6 +411,33 @@ fn straightened_hair_hangs_straight_and_takes_the_plane_of_the_wind() {
                 // Sixteen free segments, each within 1e-5 of the plane; what hangs on the first goes with it.
                 let across = (strand[17] - strand[1]).dot(turn * Vec3::X);
                 assert!(across.abs() < 17.0 * 2e-5, "{across}");
+            }
+        }
+    }
+}
+
+/// Of a strand that nothing else moves: the tip turns by all that the disturbance gives it, the first of k segments by 1 / k of it.
+#[test]
+fn a_disturbance_turns_each_segment_by_the_part_of_the_length_that_it_ends_at() {
+    let (segments, theta, phi) = (9, 1.9_f32, 0.7_f32);
+    let directed = |theta: f32, phi: f32| Vec3::new(theta.sin() * phi.sin(), theta.cos(), theta.sin() * phi.cos());
+    let mut strands = Strands::default();
+    for s in 0..20 {
+        strands.push((0..=segments).map(|i| Vec3::new(0.0, s as f32, 2.0) + i as f32 * directed(theta, phi)));
+    }
+    let disturbance = Disturbance { amplitude: 0.4, ..Default::default() };
+    let part = disturbance.part(10).unwrap();
+    let dynamics = Dynamics { ellipsoid: FAR, disturbance: Some(disturbance.clone()), ..gust() };
+    let calm = field(&[(100, [0.0; 3])]);
+    for stepper in [&mut exact(&strands, &dynamics, &calm) as &mut dyn Stepper, &mut fast(&strands, &dynamics, &calm)] {
+        let disturbed = run(stepper, &calm, 10);
+        for (s, strand) in disturbed.iter().enumerate() {
+            let [by_theta, by_phi] = disturbance.turn(s as u32, &part);
+            for (i, w) in strand.windows(2).enumerate() {
+                let share = (i + 1) as f32 / segments as f32;
+                let turned = directed(theta + share * by_theta, phi + share * by_phi);
+                // Points of 20 cm are rounded to 1e-6 cm along each axis, segments are 1 cm long.
+                assert!((w[1] - w[0]).distance(turned) < 1e-5, "segment {i} of strand {s}: {} {turned}", w[1] - w[0]);
             }
         }
     }

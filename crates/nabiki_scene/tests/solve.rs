@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 use nabiki::field::Keyframe;
-use nabiki::solve::{Unknown, nodes_near};
+use nabiki::solve::Unknown;
 use nabiki_scene::solve::{Solved, WishFile};
 use nabiki_scene::tasks::{SolveOptions, solve};
 use nabiki_scene::{Error, Scene, Shown, Told, Watch};
@@ -420,10 +420,15 @@ fn the_wishes_that_come_with_the_scenes_are_about_their_hair() {
             file.wishes.wish.len() + file.wishes.nail.iter().map(|n| n.frames.len()).sum::<usize>()
         );
         count += 1;
-        // A lock near a point has the nodes that are there.
+        // A lock near a point is of the strands that have a node there besides their root, and of no other.
         if let Some(near) = file.wishes.wish[0].near.filter(|near| near.frame == Some(0)) {
-            let there = nodes_near(&built.hair.strands, near.point, near.radius);
-            assert!(there.iter().all(|n| named[0].wish.nodes.iter().any(|m| m.strand == n.strand)));
+            let is_there = |p: &Vec3| p.as_dvec3().distance(near.point.as_dvec3()) <= f64::from(near.radius);
+            let strands = (0..).zip(built.hair.strands.iter());
+            let there: Vec<u32> = strands.filter(|(_, s)| s[1..].iter().any(is_there)).map(|(s, _)| s).collect();
+            let mut found: Vec<u32> = named[0].wish.nodes.iter().map(|node| node.strand).collect();
+            found.dedup();
+            assert_eq!(found, there, "{}", wishes.display());
+            assert!(!there.is_empty() && there.len() < built.hair.strands.len());
         }
     }
     assert!(count >= 3, "{count}");

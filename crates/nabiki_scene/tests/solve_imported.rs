@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use glam::{DVec3, Vec3};
 use nabiki::dynamics::largest_gain;
-use nabiki::solve::{Node, nodes_near};
+use nabiki::solve::Node;
 use nabiki_scene::solve::WishFile;
 use nabiki_scene::tasks::find;
 use nabiki_scene::{BuiltScene, Scene, Shown, Unwatched};
@@ -84,7 +84,13 @@ fn what_hair_that_is_not_shown_can_bear_is_found_for_the_strands_that_were_meant
     let shown = Shown::AtMost(SHOWN);
     let before = place.scene("").build(shown).unwrap();
     assert!(before.ids().iter().zip(0..).any(|(&id, s)| id != s), "they are not the first of the file");
-    let nodes = nodes_near(&before.hair.strands, Vec3::new(0.0, 12.0, 18.0), 13.0);
+    // What hair has within 13 cm of the point, but for its roots.
+    let is_near = |p: Vec3| p.as_dvec3().distance(DVec3::new(0.0, 12.0, 18.0)) <= 13.0;
+    let mut nodes = Vec::new();
+    for (strand, points) in (0..).zip(before.hair.strands.iter()) {
+        nodes.extend((1..).zip(&points[1..]).filter(|(_, p)| is_near(**p)).map(|(node, _)| Node { strand, node }));
+    }
+    assert!(!nodes.is_empty());
     let goal = mean(&before, 20, &nodes) + DVec3::new(0.0, 0.0, -14.0);
 
     let (without, _) = find(place.scene("drop_shorter_than = 5"), &wishes, SHOWN, &mut Unwatched).unwrap();

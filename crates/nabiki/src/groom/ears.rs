@@ -74,3 +74,31 @@ impl EarHills {
         (r - f64::from(low + (high - low) * t)) * offset.length() / r
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_ears_are_under_a_hill_and_the_face_is_not() {
+        let head = Head::builtin();
+        let hills = EarHills::new(&head);
+        let ears: Vec<DVec3> =
+            head.mesh.positions.iter().filter(|p| p.z.abs() > 8.3 && p.y.abs() < 4.0).map(|p| p.as_dvec3()).collect();
+        for side in [-1.0, 1.0] {
+            assert!(
+                ears.iter().filter(|p| p.z * side > 0.0).count() > 10,
+                "an ear stands out of the skull, which is 8 cm to either side"
+            );
+        }
+        for &p in &ears {
+            // Between samples a paraboloid sinks by its fall over half of a step along each axis, about 0.8 (0.03^2 + 0.02^2) of 9 cm.
+            assert!(hills.above(p) < 0.02, "{p} stands {} cm out of its hill", hills.above(p));
+        }
+        // It is more than a radian from an ear, whose hill has fallen by 0.8 of 9 cm there.
+        for z in [-2.0, 0.0, 2.0] {
+            let above = hills.above(DVec3::new(9.0, 0.0, z));
+            assert!(above > 1.0, "the face is {above} cm above at z = {z}");
+        }
+    }
+}

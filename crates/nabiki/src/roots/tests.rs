@@ -104,6 +104,38 @@ fn both_sides_get_the_same_share() {
     assert!((right - 0.5).abs() < 0.01, "{right}");
 }
 
+/// As many roots, but for the same effect, where the same skin is cut into sixteen times as many triangles.
+#[test]
+fn roots_are_spread_by_area_and_not_by_triangles() {
+    let mut head = BUST.clone();
+    for _ in 0..2 {
+        let mesh = &mut head.mesh;
+        for [a, b, c] in std::mem::take(&mut mesh.triangles) {
+            let [p, q, r] = [a, b, c].map(|v| mesh.positions[v as usize]);
+            if p.z + q.z + r.z < 0.0 {
+                mesh.triangles.push([a, b, c]);
+                continue;
+            }
+            let [d, e, f] = [0, 1, 2].map(|i| mesh.positions.len() as u32 + i);
+            mesh.positions.extend([p.midpoint(q), q.midpoint(r), r.midpoint(p)]);
+            mesh.triangles.extend([[a, d, f], [d, b, e], [f, e, c], [d, e, f]]);
+        }
+    }
+    let all = spread(&head, &Hairline::default(), 2000, 11).unwrap();
+    let right = all.iter().filter(|p| p.position.z > 0.0).count() as f32 / all.len() as f32;
+    assert!((right - 0.5).abs() < 0.014, "{right}");
+}
+
+#[test]
+fn no_hair_grows_on_the_ears_however_low_the_line_runs_about_them() {
+    let low = Hairline { above_ears: 1.45, ..Hairline::default() };
+    let all = spread(&BUST, &low, 4000, 2).unwrap();
+    let farthest = all.iter().map(|root| root.position.z.abs()).fold(0.0, f32::max);
+    // The skull is widest above the ears, at 8 cm; they stand out beside it.
+    assert!(farthest < 8.3, "{farthest}");
+    assert!(all.iter().any(|root| root.position.y < -1.0 && (-3.0..1.0).contains(&root.position.x)), "it runs low");
+}
+
 #[test]
 fn the_line_rises_over_the_temples_and_passes_through_its_settings() {
     let line = Hairline::default();

@@ -336,4 +336,115 @@ mod tests {
         };
         assert!(brightest(0) < 0.0 && brightest(1) > 0.0 && brightest(2) > brightest(1));
     }
+
+    #[test]
+    fn each_lobe_is_brightest_where_its_tilted_scales_send_it_and_as_wide_as_it_should_be() {
+        let look = HairLook { roughness: 3.0, scale_tilt: 2.5, ..HairLook::default() };
+        let model = Fibre::new(&look);
+        let (tilt, rough) = (look.scale_tilt.to_radians(), 2.0 * look.roughness.to_radians());
+        // Scales lean from the normal by the tilt: their mirror turns by twice that, and what passes in or out of them by some of it
+        // (Marschner et al. 2003, table 1); widths are as 2 : 1 : 4 (there too), counted for the half angle.
+        for (p, (turn, width)) in [(-2.0, 1.0), (1.0, 0.5), (3.0, 2.0)].into_iter().enumerate() {
+            let steps = 4000;
+            let (mut sum, mut middle, mut square) = (0.0_f64, 0.0_f64, 0.0_f64);
+            for i in 0..steps {
+                let eye = PI * ((i as f32 + 0.5) / steps as f32 - 0.5);
+                let turned = eye + Fibre::turns(model.tilt)[p];
+                let value = f64::from(model.spread[p].at(0.0, 1.0, turned.sin(), turned.cos().abs()));
+                (sum, middle) = (sum + value, middle + value * f64::from(eye));
+                square += value * f64::from(eye).powi(2);
+            }
+            (middle, square) = (middle / sum, square / sum - (middle / sum).powi(2));
+            let (turn, width) = (turn * tilt, width * rough);
+            // Nothing turns it besides; the shape is that of a bell for small widths, to the square of the width.
+            assert!((middle - f64::from(turn)).abs() < 1e-3, "lobe {p}: {middle} for {turn}");
+            assert!(
+                (square.sqrt() / f64::from(width) - 1.0).abs() < f64::from(width * width),
+                "lobe {p}: {}",
+                square.sqrt()
+            );
+        }
+    }
+
+    #[test]
+    fn a_dielectric_reflects_as_fresnel_says() {
+        for n in [1.3_f32, 1.55, 2.0] {
+            // Head-on ((n - 1) / (n + 1))^2, at grazing all; at Brewster's angle, tan = n, nothing of one polarisation, and of the other
+            // ((n^2 - 1) / (n^2 + 1))^2.
+            assert!((fresnel(1.0, n) - ((n - 1.0) / (n + 1.0)).powi(2)).abs() < 1e-6);
+            assert!((fresnel(0.0, n) - 1.0).abs() < 1e-6);
+            let brewster = ((n * n - 1.0) / (n * n + 1.0)).powi(2);
+            assert!((fresnel((1.0 + n * n).sqrt().recip(), n) - 0.5 * brewster).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn the_surface_mirrors_as_a_cylinder_does_brightest_toward_the_lamp() {
+        // A ray that meets the cylinder at the angle g to its normal goes back at 2 g from where it came: with the width spread over
+        // azimuths, fresnel(g) cos(g) / 4 for each radian.
+        for row in [0, ROWS / 2] {
+            let cos_eye = (1.0 - (row as f32 / (ROWS - 1) as f32).powi(2)).sqrt();
+            let table = Table::new([0.3; 3], 1.55, 0.2);
+            for column in (0..50).step_by(7) {
+                let half = 0.5 * PI * column as f32 / COLUMNS as f32;
+                let mirrored = 0.25 * half.cos() * fresnel(cos_eye * half.cos(), 1.55);
+                let found = table.lobes(row as f32, column as f32)[0];
+                // Roughness spreads it over a tenth of a radian or so; from 130 degrees on Fresnel's rise is as steep as that.
+                assert!((found / mirrored - 1.0).abs() < 0.05, "{row} {column}: {found} for {mirrored}");
+            }
+        }
+    }
+
+    #[test]
+    fn light_that_is_not_bent_goes_straight_on_and_loses_by_the_way_that_it_goes_inside() {
+        // Of the refraction of what is around it nothing is left but pigment: a disc of radius 1, which an inclined ray crosses aslant.
+        let absorption = [0.1, 0.7, 3.0];
+        let table = Table::new(absorption, 1.0, 0.05);
+        for row in [0, 12, 18] {
+            let cos = (1.0 - (row as f32 / (ROWS - 1) as f32).powi(2)).sqrt();
+            for (c, absorption) in absorption.into_iter().enumerate() {
+                let steps = 2000;
+                let chord = |k: usize| (1.0 - ((2 * k + 1) as f32 / steps as f32 - 1.0).powi(2)).sqrt();
+                let left = |k: usize| (-2.0 * absorption * chord(k) / cos).exp() / steps as f32;
+                let (left, found) = ((0..steps).map(left).sum::<f32>(), table.row(row as f32).forward[c]);
+                // The middle of 160 strips stands for each; the chord is steep at the edge.
+                assert!((found - left).abs() < 2e-3, "{row} {c}: {found} for {left}");
+                assert!(table.row(row as f32).back[c] < 1e-3, "{row} {c}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_inclined_fibre_bends_light_about_itself_as_refraction_in_space_does() {
+        use glam::{Vec2, Vec3, vec3};
+        let n = 1.55;
+        for row in [0, 8, 16, 20] {
+            let sin = row as f32 / (ROWS - 1) as f32;
+            let cos = (1.0 - sin * sin).sqrt();
+            let table = Table::new([0.0; 3], n, 0.1);
+            // The mean square of the angle about the fibre between the ways in and out, of what passes through.
+            let (mut sum, mut square) = (0.0, 0.0);
+            for k in 0..4000 {
+                let h = (2 * k + 1) as f32 / 4000.0 - 1.0;
+                let (way, normal) = (vec3(cos, 0.0, sin), vec3(-(1.0 - h * h).sqrt(), h, 0.0));
+                let into = -way.dot(normal);
+                let inside: Vec3 = way / n + normal * (into / n - (1.0 - (1.0 - into * into) / (n * n)).sqrt());
+                // Both surfaces turn it alike.
+                let turned = 2.0 * Vec2::X.angle_to(inside.truncate());
+                let passes = (1.0 - fresnel(into, n)).powi(2);
+                (sum, square) = (sum + passes, square + passes * turned * turned);
+            }
+            let (mut found, mut all) = (0.0, 0.0);
+            for column in 0..=COLUMNS {
+                let (share, aside) =
+                    (table.lobes(row as f32, column as f32)[1], PI * (1.0 - column as f32 / COLUMNS as f32));
+                let ends = if column % COLUMNS == 0 { 0.5 } else { 1.0 };
+                (all, found) = (all + ends * share, found + ends * share * aside * aside);
+            }
+            // Roughness adds its own variance, that of a logistic distribution.
+            let scale = (PI / 8.0).sqrt() * (0.265 * 0.1 + 1.194 * 0.01);
+            let expected = square / sum + (PI * scale).powi(2) / 3.0;
+            assert!((found / all / expected - 1.0).abs() < 0.02, "{row}: {} for {expected}", found / all);
+        }
+    }
 }

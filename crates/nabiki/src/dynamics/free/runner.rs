@@ -282,3 +282,6 @@ impl CarrierHair {
         next.fill(&self.points, &self.velocities);
     }
 }
+
+#[cfg(test)]
+mod tests;

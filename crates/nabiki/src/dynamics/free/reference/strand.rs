@@ -226,3 +226,14 @@ fn push<S: Scalar>(crowd: &Crowd, p: Vector<S>, velocity: Vector<S>) -> Vector<S
     let push = S::known_vector(crowd.force(at, along), p, by_place);
     push + S::known_vector(DVec3::ZERO, velocity, by_velocity)
 }
+
+#[cfg(test)]
+impl Strand<f64> {
+    /// Stands as segments of these directions and increments do.
+    pub fn stand(&mut self, segments: impl IntoIterator<Item = [DVec3; 2]>) {
+        for (segment, [direction, increment]) in self.segments.iter_mut().zip(segments) {
+            (segment.direction, segment.increment) = (direction.into(), increment.into());
+        }
+        self.place();
+    }
+}
