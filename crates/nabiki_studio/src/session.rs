@@ -18,7 +18,7 @@ use crate::command::Command;
 use crate::desktop::Asked;
 use crate::dialog::Dialog;
 use crate::document::Document;
-use crate::motion::{Manner, Motion, Moved};
+use crate::motion::{Manner, Motion, Moved, Stage};
 use crate::play::{Ending, Play};
 use crate::preferences::Preferences;
 use crate::recovery::{self, Keeper};
@@ -218,9 +218,9 @@ impl Session {
         self.motion.is_working() || self.deep.is_working()
     }
 
-    /// How much is done, 0..1, of the motion of more strands than a touch moves, while it is being worked out.
-    pub fn part_deep(&self) -> Option<f32> {
-        self.deep.part()
+    /// What is done for the motion of more strands than a touch moves, while it is being worked out, and how much of that, 0..1.
+    pub fn progress_deep(&self) -> Option<(Stage, f32)> {
+        self.deep.progress()
     }
 
     /// Waits until the scene has been moved as it is, with all strands that are asked for.
