@@ -247,16 +247,22 @@ impl BuiltScene {
         self.poses.get(frame as usize).copied().unwrap_or_default()
     }
 
+    /// The bodies that are shown: the number of each, its surface (its own space, cm) and where it is in the world in a frame.
+    pub fn shown_bodies(&self, frame: u32) -> impl Iterator<Item = (usize, &Mesh, Pose)> {
+        let head = self.pose(frame);
+        let all = self.scene.bodies.iter().zip(&self.bodies).enumerate().filter(|(_, (settings, _))| settings.shown);
+        all.map(move |(i, (_, body))| (i, &body.mesh, body.way.pose(frame, &head)))
+    }
+
     /// The bodies that are shown, to be drawn.
     pub fn drawn_bodies(&self) -> Vec<DrawnBody> {
-        let all = self.scene.bodies.iter().zip(&self.bodies).filter(|(settings, _)| settings.shown);
-        all.map(|(settings, body)| DrawnBody { mesh: body.mesh.clone(), colour: settings.colour }).collect()
+        let all = self.shown_bodies(0);
+        all.map(|(i, mesh, _)| DrawnBody { mesh: mesh.clone(), colour: self.scene.bodies[i].colour }).collect()
     }
 
     /// Where the bodies that are shown are in the world in a frame, in the order of [`drawn_bodies`](Self::drawn_bodies).
     pub fn drawn_poses(&self, frame: u32) -> Vec<Pose> {
-        let all = self.scene.bodies.iter().zip(&self.bodies).filter(|(settings, _)| settings.shown);
-        all.map(|(_, body)| body.way.pose(frame, &self.pose(frame))).collect()
+        self.shown_bodies(frame).map(|(_, _, pose)| pose).collect()
     }
 
     /// What a step to a frame needs to know of it.
