@@ -225,6 +225,31 @@ fn a_shorter_motion_takes_its_frames_out_of_the_sheet_in_one_step_and_says_so() 
 }
 
 #[test]
+fn a_sheet_of_which_a_shorter_motion_leaves_nothing_gets_frames_that_there_are() {
+    let place = Place::new();
+    std::fs::write(place.file(), format!("{TEXT}[output]\nsheet = [15, 20] # the fall\n")).unwrap();
+    let mut session = place.session();
+    for phase in [Phase::Dragging, Phase::Done] {
+        session.apply(Command::Set { key: "motion.frames".to_owned(), value: Some(10.into()), phase });
+        let scene = session.document().unwrap().scene();
+        assert_eq!(scene.output.sheet.as_deref(), Some(&[0, 3, 6, 9][..]));
+        let text = scene.to_toml().unwrap();
+        assert!(text.contains("# the fall"), "{text}");
+        let said: Vec<&str> = session.words().iter().map(|word| word.text.as_str()).collect();
+        assert!(
+            matches!(said[..], [said] if said.contains("15, 20") && said.contains("0, 3, 6, 9 instead")),
+            "{said:?}"
+        );
+    }
+    session.apply(Command::Act(Action::Undo));
+    assert!(!session.document().unwrap().is_dirty(), "one step has both");
+    std::fs::write(place.file(), format!("{TEXT}[output]\nsheet = []\n")).unwrap();
+    let mut session = place.session();
+    session.apply(Command::Set { key: "motion.frames".to_owned(), value: Some(10.into()), phase: Phase::Done });
+    assert_eq!(session.document().unwrap().scene().output.sheet.as_deref(), Some(&[][..]), "none is wanted");
+}
+
+#[test]
 fn a_file_with_errors_is_mended_in_the_window() {
     let place = Place::new();
     let mut session = place.session();

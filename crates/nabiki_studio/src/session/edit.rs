@@ -2,6 +2,7 @@
 
 use nabiki::field::{Ease, Keyframe};
 use nabiki_scene::Scene;
+use nabiki_scene::scene::Output;
 
 use super::Session;
 use crate::actions::Action;
@@ -74,9 +75,10 @@ impl Session {
         match document.scene().with_setting(key, value) {
             Ok(mut scene) => {
                 let name = name_of(key);
-                let lost = (key == "motion.frames").then(|| shorten_sheet(&mut scene, document.before_drag(&name)));
+                let before = document.before_drag(&name);
+                let lost = (key == "motion.frames").then(|| shorten_sheet(&mut scene, before));
                 document.edit(&name, scene, phase);
-                lost.into_iter().for_each(|lost| self.say_what_the_sheet_lost(&lost));
+                lost.into_iter().for_each(|lost| self.say_what_the_sheet_lost(lost));
             }
             Err(refused) => {
                 let text = refused.to_string();
@@ -85,12 +87,13 @@ impl Session {
         }
     }
 
-    fn say_what_the_sheet_lost(&mut self, frames: &[u32]) {
+    fn say_what_the_sheet_lost(&mut self, Shortened { lost, instead }: Shortened) {
         // Of a drag the last word counts.
         self.words.retain(|word| !word.text.starts_with(SHEET_LOST));
-        if !frames.is_empty() {
-            let frames = frames.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
-            self.say(format!("{SHEET_LOST}{frames}, which the motion does not reach any more"), false);
+        if !lost.is_empty() {
+            let list = |frames: &[u32]| frames.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+            let instead = instead.map(|frames| format!("; it has {} instead", list(&frames))).unwrap_or_default();
+            self.say(format!("{SHEET_LOST}{}, which the motion does not reach any more{instead}", list(&lost)), false);
         }
     }
 
@@ -173,14 +176,25 @@ impl Session {
     }
 }
 
+/// What a shorter motion does to the frames of the contact sheet.
+#[derive(Default)]
+struct Shortened {
+    /// Those taken out.
+    lost: Vec<u32>,
+    /// Those put in where none was left.
+    instead: Option<Vec<u32>>,
+}
+
 /// Takes the frames out of the contact sheet that a shorter motion does not reach: nobody who drags its length thinks of them,
-/// and with them no scene is right. They are those of the scene `before` the drag, so that a drag back brings them back. Returns
-/// what was taken out.
-fn shorten_sheet(scene: &mut Scene, before: &Scene) -> Vec<u32> {
-    let Some(sheet) = &before.output.sheet else { return Vec::new() };
-    let (kept, lost) = sheet.iter().partition(|&&frame| frame <= scene.motion.frames);
-    scene.output.sheet = Some(kept);
-    lost
+/// and with them no scene is right. They are those of the scene `before` the drag, so that a drag back brings them back. A sheet
+/// of which none is left gets the frames that a scene without one of its own has: it was wanted, and a run would write none.
+fn shorten_sheet(scene: &mut Scene, before: &Scene) -> Shortened {
+    let Some(sheet) = &before.output.sheet else { return Shortened::default() };
+    let frames = scene.motion.frames;
+    let (kept, lost): (Vec<u32>, Vec<u32>) = sheet.iter().partition(|&&frame| frame <= frames);
+    let instead = (kept.is_empty() && !lost.is_empty()).then(|| Output::default().sheet_frames(frames));
+    scene.output.sheet = Some(instead.clone().unwrap_or(kept));
+    Shortened { lost, instead }
 }
 
 /// Puts intervals into a scene. Without any there is nothing to ease and nothing to make gusty.
