@@ -250,6 +250,30 @@ fn a_sheet_of_which_a_shorter_motion_leaves_nothing_gets_frames_that_there_are()
 }
 
 #[test]
+fn longer_hair_gets_the_segments_that_it_takes_in_one_step_and_a_drag_back_takes_them_back() {
+    let mut session = Place::new().session();
+    let segments = |session: &Session| session.document().unwrap().scene().hair.grown().unwrap().segments;
+    let set = |session: &mut Session, length: f64, phase| {
+        session.apply(Command::Set { key: "hair.style.length.top".to_owned(), value: Some(length.into()), phase });
+        session.wait();
+        assert_eq!(session.trouble(), None, "{length} cm");
+        session.words().iter().map(|word| word.text.clone()).collect::<Vec<_>>()
+    };
+    for (length, wanted) in [(25.4, 26), (30.0, 30), (20.0, 20)] {
+        let said = set(&mut session, length, Phase::Dragging);
+        assert_eq!(segments(&session), wanted);
+        assert!(matches!(&said[..], [said] if said.contains(&wanted.to_string())), "{said:?}");
+    }
+    assert_eq!((set(&mut session, 18.0, Phase::Dragging).len(), segments(&session)), (0, 18));
+    session.apply(Command::EndDrag);
+    assert_eq!(session.document().unwrap().undo_name(), None);
+    set(&mut session, 26.0, Phase::Done);
+    session.apply(Command::Act(Action::Undo));
+    assert_eq!(segments(&session), 18);
+    assert!(!session.document().unwrap().is_dirty(), "one step has both");
+}
+
+#[test]
 fn a_file_with_errors_is_mended_in_the_window() {
     let place = Place::new();
     let mut session = place.session();
