@@ -13,6 +13,8 @@ use nabiki_studio::session::Session;
 
 #[path = "window/hands.rs"]
 mod hands;
+#[path = "window/sizes.rs"]
+mod sizes;
 
 const TEXT: &str = "# A breeze.\n[hair]\nstrands = 60\nsegments = 18\n[motion]\nform = \"free\"\nframes = 40\n\n\
                     [[force]]\nthrough = 20     # then calm\nvector = [-100, 0, 0]\n\n[[force]]\nthrough = 40\nvector = [0, 0, 0]\n";
@@ -485,15 +487,4 @@ fn what_is_said_lies_over_the_view_and_changes_the_size_of_nothing() {
     }
     window.settle();
     assert_eq!(places(&window), before);
-}
-
-#[test]
-fn the_circles_of_an_interval_are_whole_in_a_small_window() {
-    let mut window = Window::open();
-    window.click("Interval 1");
-    let below = window.harness.get_by_label("Strands shown").rect().top();
-    for dial in ["Dial from the right", "Dial from above"] {
-        let rect = window.harness.get_by_label(dial).rect();
-        assert!(rect.width() >= 56.0 && rect.height() >= 56.0 && rect.bottom() < below, "{dial}: {rect}");
-    }
 }

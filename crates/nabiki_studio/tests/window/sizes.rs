@@ -1,0 +1,50 @@
+//! What there is room for: large numbers, many words, large type.
+
+use super::*;
+
+fn rect(window: &Window<'_>, label: &str) -> eframe::egui::Rect {
+    window.harness.get_by_label(label).rect()
+}
+
+#[test]
+fn numbers_of_six_digits_are_whole_and_cover_nothing() {
+    let text = TEXT.replace("[-100, 0, 0]", "[-912345.67, 912345.67, -912345.67]");
+    for size in [vec2(1280.0, 720.0), vec2(490.0, 300.0)] {
+        let mut window = Window::of(&text, size);
+        window.click("Interval 1");
+        let fields = ["Force x", "Force y", "Force z", "Strength of the interval"].map(|label| rect(&window, label));
+        let room = rect(&window, "Ruler");
+        for (i, field) in fields.iter().enumerate() {
+            assert!(field.right() < room.left() - 74.0, "{size}: field {i} at {field}, the tracks at {room}");
+            assert!(fields[..i].iter().all(|before| !before.shrink(0.5).intersects(*field)), "{size}: {fields:?}");
+        }
+    }
+}
+
+#[test]
+fn no_button_above_the_tracks_covers_another_at_any_size_of_type() {
+    // The same window at 1, 2, 2.6 and 3.5 times the size of its type.
+    for size in [1.0, 2.0, 2.6, 3.5].map(|zoom| vec2(1280.0, 720.0) / zoom) {
+        let window = Window::of(TEXT, size);
+        let labels = ["First frame", "Play or pause", "Last frame", "Frame", "Speed", "Loop"];
+        let labels = labels.into_iter().chain(["Add interval", "Split", "Join", "Delete"]);
+        let rects: Vec<_> = labels.map(|label| (label, rect(&window, label))).collect();
+        for (i, (label, rect)) in rects.iter().enumerate() {
+            assert!(rect.left() >= 0.0 && rect.right() <= size.x, "{size}: {label} at {rect}");
+            for (other, over) in &rects[..i] {
+                assert!(!rect.shrink(0.5).intersects(*over), "{size}: {label} at {rect}, {other} at {over}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_circles_of_an_interval_are_whole_in_a_small_window() {
+    let mut window = Window::open();
+    window.click("Interval 1");
+    let below = window.harness.get_by_label("Strands shown").rect().top();
+    for dial in ["Dial from the right", "Dial from above"] {
+        let rect = window.harness.get_by_label(dial).rect();
+        assert!(rect.width() >= 56.0 && rect.height() >= 56.0 && rect.bottom() < below, "{dial}: {rect}");
+    }
+}
