@@ -36,7 +36,9 @@ pub fn words(ctx: &egui::Context, over: egui::Rect, session: &Session, commands:
         ui.set_width(over.width());
         ui.spacing_mut().item_spacing.y = 1.0;
         let most = (MOST_WORDS * ctx.content_rect().height()).min(over.height());
-        let scrolled = egui::ScrollArea::vertical().max_height(most).auto_shrink([false, true]);
+        // An area has the height that it had before: without a least height what is scrolled never grows over that.
+        let scrolled = egui::ScrollArea::vertical().max_height(most).min_scrolled_height(most);
+        let scrolled = scrolled.auto_shrink([false, true]);
         scrolled.show(ui, |ui| bars(ui, session, commands));
     });
 }

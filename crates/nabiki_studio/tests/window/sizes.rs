@@ -39,6 +39,20 @@ fn no_button_above_the_tracks_covers_another_at_any_size_of_type() {
 }
 
 #[test]
+fn what_is_said_is_seen_to_its_last_line() {
+    let mut window = Window::open();
+    for n in 0..6 {
+        window.harness.state_mut().session_mut().say(format!("{n}: something that went wrong"), true);
+        window.settle();
+    }
+    let view = rect(&window, "View of the hair");
+    for n in 0..6 {
+        let words = rect(&window, &format!("{n}: something that went wrong"));
+        assert!(view.contains_rect(words), "{words} in {view}");
+    }
+}
+
+#[test]
 fn the_circles_of_an_interval_are_whole_in_a_small_window() {
     let mut window = Window::open();
     window.click("Interval 1");
