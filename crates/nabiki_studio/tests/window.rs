@@ -381,7 +381,7 @@ fn the_words_of_the_first_start_go_with_the_first_touch_which_does_what_it_does(
     let folder = tempfile::tempdir().unwrap();
     let mut harness = harness(folder.path().to_owned(), None, vec2(1280.0, 720.0));
     assert_eq!(harness.state().session().dialog(), Some(&Dialog::Welcome));
-    let words = harness.get_by_label_contains("plays the gust").rect();
+    let words = harness.get_by_label_contains("the wind is the intervals").rect();
     let view = harness.get_by_label("View of the hair").rect();
     assert!(view.contains_rect(words) && words.right() < view.left() + 0.3 * view.width(), "{words} in {view}");
     harness.key_press(Key::Space);
@@ -389,7 +389,7 @@ fn the_words_of_the_first_start_go_with_the_first_touch_which_does_what_it_does(
     harness.step();
     assert_eq!(harness.state().session().dialog(), None);
     assert!(harness.state().session().play.is_playing());
-    assert!(harness.query_by_label_contains("plays the gust").is_none());
+    assert!(harness.query_by_label_contains("the wind is the intervals").is_none());
     assert!(harness.state().session().preferences().welcomed);
 }
 

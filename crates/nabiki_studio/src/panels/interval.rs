@@ -119,11 +119,12 @@ pub fn ui(ui: &mut Ui, session: &Session, height: f32, commands: &mut Commands) 
 fn none(ui: &mut Ui, session: &Session, intervals: usize) {
     match session.chosen().len() {
         0 => {
+            let words = match intervals {
+                0 => "There is no wind. Add an interval to have some.",
+                _ => "Click an interval to see its vector, or drag a border between two.",
+            };
             ui.add_space(4.0);
-            ui.add(
-                egui::Label::new(theme::faint("Click an interval to see its vector, or drag a border between two."))
-                    .wrap(),
-            );
+            ui.add(egui::Label::new(theme::faint(words)).wrap());
         }
         n => drop(ui.label(theme::faint(format!("{n} of {intervals} intervals are chosen.")))),
     }
@@ -131,7 +132,8 @@ fn none(ui: &mut Ui, session: &Session, intervals: usize) {
 
 /// A tenth is as exact as a hand.
 fn rounded(vector: Vec3) -> Vec3 {
-    (10.0 * vector).round() / 10.0
+    // Calm has no sign.
+    (10.0 * vector).round() / 10.0 + Vec3::ZERO
 }
 
 /// From where a vector is seen.

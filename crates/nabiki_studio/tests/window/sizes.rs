@@ -62,3 +62,16 @@ fn the_circles_of_an_interval_are_whole_in_a_small_window() {
         assert!(rect.width() >= 56.0 && rect.height() >= 56.0 && rect.bottom() < below, "{dial}: {rect}");
     }
 }
+
+#[test]
+fn calm_has_no_sign_and_a_scene_without_wind_says_so() {
+    let mut window = Window::open();
+    window.click("Interval 1");
+    window.type_into("Strength of the interval", "0");
+    let vector = window.session().document().unwrap().scene().field.force[0].vector;
+    assert_eq!(vector.to_array().map(f32::to_bits), [0; 3], "{vector}");
+    window.press(Modifiers::COMMAND, Key::A);
+    window.press(Modifiers::NONE, Key::Delete);
+    assert!(window.harness.query_by_label_contains("There is no wind").is_some());
+    assert!(window.harness.query_by_label_contains("Click an interval").is_none());
+}
