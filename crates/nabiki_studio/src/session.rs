@@ -86,6 +86,8 @@ pub struct Session {
     chosen: Vec<usize>,
     clip: Clip,
     dialog: Option<Dialog>,
+    /// When it was asked, by the clock.
+    asked_at: Option<f64>,
     tasks: Vec<Task>,
     words: Vec<Word>,
     wishes: Vec<Wish>,
@@ -141,6 +143,7 @@ impl Session {
             chosen: Vec::new(),
             clip: Clip::default(),
             dialog: None,
+            asked_at: None,
             tasks: Vec::new(),
             words: Vec::new(),
             wishes: Vec::new(),
@@ -398,6 +401,7 @@ impl Session {
             Command::Export(order) => self.export(order),
             command => self.apply_to_document(command),
         }
+        self.note_question();
         self.move_if_changed();
     }
 

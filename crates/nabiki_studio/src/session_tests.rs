@@ -274,6 +274,26 @@ fn longer_hair_gets_the_segments_that_it_takes_in_one_step_and_a_drag_back_takes
 }
 
 #[test]
+fn what_goes_wrong_with_a_question_is_known_while_it_stands_and_saved_it_is_so_no_longer() {
+    let place = Place::new();
+    let mut session = place.session();
+    session.say("something older", true);
+    session.tick(1.0, 1.0);
+    session.apply(Command::Act(Action::SaveAs));
+    assert_eq!(session.wrong_with_dialog(), None);
+    session.tick(1.0, 1.0);
+    let Some(Dialog::File(chooser)) = session.dialog().cloned() else { panic!("no question") };
+    let chosen = |name: &str| Command::Chosen(Box::new(chooser.clone()), place.0.path().join(name));
+    session.apply(chosen("nowhere/red hand #1.toml"));
+    assert!(session.wrong_with_dialog().is_some_and(|wrong| wrong.contains("nowhere/red hand #1.toml")));
+    session.apply(chosen("red hand #1"));
+    assert!(place.0.path().join("red hand #1.toml").is_file());
+    assert_eq!((session.dialog(), session.wrong_with_dialog()), (None, None));
+    let said: Vec<&str> = session.words().iter().map(|word| word.text.as_str()).collect();
+    assert_eq!(said, ["something older", "Saved red hand #1.toml"]);
+}
+
+#[test]
 fn a_file_with_errors_is_mended_in_the_window() {
     let place = Place::new();
     let mut session = place.session();

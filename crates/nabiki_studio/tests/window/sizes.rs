@@ -75,3 +75,20 @@ fn calm_has_no_sign_and_a_scene_without_wind_says_so() {
     assert!(window.harness.query_by_label_contains("There is no wind").is_some());
     assert!(window.harness.query_by_label_contains("Click an interval").is_none());
 }
+
+#[test]
+fn what_goes_wrong_with_a_question_is_seen_in_it() {
+    let mut window = Window::open();
+    window.press(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    window.harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.harness.event(Event::Text("/no/such/folder/red hand #1.toml".to_owned()));
+    window.harness.step();
+    window.harness.step();
+    assert!(window.harness.query_by_label("There is no such folder.").is_some());
+    window.press(Modifiers::NONE, Key::Enter);
+    let said = window.harness.query_all_by_label_contains("not saved: ").map(|node| node.rect()).last().unwrap();
+    let question = window.harness.get_by_label("Path").rect();
+    assert!(question.x_range().contains(said.center().x) && said.top() > question.bottom(), "{said} in {question}");
+    let clear = window.harness.get_by_label("Cancel").rect();
+    assert!(!clear.intersects(said));
+}
