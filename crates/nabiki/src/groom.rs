@@ -13,6 +13,8 @@ mod strand_style;
 pub mod cantilever;
 pub mod style;
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rayon::prelude::*;
 
 pub use style::Style;
@@ -69,8 +71,25 @@ pub fn grow(head: &Head, growth: &Growth<'_>, shown: usize) -> Result<Hair, Sett
 /// # Errors
 /// As [`groom()`].
 pub fn grow_run(head: &Head, growth: &Growth<'_>, roots: &[Root], first: usize) -> Result<Hair, SettingError> {
+    grow_run_while(head, growth, roots, first, &|_| true).map(Option::unwrap_or_default)
+}
+
+/// The same for whoever may want it no more: again and again `goes_on` is told, by any thread, how much is grown, 0..1, and asked
+/// whether to go on. None where it was not to.
+///
+/// # Errors
+/// As [`groom()`].
+pub fn grow_run_while(
+    head: &Head,
+    growth: &Growth<'_>,
+    roots: &[Root],
+    first: usize,
+    goes_on: &(dyn Fn(f32) -> bool + Sync),
+) -> Result<Option<Hair>, SettingError> {
     let &Growth { style, segments, segment_length, seed, .. } = growth;
-    let strands = groom(head, roots, style, segments, segment_length, seed)?;
+    let Some(strands) = groom_while(head, roots, style, segments, segment_length, seed, goes_on)? else {
+        return Ok(None);
+    };
     let group = |root: &Root| strand_style::region(head, style, root, seed) as i32;
     let groups: Vec<i32> = roots.iter().map(group).collect();
     let grown = Region::ALL.iter().filter(|&&region| groups.contains(&(region as i32)));
@@ -83,7 +102,7 @@ pub fn grow_run(head: &Head, growth: &Growth<'_>, roots: &[Root], first: usize) 
         guide: Some(numbers.map(|number| number < GUIDES).collect()),
         ..Attributes::default()
     };
-    Ok(Hair { strands, attributes })
+    Ok(Some(Hair { strands, attributes }))
 }
 
 /// Styles one strand a root, in the order of the roots: nodes from root to tip (head space, cm).
@@ -101,6 +120,18 @@ pub fn groom(
     segment_length: f32,
     seed: u64,
 ) -> Result<Strands, SettingError> {
+    groom_while(head, roots, style, segments, segment_length, seed, &|_| true).map(Option::unwrap_or_default)
+}
+
+fn groom_while(
+    head: &Head,
+    roots: &[Root],
+    style: &Style,
+    segments: usize,
+    segment_length: f32,
+    seed: u64,
+    goes_on: &(dyn Fn(f32) -> bool + Sync),
+) -> Result<Option<Strands>, SettingError> {
     style.check()?;
     check_positive("hair.segment_length", segment_length)?;
     style.curl.check_segment_length(segment_length)?;
@@ -126,22 +157,28 @@ pub fn groom(
         wave_length: f64::from(style.clumps.wave_length),
         segment: f64::from(segment_length),
     };
-    let parts: Vec<Strands> = roots
+    let done = AtomicUsize::new(0);
+    let parts: Option<Vec<Strands>> = roots
         .par_chunks(STRANDS_A_TASK)
-        .map_init(Draping::default, |draping, roots| {
-            let mut strands = Strands::with_capacity(roots.len(), roots.len() * (segments + 1));
-            for root in roots {
+        .map_init(Draping::default, |draping, of_task| {
+            if !goes_on(done.load(Ordering::Relaxed) as f32 / roots.len() as f32) {
+                return None;
+            }
+            let mut strands = Strands::with_capacity(of_task.len(), of_task.len() * (segments + 1));
+            for root in of_task {
                 let styled = strand_style::strand_style(head, style, root, seed);
                 cut::drape_and_cut(&ground, &style.cuts, &styled, draping);
                 strands.push(draping.nodes.iter().map(|p| p.as_vec3()));
             }
-            strands
+            done.fetch_add(of_task.len(), Ordering::Relaxed);
+            Some(strands)
         })
         .collect();
+    let Some(parts) = parts else { return Ok(None) };
     let points = parts.iter().map(|part| part.points().len()).sum();
     let mut strands = Strands::with_capacity(roots.len(), points);
     for strand in parts.iter().flat_map(Strands::iter) {
         strands.push(strand.iter().copied());
     }
-    Ok(strands)
+    Ok(Some(strands))
 }

@@ -1,11 +1,12 @@
 //! Laws of the hairstyle as a whole, for every style that is shipped.
 
-use std::sync::LazyLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{LazyLock, Mutex};
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use nabiki::groom::cantilever::{Beam, Hold, Workspace};
 use nabiki::groom::style::{Cut, Length, LeverArms, Lift, Region, Stiffness};
-use nabiki::groom::{GUIDES, Growth, Style, groom, grow};
+use nabiki::groom::{GUIDES, Growth, Style, groom, grow, grow_run_while};
 use nabiki::hair::Attributes;
 use nabiki::roots::{Hairline, Root, spread};
 use nabiki::{Head, Strands};
@@ -147,6 +148,29 @@ fn the_first_strands_of_the_whole_grow_alone_to_the_bit() {
         }
         assert_eq!(grow(&HEAD, &growth, 5000).unwrap(), whole, "{name}: there are no more than all");
     }
+}
+
+#[test]
+fn growth_is_given_up_when_it_is_told_to_be_and_is_the_same_otherwise() {
+    let bob = style_named("bob");
+    let Hair { segments, segment_length, hairline, style } = &bob.hair;
+    let growth =
+        Growth { hairline, style, strands: 1500, segments: *segments, segment_length: *segment_length, seed: 5 };
+    let roots = spread(&HEAD, hairline, 1500, 5).unwrap();
+    let told = Mutex::new(Vec::new());
+    let grown = grow_run_while(&HEAD, &growth, &roots, 0, &|part| {
+        told.lock().unwrap().push(part);
+        true
+    });
+    assert_eq!(grown.unwrap(), Some(grow(&HEAD, &growth, 1500).unwrap()));
+    let told = told.into_inner().unwrap();
+    assert!(told.iter().all(|part| (0.0..1.0).contains(part)) && told.iter().any(|&part| part > 0.5), "{told:?}");
+    // One thread asks before each stretch, and no more once it was told not to go on.
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let asked = AtomicUsize::new(0);
+    let few = |_| asked.fetch_add(1, Ordering::Relaxed) < 2;
+    assert_eq!(alone.install(|| grow_run_while(&HEAD, &growth, &roots, 0, &few)).unwrap(), None);
+    assert!(asked.into_inner() < told.len() / 2, "it goes on to the end");
 }
 
 #[test]

@@ -109,7 +109,21 @@ impl Scene {
     /// # Errors
     /// One line: file, thing, value and the way out.
     pub fn build(self, shown: Shown) -> Result<BuiltScene> {
-        load::build(self, shown, None, None)
+        load::build(self, shown, None, None, &|_| true)
+    }
+
+    /// The same, or what [`BuiltScene::changed_to`] gives of a scene that is `known`, for whoever may want it no more: while hair
+    /// grows, `goes_on` is told again and again, by any thread, how much is grown, 0..1, and asked whether to go on.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build); [`Error::Cancelled`] where it was not to go on.
+    pub fn build_while(
+        self,
+        shown: Shown,
+        known: Option<&BuiltScene>,
+        goes_on: &(dyn Fn(f32) -> bool + Sync),
+    ) -> Result<BuiltScene> {
+        load::build(self, shown, None, known, goes_on)
     }
 
     /// The same, of which one shard of the strands alone is kept, and, where hair is grown, grown: each moves, to the bit,
@@ -118,7 +132,7 @@ impl Scene {
     /// # Errors
     /// As [`build`](Self::build); more shards than strands.
     pub fn build_shard(self, shown: Shown, shard: Shard) -> Result<BuiltScene> {
-        load::build(self, shown, Some(shard), None)
+        load::build(self, shown, Some(shard), None, &|_| true)
     }
 
     /// What each of the scene's fields can reach, and last `all` of them together; head and motion are loaded for it.
@@ -187,7 +201,7 @@ impl BuiltScene {
     /// # Errors
     /// As there.
     pub fn changed_to(&self, scene: Scene, shown: Shown) -> Result<Self> {
-        load::build(scene, shown, None, Some(self))
+        load::build(scene, shown, None, Some(self), &|_| true)
     }
 
     /// The fast stepper, at rest.
@@ -233,16 +247,22 @@ impl BuiltScene {
         self.poses.get(frame as usize).copied().unwrap_or_default()
     }
 
+    /// The bodies that are shown: the number of each, its surface (its own space, cm) and where it is in the world in a frame.
+    pub fn shown_bodies(&self, frame: u32) -> impl Iterator<Item = (usize, &Mesh, Pose)> {
+        let head = self.pose(frame);
+        let all = self.scene.bodies.iter().zip(&self.bodies).enumerate().filter(|(_, (settings, _))| settings.shown);
+        all.map(move |(i, (_, body))| (i, &body.mesh, body.way.pose(frame, &head)))
+    }
+
     /// The bodies that are shown, to be drawn.
     pub fn drawn_bodies(&self) -> Vec<DrawnBody> {
-        let all = self.scene.bodies.iter().zip(&self.bodies).filter(|(settings, _)| settings.shown);
-        all.map(|(settings, body)| DrawnBody { mesh: body.mesh.clone(), colour: settings.colour }).collect()
+        let all = self.shown_bodies(0);
+        all.map(|(i, mesh, _)| DrawnBody { mesh: mesh.clone(), colour: self.scene.bodies[i].colour }).collect()
     }
 
     /// Where the bodies that are shown are in the world in a frame, in the order of [`drawn_bodies`](Self::drawn_bodies).
     pub fn drawn_poses(&self, frame: u32) -> Vec<Pose> {
-        let all = self.scene.bodies.iter().zip(&self.bodies).filter(|(settings, _)| settings.shown);
-        all.map(|(_, body)| body.way.pose(frame, &self.pose(frame))).collect()
+        self.shown_bodies(frame).map(|(_, _, pose)| pose).collect()
     }
 
     /// What a step to a frame needs to know of it.

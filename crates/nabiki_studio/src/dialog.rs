@@ -107,6 +107,12 @@ impl Chooser {
         path.parent().map(Path::to_owned).unwrap_or_default()
     }
 
+    /// Whether that folder is there.
+    pub fn has_folder(&self) -> bool {
+        let folder = self.folder();
+        folder.as_os_str().is_empty() || folder.is_dir()
+    }
+
     /// What is in the folder, folders first, by name; what is hidden is left out.
     pub fn listed(&self) -> Vec<Listed> {
         let folder = self.folder();
@@ -230,6 +236,7 @@ mod tests {
     #[test]
     fn a_folder_that_is_not_there_shows_nothing() {
         let chooser = Chooser { purpose: Purpose::Open, path: "/no/such/place/".to_owned(), endings: Vec::new() };
-        assert!(chooser.listed().is_empty());
+        assert!(chooser.listed().is_empty() && !chooser.has_folder());
+        assert!(Chooser { path: "name.toml".to_owned(), ..chooser }.has_folder(), "that of the program");
     }
 }

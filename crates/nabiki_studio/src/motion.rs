@@ -1,7 +1,6 @@
 //! The worker that moves hair: a thread that takes the newest scene asked for, builds what has changed of it and plays it
 //! whole.
 
-use std::cell::Cell;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -61,6 +60,16 @@ pub enum Manner {
     GivesWay,
 }
 
+/// What a worker is doing with a motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Stage {
+    /// It grows the hair, or reads it.
+    #[default]
+    Building,
+    /// It moves the hair.
+    Moving,
+}
+
 #[derive(Debug, Default)]
 struct Shared {
     state: Mutex<State>,
@@ -72,8 +81,10 @@ struct State {
     request: Option<Request>,
     done: Option<Moved>,
     working: bool,
-    /// How much of it is done, 0..1.
-    part: f32,
+    /// What it does, and how much of that is done, 0..1.
+    done_of: (Stage, f32),
+    /// When it was last said.
+    told: Option<Instant>,
     /// What is being worked on is wanted no more.
     stopped: bool,
     /// Files were to be read again for a request that was given up, and are for the next.
@@ -131,9 +142,9 @@ impl Motion {
         self.number
     }
 
-    /// How much of what is being worked on is done, 0..1.
-    pub fn part(&self) -> f32 {
-        self.shared.lock().part
+    /// What is being done, and how much of that is, 0..1.
+    pub fn progress(&self) -> (Stage, f32) {
+        self.shared.lock().done_of
     }
 
     /// What was asked for is wanted no more: it does not come, nor does what was there already and has not been taken.
@@ -196,7 +207,8 @@ fn work(manner: Manner, shared: &Shared, wake: &(impl Fn() + Sync)) {
                     player = Player::default();
                 }
                 if let Some(request) = state.request.take() {
-                    (state.working, state.stopped, state.part) = (true, false, 0.0);
+                    (state.working, state.stopped) = (true, false);
+                    (state.done_of, state.told) = ((Stage::Building, 0.0), Some(Instant::now()));
                     break request;
                 }
                 state = shared.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
@@ -204,17 +216,21 @@ fn work(manner: Manner, shared: &Shared, wake: &(impl Fn() + Sync)) {
         };
         let start = Instant::now();
         let number = request.number;
-        let told = Cell::new(start);
-        let goes_on = |part: f32| {
-            if manner == Manner::GivesWay && told.get().elapsed() >= TELLS {
-                told.set(Instant::now());
+        let goes_on = |stage: Stage, part: f32| {
+            let mut state = shared.lock();
+            state.done_of = (stage, part);
+            let tells = manner == Manner::GivesWay && state.told.is_some_and(|told| told.elapsed() >= TELLS);
+            if tells {
+                state.told = Some(Instant::now());
+            }
+            let goes_on = state.goes_on(manner);
+            drop(state);
+            if tells {
                 wake();
             }
-            let mut state = shared.lock();
-            state.part = part;
-            state.goes_on(manner)
+            goes_on
         };
-        let result = player.play(request, goes_on);
+        let result = player.play(request, &goes_on);
         let mut state = shared.lock();
         if let Some(result) = result.transpose()
             && !state.stopped
@@ -244,18 +260,32 @@ impl Player {
     /// The motion asked for; none where it did not go on to the end.
     fn play(
         &mut self,
+        request: Request,
+        goes_on: &(dyn Fn(Stage, f32) -> bool + Sync),
+    ) -> Result<Option<(Arc<Take>, SwingTable)>, Error> {
+        let fresh = request.fresh;
+        let played = self.play_known(request, goes_on);
+        if fresh && !matches!(played, Ok(Some(_))) {
+            // What is known is of files that were to be read again.
+            (self.built, self.timeline) = (None, None);
+        }
+        match played {
+            Err(Error::Cancelled) => Ok(None),
+            played => played,
+        }
+    }
+
+    fn play_known(
+        &mut self,
         Request { scene, strands, number, fresh }: Request,
-        goes_on: impl Fn(f32) -> bool,
+        goes_on: &(dyn Fn(Stage, f32) -> bool + Sync),
     ) -> Result<Option<(Arc<Take>, SwingTable)>, Error> {
         scene.check().map_err(|refused| scene.refusal(refused))?;
         let shown = Shown::AtMost(strands);
         let known = self.built.clone().filter(|_| !fresh);
-        let built = match &known {
-            Some(known) => known.changed_to(scene, shown)?,
-            None => scene.build(shown)?,
-        };
+        let built = scene.build_while(shown, known.as_deref(), &|part| goes_on(Stage::Building, part))?;
         check_size(&built)?;
-        if !goes_on(0.0) {
+        if !goes_on(Stage::Moving, 0.0) {
             self.built = Some(Arc::new(built));
             self.timeline = None;
             return Ok(None);
@@ -273,7 +303,7 @@ impl Player {
         let (mut whole, mut frame) = (false, 0);
         let mut next = || {
             frame += stretch;
-            goes_on(frame as f32 / (built.frames() + 1) as f32)
+            goes_on(Stage::Moving, frame as f32 / (built.frames() + 1) as f32)
         };
         let film = self.film(points, |film| whole = timeline.play_into_while(film, stretch, &mut next));
         let swings = SwingTable::of(&built);
@@ -382,6 +412,56 @@ mod tests {
             motion.wait();
             assert_eq!(motion.take().unwrap().number, wanted);
         }
+    }
+
+    #[test]
+    fn hair_that_grows_is_given_up_and_what_is_known_stays() {
+        let grown = |length: f32, strands: usize| {
+            let mut scene = scene();
+            let nabiki_scene::scene::HairSource::Grown(grown) = &mut scene.hair.source else { panic!() };
+            (grown.strands, grown.style.length.top) = (2000, length);
+            Request { scene, strands, number: 1, fresh: false }
+        };
+        let mut player = Player::default();
+        assert!(player.play(grown(17.0, 2000), &|_, _| true).unwrap().is_some());
+        let known = player.built.clone().unwrap();
+        let asked = std::sync::atomic::AtomicUsize::new(0);
+        let few = |stage: Stage, _: f32| {
+            assert_eq!(stage, Stage::Building, "it has grown to the end");
+            asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) < 3
+        };
+        assert!(player.play(grown(16.0, 2000), &few).unwrap().is_none());
+        assert!(Arc::ptr_eq(&known, player.built.as_ref().unwrap()), "the next request has the roots");
+        let parts = Mutex::new(Vec::new());
+        let note = |stage: Stage, part: f32| {
+            parts.lock().unwrap().push((stage == Stage::Moving, part));
+            true
+        };
+        let take = player.play(grown(16.0, 2000), &note).unwrap().unwrap().0;
+        assert!(
+            *take.built.hair.strands.points() == *grown(16.0, 0).scene.build(Shown::All).unwrap().hair.strands.points()
+        );
+        let parts = parts.into_inner().unwrap();
+        assert!(parts.iter().any(|&(moves, part)| !moves && part > 0.5), "nothing is said of how far it is");
+        assert!(parts.iter().all(|(_, part)| (0.0..=1.0).contains(part)), "{parts:?}");
+    }
+
+    #[test]
+    fn a_file_that_was_to_be_read_again_and_is_not_there_stays_missed() {
+        let folder = tempfile::tempdir().unwrap();
+        let mesh = folder.path().join("box.obj");
+        std::fs::write(&mesh, "v 30 0 0\nv 33 0 0\nv 30 3 0\nv 30 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n").unwrap();
+        let text = "[hair]\nstrands = 8\n[motion]\nform = \"free\"\nframes = 5\n\
+                    [[body]]\nmesh = \"box.obj\"\nunit = \"cm\"\nup = \"+y\"\nfacing = \"+x\"\norigin = [0, 0, 0]\n";
+        let scene = Scene::parse(text, &folder.path().join("a.toml"), &[]).unwrap();
+        let mut player = Player::default();
+        let mut play =
+            |fresh| player.play(Request { scene: scene.clone(), strands: 8, number: 1, fresh }, &|_, _| true).is_ok();
+        assert!(play(true));
+        std::fs::remove_file(&mesh).unwrap();
+        assert!(play(false), "a file counts as it was when it was read");
+        assert!(!play(true));
+        assert!(!play(false), "a change of something else does not bring it back");
     }
 
     #[test]

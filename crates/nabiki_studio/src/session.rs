@@ -18,7 +18,7 @@ use crate::command::Command;
 use crate::desktop::Asked;
 use crate::dialog::Dialog;
 use crate::document::Document;
-use crate::motion::{Manner, Motion, Moved};
+use crate::motion::{Manner, Motion, Moved, Stage};
 use crate::play::{Ending, Play};
 use crate::preferences::Preferences;
 use crate::recovery::{self, Keeper};
@@ -86,6 +86,8 @@ pub struct Session {
     chosen: Vec<usize>,
     clip: Clip,
     dialog: Option<Dialog>,
+    /// When it was asked, by the clock.
+    asked_at: Option<f64>,
     tasks: Vec<Task>,
     words: Vec<Word>,
     wishes: Vec<Wish>,
@@ -141,6 +143,7 @@ impl Session {
             chosen: Vec::new(),
             clip: Clip::default(),
             dialog: None,
+            asked_at: None,
             tasks: Vec::new(),
             words: Vec::new(),
             wishes: Vec::new(),
@@ -218,9 +221,9 @@ impl Session {
         self.motion.is_working() || self.deep.is_working()
     }
 
-    /// How much is done, 0..1, of the motion of more strands than a touch moves, while it is being worked out.
-    pub fn part_deep(&self) -> Option<f32> {
-        self.deep.part()
+    /// What is done for the motion of more strands than a touch moves, while it is being worked out, and how much of that, 0..1.
+    pub fn progress_deep(&self) -> Option<(Stage, f32)> {
+        self.deep.progress()
     }
 
     /// Waits until the scene has been moved as it is, with all strands that are asked for.
@@ -398,6 +401,7 @@ impl Session {
             Command::Export(order) => self.export(order),
             command => self.apply_to_document(command),
         }
+        self.note_question();
         self.move_if_changed();
     }
 

@@ -225,6 +225,75 @@ fn a_shorter_motion_takes_its_frames_out_of_the_sheet_in_one_step_and_says_so() 
 }
 
 #[test]
+fn a_sheet_of_which_a_shorter_motion_leaves_nothing_gets_frames_that_there_are() {
+    let place = Place::new();
+    std::fs::write(place.file(), format!("{TEXT}[output]\nsheet = [15, 20] # the fall\n")).unwrap();
+    let mut session = place.session();
+    for phase in [Phase::Dragging, Phase::Done] {
+        session.apply(Command::Set { key: "motion.frames".to_owned(), value: Some(10.into()), phase });
+        let scene = session.document().unwrap().scene();
+        assert_eq!(scene.output.sheet.as_deref(), Some(&[0, 3, 6, 9][..]));
+        let text = scene.to_toml().unwrap();
+        assert!(text.contains("# the fall"), "{text}");
+        let said: Vec<&str> = session.words().iter().map(|word| word.text.as_str()).collect();
+        assert!(
+            matches!(said[..], [said] if said.contains("15, 20") && said.contains("0, 3, 6, 9 instead")),
+            "{said:?}"
+        );
+    }
+    session.apply(Command::Act(Action::Undo));
+    assert!(!session.document().unwrap().is_dirty(), "one step has both");
+    std::fs::write(place.file(), format!("{TEXT}[output]\nsheet = []\n")).unwrap();
+    let mut session = place.session();
+    session.apply(Command::Set { key: "motion.frames".to_owned(), value: Some(10.into()), phase: Phase::Done });
+    assert_eq!(session.document().unwrap().scene().output.sheet.as_deref(), Some(&[][..]), "none is wanted");
+}
+
+#[test]
+fn longer_hair_gets_the_segments_that_it_takes_in_one_step_and_a_drag_back_takes_them_back() {
+    let mut session = Place::new().session();
+    let segments = |session: &Session| session.document().unwrap().scene().hair.grown().unwrap().segments;
+    let set = |session: &mut Session, length: f64, phase| {
+        session.apply(Command::Set { key: "hair.style.length.top".to_owned(), value: Some(length.into()), phase });
+        session.wait();
+        assert_eq!(session.trouble(), None, "{length} cm");
+        session.words().iter().map(|word| word.text.clone()).collect::<Vec<_>>()
+    };
+    for (length, wanted) in [(25.4, 26), (30.0, 30), (20.0, 20)] {
+        let said = set(&mut session, length, Phase::Dragging);
+        assert_eq!(segments(&session), wanted);
+        assert!(matches!(&said[..], [said] if said.contains(&wanted.to_string())), "{said:?}");
+    }
+    assert_eq!((set(&mut session, 18.0, Phase::Dragging).len(), segments(&session)), (0, 18));
+    session.apply(Command::EndDrag);
+    assert_eq!(session.document().unwrap().undo_name(), None);
+    set(&mut session, 26.0, Phase::Done);
+    session.apply(Command::Act(Action::Undo));
+    assert_eq!(segments(&session), 18);
+    assert!(!session.document().unwrap().is_dirty(), "one step has both");
+}
+
+#[test]
+fn what_goes_wrong_with_a_question_is_known_while_it_stands_and_saved_it_is_so_no_longer() {
+    let place = Place::new();
+    let mut session = place.session();
+    session.say("something older", true);
+    session.tick(1.0, 1.0);
+    session.apply(Command::Act(Action::SaveAs));
+    assert_eq!(session.wrong_with_dialog(), None);
+    session.tick(1.0, 1.0);
+    let Some(Dialog::File(chooser)) = session.dialog().cloned() else { panic!("no question") };
+    let chosen = |name: &str| Command::Chosen(Box::new(chooser.clone()), place.0.path().join(name));
+    session.apply(chosen("nowhere/red hand #1.toml"));
+    assert!(session.wrong_with_dialog().is_some_and(|wrong| wrong.contains("nowhere/red hand #1.toml")));
+    session.apply(chosen("red hand #1"));
+    assert!(place.0.path().join("red hand #1.toml").is_file());
+    assert_eq!((session.dialog(), session.wrong_with_dialog()), (None, None));
+    let said: Vec<&str> = session.words().iter().map(|word| word.text.as_str()).collect();
+    assert_eq!(said, ["something older", "Saved red hand #1.toml"]);
+}
+
+#[test]
 fn a_file_with_errors_is_mended_in_the_window() {
     let place = Place::new();
     let mut session = place.session();

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use nabiki::dynamics::{Dynamics, Form, straightened};
-use nabiki::groom::{Growth, grow_run};
+use nabiki::groom::{Growth, grow_run_while};
 use nabiki::roots::{self, Root};
 use nabiki::strands::check_points;
 use nabiki::{Hair, Head, Pose, SettingError, Strands, subset};
@@ -33,13 +33,17 @@ use crate::scene::{
 };
 use crate::seat;
 
+/// Asked again and again, by any thread, whether to go on; told how much is done, 0..1.
+pub(super) type GoesOn<'a> = &'a (dyn Fn(f32) -> bool + Sync);
+
 /// Builds a scene, or one `shard` of it. What it has in common with a scene that is `known` is taken from there, and files
-/// are not read again.
+/// are not read again. `goes_on`, told how much of the hair is grown, is asked whether it is still wanted.
 pub(super) fn build(
     scene: Scene,
     shown: Shown,
     shard: Option<Shard>,
     known: Option<&BuiltScene>,
+    goes_on: GoesOn<'_>,
 ) -> Result<BuiltScene> {
     let known = known.filter(|known| known.scene.file() == scene.file());
     let same_head = known.filter(|known| {
@@ -75,7 +79,7 @@ pub(super) fn build(
     let LoadedHair { mut hair, roots, ids, of_scene, shard, first, imported, frames, begins } = match same_hair {
         Some(known) => LoadedHair::of(known),
         None => {
-            let mut loaded = load_hair(&scene, &head, &placement, Wanted { shown, shard }, same_head)?;
+            let mut loaded = load_hair(&scene, &head, &placement, Wanted { shown, shard }, same_head, goes_on)?;
             loaded.hair.strands = straightened(&loaded.hair.strands, &dynamics.motion, dynamics.polar_axis);
             loaded.first = straightened(&loaded.first, &dynamics.motion, dynamics.polar_axis);
             loaded
@@ -226,6 +230,7 @@ fn load_hair(
     head_placement: &Placement,
     wanted: Wanted,
     same_head: Option<&BuiltScene>,
+    goes_on: GoesOn<'_>,
 ) -> Result<LoadedHair> {
     match &scene.hair.source {
         HairSource::Grown(settings) => {
@@ -234,6 +239,7 @@ fn load_hair(
             let rooted = run.end.max(first);
             let roots = match same_head.and_then(|known| known_roots(known, settings, rooted)) {
                 Some(roots) => roots,
+                None if !goes_on(0.0) => return Err(Error::Cancelled),
                 None => {
                     let GrownHair { strands, seed, hairline, .. } = settings;
                     let roots = roots::spread_first(head, hairline, *strands, rooted, *seed);
@@ -242,15 +248,15 @@ fn load_hair(
             };
             let (hair, first) = if run.start < first {
                 // What is wanted first is grown anyway.
-                let hair = grown(scene, settings, head, &roots, 0)?;
+                let hair = grown(scene, settings, head, &roots, 0, goes_on)?;
                 let first = hair.strands.select(&(0..first).collect::<Vec<_>>());
                 (
                     if hair.strands.len() > run.len() { hair.select(&run.clone().collect::<Vec<_>>()) } else { hair },
                     first,
                 )
             } else {
-                let first = grown(scene, settings, head, &roots[..first], 0)?.strands;
-                (grown(scene, settings, head, &roots[run.clone()], run.start)?, first)
+                let first = grown(scene, settings, head, &roots[..first], 0, &|_| goes_on(0.0))?.strands;
+                (grown(scene, settings, head, &roots[run.clone()], run.start, goes_on)?, first)
             };
             let ids = run.map(|number| number as u32).collect();
             let shard = wanted.shard.map(|shard| ShardOf { shard, strands: count, groom: StrandSum::default() });
@@ -446,7 +452,14 @@ fn known_roots(known: &BuiltScene, settings: &GrownHair, wanted: usize) -> Optio
 }
 
 /// The strands that grow from a run of the scene's roots, from number `first` on.
-fn grown(scene: &Scene, settings: &GrownHair, head: &Head, roots: &[Root], first: usize) -> Result<Hair> {
+fn grown(
+    scene: &Scene,
+    settings: &GrownHair,
+    head: &Head,
+    roots: &[Root],
+    first: usize,
+    goes_on: GoesOn<'_>,
+) -> Result<Hair> {
     let GrownHair { strands, segments, seed, hairline, style } = settings;
     let growth = Growth {
         hairline,
@@ -456,7 +469,8 @@ fn grown(scene: &Scene, settings: &GrownHair, head: &Head, roots: &[Root], first
         segment_length: scene.hair.segment_length,
         seed: *seed,
     };
-    grow_run(head, &growth, roots, first).map_err(|refused| scene.refusal(refused).into())
+    let grown = grow_run_while(head, &growth, roots, first, goes_on).map_err(|refused| scene.refusal(refused))?;
+    grown.ok_or(Error::Cancelled)
 }
 
 /// The same strands in `segments` equally long segments each.

@@ -43,6 +43,10 @@ pub fn ui(ctx: &egui::Context, session: &Session, commands: &mut Commands) {
             Dialog::Export(order) => export(ui, session, order, commands),
             Dialog::Import(import) => self::import(ui, session, import, commands),
         }
+        if let Some(wrong) = session.wrong_with_dialog() {
+            ui.add_space(6.0);
+            paragraph(ui, egui::RichText::new(wrong).color(theme::WRONG));
+        }
     });
     // A question of what is lost is answered, not passed by.
     let must = matches!(dialog, Dialog::Conflict(..) | Dialog::Recover(_));

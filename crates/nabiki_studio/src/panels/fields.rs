@@ -13,18 +13,42 @@ use crate::settings::{Kind, Setting};
 /// Width of the names beside the fields (points).
 const NAMES: f32 = 96.0;
 
-/// A name and a field beside it. `what`: the whole name, for who does not see it.
+/// A name and a field beside it.
 pub fn row<R>(ui: &mut Ui, label: &str, help: &str, marked: bool, field: impl FnOnce(&mut Ui) -> R) -> R {
+    row_of(ui, NAMES, label, help, marked, field)
+}
+
+/// The same with so many points for the name.
+pub fn row_of<R>(
+    ui: &mut Ui,
+    names: f32,
+    label: &str,
+    help: &str,
+    marked: bool,
+    field: impl FnOnce(&mut Ui) -> R,
+) -> R {
     ui.horizontal(|ui| {
         let height = ui.spacing().interact_size.y;
         let ink = if marked { theme::WRONG } else { theme::FAINT };
         // Painted, so that all fields begin at one place however long their names are.
-        let (rect, response) = ui.allocate_exact_size(egui::vec2(NAMES, height), egui::Sense::hover());
+        let (rect, response) = ui.allocate_exact_size(egui::vec2(names, height), egui::Sense::hover());
         let font = egui::TextStyle::Body.resolve(ui.style());
         let within = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         within.text(rect.left_center(), egui::Align2::LEFT_CENTER, label, font, ink);
         response.on_hover_text(help);
         field(ui)
+    })
+    .inner
+}
+
+/// Fields beside each other, each as wide as its number and so many points at least; those for which there is no room begin
+/// another line.
+pub fn side_by_side<R>(ui: &mut Ui, least: f32, fields: impl FnOnce(&mut Ui) -> R) -> R {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 3.0;
+        ui.spacing_mut().button_padding.x = 2.0;
+        ui.spacing_mut().interact_size.x = least;
+        fields(ui)
     })
     .inner
 }
@@ -190,20 +214,14 @@ impl Field<'_> {
         let mut numbers: Vec<f64> =
             value.and_then(Value::as_array).into_iter().flatten().filter_map(number_of).collect();
         numbers.resize(names.len(), 0.0);
-        let gap = 3.0;
-        let wide =
-            ((ui.available_width() - 22.0 - gap * (names.len() - 1) as f32) / names.len() as f32).clamp(30.0, 64.0);
-        ui.spacing_mut().item_spacing.x = gap;
-        for i in 0..names.len() {
-            let response = ui.scope(|ui| {
-                ui.spacing_mut().interact_size.x = wide;
-                ui.spacing_mut().button_padding.x = 2.0;
-                field.ui(ui, &mut numbers[i], commands)
-            });
-            let response = response.inner.on_hover_text(names[i]);
-            let response = response.accessible_name(format!("{} {}: {}", self.group, self.setting.label, names[i]));
-            self.sent(&response, commands, numbers.iter().map(|number| wrap(*number)).collect::<Vec<_>>().into());
-        }
+        let wide = ((ui.available_width() - 22.0) / names.len() as f32 - 3.0).clamp(30.0, 64.0);
+        side_by_side(ui, wide, |ui| {
+            for i in 0..names.len() {
+                let response = field.ui(ui, &mut numbers[i], commands).on_hover_text(names[i]);
+                let response = response.accessible_name(format!("{} {}: {}", self.group, self.setting.label, names[i]));
+                self.sent(&response, commands, numbers.iter().map(|number| wrap(*number)).collect::<Vec<_>>().into());
+            }
+        });
     }
 
     fn colour(&self, ui: &mut Ui, value: Option<&Value>, linear: bool, commands: &mut Commands) {
@@ -269,30 +287,30 @@ impl Field<'_> {
             [one] => Value::Float(*one),
             all => all.iter().map(|number| Value::Float(*number)).collect::<Vec<_>>().into(),
         };
-        ui.spacing_mut().item_spacing.x = 3.0;
         let last = numbers.len().saturating_sub(1);
-        for i in 0..numbers.len() {
-            let place = match (i, last) {
-                (_, 0) => "from root to tip",
-                (0, _) => "at the root",
-                (i, last) if i == last => "at the tip",
-                _ => "on the way",
-            };
-            ui.spacing_mut().interact_size.x = 44.0;
-            let step = step.max(numbers[i].abs() * 0.005);
-            let field = Number { range: 0.0..=most, step, ..Number::default() };
-            let response = field.ui(ui, &mut numbers[i], commands).on_hover_text(place);
-            let response = response.accessible_name(format!("{} {}: {place}", self.group, self.setting.label));
-            self.sent(&response, commands, wrap(&numbers));
-        }
-        if numbers.len() < 6 && ui.small_button("+").on_hover_text("One number more, toward the tip.").clicked() {
-            numbers.extend(numbers.last().copied());
-            self.set(commands, Some(wrap(&numbers)), Phase::Done);
-        }
-        if numbers.len() > 1 && ui.small_button("-").on_hover_text("One number less.").clicked() {
-            numbers.pop();
-            self.set(commands, Some(wrap(&numbers)), Phase::Done);
-        }
+        side_by_side(ui, 44.0, |ui| {
+            for i in 0..numbers.len() {
+                let place = match (i, last) {
+                    (_, 0) => "from root to tip",
+                    (0, _) => "at the root",
+                    (i, last) if i == last => "at the tip",
+                    _ => "on the way",
+                };
+                let step = step.max(numbers[i].abs() * 0.005);
+                let field = Number { range: 0.0..=most, step, ..Number::default() };
+                let response = field.ui(ui, &mut numbers[i], commands).on_hover_text(place);
+                let response = response.accessible_name(format!("{} {}: {place}", self.group, self.setting.label));
+                self.sent(&response, commands, wrap(&numbers));
+            }
+            if numbers.len() < 6 && ui.small_button("+").on_hover_text("One number more, toward the tip.").clicked() {
+                numbers.extend(numbers.last().copied());
+                self.set(commands, Some(wrap(&numbers)), Phase::Done);
+            }
+            if numbers.len() > 1 && ui.small_button("-").on_hover_text("One number less.").clicked() {
+                numbers.pop();
+                self.set(commands, Some(wrap(&numbers)), Phase::Done);
+            }
+        });
     }
 
     fn ellipsoid(&self, ui: &mut Ui, value: Option<&Value>, commands: &mut Commands) {

@@ -40,7 +40,10 @@ pub fn ui(ui: &mut Ui, session: &Session, chooser: &Chooser, commands: &mut Comm
             }
             let listed = chooser.listed();
             if listed.is_empty() {
-                ui.label(theme::faint("Nothing here that could be chosen."));
+                ui.label(theme::faint(match chooser.has_folder() {
+                    true => "Nothing here that could be chosen.",
+                    false => "There is no such folder.",
+                }));
             }
             for entry in listed {
                 let chosen = !entry.folder && Path::new(&chooser.path) == entry.path;

@@ -4,13 +4,16 @@ use eframe::egui::{self, Sense, Stroke, Ui, pos2, vec2};
 use glam::Vec3;
 use nabiki::field::Ease;
 
-use super::fields::{row, send};
+use super::fields::{row_of, send, side_by_side};
 use super::number::Number;
 use super::{Commands, theme};
 use crate::command::Command;
 use crate::document::Phase;
 use crate::session::Session;
 use crate::timeline;
+
+/// Width of the names beside the fields (points).
+const NAMES: f32 = 60.0;
 
 /// The strongest wind that a field takes.
 const MOST: f64 = 1e6;
@@ -42,7 +45,7 @@ pub fn ui(ui: &mut Ui, session: &Session, height: f32, commands: &mut Commands) 
             }
         });
     });
-    row(ui, "Frames", "First and last frame that feel this vector.", false, |ui| {
+    row_of(ui, NAMES, "Frames", "First and last frame that feel this vector.", false, |ui| {
         ui.spacing_mut().interact_size.x = 46.0;
         ui.label(theme::faint(format!("{} to", frames.start())));
         let mut through = f64::from(*frames.end());
@@ -58,33 +61,33 @@ pub fn ui(ui: &mut Ui, session: &Session, height: f32, commands: &mut Commands) 
         });
     });
     let vector = keys[j].vector;
-    row(
+    row_of(
         ui,
+        NAMES,
         "Force",
         "x: where the face looks, y: up, z: to the character's right. Without a unit: only its effect counts.",
         false,
         |ui| {
-            ui.spacing_mut().item_spacing.x = 2.0;
-            ui.spacing_mut().button_padding.x = 2.0;
-            ui.spacing_mut().interact_size.x = 36.0;
-            for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-                let mut number = f64::from(vector[axis]);
-                let mut changed = vector;
-                let field = Number { range: -MOST..=MOST, step: 0.5, decimals: 2, ..Number::default() };
-                let response = field.ui(ui, &mut number, commands).on_hover_text(name);
-                let rect = response.rect;
-                ui.painter().hline(
-                    rect.x_range().shrink(4.0),
-                    rect.bottom() - 1.0,
-                    Stroke::new(1.0, theme::AXES[axis]),
-                );
-                let response = response.accessible_name(format!("Force {name}"));
-                changed[axis] = number as f32;
-                send(&response, commands, |phase| Command::Vector { interval: j, vector: changed, phase });
-            }
+            side_by_side(ui, 36.0, |ui| {
+                for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+                    let mut number = f64::from(vector[axis]);
+                    let mut changed = vector;
+                    let field = Number { range: -MOST..=MOST, step: 0.5, decimals: 2, ..Number::default() };
+                    let response = field.ui(ui, &mut number, commands).on_hover_text(name);
+                    let rect = response.rect;
+                    ui.painter().hline(
+                        rect.x_range().shrink(4.0),
+                        rect.bottom() - 1.0,
+                        Stroke::new(1.0, theme::AXES[axis]),
+                    );
+                    let response = response.accessible_name(format!("Force {name}"));
+                    changed[axis] = number as f32;
+                    send(&response, commands, |phase| Command::Vector { interval: j, vector: changed, phase });
+                }
+            });
         },
     );
-    row(ui, "Strength", "|F|: its direction stays.", false, |ui| {
+    row_of(ui, NAMES, "Strength", "|F|: its direction stays.", false, |ui| {
         let mut length = f64::from(vector.length());
         ui.spacing_mut().interact_size.x = 64.0;
         let field = Number { range: 0.0..=MOST, step: 0.5, decimals: 1, ..Number::default() };
@@ -99,7 +102,7 @@ pub fn ui(ui: &mut Ui, session: &Session, height: f32, commands: &mut Commands) 
     if let Some([root, middle, tip]) = session.swings().and_then(|swings| swings.rows.get(j)).map(|row| row.periods) {
         let help = "Frames that a swing takes at the root, in the middle and at the tip, as the paper advises to look at when a \
                     force is chosen: four times the force halves it.";
-        row(ui, "Swing", help, false, |ui| {
+        row_of(ui, NAMES, "Swing", help, false, |ui| {
             let text = [root, middle, tip]
                 .map(|frames| if frames.is_finite() { format!("{frames:.0}") } else { "-".to_owned() });
             ui.label(format!("{} frames", text.join("  "))).on_hover_text(help);
@@ -116,11 +119,12 @@ pub fn ui(ui: &mut Ui, session: &Session, height: f32, commands: &mut Commands) 
 fn none(ui: &mut Ui, session: &Session, intervals: usize) {
     match session.chosen().len() {
         0 => {
+            let words = match intervals {
+                0 => "There is no wind. Add an interval to have some.",
+                _ => "Click an interval to see its vector, or drag a border between two.",
+            };
             ui.add_space(4.0);
-            ui.add(
-                egui::Label::new(theme::faint("Click an interval to see its vector, or drag a border between two."))
-                    .wrap(),
-            );
+            ui.add(egui::Label::new(theme::faint(words)).wrap());
         }
         n => drop(ui.label(theme::faint(format!("{n} of {intervals} intervals are chosen.")))),
     }
@@ -128,7 +132,8 @@ fn none(ui: &mut Ui, session: &Session, intervals: usize) {
 
 /// A tenth is as exact as a hand.
 fn rounded(vector: Vec3) -> Vec3 {
-    (10.0 * vector).round() / 10.0
+    // Calm has no sign.
+    (10.0 * vector).round() / 10.0 + Vec3::ZERO
 }
 
 /// From where a vector is seen.

@@ -7,7 +7,7 @@ use eframe::egui::{self, Ui};
 use super::{Commands, theme};
 use crate::command::Command;
 use crate::dialog::Dialog;
-use crate::motion::most_strands;
+use crate::motion::{Stage, most_strands};
 use crate::preferences::{ALL, FEWEST};
 use crate::session::Session;
 use crate::take::{TOUCHED, Take};
@@ -36,7 +36,9 @@ pub fn words(ctx: &egui::Context, over: egui::Rect, session: &Session, commands:
         ui.set_width(over.width());
         ui.spacing_mut().item_spacing.y = 1.0;
         let most = (MOST_WORDS * ctx.content_rect().height()).min(over.height());
-        let scrolled = egui::ScrollArea::vertical().max_height(most).auto_shrink([false, true]);
+        // An area has the height that it had before: without a least height what is scrolled never grows over that.
+        let scrolled = egui::ScrollArea::vertical().max_height(most).min_scrolled_height(most);
+        let scrolled = scrolled.auto_shrink([false, true]);
         scrolled.show(ui, |ui| bars(ui, session, commands));
     });
 }
@@ -171,10 +173,15 @@ fn strands(ui: &mut Ui, session: &Session, take: &Take, commands: &mut Commands)
     }
     let shown = take.strands().len();
     let all = if shown == whole { format!("all {whole}") } else { format!("{shown} of {whole}") };
-    ui.label(match session.part_deep() {
-        Some(part) => {
+    ui.label(match session.progress_deep() {
+        Some((stage, part)) => {
             let wanted = session.preferences().strands.min(most);
-            format!("{shown} of {wanted}, the others are {:.0} % on their way", 100.0 * part)
+            let percent = 100.0 * part;
+            match stage {
+                Stage::Building if take.built.groom.is_some() => format!("{shown} of {wanted}, the others are read"),
+                Stage::Building => format!("{shown} of {wanted}, the others grow: {percent:.0} %"),
+                Stage::Moving => format!("{shown} of {wanted}, the others are moved: {percent:.0} %"),
+            }
         }
         None => all,
     });

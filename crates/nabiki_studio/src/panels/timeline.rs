@@ -104,73 +104,87 @@ fn wishes(ui: &Ui, ruler: Rect, scale: &Scale, marks: &Marks) {
     }
 }
 
-/// Buttons and fields above the tracks.
+/// Buttons and fields above the tracks; in more than one line where there is no room in one.
 fn transport(ui: &mut Ui, session: &Session, commands: &mut Commands) {
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.set_min_height(26.0);
         ui.add_space(6.0);
         ui.spacing_mut().item_spacing.x = 2.0;
-        for (sign, action) in [
-            (Sign::First, Action::First),
-            (Sign::Back, Action::Back),
-            (if session.play.is_playing() { Sign::Pause } else { Sign::Play }, Action::Play),
-            (Sign::Forward, Action::Forward),
-            (Sign::Last, Action::Last),
-        ] {
-            if sign_button(ui, sign, action).clicked() {
-                commands.push(Command::Act(action));
-            }
-        }
-        ui.add_space(8.0);
-        let frame = session.play.frame();
-        let mut wanted = f64::from(frame);
-        let range = 0.0..=f64::from(session.play.last());
-        let field = Number { range, step: 0.25, decimals: 0, wide: Some(46.0), ..Number::default() };
-        let response = field.ui(ui, &mut wanted, commands).on_hover_text("The frame shown.").accessible_name("Frame");
-        if response.changed() {
-            commands.push(Command::Go(wanted as u32));
-        }
-        ui.add_space(4.0);
-        let rate = session.document().map_or(24.0, |document| document.scene().frame_rate());
-        let seconds = f64::from(frame) / rate;
-        ui.label(theme::faint(format!("of {}   {seconds:.2} s", session.play.last())));
-        ui.add_space(10.0);
-        let speed = session.play.speed;
-        let text = |speed: f64| format!("{speed} x");
-        let box_ = egui::ComboBox::from_id_salt("speed").selected_text(text(speed)).width(56.0);
-        let response = box_.show_ui(ui, |ui| {
-            for offered in Play::SPEEDS {
-                if ui.selectable_label(speed == offered, text(offered)).clicked() {
-                    commands.push(Command::Speed(offered));
-                }
-            }
-        });
-        response.response.on_hover_text(format!("Of the scene's own {rate} frames a second.")).accessible_name("Speed");
-        ui.add_space(4.0);
-        let ending = |ending| match ending {
-            Ending::Loop => "Loop",
-            Ending::Stop => "Stop",
-            Ending::Swing => "Swing",
+        playing(ui, session, commands);
+        let buttons: [_; 4] = [Action::Add, Action::Split, Action::Join, Action::Delete].map(|action| action.entry());
+        let font = egui::TextStyle::Button.resolve(ui.style());
+        let of_button = |name: &str| {
+            let text = ui.painter().layout_no_wrap(name.to_owned(), font.clone(), theme::TEXT);
+            (text.size().x + 2.0 * ui.spacing().button_padding.x).max(ui.spacing().interact_size.x)
         };
-        let button = ui.button(ending(session.play.ending)).on_hover_text("What happens after the last frame (L).");
-        if button.clicked() {
-            commands.push(Command::Act(Action::Ending));
+        let wide: f32 = buttons.iter().map(|entry| of_button(entry.name) + ui.spacing().item_spacing.x).sum();
+        let left = ui.available_size_before_wrap().x - wide - 8.0;
+        if left > 0.0 {
+            ui.add_space(left);
         }
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.add_space(8.0);
-            let (chosen, open) = (session.chosen().len(), session.document().is_some());
-            for (action, enabled) in
-                [(Action::Delete, chosen > 0), (Action::Join, chosen > 1), (Action::Split, open), (Action::Add, open)]
-            {
-                let entry = action.entry();
-                let key = entry.key.map(|key| format!(" ({})", key.text())).unwrap_or_default();
-                let button = ui.add_enabled(enabled, egui::Button::new(entry.name));
-                if button.on_hover_text(format!("{}{key}", entry.help)).clicked() {
-                    commands.push(Command::Act(action));
-                }
+        let (chosen, open) = (session.chosen().len(), session.document().is_some());
+        for entry in buttons {
+            let enabled = match entry.action {
+                Action::Join => chosen > 1,
+                Action::Delete => chosen > 0,
+                _ => open,
+            };
+            let key = entry.key.map(|key| format!(" ({})", key.text())).unwrap_or_default();
+            let button = ui.add_enabled(enabled, egui::Button::new(entry.name));
+            if button.on_hover_text(format!("{}{key}", entry.help)).clicked() {
+                commands.push(Command::Act(entry.action));
             }
-        });
+        }
     });
+}
+
+/// The frame that is shown, and how frames follow each other.
+fn playing(ui: &mut Ui, session: &Session, commands: &mut Commands) {
+    for (sign, action) in [
+        (Sign::First, Action::First),
+        (Sign::Back, Action::Back),
+        (if session.play.is_playing() { Sign::Pause } else { Sign::Play }, Action::Play),
+        (Sign::Forward, Action::Forward),
+        (Sign::Last, Action::Last),
+    ] {
+        if sign_button(ui, sign, action).clicked() {
+            commands.push(Command::Act(action));
+        }
+    }
+    ui.add_space(8.0);
+    let frame = session.play.frame();
+    let mut wanted = f64::from(frame);
+    let range = 0.0..=f64::from(session.play.last());
+    let field = Number { range, step: 0.25, decimals: 0, wide: Some(46.0), ..Number::default() };
+    let response = field.ui(ui, &mut wanted, commands).on_hover_text("The frame shown.").accessible_name("Frame");
+    if response.changed() {
+        commands.push(Command::Go(wanted as u32));
+    }
+    ui.add_space(4.0);
+    let rate = session.document().map_or(24.0, |document| document.scene().frame_rate());
+    let seconds = f64::from(frame) / rate;
+    ui.label(theme::faint(format!("of {}   {seconds:.2} s", session.play.last())));
+    ui.add_space(10.0);
+    let speed = session.play.speed;
+    let text = |speed: f64| format!("{speed} x");
+    let box_ = egui::ComboBox::from_id_salt("speed").selected_text(text(speed)).width(56.0);
+    let response = box_.show_ui(ui, |ui| {
+        for offered in Play::SPEEDS {
+            if ui.selectable_label(speed == offered, text(offered)).clicked() {
+                commands.push(Command::Speed(offered));
+            }
+        }
+    });
+    response.response.on_hover_text(format!("Of the scene's own {rate} frames a second.")).accessible_name("Speed");
+    ui.add_space(4.0);
+    let ending = match session.play.ending {
+        Ending::Loop => "Loop",
+        Ending::Stop => "Stop",
+        Ending::Swing => "Swing",
+    };
+    if ui.button(ending).on_hover_text("What happens after the last frame (L).").clicked() {
+        commands.push(Command::Act(Action::Ending));
+    }
 }
 
 #[derive(Clone, Copy)]

@@ -13,7 +13,7 @@ const HEIGHT: f32 = 260.0;
 const MARGIN: f32 = 14.0;
 
 const ALL: &[(&str, &str)] = &[
-    ("Space", "plays the gust: intervals of wind, below."),
+    ("Space", "plays: the wind is the intervals below."),
     ("Drag", "a border between two of them, or the arrow by the head: all frames move anew."),
     ("Pull", "the hair itself, at a later frame: the wind that does it is found."),
     ("Right", "cut, curl, stiffness, colour."),

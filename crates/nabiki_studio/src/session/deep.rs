@@ -2,7 +2,7 @@
 
 use super::Session;
 use crate::command::Command;
-use crate::motion::{Manner, Motion, Moved, most_strands};
+use crate::motion::{Manner, Motion, Moved, Stage, most_strands};
 use crate::preferences::{ALL, FEWEST};
 use crate::take::TOUCHED;
 
@@ -34,9 +34,9 @@ impl Deep {
         self.motion.as_ref().is_some_and(Motion::is_working)
     }
 
-    /// How much is done of what is being moved, 0..1.
-    pub fn part(&self) -> Option<f32> {
-        self.motion.as_ref().filter(|motion| motion.is_working()).map(Motion::part)
+    /// What is being done, and how much of that is, 0..1.
+    pub fn progress(&self) -> Option<(Stage, f32)> {
+        self.motion.as_ref().filter(|motion| motion.is_working()).map(Motion::progress)
     }
 
     pub fn wait(&self) {

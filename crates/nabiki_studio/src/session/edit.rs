@@ -2,6 +2,7 @@
 
 use nabiki::field::{Ease, Keyframe};
 use nabiki_scene::Scene;
+use nabiki_scene::scene::{HairSource, Output};
 
 use super::Session;
 use crate::actions::Action;
@@ -23,8 +24,14 @@ pub(super) const CHANGES: [Action; 10] = [
     Action::UseCamera,
 ];
 
+/// Most segments that the length of hair alone gives it.
+const MOST_SEGMENTS: f64 = 1000.0;
+
 /// How it is said that the contact sheet has fewer frames.
 const SHEET_LOST: &str = "the contact sheet goes without frames ";
+
+/// How it is said that strands may have more segments.
+const SEGMENTS: &str = "hair.segments is ";
 
 impl Session {
     /// Whether a text is being mended, behind which the scene is left alone; says so.
@@ -74,9 +81,12 @@ impl Session {
         match document.scene().with_setting(key, value) {
             Ok(mut scene) => {
                 let name = name_of(key);
-                let lost = (key == "motion.frames").then(|| shorten_sheet(&mut scene, document.before_drag(&name)));
+                let before = document.before_drag(&name);
+                let lost = (key == "motion.frames").then(|| shorten_sheet(&mut scene, before));
+                let more = key.starts_with("hair.style.length.").then(|| more_segments(&mut scene, before));
                 document.edit(&name, scene, phase);
-                lost.into_iter().for_each(|lost| self.say_what_the_sheet_lost(&lost));
+                lost.into_iter().for_each(|lost| self.say_what_the_sheet_lost(lost));
+                more.into_iter().for_each(|segments| self.say_segments(segments));
             }
             Err(refused) => {
                 let text = refused.to_string();
@@ -85,12 +95,20 @@ impl Session {
         }
     }
 
-    fn say_what_the_sheet_lost(&mut self, frames: &[u32]) {
+    fn say_what_the_sheet_lost(&mut self, Shortened { lost, instead }: Shortened) {
         // Of a drag the last word counts.
         self.words.retain(|word| !word.text.starts_with(SHEET_LOST));
-        if !frames.is_empty() {
-            let frames = frames.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
-            self.say(format!("{SHEET_LOST}{frames}, which the motion does not reach any more"), false);
+        if !lost.is_empty() {
+            let list = |frames: &[u32]| frames.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+            let instead = instead.map(|frames| format!("; it has {} instead", list(&frames))).unwrap_or_default();
+            self.say(format!("{SHEET_LOST}{}, which the motion does not reach any more{instead}", list(&lost)), false);
+        }
+    }
+
+    fn say_segments(&mut self, segments: Option<usize>) {
+        self.words.retain(|word| !word.text.starts_with(SEGMENTS));
+        if let Some(segments) = segments {
+            self.say(format!("{SEGMENTS}{segments} now, as many as so long a strand takes"), false);
         }
     }
 
@@ -173,14 +191,43 @@ impl Session {
     }
 }
 
+/// What a shorter motion does to the frames of the contact sheet.
+#[derive(Default)]
+struct Shortened {
+    /// Those taken out.
+    lost: Vec<u32>,
+    /// Those put in where none was left.
+    instead: Option<Vec<u32>>,
+}
+
 /// Takes the frames out of the contact sheet that a shorter motion does not reach: nobody who drags its length thinks of them,
-/// and with them no scene is right. They are those of the scene `before` the drag, so that a drag back brings them back. Returns
-/// what was taken out.
-fn shorten_sheet(scene: &mut Scene, before: &Scene) -> Vec<u32> {
-    let Some(sheet) = &before.output.sheet else { return Vec::new() };
-    let (kept, lost) = sheet.iter().partition(|&&frame| frame <= scene.motion.frames);
-    scene.output.sheet = Some(kept);
-    lost
+/// and with them no scene is right. They are those of the scene `before` the drag, so that a drag back brings them back. A sheet
+/// of which none is left gets the frames that a scene without one of its own has: it was wanted, and a run would write none.
+fn shorten_sheet(scene: &mut Scene, before: &Scene) -> Shortened {
+    let Some(sheet) = &before.output.sheet else { return Shortened::default() };
+    let frames = scene.motion.frames;
+    let (kept, lost): (Vec<u32>, Vec<u32>) = sheet.iter().partition(|&&frame| frame <= frames);
+    let instead = (kept.is_empty() && !lost.is_empty()).then(|| Output::default().sheet_frames(frames));
+    scene.output.sheet = Some(instead.clone().unwrap_or(kept));
+    Shortened { lost, instead }
+}
+
+/// Gives longer hair the segments that it takes: who makes it longer thinks of no other setting, and with too few no scene is
+/// right. Shorter strands stay as they are, to the bit. Begins from the scene `before` the drag, so that a drag back takes them back.
+/// Returns how many there are now, where there are more.
+fn more_segments(scene: &mut Scene, before: &Scene) -> Option<usize> {
+    let length = scene.hair.segment_length;
+    let HairSource::Grown(grown) = &mut scene.hair.source else { return None };
+    let had = before.hair.grown().map_or(grown.segments, |before| before.segments);
+    let of = &grown.style.length;
+    let fringe = if grown.style.fringe.half_width > 0.0 { of.fringe } else { 0.0 };
+    let longest = of.top.max(of.sides).max(of.back).max(fringe);
+    // As exact as grooming is about it.
+    let takes = (f64::from(longest) / f64::from(length) * (1.0 - 1e-5)).ceil();
+    // What no strand can have is refused as it stands.
+    let takes = if takes <= MOST_SEGMENTS { takes as usize } else { had };
+    grown.segments = had.max(takes);
+    (takes > had).then_some(takes)
 }
 
 /// Puts intervals into a scene. Without any there is nothing to ease and nothing to make gusty.

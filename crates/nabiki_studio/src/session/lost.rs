@@ -56,7 +56,22 @@ impl Broken {
     }
 }
 
+/// How it is said that something could not be saved.
+const NOT_SAVED: &str = "not saved: ";
+
 impl Session {
+    /// What last went wrong since the question was asked that stands before all that is said.
+    pub fn wrong_with_dialog(&self) -> Option<&str> {
+        let asked = self.asked_at.filter(|_| self.dialog.is_some())?;
+        self.words.iter().rev().find(|word| word.wrong && word.at >= asked).map(|word| word.text.as_str())
+    }
+
+    /// Notes when a question is asked, for as long as it or the next stands.
+    pub(super) fn note_question(&mut self) {
+        let clock = self.clock;
+        self.asked_at = self.dialog.as_ref().map(|_| self.asked_at.unwrap_or(clock));
+    }
+
     /// Whether the window may close now; asks if something would be lost.
     pub fn may_close(&mut self) -> bool {
         self.may_go(Next::Quit)
@@ -140,7 +155,7 @@ impl Session {
             Ok(()) => self.saved(saves_text, next),
             Err(SaveError::Changed(path)) => self.dialog = Some(Dialog::Conflict(path, next)),
             Err(SaveError::NoFile) => self.ask_save_as(next),
-            Err(e @ SaveError::Scene(_)) => self.say(format!("not saved: {e}"), true),
+            Err(e @ SaveError::Scene(_)) => self.say(format!("{NOT_SAVED}{e}"), true),
         }
     }
 
@@ -159,7 +174,7 @@ impl Session {
                 self.dialog = None;
                 self.saved(saves_text, next);
             }
-            Err(e) => self.say(format!("not saved: {e}"), true),
+            Err(e) => self.say(format!("{NOT_SAVED}{e}"), true),
         }
     }
 
@@ -172,7 +187,7 @@ impl Session {
         if let Some((path, name)) = saved {
             // What was wrong with the file is so no longer.
             let file = path.display().to_string();
-            self.words.retain(|word| !word.text.starts_with(&file));
+            self.words.retain(|word| !word.text.starts_with(&file) && !word.text.starts_with(NOT_SAVED));
             self.say(format!("Saved {name}"), false);
         }
         if !text {

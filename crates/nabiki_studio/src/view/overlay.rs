@@ -71,7 +71,7 @@ impl Overlay<'_> {
         self.painter.circle_stroke(from, 8.0, Stroke::new(1.5, HELD));
         let left = hand.distance(hair);
         if left > 0.05 {
-            self.words([to, from], &format!("{left:.1} cm left"), HELD);
+            self.words([to, from], &format!("{left:.1} cm to go"), HELD);
         }
     }
 

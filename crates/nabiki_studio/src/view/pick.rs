@@ -1,13 +1,16 @@
 //! What is under the pointer: the strand that a hand means, and the lock about it.
 
+mod surfaces;
+
 use glam::{Affine3A, Vec2, Vec3};
-use nabiki::Strands;
 use nabiki::distance::SkinDistance;
 use nabiki::dynamics::Form;
+use nabiki::{Mesh, Strands};
 use nabiki_render::View;
 use nabiki_render::camera::NEAR;
 
 use crate::take::Take;
+use surfaces::Triangles;
 
 /// How much farther a strand may be for each pixel that it is nearer to the pointer, in pixels of depth.
 const DEPTH_PER_PIXEL: f32 = 6.0;
@@ -29,13 +32,15 @@ pub struct Picked {
     pub apart: f32,
 }
 
-/// What hides hair in a frame: the head, and the bodies that are shown and solid. Others have no distance.
+/// What hides hair in a frame: the head, and the bodies that are shown.
 #[derive(Clone, Debug)]
 pub struct Skins<'a> {
     /// The middle of the head (head space, cm).
     middle: Vec3,
     /// The distance to each, and the way from head space into its own.
     each: Vec<(&'a SkinDistance, Affine3A)>,
+    /// The surface of each body that hair may enter, to which there is no distance, and the way from its own space into head space.
+    entered: Vec<(&'a Mesh, Affine3A)>,
 }
 
 impl<'a> Skins<'a> {
@@ -46,21 +51,34 @@ impl<'a> Skins<'a> {
             Form::Free(free) => free.bodies.as_slice(),
             Form::Paper => &[],
         };
-        let settings = built.scene.bodies.iter().enumerate();
-        let shown = settings.filter(|(_, body)| body.shown).map(|(i, _)| format!("body[{i}]"));
-        let shown = shown.filter_map(|name| bodies.iter().find(|body| body.name == name));
-        let shown = shown.map(|body| (&*body.distance, body.head_from_body(frame, &pose).inverse()));
-        let each = [(&**built.head.skin(), Affine3A::IDENTITY)].into_iter().chain(shown).collect();
-        Self { middle: built.head.ellipsoid.center, each }
+        let mut each = vec![(&**built.head.skin(), Affine3A::IDENTITY)];
+        let mut entered = Vec::new();
+        for (i, mesh, in_world) in built.shown_bodies(frame) {
+            let name = format!("body[{i}]");
+            match bodies.iter().find(|body| body.name == name) {
+                Some(body) => each.push((&*body.distance, body.head_from_body(frame, &pose).inverse())),
+                None => entered.push((mesh, pose.world_from_head().inverse() * in_world.world_from_head())),
+            }
+        }
+        Self { middle: built.head.ellipsoid.center, each, entered }
     }
 
-    /// Whether one of them lies between a place (head space, cm) and the eye.
-    fn hide(&self, view: &View, place: Vec3) -> bool {
+    /// The triangles without a distance that may hide what is seen within so many pixels of one.
+    fn before(&self, view: &View, pixel: Vec2, within: f32) -> Triangles {
+        let mut found = Triangles::default();
+        for (mesh, head_from_body) in &self.entered {
+            found.add(mesh, *head_from_body, view, pixel, within);
+        }
+        found
+    }
+
+    /// Whether one of them, or of the triangles `before` it, lies between a place (head space, cm) and the eye.
+    fn hide(&self, view: &View, before: &Triangles, place: Vec3) -> bool {
         let toward = view.toward_eye(place);
         let to_eye = view.project(place).z / -toward.dot(view.forward);
         self.each.iter().any(|(skin, from_head)| {
             hides(skin, from_head.transform_point3(place), from_head.transform_vector3(toward), to_eye)
-        })
+        }) || before.hide(place, toward, to_eye, GRAZES_CM)
     }
 }
 
@@ -98,6 +116,8 @@ pub fn nearest(
     reach: f32,
 ) -> Option<Picked> {
     let mut best: Option<(f32, Picked)> = None;
+    // The place on a segment is found on the screen, where it lies a little beside the one in space.
+    let before = skins.before(view, pixel, 2.0 * reach);
     let per_cm = view.pixels_per_cm(view.project(skins.middle).z.max(NEAR));
     for strand in 0..strands.len().min(among) {
         let of = &points[strands.range(strand)];
@@ -117,7 +137,7 @@ pub fn nearest(
             if best.is_some_and(|(least, _)| cost >= least) {
                 continue;
             }
-            if skins.hide(view, pair[0].lerp(pair[1], t)) {
+            if skins.hide(view, &before, pair[0].lerp(pair[1], t)) {
                 continue;
             }
             let node = if t < 0.5 && i > 0 { i } else { i + 1 };
@@ -164,7 +184,7 @@ mod tests {
     static BUST: LazyLock<Head> = LazyLock::new(Head::builtin);
 
     fn skins() -> Skins<'static> {
-        Skins { middle: BUST.ellipsoid.center, each: vec![(&**BUST.skin(), Affine3A::IDENTITY)] }
+        Skins { middle: BUST.ellipsoid.center, each: vec![(&**BUST.skin(), Affine3A::IDENTITY)], entered: Vec::new() }
     }
 
     /// Strands that hang straight down at these places of the horizontal plane.
@@ -246,15 +266,22 @@ mod tests {
         // The origin of its file is the point that stands at the world's.
         let text = "[hair]\nstrands = 1\n[motion]\nform = \"free\"\nframes = 1\n\
                     [[body]]\nmesh = \"box.obj\"\nunit = \"cm\"\nup = \"+y\"\nfacing = \"+x\"\norigin = [-30, 0, 0]\n";
-        for (shown, hidden) in [(true, true), (false, false)] {
-            let text = format!("{text}shown = {shown}\n");
+        for (shown, solid) in [(true, true), (false, true), (true, false), (false, false)] {
+            let text = format!("{text}shown = {shown}\nsolid = {solid}\n");
             let scene = nabiki_scene::Scene::parse(&text, &folder.path().join("a.toml"), &[]).unwrap();
             let built = std::sync::Arc::new(scene.build(nabiki_scene::Shown::All).unwrap());
             let points = built.hair.strands.points().to_vec();
             let take = Take { built, film: [points.clone(), points].concat().into(), number: 1 };
             let skins = Skins::of(&take, 1);
-            let hides = |y: f32| skins.hide(&view(), Vec3::new(20.0, y, 0.0));
-            assert_eq!([hides(0.0), hides(8.0)], [hidden, false]);
+            let hides = |x: f32, y: f32| {
+                let place = Vec3::new(x, y, 0.0);
+                let before = skins.before(&view(), view().project(place).truncate(), 2.0);
+                skins.hide(&view(), &before, place)
+            };
+            // Behind it, beside it, before it, within it, and on its front. Hair in what keeps it out does not fit it.
+            let hidden = [hides(20.0, 0.0), hides(20.0, 8.0), hides(40.0, 0.0), hides(31.0, 0.0), hides(32.99, 0.0)];
+            let within = shown && !solid;
+            assert_eq!(hidden, [shown, false, false, within, false], "shown: {shown}, solid: {solid}");
         }
     }
 
@@ -284,7 +311,7 @@ mod tests {
             let places = (0..7 * 9 * 7).map(|i| Vec3::new((i % 7) as f32, (i / 7 % 9) as f32, (i / 63) as f32));
             let places = places.map(|at| (at - Vec3::new(3.0, 5.3, 3.0)) * Vec3::new(4.7, 4.3, 4.9));
             for place in places.filter(|&place| BUST.distance(place) > 0.0) {
-                let hides = skins().hide(&view, place);
+                let hides = skins().hide(&view, &Triangles::default(), place);
                 let way = view.toward_eye(place);
                 let crossed = crossings(place, way);
                 let deep =
@@ -305,7 +332,11 @@ mod tests {
             let out = BUST.outward(p);
             let facing = out.dot(view.toward_eye(p));
             if facing.abs() > 0.5 && crossings(p + out * 0.05, view.toward_eye(p)).is_empty() == (facing > 0.0) {
-                assert_eq!(skins().hide(&view, p - out * 0.05), facing < 0.0, "vertex {i} at {p}");
+                assert_eq!(
+                    skins().hide(&view, &Triangles::default(), p - out * 0.05),
+                    facing < 0.0,
+                    "vertex {i} at {p}"
+                );
             }
         }
     }
