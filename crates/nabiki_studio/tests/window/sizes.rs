@@ -86,7 +86,7 @@ fn what_goes_wrong_with_a_question_is_seen_in_it() {
     window.harness.step();
     assert!(window.harness.query_by_label("There is no such folder.").is_some());
     window.press(Modifiers::NONE, Key::Enter);
-    let said = window.harness.query_all_by_label_contains("not saved: ").map(|node| node.rect()).last().unwrap();
+    let said = window.harness.query_all_by_label_contains("not saved: ").map(|node| node.rect()).next_back().unwrap();
     let question = window.harness.get_by_label("Path").rect();
     assert!(question.x_range().contains(said.center().x) && said.top() > question.bottom(), "{said} in {question}");
     let clear = window.harness.get_by_label("Cancel").rect();
