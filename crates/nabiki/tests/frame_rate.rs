@@ -2,27 +2,13 @@
 
 mod common;
 
-use std::sync::Arc;
-
-use common::{fast, field, gust, hair, wind};
+use common::{fast, field, free, gust, hair, wind, with_neighbours};
 use glam::{Quat, Vec3};
 use nabiki::body::{Body, BodyWay, Contact};
 use nabiki::disturbance::Disturbance;
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Stepper};
-use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours};
-use nabiki::pseudo_force::PseudoForce;
+use nabiki::free_form::{FreeForm, NeighbourForces};
 use nabiki::{Head, Pose, Strands};
-
-fn free(form: FreeForm) -> Dynamics {
-    Dynamics { pseudo_force: PseudoForce::off(), form: Form::Free(FreeMotion { form, ..Default::default() }), ..gust() }
-}
-
-fn with_neighbours(mut dynamics: Dynamics) -> Dynamics {
-    if let Form::Free(free) = &mut dynamics.form {
-        free.neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers: Arc::new(hair(24, 18)) });
-    }
-    dynamics
-}
 
 fn mean(a: &Strands, b: &Strands) -> f32 {
     a.points().iter().zip(b.points()).map(|(a, b)| a.distance(*b)).sum::<f32>() / a.points().len() as f32

@@ -6,24 +6,19 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use common::{
-    ball, bits, exact, fast, field, gust, hair, map, mixed_hair, quarter_turn, run, run_under, step, way_of_a_head,
+    ball, bits, exact, fast, field, free, hair, map, mixed_hair, quarter_turn, run, run_under, step, way_of_a_head,
 };
 use glam::{DVec3, Quat, Vec3};
 use nabiki::body::{Body, BodyWay, Contact};
 use nabiki::dynamics::{Dynamics, Form, Stepper, gain};
 use nabiki::field::Field;
-use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours, Tie};
-use nabiki::pseudo_force::PseudoForce;
+use nabiki::free_form::{FreeForm, NeighbourForces, Neighbours, Tie};
 use nabiki::{Head, Profile, Strands};
 use proptest::prelude::*;
 
 /// No field at all.
 fn calm() -> impl Field {
     field(&[(1000, [0.0; 3])])
-}
-
-fn free(form: FreeForm) -> Dynamics {
-    Dynamics { pseudo_force: PseudoForce::off(), form: Form::Free(FreeMotion { form, ..Default::default() }), ..gust() }
 }
 
 fn form(stiffness: f32, hold: f32, settle: f32, gravity: f32) -> FreeForm {

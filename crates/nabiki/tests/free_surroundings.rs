@@ -4,14 +4,13 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{exact, fast, field, gust, hair, mixed_hair, run, run_under, step, way_of_a_head};
+use common::{exact, fast, field, free_motion, hair, mixed_hair, run, run_under, step, way_of_a_head};
 use glam::Vec3;
 use nabiki::body::{Body, Contact, Surface};
 use nabiki::dynamics::{Dynamics, Form, Simulation, Stepper, gain};
 use nabiki::field::Field;
 use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours, earth_gravity};
 use nabiki::groom::{Growth, Style, grow};
-use nabiki::pseudo_force::PseudoForce;
 use nabiki::roots::Hairline;
 use nabiki::{Head, Pose, Profile, Strands};
 
@@ -22,7 +21,7 @@ fn calm() -> impl Field {
 }
 
 fn free(motion: FreeMotion) -> Dynamics {
-    let mut dynamics = Dynamics { pseudo_force: PseudoForce::off(), form: Form::Free(motion), ..gust() };
+    let mut dynamics = free_motion(motion);
     // Strands of a few centimetres would swing too fast.
     dynamics.motion.inertia_length_floor = 14.0;
     dynamics

@@ -4,25 +4,11 @@
 mod allocations;
 mod common;
 
-use std::sync::Arc;
-
 use allocations::allocations;
-use common::{bits, fast, gust, hair, way_of_a_head, wind};
+use common::{bits, fast, free, hair, way_of_a_head, wind, with_neighbours};
 use nabiki::Strands;
-use nabiki::dynamics::{Dynamics, Form, FrameInput, Simulation, Stepper, gain};
-use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours, Tie};
-use nabiki::pseudo_force::PseudoForce;
-
-fn free(form: FreeForm) -> Dynamics {
-    Dynamics { pseudo_force: PseudoForce::off(), form: Form::Free(FreeMotion { form, ..Default::default() }), ..gust() }
-}
-
-fn with_neighbours(mut dynamics: Dynamics) -> Dynamics {
-    if let Form::Free(free) = &mut dynamics.form {
-        free.neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers: Arc::new(hair(24, 18)) });
-    }
-    dynamics
-}
+use nabiki::dynamics::{FrameInput, Simulation, Stepper, gain};
+use nabiki::free_form::{FreeForm, Tie};
 
 fn run(simulation: &mut Simulation, frames: std::ops::RangeInclusive<u32>) -> Vec<[u32; 3]> {
     let poses = way_of_a_head(40);

@@ -7,25 +7,20 @@ mod common;
 use std::sync::Arc;
 
 use allocations::allocations;
-use common::{ball, bits, fast, gust, hair, way_of_a_head, wind};
+use common::{ball, bits, fast, free_motion, gust, hair, way_of_a_head, wind};
 use glam::Vec3;
 use nabiki::body::{Body, BodyWay, Contact, skin_of};
 use nabiki::disturbance::Disturbance;
-use nabiki::dynamics::{Dynamics, Form, FrameInput, Simulation, Stepper};
+use nabiki::dynamics::{Dynamics, FrameInput, Simulation, Stepper};
 use nabiki::field::FieldSum;
 use nabiki::free_form::{FreeMotion, NeighbourForces, Neighbours};
-use nabiki::pseudo_force::PseudoForce;
 use nabiki::{Head, METHOD_VERSION, Pose, Strands};
-
-fn free(motion: FreeMotion) -> Dynamics {
-    Dynamics { pseudo_force: PseudoForce::off(), form: Form::Free(motion), ..gust() }
-}
 
 /// Among a head and neighbours.
 fn crowded() -> Dynamics {
     let neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers: Arc::new(hair(24, 18)) });
     let bodies = vec![Body::head(&Head::builtin(), Contact::default())];
-    free(FreeMotion { neighbours, bodies, rest_pose: way_of_a_head(0)[0], ..Default::default() })
+    free_motion(FreeMotion { neighbours, bodies, rest_pose: way_of_a_head(0)[0], ..Default::default() })
 }
 
 /// The paper's form about an axis that is not y, disturbed.
@@ -52,7 +47,7 @@ fn refusal(simulation: &mut Simulation, bytes: &[u8]) -> String {
 
 #[test]
 fn a_state_read_back_moves_on_to_the_same_bits() {
-    for dynamics in [gust(), tilted(), free(FreeMotion::default()), crowded()] {
+    for dynamics in [gust(), tilted(), free_motion(FreeMotion::default()), crowded()] {
         let build = || fast(&hair(50, 18), &dynamics, &wind());
         let mut simulation = build();
         let at_rest = simulation.state_bytes();
@@ -94,7 +89,7 @@ fn reading_a_state_allocates_nothing() {
 
 #[test]
 fn bytes_cut_or_altered_are_refused_and_change_nothing() {
-    let mut simulation = fast(&hair(2, 3), &free(FreeMotion::default()), &wind());
+    let mut simulation = fast(&hair(2, 3), &free_motion(FreeMotion::default()), &wind());
     run(&mut simulation, 1..=5);
     let bytes = simulation.state_bytes();
     let now = run(&mut simulation, 6..=7);
@@ -133,7 +128,7 @@ fn with_word(bytes: &[u8], at: usize, word: u32) -> Vec<u8> {
 
 #[test]
 fn the_state_of_something_else_is_refused_as_what_it_is() {
-    let dynamics = free(FreeMotion::default());
+    let dynamics = free_motion(FreeMotion::default());
     let bytes = fast(&hair(10, 18), &dynamics, &wind()).state_bytes();
     let of = |hair: &Strands, dynamics: &Dynamics| refusal(&mut fast(hair, dynamics, &wind()), &bytes);
     assert!(of(&hair(10, 18), &gust()).contains("the free form: this hair moves by the paper's form"));
@@ -169,7 +164,7 @@ fn hair_read_among_other_bodies_looks_for_contact() {
         let way = BodyWay::InWorld([Pose { position_cm: place, ..Pose::STILL }].into());
         let distance = Arc::new(skin_of(ball(4.0), "ball").unwrap());
         let body = Body { name: "body[0]".into(), distance, filled: None, way, contact: Contact::default() };
-        fast(&hair, &free(FreeMotion { bodies: vec![body], ..Default::default() }), &calm)
+        fast(&hair, &free_motion(FreeMotion { bodies: vec![body], ..Default::default() }), &calm)
     };
     let there = Vec3::new(14.0, 2.0, 0.0);
     let inside_after_a_step = |simulation: &mut Simulation| {

@@ -2,10 +2,12 @@
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
 use std::f32::consts::{PI, TAU};
+use std::sync::Arc;
 
 use glam::{EulerRot, Quat, Vec3, Vec3Swizzles};
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Reference, Simulation, Stepper};
 use nabiki::field::{Field, Keyframe, KeyframedField};
+use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours};
 use nabiki::pseudo_force::PseudoForce;
 use nabiki::{Ellipsoid, Mesh, Pose, Strands};
 
@@ -15,6 +17,24 @@ pub const HEAD: Ellipsoid = Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::new
 pub fn field(vectors: &[(u32, [f32; 3])]) -> KeyframedField {
     let keys: Vec<Keyframe> = vectors.iter().map(|&(through, v)| Keyframe { through, vector: v.into() }).collect();
     KeyframedField::new(&keys).unwrap()
+}
+
+/// Hair of Table 1 in the free form.
+pub fn free_motion(motion: FreeMotion) -> Dynamics {
+    Dynamics { pseudo_force: PseudoForce::off(), form: Form::Free(motion), ..gust() }
+}
+
+/// The same with nothing in the way.
+pub fn free(form: FreeForm) -> Dynamics {
+    free_motion(FreeMotion { form, ..Default::default() })
+}
+
+/// The same among other hair.
+pub fn with_neighbours(mut dynamics: Dynamics) -> Dynamics {
+    if let Form::Free(free) = &mut dynamics.form {
+        free.neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers: Arc::new(hair(24, 18)) });
+    }
+    dynamics
 }
 
 /// The force of Table 1.
