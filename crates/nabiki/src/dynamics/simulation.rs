@@ -1,6 +1,7 @@
 //! The fast stepper: f32, blocks of sixteen strands, the widest vectors of the machine, all cores.
 
 use glam::Vec3;
+use pulp::Arch;
 
 use super::runner::Runner;
 use super::{Dynamics, FrameInput, Stepper};
@@ -18,6 +19,20 @@ pub enum VectorWidth {
     Medium,
     /// What every machine of the target has. Slow on x86-64, where fused multiply-adds are then computed in software.
     Baseline,
+}
+
+impl VectorWidth {
+    /// What of the machine has vectors so wide. All that is stepped is dispatched by this one, so that it is compiled once for each.
+    pub(super) fn arch(self) -> Arch {
+        match self {
+            Self::Widest => Arch::new(),
+            #[cfg(target_arch = "x86_64")]
+            Self::Medium => pulp::x86::V3::try_new().map_or(Arch::Scalar, Arch::V3),
+            #[cfg(not(target_arch = "x86_64"))]
+            Self::Medium => Arch::new(),
+            Self::Baseline => Arch::Scalar,
+        }
+    }
 }
 
 /// The fast stepper, twin of [`Reference`](super::Reference): one frame at a time, none of them kept.

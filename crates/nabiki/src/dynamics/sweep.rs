@@ -99,17 +99,7 @@ impl<F: Form> Sweep<'_, '_, F> {
     }
 
     fn run(self, piece: Piece<F>) {
-        match self.width {
-            VectorWidth::Widest => pulp::Arch::new().dispatch(piece),
-            #[cfg(target_arch = "x86_64")]
-            VectorWidth::Medium => match pulp::x86::V3::try_new() {
-                Some(simd) => simd.vectorize(piece),
-                None => piece.call(),
-            },
-            #[cfg(not(target_arch = "x86_64"))]
-            VectorWidth::Medium => pulp::Arch::new().dispatch(piece),
-            VectorWidth::Baseline => piece.call(),
-        }
+        self.width.arch().dispatch(piece);
     }
 }
 

@@ -243,7 +243,7 @@ fn alone<const N: usize, W: Walk<N>>(walk: &W, sink: &mut Sink) -> Result<(), Se
     while let Some(next) = sink.asked.get(taken) {
         let frames = n..next.frame as usize;
         n = frames.end;
-        pulp::Arch::new().dispatch(Stretch { walk, strand: &mut strand, s, frames, crowd: None });
+        Stretch { walk, strand: &mut strand, s, frames, crowd: None }.run();
         taken = sink.take(taken, n as u32, W::positions(&strand));
     }
     Ok(())
@@ -275,7 +275,7 @@ fn together<const N: usize>(
         let of_frame = &crowd;
         let step = |((strand, taken), sink): (&mut (free::Strand<Dual<N>>, usize), &mut Sink)| {
             let (s, frames) = (sink.strand(), n..n + 1);
-            pulp::Arch::new().dispatch(Stretch { walk, strand, s, frames, crowd: Some(of_frame) });
+            Stretch { walk, strand, s, frames, crowd: Some(of_frame) }.run();
             *taken = sink.take(*taken, n as u32 + 1, strand.positions());
         };
         rayon::join(
@@ -303,6 +303,14 @@ struct Stretch<'a, W: Walk<N>, const N: usize> {
     s: usize,
     frames: Range<usize>,
     crowd: Option<&'a Crowd>,
+}
+
+impl<const N: usize, W: Walk<N>> Stretch<'_, W, N> {
+    /// All that it does is compiled again wherever it is dispatched: here alone.
+    #[inline(never)]
+    fn run(self) {
+        pulp::Arch::new().dispatch(self);
+    }
 }
 
 impl<const N: usize, W: Walk<N>> NullaryFnOnce for Stretch<'_, W, N> {
