@@ -165,11 +165,11 @@ fn strengths_that_are_none_are_refused_where_they_stand() {
     assert_eq!(refused("gravity = 50", "gravity = nan"), format!("free.toml:8: free.gravity = NaN: {finite}"));
     assert_eq!(
         refused("gravity = 50", "hold = \"hairspray\""),
-        "free.toml:8: free.hold: found string \"hairspray\", must be a number, or a list of numbers from root to tip"
+        "free.toml:8: free.hold: found \"hairspray\", must be a number, or a list of numbers from root to tip"
     );
     assert_eq!(
         refused("gravity = 50", "gravity = \"moon\""),
-        "free.toml:8: free.gravity: found string \"moon\", must be a number of at least 0, or \"earth\""
+        "free.toml:8: free.gravity: found \"moon\", must be a number of at least 0, or \"earth\""
     );
     assert_eq!(refused("margin = 0.1", "margin = -1"), "free.toml:10: contact.margin = -1: must lie in 0..5");
     assert_eq!(refused("margin = 0.1", "friction = nan"), "free.toml:10: contact.friction = NaN: must lie in 0..10");
@@ -226,7 +226,7 @@ fn bodies_that_are_none_are_refused() {
     );
     assert_eq!(
         refused("mesh = \"solid.obj\"", "mesh = \"solid.obj\"\ncolour = \"grey\""),
-        "free.toml:13: body[0].colour: found string \"grey\", must be three numbers, [x, y, z]"
+        "free.toml:13: body[0].colour: found \"grey\", must be three numbers, [x, y, z]"
     );
     assert_eq!(
         refused(

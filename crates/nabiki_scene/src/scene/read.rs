@@ -153,7 +153,8 @@ impl de::Error for Refusal {
     }
 
     fn invalid_type(found: Unexpected, wanted: &dyn Expected) -> Self {
-        Self::kind(words(found), plain(wanted))
+        let whole = whole(&found);
+        Self::kind(words(found), plain(wanted, whole))
     }
 
     fn invalid_value(found: Unexpected, wanted: &dyn Expected) -> Self {
@@ -161,7 +162,7 @@ impl de::Error for Refusal {
     }
 
     fn invalid_length(found: usize, wanted: &dyn Expected) -> Self {
-        Self::text(format!("has {}, must be {}", entries_of(found), plain(wanted)))
+        Self::text(format!("has {}, must be {}", entries_of(found), plain(wanted, AT_LEAST_0)))
     }
 
     fn unknown_variant(found: &str, known: &'static [&'static str]) -> Self {
@@ -200,17 +201,33 @@ fn words(found: Unexpected) -> String {
         Unexpected::UnitVariant => ALONE.to_owned(),
         Unexpected::Seq => "a list".to_owned(),
         Unexpected::Map => "a table".to_owned(),
+        Unexpected::Bool(flag) => flag.to_string(),
+        Unexpected::Signed(number) => number.to_string(),
+        Unexpected::Unsigned(number) => number.to_string(),
+        Unexpected::Float(number) => format!("{number:?}"),
+        Unexpected::Str(text) => format!("{text:?}"),
         found => found.to_string(),
     }
 }
 
-/// Type names of the language as words of the user's.
-fn plain(wanted: &dyn Expected) -> String {
+const AT_LEAST_0: &str = "a whole number of at least 0";
+
+/// What is wanted in place of what was found where a whole number is: its largest only where that is passed.
+fn whole(found: &Unexpected) -> &'static str {
+    match found {
+        Unexpected::Signed(0..) | Unexpected::Unsigned(_) => "a whole number of at most 4294967295",
+        _ => AT_LEAST_0,
+    }
+}
+
+/// Type names of the language as words of the user's; `whole`: what a whole number of 32 bits must be.
+fn plain(wanted: &dyn Expected, whole: &str) -> String {
     match wanted.to_string().as_str() {
         "u8" => whole_up_to(u8::MAX.into()),
         "u16" => whole_up_to(u16::MAX.into()),
-        "u32" => whole_up_to(u32::MAX.into()),
-        "u64" | "usize" => whole_up_to(i64::MAX as u64),
+        "u32" => whole.to_owned(),
+        // All that TOML holds.
+        "u64" | "usize" => AT_LEAST_0.to_owned(),
         "i8" | "i16" | "i32" | "i64" | "isize" => "a whole number".to_owned(),
         "f32" | "f64" => "a number".to_owned(),
         "a boolean" => "true or false".to_owned(),
@@ -227,7 +244,6 @@ fn plain(wanted: &dyn Expected) -> String {
     }
 }
 
-/// More than that TOML does not hold.
 fn whole_up_to(most: u64) -> String {
     format!("a whole number, 0 to {most}")
 }
@@ -298,7 +314,7 @@ impl<'de> Deserializer<'de> for Node<'_> {
         visitor: V,
     ) -> Result<V::Value, Refusal> {
         // A choice of more than names says itself what it may be.
-        let wanted = match plain(&visitor) {
+        let wanted = match plain(&visitor, AT_LEAST_0) {
             text if text.starts_with("enum ") => one_of(names),
             text => text,
         };
