@@ -332,7 +332,8 @@ impl Panes<'_> {
                 }
                 Touch::Undone => Command::GiveUpDrag,
                 Touch::CameraMoved => continue,
-                Touch::Said(text) => Command::Say(text),
+                Touch::Refused(why) => Command::Say(why),
+                Touch::Heard => continue,
             });
         }
     }
