@@ -15,6 +15,9 @@ use crate::preferences::{LAYOUT, Preferences};
 use crate::session::{Session, Wish};
 use crate::view::{Shown, Touch, View};
 
+/// What is refused in the view.
+const HAND: &str = "the hand in the view";
+
 /// The window.
 pub struct App {
     session: Session,
@@ -332,8 +335,8 @@ impl Panes<'_> {
                 }
                 Touch::Undone => Command::GiveUpDrag,
                 Touch::CameraMoved => continue,
-                Touch::Refused(why) => Command::Say(why),
-                Touch::Heard => continue,
+                Touch::Refused(why) => Command::Refuse { about: HAND.to_owned(), why },
+                Touch::Heard => Command::Took(HAND.to_owned()),
             });
         }
     }
