@@ -222,7 +222,10 @@ impl Field<'_> {
         let mut numbers: Vec<f64> =
             value.and_then(Value::as_array).into_iter().flatten().filter_map(number_of).collect();
         numbers.resize(names.len(), 0.0);
-        let wide = ((ui.available_width() - 22.0) / names.len() as f32 - 3.0).clamp(30.0, 64.0);
+        let count = names.len() as f32;
+        let unit = self.unit_beside(ui, 22.0 + count * 43.0);
+        let room = ui.available_width() - 22.0 - unit.as_ref().map_or(0.0, |(_, wide)| *wide);
+        let wide = (room / count - 3.0).clamp(30.0, 64.0);
         side_by_side(ui, wide, |ui| {
             for i in 0..names.len() {
                 let what = format!("{}, {}", self.key, names[i]);
@@ -231,7 +234,17 @@ impl Field<'_> {
                 let response = response.accessible_name(format!("{} {}: {}", self.group, self.setting.label, names[i]));
                 self.sent(&response, commands, numbers.iter().map(|number| wrap(*number)).collect::<Vec<_>>().into());
             }
+            unit.into_iter().for_each(|(unit, _)| drop(ui.label(unit)));
         });
+    }
+
+    /// The unit after fields beside each other and what it takes (points), where that is left beside `taken`.
+    fn unit_beside(&self, ui: &Ui, taken: f32) -> Option<(egui::RichText, f32)> {
+        let text = egui::RichText::new(self.setting.unit).size(theme::SMALL).color(theme::FAINT);
+        let font = egui::FontId::proportional(theme::SMALL);
+        let drawn = ui.painter().layout_no_wrap(self.setting.unit.to_owned(), font, theme::FAINT);
+        let wide = drawn.size().x + 3.0;
+        (!self.setting.unit.is_empty() && ui.available_width() >= taken + wide).then_some((text, wide))
     }
 
     fn colour(&self, ui: &mut Ui, value: Option<&Value>, linear: bool, commands: &mut Commands) {
@@ -299,6 +312,7 @@ impl Field<'_> {
             all => all.iter().map(|number| Value::Float(*number)).collect::<Vec<_>>().into(),
         };
         let last = numbers.len().saturating_sub(1);
+        let unit = self.unit_beside(ui, 50.0 + 47.0 * numbers.len() as f32);
         side_by_side(ui, 44.0, |ui| {
             for i in 0..numbers.len() {
                 let place = match (i, last) {
@@ -314,6 +328,7 @@ impl Field<'_> {
                 let response = response.accessible_name(format!("{} {}: {place}", self.group, self.setting.label));
                 self.sent(&response, commands, wrap(&numbers));
             }
+            unit.into_iter().for_each(|(unit, _)| drop(ui.label(unit)));
             if numbers.len() < 6 && ui.small_button("+").on_hover_text("One number more, toward the tip.").clicked() {
                 numbers.extend(numbers.last().copied());
                 self.set(commands, Some(wrap(&numbers)), Phase::Done);
