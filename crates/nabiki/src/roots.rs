@@ -37,6 +37,9 @@ const _: () = assert!(MOST_ROOTS <= u32::MAX as usize / CANDIDATES);
 /// Places drawn at most for each candidate kept; a hairline that keeps less leaves no scalp to speak of.
 const TRIES: u64 = 64;
 
+/// Draws of a task, before each of which it is asked whether to go on.
+const DRAWS_A_TASK: u64 = 4096;
+
 /// A triangle smaller than this (mean half axes of E) bears no hair where none of its corners does.
 const LARGE: f32 = 0.1;
 /// So far below the hairline, in its unit, a corner still counts: farther than a small triangle reaches.
@@ -73,6 +76,22 @@ pub fn spread_first(
     shown: usize,
     seed: u64,
 ) -> Result<Vec<Root>, SettingError> {
+    spread_first_while(head, hairline, count, shown, seed, &|| true).map(Option::unwrap_or_default)
+}
+
+/// The same for whoever may want it no more: again and again `goes_on` is asked, by any thread, whether to go on. None where it was
+/// not to.
+///
+/// # Errors
+/// As there.
+pub fn spread_first_while(
+    head: &Head,
+    hairline: &Hairline,
+    count: usize,
+    shown: usize,
+    seed: u64,
+    goes_on: &(dyn Fn() -> bool + Sync),
+) -> Result<Option<Vec<Root>>, SettingError> {
     hairline.check()?;
     check_count(count)?;
     let bald = || SettingError::new("hair.hairline", "no scalp", "leaves hardly a place for hair: widen it");
@@ -89,13 +108,19 @@ pub fn spread_first(
             return Err(bald());
         }
         let batch = (2 * (wanted - candidates.len())).max(1024) as u64;
-        let found: Vec<Root> = (drawn..drawn + batch).into_par_iter().filter_map(|i| scalp.draw(seed, i)).collect();
-        candidates.extend(found.into_iter().take(wanted - candidates.len()));
+        let task = |n: u64| {
+            let from = drawn + n * DRAWS_A_TASK;
+            let draws = from..(from + DRAWS_A_TASK).min(drawn + batch);
+            goes_on().then(|| draws.filter_map(|i| scalp.draw(seed, i)).collect())
+        };
+        let found = (0..batch.div_ceil(DRAWS_A_TASK)).into_par_iter().map(task).collect::<Option<Vec<Vec<Root>>>>();
+        let Some(found) = found else { return Ok(None) };
+        candidates.extend(found.into_iter().flatten().take(wanted - candidates.len()));
         drawn += batch;
     }
     let places: Vec<Vec3> = candidates.iter().map(|root| root.position).collect();
-    let chosen = farthest_first(&places, count.min(shown));
-    Ok(chosen.into_par_iter().map(|i| onto_sampled_skin(head, candidates[i])).collect())
+    let Some(chosen) = farthest_first(&places, count.min(shown), &|| goes_on()) else { return Ok(None) };
+    Ok(Some(chosen.into_par_iter().map(|i| onto_sampled_skin(head, candidates[i])).collect()))
 }
 
 /// The same root where the sampled distance is zero, some hundredths of a millimetre from the triangle: so that no

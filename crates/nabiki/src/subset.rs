@@ -15,14 +15,22 @@ use glam::{IVec3, Vec3};
 /// until nothing else is left. All roots are returned, in this order, when `count` is their number or more; roots with
 /// a coordinate that is not finite come last.
 pub fn evenly(roots: &[Vec3], count: usize) -> Vec<usize> {
+    evenly_while(roots, count, &|| true).unwrap_or_default()
+}
+
+/// The same for whoever may want it no more: again and again `goes_on` is asked whether to go on. None where it was not to.
+pub fn evenly_while(roots: &[Vec3], count: usize, goes_on: &dyn Fn() -> bool) -> Option<Vec<usize>> {
     let count = count.min(roots.len());
     let finite: Vec<u32> = (0..roots.len() as u32).filter(|&i| roots[i as usize].is_finite()).collect();
     let places: Vec<Vec3> = finite.iter().map(|&i| roots[i as usize]).collect();
-    let mut chosen: Vec<usize> =
-        farthest_first(&places, count.min(places.len())).into_iter().map(|i| finite[i] as usize).collect();
+    let chosen = farthest_first(&places, count.min(places.len()), goes_on)?;
+    let mut chosen: Vec<usize> = chosen.into_iter().map(|i| finite[i] as usize).collect();
     chosen.extend((0..roots.len()).filter(|&i| !roots[i].is_finite()).take(count - chosen.len()));
-    chosen
+    Some(chosen)
 }
+
+/// Points that are looked at between two questions whether to go on: some milliseconds.
+const LOOKED_AT: usize = 1 << 20;
 
 /// The cells of a grid over points on a surface, with how far each point is from the nearest chosen one.
 struct Cells {
@@ -105,34 +113,38 @@ impl Cells {
             .max()
     }
 
-    /// Takes `slot` as chosen: no point whose gap is `widest` (squared) at most, the widest of all, is left too far.
-    fn choose(&mut self, slot: usize, widest: f32) {
+    /// Takes `slot` as chosen: no point whose gap is `widest` (squared) at most, the widest of all, is left too far. Returns how
+    /// many points it has looked at.
+    fn choose(&mut self, slot: usize, widest: f32) -> usize {
         let p = self.place[slot];
         self.gap[slot] = -1.0;
         let reach = Vec3::splat(widest.sqrt() * 1.001);
         let (from, to) = (self.cell_of(p - reach), self.cell_of(p + reach));
+        let mut looked_at = 0;
         for z in from.z..=to.z {
             for y in from.y..=to.y {
                 let row = self.linear(IVec3::new(0, y, z));
                 // Cells of a row follow each other in memory.
                 let slots = self.starts[row + from.x as usize] as usize..self.starts[row + to.x as usize + 1] as usize;
+                looked_at += slots.len();
                 for (gap, place) in self.gap[slots.clone()].iter_mut().zip(&self.place[slots]) {
                     *gap = gap.min(place.distance_squared(p));
                 }
             }
         }
+        looked_at
     }
 }
 
-/// The order described at [`evenly`], of finite points.
-pub(crate) fn farthest_first(points: &[Vec3], count: usize) -> Vec<usize> {
+/// The order described at [`evenly`], of finite points; none where `goes_on` says no.
+pub(crate) fn farthest_first(points: &[Vec3], count: usize, goes_on: &dyn Fn() -> bool) -> Option<Vec<usize>> {
     if count == 0 {
-        return Vec::new();
+        return Some(Vec::new());
     }
     let mut cells = Cells::new(points);
     let mut chosen = Vec::with_capacity(count);
     let first = cells.index.iter().position(|&i| i == 0).expect("there are points");
-    cells.choose(first, f32::MAX);
+    let mut looked_at = cells.choose(first, f32::MAX);
     chosen.push(0);
     // Gaps only shrink, so an entry that is out of date stands too high: it is met, and corrected, before it matters.
     let mut queue: BinaryHeap<Farthest> = (0..cells.starts.len() - 1).filter_map(|cell| cells.farthest(cell)).collect();
@@ -140,14 +152,21 @@ pub(crate) fn farthest_first(points: &[Vec3], count: usize) -> Vec<usize> {
         let Some(top) = queue.pop() else { break };
         let now = cells.farthest(top.cell as usize);
         if now == Some(top) {
-            cells.choose(top.slot as usize, f32::from_bits(top.gap_bits));
+            looked_at += cells.choose(top.slot as usize, f32::from_bits(top.gap_bits));
             chosen.push(top.index.0 as usize);
             queue.extend(cells.farthest(top.cell as usize));
         } else {
             queue.extend(now);
         }
+        looked_at += cells.range(top.cell as usize).len();
+        if looked_at >= LOOKED_AT {
+            looked_at = 0;
+            if !goes_on() {
+                return None;
+            }
+        }
     }
-    chosen
+    Some(chosen)
 }
 
 #[cfg(test)]

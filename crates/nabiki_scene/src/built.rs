@@ -112,8 +112,9 @@ impl Scene {
         load::build(self, shown, None, None, &|_| true)
     }
 
-    /// The same, or what [`BuiltScene::changed_to`] gives of a scene that is `known`, for whoever may want it no more: while hair
-    /// grows, `goes_on` is told again and again, by any thread, how much is grown, 0..1, and asked whether to go on.
+    /// The same, or what [`BuiltScene::changed_to`] gives of a scene that is `known`, for whoever may want it no more: between the
+    /// files that are read, while roots are chosen and while hair grows, `goes_on` is told again and again, by any thread, how much is
+    /// grown, 0..1, and asked whether to go on.
     ///
     /// # Errors
     /// As [`build`](Self::build); [`Error::Cancelled`] where it was not to go on.

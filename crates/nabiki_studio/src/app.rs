@@ -15,6 +15,9 @@ use crate::preferences::{LAYOUT, Preferences};
 use crate::session::{Session, Wish};
 use crate::view::{Shown, Touch, View};
 
+/// What is refused in the view.
+const HAND: &str = "the hand in the view";
+
 /// The window.
 pub struct App {
     session: Session,
@@ -332,7 +335,8 @@ impl Panes<'_> {
                 }
                 Touch::Undone => Command::GiveUpDrag,
                 Touch::CameraMoved => continue,
-                Touch::Said(text) => Command::Say(text),
+                Touch::Refused(why) => Command::Refuse { about: HAND.to_owned(), why },
+                Touch::Heard => Command::Took(HAND.to_owned()),
             });
         }
     }

@@ -105,8 +105,15 @@ pub enum Command {
     Cancel(usize),
     /// Takes the export of this number from the list.
     Dismiss(usize),
-    /// Says something for a while.
-    Say(String),
+    /// Says that something is refused.
+    Refuse {
+        /// What: a field, or what a hand did.
+        about: String,
+        /// Why, in one line.
+        why: String,
+    },
+    /// What was refused has been given as it may be: no more is said of it.
+    Took(String),
     /// Takes the word of this number away.
     Heard(usize),
     /// Other preferences.

@@ -5,6 +5,7 @@ mod deep;
 mod edit;
 mod files;
 mod lost;
+mod words;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -27,20 +28,10 @@ use crate::tasks::Task;
 use crate::timeline::Clip;
 use deep::Deep;
 pub use lost::Broken;
+pub use words::Word;
 
 /// Between two looks at the scene's file, and between the last change and its being kept.
 const LOOK: Duration = Duration::from_secs(1);
-
-/// A word about what has happened.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Word {
-    /// What.
-    pub text: String,
-    /// Whether it went wrong, and stays until it is read.
-    pub wrong: bool,
-    /// When it was said, by the session's clock (seconds).
-    pub at: f64,
-}
 
 /// What only the window itself can do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -264,11 +255,6 @@ impl Session {
         &self.tasks
     }
 
-    /// What has been said and not been read.
-    pub fn words(&self) -> &[Word] {
-        &self.words
-    }
-
     /// What is remembered.
     pub fn preferences(&self) -> &Preferences {
         &self.preferences
@@ -289,14 +275,6 @@ impl Session {
         std::mem::take(&mut self.wishes)
     }
 
-    /// Says something.
-    pub fn say(&mut self, text: impl Into<String>, wrong: bool) {
-        let word = Word { text: text.into(), wrong, at: self.clock };
-        // Said twice, it is not twice as true.
-        self.words.retain(|known| known.text != word.text);
-        self.words.push(word);
-    }
-
     /// Lets so many seconds pass, and takes what has come of what was asked for. `played`: those that a play goes on by; it
     /// does not leap over what a window has rested for.
     pub fn tick(&mut self, passed: f64, played: f64) {
@@ -309,8 +287,7 @@ impl Session {
         if self.deep.is_due(self.clock) && !self.motion.is_working() {
             self.deepen();
         }
-        let clock = self.clock;
-        self.words.retain(|word| word.wrong || clock - word.at < 6.0);
+        self.forget_good_news();
         if self.looked.elapsed() >= LOOK {
             self.looked = Instant::now();
             self.look_at_file();
@@ -388,7 +365,8 @@ impl Session {
             Command::Cancel(task) => self.tasks.get(task).into_iter().for_each(Task::cancel),
             Command::Dismiss(task) if task < self.tasks.len() => drop(self.tasks.remove(task)),
             Command::Heard(word) if word < self.words.len() => drop(self.words.remove(word)),
-            Command::Say(text) => self.say(text, false),
+            Command::Refuse { about, why } => self.refuse(&about, why),
+            Command::Took(about) => self.accept(&about),
             Command::Dismiss(_) | Command::Heard(_) => {}
             Command::Prefer(preferences) => {
                 let strands = preferences.strands;
@@ -400,6 +378,9 @@ impl Session {
             }
             Command::Export(order) => self.export(order),
             command => self.apply_to_document(command),
+        }
+        if self.broken.is_none() {
+            self.accept(edit::BEHIND_TEXT);
         }
         self.note_question();
         self.move_if_changed();

@@ -138,26 +138,6 @@ fn the_window_rests_while_a_motion_is_worked_out() {
 }
 
 #[test]
-fn what_went_well_is_said_for_six_seconds_and_what_went_wrong_until_it_is_read() {
-    let place = Place::new();
-    let mut session = place.session();
-    session.say("well", false);
-    session.say("wrong", true);
-    let said = |session: &Session| session.words().iter().map(|word| word.text.clone()).collect::<Vec<_>>();
-    session.apply(Command::Act(Action::Play));
-    // A window at rest looks up now and then only.
-    for _ in 0..5 {
-        session.tick(1.0, 0.0);
-    }
-    assert_eq!(said(&session), ["well", "wrong"]);
-    session.tick(1.5, 0.0);
-    assert_eq!(said(&session), ["wrong"]);
-    assert_eq!(session.play.frame(), 0, "a rest is not played");
-    session.apply(Command::Heard(0));
-    assert!(said(&session).is_empty());
-}
-
-#[test]
 fn what_is_moved_of_many_strands_gives_way() {
     let place = Place::new();
     let session = place.session();

@@ -13,23 +13,23 @@ mod onion;
 mod overlay;
 pub mod pick;
 mod screen;
+mod shown;
 pub mod volume;
 
 use eframe::egui;
 use eframe::egui_wgpu::RenderState;
-use glam::Vec3;
-use nabiki::field::Keyframe;
 use nabiki_render::settings::Camera;
-use nabiki_render::{Bounds, Picture, View as Seen};
+use nabiki_render::{Bounds, View as Seen};
 
 use crate::drag::{self, Lock, Pull};
 use crate::take::Take;
 
 use camera::{Held as Buttons, Orbit};
 use final_picture::{FinalPicture, Rest, Wanted};
-use hand::Hand;
+use hand::{Hand, LetGo};
 use overlay::Overlay;
 use screen::Screen;
+pub use shown::{Marks, Shown, Touch};
 
 /// Logical pixels about the pointer within which hair is taken hold of.
 const REACH: f32 = 9.0;
@@ -45,69 +45,6 @@ pub enum Navigation {
     Maya,
 }
 
-/// All that is shown, and what is selected of it.
-#[derive(Clone, Copy, Debug)]
-pub struct Shown<'a> {
-    /// The last good motion.
-    pub take: &'a Take,
-    /// The look as it is now: it may be newer than the one the take was built from.
-    pub picture: &'a Picture,
-    /// The intervals as they are now, newer than the take while it is simulated.
-    pub force: &'a [Keyframe],
-    /// The frame looked at, at most the take's last.
-    pub frame: u32,
-    /// Whether frames are running: nothing is refined then.
-    pub playing: bool,
-    /// The interval whose vector is a handle in space.
-    pub selected_interval: Option<usize>,
-    /// Whether the paths of tips are drawn.
-    pub ghosts: bool,
-    /// Whether the wind is drawn as arrows.
-    pub wind: bool,
-    /// Whether the final picture fades in when the hand rests.
-    pub final_picture: bool,
-    /// Strands of the final picture; all of the scene's where it has fewer.
-    pub strands_in_final: usize,
-    /// Which buttons move the camera.
-    pub navigation: Navigation,
-}
-
-/// What a hand did in the view, for the session to make true.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Touch {
-    /// The vector of an interval, its handle being dragged; `done` with the button let go: one step of undo.
-    SetVector {
-        /// Which.
-        interval: usize,
-        /// Its new vector.
-        vector: Vec3,
-        /// Whether the hand has let go.
-        done: bool,
-    },
-    /// All intervals, as they make the hair go where it is pulled; `done` when they are accepted.
-    SetForce {
-        /// The intervals.
-        force: Vec<Keyframe>,
-        /// Whether the hand has let go.
-        done: bool,
-    },
-    /// A drag was given up: all as it was before its first touch.
-    Undone,
-    /// The camera was moved by hand. [`View::camera`] is where it is.
-    CameraMoved,
-    /// A word for the status line.
-    Said(String),
-}
-
-/// Frames in which hair is wished to be somewhere.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Marks {
-    /// Those of nails.
-    pub nails: Vec<u32>,
-    /// That of the lock in the hand.
-    pub pulled: Option<u32>,
-}
-
 /// The view. It holds what a graphics card needs, the camera, and what the hand is doing.
 pub struct View {
     screen: Result<Screen, String>,
@@ -119,9 +56,14 @@ pub struct View {
     frames_hair: bool,
     hand: Hand,
     nails: Vec<Lock>,
+    /// What was let go last.
+    let_go: Option<LetGo>,
     rest: Rest,
     final_picture: Option<FinalPicture>,
-    said: Option<String>,
+    /// Why something could not be drawn, to be said.
+    failed: Option<String>,
+    /// Whether something was refused, and nothing else has been done since.
+    refused: bool,
 }
 
 impl View {
@@ -139,9 +81,11 @@ impl View {
             frames_hair: false,
             hand: Hand::Idle,
             nails: Vec::new(),
+            let_go: None,
             rest: Rest::default(),
             final_picture: None,
-            said: None,
+            failed: None,
+            refused: false,
         }
     }
 
@@ -177,6 +121,11 @@ impl View {
         self.hand.is_busy()
     }
 
+    /// How far the hair falls short of where it was pulled to, in one line, while it is as it was let go and that frame is shown.
+    pub fn fell_short(&self, shown: &Shown<'_>) -> Option<String> {
+        self.let_go.as_ref().filter(|_| !shown.playing).and_then(|let_go| let_go.fell_short(shown))
+    }
+
     /// The side on which a view of so many points has more room beside head and hair, and that room (points).
     pub fn free_side(&self, shown: &Shown<'_>, size: egui::Vec2) -> (egui::Align, f32) {
         let Some(orbit) = self.orbit else { return (egui::Align::Max, size.x) };
@@ -201,7 +150,7 @@ impl View {
         let size = (rect.size() * scale).round();
         let size = [size.x.max(1.0) as u32, size.y.max(1.0) as u32];
         let now = ui.input(|input| input.time);
-        let mut touches: Vec<Touch> = self.said.take().map(Touch::Said).into_iter().collect();
+        let mut touches: Vec<Touch> = self.failed.take().map(Touch::Refused).into_iter().collect();
 
         self.place_camera(shown, size);
         if self.move_camera(ui, &response, shown, rect) {
@@ -233,6 +182,7 @@ impl View {
             }
         }
         self.draw_over(&overlay, &response, shown, &view);
+        self.refused |= touches.iter().any(|touch| matches!(touch, Touch::Refused(_)));
         touches
     }
 
@@ -323,9 +273,14 @@ impl View {
             return;
         }
         if pressed && response.contains_pointer() && matches!(self.hand, Hand::Idle) {
+            touches.extend(std::mem::take(&mut self.refused).then_some(Touch::Heard));
+            self.let_go = None;
             self.take_hold(ui.ctx(), shown, view, pixel, scale, nailing, touches);
         }
         if !down && self.hand.is_busy() {
+            if let Hand::Hair(held) = &self.hand {
+                self.let_go = held.let_go();
+            }
             touches.extend(self.hand.release());
             return;
         }
@@ -366,17 +321,17 @@ impl View {
             nodes: pick::lock(points, strands, shown.take.at_hand(), &picked, hand::LOCK_CM),
         };
         if shown.frame == 0 {
-            touches.push(Touch::Said("Frame 0 is the hair at rest: go to a later frame to pull it.".to_owned()));
+            touches.push(Touch::Refused("Frame 0 is the hair at rest: go to a later frame to pull it.".to_owned()));
         } else if nailing {
             self.nail(lock);
         } else if shown.take.built.scene.field.force != shown.force {
-            touches.push(Touch::Said("The motion is not there yet: pull again in a moment.".to_owned()));
+            touches.push(Touch::Refused("The motion is not there yet: pull again in a moment.".to_owned()));
         } else {
             let problem = drag::problem(&shown.take.built, &lock, &self.nails, shown.selected_interval);
             let context = context.clone();
             let pull = Pull::new(problem, move || context.request_repaint());
             let in_head = view.in_head(&shown.take.pose(shown.frame));
-            self.hand = Hand::Hair(hand::Held::new(lock, &picked, points, strands, &in_head, pixel, pull));
+            self.hand = Hand::Hair(hand::Held::new(lock, &picked, shown.take, &self.nails, &in_head, pixel, pull));
         }
     }
 
@@ -433,7 +388,7 @@ impl View {
                 screen.set_final(ui.ctx(), &done);
                 self.rest.came(now);
             }
-            Some(Err(why)) => self.said = Some(format!("The final picture cannot be drawn: {why}")),
+            Some(Err(why)) => self.failed = Some(format!("The final picture cannot be drawn: {why}")),
             None => {}
         }
         let opacity = self.rest.opacity(now);
@@ -462,7 +417,14 @@ impl View {
         }
         match &self.hand {
             Hand::Hair(held) if held.lock.fits(strands) => {
-                overlay.thread(&in_head, held.goal(), held.lock.middle(points, strands));
+                let (goal, hair) = (held.goal(), held.lock.middle(points, strands));
+                overlay.thread(&in_head, goal, hair, hand::to_go(goal.distance(hair)).as_deref());
+            }
+            Hand::Idle
+                if let Some(words) = self.fell_short(shown)
+                    && let Some(let_go) = &self.let_go =>
+            {
+                overlay.thread(&in_head, let_go.goal, let_go.lock.middle(points, strands), Some(&words));
             }
             Hand::Idle if !shown.playing && shown.frame > 0 => {
                 let pixel = response.hover_pos().map(|at| (at - overlay.rect.min) * overlay.scale);

@@ -1,8 +1,9 @@
 use std::sync::LazyLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::Vec3;
 
-use super::{Hairline, MOST_ROOTS, Root, spread, spread_first};
+use super::{Hairline, MOST_ROOTS, Root, spread, spread_first, spread_first_while};
 use crate::Head;
 
 static BUST: LazyLock<Head> = LazyLock::new(Head::builtin);
@@ -174,6 +175,28 @@ fn the_first_of_the_whole_are_the_first_alone() {
     for shown in [0, 1, 300, 3000, 9000] {
         let first = spread_first(&BUST, &line, 3000, shown, 4).unwrap();
         assert_eq!(first, all[..shown.min(3000)], "{shown} of 3000");
+    }
+}
+
+#[test]
+fn roots_that_are_wanted_no_more_are_given_up_while_they_are_drawn_and_while_they_are_chosen() {
+    let line = Hairline::default();
+    // Of 10,000 roots; how often it is asked, where it is to go on so many times.
+    let asked = |shown: usize, times: usize| {
+        let asked = AtomicUsize::new(0);
+        let goes_on = || asked.fetch_add(1, Ordering::Relaxed) < times;
+        let roots = spread_first_while(&BUST, &line, 10_000, shown, 4, &goes_on).unwrap();
+        (roots, asked.into_inner())
+    };
+    let (all, times) = asked(10_000, usize::MAX);
+    assert_eq!(all, Some(roots(10_000, 4)));
+    // To choose one root, every candidate is looked at once: too few to be asked.
+    let (_, times_drawn) = asked(1, usize::MAX);
+    assert!(times_drawn > 10 && times > times_drawn, "{times_drawn} of {times}");
+    for goes_on in [0, 1, times_drawn - 1, times_drawn] {
+        let (given_up, asked) = asked(10_000, goes_on);
+        // Other threads may be within one draw each.
+        assert!(given_up.is_none() && asked <= goes_on + rayon::current_num_threads(), "{asked} for {goes_on}");
     }
 }
 

@@ -1,6 +1,6 @@
 use glam::{Vec3, vec3};
 
-use super::evenly;
+use super::{LOOKED_AT, evenly, evenly_while};
 
 /// Points over the unit sphere, evenly but for a jitter.
 fn sphere(n: usize) -> Vec<Vec3> {
@@ -31,6 +31,14 @@ fn plainly(points: &[Vec3], count: usize) -> Vec<usize> {
         chosen.push(next);
     }
     chosen
+}
+
+#[test]
+fn a_choice_that_is_wanted_no_more_is_given_up_and_is_the_same_otherwise() {
+    // The first chosen looks at every point.
+    let points = sphere(LOOKED_AT + 1);
+    assert_eq!(evenly_while(&points, 3, &|| false), None);
+    assert_eq!(evenly_while(&points, 3, &|| true), Some(evenly(&points, 3)));
 }
 
 #[test]

@@ -37,7 +37,8 @@ use crate::seat;
 pub(super) type GoesOn<'a> = &'a (dyn Fn(f32) -> bool + Sync);
 
 /// Builds a scene, or one `shard` of it. What it has in common with a scene that is `known` is taken from there, and files
-/// are not read again. `goes_on`, told how much of the hair is grown, is asked whether it is still wanted.
+/// are not read again. `goes_on`, told how much of the hair is grown, is asked whether it is still wanted: between any two files,
+/// and while roots are chosen and hair grows.
 pub(super) fn build(
     scene: Scene,
     shown: Shown,
@@ -54,6 +55,7 @@ pub(super) fn build(
         Some(known) => LoadedHead::of(known),
         None => load_head(&scene)?,
     };
+    still_wanted(goes_on, 0.0)?;
     let same_rate = known.filter(|known| known.scene.frame_rate() == scene.frame_rate());
     let (poses, motion_report, motion_begins) =
         match same_rate.filter(|known| known.scene.head.motion == scene.head.motion) {
@@ -96,7 +98,7 @@ pub(super) fn build(
     let mut bodies = Vec::new();
     if scene.form == FormChoice::Free {
         let known = free::Known { same_head, same_rate };
-        bodies = free::set(&mut dynamics, &scene, &head, &first, rest_pose, known)?;
+        bodies = free::set(&mut dynamics, &scene, &head, &first, rest_pose, known, goes_on)?;
     }
     Ok(BuiltScene {
         scene,
@@ -125,6 +127,11 @@ pub(super) fn build(
         ids,
         poses,
     })
+}
+
+/// Gives up what is wanted no more, of which so much is grown.
+fn still_wanted(goes_on: GoesOn<'_>, part: f32) -> Result<()> {
+    if goes_on(part) { Ok(()) } else { Err(Error::Cancelled) }
 }
 
 /// What pushes the hair, about a head on its way.
@@ -239,11 +246,11 @@ fn load_hair(
             let rooted = run.end.max(first);
             let roots = match same_head.and_then(|known| known_roots(known, settings, rooted)) {
                 Some(roots) => roots,
-                None if !goes_on(0.0) => return Err(Error::Cancelled),
                 None => {
                     let GrownHair { strands, seed, hairline, .. } = settings;
-                    let roots = roots::spread_first(head, hairline, *strands, rooted, *seed);
-                    roots.map_err(|refused| no_scalp(scene, refused))?.into()
+                    let still = || goes_on(0.0);
+                    let roots = roots::spread_first_while(head, hairline, *strands, rooted, *seed, &still);
+                    roots.map_err(|refused| no_scalp(scene, refused))?.ok_or(Error::Cancelled)?.into()
                 }
             };
             let (hair, first) = if run.start < first {
@@ -263,7 +270,7 @@ fn load_hair(
             let of_scene = settings.strands;
             Ok(LoadedHair { hair, roots, ids, of_scene, shard, first, imported: None, frames: 1, begins: None })
         }
-        HairSource::Imported(settings) => import(scene, settings, head_placement, wanted),
+        HairSource::Imported(settings) => import(scene, settings, head_placement, wanted, goes_on),
     }
 }
 
@@ -275,30 +282,38 @@ fn no_scalp(scene: &Scene, mut refused: SettingError) -> Error {
     scene.refusal(refused).into()
 }
 
-fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, wanted: Wanted) -> Result<LoadedHair> {
+fn import(
+    scene: &Scene,
+    settings: &ImportedHair,
+    head_placement: &Placement,
+    wanted: Wanted,
+    goes_on: GoesOn<'_>,
+) -> Result<LoadedHair> {
     let file = there(scene, "hair.file", &settings.file)?;
     let mut groom = GroomFile::open(&file)?;
     let declared = groom.declared_space()?;
     let placement = hair_placement(settings, head_placement, declared);
     placement.check("hair").map_err(|refused| scene.refusal(refused))?;
     let in_file = groom.hair_in_place(0, None)?;
+    still_wanted(goes_on, 0.0)?;
     let judged = seat::judged(&in_file);
     let placed = hair::place_and_clean(in_file, &placement, &settings.cleaning());
     let (hair, report) = placed.map_err(|e| e.in_file(&file))?;
+    still_wanted(goes_on, 0.0)?;
     let hair = match settings.strands {
-        Some(count) if count < hair.strands.len() => hair.select(&evenly(&hair, count)),
+        Some(count) if count < hair.strands.len() => hair.select(&evenly(&hair, count, goes_on)?),
         _ => hair,
     };
     let of_scene = hair.strands.len();
     let first = free::first_wanted(scene).min(of_scene);
-    let first = if first == 0 { Hair::default() } else { hair.select(&farthest_first(&hair, first)) };
+    let first = if first == 0 { Hair::default() } else { hair.select(&farthest_first(&hair, first, goes_on)?) };
     let (count, run) = wanted.of(of_scene)?;
     let shard = wanted.shard.map(|shard| {
         let groom = StrandSum::of(&hair.strands, 0..of_scene, None);
         ShardOf { shard, strands: count, groom }
     });
     let (hair, ids) = if count < of_scene || run.len() < count {
-        let mut chosen = if count < of_scene { evenly(&hair, count) } else { (0..count).collect() };
+        let mut chosen = if count < of_scene { evenly(&hair, count, goes_on)? } else { (0..count).collect() };
         chosen = chosen[run].to_vec();
         (hair.select(&chosen), chosen.iter().map(|&s| s as u32).collect())
     } else {
@@ -315,16 +330,16 @@ fn import(scene: &Scene, settings: &ImportedHair, head_placement: &Placement, wa
 }
 
 /// The first `count` strands of the farthest-first order of the roots.
-fn farthest_first(hair: &Hair, count: usize) -> Vec<usize> {
+fn farthest_first(hair: &Hair, count: usize, goes_on: GoesOn<'_>) -> Result<Vec<usize>> {
     let roots: Vec<Vec3> = hair.strands.iter().map(|strand| strand[0]).collect();
-    subset::evenly(&roots, count)
+    subset::evenly_while(&roots, count, &|| goes_on(0.0)).ok_or(Error::Cancelled)
 }
 
 /// The same in the order of the file.
-fn evenly(hair: &Hair, count: usize) -> Vec<usize> {
-    let mut chosen = farthest_first(hair, count);
+fn evenly(hair: &Hair, count: usize, goes_on: GoesOn<'_>) -> Result<Vec<usize>> {
+    let mut chosen = farthest_first(hair, count, goes_on)?;
     chosen.sort_unstable();
-    chosen
+    Ok(chosen)
 }
 
 /// Where the head is in each frame; `None` for a head that stands still.

@@ -256,18 +256,16 @@ fn preferences(ui: &mut Ui, session: &Session, commands: &mut Commands) {
         ui.selectable_value(&mut changed.navigation, Navigation::Maya, "Maya");
     });
     super::fields::row(ui, "Strands", "Shown, and moved with every touch.", false, |ui| {
-        let value = egui::DragValue::new(&mut changed.strands).range(1..=ALL).speed(10.0);
-        let words = |n: f64, _| if n >= ALL as f64 { "all".to_owned() } else { format!("{n:.0}") };
-        let number = |words: &str| match words.trim() {
-            "all" => Some(ALL as f64),
-            words => words.parse::<usize>().ok().filter(|strands| (1..=ALL).contains(strands)).map(|n| n as f64),
-        };
-        let value = value.custom_formatter(words).custom_parser(number).update_while_editing(false);
-        ui.add(value).accessible_name("Strands shown at first");
+        let what = "Strands shown at first";
+        let mut strands = changed.strands as f64;
+        let field = Number { range: 1.0..=ALL as f64, step: 10.0, decimals: 0, most: "all", ..Number::of(what) };
+        if field.ui(ui, &mut strands, commands).accessible_name(what).changed() {
+            changed.strands = strands as usize;
+        }
     });
     super::fields::row(ui, "Size", "Of type and panels, by what the system says.", false, |ui| {
         let mut percent = f64::from((100.0 * changed.zoom).round());
-        let field = Number { range: 50.0..=400.0, decimals: 0, unit: "%", ..Number::default() };
+        let field = Number { range: 50.0..=400.0, decimals: 0, unit: "%", ..Number::of("Size of the type") };
         if field.ui(ui, &mut percent, commands).changed() {
             changed.zoom = percent as f32 / 100.0;
         }
@@ -317,6 +315,7 @@ fn export(ui: &mut Ui, session: &Session, order: &Order, commands: &mut Commands
     paragraph(ui, theme::faint(order.kind.help()));
     ui.add_space(4.0);
     let label = if order.kind.ending().is_some() { "File" } else { "Folder" };
+    let mut chooses = false;
     super::fields::row(
         ui,
         label,
@@ -328,7 +327,8 @@ fn export(ui: &mut Ui, session: &Session, order: &Order, commands: &mut Commands
             if ui.add(edit).accessible_name("Place").changed() {
                 changed.place = place.into();
             }
-            if ui.small_button("...").clicked() {
+            chooses = ui.small_button("...").clicked();
+            if chooses {
                 let path = match order.kind.ending() {
                     Some(_) => changed.place.display().to_string(),
                     None => as_folder(&changed.place),
@@ -343,7 +343,7 @@ fn export(ui: &mut Ui, session: &Session, order: &Order, commands: &mut Commands
         super::fields::row(ui, "Frame", "The frame that is drawn.", false, |ui| {
             let mut frame = f64::from(changed.frame);
             let range = 0.0..=f64::from(document.scene().motion.frames);
-            Number { range, decimals: 0, ..Number::default() }.ui(ui, &mut frame, commands);
+            Number { range, decimals: 0, ..Number::of("Frame") }.ui(ui, &mut frame, commands);
             changed.frame = frame as u32;
         });
     }
@@ -357,11 +357,12 @@ fn export(ui: &mut Ui, session: &Session, order: &Order, commands: &mut Commands
         };
         if let Some(strands) = &mut changed.strands {
             let mut number = *strands as f64;
-            Number { range: 1.0..=1e7, step: 10.0, decimals: 0, ..Number::default() }.ui(ui, &mut number, commands);
+            let field = Number { range: 1.0..=1e7, step: 10.0, decimals: 0, ..Number::of("Strands") };
+            field.ui(ui, &mut number, commands);
             *strands = number as usize;
         }
     });
-    if changed != *order && commands.is_empty() {
+    if changed != *order && !chooses {
         commands.push(Command::Show(Box::new(Dialog::Export(changed.clone()))));
     }
     buttons(ui, |ui| {
@@ -424,7 +425,8 @@ fn import(ui: &mut Ui, session: &Session, import: &Import, commands: &mut Comman
             match session.import(&changed) {
                 Some(command) => commands.push(command),
                 None => {
-                    commands.push(Command::Say("the path of the file is not text that a scene can hold".to_owned()))
+                    let why = format!("{}: the path is not text that a scene can hold", import.path.display());
+                    commands.push(Command::Refuse { about: why.clone(), why });
                 }
             }
         }

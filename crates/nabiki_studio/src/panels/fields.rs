@@ -1,5 +1,7 @@
 //! One setting as a field.
 
+mod values;
+
 use eframe::egui::{self, Response, Ui};
 use toml::{Table, Value};
 
@@ -9,9 +11,14 @@ use crate::command::Command;
 use crate::dialog::{Chooser, Dialog, Purpose, as_folder};
 use crate::document::Phase;
 use crate::settings::{Kind, Setting};
+pub use values::number_of;
+use values::{finite, first_value, rgb_of, rgb_value, table};
 
 /// Width of the names beside the fields (points).
 const NAMES: f32 = 96.0;
+
+/// What a field of many numbers wants.
+const NUMBERS: &str = "numbers with commas between them";
 
 /// A name and a field beside it.
 pub fn row<R>(ui: &mut Ui, label: &str, help: &str, marked: bool, field: impl FnOnce(&mut Ui) -> R) -> R {
@@ -116,7 +123,7 @@ impl Field<'_> {
             Kind::Number { least, most, step } => {
                 let mut number = value.and_then(number_of).unwrap_or_default();
                 let wide = Some(wide.min(110.0));
-                let field = Number { range: least..=most, step, unit, wide, ..Number::default() };
+                let field = Number { range: least..=most, step, unit, wide, ..Number::of(&self.key) };
                 let response = name(field.ui(ui, &mut number, commands), self);
                 self.sent(&response, commands, Value::Float(number));
             }
@@ -124,7 +131,7 @@ impl Field<'_> {
                 let mut number = value.and_then(number_of).unwrap_or_default();
                 let step = (number.abs() * 0.005).clamp(0.1, 1e4);
                 let (range, wide) = (least as f64..=most as f64, Some(wide.min(110.0)));
-                let field = Number { range, step, unit, wide, decimals: 0, ..Number::default() };
+                let field = Number { range, step, unit, wide, decimals: 0, ..Number::of(&self.key) };
                 let response = name(field.ui(ui, &mut number, commands), self);
                 self.sent(&response, commands, Value::Integer(number as i64));
             }
@@ -138,14 +145,14 @@ impl Field<'_> {
                 choose(ui, self, now, words, commands, |word| Value::String(word.to_owned()));
             }
             Kind::Numbers { names, step } => {
-                self.numbers(ui, value, names, commands, Number { step, ..Number::default() }, Value::Float)
+                self.numbers(ui, value, names, commands, Number { step, ..Number::of(&self.key) }, Value::Float)
             }
             Kind::Wholes { names, least, most } => self.numbers(
                 ui,
                 value,
                 names,
                 commands,
-                Number { range: least as f64..=most as f64, decimals: 0, ..Number::default() },
+                Number { range: least as f64..=most as f64, decimals: 0, ..Number::of(&self.key) },
                 |number| Value::Integer(number as i64),
             ),
             Kind::Colour { linear } => self.colour(ui, value, linear, commands),
@@ -159,7 +166,7 @@ impl Field<'_> {
                 }
                 if !is_word {
                     let mut number = value.and_then(number_of).unwrap_or_default();
-                    let field = Number { range: 0.0..=most, step, unit, ..Number::default() };
+                    let field = Number { range: 0.0..=most, step, unit, ..Number::of(&self.key) };
                     let response = name(field.ui(ui, &mut number, commands), self);
                     self.sent(&response, commands, Value::Float(number));
                 }
@@ -168,14 +175,14 @@ impl Field<'_> {
             Kind::File(endings) => self.file(ui, value, endings, commands),
             Kind::Text => {
                 self.text(ui, value.and_then(Value::as_str).unwrap_or_default().to_owned(), commands, |text| {
-                    Some(Value::String(text.to_owned()))
+                    Ok(Value::String(text.to_owned()))
                 })
             }
             Kind::Texts => {
                 let words = value.and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str);
                 self.text(ui, words.collect::<Vec<_>>().join(", "), commands, |text| {
                     let words = text.split(',').map(str::trim).filter(|word| !word.is_empty());
-                    Some(words.map(|word| Value::String(word.to_owned())).collect::<Vec<_>>().into())
+                    Ok(words.map(|word| Value::String(word.to_owned())).collect::<Vec<_>>().into())
                 });
             }
             Kind::List { whole } => {
@@ -186,7 +193,8 @@ impl Field<'_> {
                         true => word.parse().ok().map(Value::Integer),
                         false => finite(word).map(Value::Float),
                     };
-                    words.map(number).collect::<Option<Vec<_>>>().map(Value::Array)
+                    let wanted = if whole { "whole numbers with commas between them" } else { NUMBERS };
+                    words.map(number).collect::<Option<Vec<_>>>().map(Value::Array).ok_or(wanted)
                 });
             }
             Kind::Unit => {
@@ -195,7 +203,7 @@ impl Field<'_> {
                     other => format!("{other}"),
                 });
                 self.text(ui, now, commands, |text| {
-                    finite(text).map(Value::Float).or_else(|| Some(Value::String(text.to_owned())))
+                    Ok(finite(text).map_or_else(|| Value::String(text.to_owned()), Value::Float))
                 });
             }
             Kind::Envelope => self.envelope(ui, value, commands),
@@ -214,14 +222,29 @@ impl Field<'_> {
         let mut numbers: Vec<f64> =
             value.and_then(Value::as_array).into_iter().flatten().filter_map(number_of).collect();
         numbers.resize(names.len(), 0.0);
-        let wide = ((ui.available_width() - 22.0) / names.len() as f32 - 3.0).clamp(30.0, 64.0);
+        let count = names.len() as f32;
+        let unit = self.unit_beside(ui, 22.0 + count * 43.0);
+        let room = ui.available_width() - 22.0 - unit.as_ref().map_or(0.0, |(_, wide)| *wide);
+        let wide = (room / count - 3.0).clamp(30.0, 64.0);
         side_by_side(ui, wide, |ui| {
             for i in 0..names.len() {
+                let what = format!("{}, {}", self.key, names[i]);
+                let field = Number { what: &what, ..field.clone() };
                 let response = field.ui(ui, &mut numbers[i], commands).on_hover_text(names[i]);
                 let response = response.accessible_name(format!("{} {}: {}", self.group, self.setting.label, names[i]));
                 self.sent(&response, commands, numbers.iter().map(|number| wrap(*number)).collect::<Vec<_>>().into());
             }
+            unit.into_iter().for_each(|(unit, _)| drop(ui.label(unit)));
         });
+    }
+
+    /// The unit after fields beside each other and what it takes (points), where that is left beside `taken`.
+    fn unit_beside(&self, ui: &Ui, taken: f32) -> Option<(egui::RichText, f32)> {
+        let text = egui::RichText::new(self.setting.unit).size(theme::SMALL).color(theme::FAINT);
+        let font = egui::FontId::proportional(theme::SMALL);
+        let drawn = ui.painter().layout_no_wrap(self.setting.unit.to_owned(), font, theme::FAINT);
+        let wide = drawn.size().x + 3.0;
+        (!self.setting.unit.is_empty() && ui.available_width() >= taken + wide).then_some((text, wide))
     }
 
     fn colour(&self, ui: &mut Ui, value: Option<&Value>, linear: bool, commands: &mut Commands) {
@@ -261,7 +284,8 @@ impl Field<'_> {
         if let Some(melanin) = inner.get("melanin") {
             for (pigment, letter) in [("eumelanin", "e "), ("pheomelanin", "p ")] {
                 let mut amount = melanin.get(pigment).and_then(number_of).unwrap_or_default();
-                let field = Number { range: 0.0..=100.0, step: 0.01, before: letter, ..Number::default() };
+                let what = format!("{}, {pigment}", self.key);
+                let field = Number { range: 0.0..=100.0, step: 0.01, before: letter, ..Number::of(&what) };
                 let response = field.ui(ui, &mut amount, commands).on_hover_text(pigment);
                 let mut melanin = melanin.as_table().cloned().unwrap_or_default();
                 melanin.insert(pigment.to_owned(), amount.into());
@@ -288,6 +312,7 @@ impl Field<'_> {
             all => all.iter().map(|number| Value::Float(*number)).collect::<Vec<_>>().into(),
         };
         let last = numbers.len().saturating_sub(1);
+        let unit = self.unit_beside(ui, 50.0 + 47.0 * numbers.len() as f32);
         side_by_side(ui, 44.0, |ui| {
             for i in 0..numbers.len() {
                 let place = match (i, last) {
@@ -297,11 +322,13 @@ impl Field<'_> {
                     _ => "on the way",
                 };
                 let step = step.max(numbers[i].abs() * 0.005);
-                let field = Number { range: 0.0..=most, step, ..Number::default() };
+                let what = format!("{}, {place}", self.key);
+                let field = Number { range: 0.0..=most, step, ..Number::of(&what) };
                 let response = field.ui(ui, &mut numbers[i], commands).on_hover_text(place);
                 let response = response.accessible_name(format!("{} {}: {place}", self.group, self.setting.label));
                 self.sent(&response, commands, wrap(&numbers));
             }
+            unit.into_iter().for_each(|(unit, _)| drop(ui.label(unit)));
             if numbers.len() < 6 && ui.small_button("+").on_hover_text("One number more, toward the tip.").clicked() {
                 numbers.extend(numbers.last().copied());
                 self.set(commands, Some(wrap(&numbers)), Phase::Done);
@@ -331,8 +358,8 @@ impl Field<'_> {
                     self.text(ui, text, commands, |text| {
                         let numbers = text.split(',').map(|word| finite(word.trim()).map(Value::Float));
                         let mut given = given.clone();
-                        given.insert(key.clone(), numbers.collect::<Option<Vec<_>>>()?.into());
-                        Some(given.into())
+                        given.insert(key.clone(), numbers.collect::<Option<Vec<_>>>().ok_or(NUMBERS)?.into());
+                        Ok(given.into())
                     });
                 }
             });
@@ -348,11 +375,17 @@ impl Field<'_> {
             let chooser = Chooser { purpose: Purpose::Setting(self.key.clone()), path, endings: endings.to_vec() };
             commands.push(Command::Show(Box::new(Dialog::File(chooser))));
         }
-        self.text(ui, now, commands, |text| Some(Value::String(text.to_owned())));
+        self.text(ui, now, commands, |text| Ok(Value::String(text.to_owned())));
     }
 
-    /// Text that is taken when it is finished. What it does not make sense of is left as it was.
-    fn text(&self, ui: &mut Ui, now: String, commands: &mut Commands, read: impl Fn(&str) -> Option<Value>) {
+    /// Text that is taken when it is finished. What `read` makes no sense of, saying what it wants, is refused and left as it was.
+    fn text(
+        &self,
+        ui: &mut Ui,
+        now: String,
+        commands: &mut Commands,
+        read: impl Fn(&str) -> Result<Value, &'static str>,
+    ) {
         let id = ui.scope_id().with((&self.key, now.len()));
         let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| now.clone());
         let wide = (ui.available_width() - 4.0).max(60.0);
@@ -360,10 +393,12 @@ impl Field<'_> {
             name(ui.add(egui::TextEdit::singleline(&mut text).desired_width(wide)), self).on_hover_text(&now);
         if response.lost_focus() {
             ui.data_mut(|data| data.remove::<String>(id));
-            if text != now {
-                match read(&text) {
-                    Some(value) => self.set(commands, Some(value), Phase::Done),
-                    None => commands.push(Command::Say(format!("{}: \"{text}\" was not understood", self.key))),
+            match read(&text) {
+                _ if text == now => commands.push(Command::Took(self.key.clone())),
+                Ok(value) => self.set(commands, Some(value), Phase::Done),
+                Err(wanted) => {
+                    let why = format!("{}: \"{text}\" is not taken: it must be {wanted}", self.key);
+                    commands.push(Command::Refuse { about: self.key.clone(), why });
                 }
             }
         } else if response.has_focus() {
@@ -391,11 +426,12 @@ impl Field<'_> {
                         .get(i + 1)
                         .and_then(|key| key.get("frame")?.as_integer())
                         .map_or(i64::from(u32::MAX), |n| n - 1);
-                    let field = Number { before: "frame ", decimals: 0, ..Number::default() };
+                    let what = ["frame", "factor"].map(|part| format!("{}[{i}].{part}", self.key));
+                    let field = Number { before: "frame ", decimals: 0, ..Number::of(&what[0]) };
                     let field = Number { range: low as f64..=high as f64, ..field };
                     let response = field.ui(ui, &mut frame, commands);
                     self.sent(&response, commands, changed(frame, factor));
-                    let field = Number { step: 0.01, ..Number::default() };
+                    let field = Number { step: 0.01, ..Number::of(&what[1]) };
                     let response = field.ui(ui, &mut factor, commands).on_hover_text("Part of the strength.");
                     self.sent(&response, commands, changed(frame, factor));
                     if ui.small_button("x").clicked() {
@@ -452,41 +488,4 @@ fn range_text(kind: Kind, unit: &str) -> String {
         _ if unit.is_empty() => String::new(),
         _ => format!("\nIn{unit}."),
     }
-}
-
-/// What a setting that was left open begins with.
-fn first_value(kind: Kind) -> Value {
-    match kind {
-        Kind::Number { least, most, .. } => Value::Float(50.0_f64.clamp(least, most)),
-        Kind::Whole { least, most } => Value::Integer(1000.clamp(least, most)),
-        Kind::Flag => Value::Boolean(true),
-        Kind::Choice(words) => Value::String(words.first().copied().unwrap_or_default().to_owned()),
-        Kind::Numbers { names, .. } => names.iter().map(|_| Value::Float(0.0)).collect::<Vec<_>>().into(),
-        Kind::List { .. } => Value::Array(vec![Value::Integer(0)]),
-        Kind::Unit => Value::String("cm".to_owned()),
-        _ => Value::String(String::new()),
-    }
-}
-
-/// The number that a word is, if it has an end.
-fn finite(word: &str) -> Option<f64> {
-    word.parse().ok().filter(|number: &f64| number.is_finite())
-}
-
-/// A number, whole or not.
-pub fn number_of(value: &Value) -> Option<f64> {
-    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
-}
-
-fn rgb_of(value: Option<&Value>) -> [f32; 3] {
-    let mut channels = value.and_then(Value::as_array).into_iter().flatten().filter_map(number_of);
-    std::array::from_fn(|_| channels.next().unwrap_or_default() as f32)
-}
-
-fn rgb_value(rgb: [f32; 3]) -> Value {
-    rgb.map(|c| Value::Float((f64::from(c) * 1e4).round() / 1e4)).to_vec().into()
-}
-
-fn table<const N: usize>(entries: [(&str, Value); N]) -> Value {
-    Value::Table(entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
 }

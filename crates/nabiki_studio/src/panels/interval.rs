@@ -51,8 +51,9 @@ pub fn ui(ui: &mut Ui, session: &Session, height: f32, commands: &mut Commands) 
         let mut through = f64::from(*frames.end());
         let high = keys.get(j + 1).map_or(10_000_000, |next| next.through - 1);
         let range = f64::from(*frames.start())..=f64::from(high);
-        let field = Number { range, step: 0.25, decimals: 0, ..Number::default() };
-        let response = field.ui(ui, &mut through, commands).accessible_name("Last frame of the interval");
+        let what = "Last frame of the interval";
+        let field = Number { range, step: 0.25, decimals: 0, ..Number::of(what) };
+        let response = field.ui(ui, &mut through, commands).accessible_name(what);
         send(&response, commands, |phase| Command::Intervals {
             name: "Move a border",
             keys: timeline::move_border(keys, j, through as u32, false),
@@ -72,7 +73,8 @@ pub fn ui(ui: &mut Ui, session: &Session, height: f32, commands: &mut Commands) 
                 for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
                     let mut number = f64::from(vector[axis]);
                     let mut changed = vector;
-                    let field = Number { range: -MOST..=MOST, step: 0.5, decimals: 2, ..Number::default() };
+                    let what = format!("Force {name}");
+                    let field = Number { range: -MOST..=MOST, step: 0.5, decimals: 2, ..Number::of(&what) };
                     let response = field.ui(ui, &mut number, commands).on_hover_text(name);
                     let rect = response.rect;
                     ui.painter().hline(
@@ -80,7 +82,7 @@ pub fn ui(ui: &mut Ui, session: &Session, height: f32, commands: &mut Commands) 
                         rect.bottom() - 1.0,
                         Stroke::new(1.0, theme::AXES[axis]),
                     );
-                    let response = response.accessible_name(format!("Force {name}"));
+                    let response = response.accessible_name(&what);
                     changed[axis] = number as f32;
                     send(&response, commands, |phase| Command::Vector { interval: j, vector: changed, phase });
                 }
@@ -90,8 +92,9 @@ pub fn ui(ui: &mut Ui, session: &Session, height: f32, commands: &mut Commands) 
     row_of(ui, NAMES, "Strength", "|F|: its direction stays.", false, |ui| {
         let mut length = f64::from(vector.length());
         ui.spacing_mut().interact_size.x = 64.0;
-        let field = Number { range: 0.0..=MOST, step: 0.5, decimals: 1, ..Number::default() };
-        let response = field.ui(ui, &mut length, commands).accessible_name("Strength of the interval");
+        let what = "Strength of the interval";
+        let field = Number { range: 0.0..=MOST, step: 0.5, decimals: 1, ..Number::of(what) };
+        let response = field.ui(ui, &mut length, commands).accessible_name(what);
         let direction = vector.try_normalize().unwrap_or(Vec3::NEG_X);
         send(&response, commands, |phase| Command::Vector {
             interval: j,

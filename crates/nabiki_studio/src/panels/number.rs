@@ -12,6 +12,8 @@ use crate::command::Command;
 /// A field for a number.
 #[derive(Clone, Debug)]
 pub struct Number<'a> {
+    /// What it is, for who has typed what it does not take.
+    pub what: &'a str,
     /// What it may be.
     pub range: RangeInclusive<f64>,
     /// What a drag by one point adds.
@@ -22,31 +24,32 @@ pub struct Number<'a> {
     pub before: &'a str,
     /// Its unit.
     pub unit: &'a str,
+    /// The word for the end of its range; with none it is a number like the others.
+    pub most: &'a str,
     /// Width; as wide as it must be if none is given.
     pub wide: Option<f32>,
 }
 
-impl Default for Number<'_> {
+impl<'a> Number<'a> {
     /// Any number that a scene can hold.
-    fn default() -> Self {
+    pub fn of(what: &'a str) -> Self {
         let range = f64::from(f32::MIN)..=f64::from(f32::MAX);
-        Self { range, step: 1.0, decimals: 6, before: "", unit: "", wide: None }
+        Self { what, range, step: 1.0, decimals: 6, before: "", unit: "", most: "", wide: None }
     }
-}
 
-impl Number<'_> {
     /// Draws it. It takes what was typed when it is finished.
     pub fn ui(&self, ui: &mut Ui, number: &mut f64, commands: &mut Commands) -> Response {
         let was = *number;
-        let refused = RefCell::new(None);
+        let typed = RefCell::new(None);
         let read = |text: &str| {
             let read = self.read(text, was);
-            if read.is_none() {
-                *refused.borrow_mut() = Some(text.trim().to_owned());
-            }
+            *typed.borrow_mut() = Some((text.trim().to_owned(), read.is_some()));
             read
         };
-        let field = DragValue::new(number).speed(self.step).max_decimals(self.decimals).range(self.range.clone());
+        let mut field = DragValue::new(number).speed(self.step).max_decimals(self.decimals).range(self.range.clone());
+        if !self.most.is_empty() && was >= *self.range.end() {
+            field = field.custom_formatter(|_, _| self.most.to_owned());
+        }
         let field = field.prefix(self.before).suffix(suffix(self.unit)).custom_parser(read);
         // What is out of its range already stays so until a hand changes it.
         let field = field.update_while_editing(false).clamp_existing_to_range(false);
@@ -58,8 +61,14 @@ impl Number<'_> {
         if *number != was && !self.may_be(*number) {
             *number = was;
         }
-        if let Some(text) = refused.into_inner().filter(|text| !text.is_empty()) {
-            commands.push(Command::Say(format!("\"{text}\" is not taken: {}", self.wanted())));
+        let about = self.what.to_owned();
+        match typed.into_inner() {
+            Some((text, false)) if !text.is_empty() => {
+                commands.push(Command::Refuse { why: self.refusal(&text), about });
+            }
+            Some((_, true)) => commands.push(Command::Took(about)),
+            _ if response.changed() => commands.push(Command::Took(about)),
+            _ => {}
         }
         response
     }
@@ -70,6 +79,9 @@ impl Number<'_> {
 
     fn read(&self, text: &str, was: f64) -> Option<f64> {
         let bare: String = text.chars().filter(|c| !c.is_whitespace()).collect();
+        if !self.most.is_empty() && bare == self.most {
+            return Some(*self.range.end());
+        }
         let read = bare.replace('\u{2212}', "-").parse::<f64>().ok()?;
         // A number that was only looked at keeps the digits that are not shown.
         let shown =
@@ -78,6 +90,10 @@ impl Number<'_> {
             return Some(was);
         }
         self.may_be(read).then_some(read)
+    }
+
+    fn refusal(&self, text: &str) -> String {
+        format!("{}: \"{text}\" is not taken: {}", self.what, self.wanted())
     }
 
     fn wanted(&self) -> String {
@@ -106,20 +122,26 @@ mod tests {
 
     #[test]
     fn what_is_no_number_of_the_range_is_refused() {
-        let whole = Number { range: 1.0..=5e6, decimals: 0, ..Number::default() };
+        let whole = Number { range: 1.0..=5e6, decimals: 0, ..Number::of("hair.strands") };
         for text in ["nan", "inf", "1e99", "-5", "0", "2.5", "5000001", "five", ""] {
             assert_eq!(whole.read(text, 60.0), None, "{text}");
         }
         assert_eq!(whole.read(" 5 000 ", 60.0), Some(5000.0));
-        let any = Number::default();
+        let any = Number::of("any");
         assert_eq!((any.read("1e99", 0.0), any.read("NaN", 0.0), any.read("-inf", 0.0)), (None, None, None));
         assert_eq!(any.read("\u{2212}2.5", 0.0), Some(-2.5));
-        assert!(whole.wanted().contains("whole number from 1 to 5000000") && !any.wanted().contains("from"));
+        assert_eq!(
+            whole.refusal("-5"),
+            "hair.strands: \"-5\" is not taken: it must be a whole number from 1 to 5000000"
+        );
+        assert!(!any.wanted().contains("from"));
+        let upto = Number { most: "all", ..whole };
+        assert_eq!((upto.read("all", 60.0), upto.read("most", 60.0)), (Some(5e6), None));
     }
 
     #[test]
     fn a_number_that_was_only_looked_at_keeps_what_is_not_shown() {
-        let field = Number { range: 0.0..=10.0, decimals: 2, ..Number::default() };
+        let field = Number { range: 0.0..=10.0, decimals: 2, ..Number::of("any") };
         assert_eq!(field.read("57.65", 57.654_321), Some(57.654_321), "even out of its range");
         assert_eq!(field.read("5.66", 5.654_321), Some(5.66));
     }

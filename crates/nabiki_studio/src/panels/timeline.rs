@@ -155,7 +155,7 @@ fn playing(ui: &mut Ui, session: &Session, commands: &mut Commands) {
     let frame = session.play.frame();
     let mut wanted = f64::from(frame);
     let range = 0.0..=f64::from(session.play.last());
-    let field = Number { range, step: 0.25, decimals: 0, wide: Some(46.0), ..Number::default() };
+    let field = Number { range, step: 0.25, decimals: 0, wide: Some(46.0), ..Number::of("Frame") };
     let response = field.ui(ui, &mut wanted, commands).on_hover_text("The frame shown.").accessible_name("Frame");
     if response.changed() {
         commands.push(Command::Go(wanted as u32));

@@ -27,6 +27,9 @@ pub(super) const CHANGES: [Action; 10] = [
 /// Most segments that the length of hair alone gives it.
 const MOST_SEGMENTS: f64 = 1000.0;
 
+/// What is refused while a text is being mended.
+pub(super) const BEHIND_TEXT: &str = "the scene behind a text";
+
 /// How it is said that the contact sheet has fewer frames.
 const SHEET_LOST: &str = "the contact sheet goes without frames ";
 
@@ -38,7 +41,7 @@ impl Session {
     pub(super) fn is_behind_text(&mut self) -> bool {
         let Some(broken) = &self.broken else { return false };
         let text = format!("{}: mend it or leave it first; the scene behind it stays as it is", broken.name());
-        self.say(text, false);
+        self.refuse(BEHIND_TEXT, text);
         true
     }
 
@@ -85,12 +88,13 @@ impl Session {
                 let lost = (key == "motion.frames").then(|| shorten_sheet(&mut scene, before));
                 let more = key.starts_with("hair.style.length.").then(|| more_segments(&mut scene, before));
                 document.edit(&name, scene, phase);
+                self.accept(key);
                 lost.into_iter().for_each(|lost| self.say_what_the_sheet_lost(lost));
                 more.into_iter().for_each(|segments| self.say_segments(segments));
             }
             Err(refused) => {
                 let text = refused.to_string();
-                self.say(text, true);
+                self.refuse(key, text);
             }
         }
     }
@@ -116,10 +120,13 @@ impl Session {
         let Some(document) = &mut self.document else { return };
         let set = |scene: Scene, (key, value): &(String, Option<toml::Value>)| scene.with_setting(key, value.clone());
         match settings.iter().try_fold(document.scene().clone(), set) {
-            Ok(scene) => document.edit(name, scene, Phase::Done),
+            Ok(scene) => {
+                document.edit(name, scene, Phase::Done);
+                self.accept(name);
+            }
             Err(refused) => {
                 let text = refused.to_string();
-                self.say(text, true);
+                self.refuse(name, text);
             }
         }
     }
@@ -159,8 +166,9 @@ impl Session {
                 Some(joined) => {
                     let at = chosen.first().map_or(0, |&first| first.min(joined.len() - 1));
                     self.edit_intervals("Join", joined, vec![at]);
+                    self.accept("Join");
                 }
-                None => self.say("choose two intervals or more that lie beside each other, to join them", false),
+                None => self.refuse("Join", "choose two intervals or more that lie beside each other, to join them"),
             },
             Action::Ease => self.next_ease(),
             Action::NextBorder => {

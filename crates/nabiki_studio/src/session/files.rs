@@ -47,6 +47,7 @@ impl Session {
         self.chosen = strongest.map(|(j, _)| j).into_iter().collect();
         self.document = Some(document);
         (self.broken, self.trouble, self.said_changed) = (None, None, false);
+        self.forget_refusals();
         // The hair of another scene is not this one's, nor is what is still on its way.
         (self.take, self.swings) = (None, None);
         self.play.go(0);

@@ -7,7 +7,7 @@ use nabiki_scene::scene::{SceneError, write_scene};
 
 use super::{Session, Wish};
 use crate::dialog::{Chooser, Dialog, Next, Purpose};
-use crate::document::{Document, SaveError};
+use crate::document::SaveError;
 use crate::recovery::Keeper;
 use crate::tasks::Task;
 
@@ -83,7 +83,10 @@ impl Session {
     }
 
     fn loses_scene(&self, next: &Next) -> bool {
-        *next != Next::LeaveText && self.document.as_ref().is_some_and(Document::is_dirty)
+        let Some(document) = &self.document else { return false };
+        // Of a file that is no longer there this is the last copy.
+        let is_last = || document.path().is_some() && document.changed_on_disk().is_none();
+        *next != Next::LeaveText && (document.is_dirty() || is_last())
     }
 
     fn is_exporting(&self) -> bool {
@@ -155,7 +158,9 @@ impl Session {
             Ok(()) => self.saved(saves_text, next),
             Err(SaveError::Changed(path)) => self.dialog = Some(Dialog::Conflict(path, next)),
             Err(SaveError::NoFile) => self.ask_save_as(next),
-            Err(e @ SaveError::Scene(_)) => self.say(format!("{NOT_SAVED}{e}"), true),
+            Err(e @ SaveError::Scene(_)) => {
+                self.say(format!("{NOT_SAVED}{e}; File > Save as writes it somewhere else"), true);
+            }
         }
     }
 

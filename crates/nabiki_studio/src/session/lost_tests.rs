@@ -240,6 +240,30 @@ fn nothing_changes_the_scene_behind_a_text_and_that_is_said() {
         assert_eq!(session.words().iter().any(|word| word.text.contains("mend it")), !chooses, "{command:?}");
     }
     session.apply(Command::LeaveBroken);
+    assert!(session.words().iter().all(|word| !word.text.contains("mend it")), "it is not behind a text any more");
     edit(&mut session);
     assert!(session.document().unwrap().is_dirty());
+}
+
+#[test]
+fn a_scene_whose_file_is_gone_is_asked_about_before_it_is_lost_and_one_that_cannot_be_written_says_where_to() {
+    let place = Place::new();
+    let mut session = place.session();
+    let folder = place.file().with_file_name("gone");
+    std::fs::create_dir(&folder).unwrap();
+    let file = folder.join("wind.toml");
+    session.apply(Command::SaveTo(file.clone()));
+    assert!(session.may_close());
+    std::fs::remove_file(&file).unwrap();
+    assert!(!session.document().unwrap().is_dirty() && !session.may_close(), "it would be lost");
+    session.apply(Command::CloseDialog);
+    // Where its folder was there is a file now, so that no file can be there.
+    std::fs::remove_dir(&folder).unwrap();
+    std::fs::write(&folder, "").unwrap();
+    session.apply(Command::Act(Action::Save));
+    let said = session.words().last().unwrap();
+    assert!(said.wrong && said.text.contains(&file.display().to_string()), "{said:?}");
+    assert!(said.text.contains("Save as") && !said.text.contains('\n'), "{said:?}");
+    session.apply(Command::SaveTo(place.file().with_file_name("again.toml")));
+    assert!(session.may_close());
 }

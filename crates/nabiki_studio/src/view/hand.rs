@@ -1,8 +1,9 @@
 //! What a hand is doing in the view.
 
 use glam::{Vec2, Vec3};
+use nabiki::Pose;
 use nabiki::dynamics::ForceSpace;
-use nabiki::{Pose, Strands};
+use nabiki::field::Keyframe;
 use nabiki_render::View;
 
 use super::camera::{Gesture, place_in_plane};
@@ -10,9 +11,18 @@ use super::handle::{self, Arrow};
 use super::pick::Picked;
 use super::{Shown, Touch};
 use crate::drag::{Lock, Pull};
+use crate::take::Take;
 
 /// About the node that is pulled: strands that come along have a node this near (cm).
 pub const LOCK_CM: f32 = 1.5;
+
+/// Ways shorter than this are not spoken of (cm).
+const SHORT: f32 = 0.05;
+
+/// How far the hair has to go, where that is worth a word.
+pub fn to_go(left: f32) -> Option<String> {
+    (left > SHORT).then(|| format!("{left:.1} cm to go"))
+}
 
 /// What it is doing.
 #[derive(Debug, Default)]
@@ -44,6 +54,8 @@ pub struct Held {
     from: Vec3,
     /// The middle of the lock, where it was.
     middle: Vec3,
+    /// What is to stay meanwhile, and where that is.
+    nails: Vec<(Lock, Vec3)>,
     /// From the pixel taken hold of to that node.
     offset: Vec2,
     /// How far the hand has gone (head space, cm).
@@ -51,24 +63,18 @@ pub struct Held {
     /// The solver.
     pull: Pull,
     /// Whether the wind has followed at all: there is something to accept, or to undo.
-    followed: Option<Vec<nabiki::field::Keyframe>>,
+    followed: Option<Vec<Keyframe>>,
     /// Why it cannot follow; said once.
     failed: bool,
 }
 
 impl Held {
     /// Takes hold of a lock by a node at a pixel.
-    pub fn new(
-        lock: Lock,
-        picked: &Picked,
-        points: &[Vec3],
-        strands: &Strands,
-        view: &View,
-        pixel: Vec2,
-        pull: Pull,
-    ) -> Self {
+    pub fn new(lock: Lock, picked: &Picked, take: &Take, nails: &[Lock], view: &View, pixel: Vec2, pull: Pull) -> Self {
+        let middle = |lock: &Lock| lock.middle(take.points(lock.frame), take.strands());
         Self {
-            middle: lock.middle(points, strands),
+            middle: middle(&lock),
+            nails: nails.iter().map(|nail| (nail.clone(), middle(nail))).collect(),
             lock,
             from: picked.place,
             offset: view.project(picked.place).truncate() - pixel,
@@ -93,6 +99,12 @@ impl Held {
         self.middle + self.way
     }
 
+    /// What there is to say of it once it is let go; nothing where the wind has not followed.
+    pub fn let_go(&self) -> Option<LetGo> {
+        let force = self.followed.clone()?;
+        Some(LetGo { lock: self.lock.clone(), goal: self.goal(), nails: self.nails.clone(), force })
+    }
+
     /// What the wind has come to.
     pub fn follow(&mut self) -> Option<Touch> {
         match self.pull.take()? {
@@ -102,11 +114,48 @@ impl Held {
             }
             Err(why) if !self.failed => {
                 self.failed = true;
-                Some(Touch::Said(why))
+                Some(Touch::Refused(why))
             }
             Err(_) => None,
         }
     }
+}
+
+/// A lock that was let go, and what was asked of the hair.
+#[derive(Debug)]
+pub struct LetGo {
+    /// What was held.
+    pub lock: Lock,
+    /// Where it should be (head space, cm).
+    pub goal: Vec3,
+    /// What should have stayed, and where.
+    nails: Vec<(Lock, Vec3)>,
+    /// The intervals that were found.
+    force: Vec<Keyframe>,
+}
+
+impl LetGo {
+    /// How far the hair falls short of it, in one line; nothing where it does not, and where another wind blows or another frame is
+    /// shown.
+    pub fn fell_short(&self, shown: &Shown<'_>) -> Option<String> {
+        let take = shown.take;
+        let is_as_found = shown.force == self.force && take.built.scene.field.force == self.force;
+        let is_there = |lock: &Lock| lock.fits(take.strands()) && lock.frame <= take.frames();
+        if !is_as_found || shown.frame != self.lock.frame || !is_there(&self.lock) {
+            return None;
+        }
+        let off = |lock: &Lock, place: Vec3| lock.middle(take.points(lock.frame), take.strands()).distance(place);
+        let of_nails = self.nails.iter().filter(|(nail, _)| is_there(nail)).map(|(nail, place)| off(nail, *place));
+        in_words(off(&self.lock, self.goal), of_nails.fold(0.0, f32::max))
+    }
+}
+
+/// How far a lock is from the hand and a nail from its place (cm), in one line.
+fn in_words(lock: f32, nail: f32) -> Option<String> {
+    let lock = (lock > SHORT).then(|| format!("the lock comes within {lock:.1} cm of the hand"));
+    let nail = (nail > SHORT).then(|| format!("a nail gives way by {nail:.1} cm"));
+    let words: Vec<String> = lock.into_iter().chain(nail).collect();
+    (!words.is_empty()).then(|| words.join(", "))
 }
 
 impl Hand {
@@ -161,4 +210,18 @@ pub fn arrow(shown: &Shown<'_>, scale: f32, world: &View) -> Option<(usize, Arro
     let interval = shown.selected_interval?;
     let key = shown.force.get(interval)?;
     Some((interval, Arrow::new(&shown.take.built.head.ellipsoid, &pose, key.vector).within(&view, scale)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_where_it_should_be_is_not_spoken_of() {
+        assert_eq!(in_words(0.01, 0.02), None);
+        assert_eq!(in_words(1.34, 0.0).as_deref(), Some("the lock comes within 1.3 cm of the hand"));
+        assert_eq!(in_words(0.0, 0.4).as_deref(), Some("a nail gives way by 0.4 cm"));
+        let both = "the lock comes within 1.3 cm of the hand, a nail gives way by 0.4 cm";
+        assert_eq!(in_words(1.3, 0.4).as_deref(), Some(both));
+    }
 }

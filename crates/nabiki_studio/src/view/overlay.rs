@@ -61,17 +61,16 @@ impl Overlay<'_> {
         self.words([foot, tip], &number, colour);
     }
 
-    /// The thread from where the hand holds to where the hair is.
-    pub fn thread(&self, view: &View, hand: Vec3, hair: Vec3) {
+    /// The thread from where the hand holds to where the hair is, with words at the hand.
+    pub fn thread(&self, view: &View, hand: Vec3, hair: Vec3, words: Option<&str>) {
         let (Some(from), Some(to)) = (self.at(view, hand), self.at(view, hair)) else { return };
         for (width, colour) in [(3.5, OUTLINE), (1.5, HELD)] {
             self.painter.line_segment([from, to], Stroke::new(width, colour));
         }
         self.painter.circle(to, 3.0, HELD, Stroke::new(1.0, OUTLINE));
         self.painter.circle_stroke(from, 8.0, Stroke::new(1.5, HELD));
-        let left = hand.distance(hair);
-        if left > 0.05 {
-            self.words([to, from], &format!("{left:.1} cm to go"), HELD);
+        if let Some(words) = words {
+            self.words([to, from], words, HELD);
         }
     }
 

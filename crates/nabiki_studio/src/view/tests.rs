@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, pos2, vec2};
+use glam::Vec3;
 use nabiki_scene::{Scene, Shown as Strands};
 
 use super::*;
@@ -24,12 +25,7 @@ struct Window {
 impl Window {
     fn new() -> Self {
         let text = "[hair]\nstrands = 60\n[motion]\nframes = 20\nform = \"free\"\n[[force]]\nthrough = 20\nvector = [-60, 0, 0]\n";
-        let scene = Scene::parse(text, "a.toml".as_ref(), &[]).unwrap();
-        let built = Arc::new(scene.build(Strands::All).unwrap());
-        let mut timeline = built.timeline().unwrap();
-        let film = timeline.play();
-        let film: Vec<Vec3> = (0..=20).flat_map(|n| film.points(n).to_vec()).collect();
-        let take = Take { built, film: film.into(), number: 1 };
+        let take = moved(Scene::parse(text, "a.toml".as_ref(), &[]).unwrap());
         let (context, view) = (egui::Context::default(), View::new(None));
         let navigation = Navigation::Blender;
         let mut window = Self {
@@ -55,20 +51,8 @@ impl Window {
             events: [&[Event::ModifiersChanged(self.modifiers)], events].concat(),
             ..RawInput::default()
         };
-        let scene = &self.take.built.scene;
-        let shown = Shown {
-            take: &self.take,
-            picture: &scene.picture,
-            force: &scene.field.force,
-            frame: self.frame,
-            playing: false,
-            selected_interval: self.selected,
-            ghosts: true,
-            wind: true,
-            final_picture: true,
-            strands_in_final: 60,
-            navigation: self.navigation,
-        };
+        let shown =
+            Shown { selected_interval: self.selected, navigation: self.navigation, ..shown(&self.take, self.frame) };
         let mut touches = Vec::new();
         let (view, rect) = (&mut self.view, &mut self.rect);
         let _ = self.context.run_ui(input, |ui| {
@@ -101,6 +85,32 @@ impl Window {
             }
         }
         panic!("no hair in sight");
+    }
+}
+
+/// A scene in motion.
+fn moved(scene: Scene) -> Take {
+    let built = Arc::new(scene.build(Strands::All).unwrap());
+    let mut timeline = built.timeline().unwrap();
+    let film = timeline.play();
+    let film: Vec<Vec3> = (0..=20).flat_map(|n| film.points(n).to_vec()).collect();
+    Take { built, film: film.into(), number: 1 }
+}
+
+fn shown(take: &Take, frame: u32) -> Shown<'_> {
+    let scene = &take.built.scene;
+    Shown {
+        take,
+        picture: &scene.picture,
+        force: &scene.field.force,
+        frame,
+        playing: false,
+        selected_interval: None,
+        ghosts: true,
+        wind: true,
+        final_picture: true,
+        strands_in_final: 60,
+        navigation: Navigation::Blender,
     }
 }
 
@@ -220,6 +230,41 @@ fn a_pull_makes_wind_that_release_accepts_and_escape_undoes() {
 }
 
 #[test]
+fn what_was_let_go_says_how_far_it_falls_short_while_nothing_else_is_done() {
+    let mut window = Window::new();
+    let at = window.some_hair();
+    window.run(&[Event::PointerMoved(at)]);
+    window.run(&press(at, true));
+    // No wind of twenty frames brings hair of some 20 cm so far.
+    let to = at + vec2(-150.0, -390.0);
+    let clock = Instant::now();
+    while window.run(&[Event::PointerMoved(to)]).is_empty() {
+        assert!(clock.elapsed() < Duration::from_secs(60), "the wind never followed");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let Hand::Hair(held) = &window.view.hand else { panic!("{:?}", window.view.hand) };
+    let (goal, lock) = (held.goal(), held.lock.clone());
+    let touches = window.run(&press(to, false));
+    let Some(Touch::SetForce { force, done: true }) = touches.last().cloned() else { panic!("{touches:?}") };
+    assert_eq!(window.view.fell_short(&shown(&window.take, 15)), None, "that motion is not there yet");
+    let still = window.take.clone();
+    let mut scene = window.take.built.scene.clone();
+    scene.field.force = force;
+    window.take = moved(scene);
+    let left = goal.distance(lock.middle(window.take.points(15), window.take.strands()));
+    assert!(left > 1.0, "{left}");
+    let said = Some(format!("the lock comes within {left:.1} cm of the hand"));
+    assert_eq!(window.view.fell_short(&shown(&window.take, 15)), said);
+    assert_eq!(window.view.fell_short(&shown(&window.take, 14)), None);
+    assert_eq!(window.view.fell_short(&Shown { playing: true, ..shown(&window.take, 15) }), None);
+    assert_eq!(window.view.fell_short(&shown(&still, 15)), None, "undone, nothing was asked");
+    window.run(&[Event::PointerMoved(pos2(30.0, 30.0))]);
+    assert_eq!(window.view.fell_short(&shown(&window.take, 15)), said);
+    window.run(&press(pos2(30.0, 30.0), true));
+    assert_eq!(window.view.fell_short(&shown(&window.take, 15)), None);
+}
+
+#[test]
 fn a_click_with_n_held_drives_a_nail_and_another_pulls_it_out() {
     let mut window = Window::new();
     let at = window.some_hair();
@@ -235,5 +280,9 @@ fn a_click_with_n_held_drives_a_nail_and_another_pulls_it_out() {
     let at = window.some_hair();
     window.run(&[Event::PointerMoved(at)]);
     let touches = window.run(&press(at, true));
-    assert!(matches!(&touches[..], [Touch::Said(_)]), "{touches:?}");
+    assert!(matches!(&touches[..], [Touch::Refused(_)]), "{touches:?}");
+    window.run(&press(at, false));
+    window.frame = 15;
+    let touches = window.run(&press(at, true));
+    assert!(matches!(&touches[..], [Touch::Heard]), "{touches:?}");
 }

@@ -22,6 +22,20 @@ fn numbers_of_six_digits_are_whole_and_cover_nothing() {
 }
 
 #[test]
+fn the_unit_of_three_numbers_stands_beside_them_where_there_is_room() {
+    let fan = "[[fan]]\nstrength = 10\nposition = [30, 0, 0]\ndirection = [-1, 0, 0]\n";
+    let mut window = Window::of(&format!("{TEXT}\n{fan}"), vec2(1440.0, 900.0));
+    window.click("Wind");
+    window.click("Fans (1)");
+    let last = rect(&window, "Fans Position: z");
+    let units: Vec<_> = window.harness.query_all_by_label("cm").map(|node| node.rect()).collect();
+    // Of the position alone: the direction has none, and a single number has its unit within its field.
+    let [unit] = units[..] else { panic!("{units:?}") };
+    assert!(unit.left() >= last.right() && last.y_range().contains(unit.center().y), "{unit} beside {last}");
+    assert!(unit.right() <= 1440.0, "{unit}");
+}
+
+#[test]
 fn no_button_above_the_tracks_covers_another_at_any_size_of_type() {
     // The same window at 1, 2, 2.6 and 3.5 times the size of its type.
     for size in [1.0, 2.0, 2.6, 3.5].map(|zoom| vec2(1280.0, 720.0) / zoom) {

@@ -10,7 +10,7 @@ use nabiki::pseudo_force::PseudoForce;
 use nabiki::{Head, Pose, Strands};
 use nabiki_io::{declared_space, mesh};
 
-use super::{read_motion, there};
+use super::{GoesOn, read_motion, still_wanted, there};
 use crate::built::{BuiltBody, BuiltScene};
 use crate::error::Result;
 use crate::scene::{BodySettings, FormChoice, Gravity, Scene};
@@ -44,6 +44,7 @@ pub(super) fn set(
     first: &Strands,
     rest_pose: Pose,
     known: Known<'_>,
+    goes_on: GoesOn<'_>,
 ) -> Result<Vec<BuiltBody>> {
     let gravity = match scene.free.gravity {
         Gravity::Strength(strength) => strength,
@@ -61,6 +62,8 @@ pub(super) fn set(
     let mut drawn = Vec::new();
     for (i, settings) in scene.bodies.iter().enumerate() {
         let name = format!("body[{i}]");
+        // All hair is grown by now.
+        still_wanted(goes_on, 1.0)?;
         let known = known.same_rate.and_then(|known| known_body(known, settings, i));
         let (body, distance) = match known {
             Some((body, distance)) => (body, distance),

@@ -1,0 +1,73 @@
+//! What is shown in the view, and what a hand does there.
+
+use glam::Vec3;
+use nabiki::field::Keyframe;
+use nabiki_render::Picture;
+
+use super::Navigation;
+use crate::take::Take;
+
+/// All that is shown, and what is selected of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown<'a> {
+    /// The last good motion.
+    pub take: &'a Take,
+    /// The look as it is now: it may be newer than the one the take was built from.
+    pub picture: &'a Picture,
+    /// The intervals as they are now, newer than the take while it is simulated.
+    pub force: &'a [Keyframe],
+    /// The frame looked at, at most the take's last.
+    pub frame: u32,
+    /// Whether frames are running: nothing is refined then.
+    pub playing: bool,
+    /// The interval whose vector is a handle in space.
+    pub selected_interval: Option<usize>,
+    /// Whether the paths of tips are drawn.
+    pub ghosts: bool,
+    /// Whether the wind is drawn as arrows.
+    pub wind: bool,
+    /// Whether the final picture fades in when the hand rests.
+    pub final_picture: bool,
+    /// Strands of the final picture; all of the scene's where it has fewer.
+    pub strands_in_final: usize,
+    /// Which buttons move the camera.
+    pub navigation: Navigation,
+}
+
+/// What a hand did in the view, for the session to make true.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Touch {
+    /// The vector of an interval, its handle being dragged; `done` with the button let go: one step of undo.
+    SetVector {
+        /// Which.
+        interval: usize,
+        /// Its new vector.
+        vector: Vec3,
+        /// Whether the hand has let go.
+        done: bool,
+    },
+    /// All intervals, as they make the hair go where it is pulled; `done` when they are accepted.
+    SetForce {
+        /// The intervals.
+        force: Vec<Keyframe>,
+        /// Whether the hand has let go.
+        done: bool,
+    },
+    /// A drag was given up: all as it was before its first touch.
+    Undone,
+    /// The camera was moved by hand. [`View::camera`] is where it is.
+    CameraMoved,
+    /// It cannot be done, and why.
+    Refused(String),
+    /// Something else is done than what was refused.
+    Heard,
+}
+
+/// Frames in which hair is wished to be somewhere.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Marks {
+    /// Those of nails.
+    pub nails: Vec<u32>,
+    /// That of the lock in the hand.
+    pub pulled: Option<u32>,
+}
