@@ -260,20 +260,27 @@ mod tests {
     #[test]
     fn automatic_framing_holds_the_box_and_touches_the_margin() {
         let bounds = Bounds { low: Vec3::new(-9.0, -20.0, -8.0), high: Vec3::new(30.0, 12.0, 11.0) };
-        for projection in [Projection::Perspective, Projection::Orthographic] {
-            for azimuth in [0.0, 37.0, 90.0, 205.0] {
-                let camera = Camera { projection, azimuth, ..Camera::default() };
-                let size = [640_u32, 360];
-                let view = View::new(&camera, size, &bounds);
-                let margin = camera.margin * 360.0;
-                let spare = bounds.corners().map(|c| {
-                    let p = view.project(c);
-                    assert!(p.z > NEAR);
-                    p.x.min(640.0 - p.x).min(p.y).min(360.0 - p.y) - margin
-                });
-                let tightest = spare.into_iter().fold(f32::INFINITY, f32::min);
-                // A thousandth of a pixel: rounding of coordinates of some hundred pixels in single precision.
-                assert!(tightest.abs() < 1e-3 * 360.0 / 100.0, "{projection:?} {azimuth}: {tightest}");
+        // What is wider than high and what is not; looked at in its middle, and far from it.
+        for (size, target) in [[640, 360], [300, 640]].into_iter().flat_map(|s| [(s, None), (s, Some(Vec3::X * -15.0))])
+        {
+            for projection in [Projection::Perspective, Projection::Orthographic] {
+                for azimuth in [0.0, 37.0, 90.0, 205.0] {
+                    let camera = Camera { projection, azimuth, target, ..Camera::default() };
+                    let view = View::new(&camera, size, &bounds);
+                    let [width, height] = size.map(|side| side as f32);
+                    let margin = camera.margin * width.min(height);
+                    let spare = bounds.corners().map(|c| {
+                        let p = view.project(c);
+                        assert!(p.z > NEAR);
+                        p.x.min(width - p.x).min(p.y).min(height - p.y) - margin
+                    });
+                    let tightest = spare.into_iter().fold(f32::INFINITY, f32::min);
+                    // A thousandth of a pixel for each hundred: rounding of coordinates of some hundred pixels in single precision.
+                    assert!(
+                        tightest.abs() < 1e-5 * height.max(width),
+                        "{projection:?} {azimuth} {target:?}: {tightest}"
+                    );
+                }
             }
         }
     }
@@ -284,7 +291,12 @@ mod tests {
         for projection in [Projection::Perspective, Projection::Orthographic] {
             let camera = Camera { projection, azimuth: 17.0, elevation: 20.0, ..Camera::default() };
             let views = View::around(&camera, [640, 360], &bounds, 24);
-            assert_eq!(views[0].forward, View::new(&camera, [640, 360], &bounds).forward);
+            assert_eq!((views.len(), views[0].forward), (24, View::new(&camera, [640, 360], &bounds).forward));
+            for (k, view) in views.iter().enumerate() {
+                // In even steps toward her right hand and as high all the way, so that one more would be the first again.
+                let there = direction(17.0 + 15.0 * k as f32, 20.0);
+                assert!((-view.forward).distance(there) < 1e-5, "{k}: {}", view.forward);
+            }
             let spare = views.iter().map(|view| {
                 assert!(
                     (view.eye.distance(bounds.centre()) / views[0].eye.distance(bounds.centre()) - 1.0).abs() < 1e-5
@@ -308,5 +320,120 @@ mod tests {
         let view = View::new(&camera, [100, 100], &Bounds::default());
         assert!(view.project(Vec3::new(0.0, 0.0, 5.0)).x < 50.0);
         assert!(view.project(Vec3::new(0.0, 5.0, 0.0)).y < 50.0);
+    }
+
+    /// What looks at `TARGET` from before the face.
+    fn given() -> Camera {
+        let (target, distance) = (Some(TARGET), Some(80.0));
+        Camera { azimuth: 0.0, elevation: 0.0, fov: 50.0, target, distance, height: Some(30.0), ..Camera::default() }
+    }
+
+    const TARGET: Vec3 = Vec3::new(1.0, 2.0, -3.0);
+    /// Coordinates of some hundred pixels are rounded, and sums of a few of them, in single precision.
+    const ROUNDING: f32 = 1e-3;
+
+    #[test]
+    fn a_picture_is_as_high_as_its_field_of_view_or_its_height_and_its_pixels_are_square() {
+        for size in [[640, 360], [360, 640]] {
+            for (projection, half) in
+                [(Projection::Perspective, 80.0 * 25.0_f32.to_radians().tan()), (Projection::Orthographic, 15.0)]
+            {
+                let view = View::new(&Camera { projection, ..given() }, size, &Bounds::default());
+                let [width, height] = size.map(|side| side as f32);
+                let (top, left) = (view.project(TARGET + half * Vec3::Y), view.project(TARGET + half * Vec3::Z));
+                assert!((top.x - 0.5 * width).abs() < ROUNDING && top.y.abs() < ROUNDING, "{projection:?}: {top}");
+                assert!((left.x - 0.5 * (width - height)).abs() < ROUNDING, "{projection:?}: {left}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_eye_lies_where_the_angles_say_and_its_target_in_the_middle() {
+        // Before the face and above it; at her right hand; behind and below.
+        for (azimuth, elevation, way) in [
+            (0.0, 30.0, [0.75_f32.sqrt(), 0.5, 0.0]),
+            (90.0, 0.0, [0.0, 0.0, 1.0]),
+            (180.0, -30.0, [-0.75_f32.sqrt(), -0.5, 0.0]),
+        ] {
+            for (projection, distance) in [Projection::Perspective, Projection::Orthographic]
+                .into_iter()
+                .flat_map(|p| [(p, None), (p, Some(80.0))])
+            {
+                let camera = Camera { projection, distance, azimuth, elevation, ..given() };
+                let view = View::new(&camera, [640, 360], &Bounds::default());
+                let middle = view.project(TARGET).truncate();
+                assert!(middle.distance(glam::vec2(320.0, 180.0)) < ROUNDING, "{camera:?}: {middle}");
+                let off = view.eye - TARGET;
+                assert!(off.normalize().distance(way.into()) < 1e-6, "{camera:?}: {off}");
+                assert!(distance.is_none_or(|distance| (off.length() - distance).abs() < 1e-4), "{camera:?}: {off}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_view_depends_on_what_is_to_be_framed_exactly_where_its_camera_is_automatic() {
+        let [small, large] = [9.0, 12.0].map(|far| Bounds { low: Vec3::splat(-far), high: Vec3::splat(2.0 * far) });
+        for bits in 0..16 {
+            let (keep, mut camera) = (|bit: i32| bits >> bit & 1 == 1, given());
+            camera.projection = if keep(0) { Projection::Perspective } else { Projection::Orthographic };
+            camera.target = camera.target.filter(|_| keep(1));
+            camera.distance = camera.distance.filter(|_| keep(2));
+            camera.height = camera.height.filter(|_| keep(3));
+            let [a, b] = [small, large].map(|bounds| View::new(&camera, [64, 36], &bounds));
+            assert_eq!(camera.is_automatic(), a != b, "{camera:?}");
+        }
+    }
+
+    #[test]
+    fn hair_is_framed_to_its_tips_and_the_head_without_its_shoulders() {
+        let mut strands = Strands::default();
+        strands.push([Vec3::ZERO, Vec3::new(-3.0, 4.0, 5.0), Vec3::new(6.0, -30.0, 2.0)]);
+        let mut bounds = Bounds::default();
+        bounds.include_strands(&strands);
+        assert_eq!(bounds, Bounds { low: Vec3::new(-3.0, -30.0, 0.0), high: Vec3::new(6.0, 4.0, 5.0) });
+        let positions = vec![Vec3::new(0.0, 14.0, 0.0), Vec3::new(0.0, -16.0, 20.0)];
+        let mut bounds = Bounds::default();
+        let ellipsoid = Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::splat(10.0) };
+        bounds.include_head(&Mesh { positions, ..Mesh::default() }, &ellipsoid);
+        assert_eq!(bounds, Bounds { low: Vec3::new(0.0, 14.0, 0.0), high: Vec3::new(0.0, 14.0, 0.0) });
+    }
+
+    #[test]
+    fn a_camera_on_its_way_leaves_one_view_for_the_other_and_is_in_the_middle_halfway() {
+        let view = |azimuth, elevation, fov, distance: f32| {
+            let camera = Camera { azimuth, elevation, fov, distance: Some(distance), f_stop: Some(2.0), ..given() };
+            View::new(&Camera { focus_distance: Some(distance - 9.0), ..camera }, [64, 36], &Bounds::default())
+        };
+        let (a, b) = (view(10.0, -5.0, 30.0, 60.0), view(50.0, 25.0, 40.0, 80.0));
+        let numbers = |view: &View| {
+            let lens = view.lens.unwrap();
+            let axes = [view.eye, view.right, view.up, view.forward].map(|v| v.to_array());
+            [axes.as_flattened(), &[view.scale, lens.diameter, lens.focus.unwrap()]].concat()
+        };
+        let apart = |a: &View, b: &View| {
+            numbers(a).iter().zip(numbers(b)).map(|(a, b)| (a - b).abs() / b.abs().max(1.0)).fold(0.0, f32::max)
+        };
+        // A turn there and back is some roundings of unit vectors.
+        assert!(apart(&View::between(&a, &b, 0.0), &a) < 1e-6 && apart(&View::between(&a, &b, 1.0), &b) < 1e-6);
+        let middle = View::between(&a, &b, 0.5);
+        let halfway = |of: fn(&View) -> f32| (of(&middle) - 0.5 * (of(&a) + of(&b))).abs() < 1e-4;
+        assert!(halfway(|v| v.scale) && halfway(|v| v.eye.x) && halfway(|v| v.eye.y) && halfway(|v| v.eye.z));
+        assert!(halfway(|v| v.lens.unwrap().diameter) && halfway(|v| v.lens.unwrap().focus.unwrap()));
+        let (from, to) = (middle.forward.angle_between(a.forward), middle.forward.angle_between(b.forward));
+        assert!((from - to).abs() < 1e-3 && from > 0.2, "{from} {to}");
+    }
+
+    #[test]
+    fn an_arrow_points_where_what_it_stands_for_moves_on_the_picture() {
+        let view = View::new(
+            &Camera { azimuth: 35.0, elevation: 20.0, projection: Projection::Orthographic, ..given() },
+            [64, 36],
+            &Bounds::default(),
+        );
+        for v in [Vec3::X, Vec3::Y, Vec3::Z, Vec3::new(1.0, -2.0, 2.0) / 3.0] {
+            let moved = (view.project(5.0 * v) - view.project(Vec3::ZERO)).truncate() / (5.0 * view.scale);
+            let [x, y] = view.in_picture(7.0 * v);
+            assert!(moved.distance(glam::vec2(x, y)) < 1e-5, "{v}: {x} {y}, not {moved}");
+        }
     }
 }

@@ -183,4 +183,27 @@ mod tests {
         assert!((lens.diameter - 2.6).abs() < 0.01, "{}", lens.diameter);
         assert_eq!(Lens::of(&Camera::default()), None);
     }
+
+    #[test]
+    fn a_point_of_the_lens_sees_what_a_pinhole_there_sees_that_keeps_the_sharp_plane_in_its_place() {
+        let camera =
+            Camera { f_stop: Some(1.4), focus_distance: Some(40.0), distance: Some(50.0), ..Camera::default() };
+        let camera = Camera { target: Some(Vec3::ZERO), ..camera };
+        let seen = View::new(&camera, [320, 180], &crate::Bounds::default());
+        let lens = seen.lens.unwrap();
+        let sharp = seen.eye + 40.0 * seen.forward;
+        for through in [[0.9, 0.0], [0.0, 0.9], [-0.5, 0.4]] {
+            let [right, up] = through.map(|c| 0.5 * lens.diameter * c);
+            let eye = seen.eye + right * seen.right + up * seen.up;
+            let pinhole = View { eye, lens: None, ..seen };
+            let through = View { lens: Some(Lens { through, ..lens }), ..seen };
+            let in_place = seen.project(sharp) - pinhole.project(sharp);
+            for p in [Vec3::ZERO, Vec3::new(20.0, 3.0, -5.0), Vec3::new(-30.0, -8.0, 9.0)] {
+                let (found, wanted) = (through.project(p), pinhole.project(p) + in_place);
+                // Coordinates of some hundred pixels, rounded a few times.
+                assert!(found.distance(wanted) < 1e-3, "{p}: {found}, not {wanted}");
+                assert!(through.toward_lens(p).distance((eye - p).normalize()) < 1e-6);
+            }
+        }
+    }
 }

@@ -240,4 +240,16 @@ mod tests {
             assert!((share - fraction).abs() < 0.15 || !(0.1..=0.9).contains(&fraction), "{share} for {fraction}");
         }
     }
+
+    #[test]
+    fn a_stop_of_exposure_shows_twice_the_light() {
+        for tone_mapping in [ToneCurve::Linear, ToneCurve::Filmic] {
+            let at = |exposure| ToneMapping::new(&Picture { exposure, tone_mapping, ..Picture::default() });
+            for light in [[0.01, 0.02, 0.03], [0.3, 0.1, 0.2], [1.5, 0.7, 0.0]] {
+                let twice = light.map(|x| 2.0 * x);
+                assert_eq!(at(1.0).values(light), at(0.0).values(twice));
+                assert_eq!(at(-2.0).values(twice), at(-1.0).values(light));
+            }
+        }
+    }
 }

@@ -178,6 +178,33 @@ fn more_points_of_the_lens_change_less() {
 }
 
 #[test]
+fn what_moves_in_the_plane_of_focus_is_blurred_as_without_a_lens() {
+    let hair = |aside: f32| line((0..9).map(|k| vec3(0.0, k as f32 - 4.0 - 0.5 * aside, 0.03 + aside)));
+    let (before, now) = (hair(-1.5), hair(1.5));
+    let [sharp, seen] = [None, Some(1.4)].map(|f_stop| {
+        let picture = Picture { shutter: 0.5, ..picture(f_stop) };
+        let moment = |strands| Moment { strands, pose: Pose::STILL, view: view(&picture), bodies: &[] };
+        let frame = FrameToDraw { now: moment(&now), before: Some(moment(&before)) };
+        Renderer::new(&picture, &Mesh::default()).unwrap().with_layers().draw(&frame).unwrap()
+    });
+    for (a, b) in sharp.layers.iter().zip(&seen.layers) {
+        // As in the plane of focus at rest, of which half of the way of 3 cm is some 15 pixels.
+        assert!((a.hair - b.hair).abs() < 2e-3, "{a:?} {b:?}");
+        assert!((0..2).all(|c| (a.motion[c] - b.motion[c]).abs() < 15.0 * 2e-3), "{a:?} {b:?}");
+    }
+    assert!(sharp.layers.iter().map(|l| l.motion[0].abs()).fold(0.0, f32::max) > 0.1, "it moves");
+}
+
+#[test]
+fn whatever_shows_through_a_lens_has_the_depth_of_what_is_there() {
+    let seen = draw(&picture(Some(1.4)), &Mesh::default(), &upright(6.0));
+    for (p, depth) in seen.rgba.iter().zip(&seen.depth) {
+        assert_eq!(p[3] > 0.0, depth.is_finite(), "{p:?} {depth}");
+        assert!(depth.is_infinite() || (depth - (DISTANCE - 6.0)).abs() < 1e-3, "{depth}");
+    }
+}
+
+#[test]
 fn any_number_of_threads_draws_the_same_through_a_lens_while_all_moves() {
     let picture = Picture { shutter: 0.5, ..picture(Some(2.0)) };
     let (before, now) = (wisps(300, 0.0), wisps(300, 7.0));

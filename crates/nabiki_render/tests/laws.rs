@@ -294,6 +294,115 @@ fn motion_blur_spreads_the_hair_and_keeps_its_light() {
     assert!(layer.direction[1] / layer.hair < -0.99, "from root to tip is down");
 }
 
+/// A pixel to a centimetre, seen from before the face, with +z on the left.
+fn square(side: u32) -> Picture {
+    let mut picture = black([side; 2]);
+    picture.camera.projection = Projection::Orthographic;
+    picture.camera.height = Some(side as f32);
+    picture.camera.target = Some(Vec3::ZERO);
+    (picture.camera.azimuth, picture.camera.elevation) = (0.0, 0.0);
+    picture
+}
+
+fn line(points: impl IntoIterator<Item = Vec3>) -> Strands {
+    let mut strands = Strands::default();
+    strands.push(points);
+    strands
+}
+
+#[test]
+fn hair_thins_to_its_tip_and_is_whole_at_its_root() {
+    let mut picture = square(64);
+    (picture.hair.width, picture.hair.tip, picture.hair.taper) = (0.5, 0.2, 0.5);
+    // From the left, its root, to the right.
+    let hair = line((0..=40).map(|k| vec3(12.0, 0.3, 20.0 - k as f32)));
+    let frame =
+        Renderer::new(&picture, &Mesh::default()).unwrap().draw(&FrameToDraw::at_rest(&hair, fixed_view(&picture)));
+    let frame = frame.unwrap();
+    let width = |column: usize| (0..64).map(|row| frame.rgba[row * 64 + column][3]).sum::<f32>();
+    for column in 13..51 {
+        let along = (column as f32 + 0.5 - 12.0) / 40.0;
+        let wanted = 0.5 * (1.0 - 0.8 * ((along - 0.5) / 0.5).max(0.0));
+        // Between nodes at most 2.1 cm apart the bend is cut: by a quarter of its change over that way.
+        let tolerance = if (along - 0.5).abs() < 2.1 / 40.0 { 0.01 } else { 1e-3 };
+        assert!((width(column) - wanted).abs() < tolerance, "column {column}: {} for {wanted}", width(column));
+    }
+}
+
+#[test]
+fn layers_tell_the_nearest_depth_and_the_direction_from_root_to_tip_in_head_space() {
+    let mut picture = square(64);
+    picture.hair.width = 0.6;
+    let way = vec3(0.6, -0.64, 0.48);
+    let hair = line((0..=20).map(|k| vec3(12.0, 6.0, 20.0) + way * k as f32));
+    let view = fixed_view(&picture);
+    let renderer = Renderer::new(&picture, &octahedron()).unwrap().with_layers();
+    let frame = { renderer }.draw(&FrameToDraw::at_rest(&hair, view)).unwrap();
+    let from_eye = |x: f32| view.eye.x - x;
+    let (mut of_hair, mut of_head) = (0, 0);
+    for (i, (p, layer)) in frame.rgba.iter().zip(&frame.layers).enumerate() {
+        let depth = frame.depth[i];
+        assert_eq!(p[3] > 0.0, depth.is_finite(), "pixel {i}");
+        let (y, z) = (31.5 - (i / 64) as f32, 31.5 - (i % 64) as f32);
+        if layer.hair > 0.2 {
+            let told = Vec3::from_array(layer.direction) / layer.hair;
+            assert!(told.distance(way) < 1e-4, "pixel {i}: {told}");
+            // The hair is nearer by 0.6 for each 0.64 down and 0.48 to the left; a pixel holds as much as it is wide.
+            let x = 12.0 + 0.6 * (0.64 * (6.0 - y) + 0.48 * (z - 20.0)) / 0.64;
+            assert!((depth - from_eye(x)).abs() < 0.6, "pixel {i}: {depth}, not {}", from_eye(x));
+            of_hair += 1;
+        } else if layer.head == 1.0 {
+            // Likewise, where the surface goes as far into depth as across the picture.
+            assert!((depth - from_eye(8.5 - y.abs() - z.abs())).abs() < 1.0, "pixel {i}: {depth}");
+            of_head += 1;
+        }
+    }
+    assert!(of_hair > 10 && of_head > 50, "{of_hair} {of_head}");
+}
+
+#[test]
+fn what_passes_behind_the_head_while_the_shutter_is_open_shows_where_it_was_before_it() {
+    let mut picture = square(64);
+    (picture.shutter, picture.hair.width) = (1.0, 0.5);
+    let corners = [[-30.0, -30.0], [30.0, -30.0], [30.0, 30.0], [-30.0, 30.0]];
+    let positions = corners.map(|[y, z]| vec3(0.0, y, z)).to_vec();
+    let wall = Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], corner_uvs: None };
+    let hair = |x: f32, z: f32| line((0..9).map(|k| vec3(x, 10.0 - 2.5 * k as f32, z)));
+    for side in [-1.0, 1.0] {
+        // From one side before the wall to the other behind it.
+        let (before, now) = (hair(4.0, 10.0 * side), hair(-4.0, -10.0 * side));
+        let seen = |head: &Mesh| {
+            let renderer = Renderer::new(&picture, head).unwrap().with_layers();
+            let frame = { renderer }.draw(&between(&before, &now, fixed_view(&picture))).unwrap();
+            let shares = frame.layers.iter().enumerate().map(|(i, l)| [l.hair, l.hair * (31.5 - (i % 64) as f32)]);
+            shares.fold([0.0; 2], |sum, share| [sum[0] + share[0], sum[1] + share[1]])
+        };
+        let [whole, [half, place]] = [seen(&Mesh::default()), seen(&wall)];
+        // Half of the way, in the middle of that half; roots that lie in the skin show, and a pixel is one of ten.
+        assert!((half / whole[0] - 0.5).abs() < 0.1, "{side}: {half} of {}", whole[0]);
+        assert!((place / half - 5.0 * side).abs() < 1.0, "{side}: {}", place / half);
+    }
+}
+
+#[test]
+fn a_background_has_its_colour_row_by_row_beside_whatever_is_before_it() {
+    for antialiasing in [Antialiasing::Coverage, Antialiasing::Oversample] {
+        let background = Background { top: [0.0; 3], bottom: [1.0; 3], transparent: false };
+        let mut picture = Picture { background, antialiasing, ..square(40) };
+        picture.hair.width = 0.5;
+        // Over tiles with hair and tiles without.
+        let hair = line((0..9).map(|k| vec3(12.0, 19.0 - k as f32, 0.3)));
+        let mut renderer = Renderer::new(&picture, &Mesh::default()).unwrap();
+        let frame = renderer.draw(&FrameToDraw::at_rest(&hair, fixed_view(&picture))).unwrap();
+        let row = |y: usize| &frame.rgba[40 * y..][..40];
+        for y in 0..40 {
+            assert!(row(y)[..19].iter().chain(&row(y)[21..]).all(|p| *p == row(y)[0]), "{antialiasing:?}: row {y}");
+            assert!(y == 0 || row(y)[0][1] > row(y - 1)[0][1], "{antialiasing:?}: row {y}");
+        }
+        assert!(row(5)[19..21].iter().any(|p| *p != row(5)[0]), "the hair shows");
+    }
+}
+
 #[test]
 fn nothing_of_hair_behind_the_camera_or_beside_the_picture_shows() {
     let picture = black([40, 40]);

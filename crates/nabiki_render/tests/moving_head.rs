@@ -6,7 +6,7 @@ use glam::{Quat, Vec2, Vec3, vec3};
 use nabiki::{Mesh, Pose, Strands};
 use nabiki_render::camera::direction;
 use nabiki_render::settings::{Background, LightSpace, Projection, SkySpace};
-use nabiki_render::{Bounds, Frame, FrameToDraw, Moment, Picture, Renderer, ToneMapping, View};
+use nabiki_render::{Bounds, DrawnBody, Frame, FrameToDraw, Moment, Picture, Renderer, ToneMapping, View};
 
 const SIZE: [u32; 2] = [160, 120];
 
@@ -218,4 +218,74 @@ fn it_is_all_the_same_whether_the_head_moves_or_the_camera() {
     let apart = difference(&picture, &along, &rest);
     assert!(apart < ROUNDING, "{apart} of 255");
     assert!(difference(&picture, &head, &rest) > PLAIN);
+}
+
+/// Alpha's middle on the picture and its mean square about that, right and down (pixels).
+fn place_and_width(frame: &Frame) -> [[f64; 2]; 2] {
+    let mut sums = [[0.0; 3]; 2];
+    for (i, p) in frame.rgba.iter().enumerate() {
+        for (sums, at) in sums.iter_mut().zip([i as u32 % SIZE[0], i as u32 / SIZE[0]]) {
+            (0..3).for_each(|power| sums[power as usize] += f64::from(p[3]) * (f64::from(at) + 0.5).powi(power));
+        }
+    }
+    sums.map(|[whole, first, second]| [first / whole, second / whole - (first / whole).powi(2)])
+}
+
+#[test]
+fn what_moves_is_spread_over_its_way_while_the_shutter_is_open_which_ends_at_the_frame() {
+    const SHUTTER: f32 = 0.4;
+    let sharp = picture();
+    let open = Picture { shutter: SHUTTER, ..picture() };
+    let view = view(&sharp);
+    let way = 6.0 * view.right - 3.0 * view.up;
+    let upright = |off: Vec3| {
+        let mut hair = Strands::default();
+        hair.push((0..9).map(|k| off + vec3(0.0, 4.0 - k as f32, 0.0)));
+        hair
+    };
+    let (start, end) = (upright(Vec3::ZERO), upright(way));
+    let (nobody, head) = (Mesh::default(), octahedron());
+    let body = |off: Vec3| vec![moved(off)];
+    let none = Strands::default();
+    // Each from the frame before to the frame: the hair, a head, a body, and hair before a camera that goes the other way.
+    type When<'a> = (&'a Strands, Pose, View, Vec<Pose>);
+    fn moment<'a>((strands, pose, view, bodies): &'a When) -> Moment<'a> {
+        Moment { strands, pose: *pose, view: *view, bodies }
+    }
+    let movers: [(&Mesh, [When; 2]); 4] = [
+        (&nobody, [(&start, Pose::STILL, view, vec![]), (&end, Pose::STILL, view, vec![])]),
+        (&head, [(&none, Pose::STILL, view, vec![]), (&none, moved(way), view, vec![])]),
+        (&nobody, [(&none, Pose::STILL, view, body(Vec3::ZERO)), (&none, moved(3.0 * way), view, body(way))]),
+        (&nobody, [(&start, Pose::STILL, view, vec![]), (&start, Pose::STILL, carried(view, &moved(-way)), vec![])]),
+    ];
+    for (n, (head, [before, now])) in movers.into_iter().enumerate() {
+        let seen = |picture: &Picture, now: &When| {
+            let bodies = now.3.iter().map(|_| DrawnBody { mesh: octahedron(), colour: [0.5; 3] }).collect();
+            let renderer = Renderer::new(picture, head).unwrap().with_bodies(bodies).unwrap().with_layers();
+            { renderer }.draw(&FrameToDraw { now: moment(now), before: Some(moment(&before)) }).unwrap()
+        };
+        let [first, last] = [&before, &now].map(|moment| place_and_width(&seen(&sharp, moment)));
+        let blurred = seen(&open, &now);
+        let (mut share, mut told) = (0.0, [0.0; 2]);
+        for layer in &blurred.layers {
+            share += f64::from(layer.hair + layer.head);
+            (0..2).for_each(|c| told[c] += f64::from(layer.motion[c]));
+        }
+        for (c, [place, width]) in place_and_width(&blurred).into_iter().enumerate() {
+            let far = last[c][0] - first[c][0];
+            assert!(far.abs() > 5.0, "{n}: {far} pixels");
+            let part = f64::from(SHUTTER) * far;
+            // An even spread over a way has a twelfth of its square; all is known to a cell, a quarter of a pixel. Hair is spread across
+            // itself alone: here from side to side.
+            let spread = if c == 1 && !now.0.is_empty() { 0.0 } else { part * part / 12.0 };
+            assert!(
+                (place - (last[c][0] - 0.5 * part)).abs() < 0.125,
+                "{n}: {place} from {} to {}",
+                first[c][0],
+                last[c][0]
+            );
+            assert!((width - last[c][1] - spread).abs() < 0.25, "{n}: {width} for {}", last[c][1]);
+            assert!((told[c] / share - part).abs() < 0.02 * part.abs(), "{n}: {} of {part}", told[c] / share);
+        }
+    }
 }

@@ -57,12 +57,13 @@ fn png_files_hold_the_display_values() {
 
 #[test]
 fn openexr_files_hold_the_frame_to_the_bit() {
-    use exr::prelude::*;
+    use exr::prelude::read_first_flat_layer_from_file;
+    use nabiki_render::frame::Layer;
     let background = Background { transparent: true, ..Background::default() };
     let picture = Picture { background, shutter: 1.0, ..small() };
     let (renderer, strands, view) = setting(&picture);
     let mut moved = strands.clone();
-    moved.points_mut().iter_mut().for_each(|p| p.x += 0.5);
+    moved.points_mut().iter_mut().for_each(|p| *p += Vec3::new(0.5, 0.3, 0.0));
     let moment = |strands| Moment { strands, pose: Pose::STILL, view, bodies: &[] };
     let blurred = FrameToDraw { now: moment(&moved), before: Some(moment(&strands)) };
     let frame = renderer.with_layers().draw(&blurred).unwrap();
@@ -78,10 +79,19 @@ fn openexr_files_hold_the_frame_to_the_bit() {
         assert!(channel(name).iter().zip(&frame.rgba).all(|(a, p)| a.to_bits() == p[i].to_bits()));
     }
     assert_eq!(channel("Z"), frame.depth);
-    assert!(channel("hair.A").iter().zip(&frame.layers).all(|(a, l)| *a == l.hair));
-    assert!(channel("head.A").iter().zip(&frame.layers).all(|(a, l)| *a == l.head));
-    assert!(channel("direction.Y").iter().zip(&frame.layers).all(|(a, l)| *a == l.direction[1]));
-    assert!(channel("motion.X").iter().zip(&frame.layers).all(|(a, l)| *a == l.motion[0]));
+    let holds = |name: &str, of: &dyn Fn(&Layer) -> f32| {
+        let apart = channel(name).iter().zip(&frame.layers).filter(|(a, l)| a.to_bits() != of(l).to_bits()).count();
+        assert_eq!(apart, 0, "{name}");
+        assert!(frame.layers.iter().any(|l| of(l) != 0.0), "{name}: nothing to be told apart");
+    };
+    holds("hair.A", &|l| l.hair);
+    holds("head.A", &|l| l.head);
+    for (i, axis) in ["X", "Y", "Z"].into_iter().enumerate() {
+        holds(&format!("direction.{axis}"), &|l| l.direction[i]);
+    }
+    for (i, axis) in ["X", "Y"].into_iter().enumerate() {
+        holds(&format!("motion.{axis}"), &|l| l.motion[i]);
+    }
 }
 
 #[test]
@@ -144,6 +154,33 @@ fn a_movie_decodes_to_the_frames_it_was_given() {
     // Quantiser 12 has a step of 2.5 of 255 and a dead zone of two thirds of it: an error below that in each
     // coefficient, and as much in each pixel, plus rounding.
     assert!(worst < 2.0, "{worst}");
+}
+
+#[test]
+fn an_odd_side_loses_its_last_row_or_column_in_a_movie_and_nothing_else() {
+    let picture = Picture { size: [97, 65], ..Picture::default() };
+    let (mut renderer, strands, view) = setting(&picture);
+    let tone_mapping = ToneMapping::new(&picture);
+    let odd = renderer.draw(&FrameToDraw::at_rest(&strands, view)).unwrap();
+    let rgba = odd.rgba.chunks_exact(97).take(64).flat_map(|row| &row[..96]).copied().collect();
+    let even = nabiki_render::Frame { size: [96, 64], rgba, depth: Vec::new(), layers: Vec::new() };
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let coded = |frame: &nabiki_render::Frame, as_still: bool| {
+        let mut movie =
+            Movie::create(&at("movie.mp4"), &Picture { size: frame.size, ..picture.clone() }, 24.0).unwrap();
+        if as_still {
+            png::write(&at("still.png"), frame, &tone_mapping, Depth::Sixteen).unwrap();
+            movie.push_still(&png::read(&at("still.png")).unwrap()).unwrap();
+        } else {
+            movie.push(frame, &tone_mapping).unwrap();
+        }
+        movie.finish().unwrap();
+        std::fs::read(at("movie.mp4")).unwrap()
+    };
+    let wanted = coded(&even, false);
+    assert!(coded(&odd, false) == wanted);
+    assert!(coded(&odd, true) == wanted);
 }
 
 #[test]

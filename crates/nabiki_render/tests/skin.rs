@@ -1,9 +1,9 @@
 //! What must hold of the head on a picture.
 
 use glam::{Vec3, vec3};
-use nabiki::{Mesh, Strands};
+use nabiki::{Mesh, Pose, Strands};
 use nabiki_render::settings::HairColour;
-use nabiki_render::{Bounds, Frame, FrameToDraw, Picture, Renderer, View};
+use nabiki_render::{Bounds, DrawnBody, Frame, FrameToDraw, Moment, Picture, Renderer, View};
 
 /// A wall across the view, 20 cm wide and high.
 fn wall() -> Mesh {
@@ -51,4 +51,20 @@ fn stubble_tints_the_skin_about_the_roots_and_nowhere_else() {
         assert!(more < 1e-2 * bare, "{more} {bare}");
     }
     assert_eq!(at(&bare, 52), at(&more, 52));
+}
+
+#[test]
+fn roots_tint_no_body_that_they_lie_on() {
+    let mut picture = Picture { size: [64, 64], ..Picture::default() };
+    (picture.camera.azimuth, picture.camera.elevation) = (0.0, 0.0);
+    let mut with = |stubble: f32| {
+        picture.head.stubble = stubble;
+        let view = View::new(&picture.camera, picture.size, &Bounds { low: Vec3::splat(-9.0), high: Vec3::splat(9.0) });
+        let body = DrawnBody { mesh: wall(), colour: [0.5; 3] };
+        let mut renderer = Renderer::new(&picture, &Mesh::default()).unwrap().with_bodies(vec![body]).unwrap();
+        let now = Moment { strands: &hidden_hair(), pose: Pose::STILL, view, bodies: &[Pose::STILL] };
+        renderer.draw(&FrameToDraw { now, before: None }).unwrap()
+    };
+    let [bare, more] = [0.0, 1e2].map(&mut with);
+    assert_eq!(bare.rgba[16 * 64 + 32], more.rgba[16 * 64 + 32]);
 }

@@ -277,6 +277,46 @@ fn the_wind_of_a_recorded_head_is_against_its_way() {
     assert!((force - Vec3::new(-60.0, 0.0, 0.0)).length() < 0.01, "{force}");
 }
 
+/// About a head that walks and turns, the wind is led round the head where that is; in its own space it stands still.
+#[test]
+fn the_wind_is_led_round_the_head_wherever_that_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let (s, c) = (0.1_f32.sin(), 0.1_f32.cos());
+    let row = |n: u32| {
+        // By a fifth of a radian about z each frame, as a quaternion of half of that.
+        let half = glam::Quat::from_xyzw(0.0, 0.0, s, c);
+        let turn = (0..n).fold(glam::Quat::IDENTITY, |turn, _| half * turn);
+        format!("{},{},{},0,0,0,{},{}\n", f64::from(n) / 24.0, 16 * n, 4 * n, turn.z, turn.w)
+    };
+    let table = "t_s,px_cm,py_cm,pz_cm,qx,qy,qz,qw\n".to_owned() + &(0..=10).map(row).collect::<String>();
+    std::fs::write(folder.path().join("walk.csv"), table).unwrap();
+    let build = |wind: Vec3, more: &str| {
+        let [x, y, z] = wind.to_array();
+        let text = format!(
+            "[hair]\nstrands = 20\n[motion]\nframes = 10\n[flow]\n[[force]]\nthrough = 10\nvector = [{x:?}, {y:?}, {z:?}]\n{more}"
+        );
+        Scene::parse(&text, &folder.path().join("walk.toml"), &[]).unwrap().build(Shown::All).unwrap()
+    };
+    let walking = "[head]\nmotion = { file = \"walk.csv\", up = \"+y\", facing = \"+x\" }\n";
+    let wind = Vec3::new(-40.0, 10.0, 5.0);
+    let in_world = build(wind, walking);
+    let mut in_head = in_world.scene.clone();
+    in_head.motion.force_space = nabiki::dynamics::ForceSpace::Head;
+    let (in_head, still) = (in_head.build(Shown::All).unwrap(), build(wind, ""));
+    for n in [1, 4, 10] {
+        let pose = in_world.pose(n);
+        let against = build(pose.rotation.inverse() * wind, "");
+        for place in [Vec3::new(12.0, 3.0, -4.0), Vec3::new(-3.0, 14.0, 2.0), Vec3::new(1.0, -2.0, 13.0)] {
+            let there = pose.world_from_head().transform_point3(place);
+            let (found, wanted) = (in_world.force_at(there, n), pose.rotation * against.force_at(place, n));
+            // Places of 200 cm are rounded to some 1e-5 of a head's size.
+            assert!(found.distance(wanted) < 1e-3 * wind.length(), "{n} {place}: {found}, not {wanted}");
+            assert!((wanted - wind).length() > 0.02 * wind.length(), "{n} {place}: it is led");
+            assert_eq!(in_head.force_at(place, n), still.force_at(place, n));
+        }
+    }
+}
+
 /// A field of a program's own is one more: added up, kept by other settings, and not to be written anywhere.
 #[test]
 fn a_field_of_a_programs_own_is_added_and_cannot_be_written() {

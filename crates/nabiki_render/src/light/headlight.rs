@@ -435,4 +435,54 @@ mod tests {
             }
         }
     }
+
+    /// A square 12 cm wide that a lamp straight above sees.
+    fn under_a_plate(spread: f32) -> SolidShadow {
+        let positions =
+            [[-6.0, -6.0], [6.0, -6.0], [6.0, 6.0], [-6.0, 6.0]].map(|[x, z]| Vec3::new(x, 0.0, z)).to_vec();
+        let plate = Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], corner_uvs: None };
+        SolidShadow::new(&Lamp { toward: Vec3::Y, strength: [1.0; 3], spread }, &plate)
+    }
+
+    /// The integral of a share and what is left of it across the plate's edge, 2 cm below: in proportion to the width of the edge.
+    fn width_of_edge(share: impl Fn(Vec3) -> f32) -> f32 {
+        let of = |i: i32| share(Vec3::new(6.0 + 0.02 * i as f32, -2.0, 0.3));
+        (-250..=250).map(|i| 0.02 * of(i) * (1.0 - of(i))).sum()
+    }
+
+    #[test]
+    fn the_edge_of_a_shadow_is_as_wide_as_its_lamp() {
+        let on_hair = |spread: f32| {
+            let shadow = under_a_plate(spread);
+            width_of_edge(|p| shadow.visible(&p.to_array().map(|c| [c]))[0])
+        };
+        let on_skin = |spread: f32| {
+            let shadow = under_a_plate(spread);
+            [0, 1, 2].map(|c| width_of_edge(|p| shadow.visible_from_skin(p, Vec3::Y)[c]))
+        };
+        // Twice as wide in the plane at a distance; the map is known to a part of the blur.
+        let (wide, wider) = (0.3_f32, (2.0 * 0.3_f32.tan()).atan());
+        assert!((on_hair(wider) / on_hair(wide) - 2.0).abs() < 0.2, "{} {}", on_hair(wide), on_hair(wider));
+        // On skin with what spreads under it, which is widest in red.
+        let ([red, green, blue], wide_on_skin, wider_on_skin) = (on_skin(0.0), on_skin(wide), on_skin(wider));
+        assert!(red > 1.1 * green && green > 1.1 * blue, "{red} {green} {blue}");
+        for c in 0..3 {
+            let [a, b] = [wide, wider].map(|spread| UNDER_SKIN[c].hypot(2.5 * spread.tan()));
+            let ratio = wider_on_skin[c] / wide_on_skin[c];
+            // Two dozen places are a fifth of the disc apart.
+            assert!((ratio / (b / a) - 1.0).abs() < 0.2, "{c}: {ratio} for {}", b / a);
+        }
+    }
+
+    #[test]
+    fn a_shadow_begins_close_behind_what_throws_it_and_not_on_its_own_skin() {
+        let shadow = under_a_plate(0.0);
+        // Hair lies on a head; a finger's thickness behind its surface it is in its shadow.
+        let on_hair = |depth: f32| shadow.visible(&[[0.5], [-depth], [0.3]])[0];
+        assert_eq!((on_hair(0.0), on_hair(0.4)), (1.0, 1.0));
+        assert!((0.5..0.9).contains(&on_hair(0.6)) && on_hair(1.0) < 1e-3, "{} {}", on_hair(0.6), on_hair(1.0));
+        // Skin that is its own plane is not hidden, and skin under a lid, a nose or an ear is.
+        let on_skin = |depth: f32| shadow.visible_from_skin(Vec3::new(0.5, -depth, 0.3), Vec3::Y)[0];
+        assert!(on_skin(0.0) > 1.0 - 1e-6 && on_skin(0.5) < 1e-6, "{} {}", on_skin(0.0), on_skin(0.5));
+    }
 }

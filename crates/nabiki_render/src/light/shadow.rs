@@ -312,4 +312,83 @@ mod tests {
             assert!(mean < 0.25 * 2.0 * 0.007 / spacing, "{elevation}: {mean}");
         }
     }
+
+    /// Layers of hairs along x, side by side along z, each half a centimetre above the one before, the lowest in the plane y = 0.
+    struct Layers {
+        nodes: Vec<CurveNode>,
+        radius: Vec<f32>,
+    }
+
+    impl Layers {
+        fn new(count: u32, spacing: f32, radius: f32, across: std::ops::Range<i32>) -> Self {
+            let strands = (0..count).flat_map(|layer| across.clone().map(move |side| (layer, side))).enumerate();
+            let nodes: Vec<CurveNode> = strands
+                .flat_map(|(strand, (layer, side))| {
+                    (0..12).map(move |k| {
+                        // No two neighbours have their nodes side by side.
+                        let x = 2.0 * k as f32 - 11.0 + 0.3 * (strand % 7) as f32;
+                        let position = Vec3::new(x, 0.5 * layer as f32, spacing * side as f32);
+                        CurveNode { position, tangent: Vec3::X, strand: strand as u32, ..CurveNode::default() }
+                    })
+                })
+                .collect();
+            Self { radius: vec![radius; nodes.len()], nodes }
+        }
+
+        /// The fibres before places on skin that faces up.
+        fn before(&self, lamp: &Lamp, places: impl Iterator<Item = Vec3>) -> Vec<f32> {
+            let skin: Vec<SkinPlace> = places.map(|at| SkinPlace { at, normal: Vec3::Y }).collect();
+            let scene = Scene {
+                nodes: &self.nodes,
+                radius: &self.radius,
+                asked: &vec![false; self.nodes.len()],
+                skin: &skin,
+                least_facing: 0.0,
+                width: 2.0 * self.radius[0],
+                bounds: bounds(&self.nodes),
+            };
+            let mut sweep = Sweep::default();
+            sweep.run(lamp, None, &scene, 1);
+            (0..skin.len()).map(|i| sweep.crossings.at(self.nodes.len() + i)).collect()
+        }
+    }
+
+    #[test]
+    fn light_crosses_of_each_layer_as_many_hairs_as_their_width_over_their_spacing() {
+        let (spacing, radius) = (0.02, 0.004);
+        for count in [1, 3] {
+            let layers = Layers::new(count, spacing, radius, -350..350);
+            for elevation in [30.0_f32, 55.0, 90.0] {
+                for (azimuth, closer) in [(0.0, 1.0), (90.0, elevation.to_radians().sin())] {
+                    let lamp =
+                        Lamp { toward: crate::camera::direction(azimuth, elevation), strength: [1.0; 3], spread: 0.0 };
+                    // Behind all layers by 2 cm, at places that lie each otherwise between hairs.
+                    let places = (0..100).map(|i| Vec3::new(0.0, 0.0, 0.0037 * i as f32) - 2.0 * lamp.toward);
+                    let found = layers.before(&lamp, places);
+                    let mean = found.iter().sum::<f32>() / found.len() as f32;
+                    // A lamp over the hairs' length sees them as far apart as they lie, one aside nearer to one another.
+                    let wanted = count as f32 * 2.0 * radius / (spacing * closer);
+                    // A place is the mean of some ten hairs, whose places are rounded to some thousandths of a cell.
+                    assert!((mean / wanted - 1.0).abs() < 0.02, "{count} {azimuth} {elevation}: {mean} for {wanted}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_edge_of_a_shadow_of_hair_is_as_wide_as_its_lamp() {
+        // Half a plane of hair.
+        let layers = Layers::new(1, 0.02, 0.01, 0..250);
+        let width = |spread: f32| {
+            let lamp = Lamp { toward: Vec3::Y, strength: [1.0; 3], spread };
+            let step = 0.01;
+            let found = layers.before(&lamp, (-250..=250).map(|i| Vec3::new(0.0, -2.0, step * i as f32)));
+            // The integral of a share and what is left of it is in proportion to the width of an edge.
+            found.iter().map(|count| step * count * (1.0 - count).max(0.0)).sum::<f32>()
+        };
+        let [narrow, wide, wider] = [0.0, 0.2, 0.4].map(width);
+        // How the edge lies in the cells is a part of their width.
+        let ratio = 0.4_f32.tan() / 0.2_f32.tan();
+        assert!((wider / wide / ratio - 1.0).abs() < 0.25 && wide > 2.0 * narrow, "{narrow} {wide} {wider}");
+    }
 }

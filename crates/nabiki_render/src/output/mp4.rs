@@ -232,6 +232,11 @@ mod tests {
         let co64 = file.windows(4).position(|w| w == b"co64").unwrap();
         let frames_at = u64::from_be_bytes(file[co64 + 12..co64 + 20].try_into().unwrap()) as usize;
         assert_eq!(&file[frames_at..], [0, 0, 0, 3, 0x65, 7, 7, 0, 0, 0, 2, 0x41, 8]);
+
+        // Width and height close the header of the track, in 1/65536 of a pixel; in the entry of its frames they follow 24 bytes.
+        let body = |kind: &[u8; 4]| &file[file.windows(4).rposition(|w| w == kind).unwrap() + 4..];
+        assert_eq!(body(b"tkhd")[88..96], [640_u32 << 16, 360 << 16].map(u32::to_be_bytes).concat());
+        assert_eq!(body(b"avc1")[24..28], [640_u16, 360].map(u16::to_be_bytes).concat());
     }
 
     #[test]

@@ -116,3 +116,85 @@ impl ContactSheet {
         self.canvas().write_png(path)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::vec3;
+
+    use super::*;
+    use crate::settings::{Camera, Picture, Projection};
+
+    /// A frame of one colour, wider than a thumbnail may be, and what is seen from before the face with +z on the left.
+    fn plain(rgb: [f32; 3]) -> (Frame, View) {
+        let size = [1000, 400];
+        let rgba = vec![[rgb[0], rgb[1], rgb[2], 1.0]; 1000 * 400];
+        let camera = Camera { azimuth: 0.0, elevation: 0.0, projection: Projection::Orthographic, ..Camera::default() };
+        (Frame { size, rgba, depth: Vec::new(), layers: Vec::new() }, View::new(&camera, size, &Default::default()))
+    }
+
+    /// The pixels of an arrow's colour: their number, and the middle of them.
+    fn of_arrows(canvas: &Canvas) -> (usize, [f32; 2]) {
+        let width = canvas.size()[0];
+        let found = canvas.rgb().chunks_exact(3).enumerate().filter(|(_, rgb)| rgb[0] > rgb[2].saturating_add(100));
+        let places: Vec<[f32; 2]> = found.map(|(i, _)| [i % width, i / width].map(|c| c as f32 + 0.5)).collect();
+        let mean = [0, 1].map(|c| places.iter().map(|p| p[c]).sum::<f32>() / places.len().max(1) as f32);
+        (places.len(), mean)
+    }
+
+    #[test]
+    fn pictures_are_read_row_by_row_each_with_its_number_and_half_as_wide() {
+        let tone_mapping = ToneMapping::new(&Picture::default());
+        let colours = [[0.3, 0.01, 0.05], [0.02, 0.2, 0.0], [0.0, 0.1, 0.4]];
+        let mut sheet = ContactSheet::new(2);
+        let mut wanted = Vec::new();
+        for (number, rgb) in [0, 17, 100].into_iter().zip(colours) {
+            let (frame, view) = plain(rgb);
+            sheet.add(&frame, &tone_mapping, number, None, &view);
+            let colour = tone_mapping.values(rgb).map(|v| (255.0 * v).round() as u8);
+            let mut picture = Canvas::new([500, 200], colour);
+            let text = 200.0 / 28.0;
+            picture.label(&format!("frame {number}"), [text, 2.0 * text], text, INK, PAPER);
+            wanted.push(picture);
+        }
+        let canvas = sheet.canvas();
+        assert_eq!(canvas.size(), [12 + 2 * 512, 12 + 2 * 212]);
+        for (picture, [left, top]) in wanted.iter().zip([[12, 12], [524, 12], [12, 224]]) {
+            for (y, row) in picture.rgb().chunks_exact(3 * 500).enumerate() {
+                let on_sheet = &canvas.rgb()[3 * ((top + y) * canvas.size()[0] + left)..][..3 * 500];
+                // Between two steps a pixel is one or the other.
+                let apart = on_sheet.iter().zip(row).map(|(a, b)| a.abs_diff(*b)).max();
+                assert!(apart <= Some(1), "row {y} of the picture at {left}, {top}: {apart:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn arrows_point_where_their_forces_push_on_the_picture() {
+        let tone_mapping = ToneMapping::new(&Picture::default());
+        let (frame, view) = plain([0.1; 3]);
+        // The half of an arrow with its head is the larger one.
+        let toward = |sheet: &ContactSheet, middle: [f32; 2], way: [f32; 2]| {
+            let (count, mean) = of_arrows(&sheet.pictures[0]);
+            let off = [mean[0] - middle[0], mean[1] - middle[1]];
+            let along = off[0] * way[0] + off[1] * way[1];
+            assert!(count > 8 && along > 1.0 && along > 0.9 * off[0].hypot(off[1]), "{way:?}: {count} {off:?}");
+        };
+        for (force, way) in [
+            (vec3(0.0, 5.0, 0.0), [0.0, -1.0]),
+            (vec3(0.0, -5.0, 0.0), [0.0, 1.0]),
+            (vec3(0.0, 0.0, 5.0), [-1.0, 0.0]),
+            (vec3(0.0, 3.0, -3.0), [0.5_f32.sqrt(), -0.5_f32.sqrt()]),
+        ] {
+            let mut sheet = ContactSheet::new(1);
+            sheet.add(&frame, &tone_mapping, 0, Some(force), &view);
+            let (text, reach) = (200.0 / 28.0, 0.09 * 200.0);
+            toward(&sheet, [text + reach, 200.0 - 2.6 * text - reach], way);
+            // One of many begins at its place, on the picture made half as wide.
+            let mut sheet = ContactSheet::new(1);
+            let point = vec3(0.0, 4.0, 6.0);
+            sheet.add_arrows(&frame, &tone_mapping, 0, &[ForceArrow { point, force }], &view);
+            let at = view.project(point);
+            toward(&sheet, [0.5 * at.x, 0.5 * at.y], way);
+        }
+    }
+}

@@ -228,4 +228,30 @@ mod tests {
         }
         assert!(middles_off > 0.3, "{middles_off}");
     }
+
+    #[test]
+    fn past_the_terminator_skin_is_red_and_far_before_it_as_the_light() {
+        let look = HeadLook { softness: 0.2, ..HeadLook::default() };
+        let fallen = |facing: f32| {
+            let normal = Vec3::new((1.0 - facing * facing).sqrt(), facing, 0.0);
+            let lamp = Lamp { toward: Vec3::Y, strength: [1.0; 3], spread: 0.0 };
+            FromLamp::new(&lamp, [1.0; 3], (&look, normal, Vec3::Z)).fallen
+        };
+        for facing in [0.3, 0.6, 1.0] {
+            assert!(fallen(facing).iter().all(|light| (light - facing).abs() < 1e-6), "{facing}: {:?}", fallen(facing));
+        }
+        let [red, green, blue] = fallen(-0.1);
+        assert!(red > green && green > blue && blue > 0.0, "{red} {green} {blue}");
+        assert_eq!(fallen(-1.25 * 0.2 - 1e-3), [0.0; 3]);
+    }
+
+    #[test]
+    fn skin_has_its_sheen_at_the_rim() {
+        let look = HeadLook::default();
+        let lamp = Lamp { toward: Vec3::new(0.5_f32.sqrt(), 0.5_f32.sqrt(), 0.0), strength: [1.0; 3], spread: 0.0 };
+        // As much turned to the lamp: one faces the eye, one is the outline.
+        let [facing, rim] = [Vec3::X, Vec3::Y].map(|normal| FromLamp::new(&lamp, [1.0; 3], (&look, normal, Vec3::X)));
+        assert_eq!(facing.fallen, rim.fallen);
+        assert!(rim.sheen[0] > 2.0 * facing.sheen[0], "{:?} {:?}", facing.sheen, rim.sheen);
+    }
 }

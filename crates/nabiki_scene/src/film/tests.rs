@@ -1,11 +1,15 @@
 use std::path::Path;
 
 use nabiki_render::camera::NEAR;
-use nabiki_render::settings::{Camera, Projection};
+use nabiki_render::output::png;
+use nabiki_render::settings::{Camera, CameraKey, Projection};
+use nabiki_render::{Canvas, ContactSheet};
 
 use super::*;
+use crate::field_picture;
 use crate::frames::Simulated;
-use crate::{Scene, Shown};
+use crate::place::Folders;
+use crate::{Scene, Shown, Unwatched};
 
 const FRAMES: u32 = 12;
 const SIZE: [u32; 2] = [320, 180];
@@ -183,4 +187,172 @@ fn what_cannot_be_drawn_is_said_with_its_frame_and_where_it_comes_from() {
     strands.points_mut()[3].x = 1e30;
     let refused = film(&built, Camera::default()).draw(5, &strands).err().unwrap().to_string();
     assert!(refused.contains("gust.toml: frame 5: strand 0, point 3 lies at "), "{refused}");
+}
+
+/// The gust in head or world space about a head that walks along x by 16 cm a frame, and turns by a tenth of `axis`.
+fn walking(folder: &Path, axis: Vec3, changes: &[(&str, &str)]) -> BuiltScene {
+    let file = folder.join("walk_and_turn.csv");
+    let row = |n: u32| {
+        let turn = Quat::from_scaled_axis(0.1 * n as f32 * axis);
+        format!("{},{},0,0,{},{},{},{}\n", f64::from(n) / 24.0, 16 * n, turn.x, turn.y, turn.z, turn.w)
+    };
+    let table = "t_s,px_cm,py_cm,pz_cm,qx,qy,qz,qw\n".to_owned() + &(0..=FRAMES).map(row).collect::<String>();
+    std::fs::write(&file, table).unwrap();
+    let motion = format!("{{file=\"{}\",up=\"+y\",facing=\"+x\"}}", file.display());
+    gust(&[&[("head.motion", motion.as_str())], changes].concat())
+}
+
+/// Hair that stays as it is.
+struct Still(Strands);
+
+impl FrameSource for Still {
+    fn frame(&mut self, _: u32) -> Result<&Strands> {
+        Ok(&self.0)
+    }
+}
+
+#[test]
+fn a_camera_begins_at_its_first_key_and_arrives_at_its_second_in_the_last_frame() {
+    let built = gust(&[]);
+    let to = CameraKey { azimuth: Some(100.0), elevation: Some(30.0), ..CameraKey::default() };
+    let camera = Camera { azimuth: 10.0, to: Some(to), ..Camera::default() };
+    let film = film(&built, camera);
+    let view = |azimuth, elevation| View::new(&Camera { azimuth, elevation, ..camera }, SIZE, &film.bounds);
+    assert_eq!(film.view(0), view(10.0, camera.elevation));
+    assert_eq!(film.view(FRAMES), view(100.0, 30.0));
+}
+
+#[test]
+fn a_frame_drawn_alone_is_that_of_the_film_while_the_shutter_is_open() {
+    let built = gust(&[("picture.shutter", "0.8")]);
+    let camera = built.scene.picture.camera;
+    let mut whole = film(&built, camera);
+    let mut frames = Simulated::new(&built).unwrap();
+    let drawn: Vec<Frame> = (0..=6).map(|n| whole.draw(n, frames.frame(n).unwrap()).unwrap().0).collect();
+    for n in [0, 1, 6] {
+        let alone = film(&built, camera).still(n, &mut Simulated::new(&built).unwrap()).unwrap();
+        assert!(alone == drawn[n as usize], "frame {n}");
+    }
+    assert!(crate::tasks::draw(&built, 6, &mut Unwatched).unwrap() == drawn[6]);
+    let sharp = gust(&[]);
+    assert!(film(&sharp, camera).still(6, &mut Simulated::new(&sharp).unwrap()).unwrap() != drawn[6]);
+}
+
+#[test]
+fn hair_that_turns_with_its_head_is_blurred() {
+    let folder = tempfile::tempdir().unwrap();
+    let drawn = |shutter: &str| {
+        let built = walking(folder.path(), Vec3::Y, &[("picture.shutter", shutter)]);
+        let mut film = film(&built, Camera { distance: Some(80.0), ..Camera::default() });
+        film.previous = Some(built.hair.strands.clone());
+        film.draw(5, &built.hair.strands).unwrap().0
+    };
+    let (sharp, open) = (drawn("0"), drawn("0.9"));
+    let apart = sharp.rgba.iter().zip(&open.rgba).filter(|(a, b)| (0..3).any(|c| (a[c] - b[c]).abs() > 0.02)).count();
+    // Edges of a head of some 90 pixels that move by up to 3.
+    assert!(apart > 300, "{apart}");
+}
+
+#[test]
+fn a_turntable_goes_along_with_its_head_and_holds_all_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let changes = [
+        ("picture.camera", "{azimuth=50}"),
+        ("picture.background", "{transparent=true}"),
+        ("picture.size", "[120,240]"),
+        // The bust goes on below what is framed.
+        ("picture.head.visible", "false"),
+        ("picture.hair.width", "0.3"),
+    ];
+    let turned = |built: &BuiltScene, n: u32| {
+        let mut pictures = Vec::new();
+        let mut frames = Still(built.hair.strands.clone());
+        let push = |_, frame: &Frame| {
+            pictures.push(frame.clone());
+            Ok(())
+        };
+        Film::turntable(built, (n, 3), &mut frames, push, &mut Unwatched).unwrap();
+        pictures
+    };
+    // A head on its side: long hair lies across the picture, which is higher than wide, and never touches its edge.
+    let built = walking(folder.path(), Vec3::X * 1.5, &changes);
+    for frame in turned(&built, 10) {
+        let edge = |i: usize| !(1..119).contains(&(i % 120)) || !(1..239).contains(&(i / 120));
+        assert!(frame.rgba.iter().enumerate().all(|(i, p)| p[3] == 0.0 || !edge(i)));
+        assert!(frame.rgba.iter().any(|p| p[3] > 0.5));
+    }
+    // One that only walks is seen in every frame as where it began; of whole cm, which f32 keeps.
+    let built = walking(folder.path(), Vec3::ZERO, &changes);
+    for (first, later) in turned(&built, 0).iter().zip(turned(&built, 10)) {
+        let apart = first.rgba.iter().zip(&later.rgba).filter(|(a, b)| (0..4).any(|c| (a[c] - b[c]).abs() > 0.02));
+        // As for a camera that goes along with a head that walks.
+        assert!(apart.count() < 60);
+    }
+}
+
+#[test]
+fn forces_are_shown_where_they_push_in_the_space_that_they_are_given_in() {
+    let folder = tempfile::tempdir().unwrap();
+    for space in ["\"world\"", "\"head\""] {
+        let built = walking(folder.path(), Vec3::new(0.6, 0.8, 0.0), &[("motion.force_space", space)]);
+        let mut film = film(&built, Camera::default());
+        let n = 7;
+        let (_, view) = film.draw(n, &built.hair.strands).unwrap();
+        let pose = built.pose(n);
+        for p in [Vec3::ZERO, Vec3::new(10.0, 4.0, -3.0), Vec3::new(-5.0, 9.0, 8.0)] {
+            let in_world = pose.world_from_head().transform_point3(p);
+            let wanted = film.view_in_world(n).project(in_world);
+            let given = if space.contains("head") { p } else { in_world };
+            assert!(view.project(given).distance(wanted) < ROUNDING, "{space}: {} {wanted}", view.project(given));
+        }
+    }
+}
+
+#[test]
+fn a_contact_sheet_shows_the_force_of_each_of_its_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let force = "[{through=5,vector=[0,40,0]},{through=12,vector=[0,0,-30]}]";
+    let built = gust(&[("force", force), ("output.sheet", "[0,5,6]"), ("output.movie", "false")]);
+    let picture = &built.scene.picture;
+    let mut film = film(&built, Camera::default());
+    let mut outputs =
+        PictureOutputs::begin(&built, picture, folder.path(), "gust", &[], &mut Folders::default(), &mut Unwatched)
+            .unwrap();
+    let mut wanted = ContactSheet::new(2);
+    for n in 0..=FRAMES {
+        let (frame, view) = film.draw(n, &built.hair.strands).unwrap();
+        outputs.push(n, &frame, &view).unwrap();
+        if [0, 5, 6].contains(&n) {
+            // Before the first step there is that which is to come.
+            let force = if n <= 5 { Vec3::Y * 40.0 } else { Vec3::Z * -30.0 };
+            wanted.add(&frame, &ToneMapping::new(picture), n, Some(force), &view);
+        }
+    }
+    let written = outputs.finish(&mut Unwatched).unwrap();
+    let read = png::read(&written[0]).unwrap();
+    let wanted: Canvas = wanted.canvas();
+    let rgb: Vec<u8> = read.rgb.iter().flatten().map(|value| (value / 257) as u8).collect();
+    assert!(rgb == wanted.rgb(), "{:?}", written[0]);
+}
+
+#[test]
+fn a_field_that_differs_from_place_to_place_is_shown_about_the_head_of_each_frame() {
+    let folder = tempfile::tempdir().unwrap();
+    let point = "[{position=[170,20,5],strength=40}]";
+    let built = walking(folder.path(), Vec3::new(0.6, 0.8, 0.0), &[("point", point)]);
+    let film = film(&built, Camera::default());
+    for n in [3, 10] {
+        let arrows = field_picture::arrows(&built, n, &film.view_in_world(n));
+        let middle = arrows.iter().map(|arrow| arrow.point).sum::<Vec3>() / arrows.len() as f32;
+        let centre = built.pose(n).world_from_head().transform_point3(built.head.ellipsoid.center);
+        // On both sides of the head alike; of some 20 points 200 cm from the origin, rounded.
+        assert!(arrows.len() > 10 && middle.distance(centre) < 1e-3, "frame {n}: {middle}, not {centre}");
+    }
+    let slices = field_picture::plot(&built).slices.unwrap();
+    let pose = built.pose(slices.frame);
+    for [place, force] in slices.yz.iter().chain(&slices.zx) {
+        let there = pose.world_from_head().transform_point3(built.head.ellipsoid.center + *place);
+        let in_world = built.force_at(there, slices.frame);
+        assert!((pose.rotation * *force).distance(in_world) < 1e-4 * in_world.length().max(1.0), "{place}: {force}");
+    }
 }

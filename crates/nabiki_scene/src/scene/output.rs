@@ -84,3 +84,22 @@ impl Output {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sheet_shows_four_frames_evenly_from_rest_on_or_as_many_as_there_are() {
+        let output = Output::default();
+        assert_eq!(output.sheet_frames(100), [0, 30, 60, 90]);
+        for frames in 4..=300 {
+            let sheet = output.sheet_frames(frames);
+            let steps: Vec<u32> = sheet.windows(2).map(|pair| pair[1] - pair[0]).collect();
+            assert!(sheet[0] == 0 && sheet.len() == 4 && sheet[3] <= frames, "{frames}: {sheet:?}");
+            assert!(steps.iter().max().unwrap() - steps.iter().min().unwrap() <= 1, "{frames}: {sheet:?}");
+        }
+        assert_eq!(output.sheet_frames(0), [0]);
+        assert_eq!(Output { sheet: Some(vec![7, 3]), ..output }.sheet_frames(10), [7, 3]);
+    }
+}

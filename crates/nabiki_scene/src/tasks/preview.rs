@@ -76,3 +76,26 @@ fn small(picture: &Picture, share: f32) -> Picture {
     small.hair.width *= share.sqrt().min(8.0);
     small
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_preview_has_the_longer_side_of_a_preview_and_the_shape_of_the_picture() {
+        for (size, wanted) in [([960, 540], [480, 270]), ([540, 960], [270, 480]), ([200, 100], [200, 100])] {
+            assert_eq!(small(&Picture { size, ..Picture::default() }, 1.0).size, wanted);
+        }
+        // 160.6: both sides are even, as a movie's are.
+        assert_eq!(small(&Picture { size: [1001, 335], ..Picture::default() }, 1.0).size, [480, 160]);
+    }
+
+    #[test]
+    fn fewer_hairs_are_drawn_thicker_by_the_root_of_their_share_up_to_eightfold() {
+        let whole = Picture::default();
+        for (share, wanted) in [(1.0, 1.0), (4.0, 2.0), (25.0, 5.0), (1000.0, 8.0)] {
+            let thicker = small(&whole, share).hair.width / whole.hair.width;
+            assert!((thicker - wanted).abs() < 1e-5, "{share}: {thicker}");
+        }
+    }
+}
