@@ -263,18 +263,48 @@ fn the_wind_of_a_recorded_head_is_against_its_way() {
     std::fs::write(folder.path().join("run.csv"), table).unwrap();
     let text = "[hair]\nstrands = 20\n[motion]\nframes = 20\n[head.motion]\nfile = \"run.csv\"\nup = \"+y\"\n\
                 facing = \"+x\"\n[body_wind]\n[flow]\n";
-    let build = |space: &str| {
-        let over = [("motion.force_space".to_owned(), space.to_owned())];
+    let build = |space: &str, frame_rate: &str| {
+        let over = [("motion.force_space", space), ("motion.frame_rate", frame_rate)]
+            .map(|(key, value)| (key.to_owned(), value.to_owned()));
         Scene::parse(text, &folder.path().join("run.toml"), &over).unwrap().build(Shown::All).unwrap()
     };
-    // 2 m a second along x; far from the head.
-    let world = build("world");
-    let force = world.force_at(Vec3::new(0.0, 5000.0, 0.0), 10);
-    assert!((force - Vec3::new(-60.0, 0.0, 0.0)).length() < 0.01, "{force}");
-    world.simulation().unwrap();
-    // The head looks along x, so head space is the world turned no way.
-    let force = build("head").force_at(Vec3::new(0.0, 5000.0, 0.0), 10);
-    assert!((force - Vec3::new(-60.0, 0.0, 0.0)).length() < 0.01, "{force}");
+    // 2 m a second along x; far from the head. The head looks along x, so head space is the world turned no way.
+    for (space, frame_rate) in [("world", "24"), ("world", "60"), ("head", "24")] {
+        let built = build(space, frame_rate);
+        let force = built.force_at(Vec3::new(0.0, 5000.0, 0.0), 10);
+        assert!((force - Vec3::new(-60.0, 0.0, 0.0)).length() < 0.01, "{space} {frame_rate}: {force}");
+        built.simulation().unwrap();
+    }
+}
+
+#[test]
+fn gusts_go_by_the_seconds_of_a_scene_and_not_by_its_frames() {
+    let text = "[hair]\nstrands = 20\n[motion]\nframes = 40\n[gust]\n[[force]]\nthrough = 40\nvector = [-40, 0, 0]\n";
+    let [slow, fast] = ["24", "48"].map(|rate| built(text, &[("motion.frame_rate", rate)]));
+    let x = |built: &BuiltScene, n: u32| built.force_at(Vec3::ZERO, n).x;
+    for n in 1..=20 {
+        // Half of a rate is the same digits.
+        assert_eq!(x(&slow, n), x(&fast, 2 * n), "frame {n}");
+    }
+    assert_ne!(x(&slow, 20), x(&fast, 20));
+}
+
+#[test]
+fn turbulence_is_carried_by_the_wind_of_its_scene() {
+    let wind = Vec3::new(-40.0, 10.0, 5.0);
+    let text = "[hair]\nstrands = 20\n[motion]\nframes = 10\n[[force]]\nthrough = 10\nvector = [-40, 10, 5]\n\
+                [turbulence]\nstrength = 12\npulse_length = 0\nnear_head = 0\ndrift = 0.02\n";
+    let built = built(text, &[]);
+    let swirls = |place: Vec3, n: u32| built.force_at(place, n) - wind;
+    for place in [Vec3::new(12.0, 3.0, -4.0), Vec3::new(-3.0, 14.0, 2.0), Vec3::new(1.0, -2.0, 13.0)] {
+        let first = swirls(place, 1);
+        for n in 2..=10 {
+            let there = swirls(place + 0.02 * wind * (n - 1) as f32, n);
+            // Places of 20 cm are rounded to 1e-6 of themselves, and a force of 40 likewise.
+            assert!(there.distance(first) < 1e-3, "{n} {place}: {there}, not {first}");
+        }
+        assert!(swirls(place, 10).distance(first) > 0.1, "{place}");
+    }
 }
 
 /// About a head that walks and turns, the wind is led round the head where that is; in its own space it stands still.

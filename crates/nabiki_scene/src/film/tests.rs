@@ -3,7 +3,7 @@ use std::path::Path;
 use nabiki_render::camera::NEAR;
 use nabiki_render::output::png;
 use nabiki_render::settings::{Camera, CameraKey, Projection};
-use nabiki_render::{Canvas, ContactSheet};
+use nabiki_render::{Canvas, ContactSheet, ForceArrow};
 
 use super::*;
 use crate::field_picture;
@@ -291,6 +291,29 @@ fn a_turntable_goes_along_with_its_head_and_holds_all_of_it() {
 }
 
 #[test]
+fn a_picture_of_a_turntable_is_that_of_a_camera_so_far_round() {
+    let folder = tempfile::tempdir().unwrap();
+    let on_its_way = "{azimuth=50,target=[0,0,0],distance=90,to={azimuth=80,elevation=20}}";
+    let changes = [("picture.camera", on_its_way), ("picture.exposure", "1.5"), ("picture.shutter", "0.8")];
+    let built = walking(folder.path(), Vec3::Y, &changes);
+    let n = 5;
+    let there = built.scene.picture.camera.at(n as f32 / FRAMES as f32);
+    assert!(there.azimuth > 55.0 && there.elevation > 7.0);
+    let mut frames = Still(built.hair.strands.clone());
+    let push = |k: u32, frame: &Frame| {
+        let camera = Camera { azimuth: there.azimuth + 90.0 * k as f32, ..there };
+        // The first that a film draws is not blurred.
+        let (wanted, _) = film(&built, camera).draw(n, &built.hair.strands).unwrap();
+        let apart = frame.rgba.iter().zip(&wanted.rgba).filter(|(a, b)| (0..4).any(|c| (a[c] - b[c]).abs() > 0.02));
+        // A place rounded across the edge of a cell.
+        let apart = apart.count();
+        assert!(apart < 60, "{k}: {apart}");
+        Ok(())
+    };
+    Film::turntable(&built, (n, 4), &mut frames, push, &mut Unwatched).unwrap();
+}
+
+#[test]
 fn forces_are_shown_where_they_push_in_the_space_that_they_are_given_in() {
     let folder = tempfile::tempdir().unwrap();
     for space in ["\"world\"", "\"head\""] {
@@ -309,30 +332,40 @@ fn forces_are_shown_where_they_push_in_the_space_that_they_are_given_in() {
 }
 
 #[test]
-fn a_contact_sheet_shows_the_force_of_each_of_its_frames() {
-    let folder = tempfile::tempdir().unwrap();
+fn a_contact_sheet_shows_the_forces_of_each_of_its_frames() {
     let force = "[{through=5,vector=[0,40,0]},{through=12,vector=[0,0,-30]}]";
-    let built = gust(&[("force", force), ("output.sheet", "[0,5,6]"), ("output.movie", "false")]);
-    let picture = &built.scene.picture;
-    let mut film = film(&built, Camera::default());
-    let mut outputs =
-        PictureOutputs::begin(&built, picture, folder.path(), "gust", &[], &mut Folders::default(), &mut Unwatched)
-            .unwrap();
-    let mut wanted = ContactSheet::new(2);
-    for n in 0..=FRAMES {
-        let (frame, view) = film.draw(n, &built.hair.strands).unwrap();
-        outputs.push(n, &frame, &view).unwrap();
-        if [0, 5, 6].contains(&n) {
-            // Before the first step there is that which is to come.
-            let force = if n <= 5 { Vec3::Y * 40.0 } else { Vec3::Z * -30.0 };
-            wanted.add(&frame, &ToneMapping::new(picture), n, Some(force), &view);
+    let point = "[{position=[20,5,5],strength=40,envelope=[{frame=1,factor=1},{frame=12,factor=-1}]}]";
+    for (key, field) in [("force", force), ("point", point)] {
+        let folder = tempfile::tempdir().unwrap();
+        let built = gust(&[(key, field), ("output.sheet", "[0,5,6]"), ("output.movie", "false")]);
+        let picture = &built.scene.picture;
+        let mut film = film(&built, Camera::default());
+        let mut outputs =
+            PictureOutputs::begin(&built, picture, folder.path(), "gust", &[], &mut Folders::default(), &mut Unwatched)
+                .unwrap();
+        let (mut wanted, tone_mapping) = (ContactSheet::new(2), ToneMapping::new(picture));
+        for n in 0..=FRAMES {
+            let (frame, view) = film.draw(n, &built.hair.strands).unwrap();
+            outputs.push(n, &frame, &view).unwrap();
+            match n {
+                // Before the first step there is that which is to come.
+                0 | 5 | 6 if key == "force" => {
+                    let force = if n <= 5 { Vec3::Y * 40.0 } else { Vec3::Z * -30.0 };
+                    wanted.add(&frame, &tone_mapping, n, Some(force), &view);
+                }
+                0 | 5 | 6 => {
+                    let arrows = field_picture::arrows(&built, n.max(1), &view);
+                    wanted.add_arrows(&frame, &tone_mapping, n, &arrows, &view);
+                }
+                _ => {}
+            }
         }
+        let written = outputs.finish(&mut Unwatched).unwrap();
+        let read = png::read(&written[0]).unwrap();
+        let wanted: Canvas = wanted.canvas();
+        let rgb: Vec<u8> = read.rgb.iter().flatten().map(|value| (value / 257) as u8).collect();
+        assert!(rgb == wanted.rgb(), "{key}: {:?}", written[0]);
     }
-    let written = outputs.finish(&mut Unwatched).unwrap();
-    let read = png::read(&written[0]).unwrap();
-    let wanted: Canvas = wanted.canvas();
-    let rgb: Vec<u8> = read.rgb.iter().flatten().map(|value| (value / 257) as u8).collect();
-    assert!(rgb == wanted.rgb(), "{:?}", written[0]);
 }
 
 #[test]
@@ -344,9 +377,12 @@ fn a_field_that_differs_from_place_to_place_is_shown_about_the_head_of_each_fram
     for n in [3, 10] {
         let arrows = field_picture::arrows(&built, n, &film.view_in_world(n));
         let middle = arrows.iter().map(|arrow| arrow.point).sum::<Vec3>() / arrows.len() as f32;
-        let centre = built.pose(n).world_from_head().transform_point3(built.head.ellipsoid.center);
+        let world_from_head = built.pose(n).world_from_head();
+        let centre = world_from_head.transform_point3(built.head.ellipsoid.center);
         // On both sides of the head alike; of some 20 points 200 cm from the origin, rounded.
         assert!(arrows.len() > 10 && middle.distance(centre) < 1e-3, "frame {n}: {middle}, not {centre}");
+        let in_head = |arrow: &ForceArrow| world_from_head.inverse().transform_point3(arrow.point);
+        assert!(arrows.iter().all(|arrow| built.head.ellipsoid.value(in_head(arrow)) > -1e-4), "frame {n}: within");
     }
     let slices = field_picture::plot(&built).slices.unwrap();
     let pose = built.pose(slices.frame);

@@ -55,7 +55,7 @@ pub enum Touch {
     },
     /// A drag was given up: all as it was before its first touch.
     Undone,
-    /// The camera was moved by hand. [`View::camera`] is where it is.
+    /// The camera was moved by hand. [`View::camera`](super::View::camera) is where it is.
     CameraMoved,
     /// It cannot be done, and why.
     Refused(String),
