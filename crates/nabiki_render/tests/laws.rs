@@ -361,6 +361,31 @@ fn layers_tell_the_nearest_depth_and_the_direction_from_root_to_tip_in_head_spac
 }
 
 #[test]
+fn of_a_piece_of_hair_that_crosses_another_each_end_shows_where_it_is_nearer() {
+    const PIXELS_PER_CM: f32 = 32.0;
+    let mut picture = square(64);
+    picture.camera.height = Some(64.0 / PIXELS_PER_CM);
+    (picture.hair.width, picture.hair.tip) = (3.0 / PIXELS_PER_CM, 1.0);
+    for shift in 0..16 {
+        // One goes down and away, the other up and away: they pass through each other at a row. Both are drawn as one piece.
+        let crossing = 8.0 - shift as f32;
+        let down = [[8.0, crossing + 16.0], [-8.0, crossing - 16.0]].map(|[x, y]| vec3(x, y, 0.0) / PIXELS_PER_CM);
+        let mut hair = line(down);
+        hair.push(down.map(|p| vec3(p.x, 2.0 * crossing / PIXELS_PER_CM - p.y, p.z)));
+        let renderer = Renderer::new(&picture, &Mesh::default()).unwrap().with_layers();
+        let frame = { renderer }.draw(&FrameToDraw::at_rest(&hair, fixed_view(&picture))).unwrap();
+        for row in 0..64 {
+            let above = 31.5 - row as f32 - crossing;
+            // Hair so thick goes by its depth in the middle of each two lines.
+            if (1.5..15.0).contains(&above.abs()) {
+                let layer = &frame.layers[64 * row + 31];
+                assert!(layer.hair > 0.99 && above * layer.direction[1] < 0.0, "{shift}, row {row}: {layer:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn what_passes_behind_the_head_while_the_shutter_is_open_shows_where_it_was_before_it() {
     let mut picture = square(64);
     (picture.shutter, picture.hair.width) = (1.0, 0.5);
