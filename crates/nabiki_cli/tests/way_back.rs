@@ -172,6 +172,7 @@ fn what_goes_back_stands_on_the_time_line_of_the_shot() {
                  node = \"/root\"\nup = \"+y\"\nfacing = \"+x\"\n\n[motion]\nframes = 3\n\n[[force]]\nthrough = 3\nvector = [-1, 0, 0]\n";
     fs::write(folder.join("scene.toml"), scene).unwrap();
     succeed(folder, "simulate scene.toml -o m.nabiki --export direct.usda --export-layer /root/h --export whole.usdc");
+    succeed(folder, "simulate scene.toml -o n.nabiki --export whole.usda --set picture.hair.width=0.02");
     succeed(folder, "convert m.nabiki later.usda --export-layer /root/h");
     succeed(folder, "convert m.nabiki other.usda --first-frame -5");
     succeed(folder, "simulate scene.toml -o n.nabiki --export said.usda --set output.first_frame=40");
@@ -185,6 +186,14 @@ fn what_goes_back_stands_on_the_time_line_of_the_shot() {
         let blocked = ["velocities", "accelerations"].map(|name| text.contains(&format!("vector3f[] {name} = None")));
         assert_eq!(blocked, [["direct.usda", "later.usda"].contains(&name); 2], "{name}");
     }
+    // A file of its own has the head's way, a centimetre a frame, and hair without a width is as wide as it is drawn.
+    let whole = fs::read_to_string(folder.join("whole.usda")).unwrap();
+    for n in 0..=3 {
+        let there = |line: &str| line.trim().starts_with(&format!("{}: ( (1, 0, 0, 0)", 1001 + n));
+        let placed = whole.lines().find(|line| there(line)).unwrap();
+        assert!(placed.contains(&format!(", ({}, 211.1", 3 + n)), "{placed}");
+    }
+    assert!(whole.contains("float[] widths = [0.02, 0.02, 0.02, 0.02, 0.02, 0.02]"), "{whole}");
     let refused = refuse(folder, "convert m.nabiki x.usda --first-frame 10000001");
     assert!(refused.contains("--first-frame = 10000001: must lie in -10000000..10000000"), "{refused}");
 }
