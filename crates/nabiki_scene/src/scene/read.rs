@@ -153,8 +153,14 @@ impl de::Error for Refusal {
     }
 
     fn invalid_type(found: Unexpected, wanted: &dyn Expected) -> Self {
-        let whole = whole(&found);
-        Self::kind(words(found), plain(wanted, whole))
+        let wanted = match (&found, plain(wanted)) {
+            // TOML holds no number too large for 64 bits, so it is for 32.
+            (Unexpected::Signed(0..) | Unexpected::Unsigned(_), text) if text == AT_LEAST_0 => {
+                format!("a whole number of at most {}", u32::MAX)
+            }
+            (_, text) => text,
+        };
+        Self::kind(words(found), wanted)
     }
 
     fn invalid_value(found: Unexpected, wanted: &dyn Expected) -> Self {
@@ -162,7 +168,7 @@ impl de::Error for Refusal {
     }
 
     fn invalid_length(found: usize, wanted: &dyn Expected) -> Self {
-        Self::text(format!("has {}, must be {}", entries_of(found), plain(wanted, AT_LEAST_0)))
+        Self::text(format!("has {}, must be {}", entries_of(found), plain(wanted)))
     }
 
     fn unknown_variant(found: &str, known: &'static [&'static str]) -> Self {
@@ -212,22 +218,12 @@ fn words(found: Unexpected) -> String {
 
 const AT_LEAST_0: &str = "a whole number of at least 0";
 
-/// What is wanted in place of what was found where a whole number is: its largest only where that is passed.
-fn whole(found: &Unexpected) -> &'static str {
-    match found {
-        Unexpected::Signed(0..) | Unexpected::Unsigned(_) => "a whole number of at most 4294967295",
-        _ => AT_LEAST_0,
-    }
-}
-
-/// Type names of the language as words of the user's; `whole`: what a whole number of 32 bits must be.
-fn plain(wanted: &dyn Expected, whole: &str) -> String {
+/// Type names of the language as words of the user's.
+fn plain(wanted: &dyn Expected) -> String {
     match wanted.to_string().as_str() {
         "u8" => whole_up_to(u8::MAX.into()),
         "u16" => whole_up_to(u16::MAX.into()),
-        "u32" => whole.to_owned(),
-        // All that TOML holds.
-        "u64" | "usize" => AT_LEAST_0.to_owned(),
+        "u32" | "u64" | "usize" => AT_LEAST_0.to_owned(),
         "i8" | "i16" | "i32" | "i64" | "isize" => "a whole number".to_owned(),
         "f32" | "f64" => "a number".to_owned(),
         "a boolean" => "true or false".to_owned(),
@@ -314,7 +310,7 @@ impl<'de> Deserializer<'de> for Node<'_> {
         visitor: V,
     ) -> Result<V::Value, Refusal> {
         // A choice of more than names says itself what it may be.
-        let wanted = match plain(&visitor, AT_LEAST_0) {
+        let wanted = match plain(&visitor) {
             text if text.starts_with("enum ") => one_of(names),
             text => text,
         };
