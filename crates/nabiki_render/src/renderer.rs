@@ -22,7 +22,7 @@ use crate::light::headlight::SolidShadows;
 use crate::light::kajiya::KajiyaKay;
 use crate::light::lamps::{Lamp, lamps, zenith};
 use crate::light::shade::{HairLight, Model};
-use crate::light::shadow::{Crossings, Scene, SkinPlace, Sweep};
+use crate::light::shadow::{Crossings, Scene, SkinPlace, Sweep, sweep};
 use crate::light::sky::{OnSkin, SkyMap};
 use crate::moment::{DrawnBody, FrameToDraw};
 use crate::raster::Node;
@@ -334,15 +334,10 @@ impl Renderer {
         let least_facing = SkinLight::least_facing(&self.picture.head);
         let (radius, skin) = (&self.radius, &self.receivers);
         let scene = Scene { nodes, radius, asked: &self.lit, skin, least_facing, width, bounds };
-        self.sweeps.resize_with(lamps.len(), Sweep::default);
+        // Some more tasks than threads, which take turns of unlike length.
+        let strips = (2 * rayon::current_num_threads()).div_ceil(lamps.len().max(1));
         let sweeps = &mut self.sweeps;
-        // As many tasks as there are threads, and no more: each looks through all nodes.
-        let strips = rayon::current_num_threads().div_ceil(lamps.len().max(1));
-        let cast = || {
-            sweeps.par_iter_mut().zip(lamps).zip(&still.solid_shadows).for_each(|((sweep, lamp), solids)| {
-                sweep.run(lamp, Some(solids), &scene, strips);
-            });
-        };
+        let cast = || sweep(sweeps, lamps, &still.solid_shadows, &scene, strips);
         let cover = || {
             if occluded {
                 sky_map.fill(nodes, &self.radius);

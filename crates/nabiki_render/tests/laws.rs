@@ -252,7 +252,7 @@ fn the_bits_do_not_depend_on_the_number_of_threads() {
             pool.install(|| draw(&picture, &strands))
         };
         let one = with(1);
-        assert!(one == with(2) && one == with(5), "{antialiasing:?}");
+        assert!(one == with(2) && one == with(5) && one == with(24), "{antialiasing:?}");
     }
 }
 

@@ -7,18 +7,21 @@
 //! neither reads nor lays: the lamp does not reach it, nor what is behind it.
 
 mod cells;
+mod edges;
 mod item;
+mod list;
 mod map;
+mod strip;
 
-use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use glam::Vec3;
 use rayon::prelude::*;
 
-use self::cells::{AROUND, Cells};
-use self::item::Item;
+use self::edges::Edges;
+use self::list::List;
 use self::map::Map;
+use self::strip::Strip;
 use super::headlight::SolidShadows;
 use super::lamps::Lamp;
 use crate::curve::CurveNode;
@@ -68,124 +71,63 @@ pub struct SkinPlace {
     pub normal: Vec3,
 }
 
-/// What one strip of the map holds, in the order of distance; kept from frame to frame.
-#[derive(Default)]
-struct Strip {
-    /// The rows of which it serves the receivers, and those that it holds: what they read lies around them.
-    rows: Range<usize>,
-    held: Range<usize>,
-    starts: Vec<u32>,
-    order: Vec<Item>,
-    cells: Vec<f32>,
-}
-
-/// What some nodes or places ask for and lay down, each with the slab that it lies in.
-#[derive(Default)]
-struct Items {
-    items: Vec<Item>,
-    slabs: Vec<u16>,
-}
-
 /// Working memory of one lamp.
 #[derive(Default)]
 pub struct Sweep {
-    /// Chunk by chunk of the nodes and then of the skin.
-    chunks: Vec<Items>,
+    edges: Edges,
+    /// Chunk by chunk of the nodes and then of the skin, what each has for each strip.
+    chunks: Vec<Vec<List>>,
     strips: Vec<Strip>,
     pub crossings: Crossings,
 }
 
+/// Counts for each lamp the fibres before every node that is asked for and every place on skin. `solids` are those of the lamps, if any.
+/// Each map is cut into so many `strips`, a task each; none changes a bit.
+pub fn sweep(sweeps: &mut Vec<Sweep>, lamps: &[Lamp], solids: &[SolidShadows], scene: &Scene, strips: usize) {
+    sweeps.resize_with(lamps.len(), Sweep::default);
+    let prepared = sweeps.par_iter_mut().zip(lamps).map(|(sweep, lamp)| sweep.prepare(lamp, scene, strips));
+    let maps: Vec<Map> = prepared.collect();
+    if scene.nodes.is_empty() {
+        return;
+    }
+    // All lamps' tasks in one row: none waits within a task, with another's begun meanwhile on top of it.
+    let chunks = sweeps.par_iter_mut().zip(&maps).enumerate().flat_map(|(l, (sweep, map))| {
+        let Sweep { edges, chunks, .. } = sweep;
+        let (edges, solids): (&Edges, _) = (edges, solids.get(l));
+        chunks.par_iter_mut().enumerate().map(move |(chunk, lists)| (chunk, lists, edges, map, solids))
+    });
+    chunks.for_each(|(chunk, lists, edges, map, solids)| {
+        let total = scene.nodes.len() + scene.skin.len();
+        let (start, end) = (chunk * CHUNK, total.min((chunk + 1) * CHUNK));
+        let last_node = end.min(scene.nodes.len());
+        let mut lists = list::Lists { map, edges, lists };
+        lists.clear();
+        lists.add_hair(scene, solids, start..last_node);
+        lists.add_skin(scene, last_node.max(start)..end);
+    });
+    let strips = sweeps.par_iter_mut().zip(&maps).flat_map(|(sweep, map)| {
+        let Sweep { edges, chunks, strips, crossings } = sweep;
+        let (edges, chunks, crossings): (&Edges, &[Vec<List>], &Crossings) = (edges, chunks, crossings);
+        strips.par_iter_mut().enumerate().map(move |(s, strip)| (s, strip, edges, chunks, map, crossings))
+    });
+    strips.for_each(|(s, strip, edges, chunks, map, crossings)| {
+        strip.sort(chunks.iter().map(|lists| &lists[s]), map.slabs);
+        strip.walk(edges.held(s), map.size[0], scene.nodes.len(), &crossings.counts);
+    });
+}
+
 impl Sweep {
-    /// Counts the fibres before every node that is asked for and every place. The map is
-    /// walked in `strips`, a task each: every one looks through all items for its own, and none changes a bit.
-    pub fn run(&mut self, lamp: &Lamp, solids: Option<&SolidShadows>, scene: &Scene, strips: usize) {
+    /// Makes room for what a lamp's map will hold.
+    fn prepare(&mut self, lamp: &Lamp, scene: &Scene, strips: usize) -> Map {
         let total = scene.nodes.len() + scene.skin.len();
         self.crossings.counts.clear();
         self.crossings.counts.resize_with(total, Default::default);
-        if scene.nodes.is_empty() {
-            return;
-        }
         let map = Map::new(lamp, scene);
-        self.chunks.resize_with(total.div_ceil(CHUNK), Items::default);
-        self.chunks.par_iter_mut().enumerate().for_each(|(chunk, items)| {
-            let (start, end) = (chunk * CHUNK, total.min((chunk + 1) * CHUNK));
-            let last_node = end.min(scene.nodes.len());
-            items.clear();
-            items.of_hair(&map, scene, solids, start..last_node);
-            items.of_skin(&map, scene, last_node.max(start)..end);
-        });
-        let (chunks, counts) = (&self.chunks, &self.crossings.counts);
+        self.edges.cut(&map, scene.nodes, strips);
         self.strips.resize_with(strips, Strip::default);
-        self.strips.par_iter_mut().enumerate().for_each(|(s, strip)| {
-            strip.rows = s * map.size[1] / strips..(s + 1) * map.size[1] / strips;
-            strip.held = strip.rows.start.saturating_sub(AROUND)..strip.rows.end + AROUND + 1;
-            strip.sort(chunks, &map, strips == 1);
-            let (width, first_on_skin) = (map.size[0], scene.nodes.len());
-            pulp::Arch::new().dispatch(Walk { strip, width, first_on_skin, counts });
-        });
-    }
-}
-
-/// The walk through one strip, compiled for each width of vectors that machines have; one is chosen at run time.
-struct Walk<'a> {
-    strip: &'a mut Strip,
-    width: usize,
-    first_on_skin: usize,
-    counts: &'a [AtomicU32],
-}
-
-impl pulp::WithSimd for Walk<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        self.strip.sweep(self.width, self.first_on_skin, self.counts);
-    }
-}
-
-impl Items {
-    fn clear(&mut self) {
-        self.items.clear();
-        self.slabs.clear();
-    }
-
-    #[inline(always)]
-    fn push(&mut self, item: Item, slab: u16) {
-        self.items.push(item);
-        self.slabs.push(slab);
-    }
-
-    /// Lists what some nodes read, and the parts of the pieces that begin at them.
-    fn of_hair(&mut self, map: &Map, scene: &Scene, solids: Option<&SolidShadows>, nodes: Range<usize>) {
-        let seen = |i: usize| {
-            let p = scene.nodes[i].position;
-            (map.project(p), solids.is_some_and(|solids| solids.is_dark(p)))
-        };
-        let mut next = None;
-        for i in nodes {
-            let (here, in_the_dark) = next.take().unwrap_or_else(|| seen(i));
-            if scene.asked[i] && !in_the_dark {
-                self.push(Item::reads(here, i), map.slab(here.z));
-            }
-            if scene.nodes.get(i + 1).is_none_or(|next| next.strand != scene.nodes[i].strand) {
-                continue;
-            }
-            let (there, to_the_dark) = *next.insert(seen(i + 1));
-            if !(in_the_dark && to_the_dark) {
-                map.cut(here, there, scene.thickness(i), |item, distance| self.push(item, map.slab(distance)));
-            }
-        }
-    }
-
-    /// Lists the receivers that are places on the skin.
-    fn of_skin(&mut self, map: &Map, scene: &Scene, receivers: Range<usize>) {
-        for i in receivers {
-            let place = &scene.skin[i - scene.nodes.len()];
-            if place.normal.dot(map.toward) > scene.least_facing {
-                let at = map.project(place.at);
-                self.push(Item::reads(at, i), map.slab(at.z));
-            }
-        }
+        self.chunks.resize_with(total.div_ceil(CHUNK), Vec::new);
+        self.chunks.iter_mut().for_each(|lists| lists.resize_with(strips, List::default));
+        map
     }
 }
 
@@ -197,54 +139,16 @@ impl Scene<'_> {
     }
 }
 
-impl Strip {
-    /// Collects what touches the strip in the order of distance from the lamp, ties in the order of the nodes. `all`: the strip is the
-    /// whole map.
-    fn sort(&mut self, chunks: &[Items], map: &Map, all: bool) {
-        // What two strips hold is there twice.
-        let held = [self.held.start as f32, self.held.end as f32];
-        let touching = || {
-            let items = chunks.iter().flat_map(|items| items.items.iter().zip(&items.slabs));
-            items.filter(|(item, _)| all || item.reaches(held))
-        };
-        self.starts.clear();
-        self.starts.resize(map.slabs, 0);
-        touching().for_each(|(_, &slab)| self.starts[usize::from(slab)] += 1);
-        let mut sum = 0;
-        for start in &mut self.starts {
-            sum += std::mem::replace(start, sum);
-        }
-        self.order.resize(sum as usize, Item::default());
-        touching().for_each(|(item, &slab)| {
-            let start = &mut self.starts[usize::from(slab)];
-            self.order[*start as usize] = *item;
-            *start += 1;
-        });
-    }
-
-    #[inline(always)]
-    fn sweep(&mut self, width: usize, first_on_skin: usize, counts: &[AtomicU32]) {
-        self.cells.clear();
-        self.cells.resize(self.held.len() * width, 0.0);
-        let mut cells = Cells { first_row: self.held.start, width, cells: &mut self.cells };
-        for item in &self.order {
-            let Some(receiver) = item.receiver() else {
-                cells.lay(item.at, &item.fibre());
-                continue;
-            };
-            // Toward zero is down: what lies above the map is in no strip.
-            if item.at[1] >= 0.0 && self.rows.contains(&(item.at[1] as usize)) {
-                let fibres = if receiver < first_on_skin { cells.read(item.at) } else { cells.around(item.at) };
-                counts[receiver].store(fibres.to_bits(), Ordering::Relaxed);
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::curve::bounds;
+
+    fn crossings(lamp: &Lamp, scene: &Scene, strips: usize) -> Crossings {
+        let mut sweeps = Vec::new();
+        sweep(&mut sweeps, std::slice::from_ref(lamp), &[], scene, strips);
+        sweeps.remove(0).crossings
+    }
 
     #[test]
     fn the_bits_do_not_depend_on_the_number_of_strips() {
@@ -270,13 +174,12 @@ mod tests {
             bounds: bounds(&nodes),
         };
         let counted = |strips: usize| -> Vec<u32> {
-            let mut sweep = Sweep::default();
-            sweep.run(&lamp, None, &scene, strips);
-            (0..nodes.len() + skin.len()).map(|i| sweep.crossings.at(i).to_bits()).collect()
+            let crossings = crossings(&lamp, &scene, strips);
+            (0..nodes.len() + skin.len()).map(|i| crossings.at(i).to_bits()).collect()
         };
         let whole = counted(1);
         assert!(whole.iter().filter(|&&bits| bits != 0).count() > nodes.len() / 2);
-        for strips in [2, 3, 7] {
+        for strips in [2, 3, 7, 64] {
             assert_eq!(counted(strips), whole, "{strips} strips");
         }
     }
@@ -305,9 +208,8 @@ mod tests {
         };
         for elevation in [15.0, 40.0, 75.0] {
             let lamp = Lamp { toward: crate::camera::direction(0.0, elevation), strength: [1.0; 3], spread: 0.03 };
-            let mut sweep = Sweep::default();
-            sweep.run(&lamp, None, &scene, 1);
-            let mean = (0..nodes.len()).map(|i| sweep.crossings.at(i)).sum::<f32>() / nodes.len() as f32;
+            let crossings = crossings(&lamp, &scene, 1);
+            let mean = (0..nodes.len()).map(|i| crossings.at(i)).sum::<f32>() / nodes.len() as f32;
             // Light crosses the layer once. Of hair beside it, what is nearer by less than half a part's depth is not before it.
             assert!(mean < 0.25 * 2.0 * 0.007 / spacing, "{elevation}: {mean}");
         }
@@ -347,9 +249,8 @@ mod tests {
                 width: 2.0 * self.radius[0],
                 bounds: bounds(&self.nodes),
             };
-            let mut sweep = Sweep::default();
-            sweep.run(lamp, None, &scene, 1);
-            (0..skin.len()).map(|i| sweep.crossings.at(self.nodes.len() + i)).collect()
+            let crossings = crossings(lamp, &scene, 1);
+            (0..skin.len()).map(|i| crossings.at(self.nodes.len() + i)).collect()
         }
     }
 

@@ -53,10 +53,9 @@ impl Item {
         Fibre { extent, fibres: self.fibres }
     }
 
-    /// Whether it reads from rows of cells in a range, or lays fibre into them.
+    /// How far above and below its middle a part lays fibre, at the most (cells).
     #[inline(always)]
-    pub fn reaches(&self, [first, end]: [f32; 2]) -> bool {
-        let half = if self.fibres < 0.0 { 1.0 } else { 1.0 + 0.5 * self.fibre().extent[1].abs() };
-        self.at[1] + half >= first && self.at[1] - half <= end
+    pub fn half_height(&self) -> f32 {
+        1.0 + 0.5 * self.fibre().extent[1].abs()
     }
 }
