@@ -124,3 +124,40 @@ fn what_is_told_of_no_body_changes_nothing() {
         assert!(told == run(&mut fast(&hair, &dynamics, &wind()), |_| [None; 3]));
     }
 }
+
+/// What a game's numbers are when they went wrong: a step takes them as they come, and a rewind leaves nothing of them.
+#[test]
+fn poses_that_are_no_numbers_do_not_stop_a_step_and_are_gone_after_a_rewind() {
+    let (hair, way) = (hair(40, 18), way_of_the_ball());
+    let dynamics = among(vec![way[0]]);
+    let by_step = |frame: usize| [None, None, Some([way[frame], way[frame - 1]])];
+    let well = run(&mut fast(&hair, &dynamics, &wind()), by_step);
+    let wrong = [
+        Pose { position_cm: Vec3::NAN, ..Pose::STILL },
+        Pose { position_cm: Vec3::INFINITY, ..Pose::STILL },
+        Pose { position_cm: Vec3::splat(1e30), ..Pose::STILL },
+        Pose { rotation: Quat::from_xyzw(f32::NAN, 0.0, 0.0, 1.0), ..Pose::STILL },
+        Pose { rotation: Quat::from_xyzw(0.0, 0.0, 0.0, 0.0), ..Pose::STILL },
+        Pose { rotation: Quat::from_xyzw(1e20, 0.0, 0.0, 1e20), ..Pose::STILL },
+    ];
+    let poses = way_of_a_head(FRAMES);
+    for pose in wrong {
+        let field = wind();
+        let mut simulation = fast(&hair, &dynamics, &field);
+        let mut reference = exact(&hair, &dynamics, &field);
+        let steppers: [&mut dyn Stepper; 2] = [&mut simulation, &mut reference];
+        for stepper in steppers {
+            // The body's, then the head's.
+            for (frame, bodies, head) in [
+                (1, [None, None, Some([pose; 2])], poses[1]),
+                (2, [None, None, Some([pose, way[1]])], poses[2]),
+                (3, [None; 3], pose),
+            ] {
+                let input = FrameInput::new(frame, &poses, &field);
+                stepper.step_frame(&FrameInput { bodies: &bodies, pose: head, ..input });
+            }
+        }
+        simulation.rewind();
+        assert!(run(&mut simulation, by_step) == well, "{pose:?}");
+    }
+}
