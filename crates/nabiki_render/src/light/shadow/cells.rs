@@ -9,7 +9,7 @@ pub const AROUND: usize = 2;
 const LANES: usize = 8;
 /// Shorter fibre (cells) is laid down as if it were so long.
 const SHORTEST: f32 = 1e-3;
-/// Parts with their middle so far outside (cells) lay nothing into the cells: they are no longer than an [`Item`](super::Item) can be.
+/// Parts with their middle so far outside (cells) lay nothing into the cells: they are no longer than an [`Item`](super::item::Item) can be.
 const FARTHEST: f32 = 34.0;
 
 /// Fibres laid down so far in a strip of the map, row after row. Places are counted from the corner of the whole map, so that
