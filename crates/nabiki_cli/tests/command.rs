@@ -104,6 +104,19 @@ fn a_cache_draws_the_frames_that_the_simulation_would() {
     let picture = |folder: &str| fs::read(Path::new(folder).join("gust_0004.png")).unwrap();
     assert!(picture(&direct) == picture(&cached));
 
+    // A film of its first frames is framed by these alone: hair that flies later makes room for itself in a longer one only.
+    let (longer, whole) = (path(&folder, "longer.nabiki"), path(&folder, "c"));
+    let frames = |count: &'static str| [&["--frames", count], &changes[2..]].concat();
+    succeed(&[&["simulate", GUST, "-o", &longer][..], &frames("40")].concat());
+    let framed = ["--set", "picture.camera={azimuth=50,elevation=4}", "--out"];
+    let render = [&["render", GUST, "--motion", &longer][..], &framed].concat();
+    succeed(&[&["run", GUST][..], &framed, &[&direct], &changes].concat());
+    succeed(&[&render[..], &[&cached], &changes].concat());
+    succeed(&[&render[..], &[&whole], &frames("40")].concat());
+    let sheet = |folder: &str| fs::read(Path::new(folder).join("gust_sheet.png")).unwrap();
+    assert!(sheet(&direct) == sheet(&cached));
+    assert!(sheet(&direct) != sheet(&whole));
+
     let other = refuse(
         &[&["render", GUST, "--motion", &cache, "--out", &cached, "--set", "motion.time_step=0.2"][..], &changes]
             .concat(),
