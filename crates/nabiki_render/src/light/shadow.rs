@@ -82,7 +82,7 @@ pub struct Sweep {
 }
 
 /// Counts for each lamp the fibres before every node that is asked for and every place on skin. `solids` are those of the lamps, if any.
-/// Each map is cut into so many `strips`, a task each; none changes a bit.
+/// Each map is cut into so many `strips`, a task each: their number changes no bit.
 pub fn sweep(sweeps: &mut Vec<Sweep>, lamps: &[Lamp], solids: &[SolidShadows], scene: &Scene, strips: usize) {
     sweeps.resize_with(lamps.len(), Sweep::default);
     let prepared = sweeps.par_iter_mut().zip(lamps).map(|(sweep, lamp)| sweep.prepare(lamp, scene, strips));
