@@ -39,7 +39,7 @@ impl Edges {
         let mut before = 0;
         for (row, weight) in self.weights.iter().enumerate() {
             // The strip ends before the row with which it would have more than its share.
-            while self.rows.len() < strips && before * strips >= self.rows.len() * total && before > 0 {
+            while self.rows.len() < strips && before * strips >= self.rows.len() * total {
                 self.rows.push(row);
             }
             self.strips.push(self.rows.len() as u16 - 1);
