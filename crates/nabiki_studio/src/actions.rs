@@ -39,6 +39,12 @@ pub enum Action {
     Join,
     /// Goes through stepped, linear, smooth.
     Ease,
+    /// Keeps the take that is seen.
+    Keep,
+    /// Shows the take that is kept, or the scene again.
+    Compare,
+    /// The scene becomes what is kept.
+    Exchange,
     /// Plays or pauses.
     Play,
     /// One frame on.
@@ -246,6 +252,21 @@ pub const ACTIONS: &[Entry] = &[
         "The frame before in which one begins.",
     ),
     entry(Action::Ending, "Play", "Loop, stop or swing", plain("L"), "What happens after the last frame."),
+    entry(Action::Keep, "Play", "Keep this take", plain("K"), "Keeps what is seen, to be compared with."),
+    entry(
+        Action::Compare,
+        "Play",
+        "Compare with kept",
+        plain("X"),
+        "Shows the take that is kept, and how it differs, or the scene again.",
+    ),
+    entry(
+        Action::Exchange,
+        "Play",
+        "Exchange with kept",
+        shift("X"),
+        "The scene becomes what is kept; what it was is kept.",
+    ),
     entry(Action::Frame, "View", "Frame the hair", plain("F"), "Shows all of the hair."),
     entry(
         Action::SceneCamera,

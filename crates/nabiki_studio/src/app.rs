@@ -4,13 +4,14 @@ use std::path::PathBuf;
 
 use eframe::egui::{self, Key, Modifiers, Ui, ViewportCommand};
 use egui_tiles::{SimplificationOptions, TileId, UiResponse};
+use nabiki_render::Picture;
 
 use crate::actions::{ACTIONS, Action};
 use crate::command::Command;
 use crate::dialog::Dialog;
 use crate::document::{Document, Phase};
 use crate::layout::{Layout, Pane};
-use crate::panels::{Commands, dialogs, mend, menu, page, status, theme, timeline, welcome};
+use crate::panels::{Commands, dialogs, kept, mend, menu, page, status, theme, timeline, welcome};
 use crate::preferences::{LAYOUT, Preferences};
 use crate::session::{Session, Wish};
 use crate::view::{Shown, Touch, View};
@@ -304,16 +305,21 @@ impl Panes<'_> {
             return;
         };
         let (scene, preferences) = (document.scene(), self.session.preferences());
+        let instead = self.session.seen_instead();
+        let (take, scene) = instead.map_or((take, scene), |(take, _)| (take, &take.built.scene));
+        // From where the scene is seen, or nothing could be compared.
+        let picture = Picture { camera: document.scene().picture.camera, ..scene.picture.clone() };
         let shown = Shown {
             take,
-            picture: &scene.picture,
+            picture: &picture,
             force: &scene.field.force,
             frame: self.session.play.frame().min(take.frames()),
             playing: self.session.play.is_playing(),
             selected_interval: match self.session.chosen() {
-                [j] => Some(*j),
+                [j] if instead.is_none() => Some(*j),
                 _ => None,
             },
+            hands_off: instead.is_some(),
             ghosts: preferences.ghosts,
             wind: preferences.arrows,
             final_picture: preferences.final_picture && self.session.trouble().is_none(),
@@ -322,6 +328,9 @@ impl Panes<'_> {
         };
         let rect = ui.available_rect_before_wrap();
         let touches = self.view.ui(ui, &shown);
+        if let Some((_, differences)) = instead {
+            kept::ui(ui.ctx(), rect, differences);
+        }
         if self.session.dialog() == Some(&Dialog::Welcome) {
             let (side, room) = self.view.free_side(&shown, rect.size());
             welcome::ui(ui.ctx(), rect, side, room);

@@ -4,6 +4,7 @@ pub mod dialogs;
 pub mod fields;
 pub mod files;
 pub mod interval;
+pub mod kept;
 pub mod mend;
 pub mod menu;
 pub mod number;

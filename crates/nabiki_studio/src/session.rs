@@ -4,6 +4,7 @@
 mod deep;
 mod edit;
 mod files;
+mod kept;
 mod lost;
 mod words;
 
@@ -27,6 +28,8 @@ use crate::take::{TOUCHED, Take};
 use crate::tasks::Task;
 use crate::timeline::Clip;
 use deep::Deep;
+pub use kept::Difference;
+use kept::KeptTake;
 pub use lost::Broken;
 pub use words::Word;
 
@@ -68,6 +71,7 @@ pub struct Session {
     desktop: Option<Asked>,
     has_desktop: bool,
     take: Option<Arc<Take>>,
+    kept: Option<KeptTake>,
     swings: Option<SwingTable>,
     trouble: Option<Trouble>,
     took: Duration,
@@ -126,6 +130,7 @@ impl Session {
             desktop: None,
             has_desktop: true,
             take: None,
+            kept: None,
             swings: None,
             trouble: None,
             took: Duration::ZERO,
@@ -209,7 +214,8 @@ impl Session {
 
     /// Whether a motion is being worked out.
     pub fn is_moving(&self) -> bool {
-        self.motion.is_working() || self.deep.is_working()
+        let kept = self.kept.as_ref().is_some_and(KeptTake::is_working);
+        self.motion.is_working() || self.deep.is_working() || kept
     }
 
     /// What is done for the motion of more strands than a touch moves, while it is being worked out, and how much of that, 0..1.
@@ -225,6 +231,8 @@ impl Session {
             self.deepen();
         }
         self.deep.wait();
+        self.receive();
+        self.kept.iter().for_each(KeptTake::wait);
         self.receive();
     }
 
@@ -302,6 +310,10 @@ impl Session {
         if let Some(moved) = self.deep.take() {
             self.receive_deep(moved);
         }
+        if let Some(moved) = self.kept.as_ref().and_then(KeptTake::moved) {
+            self.receive_kept(moved);
+        }
+        self.match_strands();
     }
 
     fn receive_touched(&mut self, Moved { number, result, took }: Moved) {
@@ -388,6 +400,7 @@ impl Session {
 
     fn move_if_changed(&mut self) {
         if self.document.as_ref().is_some_and(|document| document.version() != self.seen_version) {
+            self.see_scene();
             self.move_again(false);
         }
     }
@@ -455,6 +468,7 @@ impl Session {
             Action::More => self.step_strands(true),
             Action::ZoomIn => self.preferences.zoom = (self.preferences.zoom * 1.1).min(4.0),
             Action::ZoomOut => self.preferences.zoom = (self.preferences.zoom / 1.1).max(0.5),
+            Action::Keep | Action::Compare | Action::Exchange => self.act_on_kept(action),
             Action::Palette => self.dialog = Some(Dialog::Palette { query: String::new(), line: 0 }),
             Action::Keys => self.dialog = Some(Dialog::Keys),
             Action::Welcome => self.dialog = Some(Dialog::Welcome),

@@ -159,7 +159,9 @@ impl View {
         }
         let Some(orbit) = self.orbit else { return touches };
         let view = orbit.view(size, shown.take.pose(shown.frame).position_cm);
-        self.nails.retain(|nail| nail.fits(shown.take.strands()) && nail.frame <= shown.take.frames());
+        if !shown.hands_off {
+            self.nails.retain(|nail| nail.fits(shown.take.strands()) && nail.frame <= shown.take.frames());
+        }
         let before = touches.len();
         self.use_hand(ui, &response, shown, &view, rect, &mut touches);
         if touches.len() > before || self.hand.is_busy() || shown.playing {
@@ -268,7 +270,7 @@ impl View {
             let (pressed, down) = (input.pointer.button_pressed(primary), input.pointer.button_down(primary));
             (pressed, down, input.key_pressed(egui::Key::Escape), input.key_down(egui::Key::N))
         });
-        if escape && self.hand.is_busy() {
+        if (escape || shown.hands_off) && self.hand.is_busy() {
             touches.extend(self.hand.give_up());
             return;
         }
@@ -311,7 +313,8 @@ impl View {
             self.hand = Hand::Tip { interval, held: handle::Held::new(&arrow, &of_forces, pixel), vector: None };
             return;
         }
-        let Some(picked) = picked(shown, view, pixel, scale) else {
+        let picked = if shown.hands_off { None } else { picked(shown, view, pixel, scale) };
+        let Some(picked) = picked else {
             self.hand = Hand::Camera(camera::Gesture::Orbit);
             return;
         };
@@ -404,7 +407,7 @@ impl View {
     fn draw_over(&self, overlay: &Overlay<'_>, response: &egui::Response, shown: &Shown<'_>, view: &Seen) {
         let in_head = view.in_head(&shown.take.pose(shown.frame));
         let (points, strands) = (shown.take.points(shown.frame), shown.take.strands());
-        for nail in &self.nails {
+        for nail in self.nails.iter().filter(|nail| nail.fits(strands)) {
             overlay.nail(&in_head, nail.middle(points, strands), nail.frame == shown.frame);
         }
         let (of_forces, _) = hand::of_forces(shown, view);
@@ -426,7 +429,7 @@ impl View {
             {
                 overlay.thread(&in_head, let_go.goal, let_go.lock.middle(points, strands), Some(&words));
             }
-            Hand::Idle if !shown.playing && shown.frame > 0 => {
+            Hand::Idle if !shown.playing && shown.frame > 0 && !shown.hands_off => {
                 let pixel = response.hover_pos().map(|at| (at - overlay.rect.min) * overlay.scale);
                 let picked = pixel.and_then(|at| picked(shown, view, glam::Vec2::new(at.x, at.y), overlay.scale));
                 if let Some(picked) = picked {

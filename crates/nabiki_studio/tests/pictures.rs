@@ -41,7 +41,7 @@ struct Case {
     act: fn(&mut Window),
 }
 
-const CASES: [Case; 7] = [
+const CASES: [Case; 8] = [
     Case {
         name: "gust",
         scene: "gust.toml",
@@ -50,6 +50,26 @@ const CASES: [Case; 7] = [
         act: |window| {
             go(window, 45);
             click(window, "Interval 1");
+        },
+    },
+    Case {
+        name: "compared",
+        scene: "gust.toml",
+        size: [1280.0, 720.0],
+        points_to_pixels: 1.0,
+        act: |window| {
+            go(window, 45);
+            window.key_press(Key::K);
+            window.step();
+            let session = window.state_mut().session_mut();
+            let phase = nabiki_studio::document::Phase::Done;
+            session.apply(Command::Vector { interval: 1, vector: [-600.0, 120.0, 80.0].into(), phase });
+            let calm = Some(toml::Value::Float(60.0));
+            session.apply(Command::Set { key: "free.settle".to_owned(), value: calm, phase });
+            settle(window);
+            window.key_press(Key::X);
+            window.step();
+            settle(window);
         },
     },
     Case {

@@ -44,6 +44,8 @@ fn item(ui: &mut Ui, session: &Session, action: Action, commands: &mut Commands)
         Action::Paste => (entry.name.to_owned(), session.has_clip()),
         Action::Cut | Action::Copy | Action::Delete => (entry.name.to_owned(), !session.chosen().is_empty()),
         Action::Join => (entry.name.to_owned(), session.chosen().len() > 1),
+        Action::Compare => ticked_if(entry.name, session.seen_instead().is_some(), session.kept_take().is_some()),
+        Action::Exchange => (entry.name.to_owned(), session.kept_take().is_some()),
         Action::Ghosts => ticked(entry.name, session.preferences().ghosts),
         Action::Arrows => ticked(entry.name, session.preferences().arrows),
         Action::FinalPicture => ticked(entry.name, session.preferences().final_picture),
@@ -72,6 +74,10 @@ fn named(name: &str, what: Option<&str>) -> (String, bool) {
 
 fn ticked(name: &str, on: bool) -> (String, bool) {
     (format!("{name}: {}", if on { "on" } else { "off" }), true)
+}
+
+fn ticked_if(name: &str, on: bool, enabled: bool) -> (String, bool) {
+    (ticked(name, on).0, enabled)
 }
 
 fn recent(ui: &mut Ui, session: &Session, commands: &mut Commands) {

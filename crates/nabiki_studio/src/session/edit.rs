@@ -11,7 +11,7 @@ use crate::document::Phase;
 use crate::timeline;
 
 /// What changes the scene.
-pub(super) const CHANGES: [Action; 10] = [
+pub(super) const CHANGES: [Action; 11] = [
     Action::Undo,
     Action::Redo,
     Action::Cut,
@@ -22,6 +22,7 @@ pub(super) const CHANGES: [Action; 10] = [
     Action::Join,
     Action::Ease,
     Action::UseCamera,
+    Action::Exchange,
 ];
 
 /// Most segments that the length of hair alone gives it.

@@ -49,7 +49,7 @@ impl Session {
         (self.broken, self.trouble, self.said_changed) = (None, None, false);
         self.forget_refusals();
         // The hair of another scene is not this one's, nor is what is still on its way.
-        (self.take, self.swings) = (None, None);
+        (self.take, self.swings, self.kept) = (None, None, None);
         self.play.go(0);
         self.move_again(true);
         self.first_asked = self.asked;

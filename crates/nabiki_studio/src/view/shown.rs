@@ -30,6 +30,8 @@ pub struct Shown<'a> {
     pub final_picture: bool,
     /// Strands of the final picture; all of the scene's where it has fewer.
     pub strands_in_final: usize,
+    /// Whether a hand can move the camera alone: what is seen is not the scene.
+    pub hands_off: bool,
     /// Which buttons move the camera.
     pub navigation: Navigation,
 }

@@ -106,6 +106,7 @@ fn shown(take: &Take, frame: u32) -> Shown<'_> {
         frame,
         playing: false,
         selected_interval: None,
+        hands_off: false,
         ghosts: true,
         wind: true,
         final_picture: true,

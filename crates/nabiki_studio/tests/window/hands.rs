@@ -213,3 +213,34 @@ fn the_list_of_keys_has_all_of_them_and_fits_a_small_window() {
     let close = window.harness.get_by_label("Close").rect();
     assert!(close.right() < 1280.0 && close.bottom() < 720.0, "{close}");
 }
+
+#[test]
+fn of_a_take_that_is_kept_a_hand_moves_the_camera_alone() {
+    let mut window = Window::open();
+    window.press(Modifiers::NONE, Key::End);
+    window.press(Modifiers::NONE, Key::K);
+    let start = window.take_hold();
+    let wind = window.session().document().unwrap().scene().field.force.clone();
+    let camera = |window: &Window<'_>| window.harness.state().view().camera();
+    let before = camera(&window);
+    window.press(Modifiers::NONE, Key::X);
+    window.harness.step();
+    assert_eq!(window.pulled(), None, "what is held is let go of when it is not seen any more");
+    window.harness.get_by_label("The take that is kept");
+    window.button(start, false);
+    window.button(start, true);
+    for n in 1..=10 {
+        window.harness.hover_at(start + vec2(4.0, 3.0) * n as f32);
+        window.harness.step();
+        assert_eq!(window.pulled(), None);
+    }
+    window.button(start + vec2(40.0, 30.0), false);
+    window.settle();
+    assert_eq!(window.session().document().unwrap().scene().field.force, wind);
+    assert_ne!(camera(&window), before);
+    window.press(Modifiers::NONE, Key::X);
+    window.harness.step();
+    assert!(window.harness.query_by_label("The take that is kept").is_none());
+    window.take_hold();
+    assert!(window.pulled().is_some());
+}
