@@ -88,7 +88,7 @@ impl Session {
         {
             self.kept = Some(KeptTake::new(take.clone()));
             self.accept(KEPT);
-            self.say("This take is kept: X shows it and the scene in turn", false);
+            self.say("this take is kept: X shows it and the scene in turn", false);
         }
     }
 
