@@ -236,6 +236,10 @@ fn keys(ctx: &egui::Context, mut held: bool, menu: bool, commands: &mut Commands
                 _ => (None, false),
             };
             let Some(action) = action else { return true };
+            // What is held goes on changing the scene.
+            if held && matches!(action, Action::Compare | Action::Exchange) {
+                return false;
+            }
             if action == Action::SelectNone && std::mem::take(&mut held) {
                 // The view is to see it, too.
                 commands.push(Command::GiveUpDrag);

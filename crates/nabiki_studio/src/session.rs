@@ -353,8 +353,7 @@ impl Session {
             self.motion.stop();
         }
         self.asked = self.motion.ask(document.scene().clone(), self.preferences.strands.min(TOUCHED), fresh);
-        let intervals = document.scene().field.force.len();
-        self.chosen.retain(|&j| j < intervals);
+        self.choose_what_is_there();
         self.wait_to_deepen(fresh);
     }
 
@@ -396,6 +395,13 @@ impl Session {
         }
         self.note_question();
         self.move_if_changed();
+        // Panels speak of the intervals as they were when they were drawn; a key may have taken some since.
+        self.choose_what_is_there();
+    }
+
+    fn choose_what_is_there(&mut self) {
+        let intervals = self.document.as_ref().map_or(0, |document| document.scene().field.force.len());
+        self.chosen.retain(|&j| j < intervals);
     }
 
     fn move_if_changed(&mut self) {

@@ -361,6 +361,24 @@ fn what_a_killed_window_had_is_offered_and_opened() {
 }
 
 #[test]
+fn no_interval_is_chosen_that_is_not_there() {
+    let place = Place::new();
+    let mut session = place.session();
+    // A panel that was drawn before the last step was taken back speaks of what there was.
+    session.apply(Command::Choose(vec![1, 2]));
+    assert_eq!(session.chosen(), [1]);
+    session.apply(Command::Act(Action::Delete));
+    session.apply(Command::Choose(vec![1]));
+    assert_eq!(session.chosen(), [] as [usize; 0]);
+    session.apply(Command::Act(Action::SelectAll));
+    session.apply(Command::Act(Action::Delete));
+    session.apply(Command::Act(Action::Ease));
+    session.wait();
+    assert_eq!(session.trouble(), None, "there is nothing to ease");
+    assert!(session.words().iter().any(|word| word.wrong && word.text.contains("no wind to ease")));
+}
+
+#[test]
 fn intervals_are_cut_joined_copied_and_pasted_as_single_steps() {
     let mut session = Place::new().session();
     session.apply(Command::Go(5));

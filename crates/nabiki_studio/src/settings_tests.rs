@@ -67,6 +67,50 @@ fn every_key_of_a_scene_has_a_field_with_help() {
     }
 }
 
+/// Settings whose range depends on another one.
+const BOUND_BY_ANOTHER: [&str; 8] = [
+    "disturbance.over",
+    "contact.friction",
+    "contact.static_friction",
+    "body.friction",
+    "body.static_friction",
+    "hair.style.curl.radius",
+    "hair.style.clumps.wave",
+    "hair.style.clumps.wave_length",
+];
+
+#[test]
+fn both_ends_of_what_a_field_takes_are_in_the_range_of_the_scene() {
+    let scenes = scenes();
+    let mut tried = 0;
+    for group in Page::ALL.iter().flat_map(|page| page.groups()) {
+        for setting in group.settings {
+            let ends = match setting.kind {
+                Kind::Number { least, most, .. } => [least, most].map(Value::Float),
+                Kind::Whole { least, most } => [least, most].map(Value::Integer),
+                Kind::Profile { most, .. } | Kind::NumberOr { most, .. } => [0.0, most].map(Value::Float),
+                _ => continue,
+            };
+            if BOUND_BY_ANOTHER.contains(&format!("{}.{}", group.table, setting.key).as_str()) {
+                continue;
+            }
+            let table = match group.shape {
+                Shape::List(_) => format!("{}[0]", group.table),
+                _ => group.table.replace("body.", "body[0]."),
+            };
+            let key = format!("{table}.{}", setting.key);
+            for end in ends {
+                // Those of grown hair and of imported hair are in no scene together.
+                let scene = scenes.iter().find_map(|scene| scene.with_setting(&key, Some(end.clone())).ok());
+                let scene = scene.unwrap_or_else(|| panic!("no scene has {key}"));
+                assert_eq!(scene.check(), Ok(()), "{key} = {end}");
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried > 200, "{tried}");
+}
+
 #[test]
 fn what_a_new_table_is_given_makes_a_scene() {
     for page in Page::ALL {

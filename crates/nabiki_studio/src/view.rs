@@ -270,7 +270,7 @@ impl View {
             let (pressed, down) = (input.pointer.button_pressed(primary), input.pointer.button_down(primary));
             (pressed, down, input.key_pressed(egui::Key::Escape), input.key_down(egui::Key::N))
         });
-        if (escape || shown.hands_off) && self.hand.is_busy() {
+        if escape && self.hand.is_busy() {
             touches.extend(self.hand.give_up());
             return;
         }

@@ -11,6 +11,8 @@ use nabiki_studio::command::Command;
 use nabiki_studio::dialog::Dialog;
 use nabiki_studio::session::Session;
 
+#[path = "window/anything.rs"]
+mod anything;
 #[path = "window/hands.rs"]
 mod hands;
 #[path = "window/sizes.rs"]

@@ -190,6 +190,10 @@ impl Session {
     }
 
     fn next_ease(&mut self) {
+        if self.document.as_ref().is_some_and(|document| document.scene().field.force.is_empty()) {
+            return self.refuse("Ease", "there is no wind to ease: add an interval (A) first");
+        }
+        self.accept("Ease");
         self.change("Ease", Phase::Done, |scene| {
             scene.field.wind.ease = match scene.field.wind.ease {
                 Ease::Stepped => Ease::Linear,

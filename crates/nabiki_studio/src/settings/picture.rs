@@ -5,6 +5,8 @@ use super::{Group, Kind, Setting, Shape, choice, colour, fine, flag, number, vec
 const PART: [f64; 2] = [0.0, 1.0];
 const TURN: [f64; 2] = [-3600.0, 3600.0];
 const CM: [f64; 2] = [0.1, 1e6];
+/// Ways from the eye (cm).
+const FROM_EYE: [f64; 2] = [1.0, 1e6];
 
 pub(super) const GROUPS: &[Group] = &[
     Group::new(
@@ -77,7 +79,7 @@ pub(super) const GROUPS: &[Group] = &[
             ),
             fine("elevation", "Elevation", "degrees", [-89.0, 89.0], 0.25, "Above the horizon."),
             fine("fov", "Field of view", "degrees", [1.0, 150.0], 0.1, "Vertical, for perspective."),
-            fine("distance", "Distance", "cm", CM, 0.5, "From the target to the eye.").or("frames everything"),
+            fine("distance", "Distance", "cm", FROM_EYE, 0.5, "From the target to the eye.").or("frames everything"),
             fine("height", "Height", "cm", CM, 0.5, "Height of the picture in space, for orthographic views.")
                 .or("frames everything"),
             vector("target", "Target", "cm", 0.1, "The point looked at, from the head's origin.").or("the middle"),
@@ -90,7 +92,7 @@ pub(super) const GROUPS: &[Group] = &[
                 "Small numbers blur what is not in focus; for perspective.",
             )
             .or("all sharp"),
-            fine("focus_distance", "Focus distance", "cm", [1.0, 1e6], 0.5, "From the eye to the plane that is sharp.")
+            fine("focus_distance", "Focus distance", "cm", FROM_EYE, 0.5, "From the eye to the plane that is sharp.")
                 .or("the head"),
             number("margin", "Margin", "", [0.0, 0.45], "Empty border around what is framed."),
         ],
@@ -103,10 +105,11 @@ pub(super) const GROUPS: &[Group] = &[
         &[
             fine("azimuth", "Azimuth", "degrees", TURN, 0.5, "Azimuth at the end.").or("stays"),
             fine("elevation", "Elevation", "degrees", [-89.0, 89.0], 0.25, "Elevation at the end.").or("stays"),
-            fine("distance", "Distance", "cm", CM, 0.5, "Distance at the end; needs one at the start.").or("stays"),
+            fine("distance", "Distance", "cm", FROM_EYE, 0.5, "Distance at the end; needs one at the start.")
+                .or("stays"),
             fine("fov", "Field of view", "degrees", [1.0, 150.0], 0.1, "Field of view at the end.").or("stays"),
             vector("target", "Target", "cm", 0.1, "Target at the end; needs one at the start.").or("stays"),
-            fine("focus_distance", "Focus distance", "cm", [1.0, 1e6], 0.5, "At the end; needs one at the start.")
+            fine("focus_distance", "Focus distance", "cm", FROM_EYE, 0.5, "At the end; needs one at the start.")
                 .or("stays"),
         ],
     )
