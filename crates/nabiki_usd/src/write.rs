@@ -312,3 +312,50 @@ fn prim_names(path: &str) -> io::Result<Vec<String>> {
         Err(invalid(format!("prim path \"{path}\": must be like /character/hair")))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::opened::Layer;
+    use nabiki::Hair;
+
+    #[test]
+    fn what_only_other_programs_ask_for_is_in_every_frame() {
+        let mut strands = Strands::default();
+        strands.push([Vec3::ZERO, Vec3::new(1.0, -2.0, 3.0)]);
+        let mut hair = Hair::from(strands.clone());
+        hair.attributes.width = Some(vec![0.5, 0.25]);
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["hair.usda", "hair.usdc"] {
+            let path = folder.path().join(name);
+            let mut export = Export::new(&hair, 8.0);
+            (export.velocities, export.first_frame) = (true, 1001);
+            let mut sink = Box::new(HairStage::create(&path, export, Form::Stage).unwrap());
+            for frame in 0..3 {
+                let mut moved = strands.clone();
+                moved.points_mut()[1].x += (frame * frame) as f32;
+                sink.frame(&moved, &DAffine3::IDENTITY).unwrap();
+            }
+            sink.finish().unwrap();
+            let mut layer = Layer::file(&path).unwrap();
+            for (said, expected) in [
+                ("startTimeCode", 1001.0),
+                ("endTimeCode", 1003.0),
+                ("framesPerSecond", 8.0),
+                ("timeCodesPerSecond", 8.0),
+                ("metersPerUnit", 0.01),
+            ] {
+                assert_eq!(layer.metadata_number(said).unwrap(), Some(expected), "{name}: {said}");
+            }
+            let prim = layer.of_type("BasisCurves")[0];
+            // The tip goes by 1 and by 3, eight times a second; the last frame goes on as it came.
+            for (code, farthest, speed) in [(1001.0, 1.0, 8.0), (1002.0, 2.0, 24.0), (1003.0, 5.0, 24.0)] {
+                let mut at = |attribute: &str| layer.points_at(prim, attribute, code).unwrap().unwrap();
+                // The box about the hair is wider than that of its points by half of the widest.
+                let [low, high] = [Vec3::new(0.0, -2.0, 0.0) - 0.25, Vec3::new(farthest, 0.0, 3.0) + 0.25];
+                assert_eq!(at("extent"), [low, high], "{name}, code {code}");
+                assert_eq!(at("velocities"), [Vec3::ZERO, Vec3::X * speed], "{name}, code {code}");
+            }
+        }
+    }
+}
