@@ -378,12 +378,16 @@ mod tests {
     fn what_only_other_programs_ask_for_is_in_every_frame() {
         let mut strands = Strands::default();
         strands.push([Vec3::ZERO, Vec3::new(1.0, -2.0, 3.0)]);
-        let hair = Hair::from(strands.clone());
+        let mut hair = Hair::from(strands.clone());
+        hair.attributes.width = Some(vec![0.5, 0.25]);
+        hair.attributes.id = Some(vec![7]);
+        hair.attributes.root_uv = Some(vec![[0.5, 0.25]]);
         let skin = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], corner_uvs: None };
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("hair.abc");
         let mut export = Export::new(&hair, 8.0);
         (export.velocities, export.head) = (true, Some(&skin));
+        (export.rest, export.default_colour) = (true, Some([0.25, 0.5, 1.0]));
         let mut sink = Box::new(HairArchive::create(&path, export).unwrap());
         for frame in 0..3 {
             let mut moved = strands.clone();
@@ -402,6 +406,26 @@ mod tests {
             assert_eq!(found, [0.0, -2.0, 0.0, farthest, 0.0, 3.0], "the least corner, then the greatest");
             let found = singles(velocities.kind, &tree.sample(&velocities, frame).unwrap()).unwrap();
             assert_eq!(found, [0.0, 0.0, 0.0, speed, 0.0, 0.0], "frame {frame}");
+        }
+        let more = named(&of_hair, ".arbGeomParams");
+        let parameters = [of_hair, tree.properties(more.place).unwrap()].concat();
+        for (name, scope) in [
+            ("uv", "uni"),
+            ("width", "vtx"),
+            ("groom_id", "uni"),
+            ("groom_root_uv", "uni"),
+            ("groom_color", "vtx"),
+            ("rest", "vtx"),
+        ] {
+            assert_eq!(named(&parameters, name).detail("geoScope"), Some(scope), "{name}");
+        }
+        let of_head = properties(&mut tree, "/head");
+        assert_eq!(tree.sample(&named(&of_head, ".inherits"), 0).unwrap(), [1]);
+        // By which Unreal knows how to read the rest.
+        let own = tree.properties(named(&of_head, ".userProperties").place).unwrap();
+        for (name, number) in [("groom_version_major", 1), ("groom_version_minor", 5)] {
+            let header = named(&own, name);
+            assert_eq!(integers(header.kind, &tree.sample(&header, 0).unwrap()).unwrap(), [number], "{name}");
         }
         // Clockwise, seen from outside.
         let of_skin = properties(&mut tree, "/head/skin");

@@ -40,6 +40,11 @@ fn every_operation_of_a_transform_does_what_its_name_says() {
     }
     let places = ["inner", "apart"].map(|node| archive.motion(node).unwrap()[0].position);
     assert_eq!(places, [DVec3::new(100.0, 20.0, 0.0), DVec3::new(0.0, 20.0, 0.0)]);
+    // By path, or by a name whose capitals do not count.
+    for node in ["/outer/inner", "INNER"] {
+        assert_eq!(archive.motion(node).unwrap()[0].position, places[0], "{node}");
+    }
+    assert!(archive.motion("inn").is_err() && archive.motion("/inner").is_err());
 }
 
 #[test]

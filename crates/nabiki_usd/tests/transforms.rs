@@ -107,15 +107,15 @@ fn a_prim_that_resets_the_stack_leaves_what_is_above_it_and_takes_along_what_is_
 
 #[test]
 fn a_head_stands_where_the_first_frame_of_the_hair_finds_it() {
-    let mesh = "def Mesh \"m\" { point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n int[] faceVertexCounts = [3]\n\
-                int[] faceVertexIndices = [0, 1, 2] }\n";
+    let mesh = "def Mesh \"m\" { point3f[] points.timeSamples = { 0: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], \
+                10: [(0, 0, 10), (1, 0, 10), (0, 1, 10)] }\n int[] faceVertexCounts = [3]\n int[] faceVertexIndices = [0, 1, 2] }\n";
     let curve = CURVE.replace(
         "points = [(0, 0, 0), (1, 2, 3)]",
         "points.timeSamples = { 5: [(0, 0, 0), (1, 2, 3)], 6: [(0, 0, 0), (1, 2, 4)], 7: [(0, 0, 0), (1, 2, 5)] }",
     );
     let moving = ["double xformOp:translateX.timeSamples = { 0: 0, 10: 100 }"];
     let mut stage = reader(&prim("a", &moving, &["xformOp:translateX"], &format!("{mesh}{curve}")));
-    assert_eq!(stage.mesh().unwrap().positions[0], Vec3::X * 50.0);
+    assert_eq!(stage.mesh().unwrap().positions[0], Vec3::new(50.0, 0.0, 5.0));
     let prims = stage.prims().unwrap();
     let PrimKind::Curves { world_from_curves, .. } = prims[2].kind else { panic!("{:?}", prims[2]) };
     assert_eq!(world_from_curves, DAffine3::from_translation(DVec3::X * 50.0));
@@ -135,6 +135,19 @@ fn a_joint_that_is_scaled_takes_its_children_along() {
     let places: Vec<DVec3> = stage.motion("head").unwrap().into_iter().map(|placed| placed.position).collect();
     assert_eq!(places.len(), 25);
     assert_eq!([places[0], places[24]], [DVec3::new(0.0, 150.0, 8.0), DVec3::new(0.0, 210.0, 4.0)]);
+}
+
+#[test]
+fn a_prim_is_found_by_its_path_or_by_a_name_whose_capitals_do_not_count() {
+    let at = |x: f64| format!("double xformOp:translateX = {x}");
+    let [one, ten] = [at(1.0), at(10.0)];
+    let order = ["xformOp:translateX"];
+    let head = prim("Head", &[&ten], &order, "");
+    let text = format!("{}{}", prim("body", &[&one], &order, &head), prim("other", &[], &[], &head));
+    for (node, x) in [("head", 11.0), ("HEAD", 11.0), ("/other/Head", 10.0), ("/body/Head", 11.0), ("Body", 1.0)] {
+        assert_eq!(reader(&text).motion(node).unwrap()[0].position, DVec3::X * x, "{node}");
+    }
+    assert!(reader(&text).motion("hea").is_err() && reader(&text).motion("/Head").is_err());
 }
 
 /// The second is the first as usd-core exports it, which puts small numbers where other values have their place in the file.
