@@ -197,3 +197,14 @@ fn the_number_of_the_first_frame_is_kept_where_it_is_not_0() {
         assert_eq!(bytes.windows(block.len()).any(|window| window == block), first_frame != 0, "{first_frame}");
     }
 }
+
+#[test]
+fn info_tells_how_far_a_point_is_in_the_last_frame_from_where_it_was_in_the_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("motion.nabiki");
+    samples::write_cache(&path);
+    let nabiki_io::info::Info::Cache(found) = nabiki_io::info::info(&path).unwrap() else { panic!("it is a cache") };
+    // Every point goes by (0.1, -0.3, 0.7) a frame, of which there are three.
+    assert!((found.farthest_move - 2.0 * 0.59f32.sqrt()).abs() < 1e-5, "{}", found.farthest_move);
+    assert!(found.head_moves);
+}

@@ -175,6 +175,17 @@ fn a_layer_goes_over_the_prim_of_the_curves_and_over_no_other() {
 }
 
 #[test]
+fn a_layer_goes_over_curves_beside_which_others_have_no_points() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("groom.usda");
+    let curves = "def BasisCurves \"e\" { }\ndef BasisCurves \"h\" { uniform token type = \"linear\"\n\
+                  int[] curveVertexCounts = [2]\n point3f[] points = [(0, 0, 0), (1, 0, 0)] }\n";
+    std::fs::write(&path, format!("#usda 1.0\n{curves}")).unwrap();
+    let groom = GroomFile::open(&path).unwrap().curves(&path).unwrap();
+    assert_eq!(groom.under_layer("/h").unwrap().points, 2);
+}
+
+#[test]
 fn what_stands_in_a_file_is_listed_with_what_moves() {
     let folder = tempfile::tempdir().unwrap();
     for name in ["list.usda", "list.usdc", "list.abc"] {
@@ -269,6 +280,38 @@ fn a_copy_of_moving_hair_is_told_the_unit_axes_and_frames_of_its_source() {
     let tip = copied.hair(2, None).unwrap().strands.strand(0)[1];
     // Turned to the left, 2 along y is -2 along x.
     assert!(tip.distance(Vec3::new(-1.5, 0.0, 2.5)) < 1e-6, "{tip}");
+}
+
+#[test]
+fn hair_of_every_kind_of_file_is_cut_into_as_many_segments_as_are_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["cut.hair", "cut.usda", "cut.usdc", "cut.abc"] {
+        let path = folder.path().join(name);
+        hair::write(&path, &Hair::from(strands())).unwrap();
+        let cut = GroomFile::open(&path).unwrap().hair(0, Some(4)).unwrap();
+        assert_eq!(cut.strands.starts(), [0, 5, 10], "{name}");
+        // Of a strand that was two long, and of one that was one long.
+        for (strand, points) in
+            [[0.0, 0.5, 1.0, 1.5, 2.0].map(|x| Vec3::X * x), [1.0, 1.25, 1.5, 1.75, 2.0].map(|y| Vec3::Y * y)]
+                .into_iter()
+                .enumerate()
+        {
+            assert_eq!(cut.strands.strand(strand), points, "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_layer_goes_over_a_groom_of_which_every_point_is_used() {
+    assert!(exchange::check_layer(Some(12), 12).is_ok());
+    for (in_file, said) in [
+        (Some(13), "11 of its 13 points are used"),
+        (Some(12), "11 of its 12 points are used"),
+        (None, "its hair is grown here"),
+    ] {
+        let refused = exchange::check_layer(in_file, 11).unwrap_err().to_string();
+        assert!(refused.starts_with("a layer would not fit the groom: ") && refused.contains(said), "{refused}");
+    }
 }
 
 #[test]

@@ -213,6 +213,30 @@ mod tests {
     }
 
     #[test]
+    fn the_default_scene_is_read_part_by_part_and_a_node_is_chosen_with_what_is_below_it() {
+        let triangle = |x: f32| [x, 0.0, 0.0, x + 1.0, 0.0, 0.0, x, 1.0, 0.0];
+        let numbers: Vec<u8> = [triangle(0.0), triangle(10.0)].concat().iter().flat_map(|x| x.to_le_bytes()).collect();
+        let json = r#"{"asset":{"version":"2.0"},"scene":1,"scenes":[{"nodes":[3]},{"nodes":[0,2]}],
+            "nodes":[{"name":"body","children":[1]},{"name":"head","mesh":0},{"name":"floor","mesh":1},{"mesh":1}],
+            "meshes":[{"primitives":[{"attributes":{"POSITION":0}},{"attributes":{"POSITION":1}}]},
+            {"primitives":[{"attributes":{"POSITION":1}}]}],
+            "accessors":[
+            {"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+            {"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3","min":[10,0,0],"max":[11,1,0]}],
+            "bufferViews":[{"buffer":0,"byteLength":72}],"buffers":[{"byteLength":72}]}"#;
+        let glb = crate::gltf_file::tests::glb(json, &numbers);
+        let corners = |groups: &[&str]| {
+            let groups: Vec<String> = groups.iter().map(|&group| group.to_owned()).collect();
+            let mesh = from_bytes(&glb, None, &groups).unwrap();
+            mesh.triangles.iter().map(|t| t.map(|v| mesh.positions[v as usize].x)).collect::<Vec<_>>()
+        };
+        let (near, far) = ([0.0, 1.0, 0.0], [10.0, 11.0, 10.0]);
+        assert_eq!(corners(&[]), [near, far, far]);
+        assert_eq!(corners(&["body"]), [near, far]);
+        assert_eq!(corners(&["floor"]), [far]);
+    }
+
+    #[test]
     fn texture_coordinates_of_every_component_type_are_shares_with_v_upward() {
         let bytes = [0u8, 255, 51, 0, 255, 102];
         let shorts: Vec<u8> = bytes.iter().flat_map(|&b| (u16::from(b) * 257).to_le_bytes()).collect();
