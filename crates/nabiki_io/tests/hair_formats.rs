@@ -260,3 +260,18 @@ fn the_arrays_of_a_tfx_file_stand_where_its_offsets_say() {
         assert_eq!(hair.attributes, expected, "version {version}");
     }
 }
+
+#[test]
+fn info_knows_the_polylines_of_an_obj_however_its_lines_are_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("lines.obj");
+    let plain = "v 0 0 0\nv 1 0 0\nl 1 2\n";
+    for text in
+        [plain.to_owned(), plain.replace("l 1", "l\t1"), plain.replace("l 1", "  l 1"), plain.replace('\n', "\r")]
+    {
+        std::fs::write(&path, &text).unwrap();
+        let found = nabiki_io::info::info(&path).unwrap();
+        let nabiki_io::info::Info::Hair(hair) = found else { panic!("{text:?} is hair") };
+        assert_eq!((hair.strands, hair.points), (1, 2), "{text:?}");
+    }
+}
