@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
 
-use glam::{Affine3A, DAffine3, DMat4, DVec3, Vec3};
+use glam::{Affine3A, DAffine3, DMat4, DVec3};
 use nabiki::hair::Stored;
 use nabiki::{Hair, Mesh};
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
@@ -15,7 +15,7 @@ use nabiki_exchange::{
 use crate::Problem;
 use crate::attributes::Parameters;
 use crate::tree::{Form, Header, SAME_TIME, Timing, Tree};
-use crate::values::{doubles, integers, singles};
+use crate::values::{doubles, integers};
 
 /// Frames a second where an archive does not say.
 const DEFAULT_RATE: f64 = 24.0;
@@ -361,20 +361,23 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
             let path = self.tree.objects[object].path.clone();
             let inside = self.schema(object)?;
             let world = Affine3A::from_mat4(self.world(object, time)?.as_mat4());
-            let mut numbers = |name: &str| -> Result<(&Header, Vec<u8>), Problem> {
+            let header = required(&inside, "P", &path)?;
+            let (frame, share) = self.tree.timings[header.timing].at(time, header.samples);
+            let mut positions = self.tree.points(header, frame)?;
+            if share > 0.0 {
+                let next = self.tree.points(header, frame + 1)?;
+                if next.len() == positions.len() {
+                    positions.iter_mut().zip(next).for_each(|(a, b)| *a = a.lerp(b, share as f32));
+                }
+            }
+            let mut numbers = |name: &str| -> Result<Vec<i64>, Problem> {
                 let header = required(&inside, name, &path)?;
-                let bytes = self.tree.sample(header, 0)?;
-                Ok((header, bytes))
+                let (sample, _) = self.tree.timings[header.timing].at(time, header.samples);
+                integers(header.kind, &self.tree.sample(header, sample)?)
             };
-            let (header, bytes) = numbers("P")?;
-            let positions = singles(header.kind, &bytes)?;
-            let (header, bytes) = numbers(".faceCounts")?;
-            let counts = integers(header.kind, &bytes)?;
-            let (header, bytes) = numbers(".faceIndices")?;
-            let corners = integers(header.kind, &bytes)?;
-            let positions: Vec<Vec3> = positions.as_chunks::<3>().0.iter().map(|&p| Vec3::from(p)).collect();
+            let (counts, corners) = (numbers(".faceCounts")?, numbers(".faceIndices")?);
             // Alembic winds faces clockwise.
-            let uvs = Parameters::of(&mut self.tree, inside, 0)?.texture_coordinates()?;
+            let uvs = Parameters::of(&mut self.tree, inside, frame)?.texture_coordinates()?;
             let polygons = Polygons { positions: &positions, counts: &counts, corners: &corners, clockwise: true, uvs };
             let added = add_polygons(&mut mesh, polygons, &world);
             added.map_err(|e| Problem(format!("mesh {path}: {e}")))?;

@@ -357,3 +357,79 @@ fn polygons(to: &mut Archive, table: &mut MetadataTable, mesh: &Mesh, export: &E
     }
     Object::with_schema(to, table, Schema::PolyMesh, inside)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use super::*;
+    use crate::tree::{Header, Tree};
+    use crate::values::{doubles, integers, singles};
+    use nabiki::Hair;
+
+    /// The properties of the object at `path`.
+    fn properties(tree: &mut Tree<Cursor<Vec<u8>>>, path: &str) -> Vec<Header> {
+        let object = tree.objects.iter().position(|object| object.path == path).unwrap();
+        let schema = tree.properties_of(object).unwrap();
+        tree.properties(schema[0].place).unwrap()
+    }
+
+    #[test]
+    fn what_only_other_programs_ask_for_is_in_every_frame() {
+        let mut strands = Strands::default();
+        strands.push([Vec3::ZERO, Vec3::new(1.0, -2.0, 3.0)]);
+        let mut hair = Hair::from(strands.clone());
+        hair.attributes.width = Some(vec![0.5, 0.25]);
+        hair.attributes.id = Some(vec![7]);
+        hair.attributes.root_uv = Some(vec![[0.5, 0.25]]);
+        let skin = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], corner_uvs: None };
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("hair.abc");
+        let mut export = Export::new(&hair, 8.0);
+        (export.velocities, export.head) = (true, Some(&skin));
+        (export.rest, export.default_colour) = (true, Some([0.25, 0.5, 1.0]));
+        let mut sink = Box::new(HairArchive::create(&path, export).unwrap());
+        for frame in 0..3 {
+            let mut moved = strands.clone();
+            moved.points_mut()[1].x += (frame * frame) as f32;
+            sink.frame(&moved, &DAffine3::IDENTITY).unwrap();
+        }
+        sink.finish().unwrap();
+        let mut tree = Tree::new(Cursor::new(std::fs::read(path).unwrap())).unwrap();
+        let of_hair = properties(&mut tree, "/head/hair");
+        let named = |headers: &[Header], name: &str| headers.iter().find(|h| h.name == name).unwrap().clone();
+        let (bounds, velocities) = (named(&of_hair, ".selfBnds"), named(&of_hair, ".velocities"));
+        assert_eq!((bounds.samples, velocities.samples, velocities.timing), (3, 3, FRAMES as usize));
+        // The tip goes by 1 and by 3, eight times a second; the last frame goes on as it came.
+        for (frame, (farthest, speed)) in [(1.0, 8.0), (2.0, 24.0), (5.0, 24.0)].into_iter().enumerate() {
+            let found = doubles(bounds.kind, &tree.sample(&bounds, frame).unwrap()).unwrap();
+            assert_eq!(found, [0.0, -2.0, 0.0, farthest, 0.0, 3.0], "the least corner, then the greatest");
+            let found = singles(velocities.kind, &tree.sample(&velocities, frame).unwrap()).unwrap();
+            assert_eq!(found, [0.0, 0.0, 0.0, speed, 0.0, 0.0], "frame {frame}");
+        }
+        let more = named(&of_hair, ".arbGeomParams");
+        let parameters = [of_hair, tree.properties(more.place).unwrap()].concat();
+        for (name, scope) in [
+            ("uv", "uni"),
+            ("width", "vtx"),
+            ("groom_id", "uni"),
+            ("groom_root_uv", "uni"),
+            ("groom_color", "vtx"),
+            ("rest", "vtx"),
+        ] {
+            assert_eq!(named(&parameters, name).detail("geoScope"), Some(scope), "{name}");
+        }
+        let of_head = properties(&mut tree, "/head");
+        assert_eq!(tree.sample(&named(&of_head, ".inherits"), 0).unwrap(), [1]);
+        // By which Unreal knows how to read the rest.
+        let own = tree.properties(named(&of_head, ".userProperties").place).unwrap();
+        for (name, number) in [("groom_version_major", 1), ("groom_version_minor", 5)] {
+            let header = named(&own, name);
+            assert_eq!(integers(header.kind, &tree.sample(&header, 0).unwrap()).unwrap(), [number], "{name}");
+        }
+        // Clockwise, seen from outside.
+        let of_skin = properties(&mut tree, "/head/skin");
+        let corners = named(&of_skin, ".faceIndices");
+        assert_eq!(integers(corners.kind, &tree.sample(&corners, 0).unwrap()).unwrap(), [2, 1, 0]);
+    }
+}

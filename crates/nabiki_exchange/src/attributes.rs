@@ -18,6 +18,12 @@ pub trait NamedValues {
     /// What is wrong with the file.
     fn misindexed(&mut self, name: &str) -> Result<bool, Problem>;
 
+    /// Whether the values of a name have more numbers than the `read` first of each, which are all that is read: such values
+    /// also stay under that name.
+    fn is_wider(&self, _name: &str, _read: usize) -> bool {
+        false
+    }
+
     /// Values of `N` numbers each; `None` where there are none of that name and shape.
     ///
     /// # Errors
@@ -266,10 +272,12 @@ impl<F: NamedValues> Search<'_, F> {
     fn by_point<const N: usize>(&mut self, names: &[&'static str]) -> Result<Option<Vec<[f32; N]>>, Problem> {
         for name in self.readable(names) {
             let Some(values) = self.file.tuples::<N>(name)?.filter(|values| !values.is_empty()) else { continue };
-            self.used.insert(name);
             let found = self.lines.at_points(&values);
-            if found.is_none() {
-                self.unread.push(self.misfit(name, values.len()));
+            if !self.file.is_wider(name, N) {
+                self.used.insert(name);
+                if found.is_none() {
+                    self.unread.push(self.misfit(name, values.len()));
+                }
             }
             return Ok(found);
         }
@@ -294,14 +302,15 @@ impl<F: NamedValues> Search<'_, F> {
             match &root_uv {
                 None => {
                     // What each point has stays under its name: the roots' values are not all of it.
-                    if values.len() != self.lines.control_points() {
+                    let is_all = values.len() != self.lines.control_points() && !self.file.is_wider(name, 2);
+                    if is_all {
                         self.used.insert(name);
                     }
-                    root_uv = self.at_roots(name, &values);
+                    root_uv = if is_all { self.at_roots(name, &values) } else { self.lines.at_roots(&values) };
                 }
                 // A copy under another program's name says nothing new.
                 Some(uv) if self.lines.at_roots(&values).as_ref() == Some(uv) => {
-                    if values.len() == uv.len() {
+                    if values.len() == uv.len() && !self.file.is_wider(name, 2) {
                         self.used.insert(name);
                     }
                 }

@@ -369,6 +369,44 @@ mod tests {
     }
 
     #[test]
+    fn splines_begin_and_end_where_their_basis_has_it() {
+        let p = [Vec3::ZERO, Vec3::new(1.0, 2.0, 0.0), Vec3::new(3.0, 1.0, -1.0), Vec3::new(4.0, 4.0, 2.0)];
+        let ends = |basis, pinned| {
+            let lines = Shape { counts: vec![4], basis, pinned }.walk(p.to_vec(), Some(1)).unwrap();
+            lines.strands.points().to_vec()
+        };
+        for basis in [Basis::Bspline, Basis::CatmullRom] {
+            assert_eq!(ends(basis, true), [p[0], p[3]], "{basis:?}");
+        }
+        assert_eq!(ends(Basis::Bezier, false), [p[0], p[3]]);
+        assert_eq!(ends(Basis::CatmullRom, false), [p[1], p[2]]);
+        let near = ends(Basis::Bspline, false);
+        for (found, expected) in near.iter().zip([(p[0] + 4.0 * p[1] + p[2]) / 6.0, (p[1] + 4.0 * p[2] + p[3]) / 6.0]) {
+            assert!(found.distance(expected) < 1e-6, "{found} {expected}");
+        }
+        // Between two points a Catmull-Rom curve goes through the middle of both, less an eighth of how much their neighbours'
+        // middle lies off.
+        let spline = Shape { counts: vec![4], basis: Basis::CatmullRom, pinned: false };
+        let half = spline.blend(4, 0, 0.5).of(&p).as_vec3();
+        assert!(half.distance((9.0 * (p[1] + p[2]) - p[0] - p[3]) / 16.0) < 1e-6, "{half}");
+    }
+
+    #[test]
+    fn values_at_the_ends_of_segments_are_blended_between_these_curve_by_curve() {
+        // Evenly spaced along lines, so that as far along the curve is as far along its segments: two, and one.
+        let along = |y: f32, count: usize| (0..count).map(move |i| Vec3::new(i as f32, y, 0.0));
+        let points: Vec<Vec3> = along(0.0, 7).chain(along(1.0, 4)).collect();
+        let curves = Shape { counts: vec![7, 4], basis: Basis::Bezier, pinned: false };
+        let lines = curves.walk(points, Some(4)).unwrap();
+        let found = lines.at_points(&[[0.0], [1.0], [3.0], [10.0], [20.0]]).unwrap();
+        let expected = [0.0, 0.5, 1.0, 2.0, 3.0, 10.0, 12.5, 15.0, 17.5, 20.0];
+        assert_eq!(found.len(), expected.len());
+        for ([found], expected) in found.into_iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-5, "{found} {expected}");
+        }
+    }
+
+    #[test]
     fn more_points_than_strands_can_count_are_refused_before_any_is_made() {
         let lines = Shape { counts: vec![2; 3], basis: Basis::Linear, pinned: false };
         // 2^32 - 1 points are three times a third; each strand has a point more than segments.

@@ -217,6 +217,44 @@ mod tests {
     }
 
     #[test]
+    fn objects_below_different_transforms_are_all_where_these_put_them() {
+        let at = |x: f64| DAffine3::from_translation(glam::DVec3::X * x);
+        for places in [[10.0, 20.0, 10.0], [10.0, 10.0, 20.0], [0.0, 20.0, 20.0], [10.0, 0.0, 0.0]] {
+            let mut all = Gathered::default();
+            for x in places {
+                all.append(part(Vec::new()), at(x), None).unwrap();
+            }
+            let hair = all.hair().unwrap().in_world().unwrap();
+            let roots: Vec<Vec3> = hair.strands.iter().map(|strand| strand[0]).collect();
+            assert_eq!(roots, places.map(|x| Vec3::X * x as f32));
+        }
+        // Those below one transform stay in its space.
+        let mut all = Gathered::default();
+        for _ in 0..2 {
+            all.append(part(Vec::new()), at(5.0), None).unwrap();
+        }
+        let all = all.hair().unwrap();
+        assert_eq!((all.world_from_hair, all.hair.strands.strand(1)[0]), (at(5.0), Vec3::ZERO));
+    }
+
+    #[test]
+    fn objects_are_groups_of_their_names_unless_each_is_one_strand() {
+        let groups = |objects: &[usize]| {
+            let mut all = Gathered::default();
+            for (n, &strands) in objects.iter().enumerate() {
+                let mut object = part(Vec::new());
+                (1..strands).for_each(|_| object.strands.push([Vec3::ZERO, Vec3::Y]));
+                all.append(object, DAffine3::IDENTITY, Some((n as i32, format!("object {n}")))).unwrap();
+            }
+            let found = all.hair().unwrap().hair.attributes;
+            (found.group, found.group_names)
+        };
+        let names = BTreeMap::from([(0, "object 0".to_owned()), (1, "object 1".to_owned())]);
+        assert_eq!(groups(&[2, 1]), (Some(vec![0, 0, 1]), names));
+        assert_eq!(groups(&[1, 1]), (None, BTreeMap::new()));
+    }
+
+    #[test]
     fn an_object_without_curves_takes_nothing_from_the_others() {
         let mut part = part(Vec::new());
         part.attributes.width = Some(vec![0.1, 0.05]);

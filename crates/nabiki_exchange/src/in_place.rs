@@ -61,3 +61,21 @@ pub fn check_extent(points: &[Vec3]) -> Result<(), Problem> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+    use nabiki::Strands;
+
+    #[test]
+    fn curves_go_through_their_own_transform_before_any_other() {
+        let mut strands = Strands::default();
+        strands.push([Vec3::ZERO, Vec3::X]);
+        let in_place =
+            InPlace { hair: Hair::from(strands), world_from_hair: DAffine3::from_translation(10.0 * DVec3::X) };
+        let doubled = in_place.clone().through(&DAffine3::from_scale(DVec3::splat(2.0)));
+        assert_eq!(doubled.strands.points(), [20.0 * Vec3::X, 22.0 * Vec3::X]);
+        assert_eq!(in_place.in_world().unwrap().strands.points(), [10.0 * Vec3::X, 11.0 * Vec3::X]);
+    }
+}

@@ -116,6 +116,24 @@ mod tests {
     }
 
     #[test]
+    fn polygons_of_a_further_object_have_its_vertices() {
+        let mut mesh = Mesh::default();
+        for (to, corners) in [(Vec3::ZERO, [0, 1, 2]), (10.0 * Vec3::Z, [2, 0, 1])] {
+            let polygons = Polygons {
+                positions: &[Vec3::ZERO, Vec3::X, Vec3::Y],
+                counts: &[3],
+                corners: &corners,
+                clockwise: false,
+                uvs: None,
+            };
+            add_polygons(&mut mesh, polygons, &Affine3A::from_translation(to)).unwrap();
+        }
+        let places: Vec<[Vec3; 3]> = mesh.triangles.iter().map(|t| t.map(|v| mesh.positions[v as usize])).collect();
+        let far = [Vec3::Y, Vec3::ZERO, Vec3::X].map(|p| p + 10.0 * Vec3::Z);
+        assert_eq!(places, [[Vec3::ZERO, Vec3::X, Vec3::Y], far]);
+    }
+
+    #[test]
     fn polygons_without_texture_coordinates_leave_none_to_the_whole() {
         let positions = [Vec3::ZERO, Vec3::X, Vec3::Y];
         let bare = Polygons { positions: &positions, counts: &[3], corners: &[0, 1, 2], clockwise: false, uvs: None };

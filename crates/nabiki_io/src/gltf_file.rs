@@ -83,3 +83,22 @@ fn external(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>> {
         _ => Err(Error::new(format!("\"{uri}\" is not a file in the folder of the .gltf: save as .glb"))),
     }
 }
+
+#[cfg(test)]
+pub(crate) mod tests {
+    /// A .glb of a text and of the one buffer that this describes.
+    pub(crate) fn glb(text: &str, binary: &[u8]) -> Vec<u8> {
+        let mut json = text.as_bytes().to_vec();
+        json.resize(json.len().next_multiple_of(4), b' ');
+        let mut binary = binary.to_vec();
+        binary.resize(binary.len().next_multiple_of(4), 0);
+        let mut glb = b"glTF".to_vec();
+        let mut words = |words: &[u32], bytes: &[u8]| {
+            glb.extend(words.iter().flat_map(|w| w.to_le_bytes()));
+            glb.extend(bytes);
+        };
+        words(&[2, (28 + json.len() + binary.len()) as u32, json.len() as u32, 0x4E4F_534A], &json);
+        words(&[binary.len() as u32, 0x004E_4942], &binary);
+        glb
+    }
+}

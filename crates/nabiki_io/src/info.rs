@@ -23,7 +23,7 @@ use crate::{
     error::{Error, Result},
     input::{self, MOST_TEXT_BYTES},
     kind::extension,
-    motion,
+    motion, obj_text,
 };
 
 /// What a file turned out to be.
@@ -67,7 +67,7 @@ pub fn info(path: &Path) -> Result<Info> {
         "glb" | "gltf" | "ply" | "tfxmesh" => Ok(Info::Mesh(MeshInfo::of_file(path)?)),
         "obj" => {
             let bytes = input::read(path, MOST_TEXT_BYTES)?;
-            let is_hair = bytes.split(|&b| b == b'\n').any(|line| line.starts_with(b"l "));
+            let is_hair = obj_text::text(&bytes).lines().any(|line| obj_text::words(line).next() == Some("l"));
             if is_hair {
                 Ok(Info::Hair(HairInfo::of(&crate::hair::read(path)?)))
             } else {

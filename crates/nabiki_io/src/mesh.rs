@@ -200,6 +200,14 @@ mod tests {
     }
 
     #[test]
+    fn vertices_are_joined_whichever_sign_their_nought_has() {
+        let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -0 0 -0\nv 1 -0 0\nv 0 0 1\nf 1 2 3\nf 4 6 5\n";
+        let mesh = from_bytes(text.as_bytes(), "obj", &[]).unwrap();
+        let (mesh, report) = place_and_weld(mesh, &Placement::default()).unwrap();
+        assert_eq!((report.joined_vertices, mesh.triangles), (2, vec![[0, 1, 2], [0, 3, 1]]));
+    }
+
+    #[test]
     fn a_fan_keeps_the_texture_coordinates_of_its_corners_on_both_sides_of_a_seam() {
         let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nvt 1 0 0\nvt 1 1\nvt 0.5\n\
                     f 1/1 2/2 3/3 4/4\nf 5/-1 7/-2/1 6/2/2\nf 5/1 1/1 2/2\n";

@@ -87,6 +87,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_name_stands_for_its_length() {
+        for (name, cm) in
+            [("mm", 0.1), ("cm", 1.0), ("dm", 10.0), ("m", 100.0), ("in", 2.54), ("ft", 30.48), ("7.5", 7.5)]
+        {
+            assert_eq!(name.parse(), Ok(Unit { cm }), "{name}");
+        }
+    }
+
+    #[test]
     fn a_unit_that_has_a_name_is_called_by_it() {
         for (name, cm) in NAMED {
             assert_eq!(Unit { cm }.to_string(), name);

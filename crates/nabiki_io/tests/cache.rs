@@ -179,3 +179,32 @@ fn a_frame_that_is_not_whole_is_refused() {
     drop(long);
     assert!(!path.exists());
 }
+
+#[test]
+fn the_number_of_the_first_frame_is_kept_where_it_is_not_0() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("motion.nabiki");
+    let hair = samples::hair(&[2]);
+    for first_frame in [1001, -24, 0] {
+        let header = Header { first_frame, ..Header::new(Default::default(), 24.0, &hair) };
+        let mut writer = Writer::create(&path, &header).unwrap();
+        writer.push(&samples::pose(0), hair.strands.points()).unwrap();
+        writer.finish().unwrap();
+        assert_eq!(Reader::open(&path).unwrap().header().first_frame, first_frame);
+        // As docs/cache.md has it: the tag, the number of bytes, the number, zeros up to eight.
+        let bytes = std::fs::read(&path).unwrap();
+        let block = [&b"start   "[..], &4u64.to_le_bytes(), &first_frame.to_le_bytes(), &[0; 4]].concat();
+        assert_eq!(bytes.windows(block.len()).any(|window| window == block), first_frame != 0, "{first_frame}");
+    }
+}
+
+#[test]
+fn info_tells_how_far_a_point_is_in_the_last_frame_from_where_it_was_in_the_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("motion.nabiki");
+    samples::write_cache(&path);
+    let nabiki_io::info::Info::Cache(found) = nabiki_io::info::info(&path).unwrap() else { panic!("it is a cache") };
+    // Every point goes by (0.1, -0.3, 0.7) a frame, of which there are three.
+    assert!((found.farthest_move - 2.0 * 0.59f32.sqrt()).abs() < 1e-5, "{}", found.farthest_move);
+    assert!(found.head_moves);
+}

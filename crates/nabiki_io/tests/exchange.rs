@@ -9,7 +9,7 @@ use nabiki_io::exchange::{self, DeclaredSpace, MovingHair};
 use nabiki_io::info::ExchangeInfo;
 use nabiki_io::motion::{self, Axis, MotionSource};
 use nabiki_io::placement::{Placement, Unit};
-use nabiki_io::{GroomCurves, GroomFile};
+use nabiki_io::{CurvePrim, GroomCurves, GroomFile};
 use nabiki_io::{hair, mesh};
 use nabiki_usd::StageReader;
 
@@ -175,6 +175,17 @@ fn a_layer_goes_over_the_prim_of_the_curves_and_over_no_other() {
 }
 
 #[test]
+fn a_layer_goes_over_curves_beside_which_others_have_no_points() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("groom.usda");
+    let curves = "def BasisCurves \"e\" { }\ndef BasisCurves \"h\" { uniform token type = \"linear\"\n\
+                  int[] curveVertexCounts = [2]\n point3f[] points = [(0, 0, 0), (1, 0, 0)] }\n";
+    std::fs::write(&path, format!("#usda 1.0\n{curves}")).unwrap();
+    let groom = GroomFile::open(&path).unwrap().curves(&path).unwrap();
+    assert_eq!(groom.under_layer("/h").unwrap().points, 2);
+}
+
+#[test]
 fn what_stands_in_a_file_is_listed_with_what_moves() {
     let folder = tempfile::tempdir().unwrap();
     for name in ["list.usda", "list.usdc", "list.abc"] {
@@ -221,4 +232,111 @@ fn what_of_a_layers_meshes_is_left_out_is_reported() {
     assert_eq!((mesh.triangles.len(), report.unread), (1, vec![said.to_owned()]));
     let info = ExchangeInfo::of_file(&file).unwrap().to_string();
     assert!(info.lines().any(|line| line == format!("not read: {said}")), "{info}");
+}
+
+/// A layer in metres with z up, in which a head goes along x and turns to the left, with a curve on it.
+const SHOT: &str = "#usda 1.0\n( metersPerUnit = 1\n upAxis = \"Z\"\n timeCodesPerSecond = 24 )\n\
+    def Xform \"head\" { double3 xformOp:translate.timeSamples = { 1001: (0, 0, 1.5), 1003: (0.5, 0, 1.5) }\n\
+    double xformOp:rotateZ.timeSamples = { 1001: 0, 1003: 90 }\n\
+    uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:rotateZ\"]\n\
+    def BasisCurves \"hair\" { uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n\
+    point3f[] points.timeSamples = { 1001: [(0, 0, 0), (0, 0, 1)], 1002: [(0, 0, 0), (0, 1, 1)], 1003: [(0, 0, 0), (0, 2, 1)] } } }\n";
+
+#[test]
+fn the_motion_of_a_shot_is_in_the_unit_and_axes_of_its_layer_and_begins_at_its_frame() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("shot.usda");
+    std::fs::write(&file, SHOT).unwrap();
+    let source = MotionSource { file, facing: Some(Axis::PlusX), node: "head".into(), ..MotionSource::default() };
+    let motion = motion::read(&source, 24.0).unwrap();
+    assert_eq!((motion.poses.len(), motion.first_frame), (3, Some(1001)));
+    for (n, pose) in motion.poses.iter().enumerate() {
+        assert!(pose.position_cm.distance(Vec3::new(25.0 * n as f32, 150.0, 0.0)) < 1e-4, "{n}: {pose:?}");
+        let turned = Quat::from_rotation_y((45.0 * n as f32).to_radians());
+        assert!(pose.rotation.dot(turned).abs() > 1.0 - 1e-6, "{n}: {pose:?}");
+    }
+    assert_eq!(motion::read(&source, 48.0).unwrap().first_frame, Some(2002));
+    let slow = MotionSource { speed: 0.5, ..source };
+    assert_eq!(motion::read(&slow, 24.0).unwrap().first_frame, None);
+}
+
+#[test]
+fn a_copy_of_moving_hair_is_told_the_unit_axes_and_frames_of_its_source() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, copy) = (folder.path().join("shot.usda"), folder.path().join("copy.usdc"));
+    std::fs::write(&file, SHOT).unwrap();
+    let mut moving = MovingHair::open(&file, None).unwrap();
+    let hair = moving.hair().clone();
+    let mut sink = exchange::sink(&copy, moving.export(&hair), None).unwrap();
+    for frame in 0..moving.frames() {
+        let (points, world_from_hair) = moving.frame(frame).unwrap();
+        sink.frame(&points, &world_from_hair).unwrap();
+    }
+    sink.finish().unwrap();
+    let mut copied = StageReader::open(&copy).unwrap();
+    let contents = copied.contents().unwrap();
+    assert_eq!((contents.first_frame(), contents.times.len(), contents.frame_rate), (1001, 3, 24.0));
+    assert_eq!((contents.meters_per_unit, contents.z_up), (Some(1.0), Some(true)));
+    let tip = copied.hair(2, None).unwrap().strands.strand(0)[1];
+    // Turned to the left, 2 along y is -2 along x.
+    assert!(tip.distance(Vec3::new(-1.5, 0.0, 2.5)) < 1e-6, "{tip}");
+}
+
+#[test]
+fn hair_of_every_kind_of_file_is_cut_into_as_many_segments_as_are_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["cut.hair", "cut.usda", "cut.usdc", "cut.abc"] {
+        let path = folder.path().join(name);
+        hair::write(&path, &Hair::from(strands())).unwrap();
+        let cut = GroomFile::open(&path).unwrap().hair(0, Some(4)).unwrap();
+        assert_eq!(cut.strands.starts(), [0, 5, 10], "{name}");
+        // Of a strand that was two long, and of one that was one long.
+        for (strand, points) in
+            [[0.0, 0.5, 1.0, 1.5, 2.0].map(|x| Vec3::X * x), [1.0, 1.25, 1.5, 1.75, 2.0].map(|y| Vec3::Y * y)]
+                .into_iter()
+                .enumerate()
+        {
+            assert_eq!(cut.strands.strand(strand), points, "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_layer_goes_over_a_groom_of_which_every_point_is_used() {
+    assert!(exchange::check_layer(Some(12), 12).is_ok());
+    for (in_file, said) in [
+        (Some(13), "11 of its 13 points are used"),
+        (Some(12), "11 of its 12 points are used"),
+        (None, "its hair is grown here"),
+    ] {
+        let refused = exchange::check_layer(in_file, 11).unwrap_err().to_string();
+        assert!(refused.starts_with("a layer would not fit the groom: ") && refused.contains(said), "{refused}");
+    }
+}
+
+#[test]
+fn a_layer_that_says_nothing_is_in_centimetres_with_y_up() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("bare.usda");
+    std::fs::write(&file, "#usda 1.0\ndef Xform \"a\" { }\n").unwrap();
+    let said = DeclaredSpace { unit: Some(Unit { cm: 1.0 }), up: Some(Axis::PlusY) };
+    assert_eq!(exchange::declared_space(&file).unwrap(), said);
+}
+
+#[test]
+fn imported_hair_goes_back_into_its_file_and_under_the_transform_of_its_curves() {
+    let hair = Hair::from(strands());
+    let placement =
+        Placement { unit: Unit { cm: 100.0 }, up: Axis::PlusZ, facing: Axis::PlusX, origin: Vec3::new(0.0, 0.0, 1.5) };
+    let mut export = exchange::export(&hair, 24.0, Some(&placement));
+    assert_eq!((export.meters_per_unit, export.z_up), (1.0, true));
+    // A metre before the face, half of one above the origin, two to the right.
+    let place = DVec3::new(100.0, 50.0, 200.0);
+    assert!(export.file_from_head.transform_point3(place).distance(DVec3::new(1.0, -2.0, 2.0)) < 1e-12);
+    let world_from_curves = DAffine3::from_translation(DVec3::X) * DAffine3::from_scale(DVec3::splat(0.5));
+    let groom = CurvePrim { path: "/hair".to_owned(), points: 5, cubic: false, world_from_curves };
+    exchange::under_groom(&mut export, &groom);
+    assert!(export.file_from_head.transform_point3(place).distance(DVec3::new(0.0, -4.0, 4.0)) < 1e-12);
+    let own = exchange::export(&hair, 24.0, None);
+    assert_eq!((own.meters_per_unit, own.z_up, own.file_from_head), (0.01, false, DAffine3::IDENTITY));
 }

@@ -186,3 +186,92 @@ fn placement_and_cleaning_are_counted() {
     let error = hair::import(&path, &metres, &all_too_short).unwrap_err().to_string();
     assert!(error.contains("none of 3 strands is left: 1 have no extent, 2 are shorter than 60 cm"), "{error}");
 }
+
+/// Bytes of a file: words, then singles.
+fn file(begin: &[u8], words: &[u32], singles: &[f32]) -> Vec<u8> {
+    let words = words.iter().copied().chain(singles.iter().map(|x| x.to_bits()));
+    begin.iter().copied().chain(words.flat_map(u32::to_le_bytes)).collect()
+}
+
+#[test]
+fn the_arrays_of_a_hair_file_stand_as_its_bit_field_lists_them() {
+    // Two strands of two points, so that no array of segments is needed.
+    let points: Vec<f32> = (0..12).map(|i| i as f32).collect();
+    let (thickness, transparency) = ([1.0, 2.0, 3.0, 4.0], [0.1, 0.2, 0.3, 0.4]);
+    let colours: Vec<f32> = (0..12).map(|i| 0.01 * i as f32).collect();
+    let defaults = [0.5, 0.25, 0.75, 0.5, 0.125].map(f32::to_bits);
+    let read = |arrays: u32, more: &[f32]| {
+        let header = [&[2, 4, 2 + arrays, 1][..], &defaults, &[0; 22]].concat();
+        hair_file::from_bytes(&file(b"HAIR", &header, &[&points, more].concat())).unwrap()
+    };
+    let whole = read(4 + 8 + 16, &[&thickness[..], &transparency, &colours].concat());
+    assert_eq!((whole.strands.starts(), whole.strands.points()[3]), (&[0, 2, 4][..], glam::Vec3::new(9.0, 10.0, 11.0)));
+    let by_point = Some(colours.as_chunks::<3>().0.to_vec());
+    let expected = Attributes {
+        width: Some(thickness.to_vec()),
+        transparency: Some(transparency.to_vec()),
+        colour: by_point.clone(),
+        constant: Constants { width: Some(0.5), transparency: Some(0.25), colour: Some([0.75, 0.5, 0.125]) },
+        ..Attributes::default()
+    };
+    assert_eq!(whole.attributes, expected);
+    let (width, transparency) = (read(4, &thickness).attributes, read(8, &transparency).attributes);
+    assert_eq!((width.width, width.transparency, width.colour), (expected.width, None, None));
+    assert_eq!(
+        (transparency.width, transparency.transparency, transparency.colour),
+        (None, expected.transparency, None)
+    );
+    assert_eq!(read(16, &colours).attributes.colour, by_point);
+}
+
+#[test]
+fn the_arrays_of_a_tfx_file_stand_where_its_offsets_say() {
+    let numbers = |first: f32, count: usize| (0..count).map(move |i| first + i as f32).collect::<Vec<f32>>();
+    let colours = [[0.1, 0.2, 0.3, 1.0], [0.4, 0.5, 0.6, 0.75]].concat();
+    // One strand of two points. In version 4 a point has a fourth number, 0 where it is held.
+    let points = [[1.0, 2.0, 3.0, 0.0], [4.0, 5.0, 6.0, 1.0]].concat();
+    let (root_uv, point_uv, thickness) = (numbers(10.0, 2), numbers(20.0, 4), [0.5]);
+    let at = [160, 160 + 32, 160 + 40, 160 + 56, 160 + 60];
+    let header = [&[4.0f32.to_bits(), 1, 2][..], &at, &[0; 32]].concat();
+    let all = [&points[..], &root_uv, &point_uv, &thickness, &colours].concat();
+    let version_4 = tfx::from_bytes(&file(b"", &header, &all)).unwrap();
+    // In version 3 the thickness goes before the UVs, the colours next, the UVs of points behind the numbers of guides.
+    let points = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+    let at = [296, 296 + 24, 296 + 28, 296 + 36, 296 + 68, 296 + 72];
+    let header = [&[3.0f32.to_bits(), 1, 2, 0, 0][..], &[0; 31], &at, &[0; 32]].concat();
+    let guide_numbers = [f32::from_bits(7)];
+    let all = [&points[..], &thickness, &root_uv, &colours, &guide_numbers, &point_uv].concat();
+    let version_3 = tfx::from_bytes(&file(b"", &header, &all)).unwrap();
+    for (hair, version) in [(version_3, 3), (version_4, 4)] {
+        assert_eq!(
+            hair.strands.points(),
+            [glam::Vec3::new(1.0, 2.0, 3.0), glam::Vec3::new(4.0, 5.0, 6.0)],
+            "{version}"
+        );
+        let expected = Attributes {
+            root_uv: Some(vec![[10.0, 11.0]]),
+            point_uv: Some(vec![[20.0, 21.0], [22.0, 23.0]]),
+            width: Some(vec![0.5; 2]),
+            colour: Some(vec![[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]]),
+            transparency: Some(vec![0.0, 0.25]),
+            inverse_mass: Some(vec![0.0, 1.0]),
+            ..Attributes::default()
+        };
+        assert_eq!(hair.attributes, expected, "version {version}");
+    }
+}
+
+#[test]
+fn info_knows_the_polylines_of_an_obj_however_its_lines_are_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("lines.obj");
+    let plain = "v 0 0 0\nv 1 0 0\nl 1 2\n";
+    for text in
+        [plain.to_owned(), plain.replace("l 1", "l\t1"), plain.replace("l 1", "  l 1"), plain.replace('\n', "\r")]
+    {
+        std::fs::write(&path, &text).unwrap();
+        let found = nabiki_io::info::info(&path).unwrap();
+        let nabiki_io::info::Info::Hair(hair) = found else { panic!("{text:?} is hair") };
+        assert_eq!((hair.strands, hair.points), (1, 2), "{text:?}");
+    }
+}

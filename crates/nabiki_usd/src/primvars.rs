@@ -66,9 +66,24 @@ impl Primvars<'_> {
     }
 
     fn named(&self, name: &str) -> Option<Handle> {
-        let primvar = self.layer.at(self.prim, &format!("primvars:{name}"), self.time);
+        self.typed(name).map(|(handle, _)| handle)
+    }
+
+    /// The values of a name and their type.
+    fn typed(&self, name: &str) -> Option<(Handle, &str)> {
+        let of = |whole: &str| {
+            let handle = self.layer.at(self.prim, whole, self.time)?;
+            Some((handle, self.layer.prims[self.prim].attributes.get(whole)?.type_name.as_str()))
+        };
         // The primvar wins over the attribute of its name.
-        primvar.or_else(|| if name == "widths" { self.layer.at(self.prim, name, self.time) } else { None })
+        of(&format!("primvars:{name}")).or_else(|| if name == "widths" { of(name) } else { None })
+    }
+
+    /// Values that are numbers, and what they are made of.
+    fn numeric(&self, name: &str) -> Option<(Handle, Kind)> {
+        let (handle, type_name) = self.typed(name)?;
+        let kind = kind(type_name).filter(|kind| !matches!(kind.stored, Stored::Text | Stored::Token))?;
+        Some((handle, kind))
     }
 
     fn indices(&mut self, name: &str) -> Result<Option<Vec<i64>>, Problem> {
@@ -102,18 +117,32 @@ impl NamedValues for Primvars<'_> {
         names.filter(|name| !name.ends_with(":indices")).map(str::to_owned).collect()
     }
 
+    fn is_wider(&self, name: &str, read: usize) -> bool {
+        self.numeric(name).is_some_and(|(_, kind)| kind.extent > read)
+    }
+
     fn tuples<const N: usize>(&mut self, name: &str) -> Result<Option<Vec<[f32; N]>>, Problem> {
-        let Some(handle) = self.named(name) else { return Ok(None) };
-        let numbers = self.layer.singles(handle)?;
-        match numbers.as_chunks::<N>() {
-            (values, []) if !values.is_empty() => self.expanded(name, values.to_vec()),
-            _ => Ok(None),
+        let Some((handle, Kind { extent, .. })) = self.numeric(name) else { return Ok(None) };
+        // Colours may have an alpha, and texture coordinates a third number.
+        if extent != N && (N == 1 || extent != N + 1) {
+            return Ok(None);
         }
+        let numbers = self.layer.singles(handle)?;
+        if numbers.is_empty() || !numbers.len().is_multiple_of(extent) {
+            return Ok(None);
+        }
+        let values = numbers.chunks_exact(extent).map(|v| std::array::from_fn(|i| v[i])).collect();
+        self.expanded(name, values)
     }
 
     fn integers(&mut self, name: &str) -> Result<Option<Vec<i64>>, Problem> {
-        let Some(handle) = self.named(name) else { return Ok(None) };
-        let values = self.layer.integers(handle)?;
+        let Some((handle, kind)) = self.numeric(name).filter(|(_, kind)| kind.extent == 1) else { return Ok(None) };
+        let values = match kind.stored {
+            Stored::F16 | Stored::F32 | Stored::F64 => {
+                self.layer.numbers(handle)?.into_iter().map(|x| x as i64).collect()
+            }
+            _ => self.layer.integers(handle)?,
+        };
         self.expanded(name, values)
     }
 

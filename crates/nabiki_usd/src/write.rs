@@ -312,3 +312,92 @@ fn prim_names(path: &str) -> io::Result<Vec<String>> {
         Err(invalid(format!("prim path \"{path}\": must be like /character/hair")))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::opened::Layer;
+    use nabiki::Hair;
+
+    #[test]
+    fn what_only_other_programs_ask_for_is_in_every_frame() {
+        let mut strands = Strands::default();
+        strands.push([Vec3::ZERO, Vec3::new(1.0, -2.0, 3.0)]);
+        let mut hair = Hair::from(strands.clone());
+        hair.attributes.width = Some(vec![0.5, 0.25]);
+        hair.attributes.id = Some(vec![7]);
+        hair.attributes.root_uv = Some(vec![[0.5, 0.25]]);
+        let skin = nabiki::Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            triangles: vec![[0, 1, 2]],
+            corner_uvs: None,
+        };
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["hair.usda", "hair.usdc"] {
+            let path = folder.path().join(name);
+            let mut export = Export::new(&hair, 8.0);
+            (export.velocities, export.first_frame, export.rest) = (true, 1001, true);
+            (export.default_colour, export.head) = (Some([0.25, 0.5, 1.0]), Some(&skin));
+            let mut sink = Box::new(HairStage::create(&path, export, Form::Stage).unwrap());
+            for frame in 0..3 {
+                let mut moved = strands.clone();
+                moved.points_mut()[1].x += (frame * frame) as f32;
+                sink.frame(&moved, &DAffine3::IDENTITY).unwrap();
+            }
+            sink.finish().unwrap();
+            let mut layer = Layer::file(&path).unwrap();
+            for (said, expected) in [
+                ("startTimeCode", 1001.0),
+                ("endTimeCode", 1003.0),
+                ("framesPerSecond", 8.0),
+                ("timeCodesPerSecond", 8.0),
+                ("metersPerUnit", 0.01),
+            ] {
+                assert_eq!(layer.metadata_number(said).unwrap(), Some(expected), "{name}: {said}");
+            }
+            let first = layer.metadata["defaultPrim"];
+            assert_eq!(layer.words(first).unwrap(), ["head"], "{name}");
+            let prim = layer.of_type("BasisCurves")[0];
+            for (attribute, of) in [
+                ("widths", "vertex"),
+                ("primvars:displayColor", "constant"),
+                ("primvars:groom_id", "uniform"),
+                ("primvars:st", "uniform"),
+                ("primvars:rest", "vertex"),
+            ] {
+                assert_eq!(layer.interpolation(prim, attribute).unwrap().as_deref(), Some(of), "{name}: {attribute}");
+            }
+            let skin = layer.of_type("Mesh")[0];
+            assert_eq!(layer.word(skin, "subdivisionScheme").unwrap().as_deref(), Some("none"), "{name}");
+            // The tip goes by 1 and by 3, eight times a second; the last frame goes on as it came.
+            for (code, farthest, speed) in [(1001.0, 1.0, 8.0), (1002.0, 2.0, 24.0), (1003.0, 5.0, 24.0)] {
+                let mut at = |attribute: &str| layer.points_at(prim, attribute, code).unwrap().unwrap();
+                // The box about the hair is wider than that of its points by half of the widest.
+                let [low, high] = [Vec3::new(0.0, -2.0, 0.0) - 0.25, Vec3::new(farthest, 0.0, 3.0) + 0.25];
+                assert_eq!(at("extent"), [low, high], "{name}, code {code}");
+                assert_eq!(at("velocities"), [Vec3::ZERO, Vec3::X * speed], "{name}, code {code}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_layer_over_a_groom_takes_the_grooms_own_velocities_away() {
+        let mut strands = Strands::default();
+        strands.push([Vec3::ZERO, Vec3::X]);
+        let hair = Hair::from(strands.clone());
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["over.usda", "over.usdc"] {
+            let path = folder.path().join(name);
+            let form = Form::Layer("/character/hair".to_owned());
+            let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), form).unwrap());
+            sink.frame(&strands, &DAffine3::IDENTITY).unwrap();
+            sink.finish().unwrap();
+            let mut layer = Layer::file(&path).unwrap();
+            for attribute in ["velocities", "accelerations"] {
+                let blocked = layer.prims[1].attributes.get(attribute).and_then(|found| found.default);
+                let nothing = layer.numbers(blocked.unwrap());
+                assert!(nothing.is_err() || nothing.is_ok_and(|numbers| numbers.is_empty()), "{name}: {attribute}");
+            }
+        }
+    }
+}

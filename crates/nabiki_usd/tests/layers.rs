@@ -238,6 +238,23 @@ fn a_groom_goes_back_into_its_own_space() {
     }
 }
 
+#[test]
+fn widths_and_points_at_rest_are_in_the_files_unit_too() {
+    let mut hair = Hair::from(strands(0));
+    let points = hair.strands.points().len();
+    hair.attributes.width = Some((0..points).map(|p| 0.25 + p as f32).collect());
+    for name in NAMES {
+        let mut export = Export::new(&hair, 24.0);
+        (export.file_from_head, export.rest) = (DAffine3::from_scale(glam::DVec3::splat(0.5)), true);
+        let read = reader(bytes(name, export, Form::Stage, |_| DAffine3::IDENTITY)).hair(0, None).unwrap();
+        assert_eq!(read.attributes.width, Some((0..points).map(|p| 0.125 + 0.5 * p as f32).collect()), "{name}");
+        let rest = read.attributes.other.iter().find(|other| other.name == "rest").unwrap();
+        let halved = read.strands.points().iter().flat_map(|p| p.to_array()).collect();
+        assert_eq!(read.strands.points()[5], 0.5 * hair.strands.points()[5], "{name}");
+        assert_eq!(rest.values, nabiki::hair::Values::Floats(halved), "{name}");
+    }
+}
+
 const CUBIC: &str = r#"#usda 1.0
 (
     "A groom as some tool might write it"

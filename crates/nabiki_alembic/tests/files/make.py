@@ -6,13 +6,17 @@
 Each holds two strands. In shutter.abc their points are sampled at each of three frames and a quarter of a frame later,
 in shutter_xf.abc the transform above them is: z and x are the time in frames. In empty_beside.abc they stand beside
 curves that were never given a sample.
+
+In operations.abc a curve lies below each kind of operation of a transform, below three of them, and below a transform
+that does not inherit. bases.abc has a cubic curve of every basis that is read, parameters.abc two curves with parameters
+of several scopes, and in late.abc a mesh that moves and bends from frame 0 on lies beside curves that begin at frame 5.
 """
 
 import gc
 import pathlib
 
 from alembic3d import Abc, AbcCoreAbstract, AbcGeom
-from imath import IntArray, V3d, V3f, V3fArray
+from imath import Color4f, C4fArray, FloatArray, IntArray, M44d, UnsignedIntArray, V3d, V3f, V3fArray
 
 HERE = pathlib.Path(__file__).parent
 FRAME = 1 / 24
@@ -53,12 +57,112 @@ def moving_transform(archive):
     AbcGeom.OCurves(transform, "hair").getSchema().set(hair())
 
 
+def curve(parent, name="curve", points=((0, 0, 0), (1, 2, 3)), basis=None):
+    places, counts = V3fArray(len(points)), IntArray(1)
+    for i, point in enumerate(points):
+        places[i] = V3f(*point)
+    counts[0] = len(points)
+    kind = AbcGeom.CurveType.kCubic if basis else AbcGeom.CurveType.kLinear
+    nothing = AbcGeom.OFloatGeomParamSample(), AbcGeom.OV2fGeomParamSample(), AbcGeom.ON3fGeomParamSample()
+    open_ends = AbcGeom.CurvePeriodicity.kNonPeriodic
+    curves = AbcGeom.OCurves(parent, name).getSchema()
+    basis = basis or AbcGeom.BasisType.kNoBasis
+    curves.set(AbcGeom.OCurvesSchemaSample(places, counts, kind, open_ends, *nothing, basis))
+    return curves
+
+
+def operations(archive):
+    kinds = AbcGeom.XformOperationType
+
+    def below(parent, name, *steps, inherits=True):
+        transform, sample = AbcGeom.OXform(parent, name), AbcGeom.XformSample()
+        for kind, *values in steps:
+            sample.addOp(AbcGeom.XformOp(kind), *values)
+        sample.setInheritsXforms(inherits)
+        transform.getSchema().set(sample)
+        return transform
+
+    top = archive.getTop()
+    move, scale, turn = kinds.kTranslateOperation, kinds.kScaleOperation, kinds.kRotateZOperation
+    cycle = M44d((0, 1, 0, 0), (0, 0, 1, 0), (1, 0, 0, 0), (10, 20, 30, 1))
+    curve(below(top, "translate", (move, V3d(10, 20, 30))))
+    curve(below(top, "scale", (scale, V3d(2, 3, -4))))
+    curve(below(top, "axis", (kinds.kRotateOperation, V3d(0, 0, 1), 90)))
+    curve(below(top, "x", (kinds.kRotateXOperation, 90)))
+    curve(below(top, "y", (kinds.kRotateYOperation, 90)))
+    curve(below(top, "z", (turn, 90)))
+    curve(below(top, "matrix", (kinds.kMatrixOperation, cycle)))
+    curve(below(top, "several", (move, V3d(10, 0, 0)), (turn, 90), (scale, V3d(5, 1, 1))))
+    outer = below(top, "outer", (move, V3d(100, 0, 0)))
+    curve(below(outer, "inner", (move, V3d(0, 20, 0))))
+    curve(below(outer, "apart", (move, V3d(0, 20, 0)), inherits=False))
+
+
+def bases(archive):
+    points = [(0, 0, 0), (1, 2, 0), (3, 1, -1), (4, 4, 2)]
+    for basis in ["Bezier", "Bspline", "Catmullrom"]:
+        curve(archive.getTop(), basis, points, getattr(AbcGeom.BasisType, f"k{basis}Basis"))
+
+
+def filled(array, values):
+    for i, value in enumerate(values):
+        array[i] = value
+    return array
+
+
+def parameters(archive):
+    curves = AbcGeom.OCurves(archive.getTop(), "hair").getSchema()
+    curves.set(hair())
+    more, scopes = curves.getArbGeomParams(), AbcGeom.GeometryScope
+
+    def put(kind, name, scope, values, indices=None):
+        parameter = getattr(AbcGeom, f"O{kind}GeomParam")(more, name, indices is not None, scope, 1)
+        sample = getattr(AbcGeom, f"O{kind}GeomParamSample")
+        parameter.set(sample(values, scope) if indices is None else sample(values, indices, scope))
+
+    colours = [Color4f(0.125 * i, 0.25, 1, 0.5) for i in range(4)]
+    put("C4f", "groom_color", scopes.kVertexScope, filled(C4fArray(4), colours))
+    swapped = filled(UnsignedIntArray(2), [1, 0])
+    put("Int32", "groom_group_id", scopes.kUniformScope, filled(IntArray(2), [3, 8]), swapped)
+    put("Float", "range", scopes.kConstantScope, filled(FloatArray(2), [0.5, 2]))
+    put("Float", "each", scopes.kUniformScope, filled(FloatArray(2), [0.5, 2]))
+
+
+def late(archive):
+    def uniform(start):
+        return archive.addTimeSampling(AbcCoreAbstract.TimeSampling(FRAME, start * FRAME))
+
+    head = AbcGeom.OXform(archive.getTop(), "head", uniform(0))
+    for frame in range(11):
+        sample = AbcGeom.XformSample()
+        sample.setTranslation(V3d(10 * frame, 0, 0))
+        head.getSchema().set(sample)
+    curves = AbcGeom.OCurves(head, "hair", uniform(5)).getSchema()
+    for frame in range(3):
+        curves.set(hair(frame))
+    skin = AbcGeom.OPolyMesh(head, "skin", uniform(0)).getSchema()
+    corners, counts = filled(IntArray(3), [0, 1, 2]), filled(IntArray(1), [3])
+    for frame in range(11):
+        places = filled(V3fArray(3), [V3f(0, 0, frame), V3f(1, 0, frame), V3f(0, 1, frame)])
+        skin.set(AbcGeom.OPolyMeshSchemaSample(places, corners, counts))
+
+
 def empty_beside(archive):
     AbcGeom.OCurves(archive.getTop(), "bald")
     AbcGeom.OCurves(archive.getTop(), "hair").getSchema().set(hair())
 
 
-for name, fill in [("shutter", moving_points), ("shutter_xf", moving_transform), ("empty_beside", empty_beside)]:
+ARCHIVES = {
+    "shutter": moving_points,
+    "shutter_xf": moving_transform,
+    "empty_beside": empty_beside,
+    "operations": operations,
+    "bases": bases,
+    "parameters": parameters,
+    "late": late,
+}
+
+for name, fill in ARCHIVES.items():
     archive = Abc.OArchive(str(HERE / f"{name}.abc"))
     fill(archive)
     # It is written whole when nothing holds it.

@@ -197,6 +197,28 @@ mod tests {
     use super::*;
 
     #[test]
+    fn hair_that_clearly_hangs_tells_which_way_is_up() {
+        let guess = |tips: &[[f32; 3]]| {
+            let mut strands = nabiki::Strands::default();
+            tips.iter().for_each(|&tip| strands.push([Vec3::ZERO, tip.into()]));
+            up(&Hair::from(strands))
+        };
+        for (tip, up) in [
+            ([1.0, -5.0, 0.0], Some("+y")),
+            ([1.0, 5.0, 0.0], Some("-y")),
+            ([0.0, 1.0, -5.0], Some("+z")),
+            ([0.0, 1.0, 5.0], Some("-z")),
+            // No tool has x for up; a slant tells nothing.
+            ([-5.0, 0.0, 1.0], None),
+            ([0.0, -3.0, -2.0], None),
+        ] {
+            assert_eq!(guess(&[tip]), up, "{tip:?}");
+        }
+        // Hair that stands on end all round.
+        assert_eq!(guess(&[[0.0, -1.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]), None);
+    }
+
+    #[test]
     fn of_no_strands_nothing_is_measured() {
         let mut hair = Hair::default();
         hair.attributes.unread = vec!["material:binding".to_owned()];

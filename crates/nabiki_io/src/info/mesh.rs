@@ -150,3 +150,22 @@ impl fmt::Display for MeshInfo {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    #[test]
+    fn edges_of_one_triangle_are_open_and_those_of_more_than_two_crowded() {
+        let edges = |triangles: &[[u32; 3]]| {
+            let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::NEG_Y];
+            let info = MeshInfo::of(&Mesh { positions, triangles: triangles.to_vec(), corner_uvs: None });
+            (info.open_edges, info.crowded_edges)
+        };
+        assert_eq!(edges(&[[0, 1, 2]]), (3, 0));
+        assert_eq!(edges(&[[0, 1, 2], [1, 0, 4]]), (4, 0));
+        assert_eq!(edges(&[[0, 1, 2], [1, 0, 4], [0, 1, 3]]), (6, 1));
+        assert_eq!(edges(&[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]), (0, 0));
+    }
+}

@@ -173,27 +173,67 @@ mod tests {
     fn glb(component: u32, normalised: bool, uvs: &[u8], without: bool) -> Vec<u8> {
         let bare = if without { r#",{"attributes":{"POSITION":0}}"# } else { "" };
         let (count, bytes, whole) = (3, uvs.len(), 36 + uvs.len());
-        let mut json = format!(
+        let json = format!(
             r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
             "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"TEXCOORD_0":1}}}}{bare}]}}],
             "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}},
             {{"bufferView":1,"componentType":{component},"normalized":{normalised},"count":{count},"type":"VEC2"}}],
             "bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":{bytes}}}],
             "buffers":[{{"byteLength":{whole}}}]}}"#
-        )
-        .into_bytes();
-        json.resize(json.len().next_multiple_of(4), b' ');
+        );
         let mut binary = [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes).concat();
         binary.extend(uvs);
-        binary.resize(binary.len().next_multiple_of(4), 0);
-        let mut glb = b"glTF".to_vec();
-        let mut words = |words: &[u32], bytes: &[u8]| {
-            glb.extend(words.iter().flat_map(|w| w.to_le_bytes()));
-            glb.extend(bytes);
+        crate::gltf_file::tests::glb(&json, &binary)
+    }
+
+    #[test]
+    fn nodes_are_carried_by_those_above_them_and_vertices_may_be_interleaved() {
+        // Three vertices of a place and of texture coordinates each, behind four bytes of something else.
+        let vertices = [[1.0f32, 0.0, 0.0, 0.25, 1.0], [0.0, 1.0, 0.0, 0.5, 0.75], [0.0, 0.0, 1.0, 0.75, 0.5]].concat();
+        let numbers: Vec<u8> = std::iter::once(&9.0).chain(&vertices).flat_map(|x| x.to_le_bytes()).collect();
+        // The arm is turned by a quarter about z and lies at (0, 0, 5), the hand lies at (10, 0, 0) of it.
+        let half = std::f32::consts::FRAC_1_SQRT_2;
+        let json = format!(
+            r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],
+            "nodes":[{{"children":[1],"rotation":[0,0,{half},{half}],"translation":[0,0,5]}},
+            {{"mesh":0,"translation":[10,0,0]}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"TEXCOORD_0":1}}}}]}}],
+            "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,1]}},
+            {{"bufferView":0,"byteOffset":12,"componentType":5126,"count":3,"type":"VEC2"}}],
+            "bufferViews":[{{"buffer":0,"byteOffset":4,"byteLength":60,"byteStride":20}}],
+            "buffers":[{{"byteLength":64}}]}}"#
+        );
+        let mesh = from_bytes(&crate::gltf_file::tests::glb(&json, &numbers), None, &[]).unwrap();
+        let places = [[0.0, 11.0, 5.0], [-1.0, 10.0, 5.0], [0.0, 10.0, 6.0]].map(Vec3::from);
+        for (found, place) in mesh.positions.iter().zip(places) {
+            assert!(found.distance(place) < 1e-5, "{found} {place}");
+        }
+        let uvs = [[0.25, 0.0], [0.5, 0.25], [0.75, 0.5]].map(Vec2::from);
+        assert_eq!((mesh.triangles, mesh.corner_uvs), (vec![[0, 1, 2]], Some(vec![uvs])));
+    }
+
+    #[test]
+    fn the_default_scene_is_read_part_by_part_and_a_node_is_chosen_with_what_is_below_it() {
+        let triangle = |x: f32| [x, 0.0, 0.0, x + 1.0, 0.0, 0.0, x, 1.0, 0.0];
+        let numbers: Vec<u8> = [triangle(0.0), triangle(10.0)].concat().iter().flat_map(|x| x.to_le_bytes()).collect();
+        let json = r#"{"asset":{"version":"2.0"},"scene":1,"scenes":[{"nodes":[3]},{"nodes":[0,2]}],
+            "nodes":[{"name":"body","children":[1]},{"name":"head","mesh":0},{"name":"floor","mesh":1},{"mesh":1}],
+            "meshes":[{"primitives":[{"attributes":{"POSITION":0}},{"attributes":{"POSITION":1}}]},
+            {"primitives":[{"attributes":{"POSITION":1}}]}],
+            "accessors":[
+            {"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+            {"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3","min":[10,0,0],"max":[11,1,0]}],
+            "bufferViews":[{"buffer":0,"byteLength":72}],"buffers":[{"byteLength":72}]}"#;
+        let glb = crate::gltf_file::tests::glb(json, &numbers);
+        let corners = |groups: &[&str]| {
+            let groups: Vec<String> = groups.iter().map(|&group| group.to_owned()).collect();
+            let mesh = from_bytes(&glb, None, &groups).unwrap();
+            mesh.triangles.iter().map(|t| t.map(|v| mesh.positions[v as usize].x)).collect::<Vec<_>>()
         };
-        words(&[2, (28 + json.len() + binary.len()) as u32, json.len() as u32, 0x4E4F_534A], &json);
-        words(&[binary.len() as u32, 0x004E_4942], &binary);
-        glb
+        let (near, far) = ([0.0, 1.0, 0.0], [10.0, 11.0, 10.0]);
+        assert_eq!(corners(&[]), [near, far, far]);
+        assert_eq!(corners(&["body"]), [near, far]);
+        assert_eq!(corners(&["floor"]), [far]);
     }
 
     #[test]

@@ -44,6 +44,34 @@ fn the_first_angle_listed_turns_first() {
 }
 
 #[test]
+fn the_axes_of_a_bone_turn_about_the_first_letter_first() {
+    let amc = "1\nroot 0 0 0 0 0 0\nNeck 90 0 0\n";
+    for (axis, about) in [
+        // About x, which leaves x, then about y, which takes it to -z.
+        ("90 90 0 XYZ", DVec3::NEG_Z),
+        // About y, which takes x to -z, then about x, which takes that to y.
+        ("90 90 0 YXZ", DVec3::Y),
+        // About z, which takes x to y, then about x, which takes that to z.
+        ("90 90 0 ZXY", DVec3::Z),
+    ] {
+        let asf = ASF.replace("axis 45 0 0 XYZ", &format!("axis {axis}"));
+        let found = read_track(&asf, amc, "Neck", Some(1.0)).unwrap().samples[0].rotation;
+        let expected = DQuat::from_axis_angle(about, FRAC_PI_2);
+        assert!(found.dot(expected).abs() > 1.0 - 1e-14, "{axis}: {found}");
+    }
+}
+
+#[test]
+fn a_skeleton_in_radians_has_its_axes_in_radians() {
+    let in_degrees = read_track(ASF, AMC, "head", Some(60.0)).unwrap();
+    let asf = ASF.replace("angle deg", "angle rad").replace("axis 45 0 0", &format!("axis {} 0 0", FRAC_PI_2 / 2.0));
+    assert_eq!(read_track(&asf, AMC, "head", Some(60.0)).unwrap(), in_degrees);
+    // A motion that says nothing has the angles of its skeleton.
+    let amc = AMC.replace(":DEGREES\n", "").replace("90", &FRAC_PI_2.to_string());
+    assert_eq!(read_track(&asf, &amc, "head", Some(60.0)).unwrap(), in_degrees);
+}
+
+#[test]
 fn radians_are_read_as_such_and_a_rate_in_the_file_is_the_rate() {
     let in_degrees = read_track(ASF, AMC, "head", Some(60.0)).unwrap();
     let quarter = FRAC_PI_2.to_string();

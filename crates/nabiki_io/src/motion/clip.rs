@@ -283,3 +283,7 @@ impl Curve {
         hermite(p0.truncate(), m0.truncate(), p1.truncate(), m1.truncate(), u).extend(rest)
     }
 }
+
+#[cfg(test)]
+#[path = "clip_tests.rs"]
+mod tests;

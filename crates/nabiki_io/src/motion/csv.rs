@@ -203,6 +203,20 @@ mod tests {
     }
 
     #[test]
+    fn columns_are_what_their_names_say() {
+        for (ending, cm) in [("_m", 100.0), ("_cm", 1.0), ("_mm", 0.1)] {
+            let header = HEADER.replace("_cm", ending);
+            let read = track(&format!("{header}\n0.5,1,2,3,0.1,0.5,0.7,-0.5\n")).unwrap();
+            assert_eq!(
+                (read.unit_cm, read.times[0], read.samples[0].position),
+                (Some(cm), 0.5, DVec3::new(1.0, 2.0, 3.0))
+            );
+            let turn = DQuat::from_xyzw(0.1, 0.5, 0.7, -0.5);
+            assert!((read.samples[0].rotation - turn).length() < 1e-15, "{:?}", read.samples[0].rotation);
+        }
+    }
+
+    #[test]
     fn what_is_no_rotation_is_shown_whole() {
         let (_, said) = refused(&format!("{HEADER}\n0,1,2,3,0,0,0,2\n"));
         assert_eq!(

@@ -108,3 +108,19 @@ impl fmt::Display for MotionInfo {
         write!(f, "unknown, to be given in the scene: {}", self.asked.join(", "))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_motion_lasts_from_its_first_sample_to_its_last() {
+        let frames = "1\nroot 0\n2\nroot 0\n3\nroot 0\n";
+        let found = amc(&format!(":SAMPLES-PER-SECOND 48\n{frames}")).unwrap();
+        assert_eq!((found.samples, found.duration), (3, Some(2.0 / 48.0)));
+        assert_eq!(found.asked, ["skeleton", "up", "facing"]);
+        let found = amc(frames).unwrap();
+        assert_eq!((found.samples, found.duration), (3, None));
+        assert_eq!(found.asked, ["skeleton", "up", "facing", "frames_per_second"]);
+    }
+}

@@ -138,6 +138,21 @@ fn uniform_acceleration_and_a_constant_turn_survive_resampling() {
     }
 }
 
+#[test]
+fn samples_that_are_skipped_are_before_the_first_frame() {
+    let skipping = |skip| MotionSource { skip, ..straight("thrown".into(), None) };
+    // The third sample is that at 0.1 s of 0.41.
+    let motion = thrown().head_motion(&skipping(2), 60.0).unwrap();
+    assert_eq!(motion.poses.len(), 19);
+    for (n, pose) in motion.poses.iter().enumerate() {
+        let t = 0.1 + n as f64 / 60.0;
+        assert!(pose.position_cm.as_dvec3().distance(flight(t)) < 1e-5, "{n}");
+        assert!(1.0 - pose.rotation.as_dquat().dot(spin(t)).abs() < 1e-6, "{n}");
+    }
+    let refused = thrown().head_motion(&skipping(8), 60.0).unwrap_err().to_string();
+    assert_eq!(refused, "thrown: skip = 8: the file has 8 samples");
+}
+
 /// A track of 24 samples a second, read at that rate with a bell of this deviation (frames).
 fn smoothed(deviation: f32, sample: impl Fn(f64) -> Sample) -> Vec<Pose> {
     let times = (0..80).map(|n| f64::from(n) / 24.0).collect();

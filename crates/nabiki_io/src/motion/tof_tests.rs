@@ -37,6 +37,16 @@ fn joints_are_carried_by_their_parents_between_whose_keys_they_stand() {
 }
 
 #[test]
+fn a_motion_lasts_from_its_first_key_to_its_last_of_the_joint_that_has_most() {
+    let joint = |times: &[f64]| AnimatedJoint {
+        name: String::new(),
+        keys: times.iter().map(|&time| Key { time, position: DVec3::ZERO, rotation: DQuat::IDENTITY }).collect(),
+    };
+    assert_eq!(extent(&[joint(&[0.0]), joint(&[1.0, 2.0, 3.5]), joint(&[0.0, 9.0])]), (2.5, 3));
+    assert_eq!(extent(&[]), (0.0, 0));
+}
+
+#[test]
 fn what_is_missing_or_does_not_fit_is_said_in_one_line() {
     let refused = |from: &str, to: &str| {
         assert!(TOF_SKELETON.contains(from) || TOF.contains(from), "{from}");

@@ -117,3 +117,28 @@ pub(super) fn frame_count(duration: f64, frame_rate: f64) -> Result<usize> {
         )))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn a_head_faces_x_and_stands_up_along_y_whatever_its_file_does() {
+        for (up, facing, place, of_x, of_z) in [
+            (Axis::PlusY, Axis::PlusX, [1.0, 2.0, 3.0], DVec3::X, DVec3::Z),
+            (Axis::PlusY, Axis::PlusZ, [3.0, 2.0, -1.0], DVec3::NEG_Z, DVec3::X),
+            (Axis::PlusZ, Axis::MinusY, [-2.0, 3.0, -1.0], DVec3::NEG_Z, DVec3::Y),
+            (Axis::MinusX, Axis::PlusZ, [3.0, -1.0, -2.0], DVec3::NEG_Y, DVec3::X),
+        ] {
+            let world_from_file = WorldFromFile::new(Some(2.0), Some(up), Some(facing)).unwrap();
+            for (axis, expected) in [(DVec3::X, of_x), (DVec3::Z, of_z)] {
+                let rotation = DQuat::from_axis_angle(axis, FRAC_PI_2);
+                let (position, turned) = world_from_file.pose(Sample { position: DVec3::new(1.0, 2.0, 3.0), rotation });
+                assert!(position.distance(2.0 * DVec3::from(place)) < 1e-14, "up {up}, facing {facing}: {position}");
+                let expected = DQuat::from_axis_angle(expected, FRAC_PI_2);
+                assert!(turned.dot(expected).abs() > 1.0 - 1e-14, "up {up}, facing {facing}, about {axis}: {turned}");
+            }
+        }
+    }
+}
