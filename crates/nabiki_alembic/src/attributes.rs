@@ -4,7 +4,7 @@ use std::io::{Read, Seek};
 
 use nabiki::hair::{Per, Role, Values};
 use nabiki_exchange::Uvs;
-use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values, past};
+use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values, past, whole};
 
 use crate::Problem;
 use crate::layout::{Kind, Pod, stored};
@@ -184,7 +184,11 @@ impl<R: Read + Seek> NamedValues for Parameters<'_, R> {
     fn integers(&mut self, name: &str) -> Result<Option<Vec<i64>>, Problem> {
         match self.stored(name)? {
             Some(stored) if stored.kind.extent == 1 && !stored.is_text() => {
-                stored.expanded(name, integers(stored.kind, &stored.bytes)?)
+                let values = match stored.kind.pod {
+                    Pod::F16 | Pod::F32 | Pod::F64 => whole(&doubles(stored.kind, &stored.bytes)?),
+                    _ => Some(integers(stored.kind, &stored.bytes)?),
+                };
+                values.map_or(Ok(None), |values| stored.expanded(name, values))
             }
             _ => Ok(None),
         }

@@ -215,6 +215,26 @@ fn attributes_of_any_name_go_through() {
 }
 
 #[test]
+fn numbers_that_are_not_whole_are_no_ids_whatever_their_name() {
+    for name in ["id", "group"] {
+        for [first, step] in [[7.0, 2.0], [0.25, 1.0], [0.0, 1e300], [f64::NAN, 1.0]] {
+            let mut hair = Hair::from(strands(0));
+            let values: Vec<f64> = (0..hair.strands.len()).map(|s| first + step * s as f64).collect();
+            let of_name = Other::new(name, Per::Strand, Role::Plain, 1, Values::Doubles(values.clone()));
+            hair.attributes.other = vec![of_name];
+            let file = bytes(Export::new(&hair, 24.0), |_| DAffine3::IDENTITY);
+            let read = ArchiveReader::new(Cursor::new(&file)).unwrap().hair(0, None).unwrap().attributes;
+            let found = read.id.or(read.group.map(|group| group.into_iter().map(i64::from).collect()));
+            let whole = (0..values.len() as i64).map(|s| 7 + 2 * s).collect();
+            assert_eq!(found, (step == 2.0).then_some(whole), "{name}, {first}");
+            let [other] = &read.other[..] else { panic!("{name}, {first}: {:?}", read.other) };
+            let Values::Doubles(kept) = &other.values else { panic!("{name}, {first}") };
+            assert!(kept.iter().map(|x| x.to_bits()).eq(values.iter().map(|x| x.to_bits())), "{name}, {first}");
+        }
+    }
+}
+
+#[test]
 fn texture_coordinates_of_points_stay_by_point() {
     let mut hair = groom();
     let roots = hair.attributes.root_uv.clone().unwrap();

@@ -30,7 +30,7 @@ pub trait NamedValues {
     /// What is wrong with the file.
     fn tuples<const N: usize>(&mut self, name: &str) -> Result<Option<Vec<[f32; N]>>, Problem>;
 
-    /// Whole numbers; `None` where there are none of that name.
+    /// Whole numbers, however they are stored; `None` where there are none of that name, or some are not [whole](whole).
     ///
     /// # Errors
     /// What is wrong with the file.
@@ -47,6 +47,14 @@ pub trait NamedValues {
     /// # Errors
     /// What is wrong with the file.
     fn whatever(&mut self, name: &str) -> Result<Option<Whatever>, Problem>;
+}
+
+/// Numbers as whole ones; `None` where some are not. A number by chance between 0 and 1, under a name that another program has
+/// for ids, is none.
+pub fn whole(numbers: &[f64]) -> Option<Vec<i64>> {
+    // Beyond that not every whole number can be told from its neighbours.
+    let is_whole = |x: &f64| x.fract() == 0.0 && x.abs() <= 9_007_199_254_740_992.0;
+    numbers.iter().all(is_whole).then(|| numbers.iter().map(|&x| x as i64).collect())
 }
 
 /// Values of a file as they are stored.

@@ -1,7 +1,7 @@
 //! What a prim of curves carries, and what of it is not read.
 
 use nabiki::hair::{Per, Role, Stored, Values};
-use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values, past};
+use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values, past, whole};
 
 use crate::Problem;
 use crate::opened::Layer;
@@ -138,12 +138,10 @@ impl NamedValues for Primvars<'_> {
     fn integers(&mut self, name: &str) -> Result<Option<Vec<i64>>, Problem> {
         let Some((handle, kind)) = self.numeric(name).filter(|(_, kind)| kind.extent == 1) else { return Ok(None) };
         let values = match kind.stored {
-            Stored::F16 | Stored::F32 | Stored::F64 => {
-                self.layer.numbers(handle)?.into_iter().map(|x| x as i64).collect()
-            }
-            _ => self.layer.integers(handle)?,
+            Stored::F16 | Stored::F32 | Stored::F64 => whole(&self.layer.numbers(handle)?),
+            _ => Some(self.layer.integers(handle)?),
         };
-        self.expanded(name, values)
+        values.map_or(Ok(None), |values| self.expanded(name, values))
     }
 
     fn words(&mut self, name: &str) -> Result<Option<Vec<String>>, Problem> {
