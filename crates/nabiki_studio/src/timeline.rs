@@ -41,11 +41,12 @@ pub fn move_border(keys: &[Keyframe], j: usize, frame: u32, ripple: bool) -> Vec
     keys
 }
 
-/// Moves the intervals of `chosen` (neighbours or not) by so many frames, each as far as the intervals beside it let it.
+/// Moves the intervals of `chosen` (neighbours or not; those that are there) by so many frames, each as far as the intervals beside it
+/// let it.
 pub fn slide(keys: &[Keyframe], chosen: &[usize], by: i64) -> Vec<Keyframe> {
     let mut moved = keys.to_vec();
     let mut runs: Vec<RangeInclusive<usize>> = Vec::new();
-    for &j in chosen {
+    for &j in chosen.iter().filter(|&&j| j < keys.len()) {
         match runs.last_mut() {
             Some(run) if *run.end() + 1 == j => *run = *run.start()..=j,
             _ => runs.push(j..=j),

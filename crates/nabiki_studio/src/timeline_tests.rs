@@ -37,6 +37,8 @@ fn what_slides_keeps_its_length() {
     assert_eq!(ends(&slide(&three(), &[1], 50)), [39, 59, 60]);
     assert_eq!(ends(&slide(&three(), &[1, 2], 7)), [17, 37, 67]);
     assert_eq!(slide(&three(), &[0], 7), three());
+    // Of those chosen while the others were dragged some are not among these.
+    assert_eq!(slide(&three(), &[1, 2, 3, 7], 7), slide(&three(), &[1, 2], 7));
 }
 
 #[test]

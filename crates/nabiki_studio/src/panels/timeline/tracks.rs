@@ -210,7 +210,8 @@ fn envelope(ui: &mut Ui, lane: Rect, scale: &Scale, session: &Session, table: &s
             && let Some(pointer) = response.interact_pointer_pos()
         {
             let low = i.checked_sub(1).map_or(0, |i| keys[i].0 + 1);
-            let high = keys.get(i + 1).map_or(i64::from(u32::MAX), |key| key.0 - 1);
+            // Keys of one frame, which a scene refuses, can be dragged apart.
+            let high = keys.get(i + 1).map_or(i64::from(u32::MAX), |key| key.0 - 1).max(low);
             let part = (factor(pointer.y).clamp(0.0, most.max(1.0)) * 100.0).round() / 100.0;
             moved[i] = (i64::from(scale.frame(pointer.x)).clamp(low, high), part);
             commands.push(set(&moved, Phase::Dragging));
