@@ -30,7 +30,7 @@ pub trait NamedValues {
     /// What is wrong with the file.
     fn tuples<const N: usize>(&mut self, name: &str) -> Result<Option<Vec<[f32; N]>>, Problem>;
 
-    /// Whole numbers, however they are stored; `None` where there are none of that name, or some are not [whole](whole).
+    /// Whole numbers, however they are stored; `None` where there are none of that name, or some are not [`whole`].
     ///
     /// # Errors
     /// What is wrong with the file.
