@@ -110,3 +110,22 @@ fn a_frame_belongs_to_the_interval_that_it_feels() {
     assert_eq!(within(&three(), 10..=11), [0, 1]);
     assert!(within(&three(), 61..=70).is_empty());
 }
+
+#[test]
+fn an_interval_that_ends_with_the_last_frame_that_there_is_can_be_worked_on_like_any_other() {
+    const LAST: u32 = u32::MAX;
+    let keys = vec![key(10, 1.0), key(30, 2.0), key(LAST, 3.0)];
+    assert_eq!(ends(&move_border(&keys, 0, 50, true)), [10, 30, LAST], "nothing can move along");
+    assert_eq!(ends(&move_border(&keys, 0, 4, true)), [4, 24, LAST - 6]);
+    assert_eq!(ends(&slide(&keys, &[2], 7)), [10, 30, LAST]);
+    assert_eq!(join(&keys, &[1, 2]), Some(vec![key(10, 1.0), key(LAST, 3.0)]));
+    let all = copy(&keys, &[0, 1, 2]);
+    assert_eq!(all.0.iter().map(|of| of.0).collect::<Vec<_>>(), [10, 20, LAST - 30]);
+    assert_eq!(copy(&[key(LAST, 1.0)], &[0]).0[0].0, LAST);
+    let twice = Clip([all.0.clone(), all.0.clone()].concat());
+    for (from, clip) in [(1, &all), (25, &all), (25, &twice)] {
+        let (pasted, chosen) = paste(&keys, from, clip);
+        assert!(KeyframedField::new(&pasted).is_ok(), "{pasted:?}");
+        assert_eq!((pasted.last().unwrap().through, chosen.last().unwrap() + 1), (LAST, pasted.len()));
+    }
+}
