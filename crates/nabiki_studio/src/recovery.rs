@@ -120,8 +120,11 @@ impl Keeper {
 }
 
 impl Drop for Keeper {
-    /// A window that closes has asked before what to do with what is not saved.
+    /// A window that closes has asked before what to do with what is not saved; one that panics has not.
     fn drop(&mut self) {
+        if std::thread::panicking() {
+            return;
+        }
         self.forget();
         let _ = fs::remove_file(&self.lock);
     }
@@ -205,6 +208,19 @@ mod tests {
         left[0].remove();
         assert_eq!(left_behind(folder.path()), []);
         document.undo();
+    }
+
+    #[test]
+    fn what_a_window_that_panics_has_not_saved_is_found() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = folder.path().to_owned();
+        let window = std::thread::spawn(move || {
+            let mut keeper = Keeper::begin(&place).unwrap();
+            keeper.keep(&edited()).unwrap();
+            panic!("as a fault of the window's would");
+        });
+        assert!(window.join().is_err());
+        assert_eq!(left_behind(folder.path()).len(), 1, "nobody was asked");
     }
 
     #[test]
