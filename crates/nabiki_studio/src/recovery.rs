@@ -203,6 +203,7 @@ mod tests {
         assert_eq!(left.len(), 1);
         assert!(left[0].text.contains("through = 60"));
         assert!(!left[0].has_file);
+        assert!(left[0].path.is_absolute(), "the next window may begin in another folder");
         let scene = Scene::parse(&left[0].text, &left[0].path, &[]).unwrap();
         assert_eq!(scene, *document.scene());
         left[0].remove();
@@ -260,6 +261,17 @@ mod tests {
         let other = Keeper::begin(folder.path()).unwrap();
         assert!(alive.lock.exists() && other.lock.exists() && folder.path().join("8-0.lock").exists());
         assert!(!folder.path().join("7-0.lock").exists());
+    }
+
+    #[test]
+    fn what_was_kept_last_is_offered_first() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, seconds) in [("1-0.toml", 20), ("2-0.toml", 30), ("3-0.toml", 10)] {
+            let text = format!("path = \"/a.toml\"\nhas_file = true\nseconds = {seconds}\ntext = \"\"\n");
+            fs::write(folder.path().join(name), text).unwrap();
+        }
+        let seconds: Vec<u64> = left_behind(folder.path()).iter().map(|kept| kept.seconds).collect();
+        assert_eq!(seconds, [30, 20, 10]);
     }
 
     #[test]

@@ -61,6 +61,8 @@ fn joined_neighbours_have_the_force_of_the_longest() {
     assert_eq!(join(&three(), &[0, 1, 2]), Some(vec![key(60, 3.0)]));
     assert_eq!(join(&three(), &[0, 2]), None);
     assert_eq!(join(&three(), &[1]), None);
+    assert_eq!(join(&[key(30, 1.0), key(40, 9.0)], &[0, 1]), Some(vec![key(40, 1.0)]), "it is not the strongest");
+    assert_eq!(join(&[key(10, 1.0), key(20, 2.0)], &[0, 1]), Some(vec![key(20, 1.0)]), "of equal ones the first");
     let cut = split(&three(), 20).unwrap();
     assert_eq!(join(&cut, &[1, 2]), Some(three()), "what was cut is joined again");
 }
@@ -101,7 +103,17 @@ fn a_new_interval_is_always_there_afterwards() {
         assert!(KeyframedField::new(&keys).is_ok(), "at {frame}");
         assert!(keys.len() == 4 && j < 4, "at {frame}: {keys:?}");
     }
-    assert_eq!(add(&[], 3, 50).0.len(), 1);
+    assert_eq!(ends(&add(&[], 3, 50).0), [50], "the first one is all the wind there is");
+    let (keys, j) = add(&three(), 15, 60);
+    assert_eq!(
+        (ends(&keys), j, felt(&keys)),
+        (vec![10, 15, 30, 60], 2, felt(&three())),
+        "it begins after the frame shown"
+    );
+    let (keys, j) = add(&three(), 30, 60);
+    assert_eq!((ends(&keys), j), (vec![10, 20, 30, 60], 2), "or in the middle, where that ends there");
+    let (keys, j) = add(&three(), 70, 80);
+    assert_eq!((ends(&keys), j, felt(&keys)), (vec![10, 30, 60, 80], 3, felt(&three())));
 }
 
 #[test]

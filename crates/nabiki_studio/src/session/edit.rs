@@ -262,3 +262,7 @@ fn name_of(key: &str) -> String {
         None => key.to_owned(),
     }
 }
+
+#[cfg(test)]
+#[path = "edit_tests.rs"]
+mod tests;

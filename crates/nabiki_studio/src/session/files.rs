@@ -394,3 +394,7 @@ fn centimetres(unit: &str) -> Option<f64> {
 
 /// A scene's text that is larger than this is none (bytes).
 const MOST_TEXT: usize = 1 << 20;
+
+#[cfg(test)]
+#[path = "files_tests.rs"]
+mod tests;
