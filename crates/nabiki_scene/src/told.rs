@@ -286,7 +286,7 @@ impl SwingTable {
         });
         let rows = reached.map(|key| {
             let row = row([first, key.through.min(last)], key.vector.length());
-            first = key.through + 1;
+            first = key.through.saturating_add(1);
             row
         });
         let rows = rows.collect();

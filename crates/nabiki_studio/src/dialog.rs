@@ -154,6 +154,11 @@ pub fn as_folder(path: &Path) -> String {
     text
 }
 
+/// The file that a scene is saved into under a name: one without an ending has that of a scene.
+pub fn as_scene_file(path: &Path) -> PathBuf {
+    if path.extension().is_none() { path.with_extension("toml") } else { path.to_owned() }
+}
+
 /// What a dropped file is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {

@@ -194,8 +194,10 @@ fn a_drag_that_is_given_up_was_never_there() {
     let before = document.scene().clone();
     document.edit("Pull", ending(&document, 60), Phase::Dragging);
     document.edit("Pull", ending(&document, 70), Phase::Dragging);
+    let version = document.version();
     document.give_up_drag();
     assert_eq!(*document.scene(), before);
+    assert_ne!(document.version(), version, "it is to be moved again");
     assert!(!document.undo() && !document.redo());
 }
 
@@ -208,4 +210,40 @@ fn what_was_recovered_is_not_saved_yet() {
     document.save(false).unwrap();
     assert!(!document.is_dirty());
     assert!(Document::unsaved(scene, None).is_dirty());
+}
+
+#[test]
+fn two_things_done_in_one_drag_are_two_steps_and_what_goes_on_is_seen_from_where_its_drag_began() {
+    let mut document = Place::new().open();
+    let through = |scene: &Scene| scene.field.force[0].through;
+    document.edit("Pull", ending(&document, 60), Phase::Dragging);
+    document.edit("Pull", ending(&document, 65), Phase::Dragging);
+    assert_eq!(through(document.before_drag("Pull")), 50);
+    assert_eq!(through(document.before_drag("Cut")), 65);
+    document.edit("Cut", ending(&document, 70), Phase::Dragging);
+    document.end_drag();
+    assert_eq!(through(document.before_drag("Cut")), 70, "it has ended");
+    assert!(document.undo());
+    assert_eq!(through(document.scene()), 65);
+}
+
+#[test]
+fn an_undo_while_a_drag_is_where_it_began_takes_back_the_step_before() {
+    let mut document = Place::new().open();
+    drag(&mut document, [60]);
+    for n in [70, 60] {
+        document.edit("Pull", ending(&document, n), Phase::Dragging);
+    }
+    assert!(document.undo());
+    assert_eq!(document.scene().field.force[0].through, 50);
+}
+
+#[test]
+fn of_more_steps_than_are_kept_the_oldest_are_forgotten() {
+    let mut document = Place::new().open();
+    for n in 0..MOST_STEPS as u32 + 3 {
+        document.edit("Move", ending(&document, 100 + n), Phase::Done);
+    }
+    let steps = std::iter::from_fn(|| document.undo().then_some(())).count();
+    assert_eq!((steps, document.scene().field.force[0].through), (MOST_STEPS, 102));
 }

@@ -208,6 +208,27 @@ mod tests {
     }
 
     #[test]
+    fn hair_is_pulled_by_the_middle_of_a_lock_even_where_there_is_no_wind_yet() {
+        let text = "[hair]\nstrands = 40\n[motion]\nframes = 30\nform = \"free\"\n";
+        let built = Scene::parse(text, "a.toml".as_ref(), &[]).unwrap().build(Shown::All).unwrap();
+        let before = at(&built, 30);
+        let [a, b] = [3, 20].map(|strand| tip(&before, strand, 30));
+        let held = Lock { frame: 30, nodes: [a.nodes.clone(), b.nodes.clone()].concat() };
+        let middle = |strands: &Strands, lock: &Lock| lock.middle(strands.points(), strands);
+        let half = 0.5 * (middle(&before, &a) + middle(&before, &b));
+        assert!(middle(&before, &held).distance(half) < 1e-4);
+        let way = Vec3::new(-1.0, 0.5, 0.0);
+        let mut drag = Drag::new(problem(&built, &held, &[], None)).unwrap();
+        for _ in 0..10 {
+            drag.pull(0, Goal::MeanMoved(way)).unwrap();
+        }
+        let force = drag.answer().keyframes;
+        assert!(matches!(&force[..], [key] if key.through == 30), "{force:?}");
+        let after = at(&blown(&built, force), 30);
+        assert!(middle(&after, &held).distance(half + way) < 0.5 * way.length());
+    }
+
+    #[test]
     fn what_is_nailed_stays() {
         let built = gust(2);
         let before = at(&built, 30);

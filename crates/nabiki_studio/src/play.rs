@@ -152,6 +152,12 @@ mod tests {
         assert_eq!(play.frame(), 9);
         play.set_playing(true);
         assert_eq!(play.frame(), 0);
+        for ending in [Ending::Loop, Ending::Swing] {
+            let mut play = playing(9, ending);
+            play.go(9);
+            play.set_playing(true);
+            assert_eq!(play.frame(), 9, "it goes on from there");
+        }
     }
 
     #[test]
@@ -170,11 +176,17 @@ mod tests {
         let mut play = playing(9, Ending::Loop);
         play.step(-1);
         assert_eq!((play.frame(), play.is_playing()), (9, false));
-        play.ending = Ending::Stop;
-        play.step(5);
-        assert_eq!(play.frame(), 9);
+        for ending in [Ending::Stop, Ending::Swing] {
+            play.ending = ending;
+            play.step(5);
+            assert_eq!(play.frame(), 9);
+        }
+        play.go(99);
         play.set_last(4);
         assert_eq!(play.frame(), 4);
+        play.go(99);
+        play.set_last(9);
+        assert_eq!(play.frame(), 4, "a longer motion moves nothing");
     }
 
     #[test]

@@ -166,6 +166,14 @@ mod tests {
     }
 
     #[test]
+    fn the_files_used_last_are_found_from_any_folder_and_older_ones_are_forgotten() {
+        let mut preferences = Preferences::default();
+        (0..12).for_each(|n| preferences.used(Path::new(&format!("{n}.toml"))));
+        assert_eq!(preferences.recent.len(), MOST_RECENT);
+        assert_eq!(preferences.recent[0], std::path::absolute("11.toml").unwrap());
+    }
+
+    #[test]
     fn what_is_broken_is_said_and_does_not_matter() {
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(Preferences::load(folder.path()), (Preferences::default(), None));
@@ -173,7 +181,7 @@ mod tests {
         let (read, said) = Preferences::load(folder.path());
         assert_eq!(read, Preferences::default());
         assert!(said.unwrap().contains("studio.toml"));
-        std::fs::write(folder.path().join(FILE), "window = [0.0, nan]\nzoom = 99.0\nnews = 1").unwrap();
+        std::fs::write(folder.path().join(FILE), "window = [0.0, nan]\nzoom = 99.0\nstrands = 0\nnews = 1").unwrap();
         assert_eq!(Preferences::load(folder.path()), (Preferences::default(), None));
     }
 }

@@ -120,8 +120,11 @@ impl Keeper {
 }
 
 impl Drop for Keeper {
-    /// A window that closes has asked before what to do with what is not saved.
+    /// A window that closes has asked before what to do with what is not saved; one that panics has not.
     fn drop(&mut self) {
+        if std::thread::panicking() {
+            return;
+        }
         self.forget();
         let _ = fs::remove_file(&self.lock);
     }
@@ -200,11 +203,25 @@ mod tests {
         assert_eq!(left.len(), 1);
         assert!(left[0].text.contains("through = 60"));
         assert!(!left[0].has_file);
+        assert!(left[0].path.is_absolute(), "the next window may begin in another folder");
         let scene = Scene::parse(&left[0].text, &left[0].path, &[]).unwrap();
         assert_eq!(scene, *document.scene());
         left[0].remove();
         assert_eq!(left_behind(folder.path()), []);
         document.undo();
+    }
+
+    #[test]
+    fn what_a_window_that_panics_has_not_saved_is_found() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = folder.path().to_owned();
+        let window = std::thread::spawn(move || {
+            let mut keeper = Keeper::begin(&place).unwrap();
+            keeper.keep(&edited()).unwrap();
+            panic!("as a fault of the window's would");
+        });
+        assert!(window.join().is_err());
+        assert_eq!(left_behind(folder.path()).len(), 1, "nobody was asked");
     }
 
     #[test]
@@ -244,6 +261,17 @@ mod tests {
         let other = Keeper::begin(folder.path()).unwrap();
         assert!(alive.lock.exists() && other.lock.exists() && folder.path().join("8-0.lock").exists());
         assert!(!folder.path().join("7-0.lock").exists());
+    }
+
+    #[test]
+    fn what_was_kept_last_is_offered_first() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, seconds) in [("1-0.toml", 20), ("2-0.toml", 30), ("3-0.toml", 10)] {
+            let text = format!("path = \"/a.toml\"\nhas_file = true\nseconds = {seconds}\ntext = \"\"\n");
+            fs::write(folder.path().join(name), text).unwrap();
+        }
+        let seconds: Vec<u64> = left_behind(folder.path()).iter().map(|kept| kept.seconds).collect();
+        assert_eq!(seconds, [30, 20, 10]);
     }
 
     #[test]

@@ -490,3 +490,6 @@ impl Session {
 #[cfg(test)]
 #[path = "session_tests.rs"]
 mod tests;
+#[cfg(test)]
+#[path = "session/ways_tests.rs"]
+mod ways_tests;

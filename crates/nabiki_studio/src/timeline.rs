@@ -20,6 +20,11 @@ fn first(keys: &[Keyframe], j: usize) -> u32 {
     1 + j.checked_sub(1).map_or(0, |before| keys[before].through)
 }
 
+/// How many frames the last interval can still end later: who means for good may have written the last frame that there is.
+fn room_after(keys: &[Keyframe]) -> i64 {
+    keys.last().map_or(0, |last| i64::from(u32::MAX - last.through))
+}
+
 /// The interval whose force is felt in a frame; the last one holds for good.
 pub fn at(keys: &[Keyframe], frame: u32) -> Option<usize> {
     let j = keys.partition_point(|key| key.through < frame);
@@ -33,6 +38,7 @@ pub fn move_border(keys: &[Keyframe], j: usize, frame: u32, ripple: bool) -> Vec
     let low = first(&keys, j);
     if ripple {
         let by = i64::from(frame.max(low)) - i64::from(keys[j].through);
+        let by = by.min(room_after(&keys));
         keys[j..].iter_mut().for_each(|key| key.through = (i64::from(key.through) + by) as u32);
     } else {
         let high = keys.get(j + 1).map_or(u32::MAX, |next| next.through - 1);
@@ -57,7 +63,10 @@ pub fn slide(keys: &[Keyframe], chosen: &[usize], by: i64) -> Vec<Keyframe> {
         // The first interval begins at frame 1 whatever comes, and the one after the last keeps a frame.
         let Some(before) = a.checked_sub(1) else { continue };
         let low = i64::from(first(&moved, before)) - i64::from(moved[before].through);
-        let high = keys.get(b + 1).map_or(i64::MAX, |next| i64::from(next.through) - i64::from(moved[b].through) - 1);
+        let high = match keys.get(b + 1) {
+            Some(next) => i64::from(next.through) - i64::from(moved[b].through) - 1,
+            None => room_after(keys),
+        };
         let by = by.clamp(low, high.max(0));
         moved[before..=b].iter_mut().for_each(|key| key.through = (i64::from(key.through) + by) as u32);
     }
@@ -82,7 +91,7 @@ pub fn join(keys: &[Keyframe], chosen: &[usize]) -> Option<Vec<Keyframe>> {
     let mut joined: Vec<Keyframe> = Vec::new();
     let mut longest = 0;
     for (j, key) in keys.iter().enumerate() {
-        let length = key.through + 1 - first(keys, j);
+        let length = key.through - first(keys, j) + 1;
         let goes_on = j > 0 && chosen.contains(&j) && chosen.contains(&(j - 1));
         match joined.last_mut() {
             Some(last) if goes_on => {
@@ -116,15 +125,14 @@ pub fn remove(keys: &[Keyframe], chosen: &[usize]) -> Vec<Keyframe> {
 /// The chosen intervals, in their order.
 pub fn copy(keys: &[Keyframe], chosen: &[usize]) -> Clip {
     let chosen = chosen.iter().filter(|&&j| j < keys.len());
-    Clip(chosen.map(|&j| (keys[j].through + 1 - first(keys, j), keys[j].vector)).collect())
+    Clip(chosen.map(|&j| (keys[j].through - first(keys, j) + 1, keys[j].vector)).collect())
 }
 
 /// Lays a clip over the wind from frame `from` on, and says which intervals it then is. What it covers is gone, what stands
 /// before and after stays.
 pub fn paste(keys: &[Keyframe], from: u32, clip: &Clip) -> (Vec<Keyframe>, Vec<usize>) {
     let from = from.max(1);
-    let length: u32 = clip.0.iter().map(|(frames, _)| frames).sum();
-    let end = from.saturating_add(length) - 1;
+    let end = clip.0.iter().fold(from - 1, |end, (frames, _)| end.saturating_add(*frames));
     let mut pasted: Vec<Keyframe> = keys.iter().copied().filter(|key| key.through < from).collect();
     let under = keys.iter().find(|key| key.through >= from).or(keys.last());
     if let Some(under) = under
@@ -137,7 +145,11 @@ pub fn paste(keys: &[Keyframe], from: u32, clip: &Clip) -> (Vec<Keyframe>, Vec<u
     let first = pasted.len();
     let mut through = from - 1;
     for &(frames, vector) in &clip.0 {
-        through += frames;
+        if through == u32::MAX {
+            // There is no frame left for it.
+            break;
+        }
+        through = through.saturating_add(frames);
         pasted.push(Keyframe { through, vector });
     }
     let chosen = (first..pasted.len()).collect();

@@ -61,6 +61,8 @@ fn joined_neighbours_have_the_force_of_the_longest() {
     assert_eq!(join(&three(), &[0, 1, 2]), Some(vec![key(60, 3.0)]));
     assert_eq!(join(&three(), &[0, 2]), None);
     assert_eq!(join(&three(), &[1]), None);
+    assert_eq!(join(&[key(30, 1.0), key(40, 9.0)], &[0, 1]), Some(vec![key(40, 1.0)]), "it is not the strongest");
+    assert_eq!(join(&[key(10, 1.0), key(20, 2.0)], &[0, 1]), Some(vec![key(20, 1.0)]), "of equal ones the first");
     let cut = split(&three(), 20).unwrap();
     assert_eq!(join(&cut, &[1, 2]), Some(three()), "what was cut is joined again");
 }
@@ -101,7 +103,17 @@ fn a_new_interval_is_always_there_afterwards() {
         assert!(KeyframedField::new(&keys).is_ok(), "at {frame}");
         assert!(keys.len() == 4 && j < 4, "at {frame}: {keys:?}");
     }
-    assert_eq!(add(&[], 3, 50).0.len(), 1);
+    assert_eq!(ends(&add(&[], 3, 50).0), [50], "the first one is all the wind there is");
+    let (keys, j) = add(&three(), 15, 60);
+    assert_eq!(
+        (ends(&keys), j, felt(&keys)),
+        (vec![10, 15, 30, 60], 2, felt(&three())),
+        "it begins after the frame shown"
+    );
+    let (keys, j) = add(&three(), 30, 60);
+    assert_eq!((ends(&keys), j), (vec![10, 20, 30, 60], 2), "or in the middle, where that ends there");
+    let (keys, j) = add(&three(), 70, 80);
+    assert_eq!((ends(&keys), j, felt(&keys)), (vec![10, 30, 60, 80], 3, felt(&three())));
 }
 
 #[test]
@@ -109,4 +121,23 @@ fn a_frame_belongs_to_the_interval_that_it_feels() {
     assert_eq!([1, 10, 11, 30, 60, 99].map(|n| at(&three(), n)), [0, 0, 1, 1, 2, 2].map(Some));
     assert_eq!(within(&three(), 10..=11), [0, 1]);
     assert!(within(&three(), 61..=70).is_empty());
+}
+
+#[test]
+fn an_interval_that_ends_with_the_last_frame_that_there_is_can_be_worked_on_like_any_other() {
+    const LAST: u32 = u32::MAX;
+    let keys = vec![key(10, 1.0), key(30, 2.0), key(LAST, 3.0)];
+    assert_eq!(ends(&move_border(&keys, 0, 50, true)), [10, 30, LAST], "nothing can move along");
+    assert_eq!(ends(&move_border(&keys, 0, 4, true)), [4, 24, LAST - 6]);
+    assert_eq!(ends(&slide(&keys, &[2], 7)), [10, 30, LAST]);
+    assert_eq!(join(&keys, &[1, 2]), Some(vec![key(10, 1.0), key(LAST, 3.0)]));
+    let all = copy(&keys, &[0, 1, 2]);
+    assert_eq!(all.0.iter().map(|of| of.0).collect::<Vec<_>>(), [10, 20, LAST - 30]);
+    assert_eq!(copy(&[key(LAST, 1.0)], &[0]).0[0].0, LAST);
+    let twice = Clip([all.0.clone(), all.0.clone()].concat());
+    for (from, clip) in [(1, &all), (25, &all), (25, &twice)] {
+        let (pasted, chosen) = paste(&keys, from, clip);
+        assert!(KeyframedField::new(&pasted).is_ok(), "{pasted:?}");
+        assert_eq!((pasted.last().unwrap().through, chosen.last().unwrap() + 1), (LAST, pasted.len()));
+    }
 }

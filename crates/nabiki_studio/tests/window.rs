@@ -13,6 +13,8 @@ use nabiki_studio::session::Session;
 
 #[path = "window/anything.rs"]
 mod anything;
+#[path = "window/blocks.rs"]
+mod blocks;
 #[path = "window/hands.rs"]
 mod hands;
 #[path = "window/sizes.rs"]

@@ -6,7 +6,7 @@ use eframe::egui::{self, Ui};
 
 use super::{Commands, theme};
 use crate::command::Command;
-use crate::dialog::{Chooser, Dialog, Purpose};
+use crate::dialog::{Chooser, Dialog, Purpose, as_scene_file};
 use crate::session::Session;
 
 /// Draws the chooser.
@@ -74,10 +74,10 @@ pub fn ui(ui: &mut Ui, session: &Session, chooser: &Chooser, commands: &mut Comm
             commands.push(Command::AskDesktop);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let replaces = matches!(chooser.purpose, Purpose::SaveAs(_)) && chosen.is_file();
+            let replaces = matches!(chooser.purpose, Purpose::SaveAs(_)) && as_scene_file(&chosen).is_file();
             let seen = session.broken().map(|broken| broken.path.as_path());
             let seen = seen.or_else(|| session.document().and_then(|document| document.path()));
-            let own = seen.is_some_and(|own| own == chosen);
+            let own = seen.is_some_and(|own| own == as_scene_file(&chosen));
             let verb = if replaces && !own { "Replace" } else { verb };
             let done = ui.add_enabled(may, egui::Button::new(verb)).clicked();
             if (done || entered) && may {

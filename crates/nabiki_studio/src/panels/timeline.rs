@@ -251,9 +251,10 @@ fn ruler(ui: &mut Ui, rect: Rect, scale: &Scale, last: u32, commands: &mut Comma
         painter.rect_filled(beyond, 0.0, Color32::from_black_alpha(60));
     }
     let step = scale.step();
-    let from = (scale.from().max(0.0) / f64::from(step)).floor() as u32 * step;
-    for frame in (from..).step_by(step as usize).take_while(|n| f64::from(*n) <= scale.to()) {
-        let x = scale.x(f64::from(frame));
+    let from = (scale.from().max(0.0) / f64::from(step)).floor() as u64 * u64::from(step);
+    // What is shown may reach a little beyond the last frame that there can be.
+    for frame in (from..).step_by(step as usize).take_while(|n| *n as f64 <= scale.to()) {
+        let x = scale.x(frame as f64);
         painter.vline(x, rect.bottom() - 4.0..=rect.bottom(), Stroke::new(1.0, Color32::from_gray(70)));
         painter.text(
             pos2(x, rect.top() + 9.0),

@@ -173,11 +173,11 @@ impl Session {
             },
             Action::Ease => self.next_ease(),
             Action::NextBorder => {
-                let next = keys.iter().map(|key| key.through + 1).find(|&first| first > frame);
+                let next = keys.iter().map(|key| key.through.saturating_add(1)).find(|&first| first > frame);
                 self.apply(Command::Go(next.unwrap_or(last)));
             }
             Action::PreviousBorder => {
-                let before = keys.iter().rev().map(|key| key.through + 1).find(|&first| first < frame);
+                let before = keys.iter().rev().map(|key| key.through.saturating_add(1)).find(|&first| first < frame);
                 self.apply(Command::Go(before.unwrap_or(if frame > 1 { 1 } else { 0 })));
             }
             _ => {}
@@ -262,3 +262,7 @@ fn name_of(key: &str) -> String {
         None => key.to_owned(),
     }
 }
+
+#[cfg(test)]
+#[path = "edit_tests.rs"]
+mod tests;

@@ -9,9 +9,9 @@ use super::{Broken, Session, Wish};
 use crate::actions::Action;
 use crate::command::Command;
 use crate::desktop::{Answer, Asked};
-use crate::dialog::{Chooser, Dialog, Import, Next, Purpose, Role, as_folder};
+use crate::dialog::{Chooser, Dialog, Import, Next, Purpose, Role, as_folder, as_scene_file};
 use crate::document::{Document, Phase};
-use crate::recovery::Kept;
+use crate::recovery::{Keeper, Kept};
 use crate::tasks;
 
 /// The scene of the first start.
@@ -46,6 +46,8 @@ impl Session {
         let strongest = strengths.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
         self.chosen = strongest.map(|(j, _)| j).into_iter().collect();
         self.document = Some(document);
+        // Of the one before nothing is left to be lost, and this one's changes count from 0 as that one's did.
+        self.keeper.iter_mut().for_each(Keeper::forget);
         (self.broken, self.trouble, self.said_changed) = (None, None, false);
         self.forget_refusals();
         // The hair of another scene is not this one's, nor is what is still on its way.
@@ -118,7 +120,6 @@ impl Session {
                 let on_disk = kept.has_file.then(|| std::fs::read(&kept.path).unwrap_or_default());
                 self.dialog = None;
                 self.take_over(Document::unsaved(scene, on_disk));
-                kept.remove();
             }
             // What was being mended can go on being so.
             Err(error) => {
@@ -126,9 +127,11 @@ impl Session {
                 let (path, text) = (kept.path.clone(), kept.text.clone());
                 self.dialog = None;
                 self.broken = Some(Broken { path, text, error: Some(error), on_disk });
-                self.keep();
-                kept.remove();
             }
+        }
+        // The scene that was recovered may be what ended the window that had it.
+        if self.keep() {
+            kept.remove();
         }
     }
 
@@ -147,7 +150,8 @@ impl Session {
     /// Opens a scene, or asks what another file is for.
     fn open_any(&mut self, path: PathBuf) {
         if matches!(self.dialog, Some(Dialog::File(_))) {
-            self.dialog = None;
+            // What the desktop may still answer was asked of the scene before.
+            (self.dialog, self.desktop) = (None, None);
         }
         let roles = Role::of(&path);
         let Some(&role) = roles.first() else {
@@ -190,7 +194,16 @@ impl Session {
         let Some(answer) = self.desktop.as_ref().and_then(Asked::answer) else { return };
         let Some(asked) = self.desktop.take() else { return };
         match answer {
-            Answer::Path(path) => self.chosen_file(asked.chooser().clone(), path),
+            Answer::Path(path) => {
+                let chooser = asked.chooser().clone();
+                let named = as_scene_file(&path);
+                if matches!(chooser.purpose, Purpose::SaveAs(_)) && named != path && named.exists() {
+                    // The desktop has asked about another file, if about any.
+                    self.dialog = Some(Dialog::File(Chooser { path: named.display().to_string(), ..chooser }));
+                } else {
+                    self.chosen_file(chooser, path);
+                }
+            }
             Answer::Closed => {}
             Answer::None => self.has_desktop = false,
         }
@@ -275,11 +288,18 @@ impl Session {
 
     /// Notices that somebody else has written the file, or taken it away.
     pub(super) fn look_at_file(&mut self) {
-        if self.broken.as_ref().is_some_and(Broken::is_changed) {
-            // A text that is being mended does not give way.
-            return;
-        }
         let Some(document) = &self.document else { return };
+        if let Some(broken) = &self.broken {
+            // A text that is being mended does not give way; one that nobody has touched may be mended elsewhere.
+            if broken.is_changed() {
+                return;
+            }
+            let is_other = std::fs::read(&broken.path).is_ok_and(|now| now != broken.on_disk);
+            if is_other && !document.is_dirty() {
+                let path = broken.path.clone();
+                return if self.is_open(&path) { self.reload(false) } else { self.open(&path) };
+            }
+        }
         let Some(path) = document.path().map(Path::to_owned) else { return };
         match document.changed_on_disk() {
             Some(false) => self.said_changed = false,
@@ -374,3 +394,7 @@ fn centimetres(unit: &str) -> Option<f64> {
 
 /// A scene's text that is larger than this is none (bytes).
 const MOST_TEXT: usize = 1 << 20;
+
+#[cfg(test)]
+#[path = "files_tests.rs"]
+mod tests;

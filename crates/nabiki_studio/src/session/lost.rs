@@ -6,7 +6,7 @@ use nabiki_scene::Scene;
 use nabiki_scene::scene::{SceneError, write_scene};
 
 use super::{Session, Wish};
-use crate::dialog::{Chooser, Dialog, Next, Purpose};
+use crate::dialog::{Chooser, Dialog, Next, Purpose, as_scene_file};
 use crate::document::SaveError;
 use crate::recovery::Keeper;
 use crate::tasks::Task;
@@ -166,10 +166,14 @@ impl Session {
 
     /// The same into another file.
     pub(super) fn save_to(&mut self, path: &Path, next: Option<Next>) {
-        let path = if path.extension().is_none() { path.with_extension("toml") } else { path.to_owned() };
+        let path = as_scene_file(path);
         let saves_text = self.saves_text(next.as_ref());
+        let is_same = |own: &Path| std::path::absolute(own).ok() == std::path::absolute(&path).ok();
+        // Its own name is no other name: what somebody else has written there is asked about.
         let result = match (&mut self.broken, &mut self.document) {
+            (Some(broken), _) if saves_text && is_same(&broken.path) => broken.save(false),
             (Some(broken), _) if saves_text => broken.save_as(&path),
+            (_, Some(document)) if document.path().is_some_and(is_same) => document.save(false),
             (_, Some(document)) => document.save_as(&path),
             _ => return,
         };
@@ -179,6 +183,7 @@ impl Session {
                 self.dialog = None;
                 self.saved(saves_text, next);
             }
+            Err(SaveError::Changed(path)) => self.dialog = Some(Dialog::Conflict(path, next)),
             Err(e) => self.say(format!("{NOT_SAVED}{e}"), true),
         }
     }
@@ -234,15 +239,17 @@ impl Session {
             Some(Dialog::File(Chooser { purpose: Purpose::SaveAs(next.map(Box::new)), path, endings: vec!["toml"] }));
     }
 
-    /// Keeps what is not saved.
-    pub(super) fn keep(&mut self) {
+    /// Keeps what is not saved; whether it is kept.
+    pub(super) fn keep(&mut self) -> bool {
         let scene = match (&mut self.keeper, &self.document) {
             (Some(keeper), Some(document)) => keeper.keep(document),
             _ => Ok(()),
         };
-        if let Err(e) = scene.and(self.keep_text()) {
+        let kept = scene.and(self.keep_text());
+        if let Err(e) = &kept {
             self.say(format!("{e}: what is not saved cannot be kept in case this window is killed"), true);
         }
+        kept.is_ok() && self.keeper.is_some()
     }
 
     fn keep_text(&mut self) -> std::io::Result<()> {

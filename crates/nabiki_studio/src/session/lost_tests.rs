@@ -267,3 +267,124 @@ fn a_scene_whose_file_is_gone_is_asked_about_before_it_is_lost_and_one_that_cann
     session.apply(Command::SaveTo(place.file().with_file_name("again.toml")));
     assert!(session.may_close());
 }
+
+/// What lies beside the preferences of windows that live.
+fn kept_texts(place: &Place) -> Vec<String> {
+    let files = std::fs::read_dir(place.0.path().join("config/recovery")).unwrap().flatten().map(|entry| entry.path());
+    let files = files.filter(|path| path.extension().is_some_and(|e| e == "toml"));
+    files.map(|path| std::fs::read_to_string(path).unwrap()).collect()
+}
+
+#[test]
+fn what_was_recovered_or_mended_and_is_not_saved_is_kept_though_nothing_was_changed_since() {
+    let place = Place::new();
+    let mut session = place.session();
+    edit(&mut session);
+    session.keep();
+    let text = kept_texts(&place).remove(0);
+    drop(session);
+    let left = place.0.path().join("config/recovery/1-0.toml");
+    std::fs::write(&left, &text).unwrap();
+    let mut session = place.session();
+    // The question has stood for a while.
+    session.keep();
+    session.apply(Command::Recover(0));
+    assert!(!left.exists());
+    assert!(matches!(&kept_texts(&place)[..], [kept] if kept.contains("[1, 0, 0]")), "{:?}", kept_texts(&place));
+    session.apply(Command::Act(Action::Save));
+    assert_eq!(kept_texts(&place), [] as [String; 0]);
+    let (mut session, _) = with_text(&place);
+    session.keep();
+    session.apply(Command::Mend(TEXT.replace("-100", "-70")));
+    session.apply(Command::UseMended);
+    session.keep();
+    assert!(matches!(&kept_texts(&place)[..], [kept] if kept.contains("-70")), "{:?}", kept_texts(&place));
+}
+
+#[test]
+fn saved_under_its_own_name_it_asks_about_what_another_program_has_written_there() {
+    let place = Place::new();
+    let mut session = place.session();
+    edit(&mut session);
+    std::fs::write(place.file(), "theirs").unwrap();
+    session.apply(Command::Act(Action::Save));
+    assert!(matches!(session.dialog(), Some(Dialog::Conflict(..))));
+    session.apply(Command::Act(Action::SaveAs));
+    let Some(Dialog::File(chooser)) = session.dialog().cloned() else { panic!("no name is asked for") };
+    let own = PathBuf::from(&chooser.path);
+    session.apply(Command::Chosen(Box::new(chooser), own));
+    assert!(matches!(session.dialog(), Some(Dialog::Conflict(..))));
+    assert_eq!(std::fs::read_to_string(place.file()).unwrap(), "theirs");
+    let (mut session, path) = with_text(&place);
+    session.apply(Command::Mend("half".to_owned()));
+    std::fs::write(&path, "theirs").unwrap();
+    session.apply(Command::SaveTo(path.clone()));
+    assert!(matches!(session.dialog(), Some(Dialog::Conflict(..))));
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "theirs");
+}
+
+/// Asks the desktop for what the session asks for, and takes its answer.
+fn ask_desktop(session: &mut Session, answer: PathBuf) {
+    let Some(Dialog::File(chooser)) = session.dialog() else { panic!("no file is asked for") };
+    session.desktop = Some(crate::desktop::Asked::asks(chooser.clone(), move || Some(answer), || ()).unwrap());
+}
+
+#[test]
+fn a_name_without_an_ending_replaces_no_scene_that_the_desktop_has_not_asked_about() {
+    let place = Place::new();
+    let mut session = place.session();
+    let other = place.0.path().join("other.toml");
+    std::fs::write(&other, "another").unwrap();
+    session.apply(Command::Act(Action::SaveAs));
+    ask_desktop(&mut session, other.with_extension(""));
+    while session.asks_desktop() {
+        session.tick(0.001, 0.001);
+    }
+    assert_eq!(std::fs::read_to_string(&other).unwrap(), "another");
+    assert!(matches!(session.dialog(), Some(Dialog::File(chooser)) if Path::new(&chooser.path) == other));
+    ask_desktop(&mut session, place.0.path().join("new"));
+    while session.asks_desktop() {
+        session.tick(0.001, 0.001);
+    }
+    assert!(place.0.path().join("new.toml").is_file() && session.dialog().is_none());
+}
+
+#[test]
+fn what_the_desktop_was_asked_for_one_scene_is_not_done_to_another() {
+    let place = Place::new();
+    let mut session = place.session();
+    let (other, name) = (place.0.path().join("other.toml"), place.0.path().join("name.toml"));
+    std::fs::write(&other, TEXT).unwrap();
+    session.apply(Command::Act(Action::SaveAs));
+    ask_desktop(&mut session, name.clone());
+    // A file let go over the window.
+    session.apply(Command::Open(other.clone()));
+    for _ in 0..20 {
+        session.tick(0.001, 0.001);
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    assert_eq!(session.document().unwrap().path(), Some(other.as_path()));
+    assert!(!name.exists());
+}
+
+#[test]
+fn a_text_that_nobody_has_touched_here_is_read_again_when_another_program_has_mended_it() {
+    let place = Place::new();
+    let mut session = place.session();
+    for text in ["nonsense".to_owned(), TEXT.replace("= 20", "= "), TEXT.replace("-100", "-50")] {
+        std::fs::write(place.file(), &text).unwrap();
+        session.look_at_file();
+        assert_eq!(session.broken().is_some(), !text.contains("-50"), "{text}");
+        assert!(session.broken().is_none_or(|broken| broken.text == text));
+    }
+    assert_eq!(session.document().unwrap().scene().field.force[0].vector.x, -50.0);
+    let (mut session, path) = with_text(&place);
+    std::fs::write(&path, TEXT).unwrap();
+    session.look_at_file();
+    assert_eq!(session.document().unwrap().path(), Some(path.as_path()));
+    let (mut session, path) = with_text(&place);
+    edit(&mut session);
+    std::fs::write(&path, TEXT).unwrap();
+    session.look_at_file();
+    assert!(session.broken().is_some(), "the scene behind it is not saved");
+}

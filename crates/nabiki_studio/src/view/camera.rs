@@ -240,6 +240,50 @@ mod tests {
     }
 
     #[test]
+    fn what_lies_before_the_target_follows_the_pointer_that_turns() {
+        let size = [1280, 720];
+        for projection in [Projection::Perspective, Projection::Orthographic] {
+            let start = Orbit::new(&somewhere(projection), size, &Bounds::default());
+            let view = start.view(size, Vec3::ZERO);
+            let place = start.settings().target.unwrap() - 8.0 * view.forward;
+            // Through 0 degrees and 360, too.
+            for way in [Vec2::X * 40.0, Vec2::X * -40.0, Vec2::X * -200.0, Vec2::Y * 25.0, Vec2::Y * -25.0] {
+                let mut orbit = start;
+                orbit.drag(Gesture::Orbit, way, 720.0);
+                let gone = orbit.view(size, Vec3::ZERO).project(place).truncate() - view.project(place).truncate();
+                let (along, across) = (gone.dot(way.normalize()), gone.perp_dot(way.normalize()));
+                assert!(along > 0.0 && across.abs() < 0.3 * along, "{way}: {gone}");
+                let turned = DEGREES_PER_PIXEL * way.x.abs();
+                let now = orbit.settings().azimuth - start.settings().azimuth;
+                assert!((now.abs() - turned).abs() < 1e-3 || (360.0 - now.abs() - turned).abs() < 1e-3, "{now}");
+            }
+        }
+    }
+
+    #[test]
+    fn up_and_to_the_right_is_nearer_and_there_is_an_end_to_it_either_way() {
+        let size = [1280, 720];
+        for projection in [Projection::Perspective, Projection::Orthographic] {
+            let start = Orbit::new(&somewhere(projection), size, &Bounds::default());
+            let target = start.settings().target.unwrap();
+            let large = |orbit: &Orbit| {
+                let view = orbit.view(size, Vec3::ZERO);
+                view.project(target + view.right).x - view.project(target).x
+            };
+            for (way, nearer) in [(Vec2::X, true), (-Vec2::Y, true), (-Vec2::X, false), (Vec2::Y, false)] {
+                let mut orbit = start;
+                orbit.drag(Gesture::Zoom, 20.0 * way, 720.0);
+                assert_eq!(large(&orbit) > large(&start), nearer, "{projection:?}: {way}");
+                (0..500).for_each(|_| orbit.drag(Gesture::Zoom, 20.0 * way, 720.0));
+                let camera = orbit.settings();
+                let reached =
+                    camera.height.filter(|_| projection == Projection::Orthographic).or(camera.distance).unwrap();
+                assert_eq!(reached, REACH_CM[usize::from(!nearer)]);
+            }
+        }
+    }
+
+    #[test]
     fn there_and_back_is_where_it_was() {
         let start = Orbit::new(&somewhere(Projection::Perspective), [1280, 720], &Bounds::default());
         let mut orbit = start;
@@ -257,7 +301,9 @@ mod tests {
         let bounds = Bounds { low: Vec3::new(-9.0, -20.0, -8.0), high: Vec3::new(30.0, 12.0, 11.0) };
         for projection in [Projection::Perspective, Projection::Orthographic] {
             let mut orbit = Orbit::new(&somewhere(projection), [640, 480], &Bounds::default());
+            let before = orbit.settings();
             orbit.frame(&bounds, [640, 480]);
+            assert_eq!((orbit.settings().azimuth, orbit.settings().elevation), (before.azimuth, before.elevation));
             let view = orbit.view([640, 480], Vec3::ZERO);
             for p in [bounds.low, bounds.high, Vec3::new(30.0, -20.0, 11.0)] {
                 let p = view.project(p);

@@ -156,7 +156,7 @@ fn work(
     }
 }
 
-/// All strands, where they were asked for last.
+/// All strands, where they were asked for last. What is the same of the next scene is not built again.
 struct Whole {
     built: BuiltScene,
     asked: usize,
@@ -174,18 +174,33 @@ impl Whole {
     ) -> Result<Option<&'a mut Self>, String> {
         let says = |error: nabiki_scene::Error| error.to_string();
         let scene = &wanted.built.scene;
+        let same_poses =
+            |whole: &Self| (0..=wanted.built.frames()).all(|n| whole.built.pose(n) == wanted.built.pose(n));
         let same_hair = |whole: &Self| {
             let of = &whole.built.scene;
             whole.asked == wanted.strands
                 && of.hair == scene.hair
                 && of.head == scene.head
+                && of.bodies == scene.bodies
                 && of.motion.frames == scene.motion.frames
                 && of.form == scene.form
+                && same_poses(whole)
         };
-        let mut whole = match kept.take().filter(same_hair) {
-            Some(whole) => whole,
-            None => {
-                let built = scene.clone().build(Shown::AtMost(wanted.strands)).map_err(says)?;
+        // Files may hold something else than when they were read for what is known.
+        let of_same_files = |whole: &Self| {
+            let (of, built) = (&whole.built.scene, &whole.built);
+            let (all, shown) = (built.hair.strands.points(), wanted.built.hair.strands.points());
+            let hair = of.hair != scene.hair || all.starts_with(shown) || shown.starts_with(all);
+            let head = of.head != scene.head || built.head.mesh == wanted.built.head.mesh;
+            hair && head && ((&of.head, &of.motion) != (&scene.head, &scene.motion) || same_poses(whole))
+        };
+        let known = kept.take().filter(of_same_files);
+        let mut whole = match known {
+            Some(whole) if same_hair(&whole) => whole,
+            known => {
+                let known = known.map(|whole| whole.built);
+                let built = scene.clone().build_while(Shown::AtMost(wanted.strands), known.as_ref(), &|_| true);
+                let built = built.map_err(says)?;
                 let simulation = built.simulation().map_err(says)?;
                 Self { built, asked: wanted.strands, simulation, before: None }
             }
@@ -309,6 +324,36 @@ mod tests {
                 .with_face(&whole.head)
                 .draw(&FrameToDraw { now, before: None });
             assert!(done.rgba == ToneMapping::new(&picture).rgba8(&frame.unwrap()));
+        }
+    }
+
+    #[test]
+    fn it_has_the_bodies_and_the_files_of_the_motion_that_is_shown() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+        let corners = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(|side| 6 * side - 3));
+        let corners: String = corners.map(|[x, y, z]| format!("v {x} {y} {z}\n")).collect();
+        write("box.obj", &(corners + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"));
+        let strand = |x: i32| format!("v {x} 9 0\nv {} 8 0\nv {} 6 0\nl 1 2 3\n", x + 1, x + 1);
+        let body = |x: i32| {
+            format!("[[body]]\nmesh = \"box.obj\"\nunit = \"cm\"\nup = \"+y\"\nfacing = \"+x\"\norigin = [{x}, 0, 0]\n")
+        };
+        let hair = "[hair]\nfile = \"lock.obj\"\nunit = \"cm\"\nup = \"+y\"\nfacing = \"+x\"\n";
+        let thread = FinalPicture::new(|| {});
+        let mut seen: Vec<Done> = Vec::new();
+        for (x, bodies) in [(9, String::new()), (9, body(-14)), (9, body(-18)), (12, body(-18))] {
+            write("lock.obj", &strand(x));
+            let text = format!("{hair}[motion]\nform = \"free\"\nframes = 2\n[free]\nstiffness = 300\n{bodies}");
+            let scene = Scene::parse(&text, &folder.path().join("a.toml"), &[]).unwrap();
+            let built = Arc::new(scene.build(Shown::All).unwrap());
+            let wanted = Wanted { built, strands: 5, ..wanted(2, Vec3::X) };
+            thread.ask(wanted.clone());
+            let done = drawn(&thread);
+            let anew = FinalPicture::new(|| {});
+            anew.ask(wanted);
+            assert!(done == drawn(&anew), "hair at {x}, {bodies}");
+            assert!(!seen.contains(&done), "nothing of it is seen");
+            seen.push(done);
         }
     }
 

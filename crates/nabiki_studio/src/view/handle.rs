@@ -140,6 +140,7 @@ mod tests {
                 let hand = at + Vec2::new(5.0, -3.0);
                 assert!(arrow.is_held_by(&view, hand, REACH));
                 let held = Held::new(&arrow, &view, hand);
+                assert!(held.rests(hand) && !held.rests(hand + Vec2::new(2.0, 0.0)));
                 assert!((held.dragged(&view, hand).force() - force).length() < 0.01);
                 for way in [Vec2::new(120.0, 40.0), Vec2::new(-300.0, 222.5)] {
                     let dragged = held.dragged(&view, hand + way);

@@ -231,6 +231,8 @@ mod tests {
         let pixel = view.project(strands.strand(0)[4]).truncate();
         let found = nearest(&view, strands.points(), &strands, usize::MAX, &skins(), pixel, 8.0).unwrap();
         assert_eq!(found.strand, 1);
+        let found = nearest(&view, strands.points(), &strands, 1, &skins(), pixel, 8.0).unwrap();
+        assert_eq!(found.strand, 0, "what is not at hand is not taken hold of");
         let root = view.project(strands.strand(1)[0]).truncate();
         let found = nearest(&view, strands.points(), &strands, usize::MAX, &skins(), root, 8.0).unwrap();
         assert!(found.node > 0);
@@ -349,5 +351,6 @@ mod tests {
         assert_eq!(found, [(1, 5), (0, 5)]);
         assert_eq!(lock(strands.points(), &strands, usize::MAX, &picked, 0.0), [(1, 5)]);
         assert_eq!(lock(strands.points(), &strands, usize::MAX, &picked, 100.0).len(), 4);
+        assert_eq!(lock(strands.points(), &strands, 2, &picked, 100.0).len(), 2, "of those at hand");
     }
 }

@@ -287,3 +287,74 @@ fn a_click_with_n_held_drives_a_nail_and_another_pulls_it_out() {
     let touches = window.run(&press(at, true));
     assert!(matches!(&touches[..], [Touch::Heard]), "{touches:?}");
 }
+
+/// A scene whose head turns.
+fn turning(picture: &str) -> Take {
+    let turn = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/motion/turn.csv");
+    let text = format!(
+        "[hair]\nstrands = 20\n[motion]\nframes = 20\nform = \"free\"\n[[force]]\nthrough = 20\nvector = [-60, 0, 0]\n\
+         [head.motion]\nfile = '{turn}'\nup = \"+y\"\nfacing = \"+x\"\n{picture}"
+    );
+    moved(Scene::parse(&text, "a.toml".as_ref(), &[]).unwrap())
+}
+
+#[test]
+fn paths_lead_through_where_the_tips_are_in_the_world_and_tell_what_was_from_what_comes() {
+    let take = turning("");
+    let now = 8;
+    let lines = onion::paths(&take, now);
+    let world = |frame: u32, place: Vec3| take.pose(frame).world_from_head().transform_point3(place);
+    let tip = |frame: u32| world(frame, take.points(frame)[take.strands().range(0).end - 1]);
+    let mut frames = Vec::new();
+    for frame in 0..20 {
+        let at = lines.iter().find(|line| world(now, Vec3::from(line.a)).distance(tip(frame)) < 1e-3);
+        let Some(line) = at else { continue };
+        assert!(world(now, Vec3::from(line.b)).distance(tip(frame + 1)) < 1e-3, "frame {frame}");
+        assert_eq!(line.a_colour[0] > line.a_colour[2], frame < now, "what was is red, what comes blue");
+        assert!(frame < now || line.a_colour[3] > line.b_colour[3], "it fades away from now");
+        frames.push(frame);
+    }
+    assert!(frames.contains(&(now - 3)) && frames.contains(&(now + 8)) && !frames.contains(&20), "{frames:?}");
+}
+
+#[test]
+fn a_camera_that_glides_does_so_until_a_hand_moves_it_and_the_wheel_up_is_nearer() {
+    let mut window = Window::new();
+    window.take = turning("[picture.camera]\nazimuth = 60\n[picture.camera.to]\nazimuth = 100\n");
+    let mut azimuth = |frame: u32, events: &[Event]| {
+        window.frame = frame;
+        window.run(events);
+        window.view.camera().azimuth
+    };
+    assert!(azimuth(0, &[]) < azimuth(10, &[]) && azimuth(10, &[]) < azimuth(20, &[]));
+    assert_eq!((azimuth(0, &[]), azimuth(20, &[])), (60.0, 100.0));
+    let before = window.view.camera().distance.unwrap();
+    window.run(&[Event::PointerMoved(pos2(400.0, 300.0))]);
+    let wheel = Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
+        delta: vec2(0.0, 60.0),
+        phase: egui::TouchPhase::Move,
+        modifiers: Modifiers::NONE,
+        source: egui::MouseWheelSource::Wheel,
+    };
+    window.run(&[wheel]);
+    (0..20).for_each(|_| drop(window.run(&[])));
+    assert!(window.view.camera().distance.unwrap() < before);
+    window.frame = 5;
+    window.run(&[]);
+    assert_eq!(window.view.camera().azimuth, 100.0, "it is the hand's now");
+}
+
+#[test]
+fn a_nail_of_another_frame_stays_where_one_is_taken_out() {
+    let mut window = Window::new();
+    window.run(&[key(Key::N, true)]);
+    for (frame, nails) in [(15, 1), (16, 2), (16, 1)] {
+        window.frame = frame;
+        window.run(&[]);
+        let lock = Lock { frame, nodes: vec![(3, 5), (4, 5)] };
+        window.view.nail(lock);
+        assert_eq!(window.view.nails.len(), nails, "frame {frame}");
+    }
+    assert_eq!(window.view.nails[0].frame, 15);
+}

@@ -106,3 +106,18 @@ fn what_goes_wrong_with_a_question_is_seen_in_it() {
     let clear = window.harness.get_by_label("Cancel").rect();
     assert!(!clear.intersects(said));
 }
+
+#[test]
+fn an_interval_that_means_for_good_has_its_place_in_the_timeline() {
+    let mut window = Window::of(&TEXT.replace("through = 40", "through = 4294967295"), vec2(1280.0, 720.0));
+    assert_eq!(window.session().trouble(), None);
+    window.click("Interval 2");
+    window.drag("Border 2", vec2(200.0, 0.0));
+    window.drag("Interval 2", vec2(200.0, 0.0));
+    assert_eq!(window.ends(), [20, u32::MAX]);
+    window.press(Modifiers::SHIFT, Key::ArrowRight);
+    window.press(Modifiers::SHIFT, Key::ArrowRight);
+    assert_eq!(window.session().play.frame(), 40);
+    window.press(Modifiers::SHIFT, Key::ArrowLeft);
+    assert_eq!(window.session().play.frame(), 21);
+}
