@@ -76,3 +76,16 @@ fn what_is_no_scene_says_what_it_is() {
     let said = nabiki_scene::Scene::load(layer, &[]).unwrap_err().to_string();
     assert!(said.contains("is a USD layer (binary), not a scene (.toml)") && said.contains("hair.file ="), "{said}");
 }
+
+#[test]
+fn wind_may_be_said_to_blow_to_the_last_frame_that_there_can_be() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("for_good.toml");
+    let text = format!(
+        "[[force]]\nthrough = 10\nvector = [-50, 0, 0]\n[[force]]\nthrough = {}\nvector = [1, 2, 3]\n",
+        u32::MAX
+    );
+    std::fs::write(&scene, text).unwrap();
+    let said = info(&scene).unwrap().to_string();
+    assert!(said.contains("force: (1, 2, 3) in frames 11 to 4294967295"), "{said}");
+}

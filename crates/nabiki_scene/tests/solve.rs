@@ -285,6 +285,15 @@ fn a_wish_out_of_reach_is_said_with_the_distance_left() {
 }
 
 #[test]
+fn wind_that_blows_for_good_is_found_and_told() {
+    let last = u32::MAX.to_string();
+    let wishes = WISHES.replace("vectors = [0]", "vectors = [1]").replace("frame = 30", "frame = 45");
+    let place = Place::new(&SCENE.replace("through = 60", &format!("through = {last}")), &wishes);
+    let said = place.solved(&mut Ear::default()).unwrap().to_string();
+    assert!(said.contains(&format!("force[1], frames 31 to {last}: ")), "{said}");
+}
+
+#[test]
 fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
     let wish = |from: &str, to: &str| refusal(SCENE, &WISHES.replace(from, to));
     let cases = [

@@ -205,7 +205,7 @@ fn legend(field: &[Interval]) -> Vec<String> {
     for (i, interval) in field.iter().enumerate() {
         let comma = if i + 1 < field.len() { "," } else { "" };
         let text = format!("({}) {from} to {}{comma}", i + 1, interval.through);
-        from = interval.through + 1;
+        from = interval.through.saturating_add(1);
         let line = lines.last().map_or(String::new(), |line| format!("{line} {text}"));
         let rest = format!("and {} more", field.len() - i);
         // The last line keeps room for the rest, unless this is the end of it.
@@ -394,6 +394,8 @@ mod tests {
             assert!(left == 0 || count > 60, "{legend}");
         }
         assert_eq!(legend(&running().intervals).len(), 1);
+        let for_good = [Interval { through: u32::MAX, vector: Vec3::X }];
+        assert_eq!(legend(&for_good), ["frames (1) 1 to 4294967295"]);
     }
 
     #[test]

@@ -173,7 +173,7 @@ impl fmt::Display for SceneInfo {
         for key in &self.force {
             let [x, y, z] = key.vector.to_array().map(Short);
             write!(f, "\nforce: ({x}, {y}, {z}) in frames {first} to {}", key.through)?;
-            first = key.through + 1;
+            first = key.through.saturating_add(1);
         }
         match self.ease {
             Ease::Stepped => {}

@@ -53,7 +53,7 @@ impl fmt::Display for Solved {
                 let [x, y, z] = key.vector.to_array();
                 write!(f, "\n          force[{j}], frames {first} to {}: [{x}, {y}, {z}]", key.through)?;
             }
-            first = key.through + 1;
+            first = key.through.saturating_add(1);
         }
         for unknown in unknowns {
             match unknown {
