@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
 
-use glam::{Affine3A, DAffine3, DMat4, DVec3};
+use glam::{Affine3A, DAffine3, DMat4, DVec3, Vec3};
 use nabiki::hair::Stored;
 use nabiki::{Hair, Mesh};
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
@@ -63,8 +63,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
         let header = required(&inside, "nVertices", "")?;
         let counts = integers(header.kind, &self.tree.sample(header, frame)?)?;
         if share > 0.0 && self.tree.sample(header, frame)? == self.tree.sample(header, frame + 1)? {
-            let next = self.tree.points(positions, frame + 1)?;
-            points.iter_mut().zip(next).for_each(|(a, b)| *a = a.lerp(b, share as f32));
+            go_toward(&mut points, &self.tree.points(positions, frame + 1)?, share);
         }
         let counts = checked_counts(&counts, points.len())?;
         let basis = match inside.iter().find(|h| h.name == "curveBasisAndType") {
@@ -367,7 +366,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
             if share > 0.0 {
                 let next = self.tree.points(header, frame + 1)?;
                 if next.len() == positions.len() {
-                    positions.iter_mut().zip(next).for_each(|(a, b)| *a = a.lerp(b, share as f32));
+                    go_toward(&mut positions, &next, share);
                 }
             }
             let mut numbers = |name: &str| -> Result<Vec<i64>, Problem> {
@@ -434,6 +433,11 @@ impl Motion {
 fn required<'a>(headers: &'a [Header], name: &str, path: &str) -> Result<&'a Header, Problem> {
     let found = headers.iter().find(|h| h.name == name && h.form != Form::Compound);
     found.ok_or_else(|| Problem(format!("{path} has no property {name}")))
+}
+
+/// Moves points a share of the way to those of the next sample.
+fn go_toward(points: &mut [Vec3], next: &[Vec3], share: f64) {
+    points.iter_mut().zip(next).for_each(|(point, &next)| *point = point.lerp(next, share as f32));
 }
 
 /// Type, wrap and basis of curves.

@@ -255,8 +255,8 @@ fn set_intervals(scene: &mut Scene, keys: Vec<Keyframe>) {
     }
 }
 
-/// What the undo menu calls a change of a setting.
-fn name_of(key: &str) -> String {
+/// What a setting is called away from its page: in the undo menu, beside its value.
+pub(super) fn name_of(key: &str) -> String {
     match crate::settings::find(key) {
         Some((_, group, setting)) => format!("{}: {}", group.title, setting.label.to_lowercase()),
         None => key.to_owned(),

@@ -5,12 +5,11 @@ use std::sync::Arc;
 use nabiki_scene::Scene;
 use toml::{Table, Value};
 
-use super::Session;
+use super::{Session, edit};
 use crate::actions::Action;
 use crate::command::Command;
 use crate::document::Phase;
 use crate::motion::{Manner, Motion, Moved};
-use crate::settings;
 use crate::take::Take;
 
 /// What is refused where no take is kept.
@@ -189,17 +188,14 @@ fn compare_values(key: &str, kept: Option<&Value>, now: Option<&Value>, found: &
     }
 }
 
-/// What a setting is called beside its value: as the pages call it, where they have it.
+/// What a setting is called beside its value; the intervals have no page, but numbers.
 fn name_of(key: &str) -> String {
     if let Some((n, rest)) = key.strip_prefix("force[").and_then(|rest| rest.split_once(']'))
         && let Ok(n) = n.parse::<usize>()
     {
         return format!("Interval {}{}", n + 1, rest.replace('.', ": "));
     }
-    match settings::find(key) {
-        Some((_, group, setting)) => format!("{}: {}", group.title, setting.label.to_lowercase()),
-        None => key.to_owned(),
-    }
+    edit::name_of(key)
 }
 
 /// A value as a person would write it.
