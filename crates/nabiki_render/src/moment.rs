@@ -5,7 +5,7 @@ use nabiki::{Mesh, Pose, Strands};
 use crate::camera::View;
 
 /// A body that is drawn besides the head.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DrawnBody {
     /// Its surface (its own space, cm).
     pub mesh: Mesh,

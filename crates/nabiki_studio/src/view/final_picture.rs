@@ -192,7 +192,11 @@ impl Whole {
             let (all, shown) = (built.hair.strands.points(), wanted.built.hair.strands.points());
             let hair = of.hair != scene.hair || all.starts_with(shown) || shown.starts_with(all);
             let head = of.head != scene.head || built.head.mesh == wanted.built.head.mesh;
-            hair && head && ((&of.head, &of.motion) != (&scene.head, &scene.motion) || same_poses(whole))
+            let bodies = of.bodies != scene.bodies
+                || (built.drawn_bodies() == wanted.built.drawn_bodies()
+                    && (0..=built.frames().min(wanted.built.frames()))
+                        .all(|n| built.drawn_poses(n) == wanted.built.drawn_poses(n)));
+            hair && head && bodies && ((&of.head, &of.motion) != (&scene.head, &scene.motion) || same_poses(whole))
         };
         let known = kept.take().filter(of_same_files);
         let mut whole = match known {
@@ -331,9 +335,11 @@ mod tests {
     fn it_has_the_bodies_and_the_files_of_the_motion_that_is_shown() {
         let folder = tempfile::tempdir().unwrap();
         let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
-        let corners = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(|side| 6 * side - 3));
-        let corners: String = corners.map(|[x, y, z]| format!("v {x} {y} {z}\n")).collect();
-        write("box.obj", &(corners + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"));
+        let block = |half: i32| {
+            let corners = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(|side| (2 * side - 1) * half));
+            let corners: String = corners.map(|[x, y, z]| format!("v {x} {y} {z}\n")).collect();
+            corners + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"
+        };
         let strand = |x: i32| format!("v {x} 9 0\nv {} 8 0\nv {} 6 0\nl 1 2 3\n", x + 1, x + 1);
         let body = |x: i32| {
             format!("[[body]]\nmesh = \"box.obj\"\nunit = \"cm\"\nup = \"+y\"\nfacing = \"+x\"\norigin = [{x}, 0, 0]\n")
@@ -341,7 +347,10 @@ mod tests {
         let hair = "[hair]\nfile = \"lock.obj\"\nunit = \"cm\"\nup = \"+y\"\nfacing = \"+x\"\n";
         let thread = FinalPicture::new(|| {});
         let mut seen: Vec<Done> = Vec::new();
-        for (x, bodies) in [(9, String::new()), (9, body(-14)), (9, body(-18)), (12, body(-18))] {
+        for (x, half, bodies) in
+            [(9, 3, String::new()), (9, 3, body(-14)), (9, 3, body(-18)), (12, 3, body(-18)), (12, 2, body(-18))]
+        {
+            write("box.obj", &block(half));
             write("lock.obj", &strand(x));
             let text = format!("{hair}[motion]\nform = \"free\"\nframes = 2\n[free]\nstiffness = 300\n{bodies}");
             let scene = Scene::parse(&text, &folder.path().join("a.toml"), &[]).unwrap();
@@ -351,7 +360,7 @@ mod tests {
             let done = drawn(&thread);
             let anew = FinalPicture::new(|| {});
             anew.ask(wanted);
-            assert!(done == drawn(&anew), "hair at {x}, {bodies}");
+            assert!(done == drawn(&anew), "hair at {x}, a box of {half}, {bodies}");
             assert!(!seen.contains(&done), "nothing of it is seen");
             seen.push(done);
         }
