@@ -21,8 +21,12 @@ const MOST_CELLS: f32 = 1500.0;
 const SOFT: f32 = 0.45;
 /// Least blur (cm).
 const BLUR: f32 = 0.4;
-/// Places around a place on the skin, of which each is asked whether it sees the lamp.
-const TAPS: usize = 24;
+/// Places around a place on the skin, of which each is asked whether it sees the lamp: a few, and where they do not agree, as many as
+/// leave no gaps as wide as a cell between them, which would show as teeth along a shadow's edge.
+const FEW: usize = 24;
+const MANY: usize = 96;
+/// By how much the few may differ and still count as one.
+const AGREE: f32 = 0.03;
 /// How far light spreads under skin (cm; red, green, blue), as the radius of a disc: the red of a shadow's edge.
 const UNDER_SKIN: [f32; 3] = [0.6, 0.42, 0.34];
 /// The part of a lamp that may be left to what counts as dark.
@@ -121,8 +125,9 @@ struct SolidShadow {
     blurred_size: [usize; 2],
     /// For each cell of the blurred map, between it and the next: the distance from which on all is dark (cm); infinite where it never is.
     dark_beyond: Vec<f32>,
-    /// Where skin looks from, around a place (cm), and each one's share for red, green and blue.
-    taps: Spiral,
+    /// Where skin looks from, around a place.
+    few: Spiral<FEW>,
+    many: Spiral<MANY>,
 }
 
 impl SolidShadow {
@@ -165,8 +170,8 @@ impl SolidShadow {
         let (blurred_cell, blurred_size) = (cell * step as f32, size.map(|s| s.div_ceil(step)));
         let penumbra = 2.5 * lamp.spread.tan();
         let clear = blurred.iter().filter(|c| c[0] > 0.0).map(|c| c[1]).fold(f32::INFINITY, f32::min) + SOFT;
-        let taps = Spiral::new(penumbra);
-        let about = Blocks::new(&distance, size, (taps.reach / cell) as usize + 2);
+        let (few, many) = (Spiral::new(penumbra), Spiral::new(penumbra));
+        let about = Blocks::new(&distance, size, (many.reach / cell) as usize + 2);
         let width = blurred_size[0];
         let dark_beyond = (0..blurred.len())
             .map(|i| {
@@ -191,7 +196,8 @@ impl SolidShadow {
             blurred_cell,
             blurred_size,
             dark_beyond,
-            taps,
+            few,
+            many,
         }
     }
 
@@ -208,10 +214,16 @@ impl SolidShadow {
         let steps = self.cell * (slope[0].abs() + slope[1].abs());
         let distance = -p.dot(self.toward) - BEFORE - 0.7 * steps;
         let [x, y] = [0, 1].map(|i| (at[i] - self.low[i]) / self.cell);
-        if distance + self.taps.reach * slope[0].hypot(slope[1]) <= self.about.least(x, y) {
-            return self.taps.whole;
+        if distance + self.many.reach * slope[0].hypot(slope[1]) <= self.about.least(x, y) {
+            return [1.0; 3];
         }
-        pulp::Arch::new().dispatch(Taps { shadow: self, at, distance, slope })
+        let arch = pulp::Arch::new();
+        let few = arch.dispatch(Taps { shadow: self, taps: &self.few, at, distance, slope });
+        let (low, high) = few.iter().fold((1.0_f32, 0.0_f32), |(low, high), &open| (low.min(open), high.max(open)));
+        if high - low <= AGREE {
+            return self.few.mean(&few);
+        }
+        self.many.mean(&arch.dispatch(Taps { shadow: self, taps: &self.many, at, distance, slope }))
     }
 
     /// Whether it leaves nothing of the lamp to a place.
@@ -283,9 +295,10 @@ impl SolidShadow {
     }
 }
 
-/// What is left of the lamp to the places about one, compiled for each width of vectors that machines have; one is chosen at run time.
-struct Taps<'a> {
+/// What is left of the lamp to each of the places about one, compiled for each width of vectors that machines have; one is chosen at run time.
+struct Taps<'a, const N: usize> {
     shadow: &'a SolidShadow,
+    taps: &'a Spiral<N>,
     /// Where on the map (cm).
     at: [f32; 2],
     /// The distance there, and its growth along both axes.
@@ -293,18 +306,18 @@ struct Taps<'a> {
     slope: [f32; 2],
 }
 
-impl pulp::NullaryFnOnce for Taps<'_> {
-    type Output = [f32; 3];
+impl<const N: usize> pulp::NullaryFnOnce for Taps<'_, N> {
+    type Output = [f32; N];
 
     #[inline(always)]
-    fn call(self) -> [f32; 3] {
-        let Self { shadow, at, distance, slope } = self;
+    fn call(self) -> [f32; N] {
+        let Self { shadow, taps, at, distance, slope } = self;
         let [width, height] = shadow.size;
-        let mut first = [0_i32; TAPS];
-        let (mut u, mut v) = ([0.0_f32; TAPS], [0.0_f32; TAPS]);
-        let mut plane = [0.0_f32; TAPS];
-        for n in 0..TAPS {
-            let offset = [shadow.taps.right[n], shadow.taps.up[n]];
+        let mut first = [0_i32; N];
+        let (mut u, mut v) = ([0.0_f32; N], [0.0_f32; N]);
+        let mut plane = [0.0_f32; N];
+        for n in 0..N {
+            let offset = [taps.right[n], taps.up[n]];
             let x = (at[0] + offset[0] - shadow.low[0]) / shadow.cell;
             let y = (at[1] + offset[1] - shadow.low[1]) / shadow.cell;
             let within = (x >= 0.0) & (y >= 0.0) & (x + 1.0 < width as f32) & (y + 1.0 < height as f32);
@@ -316,50 +329,45 @@ impl pulp::NullaryFnOnce for Taps<'_> {
             plane[n] = if within { there } else { f32::NEG_INFINITY };
         }
         // All that is read first, so that the waits for memory go on side by side.
-        let mut corners = [[0.0_f32; TAPS]; 4];
-        for n in 0..TAPS {
+        let mut corners = [[0.0_f32; N]; 4];
+        for n in 0..N {
             let first = first[n] as usize;
             let (upper, lower) =
                 (&shadow.distance[first..first + 2], &shadow.distance[first + width..first + width + 2]);
             (corners[0][n], corners[1][n], corners[2][n], corners[3][n]) = (upper[0], upper[1], lower[0], lower[1]);
         }
-        let mut visible = [0.0; 3];
-        let mut open = [0.0_f32; TAPS];
-        for n in 0..TAPS {
+        let mut open = [0.0_f32; N];
+        for n in 0..N {
             let hidden = [0, 1, 2, 3].map(|i| ((plane[n] - corners[i][n]) / SETS_IN).clamp(0.0, 1.0));
             let upper = hidden[0] * (1.0 - u[n]) + hidden[1] * u[n];
             let lower = hidden[2] * (1.0 - u[n]) + hidden[3] * u[n];
             open[n] = 1.0 - (upper + (lower - upper) * v[n]);
         }
-        for (visible, shares) in visible.iter_mut().zip(&shadow.taps.shares) {
-            *visible = shares.iter().zip(&open).map(|(share, open)| share * open).sum();
-        }
-        visible
+        open
     }
 }
 
 /// A spiral of places over a disc, and what each gives to red, green and blue: the disc's outer part only to those that spread far under
 /// skin, or as far as the lamp's own blur.
-struct Spiral {
-    right: [f32; TAPS],
-    up: [f32; TAPS],
-    shares: [[f32; TAPS]; 3],
-    /// How far out they lie (cm), and what all give together.
+struct Spiral<const N: usize> {
+    right: [f32; N],
+    up: [f32; N],
+    shares: [[f32; N]; 3],
+    /// How far out they lie (cm).
     reach: f32,
-    whole: [f32; 3],
 }
 
-impl Spiral {
+impl<const N: usize> Spiral<N> {
     /// For a lamp that blurs its shadows so far (cm).
     fn new(penumbra: f32) -> Self {
         let reach = UNDER_SKIN.map(|u| u.hypot(penumbra));
         let widest = reach.into_iter().fold(0.0, f32::max);
-        let radius = |i: usize| widest * ((i as f32 + 0.5) / TAPS as f32).sqrt();
+        let radius = |i: usize| widest * ((i as f32 + 0.5) / N as f32).sqrt();
         // The golden angle spreads them evenly.
         let angle = |i: usize| 2.399_963 * i as f32;
         let shares = reach.map(|reach| {
             let share = |i: usize| (-2.0 * (radius(i) / reach).powi(2)).exp();
-            let sum: f32 = (0..TAPS).map(share).sum();
+            let sum: f32 = (0..N).map(share).sum();
             std::array::from_fn(|i| share(i) / sum)
         });
         Self {
@@ -367,8 +375,12 @@ impl Spiral {
             up: std::array::from_fn(|i| radius(i) * angle(i).sin()),
             shares,
             reach: widest,
-            whole: shares.map(|shares| shares.iter().sum()),
         }
+    }
+
+    /// What is left of red, green and blue, of what is left to each place.
+    fn mean(&self, open: &[f32; N]) -> [f32; 3] {
+        self.shares.map(|shares| shares.iter().zip(open).map(|(share, open)| share * open).sum())
     }
 }
 
@@ -469,8 +481,38 @@ mod tests {
         for c in 0..3 {
             let [a, b] = [wide, wider].map(|spread| UNDER_SKIN[c].hypot(2.5 * spread.tan()));
             let ratio = wider_on_skin[c] / wide_on_skin[c];
-            // Two dozen places are a fifth of the disc apart.
-            assert!((ratio / (b / a) - 1.0).abs() < 0.2, "{c}: {ratio} for {}", b / a);
+            // As many places are a tenth of the disc apart.
+            assert!((ratio / (b / a) - 1.0).abs() < 0.1, "{c}: {ratio} for {}", b / a);
+        }
+    }
+
+    #[test]
+    fn the_edge_of_a_shadow_is_as_straight_as_what_throws_it() {
+        // Edges of all slopes across the map's cells, and a place that goes along one, 2 cm below, in and beside the middle of it.
+        for turned in [0.1_f32, 0.35, 0.6, 0.785] {
+            let turn = |[x, z]: [f32; 2]| {
+                Vec3::new(x * turned.cos() - z * turned.sin(), 0.0, x * turned.sin() + z * turned.cos())
+            };
+            let positions = [[-6.0, -6.0], [6.0, -6.0], [6.0, 6.0], [-6.0, 6.0]].map(turn).to_vec();
+            let plate = Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], corner_uvs: None };
+            let shadow = SolidShadow::new(&Lamp { toward: Vec3::Y, strength: [1.0; 3], spread: 0.1 }, &plate);
+            // The least and the most that is left along lines so far beside the edge (cm).
+            let [within, middle, beyond] = [-0.2_f32, 0.0, 0.2].map(|beside| {
+                let along = (0..200).map(|i| {
+                    let p = turn([6.0 + beside, 0.02 * i as f32 - 2.0]) + 2.0 * Vec3::NEG_Y;
+                    shadow.visible_from_skin(p, Vec3::Y)
+                });
+                along.fold([[1.0_f32; 3], [0.0; 3]], |[low, high], v| {
+                    [[0, 1, 2].map(|c| low[c].min(v[c])), [0, 1, 2].map(|c| high[c].max(v[c]))]
+                })
+            });
+            for c in 0..3 {
+                let slope = (beyond[0][c] - within[0][c]) / 0.4;
+                for [low, high] in [within, middle, beyond] {
+                    // A cell is the plate's or not, as its middle is: the edge stands up to half of one aside.
+                    assert!(high[c] - low[c] < 0.5 * CELL * slope, "{turned}, {c}: {} to {}", low[c], high[c]);
+                }
+            }
         }
     }
 
