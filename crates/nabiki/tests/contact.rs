@@ -40,6 +40,15 @@ fn free(form: FreeForm, body: Body, frames: u32) -> Dynamics {
     dynamics
 }
 
+/// Neither stiffness nor anything else but what is in the way.
+fn limp() -> FreeForm {
+    FreeForm { stiffness: 0.0.into(), hold: 0.0.into(), settle: 0.0.into(), gravity: 0.0, ..Default::default() }
+}
+
+fn twins(hair: &Strands, dynamics: &Dynamics, pushes: &nabiki::field::KeyframedField) -> [Box<dyn Stepper>; 2] {
+    [Box::new(exact(hair, dynamics, pushes)), Box::new(fast(hair, dynamics, pushes))]
+}
+
 /// A head that turns about y by so much in each frame (rad).
 fn turning(by: f32, frames: u32) -> Vec<Pose> {
     (0..=frames).map(|n| Pose { position_cm: Vec3::ZERO, rotation: Quat::from_rotation_y(by * n as f32) }).collect()
@@ -115,9 +124,7 @@ fn friction_holds_hair_on_a_body_while_the_head_turns() {
                 ..Default::default()
             };
             let dynamics = free(form, body(mesh.clone(), way.clone(), contact), FRAMES);
-            let steppers: [Box<dyn Stepper>; 2] =
-                [Box::new(exact(&hair, &dynamics, &down)), Box::new(fast(&hair, &dynamics, &down))];
-            for mut stepper in steppers {
+            for mut stepper in twins(&hair, &dynamics, &down) {
                 let tip = run_under(&mut *stepper, &down, &poses).strand(0)[1];
                 let in_world = poses[FRAMES as usize].rotation * tip;
                 let azimuth = (-in_world.z).atan2(in_world.x);
@@ -148,9 +155,7 @@ fn no_body_moves_hair_before_its_band() {
         FRAMES,
     );
     let calm = field(&[(FRAMES, [0.0; 3])]);
-    let steppers: [Box<dyn Stepper>; 2] =
-        [Box::new(exact(&hair, &dynamics, &calm)), Box::new(fast(&hair, &dynamics, &calm))];
-    for mut stepper in steppers {
+    for mut stepper in twins(&hair, &dynamics, &calm) {
         let mut farthest = 0.0_f32;
         for frame in 1..=FRAMES {
             stepper.step_frame(&nabiki::dynamics::FrameInput::new(frame, &[], &calm));
@@ -169,20 +174,118 @@ fn what_rests_on_a_body_slides_by_what_friction_leaves() {
     hair.push([Vec3::new(0.0, 14.0, 0.0), Vec3::new(10.0, 14.0, 0.0)]);
     let contact = Contact { margin: 0.05, friction: 0.5, static_friction: 0.8 };
     let board = body(board(Vec3::new(12.0, 1.0, 12.0)), at(Vec3::new(10.0, 12.95, 0.0)), contact);
-    let form =
-        FreeForm { stiffness: 0.0.into(), hold: 0.0.into(), settle: 0.0.into(), gravity: 0.0, ..Default::default() };
-    let dynamics = free(form, board, 1);
+    let dynamics = free(limp(), board, 1);
     let c = nabiki::dynamics::gain(&dynamics, 5.0 + 0.5, 10.0) as f32;
     let inward = 20.0;
     for (along, left) in [(10.0, 0.0), (15.0, 0.0), (17.0, 7.0), (40.0, 30.0)] {
         let pushes = field(&[(1, [0.0, -inward, along])]);
-        let steppers: [Box<dyn Stepper>; 2] =
-            [Box::new(exact(&hair, &dynamics, &pushes)), Box::new(fast(&hair, &dynamics, &pushes))];
-        for mut stepper in steppers {
+        for mut stepper in twins(&hair, &dynamics, &pushes) {
             let tip = run_under(&mut *stepper, &pushes, &[Pose::STILL; 2]).strand(0)[1];
             // Of turns of up to 4 thousandths the sine differs by 1e-8, on 10 cm, and roundings are of 1e-6 cm.
             assert!((tip.z - 10.0 * c * left).abs() < 2e-6, "{along}: {} cm, not {}", tip.z, 10.0 * c * left);
             assert!((tip.y - 14.0).abs() < 1e-4, "{along}: {} cm inward", 14.0 - tip.y);
         }
+    }
+}
+
+/// What falls on a board lies on it in the frame in which it comes there: it neither stops in the air, by whatever a frame moves it,
+/// nor goes through.
+#[test]
+fn what_falls_on_a_body_goes_on_until_it_touches() {
+    const FRAMES: u32 = 30;
+    let (length, margin) = (10.0, 0.1);
+    let mut hair = Strands::default();
+    for i in 0..64 {
+        let height = 1.0 + 0.03 * i as f32;
+        hair.push([Vec3::new(0.0, height, 0.0), Vec3::new(length, height, 0.0)]);
+    }
+    let contact = Contact { margin, friction: 0.0, static_friction: 0.0 };
+    let board = body(board(Vec3::new(12.0, 4.0, 12.0)), at(Vec3::new(10.0, -4.0, 0.0)), contact);
+    let (beside, down) = (free(limp(), board, FRAMES), field(&[(FRAMES, [0.0, -40.0, 0.0])]));
+    let mut alone = beside.clone();
+    if let Form::Free(free) = &mut alone.form {
+        free.bodies.clear();
+    }
+    for (mut falls, mut flies) in twins(&hair, &beside, &down).into_iter().zip(twins(&hair, &alone, &down)) {
+        let mut fastest = 0.0_f32;
+        for frame in 1..=FRAMES {
+            let before = flies.strands().clone();
+            for stepper in [&mut falls, &mut flies] {
+                stepper.step_frame(&nabiki::dynamics::FrameInput::new(frame, &[], &down));
+            }
+            for s in 0..hair.len() {
+                let [tip, free, was] = [falls.strands(), flies.strands(), &before].map(|hair| hair.strand(s)[1].y);
+                if free >= margin {
+                    assert!(
+                        (tip - free).abs() < 1e-5,
+                        "strand {s}, frame {frame}: {tip}, {free} with nothing in the way"
+                    );
+                    continue;
+                }
+                fastest = fastest.max(was - free);
+                // On a circle the end goes aside as well, by the square of a frame's way over the length; the plane is sampled.
+                let off = (was - free).powi(2) / length + 1e-3;
+                assert!((tip - margin).abs() < off, "strand {s}, frame {frame}: {tip} cm, and {} a frame", was - free);
+            }
+        }
+        assert!(fastest > 0.3, "{fastest} cm a frame: what falls is fast");
+    }
+}
+
+/// A tip that is turned out as far as seven turns go, and is out by the last of them, goes no farther.
+#[test]
+fn a_segment_is_turned_out_no_farther_than_it_must() {
+    let margin = 0.1;
+    let mut hair = Strands::default();
+    hair.push([Vec3::new(0.28, 0.0, 0.0), Vec3::new(0.28, 3.0, 0.0), Vec3::new(margin, 3.087_178, 0.0)]);
+    let contact = Contact { margin, friction: 0.0, static_friction: 0.0 };
+    let wall = body(board(Vec3::new(8.0, 40.0, 40.0)), at(Vec3::new(-8.0, 0.0, 0.0)), contact);
+    let mut dynamics = free(limp(), wall, 1);
+    dynamics.motion.inertia_length_floor = 25.0;
+    dynamics.motion.time_step = 0.2;
+    let mut farthest = 0.0_f32;
+    for push in (3000..=5200).step_by(50) {
+        let pushes = field(&[(1, [-push as f32, 0.0, 0.0])]);
+        for mut stepper in twins(&hair, &dynamics, &pushes) {
+            let moved = run_under(&mut *stepper, &pushes, &[Pose::STILL; 2]);
+            let [_, joint, tip] = moved.strand(0) else { panic!("three points") };
+            // The plane is sampled.
+            assert!((tip.x - margin).abs() < 1e-3, "{push}: {} cm before the wall", tip.x);
+            farthest = farthest.max((*tip - *joint).angle_between(hair.strand(0)[2] - hair.strand(0)[1]));
+        }
+    }
+    assert!(farthest > 0.65, "{farthest} rad: nearly seven turns of a tenth");
+}
+
+/// Pressed into the corner between two bodies, hair enters neither.
+#[test]
+fn hair_in_a_corner_between_two_bodies_is_in_neither() {
+    const FRAMES: u32 = 100;
+    let margin = 0.1;
+    let mut hair = Strands::default();
+    for s in 0..48 {
+        let root = Vec3::new(2.0 + 0.1 * (s % 7) as f32, 6.0, 0.5 * s as f32 - 12.0);
+        let length = 0.8 + 0.012 * s as f32;
+        hair.push((0..=12).map(|i| root + length * i as f32 * Vec3::new(0.9, 0.3, 0.316)));
+    }
+    let contact = Contact { margin, friction: 0.2, static_friction: 0.3 };
+    let wall = body(board(Vec3::new(8.0, 40.0, 40.0)), at(Vec3::new(-8.0, 0.0, 0.0)), contact);
+    let floor = body(board(Vec3::new(40.0, 8.0, 40.0)), at(Vec3::new(0.0, -8.0, 0.0)), contact);
+    let form = FreeForm { stiffness: Profile::RootToTip(vec![300.0, 30.0]), gravity: 0.0, ..Default::default() };
+    let mut dynamics = free(form, wall, FRAMES);
+    if let Form::Free(free) = &mut dynamics.form {
+        free.bodies.push(floor);
+    }
+    let pushes = field(&[(50, [-150.0, -300.0, 0.0]), (FRAMES, [-300.0, -150.0, 60.0])]);
+    for mut stepper in twins(&hair, &dynamics, &pushes) {
+        let mut pressed = 0;
+        for frame in 1..=FRAMES {
+            stepper.step_frame(&nabiki::dynamics::FrameInput::new(frame, &[], &pushes));
+            for p in stepper.strands().points() {
+                assert!(p.x.min(p.y) > margin - 0.01, "frame {frame}: {p}");
+                pressed += u32::from(p.x.max(p.y) < 2.0 * margin);
+            }
+        }
+        assert!(pressed > 1000, "{pressed} nodes lie in the corner");
     }
 }

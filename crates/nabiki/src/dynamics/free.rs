@@ -12,7 +12,7 @@ mod reference;
 mod runner;
 mod segment;
 
-use contact::{FAN, NEAR, PUSHES, TOLERANCE_CM, TURN};
+use contact::{FAN, NEAR, PUSHES, ROUNDS, TOLERANCE_CM, TURN};
 pub(super) use grid::Crowd;
 pub(super) use reference::{Reference, Setting, Springs, Strand};
 pub(super) use runner::Runner;

@@ -10,6 +10,9 @@ use crate::dynamics::row::{LANES, PointRow};
 /// Times that a segment is turned along the gradient before another way is tried.
 pub(in crate::dynamics) const PUSHES: usize = 7;
 
+/// Times that a segment is turned out of all bodies, one after the other, where there are several.
+pub(in crate::dynamics) const ROUNDS: usize = 24;
+
 /// Directions that are tried from there to the gradient where no turn along it is found.
 pub(in crate::dynamics) const FAN: usize = 4;
 
@@ -59,6 +62,13 @@ pub(super) struct Touch {
 pub(super) struct Going {
     pub direction: Vec3,
     pub increment: Vec3,
+}
+
+impl Going {
+    /// Without what of the increment goes along the direction.
+    fn new(direction: Vec3, increment: Vec3) -> Self {
+        Self { direction, increment: increment - increment.dot(direction) * direction }
+    }
 }
 
 /// How far at least a point at a sampled distance is from touching what it keeps clear of; below 0 where it does. What may be off is the
@@ -116,23 +126,36 @@ impl Obstacle {
         let &Touch { from, length, clearance, lagged, .. } = touch;
         let end = from + length * going.direction;
         let reading = skin.read(self.in_body(end))?;
-        if reading.distance() >= clearance {
+        let depth = clearance - reading.distance();
+        if depth <= 0.0 {
             return None;
         }
         let normal = self.normal(&reading);
         let of_body = if self.moves { end - self.before_from_now.transform_point3(end) } else { Vec3::ZERO };
-        let change = self.slowed(length * (going.increment + lagged) - of_body, normal);
-        let direction = (length * going.direction + change).normalize_or(normal);
-        let increment = going.increment + change / length;
-        let direction = self.pushed_out(skin, direction, touch);
-        Some(Going { direction, increment: increment - increment.dot(direction) * direction })
-    }
-
-    /// What contact takes of a motion against the body: all of it that goes inward, and of the rest what friction takes.
-    #[inline(always)]
-    fn slowed(&self, moved: Vec3, normal: Vec3) -> Vec3 {
+        let moved = length * (going.increment + lagged) - of_body;
         // A motion outward loses nothing: of 0 all that follows is 0.
         let inward = (-moved.dot(normal)).max(0.0);
+        let change = self.slowed(moved, normal, inward);
+        // Until it touched it went on as it was.
+        let touching = if inward > depth { depth / inward } else { 1.0 };
+        let direction = (length * going.direction + touching * change).normalize_or(normal);
+        let increment = going.increment + change / length;
+        Some(Going::new(self.pushed_out(skin, direction, touch), increment))
+    }
+
+    /// Turns a segment out of the body that another body has turned into it; `None` where none has.
+    pub fn part(&self, skin: &SkinDistance, going: Going, touch: &Touch) -> Option<Going> {
+        let reading = skin.read(self.in_body(touch.from + touch.length * going.direction))?;
+        if touch.clearance - reading.distance() <= TOLERANCE_CM {
+            return None;
+        }
+        let (direction, _) = self.pushed_from(skin, going.direction, touch);
+        Some(Going::new(direction, going.increment))
+    }
+
+    /// What contact takes of a motion against the body: the part of it that goes inward, and of the rest what friction takes.
+    #[inline(always)]
+    fn slowed(&self, moved: Vec3, normal: Vec3, inward: f32) -> Vec3 {
         let along = moved + inward * normal;
         let speed = along.length();
         let held = speed <= self.static_friction * inward;
@@ -168,23 +191,22 @@ impl Obstacle {
         best
     }
 
-    /// Turns a segment out along the gradient until its end keeps its clearance; how deep it then is, or was before the last
-    /// turn where no turn was enough.
+    /// Turns a segment out along the gradient until its end keeps its clearance, and says how deep it then is.
     #[inline]
     fn pushed_from(&self, skin: &SkinDistance, mut direction: Vec3, touch: &Touch) -> (Vec3, f32) {
         let &Touch { from, length, clearance, .. } = touch;
-        let mut depth = 0.0;
-        for _ in 0..PUSHES {
+        let mut pushes = 0;
+        loop {
             let end = from + length * direction;
             let Some(reading) = skin.read(self.in_body(end)) else { return (direction, 0.0) };
-            depth = clearance - reading.distance();
-            if depth <= TOLERANCE_CM {
+            let depth = clearance - reading.distance();
+            if depth <= TOLERANCE_CM || pushes == PUSHES {
                 return (direction, depth);
             }
             let normal = self.normal(&reading);
             direction = turned_out(direction, normal, depth / length);
+            pushes += 1;
         }
-        (direction, depth)
     }
 
     #[inline(always)]

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::contact::{Going, Touch, gap};
+use super::contact::{Going, ROUNDS, Touch, gap};
 use super::kernel::{Forces, FreeRow, FreeState, Next, Walk, Weight, ends, step_segment, turned_about};
 use super::packed::{Felt, Packed, Step};
 use crate::dynamics::block::{Block, Pass, RUN, RunPass};
@@ -287,9 +287,12 @@ impl<'a, 's> Among<'a, 's> {
         let (from, length, was) = (at(from), row.length.0[lane], at(was));
         let lagged = self.lagged(was, lane);
         let mut stopped = false;
-        for (b, obstacle) in self.step.obstacles.iter().enumerate() {
+        let touched = |b: usize| {
             let (skin, clearance) = self.packed.kept_out_of(b, self.at, lane);
-            let touch = Touch { from, length, clearance, was, lagged };
+            (skin, Touch { from, length, clearance, was, lagged })
+        };
+        for (b, obstacle) in self.step.obstacles.iter().enumerate() {
+            let (skin, touch) = touched(b);
             if let Some(there) = obstacle.stop(skin, going, &touch) {
                 (going, stopped) = (there, true);
             }
@@ -297,6 +300,18 @@ impl<'a, 's> Among<'a, 's> {
         // What touches nothing keeps its bits: when it is asked for depends on the hair that is stepped with it.
         if !stopped {
             return;
+        }
+        // What one body has turned may be in another: a corner is left by turns.
+        let mut rounds = if self.step.obstacles.len() > 1 { ROUNDS } else { 0 };
+        while stopped && rounds > 0 {
+            stopped = false;
+            for (b, obstacle) in self.step.obstacles.iter().enumerate() {
+                let (skin, touch) = touched(b);
+                if let Some(there) = obstacle.part(skin, going, &touch) {
+                    (going, stopped) = (there, true);
+                }
+            }
+            rounds -= 1;
         }
         set_lane(&mut state.direction, lane, going.direction.to_array());
         set_lane(&mut state.increment, lane, going.increment.to_array());

@@ -50,20 +50,36 @@ impl<'a> Obstacle<'a> {
         Self { body, contact: body.contact, body_from_head: now.inverse(), before_from_now: before * now.inverse() }
     }
 
-    /// Keeps a segment that would go along `direction`, with this `increment`, out of the body.
+    /// Keeps a segment that would go along `direction`, with this `increment`, out of the body; `None` where it touches nothing.
     #[inline(always)]
     pub fn stop<S: Scalar>(
         &self,
         direction: Vector<S>,
         increment: Vector<S>,
         touch: &Touch<S>,
-    ) -> (Vector<S>, Vector<S>) {
-        let &Touch { from, length, clearance, surface, .. } = touch;
-        let end = from + direction.times(length);
-        match self.reading(end.value(), surface) {
-            Some(reading) if f64::from(reading.distance()) < clearance => self.stopped(direction, increment, touch),
-            _ => (direction, increment),
+    ) -> Option<(Vector<S>, Vector<S>)> {
+        (self.depth(direction, touch)? > 0.0).then(|| self.stopped(direction, increment, touch))
+    }
+
+    /// Turns a segment out of the body that another body has turned into it; `None` where none has.
+    pub fn part<S: Scalar>(
+        &self,
+        direction: Vector<S>,
+        increment: Vector<S>,
+        touch: &Touch<S>,
+    ) -> Option<(Vector<S>, Vector<S>)> {
+        if self.depth(direction, touch)? <= f64::from(TOLERANCE_CM) {
+            return None;
         }
+        let (direction, _) = self.pushed_from(direction, touch);
+        Some((direction, increment - direction * increment.dot(direction)))
+    }
+
+    /// How much deeper than its clearance the end of a segment is; `None` far away.
+    #[inline(always)]
+    fn depth<S: Scalar>(&self, direction: Vector<S>, touch: &Touch<S>) -> Option<f64> {
+        let end = touch.from + direction.times(touch.length);
+        Some(touch.clearance - f64::from(self.reading(end.value(), touch.surface)?.distance()))
     }
 
     /// The same where the segment touches.
@@ -74,23 +90,25 @@ impl<'a> Obstacle<'a> {
         mut increment: Vector<S>,
         touch: &Touch<S>,
     ) -> (Vector<S>, Vector<S>) {
-        let &Touch { from, length, surface, lagged, .. } = touch;
+        let &Touch { from, length, clearance, surface, lagged, .. } = touch;
         let end = from + direction.times(length);
-        let Some((_, normal)) = self.read(end, surface) else { return (direction, increment) };
+        let Some((distance, normal)) = self.read(end, surface) else { return (direction, increment) };
         let of_body = end - end.taken_by(&self.before_from_now);
-        let change = self.slowed((increment + lagged).times(length) - of_body, normal);
-        direction = (direction.times(length) + change).normalized_or(normal);
-        increment += change / S::from(length);
+        let moved = (increment + lagged).times(length) - of_body;
+        let (depth, inward) = (S::from(clearance) - distance, -moved.dot(normal));
+        if inward.value() > 0.0 {
+            let change = self.slowed(moved, normal, inward);
+            // Until it touched it went on as it was.
+            let touching = if inward.value() > depth.value() { depth / inward } else { S::from(1.0) };
+            direction = (direction.times(length) + change * touching).normalized_or(normal);
+            increment += change / S::from(length);
+        }
         direction = self.pushed_out(direction, touch);
         (direction, increment - direction * increment.dot(direction))
     }
 
-    /// What contact takes of a motion against the body: all of it that goes inward, and of the rest what friction takes.
-    fn slowed<S: Scalar>(&self, moved: Vector<S>, normal: Vector<S>) -> Vector<S> {
-        let inward = -moved.dot(normal);
-        if inward.value() <= 0.0 {
-            return Vector::zero();
-        }
+    /// What contact takes of a motion against the body: the part of it that goes inward, and of the rest what friction takes.
+    fn slowed<S: Scalar>(&self, moved: Vector<S>, normal: Vector<S>, inward: S) -> Vector<S> {
         let along = moved + normal * inward;
         let speed = along.length();
         let held = speed.value() <= f64::from(self.contact.static_friction) * inward.value();
@@ -125,22 +143,20 @@ impl<'a> Obstacle<'a> {
         best
     }
 
-    /// Turns a segment out along the gradient until its end keeps its clearance; how deep it then is, or was before the last
-    /// turn where no turn was enough.
+    /// Turns a segment out along the gradient until its end keeps its clearance, and says how deep it then is.
     fn pushed_from<S: Scalar>(&self, mut direction: Vector<S>, touch: &Touch<S>) -> (Vector<S>, f64) {
         let &Touch { from, length, clearance, .. } = touch;
-        let mut depth = 0.0;
-        for _ in 0..PUSHES {
+        let mut pushes = 0;
+        loop {
             let end = from + direction.times(length);
             let Some((distance, normal)) = self.read(end, touch.surface) else { return (direction, 0.0) };
             let inside = S::from(clearance) - distance;
-            depth = inside.value();
-            if depth <= f64::from(TOLERANCE_CM) {
-                return (direction, depth);
+            if inside.value() <= f64::from(TOLERANCE_CM) || pushes == PUSHES {
+                return (direction, inside.value());
             }
             direction = turned_out(direction, normal, inside / S::from(length));
+            pushes += 1;
         }
-        (direction, depth)
     }
 
     /// Distance and outward normal at a point of head space; `None` far away.

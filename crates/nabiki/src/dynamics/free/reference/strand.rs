@@ -7,6 +7,7 @@ use super::obstacle::{Touch, kept_from};
 use crate::body::Surface;
 use crate::dynamics::Dynamics;
 use crate::dynamics::air::Air;
+use crate::dynamics::free::ROUNDS;
 use crate::dynamics::free::grid::Crowd;
 use crate::dynamics::free::segment::{FreeSegment, free_segments};
 use crate::error::SettingError;
@@ -188,10 +189,26 @@ impl<S: Scalar> Strand<S> {
             let (mut direction, mut increment) = segment.turned();
             // What is held goes with the head, whatever passes.
             let obstacles = if shape.gain == 0.0 { &[][..] } else { obstacles };
-            for (obstacle, kept_from) in obstacles.iter().zip(kept_from.iter()) {
-                let (surface, clearance) = kept_from[i + 1];
-                let touch = Touch { from, length: shape.length, clearance, was, lagged, surface };
-                (direction, increment) = obstacle.stop(direction, increment, &touch);
+            let touched = |b: usize| {
+                let (surface, clearance) = kept_from[b][i + 1];
+                Touch { from, length: shape.length, clearance, was, lagged, surface }
+            };
+            let mut stopped = false;
+            for (b, obstacle) in obstacles.iter().enumerate() {
+                if let Some(there) = obstacle.stop(direction, increment, &touched(b)) {
+                    ((direction, increment), stopped) = (there, true);
+                }
+            }
+            // What one body has turned may be in another: a corner is left by turns.
+            let mut rounds = if obstacles.len() > 1 { ROUNDS } else { 0 };
+            while stopped && rounds > 0 {
+                stopped = false;
+                for (b, obstacle) in obstacles.iter().enumerate() {
+                    if let Some(there) = obstacle.part(direction, increment, &touched(b)) {
+                        ((direction, increment), stopped) = (there, true);
+                    }
+                }
+                rounds -= 1;
             }
             (segment.direction, segment.increment) = (direction, increment);
             positions[i + 1] = from + direction.times(shape.length);
