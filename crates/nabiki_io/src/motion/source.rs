@@ -74,7 +74,8 @@ impl Default for MotionSource {
 pub enum Interpolation {
     /// On the straight line between them.
     Linear,
-    /// On the Hermite cubic whose end velocities are those of the neighbouring samples' chord.
+    /// On the Hermite cubic whose velocity at a sample is that of the parabola through it and its two neighbours; at the first and the
+    /// last, through the three there.
     Cubic,
 }
 

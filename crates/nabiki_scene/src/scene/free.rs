@@ -58,7 +58,7 @@ pub struct FreeSettings {
     pub stiffness: Profile,
     /// H: what turns a segment toward its rest direction in the head's frame; one number, or a list (default 30).
     pub hold: Profile,
-    /// Frames in which a swing dies to 1/e, 0: never; one number, or a list (default 20).
+    /// Frames in which a swing dies to 1/e, 0: never; one number, or a list, in which hair beside a 0 hardly swings (default 20).
     pub settle: Profile,
     /// The weight of hair that has been moved: a strength, or "earth" for that of the earth at `motion.frame_rate`
     /// (default 100).

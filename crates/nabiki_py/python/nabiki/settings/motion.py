@@ -134,7 +134,9 @@ class FreeSettings(Table):
 
     @property
     def settle(self) -> float | tuple[float, ...]:
-        """Frames in which a swing dies to 1/e, 0: never; one number, or a list (default 20)."""
+        """Frames in which a swing dies to 1/e, 0: never; one number, or a list, in which hair beside a 0 hardly swings
+        (default 20).
+        """
         value: float | tuple[float, ...] = self._get('settle')
         return value
 
