@@ -24,7 +24,7 @@ fn a_scene_of_the_free_form_tells_what_moves_its_hair() {
         "free: stiffness 12000 to 1000, hold 30, settles in 16 frames, gravity 100",
         "contact: 0.1 cm from the skin",
         "neighbours: cohesion 40, pressure 40",
-        "body[0]: motion/hand.obj, moved by motion/sweep.csv, 0.1 cm from its skin",
+        "body[0]: motion/hand.obj, moved by motion/sweep.csv, 0.2 cm from its skin",
         "all fields: |F| at most 0",
     ] {
         assert!(said.lines().any(|said| said.starts_with(line)), "{line}: {said}");
