@@ -33,6 +33,8 @@ const UNDER_SKIN: [f32; 3] = [0.6, 0.42, 0.34];
 pub const LEFT_IN_THE_DARK: f32 = 1e-4;
 /// Cosine of the angle to a lamp from which on the angle itself is the shadow, not what else of the solid is in the way.
 const TERMINATOR: f32 = -0.1;
+/// How far above the skin (cm) the light's way is looked at there.
+const ABOVE: f32 = 0.9;
 /// How far before the tangent plane (cm) what hides the lamp must lie, more where the plane is steep on the map, and over which
 /// depth it sets in.
 const BEFORE: f32 = 0.1;
@@ -62,7 +64,7 @@ impl SolidShadows {
     }
 
     /// Part of the lamp (red, green, blue) that is left to a place on the skin of solid number `own`, with this unit normal, 0..1.
-    /// Where it turns away from the lamp, what hides it is its own angle, and the other solids.
+    /// Where it turns away from the lamp, what hides it is its own angle, and all that hides what lies above it.
     pub fn visible_from_skin(&self, own: u16, p: Vec3, normal: Vec3) -> [f32; 3] {
         let facing = normal.dot(self.toward);
         let sure = smooth((facing - TERMINATOR) / 0.3);
@@ -74,10 +76,13 @@ impl SolidShadows {
             let part = if i != usize::from(own) {
                 // No skin of its own can be in the way: a plane across the light will do.
                 solid.visible_from_skin(p, self.toward)
-            } else if facing > TERMINATOR {
-                solid.visible_from_skin(p, normal).map(|part| 1.0 - sure * (1.0 - part))
+            } else if sure >= 1.0 {
+                solid.visible_from_skin(p, normal)
             } else {
-                [1.0; 3]
+                // Past skin that curves away from it, and still in the shadow of what lies farther off.
+                let above = solid.visible_from_skin(p + ABOVE * normal, self.toward);
+                let here = if sure > 0.0 { solid.visible_from_skin(p, normal) } else { above };
+                std::array::from_fn(|c| above[c] + sure * (here[c] - above[c]))
             };
             left = std::array::from_fn(|c| left[c] * part[c]);
         }
@@ -412,9 +417,8 @@ mod tests {
         assert!(dark.iter().all(|p| visible(p.x, p.y) <= LEFT_IN_THE_DARK));
     }
 
-    #[test]
-    fn skin_that_faces_the_lamp_is_not_in_its_own_shadow() {
-        // A ball of 8 cm in facets of about 0.5 cm.
+    /// A ball in facets of about a sixteenth of its radius.
+    fn ball(radius: f32) -> Mesh {
         let (rows, columns) = (48_u32, 96_u32);
         let at = |row: u32, column: u32| {
             let up = 180.0 * row as f32 / rows as f32 - 90.0;
@@ -422,7 +426,7 @@ mod tests {
         };
         let mut ball = Mesh::default();
         for row in 0..=rows {
-            ball.positions.extend((0..columns).map(|column| 8.0 * at(row, column)));
+            ball.positions.extend((0..columns).map(|column| radius * at(row, column)));
         }
         for row in 0..rows {
             for c in 0..columns {
@@ -430,6 +434,12 @@ mod tests {
                 ball.triangles.extend([[a, b, a + columns], [b, b + columns, a + columns]]);
             }
         }
+        ball
+    }
+
+    #[test]
+    fn skin_that_faces_the_lamp_is_not_in_its_own_shadow() {
+        let ball = ball(8.0);
         for toward in [Vec3::Y, Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.48, 0.64, 0.6)] {
             for spread in [0.0, 0.17] {
                 let shadow = SolidShadow::new(&Lamp { toward, strength: [1.0; 3], spread }, &ball);
@@ -513,6 +523,31 @@ mod tests {
                     assert!(high[c] - low[c] < 0.5 * CELL * slope, "{turned}, {c}: {} to {}", low[c], high[c]);
                 }
             }
+        }
+    }
+
+    #[test]
+    fn what_lies_in_a_shadow_is_dark_to_its_terminator_and_beyond() {
+        // A ball under a plate, and the same ball by itself, all round the terminator.
+        let ball = ball(3.0);
+        let below = |mut mesh: Mesh| {
+            mesh.positions.iter_mut().for_each(|p| p.y -= 8.0);
+            mesh
+        };
+        let mut under = below(ball.clone());
+        let first = under.positions.len() as u32;
+        under.positions.extend([[-9.0, -9.0], [9.0, -9.0], [9.0, 9.0], [-9.0, 9.0]].map(|[x, z]| Vec3::new(x, 0.0, z)));
+        under.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|t: [u32; 3]| t.map(|v| v + first)));
+        let lamp = Lamp { toward: Vec3::Y, strength: [1.0; 3], spread: 0.1 };
+        let [shaded, alone] = [under, below(ball)].map(|mesh| SolidShadows::new(&lamp, &mesh, &[]));
+        for i in 0..400 {
+            let up = (-22.0 + 0.11 * i as f32).to_radians();
+            let normal = crate::camera::direction(40.0 + 77.0 * i as f32, up.to_degrees());
+            let p = 3.0 * normal - 8.0 * Vec3::Y;
+            let [dark, lit] = [&shaded, &alone].map(|shadows| shadows.visible_from_skin(0, p, normal));
+            assert!(dark.iter().all(|left| *left < 1e-5), "{} degrees: {dark:?}", up.to_degrees());
+            // Light creeps past the terminator to a cosine of -0.25 at the most: on a ball that is 0.8 cm clear above the skin.
+            assert!(lit[2] > 0.5, "{} degrees: {lit:?}", up.to_degrees());
         }
     }
 
