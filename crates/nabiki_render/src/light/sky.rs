@@ -458,6 +458,33 @@ mod tests {
         }
     }
 
+    /// Skin far from the hair has the shade of the hair that is between it and the sky, and no more.
+    #[test]
+    fn what_reaches_a_surface_beyond_the_box_is_what_a_larger_box_would_bring_there() {
+        let nodes = ball();
+        let about_hair = crate::curve::bounds(&nodes);
+        let filled = |bounds: [Vec3; 2]| {
+            let mut sky = SkyMap::default();
+            sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]), Vec3::Y, rayon::iter::empty());
+            sky.fill(&nodes, &vec![0.05; nodes.len()]);
+            sky
+        };
+        let (small, large) = (filled(about_hair), filled([Vec3::splat(-22.0), Vec3::splat(22.0)]));
+        let (mut small, mut large) = (OnSkin::new(&small), OnSkin::new(&large));
+        let (mut shaded, mut off) = (0, 0.0_f32);
+        for i in 0..2000 {
+            let outward = crate::camera::direction(i as f32 * 137.508, 0.09 * i as f32 - 90.0);
+            let place = (8.0 + 0.006 * i as f32) * outward;
+            for normal in [-outward, Vec3::Y, Vec3::new(0.6, 0.0, -0.8)] {
+                let [near, far] = [&mut small, &mut large].map(|sky| sky.at(place, normal));
+                shaded += u32::from(far.iter().any(|open| *open < 0.8));
+                off = (0..2).map(|half| (near[half] - far[half]).abs()).fold(off, f32::max);
+            }
+        }
+        // Between the same cells, seen along the way and not about the place: of a ball's edge, four cells wide, up to half a cell.
+        assert!(shaded > 200 && off < 0.125, "{off}, {shaded} shaded");
+    }
+
     #[test]
     fn an_open_sky_arrives_whole_wherever_the_eye_is() {
         for zenith in [Vec3::Y, Vec3::new(0.36, -0.48, 0.8)] {

@@ -13,8 +13,10 @@ use super::piece::{End, Piece};
 use super::{BURIED, CELLS, SIDE, TILE, cell_offset};
 use crate::skin::SkinPixel;
 
-/// Once less than this of a pixel is left open it counts as full, and what it holds stands for the rest of it.
+/// Once less than this of a pixel is left open it counts as full, and what it holds stands for the rest of it. Motion blur is so even that
+/// where this begins would show as a line: less is too little to be seen before lit skin.
 const NOTHING: f32 = 1.0 / 64.0;
+const NOTHING_BLURRED: f32 = 1.0 / 512.0;
 const PIXELS: usize = TILE * TILE;
 /// Pieces that lie this much behind a full tile are no reason to look for nearer ones (cm): longer than half a piece, by
 /// which one may come nearer than where it was sorted.
@@ -36,6 +38,8 @@ pub struct CoverageTile {
     farthest: f32,
     /// Half of the farthest that hair moves in depth while the shutter is open (cm).
     sway: f32,
+    /// What is nothing to be left.
+    nothing: f32,
     /// Which pixels are full, a bit each: row after row, and column after column.
     full: [[u16; TILE]; 2],
     filled: usize,
@@ -83,9 +87,10 @@ impl<'p, W: Watch, P: Iterator<Item = (&'p Piece, Range<usize>)>> WithSimd for D
 }
 
 impl CoverageTile {
-    /// `recession`: the farthest that hair moves in depth while the shutter is open (cm).
+    /// `recession`: the farthest that hair moves in depth while the shutter is open (cm), 0 where it is not.
     pub fn new(recession: f32) -> Self {
         let sway = 0.5 * recession;
+        let nothing = if recession > 0.0 { NOTHING_BLURRED } else { NOTHING };
         Self {
             open: Box::new([[1.0; CELLS]; PIXELS]),
             left: Box::new([1.0; PIXELS]),
@@ -96,6 +101,7 @@ impl CoverageTile {
             skin_far: Box::new([f32::INFINITY; PIXELS]),
             farthest: f32::INFINITY,
             sway,
+            nothing,
             full: [[0; TILE]; 2],
             filled: 0,
         }
@@ -308,7 +314,7 @@ impl CoverageTile {
             self.nearest[pixel] = if seen < self.nearest[pixel] { seen } else { self.nearest[pixel] };
             watch.hair(pixel, sum, t, *number);
             self.left[pixel] -= sum;
-            if self.left[pixel] < NOTHING {
+            if self.left[pixel] < self.nothing {
                 self.fill(x, y);
             }
         }
