@@ -85,8 +85,9 @@ impl LensPoints {
     /// Enough that no single ones show where the circles of confusion of hair and of skin have these radii (pixels): edges of skin are not
     /// widened, and show more. A power of two, so that the mean of what is the same through all of them is that.
     pub fn for_blur(hair: f32, skin: f32) -> Self {
-        let enough = [(16, 24.0, 6.0), (32, 64.0, 20.0)].into_iter().find(|&(_, h, s)| hair <= h && skin <= s);
-        Self::new(enough.map_or(64, |(count, ..)| count))
+        let enough = [(16, 24.0, 4.0), (32, 64.0, 9.0), (64, f32::INFINITY, 24.0)];
+        let enough = enough.into_iter().find(|&(_, h, s)| hair <= h && skin <= s);
+        Self::new(enough.map_or(128, |(count, ..)| count))
     }
 }
 
