@@ -12,8 +12,10 @@ use nabiki_scene::BuiltScene;
 const FREE_INTERVALS: usize = 2;
 /// How much a nail counts beside the lock in the hand.
 const NAIL_WEIGHT: f32 = 2.0;
-/// A step that leaves more than this part of what was left is the last until the hand moves on.
+/// A step that leaves more than this part of what was left gains nothing. After so many of them in a row the hair rests until the hand
+/// moves on: a first one may only have gone too far, across a kink, and the next is more careful.
 const WORTH: f64 = 0.98;
+const PATIENCE: u32 = 6;
 
 /// Nodes that belong together, in one frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,18 +117,21 @@ fn follow(
     wake: &dyn Fn(),
 ) -> Result<(), String> {
     let mut drag = Drag::new(problem).map_err(|error| error.to_string())?;
-    let mut resting = true;
+    let mut in_vain = PATIENCE;
     let mut way = Vec3::ZERO;
     loop {
-        if resting {
+        if in_vain == PATIENCE {
             match moves.recv() {
                 Ok(newest) => way = newest,
                 Err(_) => return Ok(()),
             }
+            in_vain = 0;
         }
-        way = moves.try_iter().last().unwrap_or(way);
+        if let Some(newest) = moves.try_iter().last() {
+            (way, in_vain) = (newest, 0);
+        }
         let step = drag.pull(0, Goal::MeanMoved(way)).map_err(|error| error.to_string())?;
-        resting = step.after_cm >= WORTH * step.before_cm;
+        in_vain = if step.after_cm >= WORTH * step.before_cm { in_vain + 1 } else { 0 };
         let pulled = Pulled { force: drag.answer().keyframes, left_cm: step.after_cm };
         if give.send(Ok(pulled)).is_err() {
             return Ok(());
