@@ -63,7 +63,8 @@ fn wrapped(facing: f32, soft: f32) -> f32 {
 
 impl FromLamp {
     /// Where so much of each colour gets past head and bodies, on skin with this look and unit normal, for an eye in this direction.
-    fn new(lamp: &Lamp, unhidden: [f32; 3], (look, normal, eye): (&HeadLook, Vec3, Vec3)) -> Self {
+    /// It is not asked how much where skin turns too far away.
+    fn new(lamp: &Lamp, unhidden: impl FnOnce() -> [f32; 3], (look, normal, eye): (&HeadLook, Vec3, Vec3)) -> Self {
         let facing = normal.dot(lamp.toward);
         if facing <= SkinLight::least_facing(look) {
             return Self::default();
@@ -71,6 +72,7 @@ impl FromLamp {
         let halfway = (lamp.toward + eye).normalize_or(eye);
         let gloss = 0.045 * 9.0 * normal.dot(halfway).max(0.0).powi(18) * smooth(facing / 0.25);
         let rim = (1.0 - eye.dot(normal).clamp(0.0, 1.0)).powi(4) * facing.max(0.0);
+        let unhidden = unhidden();
         let arriving = [0, 1, 2].map(|c| lamp.strength[c] * unhidden[c]);
         Self {
             fallen: std::array::from_fn(|c| arriving[c] * wrapped(facing, CREEPS[c] * look.softness)),
@@ -91,7 +93,7 @@ impl SkinLight<'_> {
     ) -> Vec<FromLamp> {
         let from = |p: &SkinPixel, l: usize| {
             let unhidden =
-                shadows.get(l).map_or([1.0; 3], |shadow| shadow.visible_from_skin(p.solid, p.position, p.normal));
+                || shadows.get(l).map_or([1.0; 3], |shadow| shadow.visible_from_skin(p.solid, p.position, p.normal));
             FromLamp::new(&lamps[l], unhidden, (look, p.normal, view.toward_eye(p.position)))
         };
         let of_place = |p| (0..lamps.len()).map(move |l| from(p, l));
@@ -235,7 +237,7 @@ mod tests {
         let fallen = |facing: f32| {
             let normal = Vec3::new((1.0 - facing * facing).sqrt(), facing, 0.0);
             let lamp = Lamp { toward: Vec3::Y, strength: [1.0; 3], spread: 0.0 };
-            FromLamp::new(&lamp, [1.0; 3], (&look, normal, Vec3::Z)).fallen
+            FromLamp::new(&lamp, || [1.0; 3], (&look, normal, Vec3::Z)).fallen
         };
         for facing in [0.3, 0.6, 1.0] {
             assert!(fallen(facing).iter().all(|light| (light - facing).abs() < 1e-6), "{facing}: {:?}", fallen(facing));
@@ -250,7 +252,8 @@ mod tests {
         let look = HeadLook::default();
         let lamp = Lamp { toward: Vec3::new(0.5_f32.sqrt(), 0.5_f32.sqrt(), 0.0), strength: [1.0; 3], spread: 0.0 };
         // As much turned to the lamp: one faces the eye, one is the outline.
-        let [facing, rim] = [Vec3::X, Vec3::Y].map(|normal| FromLamp::new(&lamp, [1.0; 3], (&look, normal, Vec3::X)));
+        let [facing, rim] =
+            [Vec3::X, Vec3::Y].map(|normal| FromLamp::new(&lamp, || [1.0; 3], (&look, normal, Vec3::X)));
         assert_eq!(facing.fallen, rim.fallen);
         assert!(rim.sheen[0] > 2.0 * facing.sheen[0], "{:?} {:?}", facing.sheen, rim.sheen);
     }
