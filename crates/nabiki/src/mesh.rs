@@ -1,6 +1,8 @@
 //! Triangle meshes of heads and bodies.
 
 mod outward;
+#[cfg(test)]
+mod tests;
 mod two_sided;
 
 use std::collections::HashMap;
@@ -42,15 +44,19 @@ impl Mesh {
         self.positions.iter().enumerate().map(|(v, p)| *first_at.entry(place(p)).or_insert(v as u32)).collect()
     }
 
-    /// Unit normals at the vertices: the mean of the adjoining triangles' normals, weighted by area.
-    /// A vertex without any gets +y.
+    /// Unit normals at the vertices: the mean of the adjoining triangles' normals, weighted by the sine of the corner
+    /// over its two edges' lengths (N. Max, "Weights for computing vertex normals from facet normals", 1999). They are
+    /// those of a sphere on any mesh of it, however uneven. A vertex without triangles that have an area gets +y.
     pub fn vertex_normals(&self) -> Vec<Vec3> {
         let mut normals = vec![Vec3::ZERO; self.positions.len()];
         for triangle in &self.triangles {
-            let [a, b, c] = triangle.map(|v| self.positions[v as usize]);
-            let twice_area = (b - a).cross(c - a);
-            for &v in triangle {
-                normals[v as usize] += twice_area;
+            for corner in 0..3 {
+                let [at, next, last] = [0, 1, 2].map(|i| triangle[(corner + i) % 3] as usize);
+                let [a, b] = [next, last].map(|v| self.positions[v] - self.positions[at]);
+                let weighted = (a / a.length_squared()).cross(b / b.length_squared());
+                if weighted.is_finite() {
+                    normals[at] += weighted;
+                }
             }
         }
         for n in &mut normals {

@@ -19,7 +19,8 @@ pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
     let edge = 1.75 * (Vec2::new(q.x / half_width, q.y / 2.95).length() - 1.0);
     let plate = carve(edge, 0.24 - q.z.abs(), 0.15);
     // The rim begins above the hollow, goes over the top and down the back, and is gone at the lobe.
-    let rolled = 0.29 * ((q.y + 2.0 + 0.9 * q.x) / 1.4).clamp(0.35, 1.0);
+    let along = ((q.y + 2.2 + 0.9 * q.x) / 1.9).clamp(0.0, 1.0);
+    let rolled = 0.29 * (0.35 + 0.65 * along * along * (3.0 - 2.0 * along));
     let rim = Vec2::new(edge + 0.28, q.z - 0.17).length() - rolled;
     let fold = chain(
         q,

@@ -21,5 +21,5 @@ pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
     skin = join(skin, chin, 1.6);
     // The fullness of the cheek beside the mouth, and the crease above the chin.
     skin -= 0.32 * swell(p, Vec3::new(6.8, -5.5, 3.7), Vec3::new(2.8, 2.6, 2.6));
-    skin + 0.3 * swell(p, Vec3::new(9.3, -9.0, 0.0), Vec3::new(1.4, 0.8, 2.2))
+    skin + 0.26 * swell(p, Vec3::new(9.3, -9.1, 0.0), Vec3::new(1.6, 1.2, 2.6))
 }

@@ -11,7 +11,7 @@ use crate::layout::{self, POSITION, Quantised};
 
 /// Stretches of an axis: from the first number on (cm), the second is the step (cm). The last ends the axis.
 type Axis = &'static [(f32, f32)];
-const ALONG_X: Axis = &[(-14.0, 0.4), (-4.6, 0.16), (0.0, 0.35), (4.5, 0.2), (8.0, 0.13), (10.5, 0.2), (12.0, 0.0)];
+const ALONG_X: Axis = &[(-14.0, 0.4), (-4.6, 0.16), (0.0, 0.35), (4.5, 0.2), (6.9, 0.11), (10.5, 0.2), (12.0, 0.0)];
 const ALONG_Y: Axis = &[
     (-33.0, 0.5),
     (-20.0, 0.4),
@@ -23,17 +23,17 @@ const ALONG_Y: Axis = &[
     (-6.4, 0.17),
     // The nostrils.
     (-5.9, 0.1),
-    (-5.1, 0.2),
-    // The line of the lids.
-    (-2.2, 0.13),
-    (-1.8, 0.08),
-    (-0.7, 0.13),
-    (0.4, 0.17),
+    (-5.1, 0.14),
+    // The lids.
+    (-2.0, 0.07),
+    (0.3, 0.14),
     (2.9, 0.4),
     (12.4, 0.0),
 ];
 /// From the middle outward; the first plane lies as far from the middle as its mirror image.
-const ALONG_Z: Axis = &[(0.09, 0.18), (5.4, 0.24), (6.9, 0.13), (9.3, 0.5), (20.6, 0.0)];
+const ALONG_Z: Axis = &[(0.06, 0.12), (5.1, 0.2), (6.9, 0.12), (9.3, 0.5), (20.6, 0.0)];
+/// Times that the vertices are evened out.
+const EVENED: usize = 12;
 /// Nodes along a block's edge.
 const BLOCK: usize = 8;
 /// The field may change this many times faster than the distance.
@@ -63,9 +63,10 @@ pub(crate) fn cut(field: &(impl Fn(Vec3) -> f32 + Sync)) -> Quantised {
         i == 0 || j == 0 || i + 1 == xs.len() || j + 1 == ys.len() || k + 1 == zs.len()
     };
     assert!(!(0..inside.len()).any(|at| inside[at] && at_border(at)), "the grid ends within the bust");
-    let vertices = layout::skin_cells(counts, &inside)
-        .into_par_iter()
-        .map(|[i, j, layer]| {
+    let cells = layout::skin_cells(counts, &inside);
+    let mut vertices: Vec<Vec3> = cells
+        .par_iter()
+        .map(|&[i, j, layer]| {
             let corner = |c: usize| {
                 let (i, j) = (i + (c & 1), j + (c >> 1 & 1));
                 // The innermost layer lies between the first plane and its mirror image.
@@ -73,10 +74,65 @@ pub(crate) fn cut(field: &(impl Fn(Vec3) -> f32 + Sync)) -> Quantised {
                     if layer == 0 { (0, if c < 4 { -1.0 } else { 1.0 }) } else { (layer - 1 + (c >> 2), 1.0) };
                 (Vec3::new(xs[i], ys[j], side * zs[k]), samples[(k * ys.len() + j) * xs.len() + i])
             };
-            onto_skin(field, middle_of_crossings(&std::array::from_fn(corner))).to_array().map(quantum)
+            onto_skin(field, middle_of_crossings(&std::array::from_fn(corner)))
         })
         .collect();
+    let bounds = |cell: [usize; 3]| {
+        let [i, j, layer] = cell;
+        let (near, far) = if layer == 0 { (0.0, 0.0) } else { (zs[layer - 1], zs[layer]) };
+        (Vec3::new(xs[i], ys[j], near), Vec3::new(xs[i + 1], ys[j + 1], far))
+    };
+    for _ in 0..EVENED {
+        vertices =
+            evened(&cells, &vertices, counts, &bounds).into_par_iter().map(|place| onto_skin(field, place)).collect();
+    }
+    let vertices = vertices.into_iter().map(|place| place.to_array().map(quantum)).collect();
     Quantised { planes, inside, vertices, ..Quantised::default() }
+}
+
+/// Each vertex halfway toward the mean of those in the cells beside its own, but within that: triangles of like size,
+/// whose normals say what the skin's are.
+fn evened(
+    cells: &[[usize; 3]],
+    vertices: &[Vec3],
+    counts: [usize; 3],
+    bounds: &(impl Fn([usize; 3]) -> (Vec3, Vec3) + Sync),
+) -> Vec<Vec3> {
+    let [nx, ny, nz] = counts;
+    let mut vertex_in = vec![u32::MAX; nx * ny * nz];
+    let index = |[i, j, layer]: [usize; 3]| (layer * ny + j) * nx + i;
+    for (vertex, &cell) in cells.iter().enumerate() {
+        vertex_in[index(cell)] = vertex as u32;
+    }
+    let beside = |cell: [usize; 3], axis: usize, forward: bool| {
+        let mut other = cell;
+        let mut side = Vec3::ONE;
+        match (forward, cell[axis]) {
+            (true, at) => other[axis] = at + 1,
+            // Across the middle lies the mirror image of the layer above it.
+            (false, 0) if axis == 2 => {
+                other[axis] = 1;
+                side.z = -1.0;
+            }
+            (false, at) => other[axis] = at.checked_sub(1)?,
+        }
+        let found = *vertex_in.get(index(other))?;
+        (found != u32::MAX).then(|| side * vertices[found as usize])
+    };
+    cells
+        .par_iter()
+        .zip(vertices)
+        .map(|(&cell, &place)| {
+            let around = (0..3).flat_map(|axis| [(axis, false), (axis, true)]);
+            let (mut sum, mut count) = (Vec3::ZERO, 0.0);
+            for place in around.filter_map(|(axis, forward)| beside(cell, axis, forward)) {
+                sum += place;
+                count += 1.0;
+            }
+            let (low, high) = bounds(cell);
+            place.lerp(sum / count, 0.5).clamp(low, high)
+        })
+        .collect()
 }
 
 fn quantum(cm: f32) -> i32 {

@@ -45,7 +45,7 @@ fn parting(p: Vec3) -> f32 {
     }
     let dip = ridge(p.z, 0.8);
     let off = p.y - (-7.42 - 0.12 * dip + 0.24 * t * t * t);
-    0.13 * ridge(off, 0.2) * ((1.0 - t) * 3.0).min(1.0)
+    0.13 * ridge(off, 0.24) * ((1.0 - t) * 3.0).min(1.0)
 }
 
 /// The red of the lips stands out a little from the skin about it, with the bow of the upper lip.

@@ -21,9 +21,26 @@ pub(crate) fn capsule(p: Vec3, a: Vec3, b: Vec3, ra: f32, rb: f32) -> f32 {
     (ap - ab * t).length() - (ra + (rb - ra) * t)
 }
 
-/// Capsules end to end: points with the radius there.
-pub(crate) fn chain(p: Vec3, links: &[(Vec3, f32)]) -> f32 {
-    links.windows(2).map(|w| capsule(p, w[0].0, w[1].0, w[0].1, w[1].1)).fold(f32::INFINITY, f32::min)
+/// A bow through points with the radius there: Catmull and Rom's curve, as short capsules end to end.
+pub(crate) fn chain(p: Vec3, points: &[(Vec3, f32)]) -> f32 {
+    const PARTS: usize = 4;
+    let point = |i: usize| points[i].0.extend(points[i].1);
+    let last = points.len() - 1;
+    let on_bow = |link: usize, part: usize| {
+        let (from, to) = (point(link), point(link + 1));
+        let slope = |i: usize| 0.5 * (point((i + 1).min(last)) - point(i.saturating_sub(1)));
+        let t = part as f32 / PARTS as f32;
+        let (t2, t3) = (t * t, t * t * t);
+        from + (3.0 * t2 - 2.0 * t3) * (to - from) + (t3 - 2.0 * t2 + t) * slope(link) + (t3 - t2) * slope(link + 1)
+    };
+    let mut nearest = f32::INFINITY;
+    for link in 0..last {
+        for part in 0..PARTS {
+            let (a, b) = (on_bow(link, part), on_bow(link, part + 1));
+            nearest = nearest.min(capsule(p, a.truncate(), b.truncate(), a.w, b.w));
+        }
+    }
+    nearest
 }
 
 /// The union of two shapes, rounded where they meet over about the length `k`.
