@@ -28,7 +28,7 @@ pub use self::on_skin::OnSkin;
 pub use self::skin_cells::SkinCell;
 
 use self::arriving::Numbers;
-use self::directions::{Carry, Direction, LENGTHS};
+use self::directions::{Carry, Direction, LENGTHS, halves};
 use self::exchange::Exchange;
 use self::outside::Outside;
 use self::skin_cells::skin_cells;
@@ -57,6 +57,7 @@ pub struct SkyMap {
     /// What hair takes of light that crosses a cell, and what all takes: optical depths.
     hair: Vec<f32>,
     taken: Vec<f32>,
+    zenith: Vec3,
     directions: Vec<Direction>,
     /// What each cell leaves of light that crosses it straight, and aslant.
     through: [Vec<f32>; 2],
@@ -125,6 +126,7 @@ impl SkyMap {
         self.exchange.ask(seen);
         self.directions.clear();
         self.directions.extend(Direction::all(zenith));
+        self.zenith = zenith;
         let origin = self.origin();
         let (within, outside): (Vec<_>, Vec<_>) = (0..)
             .zip(&all)
@@ -185,6 +187,8 @@ impl SkyMap {
             .collect_into_vec(&mut of_skin);
         let mut exchange = std::mem::take(&mut self.exchange);
         exchange.send(self.numbers.iter().copied().zip(of_skin.iter().copied()), |a, b| self.through_hair(a, b));
+        let all_halves = |from: Vec3| halves(from.dot(self.zenith));
+        exchange.open_sky(all_halves, |place, direction| self.through_hair_along(place, direction));
         self.exchange = exchange;
         self.lit = of_skin;
         self.carry_glow();
@@ -218,6 +222,19 @@ impl SkyMap {
             c += step;
         }
         exp_of_negative(-taken * way / steps)
+    }
+
+    /// What hair leaves of light that comes along a direction (unit) to a place from afar.
+    fn through_hair_along(&self, place: Vec3, direction: Vec3) -> f32 {
+        let (from, last) = ((place - self.low) / self.cell, self.size.as_vec3());
+        // Where it enters and leaves the box: after the last axis that lets it in, before the first that lets it out.
+        let (a, b) = (-from / direction, (last - from) / direction);
+        let (enters, leaves) = (a.min(b).max_element().max(0.0), a.max(b).min_element());
+        if enters >= leaves {
+            return 1.0;
+        }
+        let at = |way: f32| place + way * self.cell * direction;
+        self.through_hair(at(enters), at(leaves))
     }
 
     fn index(&self, c: UVec3) -> usize {

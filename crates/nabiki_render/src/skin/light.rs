@@ -151,11 +151,15 @@ impl SkinLight<'_> {
                 sheen[c] += hair[c] * from.sheen[c];
             }
         }
-        let arriving = sky.map(|sky| (sky.at(p.position + 0.9 * normal, normal), sky.glow(p.position, normal)));
-        let open = |part: f32| if part < 1.0 { self.through(-part.max(1e-6).ln()) } else { [1.0; 3] };
-        let (open_above, open_below) =
-            arriving.map_or(([1.0; 3], [1.0; 3]), |([above, below], _)| (open(above), open(below)));
-        let glow = arriving.map_or(0.0, |(_, glow)| glow);
+        let arriving = sky.map(|sky| sky.seen(p.position, normal));
+        let (glow, [open_above, open_below]) = arriving.map_or((0.0, [[1.0; 3]; 2]), |arriving| {
+            let open = |half: usize| {
+                let through = arriving.through[half];
+                let through = if through < 1.0 { self.through(-through.max(1e-6).ln()) } else { [1.0; 3] };
+                through.map(|through| arriving.open[half] * through)
+            };
+            (arriving.glow, [open(0), open(1)])
+        });
         let up = 0.5 + 0.5 * normal.dot(self.zenith);
         for (c, diffuse) in diffuse.iter_mut().enumerate() {
             let sky = self.sky.above[c] * up * open_above[c] + self.sky.below[c] * (1.0 - up) * open_below[c];

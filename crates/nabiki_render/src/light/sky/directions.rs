@@ -30,8 +30,7 @@ impl Direction {
                 _ => return None,
             };
             let from = -Vec3::from_array(step.map(|c| c as f32)).normalize();
-            let above = above(from.dot(zenith));
-            Some(Self { step, from, weight, halves: [above, 1.0 - above] })
+            Some(Self { step, from, weight, halves: halves(from.dot(zenith)) })
         })
     }
 
@@ -108,8 +107,9 @@ fn squared_length(d: [i32; 3]) -> i32 {
     d.iter().map(|c| c * c).sum()
 }
 
-/// The part of the light from a direction of this height (-1..1) that counts as from above. The halves of the sky meet at the horizon,
-/// softly, so that a head that turns does not take its fourteen directions across it at once.
-fn above(height: f32) -> f32 {
-    0.5 + height * (0.75 - 0.25 * height * height)
+/// The parts of the light from a direction of this height (-1..1) that count as from above and as from below. The halves of the sky meet at
+/// the horizon, softly, so that a head that turns does not take its fourteen directions across it at once.
+pub fn halves(height: f32) -> [f32; 2] {
+    let above = 0.5 + height * (0.75 - 0.25 * height * height);
+    [above, 1.0 - above]
 }

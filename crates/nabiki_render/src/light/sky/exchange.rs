@@ -3,6 +3,7 @@
 //! A cell of skin looks along many directions for the skin that it sees there. That sends light as an even white surface would, and hair
 //! between the two takes its part. Fourteen directions would do for what is as rough as hair; on skin each of them draws an edge.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::{IVec3, UVec3, Vec3};
@@ -20,6 +21,10 @@ const BLOCK: u32 = 4;
 /// How far beyond the box of the head's cells skin of bodies counts (sides of a cell).
 const BESIDE: i32 = 16;
 const NOBODY: u32 = u32::MAX;
+/// So far above the skin (cm) hair begins to keep the sky from it: what lies on it is hair's own business.
+const ABOVE: f32 = 0.9;
+/// How much skin near a place counts for the sky whichever way it faces.
+const CREASED: f32 = 0.02;
 
 /// What skin sees of other skin, and the light that comes from there.
 #[derive(Default)]
@@ -38,21 +43,37 @@ pub struct Exchange {
     /// Which skin it is asked about, and which sends light there; empty if that is not known yet.
     asked: Vec<AtomicBool>,
     sends: Vec<bool>,
-    /// What skin of the head sees of the head, once it has looked: a part of `seen`.
+    /// What skin of the head sees of the head, once it has looked: a part of `seen`. Along which directions skin sees the sky: that of the head past
+    /// the head alone.
     looks: Vec<Option<[u32; 2]>>,
     seen: Vec<Seen>,
+    open: Vec<Directions>,
     /// Skin of the bodies, which move: pairs of skin that see each other.
     pairs: Vec<Pair>,
     /// The light that falls onto each skin, as far as it is known, and what of it arrives at each that is asked about, with its normal.
     lit: Vec<f32>,
-    light: Vec<(Vec3, f32)>,
+    light: Vec<(Vec3, Arriving)>,
 }
 
-/// Whether skin is near, and whether it is the head's.
+/// Whether skin of the head is near, and whether that of a body is.
 #[derive(Clone, Copy, Default)]
 struct Near {
-    any: bool,
     head: bool,
+    body: bool,
+}
+
+/// Some of the directions: a bit each.
+type Directions = [u64; DIRECTIONS.div_ceil(64) as usize];
+
+/// What arrives at a place on skin.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Arriving {
+    /// The light that other skin sends.
+    pub glow: f32,
+    /// The shares of the sky above and below, 0..1 each, that no skin hides.
+    pub open: [f32; 2],
+    /// And what hair leaves of those, 0..1.
+    pub through: [f32; 2],
 }
 
 /// Skin that other skin sees.
@@ -82,7 +103,9 @@ impl Exchange {
             self.looks.clear();
             self.looks.resize(head, None);
             self.seen.clear();
+            self.open.clear();
         }
+        self.open.resize(cells.len(), Directions::default());
         self.forget_asked();
         self.cell = cell;
         self.cells.clear();
@@ -109,7 +132,7 @@ impl Exchange {
                 let beside = cell / BLOCK + UVec3::new(n % 3, n / 3 % 3, n / 9);
                 if beside.cmpge(UVec3::ONE).all() && beside.cmple(self.blocks).all() {
                     let near = &mut self.near[index(beside - 1, self.blocks)];
-                    *near = Near { any: true, head: near.head || i < head };
+                    *near = Near { head: near.head || i < head, body: near.body || i >= head };
                 }
             }
         }
@@ -147,16 +170,18 @@ impl Exchange {
         let directions: Vec<Vec3> = (0..DIRECTIONS).map(direction).collect();
         let new: Vec<usize> = (0..head).filter(|&i| self.is_asked(i) && self.looks[i].is_none()).collect();
         let look = |&i: &usize| self.look(i, &directions);
-        let found: Vec<Vec<Seen>> = new.par_iter().with_min_len(64).map(look).collect();
+        let found: Vec<(Vec<Seen>, Directions)> = new.par_iter().with_min_len(64).map(look).collect();
         let bodies: Vec<usize> = (head..all).collect();
-        let found_by_bodies: Vec<Vec<Seen>> = bodies.par_iter().with_min_len(16).map(look).collect();
-        for (i, seen) in new.into_iter().zip(found) {
+        let found_by_bodies: Vec<(Vec<Seen>, Directions)> = bodies.par_iter().with_min_len(16).map(look).collect();
+        for (i, (seen, open)) in new.into_iter().zip(found) {
             let first = self.seen.len() as u32;
             self.seen.extend(seen);
             self.looks[i] = Some([first, self.seen.len() as u32]);
+            self.open[i] = open;
         }
         self.pairs.clear();
-        for (i, seen) in bodies.into_iter().zip(found_by_bodies) {
+        for (i, (seen, open)) in bodies.into_iter().zip(found_by_bodies) {
+            self.open[i] = open;
             for seen in seen {
                 let other = seen.skin as usize;
                 if self.is_asked(i) {
@@ -183,40 +208,47 @@ impl Exchange {
         self.asked[i].load(Ordering::Relaxed)
     }
 
-    /// What skin `i` sees: skin of the head only that of the head.
-    fn look(&self, i: usize, directions: &[Vec3]) -> Vec<Seen> {
+    /// What skin `i` sees, skin of the head only that of the head, and along which directions it sees none.
+    fn look(&self, i: usize, directions: &[Vec3]) -> (Vec<Seen>, Directions) {
         let mut seen: Vec<Seen> = Vec::new();
+        let mut open = Directions::default();
         let mut all = 0.0;
-        for &direction in directions {
+        let others = if i < self.looks.len() { 0..self.looks.len() } else { 0..self.cells.len() };
+        for (n, &direction) in directions.iter().enumerate() {
             let facing = direction.dot(self.cells[i].normal);
             if facing <= 0.0 {
                 continue;
             }
             all += facing;
-            if let Some(skin) = self.first_along(i, direction) {
-                match seen.iter_mut().find(|seen| seen.skin == skin) {
+            match self.first_along(i, direction, &others) {
+                Some(skin) => match seen.iter_mut().find(|seen| seen.skin == skin) {
                     Some(seen) => seen.share += facing,
                     None => seen.push(Seen { skin, share: facing }),
-                }
+                },
+                None => open[n / 64] |= 1 << (n % 64),
             }
         }
         seen.iter_mut().for_each(|seen| seen.share /= all);
-        seen
+        (seen, open)
     }
 
-    /// The skin that faces skin `i` first along a direction.
-    fn first_along(&self, i: usize, direction: Vec3) -> Option<u32> {
-        let of_head = i < self.looks.len();
-        let (size, last) = (self.size.as_vec3(), if of_head { self.looks.len() } else { self.cells.len() });
+    /// The skin among `others` that faces skin `i` first along a direction.
+    fn first_along(&self, i: usize, direction: Vec3, others: &Range<usize>) -> Option<u32> {
+        let head = self.looks.len();
+        let (of_head, of_bodies) = (others.start < head, others.end > head);
+        let size = self.size.as_vec3();
         let mut place = self.among(self.cells[i].place);
         while place.cmpge(Vec3::ZERO).all() && place.cmplt(size).all() {
             let cell = place.as_uvec3();
             let skin = self.at[index(cell, self.size)];
-            if (skin as usize) < last && skin != i as u32 && self.cells[skin as usize].normal.dot(direction) < -FACING {
+            if skin != i as u32
+                && others.contains(&(skin as usize))
+                && self.cells[skin as usize].normal.dot(direction) < -FACING
+            {
                 return Some(skin);
             }
             let near = self.near[index(cell / BLOCK, self.blocks)];
-            let is_near = if of_head { near.head } else { near.any };
+            let is_near = (of_head && near.head) || (of_bodies && near.body);
             place += if is_near { STEP } else { BLOCK as f32 } * direction;
         }
         None
@@ -245,13 +277,43 @@ impl Exchange {
             }
             _ => 0.0,
         };
-        let arriving = |i: usize| (this.cells[i].normal, arriving(i));
+        let arriving = |i: usize| (this.cells[i].normal, Arriving { glow: arriving(i), ..Arriving::default() });
         (0..this.cells.len()).into_par_iter().with_min_len(256).map(arriving).collect_into_vec(&mut light);
         let between: Vec<f32> =
             this.pairs.par_iter().with_min_len(1024).map(|pair| sent(pair.skin as usize, &pair.seen)).collect();
         for (pair, sent) in this.pairs.iter().zip(between) {
-            light[pair.skin as usize].1 += sent;
+            light[pair.skin as usize].1.glow += sent;
         }
+        self.light = light;
+    }
+
+    /// Lets the sky in to all skin that is asked about, after what other skin sends: `halves` says which parts of a direction's light count as
+    /// from above and as from below, `through` what hair leaves of it on its way to a place.
+    pub fn open_sky(&mut self, halves: impl Fn(Vec3) -> [f32; 2], through: impl Fn(Vec3, Vec3) -> f32 + Sync) {
+        let directions: Vec<(Vec3, [f32; 2])> = (0..DIRECTIONS).map(direction).map(|d| (d, halves(d))).collect();
+        let mut light = std::mem::take(&mut self.light);
+        let this = &*self;
+        let bodies = this.looks.len()..this.cells.len();
+        light.par_iter_mut().enumerate().with_min_len(64).filter(|(i, _)| this.is_asked(*i)).for_each(|(i, light)| {
+            let skin = &this.cells[i];
+            // The head's own looks go past bodies, which move.
+            let hidden = |d: Vec3| i < bodies.start && !bodies.is_empty() && this.first_along(i, d, &bodies).is_some();
+            let [mut all, mut open, mut arriving] = [[1e-12_f32; 2]; 3];
+            for (n, &(direction, halves)) in directions.iter().enumerate() {
+                let facing = direction.dot(skin.normal);
+                if facing <= 0.0 {
+                    continue;
+                }
+                let parts = halves.map(|half| half * facing);
+                add(&mut all, parts, 1.0);
+                if this.open[i][n / 64] >> (n % 64) & 1 == 1 && !hidden(direction) {
+                    add(&mut open, parts, 1.0);
+                    add(&mut arriving, parts, through(skin.place + ABOVE * skin.normal, direction));
+                }
+            }
+            light.1.open = [0, 1].map(|half| open[half] / all[half]);
+            light.1.through = [0, 1].map(|half| arriving[half] / open[half]);
+        });
         self.light = light;
     }
 
@@ -260,17 +322,28 @@ impl Exchange {
         &self.lit
     }
 
-    /// What arrives at a place on a surface with this unit normal: between the skin about it, of such as faces where it does.
-    pub fn at(&self, place: Vec3, normal: Vec3) -> f32 {
-        let (mut light, mut all) = (0.0, 1e-6);
+    /// What arrives at a place on a surface with this unit normal: between the skin about it, of such as faces where it does. None where no
+    /// skin is known.
+    pub fn at(&self, place: Vec3, normal: Vec3) -> Option<Arriving> {
+        let (mut sum, mut all) = (Arriving::default(), 0.0);
+        let mut all_alike = 1e-6;
         for (skin, near) in self.about(place).into_iter().flatten() {
             let (faces, arriving) = self.light[skin];
             let alike = faces.dot(normal).max(0.0);
             let weight = near * alike * alike;
-            light += weight * arriving;
+            sum.glow += weight * arriving.glow;
+            all_alike += weight;
+            // In a crease no skin may face as a place does.
+            let weight = weight + CREASED * near;
+            add(&mut sum.open, arriving.open, weight);
+            add(&mut sum.through, arriving.through, weight);
             all += weight;
         }
-        light / all
+        (all > 0.0).then(|| Arriving {
+            glow: sum.glow / all_alike,
+            open: sum.open.map(|open| open / all),
+            through: sum.through.map(|through| through / all),
+        })
     }
 
     /// The skin in the eight cells about a place, and how near each is, 0..1.
@@ -293,6 +366,10 @@ impl Exchange {
     }
 }
 
+fn add(sum: &mut [f32; 2], parts: [f32; 2], times: f32) {
+    sum.iter_mut().zip(parts).for_each(|(sum, part)| *sum += times * part);
+}
+
 fn index(cell: UVec3, size: UVec3) -> usize {
     (cell.x + size.x * (cell.y + size.y * cell.z)) as usize
 }
@@ -304,152 +381,4 @@ fn direction(n: u32) -> Vec3 {
 }
 
 #[cfg(test)]
-mod tests {
-    use nabiki::Mesh;
-
-    use super::super::skin_cells::skin_cells;
-    use super::super::tests::square;
-    use super::*;
-
-    const CELL: f32 = 0.5;
-
-    fn ball(radius: f32) -> Mesh {
-        let (rings, around) = (24_u32, 48_u32);
-        let at = |i: u32, j: u32| {
-            radius * crate::camera::direction(j as f32 * 360.0 / around as f32, i as f32 * 180.0 / rings as f32 - 90.0)
-        };
-        let positions = (0..=rings).flat_map(|i| (0..around).map(move |j| at(i, j))).collect();
-        let v = |i: u32, j: u32| i * around + j % around;
-        let squares = (0..rings).flat_map(|i| (0..around).map(move |j| (i, j)));
-        let triangles = squares
-            .flat_map(|(i, j)| [[v(i, j), v(i + 1, j), v(i, j + 1)], [v(i, j + 1), v(i + 1, j), v(i + 1, j + 1)]])
-            .collect();
-        outward(Mesh { positions, triangles, corner_uvs: None })
-    }
-
-    /// The same mesh, with its front where it faces away from the origin.
-    fn outward(mut mesh: Mesh) -> Mesh {
-        for t in &mut mesh.triangles {
-            let [a, b, c] = t.map(|v| mesh.positions[v as usize]);
-            if (b - a).cross(c - a).dot(a + b + c) < 0.0 {
-                t.swap(1, 2);
-            }
-        }
-        mesh
-    }
-
-    fn inside_out(mut mesh: Mesh) -> Mesh {
-        mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2));
-        mesh
-    }
-
-    /// A level square of this half side at a height, that faces up or down.
-    fn level(half: f32, height: f32, faces: f32) -> Mesh {
-        square(height * Vec3::Y, half * Vec3::Z, faces * half * Vec3::X)
-    }
-
-    fn asked_about(cells: &[SkinCell]) -> Exchange {
-        let mut exchange = Exchange::default();
-        exchange.lay_out(cells, CELL);
-        exchange.ask(cells.par_iter().map(|skin| skin.place));
-        exchange
-    }
-
-    /// What arrives at each skin where the light that falls onto it is given.
-    fn arriving(cells: &[SkinCell], lit: impl Fn(&SkinCell) -> f32) -> Vec<f32> {
-        let mut exchange = asked_about(cells);
-        exchange.send((0..).zip(cells.iter().map(lit)), |_, _| 1.0);
-        exchange.light.into_iter().map(|(_, light)| light).collect()
-    }
-
-    fn mean(values: impl Iterator<Item = f32>) -> f32 {
-        let (sum, count) = values.fold((0.0, 0.0), |(sum, count), v| (sum + v, count + 1.0));
-        sum / count
-    }
-
-    #[test]
-    fn a_ball_sees_nothing_of_itself() {
-        let found = arriving(&skin_cells(&ball(5.0), CELL, 0), |_| 1.0);
-        assert!(found.iter().all(|&light| light == 0.0));
-    }
-
-    /// In a hollow ball whose walls are lit evenly all light comes from walls: as much as is on them. A look may slip through between cells
-    /// that it grazes, where the wall counts as seen from too much aside.
-    #[test]
-    fn in_a_hollow_ball_as_much_arrives_as_is_sent() {
-        let found = arriving(&skin_cells(&inside_out(ball(5.0)), CELL, 0), |_| 1.0);
-        assert!(found.iter().all(|&light| light <= 1.0 + 1e-5));
-        let mean = mean(found.into_iter());
-        // Looks with a cosine under FACING at the wall make up FACING^2 of all.
-        assert!((1.0 - mean) < 2.0 * FACING * FACING, "{mean}");
-    }
-
-    /// Under a large lit square a small one gets of its light what the view factor says, whether both are the head's, or one is a body's.
-    #[test]
-    fn a_square_lights_another_by_its_view_factor() {
-        let (half, height) = (6.0_f32, 4.0_f32);
-        let view_factor = |height: f32| {
-            let x = half / height;
-            let root = (1.0 + x * x).sqrt();
-            4.0 / std::f32::consts::TAU * 2.0 * x / root * (x / root).atan()
-        };
-        // The large one is as thick as a cell, and a small one looks in some 80 directions.
-        let ray = 2.0 / DIRECTIONS as f32;
-        let expected = view_factor(height) - ray..view_factor(height - CELL) + ray;
-        for (below, above) in [(0, 0), (0, 1), (1, 0)] {
-            let mut cells = skin_cells(&level(1.5, -2.1, 1.0), CELL, below);
-            cells.extend(skin_cells(&level(half, -2.1 + height, -1.0), CELL, above));
-            cells.sort_by_key(|skin| skin.solid);
-            let found = arriving(&cells, |skin| if skin.normal.y < 0.0 { 1.0 } else { 0.0 });
-            let of_middle = cells
-                .iter()
-                .zip(&found)
-                .filter(|(skin, _)| skin.normal.y > 0.0 && skin.place.x.abs().max(skin.place.z.abs()) < 0.75);
-            let found = mean(of_middle.map(|(_, &light)| light));
-            assert!(expected.contains(&found), "{found} for {expected:?}, {below} {above}");
-        }
-    }
-
-    #[test]
-    fn what_arrives_does_not_depend_on_what_was_asked_before() {
-        let cells = skin_cells(&inside_out(ball(3.0)), CELL, 0);
-        let lit = |exchange: &mut Exchange| {
-            exchange.send((0..).zip(cells.iter().map(|skin| 1.0 + skin.normal.y)), |a, b| 1.0 / (1.0 + a.distance(b)));
-        };
-        let mut whole = asked_about(&cells);
-        lit(&mut whole);
-        let mut later = Exchange::default();
-        later.lay_out(&cells, CELL);
-        for part in [&cells[..cells.len() / 3], &cells] {
-            later.forget_asked();
-            later.ask(part.par_iter().map(|skin| skin.place));
-            lit(&mut later);
-        }
-        for skin in &cells {
-            assert_eq!(later.at(skin.place, skin.normal), whole.at(skin.place, skin.normal));
-        }
-    }
-
-    /// What a frame shows does not depend on where a body was in those before it, nor on whether they were drawn.
-    #[test]
-    fn what_arrives_does_not_depend_on_where_a_body_was() {
-        // So large that looks go on in long steps through its middle.
-        let head = skin_cells(&inside_out(ball(9.0)), CELL, 0);
-        let with_body = |height: f32| {
-            let mut cells = head.clone();
-            cells.extend(skin_cells(&level(1.5, height, 1.0), CELL, 1));
-            cells
-        };
-        let shown = |exchange: &mut Exchange, cells: &[SkinCell]| -> Vec<f32> {
-            exchange.lay_out(cells, CELL);
-            exchange.ask(cells.par_iter().map(|skin| skin.place));
-            exchange.send((0..).zip(cells.iter().map(|skin| 1.0 + skin.normal.y)), |_, _| 1.0);
-            cells.iter().map(|skin| exchange.at(skin.place, skin.normal)).collect()
-        };
-        let mut exchange = Exchange::default();
-        for height in [-2.1, 1.3, 7.4, 40.0] {
-            let cells = with_body(height);
-            assert_eq!(shown(&mut exchange, &cells), shown(&mut Exchange::default(), &cells), "{height}");
-        }
-    }
-}
+mod tests;

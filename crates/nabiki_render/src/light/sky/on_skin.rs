@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::SkyMap;
 use super::arriving::between;
+use super::exchange::Arriving;
 
 /// At least as many lanes as there are directions.
 const LANES: usize = 16;
@@ -99,9 +100,12 @@ impl<'a> OnSkin<'a> {
         open
     }
 
-    /// The light that other skin sends to a place on a surface with this unit normal.
-    pub fn glow(&self, place: Vec3, normal: Vec3) -> f32 {
-        self.map.exchange.at(place, normal)
+    /// What arrives at a place on skin that is seen, with this unit normal.
+    pub fn seen(&mut self, place: Vec3, normal: Vec3) -> Arriving {
+        self.map.exchange.at(place, normal).unwrap_or_else(|| {
+            let through = self.at(place, normal);
+            Arriving { glow: 0.0, open: [1.0; 2], through }
+        })
     }
 
     /// Has a cell, by its number, at one of the places where cells are kept.
