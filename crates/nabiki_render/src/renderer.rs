@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use seen::Seen;
 
 use crate::RenderError;
+use crate::backdrop::Backdrop;
 use crate::camera::View;
 use crate::colour::{self, luminance};
 use crate::curve::{Curves, bounds, drawable};
@@ -206,10 +207,11 @@ impl Renderer {
         let crossings = self.crossings();
         let light = self.skin_light(&crossings);
         let on_skin = |i: usize, place: &SkinPixel, sky: Option<&mut OnSkin>| self.skin_light_of(&light, i, place, sky);
+        let backdrop = Backdrop::new(&self.picture, shot.middle.size[1] as usize);
         let frame = match self.picture.antialiasing {
-            Antialiasing::Coverage if self.layers => self.compose::<true>(&seen, on_skin),
-            Antialiasing::Coverage => self.compose::<false>(&seen, on_skin),
-            Antialiasing::Oversample => self.oversample(&seen, on_skin),
+            Antialiasing::Coverage if self.layers => self.compose::<true>(&seen, &backdrop, on_skin),
+            Antialiasing::Coverage => self.compose::<false>(&seen, &backdrop, on_skin),
+            Antialiasing::Oversample => self.oversample(&seen, &backdrop, on_skin),
         };
         clock.lap(&mut self.timing, Stage::Pixels);
         Ok(frame)

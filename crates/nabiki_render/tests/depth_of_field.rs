@@ -161,6 +161,24 @@ fn blurred_hair_lies_over_a_sharp_head_and_none_shows_through_it() {
 }
 
 #[test]
+fn the_shares_of_hair_and_head_make_up_what_is_covered() {
+    for f_stop in [None, Some(1.4)] {
+        let mut picture = picture(f_stop);
+        picture.hair.width = 0.1;
+        let seen = draw(&picture, &octahedron(), &wisps(3000, 0.0));
+        let mut full = 0;
+        for (layer, rgba) in seen.layers.iter().zip(&seen.rgba) {
+            // Some roundings for each of hundreds of pieces.
+            assert!((layer.hair + layer.head - rgba[3]).abs() < 1e-4, "{layer:?} {rgba:?}");
+            let [x, y, z] = layer.direction;
+            assert!(x.hypot(y).hypot(z) <= layer.hair + 1e-4, "{layer:?}");
+            full += u32::from(layer.head == 0.0 && rgba[3] > 0.9999);
+        }
+        assert!(full > 100, "pixels full of hair, where what it holds stands for the rest: {full}");
+    }
+}
+
+#[test]
 fn more_points_of_the_lens_change_less() {
     let picture = picture(Some(1.0));
     let (hair, head) = (wisps(600, 0.0), octahedron());

@@ -13,10 +13,9 @@ use super::piece::{End, Piece};
 use super::{BURIED, CELLS, SIDE, TILE, cell_offset};
 use crate::skin::SkinPixel;
 
-/// Once less than this of a pixel is left open it counts as full, and what it holds stands for the rest of it. Motion blur is so even that
-/// where this begins would show as a line: less is too little to be seen before lit skin.
-const NOTHING: f32 = 1.0 / 64.0;
-const NOTHING_BLURRED: f32 = 1.0 / 512.0;
+/// Once less than this of a pixel is left open it counts as full, and what it holds stands for the rest of it: before a white wall one step
+/// of 8 bits.
+const NOTHING: f32 = 1.0 / 512.0;
 const PIXELS: usize = TILE * TILE;
 /// Pieces that lie this much behind a full tile are no reason to look for nearer ones (cm): longer than half a piece, by
 /// which one may come nearer than where it was sorted.
@@ -38,8 +37,6 @@ pub struct CoverageTile {
     farthest: f32,
     /// Half of the farthest that hair moves in depth while the shutter is open (cm).
     sway: f32,
-    /// What is nothing to be left.
-    nothing: f32,
     /// Which pixels are full, a bit each: row after row, and column after column.
     full: [[u16; TILE]; 2],
     filled: usize,
@@ -57,6 +54,8 @@ pub struct Drawn {
 pub trait Watch {
     /// A piece of hair got it: where along the piece (0..1), and its first node.
     fn hair(&mut self, pixel: usize, share: f32, along: f32, piece: u32);
+    /// The shares of hair in it stand for all of it, which is so many times their sum.
+    fn full(&mut self, pixel: usize, whole: f32);
     /// A piece of skin got it: which of the tile.
     fn skin(&mut self, pixel: usize, share: f32, piece: usize);
 }
@@ -64,6 +63,8 @@ pub trait Watch {
 impl Watch for () {
     #[inline(always)]
     fn hair(&mut self, _: usize, _: f32, _: f32, _: u32) {}
+    #[inline(always)]
+    fn full(&mut self, _: usize, _: f32) {}
     #[inline(always)]
     fn skin(&mut self, _: usize, _: f32, _: usize) {}
 }
@@ -90,7 +91,6 @@ impl CoverageTile {
     /// `recession`: the farthest that hair moves in depth while the shutter is open (cm), 0 where it is not.
     pub fn new(recession: f32) -> Self {
         let sway = 0.5 * recession;
-        let nothing = if recession > 0.0 { NOTHING_BLURRED } else { NOTHING };
         Self {
             open: Box::new([[1.0; CELLS]; PIXELS]),
             left: Box::new([1.0; PIXELS]),
@@ -101,7 +101,6 @@ impl CoverageTile {
             skin_far: Box::new([f32::INFINITY; PIXELS]),
             farthest: f32::INFINITY,
             sway,
-            nothing,
             full: [[0; TILE]; 2],
             filled: 0,
         }
@@ -314,21 +313,22 @@ impl CoverageTile {
             self.nearest[pixel] = if seen < self.nearest[pixel] { seen } else { self.nearest[pixel] };
             watch.hair(pixel, sum, t, *number);
             self.left[pixel] -= sum;
-            if self.left[pixel] < self.nothing {
-                self.fill(x, y);
+            if self.left[pixel] < NOTHING {
+                watch.full(pixel, self.fill(x, y));
             }
         }
     }
 
-    /// Lets what a pixel holds stand for all of it.
+    /// Lets what a pixel holds stand for all of it, which is so many times that.
     #[inline(always)]
-    fn fill(&mut self, x: usize, y: usize) {
+    fn fill(&mut self, x: usize, y: usize) -> f32 {
         self.full[0][y] |= 1 << x;
         self.full[1][x] |= 1 << y;
         self.filled += 1;
         let light = &mut self.light[y * TILE + x];
         let whole = 1.0 / light[3];
         *light = light.map(|l| l * whole);
+        whole
     }
 }
 

@@ -29,13 +29,17 @@ pub(super) trait LightOnSkin: Fn(usize, &SkinPixel, Option<&mut OnSkin>) -> Opti
 impl<F: Fn(usize, &SkinPixel, Option<&mut OnSkin>) -> Option<[f32; 3]> + Sync> LightOnSkin for F {}
 
 impl Renderer {
-    pub(super) fn compose<const LAYERS: bool>(&self, seen: &Drawing, on_skin: impl LightOnSkin) -> Frame {
+    pub(super) fn compose<const LAYERS: bool>(
+        &self,
+        seen: &Drawing,
+        backdrop: &Backdrop,
+        on_skin: impl LightOnSkin,
+    ) -> Frame {
         let Drawing { shot, nodes, bins, skin } = *seen;
         let view = &shot.middle;
         let size = view.size.map(|s| s as usize);
         let layers = vec![Layer::default(); if LAYERS { size[0] * size[1] } else { 0 }];
         let mut frame = self.empty(view, layers);
-        let backdrop = Backdrop::new(&self.picture, size[1]);
         let rows = rows_of_tiles(&mut frame);
         let recession = if self.curves.velocities.is_empty() {
             0.0
@@ -78,12 +82,11 @@ impl Renderer {
         frame
     }
 
-    pub(super) fn oversample(&self, seen: &Drawing, on_skin: impl LightOnSkin) -> Frame {
+    pub(super) fn oversample(&self, seen: &Drawing, backdrop: &Backdrop, on_skin: impl LightOnSkin) -> Frame {
         let Drawing { shot, nodes, bins, skin } = *seen;
         let view = &shot.middle;
         let mut frame = self.empty(view, Vec::new());
         let width = view.size[0] as usize;
-        let backdrop = Backdrop::new(&self.picture, view.size[1] as usize);
         let samples = self.picture.samples as usize;
         let rows = rows_of_tiles(&mut frame);
         rows.into_par_iter().enumerate().for_each_init(
@@ -191,6 +194,14 @@ impl Watch for LayerWatch<'_> {
             layer.motion[c] += share * (a + (b - a) * along);
         }
         layer.hair += share;
+    }
+
+    #[inline(always)]
+    fn full(&mut self, pixel: usize, whole: f32) {
+        let layer = &mut self.layers[pixel];
+        layer.direction = layer.direction.map(|c| c * whole);
+        layer.motion = layer.motion.map(|c| c * whole);
+        layer.hair *= whole;
     }
 
     #[inline(always)]

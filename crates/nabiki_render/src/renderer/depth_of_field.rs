@@ -12,6 +12,7 @@ use super::compose::Drawing;
 use super::seen::Seen;
 use super::{MARGIN, Renderer};
 use crate::RenderError;
+use crate::backdrop::Backdrop;
 use crate::camera::{NEAR, View};
 use crate::frame::Frame;
 use crate::lens::{Lens, LensPoints, Spread};
@@ -61,6 +62,7 @@ impl Renderer {
         let spread = Spread::new(&shot.middle, &points);
         let mut sum = self.empty(&shot.middle, Vec::new());
         let (mut nodes, mut bins) = (Vec::new(), Bins::default());
+        let none = Backdrop::none();
         for (turn, &through) in points.points.iter().enumerate() {
             let shot = shot.seen(|view| View { lens: view.lens.map(|lens| Lens { through, ..lens }), ..*view });
             let skin = SkinView::in_turn(&self.solids, &shot, turn);
@@ -73,12 +75,16 @@ impl Renderer {
             let on_skin = |_: usize, place: &SkinPixel, _: Option<&mut OnSkin>| {
                 self.shows(place.solid).then(|| lit.at(place.solid, place.position))
             };
-            let drawn =
-                if self.layers { self.compose::<true>(&seen, on_skin) } else { self.compose::<false>(&seen, on_skin) };
+            let drawn = if self.layers {
+                self.compose::<true>(&seen, &none, on_skin)
+            } else {
+                self.compose::<false>(&seen, &none, on_skin)
+            };
             add(&mut sum, drawn);
             clock.lap(&mut timing, Stage::Pixels);
         }
         divide(&mut sum, points.points.len() as f32);
+        Backdrop::new(&self.picture, shot.middle.size[1] as usize).lay_behind(&mut sum);
         clock.lap(&mut timing, Stage::Pixels);
         self.timing = timing;
         Ok(sum)
