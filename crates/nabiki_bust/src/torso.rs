@@ -10,7 +10,9 @@ pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
         return skin;
     }
     let chest = ellipsoid(p, Vec3::new(-4.4, -31.5, 0.0), Vec3::new(8.8, 12.0, 15.5));
-    let trapezius = capsule(p, Vec3::new(-6.6, -17.5, 1.6), Vec3::new(-5.4, -22.6, 12.0), 2.2, 2.2);
+    // With what lies between the two, lest they leave a furrow.
+    let beside = p.with_z((p.z - 1.6).max(0.0));
+    let trapezius = capsule(beside, Vec3::new(-6.6, -17.5, 0.0), Vec3::new(-5.4, -22.6, 10.4), 2.2, 2.2);
     let shoulder = ellipsoid(p, Vec3::new(-4.8, -26.8, 14.6), Vec3::new(4.6, 5.4, 4.6));
     let clavicle = capsule(p, Vec3::new(0.0, -21.7, 1.8), Vec3::new(-3.2, -21.8, 13.5), 0.5, 0.6);
     let body = join(join(chest, shoulder, 4.0), trapezius, 4.0);
