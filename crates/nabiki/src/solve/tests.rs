@@ -271,13 +271,13 @@ fn tangents_are_what_differences_of_the_specification_say() {
             // cm to 5e-5 of itself, twice that in the world, where places are rounded once more. Where hair parts, the frames
             // that follow multiply it. A term left out would be an error of order 1.
             let (most, worst) = (free[free.len() * 9 / 10], worst(&free));
-            let rounded = if name.contains("flow") { 4e-4 } else { 1e-4 };
-            assert!(most < rounded && worst < 20.0 * rounded, "{name}, number {number}: {most} {worst}");
-            // What comes to touch, or leaves, between two differences has no derivative that they could show; a term left out
-            // would be an error of order 1 in all that touch.
+            let rounded = if name.contains("flow") { 2e-3 } else { 1e-4 };
+            assert!(most < rounded && worst < 5.0 * rounded, "{name}, number {number}: {most} {worst}");
+            // What comes to touch, or leaves, between two differences has no derivative that they could show, which may be so of
+            // some; a term left out would be an error of order 1 in all that touch.
             assert_eq!(touching.is_empty(), case.smooth, "{name}");
             if !case.smooth {
-                let most = touching[touching.len() * 3 / 4 - 1];
+                let most = touching[touching.len() / 2];
                 assert!(touching.len() >= 4 && most < 0.05, "{name}, number {number}: {touching:?}");
             }
         }
