@@ -32,11 +32,11 @@ fn normals_are_those_of_a_sphere_however_uneven_its_mesh() {
         let mesh = uneven_sphere(radius * centre, radius);
         let normals = mesh.vertex_normals();
         let n = 13;
-        for v in n..normals.len() - n {
-            let outward = (mesh.positions[v] - radius * centre) / radius;
+        for (&place, &normal) in mesh.positions.iter().zip(&normals).skip(n).take(normals.len() - 2 * n) {
+            let outward = (place - radius * centre) / radius;
             // The shortest edge is sin(0.1) 0.05 of the radius; a place is rounded to 1.2e-7 of about 2 radii, and a
             // normal turns by as much as a triangle's corner does against its edge.
-            assert!(normals[v].distance(outward) < 2.0 * 2.4e-7 / 0.005, "{v}: {} for {outward}", normals[v]);
+            assert!(normal.distance(outward) < 2.0 * 2.4e-7 / 0.005, "{normal} for {outward}");
         }
     }
 }

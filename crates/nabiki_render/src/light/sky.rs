@@ -45,6 +45,9 @@ const COARSE: f32 = 0.9;
 const MOST_CELLS: f32 = 1_000_000.0;
 /// Most cells in a box about all skin.
 const MOST_ABOUT_SKIN: f32 = 20_000_000.0;
+/// Parts of a cell in which ways through them are counted.
+const PARTS_BITS: i32 = 16;
+const PARTS: f32 = (1 << PARTS_BITS) as f32;
 /// Most steps in which a piece of hair is laid into cells.
 const MOST_STEPS: i32 = 8;
 
@@ -226,15 +229,27 @@ impl SkyMap {
 
     /// What hair leaves of light that comes along a direction (unit) to a place from afar.
     fn through_hair_along(&self, place: Vec3, direction: Vec3) -> f32 {
-        let (from, last) = ((place - self.low) / self.cell, self.size.as_vec3());
+        let (from, size) = ((place - self.low) / self.cell, self.size.as_vec3());
         // Where it enters and leaves the box: after the last axis that lets it in, before the first that lets it out.
-        let (a, b) = (-from / direction, (last - from) / direction);
+        let (a, b) = (-from / direction, (size - from) / direction);
         let (enters, leaves) = (a.min(b).max_element().max(0.0), a.max(b).min_element());
         if enters >= leaves {
             return 1.0;
         }
-        let at = |way: f32| place + way * self.cell * direction;
-        self.through_hair(at(enters), at(leaves))
+        let steps = (0.5 * (leaves - enters)).ceil();
+        let length = (leaves - enters) / steps;
+        // In parts of a cell: whole numbers go from step to step without a rounding of each.
+        let [row, slice] = [self.size.x, self.size.x * self.size.y];
+        let part = |c: Vec3| (c * PARTS).as_ivec3();
+        let step = part(length * direction);
+        let mut c = part(from + (enters + 0.5 * length) * direction);
+        let mut taken = 0.0;
+        for _ in 0..steps as u32 {
+            let [x, y, z] = c.to_array().map(|c| (c >> PARTS_BITS) as u32);
+            taken += self.hair.get((x + row * y + slice * z) as usize).copied().unwrap_or_default();
+            c += step;
+        }
+        exp_of_negative(-taken * length)
     }
 
     fn index(&self, c: UVec3) -> usize {

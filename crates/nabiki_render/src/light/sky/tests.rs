@@ -168,3 +168,25 @@ fn an_open_sky_arrives_whole_wherever_the_eye_is() {
         assert!(above.iter().all(|open| (open - 1.0).abs() < 1e-5), "{above:?}");
     }
 }
+
+/// In hair that is the same everywhere, light loses by the length of its way through the cells, wherever it comes from and goes to.
+#[test]
+fn hair_takes_of_the_sky_by_the_way_through_it() {
+    let mut sky = SkyMap::default();
+    let bounds = [Vec3::new(-3.0, -1.0, -2.0), Vec3::new(3.0, 4.0, 1.0)];
+    sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]), Vec3::Y, rayon::iter::empty());
+    sky.fill(&[], &[]);
+    let depth = 0.1;
+    sky.hair.fill(depth);
+    let (step, mut crossed) = (0.002, 0);
+    for i in 0..200 {
+        let direction = crate::camera::direction(i as f32 * 137.508, 0.9 * i as f32 - 89.0);
+        let place = crate::camera::direction(i as f32 * 61.7, 80.0 - 0.8 * i as f32) * (0.05 * i as f32);
+        let within = (0..20_000).filter(|k| sky.holds(place + direction * (step * (*k as f32 + 0.5)))).count();
+        let expected = (-depth * step * within as f32 / sky.cell).exp();
+        // Half a step at either end.
+        assert!((sky.through_hair_along(place, direction) - expected).abs() < depth * step / sky.cell + 1e-5, "{i}");
+        crossed += usize::from(place.length() > 5.0 && within > 0);
+    }
+    assert!(crossed > 10, "ways from beyond the box through it: {crossed}");
+}
