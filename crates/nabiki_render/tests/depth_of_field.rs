@@ -166,15 +166,18 @@ fn the_shares_of_hair_and_head_make_up_what_is_covered() {
         let mut picture = picture(f_stop);
         picture.hair.width = 0.1;
         let seen = draw(&picture, &octahedron(), &wisps(3000, 0.0));
-        let mut full = 0;
+        let (mut full, mut nearly) = (0, 0);
         for (layer, rgba) in seen.layers.iter().zip(&seen.rgba) {
             // Some roundings for each of hundreds of pieces.
             assert!((layer.hair + layer.head - rgba[3]).abs() < 1e-4, "{layer:?} {rgba:?}");
             let [x, y, z] = layer.direction;
             assert!(x.hypot(y).hypot(z) <= layer.hair + 1e-4, "{layer:?}");
             full += u32::from(layer.head == 0.0 && rgba[3] > 0.9999);
+            nearly += u32::from((1.0 / 512.0..1.0 / 64.0).contains(&(1.0 - rgba[3])));
         }
         assert!(full > 100, "pixels full of hair, where what it holds stands for the rest: {full}");
+        // Before a white wall 1/64 would be 30 steps of 8 bits, where it ends to show.
+        assert!(nearly > 100, "pixels that let a little through: {nearly}");
     }
 }
 

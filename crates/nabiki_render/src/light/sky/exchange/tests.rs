@@ -193,12 +193,15 @@ fn a_square_hides_the_sky_by_its_view_factor() {
     }
 }
 
-/// Under a layer of hair that light crosses n / cos times, what is left of it is 2 E_3(n) (the exponential integral).
+/// Under a layer of hair that light crosses n / cos times, what is left of it is 2 E_3(n) (the exponential integral). Hair that lies within
+/// [`ABOVE`] of the skin does not count.
 #[test]
 fn a_layer_of_hair_leaves_what_its_depth_says() {
-    let cells = skin_cells(&level(1.5, 0.1, 1.0), CELL, 0);
-    let depth = 0.7_f32;
-    let found = under_sky(&cells, Vec3::Y, |_, d| (-depth / d.y).exp());
+    let floor = 0.1;
+    let cells = skin_cells(&level(1.5, floor, 1.0), CELL, 0);
+    let (per_cm, top) = (0.5, 2.0);
+    let found = under_sky(&cells, Vec3::Y, |from, d| (-per_cm * (floor + top - from.y) / d.y).exp());
+    let depth: f32 = per_cm * (top - ABOVE);
     let steps = 10_000;
     let expected: f32 = (0..steps)
         .map(|i| (i as f32 + 0.5) / steps as f32)
