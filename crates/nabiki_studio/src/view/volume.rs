@@ -3,6 +3,8 @@
 //! Space is cut into cells that know how much hair they hold. Its depth, counted in hairs crossed, is carried through them
 //! away from each lamp, slice by slice; shaders read it from a texture. The sky's cells are twice as wide.
 
+use std::ops::Range;
+
 use glam::{IVec3, UVec3, Vec3};
 use half::f16;
 use nabiki::{Mesh, Strands};
@@ -15,6 +17,8 @@ const CELL: f32 = 0.7;
 const MOST_CELLS: f32 = 220_000.0;
 /// Most strands that are laid into cells, the first, each for as many as there are: more would fill the same cells.
 const MOST_LAID: usize = 20_000;
+/// Bundles that these are laid in.
+const BUNDLES: usize = 8;
 /// Empty cells around the hair.
 const BORDER: f32 = 2.0;
 /// What skin takes of the sky's light in each full crossing of a cell, as the renderer has it.
@@ -88,11 +92,12 @@ impl VolumeMaker {
 
     /// The depths of hair before a head.
     pub fn make(&mut self, casting: &Casting, head: &Mesh) -> Volume {
-        let mut low = Vec3::INFINITY;
-        let mut high = Vec3::NEG_INFINITY;
-        for &p in casting.points.iter().filter(|p| p.is_finite()) {
-            (low, high) = (low.min(p), high.max(p));
-        }
+        let nothing = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let finite = |points: &[Vec3]| {
+            points.iter().filter(|p| p.is_finite()).fold(nothing, |(low, high), &p| (low.min(p), high.max(p)))
+        };
+        let both = |(a, b): (Vec3, Vec3), (c, d): (Vec3, Vec3)| (a.min(c), b.max(d));
+        let (low, high) = casting.points.par_chunks(1 << 14).map(finite).reduce(|| nothing, both);
         if low.x > high.x || !(casting.shadows || casting.occlusion) {
             return Volume::empty(UVec3::splat(2));
         }
@@ -151,13 +156,26 @@ impl Cells {
         (c.x + self.size.x * (c.y + self.size.y * c.z)) as usize
     }
 
-    /// Optical depth per crossing: the hair's projected area over the cell's face, averaged over directions (pi / 4).
+    /// Optical depth per crossing: the hair's projected area over the cell's face, averaged over directions (pi / 4). Bundles of strands are laid
+    /// side by side, as many whatever the cores, so that sums have the same bits.
     fn lay(&mut self, casting: &Casting, low: Vec3, cell: f32) {
         let per_length = casting.thickness * std::f32::consts::FRAC_PI_4 / (cell * cell);
-        let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
         let laid = casting.strands.len().min(MOST_LAID);
         let per_length = per_length * casting.strands.len() as f32 / laid.max(1) as f32;
-        for s in 0..laid {
+        let of_bundle = |bundle: usize| {
+            let mut cells = Self { size: self.size, taken: vec![0.0; self.taken.len()] };
+            cells.lay_strands(casting, laid * bundle / BUNDLES..laid * (bundle + 1) / BUNDLES, low, cell, per_length);
+            cells
+        };
+        let bundles: Vec<Self> = (0..BUNDLES).into_par_iter().map(of_bundle).collect();
+        self.taken.par_iter_mut().with_min_len(4096).enumerate().for_each(|(i, taken)| {
+            *taken = bundles.iter().map(|bundle| bundle.taken[i]).sum();
+        });
+    }
+
+    fn lay_strands(&mut self, casting: &Casting, strands: Range<usize>, low: Vec3, cell: f32, per_length: f32) {
+        let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
+        for s in strands {
             for pair in casting.points[casting.strands.range(s)].windows(2) {
                 if !(pair[0].is_finite() && pair[1].is_finite()) {
                     continue;
