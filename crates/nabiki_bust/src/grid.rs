@@ -1,5 +1,5 @@
-//! Meshing of the bust's field: one vertex a cell of a grid, as surface nets have it (Gibson, 1998), then Newton steps
-//! onto the zero set.
+//! Meshing of the bust's field: one vertex a cell of a grid, evened out within the cells, as surface nets have it (Gibson,
+//! 1998), and set onto the zero set by Newton steps.
 //!
 //! The grid's planes stand close together where the face and the ears are and wider elsewhere, which keeps the mesh
 //! in one piece. Blocks of it that the skin cannot reach are filled without looking at each node.
