@@ -213,18 +213,7 @@ impl SkyMap {
 
     /// What hair leaves of light between two places.
     fn through_hair(&self, from: Vec3, to: Vec3) -> f32 {
-        let (from, to) = ((from - self.low) / self.cell, (to - self.low) / self.cell);
-        let way = from.distance(to);
-        let steps = (0.5 * way).ceil().max(1.0);
-        let size = self.size.as_vec3();
-        let (step, mut c, mut taken) = ((to - from) / steps, from + 0.5 * (to - from) / steps, 0.0);
-        for _ in 0..steps as u32 {
-            if c.cmpge(Vec3::ZERO).all() && c.cmplt(size).all() {
-                taken += self.hair[self.index(c.as_uvec3())];
-            }
-            c += step;
-        }
-        exp_of_negative(-taken * way / steps)
+        self.through_hair_among((from - self.low) / self.cell, (to - self.low) / self.cell)
     }
 
     /// What hair leaves of light that comes along a direction (unit) to a place from afar.
@@ -236,20 +225,27 @@ impl SkyMap {
         if enters >= leaves {
             return 1.0;
         }
-        let steps = (0.5 * (leaves - enters)).ceil();
-        let length = (leaves - enters) / steps;
+        self.through_hair_among(from + enters * direction, from + leaves * direction)
+    }
+
+    /// The same between two places in sides of a cell from the corner of the box on; outside there is none.
+    fn through_hair_among(&self, from: Vec3, to: Vec3) -> f32 {
+        let way = from.distance(to);
+        let steps = (0.5 * way).ceil().max(1.0);
         // In parts of a cell: whole numbers go from step to step without a rounding of each.
-        let [row, slice] = [self.size.x, self.size.x * self.size.y];
         let part = |c: Vec3| (c * PARTS).as_ivec3();
-        let step = part(length * direction);
-        let mut c = part(from + (enters + 0.5 * length) * direction);
+        let step = (to - from) / steps;
+        let (mut c, step) = (part(from + 0.5 * step), part(step));
         let mut taken = 0.0;
         for _ in 0..steps as u32 {
-            let [x, y, z] = c.to_array().map(|c| (c >> PARTS_BITS) as u32);
-            taken += self.hair.get((x + row * y + slice * z) as usize).copied().unwrap_or_default();
+            // Below the box is far above it.
+            let cell = UVec3::from_array(c.to_array().map(|c| (c >> PARTS_BITS) as u32));
+            if cell.cmplt(self.size).all() {
+                taken += self.hair[self.index(cell)];
+            }
             c += step;
         }
-        exp_of_negative(-taken * length)
+        exp_of_negative(-taken * way / steps)
     }
 
     fn index(&self, c: UVec3) -> usize {
