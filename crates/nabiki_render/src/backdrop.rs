@@ -50,7 +50,7 @@ impl Backdrop {
     pub fn behind(&self, light: [f32; 4], row: usize) -> [f32; 4] {
         let Some(back) = self.rows.get(row) else { return light };
         let open = 1.0 - light[3];
-        let all = |[r, g, b]: [f32; 3]| [r, g, b, light[3] + open];
+        let all = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
         if back.beyond == [0.0; 3] || open == 0.0 {
             return all([0, 1, 2].map(|c| light[c] + back.light[c] * open));
         }
