@@ -17,7 +17,6 @@ use nabiki_render::live;
 use nabiki_render::settings::HairLook;
 use nabiki_render::tone_mapping::linear_from_srgb;
 use nabiki_render::{Picture, View, colour};
-use nabiki_scene::BuiltScene;
 
 use crate::take::Take;
 
@@ -67,8 +66,6 @@ pub struct Gpu {
 
 /// The head with its stubble, and what else stands in the scene.
 struct Bodies {
-    /// What the roots were last seen to be those of: not each frame asks all of them.
-    built: Arc<BuiltScene>,
     roots: Vec<Vec3>,
     shade: f32,
     skin: Skin,
@@ -246,7 +243,8 @@ impl Gpu {
             colour: picture.head.colour.map(linear_from_srgb),
             hair_of_face: (head.is_builtin && picture.head.face).then(|| colour::of_mass(&picture.hair)),
         };
-        let roots = || take.strands().iter().filter_map(|strand| strand.first().copied());
+        let strands = take.strands();
+        let roots: Vec<Vec3> = strands.iter().filter_map(|strand| strand.first().copied()).collect();
         let bodies = take.built.drawn_bodies();
         let head_from_world = take.pose(frame).world_from_head().inverse();
         let poses = take.built.drawn_poses(frame);
@@ -259,33 +257,29 @@ impl Gpu {
                 && on_card.head_visible == picture.head.visible
                 && on_card.vertices == head.mesh.positions.len()
                 && on_card.of_others == of_bodies
-                && (Arc::ptr_eq(&on_card.built, &take.built) || roots().eq(on_card.roots.iter().copied()))
+                && roots == on_card.roots
         };
-        let built = take.built.clone();
-        let before = self.bodies.take().filter(same).map(|before| Bodies { built: built.clone(), ..before });
+        let before = self.bodies.take().filter(same);
         if before.as_ref().is_some_and(|on_card| on_card.at == at) {
             self.bodies = before;
             return;
         }
-        let (roots, head, others) = match before {
-            Some(before) => (before.roots, before.head, before.others),
+        let (head, others) = match before {
+            Some(before) => (before.head, before.others),
             None => {
                 self.volumes.forget_head();
-                let roots: Vec<Vec3> = roots().collect();
                 let seen = if picture.head.visible {
                     Surface::head(&head.mesh, skin, &roots, shade, share)
                 } else {
                     Surface::default()
                 };
                 let linear = |colour: [f32; 3]| colour.map(linear_from_srgb);
-                let others = bodies.iter().map(|body| Surface::of(&body.mesh, linear(body.colour))).collect();
-                (roots, seen, others)
+                (seen, bodies.iter().map(|body| Surface::of(&body.mesh, linear(body.colour))).collect())
             }
         };
         let mut all = Surface { corners: head.corners.clone(), indices: head.indices.clone() };
         others.iter().zip(&at).for_each(|(other, at)| all.add(other, at));
         self.bodies = Some(Bodies {
-            built,
             roots,
             shade,
             skin,
