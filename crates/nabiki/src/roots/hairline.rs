@@ -24,6 +24,9 @@ pub struct Hairline {
     pub sideburns: f32,
     /// Depth of the line above the ears (default 0.98: 8.5 cm).
     pub above_ears: f32,
+    /// How much farther forward the line comes down behind the ears: hair that is tied up shows where it runs (default 0; 0.25, the
+    /// most: 2.2 cm).
+    pub behind_ears: f32,
     /// Depth of the line on the nape (default 2.10: 18 cm).
     pub nape: f32,
     /// Height over which hair thins out at the line (default 0.10: 0.9 cm).
@@ -39,6 +42,7 @@ impl Default for Hairline {
             temple_recession: 0.05,
             sideburns: 1.45,
             above_ears: 0.98,
+            behind_ears: 0.0,
             nape: 2.1,
             fade: 0.1,
             wander: 0.0,
@@ -56,6 +60,7 @@ impl Hairline {
         check_range("hair.hairline.temple_recession", self.temple_recession, -0.5, 0.5)?;
         check_range("hair.hairline.sideburns", self.sideburns, 0.0, 2.5)?;
         check_range("hair.hairline.above_ears", self.above_ears, 0.0, 2.5)?;
+        check_range("hair.hairline.behind_ears", self.behind_ears, 0.0, 0.25)?;
         check_range("hair.hairline.nape", self.nape, 0.0, 2.8)?;
         check_range("hair.hairline.fade", self.fade, 0.0, 1.0)?;
         check_range("hair.hairline.wander", self.wander, 0.0, 0.3)
@@ -66,6 +71,8 @@ impl Hairline {
         let temple = self.forehead - self.temple_recession;
         let before_ear = |t: f32| temple + (self.sideburns - temple) * t;
         let behind_ear = |t: f32| self.above_ears + (self.nape - self.above_ears) * t;
+        // On the side of the head a radian is about one unit long.
+        let forward = self.behind_ears;
         let knots = [
             (0.0, self.forehead),
             (0.61, temple),
@@ -76,11 +83,11 @@ impl Hairline {
             (1.41, self.sideburns),
             (1.52, self.sideburns + (self.above_ears - self.sideburns) * 0.7),
             (1.62, self.above_ears),
-            (1.88, self.above_ears),
-            (2.10, behind_ear(0.20)),
-            (2.30, behind_ear(0.55)),
-            (2.50, behind_ear(0.86)),
-            (2.72, self.nape),
+            (1.88 - forward, self.above_ears),
+            (2.10 - forward, behind_ear(0.20)),
+            (2.30 - forward, behind_ear(0.55)),
+            (2.50 - forward, behind_ear(0.86)),
+            (2.72 - forward, self.nape),
             (PI, self.nape),
         ];
         let at = |i: usize| knots[i.min(knots.len() - 1)];

@@ -152,6 +152,24 @@ fn the_line_rises_over_the_temples_and_passes_through_its_settings() {
 }
 
 #[test]
+fn behind_the_ears_the_line_comes_down_so_much_farther_forward() {
+    let line = Hairline::default();
+    let forward = 0.25;
+    let moved = Hairline { behind_ears: forward, ..line.clone() };
+    for i in 0..=314 {
+        let around = 0.01 * i as f32;
+        let depth = moved.depth(around);
+        if around <= 1.62 {
+            assert_eq!(depth, line.depth(around), "over the ears and before them nothing changes");
+        } else if around < 2.72 - forward {
+            assert!((depth - line.depth((around + forward).max(1.88))).abs() < 1e-5, "at {around}");
+        } else {
+            assert!((depth - line.nape).abs() < 1e-5, "at {around}");
+        }
+    }
+}
+
+#[test]
 fn settings_off_the_head_are_refused_by_name() {
     let refused = |hairline: Hairline| spread(&BUST, &hairline, 10, 1).unwrap_err().to_string();
     let text = refused(Hairline { forehead: f32::NAN, ..Hairline::default() });

@@ -199,6 +199,7 @@ pub(super) const GROUPS: &[Group] = &[
             number("temple_recession", "Temples", "", [-0.5, 0.5], "How much higher the line stands over the temples."),
             number("sideburns", "Sideburns", "", [0.0, 2.5], "Depth of their lower end, in front of the ears."),
             number("above_ears", "Above the ears", "", [0.0, 2.5], "Depth above the ears."),
+            number("behind_ears", "Behind the ears", "", [0.0, 0.25], "How much farther forward it comes down there."),
             number("nape", "Nape", "", [0.0, 2.8], "Depth on the nape."),
             number("fade", "Fade", "", PART, "Height over which hair thins out at the line."),
             number("wander", "Wander", "", [0.0, 0.3], "How far the line wanders up and down."),

@@ -213,6 +213,18 @@ class Hairline(Table):
         self._set('above_ears', value)
 
     @property
+    def behind_ears(self) -> float:
+        """How much farther forward the line comes down behind the ears: hair that is tied up shows where it runs
+        (default 0; 0.25, the most: 2.2 cm).
+        """
+        value: float = self._get('behind_ears')
+        return value
+
+    @behind_ears.setter
+    def behind_ears(self, value: float | None) -> None:
+        self._set('behind_ears', value)
+
+    @property
     def nape(self) -> float:
         """Depth of the line on the nape (default 2.10: 18 cm)."""
         value: float = self._get('nape')
