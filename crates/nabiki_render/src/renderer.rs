@@ -1,5 +1,6 @@
 //! One frame, from strands to light.
 
+mod blocks;
 mod compose;
 mod depth_of_field;
 mod seen;
@@ -62,7 +63,6 @@ pub struct Renderer {
     bins: Bins,
     sweeps: Vec<Sweep>,
     sky_map: SkyMap,
-    receivers: Vec<SkinPlace>,
     zenith: Vec3,
     still: Option<Still>,
     /// Through how many points of a lens to draw, if that was asked for.
@@ -79,7 +79,8 @@ struct Still {
     /// The bodies where they are in head space.
     bodies: Vec<Mesh>,
     skin: SkinView,
-    skin_places: Vec<SkinPlace>,
+    /// Where it is asked how much hair lies before skin: where that is seen, pixel by pixel, and then what lights hair.
+    receivers: Vec<SkinPlace>,
     from_lamps: Vec<FromLamp>,
     roots: Vec<Vec3>,
     stubble: Vec<f32>,
@@ -129,7 +130,6 @@ impl Renderer {
             bins: Bins::default(),
             sweeps: Vec::new(),
             sky_map: SkyMap::default(),
-            receivers: Vec::new(),
             zenith: Vec3::Y,
             still: None,
             lens_points: None,
@@ -264,7 +264,7 @@ impl Renderer {
             Vec::new()
         };
         let skin = SkinView::new(&self.solids, shot).seen_from_beside(beside, shot.middle.size);
-        let skin_places = skin.pixels.iter().map(|p| off_skin(p.position, p.normal)).collect();
+        let receivers = skin.pixels.iter().map(|p| off_skin(p.position, p.normal)).collect();
         let from_lamps = SkinLight::from_lamps(&skin.pixels, &lamps, &solid_shadows, &self.picture.head, &shot.middle);
         let painted = if self.face {
             SkinLight::painted(&skin.pixels, self.skins[0], self.hair_colour(), &shot.middle)
@@ -273,19 +273,8 @@ impl Renderer {
         };
         let (roots, stubble) = (Vec::new(), Vec::new());
         let shot = shot.clone();
-        let mut still = Still {
-            shot,
-            beside,
-            lamps,
-            solid_shadows,
-            bodies,
-            skin,
-            skin_places,
-            from_lamps,
-            roots,
-            stubble,
-            painted,
-        };
+        let mut still =
+            Still { shot, beside, lamps, solid_shadows, bodies, skin, receivers, from_lamps, roots, stubble, painted };
         still.grow(strands, &self.picture);
         self.still = Some(still);
     }
@@ -319,22 +308,20 @@ impl Renderer {
 
     /// Finds what stands in the way of lamps and sky.
     fn occlude(&mut self, view: &View) {
-        let still = self.still.as_ref().expect("stands");
+        let still = self.still.as_mut().expect("stands");
         let nodes = &self.curves.nodes;
         let lamps: &[Lamp] = if self.picture.shadows { &still.lamps } else { &[] };
         let bounds = bounds(nodes);
         let (occluded, sky_map) = (self.picture.sky.is_occluded(), &mut self.sky_map);
-        // What falls onto skin is to be known where it is seen, and where it lights hair.
-        self.receivers.clear();
-        self.receivers.extend_from_slice(&still.skin_places);
+        still.receivers.truncate(still.skin.pixels.len());
         if occluded {
             let seen = still.skin.pixels.par_iter().map(|p| p.position);
             sky_map.lay_out(bounds, self.picture.hair.width, (&self.head, &still.bodies), self.zenith, seen);
-            self.receivers.extend(sky_map.skin().iter().map(|skin| off_skin(skin.place, skin.normal)));
+            still.receivers.extend(sky_map.skin().iter().map(|skin| off_skin(skin.place, skin.normal)));
         }
         let width = self.picture.hair.width;
         let least_facing = SkinLight::least_facing(&self.picture.head);
-        let (radius, skin) = (&self.radius, &self.receivers);
+        let (radius, skin) = (&self.radius, &still.receivers);
         let scene = Scene { nodes, radius, asked: &self.lit, skin, least_facing, width, bounds };
         // Some more tasks than threads, which take turns of unlike length.
         let strips = (2 * rayon::current_num_threads()).div_ceil(lamps.len().max(1));
@@ -352,7 +339,7 @@ impl Renderer {
             // The head's colour is that of all light from skin: a body counts as much more or less as it is lighter or darker.
             let as_head = |solid: u16| luminance(self.skins[usize::from(solid)]) / luminance(self.skins[0]).max(1e-3);
             let sky = &self.picture.sky;
-            let first = nodes.len() + still.skin_places.len();
+            let first = nodes.len() + still.skin.pixels.len();
             self.sky_map.gather((nodes, &self.lit), view, &still.lamps, |open, i, skin| {
                 let place = off_skin(skin.place, skin.normal).at;
                 let mut lit = 0.0;

@@ -40,7 +40,7 @@ struct Listed {
     columns: [u16; 2],
 }
 
-/// The pieces of one row of tiles; kept from row to row for its memory.
+/// The pieces of one row of tiles, or of some columns of it; kept from row to row for its memory.
 #[derive(Default)]
 pub struct Row {
     pieces: Vec<(Piece, Parts)>,
@@ -119,21 +119,22 @@ impl Bins {
         );
     }
 
-    /// Collects the pieces of a row of tiles. `in_parts`: whether thick hair is to be sorted part by part.
-    pub fn row(&self, row: usize, nodes: &[Node], in_parts: bool, out: &mut Row) {
+    /// Collects the pieces of some columns of a row of tiles. `in_parts`: whether thick hair is to be sorted part by part.
+    pub fn row(&self, row: usize, columns: &Range<usize>, nodes: &[Node], in_parts: bool, out: &mut Row) {
         out.pieces.clear();
         out.entries.clear();
         out.starts.clear();
         out.starts.resize(self.tiles[0] + 1, 0);
-        pulp::Arch::new().dispatch(Collect { bins: self, row, nodes, in_parts, out: &mut *out });
+        pulp::Arch::new().dispatch(Collect { bins: self, row, columns, nodes, in_parts, out: &mut *out });
         out.sort();
     }
 }
 
-/// What collects the pieces of a row, compiled for each width of vectors that machines have; one is chosen at run time.
+/// What collects pieces of a row, compiled for each width of vectors that machines have; one is chosen at run time.
 struct Collect<'a> {
     bins: &'a Bins,
     row: usize,
+    columns: &'a Range<usize>,
     nodes: &'a [Node],
     in_parts: bool,
     out: &'a mut Row,
@@ -144,13 +145,18 @@ impl pulp::NullaryFnOnce for Collect<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let Self { bins, row, nodes, in_parts, out } = self;
+        let Self { bins, row, columns, nodes, in_parts, out } = self;
+        let (leftmost, rightmost) = (columns.start as u16, columns.end as u16 - 1);
         let listed = &bins.listed[row.checked_sub(1).map_or(0, |above| bins.ends[above])..bins.ends[row]];
         for (n, &Listed { first, columns: [left, right] }) in listed.iter().enumerate() {
             // Nodes come from all over memory: asking for those of later pieces now hides most of the wait.
             let later = listed[(n + AHEAD).min(listed.len() - 1)].first as usize;
             prefetch(&nodes[later]);
             prefetch(&nodes[later + 1]);
+            let (left, right) = (left.max(leftmost), right.min(rightmost));
+            if left > right {
+                continue;
+            }
             let Some(piece) = Piece::new(&nodes[first as usize], &nodes[first as usize + 1], first, &bins.spread)
             else {
                 continue;
@@ -366,7 +372,7 @@ mod tests {
                 }
                 let tile = at.map(|c| c as usize / TILE);
                 // Oversampling has points anywhere.
-                bins.row(tile[1], &nodes, false, &mut row);
+                bins.row(tile[1], &(0..bins.tiles[0]), &nodes, false, &mut row);
                 prop_assert_eq!(row.tile(tile[0]).count(), 1, "{:?} in {:?}", at, tile);
                 let major = usize::from((to[1] - from[1]).abs() > (to[0] - from[0]).abs());
                 // Of a row of cells, what lies between its edge and its middle line is drawn if the middle is reached.
@@ -374,7 +380,7 @@ mod tests {
                 if middle < from[major].min(to[major]) || middle > from[major].max(to[major]) {
                     continue;
                 }
-                bins.row(tile[1], &nodes, true, &mut row);
+                bins.row(tile[1], &(tile[0]..tile[0] + 1), &nodes, true, &mut row);
                 let line = at[major] as usize % TILE;
                 let listed = row.tile(tile[0]).filter(|(_, lines)| lines.contains(&line)).count();
                 prop_assert_eq!(listed, 1, "{:?} in {:?}", at, tile);

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::Renderer;
+use super::blocks::blocks_of_tiles;
 use crate::backdrop::Backdrop;
 use crate::camera::View;
 use crate::curve::Curves;
@@ -37,25 +38,24 @@ impl Renderer {
     ) -> Frame {
         let Drawing { shot, nodes, bins, skin } = *seen;
         let view = &shot.middle;
-        let size = view.size.map(|s| s as usize);
-        let layers = vec![Layer::default(); if LAYERS { size[0] * size[1] } else { 0 }];
-        let mut frame = self.empty(view, layers);
-        let rows = rows_of_tiles(&mut frame);
+        let mut frame = empty(view, LAYERS);
+        let blocks = blocks_of_tiles(&mut frame);
         let recession = if self.curves.velocities.is_empty() {
             0.0
         } else {
             nodes.par_iter().map(|n| n.recession.abs()).reduce(|| 0.0, f32::max)
         };
         let work = || (CoverageTile::new(recession), Row::default(), self.occluded_sky().map(OnSkin::new));
-        rows.into_par_iter().enumerate().for_each_init(work, |(work, hair, sky), (row, mut out)| {
-            bins.row(row, nodes, true, hair);
-            for column in 0..bins.tiles[0] {
+        blocks.into_par_iter().for_each_init(work, |(work, hair, sky), mut out| {
+            let row = out.row;
+            bins.row(row, &out.columns, nodes, true, hair);
+            for column in out.columns.clone() {
                 let tile = row * bins.tiles[0] + column;
                 let pieces = hair.tile(column);
                 let range = skin.tile(tile);
                 let pixels = &skin.pixels[range.clone()];
                 if pixels.is_empty() && hair.is_empty(column) {
-                    out.put(column, size[0], |_, y| (backdrop.behind([0.0; 4], row * TILE + y), NO_DEPTH, None));
+                    out.put(column, |_, y| (backdrop.behind([0.0; 4], row * TILE + y), NO_DEPTH, None));
                     continue;
                 }
                 let light = |i: usize| on_skin(range.start + i, &pixels[i], sky.as_mut());
@@ -72,7 +72,7 @@ impl Renderer {
                 } else {
                     work.draw([column, row], pieces, skin, &mut ());
                 }
-                out.put(column, size[0], |i, y| {
+                out.put(column, |i, y| {
                     let drawn = work.drawn(i);
                     let layer = watch.layers.get(i).copied();
                     (backdrop.behind(drawn.light, row * TILE + y), drawn.depth, layer)
@@ -85,21 +85,21 @@ impl Renderer {
     pub(super) fn oversample(&self, seen: &Drawing, backdrop: &Backdrop, on_skin: impl LightOnSkin) -> Frame {
         let Drawing { shot, nodes, bins, skin } = *seen;
         let view = &shot.middle;
-        let mut frame = self.empty(view, Vec::new());
-        let width = view.size[0] as usize;
+        let mut frame = empty(view, false);
         let samples = self.picture.samples as usize;
-        let rows = rows_of_tiles(&mut frame);
-        rows.into_par_iter().enumerate().for_each_init(
+        let blocks = blocks_of_tiles(&mut frame);
+        blocks.into_par_iter().for_each_init(
             || (OversampledTile::new(samples), Row::default(), self.occluded_sky().map(OnSkin::new)),
-            |(work, hair, sky), (row, mut out)| {
-                bins.row(row, nodes, false, hair);
-                for column in 0..bins.tiles[0] {
+            |(work, hair, sky), mut out| {
+                let row = out.row;
+                bins.row(row, &out.columns, nodes, false, hair);
+                for column in out.columns.clone() {
                     let tile = row * bins.tiles[0] + column;
                     let range = skin.tile(tile);
                     let pixels = &skin.pixels[range.clone()];
                     let light: Vec<_> = range.zip(pixels).map(|(i, p)| on_skin(i, p, sky.as_mut())).collect();
                     work.draw([column, row], hair.tile(column).map(|(piece, _)| piece), (pixels, &light));
-                    out.put(column, width, |i, y| {
+                    out.put(column, |i, y| {
                         let (light, depth) = work.pixel(i);
                         (backdrop.behind(light, row * TILE + y), depth, None)
                     });
@@ -124,51 +124,22 @@ impl Renderer {
     pub(super) fn shows(&self, solid: u16) -> bool {
         solid > 0 || self.picture.head.visible
     }
+}
 
-    pub(super) fn empty(&self, view: &View, layers: Vec<Layer>) -> Frame {
-        let pixels = view.size[0] as usize * view.size[1] as usize;
-        Frame { size: view.size, rgba: vec![[0.0; 4]; pixels], depth: vec![NO_DEPTH; pixels], layers }
+/// A frame of nothing, with room for layers or without.
+pub(super) fn empty(view: &View, layers: bool) -> Frame {
+    let pixels = view.size[0] as usize * view.size[1] as usize;
+    Frame {
+        size: view.size,
+        rgba: filled([0.0; 4], pixels),
+        depth: filled(NO_DEPTH, pixels),
+        layers: filled(Layer::default(), if layers { pixels } else { 0 }),
     }
 }
 
-/// The pixels that a row of tiles covers.
-struct TileRow<'a> {
-    rgba: &'a mut [[f32; 4]],
-    depth: &'a mut [f32],
-    layers: &'a mut [Layer],
-}
-
-fn rows_of_tiles(frame: &mut Frame) -> Vec<TileRow<'_>> {
-    let length = TILE * frame.size[0] as usize;
-    let mut layers = frame.layers.chunks_mut(length);
-    frame
-        .rgba
-        .chunks_mut(length)
-        .zip(frame.depth.chunks_mut(length))
-        .map(|(rgba, depth)| TileRow { rgba, depth, layers: layers.next().unwrap_or_default() })
-        .collect()
-}
-
-impl TileRow<'_> {
-    /// Writes a tile's pixels, as far as they lie on the picture. `value` is given the pixel in the tile and its row.
-    fn put(
-        &mut self,
-        column: usize,
-        width: usize,
-        mut value: impl FnMut(usize, usize) -> ([f32; 4], f32, Option<Layer>),
-    ) {
-        for y in 0..self.rgba.len() / width {
-            for x in 0..TILE.min(width - column * TILE) {
-                let to = y * width + column * TILE + x;
-                let (rgba, depth, layer) = value(y * TILE + x, y);
-                self.rgba[to] = rgba;
-                self.depth[to] = depth;
-                if let Some(layer) = layer {
-                    self.layers[to] = layer;
-                }
-            }
-        }
-    }
+/// So many times the same: by all cores, since it is much memory that nobody has touched yet.
+fn filled<T: Clone + Send + Sync>(value: T, count: usize) -> Vec<T> {
+    rayon::iter::repeat_n(value, count).with_min_len(65_536).collect()
 }
 
 /// Gathers the layers of one tile.

@@ -8,7 +8,7 @@ use glam::Vec3;
 use nabiki::SettingError;
 use rayon::prelude::*;
 
-use super::compose::Drawing;
+use super::compose::{Drawing, empty};
 use super::seen::Seen;
 use super::{MARGIN, Renderer};
 use crate::RenderError;
@@ -60,7 +60,7 @@ impl Renderer {
         let hair = self.blur_of_hair(&shot.middle, border);
         let points = self.lens_points.map_or_else(|| LensPoints::for_blur(hair, skin.blur), LensPoints::new);
         let spread = Spread::new(&shot.middle, &points);
-        let mut sum = self.empty(&shot.middle, Vec::new());
+        let mut sum = empty(&shot.middle, false);
         let (mut nodes, mut bins) = (Vec::new(), Bins::default());
         let none = Backdrop::none();
         for (turn, &through) in points.points.iter().enumerate() {
