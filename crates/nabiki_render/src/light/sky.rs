@@ -43,6 +43,9 @@ const CELL: f32 = 0.55;
 const WIDTHS: f32 = 8.0;
 const COARSE: f32 = 0.9;
 const MOST_CELLS: f32 = 1_000_000.0;
+/// The next size of cell, where there would be too many: so many times the one before. Hair that swings a little farther keeps its
+/// cells, else its light would flicker, and what is worked out once for each size would be in each frame.
+const COARSER: f32 = 1.25;
 /// Most cells in a box about all skin.
 const MOST_ABOUT_SKIN: f32 = 20_000_000.0;
 /// Parts of a cell in which ways through them are counted.
@@ -105,7 +108,11 @@ impl SkyMap {
         }
         let extent = high - low;
         let finest = CELL.max((WIDTHS * width).min(COARSE));
-        self.cell = finest.max((extent.x * extent.y * extent.z / MOST_CELLS).cbrt()).max(extent.max_element() / 1000.0);
+        let least = (extent.x * extent.y * extent.z / MOST_CELLS).cbrt().max(extent.max_element() / 1000.0);
+        self.cell = finest;
+        while self.cell < least {
+            self.cell *= COARSER;
+        }
         // Whole cells from a fixed origin: a grid that moved with the hair would make the light flicker.
         let border = 2.0;
         self.low = ((low / self.cell).floor() - border) * self.cell;

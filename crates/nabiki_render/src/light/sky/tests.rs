@@ -211,3 +211,19 @@ fn under_an_even_sky_no_line_is_drawn_on_skin() {
     let steepest = shades.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f32::max);
     assert!(steepest < 0.01, "{steepest}");
 }
+
+#[test]
+fn hair_that_spreads_a_little_more_keeps_its_cells() {
+    let cell_of = |spread: f32| {
+        let mut sky = SkyMap::default();
+        let bounds = [Vec3::ZERO, Vec3::new(120.0, 100.0, 100.0 + spread)];
+        sky.lay_out(bounds, 0.0, (&Mesh::default(), &[]), Vec3::Y, rayon::iter::empty());
+        assert!(sky.size.as_vec3().element_product() < 1.2 * MOST_CELLS, "{}", sky.size);
+        sky.cell
+    };
+    // As far as a mane swings: what is worked out once for each size of cell would be worked out in each frame.
+    let mut swung: Vec<f32> = (0..40).map(|spread| cell_of(spread as f32)).collect();
+    swung.dedup();
+    assert!(swung.len() <= 2, "{swung:?}");
+    assert!(cell_of(500.0) > swung[0]);
+}
