@@ -9,7 +9,8 @@ use nabiki::hair::Stored;
 use nabiki::{Hair, Mesh};
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
 use nabiki_exchange::{
-    Contents, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Polygons, Prim, PrimKind, add_polygons,
+    Closed, Contents, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Polygons, Prim,
+    PrimKind, add_polygons,
 };
 
 use crate::Problem;
@@ -82,6 +83,16 @@ impl<R: Read + Seek> ArchiveReader<R> {
         let long = attributes.id.as_ref().is_some_and(|ids| ids.iter().any(|&id| i32::try_from(id).is_err()));
         attributes.other.retain(|other| !(long && other.name == "id" && other.stored == Stored::I64));
         Ok((Hair { strands: lines.strands, attributes }, world))
+    }
+
+    /// Whether curves are closed, which no hair is.
+    fn are_closed(&mut self, object: usize) -> Result<bool, Problem> {
+        let inside = self.schema(object)?;
+        let Some(header) = inside.iter().find(|h| h.name == "curveBasisAndType" && h.samples > 0) else {
+            return Ok(false);
+        };
+        let wrap = self.tree.sample(header, 0)?.get(1).copied();
+        Ok(wrap.is_some_and(|periodic| periodic != 0))
     }
 
     /// The properties of an object's schema.
@@ -336,6 +347,17 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
         if objects.is_empty() {
             return Err(Problem::new("has no curves"));
         }
+        let (mut open, mut closed) = (Vec::new(), Vec::new());
+        for object in objects {
+            if self.are_closed(object)? {
+                closed.push(self.tree.objects[object].path.clone());
+            } else {
+                open.push(object);
+            }
+        }
+        let closed = Closed(closed);
+        closed.check(open.len())?;
+        let objects = open;
         let time = self.time_of(frame)?;
         let mut all = Gathered::default();
         for (group, &object) in objects.iter().enumerate() {
@@ -348,6 +370,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
         let mut all = all.hair()?;
         if attributes {
             all.hair.attributes.unread.extend(self.frames()?.unread(1.0));
+            all.hair.attributes.unread.extend(closed.unread());
         }
         Ok(all)
     }
@@ -440,14 +463,11 @@ fn go_toward(points: &mut [Vec3], next: &[Vec3], share: f64) {
     points.iter_mut().zip(next).for_each(|(point, &next)| *point = point.lerp(next, share as f32));
 }
 
-/// Type, wrap and basis of curves.
+/// Type and basis of curves.
 fn basis(bytes: &[u8]) -> Result<Basis, Problem> {
-    let &[order, periodic, basis, ..] = bytes else {
+    let &[order, _, basis, ..] = bytes else {
         return Err(Problem::new("do not say whether they are straight or cubic"));
     };
-    if periodic != 0 {
-        return Err(Problem::new("are closed, which no hair is: export them as open (non-periodic) curves"));
-    }
     match (order, basis) {
         (1, _) => Ok(Basis::Linear),
         (0, 1) => Ok(Basis::Bezier),

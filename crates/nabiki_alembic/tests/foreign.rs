@@ -91,3 +91,14 @@ fn a_head_stands_where_the_first_frame_of_the_hair_finds_it() {
     let motion = archive.motion("head").unwrap();
     assert_eq!((motion.len(), motion[0].position, motion[10].position), (11, DVec3::ZERO, DVec3::X * 100.0));
 }
+
+#[test]
+fn closed_curves_are_left_out_beside_hair_and_that_is_said() {
+    let mut file = archive("closed.abc");
+    let hair = file.hair(0, None).unwrap();
+    assert_eq!(hair.strands.len(), 2);
+    assert_eq!(hair.attributes.group, None, "the hair is of one object");
+    let said = "curves /rein, which are closed, as no hair is";
+    assert!(hair.attributes.unread.iter().any(|line| line == said), "{:?}", hair.attributes.unread);
+    assert_eq!(file.prims().unwrap().len(), 2);
+}

@@ -80,6 +80,31 @@ impl Gathered {
     }
 }
 
+/// Paths of curves that are closed, which no hair is: a rein, or the path of a camera.
+pub struct Closed(pub Vec<String>);
+
+impl Closed {
+    /// Refuses them where they are all that there is.
+    ///
+    /// # Errors
+    /// Which they are.
+    pub fn check(&self, open: usize) -> Result<(), Problem> {
+        match self.0.first().filter(|_| open == 0) {
+            Some(path) => {
+                let line =
+                    format!("curves {path}: are closed, which no hair is: export them as open (nonperiodic) curves");
+                Err(Problem(line))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// That they are left out, a phrase each.
+    pub fn unread(&self) -> impl Iterator<Item = String> {
+        self.0.iter().map(|path| format!("curves {path}, which are closed, as no hair is"))
+    }
+}
+
 /// Appends `part`; `dropped`: names of what parts before it had, and which stays away.
 fn join(all: &mut Hair, part: Hair, dropped: &mut BTreeSet<String>) {
     for strand in part.strands.iter() {

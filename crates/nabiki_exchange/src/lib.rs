@@ -33,7 +33,7 @@ mod reader;
 
 pub use export::{Export, FrameSink, Velocities};
 pub use frames::{Frames, MOST_FRAMES};
-pub use gather::Gathered;
+pub use gather::{Closed, Gathered};
 pub use in_place::InPlace;
 pub use polygons::{Polygons, Uvs, add_polygons};
 pub use problem::Problem;

@@ -25,10 +25,10 @@ pub trait GroomReader {
     ///
     /// `segments`: walks every curve into as many; `None` keeps polylines as they are. `attributes`: whether what the
     /// curves carry is read, too. Curves in several objects that have no groups of their own are grouped by object,
-    /// under its name.
+    /// under its name. Closed curves, such as the path of a camera, are left out beside open ones, and that is said.
     ///
     /// # Errors
-    /// No curves, closed ones, numbers that contradict each other or are not finite.
+    /// No curves, none that are open, numbers that contradict each other or are not finite.
     fn hair_in_place(&mut self, frame: usize, segments: Option<usize>, attributes: bool) -> Result<InPlace, Problem>;
 
     /// All curves with their attributes at a frame, transforms applied.

@@ -7,7 +7,8 @@ use nabiki::{Hair, Mesh};
 use nabiki_exchange::attributes::NamedValues;
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
 use nabiki_exchange::{
-    Contents, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Polygons, Prim, PrimKind, Uvs, add_polygons,
+    Closed, Contents, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Polygons, Prim, PrimKind, Uvs,
+    add_polygons,
 };
 
 use crate::Problem;
@@ -116,9 +117,6 @@ impl StageReader {
         let order = layer.word(prim, "type")?.unwrap_or_else(|| "cubic".to_owned());
         let basis = layer.word(prim, "basis")?.unwrap_or_else(|| "bezier".to_owned());
         let wrap = layer.word(prim, "wrap")?.unwrap_or_else(|| "nonperiodic".to_owned());
-        if wrap == "periodic" {
-            return Err(Problem::new("are closed, which no hair is: export them as open (nonperiodic) curves"));
-        }
         let basis = match (order.as_str(), basis.as_str()) {
             ("linear", _) => Basis::Linear,
             ("cubic", "bezier") => Basis::Bezier,
@@ -134,6 +132,11 @@ impl StageReader {
         let mut attributes = lines.attributes(&mut primvars)?;
         attributes.unread.extend(primvars.unread()?);
         Ok(Hair { strands: lines.strands, attributes })
+    }
+
+    /// Whether curves are closed, which no hair is.
+    fn are_closed(&mut self, prim: usize) -> Result<bool, Problem> {
+        Ok(self.layer.word(prim, "wrap")?.as_deref() == Some("periodic"))
     }
 
     /// Number of values of an attribute at its first time code.
@@ -281,6 +284,13 @@ impl GroomReader for StageReader {
             }
             return Err(Problem(format!("has no BasisCurves: if they come by reference, {}", arcs::FLATTEN)));
         }
+        let (mut open, mut closed) = (Vec::new(), Vec::new());
+        for prim in prims {
+            if self.are_closed(prim)? { closed.push(self.layer.path(prim)) } else { open.push(prim) }
+        }
+        let closed = Closed(closed);
+        closed.check(open.len())?;
+        let prims = open;
         let mut all = Gathered::default();
         for (group, &prim) in prims.iter().enumerate() {
             let part = self.curves(prim, time, segments, attributes);
@@ -295,6 +305,7 @@ impl GroomReader for StageReader {
             let unread = &mut placed.hair.attributes.unread;
             unread.extend(frames.unread(codes_a_second));
             unread.extend(self.layer.without_points("BasisCurves", "curves"));
+            unread.extend(closed.unread());
             unread.extend(arcs::unread(&mut self.layer)?);
         }
         Ok(placed)

@@ -199,3 +199,12 @@ fn splines_are_refused_as_such_in_transforms_and_said_elsewhere() {
     let (count, unread) = curves(&curve("h", &format!("float primvars:x = 3\n float primvars:x.spline = {spline}")));
     assert!(count == 1 && unread.contains(&"the spline of primvars:x".to_owned()), "{unread:?}");
 }
+
+#[test]
+fn closed_curves_are_left_out_beside_hair_and_that_is_said() {
+    let rein = curve("rein", "uniform token wrap = \"periodic\"");
+    let said = "curves /rein, which are closed, as no hair is".to_owned();
+    assert_eq!(curves(&format!("{rein}{}", curve("mane", ""))), (1, vec![said]));
+    let refused = reader(&rein).hair(0, None).unwrap_err().to_string();
+    assert_eq!(refused, "curves /rein: are closed, which no hair is: export them as open (nonperiodic) curves");
+}

@@ -10,6 +10,7 @@ curves that were never given a sample.
 In operations.abc a curve lies below each kind of operation of a transform, below three of them, and below a transform
 that does not inherit. bases.abc has a cubic curve of every basis that is read, parameters.abc two curves with parameters
 of several scopes, and in late.abc a mesh that moves and bends from frame 0 on lies beside curves that begin at frame 5.
+In closed.abc open curves lie beside closed ones.
 """
 
 import gc
@@ -24,14 +25,14 @@ SHUTTER = [0.0, 0.25]
 TIMES = [frame + late for frame in range(3) for late in SHUTTER]
 
 
-def hair(z=0.0):
+def hair(z=0.0, ends=AbcGeom.CurvePeriodicity.kNonPeriodic):
     points, counts = V3fArray(4), IntArray(2)
     for i, (x, y) in enumerate([(0, 0), (0, 1), (1, 0), (1, 1)]):
         points[i] = V3f(x, y, z)
     counts[0] = counts[1] = 2
-    linear, open_ends = AbcGeom.CurveType.kLinear, AbcGeom.CurvePeriodicity.kNonPeriodic
+    linear = AbcGeom.CurveType.kLinear
     nothing = AbcGeom.OFloatGeomParamSample(), AbcGeom.OV2fGeomParamSample(), AbcGeom.ON3fGeomParamSample()
-    return AbcGeom.OCurvesSchemaSample(points, counts, linear, open_ends, *nothing, AbcGeom.BasisType.kNoBasis)
+    return AbcGeom.OCurvesSchemaSample(points, counts, linear, ends, *nothing, AbcGeom.BasisType.kNoBasis)
 
 
 def shutter(archive):
@@ -104,6 +105,11 @@ def bases(archive):
         curve(archive.getTop(), basis, points, getattr(AbcGeom.BasisType, f"k{basis}Basis"))
 
 
+def closed(archive):
+    AbcGeom.OCurves(archive.getTop(), "mane").getSchema().set(hair())
+    AbcGeom.OCurves(archive.getTop(), "rein").getSchema().set(hair(1.0, AbcGeom.CurvePeriodicity.kPeriodic))
+
+
 def filled(array, values):
     for i, value in enumerate(values):
         array[i] = value
@@ -160,6 +166,7 @@ ARCHIVES = {
     "bases": bases,
     "parameters": parameters,
     "late": late,
+    "closed": closed,
 }
 
 for name, fill in ARCHIVES.items():
