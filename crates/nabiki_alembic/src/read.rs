@@ -95,6 +95,19 @@ impl<R: Read + Seek> ArchiveReader<R> {
         Ok(wrap.is_some_and(|periodic| periodic != 0))
     }
 
+    /// The curves that may be hair, and those that are closed.
+    fn open_curves(&mut self) -> Result<(Vec<usize>, Closed), Problem> {
+        let (mut open, mut closed) = (Vec::new(), Vec::new());
+        for object in self.of_schema("AbcGeom_Curve") {
+            if self.are_closed(object)? {
+                closed.push(self.tree.objects[object].path.clone());
+            } else {
+                open.push(object);
+            }
+        }
+        Ok((open, Closed(closed)))
+    }
+
     /// The properties of an object's schema.
     fn schema(&mut self, object: usize) -> Result<Vec<Header>, Problem> {
         let properties = self.tree.properties_of(object)?;
@@ -275,12 +288,11 @@ impl<R: Read + Seek> ArchiveReader<R> {
 
 impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
     fn contents(&mut self) -> Result<Contents, Problem> {
-        let paths = |reader: &Self, schema: &str| {
-            reader.of_schema(schema).into_iter().map(|i| reader.tree.objects[i].path.clone()).collect::<Vec<_>>()
-        };
+        let (curves, meshes) = (self.open_curves()?.0, self.of_schema("AbcGeom_PolyMesh"));
+        let paths = |of: Vec<usize>| of.into_iter().map(|i| self.tree.objects[i].path.clone()).collect();
         let mut contents = Contents {
-            curves: paths(self, "AbcGeom_Curve"),
-            meshes: paths(self, "AbcGeom_PolyMesh"),
+            curves: paths(curves),
+            meshes: paths(meshes),
             frame_rate: DEFAULT_RATE,
             z_up: Some(false),
             ..Contents::default()
@@ -313,6 +325,10 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
                 "AbcGeom_Xform" => {
                     Prim { path, kind: PrimKind::Transform, samples: samples(".vals"), relationships: Vec::new() }
                 }
+                "AbcGeom_Curve" if self.are_closed(i)? => {
+                    let kind = PrimKind::Other("curves (closed)".to_owned());
+                    Prim { path, kind, samples: samples("P"), relationships: Vec::new() }
+                }
                 "AbcGeom_Curve" => {
                     let (curves, points) = (self.count(named("nVertices"))?, self.count(named("P"))?);
                     let cubic = match named("curveBasisAndType") {
@@ -343,21 +359,11 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
     }
 
     fn hair_in_place(&mut self, frame: usize, segments: Option<usize>, attributes: bool) -> Result<InPlace, Problem> {
-        let objects = self.of_schema("AbcGeom_Curve");
-        if objects.is_empty() {
+        if self.of_schema("AbcGeom_Curve").is_empty() {
             return Err(Problem::new("has no curves"));
         }
-        let (mut open, mut closed) = (Vec::new(), Vec::new());
-        for object in objects {
-            if self.are_closed(object)? {
-                closed.push(self.tree.objects[object].path.clone());
-            } else {
-                open.push(object);
-            }
-        }
-        let closed = Closed(closed);
-        closed.check(open.len())?;
-        let objects = open;
+        let (objects, closed) = self.open_curves()?;
+        closed.check(objects.len())?;
         let time = self.time_of(frame)?;
         let mut all = Gathered::default();
         for (group, &object) in objects.iter().enumerate() {

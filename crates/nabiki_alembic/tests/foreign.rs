@@ -100,5 +100,6 @@ fn closed_curves_are_left_out_beside_hair_and_that_is_said() {
     assert_eq!(hair.attributes.group, None, "the hair is of one object");
     let said = "curves /rein, which are closed, as no hair is";
     assert!(hair.attributes.unread.iter().any(|line| line == said), "{:?}", hair.attributes.unread);
-    assert_eq!(file.prims().unwrap().len(), 2);
+    assert_eq!(file.contents().unwrap().curves, ["/mane"]);
+    assert_eq!(file.prims().unwrap()[1].kind, PrimKind::Other("curves (closed)".to_owned()));
 }

@@ -139,6 +139,15 @@ impl StageReader {
         Ok(self.layer.word(prim, "wrap")?.as_deref() == Some("periodic"))
     }
 
+    /// The curves that may be hair, and those that are closed.
+    fn open_curves(&mut self) -> Result<(Vec<usize>, Closed), Problem> {
+        let (mut open, mut closed) = (Vec::new(), Vec::new());
+        for prim in self.layer.with_points("BasisCurves") {
+            if self.are_closed(prim)? { closed.push(self.layer.path(prim)) } else { open.push(prim) }
+        }
+        Ok((open, Closed(closed)))
+    }
+
     /// Number of values of an attribute at its first time code.
     fn count(&mut self, prim: usize, name: &str) -> Result<usize, Problem> {
         match self.layer.at(prim, name, f64::NEG_INFINITY) {
@@ -212,8 +221,9 @@ impl GroomReader for StageReader {
     fn contents(&mut self) -> Result<Contents, Problem> {
         let paths = |layer: &Layer, kind: &str| {
             let prims = layer.of_type(kind).into_iter().filter(|&i| layer.has_points(i));
-            prims.map(|i| layer.path(i)).collect()
+            prims.map(|i| layer.path(i)).collect::<Vec<_>>()
         };
+        let curves = self.open_curves()?.0.into_iter().map(|i| self.layer.path(i)).collect();
         let frames = self.frames()?;
         let codes_a_second = self.codes_a_second()?;
         // Curves that move begin with the hair that is read first, whatever of the stage comes before or after.
@@ -223,7 +233,7 @@ impl GroomReader for StageReader {
         };
         Ok(Contents {
             start: start.map(|code| code / codes_a_second),
-            curves: paths(&self.layer, "BasisCurves"),
+            curves,
             meshes: paths(&self.layer, "Mesh"),
             frame_rate: if frames.step > 0.0 { frames.rate(codes_a_second) } else { codes_a_second },
             times: frames.times.into_iter().map(|code| code / codes_a_second).collect(),
@@ -243,6 +253,7 @@ impl GroomReader for StageReader {
                     let why = if self.layer.is_active(i) { "an over" } else { "inactive or of a class" };
                     PrimKind::Other(format!("{type_name} ({why})").trim_start().to_owned())
                 }
+                "BasisCurves" if self.are_closed(i)? => PrimKind::Other(format!("{type_name} (closed)")),
                 "BasisCurves" => {
                     let curves = self.count(i, "curveVertexCounts")?;
                     // What is not said is cubic in USD.
@@ -284,13 +295,8 @@ impl GroomReader for StageReader {
             }
             return Err(Problem(format!("has no BasisCurves: if they come by reference, {}", arcs::FLATTEN)));
         }
-        let (mut open, mut closed) = (Vec::new(), Vec::new());
-        for prim in prims {
-            if self.are_closed(prim)? { closed.push(self.layer.path(prim)) } else { open.push(prim) }
-        }
-        let closed = Closed(closed);
-        closed.check(open.len())?;
-        let prims = open;
+        let (prims, closed) = self.open_curves()?;
+        closed.check(prims.len())?;
         let mut all = Gathered::default();
         for (group, &prim) in prims.iter().enumerate() {
             let part = self.curves(prim, time, segments, attributes);

@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use nabiki_exchange::GroomReader;
+use nabiki_exchange::{GroomReader, PrimKind};
 use nabiki_usd::StageReader;
 
 fn reader(text: &str) -> StageReader {
@@ -205,6 +205,9 @@ fn closed_curves_are_left_out_beside_hair_and_that_is_said() {
     let rein = curve("rein", "uniform token wrap = \"periodic\"");
     let said = "curves /rein, which are closed, as no hair is".to_owned();
     assert_eq!(curves(&format!("{rein}{}", curve("mane", ""))), (1, vec![said]));
+    let mut both = reader(&format!("{rein}{}", curve("mane", "")));
+    assert_eq!(both.contents().unwrap().curves, ["/mane"]);
+    assert_eq!(both.prims().unwrap()[0].kind, PrimKind::Other("BasisCurves (closed)".to_owned()));
     let refused = reader(&rein).hair(0, None).unwrap_err().to_string();
     assert_eq!(refused, "curves /rein: are closed, which no hair is: export them as open (nonperiodic) curves");
 }
