@@ -9,7 +9,7 @@ use nabiki::hair::Stored;
 use nabiki::{Hair, Mesh};
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
 use nabiki_exchange::{
-    Closed, Contents, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Polygons, Prim,
+    Closed, Contents, FIRST_SHAPE, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Polygons, Prim,
     PrimKind, add_polygons,
 };
 
@@ -381,12 +381,15 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
         Ok(all)
     }
 
-    fn mesh(&mut self) -> Result<Mesh, Problem> {
+    fn meshes(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Mesh, Problem> {
         let mut mesh = Mesh::default();
         // Where the head stands as the hair's first frame finds it.
         let time = self.time_of(0)?;
         for object in self.of_schema("AbcGeom_PolyMesh") {
             let path = self.tree.objects[object].path.clone();
+            if !wanted(&path) {
+                continue;
+            }
             let inside = self.schema(object)?;
             let world = Affine3A::from_mat4(self.world(object, time)?.as_mat4());
             let header = required(&inside, "P", &path)?;
@@ -415,6 +418,17 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
             None if mesh.triangles.is_empty() => Err(Problem::new("has no polygons")),
             None => Ok(mesh),
         }
+    }
+
+    fn meshes_unread(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Vec<String>, Problem> {
+        let mut unread = Vec::new();
+        for object in self.of_schema("AbcGeom_PolyMesh") {
+            let path = self.tree.objects[object].path.clone();
+            if wanted(&path) && required(&self.schema(object)?, "P", &path)?.different_samples() > 1 {
+                unread.push(format!("the motion of the points of {path}: {FIRST_SHAPE}"));
+            }
+        }
+        Ok(unread)
     }
 
     fn motion(&mut self, node: &str) -> Result<Vec<Placed>, Problem> {

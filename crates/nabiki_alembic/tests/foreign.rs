@@ -103,3 +103,14 @@ fn closed_curves_are_left_out_beside_hair_and_that_is_said() {
     assert_eq!(file.contents().unwrap().curves, ["/mane"]);
     assert_eq!(file.prims().unwrap()[1].kind, PrimKind::Other("curves (closed)".to_owned()));
 }
+
+#[test]
+fn of_meshes_those_are_read_that_are_wanted_and_that_they_bend_is_said() {
+    let mut file = archive("late.abc");
+    let path = file.contents().unwrap().meshes.remove(0);
+    assert_eq!(file.meshes(&|mesh| mesh == path).unwrap(), file.mesh().unwrap());
+    assert_eq!(file.meshes(&|_| false).unwrap_err().to_string(), "has no polygons");
+    let said = format!("the motion of the points of {path}: it keeps the shape of the first frame");
+    assert_eq!(file.meshes_unread(&|_| true).unwrap(), [said]);
+    assert_eq!(file.meshes_unread(&|_| false).unwrap(), [""; 0]);
+}

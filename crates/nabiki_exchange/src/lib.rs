@@ -37,4 +37,4 @@ pub use gather::{Closed, Gathered};
 pub use in_place::InPlace;
 pub use polygons::{Polygons, Uvs, add_polygons};
 pub use problem::Problem;
-pub use reader::{Contents, GroomReader, Placed, Prim, PrimKind};
+pub use reader::{Contents, FIRST_SHAPE, GroomReader, Placed, Prim, PrimKind};

@@ -6,6 +6,9 @@ use nabiki::{Hair, Mesh};
 use crate::Problem;
 use crate::in_place::InPlace;
 
+/// What is said of a mesh whose points move: heads and bodies are rigid.
+pub const FIRST_SHAPE: &str = "it keeps the shape of the first frame";
+
 /// A file of curves, meshes and transforms. Everything comes in the file's own unit and axes.
 pub trait GroomReader {
     /// What the file holds and says of itself, without reading its values.
@@ -39,19 +42,33 @@ pub trait GroomReader {
         self.hair_in_place(frame, segments, true)?.in_world()
     }
 
-    /// The meshes at the first frame, cut into triangles, transforms applied, as one: those that show, or all where none
-    /// does.
+    /// The meshes at the first frame, cut into triangles, transforms applied, as one: of those whose path is `wanted` the
+    /// ones that show, or all where none does.
     ///
     /// # Errors
     /// No mesh, or one whose numbers contradict each other.
-    fn mesh(&mut self) -> Result<Mesh, Problem>;
+    fn meshes(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Mesh, Problem>;
 
-    /// What of its meshes [`mesh`](Self::mesh) leaves out or does not obey, a phrase each.
+    /// What [`meshes`](Self::meshes) leaves out of those that are wanted or does not obey, a phrase each.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    fn meshes_unread(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Vec<String>, Problem>;
+
+    /// All meshes of the file, as [`meshes`](Self::meshes).
+    ///
+    /// # Errors
+    /// As there.
+    fn mesh(&mut self) -> Result<Mesh, Problem> {
+        self.meshes(&|_| true)
+    }
+
+    /// What [`mesh`](Self::mesh) leaves out or does not obey, a phrase each.
     ///
     /// # Errors
     /// What is wrong with the file.
     fn mesh_unread(&mut self) -> Result<Vec<String>, Problem> {
-        Ok(Vec::new())
+        self.meshes_unread(&|_| true)
     }
 
     /// The way of the object at the path `node`, or of the first of that name, at all times at which it moves.

@@ -14,6 +14,7 @@ use crate::error::{Error, Result};
 use crate::groom_file::CurvePrim;
 use crate::input;
 use crate::kind::extension;
+use crate::mesh::parts;
 use crate::motion::track::{Sample, Track};
 use crate::placement::Placement;
 use crate::unit::Unit;
@@ -111,20 +112,36 @@ pub fn frames(path: &Path) -> Result<usize> {
     Ok(Opened::new(path)?.ask(|r| r.contents())?.times.len().max(1))
 }
 
-/// Reads the meshes, in the file's own unit and axes: those that show, or all where none does.
+/// Reads the meshes, in the file's own unit and axes: those that show, or all where none does. `groups`: names or whole
+/// paths of meshes, or of what they stand below; all meshes when empty. With what of the meshes is left out or not
+/// obeyed, a phrase each.
 ///
 /// # Errors
-/// What is wrong with the file.
-pub fn mesh(path: &Path) -> Result<Mesh> {
-    Opened::new(path)?.ask(|r| r.mesh())
+/// What is wrong with the file; a group that it has not.
+pub(crate) fn mesh(path: &Path, groups: &[String]) -> Result<(Mesh, Vec<String>)> {
+    let mut file = Opened::new(path)?;
+    if !groups.is_empty() {
+        let meshes = file.ask(|r| r.contents())?.meshes;
+        parts::check(groups, &meshes).map_err(|e| e.in_file(path))?;
+    }
+    let wanted = |mesh: &str| groups.is_empty() || groups.iter().any(|group| parts::is_part(group, mesh));
+    file.ask(|r| Ok((r.meshes(&wanted)?, r.meshes_unread(&wanted)?)))
 }
 
-/// As [`mesh`], with what of the meshes is left out or not obeyed, a phrase each.
+/// Whether the object or prim `node` carries one of the meshes that [`mesh`] reads. A joint carries none, as bodies are rigid.
 ///
 /// # Errors
 /// What is wrong with the file.
-pub(crate) fn mesh_and_unread(path: &Path) -> Result<(Mesh, Vec<String>)> {
-    Opened::new(path)?.ask(|r| Ok((r.mesh()?, r.mesh_unread()?)))
+pub fn carries_mesh(path: &Path, node: &str, groups: &[String]) -> Result<bool> {
+    let mut file = Opened::new(path)?;
+    let all: Vec<String> = file.ask(|r| r.prims())?.into_iter().map(|prim| prim.path).collect();
+    let by_name = |path: &&String| path.rsplit('/').next().is_some_and(|name| name.eq_ignore_ascii_case(node));
+    let Some(node) = all.iter().find(|path| *path == node).or_else(|| all.iter().find(by_name)) else {
+        return Ok(false);
+    };
+    let wanted = |mesh: &String| groups.is_empty() || groups.iter().any(|group| parts::is_part(group, mesh));
+    let meshes = file.ask(|r| r.contents())?.meshes;
+    Ok(meshes.iter().any(|mesh| wanted(mesh) && parts::is_part(node, mesh)))
 }
 
 /// Reads the way of the object, prim or joint `node`.

@@ -3,6 +3,7 @@
 mod check;
 mod glb;
 mod obj;
+pub(crate) mod parts;
 mod ply;
 mod tfxmesh;
 
@@ -33,8 +34,9 @@ pub struct MeshReport {
     pub unread: Vec<String>,
 }
 
-/// Reads the triangles of a mesh file in its own unit and axes. `groups`: names of .obj groups or objects, or of
-/// glTF nodes or meshes, to keep; all when empty. Larger polygons become fans, node transforms are applied.
+/// Reads the triangles of a mesh file in its own unit and axes. `groups`: names of .obj groups or objects, of glTF nodes
+/// or meshes, of USD prims or Alembic objects, to keep; all when empty. Larger polygons become fans, node transforms are
+/// applied.
 pub fn read(path: &Path, groups: &[String]) -> Result<Mesh> {
     let named = |e: Error| e.in_file(path);
     let text = || input::read(path, MOST_TEXT_BYTES);
@@ -42,9 +44,9 @@ pub fn read(path: &Path, groups: &[String]) -> Result<Mesh> {
     match extension(path).as_str() {
         "obj" => obj::from_bytes(&text()?, groups).map_err(named),
         "glb" | "gltf" => glb::from_bytes(&binary()?, path.parent(), groups).map_err(named),
-        "ply" => ply::from_bytes(without_mark(&binary()?)).map_err(named),
-        "tfxmesh" => tfxmesh::from_bytes(&text()?).map_err(named),
-        "abc" | "usd" | "usda" | "usdc" => exchange::mesh(path),
+        "ply" => from_bytes(without_mark(&binary()?), "ply", groups).map_err(named),
+        "tfxmesh" => from_bytes(&text()?, "tfxmesh", groups).map_err(named),
+        "abc" | "usd" | "usda" | "usdc" => Ok(exchange::mesh(path, groups)?.0),
         other => {
             // A name without an ending may be a slip, or a folder.
             if other.is_empty() {
@@ -80,17 +82,22 @@ pub fn groups(path: &Path) -> Result<Vec<(String, usize)>> {
 pub fn from_bytes(bytes: &[u8], extension: &str, groups: &[String]) -> Result<Mesh> {
     match extension {
         "obj" => obj::from_bytes(bytes, groups),
-        "ply" => ply::from_bytes(bytes),
-        "tfxmesh" => tfxmesh::from_bytes(bytes),
+        "ply" => ply::from_bytes(bytes).and_then(|mesh| without_parts(mesh, groups)),
+        "tfxmesh" => tfxmesh::from_bytes(bytes).and_then(|mesh| without_parts(mesh, groups)),
         _ => glb::from_bytes(bytes, None, groups),
     }
+}
+
+/// A mesh of a format that has no groups: none may be asked for.
+fn without_parts(mesh: Mesh, groups: &[String]) -> Result<Mesh> {
+    check::check_groups(groups, &[]).map(|()| mesh)
 }
 
 /// Reads a mesh into head space, joins vertices at the same place and drops triangles without area.
 pub fn import(path: &Path, placement: &Placement, groups: &[String]) -> Result<(Mesh, MeshReport)> {
     placement.check("head").map_err(|e| Error::from(e).in_file(path))?;
     let (mesh, unread) = match exchange::is_usd(path) || exchange::is_alembic(path) {
-        true => exchange::mesh_and_unread(path)?,
+        true => exchange::mesh(path, groups)?,
         false => (read(path, groups)?, Vec::new()),
     };
     let (mesh, report) = place_and_weld(mesh, placement).map_err(|e| e.in_file(path))?;

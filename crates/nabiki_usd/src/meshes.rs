@@ -1,5 +1,7 @@
 //! Which meshes of a layer make its head, and what is said of them.
 
+use nabiki_exchange::FIRST_SHAPE;
+
 use crate::Problem;
 use crate::opened::Layer;
 use crate::shown::hidden;
@@ -12,11 +14,13 @@ pub struct Chosen {
     pub unread: Vec<String>,
 }
 
-/// The meshes that show; all, where none does.
-pub fn chosen(layer: &mut Layer) -> Result<Chosen, Problem> {
+/// Of the meshes whose path is `wanted` those that show; all, where none does.
+pub fn chosen(layer: &mut Layer, wanted: &dyn Fn(&str) -> bool) -> Result<Chosen, Problem> {
     let mut all = Vec::new();
     for prim in layer.with_points("Mesh") {
-        all.push((prim, hidden(layer, prim)?));
+        if wanted(&layer.path(prim)) {
+            all.push((prim, hidden(layer, prim)?));
+        }
     }
     let any_shows = all.iter().any(|(_, hidden)| hidden.iter().all(|hidden| hidden.at_times));
     let (mut prims, mut unread) = (Vec::new(), layer.without_points("Mesh", "mesh"));
@@ -33,9 +37,20 @@ pub fn chosen(layer: &mut Layer) -> Result<Chosen, Problem> {
         if let Some(holes) = holes.filter(|holes| !holes.is_empty()) {
             unread.push(format!("holeIndices of {path}: the {} faces that they take out are kept", holes.len()));
         }
+        unread.extend(bent(layer, prim));
         prims.push(prim);
     }
     unread.sort();
     unread.dedup();
     Ok(Chosen { prims, unread })
+}
+
+/// What bends a mesh over time, which a head or body does not.
+fn bent(layer: &Layer, prim: usize) -> Option<String> {
+    let path = layer.path(prim);
+    if layer.prims[prim].attributes.get("points").is_some_and(|points| points.samples.len() > 1) {
+        return Some(format!("the motion of the points of {path}: {FIRST_SHAPE}"));
+    }
+    let bound = layer.prims[prim].relationships.iter().find(|name| name.starts_with("skel:"))?;
+    Some(format!("{bound} of {path}: it keeps the shape that its own points have"))
 }

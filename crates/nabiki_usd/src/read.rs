@@ -317,10 +317,10 @@ impl GroomReader for StageReader {
         Ok(placed)
     }
 
-    fn mesh(&mut self) -> Result<Mesh, Problem> {
+    fn meshes(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Mesh, Problem> {
         let mut mesh = Mesh::default();
         let time = self.code_of(0)?;
-        for prim in meshes::chosen(&mut self.layer)?.prims {
+        for prim in meshes::chosen(&mut self.layer, wanted)?.prims {
             let path = self.layer.path(prim);
             let problem = |what: &str| Problem(format!("mesh {path}: {what}"));
             let layer = &mut self.layer;
@@ -345,8 +345,8 @@ impl GroomReader for StageReader {
         }
     }
 
-    fn mesh_unread(&mut self) -> Result<Vec<String>, Problem> {
-        let mut unread = meshes::chosen(&mut self.layer)?.unread;
+    fn meshes_unread(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Vec<String>, Problem> {
+        let mut unread = meshes::chosen(&mut self.layer, wanted)?.unread;
         unread.extend(arcs::unread(&mut self.layer)?);
         Ok(unread)
     }

@@ -211,3 +211,30 @@ fn closed_curves_are_left_out_beside_hair_and_that_is_said() {
     let refused = reader(&rein).hair(0, None).unwrap_err().to_string();
     assert_eq!(refused, "curves /rein: are closed, which no hair is: export them as open (nonperiodic) curves");
 }
+
+#[test]
+fn of_meshes_those_are_read_that_are_wanted() {
+    let text = format!("{}{}", mesh("beast", ""), mesh("ground", "uniform token purpose = \"proxy\""));
+    let mut stage = reader(&text);
+    let ground = |path: &str| path == "/ground";
+    assert_eq!(stage.meshes(&|path| path == "/beast").unwrap().positions.len(), 4);
+    assert_eq!(stage.meshes_unread(&|path| path == "/beast").unwrap(), [""; 0]);
+    assert_eq!(stage.meshes(&ground).unwrap().positions.len(), 4, "nothing else of what is wanted shows");
+    assert_eq!(stage.meshes_unread(&ground).unwrap(), ["purpose of /ground: it is \"proxy\" there"]);
+}
+
+#[test]
+fn that_a_mesh_bends_is_said() {
+    let points = "point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]";
+    let still = mesh("beast", "");
+    let moving = still.replace(
+        points,
+        "point3f[] points.timeSamples = { 1: [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], \
+        2: [(0, 0, 0), (2, 0, 0), (0, 1, 0), (0, 0, 1)] }",
+    );
+    let said = "the motion of the points of /beast: it keeps the shape of the first frame".to_owned();
+    assert_eq!(meshes(&moving), (1, vec![said]));
+    let bound = mesh("beast", "rel skel:skeleton = </bones>");
+    let said = "skel:skeleton of /beast: it keeps the shape that its own points have".to_owned();
+    assert_eq!(meshes(&bound), (1, vec![said]));
+}
