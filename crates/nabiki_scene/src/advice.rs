@@ -1,6 +1,7 @@
 //! What looks wrong before anything is drawn: about the size and place of a head and its hair, a unit forgotten, hair beside
 //! the head or within it, a skull with a hole; and settings that change nothing beside the others.
 
+mod twice;
 mod unused;
 
 use std::fmt;
@@ -72,6 +73,7 @@ pub(crate) fn advice(built: &BuiltScene) -> Vec<Advice> {
     advice.extend(cropped(built));
     advice.extend(open_bodies(built));
     advice.extend(within_the_head(built));
+    advice.extend(twice::carried_twice(built));
     advice.extend(unused(&built.scene));
     advice
 }

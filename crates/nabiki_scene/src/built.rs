@@ -191,6 +191,11 @@ impl BuiltScene {
         edges.filter(|(_, edges)| *edges > 0 && matches!(self.dynamics.form, Form::Free(_)))
     }
 
+    /// How the bodies go, in their order.
+    pub(crate) fn ways_of_bodies(&self) -> impl Iterator<Item = &BodyWay> {
+        self.bodies.iter().map(|body| &body.way)
+    }
+
     /// What of the meshes of the bodies' files is left out or not obeyed, a phrase each with the number of its body.
     pub(crate) fn unread_of_bodies(&self) -> impl Iterator<Item = (usize, &String)> {
         self.bodies.iter().enumerate().flat_map(|(i, body)| body.unread.iter().map(move |unread| (i, unread)))

@@ -1,0 +1,101 @@
+//! Heads and bodies that stand in their file where it has them in the first frame, and that their motion, out of the same file,
+//! carries as if they stood at its origin.
+
+use std::path::Path;
+
+use glam::{Quat, Vec3, Vec3A};
+use nabiki::Pose;
+use nabiki::body::BodyWay;
+use nabiki_io::exchange::{carries_mesh, is_alembic, is_usd};
+use nabiki_io::motion::MotionSource;
+use nabiki_io::{Placement, declared_space};
+
+use super::{Advice, Setting};
+use crate::built::BuiltScene;
+use crate::scene::HeadSource;
+use crate::size::vector;
+
+/// What is nearer than this (cm) and turned by less than this (rad) is in its place.
+const NEAR: f32 = 0.1;
+const TURNED: f32 = 0.01;
+
+/// A mesh and what moves it.
+struct Moved<'a> {
+    /// The table of its settings, and the key of its origin, if it has one name.
+    table: String,
+    key: Option<&'static str>,
+    mesh: &'a Path,
+    groups: &'a [String],
+    motion: &'a MotionSource,
+    /// How its file is placed, and where it is in frame 0.
+    placement: Placement,
+    first: Pose,
+}
+
+/// What is carried twice, the head first.
+pub(super) fn carried_twice(built: &BuiltScene) -> impl Iterator<Item = Advice> {
+    let scene = &built.scene;
+    let head = match (&scene.head.source, &scene.head.motion) {
+        (HeadSource::Imported(head), Some(motion)) => Some(Moved {
+            table: "head".to_owned(),
+            key: Some("head.origin"),
+            mesh: &head.file,
+            groups: &head.groups,
+            motion,
+            placement: built.placement,
+            first: built.pose(0),
+        }),
+        _ => None,
+    };
+    let bodies = built.ways_of_bodies().zip(&scene.bodies).enumerate().filter_map(|(i, (way, settings))| {
+        let (BodyWay::InWorld(poses), Some(motion)) = (way, &settings.motion) else { return None };
+        let declared = declared_space(&scene.resolve(&settings.mesh)).unwrap_or_default();
+        Some(Moved {
+            table: format!("body[{i}]"),
+            key: None,
+            mesh: &settings.mesh,
+            groups: &settings.groups,
+            motion,
+            placement: settings.placement(declared.unit, declared.up),
+            first: *poses.first()?,
+        })
+    });
+    head.into_iter().chain(bodies).filter_map(|moved| twice(built, &moved))
+}
+
+fn twice(built: &BuiltScene, moved: &Moved<'_>) -> Option<Advice> {
+    let Moved { table, key, mesh, groups, motion, placement, first } = moved;
+    let file = built.scene.resolve(mesh);
+    let of_scenes = is_usd(&file) || is_alembic(&file);
+    if !of_scenes || file != built.scene.resolve(&motion.file) || motion.start_at_origin {
+        return None;
+    }
+    // Another facing turns it on purpose.
+    if motion.facing != Some(placement.facing) {
+        return None;
+    }
+    let scene_from_file = placement.head_from_file().matrix3;
+    let place = Vec3::from(scene_from_file.inverse() * Vec3A::from(first.position_cm));
+    let off = first.position_cm.distance(Vec3::from(scene_from_file * Vec3A::from(placement.origin)));
+    let turned = first.rotation.angle_between(Quat::IDENTITY);
+    if off < NEAR && turned < TURNED || !carries_mesh(&file, &motion.node, groups).unwrap_or(false) {
+        return None;
+    }
+    let (file, node) = (mesh.display(), &motion.node);
+    let seen = format!(
+        "{table}.mesh stands in {file} where {node} has it in the first frame, from which {table}.motion carries it again"
+    );
+    if turned >= TURNED {
+        let degrees = turned.to_degrees();
+        let seen = format!(
+            "{seen}, turned by {degrees:.1} degrees: export it, and hair that grows on it, with {node} unturned at the origin"
+        );
+        return Some(Advice { seen, settings: Vec::new() });
+    }
+    // Rounded, lest it has digits of the turns between axes.
+    let place = vector((place * 1e5).round() / 1e5 + 0.0);
+    match *key {
+        Some(key) => Some(Advice { seen, settings: vec![Setting { key, value: place }] }),
+        None => Some(Advice { seen: format!("{seen}: give {table}.origin = {place}"), settings: Vec::new() }),
+    }
+}

@@ -1,0 +1,64 @@
+//! Meshes that stand in their file where its motion has them.
+
+use std::path::Path;
+
+use nabiki_scene::{Scene, Shown};
+
+/// A ball on a tail that stands at (0, 2, 1) m in its first frame, turned so far about z, and moves on.
+fn layer(turned: f32) -> String {
+    let ball = ball();
+    format!(
+        "#usda 1.0\n( metersPerUnit = 1\n upAxis = \"Z\"\n timeCodesPerSecond = 24 )\n\
+         def Xform \"tail\" {{ double3 xformOp:translate.timeSamples = {{ 0: (0, 2, 1), 9: (1, 2, 1) }}\n\
+         double xformOp:rotateZ = {turned}\n\
+         uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:rotateZ\"]\n{ball} }}\n"
+    )
+}
+
+/// An octahedron of 10 cm about the tail's own origin.
+fn ball() -> &'static str {
+    "def Mesh \"ball\" { point3f[] points = [(0.1, 0, 0), (-0.1, 0, 0), (0, 0.1, 0), (0, -0.1, 0), (0, 0, 0.1), (0, 0, -0.1)]\n\
+     int[] faceVertexCounts = [3, 3, 3, 3, 3, 3, 3, 3]\n\
+     int[] faceVertexIndices = [0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5] }"
+}
+
+/// A hair on top of it.
+const HAIR: &str = "#usda 1.0\n( metersPerUnit = 1\n upAxis = \"Z\" )\n\
+    def BasisCurves \"hair\" { uniform token type = \"linear\"\n int[] curveVertexCounts = [3]\n\
+    point3f[] points = [(0, 2, 1.1), (0, 2, 1.2), (0, 2, 1.3)] }\n";
+
+/// What is advised of a head and a body that a file carries.
+fn advised(folder: &Path, turned: f32, origin: &str) -> Vec<String> {
+    std::fs::write(folder.join("tail.usda"), layer(turned)).unwrap();
+    std::fs::write(folder.join("hair.usda"), HAIR).unwrap();
+    let motion = "{ file = \"tail.usda\", node = \"tail\", facing = \"-y\" }";
+    let scene = format!(
+        "[head]\nmesh = \"tail.usda\"\nfacing = \"-y\"\n{origin}\nmotion = {motion}\n\
+         ellipsoid = {{ center = [0, 0, 0], half_axes = [9, 9, 9] }}\n\
+         [hair]\nfile = \"hair.usda\"\n[motion]\nform = \"free\"\nframes = 5\n\
+         [[body]]\nmesh = \"tail.usda\"\nfacing = \"-y\"\n{origin}\nmotion = {motion}\n"
+    );
+    let file = folder.join("scene.toml");
+    std::fs::write(&file, scene).unwrap();
+    let built = Scene::load(&file, &[]).unwrap().build(Shown::All).unwrap();
+    let advice = built.advice().into_iter().map(|advice| advice.to_string());
+    advice.filter(|line| line.contains("carries it again")).collect()
+}
+
+#[test]
+fn a_mesh_that_its_motion_would_carry_twice_is_said_with_the_way_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = |table: &str| {
+        format!(
+            "{table}.mesh stands in tail.usda where tail has it in the first frame, from which {table}.motion carries it again"
+        )
+    };
+    let found = advised(folder.path(), 0.0, "origin = [0, 0, 0]");
+    let give = |table: &str| format!("{}: give {table}.origin = [0.0, 2.0, 1.0]", said(table));
+    assert_eq!(found, [give("head"), give("body[0]")]);
+    assert_eq!(advised(folder.path(), 0.0, "origin = [0, 2, 1]"), [""; 0], "what was advised, followed");
+    let found = advised(folder.path(), 30.0, "origin = [0, 2, 1]");
+    assert_eq!(found.len(), 2);
+    let export = "turned by 30.0 degrees: export it, and hair that grows on it, with tail unturned at the origin";
+    assert_eq!(found[0], format!("{}, {export}", said("head")));
+}
