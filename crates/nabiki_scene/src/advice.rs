@@ -181,7 +181,9 @@ fn head_size(built: &BuiltScene) -> Option<Advice> {
         return None;
     }
     let [x, y, z] = ellipsoid.half_axes.to_array().map(Short);
-    let seen = format!("the head's half axes are {x} x {y} x {z} cm, a person's about 9.5 x 11 x 7.8");
+    // A creature's head may have any size.
+    let seen =
+        format!("the head's half axes are {x} x {y} x {z} cm; if it is a person's, about 9.5 x 11 x 7.8 are right");
     let HeadSource::Imported(head) = &settings.source else {
         return Some(Advice { seen: format!("{seen}: mend head.ellipsoid"), settings: Vec::new() });
     };
