@@ -15,6 +15,7 @@ mod made;
 mod scene;
 mod simulation;
 mod solution;
+mod threads;
 mod timeline;
 mod values;
 mod watched;

@@ -12,6 +12,7 @@ use crate::error;
 use crate::field::PythonField;
 use crate::frame::{self, Frame};
 use crate::hints::{Hinted, UInt32};
+use crate::threads::detached;
 use crate::watched::{Ears, watched};
 
 /// The motion of a scene's hair: an iterator over its frames, from rest, frame 0, to the last. Each is computed when it is
@@ -28,7 +29,7 @@ pub struct Simulation {
 
 impl Simulation {
     pub fn of(py: Python<'_>, built: Arc<BuiltScene>, fields: Vec<Arc<PythonField>>) -> PyResult<Self> {
-        let stepper = py.detach(|| built.simulation()).map_err(|refused| error::raised(py, refused))?;
+        let stepper = detached(py, || built.simulation()).map_err(|refused| error::raised(py, refused))?;
         let offsets = frame::offsets(py, &built);
         Ok(Self { built, stepper, fields, rooms: Arc::default(), offsets, next: 0 })
     }
@@ -56,7 +57,7 @@ impl Simulation {
             points
         };
         let points = match fields.is_empty() {
-            true => py.detach(step),
+            true => detached(py, step),
             // Only then may a step take long.
             false => watched(py, Ears::default(), fields, |_| Ok(step()))?,
         };

@@ -13,6 +13,7 @@ use crate::error;
 use crate::field::PythonField;
 use crate::frame::{self, Frame};
 use crate::hints::{Float32, Hinted, UInt32};
+use crate::threads::detached;
 use crate::watched::{Ears, watched};
 
 /// A motion at hand: any frame of it, or all of them at once.
@@ -26,7 +27,7 @@ pub struct Timeline {
 
 impl Timeline {
     pub fn of(py: Python<'_>, built: Arc<BuiltScene>, fields: Vec<Arc<PythonField>>) -> PyResult<Self> {
-        let timeline = py.detach(|| built.timeline()).map_err(|refused| error::raised(py, refused))?;
+        let timeline = detached(py, || built.timeline()).map_err(|refused| error::raised(py, refused))?;
         let offsets = frame::offsets(py, &built);
         Ok(Self { built, timeline, fields, offsets })
     }

@@ -14,6 +14,7 @@ use pyo3::prelude::*;
 use crate::error;
 use crate::field::PythonField;
 use crate::hints::{Given, Progress, Report};
+use crate::threads::shared;
 
 /// How often Python is asked whether somebody pressed Ctrl-C.
 const ASKED: Duration = Duration::from_millis(50);
@@ -97,7 +98,7 @@ pub fn watched<T: Send>(
         thread::scope(|scope| {
             let worker = scope.spawn(move || {
                 let mut remote = Remote { tell, stop, fields, done: 0, total: 0 };
-                work(&mut remote)
+                shared(|| work(&mut remote))
             });
             let failure = heard.listen(hear, || {
                 stop.store(true, Ordering::Relaxed);

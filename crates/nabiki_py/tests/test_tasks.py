@@ -195,3 +195,40 @@ def test_whoever_is_called_may_ask_the_scene(gust, tmp_path):
     other = []
     gust.render(2, strands=5, progress=lambda done, total: other.append(len(list(gust.simulate(strands=3)))))
     assert set(other) == {13}
+
+
+FORKED = """
+import multiprocessing, sys, nabiki
+scene = nabiki.Scene.open(sys.argv[1], {"motion.frames": 3, "picture.size": (64, 36), "output.sheet": [0]})
+
+def motion(_):
+    return scene.timeline(strands=300).play().tobytes(), scene.render_png(2, strands=300)
+
+def in_a_fork_of_a_fork(pipe):
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        pipe.send(pool.map(motion, [0]))
+
+here = motion(0)
+context = multiprocessing.get_context("fork")
+with context.Pool(2) as pool:
+    assert pool.map(motion, range(4)) == [here] * 4
+out, into = context.Pipe(False)
+child = context.Process(target=in_a_fork_of_a_fork, args=(into,))
+motion(0)
+child.start()
+assert out.recv() == [here]
+child.join()
+print("done")
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="forks of POSIX")
+def test_a_forked_process_works_though_the_threads_stayed_behind():
+    words = [sys.executable, "-W", "ignore", "-c", FORKED, str(SCENES / "gust.toml")]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, start_new_session=True) as process:
+        try:
+            assert process.communicate(timeout=60)[0] == "done\n"
+        finally:
+            # Forks that wait for ever would outlive the one that made them.
+            if process.poll() is None:
+                os.killpg(process.pid, signal.SIGKILL)

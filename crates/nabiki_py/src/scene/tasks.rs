@@ -18,6 +18,7 @@ use crate::error;
 use crate::hints::{ArrayLike, ByName, Float32, Given, Hinted, Progress, Report, UInt32};
 use crate::simulation::Simulation;
 use crate::solution::Solution;
+use crate::threads::detached;
 use crate::timeline::Timeline;
 use crate::values;
 use crate::watched::{Ears, watched};
@@ -126,7 +127,7 @@ impl Scene {
         progress: Option<Given<'_, Progress>>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let (frame, tone_mapping) = self.drawn(py, frame, strands, Ears::new(&progress, &None))?;
-        let written = py.detach(|| {
+        let written = detached(py, || {
             if let Some(file) = &file {
                 png::write(file, &frame, &tone_mapping, png::Depth::Eight)?;
             }
