@@ -52,6 +52,7 @@ def lines():
         (lambda: gust.simulate(strands=10**7), "strands"),
         (lambda: gust.render(4), "0 to motion.frames = 3"),
         (lambda: gust.render_png(0, file="none/a.png"), "none"),
+        (lambda: gust.render_png(0, file="a.exr"), ".png"),
         (lambda: gust.export("none/a.usdc"), "none"),
         (lambda: gust.export("a.mp4"), ".usdc"),
         (lambda: gust.export(SCENES), "scenes"),

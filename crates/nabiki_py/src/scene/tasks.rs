@@ -116,7 +116,7 @@ impl Scene {
         PyArray1::from_vec(py, frame.rgba.into_flattened()).reshape([height, width, 4]).map(Hinted::new)
     }
 
-    /// A frame as the bytes of a PNG file, as `nabiki render` writes it; into `file`, too, if one is named.
+    /// A frame as the bytes of a PNG file, as `nabiki render` writes it; into `file`, a .png, too, if one is named.
     #[pyo3(signature = (frame, *, file=None, strands=None, progress=None))]
     fn render_png<'py>(
         &self,
@@ -126,6 +126,13 @@ impl Scene {
         strands: Option<usize>,
         progress: Option<Given<'_, Progress>>,
     ) -> PyResult<Bound<'py, PyBytes>> {
+        if let Some(other) =
+            file.as_ref().filter(|file| !file.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")))
+        {
+            let way_out =
+                "must end in .png; scene.run writes OpenEXR with output.exr_frames, scene.render gives light itself";
+            return Err(error::argument(py, "file", other.display(), way_out));
+        }
         let (frame, tone_mapping) = self.drawn(py, frame, strands, Ears::new(&progress, &None))?;
         let written = detached(py, || {
             if let Some(file) = &file {
