@@ -206,13 +206,13 @@ impl Scene {
         self.put(py, key, None)
     }
 
-    /// Fields of Python functions, which are added to those of the settings.
+    /// Fields of Python functions; Python's own class has them as a list that may be changed.
     #[getter]
-    fn fields(&self) -> Vec<Field> {
+    fn _fields(&self) -> Vec<Field> {
         self.functions().into_iter().map(|shared| Field { shared }).collect()
     }
 
-    #[setter]
+    #[setter(_fields)]
     fn set_fields(&self, fields: Vec<Bound<'_, Field>>) {
         let fields: Vec<Arc<PythonField>> = fields.iter().map(|field| field.get().shared.clone()).collect();
         let mut state = self.state();

@@ -2,6 +2,7 @@
 
 import keyword
 
+import numpy
 import pytest
 from conftest import SCENES
 
@@ -220,3 +221,46 @@ def test_tables_of_a_scene_may_be_given_to_itself():
     scene.vortex = [{"position": (1, 2, 3)}]
     scene.vortex = [*scene.vortex, scene.vortex[0]]
     assert scene.motion.frames == 7 and len(scene.vortex) == 2 and scene.vortex[0] == scene.vortex[1]
+
+
+def test_what_is_given_as_a_list_may_be_changed_as_one(gust):
+    """A list that is not the scene's own would take what is put into it and lose it."""
+    gust.forces = [(5, (1, 0, 0))]
+    gust.forces.append((9, numpy.array([0, 2, 0])))
+    gust.forces += [(12, (0, 0, 3))]
+    assert gust.forces == [(5, (1, 0, 0)), (9, (0, 2, 0)), (12, (0, 0, 3))] == gust.copy().forces
+    assert gust.forces.pop(1) == (9, (0, 2, 0)) and gust.force[1].through == 12
+    gust.forces[0] = (4, (7, 0, 0))
+    del gust.forces[1:]
+    assert gust.forces == [(4, (7, 0, 0))] and gust.forces + [1] == [(4, (7, 0, 0)), 1]
+    with pytest.raises(nabiki.Error, match=r"force\[1\]\.through"):
+        gust.forces.append((3, (1, 0, 0)))
+    assert len(gust.forces) == 1
+    gust.bodies.append("ball.obj")
+    gust.bodies.insert(0, {"mesh": "hand.obj", "margin": 0.2})
+    assert [body.mesh for body in gust.body] == ["hand.obj", "ball.obj"] == [body["mesh"] for body in gust.bodies]
+    field = nabiki.Field(lambda points, frame: (1, 0, 0), strongest=1)
+    gust.fields.append(field)
+    assert [own.function for own in gust.fields] == [field.function]
+    gust.fields.clear()
+    assert gust.fields == [] and not gust.fields
+
+
+@pytest.mark.parametrize("force", [(5, 1, 2, 3), 5, numpy.zeros(4)])
+def test_an_interval_of_another_shape_is_named(gust, force):
+    with pytest.raises(nabiki.Error) as refused:
+        gust.forces = [(2, (1, 0, 0)), force]
+    assert refused.value.thing == "forces[1]" and "(last frame, (x, y, z))" in str(refused.value)
+
+
+def test_entries_that_are_turned_round_or_taken_out_stay_what_they_are(gust):
+    for strength in (10, 20, 30):
+        gust.fan.append({"position": (40, 0, 0), "direction": (-1, 0, 0), "strength": strength})
+    gust.fan.reverse()
+    assert [fan.strength for fan in gust.fan] == [30, 20, 10]
+    assert gust.fan.pop(0).strength == 30 and gust.fan.pop().strength == 10
+    assert [fan.strength for fan in gust.fan] == [20]
+    gust.fan.clear()
+    assert len(gust.fan) == 0
+    with pytest.raises(IndexError):
+        gust.fan.pop()

@@ -3,14 +3,26 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
+from ._error import Error
 from ._nabiki import Field, Solution
+from ._written import Written
 from .settings import SceneSettings
 from .settings._table import Arrays, File, Numbers
 
 Force = tuple[int, Numbers]
+
+
+def _interval(place: int, force: Any) -> dict[str, Any]:
+    """An interval of the wind as a scene has it."""
+    try:
+        through, vector = force
+    except (TypeError, ValueError):
+        thing, value, way_out = f"forces[{place}]", " ".join(repr(force).split()), "must be (last frame, (x, y, z))"
+        raise Error(f"{thing} = {value}: {way_out}", thing=thing, value=value, way_out=way_out) from None
+    return {"through": through, "vector": vector}
 
 
 class Scene(SceneSettings):
@@ -32,7 +44,7 @@ class Scene(SceneSettings):
         *,
         forces: Iterable[Force] | None = None,
         bodies: Iterable[File | Arrays | Mapping[str, Any]] | None = None,
-        fields: Sequence[Field] | None = None,
+        fields: Iterable[Field] | None = None,
         **settings: Any,
     ) -> None:
         if head is not None:
@@ -46,25 +58,46 @@ class Scene(SceneSettings):
         if bodies is not None:
             self.bodies = bodies
         if fields is not None:
-            self.fields = list(fields)
+            self.fields = fields
 
     @property
-    def forces(self) -> list[tuple[int, tuple[float, float, float]]]:
+    def forces(self) -> Written[tuple[int, tuple[float, float, float]]]:
         """The intervals of `[[force]]`: the last frame of each, and the vector that pulls through it."""
-        return [(force.through, force.vector) for force in self.force]
+
+        def write(forces: Iterable[Force]) -> None:
+            self.forces = forces
+
+        return Written(lambda: [(force.through, force.vector) for force in self.force], write)
 
     @forces.setter
     def forces(self, forces: Iterable[Force]) -> None:
-        self["force"] = [{"through": through, "vector": vector} for through, vector in forces]
+        self["force"] = [_interval(place, force) for place, force in enumerate(forces)]
 
     @property
-    def bodies(self) -> list[dict[str, Any]]:
+    def bodies(self) -> Written[Any]:
         """What else hair does not enter, in the free form: a list of settings of bodies, mesh files or (points, faces)."""
-        return self.body.to_list()
+
+        def write(bodies: Iterable[Any]) -> None:
+            self.bodies = bodies
+
+        return Written(lambda: self.body.to_list(), write)
 
     @bodies.setter
     def bodies(self, bodies: Iterable[File | Arrays | Mapping[str, Any]]) -> None:
         self["body"] = [body if isinstance(body, Mapping) else {"mesh": body} for body in bodies]
+
+    @property
+    def fields(self) -> Written[Field]:
+        """Fields of Python functions, which are added to those of the settings."""
+
+        def write(fields: Iterable[Field]) -> None:
+            self.fields = fields
+
+        return Written(lambda: list(self._fields), write)
+
+    @fields.setter
+    def fields(self, fields: Iterable[Field]) -> None:
+        self._fields = list(fields)
 
     def solve(
         self,

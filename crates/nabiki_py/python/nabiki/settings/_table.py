@@ -125,6 +125,19 @@ class Tables(MutableSequence[T], Generic[T]):
     def extend(self, values: Iterable[T | Mapping[str, Any]]) -> None:
         self._scene[self._key] = [*self.to_list(), *values]
 
+    def pop(self, index: int = -1) -> T:
+        """Takes an entry out; it is then one of a copy of the scene, since entries have no values of their own."""
+        entry = self._entry(self._scene.copy(), self._place(index))
+        del self[index]
+        return entry
+
+    # One by one, an entry would be what its neighbour has become, and the last one may not be taken out.
+    def reverse(self) -> None:
+        self._scene[self._key] = self.to_list()[::-1]
+
+    def clear(self) -> None:
+        self._scene[self._key] = []
+
     def to_list(self) -> list[Any]:
         """All entries as dictionaries."""
         return list(self._scene[self._key] or ())
