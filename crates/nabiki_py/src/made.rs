@@ -1,9 +1,9 @@
-//! Hair and meshes that Python gives as arrays: files in a folder of the scene's, gone with it, so that all that is true of
-//! hair and meshes of files is true of them.
+//! Hair and meshes that Python gives as arrays: temporary files of the scenes that name them, so that all that is true of hair
+//! and meshes of files is true of them.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use glam::Vec3;
 use nabiki::{Hair, Strands};
@@ -11,82 +11,88 @@ use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
-use tempfile::TempDir;
+use tempfile::TempPath;
 
 use crate::error;
 
-/// The folder of the arrays of a scene, and of those copied from it.
+/// The files of the arrays of a scene. Each goes with the last scene that names it.
 #[derive(Clone, Default)]
-pub struct Folder(Arc<Mutex<Files>>);
+pub struct Files(Vec<Arc<File>>);
 
-#[derive(Default)]
-struct Files {
-    folder: Option<TempDir>,
-    made: u32,
+struct File {
+    path: TempPath,
+    process: u32,
 }
 
-impl Folder {
+impl Drop for File {
+    fn drop(&mut self) {
+        // What a fork lets go of, its parent still has.
+        self.path.disable_cleanup(self.process != std::process::id());
+    }
+}
+
+impl Files {
     /// Whether a file is one of them.
     pub fn holds(&self, path: &Path) -> bool {
-        let files = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        files.folder.as_ref().is_some_and(|folder| path.starts_with(folder.path()))
+        self.0.iter().any(|file| &*file.path == path)
     }
 
-    /// A new name in it.
-    fn file(&self, py: Python<'_>, ending: &str) -> PyResult<PathBuf> {
-        let new = || {
-            let mut files = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-            files.made += 1;
-            let name = format!("{}.{ending}", files.made);
-            if files.folder.is_none() {
-                files.folder = Some(tempfile::Builder::new().prefix("nabiki_").tempdir()?);
-            }
-            Ok(files.folder.as_ref().map(|folder| folder.path().join(name)).unwrap_or_default())
-        };
-        new().map_err(|e: std::io::Error| {
-            error::line(py, format!("no place for arrays beside other temporary files: {e}"))
-        })
+    /// Keeps these besides, and of all of them those that a scene reads.
+    pub fn take(&mut self, others: Self, scene: &nabiki_scene::Scene) {
+        self.0.extend(others.0);
+        let named = scene.inputs();
+        self.0.retain(|file| named.iter().any(|path| **path == *file.path));
+    }
+
+    /// A new one, empty.
+    fn file(&mut self, py: Python<'_>, ending: &str) -> PyResult<PathBuf> {
+        let new = tempfile::Builder::new().prefix("nabiki_").suffix(ending).tempfile();
+        let new = new.map_err(|e| error::line(py, format!("no place for arrays beside other temporary files: {e}")))?;
+        let file = File { path: new.into_temp_path(), process: std::process::id() };
+        let path = file.path.to_owned();
+        self.0.push(Arc::new(file));
+        Ok(path)
     }
 
     /// A hair file of (points, offsets).
-    pub fn hair(&self, arrays: &Bound<'_, PyTuple>) -> PyResult<PathBuf> {
+    pub fn hair(&mut self, arrays: &Bound<'_, PyTuple>) -> PyResult<PathBuf> {
         let py = arrays.py();
         let hair = hair(arrays)?;
-        let path = self.file(py, "hair")?;
+        let path = self.file(py, ".hair")?;
         nabiki_io::hair::write(&path, &hair).map_err(|refused| error::raised(py, refused.into()))?;
         Ok(path)
     }
 
     /// A mesh file of (points, faces).
-    pub fn mesh(&self, thing: &str, arrays: &Bound<'_, PyTuple>) -> PyResult<PathBuf> {
+    pub fn mesh(&mut self, thing: &str, arrays: &Bound<'_, PyTuple>) -> PyResult<PathBuf> {
         let py = arrays.py();
         let (points, faces) = pair(thing, "(points, faces)", arrays)?;
         let points = points_of(&format!("{thing} points"), &points)?;
         let faces = numbers(&format!("{thing} faces"), &faces, "int64")?;
-        let faces: PyReadonlyArray2<'_, i64> = faces.extract().map_err(|_| {
-            error::argument(
-                py,
-                &format!("{thing} faces"),
-                "an array of another shape",
-                "must have the shape (faces, 3) or (faces, 4)",
-            )
-        })?;
+        let corners: Option<PyReadonlyArray2<'_, i64>> = faces.extract().ok();
+        let Some(corners) = corners.filter(|corners| matches!(corners.as_array().ncols(), 3 | 4)) else {
+            let way_out = "must have the shape (faces, 3) or (faces, 4)";
+            return Err(error::argument(py, &format!("{thing} faces"), shape(&faces)?, way_out));
+        };
         let mut text = String::new();
         for [x, y, z] in points.iter().map(Vec3::to_array) {
             let _ = writeln!(text, "v {x} {y} {z}");
         }
-        for face in faces.as_array().rows() {
+        for face in corners.as_array().rows() {
             text.push('f');
             for &corner in face {
                 if !(0..points.len() as i64).contains(&corner) {
-                    let way_out = format!("names no point: the points are 0 to {}", points.len().saturating_sub(1));
+                    let way_out = match points.len() {
+                        0 => "names no point: there are none".to_owned(),
+                        count => format!("names no point: the points are 0 to {}", count - 1),
+                    };
                     return Err(error::argument(py, &format!("{thing} faces"), corner, &way_out));
                 }
                 let _ = write!(text, " {}", corner + 1);
             }
             text.push('\n');
         }
-        let path = self.file(py, "obj")?;
+        let path = self.file(py, ".obj")?;
         std::fs::write(&path, text).map_err(|e| error::line(py, format!("{}: {e}", path.display())))?;
         Ok(path)
     }
@@ -98,13 +104,17 @@ pub fn hair(arrays: &Bound<'_, PyTuple>) -> PyResult<Hair> {
     let (points, offsets) = pair("hair", "(points, offsets)", arrays)?;
     let points = points_of("hair points", &points)?;
     let offsets = numbers("hair offsets", &offsets, "int64")?;
-    let offsets: PyReadonlyArray1<'_, i64> = offsets.extract().map_err(|_| {
-        error::argument(py, "hair offsets", "an array of another shape", "must have the shape (strands + 1,)")
-    })?;
-    let offsets: Vec<i64> = offsets.as_array().to_vec();
-    let count = points.len() as i64;
     let refused = |value: String, way_out: &str| Err(error::argument(py, "hair offsets", value, way_out));
-    if offsets.len() < 2 || offsets[0] != 0 || offsets.last() != Some(&count) {
+    let Ok(starts) = offsets.extract::<PyReadonlyArray1<'_, i64>>() else {
+        return refused(shape(&offsets)?, "must have the shape (strands + 1,)");
+    };
+    let offsets: Vec<i64> = starts.as_array().to_vec();
+    let count = points.len() as i64;
+    if offsets.len() < 2 {
+        let way_out = "hair has one strand at least: 0, and the number of points where each strand ends";
+        return refused(format!("{offsets:?}"), way_out);
+    }
+    if offsets[0] != 0 || offsets.last() != Some(&count) {
         let ends = format!("{:?} to {:?}", offsets.first().unwrap_or(&0), offsets.last().unwrap_or(&0));
         return refused(ends, &format!("must begin with 0 and end with the number of points, {count}"));
     }
@@ -133,13 +143,11 @@ pub fn points_of(thing: &str, array: &Bound<'_, PyAny>) -> PyResult<Vec<Vec3>> {
     let py = array.py();
     let array = numbers(thing, array, "float32")?;
     let refused = |value: String, way_out: &str| error::argument(py, thing, value, way_out);
-    let points: PyReadonlyArray2<'_, f32> = array
-        .extract()
-        .map_err(|_| refused("an array of another shape".to_owned(), "must have the shape (points, 3)"))?;
+    let points: Option<PyReadonlyArray2<'_, f32>> = array.extract().ok();
+    let Some(points) = points.filter(|points| points.as_array().ncols() == 3) else {
+        return Err(refused(shape(&array)?, "must have the shape (points, 3)"));
+    };
     let points = points.as_array();
-    if points.shape()[1] != 3 {
-        return Err(refused(format!("shape {:?}", points.shape()), "must have the shape (points, 3)"));
-    }
     let points: Vec<Vec3> = points.rows().into_iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
     match nabiki::strands::not_finite(&points) {
         None => Ok(points),
@@ -147,9 +155,39 @@ pub fn points_of(thing: &str, array: &Bound<'_, PyAny>) -> PyResult<Vec<Vec3>> {
     }
 }
 
-/// Whatever NumPy makes an array of.
-fn numbers<'py>(thing: &str, array: &Bound<'py, PyAny>, kind: &str) -> PyResult<Bound<'py, PyAny>> {
-    let py = array.py();
-    let made = py.import(intern!(py, "numpy"))?.call_method1(intern!(py, "asarray"), (array, kind));
-    made.map_err(|e| error::argument(py, thing, array.get_type(), &format!("is no array of numbers: {}", e.value(py))))
+/// Numbers of whatever NumPy makes an array of. What `kind` cannot hold is refused: NumPy would cut fractions off, take text
+/// for numbers and show what is masked.
+fn numbers<'py>(thing: &str, given: &Bound<'py, PyAny>, kind: &str) -> PyResult<Bound<'py, PyAny>> {
+    let py = given.py();
+    let numpy = py.import(intern!(py, "numpy"))?;
+    let refused = |value: String, way_out: &str| error::argument(py, thing, value, way_out);
+    let made = |given: &Bound<'py, PyAny>, arguments: (&Bound<'py, PyAny>, Option<&str>)| {
+        let made = numpy.call_method1(intern!(py, "asarray"), arguments);
+        let type_ = given.get_type().name().map_or_else(|_| String::new(), |name| name.to_string());
+        made.map_err(|e| refused(type_, &format!("is no array of numbers: {}", e.value(py))))
+    };
+    let array = made(given, (given, None))?;
+    let dtype = array.getattr(intern!(py, "dtype"))?;
+    let letter: String = dtype.getattr(intern!(py, "kind"))?.extract()?;
+    if !matches!(letter.as_str(), "i" | "u" | "f" | "O") {
+        return Err(refused(format!("an array of {dtype}"), "must be an array of numbers"));
+    }
+    if numpy.getattr(intern!(py, "ma"))?.call_method1(intern!(py, "is_masked"), (given,))?.extract()? {
+        return Err(refused(
+            "a masked array".to_owned(),
+            "must have all its values: fill or drop those that are masked",
+        ));
+    }
+    if kind == "int64" && letter == "f" {
+        let whole = numpy.call_method1(intern!(py, "trunc"), (&array,))?;
+        if !numpy.call_method1(intern!(py, "array_equal"), (whole, &array))?.extract()? {
+            return Err(refused(format!("an array of {dtype}"), "must be whole numbers"));
+        }
+    }
+    made(given, (&array, Some(kind)))
+}
+
+/// The shape of an array, as a refused value.
+fn shape(array: &Bound<'_, PyAny>) -> PyResult<String> {
+    Ok(format!("an array of shape {}", array.getattr(intern!(array.py(), "shape"))?))
 }

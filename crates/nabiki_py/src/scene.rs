@@ -15,7 +15,7 @@ use toml::{Table, Value};
 use crate::error;
 use crate::field::{Field, PythonField};
 use crate::hints::{Anything, ByName, Dictionary, Given, Hinted, SameClass};
-use crate::made::Folder;
+use crate::made::Files;
 use crate::values;
 use crate::watched::{Ears, watched};
 
@@ -29,7 +29,7 @@ pub struct Scene(Mutex<State>);
 struct State {
     scene: nabiki_scene::Scene,
     fields: Vec<Arc<PythonField>>,
-    made: Folder,
+    made: Files,
     built: Option<Built>,
 }
 
@@ -65,7 +65,7 @@ impl Scene {
     /// All that the scene names, loaded; what has not changed since it was built last is taken from there.
     fn built(&self, py: Python<'_>, strands: Option<usize>, ears: Ears<'_, '_>) -> PyResult<Arc<BuiltScene>> {
         let shown = strands.map_or(Shown::All, Shown::First);
-        let State { scene, built: known, .. } = self.state().clone();
+        let State { scene, built: known, made: _held, .. } = self.state().clone();
         let files = files_of(&scene);
         let known = known.filter(|known| known.files == files);
         if let Some(known) = known.as_ref().filter(|known| known.shown == shown && known.scene.scene == scene) {
@@ -89,13 +89,14 @@ impl Scene {
     }
 
     /// Another value of a setting; what is out of its range is refused, and the scene is then as it was.
-    fn put(&self, py: Python<'_>, key: &str, value: Option<Value>) -> PyResult<()> {
+    fn put(&self, py: Python<'_>, key: &str, value: Option<Value>, files: Files) -> PyResult<()> {
         let put = || {
             let mut state = self.state();
             let changed = state.scene.with_setting(key, value)?;
             match changed.check() {
                 Err(wrong) if concerns(&wrong.thing, key) => Err(changed.refusal(wrong)),
                 _ => {
+                    state.made.take(files, &changed);
                     state.scene = changed;
                     Ok(())
                 }
@@ -137,11 +138,17 @@ impl Scene {
         settings: Option<Given<'py, ByName>>,
     ) -> PyResult<Hinted<'py, SameClass>> {
         let py = class.py();
-        let settings = settings.map(|settings| values::table(settings.0.cast()?)).transpose()?.unwrap_or_default();
-        let settings: Vec<(String, String)> =
-            settings.iter().map(|(key, value)| (key.clone(), value.to_string())).collect();
-        let scene = nabiki_scene::Scene::load(&path, &settings).map_err(|refused| Self::refused(py, refused))?;
-        Self::another(class, State { scene, ..State::default() }).map(Hinted::new)
+        let (mut made, mut given) = (Files::default(), Vec::new());
+        if let Some(settings) = settings {
+            for entry in settings.0.cast::<PyMapping>()?.items()?.iter() {
+                let (key, value): (String, Bound<'_, PyAny>) = entry.extract()?;
+                if !value.is_none() {
+                    given.push((key.clone(), setting(&key, &value, &mut made)?.to_string()));
+                }
+            }
+        }
+        let scene = nabiki_scene::Scene::load(&path, &given).map_err(|refused| Self::refused(py, refused))?;
+        Self::another(class, State { scene, made, ..State::default() }).map(Hinted::new)
     }
 
     /// Reads the text of a scene file; `path` names it in errors, and paths in it are relative to the folder of `path`.
@@ -194,16 +201,17 @@ impl Scene {
     /// Gives a setting another value; None takes it out, so that it is what it is when nobody says. Meshes may be files or
     /// (points, faces), `hair.file` may be (points, offsets).
     fn __setitem__(&self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
+        let mut files = Files::default();
         let value = match value {
             none if none.is_none() => None,
-            given => Some(self.value(key, given)?),
+            given => Some(setting(key, given, &mut files)?),
         };
-        self.put(py, key, value)
+        self.put(py, key, value, files)
     }
 
     /// Takes a setting, a table or an entry of a list out.
     fn __delitem__(&self, py: Python<'_>, key: &str) -> PyResult<()> {
-        self.put(py, key, None)
+        self.put(py, key, None, Files::default())
     }
 
     /// Fields of Python functions; Python's own class has them as a list that may be changed.
@@ -246,40 +254,43 @@ impl Scene {
     }
 }
 
-impl Scene {
-    /// A value of a setting, or of a table of them, in which arrays of hair and meshes become files.
-    fn value(&self, key: &str, given: &Bound<'_, PyAny>) -> PyResult<Value> {
-        let name = key.rsplit('.').next().unwrap_or(key);
-        if let Ok(arrays) = given.cast::<PyTuple>() {
-            let made = self.state().made.clone();
-            let path = match name {
-                "mesh" => Some(made.mesh(key, arrays)?),
-                "file" if key == "hair.file" => Some(made.hair(arrays)?),
-                _ => None,
-            };
-            if let Some(path) = path {
-                return Ok(Value::String(path.to_string_lossy().into_owned()));
-            }
+/// A value of a setting, or of a table of them, in which arrays of hair and meshes become files.
+fn setting(key: &str, given: &Bound<'_, PyAny>, files: &mut Files) -> PyResult<Value> {
+    let name = key.rsplit('.').next().unwrap_or(key);
+    let pair = match given.cast::<PyList>() {
+        Ok(list) => Ok(list.to_tuple()),
+        Err(_) => given.cast::<PyTuple>().cloned(),
+    };
+    if let Ok(arrays) = pair {
+        let path = match name {
+            "mesh" => Some(files.mesh(key, &arrays)?),
+            "file" if key == "hair.file" => Some(files.hair(&arrays)?),
+            _ => None,
+        };
+        if let Some(path) = path {
+            return Ok(Value::String(path.to_string_lossy().into_owned()));
         }
-        if let Ok(table) = given.cast::<PyMapping>() {
-            let mut values = Table::new();
-            for entry in table.items()?.iter() {
-                let (name, value): (String, Bound<'_, PyAny>) = entry.extract()?;
-                if !value.is_none() {
-                    values.insert(name.clone(), self.value(&format!("{key}.{name}"), &value)?);
-                }
-            }
-            return Ok(Value::Table(values));
-        }
-        if key == "body"
-            && let Ok(bodies) = given.cast::<PyList>()
-        {
-            let entry = |(i, body): (usize, Bound<'_, PyAny>)| self.value(&format!("body[{i}]"), &body);
-            return bodies.iter().enumerate().map(entry).collect::<PyResult<_>>().map(Value::Array);
-        }
-        values::to_toml(given)
     }
+    if let Ok(table) = given.cast::<PyMapping>() {
+        let mut values = Table::new();
+        for entry in table.items()?.iter() {
+            let (name, value): (String, Bound<'_, PyAny>) = entry.extract()?;
+            if !value.is_none() {
+                values.insert(name.clone(), setting(&format!("{key}.{name}"), &value, files)?);
+            }
+        }
+        return Ok(Value::Table(values));
+    }
+    if key == "body"
+        && let Ok(bodies) = given.cast::<PyList>()
+    {
+        let entry = |(i, body): (usize, Bound<'_, PyAny>)| setting(&format!("body[{i}]"), &body, files);
+        return bodies.iter().enumerate().map(entry).collect::<PyResult<_>>().map(Value::Array);
+    }
+    values::to_toml(given)
+}
 
+impl Scene {
     /// The scene, unless it names what is gone with it.
     fn writable(&self, py: Python<'_>) -> PyResult<nabiki_scene::Scene> {
         let State { scene, made, .. } = self.state().clone();

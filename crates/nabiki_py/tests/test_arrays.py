@@ -1,6 +1,7 @@
 """Heads and hair of arrays are those of files."""
 
 import numpy
+import pytest
 from conftest import bits
 
 import nabiki
@@ -87,3 +88,27 @@ def test_arrays_go_with_the_last_scene_that_names_them():
     assert os.path.exists(file)
     del other
     assert not os.path.exists(file)
+
+
+def test_files_of_arrays_that_no_scene_names_any_more_are_gone():
+    """A sweep over grooms would fill the disk."""
+    import os
+
+    scene = nabiki.Scene(hair=hair(10.0), motion={"form": "free", "frames": 2})
+    first, kept = scene.hair.file, scene.copy()
+    scene.hair.file = hair(11.0)
+    second = scene.hair.file
+    assert os.path.exists(first) and os.path.exists(second)
+    kept.hair.file = scene.hair.file = hair(12.0)
+    assert not os.path.exists(first) and not os.path.exists(second)
+    with pytest.raises(nabiki.Error):
+        scene.hair = {"file": hair(10.0), "strands": -1}
+    assert len(scene.groom()[1]) == 41
+
+
+def test_arrays_may_be_lists_and_settings_of_a_scene_that_is_opened(tmp_path):
+    scene = nabiki.Scene(hair=list(hair(10.0)), motion={"form": "free"})
+    (tmp_path / "head.toml").write_text('[motion]\nform = "free"\n')
+    opened = nabiki.Scene.open(tmp_path / "head.toml", {"hair.file": hair(10.0), "head.mesh": sphere(10.0)})
+    for found in (scene, opened):
+        assert numpy.array_equal(found.groom()[1], hair(10.0)[1])

@@ -62,8 +62,8 @@ impl Scene {
     ) -> PyResult<(Hinted<'py, Float32>, Hinted<'py, UInt32>)> {
         let ears = Ears::new(&None, &report);
         if let Some(file) = file {
-            let (scene, shown) = (self.now(), shown(strands));
-            watched(py, ears, &[], |watch| tasks::groom(scene, shown, &file, watch))?;
+            let State { scene, made: _held, .. } = self.state().clone();
+            watched(py, ears, &[], |watch| tasks::groom(scene, shown(strands), &file, watch))?;
         }
         let built = self.built(py, strands, ears)?;
         let points = Bound::new(py, Points::new(built.hair.strands.points().to_vec(), None))?;
@@ -155,8 +155,8 @@ impl Scene {
         progress: Option<Given<'_, Progress>>,
         report: Option<Given<'_, Report>>,
     ) -> PyResult<()> {
-        let (scene, shown, none) = (self.now(), shown(strands), ExportOptions::default());
-        let fields = self.functions();
+        let State { scene, fields, made: _held, .. } = self.state().clone();
+        let (shown, none) = (shown(strands), ExportOptions::default());
         watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::run(scene, shown, &folder, &none, watch))
     }
 
@@ -171,7 +171,7 @@ impl Scene {
         progress: Option<Given<'_, Progress>>,
         report: Option<Given<'_, Report>>,
     ) -> PyResult<()> {
-        let (scene, fields) = (self.now(), self.functions());
+        let State { scene, fields, made: _held, .. } = self.state().clone();
         let shown = strands.map_or(Shown::AtMost(PREVIEW_STRANDS), Shown::First);
         watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::preview(scene, shown, &folder, None, watch))
     }
@@ -195,7 +195,8 @@ impl Scene {
     ) -> PyResult<()> {
         let exports = ExportOptions { files: Vec::new(), layer, head };
         let options = SimulateOptions { output: file, exports, twin: Twin::Fast, shard: None };
-        let (scene, shown, fields) = (self.now(), shown(strands), self.functions());
+        let State { scene, fields, made: _held, .. } = self.state().clone();
+        let shown = shown(strands);
         watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::simulate(scene, shown, &options, watch))
     }
 
