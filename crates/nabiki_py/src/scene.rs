@@ -166,6 +166,30 @@ impl Scene {
         Self::another(&this.get_type(), state).map(Hinted::new)
     }
 
+    fn __copy__<'py>(this: &Bound<'py, Self>) -> PyResult<Hinted<'py, SameClass>> {
+        Self::copy(this)
+    }
+
+    #[pyo3(signature = (_memo: "object"))]
+    fn __deepcopy__<'py>(this: &Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> PyResult<Hinted<'py, SameClass>> {
+        Self::copy(this)
+    }
+
+    /// Other processes get its text, with its file, beside which relative paths lie.
+    fn __reduce__<'py>(this: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, String))> {
+        let (py, scene) = (this.py(), this.get());
+        if !scene.functions().is_empty() {
+            let line = "the fields of this scene are functions of Python, which stay in their process: \
+                        send a scene without them, and give it there its fields";
+            return Err(error::line(py, line));
+        }
+        let (text, file) = (scene.to_toml(py)?, scene.now().file().to_owned());
+        // The other process had better not find it out: a pool that cannot read what it was sent says nothing.
+        nabiki_scene::Scene::parse(&text, &file, &[]).map_err(|refused| error::raised(py, refused.into()))?;
+        let file = file.to_string_lossy().into_owned();
+        Ok((this.get_type().getattr("parse")?, (text, file)))
+    }
+
     /// Its file, or nothing for a scene made in code.
     #[getter]
     fn file(&self) -> Option<String> {

@@ -1,6 +1,8 @@
 """Every setting is an attribute, means what it means in a file, and has a doc."""
 
+import copy
 import keyword
+import pickle
 
 import numpy
 import pytest
@@ -193,6 +195,34 @@ def test_copies_change_by_themselves():
     other = scene.copy()
     other.motion.frames = 3
     assert scene.motion.frames != 3 and type(other) is nabiki.Scene
+
+
+def test_a_scene_is_copied_and_sent_as_other_objects_are(tmp_path):
+    (tmp_path / "gust.toml").write_text(WIND + "# kept\n")
+    scene = nabiki.Scene.open(tmp_path / "gust.toml")
+    scene.motion.frames = 5
+    scene.fan = [{"position": (40, 0, 0), "direction": (-1, 0, 0)}]
+    for other in (copy.copy(scene), copy.deepcopy(scene), pickle.loads(pickle.dumps(scene))):
+        assert type(other) is nabiki.Scene and other.settings() == scene.settings()
+        assert other.file == scene.file and "# kept" in other.to_toml()
+        other.motion.frames = 3
+        assert scene.motion.frames == 5
+    made = nabiki.Scene(forces=[(5, (1, 0, 0))])
+    assert pickle.loads(pickle.dumps(made)).settings() == made.settings()
+    assert copy.deepcopy(scene.motion).frames == 5 and pickle.loads(pickle.dumps(scene.fan[0])) == scene.fan[0]
+    assert len(pickle.loads(pickle.dumps(scene.fan))) == 1
+
+
+def test_what_cannot_be_sent_is_refused_where_it_is(gust):
+    gust.output.sheet = [12]
+    gust.motion.frames = 3
+    with pytest.raises(nabiki.Error, match="sheet"):
+        pickle.dumps(gust)
+    gust.output.sheet = [0]
+    gust.fields = [nabiki.Field(lambda points, frame: (1, 0, 0), strongest=1)]
+    with pytest.raises(nabiki.Error, match="functions of Python"):
+        pickle.dumps(gust)
+    assert len(copy.copy(gust).fields) == 1
 
 
 def test_a_saved_scene_keeps_its_comments_and_its_paths(tmp_path):

@@ -65,6 +65,9 @@ class Table:
 
     __hash__ = None  # type: ignore[assignment]
 
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (self._scene, self._key)
+
     def __repr__(self) -> str:
         return f"<{self._key}: {self.to_dict()}>"
 
