@@ -1,6 +1,6 @@
 //! A motion, frame by frame.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use nabiki::dynamics::Stepper;
 use nabiki_scene::BuiltScene;
@@ -12,18 +12,23 @@ use crate::error;
 use crate::field::PythonField;
 use crate::frame::{self, Frame};
 use crate::hints::{Hinted, UInt32};
-use crate::threads::detached;
+use crate::threads::{alone, detached};
 use crate::watched::{Ears, watched};
 
 /// The motion of a scene's hair: an iterator over its frames, from rest, frame 0, to the last. Each is computed when it is
 /// asked for; those that nobody keeps take no memory. `len()` is the number of all frames.
-#[pyclass(module = "nabiki")]
+#[pyclass(frozen, module = "nabiki")]
 pub struct Simulation {
     built: Arc<BuiltScene>,
-    stepper: nabiki::dynamics::Simulation,
+    place: Mutex<Place>,
     fields: Vec<Arc<PythonField>>,
     rooms: Arc<Rooms>,
     offsets: Py<PyArray1<u32>>,
+}
+
+/// How far it is.
+struct Place {
+    stepper: nabiki::dynamics::Simulation,
     next: u32,
 }
 
@@ -31,7 +36,8 @@ impl Simulation {
     pub fn of(py: Python<'_>, built: Arc<BuiltScene>, fields: Vec<Arc<PythonField>>) -> PyResult<Self> {
         let stepper = detached(py, || built.simulation()).map_err(|refused| error::raised(py, refused))?;
         let offsets = frame::offsets(py, &built);
-        Ok(Self { built, stepper, fields, rooms: Arc::default(), offsets, next: 0 })
+        let place = Mutex::new(Place { stepper, next: 0 });
+        Ok(Self { built, place, fields, rooms: Arc::default(), offsets })
     }
 }
 
@@ -41,8 +47,10 @@ impl Simulation {
         this
     }
 
-    fn __next__(&mut self, py: Python<'_>) -> PyResult<Option<Frame>> {
-        let Self { built, stepper, fields, rooms, offsets, next } = self;
+    fn __next__(&self, py: Python<'_>) -> PyResult<Option<Frame>> {
+        let Self { built, place, fields, rooms, offsets } = self;
+        let mut place = alone(place, "simulation", "simulate")?;
+        let Place { stepper, next } = &mut *place;
         let number = *next;
         if number > built.frames() {
             return Ok(None);
@@ -71,8 +79,9 @@ impl Simulation {
     }
 
     /// Frames that are still to come, for bars of progress.
-    fn __length_hint__(&self) -> usize {
-        (self.built.frames() + 1).saturating_sub(self.next) as usize
+    fn __length_hint__(&self) -> PyResult<usize> {
+        let next = alone(&self.place, "simulation", "simulate")?.next;
+        Ok((self.built.frames() + 1).saturating_sub(next) as usize)
     }
 
     /// Where strands begin in the points of each frame, and at last where they end: (S + 1,) uint32.

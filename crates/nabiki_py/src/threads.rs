@@ -4,8 +4,9 @@
 //! Linux unless it is told otherwise (before Python 3.14), so that a fork gets threads of its own.
 
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -27,6 +28,17 @@ pub fn shared<T: Send>(work: impl FnOnce() -> T + Send) -> T {
 /// The same while other threads of Python go on.
 pub fn detached<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> T {
     py.detach(|| shared(work))
+}
+
+/// What one thread at a time may ask. Who comes meanwhile is not kept waiting: it may be a function that the work itself asks.
+pub fn alone<'a, T>(shared: &'a Mutex<T>, thing: &str, method: &str) -> PyResult<MutexGuard<'a, T>> {
+    match shared.try_lock() {
+        Ok(free) => Ok(free),
+        Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
+        Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(format!(
+            "this {thing} is at work: give each thread one of its own, scene.{method}()"
+        ))),
+    }
 }
 
 /// They live as long as the process: those of the process it was forked from are not there to be ended.

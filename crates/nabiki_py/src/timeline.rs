@@ -1,6 +1,6 @@
 //! All frames of a motion at hand.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use glam::Vec3;
 use nabiki_scene::BuiltScene;
@@ -13,14 +13,14 @@ use crate::error;
 use crate::field::PythonField;
 use crate::frame::{self, Frame};
 use crate::hints::{Float32, Hinted, UInt32};
-use crate::threads::detached;
+use crate::threads::{alone, detached};
 use crate::watched::{Ears, watched};
 
 /// A motion at hand: any frame of it, or all of them at once.
-#[pyclass(module = "nabiki")]
+#[pyclass(frozen, module = "nabiki")]
 pub struct Timeline {
     built: Arc<BuiltScene>,
-    timeline: nabiki::dynamics::Timeline,
+    timeline: Mutex<nabiki::dynamics::Timeline>,
     fields: Vec<Arc<PythonField>>,
     offsets: Py<PyArray1<u32>>,
 }
@@ -29,16 +29,18 @@ impl Timeline {
     pub fn of(py: Python<'_>, built: Arc<BuiltScene>, fields: Vec<Arc<PythonField>>) -> PyResult<Self> {
         let timeline = detached(py, || built.timeline()).map_err(|refused| error::raised(py, refused))?;
         let offsets = frame::offsets(py, &built);
-        Ok(Self { built, timeline, fields, offsets })
+        Ok(Self { built, timeline: Mutex::new(timeline), fields, offsets })
     }
 }
 
 #[pymethods]
 impl Timeline {
     /// All frames: (frames, P, 3) float32, head space, cm; read-only. They take frames x P x 12 bytes.
-    fn play<'py>(&mut self, py: Python<'py>) -> PyResult<Hinted<'py, Float32>> {
+    fn play<'py>(&self, py: Python<'py>) -> PyResult<Hinted<'py, Float32>> {
         let frames = self.built.frames() as usize + 1;
         let Self { built, timeline, fields, .. } = self;
+        let mut timeline = alone(timeline, "timeline", "timeline")?;
+        let timeline = &mut *timeline;
         let film = watched(py, Ears::default(), fields, |_| {
             let mut film = vec![Vec3::ZERO; frames * built.hair.strands.points().len()];
             timeline.play_into(&mut film);
@@ -48,7 +50,7 @@ impl Timeline {
     }
 
     /// Any frame, computed from the one before it that was asked for last; `timeline[-1]` is the last frame.
-    fn __getitem__(&mut self, py: Python<'_>, frame: i64) -> PyResult<Frame> {
+    fn __getitem__(&self, py: Python<'_>, frame: i64) -> PyResult<Frame> {
         let count = i64::from(self.built.frames()) + 1;
         let number = if frame < 0 { frame + count } else { frame };
         if !(0..count).contains(&number) {
@@ -56,6 +58,8 @@ impl Timeline {
         }
         let number = number as u32;
         let Self { built, timeline, fields, offsets } = self;
+        let mut timeline = alone(timeline, "timeline", "timeline")?;
+        let timeline = &mut *timeline;
         let points = watched(py, Ears::default(), fields, |_| Ok(timeline.seek(number).points().to_vec()))?;
         let points = Py::new(py, Points::new(points, None))?;
         Ok(Frame { built: built.clone(), points, offsets: offsets.clone_ref(py), number })

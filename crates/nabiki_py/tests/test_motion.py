@@ -110,3 +110,21 @@ def test_a_changed_scene_moves_as_one_read_anew(gust):
     for key in ["motion.frames", "picture.size", "output.sheet"]:
         fresh[key] = gust[key]
     assert numpy.array_equal(bits(gust.timeline(strands=60).play()), bits(fresh.timeline(strands=60).play()))
+
+
+@pytest.mark.parametrize("kind", ["timeline", "simulate"])
+def test_a_motion_that_is_at_work_says_so_and_still_says_what_it_is(gust, kind):
+    heard = []
+
+    def wind(points, frame):
+        with pytest.raises(RuntimeError, match=rf"each thread one of its own, scene\.{kind}\(\)"):
+            ask()
+        heard.append((len(motion), len(motion.offsets), len(motion.ids)))
+        return 0, 0, 0
+
+    gust.fields = [nabiki.Field(wind, strongest=1)]
+    motion = getattr(gust, kind)(strands=2)
+    ask = (lambda: motion[1]) if kind == "timeline" else (lambda: next(motion))
+    ask()
+    ask()
+    assert set(heard) == {(13, 3, 2)}
