@@ -242,6 +242,14 @@ def test_settings_of_open_go_before_those_of_the_file():
     assert scene.motion.frames == 3 and scene.force[1].vector == (1, 2, 3)
 
 
+def test_a_value_that_is_refused_is_not_said_to_be_that_of_open():
+    scene = nabiki.Scene.open(SCENES / "gust.toml", {"motion.frames": 3, "output.sheet": [0]})
+    for wrong in ("many", -1):
+        with pytest.raises(nabiki.Error) as refused:
+            scene.motion.frames = wrong
+        assert "--set" not in str(refused.value) and str(wrong) in str(refused.value)
+
+
 def test_tables_of_a_scene_may_be_given_to_itself():
     scene = nabiki.Scene.parse(WIND)
     other = scene.copy()

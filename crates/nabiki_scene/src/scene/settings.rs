@@ -26,16 +26,17 @@ impl Scene {
     /// # Errors
     /// No such setting, or a value of the wrong kind.
     pub fn with_setting(&self, key: &str, value: Option<Value>) -> Result<Self, SceneError> {
-        let mut tree = self.settings()?;
-        tree::put(&mut tree, key, value).map_err(|what| self.origins.error(key, Problem::Other(what)))?;
+        let (mut tree, mut origins) = (self.settings()?, self.origins.clone());
+        origins.set_anew(key);
+        tree::put(&mut tree, key, value).map_err(|what| origins.error(key, Problem::Other(what)))?;
         match Self::of_tree(tree) {
             Ok(mut scene) => {
                 scene.field.own.clone_from(&self.field.own);
-                Ok(Self { text: self.text.clone(), origins: self.origins.clone(), ..scene })
+                Ok(Self { text: self.text.clone(), origins, ..scene })
             }
             Err(refusal) => {
                 let (key, problem) = refusal.into_parts();
-                Err(self.origins.error(&key, problem))
+                Err(origins.error(&key, problem))
             }
         }
     }

@@ -54,6 +54,13 @@ impl Origins {
             .any(|set| path.strip_prefix(set.as_str()).is_some_and(|rest| rest.is_empty() || rest.starts_with('.')))
     }
 
+    /// Notes that the value at a path (dotted, or with indices in brackets) is no override's any more.
+    pub fn set_anew(&mut self, path: &str) {
+        let path = dotted(path).join(".");
+        let below = format!("{path}.");
+        self.overrides.retain(|at, _| *at != path && !at.starts_with(&below));
+    }
+
     /// Notes that an override set the value at a path, and all below it, and made the tables on the way that the file has not.
     fn override_at(&mut self, steps: &[String], text: &str) {
         let path = steps.join(".");
