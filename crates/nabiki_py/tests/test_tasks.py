@@ -115,6 +115,17 @@ def test_wishes_are_dictionaries_too(gust):
     assert refused.value.thing == "wish[0].frame" and refused.value.line is None
 
 
+def test_places_are_those_of_the_nodes_that_move(gust):
+    """All but the root: whoever gives one place too many is told so."""
+    timeline = gust.timeline(strands=300)
+    start, end = timeline.offsets[3:5]
+    there = timeline[12].points[start:end] + numpy.linspace(0, 1, end - start)[:, None] * (0, 1, 0)
+    wish = {"frame": 12, "strands": [3], "places": there[1:]}
+    assert gust.solve([wish], search={"starts": 1}).before_cm > 0.1
+    with pytest.raises(nabiki.Error, match="roots not counted"):
+        gust.solve([{**wish, "places": there}])
+
+
 class Enough(Exception):
     pass
 

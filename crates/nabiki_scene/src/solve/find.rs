@@ -39,7 +39,10 @@ impl WishFile {
             if let Goal::Places(places) = &goal
                 && places.len() != nodes.len()
             {
-                let remedy = format!("the lock has {} nodes: give each a place, or their mean one", nodes.len());
+                let remedy = format!(
+                    "the lock has {} nodes, roots not counted, since they do not move: give each a place, or their mean one",
+                    nodes.len()
+                );
                 return Err(finder.refused(&format!("{name}.places"), format!("{} places", places.len()), remedy));
             }
             let goal = finder.in_head(goal, entry.frame);

@@ -123,7 +123,7 @@ pub struct WishEntry {
     pub mean_moved: Option<Vec3>,
     /// Their mean here (cm).
     pub mean_at: Option<Vec3>,
-    /// Each node at its own place, strand by strand from root to tip (cm).
+    /// Each node at its own place, strand by strand from the node after the root to the tip (cm).
     pub places: Option<Vec<Vec3>>,
     /// How much it counts beside others, above 0 (default 1).
     #[serde(default = "one")]
