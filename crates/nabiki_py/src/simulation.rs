@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex};
 use nabiki::dynamics::Stepper;
 use nabiki_scene::BuiltScene;
 use numpy::PyArray1;
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 use crate::arrays::{Points, Rooms};
@@ -30,13 +31,15 @@ pub struct Simulation {
 struct Place {
     stepper: nabiki::dynamics::Simulation,
     next: u32,
+    /// Whether a field failed in a step, which is nobody's motion.
+    failed: bool,
 }
 
 impl Simulation {
     pub fn of(py: Python<'_>, built: Arc<BuiltScene>, fields: Vec<Arc<PythonField>>) -> PyResult<Self> {
         let stepper = detached(py, || built.simulation()).map_err(|refused| error::raised(py, refused))?;
         let offsets = frame::offsets(py, &built);
-        let place = Mutex::new(Place { stepper, next: 0 });
+        let place = Mutex::new(Place { stepper, next: 0, failed: false });
         Ok(Self { built, place, fields, rooms: Arc::default(), offsets })
     }
 }
@@ -50,7 +53,11 @@ impl Simulation {
     fn __next__(&self, py: Python<'_>) -> PyResult<Option<Frame>> {
         let Self { built, place, fields, rooms, offsets } = self;
         let mut place = alone(place, "simulation", "simulate")?;
-        let Place { stepper, next } = &mut *place;
+        let Place { stepper, next, failed } = &mut *place;
+        if *failed {
+            let line = "a step of this simulation failed: begin another, scene.simulate()";
+            return Err(PyRuntimeError::new_err(line));
+        }
         let number = *next;
         if number > built.frames() {
             return Ok(None);
@@ -67,7 +74,7 @@ impl Simulation {
         let points = match fields.is_empty() {
             true => detached(py, step),
             // Only then may a step take long.
-            false => watched(py, Ears::default(), fields, |_| Ok(step()))?,
+            false => watched(py, Ears::default(), fields, |_| Ok(step())).inspect_err(|_| *failed = true)?,
         };
         *next += 1;
         let points = Py::new(py, Points::new(points, Some(rooms.clone())))?;

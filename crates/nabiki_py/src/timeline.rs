@@ -31,6 +31,21 @@ impl Timeline {
         let offsets = frame::offsets(py, &built);
         Ok(Self { built, timeline: Mutex::new(timeline), fields, offsets })
     }
+
+    /// What it answers, alone with it. Frames in which a field failed are nobody's motion, so that it then begins anew.
+    fn asked<T: Send>(
+        &self,
+        py: Python<'_>,
+        ask: impl FnOnce(&mut nabiki::dynamics::Timeline) -> T + Send,
+    ) -> PyResult<T> {
+        let mut alone = alone(&self.timeline, "timeline", "timeline")?;
+        let timeline = &mut *alone;
+        let answer = watched(py, Ears::default(), &self.fields, |_| Ok(ask(timeline)));
+        if answer.is_err() {
+            *timeline = detached(py, || self.built.timeline()).map_err(|refused| error::raised(py, refused))?;
+        }
+        answer
+    }
 }
 
 #[pymethods]
@@ -38,13 +53,10 @@ impl Timeline {
     /// All frames: (frames, P, 3) float32, head space, cm; read-only. They take frames x P x 12 bytes.
     fn play<'py>(&self, py: Python<'py>) -> PyResult<Hinted<'py, Float32>> {
         let frames = self.built.frames() as usize + 1;
-        let Self { built, timeline, fields, .. } = self;
-        let mut timeline = alone(timeline, "timeline", "timeline")?;
-        let timeline = &mut *timeline;
-        let film = watched(py, Ears::default(), fields, |_| {
-            let mut film = vec![Vec3::ZERO; frames * built.hair.strands.points().len()];
+        let film = self.asked(py, |timeline| {
+            let mut film = vec![Vec3::ZERO; frames * self.built.hair.strands.points().len()];
             timeline.play_into(&mut film);
-            Ok(film)
+            film
         })?;
         Ok(Hinted::new(arrays::film(&Bound::new(py, Points::new(film, None))?, frames)))
     }
@@ -57,12 +69,9 @@ impl Timeline {
             return Err(PyIndexError::new_err(format!("frame {frame}: the frames are 0 to {}", count - 1)));
         }
         let number = number as u32;
-        let Self { built, timeline, fields, offsets } = self;
-        let mut timeline = alone(timeline, "timeline", "timeline")?;
-        let timeline = &mut *timeline;
-        let points = watched(py, Ears::default(), fields, |_| Ok(timeline.seek(number).points().to_vec()))?;
+        let points = self.asked(py, |timeline| timeline.seek(number).points().to_vec())?;
         let points = Py::new(py, Points::new(points, None))?;
-        Ok(Frame { built: built.clone(), points, offsets: offsets.clone_ref(py), number })
+        Ok(Frame { built: self.built.clone(), points, offsets: self.offsets.clone_ref(py), number })
     }
 
     fn __len__(&self) -> usize {

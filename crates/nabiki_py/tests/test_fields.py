@@ -109,3 +109,27 @@ def test_files_that_cannot_hold_a_function_are_refused(tmp_path):
     assert list(tmp_path.iterdir()) == []
     scene.motion.frames = 2
     assert len(scene.fields) == 1, "another setting does not take it out"
+
+
+def test_a_step_that_failed_is_not_gone_on_from(gust):
+    """A field that fails has no force in its step: what comes of that is nobody's motion."""
+    fails = False
+
+    def wind(points, frame):
+        if fails and frame == 3:
+            raise ZeroDivisionError
+        return -60, 0, 20
+
+    gust.fields = [nabiki.Field(wind, strongest=70)]
+    wanted = gust.timeline(strands=5).play()
+    sought, played, motion = gust.timeline(strands=5), gust.timeline(strands=5), gust.simulate(strands=5)
+    fails = True
+    for ask in (lambda: sought[3], played.play, lambda: list(motion)):
+        with pytest.raises(ZeroDivisionError):
+            ask()
+    fails = False
+    for timeline in (sought, played):
+        assert numpy.array_equal(bits(timeline[3].points), bits(wanted[3]))
+        assert numpy.array_equal(bits(timeline[12].points), bits(wanted[12]))
+    with pytest.raises(RuntimeError, match="begin another"):
+        next(motion)
