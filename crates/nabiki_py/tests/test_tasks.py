@@ -34,6 +34,13 @@ def test_a_picture_is_the_commands(gust, tmp_path):
     assert 0 <= light.min() and light[..., 3].max() <= 1 + 1e-6 and light.std() > 0
 
 
+def test_a_picture_that_has_no_place_is_not_drawn(gust, tmp_path):
+    drawn = []
+    with pytest.raises(nabiki.Error, match="no folder"):
+        gust.render_png(9, strands=20, file=tmp_path / "none" / "a.png", progress=lambda *done: drawn.append(done))
+    assert not drawn
+
+
 @pytest.mark.parametrize("ending", ["usdc", "usda", "abc", "nabiki"])
 def test_moving_hair_is_the_commands(gust, tmp_path, ending):
     command("simulate", GUST, *SMALL, "--strands", 50, "-o", tmp_path / f"wanted.{ending}")

@@ -1,6 +1,6 @@
 //! What can be done with a scene.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use nabiki_render::ToneMapping;
 use nabiki_render::output::png;
@@ -31,6 +31,20 @@ fn check_frame(py: Python<'_>, frame: u32, last: u32) -> PyResult<()> {
     Err(error::argument(py, "frame", frame, &format!("the frames are 0 to motion.frames = {last}")))
 }
 
+/// Refuses what no picture can be written to, before it is drawn.
+fn check_picture(py: Python<'_>, file: &Path) -> PyResult<()> {
+    let refused = |way_out: &str| Err(error::argument(py, "file", file.display(), way_out));
+    if !file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
+        return refused(
+            "must end in .png; scene.run writes OpenEXR with output.exr_frames, scene.render gives light itself",
+        );
+    }
+    match file.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => refused("is in no folder: make it first"),
+        _ => Ok(()),
+    }
+}
+
 impl Scene {
     /// One frame as light, and what brings it onto a screen.
     fn drawn(
@@ -40,8 +54,8 @@ impl Scene {
         strands: Option<usize>,
         ears: Ears<'_, '_>,
     ) -> PyResult<(nabiki_render::Frame, ToneMapping)> {
+        check_frame(py, frame, self.now().motion.frames)?;
         let built = self.built(py, strands, ears)?;
-        check_frame(py, frame, built.frames())?;
         let frame = watched(py, ears, &self.functions(), |watch| tasks::draw(&built, frame, watch))?;
         Ok((frame, ToneMapping::new(&built.scene.picture)))
     }
@@ -126,12 +140,8 @@ impl Scene {
         strands: Option<usize>,
         progress: Option<Given<'_, Progress>>,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        if let Some(other) =
-            file.as_ref().filter(|file| !file.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")))
-        {
-            let way_out =
-                "must end in .png; scene.run writes OpenEXR with output.exr_frames, scene.render gives light itself";
-            return Err(error::argument(py, "file", other.display(), way_out));
+        if let Some(file) = &file {
+            check_picture(py, file)?;
         }
         let (frame, tone_mapping) = self.drawn(py, frame, strands, Ears::new(&progress, &None))?;
         let written = detached(py, || {
