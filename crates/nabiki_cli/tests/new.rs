@@ -86,3 +86,31 @@ fn a_unit_that_a_file_names_wrongly_is_seen_to_be_wrong() {
     let said = text(&nabiki(folder.path(), &words).stdout);
     assert!(said.contains("inside  0.") && !said.contains("made for another head"), "{said}");
 }
+
+#[test]
+fn a_new_scene_is_as_long_as_the_shot_of_its_hair_and_draws_it_as_thick() {
+    let folder = tempfile::tempdir().unwrap();
+    let points = "[(0, 11, 0), (0, 12, 0), (0, 13, 0)]";
+    let samples: Vec<String> = (1..=7).map(|frame| format!("{frame}: {points}")).collect();
+    let layer = |points: &str| {
+        format!(
+            "#usda 1.0\n( metersPerUnit = 0.01\n upAxis = \"Y\"\n timeCodesPerSecond = 30 )\n\
+             def BasisCurves \"hair\" {{ uniform token type = \"linear\"\n int[] curveVertexCounts = [3]\n{points}\n\
+             float[] widths = [0.08, 0.05, 0.02] ( interpolation = \"vertex\" ) }}\n"
+        )
+    };
+    let moving = layer(&format!("point3f[] points.timeSamples = {{ {} }}", samples.join(", ")));
+    let still = layer(&format!("point3f[] points = {points}"));
+    for (hair, frames) in [(moving, 6), (still, 100)] {
+        std::fs::write(folder.path().join("hair.usda"), hair).unwrap();
+        let new = nabiki(folder.path(), &["new", "mine.toml", "--hair", "hair.usda", "--force"]);
+        assert!(new.status.success(), "{}", text(&new.stderr));
+        let look = "hair = { width = 0.08, tip = 0.25, taper = 1.0 }";
+        assert!(text(&new.stdout).contains(&format!("guessed picture.{look}")), "{}", text(&new.stdout));
+        let scene = std::fs::read_to_string(folder.path().join("mine.toml")).unwrap();
+        assert!(scene.contains(&format!("frames = {frames}\nframe_rate = 30\n")), "{scene}");
+        assert!(scene.contains(look), "{scene}");
+        let run = nabiki(folder.path(), &["simulate", "mine.toml", "-o", "m.nabiki", "--frames", "2"]);
+        assert!(run.status.success(), "{}", text(&run.stderr));
+    }
+}

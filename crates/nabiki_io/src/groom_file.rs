@@ -87,6 +87,17 @@ impl GroomFile {
         }
     }
 
+    /// Frames a second of the shot that the file is of; 24 where it does not say so.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn frame_rate(&mut self) -> Result<f64> {
+        match &mut self.kind {
+            Kind::Plain(_) => Ok(24.0),
+            Kind::Exchange(file) => Ok(file.ask(|r| r.contents())?.frame_rate),
+        }
+    }
+
     /// When the shot begins that the file is of (s), where it says so.
     ///
     /// # Errors

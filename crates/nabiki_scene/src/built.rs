@@ -312,9 +312,16 @@ impl BuiltScene {
         !self.poses.is_empty()
     }
 
-    /// How imported hair lay in its file, for a motion cache to remember.
+    /// How imported hair goes back into the space of its file. Where a motion says where the head is in the world, that is the file's
+    /// world, and nothing is added.
+    pub(crate) fn way_back(&self) -> Option<Placement> {
+        let in_world = self.scene.head.motion.as_ref().is_some_and(|motion| !motion.start_at_origin);
+        self.hair_placement.map(|of_file| if in_world { Placement { origin: Vec3::ZERO, ..of_file } } else { of_file })
+    }
+
+    /// How imported hair goes back into its file, for a motion cache to remember.
     pub fn hair_origin(&self) -> Option<Origin> {
-        let (placement, report) = (self.hair_placement?, self.import_report?);
+        let (placement, report) = (self.way_back()?, self.import_report?);
         Some(Origin { placement, points: report.points_in_file as u64, groom: self.groom.clone() })
     }
 

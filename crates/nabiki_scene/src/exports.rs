@@ -61,7 +61,7 @@ impl<'a> Exports<'a> {
         let mut sinks = Vec::new();
         for path in &options.files {
             let frame_rate = built.scene.frame_rate();
-            let mut export = exchange::export(&built.hair, frame_rate, built.hair_placement.as_ref());
+            let mut export = exchange::export(&built.hair, frame_rate, built.way_back().as_ref());
             export.first_frame = built.first_frame();
             export.default_width = Some(built.scene.picture.hair.width);
             export.default_colour = Some(colour::of_mass(&built.scene.picture.hair));

@@ -26,7 +26,8 @@ pub struct Template {
 /// A file that cannot be read, or a head on which no skull is found.
 pub fn template(scene: &Path, head: Option<&Path>, groups: &[String], hair: Option<&Path>) -> Result<Template> {
     let mut guesses = Vec::new();
-    let strands = hair.map(strands_of).transpose()?;
+    let (strands, shot) = hair.map(strands_of).transpose()?.unzip();
+    let shot = shot.unwrap_or_default();
     let roots: Option<Vec<Vec3>> = strands.as_ref().map(|strands| strands.iter().map(|strand| strand[0]).collect());
     let (of_head, head_text) = match head {
         None => (
@@ -44,7 +45,9 @@ pub fn template(scene: &Path, head: Option<&Path>, groups: &[String], hair: Opti
         (Some(file), Some(strands)) => imported_hair(scene, file, strands, of_head.as_ref(), &mut guesses)?,
         _ => GROWN.to_owned(),
     };
-    let text = format!("{INTRODUCTION}\n{head_text}\n{hair_text}{REST}");
+    let rest = REST.replace("{frames}", &shot.frames.to_string());
+    let rest = rest.replace("{half}", &(shot.frames / 2).to_string()).replace("{rate}", &shot.rate.to_string());
+    let text = format!("{INTRODUCTION}\n{head_text}\n{hair_text}{rest}");
     Ok(Template { text, guesses })
 }
 
@@ -77,8 +80,8 @@ pub(crate) fn stiffness_line(stiffness: [f32; 2]) -> String {
 const REST: &str = "
 [motion]
 form = \"free\"              # \"paper\": the equations of 1993, in which hair neither stops at the head nor calms down
-frames = 100
-frame_rate = 24
+frames = {frames}
+frame_rate = {rate}
 inertia_length_floor = 14.0   # shorter hair is held by the longer hair beside it (cm)
 
 # What holds hair in shape and calms it, in the unit of the forces below: where the stiffness is 36 times the wind, hair
@@ -103,11 +106,11 @@ static_friction = 0.15     # the same for hair that lies still
 
 # Where the hair shall go: a direction with a strength, up to a frame.
 [[force]]
-through = 50
+through = {half}
 vector = [-100, 0, 0]      # backward
 
 [[force]]
-through = 100
+through = {frames}
 vector = [-10, 0, 0]       # a breeze, in which hair comes back by itself
 
 # The camera frames all that moves; distance (cm) and target fix it.
@@ -345,10 +348,30 @@ fn about(points: &[Vec3], placement: &Placement) -> Ellipsoid {
     Ellipsoid { center: 0.5 * (low + high), half_axes: half_axes.max(Vec3::splat(half_axes.max_element() / 3.0)) }
 }
 
-/// The strands by which a hair file is judged.
-fn strands_of(file: &Path) -> Result<Strands> {
-    let strands = seat::judged(&GroomFile::open(file)?.hair_in_place(0, None)?);
-    if strands.is_empty() { Err(Error::new("holds no strands").in_file(file)) } else { Ok(strands) }
+/// How long a shot is, and its frames a second.
+#[derive(Clone, Copy)]
+struct Shot {
+    frames: usize,
+    rate: f64,
+}
+
+impl Default for Shot {
+    fn default() -> Self {
+        Self { frames: 100, rate: 24.0 }
+    }
+}
+
+/// The strands by which a hair file is judged, and the shot that it is of.
+fn strands_of(file: &Path) -> Result<(Strands, Shot)> {
+    let mut opened = GroomFile::open(file)?;
+    let strands = seat::judged(&opened.hair_in_place(0, None)?);
+    if strands.is_empty() {
+        return Err(Error::new("holds no strands").in_file(file));
+    }
+    // As long as the file's, where its hair moves; hair of two frames has but been moved.
+    let frames = opened.frames()? - 1;
+    let frames = if frames > 1 { frames } else { Shot::default().frames };
+    Ok((strands, Shot { frames, rate: opened.frame_rate()? }))
 }
 
 fn imported_hair(

@@ -1,8 +1,12 @@
-//! Meshes that stand in their file where its motion has them.
+//! Heads and hair out of a file whose motion carries them.
 
 use std::path::Path;
 
-use nabiki_scene::{Scene, Shown};
+use glam::Vec3;
+use nabiki_io::exchange;
+use nabiki_scene::exports::ExportOptions;
+use nabiki_scene::tasks::{SimulateOptions, Twin, simulate};
+use nabiki_scene::{Scene, Shown, Unwatched};
 
 /// A ball on a tail that stands at (0, 2, 1) m in its first frame, turned so far about z, and moves on.
 fn layer(turned: f32) -> String {
@@ -61,4 +65,24 @@ fn a_mesh_that_its_motion_would_carry_twice_is_said_with_the_way_out() {
     assert_eq!(found.len(), 2);
     let export = "turned by 30.0 degrees: export it, and hair that grows on it, with tail unturned at the origin";
     assert_eq!(found[0], format!("{}, {export}", said("head")));
+}
+
+#[test]
+fn hair_that_a_motion_of_its_own_file_carries_is_exported_where_the_file_has_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let (scene, out) = (folder.path().join("scene.toml"), folder.path().join("out.usda"));
+    // Where the first frame is moved to the world's origin, hair goes from where it lies in its file.
+    for start in ["false", "true"] {
+        advised(folder.path(), 0.0, "origin = [0, 2, 1]");
+        let moved = [("head.motion.start_at_origin".to_owned(), start.to_owned())];
+        let scene = Scene::load(&scene, &moved).unwrap();
+        let (output, exports) = (out.clone(), ExportOptions::default());
+        let options = SimulateOptions { output, exports, twin: Twin::Fast, shard: None };
+        simulate(scene, Shown::All, &options, &mut Unwatched).unwrap();
+        for frame in 0..=5 {
+            let root = exchange::hair(&out, frame, None).unwrap().strands.strand(0)[0];
+            let there = Vec3::new(frame as f32 / 9.0, 2.0, 1.1);
+            assert!(root.distance(there) < 1e-5, "start_at_origin = {start}, frame {frame}: {root}");
+        }
+    }
 }

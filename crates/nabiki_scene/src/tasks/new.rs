@@ -1,16 +1,19 @@
 //! A scene to begin with.
 
 use std::io::Write;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use nabiki::Profile;
 use nabiki::dynamics::{Form, check_field};
+use nabiki::{Hair, Profile};
 use nabiki_file::PartFile;
+use nabiki_render::settings::{HairLook, Picture};
 
 use crate::built::{BuiltScene, Shown};
 use crate::error::{Error, Result};
 use crate::place;
 use crate::scene::Scene;
+use crate::size::decimal;
 use crate::template::{STIFFNESS, stiffness_line, template};
 use crate::told::Told;
 use crate::watch::Watch;
@@ -64,6 +67,14 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     } else {
         built.simulation()?;
     }
+    if let Some([root, tip]) = options.hair.as_ref().and_then(|_| thickness(&built.hair)) {
+        // As thick to the tip, or thinner all the way.
+        let thins =
+            if tip < 0.95 { format!(", tip = {}, taper = 1.0", decimal(tip, 2)) } else { ", tip = 1.0".to_owned() };
+        let look = format!("{{ width = {}{thins} }}", decimal(root, 2));
+        template.text += &format!("hair = {look}   # as thick as in its file (cm)\n");
+        template.guesses.push(format!("picture.hair = {look}, as thick as the hair of the file"));
+    }
     let write = || {
         let mut file = PartFile::create(path)?;
         file.write_all(template.text.as_bytes())?;
@@ -74,6 +85,27 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     built.advice().into_iter().for_each(|advice| watch.told(Told::Advice(advice)));
     super::wrote(vec![path.to_owned()], watch);
     Ok(())
+}
+
+/// How thick the hair of a file is at most of its roots (cm), and its tips in parts of that; none where it does not say so, or as no
+/// picture has it.
+fn thickness(hair: &Hair) -> Option<[f32; 2]> {
+    let median = |mut all: Vec<f32>| {
+        all.sort_unstable_by(f32::total_cmp);
+        all.get(all.len() / 2).copied()
+    };
+    let attributes = &hair.attributes;
+    let [root, tip] = match (&attributes.width, attributes.constant.width) {
+        (Some(width), _) => {
+            let ends = |end: fn(Range<usize>) -> usize| {
+                median((0..hair.strands.len()).map(|s| width[end(hair.strands.range(s))]).collect())
+            };
+            [ends(|points| points.start)?, ends(|points| points.end - 1)?]
+        }
+        (None, constant) => [constant?; 2],
+    };
+    let hair = HairLook { width: root, ..HairLook::default() };
+    Picture { hair, ..Picture::default() }.check().is_ok().then(|| [root, (tip / root).clamp(0.0, 1.0)])
 }
 
 /// The part of the scene's stiffness, by halves, with which its hair can be stepped; 0 where it may have none.
