@@ -114,3 +114,29 @@ fn a_new_scene_is_as_long_as_the_shot_of_its_hair_and_draws_it_as_thick() {
         assert!(run.status.success(), "{}", text(&run.stderr));
     }
 }
+
+#[test]
+fn that_a_head_moves_in_its_file_is_said_and_how_hair_follows_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let bust = nabiki(folder.path(), &["new", "bust.toml"]);
+    assert!(bust.status.success(), "{}", text(&bust.stderr));
+    // The head of an exported stage, below a node that moves.
+    let out = ["simulate", "bust.toml", "--strands", "30", "--frames", "1", "-o", "hair.usda"];
+    assert!(nabiki(folder.path(), &out).status.success());
+    let stage = std::fs::read_to_string(folder.path().join("hair.usda")).unwrap();
+    let (header, prims) = stage.split_once("\ndef ").unwrap();
+    let moves = "double3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 30: (9, 0, 0) }\n\
+                 uniform token[] xformOpOrder = [\"xformOp:translate\"]";
+    let header = header.replace("defaultPrim", "doc");
+    let moving = format!("{header}\ndef Xform \"body\" {{\n{moves}\ndef {prims}\n}}\n");
+    std::fs::write(folder.path().join("moving.usda"), moving).unwrap();
+    let new = nabiki(folder.path(), &["new", "mine.toml", "--head", "moving.usda"]);
+    assert!(new.status.success(), "{}", text(&new.stderr));
+    let said = text(&new.stdout);
+    let line = said.lines().find(|line| line.contains("moves the head in moving.usda")).expect(&said);
+    let (_, motion) = line.split_once("give head.motion = ").unwrap();
+    let set = format!("head.motion={motion}");
+    let run = ["simulate", "mine.toml", "--strands", "30", "--frames", "5", "-o", "m.nabiki", "--set", &set];
+    let run = nabiki(folder.path(), &run);
+    assert!(run.status.success() && text(&run.stdout).contains("head.motion"), "{}", text(&run.stdout));
+}

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use glam::DAffine3;
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
-use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, Problem};
+use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, PrimKind, Problem};
 use nabiki_usd::{Form, HairStage, StageReader};
 
 use crate::axis::Axis;
@@ -142,6 +142,26 @@ pub fn carries_mesh(path: &Path, node: &str, groups: &[String]) -> Result<bool> 
     let wanted = |mesh: &String| groups.is_empty() || groups.iter().any(|group| parts::is_part(group, mesh));
     let meshes = file.ask(|r| r.contents())?.meshes;
     Ok(meshes.iter().any(|mesh| wanted(mesh) && parts::is_part(node, mesh)))
+}
+
+/// The transform that moves a mesh that [`mesh`] reads, the nearest above it; none in other files, and where nothing moves.
+///
+/// # Errors
+/// What is wrong with the file.
+pub fn mover_of_mesh(path: &Path, groups: &[String]) -> Result<Option<String>> {
+    if !(is_usd(path) || is_alembic(path)) {
+        return Ok(None);
+    }
+    let prims = Opened::new(path)?.ask(|r| r.prims())?;
+    let moving = prims.into_iter().filter(|prim| prim.kind == PrimKind::Transform && prim.samples > 1);
+    let mut moving: Vec<String> = moving.map(|prim| prim.path).collect();
+    moving.sort_by_key(|path| std::cmp::Reverse(path.matches('/').count()));
+    for node in moving {
+        if carries_mesh(path, &node, groups)? {
+            return Ok(Some(node));
+        }
+    }
+    Ok(None)
 }
 
 /// Reads the way of the object, prim or joint `node`.

@@ -7,12 +7,14 @@ use std::path::{Path, PathBuf};
 use nabiki::dynamics::{Form, check_field};
 use nabiki::{Hair, Profile};
 use nabiki_file::PartFile;
+use nabiki_io::exchange;
 use nabiki_render::settings::{HairLook, Picture};
 
+use crate::advice::{Advice, Setting};
 use crate::built::{BuiltScene, Shown};
 use crate::error::{Error, Result};
 use crate::place;
-use crate::scene::Scene;
+use crate::scene::{HeadSource, Scene};
 use crate::size::decimal;
 use crate::template::{STIFFNESS, stiffness_line, template};
 use crate::told::Told;
@@ -82,9 +84,28 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     };
     write().map_err(|e| nabiki_io::Error::from(e).in_file(path))?;
     template.guesses.into_iter().for_each(|guess| watch.told(Told::Guessed(guess)));
-    built.advice().into_iter().for_each(|advice| watch.told(Told::Advice(advice)));
+    built.advice().into_iter().chain(unmoved(&built)?).for_each(|advice| watch.told(Told::Advice(advice)));
     super::wrote(vec![path.to_owned()], watch);
     Ok(())
+}
+
+/// A head that moves in its file: whether hair shall follow it is the scene's to say.
+fn unmoved(built: &BuiltScene) -> Result<Option<Advice>> {
+    let HeadSource::Imported(head) = &built.scene.head.source else { return Ok(None) };
+    let file = built.scene.resolve(&head.file);
+    let Some(node) = exchange::mover_of_mesh(&file, &head.groups)? else { return Ok(None) };
+    let word = |text: &str| toml::Value::String(text.to_owned());
+    let named = head.file.display();
+    let (file, of_node, facing) = (word(&named.to_string()), word(&node), built.placement.facing);
+    // An archive does not say its unit.
+    let unit = if exchange::is_alembic(&head.file) {
+        format!(", unit_cm = {}", built.placement.unit.cm)
+    } else {
+        String::new()
+    };
+    let value = format!("{{ file = {file}, node = {of_node}{unit}, facing = \"{facing}\" }}");
+    let seen = format!("{node} moves the head in {named}, which stands still here");
+    Ok(Some(Advice { seen, settings: vec![Setting { key: "head.motion", value }] }))
 }
 
 /// How thick the hair of a file is at most of its roots (cm), and its tips in parts of that; none where it does not say so, or as no
