@@ -58,6 +58,11 @@ impl Placement {
         self.file_from_head_in_doubles().as_affine3a()
     }
 
+    /// Where the file's world, turned and measured as head space is, has the origin of head space (cm).
+    pub fn origin_in_world(&self) -> Vec3 {
+        -self.head_from_file_in_doubles().translation.as_vec3()
+    }
+
     /// As [`head_from_file`](Self::head_from_file) in doubles, to be put together with the transforms of a file before any
     /// point is moved.
     pub fn head_from_file_in_doubles(&self) -> DAffine3 {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use glam::Vec3;
+use glam::{Quat, Vec3};
 use nabiki_io::exchange;
 use nabiki_scene::exports::ExportOptions;
 use nabiki_scene::tasks::{SimulateOptions, Twin, simulate};
@@ -29,7 +29,7 @@ fn ball() -> &'static str {
 /// A hair on top of it.
 const HAIR: &str = "#usda 1.0\n( metersPerUnit = 1\n upAxis = \"Z\" )\n\
     def BasisCurves \"hair\" { uniform token type = \"linear\"\n int[] curveVertexCounts = [3]\n\
-    point3f[] points = [(0, 2, 1.1), (0, 2, 1.2), (0, 2, 1.3)] }\n";
+    point3f[] points = [(0.05, 2, 1.1), (0.05, 2, 1.2), (0.05, 2, 1.3)] }\n";
 
 /// What is advised of a head and a body that a file carries.
 fn advised(folder: &Path, turned: f32, origin: &str) -> Vec<String> {
@@ -57,14 +57,20 @@ fn a_mesh_that_its_motion_would_carry_twice_is_said_with_the_way_out() {
             "{table}.mesh stands in tail.usda where tail has it in the first frame, from which {table}.motion carries it again"
         )
     };
-    let found = advised(folder.path(), 0.0, "origin = [0, 0, 0]");
-    let give = |table: &str| format!("{}: give {table}.origin = [0.0, 2.0, 1.0]", said(table));
-    assert_eq!(found, [give("head"), give("body[0]")]);
-    assert_eq!(advised(folder.path(), 0.0, "origin = [0, 2, 1]"), [""; 0], "what was advised, followed");
-    let found = advised(folder.path(), 30.0, "origin = [0, 2, 1]");
-    assert_eq!(found.len(), 2);
-    let export = "turned by 30.0 degrees: export it, and hair that grows on it, with tail unturned at the origin";
-    assert_eq!(found[0], format!("{}, {export}", said("head")));
+    let give = |table: &str| format!("{}: give {table}.motion.bind_at_start = true", said(table));
+    let of_both = [give("head"), give("body[0]")];
+    assert_eq!(advised(folder.path(), 0.0, "origin = [0, 0, 0]"), of_both);
+    assert_eq!(advised(folder.path(), 0.0, "origin = [0, 2, 1]"), [""; 0], "where the node is, unturned");
+    assert_eq!(advised(folder.path(), 30.0, "origin = [0, 2, 1]"), of_both);
+    let scene = folder.path().join("scene.toml");
+    let text = std::fs::read_to_string(&scene)
+        .unwrap()
+        .replace("facing = \"-y\" }", "facing = \"-y\", bind_at_start = true }");
+    let followed = Scene::parse(&text, &scene, &[]).unwrap().build(Shown::All).unwrap().advice();
+    assert!(
+        !followed.iter().any(|advice| advice.to_string().contains("carries it again")),
+        "what was advised, followed"
+    );
 }
 
 #[test]
@@ -81,8 +87,35 @@ fn hair_that_a_motion_of_its_own_file_carries_is_exported_where_the_file_has_it(
         simulate(scene, Shown::All, &options, &mut Unwatched).unwrap();
         for frame in 0..=5 {
             let root = exchange::hair(&out, frame, None).unwrap().strands.strand(0)[0];
-            let there = Vec3::new(frame as f32 / 9.0, 2.0, 1.1);
+            let there = Vec3::new(0.05 + frame as f32 / 9.0, 2.0, 1.1);
             assert!(root.distance(there) < 1e-5, "start_at_origin = {start}, frame {frame}: {root}");
+        }
+    }
+}
+
+#[test]
+fn what_is_bound_at_the_start_goes_with_its_node_however_that_is_turned_and_wherever_the_head_s_origin_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let (scene, out) = (folder.path().join("scene.toml"), folder.path().join("out.usda"));
+    for (turned, origin) in [(0.0, "[0, 2, 1]"), (30.0, "[0, 2, 1]"), (-75.0, "[0.3, 1.5, 2]")] {
+        advised(folder.path(), turned, &format!("origin = {origin}"));
+        // It goes and turns on about z, by a right angle in nine frames.
+        let layer = std::fs::read_to_string(folder.path().join("tail.usda")).unwrap();
+        let turning = format!("double xformOp:rotateZ.timeSamples = {{ 0: {turned}, 9: {} }}", turned + 90.0);
+        let layer = layer.replace(&format!("double xformOp:rotateZ = {turned}"), &turning);
+        std::fs::write(folder.path().join("tail.usda"), layer).unwrap();
+        let bound = [("head.motion.bind_at_start", "true"), ("free.lag", "0"), ("body", "[]")];
+        let bound = bound.map(|(key, value)| (key.to_owned(), value.to_owned()));
+        let stage = Scene::load(&scene, &bound).unwrap();
+        let options =
+            SimulateOptions { output: out.clone(), exports: ExportOptions::default(), twin: Twin::Fast, shard: None };
+        simulate(stage, Shown::All, &options, &mut Unwatched).unwrap();
+        for frame in 0..=5 {
+            let root = exchange::hair(&out, frame, None).unwrap().strands.strand(0)[0];
+            let node = |frame: usize| Vec3::new(frame as f32 / 9.0, 2.0, 1.0);
+            let on = Quat::from_rotation_z((10.0 * frame as f32).to_radians());
+            let there = node(frame) + on * (Vec3::new(0.05, 2.0, 1.1) - node(0));
+            assert!(root.distance(there) < 1e-5, "turned {turned}, frame {frame}: {root} for {there}");
         }
     }
 }

@@ -46,6 +46,9 @@ pub struct MotionSource {
     pub smoothing: f32,
     /// Whether the first frame is moved to the world's origin and turned about y to face +x (default false).
     pub start_at_origin: bool,
+    /// Whether the mesh stands in its file as the first frame has it, wherever that is and however it is turned there, as one out of
+    /// the same scene does: it is then carried on from there (default false). Hair that grows on a head stands there as well.
+    pub bind_at_start: bool,
 }
 
 impl Default for MotionSource {
@@ -64,6 +67,7 @@ impl Default for MotionSource {
             speed: 1.0,
             smoothing: 0.0,
             start_at_origin: false,
+            bind_at_start: false,
         }
     }
 }
@@ -120,6 +124,10 @@ impl MotionSource {
             (self.skip > 0 && is_clip, "skip"),
             (self.positions != Interpolation::Cubic && is_clip, "positions"),
         ];
+        if self.start_at_origin && self.bind_at_start {
+            let line = "start_at_origin and bind_at_start = true: the first frame cannot be both at the origin and where the file has it";
+            return Err(Error::of_setting(line));
+        }
         match useless.into_iter().find(|&(given, _)| given) {
             Some((_, key)) => Err(Error::of_setting(format!("{key} has no effect on a .{ending} file: remove it"))),
             None => Ok(()),

@@ -4,7 +4,7 @@
 //! faces goes to +x, its unit to centimetres. The same rotation carries the joint's own axes to head space, so the
 //! unturned joint of a character who faces the file's facing axis is an unturned head.
 
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec3, Vec3};
 use nabiki::Pose;
 use nabiki::smoothing::smoothed;
 
@@ -25,6 +25,20 @@ pub struct HeadMotion {
     pub first_frame: Option<i32>,
     /// What was read and how it was converted, in one line for the user.
     pub report: String,
+}
+
+impl HeadMotion {
+    /// The way of what the first frame finds unturned with its origin at `place` (world, cm): the joint carries it on from there.
+    #[must_use]
+    pub fn bound_at(mut self, place: Vec3) -> Self {
+        let Some(&start) = self.poses.first() else { return self };
+        let back = start.rotation.inverse();
+        for pose in &mut self.poses {
+            let turned = (pose.rotation * back).normalize();
+            *pose = Pose { position_cm: pose.position_cm + turned * (place - start.position_cm), rotation: turned };
+        }
+        self
+    }
 }
 
 /// The one rotation and the one scale that carry samples of a file's world into the scene's.

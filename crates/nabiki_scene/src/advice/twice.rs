@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use glam::{Quat, Vec3, Vec3A};
+use glam::Quat;
 use nabiki::Pose;
 use nabiki::body::BodyWay;
 use nabiki_io::exchange::{carries_mesh, is_alembic, is_usd};
@@ -13,7 +13,6 @@ use nabiki_io::{Placement, declared_space};
 use super::{Advice, Setting};
 use crate::built::BuiltScene;
 use crate::scene::HeadSource;
-use crate::size::vector;
 
 /// What is nearer than this (cm) and turned by less than this (rad) is in its place.
 const NEAR: f32 = 0.1;
@@ -21,7 +20,7 @@ const TURNED: f32 = 0.01;
 
 /// A mesh and what moves it.
 struct Moved<'a> {
-    /// The table of its settings, and the key of its origin, if it has one name.
+    /// The table of its settings, and the key of what mends it, if it has one name.
     table: String,
     key: Option<&'static str>,
     mesh: &'a Path,
@@ -38,7 +37,7 @@ pub(super) fn carried_twice(built: &BuiltScene) -> impl Iterator<Item = Advice> 
     let head = match (&scene.head.source, &scene.head.motion) {
         (HeadSource::Imported(head), Some(motion)) => Some(Moved {
             table: "head".to_owned(),
-            key: Some("head.origin"),
+            key: Some("head.motion.bind_at_start"),
             mesh: &head.file,
             groups: &head.groups,
             motion,
@@ -67,16 +66,15 @@ fn twice(built: &BuiltScene, moved: &Moved<'_>) -> Option<Advice> {
     let Moved { table, key, mesh, groups, motion, placement, first } = moved;
     let file = built.scene.resolve(mesh);
     let of_scenes = is_usd(&file) || is_alembic(&file);
-    if !of_scenes || file != built.scene.resolve(&motion.file) || motion.start_at_origin {
+    let corrected = motion.start_at_origin || motion.bind_at_start;
+    if !of_scenes || corrected || file != built.scene.resolve(&motion.file) {
         return None;
     }
     // Another facing turns it on purpose.
     if motion.facing != Some(placement.facing) {
         return None;
     }
-    let scene_from_file = placement.head_from_file().matrix3;
-    let place = Vec3::from(scene_from_file.inverse() * Vec3A::from(first.position_cm));
-    let off = first.position_cm.distance(Vec3::from(scene_from_file * Vec3A::from(placement.origin)));
+    let off = first.position_cm.distance(placement.origin_in_world());
     let turned = first.rotation.angle_between(Quat::IDENTITY);
     if off < NEAR && turned < TURNED || !carries_mesh(&file, &motion.node, groups).unwrap_or(false) {
         return None;
@@ -85,17 +83,10 @@ fn twice(built: &BuiltScene, moved: &Moved<'_>) -> Option<Advice> {
     let seen = format!(
         "{table}.mesh stands in {file} where {node} has it in the first frame, from which {table}.motion carries it again"
     );
-    if turned >= TURNED {
-        let degrees = turned.to_degrees();
-        let seen = format!(
-            "{seen}, turned by {degrees:.1} degrees: export it, and hair that grows on it, with {node} unturned at the origin"
-        );
-        return Some(Advice { seen, settings: Vec::new() });
-    }
-    // Rounded, lest it has digits of the turns between axes.
-    let place = vector((place * 1e5).round() / 1e5 + 0.0);
     match *key {
-        Some(key) => Some(Advice { seen, settings: vec![Setting { key, value: place }] }),
-        None => Some(Advice { seen: format!("{seen}: give {table}.origin = {place}"), settings: Vec::new() }),
+        Some(key) => Some(Advice { seen, settings: vec![Setting { key, value: "true".to_owned() }] }),
+        None => {
+            Some(Advice { seen: format!("{seen}: give {table}.motion.bind_at_start = true"), settings: Vec::new() })
+        }
     }
 }

@@ -52,12 +52,13 @@ pub(super) fn build(
     still_wanted(goes_on, 0.0)?;
     let same_rate = known.filter(|known| known.scene.frame_rate() == scene.frame_rate());
     let (poses, motion_report, motion_begins) =
-        match same_rate.filter(|known| known.scene.head.motion == scene.head.motion) {
+        match same_rate.filter(|known| same_head.is_some() && known.scene.head.motion == scene.head.motion) {
             Some(known) => {
                 check_length(&scene, &known.poses)?;
                 (known.poses.clone(), known.motion_report.clone(), known.motion_begins)
             }
-            None => head_motion(&scene)?.map_or_else(Default::default, |m| (m.poses, Some(m.report), m.first_frame)),
+            None => head_motion(&scene, &placement)?
+                .map_or_else(Default::default, |m| (m.poses, Some(m.report), m.first_frame)),
         };
     let mut dynamics = dynamics(&scene, &head)?;
     let rest_pose = poses.first().copied().unwrap_or_default();
@@ -143,14 +144,15 @@ fn field(scene: &Scene, head: &Head, poses: &[Pose]) -> Result<FieldParts> {
 
 /// What pushes the hair, once the head and its motion are loaded.
 pub(crate) fn load_field(scene: &Scene) -> Result<FieldParts> {
-    let poses = head_motion(scene)?.map_or_else(Vec::new, |motion| motion.poses);
-    field(scene, &load_head(scene)?.head, &poses)
+    let LoadedHead { head, placement, .. } = load_head(scene)?;
+    let poses = head_motion(scene, &placement)?.map_or_else(Vec::new, |motion| motion.poses);
+    field(scene, &head, &poses)
 }
 
 /// Where the head is in each frame; `None` for a head that stands still.
-fn head_motion(scene: &Scene) -> Result<Option<HeadMotion>> {
+fn head_motion(scene: &Scene, placement: &Placement) -> Result<Option<HeadMotion>> {
     let Some(source) = &scene.head.motion else { return Ok(None) };
-    let motion = read_motion(scene, source, "head.motion")?;
+    let motion = read_motion(scene, source, "head.motion", placement)?;
     check_length(scene, &motion.poses)?;
     Ok(Some(motion))
 }
@@ -168,15 +170,16 @@ fn check_length(scene: &Scene, poses: &[Pose]) -> Result<()> {
     Err(nabiki_io::Error::new(remedy).in_file(scene.file()).into())
 }
 
-/// The motion that the scene names under `key`, at its frame rate.
-fn read_motion(scene: &Scene, source: &motion::MotionSource, key: &str) -> Result<HeadMotion> {
+/// The motion that the scene names under `key`, at its frame rate, of a mesh that its file holds so.
+fn read_motion(scene: &Scene, source: &motion::MotionSource, key: &str, placement: &Placement) -> Result<HeadMotion> {
     let there = |part: &str, file: &Path| there(scene, &format!("{key}.{part}"), file);
     let source = motion::MotionSource {
         file: there("file", &source.file)?,
         skeleton: source.skeleton.as_ref().map(|file| there("skeleton", file)).transpose()?,
         ..source.clone()
     };
-    Ok(motion::read(&source, scene.frame_rate()).map_err(|e| e.below(key))?)
+    let motion = motion::read(&source, scene.frame_rate()).map_err(|e| e.below(key))?;
+    Ok(if source.bind_at_start { motion.bound_at(placement.origin_in_world()) } else { motion })
 }
 
 /// A head in its place.

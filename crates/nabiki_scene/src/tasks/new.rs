@@ -103,7 +103,7 @@ fn unmoved(built: &BuiltScene) -> Result<Option<Advice>> {
     } else {
         String::new()
     };
-    let value = format!("{{ file = {file}, node = {of_node}{unit}, facing = \"{facing}\" }}");
+    let value = format!("{{ file = {file}, node = {of_node}{unit}, facing = \"{facing}\", bind_at_start = true }}");
     let seen = format!("{node} moves the head in {named}, which stands still here");
     Ok(Some(Advice { seen, settings: vec![Setting { key: "head.motion", value }] }))
 }

@@ -88,6 +88,7 @@ macro_rules! motion {
                 "Start at origin",
                 "Whether the first frame is moved to the world's origin and turned to face +x.",
             ),
+            flag("bind_at_start", "Bind at start", "Whether the mesh stands in its file as the first frame has it."),
         ]
     };
 }

@@ -257,6 +257,19 @@ class MotionSource(Table):
     def start_at_origin(self, value: bool | None) -> None:
         self._set('start_at_origin', value)
 
+    @property
+    def bind_at_start(self) -> bool:
+        """Whether the mesh stands in its file as the first frame has it, wherever that is and however it is turned
+        there, as one out of the same scene does: it is then carried on from there (default false). Hair that grows on
+        a head stands there as well.
+        """
+        value: bool = self._get('bind_at_start')
+        return value
+
+    @bind_at_start.setter
+    def bind_at_start(self, value: bool | None) -> None:
+        self._set('bind_at_start', value)
+
 
 class BodySettings(Table):
     """`[[body]]`: something besides the head that hair does not enter."""
