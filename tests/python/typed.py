@@ -34,6 +34,17 @@ def answer(scene: nabiki.Scene) -> list[tuple[int, tuple[float, float, float]]]:
     return found.forces
 
 
+def game(scene: nabiki.Scene, head: numpy.typing.NDArray[numpy.float64]) -> bytes:
+    hair = scene.simulate(strands=300)
+    start: bytes = hair.state()
+    hair.step(head=head, bodies=[None, head], force=(-100, 0, 0))
+    hair.step(head=((0, 10, 0), (0, 0, 0, 1)), force=nabiki.Field(wind, strongest=10), jumped=True)
+    branch = hair.copy()
+    frame: nabiki.Frame = hair.restore(start)
+    assert frame.number == 0 and hair.strongest_force > 100
+    return branch.state()
+
+
 def refused(scene: nabiki.Scene) -> str | None:
     scene.motion.frames = "many"  # type: ignore[assignment]
     scene.motion.form = "fluid"  # type: ignore[assignment]

@@ -78,6 +78,19 @@ fn a_state_read_back_moves_on_to_the_same_bits() {
 }
 
 #[test]
+fn a_state_shows_the_points_that_a_step_wrote_elsewhere() {
+    let mut simulation = fast(&hair(20, 18), &crowded(), &wind());
+    let (mut other, poses) = (simulation.clone(), way_of_a_head(40));
+    let mut points = simulation.strands().points().to_vec();
+    for frame in 1..=4 {
+        simulation.step_frame_into(&FrameInput::new(frame, &poses, &wind()), &mut points);
+    }
+    run(&mut other, 1..=4);
+    assert!(simulation.state_bytes() != other.state_bytes());
+    assert!(simulation.state_bytes_showing(&points) == other.state_bytes());
+}
+
+#[test]
 fn reading_a_state_allocates_nothing() {
     let mut simulation = fast(&hair(40, 18), &crowded(), &wind());
     run(&mut simulation, 1..=3);

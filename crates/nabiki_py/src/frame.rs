@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use nabiki::Pose;
 use nabiki_scene::BuiltScene;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -16,6 +17,8 @@ pub struct Frame {
     pub points: Py<Points>,
     pub offsets: Py<PyArray1<u32>>,
     pub number: u32,
+    /// Of the head.
+    pub pose: Pose,
 }
 
 #[pymethods]
@@ -43,7 +46,7 @@ impl Frame {
     /// Where the head is: (4, 4) float64, takes points of head space into the world (cm), `points @ m[:3, :3].T + m[:3, 3]`.
     #[getter]
     fn head_pose<'py>(&self, py: Python<'py>) -> PyResult<Hinted<'py, Float64>> {
-        let pose = self.built.pose(self.number);
+        let pose = self.pose;
         let rotation = glam::DMat3::from_quat(pose.rotation.as_dquat()).transpose();
         let rows = [rotation.x_axis, rotation.y_axis, rotation.z_axis];
         let at = pose.position_cm.as_dvec3();
@@ -57,7 +60,7 @@ impl Frame {
 
     /// The points in the world (cm): (P, 3) float32, a copy.
     fn world_points<'py>(&self, py: Python<'py>) -> PyResult<Hinted<'py, Float32>> {
-        let world = self.built.pose(self.number).world_from_head();
+        let world = self.pose.world_from_head();
         let points = self.points.get().points();
         let moved: Vec<f32> = points.iter().flat_map(|&p| world.transform_point3(p).to_array()).collect();
         PyArray1::from_vec(py, moved).reshape([points.len(), 3]).map(Hinted::new)

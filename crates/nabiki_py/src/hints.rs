@@ -60,6 +60,13 @@ macro_rules! hints {
     };
 }
 
+/// One of two types.
+macro_rules! either {
+    ($left:expr, $right:expr) => {
+        PyStaticExpr::BinOp { left: $left, op: pyo3::inspect::PyStaticOperator::BitOr, right: $right }
+    };
+}
+
 const INT: PyStaticExpr = type_hint_identifier!("builtins", "int");
 const STR: PyStaticExpr = type_hint_identifier!("builtins", "str");
 const OBJECT: PyStaticExpr = type_hint_identifier!("builtins", "object");
@@ -67,6 +74,9 @@ const ANY: PyStaticExpr = type_hint_identifier!("typing", "Any");
 const CALLABLE: PyStaticExpr = type_hint_identifier!("collections.abc", "Callable");
 const ARRAY: PyStaticExpr = type_hint_identifier!("numpy.typing", "NDArray");
 const ARRAY_LIKE: PyStaticExpr = type_hint_identifier!("numpy.typing", "ArrayLike");
+const NONE: PyStaticExpr = PyStaticExpr::Constant { value: pyo3::inspect::PyStaticConstant::None };
+const POSE_LIKE: PyStaticExpr =
+    either!(&ARRAY_LIKE, &type_hint_subscript!(type_hint_identifier!("builtins", "tuple"), ARRAY_LIKE, ARRAY_LIKE));
 const DICT: PyStaticExpr = type_hint_subscript!(type_hint_identifier!("builtins", "dict"), STR, ANY);
 
 hints! {
@@ -94,12 +104,14 @@ hints! {
     Report = type_hint_subscript!(CALLABLE, PyStaticExpr::List { elts: &[STR] }, OBJECT);
     /// Forces at points in a frame.
     Forces = type_hint_subscript!(CALLABLE, PyStaticExpr::List { elts: &[Float32::TYPE, INT] }, ARRAY_LIKE);
+    /// A matrix, or a position and a quaternion.
+    PoseLike = POSE_LIKE;
+    /// Some of them, and some that are not told.
+    PosesLike = type_hint_subscript!(type_hint_identifier!("collections.abc", "Iterable"), either!(&POSE_LIKE, &NONE));
+    /// One force everywhere, or a field.
+    ForceLike = either!(&ARRAY_LIKE, &type_hint_identifier!("nabiki", "Field"));
     /// The scene with its settings as attributes.
     SceneClass = type_hint_identifier!("nabiki", "Scene");
     /// A unit of length by name, or in centimetres.
-    UnitName = PyStaticExpr::BinOp {
-        left: &STR,
-        op: pyo3::inspect::PyStaticOperator::BitOr,
-        right: &type_hint_identifier!("builtins", "float"),
-    };
+    UnitName = either!(&STR, &type_hint_identifier!("builtins", "float"));
 }

@@ -12,6 +12,7 @@ mod files;
 mod frame;
 mod hints;
 mod made;
+mod poses;
 mod scene;
 mod simulation;
 mod solution;
@@ -19,6 +20,7 @@ mod threads;
 mod timeline;
 mod values;
 mod watched;
+mod way;
 
 use pyo3::prelude::*;
 

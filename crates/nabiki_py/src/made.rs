@@ -157,7 +157,7 @@ pub fn points_of(thing: &str, array: &Bound<'_, PyAny>) -> PyResult<Vec<Vec3>> {
 
 /// Numbers of whatever NumPy makes an array of. What `kind` cannot hold is refused: NumPy would cut fractions off, take text
 /// for numbers and show what is masked.
-fn numbers<'py>(thing: &str, given: &Bound<'py, PyAny>, kind: &str) -> PyResult<Bound<'py, PyAny>> {
+pub fn numbers<'py>(thing: &str, given: &Bound<'py, PyAny>, kind: &str) -> PyResult<Bound<'py, PyAny>> {
     let py = given.py();
     let numpy = py.import(intern!(py, "numpy"))?;
     let refused = |value: String, way_out: &str| error::argument(py, thing, value, way_out);
@@ -188,6 +188,6 @@ fn numbers<'py>(thing: &str, given: &Bound<'py, PyAny>, kind: &str) -> PyResult<
 }
 
 /// The shape of an array, as a refused value.
-fn shape(array: &Bound<'_, PyAny>) -> PyResult<String> {
+pub fn shape(array: &Bound<'_, PyAny>) -> PyResult<String> {
     Ok(format!("an array of shape {}", array.getattr(intern!(array.py(), "shape"))?))
 }

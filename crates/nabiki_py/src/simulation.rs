@@ -1,23 +1,30 @@
 //! A motion, frame by frame.
 
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, MutexGuard};
 
-use nabiki::dynamics::Stepper;
+use glam::Vec3;
+use nabiki::dynamics::{FrameInput, Stepper};
+use nabiki::field::{self, UniformField};
 use nabiki_scene::BuiltScene;
 use numpy::PyArray1;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 
 use crate::arrays::{Points, Rooms};
 use crate::error;
-use crate::field::PythonField;
+use crate::field::{Field, PythonField};
 use crate::frame::{self, Frame};
-use crate::hints::{Hinted, UInt32};
+use crate::hints::{ForceLike, Given, Hinted, PoseLike, PosesLike, UInt32};
+use crate::poses;
 use crate::threads::{alone, detached};
 use crate::watched::{Ears, watched};
+use crate::way::{self, Told, Way};
 
 /// The motion of a scene's hair: an iterator over its frames, from rest, frame 0, to the last. Each is computed when it is
 /// asked for; those that nobody keeps take no memory. `len()` is the number of all frames.
+///
+/// `step` is the same for who decides on the way: it goes on to the next frame, with a head, bodies and a force that are told.
 #[pyclass(frozen, module = "nabiki")]
 pub struct Simulation {
     built: Arc<BuiltScene>,
@@ -31,16 +38,129 @@ pub struct Simulation {
 struct Place {
     stepper: nabiki::dynamics::Simulation,
     next: u32,
+    way: Way,
+    /// The points of the last frame, which the stepper has written there and not kept; none at rest.
+    shown: Option<Py<Points>>,
     /// Whether a field failed in a step, which is nobody's motion.
     failed: bool,
+}
+
+/// What pulls in a step.
+enum Force {
+    /// The scene.
+    Own,
+    Everywhere(UniformField),
+    Function(Arc<PythonField>),
+}
+
+impl Force {
+    /// What Python gave, unless hair of this step cannot bear it.
+    fn of(given: &Bound<'_, PyAny>, most: f32) -> PyResult<Self> {
+        let force = match given.cast::<Field>() {
+            Ok(field) => Self::Function(field.get().shared.clone()),
+            Err(_) => Self::Everywhere(UniformField(Vec3::from(poses::row("force", given)?.map(|x| x as f32)))),
+        };
+        let strength = match &force {
+            Self::Own => return Ok(force),
+            Self::Everywhere(wind) => field::Field::strongest(wind),
+            Self::Function(function) => field::Field::strongest(&**function),
+        };
+        if strength <= most {
+            return Ok(force);
+        }
+        let way_out = format!(
+            "is above {most}, the strongest under which this hair can be stepped: give a weaker one, or a smaller \
+             motion.time_step"
+        );
+        Err(error::argument(given.py(), "force of strength", strength, &way_out))
+    }
 }
 
 impl Simulation {
     pub fn of(py: Python<'_>, built: Arc<BuiltScene>, fields: Vec<Arc<PythonField>>) -> PyResult<Self> {
         let stepper = detached(py, || built.simulation()).map_err(|refused| error::raised(py, refused))?;
         let offsets = frame::offsets(py, &built);
-        let place = Mutex::new(Place { stepper, next: 0, failed: false });
-        Ok(Self { built, place, fields, rooms: Arc::default(), offsets })
+        let place = Place { stepper, next: 0, way: Way::new(&built), shown: None, failed: false };
+        Ok(Self { built, place: Mutex::new(place), fields, rooms: Arc::default(), offsets })
+    }
+
+    /// Alone with how far it is.
+    fn place(&self) -> PyResult<MutexGuard<'_, Place>> {
+        alone(&self.place, "simulation", "simulate")
+    }
+
+    /// The same, if that is somebody's motion.
+    fn sound(&self) -> PyResult<MutexGuard<'_, Place>> {
+        let place = self.place()?;
+        match place.failed {
+            false => Ok(place),
+            true => Err(PyRuntimeError::new_err(
+                "a step of this simulation failed: begin another, scene.simulate(), or restore() what was before",
+            )),
+        }
+    }
+
+    /// Steps to the next frame.
+    fn stepped(&self, py: Python<'_>, place: &mut Place, told: Told, force: Force) -> PyResult<Frame> {
+        let Self { built, fields, rooms, .. } = self;
+        let Place { stepper, next, way, shown, failed } = place;
+        if told.jumped {
+            stepper.jumped();
+        }
+        let poses = way.step(built, *next, told);
+        let mut points = rooms.take(stepper.strands().points().len());
+        let (field, functions): (&dyn field::Field, &[Arc<PythonField>]) = match &force {
+            Force::Own => (&*built.field, fields),
+            Force::Everywhere(wind) => (wind, &[]),
+            Force::Function(function) => (&**function, std::slice::from_ref(function)),
+        };
+        let mut step = || {
+            let way::Poses { head: pose, before, bodies } = &poses;
+            let input = FrameInput { frame: *next, pose: *pose, before: *before, field, bodies };
+            stepper.step_frame_into(&input, &mut points);
+        };
+        match functions.is_empty() {
+            true => detached(py, step),
+            // Only then may a step take long.
+            false => {
+                let asking = watched(py, Ears::default(), functions, |_| {
+                    step();
+                    Ok(())
+                });
+                asking.inspect_err(|_| *failed = true)?;
+            }
+        }
+        *shown = Some(Py::new(py, Points::new(points, Some(rooms.clone())))?);
+        *next += 1;
+        self.frame(py, place)
+    }
+
+    /// The frame that was reached last.
+    fn frame(&self, py: Python<'_>, place: &Place) -> PyResult<Frame> {
+        let Place { stepper, way, shown, .. } = place;
+        let points = match shown {
+            Some(points) => points.clone_ref(py),
+            None => Py::new(py, Points::new(stepper.strands().points().to_vec(), None))?,
+        };
+        let offsets = self.offsets.clone_ref(py);
+        Ok(Frame { built: self.built.clone(), points, offsets, number: stepper.frame(), pose: way.head() })
+    }
+
+    /// Where bodies are, by their number in the scene.
+    fn bodies(&self, given: &Bound<'_, PyAny>) -> PyResult<Vec<Option<nabiki::Pose>>> {
+        let py = given.py();
+        let mut bodies = Vec::new();
+        for (i, pose) in given.try_iter()?.enumerate() {
+            let (thing, pose) = (format!("bodies[{i}]"), pose?);
+            let is_there = i < self.built.scene.bodies.len();
+            if is_there && pose.is_none() {
+                bodies.push(None);
+                continue;
+            }
+            way::check_body(&self.built, i).map_err(|way_out| error::argument(py, &thing, "a pose", &way_out))?;
+            bodies.push(Some(poses::pose(&thing, &pose)?));
+        }
+        Ok(bodies)
     }
 }
 
@@ -51,34 +171,89 @@ impl Simulation {
     }
 
     fn __next__(&self, py: Python<'_>) -> PyResult<Option<Frame>> {
-        let Self { built, place, fields, rooms, offsets } = self;
-        let mut place = alone(place, "simulation", "simulate")?;
-        let Place { stepper, next, failed } = &mut *place;
-        if *failed {
-            let line = "a step of this simulation failed: begin another, scene.simulate()";
-            return Err(PyRuntimeError::new_err(line));
-        }
-        let number = *next;
-        if number > built.frames() {
-            return Ok(None);
-        }
-        let count = built.hair.strands.points().len();
-        let mut step = || {
-            let mut points = rooms.take(count);
-            match number {
-                0 => points.copy_from_slice(stepper.strands().points()),
-                _ => stepper.step_frame_into(&built.input(number), &mut points),
+        let mut place = self.sound()?;
+        match place.next {
+            0 => {
+                place.next = 1;
+                self.frame(py, &place).map(Some)
             }
-            points
+            next if next > self.built.frames() => Ok(None),
+            _ => self.stepped(py, &mut place, Told::default(), Force::Own).map(Some),
+        }
+    }
+
+    /// Goes on to the next frame, the first of all being 1, and beyond the scene's last one if asked to. What is not told is as
+    /// the scene has it in that frame.
+    ///
+    /// `head`: where the head is in the world (cm), a (4, 4) matrix that takes points of head space there, or (position,
+    /// quaternion (x, y, z, w)). `bodies`: the same of the scene's bodies, in their order, None for those that are not told.
+    /// `force`: what pulls in the place of all the scene's fields, a vector or a `Field`. `jumped`: head and bodies came at once
+    /// where they are, and hair goes along without feeling it.
+    #[pyo3(signature = (*, head=None, bodies=None, force=None, jumped=false))]
+    fn step(
+        &self,
+        py: Python<'_>,
+        head: Option<Given<'_, PoseLike>>,
+        bodies: Option<Given<'_, PosesLike>>,
+        force: Option<Given<'_, ForceLike>>,
+        jumped: bool,
+    ) -> PyResult<Frame> {
+        let head = head.map(|head| poses::pose("head", &head.0)).transpose()?;
+        let bodies = bodies.map(|bodies| self.bodies(&bodies.0)).transpose()?.unwrap_or_default();
+        let mut place = self.sound()?;
+        let most = place.stepper.strongest_force();
+        let force = force.map_or(Ok(Force::Own), |force| Force::of(&force.0, most))?;
+        place.next = place.next.max(1);
+        self.stepped(py, &mut place, Told { head, bodies, jumped }, force)
+    }
+
+    /// Where it stands: hair, head and bodies, as bytes for `restore`. They may go to a file and to another process or machine.
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let place = self.sound()?;
+        let Place { stepper, next, way, shown, .. } = &*place;
+        let hair = match shown {
+            Some(points) => stepper.state_bytes_showing(points.get().points()),
+            None => stepper.state_bytes(),
         };
-        let points = match fields.is_empty() {
-            true => detached(py, step),
-            // Only then may a step take long.
-            false => watched(py, Ears::default(), fields, |_| Ok(step())).inspect_err(|_| *failed = true)?,
-        };
-        *next += 1;
-        let points = Py::new(py, Points::new(points, Some(rooms.clone())))?;
-        Ok(Some(Frame { built: built.clone(), points, offsets: offsets.clone_ref(py), number }))
+        Ok(PyBytes::new(py, &way.bytes(*next, &hair)))
+    }
+
+    /// Stands where the simulation of the same hair stood that gave this `state`, and returns the frame that it was at. It goes
+    /// on to the same bits, if its scene has the same settings; they may be others.
+    fn restore(&self, py: Python<'_>, state: &[u8]) -> PyResult<Frame> {
+        let mut place = self.place()?;
+        let refused = |(value, way_out): (String, String)| error::argument(py, "state of hair", value, &way_out);
+        let (way, next, hair) = place.way.of_bytes(state).map_err(refused)?;
+        place.stepper.set_state_bytes(hair).map_err(|refused| error::setting(py, refused))?;
+        // From now on the stepper shows these points itself, until the next step.
+        (place.way, place.next, place.shown, place.failed) = (way, next, None, false);
+        self.frame(py, &place)
+    }
+
+    /// Another one that stands where this one stands, and goes on by itself; it shares all that no frame changes.
+    fn copy(&self, py: Python<'_>) -> PyResult<Self> {
+        let place = self.sound()?;
+        let Place { stepper, next, way, shown, failed } = &*place;
+        let (stepper, way, shown) = (stepper.clone(), way.clone(), shown.as_ref().map(|shown| shown.clone_ref(py)));
+        let place = Mutex::new(Place { stepper, next: *next, way, shown, failed: *failed });
+        let Self { built, fields, offsets, .. } = self;
+        let (built, fields, offsets) = (built.clone(), fields.clone(), offsets.clone_ref(py));
+        Ok(Self { built, place, fields, rooms: Arc::default(), offsets })
+    }
+
+    fn __copy__(&self, py: Python<'_>) -> PyResult<Self> {
+        self.copy(py)
+    }
+
+    #[pyo3(signature = (_memo: "object"))]
+    fn __deepcopy__(&self, py: Python<'_>, _memo: &Bound<'_, PyAny>) -> PyResult<Self> {
+        self.copy(py)
+    }
+
+    /// The strongest force under which this hair can be stepped; winds that look like winds are a hundredth of it or less.
+    #[getter]
+    fn strongest_force(&self) -> PyResult<f32> {
+        Ok(self.place()?.stepper.strongest_force())
     }
 
     fn __len__(&self) -> usize {
@@ -87,7 +262,7 @@ impl Simulation {
 
     /// Frames that are still to come, for bars of progress.
     fn __length_hint__(&self) -> PyResult<usize> {
-        let next = alone(&self.place, "simulation", "simulate")?.next;
+        let next = self.place()?.next;
         Ok((self.built.frames() + 1).saturating_sub(next) as usize)
     }
 

@@ -71,7 +71,9 @@ impl Timeline {
         let number = number as u32;
         let points = self.asked(py, |timeline| timeline.seek(number).points().to_vec())?;
         let points = Py::new(py, Points::new(points, None))?;
-        Ok(Frame { built: self.built.clone(), points, offsets: self.offsets.clone_ref(py), number })
+        let (built, offsets) = (self.built.clone(), self.offsets.clone_ref(py));
+        let pose = built.pose(number);
+        Ok(Frame { built, points, offsets, number, pose })
     }
 
     fn __len__(&self) -> usize {

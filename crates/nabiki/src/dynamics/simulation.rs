@@ -130,6 +130,17 @@ impl Simulation {
         self.runner.state_bytes(self.frame, self.strands.points())
     }
 
+    /// The same for whoever steps by [`step_frame_into`](Self::step_frame_into) and has the points of this frame: what is set to these
+    /// bytes shows them.
+    ///
+    /// # Panics
+    /// If there are not just as many points.
+    #[must_use]
+    pub fn state_bytes_showing(&self, points: &[Vec3]) -> Vec<u8> {
+        assert_eq!(points.len(), self.strands.points().len(), "a frame has every point");
+        self.runner.state_bytes(self.frame, points)
+    }
+
     /// Stands where the simulation of the same hair stood that gave these [`state_bytes`](Self::state_bytes): to the bit if its
     /// settings are the same, too. Settings may be others; what is tied then is at rest, and carriers that were not there before are.
     ///
