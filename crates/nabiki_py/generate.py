@@ -179,7 +179,8 @@ class Writer:
             return words, words, None
         if rust in self.structs:
             self.table(rust)
-            return rust, f"{rust} | Mapping[str, Any]", rust
+            arrays = " | Matrices" if rust == "MotionSource" else ""
+            return rust, f"{rust} | Mapping[str, Any]{arrays}", rust
         raise SystemExit(f"{place}: what is a {rust} in Python?")
 
     def table(self, name, doc=None, parts=None):
@@ -251,7 +252,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal
 
-from ._table import Arrays, File, Numbers, Table, Tables
+from ._table import Arrays, File, Matrices, Numbers, Table, Tables
 {imports}
 __all__ = {names}
 '''

@@ -37,6 +37,8 @@ def answer(scene: nabiki.Scene) -> list[tuple[int, tuple[float, float, float]]]:
 def game(scene: nabiki.Scene, head: numpy.typing.NDArray[numpy.float64]) -> bytes:
     hair = scene.simulate(strands=300)
     start: bytes = hair.state()
+    scene.head.motion = numpy.stack([head] * 101)
+    scene.body[1].motion = {"file": [head] * 101, "frames_per_second": 30}
     hair.step(head=head, bodies=[None, head], force=(-100, 0, 0))
     hair.step(head=((0, 10, 0), (0, 0, 0, 1)), force=nabiki.Field(wind, strongest=10), jumped=True)
     branch = hair.copy()

@@ -1,5 +1,5 @@
-//! Hair and meshes that Python gives as arrays: temporary files of the scenes that name them, so that all that is true of hair
-//! and meshes of files is true of them.
+//! Hair, meshes and ways that Python gives as arrays: temporary files of the scenes that name them, so that all that is true of
+//! files of hair, meshes and motion is true of them.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -14,6 +14,7 @@ use pyo3::types::PyTuple;
 use tempfile::TempPath;
 
 use crate::error;
+use crate::poses;
 
 /// The files of the arrays of a scene. Each goes with the last scene that names it.
 #[derive(Clone, Default)]
@@ -92,7 +93,21 @@ impl Files {
             }
             text.push('\n');
         }
-        let path = self.file(py, ".obj")?;
+        self.text(py, ".obj", &text)
+    }
+
+    /// A table of poses of matrices, so many a second.
+    pub fn motion(&mut self, thing: &str, matrices: &Bound<'_, PyAny>, rate: f64) -> PyResult<PathBuf> {
+        let mut text = "t_s,px_cm,py_cm,pz_cm,qx,qy,qz,qw\n".to_owned();
+        for (n, (p, q)) in poses::way(thing, matrices)?.into_iter().enumerate() {
+            let _ = writeln!(text, "{},{},{},{},{},{},{},{}", n as f64 / rate, p.x, p.y, p.z, q.x, q.y, q.z, q.w);
+        }
+        self.text(matrices.py(), ".csv", &text)
+    }
+
+    /// A file of this text.
+    fn text(&mut self, py: Python<'_>, ending: &str, text: &str) -> PyResult<PathBuf> {
+        let path = self.file(py, ending)?;
         std::fs::write(&path, text).map_err(|e| error::line(py, format!("{}: {e}", path.display())))?;
         Ok(path)
     }

@@ -2,7 +2,8 @@
 
 use glam::{DMat3, DQuat, DVec3};
 use nabiki::Pose;
-use numpy::{PyReadonlyArray1, PyReadonlyArray2};
+use numpy::ndarray::ArrayView2;
+use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 
@@ -41,6 +42,22 @@ pub fn pose(thing: &str, given: &Bound<'_, PyAny>) -> PyResult<Pose> {
     };
     let (position, rotation) = found.map_err(|(value, way_out)| error::argument(py, thing, value, way_out))?;
     Ok(Pose { position_cm: position.as_vec3(), rotation: rotation.as_quat() })
+}
+
+/// The places and turns of an array (frames, 4, 4) of matrices.
+pub fn way(thing: &str, given: &Bound<'_, PyAny>) -> PyResult<Vec<(DVec3, DQuat)>> {
+    let py = given.py();
+    let array = numbers(thing, given, "float64")?;
+    let matrices: Option<PyReadonlyArray3<'_, f64>> = array.extract().ok();
+    let matrices = matrices.filter(|all| matches!(all.as_array().dim(), (1.., 4, 4)));
+    let Some(matrices) = matrices else {
+        return Err(error::argument(py, thing, shape(&array)?, "must have the shape (frames, 4, 4)"));
+    };
+    let pose = |(n, matrix): (usize, ArrayView2<'_, f64>)| {
+        of_matrix(std::array::from_fn(|i| std::array::from_fn(|j| matrix[[i, j]])))
+            .map_err(|(value, way_out)| error::argument(py, &format!("{thing} frame {n}"), value, way_out))
+    };
+    matrices.as_array().outer_iter().enumerate().map(pose).collect()
 }
 
 /// So many finite numbers.

@@ -2,7 +2,7 @@
 
 mod tasks;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
@@ -143,7 +143,7 @@ impl Scene {
             for entry in settings.0.cast::<PyMapping>()?.items()?.iter() {
                 let (key, value): (String, Bound<'_, PyAny>) = entry.extract()?;
                 if !value.is_none() {
-                    given.push((key.clone(), setting(&key, &value, &mut made)?.to_string()));
+                    given.push((key.clone(), setting(&key, &value, None, &mut made)?.to_string()));
                 }
             }
         }
@@ -223,12 +223,12 @@ impl Scene {
     }
 
     /// Gives a setting another value; None takes it out, so that it is what it is when nobody says. Meshes may be files or
-    /// (points, faces), `hair.file` may be (points, offsets).
+    /// (points, faces), `hair.file` may be (points, offsets), motions may be matrices (frames, 4, 4).
     fn __setitem__(&self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
         let mut files = Files::default();
         let value = match value {
             none if none.is_none() => None,
-            given => Some(setting(key, given, &mut files)?),
+            given => Some(setting(key, given, Some(self.now().frame_rate()), &mut files)?),
         };
         self.put(py, key, value, files)
     }
@@ -278,9 +278,14 @@ impl Scene {
     }
 }
 
-/// A value of a setting, or of a table of them, in which arrays of hair and meshes become files.
-fn setting(key: &str, given: &Bound<'_, PyAny>, files: &mut Files) -> PyResult<Value> {
+/// A value of a setting, or of a table of them, in which arrays of hair, meshes and motion become files. `rate`: matrices a second,
+/// where they do not say it themselves.
+fn setting(key: &str, given: &Bound<'_, PyAny>, rate: Option<f64>, files: &mut Files) -> PyResult<Value> {
     let name = key.rsplit('.').next().unwrap_or(key);
+    let is_motion = name == "motion" && key != name;
+    if is_motion && is_array(given)? {
+        return Ok(Value::Table(moved(key, given, rate, files)?));
+    }
     let pair = match given.cast::<PyList>() {
         Ok(list) => Ok(list.to_tuple()),
         Err(_) => given.cast::<PyTuple>().cloned(),
@@ -292,26 +297,63 @@ fn setting(key: &str, given: &Bound<'_, PyAny>, files: &mut Files) -> PyResult<V
             _ => None,
         };
         if let Some(path) = path {
-            return Ok(Value::String(path.to_string_lossy().into_owned()));
+            return Ok(text(&path));
         }
     }
     if let Ok(table) = given.cast::<PyMapping>() {
-        let mut values = Table::new();
+        let (mut values, mut matrices, mut own_rate) = (Table::new(), None, None);
         for entry in table.items()?.iter() {
             let (name, value): (String, Bound<'_, PyAny>) = entry.extract()?;
-            if !value.is_none() {
-                values.insert(name.clone(), setting(&format!("{key}.{name}"), &value, files)?);
+            if is_motion && name == "file" && is_array(&value)? {
+                matrices = Some(value);
+            } else if !value.is_none() {
+                values.insert(name.clone(), setting(&format!("{key}.{name}"), &value, rate, files)?);
             }
+        }
+        if let Some(matrices) = matrices {
+            // Of a table of poses it is known by its times.
+            if let Some(given) = values.remove("frames_per_second") {
+                own_rate = given.as_float().or(given.as_integer().map(|whole| whole as f64));
+                if !own_rate.is_some_and(|rate| rate.is_finite() && rate > 0.0) {
+                    let (thing, way_out) = (format!("{key}.frames_per_second"), "must be a finite number above 0");
+                    return Err(error::argument(matrices.py(), &thing, given, way_out));
+                }
+            }
+            let mut moved = moved(key, &matrices, own_rate.or(rate), files)?;
+            moved.extend(values);
+            return Ok(Value::Table(moved));
         }
         return Ok(Value::Table(values));
     }
     if key == "body"
         && let Ok(bodies) = given.cast::<PyList>()
     {
-        let entry = |(i, body): (usize, Bound<'_, PyAny>)| setting(&format!("body[{i}]"), &body, files);
+        let entry = |(i, body): (usize, Bound<'_, PyAny>)| setting(&format!("body[{i}]"), &body, rate, files);
         return bodies.iter().enumerate().map(entry).collect::<PyResult<_>>().map(Value::Array);
     }
     values::to_toml(given)
+}
+
+/// Whether numbers are given, and neither a file nor a table.
+fn is_array(given: &Bound<'_, PyAny>) -> PyResult<bool> {
+    Ok(given.is_instance_of::<PyList>() || given.is_instance_of::<PyTuple>() || given.hasattr("__array__")?)
+}
+
+/// The table of a motion of matrices, in the space of the scene unless it says otherwise.
+fn moved(key: &str, matrices: &Bound<'_, PyAny>, rate: Option<f64>, files: &mut Files) -> PyResult<Table> {
+    let Some(rate) = rate else {
+        let way_out =
+            "needs {\"file\": matrices, \"frames_per_second\": ...}, as the scene that says it is not read yet";
+        return Err(error::argument(matrices.py(), key, "an array", way_out));
+    };
+    let file = text(&files.motion(key, matrices, rate)?);
+    let axis = |axis: &str| Value::String(axis.to_owned());
+    let values = [("file", file), ("up", axis("+y")), ("facing", axis("+x"))];
+    Ok(values.map(|(key, value)| (key.to_owned(), value)).into_iter().collect())
+}
+
+fn text(path: &Path) -> Value {
+    Value::String(path.to_string_lossy().into_owned())
 }
 
 impl Scene {
@@ -323,8 +365,8 @@ impl Scene {
         }
         Err(error::line(
             py,
-            "a scene file names files, and this scene has hair or meshes of arrays: write them with nabiki.write_hair, or \
-             with any writer of meshes, and give the scene these files",
+            "a scene file names files, and this scene has hair, meshes or motion of arrays: write them with \
+             nabiki.write_hair, with any writer of meshes, or as a table of poses, and give the scene these files",
         ))
     }
 }

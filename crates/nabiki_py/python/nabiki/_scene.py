@@ -47,12 +47,13 @@ class Scene(SceneSettings):
         fields: Iterable[Field] | None = None,
         **settings: Any,
     ) -> None:
+        # First, as matrices of a head or body go by the frame rate.
+        for name, value in settings.items():
+            self[name] = value
         if head is not None:
             self["head"] = head if isinstance(head, Mapping) else {"mesh": head}
         if hair is not None:
             self["hair"] = hair if isinstance(hair, Mapping) else {"file": hair}
-        for name, value in settings.items():
-            self[name] = value
         if forces is not None:
             self.forces = forces
         if bodies is not None:

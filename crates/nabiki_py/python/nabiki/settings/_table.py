@@ -14,6 +14,7 @@ from .._error import Error
 
 File = str | os.PathLike[str]
 Numbers = Sequence[float] | numpy.typing.NDArray[Any]
+Matrices = numpy.typing.ArrayLike
 Arrays = tuple[numpy.typing.ArrayLike, numpy.typing.ArrayLike]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal
 
-from ._table import Arrays, File, Numbers, Table, Tables
+from ._table import Arrays, File, Matrices, Numbers, Table, Tables
 
 __all__ = ["BodySettings", "HeadSettings", "MotionSource"]
 
@@ -41,7 +41,7 @@ class HeadSettings(Table):
         return MotionSource(self._scene, self._key_of('motion'))
 
     @motion.setter
-    def motion(self, value: MotionSource | Mapping[str, Any] | None) -> None:
+    def motion(self, value: MotionSource | Mapping[str, Any] | Matrices | None) -> None:
         self._set('motion', value)
 
     @property
@@ -342,7 +342,7 @@ class BodySettings(Table):
         return MotionSource(self._scene, self._key_of('motion'))
 
     @motion.setter
-    def motion(self, value: MotionSource | Mapping[str, Any] | None) -> None:
+    def motion(self, value: MotionSource | Mapping[str, Any] | Matrices | None) -> None:
         self._set('motion', value)
 
     @property

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal
 
-from ._table import Arrays, File, Numbers, Table, Tables
+from ._table import Arrays, File, Matrices, Numbers, Table, Tables
 
 __all__ = [
     "BodyWind",
