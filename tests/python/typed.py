@@ -42,6 +42,8 @@ def game(scene: nabiki.Scene, head: numpy.typing.NDArray[numpy.float64]) -> byte
     hair.step(head=head, bodies=[None, head], force=(-100, 0, 0))
     hair.step(head=((0, 10, 0), (0, 0, 0, 1)), force=nabiki.Field(wind, strongest=10), jumped=True)
     branch = hair.copy()
+    light: bytes = scene.render_exr(0, file="light.exr", strands=300)
+    assert light
     frame: nabiki.Frame = hair.restore(start)
     assert frame.number == 0 and hair.strongest_force > 100
     return branch.state()

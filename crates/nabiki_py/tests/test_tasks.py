@@ -34,11 +34,27 @@ def test_a_picture_is_the_commands(gust, tmp_path):
     assert 0 <= light.min() and light[..., 3].max() <= 1 + 1e-6 and light.std() > 0
 
 
-def test_a_picture_that_has_no_place_is_not_drawn(gust, tmp_path):
-    drawn = []
-    with pytest.raises(nabiki.Error, match="no folder"):
-        gust.render_png(9, strands=20, file=tmp_path / "none" / "a.png", progress=lambda *done: drawn.append(done))
-    assert not drawn
+@pytest.mark.parametrize("blurred", [False, True])
+def test_a_picture_of_light_is_the_commands(gust, tmp_path, blurred):
+    gust.picture.shutter = 0.5 * blurred
+    more = ["--set", f"picture.shutter={0.5 * blurred}", "--set", "output.exr_frames=true"]
+    command("render", GUST, *SMALL, *more, "--strands", 200, "--frame", 9, "--out", tmp_path)
+    wanted = (tmp_path / "gust_0009.exr").read_bytes()
+    assert all(name in wanted for name in [b"hair.A", b"direction.X", b"motion.Y"])
+    assert gust.render_exr(9, strands=200, file=tmp_path / "own.EXR") == wanted
+    assert (tmp_path / "own.EXR").read_bytes() == wanted
+    assert not gust.output.exr_frames
+    gust.output.exr_frames = True
+    assert gust.render_exr(9, strands=200) == wanted
+
+
+@pytest.mark.parametrize("ending", ["png", "exr"])
+def test_a_picture_that_has_no_place_is_not_drawn(gust, tmp_path, ending):
+    drawn, render = [], getattr(gust, f"render_{ending}")
+    for file, words in [(tmp_path / "none" / f"a.{ending}", "no folder"), (tmp_path / "a.tif", f"must end in .{ending}")]:
+        with pytest.raises(nabiki.Error, match=words):
+            render(9, strands=20, file=file, progress=lambda *done: drawn.append(done))
+    assert not drawn and not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("ending", ["usdc", "usda", "abc", "nabiki"])

@@ -70,6 +70,7 @@ fn openexr_files_hold_the_frame_to_the_bit() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("frame.exr");
     nabiki_render::output::exr::write(&path, &frame).unwrap();
+    assert!(nabiki_render::output::exr::bytes(&frame).unwrap() == std::fs::read(&path).unwrap());
     let read = read_first_flat_layer_from_file(&path).unwrap();
     let channel = |name: &str| -> Vec<f32> {
         let found = read.layer_data.channel_data.list.iter().find(|c| c.name.eq(name));

@@ -75,6 +75,12 @@ impl<'a> Film<'a> {
         })
     }
 
+    /// The same with what compositors want of the hair, whether or not the scene asks for files that hold it.
+    pub fn with_layers(mut self) -> Self {
+        self.renderer = self.renderer.with_layers();
+        self
+    }
+
     /// Draws all frames into `outputs`, and says what the motion is like.
     pub fn shoot(
         &mut self,

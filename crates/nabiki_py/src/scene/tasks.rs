@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use nabiki_render::ToneMapping;
-use nabiki_render::output::png;
+use nabiki_render::output::{exr, png};
 use nabiki_scene::Shown;
 use nabiki_scene::exports::ExportOptions;
 use nabiki_scene::solve::WishFile;
@@ -31,13 +31,11 @@ fn check_frame(py: Python<'_>, frame: u32, last: u32) -> PyResult<()> {
     Err(error::argument(py, "frame", frame, &format!("the frames are 0 to motion.frames = {last}")))
 }
 
-/// Refuses what no picture can be written to, before it is drawn.
-fn check_picture(py: Python<'_>, file: &Path) -> PyResult<()> {
+/// Refuses what no picture with this ending can be written to, before it is drawn.
+fn check_picture(py: Python<'_>, file: &Path, ending: &str, others: &str) -> PyResult<()> {
     let refused = |way_out: &str| Err(error::argument(py, "file", file.display(), way_out));
-    if !file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
-        return refused(
-            "must end in .png; scene.run writes OpenEXR with output.exr_frames, scene.render gives light itself",
-        );
+    if !file.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending)) {
+        return refused(&format!("must end in .{ending}; {others}, scene.render gives light itself"));
     }
     match file.parent() {
         Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => refused("is in no folder: make it first"),
@@ -51,12 +49,13 @@ impl Scene {
         &self,
         py: Python<'_>,
         frame: u32,
+        layers: bool,
         strands: Option<usize>,
         ears: Ears<'_, '_>,
     ) -> PyResult<(nabiki_render::Frame, ToneMapping)> {
         check_frame(py, frame, self.now().motion.frames)?;
         let built = self.built(py, strands, ears)?;
-        let frame = watched(py, ears, &self.functions(), |watch| tasks::draw(&built, frame, watch))?;
+        let frame = watched(py, ears, &self.functions(), |watch| tasks::draw(&built, frame, layers, watch))?;
         Ok((frame, ToneMapping::new(&built.scene.picture)))
     }
 }
@@ -125,7 +124,7 @@ impl Scene {
         strands: Option<usize>,
         progress: Option<Given<'_, Progress>>,
     ) -> PyResult<Hinted<'py, Float32>> {
-        let (frame, _) = self.drawn(py, frame, strands, Ears::new(&progress, &None))?;
+        let (frame, _) = self.drawn(py, frame, false, strands, Ears::new(&progress, &None))?;
         let [width, height] = frame.size.map(|side| side as usize);
         PyArray1::from_vec(py, frame.rgba.into_flattened()).reshape([height, width, 4]).map(Hinted::new)
     }
@@ -141,14 +140,39 @@ impl Scene {
         progress: Option<Given<'_, Progress>>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         if let Some(file) = &file {
-            check_picture(py, file)?;
+            check_picture(py, file, "png", "scene.render_exr writes OpenEXR")?;
         }
-        let (frame, tone_mapping) = self.drawn(py, frame, strands, Ears::new(&progress, &None))?;
+        let (frame, tone_mapping) = self.drawn(py, frame, false, strands, Ears::new(&progress, &None))?;
         let written = detached(py, || {
             if let Some(file) = &file {
                 png::write(file, &frame, &tone_mapping, png::Depth::Eight)?;
             }
             png::bytes(&frame, &tone_mapping)
+        });
+        let bytes = written.map_err(|refused| error::raised(py, refused.into()))?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    /// A frame as the bytes of an OpenEXR file, as `output.exr_frames` writes it: light of 32 bit, depth, shares, directions and
+    /// movement of hair and head; into `file`, an .exr, too, if one is named.
+    #[pyo3(signature = (frame, *, file=None, strands=None, progress=None))]
+    fn render_exr<'py>(
+        &self,
+        py: Python<'py>,
+        frame: u32,
+        file: Option<PathBuf>,
+        strands: Option<usize>,
+        progress: Option<Given<'_, Progress>>,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        if let Some(file) = &file {
+            check_picture(py, file, "exr", "scene.render_png writes PNG")?;
+        }
+        let (frame, _) = self.drawn(py, frame, true, strands, Ears::new(&progress, &None))?;
+        let written = detached(py, || {
+            if let Some(file) = &file {
+                exr::write(file, &frame)?;
+            }
+            exr::bytes(&frame)
         });
         let bytes = written.map_err(|refused| error::raised(py, refused.into()))?;
         Ok(PyBytes::new(py, &bytes))

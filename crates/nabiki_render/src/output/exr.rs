@@ -1,5 +1,6 @@
 //! OpenEXR files: linear light, alpha, depth, and what compositors want of the hair.
 
+use std::io::{Cursor, Seek, Write};
 use std::path::Path;
 
 use exr::prelude::{
@@ -18,6 +19,17 @@ use crate::frame::{Frame, Layer as PixelLayer};
 /// hair and head; `direction.X`, `.Y`, `.Z`, the hair's direction from root to tip in head space, premultiplied by `hair.A`; `motion.X`,
 /// `.Y`, the movement of both while the shutter is open (pixels, right and down), premultiplied by `hair.A + head.A`.
 pub fn write(path: &Path, frame: &Frame) -> Result<(), RenderError> {
+    write_whole(path, |file| into(file, frame).map_err(Into::into))
+}
+
+/// A frame as the bytes of an OpenEXR file, as [`write()`] writes them.
+pub fn bytes(frame: &Frame) -> Result<Vec<u8>, RenderError> {
+    let mut file = Cursor::new(Vec::new());
+    into(&mut file, frame).map_err(|e| RenderError::Geometry(e.to_string()))?;
+    Ok(file.into_inner())
+}
+
+fn into(file: &mut (impl Write + Seek), frame: &Frame) -> exr::error::UnitResult {
     let channel = |name: &str, values: Vec<f32>| AnyChannel::new(name, FlatSamples::F32(values));
     let of = |i: usize| frame.rgba.iter().map(|p| p[i]).collect::<Vec<f32>>();
     let mut channels = vec![
@@ -47,5 +59,5 @@ pub fn write(path: &Path, frame: &Frame) -> Result<(), RenderError> {
         AnyChannels::sort(channels.into_iter().collect()),
     );
     let image = Image::empty(ImageAttributes::new(IntegerBounds::from_dimensions(size))).with_layer(layer);
-    write_whole(path, |file| image.write().to_buffered(file).map_err(Into::into))
+    image.write().to_buffered(file)
 }

@@ -233,7 +233,7 @@ fn a_frame_drawn_alone_is_that_of_the_film_while_the_shutter_is_open() {
         let alone = film(&built, camera).still(n, &mut Simulated::new(&built).unwrap()).unwrap();
         assert!(alone == drawn[n as usize], "frame {n}");
     }
-    assert!(crate::tasks::draw(&built, 6, &mut Unwatched).unwrap() == drawn[6]);
+    assert!(crate::tasks::draw(&built, 6, false, &mut Unwatched).unwrap() == drawn[6]);
     let sharp = gust(&[]);
     assert!(film(&sharp, camera).still(6, &mut Simulated::new(&sharp).unwrap()).unwrap() != drawn[6]);
 }

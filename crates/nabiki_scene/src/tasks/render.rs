@@ -184,17 +184,21 @@ fn turntable(
     Ok(file.into_iter().chain(stills.map(|stills| stills.folder().to_owned())).collect())
 }
 
-/// Draws one frame of a scene that is built, as light. [`ToneMapping`] brings it into the range of a screen.
+/// Draws one frame of a scene that is built, as light. [`ToneMapping`] brings it into the range of a screen. `layers`: with what
+/// compositors want of the hair, be it that the scene does not ask for it.
 ///
 /// # Errors
 /// As [`render`].
-pub fn draw(built: &BuiltScene, frame: u32, watch: &mut dyn Watch) -> Result<Frame> {
+pub fn draw(built: &BuiltScene, frame: u32, layers: bool, watch: &mut dyn Watch) -> Result<Frame> {
     let last = built.frames();
     if frame > last {
         return Err(Error::refused(format!("frame {frame}: the last frame is motion.frames = {last}")));
     }
     let mut frames = Simulated::new(built)?;
     let mut film = Film::new(built, &built.scene.picture, &mut frames.again(), watch)?;
+    if layers {
+        film = film.with_layers();
+    }
     if frame > 0 {
         each_frame(watch, "simulating", 0..=frame - 1, |n| frames.frame(n).map(drop))?;
     }
