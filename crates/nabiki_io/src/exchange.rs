@@ -128,7 +128,7 @@ pub(crate) fn mesh(path: &Path, groups: &[String]) -> Result<(Mesh, Vec<String>)
     file.ask(|r| Ok((r.meshes(&wanted)?, r.meshes_unread(&wanted)?)))
 }
 
-/// Whether the object or prim `node` carries one of the meshes that [`mesh`] reads. A joint carries none, as bodies are rigid.
+/// Whether the object or prim `node` carries one of the meshes that a scene reads. A joint carries none, as bodies are rigid.
 ///
 /// # Errors
 /// What is wrong with the file.
@@ -144,7 +144,7 @@ pub fn carries_mesh(path: &Path, node: &str, groups: &[String]) -> Result<bool> 
     Ok(meshes.iter().any(|mesh| wanted(mesh) && parts::is_part(node, mesh)))
 }
 
-/// The transform that moves a mesh that [`mesh`] reads, the nearest above it; none in other files, and where nothing moves.
+/// The transform that moves a mesh that a scene reads, the nearest above it; none in other files, and where nothing moves.
 ///
 /// # Errors
 /// What is wrong with the file.
