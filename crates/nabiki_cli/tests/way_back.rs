@@ -186,12 +186,16 @@ fn what_goes_back_stands_on_the_time_line_of_the_shot() {
         let blocked = ["velocities", "accelerations"].map(|name| text.contains(&format!("vector3f[] {name} = None")));
         assert_eq!(blocked, [["direct.usda", "later.usda"].contains(&name); 2], "{name}");
     }
-    // A file of its own has the head's way, a centimetre a frame, and hair without a width is as wide as it is drawn.
+    // A file of its own takes the hair the node's way, a centimetre a frame: from where it lay, as the head began turned.
     let whole = fs::read_to_string(folder.join("whole.usda")).unwrap();
-    for n in 0..=3 {
-        let there = |line: &str| line.trim().starts_with(&format!("{}: ( (1, 0, 0, 0)", 1001 + n));
-        let placed = whole.lines().find(|line| there(line)).unwrap();
-        assert!(placed.contains(&format!(", ({}, 211.1", 3 + n)), "{placed}");
+    let later = fs::read_to_string(folder.join("other.usda")).unwrap();
+    for (stage, first) in [(&whole, 1001), (&later, -5)] {
+        for n in 0..=3 {
+            let there = |line: &str| line.trim().starts_with(&format!("{}: ( (1, 0, 0, 0)", first + n));
+            let placed = stage.lines().find(|line| there(line)).unwrap();
+            // About the node, at 150 and -40: 150 - (150 cos 70 + 40 sin 70 degrees).
+            assert!(placed.contains(&format!(", ({n}, 61.1")), "{placed}");
+        }
     }
     assert!(whole.contains("float[] widths = [0.02, 0.02, 0.02, 0.02, 0.02, 0.02]"), "{whole}");
     let refused = refuse(folder, "convert m.nabiki x.usda --first-frame 10000001");

@@ -220,6 +220,8 @@ fn write_header(out: &mut dyn Write, header: &Header) -> Result<u64> {
     attributes::write(&mut blocks, &header.attributes)?;
     if let Some(origin) = &header.origin {
         attributes::block(&mut blocks, origin::TAG, Some(&origin.bytes()))?;
+        let in_world = origin.in_world.then_some([1_u8]);
+        attributes::block(&mut blocks, origin::WORLD_TAG, in_world.as_ref().map(|one| &one[..]))?;
         let groom = origin.groom.as_ref().map(origin::groom_bytes).transpose()?;
         attributes::block(&mut blocks, origin::GROOM_TAG, groom.as_deref())?;
     }

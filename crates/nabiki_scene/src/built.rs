@@ -312,17 +312,11 @@ impl BuiltScene {
         !self.poses.is_empty()
     }
 
-    /// How imported hair goes back into the space of its file. Where a motion says where the head is in the world, that is the file's
-    /// world, and nothing is added.
-    pub(crate) fn way_back(&self) -> Option<Placement> {
-        let in_world = self.scene.head.motion.as_ref().is_some_and(|motion| !motion.start_at_origin);
-        self.hair_placement.map(|of_file| if in_world { Placement { origin: Vec3::ZERO, ..of_file } } else { of_file })
-    }
-
-    /// How imported hair goes back into its file, for a motion cache to remember.
+    /// How imported hair lay in its file and goes back into it, for exports and for a motion cache to remember.
     pub fn hair_origin(&self) -> Option<Origin> {
-        let (placement, report) = (self.way_back()?, self.import_report?);
-        Some(Origin { placement, points: report.points_in_file as u64, groom: self.groom.clone() })
+        let (placement, report) = (self.hair_placement?, self.import_report?);
+        let in_world = self.scene.head.motion.as_ref().is_some_and(|motion| !motion.start_at_origin);
+        Some(Origin { placement, points: report.points_in_file as u64, groom: self.groom.clone(), in_world })
     }
 
     /// Number of frame 0 on the time line of the shot, from which exports go on: as the scene says, or else as the head's motion, or

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use nabiki::{Pose, Strands};
 use nabiki_exchange::FrameSink;
+use nabiki_io::cache::Origin;
 use nabiki_io::exchange;
 use nabiki_render::colour;
 
@@ -52,6 +53,7 @@ impl ExportOptions {
 /// The files being written.
 pub(crate) struct Exports<'a> {
     sinks: Vec<(PathBuf, Box<dyn FrameSink + 'a>)>,
+    origin: Option<Origin>,
     next: u32,
 }
 
@@ -61,7 +63,7 @@ impl<'a> Exports<'a> {
         let mut sinks = Vec::new();
         for path in &options.files {
             let frame_rate = built.scene.frame_rate();
-            let mut export = exchange::export(&built.hair, frame_rate, built.way_back().as_ref());
+            let mut export = exchange::export(&built.hair, frame_rate, built.hair_placement.as_ref());
             export.first_frame = built.first_frame();
             export.default_width = Some(built.scene.picture.hair.width);
             export.default_colour = Some(colour::of_mass(&built.scene.picture.hair));
@@ -83,7 +85,7 @@ impl<'a> Exports<'a> {
             }
             sinks.push((path.clone(), exchange::sink(path, export, options.layer.as_deref())?));
         }
-        Ok(Self { sinks, next: 0 })
+        Ok(Self { sinks, origin: built.hair_origin(), next: 0 })
     }
 
     /// Passes on frame `n`, unless it has been passed on before.
@@ -92,8 +94,10 @@ impl<'a> Exports<'a> {
             return Ok(());
         }
         self.next += 1;
+        let in_head = || pose.world_from_head().as_daffine3();
+        let world_from_head = self.origin.as_ref().map_or_else(in_head, |origin| origin.world_from_head(pose));
         for (path, sink) in &mut self.sinks {
-            sink.frame(strands, &pose.world_from_head().as_daffine3()).map_err(|e| named(e, path))?;
+            sink.frame(strands, &world_from_head).map_err(|e| named(e, path))?;
         }
         Ok(())
     }

@@ -67,7 +67,7 @@ pub(super) struct Blocks {
 /// Reads the blocks up to the offset `end`; tags of later versions are passed over.
 pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, end: u64, strands: usize, points: usize) -> Result<Blocks> {
     let Blocks { attributes: mut a, mut origin, mut piece, mut bounds, mut first_frame } = Blocks::default();
-    let mut groom = None;
+    let (mut groom, mut in_world) = (None, false);
     while source.at() < end {
         let tag: [u8; 8] = source.value("attribute tag")?;
         let length: u64 = source.value("attribute length")?;
@@ -98,6 +98,7 @@ pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, end: u64, strands: usi
                 a.group_names.insert(i32::from_le_bytes(*number), text.to_owned());
             }
             origin::TAG => origin = Some(Origin::from_bytes(&block.values(origin::BYTES)?)?),
+            origin::WORLD_TAG => in_world = block.values::<u8>(1)? == [1],
             origin::GROOM_TAG => groom = Some(origin::groom_from_bytes(&block.values(length as usize)?)?),
             piece::TAG => piece = Some(Piece::from_bytes(&block.values(length as usize)?)?),
             // A box of no points, or with a corner that is nowhere, bounds nothing.
@@ -111,7 +112,8 @@ pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, end: u64, strands: usi
         }
         source.seek(next)?;
     }
-    Ok(Blocks { attributes: a, origin: origin.map(|origin| Origin { groom, ..origin }), piece, bounds, first_frame })
+    let origin = origin.map(|origin| Origin { groom, in_world, ..origin });
+    Ok(Blocks { attributes: a, origin, piece, bounds, first_frame })
 }
 
 /// The values of one block.

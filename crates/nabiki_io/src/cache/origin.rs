@@ -1,6 +1,7 @@
 //! The file that a cache's hair came from, so that it can go back into that file's own space.
 
-use glam::{DAffine3, Vec3};
+use glam::{DAffine3, DVec3, Vec3};
+use nabiki::Pose;
 
 use crate::{
     axis::Axis,
@@ -13,6 +14,8 @@ use crate::{
 
 pub(super) const TAG: &[u8; 8] = b"origin  ";
 pub(super) const BYTES: usize = 32;
+/// The block of one byte, 1, where the hair goes into its file's world.
+pub(super) const WORLD_TAG: &[u8; 8] = b"in_world";
 /// The block that names the file and its curves.
 pub(super) const GROOM_TAG: &[u8; 8] = b"groom   ";
 /// Axes by the numbers that the block gives them.
@@ -27,9 +30,19 @@ pub struct Origin {
     pub points: u64,
     /// The file and where its curves are in it; `None` in a cache of before that was kept.
     pub groom: Option<GroomCurves>,
+    /// Whether a motion says where the head is in a world, which then is the file's; otherwise hair goes from its place in the file.
+    pub in_world: bool,
 }
 
 impl Origin {
+    /// Takes head space to where a pose has it, for a file that is placed as this one: the origin of head space is a point of the file,
+    /// which the place of a head in its world has in it already.
+    pub fn world_from_head(&self, pose: &Pose) -> DAffine3 {
+        let origin = if self.in_world { self.placement.origin_in_world().as_dvec3() } else { DVec3::ZERO };
+        let world = pose.world_from_head().as_daffine3();
+        DAffine3 { translation: world.translation - origin, ..world }
+    }
+
     pub(super) fn bytes(&self) -> Vec<u8> {
         let Placement { unit, up, facing, origin } = self.placement;
         let mut bytes = unit.cm.to_le_bytes().to_vec();
@@ -56,7 +69,7 @@ impl Origin {
         };
         placement.check("origin").map_err(|e| damaged(&e.to_string()))?;
         let points = u64::from(u32::from_le_bytes(low)) | u64::from(u32::from_le_bytes(high)) << 32;
-        Ok(Self { placement, points, groom: None })
+        Ok(Self { placement, points, groom: None, in_world: false })
     }
 }
 
@@ -141,12 +154,12 @@ mod tests {
             for facing in AXES.into_iter().filter(|a| a.vector().dot(up.vector()) == 0.0) {
                 let unit = Unit { cm: 2.54 };
                 let placement = Placement { unit, up, facing, origin: Vec3::new(1.0, -2.0, 3e-7) };
-                let origin = Origin { placement, points: (1 << 40) + 5, groom: None };
+                let origin = Origin { placement, points: (1 << 40) + 5, groom: None, in_world: false };
                 assert_eq!(origin.bytes().len(), BYTES);
                 assert_eq!(Origin::from_bytes(&origin.bytes()).unwrap(), origin);
             }
         }
-        let sound = Origin { placement: Placement::default(), points: 9, groom: None }.bytes();
+        let sound = Origin { placement: Placement::default(), points: 9, groom: None, in_world: false }.bytes();
         for (at, byte) in [(3, 0xff), (4, 6), (4, 0), (8, 3), (15, 0x7f)] {
             let mut bytes = sound.clone();
             bytes[at] = byte;

@@ -325,7 +325,8 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
     let layer = options.layer.as_deref();
     let curves = layer.map(|prim| under_layer(options, prim, &cache).cloned()).transpose()?;
     let hair = cache.hair(0)?;
-    let placement = placement(&cache);
+    let origin = cache.header().origin.clone();
+    let placement = origin.as_ref().map(|origin| origin.placement);
     let mut export = exchange::export(&hair, cache.header().frame_rate, placement.as_ref());
     export.first_frame = options.first_frame.unwrap_or(cache.header().first_frame);
     if let Some(curves) = &curves {
@@ -342,7 +343,9 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
     each_frame(watch, "converting", 0..=last, |frame| {
         let pose = cache.read(frame.into(), &mut strands)?;
         head_moves |= pose != Pose::STILL;
-        sink.frame(&strands, &pose.world_from_head().as_daffine3()).map_err(failed)
+        let in_head = || pose.world_from_head().as_daffine3();
+        let world_from_head = origin.as_ref().map_or_else(in_head, |origin| origin.world_from_head(&pose));
+        sink.frame(&strands, &world_from_head).map_err(failed)
     })?;
     sink.finish().map_err(failed)?;
     let mut losses: Vec<String> =
