@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use nabiki_render::ToneMapping;
-use nabiki_render::output::{exr, png};
+use nabiki_render::output::{self, exr, png};
+use nabiki_render::{RenderError, ToneMapping};
 use nabiki_scene::Shown;
 use nabiki_scene::exports::ExportOptions;
 use nabiki_scene::solve::WishFile;
@@ -41,6 +41,20 @@ fn check_picture(py: Python<'_>, file: &Path, ending: &str, others: &str) -> PyR
         Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => refused("is in no folder: make it first"),
         _ => Ok(()),
     }
+}
+
+/// The bytes of a picture, which go into a file, too, if one is named.
+fn encoded<'py>(
+    py: Python<'py>,
+    file: Option<&Path>,
+    encode: impl FnOnce() -> Result<Vec<u8>, RenderError> + Send,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let written = detached(py, || {
+        let bytes = encode()?;
+        file.map_or(Ok(()), |file| output::write_bytes(file, &bytes)).map(|()| bytes)
+    });
+    let bytes = written.map_err(|refused| error::raised(py, refused.into()))?;
+    Ok(PyBytes::new(py, &bytes))
 }
 
 impl Scene {
@@ -143,14 +157,7 @@ impl Scene {
             check_picture(py, file, "png", "scene.render_exr writes OpenEXR")?;
         }
         let (frame, tone_mapping) = self.drawn(py, frame, false, strands, Ears::new(&progress, &None))?;
-        let written = detached(py, || {
-            if let Some(file) = &file {
-                png::write(file, &frame, &tone_mapping, png::Depth::Eight)?;
-            }
-            png::bytes(&frame, &tone_mapping)
-        });
-        let bytes = written.map_err(|refused| error::raised(py, refused.into()))?;
-        Ok(PyBytes::new(py, &bytes))
+        encoded(py, file.as_deref(), || png::bytes(&frame, &tone_mapping))
     }
 
     /// A frame as the bytes of an OpenEXR file, as `output.exr_frames` writes it: light of 32 bit, depth, shares, directions and
@@ -168,14 +175,7 @@ impl Scene {
             check_picture(py, file, "exr", "scene.render_png writes PNG")?;
         }
         let (frame, _) = self.drawn(py, frame, true, strands, Ears::new(&progress, &None))?;
-        let written = detached(py, || {
-            if let Some(file) = &file {
-                exr::write(file, &frame)?;
-            }
-            exr::bytes(&frame)
-        });
-        let bytes = written.map_err(|refused| error::raised(py, refused.into()))?;
-        Ok(PyBytes::new(py, &bytes))
+        encoded(py, file.as_deref(), || exr::bytes(&frame))
     }
 
     /// Draws all frames into `folder`: a movie, a contact sheet and whatever else the settings of `output` ask for.

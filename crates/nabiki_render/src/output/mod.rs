@@ -12,6 +12,7 @@ pub mod sheet;
 #[cfg(feature = "video")]
 pub mod video;
 
+use std::io::Write;
 use std::path::Path;
 
 use nabiki_file::PartFile;
@@ -21,6 +22,14 @@ use crate::RenderError;
 /// The file that will be `path` when it is whole.
 fn create_part(path: &Path) -> Result<PartFile, RenderError> {
     PartFile::create(path).map_err(|source| RenderError::Write { path: path.to_owned(), source })
+}
+
+/// Writes the bytes of a picture, as [`png::bytes`] and its like give them, into a file.
+///
+/// # Errors
+/// What the disk says.
+pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), RenderError> {
+    write_whole(path, |file| file.write_all(bytes).map_err(Into::into))
 }
 
 /// Writes a whole file with `fill`, then gives it its name.
