@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use glam::DAffine3;
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
-use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, PrimKind, Problem};
+use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem};
 use nabiki_usd::{Form, HairStage, StageReader};
 
 use crate::axis::Axis;
@@ -124,7 +124,7 @@ pub(crate) fn mesh(path: &Path, groups: &[String]) -> Result<(Mesh, Vec<String>)
         let meshes = file.ask(|r| r.contents())?.meshes;
         parts::check(groups, &meshes).map_err(|e| e.in_file(path))?;
     }
-    let wanted = |mesh: &str| groups.is_empty() || groups.iter().any(|group| parts::is_part(group, mesh));
+    let wanted = |mesh: &str| parts::is_kept(groups, mesh);
     file.ask(|r| Ok((r.meshes(&wanted)?, r.meshes_unread(&wanted)?)))
 }
 
@@ -139,9 +139,8 @@ pub fn carries_mesh(path: &Path, node: &str, groups: &[String]) -> Result<bool> 
     let Some(node) = all.iter().find(|path| *path == node).or_else(|| all.iter().find(by_name)) else {
         return Ok(false);
     };
-    let wanted = |mesh: &String| groups.is_empty() || groups.iter().any(|group| parts::is_part(group, mesh));
     let meshes = file.ask(|r| r.contents())?.meshes;
-    Ok(meshes.iter().any(|mesh| wanted(mesh) && parts::is_part(node, mesh)))
+    Ok(meshes.iter().any(|mesh| parts::is_kept(groups, mesh) && parts::is_part(node, mesh)))
 }
 
 /// The transform that moves a mesh that a scene reads, the nearest above it; none in other files, and where nothing moves.
@@ -152,16 +151,13 @@ pub fn mover_of_mesh(path: &Path, groups: &[String]) -> Result<Option<String>> {
     if !(is_usd(path) || is_alembic(path)) {
         return Ok(None);
     }
-    let prims = Opened::new(path)?.ask(|r| r.prims())?;
-    let moving = prims.into_iter().filter(|prim| prim.kind == PrimKind::Transform && prim.samples > 1);
-    let mut moving: Vec<String> = moving.map(|prim| prim.path).collect();
-    moving.sort_by_key(|path| std::cmp::Reverse(path.matches('/').count()));
-    for node in moving {
-        if carries_mesh(path, &node, groups)? {
-            return Ok(Some(node));
-        }
-    }
-    Ok(None)
+    let mut file = Opened::new(path)?;
+    let (prims, mut meshes) = (file.ask(|r| r.prims())?, file.ask(|r| r.contents())?.meshes);
+    meshes.retain(|mesh| parts::is_kept(groups, mesh));
+    let moves = |prim: &Prim| prim.kind == PrimKind::Transform && prim.samples > 1;
+    let carries = |prim: &Prim| meshes.iter().any(|mesh| parts::is_part(&prim.path, mesh));
+    let movers = prims.into_iter().filter(|prim| moves(prim) && carries(prim));
+    Ok(movers.map(|prim| prim.path).max_by_key(|path| path.matches('/').count()))
 }
 
 /// Reads the way of the object, prim or joint `node`.

@@ -1,6 +1,6 @@
 //! Where a file's coordinates lie in head space: unit, up axis, facing and origin, applied once, at the door.
 
-use glam::{Affine3A, DAffine3, Mat3, Vec3};
+use glam::{Affine3A, DAffine3, DVec3, Mat3, Vec3};
 use nabiki::SettingError;
 use serde::{Deserialize, Serialize};
 
@@ -59,8 +59,8 @@ impl Placement {
     }
 
     /// Where the file's world, turned and measured as head space is, has the origin of head space (cm).
-    pub fn origin_in_world(&self) -> Vec3 {
-        -self.head_from_file_in_doubles().translation.as_vec3()
+    pub fn origin_in_world(&self) -> DVec3 {
+        -self.head_from_file_in_doubles().translation
     }
 
     /// As [`head_from_file`](Self::head_from_file) in doubles, to be put together with the transforms of a file before any

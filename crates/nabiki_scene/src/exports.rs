@@ -94,8 +94,7 @@ impl<'a> Exports<'a> {
             return Ok(());
         }
         self.next += 1;
-        let in_head = || pose.world_from_head().as_daffine3();
-        let world_from_head = self.origin.as_ref().map_or_else(in_head, |origin| origin.world_from_head(pose));
+        let world_from_head = Origin::world_from_head(self.origin.as_ref(), pose);
         for (path, sink) in &mut self.sinks {
             sink.frame(strands, &world_from_head).map_err(|e| named(e, path))?;
         }

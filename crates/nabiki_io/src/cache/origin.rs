@@ -35,10 +35,10 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// Takes head space to where a pose has it, for a file that is placed as this one: the origin of head space is a point of the file,
-    /// which the place of a head in its world has in it already.
-    pub fn world_from_head(&self, pose: &Pose) -> DAffine3 {
-        let origin = if self.in_world { self.placement.origin_in_world().as_dvec3() } else { DVec3::ZERO };
+    /// Takes head space to where a pose has it, for a file of hair that came from here: the origin of head space is a point of such a
+    /// file, which the place of a head in its world has in it already. Hair that was grown (`None`) has no file but that.
+    pub fn world_from_head(of: Option<&Self>, pose: &Pose) -> DAffine3 {
+        let origin = of.filter(|of| of.in_world).map_or(DVec3::ZERO, |of| of.placement.origin_in_world());
         let world = pose.world_from_head().as_daffine3();
         DAffine3 { translation: world.translation - origin, ..world }
     }

@@ -14,6 +14,11 @@ pub(crate) fn is_part(group: &str, mesh: &str) -> bool {
     }
 }
 
+/// Whether a scene that keeps these groups, or everything if there are none, reads the mesh at the path `mesh`.
+pub(crate) fn is_kept(groups: &[String], mesh: &str) -> bool {
+    groups.is_empty() || groups.iter().any(|group| is_part(group, mesh))
+}
+
 /// Refuses groups that name none of the meshes at these paths.
 pub(crate) fn check(groups: &[String], meshes: &[String]) -> Result<()> {
     for group in groups {

@@ -48,6 +48,10 @@ pub(super) fn carried_twice(built: &BuiltScene) -> impl Iterator<Item = Advice> 
     };
     let bodies = built.ways_of_bodies().zip(&scene.bodies).enumerate().filter_map(|(i, (way, settings))| {
         let (BodyWay::InWorld(poses), Some(motion)) = (way, &settings.motion) else { return None };
+        // Before its file is opened for what it says of its space.
+        if scene.resolve(&settings.mesh) != scene.resolve(&motion.file) {
+            return None;
+        }
         let declared = declared_space(&scene.resolve(&settings.mesh)).unwrap_or_default();
         Some(Moved {
             table: format!("body[{i}]"),
@@ -74,7 +78,7 @@ fn twice(built: &BuiltScene, moved: &Moved<'_>) -> Option<Advice> {
     if motion.facing != Some(placement.facing) {
         return None;
     }
-    let off = first.position_cm.distance(placement.origin_in_world());
+    let off = first.position_cm.distance(placement.origin_in_world().as_vec3());
     let turned = first.rotation.angle_between(Quat::IDENTITY);
     if off < NEAR && turned < TURNED || !carries_mesh(&file, &motion.node, groups).unwrap_or(false) {
         return None;

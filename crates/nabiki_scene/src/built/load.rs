@@ -179,7 +179,7 @@ fn read_motion(scene: &Scene, source: &motion::MotionSource, key: &str, placemen
         ..source.clone()
     };
     let motion = motion::read(&source, scene.frame_rate()).map_err(|e| e.below(key))?;
-    Ok(if source.bind_at_start { motion.bound_at(placement.origin_in_world()) } else { motion })
+    Ok(if source.bind_at_start { motion.bound_at(placement.origin_in_world().as_vec3()) } else { motion })
 }
 
 /// A head in its place.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use nabiki::{Hair, Pose, SettingError, error::check_positive, strands::check_points};
 use nabiki_io::Axis;
-use nabiki_io::cache::Reader;
+use nabiki_io::cache::{Origin, Reader};
 use nabiki_io::exchange::{self, DeclaredSpace};
 use nabiki_io::hair;
 use nabiki_io::{CurvePrim, GroomFile, Placement, Unit};
@@ -326,7 +326,7 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
     let curves = layer.map(|prim| under_layer(options, prim, &cache).cloned()).transpose()?;
     let hair = cache.hair(0)?;
     let origin = cache.header().origin.clone();
-    let placement = origin.as_ref().map(|origin| origin.placement);
+    let placement = placement(&cache);
     let mut export = exchange::export(&hair, cache.header().frame_rate, placement.as_ref());
     export.first_frame = options.first_frame.unwrap_or(cache.header().first_frame);
     if let Some(curves) = &curves {
@@ -343,9 +343,7 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
     each_frame(watch, "converting", 0..=last, |frame| {
         let pose = cache.read(frame.into(), &mut strands)?;
         head_moves |= pose != Pose::STILL;
-        let in_head = || pose.world_from_head().as_daffine3();
-        let world_from_head = origin.as_ref().map_or_else(in_head, |origin| origin.world_from_head(&pose));
-        sink.frame(&strands, &world_from_head).map_err(failed)
+        sink.frame(&strands, &Origin::world_from_head(origin.as_ref(), &pose)).map_err(failed)
     })?;
     sink.finish().map_err(failed)?;
     let mut losses: Vec<String> =
