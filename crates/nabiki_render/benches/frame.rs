@@ -147,6 +147,12 @@ fn parts() {
     measure("one lamp", 20_000, |p| p.lights.truncate(1));
     measure("no shadows", 20_000, |p| p.shadows = false);
     measure("no sky occlusion", 20_000, |p| p.sky.occlusion = false);
+    measure("none of these", 20_000, |p| {
+        p.hair.shading = Shading::KajiyaKay;
+        p.lights.truncate(1);
+        p.shadows = false;
+        p.sky.occlusion = false;
+    });
     measure("oversampled 4 x 4", 20_000, |p| p.antialiasing = Antialiasing::Oversample);
     for f_stop in [8.0, 2.8, 1.0] {
         measure(&format!("through a lens, f/{f_stop}"), 20_000, |p| p.camera.f_stop = Some(f_stop));
