@@ -26,7 +26,8 @@ Start with:
 
 A scene is a TOML file. Its tables: head, hair; motion, free, contact, body, neighbours, pseudo_force, disturbance;
 force, wind, gust, body_wind, flow, turbulence, point, vortex, fan; picture, output. The files in scenes/ are commented.
-Exit codes: 0 done, 1 refused or failed (one line says why), 2 the command line makes no sense, 130 ended by a signal."
+Exit codes: 0 done, 1 refused or failed (one line says why), 2 the command line makes no sense; a signal ends it
+as it ends others (130 to a shell for Ctrl-C), and what nohup ignores it ignores."
 )]
 pub struct Cli {
     #[command(subcommand)]

@@ -2,6 +2,7 @@
 #![cfg(unix)]
 
 use std::fs;
+use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
@@ -16,7 +17,11 @@ fn names(folder: &Path) -> Vec<PathBuf> {
 /// A simulation into `cache` that goes on until it is stopped, and has begun to write. Carriers make it slow and not large, since
 /// what a disk cannot hold is refused.
 fn begun(cache: &Path) -> Child {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_nabiki"))
+    begun_by(&mut Command::new(env!("CARGO_BIN_EXE_nabiki")), cache)
+}
+
+fn begun_by(command: &mut Command, cache: &Path) -> Child {
+    let mut child = command
         .args(["simulate", GUST, "--strands", "2", "--frames", "20000", "--set", "neighbours.carriers=4096", "-o"])
         .arg(cache)
         .stdout(Stdio::null())
@@ -30,16 +35,61 @@ fn begun(cache: &Path) -> Child {
     child
 }
 
+fn send(signal: &str, child: &Child) {
+    let sent = Command::new("sh").args(["-c", &format!("kill -{signal} {}", child.id())]).status().unwrap();
+    assert!(sent.success());
+}
+
+/// The signals that these tests, and so what they start, were started to ignore: a bit each from signal 1 on.
+fn ignored() -> u64 {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    mask.map_or(0, |mask| u64::from_str_radix(mask.trim(), 16).unwrap())
+}
+
 #[test]
-fn a_command_told_to_end_removes_what_it_has_begun() {
-    for signal in ["INT", "TERM", "HUP"] {
+fn a_command_told_to_end_removes_what_it_has_begun_and_ends_by_the_signal() {
+    for (signal, number) in [("INT", 2), ("TERM", 15), ("HUP", 1)] {
+        if ignored() >> (number - 1) & 1 == 1 {
+            continue;
+        }
         let folder = TempDir::new().unwrap();
         let mut child = begun(&folder.path().join("long.nabiki"));
-        let sent = Command::new("sh").args(["-c", &format!("kill -{signal} {}", child.id())]).status().unwrap();
-        assert!(sent.success());
-        assert_eq!(child.wait().unwrap().code(), Some(130), "{signal}");
+        send(signal, &child);
+        // Not by an exit code: a shell's loop ends only with what a signal ended.
+        assert_eq!(child.wait().unwrap().signal(), Some(number), "{signal}");
         assert_eq!(names(folder.path()), Vec::<PathBuf>::new(), "{signal}");
     }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_command_under_nohup_goes_on_when_its_terminal_closes() {
+    let folder = TempDir::new().unwrap();
+    let mut child =
+        begun_by(Command::new("nohup").arg(env!("CARGO_BIN_EXE_nabiki")), &folder.path().join("long.nabiki"));
+    send("HUP", &child);
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    assert!(child.try_wait().unwrap().is_none(), "it goes on");
+    send("TERM", &child);
+    assert_eq!(child.wait().unwrap().signal(), Some(15));
+}
+
+#[test]
+fn a_file_that_may_not_grow_is_refused_like_a_full_disk() {
+    let folder = TempDir::new().unwrap();
+    let cache = folder.path().join("long.nabiki");
+    // Of 512 or 1024 bytes each, as the shell has it.
+    let limited = format!(
+        "ulimit -f 100; exec {} simulate {GUST} --strands 300 --frames 40 -q -o {}",
+        env!("CARGO_BIN_EXE_nabiki"),
+        cache.display()
+    );
+    let ended = Command::new("sh").args(["-c", &limited]).output().unwrap();
+    let said = String::from_utf8_lossy(&ended.stderr).into_owned();
+    assert_eq!(ended.status.code(), Some(1), "{said}");
+    assert!(said.starts_with("nabiki: ") && said.contains("long.nabiki") && said.lines().count() == 1, "{said}");
+    assert_eq!(names(folder.path()), Vec::<PathBuf>::new());
 }
 
 #[test]
