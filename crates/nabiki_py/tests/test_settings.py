@@ -188,6 +188,11 @@ def test_what_a_scene_has_no_name_for_is_refused():
         scene.motions = {}
     with pytest.raises(nabiki.Error, match="did you mean motion.frames"):
         scene["motion.framez"] = 3
+    for typo, meant in (("motion.framez", "motion.frames"), ("gust.sead", "gust.seed"), ("picture.tone", "tone_mapping")):
+        with pytest.raises(nabiki.Error, match=meant):
+            scene[typo]
+    # No gust, and no eighth force.
+    assert scene["gust.seed"] is scene["force[7].vector"] is scene["gust"] is None
 
 
 def test_copies_change_by_themselves():
