@@ -445,8 +445,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
             if !(world.is_finite() && world.determinant().abs() > 0.0) {
                 return Err(Problem(format!("object {node}: its transform at {time} s flattens space")));
             }
-            let (_, rotation, position) = world.to_scale_rotation_translation();
-            motion.push(Placed { time, position, rotation });
+            motion.push(Placed::of(time, &world));
         }
         Ok(motion)
     }

@@ -1,6 +1,6 @@
 //! What every reader of grooms answers, whatever the format.
 
-use glam::{DAffine3, DQuat, DVec3};
+use glam::{DAffine3, DMat4, DQuat, DVec3};
 use nabiki::{Hair, Mesh};
 
 use crate::Problem;
@@ -76,6 +76,14 @@ pub trait GroomReader {
     /// # Errors
     /// No such object, with those that there are; a transform that flattens space.
     fn motion(&mut self, node: &str) -> Result<Vec<Placed>, Problem>;
+
+    /// Where that object was when meshes were bound to it; none where nothing says so.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    fn bound(&mut self, _node: &str) -> Result<Option<Placed>, Problem> {
+        Ok(None)
+    }
 }
 
 /// What a file holds and says of itself.
@@ -159,4 +167,19 @@ pub struct Placed {
     pub position: DVec3,
     /// Its axes in the world.
     pub rotation: DQuat,
+    /// How long they are.
+    pub scale: DVec3,
+    /// Whether they are not normal to each other: then no rotation and scale are all of its transform.
+    pub sheared: bool,
+}
+
+impl Placed {
+    /// An object that a transform has in the world at a time (s).
+    pub fn of(time: f64, world: &DMat4) -> Self {
+        const NORMAL: f64 = 1e-4;
+        let (scale, rotation, position) = world.to_scale_rotation_translation();
+        let [x, y, z] = [world.x_axis, world.y_axis, world.z_axis].map(|axis| axis.truncate().normalize_or_zero());
+        let sheared = [x.dot(y), y.dot(z), z.dot(x)].into_iter().any(|cosine| cosine.abs() > NORMAL);
+        Self { time, position, rotation, scale, sheared }
+    }
 }

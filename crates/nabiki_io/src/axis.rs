@@ -37,6 +37,16 @@ impl Axis {
         self.vector().dot(other.vector()) == 0.0
     }
 
+    /// What a direction across `up` is in the same world tipped over, so that what points along `up` points along `other`.
+    #[must_use]
+    pub fn tipped(self, up: Self, other: Self) -> Self {
+        if !up.is_across(other) || self.is_across(other) {
+            return self;
+        }
+        let along = -self.vector().dot(other.vector()) * up.vector();
+        Self::ALL.into_iter().find(|axis| axis.vector() == along).unwrap_or(self)
+    }
+
     /// Its unit vector.
     pub fn vector(self) -> DVec3 {
         match self {
@@ -60,5 +70,32 @@ impl fmt::Display for Axis {
             Self::PlusZ => "+z",
             Self::MinusZ => "-z",
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DQuat;
+
+    #[test]
+    fn a_tipped_world_is_turned_by_a_right_angle() {
+        use Axis::{MinusY, MinusZ, PlusX, PlusY, PlusZ};
+        // As programs turn one into the other: y up and the face along +z, z up and the face along -y.
+        assert_eq!(PlusZ.tipped(PlusY, PlusZ), MinusY);
+        assert_eq!(MinusY.tipped(PlusZ, PlusY), PlusZ);
+        assert_eq!(MinusZ.tipped(PlusY, PlusZ), PlusY);
+        assert_eq!(PlusX.tipped(PlusY, PlusZ), PlusX);
+        for up in Axis::ALL {
+            for other in Axis::ALL.into_iter().filter(|other| other.is_across(up)) {
+                let turn = DQuat::from_rotation_arc(up.vector(), other.vector());
+                for facing in Axis::ALL.into_iter().filter(|facing| facing.is_across(up)) {
+                    let tipped = facing.tipped(up, other);
+                    assert!(tipped.vector().distance(turn * facing.vector()) < 1e-15, "{facing} {up} {other}");
+                    assert_eq!(tipped.tipped(other, up), facing);
+                }
+                assert_eq!(other.tipped(up, up), other);
+            }
+        }
     }
 }

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
 use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem};
@@ -164,10 +164,27 @@ pub fn mover_of_mesh(path: &Path, groups: &[String]) -> Result<Option<String>> {
 pub(crate) fn track(path: &Path, node: &str) -> Result<Track> {
     let mut file = Opened::new(path)?;
     let motion = file.ask(|r| r.motion(node))?;
+    let sample = |placed: Placed| Sample { position: placed.position, rotation: placed.rotation };
+    let bound = file.ask(|r| r.bound(node))?.map(sample);
     let DeclaredSpace { unit, up } = file.declared_space()?;
-    let sample = |placed: Placed| (placed.time, Sample { position: placed.position, rotation: placed.rotation });
-    let (times, samples) = motion.into_iter().map(sample).unzip();
-    Ok(Track { times, samples, what: format!("object {node}"), unit_cm: unit.map(|unit| 100.0 * unit.metres()), up })
+    let left_out = left_out_of(&motion);
+    let (times, samples) = motion.into_iter().map(|placed| (placed.time, sample(placed))).unzip();
+    let unit_cm = unit.map(|unit| 100.0 * unit.metres());
+    Ok(Track { times, samples, what: format!("object {node}"), left_out, bound, unit_cm, up })
+}
+
+/// What a head or body, which is rigid, does not take from what moves it.
+fn left_out_of(motion: &[Placed]) -> Option<&'static str> {
+    const SAME: f64 = 1e-3;
+    let first = motion.first()?.scale;
+    let scaled = motion.iter().any(|placed| !(placed.scale / first).abs_diff_eq(DVec3::ONE, SAME));
+    let sheared = motion.iter().any(|placed| placed.sheared);
+    match (scaled, sheared) {
+        (false, false) => None,
+        (true, false) => Some("its scale, which changes"),
+        (false, true) => Some("its shear: scaled unevenly above a turn"),
+        (true, true) => Some("its scale, which changes, and its shear"),
+    }
 }
 
 /// Moving hair of a layer or archive, read one frame after another.

@@ -24,7 +24,7 @@ use crate::error::{Error, Result};
 use crate::scene::{FieldBound, FieldParts, Scene};
 use crate::seat::Seat;
 
-pub(crate) use load::hair_placement;
+pub(crate) use load::{hair_placement, holds_scenes};
 
 /// All that a scene names, loaded and in head space, ready to be stepped.
 #[derive(Clone, Debug)]

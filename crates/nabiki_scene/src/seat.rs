@@ -32,6 +32,10 @@ const SPREAD: f32 = 0.95;
 /// Spreads that may be a scalp's, or a good part of one, in mean half axes.
 const SPREADS: std::ops::RangeInclusive<f32> = 0.5..=2.0;
 
+/// A unit that a file states is wrong only if it is off by more than this: programs name another's, and hair that lies a little deep is to
+/// keep its own.
+const MISNAMED: f32 = 2.0;
+
 /// How hair lies on a head.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lie {
@@ -130,6 +134,10 @@ impl Seat<'_> {
         let mut mended = open.turned(now).unwrap_or_else(|| open.best());
         let unit = open.placement(&mended).unit;
         mended.unit.get_or_insert_with(|| decimal(unit.cm, 3));
+        let off = unit.cm / self.placement(&Mended::default()).unit.cm;
+        if (MISNAMED.recip()..=MISNAMED).contains(&off) {
+            return None;
+        }
         let then = self.lie_at(&self.placement(&mended));
         then.is_good().then_some((mended, then))
     }

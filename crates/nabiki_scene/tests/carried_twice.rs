@@ -6,7 +6,7 @@ use glam::{Quat, Vec3};
 use nabiki_io::exchange;
 use nabiki_scene::exports::ExportOptions;
 use nabiki_scene::tasks::{SimulateOptions, Twin, simulate};
-use nabiki_scene::{Scene, Shown, Unwatched};
+use nabiki_scene::{BuiltScene, Scene, Shown, Unwatched};
 
 /// A ball on a tail that stands at (0, 2, 1) m in its first frame, turned so far about z, and moves on.
 fn layer(turned: f32) -> String {
@@ -74,6 +74,55 @@ fn a_mesh_that_its_motion_would_carry_twice_is_said_with_the_way_out() {
 }
 
 #[test]
+fn a_motion_of_the_mesh_s_own_file_faces_as_the_mesh_does_and_another_facing_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    advised(folder.path(), 30.0, "origin = [0, 2, 1]");
+    let scene = folder.path().join("scene.toml");
+    let text = std::fs::read_to_string(&scene).unwrap();
+    let built = |motion: &str| {
+        let text = text.replace("facing = \"-y\" }", motion);
+        Scene::parse(&text, &scene, &[]).unwrap().build(Shown::All).unwrap()
+    };
+    let same = built("facing = \"-y\", bind_at_start = true }");
+    let none = built("bind_at_start = true }");
+    assert!((0..=5).all(|frame| same.pose(frame) == none.pose(frame)));
+    let other = built("facing = \"+x\", bind_at_start = true }");
+    let said = |built: &BuiltScene| -> Vec<String> {
+        let lines = built.advice().into_iter().map(|advice| advice.to_string());
+        lines.filter(|line| line.contains("goes and turns another way")).collect()
+    };
+    assert_eq!((said(&same).len(), said(&none).len(), said(&other).len()), (0, 0, 2));
+    let line = "head.motion.facing = \"+x\" and head.facing = \"-y\", both of tail.usda";
+    assert!(said(&other)[0].starts_with(line), "{:?}", said(&other));
+}
+
+#[test]
+fn a_scale_that_changes_and_a_shear_are_said_to_be_left_out() {
+    let folder = tempfile::tempdir().unwrap();
+    advised(folder.path(), 30.0, "origin = [0, 2, 1]");
+    let (scene, tail) = (folder.path().join("scene.toml"), folder.path().join("tail.usda"));
+    let layer = std::fs::read_to_string(&tail).unwrap();
+    for (operation, order, said) in [
+        ("double3 xformOp:scale = (2, 3, 4)", "\"xformOp:rotateZ\", \"xformOp:scale\"", None),
+        (
+            "double3 xformOp:scale.timeSamples = { 0: (1, 1, 1), 9: (1, 1, 1.1) }",
+            "\"xformOp:rotateZ\", \"xformOp:scale\"",
+            Some("not obeyed: its scale, which changes"),
+        ),
+        (
+            "double3 xformOp:scale = (1, 1.1, 1)",
+            "\"xformOp:scale\", \"xformOp:rotateZ\"",
+            Some("not obeyed: its shear: scaled unevenly above a turn"),
+        ),
+    ] {
+        let scaled = layer.replace("uniform token[]", &format!("{operation}\n uniform token[]"));
+        std::fs::write(&tail, scaled.replace("\"xformOp:rotateZ\"", order)).unwrap();
+        let report = Scene::load(&scene, &[]).unwrap().build(Shown::All).unwrap().motion_report.unwrap();
+        assert_eq!(report.split("; ").nth(2), said, "{report}");
+    }
+}
+
+#[test]
 fn hair_that_a_motion_of_its_own_file_carries_is_exported_where_the_file_has_it() {
     let folder = tempfile::tempdir().unwrap();
     let (scene, out) = (folder.path().join("scene.toml"), folder.path().join("out.usda"));
@@ -117,5 +166,51 @@ fn what_is_bound_at_the_start_goes_with_its_node_however_that_is_turned_and_wher
             let there = node(frame) + on * (Vec3::new(0.05, 2.0, 1.1) - node(0));
             assert!(root.distance(there) < 1e-5, "turned {turned}, frame {frame}: {root} for {there}");
         }
+    }
+}
+
+#[test]
+fn what_is_bound_to_a_joint_goes_with_it_from_where_the_skeleton_binds_it() {
+    // Bound at 1.5 m, turned by a right angle about x there; in frame n it is turned about z and 0.1 n + 0.3 m to the side.
+    let bind = "( (1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 1.5, 0, 1) )";
+    let turn = |frame: usize| 0.2 + 0.1 * frame as f32;
+    let joint = |frame: usize| {
+        let bound = Quat::from_rotation_x(std::f32::consts::FRAC_PI_2);
+        (Vec3::new(0.3 + 0.1 * frame as f32, 1.5, 0.0), Quat::from_rotation_z(turn(frame)) * bound)
+    };
+    let samples = |value: &dyn Fn((Vec3, Quat)) -> String| -> String {
+        (0..6).map(|frame| format!("{frame}: [{}], ", value(joint(frame)))).collect()
+    };
+    let (places, turns) = (
+        samples(&|(at, _)| format!("({}, {}, {})", at.x, at.y, at.z)),
+        samples(&|(_, turn)| format!("({}, {}, {}, {})", turn.w, turn.x, turn.y, turn.z)),
+    );
+    let ball = ball().replace("(0.1, 0, 0)", "(0.1, 1.5, 0)");
+    let layer = format!(
+        "#usda 1.0\n( metersPerUnit = 1\n upAxis = \"Y\"\n timeCodesPerSecond = 24 )\n\
+         def SkelRoot \"man\" {{ def Skeleton \"rig\" {{ uniform token[] joints = [\"head\"]\n\
+         uniform matrix4d[] bindTransforms = [{bind}]\n uniform matrix4d[] restTransforms = [{bind}]\n\
+         rel skel:animationSource = </man/rig/walk>\n\
+         def SkelAnimation \"walk\" {{ uniform token[] joints = [\"head\"]\n\
+         float3[] translations.timeSamples = {{ {places} }}\n quatf[] rotations.timeSamples = {{ {turns} }} }} }}\n\
+         {ball} }}\n"
+    );
+    let hair = HAIR.replace("\"Z\"", "\"Y\"").replace("(0.05, 2, 1.1)", "(0.05, 1.6, 0.02)");
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name);
+    std::fs::write(file("man.usda"), layer).unwrap();
+    std::fs::write(file("hair.usda"), hair).unwrap();
+    let scene = "[head]\nmesh = \"man.usda\"\nfacing = \"+z\"\norigin = [0.1, 1.4, 0]\n\
+         motion = { file = \"man.usda\", node = \"head\", bind_at_start = true }\n\
+         ellipsoid = { center = [0, 0, 0], half_axes = [9, 9, 9] }\n\
+         [hair]\nfile = \"hair.usda\"\n[motion]\nform = \"free\"\nframes = 5\n[free]\nlag = 0.0\n";
+    let scene = Scene::parse(scene, &file("scene.toml"), &[]).unwrap();
+    let (output, exports) = (file("out.usda"), ExportOptions::default());
+    let options = SimulateOptions { output: output.clone(), exports, twin: Twin::Fast, shard: None };
+    simulate(scene, Shown::All, &options, &mut Unwatched).unwrap();
+    for frame in 0..=5 {
+        let root = exchange::hair(&output, frame, None).unwrap().strands.strand(0)[0];
+        let there = joint(frame).0 + Quat::from_rotation_z(turn(frame)) * (Vec3::new(0.05, 1.6, 0.02) - Vec3::Y * 1.5);
+        assert!(root.distance(there) < 1e-5, "frame {frame}: {root} for {there}");
     }
 }

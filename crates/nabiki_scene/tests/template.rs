@@ -3,10 +3,11 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use glam::Vec3;
+use glam::{DAffine3, DVec3, Vec3};
 use nabiki::body::Contact;
 use nabiki::free_form::NeighbourForces;
 use nabiki::{Hair, Head};
+use nabiki_io::DeclaredSpace;
 use nabiki_io::motion::Axis;
 use nabiki_io::placement::{Placement, Unit};
 use nabiki_scene::advice::Advice;
@@ -231,6 +232,26 @@ fn what_a_format_states_is_not_guessed() {
         assert!(!new.text.contains("\nunit =") && !new.text.contains("\nup ="), "{}", new.text);
         let placement = built(&new.text, &scene).placement;
         assert_eq!((placement.unit, placement.up), (Unit { cm: 100.0 }, Axis::PlusY), "{name}");
+    }
+}
+
+#[test]
+fn a_unit_that_a_file_states_is_kept_and_its_up_axis_may_be_another_than_the_head_s() {
+    let folder = tempfile::tempdir().unwrap();
+    let [scene, head, hair] = ["new.toml", "head.obj", "hair.usda"].map(|name| folder.path().join(name));
+    let bust = bust();
+    let (y, z) = ((Axis::PlusY, Axis::PlusZ), (Axis::PlusZ, Axis::MinusY));
+    for (of_head, of_hair) in [(y, z), (z, y)] {
+        std::fs::write(&head, mesh_text(&bust.head, &standing(100.0, of_head.0, of_head.1))).unwrap();
+        // A little too small for the head: some of it lies inside.
+        let place = standing(100.0, of_hair.0, of_hair.1).file_from_head_in_doubles();
+        let place = place * DAffine3::from_scale(DVec3::splat(0.93));
+        let declared = DeclaredSpace { unit: Some(Unit { cm: 100.0 }), up: Some(of_hair.0) };
+        nabiki_io::exchange::write(&hair, &bust.hair.clone().transformed(&place), declared).unwrap();
+        let new = template(&scene, Some(&head), &[], Some(&hair)).unwrap();
+        assert!(!new.guesses.iter().any(|said| said.starts_with("hair.")), "{:?}", new.guesses);
+        let placement = built(&new.text, &scene).hair_placement.unwrap();
+        assert_eq!((placement.unit.cm, placement.up, placement.facing), (100.0, of_hair.0, of_hair.1));
     }
 }
 

@@ -109,7 +109,7 @@ fn write(folder: &Path) -> std::io::Result<()> {
 
 fn motion(layer: &Path, node: &str) -> std::io::Result<()> {
     let read = StageReader::open(layer).and_then(|mut stage| stage.motion(node));
-    for Placed { time, position: p, rotation: q } in read.map_err(std::io::Error::other)? {
+    for Placed { time, position: p, rotation: q, .. } in read.map_err(std::io::Error::other)? {
         println!("{time} {} {} {} {} {} {} {}", p.x, p.y, p.z, q.x, q.y, q.z, q.w);
     }
     Ok(())

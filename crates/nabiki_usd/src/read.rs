@@ -384,9 +384,21 @@ impl GroomReader for StageReader {
             if !(world.is_finite() && world.determinant().abs() > 0.0) {
                 return Err(Problem(format!("{node}: its transform at time code {time} flattens space")));
             }
-            let (_, rotation, position) = world.to_scale_rotation_translation();
-            motion.push(Placed { time: time / rate, position, rotation });
+            motion.push(Placed::of(time / rate, &world));
         }
         Ok(motion)
+    }
+
+    fn bound(&mut self, node: &str) -> Result<Option<Placed>, Problem> {
+        let bound = match self.mover(node)? {
+            Mover::Prim(_) => None,
+            Mover::Joint(joint) => joint.bound(&mut self.layer)?,
+        };
+        match bound {
+            Some(world) if !(world.is_finite() && world.determinant().abs() > 0.0) => {
+                Err(Problem(format!("{node}: its bind transform flattens space")))
+            }
+            bound => Ok(bound.map(|world| Placed::of(0.0, &world))),
+        }
     }
 }

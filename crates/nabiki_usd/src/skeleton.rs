@@ -97,6 +97,13 @@ impl Joint {
         Ok(world)
     }
 
+    /// Its axes in the world when meshes were bound to it, if the skeleton says so.
+    pub fn bound(&self, layer: &mut Layer) -> Result<Option<DMat4>, Problem> {
+        let numbers = layer.numbers_at(self.skeleton, "bindTransforms", 0.0)?.unwrap_or_default();
+        let own = self.chain.last().and_then(|&(index, _)| numbers.as_chunks::<16>().0.get(index));
+        Ok(own.map(DMat4::from_cols_array))
+    }
+
     fn rest(&self, layer: &mut Layer, index: usize) -> Result<DMat4, Problem> {
         let numbers = layer.numbers_at(self.skeleton, "restTransforms", 0.0)?.unwrap_or_default();
         match numbers.as_chunks::<16>().0.get(index) {

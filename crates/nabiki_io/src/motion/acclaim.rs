@@ -241,7 +241,7 @@ impl Skeleton {
         let rate = sample_rate(rate_in_file, rate)?;
         let times = (0..samples.len()).map(|i| i as f64 / rate).collect();
         let what = format!("bone {}", self.bones[chain[chain.len() - 1]].name);
-        Ok(Track { times, samples, what, unit_cm: self.unit_cm, up: None })
+        Ok(Track { times, samples, what, unit_cm: self.unit_cm, ..Track::default() })
     }
 
     /// Takes the numbers of one bone in the `sample`th frame, counted from 1.

@@ -88,7 +88,7 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
         source.changes(),
     );
     let poses = poses(&world_from_file, samples.into_iter(), source)?;
-    Ok(HeadMotion { frame_rate, poses, first_frame: None, report })
+    Ok(HeadMotion { frame_rate, poses, bound: None, first_frame: None, report })
 }
 
 /// The nodes from the scene's root down to the one named.

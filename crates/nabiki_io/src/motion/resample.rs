@@ -2,7 +2,7 @@
 
 use super::source::{Interpolation, MotionSource};
 use super::track::Track;
-use super::world::{HeadMotion, WorldFromFile, frame_count, poses};
+use super::world::{HeadMotion, WorldFromFile, frame_count, pose_of, poses};
 use crate::error::{Error, Result};
 use crate::exchange;
 use crate::short::Short;
@@ -37,6 +37,7 @@ impl Track {
             self.at(key, time, source.positions)
         });
         let poses = poses(&world_from_file, samples, source).map_err(named)?;
+        let bound = self.bound.map(|bound| pose_of(world_from_file.pose(bound)));
         let rate = (self.times.len() - 1) as f64 / duration.max(f64::MIN_POSITIVE);
         let of_shot = (exchange::is_usd(&source.file) || exchange::is_alembic(&source.file)) && source.speed == 1.0;
         let first_frame = of_shot.then(|| (self.times[0] * frame_rate).round() as i32);
@@ -44,7 +45,7 @@ impl Track {
         let shot = shot.map_or_else(String::new, |first| format!(" from frame {first} of the shot on"));
         let report = format!(
             "{}: {}, {} samples at {} Hz ({:.3} s) -> {} frames at {} Hz{shot}{} (positions {}, rotations slerp; unit {} cm, \
-             up {}, face {})",
+             up {}, face {}){}",
             source.file.display(),
             self.what,
             self.times.len(),
@@ -60,8 +61,9 @@ impl Track {
             Short(world_from_file.unit_cm as f32),
             world_from_file.up,
             world_from_file.facing,
+            self.left_out.map_or_else(String::new, |what| format!("; not obeyed: {what}")),
         );
-        Ok(HeadMotion { frame_rate, poses, first_frame, report })
+        Ok(HeadMotion { frame_rate, poses, bound, first_frame, report })
     }
 }
 

@@ -29,8 +29,9 @@ pub struct MotionSource {
     /// Up axis of the file's world. Needed for .bvh, .amc, .tof and .csv; +y in .glb, .gltf and .abc; USD names its own.
     pub up: Option<Axis>,
     /// Axis of the file's world that the character faces while the joint is unturned. Needed but for .glb and .gltf:
-    /// +z in those, whose node is unturned as the file's still pose has it. A bone of an .amc is unturned as the .asf
-    /// has it, a joint of a .tof where its axes are the world's.
+    /// +z in those, whose node is unturned as the file's still pose has it; and but for a USD layer or Alembic archive that the mesh
+    /// is from, too, which face as the mesh does. A bone of an .amc is unturned as the .asf has it, a joint of a .tof where its axes are
+    /// the world's.
     pub facing: Option<Axis>,
     /// Samples a second. Needed for an .amc, which seldom says; all others say it themselves.
     pub frames_per_second: Option<f64>,
@@ -47,7 +48,8 @@ pub struct MotionSource {
     /// Whether the first frame is moved to the world's origin and turned about y to face +x (default false).
     pub start_at_origin: bool,
     /// Whether the mesh stands in its file as the first frame has it, wherever that is and however it is turned there, as one out of
-    /// the same scene does: it is then carried on from there (default false). Hair that grows on a head stands there as well.
+    /// the same scene does: it is then carried on from there (default false). Beside a joint of the same USD layer it stands as the
+    /// skeleton binds it. Hair that grows on a head stands there as well.
     pub bind_at_start: bool,
 }
 

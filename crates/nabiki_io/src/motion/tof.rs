@@ -139,7 +139,7 @@ pub(super) fn track(chain: &[String], animation: &[AnimatedJoint]) -> Result<Tra
     });
     let samples = samples.collect();
     let what = format!("joint {}", chain[chain.len() - 1]);
-    Ok(Track { times, samples, what, unit_cm: None, up: None })
+    Ok(Track { times, samples, what, ..Track::default() })
 }
 
 /// The pose at `time`; before the first key and after the last, theirs.

@@ -24,6 +24,10 @@ pub struct Track {
     pub samples: Vec<Sample>,
     /// What the samples are, for the report: "joint Head".
     pub what: String,
+    /// What of the joint's transform the samples do not hold, for the report.
+    pub left_out: Option<&'static str>,
+    /// Where the joint was when meshes were bound to it, where the file says it.
+    pub bound: Option<Sample>,
     /// Length of the file's unit (cm) where the file says it.
     pub unit_cm: Option<f64>,
     /// Up axis where the file says it.

@@ -20,6 +20,9 @@ pub struct HeadMotion {
     pub frame_rate: f64,
     /// World poses, one for each frame.
     pub poses: Vec<Pose>,
+    /// Where the file has the joint when meshes are bound to it (world): a mesh of the same file stands as that has it. `None` where
+    /// it does not say so.
+    pub bound: Option<Pose>,
     /// Number of the first frame on the time line of the shot, which files of whole scenes (USD, Alembic) have; `None` in others, and
     /// where the motion plays at another speed.
     pub first_frame: Option<i32>,
@@ -28,10 +31,11 @@ pub struct HeadMotion {
 }
 
 impl HeadMotion {
-    /// The way of what the first frame finds unturned with its origin at `place` (world, cm): the joint carries it on from there.
+    /// The way of what stood unturned with its origin at `place` (world, cm) when it was bound, else in the first frame: the joint carries
+    /// it on from there.
     #[must_use]
     pub fn bound_at(mut self, place: Vec3) -> Self {
-        let Some(&start) = self.poses.first() else { return self };
+        let Some(start) = self.bound.or(self.poses.first().copied()) else { return self };
         let back = start.rotation.inverse();
         for pose in &mut self.poses {
             let turned = (pose.rotation * back).normalize();
@@ -73,7 +77,7 @@ impl WorldFromFile {
         Ok(Self { rotation: file_from_world.inverse(), unit_cm, up, facing })
     }
 
-    fn pose(&self, sample: Sample) -> (DVec3, DQuat) {
+    pub fn pose(&self, sample: Sample) -> (DVec3, DQuat) {
         let turn = self.rotation;
         (turn * sample.position * self.unit_cm, turn * sample.rotation * turn.inverse())
     }
@@ -97,16 +101,18 @@ pub(super) fn poses(
             *rotation = upright * *rotation;
         }
     }
-    let single: Vec<Pose> = poses
-        .into_iter()
-        .map(|(position, rotation)| Pose { position_cm: position.as_vec3(), rotation: rotation.normalize().as_quat() })
-        .collect();
+    let single: Vec<Pose> = poses.into_iter().map(pose_of).collect();
     match single.iter().position(|p| !(p.position_cm.is_finite() && p.rotation.is_finite())) {
         Some(frame) => {
             Err(Error::new(format!("frame {frame}: the pose is not finite; look at unit_cm and the file's numbers")))
         }
         None => Ok(single),
     }
+}
+
+/// A place and a turn in singles.
+pub(super) fn pose_of((position, rotation): (DVec3, DQuat)) -> Pose {
+    Pose { position_cm: position.as_vec3(), rotation: rotation.normalize().as_quat() }
 }
 
 /// One round of smoothing. Turns are averaged as quaternions of one hemisphere: the mean of a constant turn's neighbours is the one

@@ -1,17 +1,17 @@
 //! Heads and bodies that stand in their file where it has them in the first frame, and that their motion, out of the same file,
-//! carries as if they stood at its origin.
+//! carries as if they stood at its origin, or as if they faced elsewhere.
 
 use std::path::Path;
 
 use glam::Quat;
 use nabiki::Pose;
 use nabiki::body::BodyWay;
-use nabiki_io::exchange::{carries_mesh, is_alembic, is_usd};
+use nabiki_io::exchange::carries_mesh;
 use nabiki_io::motion::MotionSource;
 use nabiki_io::{Placement, declared_space};
 
 use super::{Advice, Setting};
-use crate::built::BuiltScene;
+use crate::built::{BuiltScene, holds_scenes};
 use crate::scene::HeadSource;
 
 /// What is nearer than this (cm) and turned by less than this (rad) is in its place.
@@ -63,19 +63,33 @@ pub(super) fn carried_twice(built: &BuiltScene) -> impl Iterator<Item = Advice> 
             first: *poses.first()?,
         })
     });
-    head.into_iter().chain(bodies).filter_map(|moved| twice(built, &moved))
+    head.into_iter().chain(bodies).filter_map(|moved| twice(built, &moved).or_else(|| askew(built, &moved)))
+}
+
+/// A mesh that is bound where its file has it, and moved as if that file's world faced elsewhere.
+fn askew(built: &BuiltScene, moved: &Moved<'_>) -> Option<Advice> {
+    let Moved { table, mesh, motion, placement, .. } = moved;
+    let facing = motion.facing.filter(|&facing| facing != placement.facing)?;
+    if !motion.bind_at_start || built.scene.resolve(mesh) != built.scene.resolve(&motion.file) {
+        return None;
+    }
+    let (file, faces) = (mesh.display(), placement.facing);
+    let seen = format!(
+        "{table}.motion.facing = \"{facing}\" and {table}.facing = \"{faces}\", both of {file}: it goes and turns another way than it does \
+         there; give both the same, or leave out {table}.motion.facing"
+    );
+    Some(Advice { seen, settings: Vec::new() })
 }
 
 fn twice(built: &BuiltScene, moved: &Moved<'_>) -> Option<Advice> {
     let Moved { table, key, mesh, groups, motion, placement, first } = moved;
     let file = built.scene.resolve(mesh);
-    let of_scenes = is_usd(&file) || is_alembic(&file);
     let corrected = motion.start_at_origin || motion.bind_at_start;
-    if !of_scenes || corrected || file != built.scene.resolve(&motion.file) {
+    if !holds_scenes(&file) || corrected || file != built.scene.resolve(&motion.file) {
         return None;
     }
     // Another facing turns it on purpose.
-    if motion.facing != Some(placement.facing) {
+    if motion.facing.is_some_and(|facing| facing != placement.facing) {
         return None;
     }
     let off = first.position_cm.distance(placement.origin_in_world().as_vec3());

@@ -12,7 +12,7 @@ use nabiki::{Head, Pose, SettingError};
 use nabiki_io::{
     DeclaredSpace,
     cache::Shard,
-    declared_space,
+    declared_space, exchange,
     mesh::{self, MeshReport},
     motion::{self, HeadMotion},
     placement::Placement,
@@ -152,7 +152,11 @@ pub(crate) fn load_field(scene: &Scene) -> Result<FieldParts> {
 /// Where the head is in each frame; `None` for a head that stands still.
 fn head_motion(scene: &Scene, placement: &Placement) -> Result<Option<HeadMotion>> {
     let Some(source) = &scene.head.motion else { return Ok(None) };
-    let motion = read_motion(scene, source, "head.motion", placement)?;
+    let mesh = match &scene.head.source {
+        HeadSource::Imported(head) => Some(scene.resolve(&head.file)),
+        HeadSource::Builtin => None,
+    };
+    let motion = read_motion(scene, source, "head.motion", (mesh.as_deref(), placement))?;
     check_length(scene, &motion.poses)?;
     Ok(Some(motion))
 }
@@ -170,16 +174,31 @@ fn check_length(scene: &Scene, poses: &[Pose]) -> Result<()> {
     Err(nabiki_io::Error::new(remedy).in_file(scene.file()).into())
 }
 
-/// The motion that the scene names under `key`, at its frame rate, of a mesh that its file holds so.
-fn read_motion(scene: &Scene, source: &motion::MotionSource, key: &str, placement: &Placement) -> Result<HeadMotion> {
+/// The motion that the scene names under `key`, at its frame rate, of a mesh and how its file holds it. A motion out of the
+/// mesh's own file faces as the mesh does, and what binds it there is where its mesh stands.
+fn read_motion(
+    scene: &Scene,
+    source: &motion::MotionSource,
+    key: &str,
+    (mesh, placement): (Option<&Path>, &Placement),
+) -> Result<HeadMotion> {
     let there = |part: &str, file: &Path| there(scene, &format!("{key}.{part}"), file);
     let source = motion::MotionSource {
         file: there("file", &source.file)?,
         skeleton: source.skeleton.as_ref().map(|file| there("skeleton", file)).transpose()?,
         ..source.clone()
     };
-    let motion = motion::read(&source, scene.frame_rate()).map_err(|e| e.below(key))?;
+    let of_mesh = mesh == Some(&source.file) && holds_scenes(&source.file);
+    let facing = source.facing.or(of_mesh.then_some(placement.facing));
+    let source = motion::MotionSource { facing, ..source };
+    let mut motion = motion::read(&source, scene.frame_rate()).map_err(|e| e.below(key))?;
+    motion.bound = motion.bound.filter(|_| of_mesh);
     Ok(if source.bind_at_start { motion.bound_at(placement.origin_in_world().as_vec3()) } else { motion })
+}
+
+/// Whether files of this kind hold meshes and what moves them in one space.
+pub(crate) fn holds_scenes(file: &Path) -> bool {
+    exchange::is_usd(file) || exchange::is_alembic(file)
 }
 
 /// A head in its place.

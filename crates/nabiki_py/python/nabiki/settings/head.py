@@ -183,8 +183,9 @@ class MotionSource(Table):
     @property
     def facing(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
         """Axis of the file's world that the character faces while the joint is unturned. Needed but for .glb and .gltf:
-        +z in those, whose node is unturned as the file's still pose has it. A bone of an .amc is unturned as the .asf
-        has it, a joint of a .tof where its axes are the world's.
+        +z in those, whose node is unturned as the file's still pose has it; and but for a USD layer or Alembic
+        archive that the mesh is from, too, which face as the mesh does. A bone of an .amc is unturned as the .asf has
+        it, a joint of a .tof where its axes are the world's.
         """
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('facing')
         return value
@@ -260,8 +261,8 @@ class MotionSource(Table):
     @property
     def bind_at_start(self) -> bool:
         """Whether the mesh stands in its file as the first frame has it, wherever that is and however it is turned
-        there, as one out of the same scene does: it is then carried on from there (default false). Hair that grows on
-        a head stands there as well.
+        there, as one out of the same scene does: it is then carried on from there (default false). Beside a joint of
+        the same USD layer it stands as the skeleton binds it. Hair that grows on a head stands there as well.
         """
         value: bool = self._get('bind_at_start')
         return value

@@ -132,9 +132,9 @@ fn load(scene: &Scene, settings: &BodySettings, name: &str) -> Result<BuiltBody>
     let way = match &settings.motion {
         _ if settings.with_head => BodyWay::WithHead,
         None => BodyWay::InWorld(Arc::new([Pose::STILL])),
-        Some(source) => {
-            BodyWay::InWorld(read_motion(scene, source, &format!("{name}.motion"), &placement)?.poses.into())
-        }
+        Some(source) => BodyWay::InWorld(
+            read_motion(scene, source, &format!("{name}.motion"), (Some(&file), &placement))?.poses.into(),
+        ),
     };
     Ok(BuiltBody { mesh, unread: report.unread, way })
 }

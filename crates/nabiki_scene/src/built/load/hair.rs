@@ -209,12 +209,14 @@ fn evenly(hair: &Hair, count: usize, goes_on: GoesOn<'_>) -> Result<Vec<usize>> 
     Ok(chosen)
 }
 
-/// How the hair's file lies in head space: as the head's file does, but for what the scene or the file itself says.
+/// How the hair's file lies in head space: as the head's file does, but for what the scene or the file itself says. Of two files with
+/// other up axes each is taken for the other, tipped up.
 pub(crate) fn hair_placement(settings: &ImportedHair, head: &Placement, declared: DeclaredSpace) -> Placement {
+    let up = settings.up.or(declared.up).unwrap_or(head.up);
     let unmoved = Placement {
         unit: settings.unit.or(declared.unit).unwrap_or(head.unit),
-        up: settings.up.or(declared.up).unwrap_or(head.up),
-        facing: settings.facing.unwrap_or(head.facing),
+        up,
+        facing: settings.facing.unwrap_or_else(|| head.facing.tipped(head.up, up)),
         origin: Vec3::ZERO,
     };
     if unmoved == (Placement { origin: Vec3::ZERO, ..*head }) {
