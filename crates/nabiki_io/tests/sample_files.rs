@@ -252,6 +252,15 @@ fn the_json_of_every_kind_has_its_kind_and_its_fields() {
     }
     assert_eq!(json("solid.glb")["clips"][0], serde_json::json!({ "name": "nod", "end": 0.5 }));
     assert_eq!(json("solid.glb")["nodes"], serde_json::json!(["solid", "Hips", "Head"]));
+    // Motion without a mesh.
+    let folder = tempfile::tempdir().unwrap();
+    let alone = folder.path().join("nod.gltf");
+    let mut nod: Value = serde_json::from_slice(&std::fs::read(file("solid.gltf")).unwrap()).unwrap();
+    nod.as_object_mut().unwrap().remove("meshes");
+    nod["nodes"].as_array_mut().unwrap().iter_mut().for_each(|node| drop(node.as_object_mut().unwrap().remove("mesh")));
+    std::fs::write(&alone, nod.to_string()).unwrap();
+    let text = info(&alone).unwrap().to_string();
+    assert!(text.starts_with("mesh: none\nnodes: solid, Hips, Head\nclips: nod"), "{text}");
     for (name, samples, joints) in
         [("nod.bvh", 25, 2), ("nod.amc", 25, 2), ("nod.asf", 0, 3), ("nod.tof", 25, 2), ("nod.csv", 25, 0)]
     {

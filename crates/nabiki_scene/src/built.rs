@@ -169,16 +169,17 @@ pub enum Shown {
 }
 
 impl Shown {
-    /// Strands shown of `of_scene`.
-    pub(crate) fn of(self, of_scene: usize) -> Result<usize> {
+    /// Strands shown of `of_scene`, which are `grown` or a file's.
+    pub(crate) fn of(self, of_scene: usize, grown: bool) -> Result<usize> {
         match self {
             Self::All => Ok(of_scene),
             Self::AtMost(count) => Ok(count.min(of_scene)),
             Self::First(count) if count <= of_scene => Ok(count),
-            Self::First(count) => Err(Error::refused(format!(
-                "{count} strands are asked for and the scene has {of_scene}: ask for fewer, or grow more with \
-                 hair.strands = {count}"
-            ))),
+            Self::First(count) => {
+                let more = if grown { format!(", or grow more with hair.strands = {count}") } else { String::new() };
+                let line = format!("{count} strands are asked for and the scene has {of_scene}: ask for fewer{more}");
+                Err(Error::refused(line))
+            }
         }
     }
 }

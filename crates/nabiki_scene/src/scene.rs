@@ -233,6 +233,11 @@ impl Scene {
         self.output.check(self.motion.frames)
     }
 
+    /// What overrides took out of the file without saying so: a line each.
+    pub(crate) fn replaced(&self) -> impl Iterator<Item = String> {
+        self.origins.replaced()
+    }
+
     /// A refused setting as an error that names the file and the line, or the override, that set it.
     pub fn refusal(&self, refused: SettingError) -> SceneError {
         let SceneError { key, problem, .. } = refused.into();

@@ -353,6 +353,8 @@ fn a_wrong_override_is_named_instead_of_a_line() {
         "scenes/gust.toml: --set force.0.vector=[1,2: [1,2 is no value of TOML: write 0.5 and not .5, close each bracket and \
          quote"
     );
+    let large = refused_override("hair.seed", "9223372036854775808");
+    assert!(large.contains("9223372036854775808 is beyond the whole numbers of TOML"), "{large}");
 }
 
 #[test]

@@ -22,7 +22,8 @@ fn built(text: &str, path: &Path) -> BuiltScene {
 }
 
 fn showing(text: &str, path: &Path, shown: Shown) -> BuiltScene {
-    let few = [("hair.strands".to_owned(), "60".to_owned())];
+    // What grows is as many as are asked for, and a file has few.
+    let few = if text.contains("[hair]\nfile") { vec![] } else { vec![("hair.strands".to_owned(), "60".to_owned())] };
     Scene::parse(text, path, &few)
         .unwrap_or_else(|e| panic!("{e}\n{text}"))
         .build(shown)
@@ -336,5 +337,41 @@ fn a_file_that_is_not_there_is_said_with_the_scene_s_line() {
         let said = Scene::load(&scene, &[]).unwrap().build(Shown::All).unwrap_err().to_string();
         let (start, end) = (format!("{}:{line}: ", scene.display()), format!("{key} = \"{file}\": there is no "));
         assert!(said.starts_with(&start) && said.contains(&end), "{said}");
+        let refused = |value: &str| {
+            let other = [(format!("{}.{key}", table_of(&table)), value.to_owned())];
+            Scene::load(&scene, &other).unwrap().build(Shown::All).unwrap_err().to_string()
+        };
+        if !table.contains("[[") {
+            assert!(refused("\"\"").ends_with("= \"\": name a file"), "{}", refused("\"\""));
+            assert!(refused(".").ends_with("= \".\": is a folder: name a file"), "{}", refused("."));
+        }
     }
+}
+
+/// The name of the table that a text begins with.
+fn table_of(text: &str) -> &str {
+    text[1..].split(']').next().unwrap()
+}
+
+#[test]
+fn more_strands_than_a_file_has_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    let bust = bust();
+    std::fs::write(folder.path().join("hair.obj"), hair_text(&bust.hair, &Placement::default())).unwrap();
+    let count = bust.hair.strands.len();
+    let load = |strands: usize, shown: Shown| {
+        let text = format!("[hair]\nfile = \"hair.obj\"\nstrands = {strands}\n{FORCE}");
+        Scene::parse(&text, &scene, &[]).unwrap().build(shown)
+    };
+    assert_eq!(load(count, Shown::All).unwrap().hair.strands.len(), count);
+    let refused = load(count + 1, Shown::All).unwrap_err().to_string();
+    let end = format!(
+        "hair.strands = {}: hair.obj has {count} strands: ask for fewer, or for all by leaving it out",
+        count + 1
+    );
+    assert!(refused.ends_with(&end), "{refused}");
+    // There is nothing to grow more of.
+    let shown = load(count, Shown::First(count + 1)).unwrap_err().to_string();
+    assert!(shown.ends_with("ask for fewer"), "{shown}");
 }

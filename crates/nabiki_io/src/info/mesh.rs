@@ -62,12 +62,15 @@ pub struct ClipInfo {
 impl MeshInfo {
     /// Looks into a mesh file.
     pub fn of_file(path: &Path) -> Result<Self> {
-        let info = Self::of(&mesh::read(path, &[])?);
+        let of_meshes = || Ok(Self::of(&mesh::read(path, &[])?));
         if !matches!(extension(path).as_str(), "glb" | "gltf") {
-            return Ok(info);
+            return of_meshes();
         }
         let bytes = input::read(path, MOST_BINARY_BYTES)?;
         let (document, _) = gltf_file::open(&bytes).map_err(|e| e.in_file(path))?;
+        // A file may hold nothing but the motion of its nodes.
+        let moves_alone = document.meshes().len() == 0 && document.animations().len() > 0;
+        let info = if moves_alone { Self::of(&Mesh::default()) } else { of_meshes()? };
         let clips: Vec<ClipInfo> = document.animations().map(|animation| clip(&animation)).collect();
         let names = document.nodes().filter_map(|node| node.name().map(str::to_owned));
         let DeclaredSpace { unit, up } = DeclaredSpace::GLTF;
@@ -121,11 +124,15 @@ fn clip(animation: &gltf::Animation<'_>) -> ClipInfo {
 
 impl fmt::Display for MeshInfo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "mesh: {} vertices, {} triangles", self.vertices, self.triangles)?;
-        writeln!(f, "box: {}", self.bounds)?;
-        writeln!(f, "edges: {} open, {} with more than two triangles", self.open_edges, self.crowded_edges)?;
-        let (doubled, degenerate) = (self.doubled_vertices, self.degenerate_triangles);
-        write!(f, "degenerate: {degenerate} triangles without area; {doubled} doubled vertices")?;
+        if self.vertices == 0 {
+            write!(f, "mesh: none")?;
+        } else {
+            writeln!(f, "mesh: {} vertices, {} triangles", self.vertices, self.triangles)?;
+            writeln!(f, "box: {}", self.bounds)?;
+            writeln!(f, "edges: {} open, {} with more than two triangles", self.open_edges, self.crowded_edges)?;
+            let (doubled, degenerate) = (self.doubled_vertices, self.degenerate_triangles);
+            write!(f, "degenerate: {degenerate} triangles without area; {doubled} doubled vertices")?;
+        }
         for unread in &self.unread {
             write!(f, "\nnot read: {unread}")?;
         }

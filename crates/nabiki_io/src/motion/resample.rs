@@ -15,7 +15,7 @@ impl Track {
     pub fn head_motion(mut self, source: &MotionSource, frame_rate: f64) -> Result<HeadMotion> {
         let named = |e: Error| e.in_file(&source.file);
         if self.samples.is_empty() {
-            return Err(Error::new("the file has no samples, only its header"));
+            return Err(named(Error::new("has no samples, only its header")));
         }
         if source.skip >= self.samples.len() {
             let problem = format!("skip = {}: the file has {} samples", source.skip, self.samples.len());

@@ -118,6 +118,23 @@ fn thrown() -> Track {
     Track { times, samples, unit_cm: Some(1.0), ..Track::default() }
 }
 
+#[test]
+fn times_of_few_decimals_are_as_long_as_the_exact_ones() {
+    for rate in [24.0, 23.976, 25.0, 30.0, 60.0] {
+        for frames in [1, 7, 100, 1000] {
+            let exact: Vec<f64> = (0..=frames).map(|n| f64::from(n) / rate).collect();
+            for digits in [3, 4, 6] {
+                // Rounded by a thousandth of a second at most, and read as a file's text has it.
+                let times: Vec<f64> = exact.iter().map(|t| format!("{t:.digits$}").parse().unwrap()).collect();
+                let samples = exact.iter().map(|&t| Sample { position: flight(t), rotation: spin(t) }).collect();
+                let track = Track { times, samples, unit_cm: Some(1.0), ..Track::default() };
+                let motion = track.head_motion(&straight("short".into(), None), rate).unwrap();
+                assert_eq!(motion.poses.len(), frames as usize + 1, "{frames} frames at {rate}, {digits} digits");
+            }
+        }
+    }
+}
+
 fn flight(t: f64) -> DVec3 {
     DVec3::new(3.0, 40.0, -1.0) * t + DVec3::new(0.0, -490.0, 100.0) * t * t
 }

@@ -127,8 +127,9 @@ fn mean(before: (DVec3, DQuat), now: (DVec3, DQuat), after: (DVec3, DQuat), b: f
 /// Number of scene frames that fit into `duration` seconds, the first at 0.
 pub(super) fn frame_count(duration: f64, frame_rate: f64) -> Result<usize> {
     const MOST: f64 = 1e7;
-    // A last frame that misses the end by rounding only still counts.
-    let last = (duration * frame_rate + 1e-4).floor();
+    // A last frame that misses the end by no more than times of three decimals are rounded by still counts.
+    const MISSED: f64 = 0.05;
+    let last = (duration * frame_rate + MISSED).floor();
     if (0.0..MOST).contains(&last) {
         Ok(last as usize + 1)
     } else {

@@ -1,4 +1,4 @@
-//! Settings that change nothing beside the others: hair does not feel them, or no picture shows them.
+//! Settings that change nothing beside the others: hair does not feel them, no picture shows them, or another took their place.
 
 use glam::Vec3;
 use nabiki::body::Contact;
@@ -12,7 +12,7 @@ use crate::scene::{FieldSettings, FormChoice, FreeSettings, Scene};
 
 /// What is given and changes nothing.
 pub(crate) fn unused(scene: &Scene) -> Vec<Advice> {
-    let said = [uncut(scene), too_late(scene)].into_iter().flatten().chain(silent(scene));
+    let said = scene.replaced().chain([uncut(scene), too_late(scene)].into_iter().flatten()).chain(silent(scene));
     let said = said.map(|seen| Advice { seen, settings: Vec::new() });
     let moving = unfelt(scene).into_iter().chain(idle(scene)).chain(true_of(field(&scene.field))).chain(said);
     moving.chain(of_pictures(scene)).collect()

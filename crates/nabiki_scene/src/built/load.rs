@@ -71,7 +71,9 @@ pub(super) fn build(
             && free::first_wanted(&scene) == free::first_wanted(&known.scene)
             && shard.is_none()
             && known.shard.is_none()
-            && shown.of(known.strands_of_scene).is_ok_and(|count| count == known.hair.strands.len())
+            && shown
+                .of(known.strands_of_scene, scene.hair.grown().is_some())
+                .is_ok_and(|count| count == known.hair.strands.len())
     });
     let LoadedHair { mut hair, roots, ids, of_scene, shard, first, imported, frames, begins } = match same_hair {
         Some(known) => LoadedHair::of(known),
@@ -220,13 +222,19 @@ impl LoadedHead {
 /// The file that the scene names under `key`; that it is not there is said with the scene's line.
 fn there(scene: &Scene, key: &str, file: &Path) -> Result<PathBuf> {
     let path = scene.resolve(file);
+    let refused =
+        |remedy: String| scene.refusal(SettingError::new(key, format!("\"{}\"", file.display()), remedy)).into();
+    if file.as_os_str().is_empty() {
+        return Err(refused("name a file".to_owned()));
+    }
     match std::fs::metadata(&path) {
+        Ok(there) if there.is_dir() => Err(refused("is a folder: name a file".to_owned())),
         Err(e) if matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
             let remedy = match path == file {
                 true => "there is no such file".to_owned(),
                 false => format!("there is no {}; paths are relative to the scene's folder", path.display()),
             };
-            Err(scene.refusal(SettingError::new(key, format!("\"{}\"", file.display()), remedy)).into())
+            Err(refused(remedy))
         }
         _ => Ok(path),
     }

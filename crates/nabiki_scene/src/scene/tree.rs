@@ -23,6 +23,8 @@ pub(crate) struct Origins {
     lines: BTreeMap<String, usize>,
     /// Text of the override that set each dotted path.
     overrides: BTreeMap<String, String>,
+    /// Overrides by a table, each with the keys of the file that are not in it and so gone.
+    replaced: Vec<(String, Vec<String>)>,
 }
 
 impl Origins {
@@ -54,11 +56,23 @@ impl Origins {
             .any(|set| path.strip_prefix(set.as_str()).is_some_and(|rest| rest.is_empty() || rest.starts_with('.')))
     }
 
+    /// What tables of overrides took out of the file by taking the place of its own: a line each.
+    pub fn replaced(&self) -> impl Iterator<Item = String> {
+        let line = |(text, gone): &(String, Vec<String>)| {
+            let keys = gone.join(", ");
+            format!(
+                "--set {text} takes the place of the whole table, and with it of {keys}; give each key by itself to keep the others"
+            )
+        };
+        self.replaced.iter().map(line)
+    }
+
     /// Notes that the value at a path (dotted, or with indices in brackets) is no override's any more.
     pub fn set_anew(&mut self, path: &str) {
         let path = dotted(path).join(".");
         let below = format!("{path}.");
         self.overrides.retain(|at, _| *at != path && !at.starts_with(&below));
+        self.replaced.clear();
     }
 
     /// Notes that an override set the value at a path, and all below it, and made the tables on the way that the file has not.
@@ -116,6 +130,8 @@ pub(crate) fn parse(
     let mut table: Table = toml::from_str(text).map_err(syntax)?;
     for (path, value) in overrides {
         let text = format!("{path}={value}");
+        let steps = dotted(path);
+        let before = look(&table, &steps).and_then(Value::as_table).cloned();
         set(&mut table, path, value, &defaults).map_err(|what| SceneError {
             file: file.to_owned(),
             line: None,
@@ -123,9 +139,20 @@ pub(crate) fn parse(
             key: String::new(),
             problem: Box::new(Problem::Other(what)),
         })?;
-        origins.override_at(&dotted(path), &text);
+        origins.override_at(&steps, &text);
+        let gone = gone(before, look(&table, &steps));
+        if !gone.is_empty() {
+            let key = |name: &String| format!("{}.{name}", steps.join("."));
+            origins.replaced.push((text, gone.iter().map(key).collect()));
+        }
     }
     Ok((table, origins))
+}
+
+/// The keys of a table that are not in what took its place.
+fn gone(before: Option<Table>, after: Option<&Value>) -> Vec<String> {
+    let Some(after) = after.and_then(Value::as_table) else { return Vec::new() };
+    before.into_iter().flatten().map(|(key, _)| key).filter(|key| !after.contains_key(key)).collect()
 }
 
 /// Notes the line of every entry of a table.
@@ -163,6 +190,9 @@ fn set(table: &mut Table, path: &str, text: &str, defaults: &impl Fn() -> Table)
     let text = text.trim();
     let value: Value = match text.parse() {
         Ok(value) => value,
+        Err(_) if text.parse::<i128>().is_ok() => {
+            return Err(format!("{text} is beyond the whole numbers of TOML, {} to {}", i64::MIN, i64::MAX));
+        }
         Err(_) if begins_as_toml(text) => {
             return Err(format!("{text} is no value of TOML: write 0.5 and not .5, close each bracket and quote"));
         }
@@ -186,10 +216,13 @@ fn begins_as_toml(text: &str) -> bool {
         || (number.starts_with(|c: char| c.is_ascii_digit()) && text.parse::<f64>().is_ok())
 }
 
-/// What is at the end of `steps`, names all of them.
+/// What is at the end of `steps`.
 fn look<'a>(table: &'a Table, steps: &[String]) -> Option<&'a Value> {
-    let (last, way) = steps.split_last()?;
-    way.iter().try_fold(table, |table, step| table.get(step)?.as_table())?.get(last)
+    let (first, rest) = steps.split_first()?;
+    rest.iter().try_fold(table.get(first)?, |place, step| match place {
+        Value::Array(values) => values.get(step.parse::<usize>().ok()?),
+        place => place.get(step),
+    })
 }
 
 /// The place at `path`, with tables made on the way where there are none.
@@ -269,4 +302,34 @@ pub(crate) fn elsewhere(tree: &Table, key: &str) -> Option<String> {
         let there = key.split('.').try_fold(value, |value, step| value.get(step)).map(|_| key.to_owned());
         there.or_else(|| elsewhere(below, key)).map(|path| format!("{name}.{path}"))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_that_a_table_takes_out_with_the_one_before_are_said() {
+        let text = "[motion]\nform = \"free\"\nframes = 10\n[[force]]\nthrough = 5\nvector = [1, 0, 0]\n";
+        let said = |overrides: &[(&str, &str)]| -> Vec<String> {
+            let overrides: Vec<_> = overrides.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
+            parse(text, "a.toml".as_ref(), &overrides, Table::new).unwrap().1.replaced().collect()
+        };
+        let gone = |override_: &str, keys: &str| {
+            format!(
+                "--set {override_} takes the place of the whole table, and with it of {keys}; give each key by itself to \
+                 keep the others"
+            )
+        };
+        assert_eq!(
+            said(&[("motion", "{time_step=0.1}"), ("force[0]", "{through=5}")]),
+            [
+                gone("motion={time_step=0.1}", "motion.form, motion.frames"),
+                gone("force[0]={through=5}", "force.0.vector")
+            ]
+        );
+        let kept =
+            [("motion", "{form=\"paper\",frames=3}"), ("motion.time_step", "0.1"), ("gust", "{}"), ("force", "[]")];
+        assert_eq!(said(&kept), [""; 0]);
+    }
 }

@@ -86,8 +86,8 @@ pub(super) struct Wanted {
 
 impl Wanted {
     /// How many strands of `of_scene` are shown, and which run of these is wanted.
-    fn of(self, of_scene: usize) -> Result<(usize, Range<usize>)> {
-        let count = self.shown.of(of_scene)?;
+    fn of(self, of_scene: usize, grown: bool) -> Result<(usize, Range<usize>)> {
+        let count = self.shown.of(of_scene, grown)?;
         let Some(shard) = self.shard else { return Ok((count, 0..count)) };
         if shard.of() as usize > count {
             let line = format!("shard {shard}: more shards than there are strands; part them into {count} at the most");
@@ -108,7 +108,7 @@ pub(super) fn load_hair(
 ) -> Result<LoadedHair> {
     match &scene.hair.source {
         HairSource::Grown(settings) => {
-            let (count, run) = wanted.of(settings.strands)?;
+            let (count, run) = wanted.of(settings.strands, true)?;
             let first = free::first_wanted(scene).min(settings.strands);
             let rooted = run.end.max(first);
             let roots = match same_head.and_then(|known| known_roots(known, settings, rooted)) {
@@ -168,13 +168,21 @@ fn import(
     let (hair, report) = placed.map_err(|e| e.in_file(&file))?;
     still_wanted(goes_on, 0.0)?;
     let hair = match settings.strands {
+        Some(count) if count > hair.strands.len() => {
+            let remedy = format!(
+                "{} has {} strands: ask for fewer, or for all by leaving it out",
+                settings.file.display(),
+                hair.strands.len()
+            );
+            return Err(scene.refusal(SettingError::new("hair.strands", count, remedy)).into());
+        }
         Some(count) if count < hair.strands.len() => hair.select(&evenly(&hair, count, goes_on)?),
         _ => hair,
     };
     let of_scene = hair.strands.len();
     let first = free::first_wanted(scene).min(of_scene);
     let first = if first == 0 { Hair::default() } else { hair.select(&farthest_first(&hair, first, goes_on)?) };
-    let (count, run) = wanted.of(of_scene)?;
+    let (count, run) = wanted.of(of_scene, false)?;
     let shard = wanted.shard.map(|shard| {
         let groom = StrandSum::of(&hair.strands, 0..of_scene, None);
         ShardOf { shard, strands: count, groom }
