@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use glam::{DAffine3, Vec3};
+use glam::{DAffine3, DVec3, Vec3};
 use nabiki::dynamics::Stepper;
 use nabiki_io::Axis;
 use nabiki_io::exchange;
@@ -59,19 +59,23 @@ fn bust() -> BuiltScene {
 fn stand_ins(scene: &Scene, bust: &BuiltScene) {
     if let HeadSource::Imported(head) = &scene.head.source {
         let is_usd = exchange::is_usd(&head.file);
+        let facing = head.facing.unwrap();
         let placement = Placement {
             unit: head.unit.unwrap_or(Unit { cm: if is_usd { 100.0 } else { 1.0 } }),
-            up: head.up.unwrap_or(if is_usd { Axis::PlusZ } else { Axis::PlusY }),
-            facing: head.facing.unwrap(),
-
+            up: head.up.unwrap_or(if is_usd && facing.is_across(Axis::PlusZ) { Axis::PlusZ } else { Axis::PlusY }),
+            facing,
             origin: Vec3::ZERO,
         };
+        let moves = scene.head.motion.as_ref().is_some_and(|motion| motion.file == head.file);
         let files = [Some(&head.file), scene.hair.imported().map(|hair| &hair.file)];
         for file in files.into_iter().flatten() {
             let mut export = exchange::export(&bust.hair, 24.0, Some(&placement));
             export.head = Some(&bust.head.mesh);
             let mut sink = exchange::sink(&scene.resolve(file), export, None).unwrap();
-            sink.frame(&bust.hair.strands, &DAffine3::IDENTITY).unwrap();
+            for frame in 0..if moves { 60 } else { 1 } {
+                let to_the_side = DAffine3::from_translation(0.01 * f64::from(frame) * DVec3::X);
+                sink.frame(&bust.hair.strands, &to_the_side).unwrap();
+            }
             sink.finish().unwrap();
         }
     }
@@ -82,8 +86,8 @@ fn stand_ins(scene: &Scene, bust: &BuiltScene) {
             std::fs::write(scene.resolve(&motion.file), format!("{COLUMNS}\n{rows}")).unwrap();
         }
     }
-    if let Some(motion) = &scene.head.motion {
-        std::fs::write(scene.resolve(motion.skeleton.as_ref().unwrap()), SKELETON).unwrap();
+    if let Some((motion, skeleton)) = scene.head.motion.as_ref().and_then(|m| m.skeleton.as_ref().map(|s| (m, s))) {
+        std::fs::write(scene.resolve(skeleton), SKELETON).unwrap();
         let samples = (1..=60).map(|n| format!("{n}\nroot 0 {} 0 0 0 0\nhead 0 {n} 0\n", 17.0 + 0.01 * f64::from(n)));
         let text: String = samples.collect();
         std::fs::write(scene.resolve(&motion.file), format!(":FULLY-SPECIFIED\n:DEGREES\n{text}")).unwrap();
