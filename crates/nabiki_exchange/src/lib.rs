@@ -27,14 +27,18 @@ pub mod export;
 mod frames;
 mod gather;
 mod in_place;
+mod left_out;
 mod polygons;
 mod problem;
 mod reader;
+mod shown;
 
 pub use export::{Export, FrameSink, Velocities};
 pub use frames::{Frames, MOST_FRAMES};
 pub use gather::{Closed, Gathered};
 pub use in_place::InPlace;
+pub use left_out::LeftOut;
 pub use polygons::{Polygons, Uvs, add_polygons};
 pub use problem::Problem;
 pub use reader::{Contents, FIRST_SHAPE, GroomReader, Placed, Prim, PrimKind};
+pub use shown::{Candidate, Hidden, kept_holes, those_that_show};

@@ -1,6 +1,6 @@
 //! Which meshes of a layer make its head, and what is said of them.
 
-use nabiki_exchange::FIRST_SHAPE;
+use nabiki_exchange::{Candidate, FIRST_SHAPE, kept_holes, those_that_show};
 
 use crate::Problem;
 use crate::opened::Layer;
@@ -19,26 +19,15 @@ pub fn chosen(layer: &mut Layer, wanted: &dyn Fn(&str) -> bool) -> Result<Chosen
     let mut all = Vec::new();
     for prim in layer.with_points("Mesh") {
         if wanted(&layer.path(prim)) {
-            all.push((prim, hidden(layer, prim)?));
+            all.push(Candidate { mesh: prim, path: layer.path(prim), hidden: hidden(layer, prim)? });
         }
     }
-    let any_shows = all.iter().any(|(_, hidden)| hidden.iter().all(|hidden| hidden.at_times));
-    let (mut prims, mut unread) = (Vec::new(), layer.without_points("Mesh", "mesh"));
-    for (prim, hidden) in all {
-        let path = layer.path(prim);
-        match hidden.iter().find(|hidden| !hidden.at_times) {
-            Some(hidden) if any_shows => {
-                unread.push(format!("mesh {path}, which does not show: {}", hidden.reason()));
-                continue;
-            }
-            _ => unread.extend(hidden.iter().map(|hidden| hidden.kept())),
-        }
+    let (prims, mut unread) = those_that_show(all);
+    unread.extend(layer.without_points("Mesh", "mesh"));
+    for &prim in &prims {
         let holes = layer.at(prim, "holeIndices", f64::NEG_INFINITY).map(|holes| layer.integers(holes)).transpose()?;
-        if let Some(holes) = holes.filter(|holes| !holes.is_empty()) {
-            unread.push(format!("holeIndices of {path}: the {} faces that they take out are kept", holes.len()));
-        }
+        unread.extend(kept_holes(&layer.path(prim), holes.map_or(0, |holes| holes.len())));
         unread.extend(bent(layer, prim));
-        prims.push(prim);
     }
     unread.sort();
     unread.dedup();

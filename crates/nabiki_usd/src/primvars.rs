@@ -1,11 +1,12 @@
 //! What a prim of curves carries, and what of it is not read.
 
 use nabiki::hair::{Per, Role, Stored, Values};
+use nabiki_exchange::Hidden;
 use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values, past, whole};
 
 use crate::Problem;
 use crate::opened::Layer;
-use crate::shown::{Hidden, hidden};
+use crate::shown::hidden;
 use crate::source::Handle;
 
 /// What a prim carries at a time code: its primvars, and `widths`, which is an attribute of its own.

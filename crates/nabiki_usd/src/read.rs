@@ -7,8 +7,8 @@ use nabiki::{Hair, Mesh};
 use nabiki_exchange::attributes::NamedValues;
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
 use nabiki_exchange::{
-    Closed, Contents, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Polygons, Prim, PrimKind, Uvs,
-    add_polygons,
+    Closed, Contents, Frames, Gathered, GroomReader, InPlace, LeftOut, MOST_FRAMES, Placed, Polygons, Prim, PrimKind,
+    Uvs, add_polygons,
 };
 
 use crate::Problem;
@@ -25,6 +25,8 @@ pub struct StageReader {
     layer: Layer,
 }
 
+/// The curves that are read.
+const READ: &str = "BasisCurves";
 /// Time codes apart by less than this, as a share of a frame, are the same.
 const SAME_TIME: f64 = 1e-6;
 
@@ -146,6 +148,14 @@ impl StageReader {
             if self.are_closed(prim)? { closed.push(self.layer.path(prim)) } else { open.push(prim) }
         }
         Ok((open, Closed(closed)))
+    }
+
+    /// What others take for strands and is not read.
+    fn other_curves(&self) -> [LeftOut<'static>; 3] {
+        ["HermiteCurves", "NurbsCurves", "Points"].map(|kind| {
+            let paths = self.layer.of_type(kind).into_iter().map(|prim| self.layer.path(prim)).collect();
+            LeftOut { kind, paths }
+        })
     }
 
     /// Number of values of an attribute at its first time code.
@@ -289,9 +299,8 @@ impl GroomReader for StageReader {
                     arcs::FLATTEN
                 )));
             }
-            const OTHERS: [&str; 3] = ["HermiteCurves", "NurbsCurves", "Points"];
-            if let Some(found) = OTHERS.into_iter().find(|name| !self.layer.of_type(name).is_empty()) {
-                return Err(Problem(format!("has {found} and no BasisCurves, which alone are read: convert them")));
+            if let Some(refused) = self.other_curves().iter().find_map(|others| others.refused(READ)) {
+                return Err(refused);
             }
             return Err(Problem(format!("has no BasisCurves: if they come by reference, {}", arcs::FLATTEN)));
         }
@@ -312,6 +321,7 @@ impl GroomReader for StageReader {
             unread.extend(frames.unread(codes_a_second));
             unread.extend(self.layer.without_points("BasisCurves", "curves"));
             unread.extend(closed.unread());
+            unread.extend(self.other_curves().iter().filter_map(|others| others.unread(READ)));
             unread.extend(arcs::unread(&mut self.layer)?);
         }
         Ok(placed)

@@ -1,32 +1,10 @@
 //! Visibility and purpose, which come down from the prims above.
 
+use nabiki_exchange::Hidden;
+
 use crate::Problem;
 use crate::opened::Layer;
 use crate::source::Handle;
-
-/// What keeps a prim out of a final picture.
-pub struct Hidden {
-    /// The path of the prim that says so.
-    by: String,
-    /// The attribute that does.
-    name: &'static str,
-    value: String,
-    /// Whether it holds in some frames only.
-    pub at_times: bool,
-}
-
-impl Hidden {
-    /// The same as a phrase about what is read all the same.
-    pub fn kept(&self) -> String {
-        let Self { by, name, value, at_times } = self;
-        format!("{name} of {by}: it is \"{value}\" there{}", if *at_times { " at some frames" } else { "" })
-    }
-
-    /// The same as a reason.
-    pub fn reason(&self) -> String {
-        format!("{} of {} is \"{}\"", self.name, self.by, self.value)
-    }
-}
 
 /// What keeps a prim out of a final picture; nothing for one that shows.
 pub fn hidden(layer: &mut Layer, prim: usize) -> Result<Vec<Hidden>, Problem> {

@@ -105,6 +105,15 @@ fn curves_that_do_not_show_are_read_and_that_is_said_once() {
     assert_eq!(curves(&nearest), (1, Vec::new()));
 }
 
+#[test]
+fn shapes_that_are_not_read_are_said_beside_curves_and_refused_alone() {
+    let others = "def NurbsCurves \"n\" { }\n def NurbsCurves \"m\" { }\n def Points \"dust\" { }\n";
+    let said = ["NurbsCurves /n, and 1 more: only BasisCurves are read", "Points /dust: only BasisCurves are read"];
+    assert_eq!(curves(&format!("{}{others}", curve("h", ""))), (1, said.map(str::to_owned).to_vec()));
+    let refused = reader(others).hair(0, None).unwrap_err().to_string();
+    assert_eq!(refused, "has NurbsCurves and no BasisCurves, which alone are read: convert them");
+}
+
 const FLATTEN: &str = "flatten it first (usdcat --flatten IN -o OUT)";
 
 #[test]
