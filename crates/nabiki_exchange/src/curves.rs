@@ -9,6 +9,7 @@ use nabiki::Strands;
 use nabiki::strands::check_points;
 
 use crate::Problem;
+use crate::knots::Knots;
 
 /// How a curve runs between its control points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +56,8 @@ pub struct Polylines {
     pub blends: Vec<Blend>,
     /// The curves they were made from.
     pub shape: Shape,
+    /// The knots of each curve; empty if they go by their basis alone.
+    pub knots: Vec<Knots>,
 }
 
 /// Counts as a file has them, once they are known not to be negative and to add up to `total`.
@@ -90,6 +93,18 @@ impl Shape {
     /// # Panics
     /// If the counts do not add up to the number of points.
     pub fn walk(self, points: Vec<Vec3>, segments: Option<usize>) -> Result<Polylines, Problem> {
+        self.walk_by(Vec::new(), points, segments)
+    }
+
+    /// The same for B-splines that have knots of their own. `knots`: those of each curve, by which it goes, whatever the basis
+    /// is; where there are none at all, curves go by their basis.
+    ///
+    /// # Errors
+    /// As there; knots of another number of curves or control points.
+    ///
+    /// # Panics
+    /// As there.
+    pub fn walk_by(self, knots: Vec<Knots>, points: Vec<Vec3>, segments: Option<usize>) -> Result<Polylines, Problem> {
         assert_eq!(self.counts.iter().sum::<usize>(), points.len(), "counts and points");
         if segments == Some(0) {
             return Err(Problem::new("0 segments: a strand needs one at least"));
@@ -98,29 +113,39 @@ impl Shape {
             check_points("segments", segments, self.counts.len()).map_err(|refused| Problem(refused.to_string()))?;
         }
         let pieces = self.counts.iter().enumerate().map(|(curve, &count)| {
-            let pieces = self.pieces(count);
+            let pieces = match knots.get(curve) {
+                Some(knots) if knots.control_points() == count => Ok(knots.pieces()),
+                Some(knots) => Err(format!("{count} control points, and knots for {}", knots.control_points())),
+                None if knots.is_empty() => self.pieces(count),
+                None => Err(format!("has no knots: there are those of {} curves", knots.len())),
+            };
             pieces.map_err(|e| Problem(format!("curve {curve}: {e}")))
         });
-        if (self.basis, segments) == (Basis::Linear, None) {
+        if (self.basis, segments, knots.is_empty()) == (Basis::Linear, None, true) {
             pieces.collect::<Result<Vec<_>, _>>()?;
             let ends = self.counts.iter().scan(0, |at, &count| {
                 *at += count as u32;
                 Some(*at)
             });
             let starts = std::iter::once(0).chain(ends).collect();
-            return Ok(Polylines { strands: Strands::from_parts(starts, points), blends: Vec::new(), shape: self });
+            return Ok(Polylines {
+                strands: Strands::from_parts(starts, points),
+                blends: Vec::new(),
+                shape: self,
+                knots,
+            });
         }
         let mut strands = Strands::with_capacity(self.counts.len(), 0);
         let mut blends = Vec::new();
         let mut first = 0;
-        for (&count, pieces) in self.counts.iter().zip(pieces) {
+        for (curve, (&count, pieces)) in self.counts.iter().zip(pieces).enumerate() {
             let points = &points[first..first + count];
-            let of_curve = self.blends(points, pieces?, segments.unwrap_or(count - 1));
+            let of_curve = self.blends(points, knots.get(curve), pieces?, segments);
             strands.push(of_curve.iter().map(|b| b.of(points).as_vec3()));
             blends.extend(of_curve.into_iter().map(|b| Blend { first: first + b.first, ..b }));
             first += count;
         }
-        Ok(Polylines { strands, blends, shape: self })
+        Ok(Polylines { strands, blends, shape: self, knots })
     }
 
     /// Number of segments between ends of pieces: straight lines or cubics.
@@ -138,14 +163,24 @@ impl Shape {
         Ok(pieces)
     }
 
-    /// `segments` + 1 points equally far apart along the curve.
-    fn blends(&self, points: &[Vec3], pieces: usize, segments: usize) -> Vec<Blend> {
-        let steps = if self.basis == Basis::Linear { 1 } else { STEPS };
+    /// `segments` + 1 points equally far apart along a curve.
+    fn blends(&self, points: &[Vec3], knots: Option<&Knots>, pieces: usize, segments: Option<usize>) -> Vec<Blend> {
+        let is_straight = knots.map_or(self.basis == Basis::Linear, Knots::is_straight);
+        let steps = if is_straight { 1 } else { STEPS };
         let at = |step: usize, part: f64| {
             let place = (step as f64 + part) / steps as f64;
             let piece = (place as usize).min(pieces - 1);
-            self.blend(points.len(), piece, place - piece as f64)
+            let t = place - piece as f64;
+            match knots.map(|knots| knots.weights(piece, t)) {
+                Some((first, weights)) => Blend { first, weights, segment: (piece, t) },
+                None => self.blend(points.len(), piece, t),
+            }
         };
+        // A straight curve among others that bend: polylines stay as they are.
+        if is_straight && segments.is_none() {
+            return (0..=pieces).map(|end| at(end, 0.0)).collect();
+        }
+        let segments = segments.unwrap_or(points.len() - 1);
         let mut lengths = Vec::with_capacity(pieces * steps + 1);
         let (mut length, mut last) = (0.0, at(0, 0.0).of(points));
         lengths.push(0.0);
@@ -219,7 +254,10 @@ impl Polylines {
     /// curve, one a control point, or one an end of the curves' segments. `None` for any other number.
     pub fn at_points<const N: usize>(&self, values: &[[f32; N]]) -> Option<Vec<[f32; N]>> {
         let (shape, all, n) = (&self.shape, self.strands.points().len(), values.len());
-        let ends = || shape.counts.iter().map(|&c| shape.pieces(c).unwrap_or(0) + 1);
+        let pieces = |(curve, &count): (usize, &usize)| {
+            self.knots.get(curve).map_or_else(|| shape.pieces(count).unwrap_or(0), Knots::pieces)
+        };
+        let ends = || shape.counts.iter().enumerate().map(|curve| pieces(curve) + 1);
         if n == self.control_points() {
             return Some(if self.blends.is_empty() {
                 values.to_vec()

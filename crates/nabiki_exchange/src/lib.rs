@@ -1,6 +1,6 @@
 //! What the formats that exchange grooms between programs share, apart from how each is stored.
 //!
-//! [`curves`] turns curves into strands, [`attributes`] knows the names by which programs call what curves carry,
+//! [`curves`] turns curves into strands, by their [`Knots`] where they have any, [`attributes`] knows the names by which programs call what curves carry,
 //! [`Gathered`] joins curves of several objects, [`Frames`] are those of samples at any times, [`export`] is what a writer of moving hair is told, and
 //! [`GroomReader`] what a reader answers.
 //!
@@ -27,6 +27,7 @@ pub mod export;
 mod frames;
 mod gather;
 mod in_place;
+mod knots;
 mod left_out;
 mod polygons;
 mod problem;
@@ -37,6 +38,7 @@ pub use export::{Export, FrameSink, Velocities};
 pub use frames::{Frames, MOST_FRAMES};
 pub use gather::{Closed, Gathered};
 pub use in_place::InPlace;
+pub use knots::Knots;
 pub use left_out::LeftOut;
 pub use polygons::{Polygons, Uvs, add_polygons};
 pub use problem::Problem;
