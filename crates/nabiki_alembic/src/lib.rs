@@ -4,7 +4,7 @@
 //! build to a project whose default build needs the Rust toolchain only, for the sake of a container that takes 200
 //! lines. The layout was learnt from archives that Alembic 1.8 writes, and the proof is that its own reader, Blender
 //! and others open ours (`tests/interchange`). What is not written: HDF5 archives (obsolete since 2013), materials,
-//! cameras, and all schemas but transform, curves and polygon mesh.
+//! cameras, and all schemas but transform, curves and polygon mesh. Of subdivision surfaces the cage is read.
 //!
 //! ```
 //! use glam::{DAffine3, Vec3};
@@ -30,11 +30,14 @@
 
 mod attributes;
 mod carried;
+mod curves;
 mod digest;
 mod layout;
+mod meshes;
 mod ogawa;
 mod property;
 mod read;
+mod shown;
 mod tree;
 mod values;
 mod write;

@@ -4,26 +4,22 @@ use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
 
-use glam::{Affine3A, DAffine3, DMat4, DVec3, Vec3};
-use nabiki::hair::Stored;
-use nabiki::{Hair, Mesh};
-use nabiki_exchange::curves::{Basis, Shape, checked_counts};
-use nabiki_exchange::{
-    Closed, Contents, FIRST_SHAPE, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Polygons, Prim,
-    PrimKind, add_polygons,
-};
+use glam::{DAffine3, DMat4, DVec3, Vec3};
+use nabiki::Mesh;
+use nabiki_exchange::{Contents, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Prim, PrimKind};
 
 use crate::Problem;
-use crate::attributes::Parameters;
+use crate::curves::{NURBS_SURFACE, POINTS, READ};
+use crate::meshes::is_mesh;
 use crate::tree::{Form, Header, SAME_TIME, Timing, Tree};
-use crate::values::{doubles, integers};
+use crate::values::doubles;
 
 /// Frames a second where an archive does not say.
 const DEFAULT_RATE: f64 = 24.0;
 
 /// An archive to read hair, heads and motion from. Alembic names no unit, and y is up.
 pub struct ArchiveReader<R = File> {
-    tree: Tree<R>,
+    pub(crate) tree: Tree<R>,
     /// The frames, once they have been asked for (s).
     frames: Option<Frames>,
 }
@@ -47,69 +43,8 @@ impl<R: Read + Seek> ArchiveReader<R> {
         Ok(Self { tree: Tree::new(from)?, frames: None })
     }
 
-    fn curves(
-        &mut self,
-        object: usize,
-        time: f64,
-        segments: Option<usize>,
-        attributes: bool,
-    ) -> Result<(Hair, DAffine3), Problem> {
-        let inside = self.schema(object)?;
-        let positions = required(&inside, "P", "")?;
-        if positions.samples == 0 {
-            return Ok((Hair::default(), DAffine3::IDENTITY));
-        }
-        let (frame, share) = self.tree.timings[positions.timing].at(time, positions.samples);
-        let mut points = self.tree.points(positions, frame)?;
-        let header = required(&inside, "nVertices", "")?;
-        let counts = integers(header.kind, &self.tree.sample(header, frame)?)?;
-        if share > 0.0 && self.tree.sample(header, frame)? == self.tree.sample(header, frame + 1)? {
-            go_toward(&mut points, &self.tree.points(positions, frame + 1)?, share);
-        }
-        let counts = checked_counts(&counts, points.len())?;
-        let basis = match inside.iter().find(|h| h.name == "curveBasisAndType") {
-            Some(header) => basis(&self.tree.sample(header, frame)?)?,
-            None => return Err(Problem::new("do not say whether they are straight or cubic")),
-        };
-        let lines = Shape { counts, basis, pinned: false }.walk(points, segments)?;
-        let world = DAffine3::from_mat4(self.world(object, time)?);
-        if !attributes {
-            return Ok((Hair::from(lines.strands), world));
-        }
-        let mut parameters = Parameters::of(&mut self.tree, inside, frame)?;
-        let mut attributes = lines.attributes(&mut parameters)?;
-        attributes.unread.extend(parameters.unread()?);
-        // Our own name for ids beyond 32 bits.
-        let long = attributes.id.as_ref().is_some_and(|ids| ids.iter().any(|&id| i32::try_from(id).is_err()));
-        attributes.other.retain(|other| !(long && other.name == "id" && other.stored == Stored::I64));
-        Ok((Hair { strands: lines.strands, attributes }, world))
-    }
-
-    /// Whether curves are closed, which no hair is.
-    fn are_closed(&mut self, object: usize) -> Result<bool, Problem> {
-        let inside = self.schema(object)?;
-        let Some(header) = inside.iter().find(|h| h.name == "curveBasisAndType" && h.samples > 0) else {
-            return Ok(false);
-        };
-        let wrap = self.tree.sample(header, 0)?.get(1).copied();
-        Ok(wrap.is_some_and(|periodic| periodic != 0))
-    }
-
-    /// The curves that may be hair, and those that are closed.
-    fn open_curves(&mut self) -> Result<(Vec<usize>, Closed), Problem> {
-        let (mut open, mut closed) = (Vec::new(), Vec::new());
-        for object in self.of_schema("AbcGeom_Curve") {
-            if self.are_closed(object)? {
-                closed.push(self.tree.objects[object].path.clone());
-            } else {
-                open.push(object);
-            }
-        }
-        Ok((open, Closed(closed)))
-    }
-
     /// The properties of an object's schema.
-    fn schema(&mut self, object: usize) -> Result<Vec<Header>, Problem> {
+    pub(crate) fn schema(&mut self, object: usize) -> Result<Vec<Header>, Problem> {
         let properties = self.tree.properties_of(object)?;
         match properties.iter().find(|h| h.form == Form::Compound && matches!(&*h.name, ".geom" | ".xform")) {
             Some(header) => self.tree.properties(header.place),
@@ -118,7 +53,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
     }
 
     /// The product of all transforms from the top down to `object` at `time` (s).
-    fn world(&mut self, object: usize, time: f64) -> Result<DMat4, Problem> {
+    pub(crate) fn world(&mut self, object: usize, time: f64) -> Result<DMat4, Problem> {
         let mut world = DMat4::IDENTITY;
         let mut above = Some(object);
         while let Some(i) = above {
@@ -242,7 +177,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
     }
 
     /// The objects of a schema.
-    fn of_schema(&self, schema: &str) -> Vec<usize> {
+    pub(crate) fn of_schema(&self, schema: &str) -> Vec<usize> {
         (0..self.tree.objects.len()).filter(|&i| self.tree.objects[i].is(schema)).collect()
     }
 
@@ -279,7 +214,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
     }
 
     /// Values of an array property in its first sample.
-    fn count(&mut self, header: Option<&Header>) -> Result<usize, Problem> {
+    pub(crate) fn count(&mut self, header: Option<&Header>) -> Result<usize, Problem> {
         let Some(header) = header else { return Ok(0) };
         let size = header.kind.pod.size() * usize::from(header.kind.extent);
         Ok(self.tree.sample(header, 0)?.len() / size)
@@ -288,7 +223,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
 
 impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
     fn contents(&mut self) -> Result<Contents, Problem> {
-        let (curves, meshes) = (self.open_curves()?.0, self.of_schema("AbcGeom_PolyMesh"));
+        let (curves, meshes) = (self.open_curves()?.0, self.all_meshes());
         let paths = |of: Vec<usize>| of.into_iter().map(|i| self.tree.objects[i].path.clone()).collect();
         let mut contents = Contents {
             curves: paths(curves),
@@ -311,8 +246,8 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
         for i in 1..self.tree.objects.len() {
             let object = &self.tree.objects[i];
             let path = object.path.clone();
-            let schema = ["AbcGeom_Curve", "AbcGeom_PolyMesh", "AbcGeom_Xform"].into_iter().find(|s| object.is(s));
-            let Some(schema) = schema else {
+            let known = ["AbcGeom_Curve", "AbcGeom_Xform"].into_iter().find(|s| object.is(s));
+            let Some(schema) = known.or(is_mesh(object).then_some("")) else {
                 let known = object.metadata.split(';').find_map(|entry| entry.strip_prefix("schema="));
                 let kind = PrimKind::Other(known.unwrap_or_default().to_owned());
                 prims.push(Prim { path, kind, samples: 0, relationships: Vec::new() });
@@ -331,10 +266,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
                 }
                 "AbcGeom_Curve" => {
                     let (curves, points) = (self.count(named("nVertices"))?, self.count(named("P"))?);
-                    let cubic = match named("curveBasisAndType") {
-                        Some(header) if header.samples > 0 => basis(&self.tree.sample(header, 0)?)? != Basis::Linear,
-                        _ => false,
-                    };
+                    let cubic = self.are_cubic(&inside)?;
                     let time = self.time_of(0)?;
                     let world_from_curves = DAffine3::from_mat4(self.world(i, time)?);
                     Prim {
@@ -360,7 +292,8 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
 
     fn hair_in_place(&mut self, frame: usize, segments: Option<usize>, attributes: bool) -> Result<InPlace, Problem> {
         if self.of_schema("AbcGeom_Curve").is_empty() {
-            return Err(Problem::new("has no curves"));
+            let points = self.left_out(POINTS, &|_| true);
+            return Err(points.refused("curves").unwrap_or_else(|| Problem::new("has no curves")));
         }
         let (objects, closed) = self.open_curves()?;
         closed.check(objects.len())?;
@@ -377,6 +310,8 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
         if attributes {
             all.hair.attributes.unread.extend(self.frames()?.unread(1.0));
             all.hair.attributes.unread.extend(closed.unread());
+            let left_out = [POINTS, NURBS_SURFACE].map(|schema| self.left_out(schema, &|_| true));
+            all.hair.attributes.unread.extend(left_out.iter().filter_map(|objects| objects.unread(READ)));
         }
         Ok(all)
     }
@@ -385,50 +320,21 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
         let mut mesh = Mesh::default();
         // Where the head stands as the hair's first frame finds it.
         let time = self.time_of(0)?;
-        for object in self.of_schema("AbcGeom_PolyMesh") {
-            let path = self.tree.objects[object].path.clone();
-            if !wanted(&path) {
-                continue;
-            }
-            let inside = self.schema(object)?;
-            let world = Affine3A::from_mat4(self.world(object, time)?.as_mat4());
-            let header = required(&inside, "P", &path)?;
-            let (frame, share) = self.tree.timings[header.timing].at(time, header.samples);
-            let mut positions = self.tree.points(header, frame)?;
-            if share > 0.0 {
-                let next = self.tree.points(header, frame + 1)?;
-                if next.len() == positions.len() {
-                    go_toward(&mut positions, &next, share);
-                }
-            }
-            let mut numbers = |name: &str| -> Result<Vec<i64>, Problem> {
-                let header = required(&inside, name, &path)?;
-                let (sample, _) = self.tree.timings[header.timing].at(time, header.samples);
-                integers(header.kind, &self.tree.sample(header, sample)?)
-            };
-            let (counts, corners) = (numbers(".faceCounts")?, numbers(".faceIndices")?);
-            // Alembic winds faces clockwise.
-            let uvs = Parameters::of(&mut self.tree, inside, frame)?.texture_coordinates()?;
-            let polygons = Polygons { positions: &positions, counts: &counts, corners: &corners, clockwise: true, uvs };
-            let added = add_polygons(&mut mesh, polygons, &world);
-            added.map_err(|e| Problem(format!("mesh {path}: {e}")))?;
+        for object in self.chosen_meshes(wanted)?.objects {
+            self.add_mesh(&mut mesh, object, time)?;
         }
         match mesh.positions.iter().find(|p| !p.is_finite()) {
             Some(p) => Err(Problem(format!("has a vertex at {p}"))),
-            None if mesh.triangles.is_empty() => Err(Problem::new("has no polygons")),
+            None if mesh.triangles.is_empty() => {
+                let surfaces = self.left_out(NURBS_SURFACE, wanted);
+                Err(surfaces.refused("meshes of polygons").unwrap_or_else(|| Problem::new("has no polygons")))
+            }
             None => Ok(mesh),
         }
     }
 
     fn meshes_unread(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Vec<String>, Problem> {
-        let mut unread = Vec::new();
-        for object in self.of_schema("AbcGeom_PolyMesh") {
-            let path = self.tree.objects[object].path.clone();
-            if wanted(&path) && required(&self.schema(object)?, "P", &path)?.different_samples() > 1 {
-                unread.push(format!("the motion of the points of {path}: {FIRST_SHAPE}"));
-            }
-        }
-        Ok(unread)
+        Ok(self.chosen_meshes(wanted)?.unread)
     }
 
     fn motion(&mut self, node: &str) -> Result<Vec<Placed>, Problem> {
@@ -472,27 +378,12 @@ impl Motion {
     }
 }
 
-fn required<'a>(headers: &'a [Header], name: &str, path: &str) -> Result<&'a Header, Problem> {
+pub(crate) fn required<'a>(headers: &'a [Header], name: &str, path: &str) -> Result<&'a Header, Problem> {
     let found = headers.iter().find(|h| h.name == name && h.form != Form::Compound);
     found.ok_or_else(|| Problem(format!("{path} has no property {name}")))
 }
 
 /// Moves points a share of the way to those of the next sample.
-fn go_toward(points: &mut [Vec3], next: &[Vec3], share: f64) {
+pub(crate) fn go_toward(points: &mut [Vec3], next: &[Vec3], share: f64) {
     points.iter_mut().zip(next).for_each(|(point, &next)| *point = point.lerp(next, share as f32));
-}
-
-/// Type and basis of curves.
-fn basis(bytes: &[u8]) -> Result<Basis, Problem> {
-    let &[order, _, basis, ..] = bytes else {
-        return Err(Problem::new("do not say whether they are straight or cubic"));
-    };
-    match (order, basis) {
-        (1, _) => Ok(Basis::Linear),
-        (0, 1) => Ok(Basis::Bezier),
-        (0, 2) => Ok(Basis::Bspline),
-        (0, 3) => Ok(Basis::CatmullRom),
-        (0, b) => Err(Problem(format!("cubic curves of basis {b}: export them as linear, Bezier or B-spline curves"))),
-        _ => Err(Problem::new("are NURBS of their own orders: export them as linear curves")),
-    }
 }

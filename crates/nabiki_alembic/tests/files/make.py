@@ -11,13 +11,29 @@ In operations.abc a curve lies below each kind of operation of a transform, belo
 that does not inherit. bases.abc has a cubic curve of every basis that is read, parameters.abc two curves with parameters
 of several scopes, and in late.abc a mesh that moves and bends from frame 0 on lies beside curves that begin at frame 5.
 In closed.abc open curves lie beside closed ones.
+
+knots.abc has B-splines whose knots stand in the file, as modelling programs write them; hidden.abc curves and meshes that do
+not show, by themselves or by what is above them; subd.abc a subdivision surface that moves; others.abc shapes that are not
+read beside curves. `make.py NAME...` writes some of them only.
 """
 
 import gc
 import pathlib
+import sys
 
 from alembic3d import Abc, AbcCoreAbstract, AbcGeom
-from imath import Color4f, C4fArray, FloatArray, IntArray, M44d, UnsignedIntArray, V3d, V3f, V3fArray
+from imath import (
+    Color4f,
+    C4fArray,
+    FloatArray,
+    IntArray,
+    M44d,
+    UnsignedCharArray,
+    UnsignedIntArray,
+    V3d,
+    V3f,
+    V3fArray,
+)
 
 HERE = pathlib.Path(__file__).parent
 FRAME = 1 / 24
@@ -158,6 +174,90 @@ def empty_beside(archive):
     AbcGeom.OCurves(archive.getTop(), "hair").getSchema().set(hair())
 
 
+POINTS = [(0, 0, 0), (1, 2, 0), (3, 1, -1), (4, 4, 2), (4.5, 3, 2)]
+CLAMPED = [0, 0, 0, 0, 1, 2, 2, 2, 2]
+
+
+def splines(parent, name, basis, counts, knots, orders=None, weights=None):
+    sample = AbcGeom.OCurvesSchemaSample()
+    points = [V3f(*point) for count in counts for point in POINTS[:count]]
+    sample.setPositions(filled(V3fArray(len(points)), points))
+    sample.setCurvesNumVertices(filled(IntArray(len(counts)), counts))
+    types = AbcGeom.CurveType
+    sample.setType(types.kVariableOrder if orders else types.kCubic)
+    sample.setWrap(AbcGeom.CurvePeriodicity.kNonPeriodic)
+    sample.setBasis(basis)
+    sample.setKnots(filled(FloatArray(len(knots)), knots))
+    if orders:
+        sample.setOrders(filled(UnsignedCharArray(len(orders)), orders))
+    if weights:
+        sample.setPositionWeights(filled(FloatArray(len(weights)), weights))
+    AbcGeom.OCurves(parent, name).getSchema().set(sample)
+
+
+def knots(archive):
+    top, bases = archive.getTop(), AbcGeom.BasisType
+    splines(top, "clamped", bases.kBsplineBasis, [5, 5], 2 * CLAMPED)
+    splines(top, "without_ends", bases.kBsplineBasis, [5, 5], 2 * CLAMPED[1:-1])
+    splines(top, "no_basis", bases.kNoBasis, [5, 5], 2 * CLAMPED)
+    splines(top, "even", bases.kBsplineBasis, [5, 4], [*range(9), *range(3, 11)], weights=[2] * 9)
+    # Straight, quadratic and cubic.
+    clamped = [0, 0, 1, 2, 2], [0, 0, 0, 1, 2, 2, 2], [3, 3, 3, 3, 5, 5, 5, 5]
+    splines(top, "orders", bases.kNoBasis, [3, 4, 4], sum(clamped, []), [2, 3, 4])
+    splines(top, "bezier", bases.kBezierBasis, [4], [0, 0, 0, 0, 1, 1, 1, 1], weights=[1, 2, 1, 1])
+
+
+def tetrahedron(shift):
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    places = filled(V3fArray(4), [V3f(x + shift, y, z) for x, y, z in corners])
+    # Clockwise from outside.
+    faces = filled(IntArray(12), [0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2])
+    return places, faces, filled(IntArray(4), [3] * 4)
+
+
+def hidden(archive):
+    def transform(parent, name, *said):
+        below = AbcGeom.OXform(parent, name)
+        if said:
+            property = AbcGeom.CreateVisibilityProperty(below, 1)
+            for value in said:
+                property.setValue(value)
+        return below
+
+    archive.addTimeSampling(AbcCoreAbstract.TimeSampling(FRAME, 0))
+    top, inherits = archive.getTop(), -1
+    off = transform(top, "off", 0)
+    curve(transform(off, "inherits", inherits), "a")
+    curve(off, "b")
+    curve(transform(off, "shows", 1), "c")
+    curve(transform(top, "at_times", 1, 0, 1), "d")
+    curve(transform(transform(off, "inherits_at_times", 0, inherits), "silent"), "e")
+    curve(transform(top, "on", inherits), "f")
+    for parent, name, shift in [(top, "skin", 0), (off, "ghost", 5)]:
+        AbcGeom.OPolyMesh(parent, name).getSchema().set(AbcGeom.OPolyMeshSchemaSample(*tetrahedron(shift)))
+
+
+def subd(archive):
+    cycle = archive.addTimeSampling(AbcCoreAbstract.TimeSampling(FRAME, 0))
+    head = AbcGeom.OXform(archive.getTop(), "head", cycle)
+    for frame in range(3):
+        sample = AbcGeom.XformSample()
+        sample.setTranslation(V3d(10 + frame, 0, 0))
+        head.getSchema().set(sample)
+    sharp = IntArray(0), IntArray(0), FloatArray(0), IntArray(0), FloatArray(0)
+    holes = filled(IntArray(1), [2])
+    AbcGeom.OSubD(head, "skin").getSchema().set(AbcGeom.OSubDSchemaSample(*tetrahedron(0), *sharp, holes))
+    AbcGeom.OPolyMesh(head, "eye").getSchema().set(AbcGeom.OPolyMeshSchemaSample(*tetrahedron(5)))
+
+
+def others(archive):
+    top = archive.getTop()
+    curve(top, "hair")
+    for name in ["dust", "dirt"]:
+        AbcGeom.OPoints(top, name)
+    AbcGeom.ONuPatch(top, "scalp")
+
+
 ARCHIVES = {
     "shutter": moving_points,
     "shutter_xf": moving_transform,
@@ -167,9 +267,14 @@ ARCHIVES = {
     "parameters": parameters,
     "late": late,
     "closed": closed,
+    "knots": knots,
+    "hidden": hidden,
+    "subd": subd,
+    "others": others,
 }
 
-for name, fill in ARCHIVES.items():
+for name in sys.argv[1:] or ARCHIVES:
+    fill = ARCHIVES[name]
     archive = Abc.OArchive(str(HERE / f"{name}.abc"))
     fill(archive)
     # It is written whole when nothing holds it.

@@ -1,0 +1,85 @@
+//! Meshes of an archive: which make a head, their polygons, and what is said of them.
+
+use std::io::{Read, Seek};
+
+use glam::Affine3A;
+use nabiki::Mesh;
+use nabiki_exchange::{Candidate, FIRST_SHAPE, Polygons, add_polygons, kept_holes, those_that_show};
+
+use crate::Problem;
+use crate::attributes::Parameters;
+use crate::curves::{NURBS_SURFACE, READ};
+use crate::read::{ArchiveReader, go_toward, required};
+use crate::shown::hidden;
+use crate::tree::{Header, Object};
+use crate::values::integers;
+
+/// Whether an object is a mesh of polygons or a subdivision surface, which is taken as the cage that it is made from.
+pub fn is_mesh(object: &Object) -> bool {
+    ["AbcGeom_PolyMesh", "AbcGeom_SubD"].into_iter().any(|schema| object.is(schema))
+}
+
+/// The meshes that make a head.
+pub struct Chosen {
+    /// Their objects.
+    pub objects: Vec<usize>,
+    /// What is left out or not obeyed, a phrase each.
+    pub unread: Vec<String>,
+}
+
+impl<R: Read + Seek> ArchiveReader<R> {
+    /// All meshes.
+    pub(crate) fn all_meshes(&self) -> Vec<usize> {
+        (0..self.tree.objects.len()).filter(|&i| is_mesh(&self.tree.objects[i])).collect()
+    }
+
+    /// Of the meshes whose path is `wanted` those that show; all, where none does.
+    pub(crate) fn chosen_meshes(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Chosen, Problem> {
+        let mut all = Vec::new();
+        for mesh in self.all_meshes() {
+            let path = self.tree.objects[mesh].path.clone();
+            if wanted(&path) {
+                all.push(Candidate { mesh, path, hidden: hidden(&mut self.tree, mesh)? });
+            }
+        }
+        let (objects, mut unread) = those_that_show(all);
+        for &object in &objects {
+            let path = self.tree.objects[object].path.clone();
+            let inside = self.schema(object)?;
+            if required(&inside, "P", &path)?.different_samples() > 1 {
+                unread.push(format!("the motion of the points of {path}: {FIRST_SHAPE}"));
+            }
+            unread.extend(kept_holes(&path, self.count(inside.iter().find(|h| h.name == ".holes"))?));
+        }
+        unread.extend(self.left_out(NURBS_SURFACE, wanted).unread(READ));
+        unread.sort();
+        unread.dedup();
+        Ok(Chosen { objects, unread })
+    }
+
+    /// Appends the polygons of an object as they are at `time` (s).
+    pub(crate) fn add_mesh(&mut self, mesh: &mut Mesh, object: usize, time: f64) -> Result<(), Problem> {
+        let path = self.tree.objects[object].path.clone();
+        let inside = self.schema(object)?;
+        let world = Affine3A::from_mat4(self.world(object, time)?.as_mat4());
+        let header = required(&inside, "P", &path)?;
+        let (frame, share) = self.tree.timings[header.timing].at(time, header.samples);
+        let mut positions = self.tree.points(header, frame)?;
+        if share > 0.0 {
+            let next = self.tree.points(header, frame + 1)?;
+            if next.len() == positions.len() {
+                go_toward(&mut positions, &next, share);
+            }
+        }
+        let mut numbers = |name: &str| -> Result<Vec<i64>, Problem> {
+            let header: &Header = required(&inside, name, &path)?;
+            let (sample, _) = self.tree.timings[header.timing].at(time, header.samples);
+            integers(header.kind, &self.tree.sample(header, sample)?)
+        };
+        let (counts, corners) = (numbers(".faceCounts")?, numbers(".faceIndices")?);
+        let uvs = Parameters::of(&mut self.tree, inside, frame)?.texture_coordinates()?;
+        // Alembic winds faces clockwise.
+        let polygons = Polygons { positions: &positions, counts: &counts, corners: &corners, clockwise: true, uvs };
+        add_polygons(mesh, polygons, &world).map_err(|e| Problem(format!("mesh {path}: {e}")))
+    }
+}
