@@ -137,6 +137,9 @@ impl<R: Read + Seek> ArchiveReader<R> {
     pub(crate) fn open_curves(&mut self) -> Result<(Vec<usize>, Closed), Problem> {
         let (mut open, mut closed) = (Vec::new(), Vec::new());
         for object in self.of_schema("AbcGeom_Curve") {
+            if !self.kept.holds(&self.tree.objects[object].path) {
+                continue;
+            }
             if self.are_closed(object)? {
                 closed.push(self.tree.objects[object].path.clone());
             } else {

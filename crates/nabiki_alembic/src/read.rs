@@ -6,7 +6,7 @@ use std::path::Path;
 
 use glam::{DAffine3, DMat4, DVec3, Vec3};
 use nabiki::Mesh;
-use nabiki_exchange::{Contents, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Prim, PrimKind};
+use nabiki_exchange::{Contents, Frames, Gathered, GroomReader, InPlace, Kept, MOST_FRAMES, Placed, Prim, PrimKind};
 
 use crate::Problem;
 use crate::curves::{NURBS_SURFACE, POINTS, READ};
@@ -20,6 +20,7 @@ const DEFAULT_RATE: f64 = 24.0;
 /// An archive to read hair, heads and motion from. Alembic names no unit, and y is up.
 pub struct ArchiveReader<R = File> {
     pub(crate) tree: Tree<R>,
+    pub(crate) kept: Kept,
     /// The frames, once they have been asked for (s).
     frames: Option<Frames>,
 }
@@ -40,7 +41,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
     /// # Errors
     /// What is wrong with it.
     pub fn new(from: R) -> Result<Self, Problem> {
-        Ok(Self { tree: Tree::new(from)?, frames: None })
+        Ok(Self { tree: Tree::new(from)?, kept: Kept::default(), frames: None })
     }
 
     /// The properties of an object's schema.
@@ -288,6 +289,10 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
             });
         }
         Ok(prims)
+    }
+
+    fn keep_curves(&mut self, paths: Vec<String>) {
+        self.kept = Kept::only(paths);
     }
 
     fn hair_in_place(&mut self, frame: usize, segments: Option<usize>, attributes: bool) -> Result<InPlace, Problem> {

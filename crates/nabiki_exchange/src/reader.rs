@@ -23,6 +23,9 @@ pub trait GroomReader {
     /// What is wrong with the file.
     fn prims(&mut self) -> Result<Vec<Prim>, Problem>;
 
+    /// From now on only the curves at these paths are read, and what else there are is as if it were not.
+    fn keep_curves(&mut self, paths: Vec<String>);
+
     /// All curves at frame `frame` of [`Contents::times`] (the last one after those), one after another, and the
     /// transform above them.
     ///
@@ -156,6 +159,22 @@ pub enum PrimKind {
     },
     /// Anything else, by the file's word.
     Other(String),
+}
+
+/// Which curves are read, by their paths: all, until some are named.
+#[derive(Clone, Debug, Default)]
+pub struct Kept(Option<Vec<String>>);
+
+impl Kept {
+    /// These alone.
+    pub fn only(paths: Vec<String>) -> Self {
+        Self(Some(paths))
+    }
+
+    /// Whether the curves at a path are.
+    pub fn holds(&self, path: &str) -> bool {
+        self.0.as_ref().is_none_or(|paths| paths.iter().any(|kept| kept == path))
+    }
 }
 
 /// Where an object is at a time.

@@ -128,6 +128,19 @@ pub(crate) fn mesh(path: &Path, groups: &[String]) -> Result<(Mesh, Vec<String>)
     file.ask(|r| Ok((r.meshes(&wanted)?, r.meshes_unread(&wanted)?)))
 }
 
+/// The paths of the meshes of a layer or archive, each with the number of its faces.
+///
+/// # Errors
+/// What is wrong with the file.
+pub(crate) fn mesh_sizes(path: &Path) -> Result<Vec<(String, usize)>> {
+    let prims = Opened::new(path)?.ask(|r| r.prims())?.into_iter();
+    let sizes = prims.filter_map(|prim| match prim.kind {
+        PrimKind::Mesh { faces, .. } if faces > 0 => Some((prim.path, faces)),
+        _ => None,
+    });
+    Ok(sizes.collect())
+}
+
 /// Whether the object or prim `node` carries one of the meshes that a scene reads. A joint carries none, as bodies are rigid.
 ///
 /// # Errors

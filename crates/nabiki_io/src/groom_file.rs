@@ -13,12 +13,15 @@ use crate::error::{Error, Result};
 use crate::exchange::{MovingHair, Opened};
 use crate::hair::Format;
 use crate::input::{self, MOST_TEXT_BYTES};
+use crate::mesh::parts;
 use crate::{hair_file, obj_lines, tfx};
 
 /// A hair file of any format.
 pub struct GroomFile {
     path: PathBuf,
     kind: Kind,
+    /// Curves that are kept, by name; all if empty.
+    groups: Vec<String>,
 }
 
 enum Kind {
@@ -62,7 +65,31 @@ impl GroomFile {
             Format::Usd | Format::Alembic => Kind::Exchange(Opened::new(path)?),
             format => Kind::Plain(format),
         };
-        Ok(Self { path: path.to_owned(), kind })
+        Ok(Self { path: path.to_owned(), kind, groups: Vec::new() })
+    }
+
+    /// Keeps the curves that `groups` name, or what these stand below, by name or whole path; all, if there are none.
+    ///
+    /// # Errors
+    /// A name that none of the file's curves has; a file of hair alone, which has none.
+    pub fn keep(mut self, groups: &[String]) -> Result<Self> {
+        match &mut self.kind {
+            _ if groups.is_empty() => return Ok(self),
+            Kind::Plain(_) => {
+                let line = "groups has no effect on a file of hair alone: leave it out";
+                return Err(Error::of_setting(line).in_file(&self.path));
+            }
+            Kind::Exchange(file) => {
+                let mut curves = file.ask(|r| r.contents())?.curves;
+                parts::check(groups, &curves).map_err(|e| e.in_file(&self.path))?;
+                curves.retain(|path| parts::is_kept(groups, path));
+                file.ask(|r| {
+                    r.keep_curves(curves);
+                    Ok(())
+                })?;
+            }
+        }
+        Ok(Self { groups: groups.to_vec(), ..self })
     }
 
     /// What the file says of its space.
@@ -151,7 +178,9 @@ impl GroomFile {
             Kind::Exchange(opened) => opened.ask(|r| r.prims())?,
         };
         let curves = prims.into_iter().filter_map(|prim| match prim.kind {
-            PrimKind::Curves { points, cubic, world_from_curves, .. } if points > 0 => {
+            PrimKind::Curves { points, cubic, world_from_curves, .. }
+                if points > 0 && parts::is_kept(&self.groups, &prim.path) =>
+            {
                 Some(CurvePrim { path: prim.path, points: points as u64, cubic, world_from_curves })
             }
             _ => None,

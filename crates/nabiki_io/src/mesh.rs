@@ -64,7 +64,8 @@ fn without_mark(bytes: &[u8]) -> &[u8] {
 }
 
 /// Names by which parts of a mesh file can be chosen, with the number of faces under each, most faces first: groups and
-/// objects of a .obj, nodes of a glTF that have a mesh of their own. None for other formats.
+/// objects of a .obj, nodes of a glTF that have a mesh of their own, meshes of a USD layer or Alembic archive by their paths. None for
+/// other formats.
 ///
 /// # Errors
 /// A file that cannot be read.
@@ -72,6 +73,7 @@ pub fn groups(path: &Path) -> Result<Vec<(String, usize)>> {
     let mut groups = match extension(path).as_str() {
         "obj" => obj::groups(&input::read(path, MOST_TEXT_BYTES)?),
         "glb" | "gltf" => glb::groups(&input::read(path, MOST_BINARY_BYTES)?).map_err(|e| e.in_file(path))?,
+        _ if exchange::is_usd(path) || exchange::is_alembic(path) => exchange::mesh_sizes(path)?,
         _ => Vec::new(),
     };
     groups.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));

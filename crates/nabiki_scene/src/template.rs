@@ -6,6 +6,7 @@ use glam::Vec3;
 use nabiki::{Ellipsoid, Head, Mesh, Strands};
 use nabiki_io::{Axis, DeclaredSpace, Error, GroomFile, Placement, Result, Unit, declared_space, info, mesh};
 
+use crate::built::holds_scenes;
 use crate::scene::ImportedHair;
 use crate::seat::{self, Mended, Seat, centimetres};
 use crate::size::{HALF_AXIS, decimal, mean_half_axis, middle, named_unit, spread, vector};
@@ -229,8 +230,16 @@ fn chosen(file: &Path, groups: &[String], declared: &DeclaredSpace, guesses: &mu
         Ok(Chosen { mesh, groups, up, skull })
     };
     let mut found = look(groups.to_vec())?;
-    if found.skull.is_none() && groups.is_empty() {
-        for (group, _) in mesh::groups(file)?.into_iter().take(MOST_TRIED) {
+    let parts = if groups.is_empty() { mesh::groups(file)? } else { Vec::new() };
+    if found.skull.is_some() && parts.len() > 1 && holds_scenes(file) {
+        let names: Vec<&str> = parts.iter().map(|(name, _)| name.as_str()).take(MOST_TRIED).collect();
+        let (count, names) = (parts.len(), names.join(", "));
+        guesses.push(format!(
+            "head.mesh, all {count} meshes of the file, the largest {names}: head.groups keeps some of them"
+        ));
+    }
+    if found.skull.is_none() {
+        for (group, _) in parts.into_iter().take(MOST_TRIED) {
             let part = look(vec![group.clone()])?;
             if part.skull.is_some() {
                 guesses.push(format!("head.groups = [\"{group}\"], the largest with a skull"));

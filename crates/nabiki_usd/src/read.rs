@@ -7,8 +7,8 @@ use nabiki::{Hair, Mesh};
 use nabiki_exchange::attributes::NamedValues;
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
 use nabiki_exchange::{
-    Closed, Contents, Frames, Gathered, GroomReader, InPlace, LeftOut, MOST_FRAMES, Placed, Polygons, Prim, PrimKind,
-    Uvs, add_polygons,
+    Closed, Contents, Frames, Gathered, GroomReader, InPlace, Kept, LeftOut, MOST_FRAMES, Placed, Polygons, Prim,
+    PrimKind, Uvs, add_polygons,
 };
 
 use crate::Problem;
@@ -23,6 +23,7 @@ use crate::transform;
 /// A layer to read hair, heads and motion from.
 pub struct StageReader {
     layer: Layer,
+    kept: Kept,
 }
 
 /// The curves that are read.
@@ -36,7 +37,7 @@ impl StageReader {
     /// # Errors
     /// What is wrong with it, without its name.
     pub fn open(path: &Path) -> Result<Self, Problem> {
-        Ok(Self { layer: Layer::file(path)? })
+        Ok(Self { layer: Layer::file(path)?, kept: Kept::default() })
     }
 
     /// Opens a layer.
@@ -44,7 +45,7 @@ impl StageReader {
     /// # Errors
     /// What is wrong with it.
     pub fn new(from: impl Source + 'static) -> Result<Self, Problem> {
-        Ok(Self { layer: Layer::open(Box::new(from))? })
+        Ok(Self { layer: Layer::open(Box::new(from))?, kept: Kept::default() })
     }
 
     /// A number that the layer says of itself, if it does.
@@ -145,6 +146,9 @@ impl StageReader {
     fn open_curves(&mut self) -> Result<(Vec<usize>, Closed), Problem> {
         let (mut open, mut closed) = (Vec::new(), Vec::new());
         for prim in self.layer.with_points("BasisCurves") {
+            if !self.kept.holds(&self.layer.path(prim)) {
+                continue;
+            }
             if self.are_closed(prim)? { closed.push(self.layer.path(prim)) } else { open.push(prim) }
         }
         Ok((open, Closed(closed)))
@@ -284,6 +288,10 @@ impl GroomReader for StageReader {
             prims.push(Prim { path: self.layer.path(i), kind, samples, relationships });
         }
         Ok(prims)
+    }
+
+    fn keep_curves(&mut self, paths: Vec<String>) {
+        self.kept = Kept::only(paths);
     }
 
     fn hair_in_place(&mut self, frame: usize, segments: Option<usize>, attributes: bool) -> Result<InPlace, Problem> {

@@ -57,6 +57,8 @@ pub struct GrownHair {
 pub struct ImportedHair {
     /// A .hair, .tfx, .obj (polylines), USD layer or Alembic archive.
     pub file: PathBuf,
+    /// Curves of a USD layer or Alembic archive to keep, by the name or path of their prim or of what it stands below (default: all).
+    pub groups: Vec<String>,
     /// An even choice of so many strands (default: all of the file's).
     pub strands: Option<usize>,
     /// Cuts every strand anew into so many equally long segments (default: as the file has them).
@@ -100,6 +102,7 @@ impl Default for ImportedHair {
         let Cleaning { join_within, drop_shorter_than } = Cleaning::default();
         Self {
             file: PathBuf::new(),
+            groups: Vec::new(),
             strands: None,
             segments: None,
             unit: None,

@@ -100,6 +100,18 @@ class HairSettings(Table):
         self._set('file', value)
 
     @property
+    def groups(self) -> tuple[str, ...]:
+        """Curves of a USD layer or Alembic archive to keep, by the name or path of their prim or of what it stands below
+        (default: all).
+        """
+        value: tuple[str, ...] = self._get('groups')
+        return value
+
+    @groups.setter
+    def groups(self, value: Sequence[str] | None) -> None:
+        self._set('groups', value)
+
+    @property
     def unit(self) -> str | float | None:
         """Unit of the file (default: what the file says, or that of the head's file, or cm)."""
         value: str | float | None = self._get('unit')

@@ -157,7 +157,7 @@ fn import(
     goes_on: GoesOn<'_>,
 ) -> Result<LoadedHair> {
     let file = there(scene, "hair.file", &settings.file)?;
-    let mut groom = GroomFile::open(&file)?;
+    let mut groom = GroomFile::open(&file)?.keep(&settings.groups).map_err(|e| e.below("hair"))?;
     let declared = groom.declared_space()?;
     let placement = hair_placement(settings, head_placement, declared);
     placement.check("hair").map_err(|refused| scene.refusal(refused))?;
