@@ -9,7 +9,7 @@ use nabiki::hair::Stored;
 use nabiki::{Hair, Mesh};
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
 use nabiki_exchange::{
-    Closed, Contents, FIRST_SHAPE, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Polygons, Prim,
+    Closed, Contents, Course, FIRST_SHAPE, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Polygons, Prim,
     PrimKind, add_polygons,
 };
 
@@ -331,15 +331,16 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
                 }
                 "AbcGeom_Curve" => {
                     let (curves, points) = (self.count(named("nVertices"))?, self.count(named("P"))?);
-                    let cubic = match named("curveBasisAndType") {
-                        Some(header) if header.samples > 0 => basis(&self.tree.sample(header, 0)?)? != Basis::Linear,
-                        _ => false,
+                    let basis = match named("curveBasisAndType") {
+                        Some(header) if header.samples > 0 => basis(&self.tree.sample(header, 0)?)?,
+                        _ => Basis::Linear,
                     };
+                    let course = Course { basis, pinned: false };
                     let time = self.time_of(0)?;
                     let world_from_curves = DAffine3::from_mat4(self.world(i, time)?);
                     Prim {
                         path,
-                        kind: PrimKind::Curves { curves, points, cubic, world_from_curves },
+                        kind: PrimKind::Curves { curves, points, course, world_from_curves },
                         samples: samples("P"),
                         relationships: Vec::new(),
                     }

@@ -170,7 +170,7 @@ impl Shape {
     }
 
     /// The blend at `t` (0..1) of a piece of a curve of `count` points.
-    fn blend(&self, count: usize, piece: usize, t: f64) -> Blend {
+    pub(crate) fn blend(&self, count: usize, piece: usize, t: f64) -> Blend {
         let (t2, t3, u) = (t * t, t * t * t, 1.0 - t);
         let segment = (piece, t);
         match self.basis {
@@ -280,7 +280,7 @@ impl Polylines {
 }
 
 impl Blend {
-    fn of(&self, points: &[Vec3]) -> glam::DVec3 {
+    pub(crate) fn of(&self, points: &[Vec3]) -> glam::DVec3 {
         let near = points[self.first..].iter().zip(self.weights);
         near.map(|(p, w)| p.as_dvec3() * w).sum()
     }

@@ -22,6 +22,7 @@
 #![forbid(unsafe_code)]
 
 pub mod attributes;
+mod control;
 pub mod curves;
 pub mod export;
 mod frames;
@@ -31,6 +32,7 @@ mod polygons;
 mod problem;
 mod reader;
 
+pub use control::Course;
 pub use export::{Export, FrameSink, Velocities};
 pub use frames::{Frames, MOST_FRAMES};
 pub use gather::{Closed, Gathered};

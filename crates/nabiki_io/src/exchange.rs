@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use glam::DAffine3;
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
-use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem};
+use nabiki_exchange::{Contents, Course, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem};
 use nabiki_usd::{Form, HairStage, StageReader};
 
 use crate::axis::Axis;
@@ -251,21 +251,20 @@ pub fn export<'a>(hair: &'a Hair, frame_rate: f64, placement: Option<&Placement>
     export
 }
 
-/// Samples for a layer over `groom`: in the space below the transforms above its curves, which these will place.
+/// Samples for a layer over `groom`: in the space below the transforms above its curves, which these will place, and control points
+/// of curves that run as its own do.
 ///
 /// The transforms are those of the first frame, in which the hair was read.
 pub fn under_groom(export: &mut Export<'_>, groom: &CurvePrim) {
     export.file_from_head = groom.world_from_curves.inverse() * export.file_from_head;
+    export.course = groom.course.unwrap_or(Course::LINEAR);
 }
 
 /// What samples over a groom cannot hold, as phrases. `head_moves`: whether the head of the motion does.
-pub fn layer_losses(groom: &CurvePrim, head_moves: bool) -> Vec<String> {
-    let cubic = groom.cubic.then_some(
-        "the bend of the groom's cubic curves: its points lie on the curves, which as control points bend a little less",
-    );
+pub fn layer_losses(head_moves: bool) -> Vec<String> {
     let moves =
         head_moves.then_some("the motion of the head: its stage must move the groom, or leave out --export-layer");
-    cubic.into_iter().chain(moves).map(str::to_owned).collect()
+    moves.into_iter().map(str::to_owned).collect()
 }
 
 /// Refuses to lay a layer over a groom of `in_file` points (`None` for one grown here) whose import kept `used`.

@@ -75,7 +75,7 @@ impl<'a> Exports<'a> {
                 if let Some(groom) = &built.groom {
                     let curves = groom.under_layer(prim)?;
                     exchange::under_groom(&mut export, curves);
-                    super::tasks::lost(path, exchange::layer_losses(curves, built.head_moves()), watch);
+                    super::tasks::lost(path, exchange::layer_losses(built.head_moves()), watch);
                 }
             }
             let bytes = exchange::least_bytes(path, &export, u64::from(built.frames()) + 1, options.layer.is_some());

@@ -7,7 +7,7 @@ use nabiki::{Hair, Mesh};
 use nabiki_exchange::attributes::NamedValues;
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
 use nabiki_exchange::{
-    Closed, Contents, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Polygons, Prim, PrimKind, Uvs,
+    Closed, Contents, Course, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Polygons, Prim, PrimKind, Uvs,
     add_polygons,
 };
 
@@ -113,18 +113,8 @@ impl StageReader {
         let counts = layer.at(prim, "curveVertexCounts", time);
         let counts = layer.integers(counts.ok_or_else(|| Problem::new("have no curveVertexCounts"))?)?;
         let counts = checked_counts(&counts, points.len())?;
-        // What is not said is cubic, Bezier and open in USD.
-        let order = layer.word(prim, "type")?.unwrap_or_else(|| "cubic".to_owned());
-        let basis = layer.word(prim, "basis")?.unwrap_or_else(|| "bezier".to_owned());
-        let wrap = layer.word(prim, "wrap")?.unwrap_or_else(|| "nonperiodic".to_owned());
-        let basis = match (order.as_str(), basis.as_str()) {
-            ("linear", _) => Basis::Linear,
-            ("cubic", "bezier") => Basis::Bezier,
-            ("cubic", "bspline") => Basis::Bspline,
-            ("cubic", "catmullRom") => Basis::CatmullRom,
-            (order, basis) => return Err(Problem(format!("are {order} of basis {basis}, which USD does not know"))),
-        };
-        let lines = Shape { counts, basis, pinned: wrap == "pinned" }.walk(points, segments)?;
+        let Course { basis, pinned } = course(layer, prim)?;
+        let lines = Shape { counts, basis, pinned }.walk(points, segments)?;
         if !attributes {
             return Ok(Hair::from(lines.strands));
         }
@@ -211,6 +201,21 @@ impl StageReader {
     }
 }
 
+/// How curves run.
+fn course(layer: &mut Layer, prim: usize) -> Result<Course, Problem> {
+    // What is not said is cubic, Bezier and open in USD.
+    let order = layer.word(prim, "type")?.unwrap_or_else(|| "cubic".to_owned());
+    let basis = layer.word(prim, "basis")?.unwrap_or_else(|| "bezier".to_owned());
+    let pinned = layer.word(prim, "wrap")?.is_some_and(|wrap| wrap == "pinned");
+    match (order.as_str(), basis.as_str()) {
+        ("linear", _) => Ok(Course::LINEAR),
+        ("cubic", "bezier") => Ok(Course { basis: Basis::Bezier, pinned }),
+        ("cubic", "bspline") => Ok(Course { basis: Basis::Bspline, pinned }),
+        ("cubic", "catmullRom") => Ok(Course { basis: Basis::CatmullRom, pinned }),
+        (order, basis) => Err(Problem(format!("are {order} of basis {basis}, which USD does not know"))),
+    }
+}
+
 /// What can carry a head.
 enum Mover {
     Prim(usize),
@@ -256,10 +261,10 @@ impl GroomReader for StageReader {
                 "BasisCurves" if self.are_closed(i)? => PrimKind::Other(format!("{type_name} (closed)")),
                 "BasisCurves" => {
                     let curves = self.count(i, "curveVertexCounts")?;
-                    // What is not said is cubic in USD.
-                    let cubic = self.layer.word(i, "type")?.is_none_or(|word| word != "linear");
+                    // Curves that USD does not know are refused when they are read.
+                    let course = course(&mut self.layer, i).unwrap_or(Course::LINEAR);
                     let world = DAffine3::from_mat4(transform::world(&mut self.layer, i, time)?);
-                    PrimKind::Curves { curves, points: self.point_count(i)?, cubic, world_from_curves: world }
+                    PrimKind::Curves { curves, points: self.point_count(i)?, course, world_from_curves: world }
                 }
                 "Mesh" => {
                     let faces = self.count(i, "faceVertexCounts")?;
