@@ -6,7 +6,7 @@
 
 use glam::Vec3;
 use nabiki::Strands;
-use nabiki::strands::check_points;
+use nabiki::strands::{check_points, not_finite};
 
 use crate::Problem;
 
@@ -84,13 +84,17 @@ impl Shape {
     /// points as they have control points. `points`: control points, curve after curve, root first.
     ///
     /// # Errors
-    /// A curve with too few control points for its basis, the text names it; a number of segments that is 0, or so large that
-    /// all have more than 2^32 points.
+    /// A point that is not finite; a curve with too few control points for its basis, the text names it; a number of segments that is
+    /// 0, or so large that all have more than 2^32 points. Curves of one point or none are strands of as many.
     ///
     /// # Panics
     /// If the counts do not add up to the number of points.
     pub fn walk(self, points: Vec<Vec3>, segments: Option<usize>) -> Result<Polylines, Problem> {
         assert_eq!(self.counts.iter().sum::<usize>(), points.len(), "counts and points");
+        if let Some(i) = not_finite(&points) {
+            let way_out = "must be finite: mend it, or take its curve out, where the file was made";
+            return Err(Problem(format!("point {i} is {}: {way_out}", points[i])));
+        }
         if segments == Some(0) {
             return Err(Problem::new("0 segments: a strand needs one at least"));
         }
@@ -98,7 +102,7 @@ impl Shape {
             check_points("segments", segments, self.counts.len()).map_err(|refused| Problem(refused.to_string()))?;
         }
         let pieces = self.counts.iter().enumerate().map(|(curve, &count)| {
-            let pieces = self.pieces(count);
+            let pieces = if count < 2 { Ok(0) } else { self.pieces(count) };
             pieces.map_err(|e| Problem(format!("curve {curve}: {e}")))
         });
         if (self.basis, segments) == (Basis::Linear, None) {
@@ -115,7 +119,12 @@ impl Shape {
         let mut first = 0;
         for (&count, pieces) in self.counts.iter().zip(pieces) {
             let points = &points[first..first + count];
-            let of_curve = self.blends(points, pieces?, segments.unwrap_or(count - 1));
+            let of_curve = match pieces? {
+                0 => {
+                    (0..count).map(|first| Blend { first, weights: [1.0, 0.0, 0.0, 0.0], segment: (0, 0.0) }).collect()
+                }
+                pieces => self.blends(points, pieces, segments.unwrap_or(count - 1)),
+            };
             strands.push(of_curve.iter().map(|b| b.of(points).as_vec3()));
             blends.extend(of_curve.into_iter().map(|b| Blend { first: first + b.first, ..b }));
             first += count;
@@ -237,7 +246,8 @@ impl Polylines {
             for (s, ends) in ends().enumerate() {
                 for blend in &self.blends[self.strands.range(s)] {
                     let (piece, t) = blend.segment;
-                    let [a, b] = [values[first + piece], values[first + piece + 1]];
+                    // A curve of one point ends where it begins.
+                    let [a, b] = [first + piece, (first + piece + 1).min(n - 1)].map(|i| values[i]);
                     found.push(std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t as f32));
                 }
                 first += ends;
@@ -258,7 +268,8 @@ impl Polylines {
                     *at += count;
                     Some(*at - count)
                 });
-                roots.map(|root| values.get(root).cloned()).collect()
+                // A curve without points, which may be the last, has no root.
+                roots.map(|root| values.get(root).or(values.last()).cloned()).collect()
             }
             _ => None,
         }
