@@ -3,6 +3,7 @@
 use nabiki_exchange::FIRST_SHAPE;
 
 use crate::Problem;
+use crate::instances;
 use crate::opened::Layer;
 use crate::shown::hidden;
 
@@ -24,6 +25,7 @@ pub fn chosen(layer: &mut Layer, wanted: &dyn Fn(&str) -> bool) -> Result<Chosen
     }
     let any_shows = all.iter().any(|(_, hidden)| hidden.iter().all(|hidden| hidden.at_times));
     let (mut prims, mut unread) = (Vec::new(), layer.without_points("Mesh", "mesh"));
+    unread.extend(instances::unread(layer, "Mesh", wanted));
     for (prim, hidden) in all {
         let path = layer.path(prim);
         match hidden.iter().find(|hidden| !hidden.at_times) {

@@ -7,12 +7,13 @@ use nabiki::{Hair, Mesh};
 use nabiki_exchange::attributes::NamedValues;
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
 use nabiki_exchange::{
-    Closed, Contents, Course, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Polygons, Prim, PrimKind, Uvs,
-    add_polygons,
+    Closed, Contents, Course, Frames, Gathered, GroomReader, InPlace, MOST_FRAMES, Placed, Polygons, Prim, PrimKind,
+    Uvs, add_polygons,
 };
 
 use crate::Problem;
 use crate::arcs;
+use crate::instances;
 use crate::meshes;
 use crate::opened::Layer;
 use crate::primvars::Primvars;
@@ -24,6 +25,9 @@ use crate::transform;
 pub struct StageReader {
     layer: Layer,
 }
+
+/// Curves that may be hair and are not read.
+const OTHER_CURVES: [&str; 2] = ["HermiteCurves", "NurbsCurves"];
 
 /// Time codes apart by less than this, as a share of a frame, are the same.
 const SAME_TIME: f64 = 1e-6;
@@ -136,6 +140,40 @@ impl StageReader {
             if self.are_closed(prim)? { closed.push(self.layer.path(prim)) } else { open.push(prim) }
         }
         Ok((open, Closed(closed)))
+    }
+
+    /// Curves of the types that are not read, a phrase each.
+    fn other_curves(&self) -> Vec<String> {
+        let paths = |kind: &'static str| self.layer.of_type(kind).into_iter().map(move |i| (kind, self.layer.path(i)));
+        let line = |(kind, path)| format!("curves {path}, which are {kind}: convert them to BasisCurves");
+        OTHER_CURVES.into_iter().flat_map(paths).map(line).collect()
+    }
+
+    /// Why a layer has no curves to read, and the way out.
+    fn no_curves(&self) -> Problem {
+        if let Some(prototypes) = instances::unread(&self.layer, "BasisCurves", &|_| true).first() {
+            return Problem(format!("has no BasisCurves but {prototypes}"));
+        }
+        let is_over = |&i: &usize| self.layer.prims[i].type_name == "BasisCurves" && self.layer.is_active(i);
+        if let Some(over) = (0..self.layer.prims.len()).find(is_over) {
+            let path = self.layer.path(over);
+            return Problem(if arcs::has_instances(&self.layer) {
+                format!(
+                    "curves {path}: are a prototype of instances, which flattening leaves: turn off instanceable on these before it \
+                     (usdcat --flatten IN -o OUT)"
+                )
+            } else {
+                let way_out = arcs::way_out(&self.layer);
+                format!(
+                    "curves {path}: an over defines nothing by itself: give the layer that defines it, or {way_out}"
+                )
+            });
+        }
+        let others = OTHER_CURVES.into_iter().chain(["Points"]);
+        if let Some(found) = others.into_iter().find(|name| !self.layer.of_type(name).is_empty()) {
+            return Problem(format!("has {found} and no BasisCurves, which alone are read: convert them"));
+        }
+        Problem(format!("has no BasisCurves: if they come by reference, {}", arcs::way_out(&self.layer)))
     }
 
     /// Number of values of an attribute at its first time code.
@@ -255,7 +293,11 @@ impl GroomReader for StageReader {
             let type_name = self.layer.prims[i].type_name.clone();
             let kind = match type_name.as_str() {
                 _ if !self.layer.is_on_stage(i) => {
-                    let why = if self.layer.is_active(i) { "an over" } else { "inactive or of a class" };
+                    let why = match (self.layer.is_active(i), self.layer.is_defined(i)) {
+                        (false, _) => "inactive or of a class",
+                        (true, false) => "an over",
+                        (true, true) => "drawn where its point instancer has instances",
+                    };
                     PrimKind::Other(format!("{type_name} ({why})").trim_start().to_owned())
                 }
                 "BasisCurves" if self.are_closed(i)? => PrimKind::Other(format!("{type_name} (closed)")),
@@ -283,22 +325,8 @@ impl GroomReader for StageReader {
 
     fn hair_in_place(&mut self, frame: usize, segments: Option<usize>, attributes: bool) -> Result<InPlace, Problem> {
         let time = self.code_of(frame)?;
-        let prims = self.layer.with_points("BasisCurves");
-        if prims.is_empty() {
-            let all = 0..self.layer.prims.len();
-            let is_over = |&i: &usize| self.layer.prims[i].type_name == "BasisCurves" && self.layer.is_active(i);
-            if let Some(over) = all.into_iter().find(is_over) {
-                let path = self.layer.path(over);
-                return Err(Problem(format!(
-                    "curves {path}: an over defines nothing by itself: give the layer that defines it, or {}",
-                    arcs::FLATTEN
-                )));
-            }
-            const OTHERS: [&str; 3] = ["HermiteCurves", "NurbsCurves", "Points"];
-            if let Some(found) = OTHERS.into_iter().find(|name| !self.layer.of_type(name).is_empty()) {
-                return Err(Problem(format!("has {found} and no BasisCurves, which alone are read: convert them")));
-            }
-            return Err(Problem(format!("has no BasisCurves: if they come by reference, {}", arcs::FLATTEN)));
+        if self.layer.with_points("BasisCurves").is_empty() {
+            return Err(self.no_curves());
         }
         let (prims, closed) = self.open_curves()?;
         closed.check(prims.len())?;
@@ -317,6 +345,8 @@ impl GroomReader for StageReader {
             unread.extend(frames.unread(codes_a_second));
             unread.extend(self.layer.without_points("BasisCurves", "curves"));
             unread.extend(closed.unread());
+            unread.extend(self.other_curves());
+            unread.extend(instances::unread(&self.layer, "BasisCurves", &|_| true));
             unread.extend(arcs::unread(&mut self.layer)?);
         }
         Ok(placed)
@@ -343,8 +373,13 @@ impl GroomReader for StageReader {
         match mesh.positions.iter().find(|p| !p.is_finite()) {
             Some(p) => Err(Problem(format!("has a vertex at {p}"))),
             None if mesh.triangles.is_empty() => match arcs::unread(&mut self.layer)? {
-                Some(_) => Err(Problem(format!("has no meshes: if they come by reference, {}", arcs::FLATTEN))),
-                None => Err(Problem::new("has no meshes")),
+                Some(_) => {
+                    Err(Problem(format!("has no meshes: if they come by reference, {}", arcs::way_out(&self.layer))))
+                }
+                None => match instances::unread(&self.layer, "Mesh", wanted).first() {
+                    Some(prototypes) => Err(Problem(format!("has no meshes but {prototypes}"))),
+                    None => Err(Problem::new("has no meshes")),
+                },
             },
             None => Ok(mesh),
         }
