@@ -309,8 +309,8 @@ pub fn sink<'a>(path: &Path, export: Export<'a>, layer: Option<&str>) -> Result<
             Ok(Box::new(HairStage::create(path, export, Form::Layer(prim.to_owned())).map_err(named)?))
         }
         (_, true, None) => Ok(Box::new(HairArchive::create(path, export).map_err(named)?)),
-        (_, true, Some(_)) => Err(Error::new("Alembic has no layers: write .usda or .usdc").in_file(path)),
-        _ => Err(Error::new("moving hair is written as .usda, .usdc or .abc").in_file(path)),
+        (_, true, Some(_)) => Err(Error::new("Alembic has no layers: write .usd, .usda or .usdc").in_file(path)),
+        _ => Err(Error::new("moving hair is written as .usd, .usda, .usdc or .abc").in_file(path)),
     }
 }
 
@@ -342,11 +342,11 @@ pub fn write_still(path: &Path, export: Export<'_>) -> Result<()> {
     sink.finish().map_err(named)
 }
 
-/// What the layer or archive `path` cannot hold of `hair`, and what was not read of the file it came from, a phrase each.
+/// What the layer or archive `path` cannot hold of `hair`, a phrase each.
 pub fn losses(path: &Path, hair: &Hair) -> Vec<String> {
     let at = &hair.attributes;
     let groups = at.group.as_deref().unwrap_or_default();
-    let mut lost = at.unread.clone();
+    let mut lost = Vec::new();
     if at.group_names.keys().any(|number| !groups.contains(number)) {
         lost.push("names of groups without strands".to_owned());
     }
