@@ -182,7 +182,8 @@ const CUBIC: &str = "def BasisCurves \"h\" { uniform token type = \"cubic\"\n KI
 fn a_layer_over_cubic_curves_draws_them_from_the_roots_to_the_tips() {
     let folder = tempfile::tempdir().unwrap();
     let (groom, layer) = (folder.path().join("groom.usda"), folder.path().join("layer.usda"));
-    let place = |i: usize| format!("({}, {}, {})", 140.0 + i as f32, 3.0 * (0.7 * i as f32).sin(), 2.0 + (i * i) as f32);
+    let place =
+        |i: usize| format!("({}, {}, {})", 140.0 + i as f32, 3.0 * (0.7 * i as f32).sin(), 2.0 + (i * i) as f32);
     let points = (0..14).map(place).collect::<Vec<_>>().join(", ");
     for (basis, wrap) in [
         ("bezier", "nonperiodic"),
@@ -261,8 +262,8 @@ fn a_layer_of_alembic_and_an_unknown_ending_are_refused_by_name() {
         let result = exchange::sink(Path::new(name), Export::new(&hair, 24.0), layer);
         result.err().unwrap().to_string()
     };
-    assert_eq!(refused("hair.abc", Some("/a")), "hair.abc: Alembic has no layers: write .usda or .usdc");
-    assert_eq!(refused("hair.fbx", None), "hair.fbx: moving hair is written as .usda, .usdc or .abc");
+    assert_eq!(refused("hair.abc", Some("/a")), "hair.abc: Alembic has no layers: write .usd, .usda or .usdc");
+    assert_eq!(refused("hair.fbx", None), "hair.fbx: moving hair is written as .usd, .usda, .usdc or .abc");
 }
 
 #[test]

@@ -205,7 +205,9 @@ mod tests {
         let far = DVec3::new(0.0, 150.0, -123_456.789);
         let turned = DAffine3::from_rotation_translation(DQuat::from_rotation_x(0.4), far);
         let courses = BASES.into_iter().flat_map(|basis| [false, true].map(|pinned| Some(Course { basis, pinned })));
-        for (course, world_from_curves) in courses.chain([None, Some(Course::LINEAR)]).zip([turned, DAffine3::IDENTITY].repeat(4)) {
+        for (course, world_from_curves) in
+            courses.chain([None, Some(Course::LINEAR)]).zip([turned, DAffine3::IDENTITY].repeat(4))
+        {
             let second = prim("/head/\u{30d2}\u{30b2}", 3, course, world_from_curves);
             let curves = vec![prim("/head/hair", 1 << 40, Some(Course::LINEAR), DAffine3::IDENTITY), second];
             let groom = GroomCurves { file: "grooms/a b.usdc".to_owned(), curves, placed: true };
