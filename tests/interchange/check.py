@@ -128,6 +128,27 @@ vector = [-10, 0, 0]
 """
 
 
+# B-splines as XGen writes them: drawn between two points fewer than they have.
+SPLINE = """#usda 1.0
+def Xform "head"
+{
+    double3 xformOp:translate = (1, 2, 3)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+
+    def BasisCurves "hair"
+    {
+        uniform token type = "cubic"
+        uniform token basis = "bspline"
+        uniform token wrap = "nonperiodic"
+        int[] curveVertexCounts = [7, 7]
+        point3f[] points = [(0, 8, 0), (0, 10, 0), (1, 12, 0), (3, 13, 0), (5, 12, 1), (6, 10, 1), (6, 8, 0),
+            (0, 8, 5), (0, 10, 5), (0, 12, 6), (1, 13, 8), (2, 12, 10), (2, 10, 11), (1, 8, 11)]
+        float[] widths = [0.1, 0.1, 0.08, 0.06, 0.04, 0.1, 0.1, 0.08, 0.06, 0.04] ( interpolation = "varying" )
+    }
+}
+"""
+
+
 def made_elsewhere(nabiki, interchange, python):
     """What usd-core makes, read here: grooms whose strands are alike, flattened ones, meshes, motions."""
     folder = WORK / "made"
@@ -171,6 +192,10 @@ def there_and_back(nabiki, samples):
     scene.write_text(SCENE)
     options = ["--export", samples / "trip.usdc", "--export-layer", "/head/hair", "--quiet"]
     run(nabiki, "simulate", scene, "-o", WORK / "trip.nabiki", *options)
+    (samples / "spline.usda").write_text(SPLINE)
+    scene.write_text(SCENE.replace("rest.usda", "spline.usda"))
+    run(nabiki, "simulate", scene, "-o", WORK / "spline.nabiki", "--export", samples / "spline_moving.usdc", "--quiet")
+    run(nabiki, "convert", WORK / "spline.nabiki", samples / "spline_layer.usdc", "--export-layer", "/head/hair", "--quiet")
 
 
 def main():

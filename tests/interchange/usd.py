@@ -70,6 +70,34 @@ def there_and_back(expected):
     assert np.abs(frames[3] - frames[0]).max() > 0.01 * expected.size, "trip: nothing moved"
 
 
+def placed(prim, frame):
+    """The points of curves of a number each, in the world."""
+    curves = UsdGeom.BasisCurves(prim)
+    points = np.array(curves.GetPointsAttr().Get(frame), dtype=float)
+    world = np.array(UsdGeom.XformCache(frame).GetLocalToWorldTransform(prim))
+    points = (np.column_stack([points, np.ones(len(points))]) @ world)[:, :3]
+    return points.reshape(len(curves.GetCurveVertexCountsAttr().Get()), -1, 3)
+
+
+def spline(expected):
+    """The layer over a groom of B-splines that are not pinned draws these from the simulated roots to the simulated tips."""
+    shot = Usd.Stage.CreateInMemory()
+    shot.GetRootLayer().subLayerPaths = [str(expected.folder / name) for name in ["spline_layer.usdc", "spline.usda"]]
+    splines = shot.GetPrimAtPath("/head/hair")
+    moving = Usd.Stage.Open(str(expected.folder / "spline_moving.usdc"))
+    lines = moving.GetPrimAtPath("/head/hair")
+    kind = UsdGeom.BasisCurves(splines)
+    assert (kind.GetTypeAttr().Get(), kind.GetBasisAttr().Get()) == ("cubic", "bspline")
+    assert len(kind.GetWidthsAttr().Get()) == 10, "spline: widths of the groom below"
+    frames = UsdGeom.BasisCurves(lines).GetPointsAttr().GetTimeSamples()
+    assert len(frames) == 4
+    ends = np.array([1, 4, 1]) / 6
+    for frame in frames:
+        control, simulated = placed(splines, frame), placed(lines, frame)
+        expected.near(ends @ control[:, :3], simulated[:, 0], f"spline: roots of frame {frame}")
+        expected.near(ends @ control[:, -3:], simulated[:, -1], f"spline: tips of frame {frame}")
+
+
 def main():
     expected = Expected(sys.argv[1])
     for name in ["still.usda", "still.usdc", "moving.usda", "moving.usdc"]:
@@ -98,6 +126,7 @@ def main():
         assert own == {"points", "extent"} | blocked, f"{name}: {own}"
         assert all(hair.GetPrim().GetAttribute(a).GetResolveInfo().ValueIsBlocked() for a in blocked), name
     there_and_back(expected)
+    spline(expected)
     version = ".".join(map(str, Usd.GetVersion()))
     print(f"usd-core {version}: 4 stages and 2 layers, {FRAMES} frames each, and no complaint from its validators")
 

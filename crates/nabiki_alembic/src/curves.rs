@@ -6,7 +6,7 @@ use glam::DAffine3;
 use nabiki::Hair;
 use nabiki::hair::Stored;
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
-use nabiki_exchange::{Closed, Hidden, Knots, LeftOut};
+use nabiki_exchange::{Closed, Course, Hidden, Knots, LeftOut};
 
 use crate::Problem;
 use crate::attributes::Parameters;
@@ -115,12 +115,19 @@ impl<R: Read + Seek> ArchiveReader<R> {
         }
     }
 
-    /// Whether curves bend, as far as they say it.
-    pub(crate) fn are_cubic(&mut self, inside: &[Header]) -> Result<bool, Problem> {
-        match inside.iter().find(|h| h.name == "curveBasisAndType" && h.samples > 0) {
-            Some(header) => Ok(self.tree.sample(header, 0)?.first() != Some(&kind::LINEAR)),
-            None => Ok(false),
-        }
+    /// How curves run, as far as they say it.
+    pub(crate) fn course(&mut self, inside: &[Header]) -> Result<Course, Problem> {
+        let Some(header) = inside.iter().find(|h| h.name == "curveBasisAndType" && h.samples > 0) else {
+            return Ok(Course::LINEAR);
+        };
+        let said = self.tree.sample(header, 0)?;
+        let basis = match (said.first(), said.get(2)) {
+            (Some(&kind::LINEAR), _) => Basis::Linear,
+            (_, Some(&basis::BEZIER)) => Basis::Bezier,
+            (_, Some(&basis::CATMULL_ROM)) => Basis::CatmullRom,
+            _ => Basis::Bspline,
+        };
+        Ok(Course { basis, pinned: false })
     }
 
     /// Whether curves are closed, which no hair is.

@@ -267,12 +267,12 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
                 }
                 "AbcGeom_Curve" => {
                     let (curves, points) = (self.count(named("nVertices"))?, self.count(named("P"))?);
-                    let cubic = self.are_cubic(&inside)?;
+                    let course = self.course(&inside)?;
                     let time = self.time_of(0)?;
                     let world_from_curves = DAffine3::from_mat4(self.world(i, time)?);
                     Prim {
                         path,
-                        kind: PrimKind::Curves { curves, points, cubic, world_from_curves },
+                        kind: PrimKind::Curves { curves, points, course, world_from_curves },
                         samples: samples("P"),
                         relationships: Vec::new(),
                     }

@@ -109,7 +109,7 @@ pub struct New {
     /// The scene to write (TOML)
     pub scene: PathBuf,
 
-    /// Mesh of the head: .obj, .glb, .gltf, .ply, .tfxmesh, .usda, .usdc or .abc (default: the built-in bust)
+    /// Mesh of the head: .obj, .glb, .gltf, .ply, .tfxmesh, .usd, .usda, .usdc or .abc (default: the built-in bust)
     #[arg(long, value_name = "FILE")]
     pub head: Option<PathBuf>,
 
@@ -117,7 +117,7 @@ pub struct New {
     #[arg(long, value_name = "NAME", requires = "head")]
     pub group: Vec<String>,
 
-    /// Hair to import: .hair, .tfx, .obj, .usda, .usdc or .abc (default: hair is grown)
+    /// Hair to import: .hair, .tfx, .obj, .usd, .usda, .usdc or .abc (default: hair is grown)
     #[arg(long, value_name = "FILE")]
     pub hair: Option<PathBuf>,
 
@@ -163,7 +163,7 @@ impl Cli {
 /// Moving hair for other tools.
 #[derive(Args)]
 pub struct ExportArgs {
-    /// Write the moving hair for other tools: .usdc, .usda or .abc, as often as wanted
+    /// Write the moving hair for other tools: .usdc, .usd, .usda (text) or .abc, as often as wanted
     #[arg(long, value_name = "FILE")]
     pub export: Vec<PathBuf>,
 
@@ -214,7 +214,7 @@ pub struct Groom {
     #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 
-    /// The hair file to write: .hair, .tfx, .usda, .usdc or .abc
+    /// The hair file to write: .hair, .tfx, .usd, .usda, .usdc or .abc
     #[arg(long, short, value_name = "FILE")]
     pub output: PathBuf,
 }
@@ -228,7 +228,7 @@ pub struct Simulate {
     #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 
-    /// The motion cache to write (.nabiki), or moving hair for other tools (.usdc, .usda, .abc)
+    /// The motion cache to write (.nabiki), or moving hair for other tools (.usdc, .usd, .usda, .abc)
     #[arg(long, short, value_name = "FILE")]
     pub output: PathBuf,
 
@@ -419,10 +419,10 @@ pub struct Solve {
 
 #[derive(Args)]
 pub struct Convert {
-    /// A hair file (.hair, .tfx, .obj, .usda, .usdc, .abc) or a motion cache (.nabiki)
+    /// A hair file (.hair, .tfx, .obj, .usd, .usda, .usdc, .abc) or a motion cache (.nabiki)
     pub input: PathBuf,
 
-    /// The file to write: .hair, .tfx, .usda, .usdc or .abc; a whole motion cache goes into one of the last three.
+    /// The file to write: .hair, .tfx, .usd, .usda, .usdc or .abc; a whole motion cache goes into one of the last four.
     /// Imported hair comes out of a cache in the unit, axes and place of the file it came from
     pub output: PathBuf,
 

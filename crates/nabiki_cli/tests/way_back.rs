@@ -267,8 +267,15 @@ fn what_a_layer_cannot_hold_is_said() {
     fs::write(folder.join("scene.toml"), scene).unwrap();
     let direct = succeed(folder, "simulate scene.toml -o m.nabiki --export direct.usda --export-layer /root/h");
     let later = succeed(folder, "convert m.nabiki later.usda --export-layer /root/h");
+    // Curves that run as the groom's do go through the points, so that nothing of these is lost.
+    let points = |name: &str| {
+        let text = fs::read_to_string(folder.join(name)).unwrap();
+        // Widths of pictures, which a cache has not, are in the boxes.
+        text.split("float3[] extent").next().unwrap().to_owned()
+    };
+    assert_eq!(points("direct.usda"), points("later.usda"));
     for (said, name) in [(direct, "direct"), (later, "later")] {
-        assert!(said.contains(&format!("{name}.usda cannot hold the bend of the groom's cubic curves")), "{said}");
+        assert_eq!(said.matches("lost").count(), 1, "{said}");
         assert!(said.contains(&format!("{name}.usda cannot hold the motion of the head")), "{said}");
     }
 }

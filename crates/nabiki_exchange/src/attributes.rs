@@ -212,6 +212,7 @@ impl Polylines {
         found.guide = guide.map(|g| g.into_iter().map(|g| g != 0).collect());
         search.group_names(&mut found)?;
         found.other = search.others()?;
+        search.unread.extend(found.width.as_deref().and_then(odd_widths));
         found.unread = search.unread;
         Ok(found)
     }
@@ -245,6 +246,16 @@ impl Polylines {
         }
         Some(other)
     }
+}
+
+/// What is said of diameters that are none; those of 0 where none is more, as tips may have them.
+fn odd_widths(widths: &[f32]) -> Option<String> {
+    let odd = widths.iter().filter(|&&w| !(w.is_finite() && w >= 0.0)).count();
+    if odd == 0 {
+        return (!widths.is_empty() && widths.iter().all(|&w| w == 0.0))
+            .then(|| "widths as diameters: all are 0".to_owned());
+    }
+    Some(format!("{odd} of {} widths as diameters: they are below 0 or no finite numbers", widths.len()))
 }
 
 /// The search of one file for what its curves carry.
@@ -367,7 +378,13 @@ impl<F: NamedValues> Search<'_, F> {
                     let count = found.values.len() / found.extent.max(1);
                     match self.lines.placed(&name, found) {
                         Some(other) => others.push(other),
-                        None => self.unread.push(self.misfit(&name, count)),
+                        None => {
+                            let line = self.misfit(&name, count);
+                            // What was looked for under that name has said so already.
+                            if !self.unread.contains(&line) {
+                                self.unread.push(line);
+                            }
+                        }
                     }
                 }
                 None => self.unread.push(format!("{name}, which is of a kind that is not read")),

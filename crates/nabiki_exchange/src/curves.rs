@@ -6,7 +6,7 @@
 
 use glam::Vec3;
 use nabiki::Strands;
-use nabiki::strands::check_points;
+use nabiki::strands::{check_points, not_finite};
 
 use crate::Problem;
 use crate::knots::Knots;
@@ -87,8 +87,8 @@ impl Shape {
     /// points as they have control points. `points`: control points, curve after curve, root first.
     ///
     /// # Errors
-    /// A curve with too few control points for its basis, the text names it; a number of segments that is 0, or so large that
-    /// all have more than 2^32 points.
+    /// A point that is not finite; a curve with too few control points for its basis, the text names it; a number of segments that is
+    /// 0, or so large that all have more than 2^32 points. Curves of one point or none are strands of as many.
     ///
     /// # Panics
     /// If the counts do not add up to the number of points.
@@ -106,6 +106,10 @@ impl Shape {
     /// As there.
     pub fn walk_by(self, knots: Vec<Knots>, points: Vec<Vec3>, segments: Option<usize>) -> Result<Polylines, Problem> {
         assert_eq!(self.counts.iter().sum::<usize>(), points.len(), "counts and points");
+        if let Some(i) = not_finite(&points) {
+            let way_out = "must be finite: mend it, or take its curve out, where the file was made";
+            return Err(Problem(format!("point {i} is {}: {way_out}", points[i])));
+        }
         if segments == Some(0) {
             return Err(Problem::new("0 segments: a strand needs one at least"));
         }
@@ -114,6 +118,7 @@ impl Shape {
         }
         let pieces = self.counts.iter().enumerate().map(|(curve, &count)| {
             let pieces = match knots.get(curve) {
+                _ if count < 2 => Ok(0),
                 Some(knots) if knots.control_points() == count => Ok(knots.pieces()),
                 Some(knots) => Err(format!("{count} control points, and knots for {}", knots.control_points())),
                 None if knots.is_empty() => self.pieces(count),
@@ -140,7 +145,12 @@ impl Shape {
         let mut first = 0;
         for (curve, (&count, pieces)) in self.counts.iter().zip(pieces).enumerate() {
             let points = &points[first..first + count];
-            let of_curve = self.blends(points, knots.get(curve), pieces?, segments);
+            let of_curve = match pieces? {
+                0 => {
+                    (0..count).map(|first| Blend { first, weights: [1.0, 0.0, 0.0, 0.0], segment: (0, 0.0) }).collect()
+                }
+                pieces => self.blends(points, knots.get(curve), pieces, segments),
+            };
             strands.push(of_curve.iter().map(|b| b.of(points).as_vec3()));
             blends.extend(of_curve.into_iter().map(|b| Blend { first: first + b.first, ..b }));
             first += count;
@@ -205,7 +215,7 @@ impl Shape {
     }
 
     /// The blend at `t` (0..1) of a piece of a curve of `count` points.
-    fn blend(&self, count: usize, piece: usize, t: f64) -> Blend {
+    pub(crate) fn blend(&self, count: usize, piece: usize, t: f64) -> Blend {
         let (t2, t3, u) = (t * t, t * t * t, 1.0 - t);
         let segment = (piece, t);
         match self.basis {
@@ -275,7 +285,8 @@ impl Polylines {
             for (s, ends) in ends().enumerate() {
                 for blend in &self.blends[self.strands.range(s)] {
                     let (piece, t) = blend.segment;
-                    let [a, b] = [values[first + piece], values[first + piece + 1]];
+                    // A curve of one point ends where it begins.
+                    let [a, b] = [first + piece, (first + piece + 1).min(n - 1)].map(|i| values[i]);
                     found.push(std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t as f32));
                 }
                 first += ends;
@@ -296,7 +307,8 @@ impl Polylines {
                     *at += count;
                     Some(*at - count)
                 });
-                roots.map(|root| values.get(root).cloned()).collect()
+                // A curve without points, which may be the last, has no root.
+                roots.map(|root| values.get(root).or(values.last()).cloned()).collect()
             }
             _ => None,
         }
@@ -318,7 +330,7 @@ impl Polylines {
 }
 
 impl Blend {
-    fn of(&self, points: &[Vec3]) -> glam::DVec3 {
+    pub(crate) fn of(&self, points: &[Vec3]) -> glam::DVec3 {
         let near = points[self.first..].iter().zip(self.weights);
         near.map(|(p, w)| p.as_dvec3() * w).sum()
     }

@@ -7,6 +7,7 @@ use glam::{DAffine3, DMat4, Vec3};
 use nabiki::strands::not_finite;
 use nabiki::{Hair, Mesh, Strands};
 
+use crate::control::Course;
 use crate::in_place::point;
 
 /// A groom at rest and the world in which its file is to show it.
@@ -31,6 +32,9 @@ pub struct Export<'a> {
     pub first_frame: i32,
     /// Takes head space to the space of the file's hair: the inverse of what an importer applied, or identity.
     pub file_from_head: DAffine3,
+    /// How curves run whose control points are written, so that they are drawn through the points of the hair: straight but for
+    /// samples over curves that another file has.
+    pub course: Course,
     /// Length of the file's unit (m): 0.01 while `file_from_head` keeps centimetres.
     pub meters_per_unit: f64,
     /// Whether +z rather than +y is up in the file. It names the axis; `file_from_head` does the turning.
@@ -50,6 +54,7 @@ impl<'a> Export<'a> {
             frame_rate,
             first_frame: 0,
             file_from_head: DAffine3::IDENTITY,
+            course: Course::LINEAR,
             meters_per_unit: 0.01,
             z_up: false,
         }
@@ -105,7 +110,7 @@ impl<'a> Export<'a> {
         Ok(())
     }
 
-    /// The points of `strands` in the file's space: their own, or `room` filled with them.
+    /// The points of `strands` in the file's space, as control points of its curves: their own, or `room` filled with them.
     ///
     /// # Errors
     /// Strands that are not those of the groom, a point that is not finite.
@@ -115,11 +120,12 @@ impl<'a> Export<'a> {
             let (found, expected) = (strands.points().len(), self.hair.strands.points().len());
             return invalid(format!("a frame of {found} points for a groom of {expected}: strands may not change"));
         }
-        let points = if self.file_from_head == DAffine3::IDENTITY {
+        let points = if self.file_from_head == DAffine3::IDENTITY && self.course == Course::LINEAR {
             strands.points()
         } else {
             room.clear();
             room.extend(strands.points().iter().map(|&p| point(&self.file_from_head, p)));
+            self.course.control_points(strands, room);
             room
         };
         match not_finite(points) {

@@ -59,11 +59,15 @@ impl Frames {
         if (rate - rate.round()).abs() < 1e-9 * rate.round() { rate.round() } else { rate }
     }
 
-    /// What is not read of the samples, as a phrase.
-    pub fn unread(&self, second: f64) -> Option<String> {
-        (self.between > 0).then(|| {
+    /// What is not read of the samples, a phrase each.
+    pub fn unread(&self, second: f64) -> Vec<String> {
+        let between = (self.between > 0).then(|| {
             format!("{} samples between frames, of which there are {} a second", self.between, self.rate(second))
-        })
+        });
+        let first = self.times.first().map_or(0.0, |first| first / self.step);
+        let off = (self.times.len() > 1 && !self.are_whole())
+            .then(|| format!("the place of its samples between frames: {first} goes out as frame {}", first.round()));
+        between.into_iter().chain(off).collect()
     }
 }
 
@@ -78,6 +82,18 @@ mod tests {
         assert_eq!((&frames.times, frames.between), (&samples, 0));
         assert_eq!(Frames::as_sampled(&[0.0, 1.0, 2.1]), None);
         assert_eq!(Frames::as_sampled(&[0.0, 0.0]), None);
+    }
+
+    #[test]
+    fn samples_off_whole_frames_are_said_with_the_frame_as_which_the_first_goes_out() {
+        let frames = |first: f64, step: f64| {
+            Frames::as_sampled(&[0.0, 1.0, 2.0].map(|n| first + n * step)).unwrap().unread(24.0)
+        };
+        assert_eq!(frames(1001.5, 1.0), ["the place of its samples between frames: 1001.5 goes out as frame 1002"]);
+        // Two to a frame are frames themselves.
+        assert_eq!(frames(1001.5, 0.5), Vec::<String>::new());
+        assert_eq!(frames(1001.0, 1.0), Vec::<String>::new());
+        assert_eq!(Frames::as_sampled(&[1001.5]).unwrap().unread(24.0), Vec::<String>::new());
     }
 
     #[test]

@@ -15,13 +15,15 @@ pub struct Gathered {
     all: Option<InPlace>,
     /// Parts that were grouped by their object.
     named: usize,
+    /// Curves of fewer than two points, which are no strands.
+    short: usize,
     /// Names of what some parts have and the whole has not.
     dropped: BTreeSet<String>,
 }
 
 impl Gathered {
     /// Appends a part that lies below the transform `world_from_part`; `group` names it where it has no groups of its
-    /// own. An attribute stays only if all parts that have curves have it, and is otherwise named among what is unread.
+    /// own. Curves of fewer than two points are left out. An attribute stays only if all parts that have curves have it, and is otherwise named among what is unread.
     ///
     /// # Errors
     /// More points in all than strands can count.
@@ -31,6 +33,11 @@ impl Gathered {
         world_from_part: DAffine3,
         group: Option<(i32, String)>,
     ) -> Result<(), Problem> {
+        let whole: Vec<usize> = (0..part.strands.len()).filter(|&s| part.strands.range(s).len() > 1).collect();
+        if whole.len() < part.strands.len() {
+            self.short += part.strands.len() - whole.len();
+            part = part.select(&whole);
+        }
         if part.strands.is_empty() {
             return Ok(());
         }
@@ -74,6 +81,9 @@ impl Gathered {
             let have = if repeated == 1 { "strand has" } else { "strands have" };
             let line = format!("an id of its own for each strand: as read, {repeated} {have} the id of another");
             all.hair.attributes.unread.push(line);
+        }
+        if self.short > 0 {
+            all.hair.attributes.unread.push(format!("{} curves of fewer than two points", self.short));
         }
         check_extent(all.hair.strands.points())?;
         Ok(all)

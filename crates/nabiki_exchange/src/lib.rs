@@ -22,6 +22,7 @@
 #![forbid(unsafe_code)]
 
 pub mod attributes;
+mod control;
 pub mod curves;
 pub mod export;
 mod frames;
@@ -34,6 +35,7 @@ mod problem;
 mod reader;
 mod shown;
 
+pub use control::Course;
 pub use export::{Export, FrameSink, Velocities};
 pub use frames::{Frames, MOST_FRAMES};
 pub use gather::{Closed, Gathered};

@@ -4,6 +4,7 @@ use glam::{DAffine3, DMat4, DQuat, DVec3};
 use nabiki::{Hair, Mesh};
 
 use crate::Problem;
+use crate::control::Course;
 use crate::in_place::InPlace;
 
 /// What is said of a mesh whose points move: heads and bodies are rigid.
@@ -138,8 +139,8 @@ pub enum PrimKind {
         curves: usize,
         /// Their control points.
         points: usize,
-        /// Whether these bend cubics, and are not on the curves.
-        cubic: bool,
+        /// How the curves run between these.
+        course: Course,
         /// Takes them to the file's world at the first frame.
         world_from_curves: DAffine3,
     },

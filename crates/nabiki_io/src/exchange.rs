@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use glam::{DAffine3, DVec3};
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
-use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem};
+use nabiki_exchange::{Contents, Course, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem};
 use nabiki_usd::{Form, HairStage, StageReader};
 
 use crate::axis::Axis;
@@ -281,21 +281,20 @@ pub fn export<'a>(hair: &'a Hair, frame_rate: f64, placement: Option<&Placement>
     export
 }
 
-/// Samples for a layer over `groom`: in the space below the transforms above its curves, which these will place.
+/// Samples for a layer over `groom`: in the space below the transforms above its curves, which these will place, and control points
+/// of curves that run as its own do.
 ///
 /// The transforms are those of the first frame, in which the hair was read.
 pub fn under_groom(export: &mut Export<'_>, groom: &CurvePrim) {
     export.file_from_head = groom.world_from_curves.inverse() * export.file_from_head;
+    export.course = groom.course.unwrap_or(Course::LINEAR);
 }
 
 /// What samples over a groom cannot hold, as phrases. `head_moves`: whether the head of the motion does.
-pub fn layer_losses(groom: &CurvePrim, head_moves: bool) -> Vec<String> {
-    let cubic = groom.cubic.then_some(
-        "the bend of the groom's cubic curves: its points lie on the curves, which as control points bend a little less",
-    );
+pub fn layer_losses(head_moves: bool) -> Vec<String> {
     let moves =
         head_moves.then_some("the motion of the head: its stage must move the groom, or leave out --export-layer");
-    cubic.into_iter().chain(moves).map(str::to_owned).collect()
+    moves.into_iter().map(str::to_owned).collect()
 }
 
 /// Refuses to lay a layer over a groom of `in_file` points (`None` for one grown here) whose import kept `used`.
@@ -340,8 +339,8 @@ pub fn sink<'a>(path: &Path, export: Export<'a>, layer: Option<&str>) -> Result<
             Ok(Box::new(HairStage::create(path, export, Form::Layer(prim.to_owned())).map_err(named)?))
         }
         (_, true, None) => Ok(Box::new(HairArchive::create(path, export).map_err(named)?)),
-        (_, true, Some(_)) => Err(Error::new("Alembic has no layers: write .usda or .usdc").in_file(path)),
-        _ => Err(Error::new("moving hair is written as .usda, .usdc or .abc").in_file(path)),
+        (_, true, Some(_)) => Err(Error::new("Alembic has no layers: write .usd, .usda or .usdc").in_file(path)),
+        _ => Err(Error::new("moving hair is written as .usd, .usda, .usdc or .abc").in_file(path)),
     }
 }
 
@@ -373,11 +372,11 @@ pub fn write_still(path: &Path, export: Export<'_>) -> Result<()> {
     sink.finish().map_err(named)
 }
 
-/// What the layer or archive `path` cannot hold of `hair`, and what was not read of the file it came from, a phrase each.
+/// What the layer or archive `path` cannot hold of `hair`, a phrase each.
 pub fn losses(path: &Path, hair: &Hair) -> Vec<String> {
     let at = &hair.attributes;
     let groups = at.group.as_deref().unwrap_or_default();
-    let mut lost = at.unread.clone();
+    let mut lost = Vec::new();
     if at.group_names.keys().any(|number| !groups.contains(number)) {
         lost.push("names of groups without strands".to_owned());
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use glam::DAffine3;
 use nabiki::Hair;
 use nabiki::strands::check_points;
-use nabiki_exchange::{InPlace, PrimKind};
+use nabiki_exchange::{Course, InPlace, PrimKind};
 
 use crate::bytes::Bytes;
 use crate::declared::DeclaredSpace;
@@ -38,8 +38,8 @@ pub struct CurvePrim {
     pub path: String,
     /// Their control points.
     pub points: u64,
-    /// Whether these bend cubics, and are not on the curves.
-    pub cubic: bool,
+    /// How the curves run between these; `None` in a cache from before that was kept, of curves that are not straight.
+    pub course: Option<Course>,
     /// Takes them to the file's world at the first frame.
     pub world_from_curves: DAffine3,
 }
@@ -51,7 +51,7 @@ pub struct GroomCurves {
     pub file: String,
     /// Its curves, in their order; none in a file of hair alone.
     pub curves: Vec<CurvePrim>,
-    /// Whether it is known what these are, cubic or not, and what stands above them: not of a cache from before that was kept.
+    /// Whether it is known what stands above them: not of a cache from before that was kept.
     pub placed: bool,
 }
 
@@ -178,10 +178,10 @@ impl GroomFile {
             Kind::Exchange(opened) => opened.ask(|r| r.prims())?,
         };
         let curves = prims.into_iter().filter_map(|prim| match prim.kind {
-            PrimKind::Curves { points, cubic, world_from_curves, .. }
+            PrimKind::Curves { points, course, world_from_curves, .. }
                 if points > 0 && parts::is_kept(&self.groups, &prim.path) =>
             {
-                Some(CurvePrim { path: prim.path, points: points as u64, cubic, world_from_curves })
+                Some(CurvePrim { path: prim.path, points: points as u64, course: Some(course), world_from_curves })
             }
             _ => None,
         });
@@ -209,14 +209,17 @@ impl GroomCurves {
     pub fn under_layer(&self, path: &str) -> Result<&CurvePrim> {
         let refuse =
             |why: String| Err(Error::new(format!("--export-layer {path}: {why}")).in_file(Path::new(&self.file)));
+        let older = |what: &str| {
+            format!(
+                "this cache is older than the note of {what}; make it again with nabiki simulate, or leave out --export-layer for a \
+                 complete stage"
+            )
+        };
         let listed = self.curves.iter().take(8).map(|prim| format!("{} ({} points)", prim.path, prim.points));
         let list = listed.collect::<Vec<_>>().join(", ");
         match &self.curves[..] {
-            [only] if only.path == path && !self.placed => refuse(
-                "this cache is older than the note of what stands above its groom's curves; make it again with nabiki simulate, or \
-                 leave out --export-layer for a complete stage"
-                    .to_owned(),
-            ),
+            [only] if only.path == path && !self.placed => refuse(older("what stands above its groom's curves")),
+            [only] if only.path == path && only.course.is_none() => refuse(older("how its groom's curves run")),
             [only] if only.path == path => {
                 let inverse = only.world_from_curves.inverse();
                 if inverse.is_finite() { Ok(only) } else { refuse("a transform above it flattens space".to_owned()) }

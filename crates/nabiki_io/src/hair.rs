@@ -12,7 +12,7 @@ use crate::{
     exchange,
     groom_file::GroomFile,
     hair_file,
-    kind::extension,
+    kind::{extension, way_out},
     placement::Placement,
     tfx,
 };
@@ -51,8 +51,9 @@ impl Format {
                 Err(Error::new(what).in_file(path))
             }
             other => {
-                let known = ".hair, .tfx, .usda, .usdc or .abc, and .obj to be read";
-                Err(Error::new(format!("ending \"{other}\" is not a hair format: {known}")).in_file(path))
+                let known = ".hair, .tfx, .usd, .usda, .usdc or .abc, and .obj to be read";
+                let line = format!("ending \"{other}\" is not a hair format: {known}{}", way_out(other));
+                Err(Error::new(line).in_file(path))
             }
         }
     }
@@ -170,17 +171,17 @@ pub fn losses(path: &Path, hair: &Hair) -> Result<Vec<String>> {
         Format::Tfx => Ok(tfx::losses(hair)),
         Format::Usd | Format::Alembic => Ok(exchange::losses(path, hair)),
         Format::ObjLines => {
-            Err(Error::new("hair is not written as .obj: write .hair, .tfx, .usda, .usdc or .abc").in_file(path))
+            Err(Error::new("hair is not written as .obj: write .hair, .tfx, .usd, .usda, .usdc or .abc").in_file(path))
         }
     }
 }
 
-/// What only formats with attributes of any name pass on, and what was not read.
+/// What only formats with attributes of any name pass on.
 pub(crate) fn passed_on(hair: &Hair) -> Vec<String> {
     // What is said a second time, the other way, is held.
     let again = |name: &str| names::OPACITY.contains(&name) && hair.attributes.transparency.is_some();
     let names = hair.attributes.other.iter().map(|other| other.name.clone()).filter(|name| !again(name));
-    names.chain(hair.attributes.unread.iter().cloned()).collect()
+    names.collect()
 }
 
 /// Bytes that `hair` takes at least as the format of `path`.

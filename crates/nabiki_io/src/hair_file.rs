@@ -104,7 +104,7 @@ fn starts<R: Read + Seek>(
     }
 }
 
-/// What a .hair file cannot hold of `hair`, and what was not read of the file it came from, a phrase each.
+/// What a .hair file cannot hold of `hair`, a phrase each.
 pub fn losses(hair: &Hair) -> Vec<String> {
     let a = &hair.attributes;
     let mut lost = Vec::new();

@@ -22,7 +22,7 @@ pub use mesh::{ClipInfo, MeshInfo};
 use crate::{
     error::{Error, Result},
     input::{self, MOST_TEXT_BYTES},
-    kind::extension,
+    kind::{extension, way_out},
     motion, obj_text,
 };
 
@@ -82,7 +82,7 @@ pub fn info(path: &Path) -> Result<Info> {
             }
             let known = ".hair, .tfx, .obj, .glb, .gltf, .ply, .tfxmesh, .usd, .usda, .usdc, .abc, .bvh, .csv, .amc, .asf, .tof, \
                          .nabiki or .toml";
-            Err(Error::new(format!("ending \"{other}\" is not one of {known}")).in_file(path))
+            Err(Error::new(format!("ending \"{other}\" is not one of {known}{}", way_out(other))).in_file(path))
         }
     }
 }

@@ -12,6 +12,17 @@ pub(crate) fn extension(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
 
+/// How hair or a head goes between here and the programs whose own files have this ending: the end of a line that refuses these.
+pub(crate) fn way_out(ending: &str) -> &'static str {
+    match ending {
+        "usdz" => "; it is a package: give the layer inside",
+        "bgeo" | "geo" | "sc" | "gz" | "hip" | "hiplc" | "hipnc" => "; Houdini reads and writes USD and Alembic",
+        "ma" | "mb" | "xgen" => "; Maya reads and writes Alembic and USD",
+        "fbx" | "blend" => "; its programs read and write USD and Alembic",
+        _ => "",
+    }
+}
+
 /// The kinds of files that come to Nabiki, or are likely to be given to it by mistake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "their Display says what they are")]

@@ -17,7 +17,7 @@ use crate::{
     error::{Error, Result},
     exchange,
     input::{self, MOST_BINARY_BYTES, MOST_TEXT_BYTES},
-    kind::extension,
+    kind::{extension, way_out},
     placement::Placement,
 };
 
@@ -52,8 +52,8 @@ pub fn read(path: &Path, groups: &[String]) -> Result<Mesh> {
             if other.is_empty() {
                 input::open(path)?;
             }
-            let known = ".obj, .glb, .gltf, .ply, .tfxmesh, .usda, .usdc or .abc";
-            Err(named(Error::new(format!("ending \"{other}\" is not a mesh format: {known}"))))
+            let known = ".obj, .glb, .gltf, .ply, .tfxmesh, .usd, .usda, .usdc or .abc";
+            Err(named(Error::new(format!("ending \"{other}\" is not a mesh format: {known}{}", way_out(other)))))
         }
     }
 }

@@ -141,7 +141,7 @@ fn attributes<R: Read + Seek>(
     Ok(a)
 }
 
-/// What a .tfx file cannot hold of `hair`, and what was not read of the file it came from, a phrase each.
+/// What a .tfx file cannot hold of `hair`, a phrase each.
 pub fn losses(hair: &Hair) -> Vec<String> {
     let a = &hair.attributes;
     let mut lost = Vec::new();

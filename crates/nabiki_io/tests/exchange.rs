@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::{DAffine3, DVec3, Quat, Vec3};
 use nabiki::{Hair, Mesh, Strands};
-use nabiki_exchange::{Export, GroomReader};
+use nabiki_exchange::{Course, Export, GroomReader};
 use nabiki_io::exchange::{self, DeclaredSpace, MovingHair};
 use nabiki_io::info::ExchangeInfo;
 use nabiki_io::motion::{self, Axis, MotionSource};
@@ -174,6 +174,57 @@ fn a_layer_goes_over_the_prim_of_the_curves_and_over_no_other() {
     assert!(refused.contains("this cache is older than") && refused.contains("nabiki simulate"), "{refused}");
 }
 
+/// Seven control points a curve, of two curves.
+const CUBIC: &str = "def BasisCurves \"h\" { uniform token type = \"cubic\"\n KIND\n int[] curveVertexCounts = [7, 7]\n\
+    point3f[] points = POINTS }\n";
+
+#[test]
+fn a_layer_over_cubic_curves_draws_them_from_the_roots_to_the_tips() {
+    let folder = tempfile::tempdir().unwrap();
+    let (groom, layer) = (folder.path().join("groom.usda"), folder.path().join("layer.usda"));
+    let place =
+        |i: usize| format!("({}, {}, {})", 140.0 + i as f32, 3.0 * (0.7 * i as f32).sin(), 2.0 + (i * i) as f32);
+    let points = (0..14).map(place).collect::<Vec<_>>().join(", ");
+    for (basis, wrap) in [
+        ("bezier", "nonperiodic"),
+        ("bspline", "nonperiodic"),
+        ("bspline", "pinned"),
+        ("catmullRom", "nonperiodic"),
+        ("catmullRom", "pinned"),
+    ] {
+        let kind = format!("uniform token basis = \"{basis}\"\n uniform token wrap = \"{wrap}\"");
+        let text = |points: &str| format!("#usda 1.0\n{}", CUBIC.replace("KIND", &kind).replace("POINTS", points));
+        std::fs::write(&groom, text(&format!("[{points}]"))).unwrap();
+        let read = hair::read(&groom).unwrap();
+        let mut export = Export::new(&read, 24.0);
+        let curves = GroomFile::open(&groom).unwrap().curves(&groom).unwrap();
+        exchange::under_groom(&mut export, curves.under_layer("/h").unwrap());
+        let mut sink = exchange::sink(&layer, export, Some("/h")).unwrap();
+        sink.frame(&read.strands, &DAffine3::IDENTITY).unwrap();
+        sink.finish().unwrap();
+        // As the stage has it on which the layer lies over the groom.
+        let over = std::fs::read_to_string(&layer).unwrap();
+        let sample = over.split("points.timeSamples = {").nth(1).unwrap().lines().nth(1).unwrap();
+        std::fs::write(&groom, text(sample.trim().trim_start_matches("0: ").trim_end_matches(','))).unwrap();
+        let drawn = hair::read(&groom).unwrap();
+        for (found, strand) in drawn.strands.iter().zip(read.strands.iter()) {
+            let ends = [(found[0], strand[0]), (found[6], strand[6])];
+            // Control points in steps of singles, below 256 here, blended by weights that add up to 1 and rounded once more.
+            for (found, of) in ends {
+                assert!((found - of).abs().max_element() <= 256.0 * f32::EPSILON, "{basis} {wrap}: {found} {of}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_layer_over_curves_of_a_cache_that_does_not_say_how_they_run_is_refused() {
+    let curve = CurvePrim { path: "/h".to_owned(), points: 5, course: None, world_from_curves: DAffine3::IDENTITY };
+    let groom = GroomCurves { file: "g.usdc".to_owned(), curves: vec![curve], placed: true };
+    let refused = groom.under_layer("/h").unwrap_err().to_string();
+    assert!(refused.contains("older than the note of how its groom's curves run; make it again"), "{refused}");
+}
+
 #[test]
 fn a_layer_goes_over_curves_beside_which_others_have_no_points() {
     let folder = tempfile::tempdir().unwrap();
@@ -211,8 +262,8 @@ fn a_layer_of_alembic_and_an_unknown_ending_are_refused_by_name() {
         let result = exchange::sink(Path::new(name), Export::new(&hair, 24.0), layer);
         result.err().unwrap().to_string()
     };
-    assert_eq!(refused("hair.abc", Some("/a")), "hair.abc: Alembic has no layers: write .usda or .usdc");
-    assert_eq!(refused("hair.fbx", None), "hair.fbx: moving hair is written as .usda, .usdc or .abc");
+    assert_eq!(refused("hair.abc", Some("/a")), "hair.abc: Alembic has no layers: write .usd, .usda or .usdc");
+    assert_eq!(refused("hair.fbx", None), "hair.fbx: moving hair is written as .usd, .usda, .usdc or .abc");
 }
 
 #[test]
@@ -334,7 +385,7 @@ fn imported_hair_goes_back_into_its_file_and_under_the_transform_of_its_curves()
     let place = DVec3::new(100.0, 50.0, 200.0);
     assert!(export.file_from_head.transform_point3(place).distance(DVec3::new(1.0, -2.0, 2.0)) < 1e-12);
     let world_from_curves = DAffine3::from_translation(DVec3::X) * DAffine3::from_scale(DVec3::splat(0.5));
-    let groom = CurvePrim { path: "/hair".to_owned(), points: 5, cubic: false, world_from_curves };
+    let groom = CurvePrim { path: "/hair".to_owned(), points: 5, course: Some(Course::LINEAR), world_from_curves };
     exchange::under_groom(&mut export, &groom);
     assert!(export.file_from_head.transform_point3(place).distance(DVec3::new(0.0, -4.0, 4.0)) < 1e-12);
     let own = exchange::export(&hair, 24.0, None);

@@ -45,7 +45,7 @@ impl Watch for Remote<'_> {
     fn told(&mut self, told: Told) {
         let line = told.to_string().trim().to_owned();
         self.say(match told {
-            Told::Advice(_) | Told::Lost { .. } | Told::Guessed(_) => Message::Warned(line),
+            Told::Advice(_) | Told::Unread { .. } | Told::Lost { .. } | Told::Guessed(_) => Message::Warned(line),
             _ => Message::Told(line),
         });
     }

@@ -28,7 +28,6 @@ impl<'a> SceneCache<'a> {
         if let Some(piece) = piece {
             header = header.of_piece(piece);
         }
-        super::tasks::lost(path, built.hair.attributes.unread.clone(), watch);
         Ok(Self { built, writer: Writer::create(path, &header)? })
     }
 

@@ -16,7 +16,7 @@ use crate::watch::Watch;
 /// Which files of moving hair a task writes beside its other results.
 #[derive(Clone, Debug, Default)]
 pub struct ExportOptions {
-    /// .usdc, .usda or .abc files.
+    /// .usd, .usda, .usdc or .abc files.
     pub files: Vec<PathBuf>,
     /// Prim path of the groom over which samples alone are laid; `None` writes complete stages.
     pub layer: Option<String>,
@@ -42,8 +42,8 @@ impl ExportOptions {
         self.files.iter().try_for_each(|file| {
             let way_out = match (exchange::is_usd(file), exchange::is_alembic(file), &self.layer) {
                 (true, _, _) | (_, true, None) => return place::file(file),
-                (_, true, Some(_)) => "Alembic has no layers: write .usda or .usdc",
-                _ => "moving hair is written as .usdc, .usda or .abc",
+                (_, true, Some(_)) => "Alembic has no layers: write .usd, .usda or .usdc",
+                _ => "moving hair is written as .usd, .usda, .usdc or .abc",
             };
             Err(Error::refused(format!("{}: {way_out}", file.display())))
         })
@@ -71,11 +71,14 @@ impl<'a> Exports<'a> {
             if let Some(prim) = &options.layer {
                 let in_file = built.import_report.map(|report| report.points_in_file as u64);
                 let used = built.hair.strands.points().len();
-                exchange::check_layer(in_file, used).map_err(|e| e.in_file(path))?;
+                let fits = |in_file| exchange::check_layer(in_file, used).map_err(|e| e.in_file(path));
+                fits(in_file)?;
                 if let Some(groom) = &built.groom {
                     let curves = groom.under_layer(prim)?;
+                    // Curves of a single point are none that are read.
+                    fits(Some(curves.points))?;
                     exchange::under_groom(&mut export, curves);
-                    super::tasks::lost(path, exchange::layer_losses(curves, built.head_moves()), watch);
+                    super::tasks::lost(path, exchange::layer_losses(built.head_moves()), watch);
                 }
             }
             let bytes = exchange::least_bytes(path, &export, u64::from(built.frames()) + 1, options.layer.is_some());

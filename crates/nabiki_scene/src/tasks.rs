@@ -32,20 +32,30 @@ use nabiki_io::cache::Shard;
 use crate::advice::Advice;
 use crate::built::{BuiltScene, Shown};
 use crate::error::Result;
-use crate::scene::Scene;
+use crate::scene::{HairSource, Scene};
 use crate::told::{SceneSummary, SwingTable, Told};
 use crate::watch::Watch;
 
-/// Builds a scene, and says before which files are read for it.
+/// Builds a scene, and says before which files are read for it, and then what of the hair's is not.
 fn build(scene: Scene, shown: Shown, watch: &mut dyn Watch) -> Result<BuiltScene> {
     reading(scene.inputs().split_off(1), watch);
-    scene.build(shown)
+    let built = scene.build(shown)?;
+    unread_hair(&built, watch);
+    Ok(built)
 }
 
 /// The same for one shard of its strands.
 fn build_shard(scene: Scene, shown: Shown, shard: Shard, watch: &mut dyn Watch) -> Result<BuiltScene> {
     reading(scene.inputs().split_off(1), watch);
-    scene.build_shard(shown, shard)
+    let built = scene.build_shard(shown, shard)?;
+    unread_hair(&built, watch);
+    Ok(built)
+}
+
+fn unread_hair(built: &BuiltScene, watch: &mut dyn Watch) {
+    if let HairSource::Imported(hair) = &built.scene.hair.source {
+        unread(&built.scene.resolve(&hair.file), &built.hair.attributes.unread, watch);
+    }
 }
 
 /// Says which files are about to be read, if any.
@@ -70,6 +80,15 @@ fn advise(advice: impl IntoIterator<Item = Advice>, watch: &mut dyn Watch) {
 fn introduce(built: &BuiltScene, watch: &mut dyn Watch) {
     present(built, watch);
     watch.told(Told::Swing(SwingTable::of(built)));
+}
+
+/// Says what of a hair file is left out or not obeyed, as much as fits a part of a screen.
+fn unread(file: &Path, all: &[String], watch: &mut dyn Watch) {
+    const MOST_SAID: usize = 12;
+    let said = if all.len() > MOST_SAID { &all[..MOST_SAID - 1] } else { all };
+    let more = (said.len() < all.len())
+        .then(|| format!("and {} more, which nabiki info {} lists", all.len() - said.len(), file.display()));
+    said.iter().cloned().chain(more).for_each(|what| watch.told(Told::Unread { file: file.to_owned(), what }));
 }
 
 /// Says what a file cannot hold of the hair.

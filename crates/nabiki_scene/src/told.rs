@@ -29,6 +29,13 @@ pub enum Told {
     Advice(Advice),
     /// What no file says and a new scene takes for granted.
     Guessed(String),
+    /// What of a hair file is left out or not obeyed.
+    Unread {
+        /// The file.
+        file: PathBuf,
+        /// What it is, as a phrase.
+        what: String,
+    },
     /// What a format could not hold of the hair.
     Lost {
         /// The file.
@@ -74,6 +81,7 @@ impl fmt::Display for Told {
             Self::Solved(solved) => solved.fmt(f),
             Self::Advice(advice) => write!(f, "  look    {advice}"),
             Self::Guessed(what) => write!(f, "  guessed {what}"),
+            Self::Unread { file, what } => write!(f, "  unread  of {}: {what}", file.display()),
             Self::Lost { file, what } => write!(f, "  lost    {} cannot hold {what}", file.display()),
             Self::Large { file, bytes } => {
                 write!(f, "  large   {} will take {} at least", file.display(), size(*bytes))

@@ -212,7 +212,11 @@ impl<W: Fn()> Watch for Watcher<W> {
             self.wrote.push(file.clone());
         }
         // What the scene is like is seen in the window; what goes wrong or is lost is not.
-        if matches!(told, Told::Advice(_) | Told::Lost { .. } | Told::Large { .. } | Told::Removed { .. }) {
+        let worth_a_line = matches!(
+            told,
+            Told::Advice(_) | Told::Unread { .. } | Told::Lost { .. } | Told::Large { .. } | Told::Removed { .. }
+        );
+        if worth_a_line {
             let line = told.to_string().trim().to_owned();
             self.change(|progress| progress.said.push(line));
         }

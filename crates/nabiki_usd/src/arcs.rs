@@ -14,7 +14,21 @@ pub const OF_PRIMS: [(&str, &str); 6] = [
 ];
 
 /// How to have them followed.
-pub const FLATTEN: &str = "flatten it first (usdcat --flatten IN -o OUT)";
+const FLATTEN: &str = "flatten it first (usdcat --flatten IN -o OUT)";
+
+/// The same where prims share what comes to them: flattening makes prototypes of it, which are on no stage by themselves.
+const FLATTEN_INSTANCES: &str = "turn off instanceable on its prims, then flatten it (usdcat --flatten IN -o OUT)";
+
+/// How to have the arcs of a layer followed.
+pub fn way_out(layer: &Layer) -> &'static str {
+    if has_instances(layer) { FLATTEN_INSTANCES } else { FLATTEN }
+}
+
+/// Whether prims share what comes to them by arcs.
+pub fn has_instances(layer: &Layer) -> bool {
+    let instances = |&prim: &usize| layer.prims[prim].is_instance && !layer.prims[prim].arcs.is_empty();
+    (0..layer.prims.len()).filter(instances).any(|prim| layer.is_active(prim))
+}
 
 /// What comes to the stage by arcs, as a phrase.
 pub fn unread(layer: &mut Layer) -> Result<Option<String>, Problem> {
@@ -30,5 +44,5 @@ pub fn unread(layer: &mut Layer) -> Result<Option<String>, Problem> {
         0 => String::new(),
         more => format!(", and by {more} more of its arcs"),
     };
-    Ok(Some(format!("what comes by {first}{more}: {FLATTEN}")))
+    Ok(Some(format!("what comes by {first}{more}: {}", way_out(layer))))
 }

@@ -31,6 +31,7 @@ mod arcs;
 mod carried;
 mod content;
 mod crate_file;
+mod instances;
 mod layer;
 mod meshes;
 mod opened;

@@ -3,6 +3,7 @@
 use nabiki_exchange::{Candidate, FIRST_SHAPE, kept_holes, those_that_show};
 
 use crate::Problem;
+use crate::instances;
 use crate::opened::Layer;
 use crate::shown::hidden;
 
@@ -24,6 +25,7 @@ pub fn chosen(layer: &mut Layer, wanted: &dyn Fn(&str) -> bool) -> Result<Chosen
     }
     let (prims, mut unread) = those_that_show(all);
     unread.extend(layer.without_points("Mesh", "mesh"));
+    unread.extend(instances::unread(layer, "Mesh", wanted));
     for &prim in &prims {
         let holes = layer.at(prim, "holeIndices", f64::NEG_INFINITY).map(|holes| layer.integers(holes)).transpose()?;
         unread.extend(kept_holes(&layer.path(prim), holes.map_or(0, |holes| holes.len())));

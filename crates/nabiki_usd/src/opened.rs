@@ -201,9 +201,19 @@ impl Layer {
         self.upward(prim).all(|i| !self.prims[i].is_off_stage)
     }
 
-    /// Whether this layer by itself has a prim on its stage.
+    /// Whether this layer by itself has a prim on its stage, at the prim's own place.
     pub fn is_on_stage(&self, prim: usize) -> bool {
+        self.is_defined(prim) && self.instancer(prim).is_none()
+    }
+
+    /// Whether this layer by itself defines a prim that is active.
+    pub fn is_defined(&self, prim: usize) -> bool {
         self.is_active(prim) && self.upward(prim).all(|i| !self.prims[i].is_over)
+    }
+
+    /// What draws a prim at other places than its own: the point instancer that it stands below.
+    pub fn instancer(&self, prim: usize) -> Option<usize> {
+        self.upward(prim).skip(1).find(|&above| self.prims[above].type_name == "PointInstancer")
     }
 
     /// Prims of a type that are on the stage and have points; all that are there, where none has.

@@ -7,12 +7,13 @@ use nabiki::{Hair, Mesh};
 use nabiki_exchange::attributes::NamedValues;
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
 use nabiki_exchange::{
-    Closed, Contents, Frames, Gathered, GroomReader, InPlace, Kept, LeftOut, MOST_FRAMES, Placed, Polygons, Prim,
-    PrimKind, Uvs, add_polygons,
+    Closed, Contents, Course, Frames, Gathered, GroomReader, InPlace, Kept, LeftOut, MOST_FRAMES, Placed, Polygons,
+    Prim, PrimKind, Uvs, add_polygons,
 };
 
 use crate::Problem;
 use crate::arcs;
+use crate::instances;
 use crate::meshes;
 use crate::opened::Layer;
 use crate::primvars::Primvars;
@@ -116,18 +117,8 @@ impl StageReader {
         let counts = layer.at(prim, "curveVertexCounts", time);
         let counts = layer.integers(counts.ok_or_else(|| Problem::new("have no curveVertexCounts"))?)?;
         let counts = checked_counts(&counts, points.len())?;
-        // What is not said is cubic, Bezier and open in USD.
-        let order = layer.word(prim, "type")?.unwrap_or_else(|| "cubic".to_owned());
-        let basis = layer.word(prim, "basis")?.unwrap_or_else(|| "bezier".to_owned());
-        let wrap = layer.word(prim, "wrap")?.unwrap_or_else(|| "nonperiodic".to_owned());
-        let basis = match (order.as_str(), basis.as_str()) {
-            ("linear", _) => Basis::Linear,
-            ("cubic", "bezier") => Basis::Bezier,
-            ("cubic", "bspline") => Basis::Bspline,
-            ("cubic", "catmullRom") => Basis::CatmullRom,
-            (order, basis) => return Err(Problem(format!("are {order} of basis {basis}, which USD does not know"))),
-        };
-        let lines = Shape { counts, basis, pinned: wrap == "pinned" }.walk(points, segments)?;
+        let Course { basis, pinned } = course(layer, prim)?;
+        let lines = Shape { counts, basis, pinned }.walk(points, segments)?;
         if !attributes {
             return Ok(Hair::from(lines.strands));
         }
@@ -160,6 +151,32 @@ impl StageReader {
             let paths = self.layer.of_type(kind).into_iter().map(|prim| self.layer.path(prim)).collect();
             LeftOut { kind, paths }
         })
+    }
+
+    /// Why a layer has no curves to read, and the way out.
+    fn no_curves(&self) -> Problem {
+        if let Some(prototypes) = instances::unread(&self.layer, "BasisCurves", &|_| true).first() {
+            return Problem(format!("has no BasisCurves but {prototypes}"));
+        }
+        let is_over = |&i: &usize| self.layer.prims[i].type_name == "BasisCurves" && self.layer.is_active(i);
+        if let Some(over) = (0..self.layer.prims.len()).find(is_over) {
+            let path = self.layer.path(over);
+            return Problem(if arcs::has_instances(&self.layer) {
+                format!(
+                    "curves {path}: are a prototype of instances, which flattening leaves: turn off instanceable on these before it \
+                     (usdcat --flatten IN -o OUT)"
+                )
+            } else {
+                let way_out = arcs::way_out(&self.layer);
+                format!(
+                    "curves {path}: an over defines nothing by itself: give the layer that defines it, or {way_out}"
+                )
+            });
+        }
+        if let Some(refused) = self.other_curves().iter().find_map(|others| others.refused(READ)) {
+            return refused;
+        }
+        Problem(format!("has no BasisCurves: if they come by reference, {}", arcs::way_out(&self.layer)))
     }
 
     /// Number of values of an attribute at its first time code.
@@ -225,6 +242,21 @@ impl StageReader {
     }
 }
 
+/// How curves run.
+fn course(layer: &mut Layer, prim: usize) -> Result<Course, Problem> {
+    // What is not said is cubic, Bezier and open in USD.
+    let order = layer.word(prim, "type")?.unwrap_or_else(|| "cubic".to_owned());
+    let basis = layer.word(prim, "basis")?.unwrap_or_else(|| "bezier".to_owned());
+    let pinned = layer.word(prim, "wrap")?.is_some_and(|wrap| wrap == "pinned");
+    match (order.as_str(), basis.as_str()) {
+        ("linear", _) => Ok(Course::LINEAR),
+        ("cubic", "bezier") => Ok(Course { basis: Basis::Bezier, pinned }),
+        ("cubic", "bspline") => Ok(Course { basis: Basis::Bspline, pinned }),
+        ("cubic", "catmullRom") => Ok(Course { basis: Basis::CatmullRom, pinned }),
+        (order, basis) => Err(Problem(format!("are {order} of basis {basis}, which USD does not know"))),
+    }
+}
+
 /// What can carry a head.
 enum Mover {
     Prim(usize),
@@ -264,16 +296,20 @@ impl GroomReader for StageReader {
             let type_name = self.layer.prims[i].type_name.clone();
             let kind = match type_name.as_str() {
                 _ if !self.layer.is_on_stage(i) => {
-                    let why = if self.layer.is_active(i) { "an over" } else { "inactive or of a class" };
+                    let why = match (self.layer.is_active(i), self.layer.is_defined(i)) {
+                        (false, _) => "inactive or of a class",
+                        (true, false) => "an over",
+                        (true, true) => "drawn where its point instancer has instances",
+                    };
                     PrimKind::Other(format!("{type_name} ({why})").trim_start().to_owned())
                 }
                 "BasisCurves" if self.are_closed(i)? => PrimKind::Other(format!("{type_name} (closed)")),
                 "BasisCurves" => {
                     let curves = self.count(i, "curveVertexCounts")?;
-                    // What is not said is cubic in USD.
-                    let cubic = self.layer.word(i, "type")?.is_none_or(|word| word != "linear");
+                    // Curves that USD does not know are refused when they are read.
+                    let course = course(&mut self.layer, i).unwrap_or(Course::LINEAR);
                     let world = DAffine3::from_mat4(transform::world(&mut self.layer, i, time)?);
-                    PrimKind::Curves { curves, points: self.point_count(i)?, cubic, world_from_curves: world }
+                    PrimKind::Curves { curves, points: self.point_count(i)?, course, world_from_curves: world }
                 }
                 "Mesh" => {
                     let faces = self.count(i, "faceVertexCounts")?;
@@ -296,21 +332,8 @@ impl GroomReader for StageReader {
 
     fn hair_in_place(&mut self, frame: usize, segments: Option<usize>, attributes: bool) -> Result<InPlace, Problem> {
         let time = self.code_of(frame)?;
-        let prims = self.layer.with_points("BasisCurves");
-        if prims.is_empty() {
-            let all = 0..self.layer.prims.len();
-            let is_over = |&i: &usize| self.layer.prims[i].type_name == "BasisCurves" && self.layer.is_active(i);
-            if let Some(over) = all.into_iter().find(is_over) {
-                let path = self.layer.path(over);
-                return Err(Problem(format!(
-                    "curves {path}: an over defines nothing by itself: give the layer that defines it, or {}",
-                    arcs::FLATTEN
-                )));
-            }
-            if let Some(refused) = self.other_curves().iter().find_map(|others| others.refused(READ)) {
-                return Err(refused);
-            }
-            return Err(Problem(format!("has no BasisCurves: if they come by reference, {}", arcs::FLATTEN)));
+        if self.layer.with_points("BasisCurves").is_empty() {
+            return Err(self.no_curves());
         }
         let (prims, closed) = self.open_curves()?;
         closed.check(prims.len())?;
@@ -330,6 +353,7 @@ impl GroomReader for StageReader {
             unread.extend(self.layer.without_points("BasisCurves", "curves"));
             unread.extend(closed.unread());
             unread.extend(self.other_curves().iter().filter_map(|others| others.unread(READ)));
+            unread.extend(instances::unread(&self.layer, "BasisCurves", &|_| true));
             unread.extend(arcs::unread(&mut self.layer)?);
         }
         Ok(placed)
@@ -356,8 +380,13 @@ impl GroomReader for StageReader {
         match mesh.positions.iter().find(|p| !p.is_finite()) {
             Some(p) => Err(Problem(format!("has a vertex at {p}"))),
             None if mesh.triangles.is_empty() => match arcs::unread(&mut self.layer)? {
-                Some(_) => Err(Problem(format!("has no meshes: if they come by reference, {}", arcs::FLATTEN))),
-                None => Err(Problem::new("has no meshes")),
+                Some(_) => {
+                    Err(Problem(format!("has no meshes: if they come by reference, {}", arcs::way_out(&self.layer))))
+                }
+                None => match instances::unread(&self.layer, "Mesh", wanted).first() {
+                    Some(prototypes) => Err(Problem(format!("has no meshes but {prototypes}"))),
+                    None => Err(Problem::new("has no meshes")),
+                },
             },
             None => Ok(mesh),
         }

@@ -23,6 +23,8 @@ pub struct PrimInfo {
     pub attributes: HashMap<String, AttributeInfo>,
     /// Names of its relationships: `material:binding`.
     pub relationships: Vec<String>,
+    /// Whether what comes to it by arcs is shared with other prims, as `instanceable` asks for.
+    pub is_instance: bool,
     /// Arcs by which content from elsewhere comes to it, by the words of text layers: `references`.
     pub arcs: Vec<&'static str>,
 }

@@ -50,9 +50,13 @@ fn local(layer: &mut Layer, prim: usize, time: f64) -> Result<(DMat4, bool), Pro
         }
         let operation = if kind == "orient" {
             let turn = layer.quaternions_at(prim, name, time)?;
-            turn.map(|turn| turn.first().map(|&turn| DMat4::from_quat(turn)))
+            turn.map(|turn| Some(turn.first().map_or(DMat4::IDENTITY, |&turn| DMat4::from_quat(turn))))
         } else {
-            layer.numbers_at(prim, name, time)?.map(|numbers| operation(kind, &numbers))
+            layer.numbers_at(prim, name, time)?.map(|numbers| match numbers[..] {
+                // A value that is blocked moves nothing in USD.
+                [] => Some(DMat4::IDENTITY),
+                _ => operation(kind, &numbers),
+            })
         };
         let problem = |what: &str| Problem(format!("prim {}: {what}", layer.path(prim)));
         let operation = operation.ok_or_else(|| problem(&format!("has no {name}")))?;

@@ -247,3 +247,101 @@ fn that_a_mesh_bends_is_said() {
     let said = "skel:skeleton of /beast: it keeps the shape that its own points have".to_owned();
     assert_eq!(meshes(&bound), (1, vec![said]));
 }
+
+#[test]
+fn curves_of_types_that_are_not_read_are_said_beside_those_that_are() {
+    for kind in ["NurbsCurves", "HermiteCurves"] {
+        let other = curve("n", "").replace("BasisCurves", kind);
+        let said = format!("curves /n, which are {kind}: convert them to BasisCurves");
+        assert_eq!(curves(&format!("{}{other}", curve("h", ""))), (1, vec![said]));
+        let refused = reader(&other).hair(0, None).unwrap_err().to_string();
+        assert_eq!(refused, format!("has {kind} and no BasisCurves, which alone are read: convert them"));
+        let off = format!("over \"o\" {{ {other} }}\n");
+        assert_eq!(curves(&format!("{}{off}", curve("h", ""))), (1, Vec::new()));
+    }
+}
+
+#[test]
+fn prototypes_of_a_point_instancer_are_left_out_and_that_is_said() {
+    let instancer = |below: &str| format!("def PointInstancer \"i\" {{ def Scope \"p\" {{ {below} }} }}\n");
+    let said = "the prototypes of PointInstancer /i, drawn at its instances alone: make prims of these first";
+    let two = instancer(&format!("{}{}", curve("a", ""), curve("b", "")));
+    assert_eq!(curves(&format!("{}{two}", curve("h", ""))), (1, vec![said.to_owned()]));
+    assert_eq!(reader(&two).hair(0, None).unwrap_err().to_string(), format!("has no BasisCurves but {said}"));
+    let ball = instancer(&mesh("m", ""));
+    assert_eq!(meshes(&format!("{}{ball}", mesh("head", ""))), (1, vec![said.to_owned()]));
+    assert_eq!(reader(&ball).mesh().unwrap_err().to_string(), format!("has no meshes but {said}"));
+    // What is not asked for is not missed.
+    let mut both = reader(&format!("{}{ball}", mesh("head", "")));
+    assert_eq!(both.meshes_unread(&|path| path == "/head").unwrap(), [""; 0]);
+    let kinds: Vec<PrimKind> = reader(&two).prims().unwrap().into_iter().map(|prim| prim.kind).collect();
+    let drawn =
+        |kind: &PrimKind| matches!(kind, PrimKind::Other(what) if what.contains("where its point instancer has"));
+    assert_eq!(kinds.iter().filter(|kind| drawn(kind)).count(), 3, "{kinds:?}");
+}
+
+#[test]
+fn instances_are_told_how_to_be_flattened() {
+    let way_out = "turn off instanceable on its prims, then flatten it (usdcat --flatten IN -o OUT)";
+    let instance = |more: &str| format!("def Xform \"a\" ( {more} references = @r.usda@ ) {{ }}\n");
+    let said = |way_out: &str| vec![format!("what comes by references of /a: {way_out}")];
+    assert_eq!(curves(&format!("{}{}", curve("h", ""), instance("instanceable = true"))), (1, said(way_out)));
+    assert_eq!(curves(&format!("{}{}", curve("h", ""), instance("instanceable = false"))), (1, said(FLATTEN)));
+    let refused = reader(&instance("instanceable = true")).hair(0, None).unwrap_err().to_string();
+    assert_eq!(refused, format!("has no BasisCurves: if they come by reference, {way_out}"));
+    // As USD's own flattening writes them.
+    let flat = format!("over \"Flattened_Prototype_1\" {{ {} }}\n{}", curve("h", ""), instance("instanceable = true"));
+    let refused = reader(&flat).hair(0, None).unwrap_err().to_string();
+    assert_eq!(
+        refused,
+        "curves /Flattened_Prototype_1/h: are a prototype of instances, which flattening leaves: turn off instanceable on these \
+         before it (usdcat --flatten IN -o OUT)"
+    );
+}
+
+#[test]
+fn curves_that_are_no_strands_are_left_out_with_what_they_carry_and_counted() {
+    for (counts, kind) in [("[1, 3, 0, 2]", "linear"), ("[1, 4, 0, 5]", "cubic")] {
+        let points = if kind == "linear" { 6 } else { 10 };
+        let places = (0..points).map(|i| format!("({i}, 0, 0)")).collect::<Vec<_>>().join(", ");
+        let text = format!(
+            "def BasisCurves \"h\" {{ uniform token type = \"{kind}\"\n uniform token basis = \"bspline\"\n\
+             int[] curveVertexCounts = {counts}\n point3f[] points = [{places}]\n\
+             int[] primvars:groom_id = [4, 5, 6, 7] ( interpolation = \"uniform\" ) }}\n"
+        );
+        let hair = reader(&text).hair(0, None).unwrap();
+        assert_eq!((hair.strands.len(), hair.attributes.id), (2, Some(vec![5, 7])), "{kind}");
+        assert_eq!(hair.attributes.unread, ["2 curves of fewer than two points"], "{kind}");
+        let root = if kind == "linear" { 1.0 } else { 2.0 };
+        assert_eq!(hair.strands.strand(0)[0].x, root, "{kind}");
+    }
+}
+
+#[test]
+fn a_point_that_is_none_is_refused_with_the_prim_that_has_it() {
+    let text = curve("h", "").replace("(1, 0, 0)", "(1, nan, 0)");
+    let refused = reader(&text).hair(0, None).unwrap_err().to_string();
+    assert_eq!(
+        refused,
+        "curves /h: point 1 is [1, NaN, 0]: must be finite: mend it, or take its curve out, where the file was made"
+    );
+}
+
+#[test]
+fn widths_that_are_none_are_counted() {
+    for (widths, said) in [
+        ("-1, nan", Some("2 of 2 widths as diameters: they are below 0 or no finite numbers")),
+        ("0.5, -1", Some("1 of 2 widths as diameters: they are below 0 or no finite numbers")),
+        ("0, 0", Some("widths as diameters: all are 0")),
+        ("0.5, 0", None),
+    ] {
+        let text = curve("h", &format!("float[] widths = [{widths}] ( interpolation = \"vertex\" )"));
+        assert_eq!(curves(&text), (1, said.into_iter().map(str::to_owned).collect()), "{widths}");
+    }
+}
+
+#[test]
+fn a_list_that_fits_nothing_is_said_once() {
+    let text = curve("h", "int[] primvars:id = [1, 2, 3] ( interpolation = \"uniform\" )");
+    assert_eq!(curves(&text), (1, vec!["id: 3 values for 2 points of 1 curves".to_owned()]));
+}

@@ -175,3 +175,14 @@ fn operations_and_values_are_alike_in_text_and_in_binary() {
         }
     }
 }
+
+/// As usd-core 26.11 has it: before the block the value is held, from it on nothing moves, whatever the default.
+#[test]
+fn a_blocked_value_of_an_operation_moves_nothing() {
+    let text = "def Xform \"a\" { double3 xformOp:translate = (9, 9, 9)\n double3 xformOp:translate.timeSamples = {\n\
+                1: (1, 0, 0), 2: None, 3: (3, 0, 0) }\n quatf xformOp:orient = None\n\
+                uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"] }\n";
+    let way = reader(text).motion("/a").unwrap();
+    let places: Vec<f64> = way.iter().map(|placed| placed.position.x).collect();
+    assert_eq!(places, [1.0, 0.0, 3.0]);
+}

@@ -2,6 +2,8 @@
 
 use glam::{DAffine3, DVec3, Vec3};
 use nabiki::Pose;
+use nabiki_exchange::Course;
+use nabiki_exchange::curves::Basis;
 
 use crate::{
     axis::Axis,
@@ -77,9 +79,35 @@ impl Origin {
 /// that are written now.
 const CUBIC: u32 = 1;
 const DOUBLES: u32 = 2;
+/// What it says of cubic curves: their basis, one of [`BASES`] counted from 1, and whether they are pinned.
+const BASIS: u32 = 4;
+const PINNED: u32 = 16;
+const BASES: [Basis; 3] = [Basis::Bezier, Basis::Bspline, Basis::CatmullRom];
+
+/// The number of curves that run so.
+fn number_of(course: Option<Course>) -> u32 {
+    let Some(Course { basis, pinned }) = course else { return DOUBLES + CUBIC };
+    let Some(basis) = BASES.iter().position(|&other| other == basis) else { return DOUBLES };
+    DOUBLES + CUBIC + BASIS * (basis as u32 + 1) + if pinned { PINNED } else { 0 }
+}
+
+/// How curves of a number run, `None` where it says cubic and no more; `Err` for a number that is none.
+fn course_of(number: u32) -> std::result::Result<Option<Course>, ()> {
+    if number & CUBIC == 0 {
+        return if number & !DOUBLES == 0 { Ok(Some(Course::LINEAR)) } else { Err(()) };
+    }
+    match (number & !(CUBIC + DOUBLES + PINNED)) / BASIS {
+        0 if number & PINNED == 0 => Ok(None),
+        0 => Err(()),
+        basis => {
+            let basis = *BASES.get(basis as usize - 1).ok_or(())?;
+            Ok(Some(Course { basis, pinned: number & PINNED != 0 }))
+        }
+    }
+}
 
 /// Two numbers, of the name's bytes and of the curves, the name, then of each curves' points, its path's bytes, and it. There follow
-/// for each a number, of [`CUBIC`] and [`DOUBLES`], and the columns of the transform above it.
+/// for each a number, of [`CUBIC`] and those after it, and the columns of the transform above it.
 pub(super) fn groom_bytes(groom: &GroomCurves) -> Result<Vec<u8>> {
     let whole = |n: usize| u32::try_from(n).map_err(|_| Error::new("the groom's file: a name of 2^32 bytes or more"));
     let mut out = Vec::new();
@@ -90,8 +118,8 @@ pub(super) fn groom_bytes(groom: &GroomCurves) -> Result<Vec<u8>> {
         put(&mut out, &[whole(path.len())?])?;
         out.extend_from_slice(path.as_bytes());
     }
-    for CurvePrim { cubic, world_from_curves, .. } in &groom.curves {
-        put(&mut out, &[DOUBLES + if *cubic { CUBIC } else { 0 }])?;
+    for CurvePrim { course, world_from_curves, .. } in &groom.curves {
+        put(&mut out, &[number_of(*course)])?;
         put(&mut out, &world_from_curves.to_cols_array())?;
     }
     Ok(out)
@@ -117,16 +145,13 @@ pub(super) fn groom_from_bytes(bytes: &[u8]) -> Result<GroomCurves> {
         for _ in 0..count {
             let (points, length) = (u64::from_le_bytes(number(&mut rest)?), number(&mut rest)?);
             let path = text(&mut rest, length)?;
-            curves.push(CurvePrim { path, points, cubic: false, world_from_curves: DAffine3::IDENTITY });
+            curves.push(CurvePrim { path, points, course: None, world_from_curves: DAffine3::IDENTITY });
         }
         // Caches of before transforms were kept end here.
         let placed = curves.is_empty() || !rest.is_empty();
         for prim in curves.iter_mut().filter(|_| placed) {
             let kind = u32::from_le_bytes(number(&mut rest)?);
-            if kind > CUBIC + DOUBLES {
-                return None;
-            }
-            prim.cubic = kind & CUBIC != 0;
+            prim.course = course_of(kind).ok()?;
             let mut columns = [0.0; 12];
             for column in &mut columns {
                 *column = if kind & DOUBLES != 0 {
@@ -173,15 +198,18 @@ mod tests {
 
     #[test]
     fn the_curves_of_a_groom_come_back_and_a_damaged_list_is_refused() {
-        let prim = |path: &str, points, cubic, world_from_curves| {
+        let prim = |path: &str, points, course, world_from_curves| {
             let path = path.to_owned();
-            CurvePrim { path, points, cubic, world_from_curves }
+            CurvePrim { path, points, course, world_from_curves }
         };
         let far = DVec3::new(0.0, 150.0, -123_456.789);
         let turned = DAffine3::from_rotation_translation(DQuat::from_rotation_x(0.4), far);
-        for (cubic, world_from_curves) in [(false, DAffine3::IDENTITY), (true, DAffine3::IDENTITY), (false, turned)] {
-            let second = prim("/head/\u{30d2}\u{30b2}", 3, cubic, world_from_curves);
-            let curves = vec![prim("/head/hair", 1 << 40, false, DAffine3::IDENTITY), second];
+        let courses = BASES.into_iter().flat_map(|basis| [false, true].map(|pinned| Some(Course { basis, pinned })));
+        for (course, world_from_curves) in
+            courses.chain([None, Some(Course::LINEAR)]).zip([turned, DAffine3::IDENTITY].repeat(4))
+        {
+            let second = prim("/head/\u{30d2}\u{30b2}", 3, course, world_from_curves);
+            let curves = vec![prim("/head/hair", 1 << 40, Some(Course::LINEAR), DAffine3::IDENTITY), second];
             let groom = GroomCurves { file: "grooms/a b.usdc".to_owned(), curves, placed: true };
             let bytes = groom_bytes(&groom).unwrap();
             assert_eq!(groom_from_bytes(&bytes).unwrap(), groom);
@@ -194,14 +222,14 @@ mod tests {
             let old = groom_from_bytes(&bytes[..unplaced]).unwrap();
             assert!(!old.placed && old.curves.iter().all(|prim| prim.world_from_curves == DAffine3::IDENTITY));
             let mut singles = bytes[..unplaced].to_vec();
-            for CurvePrim { cubic, world_from_curves, .. } in &groom.curves {
-                singles.extend(u32::from(*cubic).to_le_bytes());
+            for CurvePrim { course, world_from_curves, .. } in &groom.curves {
+                singles.extend(u32::from(*course != Some(Course::LINEAR)).to_le_bytes());
                 singles
                     .extend(world_from_curves.to_cols_array().map(|x| x as f32).into_iter().flat_map(f32::to_le_bytes));
             }
             let read = groom_from_bytes(&singles).unwrap();
             for (found, prim) in read.curves.iter().zip(&groom.curves) {
-                assert_eq!((read.placed, found.cubic), (true, prim.cubic));
+                assert_eq!((read.placed, found.course), (true, prim.course.filter(|&course| course == Course::LINEAR)));
                 let singles = prim.world_from_curves.to_cols_array().map(|x| f64::from(x as f32));
                 assert_eq!(found.world_from_curves.to_cols_array(), singles);
             }

@@ -22,6 +22,9 @@ pub struct ExchangeInfo {
     pub hair: Option<HairInfo>,
     /// The meshes, transforms applied.
     pub mesh: Option<MeshInfo>,
+    /// What is not read of a file in which there are neither, a phrase each: what has them says it of itself.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub unread: Vec<String>,
     /// Frames of the curves; 1 for a groom that stands still.
     pub frames: usize,
     /// Frames a second, where anything moves.
@@ -109,6 +112,7 @@ impl ExchangeInfo {
             // What the hair says already.
             mesh.unread.retain(|line| hair.as_ref().is_none_or(|hair| !hair.unread.contains(line)));
         }
+        let unread = if hair.is_none() && mesh.is_none() { file.ask(|r| r.mesh_unread())? } else { Vec::new() };
         // One guess for the whole file, and only of what it leaves open.
         let likely = hair.as_ref().map(|hair| hair.guess).or(mesh.as_ref().map(|mesh| mesh.guess)).flatten();
         let guess = likely
@@ -119,6 +123,7 @@ impl ExchangeInfo {
             prims,
             hair: hair.map(|hair| HairInfo { guess: None, ..hair }),
             mesh: mesh.map(|mesh| MeshInfo { guess: None, ..mesh }),
+            unread,
             frames: contents.times.len().max(1),
             frame_rate: moves.then_some(contents.frame_rate),
             unit_cm: declared.unit.map(|unit| unit.cm),
@@ -137,6 +142,9 @@ impl fmt::Display for ExchangeInfo {
         }
         if let Some(mesh) = &self.mesh {
             writeln!(f, "{mesh}")?;
+        }
+        for unread in &self.unread {
+            writeln!(f, "not read: {unread}")?;
         }
         match (&self.hair, self.frame_rate) {
             (Some(_), Some(rate)) => writeln!(f, "frames: {} at {} a second", self.frames, Short(rate as f32))?,

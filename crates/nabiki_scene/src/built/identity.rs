@@ -57,7 +57,7 @@ impl BuiltScene {
     fn settings_identity(&self) -> Result<SceneId> {
         if !self.scene.field.own.is_empty() {
             return Err(Error::refused(
-                "a motion cache cannot tell which field a program gave the scene: export to .usdc, .usda or .abc, or take \
+                "a motion cache cannot tell which field a program gave the scene: export to .usd, .usda, .usdc or .abc, or take \
                  the field out",
             ));
         }

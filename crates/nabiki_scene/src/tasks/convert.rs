@@ -48,7 +48,7 @@ pub fn convert(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
     let mut input = Input::open(&options.input)?;
     let frames = input.frames()?;
     if options.layer.is_some() && !(moves && matches!(input, Input::Cache(_))) {
-        let line = "--export-layer is for all frames of a motion cache, into .usda or .usdc";
+        let line = "--export-layer is for all frames of a motion cache, into .usd, .usda or .usdc";
         return Err(Error::refused(format!("{}: {line}", options.input.display())));
     }
     if let (Input::Cache(_), Some(segments), true) = (&input, options.segments, moves) {
@@ -76,7 +76,7 @@ fn check_output(options: &ConvertOptions) -> Result<()> {
     if is_cache(output) {
         return Err(Error::refused(format!(
             "{}: a motion cache holds what a scene has moved; to move hair of a file, name it in a scene as hair.file and \
-             run nabiki simulate; to hand on motion that it has already, write .usdc, .usda or .abc",
+             run nabiki simulate; to hand on motion that it has already, write .usd, .usda, .usdc or .abc",
             output.display()
         )));
     }
@@ -163,8 +163,7 @@ impl Input {
         match self {
             Self::Cache(cache) => {
                 let Some(frame) = options.frame else {
-                    let line =
-                        "a motion cache holds many frames; say which with --frame N, or write .usdc, .usda or .abc";
+                    let line = "a motion cache holds many frames; say which with --frame N, or write .usd, .usda, .usdc or .abc";
                     return Err(Error::refused(format!("{}: {line}", input.display())));
                 };
                 check_frame(input, frame, cache.frame_count())?;
@@ -212,6 +211,7 @@ fn check_frame(input: &Path, frame: u32, frames: u64) -> Result<()> {
 fn one_frame(options: &ConvertOptions, mut input: Input, watch: &mut dyn Watch) -> Result<()> {
     let output = options.output.as_path();
     let (hair, pose) = input.read(options)?;
+    super::unread(&options.input, &hair.attributes.unread, watch);
     place::room(output, hair::least_bytes(output, &hair)?, watch)?;
     let declared = input.declared_space()?;
     let mut losses = if exchange::is_usd(output) || exchange::is_alembic(output) {
@@ -307,9 +307,15 @@ fn under_layer<'c>(options: &ConvertOptions, prim: &str, cache: &'c Reader) -> R
     let header = cache.header();
     let points = header.starts.last().map_or(0, |&n| n as usize);
     let in_file = header.origin.as_ref().map(|origin| origin.points);
-    exchange::check_layer(in_file, points).map_err(|e| e.in_file(&options.output))?;
+    let fits = |in_file| exchange::check_layer(in_file, points).map_err(|e| e.in_file(&options.output));
+    fits(in_file)?;
     match header.origin.as_ref().and_then(|origin| origin.groom.as_ref()) {
-        Some(groom) => Ok(groom.under_layer(prim)?),
+        Some(groom) => {
+            let curves = groom.under_layer(prim)?;
+            // Curves of a single point are none that are read.
+            fits(Some(curves.points))?;
+            Ok(curves)
+        }
         None => Err(Error::refused(format!(
             "{}: --export-layer {prim}: this cache is older than the note of where its groom's curves are; make it again \
              with nabiki simulate, or leave out --export-layer for a complete stage",
@@ -348,8 +354,8 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
     sink.finish().map_err(failed)?;
     let mut losses: Vec<String> =
         exchange::losses(output, &hair).into_iter().chain(unsaid_space(options, space_of(&cache))).collect();
-    if let Some(curves) = &curves {
-        losses.extend(exchange::layer_losses(curves, head_moves));
+    if layer.is_some() {
+        losses.extend(exchange::layer_losses(head_moves));
     }
     finish(options, losses, format!("{frames} frames of {} strands", hair.strands.len()), watch);
     Ok(())
@@ -361,6 +367,7 @@ fn exchanged_frames(options: &ConvertOptions, mut groom: GroomFile, watch: &mut 
     let in_file = groom.declared_space()?;
     let mut moving = groom.moving(options.segments)?;
     let hair = moving.hair().clone();
+    super::unread(&options.input, &hair.attributes.unread, watch);
     let declared = said(options, in_file)?;
     let mut export = moving.export(&hair);
     export.first_frame = options.first_frame.unwrap_or(export.first_frame);
@@ -372,6 +379,14 @@ fn exchanged_frames(options: &ConvertOptions, mut groom: GroomFile, watch: &mut 
     let mut sink = exchange::sink(output, export, None)?;
     each_frame(watch, "converting", 0..=frames - 1, |frame| {
         let (strands, world_from_hair) = moving.frame(frame as usize)?;
+        if strands.starts() != hair.strands.starts() {
+            let [now, first] =
+                [&strands, &hair.strands].map(|s| format!("{} points of {} strands", s.points().len(), s.len()));
+            let way_out =
+                "moving hair keeps its strands: take one frame with --frame N, or export those that all frames have";
+            let input = options.input.display();
+            return Err(Error::refused(format!("{input}: frame {frame} has {now}, frame 0 {first}: {way_out}")));
+        }
         sink.frame(&strands, &world_from_hair).map_err(failed)
     })?;
     sink.finish().map_err(failed)?;

@@ -83,6 +83,9 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
         file.finish()
     };
     write().map_err(|e| nabiki_io::Error::from(e).in_file(path))?;
+    if let Some(file) = &options.hair {
+        super::unread(file, &built.hair.attributes.unread, watch);
+    }
     template.guesses.into_iter().for_each(|guess| watch.told(Told::Guessed(guess)));
     built.advice().into_iter().chain(unmoved(&built)?).for_each(|advice| watch.told(Told::Advice(advice)));
     super::wrote(vec![path.to_owned()], watch);

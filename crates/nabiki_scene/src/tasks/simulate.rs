@@ -20,7 +20,7 @@ use crate::watch::{Watch, each_frame};
 /// What [`simulate`] writes, and how.
 #[derive(Clone, Debug)]
 pub struct SimulateOptions {
-    /// A motion cache (.nabiki), or moving hair for other tools (.usdc, .usda, .abc).
+    /// A motion cache (.nabiki), or moving hair for other tools (.usd, .usda, .usdc, .abc).
     pub output: PathBuf,
     /// Moving hair for other tools beside it.
     pub exports: ExportOptions,
@@ -71,7 +71,9 @@ pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &m
         folders.make(folder_of(cache), "choose another name")?;
     }
     match cache {
-        Some(cache) => place::cache(cache, "moving hair for other tools in .usdc, .usda or .abc", &scene.inputs())?,
+        Some(cache) => {
+            place::cache(cache, "moving hair for other tools in .usd, .usda, .usdc or .abc", &scene.inputs())?
+        }
         None => exports.files.insert(0, options.output.clone()),
     }
     exports.check()?;

@@ -128,7 +128,7 @@ impl<R: Read + Seek> CrateReader<R> {
                     const CLASS: u64 = 2;
                     let is = |name: &str, value: u64| field(name).is_some_and(|rep| Rep(rep).payload() == value);
                     let is_off_stage = is("specifier", CLASS) || is("active", 0);
-                    let is_over = is("specifier", OVER);
+                    let (is_over, is_instance) = (is("specifier", OVER), is("instanceable", 1));
                     let named_arcs = arcs::OF_PRIMS.map(|(arc, name)| (arc, field(name)));
                     let mut arcs = Vec::new();
                     for (arc, rep) in named_arcs {
@@ -139,7 +139,7 @@ impl<R: Read + Seek> CrateReader<R> {
                         }
                     }
                     let prim = PrimInfo { name, type_name, is_off_stage, is_over, parent, arcs, ..PrimInfo::default() };
-                    layer.0.push(prim);
+                    layer.0.push(PrimInfo { is_instance, ..prim });
                 }
                 specs::ATTRIBUTE => {
                     let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&p)) else { continue };

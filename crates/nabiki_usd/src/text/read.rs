@@ -80,11 +80,11 @@ pub fn parse(from: &mut dyn Source, length: u64) -> Result<Parsed, Problem> {
     Ok((prims, metadata))
 }
 
-/// Notes of the details of a prim whether `active = false` stands there, and which arcs.
+/// Notes of the details of a prim whether `active = false` or `instanceable = true` stands there, and which arcs.
 fn note_details(from: &mut dyn Source, details: Handle, prim: &mut PrimInfo) -> Result<(), Problem> {
     let mut text = Scanner::new(from, details)?;
     text.expect(b'(')?;
-    let (mut asked, mut takes_away) = (false, false);
+    let (mut before, mut takes_away) = (String::new(), false);
     while let Some(byte) = text.peek()? {
         match byte {
             b'"' | b'\'' | b'@' | b'<' | b'[' | b'(' | b'{' => {
@@ -92,8 +92,11 @@ fn note_details(from: &mut dyn Source, details: Handle, prim: &mut PrimInfo) -> 
             }
             b if b.is_ascii_alphanumeric() => {
                 let word = text.word()?;
-                prim.is_off_stage |= asked && matches!(word.as_str(), "false" | "0");
-                asked = word == "active";
+                match before.as_str() {
+                    "active" => prim.is_off_stage |= matches!(word.as_str(), "false" | "0"),
+                    "instanceable" => prim.is_instance |= matches!(word.as_str(), "true" | "1"),
+                    _ => {}
+                }
                 let arc = arcs::OF_PRIMS.into_iter().map(|(arc, _)| arc).find(|&arc| arc == word);
                 if let Some(arc) = arc.filter(|_| !takes_away)
                     && text.peek()? == Some(b'=')
@@ -104,6 +107,7 @@ fn note_details(from: &mut dyn Source, details: Handle, prim: &mut PrimInfo) -> 
                     }
                 }
                 takes_away = matches!(word.as_str(), "delete" | "reorder");
+                before = word;
             }
             _ => text.pass(),
         }

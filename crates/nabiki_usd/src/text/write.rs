@@ -148,7 +148,7 @@ impl<W: Write + Seek> TextWriter<W> {
             Value::Blocked => write!(to, "None"),
             Value::Token(word) => write!(to, "{}", Quoted(word)),
             Value::Tokens(words) | Value::Texts(words) => list(to, words, |line, word| display(line, Quoted(word))),
-            Value::Double(x) => write!(to, "{x}"),
+            Value::Double(x) => write!(to, "{}", Real(*x)),
             Value::Ints(values) => list(to, values, |line, &x| display(line, x)),
             Value::Longs(values) => list(to, values, |line, &x| display(line, x)),
             Value::Floats(values) => list(to, values, |line, &x| float(line, x)),
@@ -156,17 +156,35 @@ impl<W: Write + Seek> TextWriter<W> {
             Value::Triples(values) => list(to, values, tuple),
             Value::IntTuples(extent, values) => tuples(to, *extent, values, |line, &x| display(line, x)),
             Value::FloatTuples(extent, values) => tuples(to, *extent, values, |line, &x| float(line, x)),
-            Value::DoubleTuples(extent, values) => tuples(to, *extent, values, |line, &x| display(line, x)),
+            Value::DoubleTuples(extent, values) => tuples(to, *extent, values, |line, &x| display(line, Real(x))),
             Value::Matrix(m) => {
-                let row = |i: usize| format!("({}, {}, {}, {})", m[4 * i], m[4 * i + 1], m[4 * i + 2], m[4 * i + 3]);
+                let row = |i: usize| {
+                    let [a, b, c, d] = std::array::from_fn(|k| Real(m[4 * i + k]));
+                    format!("({a}, {b}, {c}, {d})")
+                };
                 write!(to, "( {}, {}, {}, {} )", row(0), row(1), row(2), row(3))
             }
         }
     }
 }
 
+/// The word that USD has for what is no number; Rust's own, `NaN`, it refuses with the whole layer.
+const NAN: &str = "nan";
+
+/// A double in the words of USD.
+struct Real(f64);
+
+impl std::fmt::Display for Real {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        if self.0.is_nan() { f.write_str(NAN) } else { self.0.fmt(f) }
+    }
+}
+
 /// The shortest digits that come back to the same bits.
 fn float(line: &mut Vec<u8>, x: f32) {
+    if x.is_nan() {
+        return line.extend_from_slice(NAN.as_bytes());
+    }
     let mut digits = zmij::Buffer::new();
     let digits = digits.format(x);
     line.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes());
@@ -271,5 +289,26 @@ impl std::fmt::Display for Quoted<'_> {
             }
         }
         f.write_str("\"")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether USD reads the file hangs on these: a layer with the word `NaN` it refuses whole.
+    #[test]
+    fn what_is_no_finite_number_has_the_words_of_usd() {
+        let odd = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+        for value in [
+            Value::Floats(odd.map(|x| x as f32).to_vec()),
+            Value::HalfTuples(1, odd.map(half::f16::from_f64).to_vec()),
+            Value::DoubleTuples(1, odd.to_vec()),
+        ] {
+            let mut text = Vec::new();
+            TextWriter { to: io::Cursor::new(&mut text), end_at: 0 }.value(&value).unwrap();
+            assert_eq!(std::str::from_utf8(&text), Ok("[nan, inf, -inf]"), "{value:?}");
+        }
+        assert_eq!(Real(f64::NAN).to_string(), "nan");
     }
 }

@@ -1,0 +1,113 @@
+//! Layers that are not as most are: what is done with them is said, and what is refused has a way out.
+
+use std::fs;
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+/// Runs in `folder`; `words` are parted by spaces.
+fn nabiki(folder: &TempDir, words: &str) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_nabiki")).args(words.split(' ')).current_dir(folder.path()).output().unwrap()
+}
+
+fn succeed(folder: &TempDir, words: &str) -> String {
+    let output = nabiki(folder, words);
+    assert!(output.status.success(), "{words}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn refuse(folder: &TempDir, words: &str) -> String {
+    let output = nabiki(folder, words);
+    let line = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{words}: {line}");
+    assert_eq!(line.trim_end().lines().count(), 1, "{words}: {line}");
+    line
+}
+
+/// A folder with `text` as `groom.usda` and a scene about it.
+fn folder(text: &str) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("groom.usda"), format!("#usda 1.0\n{text}")).unwrap();
+    let scene = "[hair]\nfile = \"groom.usda\"\njoin_within = 0\n[motion]\nframes = 2\n[[force]]\nthrough = 2\nvector = [0, -1, 0]\n";
+    fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    folder
+}
+
+fn curves(more: &str) -> String {
+    format!("def BasisCurves \"h\" {{ uniform token type = \"linear\"\n {more} }}\n")
+}
+
+#[test]
+fn hair_whose_strands_come_and_go_is_refused_with_the_frame_in_which_they_do() {
+    let hair = curves(
+        "int[] curveVertexCounts.timeSamples = { 1: [2, 2], 2: [2] }\n point3f[] points.timeSamples = {\n\
+         1: [(9, 1, 0), (12, 1, 0), (9, 2, 0), (12, 2, 0)], 2: [(9, 1, 0), (12, 1, 0)] }",
+    );
+    let folder = folder(&hair);
+    let line = refuse(&folder, "convert groom.usda out.usdc");
+    let said = "nabiki: groom.usda: frame 1 has 2 points of 1 strands, frame 0 4 points of 2 strands: moving hair keeps its strands:";
+    assert!(line.starts_with(said) && line.contains("--frame N"), "{line}");
+    succeed(&folder, "convert groom.usda out.usdc --frame 1");
+}
+
+#[test]
+fn a_layer_does_not_lie_over_curves_of_which_some_are_no_strands() {
+    let hair = curves("int[] curveVertexCounts = [1, 2]\n point3f[] points = [(9, 3, 0), (9, 1, 0), (12, 1, 0)]");
+    let folder = folder(&hair);
+    let said = succeed(&folder, "simulate scene.toml -o m.nabiki");
+    assert!(said.contains("  unread  of groom.usda: 1 curves of fewer than two points\n"), "{said}");
+    for words in ["convert m.nabiki l.usda", "simulate scene.toml -o n.nabiki --export l.usda"] {
+        let line = refuse(&folder, &format!("{words} --export-layer /h"));
+        assert!(line.contains("l.usda: a layer would not fit the groom: 2 of its 3 points are used"), "{line}");
+    }
+    // Those without points take no place in a layer.
+    let none = curves("int[] curveVertexCounts = [0, 2]\n point3f[] points = [(9, 1, 0), (12, 1, 0)]");
+    fs::write(folder.path().join("groom.usda"), format!("#usda 1.0\n{none}")).unwrap();
+    succeed(&folder, "simulate scene.toml -o n.nabiki --export l.usda --export-layer /h");
+}
+
+#[test]
+fn a_shot_that_only_refers_to_others_says_so() {
+    for (text, what) in [
+        ("def \"a\" ( references = @r.usda@ ) { }\n", "references of /a"),
+        ("def \"a\" ( payload = @r.usda@ ) { }\n", "payload of /a"),
+        ("( subLayers = [ @s.usda@ ] )\ndef Xform \"a\" { }\n", "subLayers of the layer"),
+    ] {
+        let folder = folder(text);
+        let said = succeed(&folder, "info groom.usda");
+        let line = format!("not read: what comes by {what}: flatten it first (usdcat --flatten IN -o OUT)");
+        assert_eq!(said.matches(&line).count(), 1, "{said}");
+        let said = succeed(&folder, "info groom.usda --json");
+        assert!(said.contains("\"unread\"") && said.contains(what), "{said}");
+    }
+}
+
+#[test]
+fn hair_that_begins_between_frames_says_where_it_goes() {
+    let hair = curves(
+        "int[] curveVertexCounts = [2]\n point3f[] points.timeSamples = {\n\
+         1001.5: [(9, 1, 0), (12, 1, 0)], 1002.5: [(9, 1, 0), (12, 2, 0)], 1003.5: [(9, 1, 0), (12, 3, 0)] }",
+    );
+    let folder = folder(&hair);
+    let said = succeed(&folder, "convert groom.usda out.usda");
+    let line = "  unread  of groom.usda: the place of its samples between frames: 1001.5 goes out as frame 1002\n";
+    assert!(said.contains(line), "{said}");
+}
+
+#[test]
+fn files_of_other_programs_are_refused_with_what_these_write() {
+    let folder = folder("");
+    for (name, way_out) in [
+        ("a.usdz", "it is a package: give the layer inside"),
+        ("a.bgeo", "Houdini reads and writes USD and Alembic"),
+        ("a.bgeo.sc", "Houdini reads and writes USD and Alembic"),
+        ("a.mb", "Maya reads and writes Alembic and USD"),
+    ] {
+        fs::write(folder.path().join(name), "?").unwrap();
+        for words in ["new n.toml --hair", "new n.toml --head", "info"] {
+            let line = refuse(&folder, &format!("{words} {name}"));
+            assert!(line.contains(".usd, .usda, .usdc or .abc") || words == "info", "{line}");
+            assert!(line.trim_end().ends_with(way_out), "{words} {name}: {line}");
+        }
+    }
+}
