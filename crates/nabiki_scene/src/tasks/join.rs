@@ -25,7 +25,7 @@ pub fn join(files: &[PathBuf], output: &Path, watch: &mut dyn Watch) -> Result<(
     let points = u64::from(header.starts.last().copied().unwrap_or_default());
     place::room(output, frames * (28 + 12 * points), watch)?;
     let strands = header.starts.len() - 1;
-    let mut writer = Writer::create(output, &header)?;
+    let mut writer = Writer::create(output, &header, frames)?;
     drop(header);
     // The header of a cache holds fewer frames than that.
     let last = u32::try_from(frames - 1).unwrap_or(u32::MAX);
