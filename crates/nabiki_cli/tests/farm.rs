@@ -315,7 +315,7 @@ fn the_command_that_join_names_makes_what_is_missing() {
 fn the_command_that_a_gap_is_answered_with_fills_it() {
     let folder = TempDir::new().unwrap();
     fs::copy(format!("{SCENES}/gust.toml"), folder.path().join("gust.toml")).unwrap();
-    let changes = "--set motion.frames=3 --set hair.strands=20 --set picture.size=[96,64]";
+    let changes = "--set motion.frames=3 --strands 20 --set picture.size=[96,64]";
     fs::create_dir(folder.path().join("some")).unwrap();
     succeed(&folder, &format!("simulate gust.toml {changes} -o some/gust.nabiki"));
     let deep = "--set output.png_bits=16";
@@ -326,7 +326,7 @@ fn the_command_that_a_gap_is_answered_with_fills_it() {
     fs::remove_file(&gap).unwrap();
     let line = refuse(&folder, &movie);
     let (_, command) = line.trim_end().split_once("draw with nabiki ").unwrap();
-    assert!(command.contains("--motion some/gust.nabiki"), "{command}");
+    assert!(command.contains("--motion some/gust.nabiki") && command.contains("--strands 20"), "{command}");
     succeed(&folder, &command.replace('\'', ""));
     assert!(fs::read(&gap).unwrap() == was, "the same picture, to the bit");
     succeed(&folder, &movie);
