@@ -237,6 +237,7 @@ fn what_is_not_all_shards_of_one_motion_is_not_joined() {
     simulate("--frames 3 --shard 2/3 -o longer.nabiki");
     simulate("--frames 2 --shard 2/3 --set motion.time_step=0.1 -o slower.nabiki");
     simulate("--frames 2 --shard 2/3 --set hair.seed=99 -o grown.nabiki");
+    simulate("--frames 2 --shard 2/3 --set output.first_frame=1001 -o later.nabiki");
     simulate("--frames 2 --shard 2/3 --set picture.hair.width=0.02 -o thick.nabiki");
     fs::copy(folder.path().join("2_of_3.nabiki"), folder.path().join("again.nabiki")).unwrap();
     fs::write(folder.path().join("noise.nabiki"), [0x5a; 500]).unwrap();
@@ -247,6 +248,10 @@ fn what_is_not_all_shards_of_one_motion_is_not_joined() {
         ("1_of_3.nabiki longer.nabiki 3_of_3.nabiki", "longer.nabiki: holds 4 frames at 24 a second and not 3 frames"),
         ("1_of_3.nabiki slower.nabiki 3_of_3.nabiki", "slower.nabiki: was made from another scene"),
         ("1_of_3.nabiki grown.nabiki 3_of_3.nabiki", "grown.nabiki: was made from another scene"),
+        (
+            "1_of_3.nabiki later.nabiki 3_of_3.nabiki",
+            "later.nabiki: begins at frame 1001 of the shot and not 0 (output.first_frame)",
+        ),
         ("1_of_3.nabiki thick.nabiki 3_of_3.nabiki", "thick.nabiki: carries other attributes"),
         ("1_of_3.nabiki again.nabiki 2_of_3.nabiki 3_of_3.nabiki", "2_of_3.nabiki: is shard 2/3 as again.nabiki is"),
         ("1_of_3.nabiki 1_of_3.nabiki", "give each shard once"),

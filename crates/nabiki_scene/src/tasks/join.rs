@@ -87,6 +87,9 @@ impl OpenPiece {
             let [mine, others] = [(frames, header), (others_frames, others)]
                 .map(|(frames, header)| format!("{frames} frames at {} a second", header.frame_rate));
             Some(format!("holds {mine} and not {others}"))
+        } else if header.first_frame != others.first_frame {
+            let (mine, others) = (header.first_frame, others.first_frame);
+            Some(format!("begins at frame {mine} of the shot and not {others} (output.first_frame)"))
         } else {
             None
         }
