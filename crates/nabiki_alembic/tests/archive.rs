@@ -142,7 +142,7 @@ fn the_moving_head_carries_hair_and_skin() {
     }
     let motion = archive.motion("head").unwrap();
     assert_eq!(motion.len(), FRAMES);
-    for (frame, Placed { time, position, rotation }) in motion.into_iter().enumerate() {
+    for (frame, Placed { time, position, rotation, .. }) in motion.into_iter().enumerate() {
         assert!((time - (10 + frame) as f64 / 24.0).abs() < 1e-12);
         assert_eq!(position.as_vec3(), pose(frame).translation.as_vec3());
         let turn = Quat::from_rotation_y(0.1 * frame as f32);

@@ -272,6 +272,10 @@ pub struct Movie {
     /// Any setting of the scene in TOML, as often as wanted
     #[arg(long = "set", value_name = "KEY=VALUE", requires = "scene")]
     pub sets: Vec<String>,
+
+    /// Strands of the scene's that they show, as they were drawn with: said again with the command for a missing frame
+    #[arg(long, value_name = "N", requires = "scene", value_parser = positive::<usize>)]
+    pub strands: Option<usize>,
 }
 
 #[derive(Args)]

@@ -99,6 +99,7 @@ pub fn movie(args: &Movie, terminal: &mut Terminal) -> Result<()> {
         output: args.output.clone(),
         scene: scene.transpose()?,
         sets: args.sets.clone(),
+        strands: args.strands,
     };
     tasks::movie(&options, terminal)
 }

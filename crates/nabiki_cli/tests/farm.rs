@@ -237,6 +237,7 @@ fn what_is_not_all_shards_of_one_motion_is_not_joined() {
     simulate("--frames 3 --shard 2/3 -o longer.nabiki");
     simulate("--frames 2 --shard 2/3 --set motion.time_step=0.1 -o slower.nabiki");
     simulate("--frames 2 --shard 2/3 --set hair.seed=99 -o grown.nabiki");
+    simulate("--frames 2 --shard 2/3 --set output.first_frame=1001 -o later.nabiki");
     simulate("--frames 2 --shard 2/3 --set picture.hair.width=0.02 -o thick.nabiki");
     fs::copy(folder.path().join("2_of_3.nabiki"), folder.path().join("again.nabiki")).unwrap();
     fs::write(folder.path().join("noise.nabiki"), [0x5a; 500]).unwrap();
@@ -247,6 +248,10 @@ fn what_is_not_all_shards_of_one_motion_is_not_joined() {
         ("1_of_3.nabiki longer.nabiki 3_of_3.nabiki", "longer.nabiki: holds 4 frames at 24 a second and not 3 frames"),
         ("1_of_3.nabiki slower.nabiki 3_of_3.nabiki", "slower.nabiki: was made from another scene"),
         ("1_of_3.nabiki grown.nabiki 3_of_3.nabiki", "grown.nabiki: was made from another scene"),
+        (
+            "1_of_3.nabiki later.nabiki 3_of_3.nabiki",
+            "later.nabiki: begins at frame 1001 of the shot and not 0 (output.first_frame)",
+        ),
         ("1_of_3.nabiki thick.nabiki 3_of_3.nabiki", "thick.nabiki: carries other attributes"),
         ("1_of_3.nabiki again.nabiki 2_of_3.nabiki 3_of_3.nabiki", "2_of_3.nabiki: is shard 2/3 as again.nabiki is"),
         ("1_of_3.nabiki 1_of_3.nabiki", "give each shard once"),
@@ -315,7 +320,7 @@ fn the_command_that_join_names_makes_what_is_missing() {
 fn the_command_that_a_gap_is_answered_with_fills_it() {
     let folder = TempDir::new().unwrap();
     fs::copy(format!("{SCENES}/gust.toml"), folder.path().join("gust.toml")).unwrap();
-    let changes = "--set motion.frames=3 --set hair.strands=20 --set picture.size=[96,64]";
+    let changes = "--set motion.frames=3 --strands 20 --set picture.size=[96,64]";
     fs::create_dir(folder.path().join("some")).unwrap();
     succeed(&folder, &format!("simulate gust.toml {changes} -o some/gust.nabiki"));
     let deep = "--set output.png_bits=16";
@@ -326,7 +331,7 @@ fn the_command_that_a_gap_is_answered_with_fills_it() {
     fs::remove_file(&gap).unwrap();
     let line = refuse(&folder, &movie);
     let (_, command) = line.trim_end().split_once("draw with nabiki ").unwrap();
-    assert!(command.contains("--motion some/gust.nabiki"), "{command}");
+    assert!(command.contains("--motion some/gust.nabiki") && command.contains("--strands 20"), "{command}");
     succeed(&folder, &command.replace('\'', ""));
     assert!(fs::read(&gap).unwrap() == was, "the same picture, to the bit");
     succeed(&folder, &movie);

@@ -138,6 +138,10 @@ fn the_pose_of_a_moving_head_is_not_dropped_without_a_word() {
     succeed(&folder, &format!("simulate scene.toml -o m.nabiki {FEW} {motion}"));
     let said = succeed(&folder, "convert m.nabiki out.hair --frame 2");
     assert!(said.contains("the head's pose"), "{said}");
+    for name in ["out.usda", "out.usdc", "out.abc"] {
+        let said = succeed(&folder, &format!("convert m.nabiki {name} --frame 2"));
+        assert!(!said.contains("pose"), "{said}");
+    }
     let still = succeed(&folder, &format!("simulate scene.toml -o s.nabiki {FEW}"));
     assert!(!still.contains("pose"), "{still}");
 }

@@ -79,6 +79,48 @@ fn a_cache_of_imported_hair_goes_back_into_the_space_of_its_file() {
     assert_eq!(hair::read(&folder.join("tips.hair")).unwrap().strands, moved.strands, "also where no unit is said");
 }
 
+// Grown hair and hair of a file, on a head that is moved about its own world: one frame stands where the frame of all stands.
+#[test]
+fn one_frame_of_a_moving_head_stands_where_it_stands_among_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    groom(folder);
+    fs::write(
+        folder.join("grown.toml"),
+        "[hair]\nstrands = 20\n\n[motion]\nframes = 3\n\n[[force]]\nthrough = 3\nvector = [-10, 0, 0]\n",
+    )
+    .unwrap();
+    let track = "t_s,px_m,py_m,pz_m,qx,qy,qz,qw\n0,0,1.6,0,0,0,0,1\n0.125,0.5,1.7,-0.2,0,0.6,0,0.8\n";
+    fs::write(folder.join("head.csv"), track).unwrap();
+    for scene in ["scene.toml", "grown.toml"] {
+        for at_origin in [false, true] {
+            let motion =
+                format!("head.motion={{file=\"head.csv\",up=\"+y\",facing=\"+x\",start_at_origin={at_origin}}}");
+            succeed(folder, &format!("simulate {scene} -o m.nabiki --set {motion}"));
+            for ending in ["usda", "usdc", "abc"] {
+                succeed(folder, &format!("convert m.nabiki all.{ending}"));
+                for frame in [0, 2] {
+                    succeed(folder, &format!("convert m.nabiki pose.{ending} --frame {frame}"));
+                    let among = exchange::hair(&folder.join(format!("all.{ending}")), frame, None).unwrap();
+                    let alone = hair::read(&folder.join(format!("pose.{ending}"))).unwrap();
+                    assert_eq!(alone.strands.starts(), among.strands.starts());
+                    let points = alone.strands.points().iter().zip(among.strands.points());
+                    let apart = points.map(|(p, q)| p.distance(*q)).fold(0.0, f32::max);
+                    // The points are rounded in the space of the file and again where they stand.
+                    let size = among.strands.points().iter().fold(1.0, |size, p| p.abs().max_element().max(size));
+                    assert!(apart <= 2.0 * size * f32::EPSILON, "{scene} {ending} {frame}: {apart}");
+                    succeed(folder, &format!("convert m.nabiki head.hair --frame {frame}"));
+                    let on_head = hair::read(&folder.join("head.hair")).unwrap();
+                    let pairs = alone.strands.points().iter().zip(on_head.strands.points());
+                    let moved = pairs.map(|(p, q)| p.distance(*q)).fold(0.0, f32::max);
+                    // By 0.35 m from the first frame to this one, in either unit.
+                    assert!(frame == 0 || moved > 0.1, "{scene} {ending}: the head's place is in the file");
+                }
+            }
+        }
+    }
+}
+
 /// Two strands below a transform, whose points are in its space.
 const BELOW: &str = "#usda 1.0
 ( metersPerUnit = 0.01

@@ -3,7 +3,7 @@
 //! A [`PartFile`] grows beside its final place, under a hidden name, and takes its own name when it is finished. Dropped
 //! unfinished, it is removed; [`remove_unfinished`] removes all that a program has open, for a handler of signals. What a
 //! killed program left behind is removed by the next one that writes to the same place: the part files of programs that
-//! run are locked.
+//! run are locked. A [`HeldFolder`] is one that others do not write into meanwhile.
 //!
 //! ```
 //! use std::io::Write;
@@ -23,6 +23,8 @@
 
 #![forbid(unsafe_code)]
 
+mod hold;
+
 use std::fs::{self, File};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
@@ -30,6 +32,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::TempPath;
+
+pub use hold::{HeldFolder, Hold};
 
 /// How the name of every part file begins.
 const MARK: &str = ".nabiki-part-";
@@ -129,11 +133,13 @@ impl Seek for PartFile {
     }
 }
 
-/// Removes every part file that this program has open: the last act of a program that is told to end.
+/// Removes every part file that this program has open, and lets go of the folders that it holds: the last act of a program
+/// that is told to end.
 pub fn remove_unfinished() {
     for part in open_parts().drain(..) {
         let _ = fs::remove_file(part);
     }
+    hold::let_go_of_all();
 }
 
 /// Bytes that a file in `folder` may grow to before the disk is full.

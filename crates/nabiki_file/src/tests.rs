@@ -84,3 +84,51 @@ fn a_name_may_be_as_long_as_the_disk_takes() {
     PartFile::create(&target).unwrap().finish().unwrap();
     assert!(target.exists());
 }
+
+#[test]
+fn a_folder_is_held_by_one_alone_or_by_many_that_allow_others() {
+    let folder = folder();
+    let hold = |hold| HeldFolder::hold(folder.path(), hold);
+    let alone = hold(Hold::Alone).unwrap();
+    assert!(hold(Hold::Alone).is_none() && hold(Hold::BesideOthers).is_none());
+    drop(alone);
+    assert_eq!(names(folder.path()), [""; 0], "the lock file goes");
+    let [first, second] = [0, 1].map(|_| hold(Hold::BesideOthers).unwrap());
+    drop(first);
+    assert!(hold(Hold::Alone).is_none(), "one is left");
+    drop(second);
+    assert_eq!(names(folder.path()), [""; 0]);
+    drop(hold(Hold::Alone).unwrap());
+}
+
+#[test]
+fn a_lock_file_that_a_killed_program_left_holds_nothing() {
+    let folder = folder();
+    fs::write(folder.path().join(".nabiki-lock"), "").unwrap();
+    for hold in [Hold::Alone, Hold::BesideOthers] {
+        drop(HeldFolder::hold(folder.path(), hold).unwrap());
+        assert_eq!(names(folder.path()), [""; 0]);
+    }
+}
+
+// Who takes a folder while another lets go of it must not be left with a lock file that is gone.
+#[cfg(unix)]
+#[test]
+fn of_many_at_once_one_has_a_folder_for_itself() {
+    let folder = folder();
+    let inside = std::sync::atomic::AtomicU32::new(0);
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                for _ in 0..200 {
+                    let Some(held) = HeldFolder::hold(folder.path(), Hold::Alone) else { continue };
+                    assert_eq!(inside.fetch_add(1, std::sync::atomic::Ordering::SeqCst), 0);
+                    std::thread::yield_now();
+                    inside.fetch_sub(1, std::sync::atomic::Ordering::SeqCst);
+                    drop(held);
+                }
+            });
+        }
+    });
+    assert_eq!(names(folder.path()), [""; 0]);
+}

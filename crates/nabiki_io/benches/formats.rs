@@ -75,7 +75,7 @@ fn write_moving(path: &Path, frames: &[Strands]) {
     let hair = Hair::from(frames[0].clone());
     if path.extension().is_some_and(|ending| ending == "nabiki") {
         let header = cache::Header::new(SceneId::default(), 24.0, &hair);
-        let mut writer = cache::Writer::create(path, &header).expect("created");
+        let mut writer = cache::Writer::create(path, &header, frames.len() as u64).expect("created");
         let head = Pose { position_cm: Vec3::ZERO, rotation: glam::Quat::IDENTITY };
         frames.iter().for_each(|strands| writer.push(&head, strands.points()).expect("pushed"));
         writer.finish().expect("finished");

@@ -12,6 +12,7 @@ use bytemuck::{AnyBitPattern, NoUninit};
 
 use crate::error::{Error, Result};
 use crate::input;
+use crate::sum::Sum;
 
 /// A number, or a small array of them, as it stands in a little-endian file.
 pub(crate) trait Scalar: AnyBitPattern + NoUninit {
@@ -36,6 +37,8 @@ pub(crate) struct Bytes<R> {
     reader: R,
     len: u64,
     at: u64,
+    /// Of what is read, where that is wanted.
+    sum: Option<Sum>,
 }
 
 impl Bytes<File> {
@@ -43,14 +46,14 @@ impl Bytes<File> {
     pub fn open(path: &Path) -> Result<Self> {
         let file = input::open(path)?;
         let len = file.metadata().map_err(|e| Error::from(e).in_file(path))?.len();
-        Ok(Self { reader: file, len, at: 0 })
+        Ok(Self { reader: file, len, at: 0, sum: None })
     }
 }
 
 impl<'a> Bytes<std::io::Cursor<&'a [u8]>> {
     /// Reads from memory.
     pub fn from_slice(bytes: &'a [u8]) -> Self {
-        Self { reader: std::io::Cursor::new(bytes), len: bytes.len() as u64, at: 0 }
+        Self { reader: std::io::Cursor::new(bytes), len: bytes.len() as u64, at: 0, sum: None }
     }
 }
 
@@ -102,8 +105,29 @@ impl<R: Read + Seek> Bytes<R> {
         self.expect(bytes.len() as u64, what)?;
         self.reader.read_exact(bytes)?;
         self.at += bytes.len() as u64;
+        if let Some(sum) = &mut self.sum {
+            sum.add(bytes);
+        }
         swap_if_big_endian(values);
         Ok(())
+    }
+
+    /// Sums up what is read from here on.
+    pub fn begin_sum(&mut self) {
+        self.sum = Some(Sum::default());
+    }
+
+    /// The sum of what was read since it began.
+    pub fn end_sum(&mut self) -> Option<u64> {
+        self.sum.take().map(|sum| sum.value())
+    }
+
+    /// The sum of the next `length` bytes.
+    pub fn sum_of(&mut self, length: u64, what: &str) -> Result<u64> {
+        self.expect(length, what)?;
+        let sum = Sum::of(&mut self.reader, length)?;
+        self.at += length;
+        Ok(sum)
     }
 
     /// One value.

@@ -21,6 +21,7 @@ use crate::{
     error::{Error, Result},
     finite,
     identity::SceneId,
+    sum::{Sum, Summing},
 };
 
 pub use origin::Origin;
@@ -29,12 +30,17 @@ pub use piece::{Piece, Shard};
 const MAGIC: &[u8; 8] = b"NABIKI\r\n";
 const VERSION: u32 = 1;
 const HEADER_BYTES: u64 = 64;
-const FRAMES_AT: u64 = 24;
 const POSE_BYTES: u64 = 28;
 /// The block of the box about all frames.
 const BOUNDS_TAG: &[u8; 8] = b"bounds  ";
 /// The block of the number of frame 0, where that is not 0.
 const START_TAG: &[u8; 8] = b"start   ";
+/// The block of the sums of header and frames.
+const SUMS_TAG: &[u8; 8] = b"sums    ";
+/// What stands in the header of a cache that has them, so that it is not taken for one of before when they are lost.
+const SUMMED: u32 = 1;
+/// What is said of bytes that have another sum.
+const DAMAGED: &str = "the bytes are not those that were written: the file is damaged; copy it again, or make it again";
 
 /// What is the same in every frame of a cache.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,20 +99,38 @@ pub struct Writer {
     file: PartFile,
     target: PathBuf,
     points: usize,
+    /// How many frames there will be.
     frames: u64,
     /// The pose of a frame of which some points are still to come, and how many there are.
     open: Option<(Pose, usize)>,
+    /// Of what there is of that frame.
+    sum: Sum,
+    /// Those of the frames that are whole.
+    sums: Vec<u64>,
     bounds: [Vec3; 2],
-    bounds_at: u64,
+    places: Places,
+}
+
+/// Where what is known in the end is to be written.
+struct Places {
+    bounds: u64,
+    sums: u64,
 }
 
 impl Writer {
-    /// Starts a cache that will be called `path`.
-    pub fn create(path: &Path, header: &Header) -> Result<Self> {
+    /// Starts a cache of so many `frames` that will be called `path`.
+    ///
+    /// # Errors
+    /// No strands or frames, a strand of fewer than two points, a frame rate that is none; what the disk says.
+    pub fn create(path: &Path, header: &Header, frames: u64) -> Result<Self> {
         let named = |e: Error| e.in_file(path);
         let shape = header.strands();
         if shape.is_empty() {
             return Err(named(Error::new("there are no strands to write")));
+        }
+        check_starts(&header.starts).map_err(named)?;
+        if frames == 0 {
+            return Err(named(Error::new("there are no frames to write")));
         }
         if !(header.frame_rate.is_finite() && header.frame_rate > 0.0) {
             return Err(named(Error::new(format!("frame rate is {}: must be above 0", header.frame_rate))));
@@ -114,23 +138,25 @@ impl Writer {
         let hair = Hair { strands: shape, attributes: header.attributes.clone() };
         hair.check_lengths().map_err(|e| named(Error::new(e.to_string())))?;
         let mut file = PartFile::create(path).map_err(|e| named(e.into()))?;
-        let bounds_at = write_header(&mut file, header).map_err(named)?;
+        let places = write_header(&mut file, header, frames).map_err(named)?;
         let bounds = [Vec3::INFINITY, Vec3::NEG_INFINITY];
         Ok(Self {
             file,
             target: path.to_owned(),
             points: header.point_count(),
-            frames: 0,
+            frames,
             open: None,
+            sum: Sum::default(),
+            sums: Vec::new(),
             bounds,
-            bounds_at,
+            places,
         })
     }
 
     /// Appends one frame: all `points` (head space, cm) and where the head is.
     pub fn push(&mut self, head: &Pose, points: &[Vec3]) -> Result<()> {
         if points.len() != self.points {
-            let what = format!("frame {}: {} points, the cache is of {}", self.frames, points.len(), self.points);
+            let what = format!("frame {}: {} points, the cache is of {}", self.frame(), points.len(), self.points);
             return Err(Error::new(what).in_file(&self.target));
         }
         self.check(points)?;
@@ -141,16 +167,20 @@ impl Writer {
     /// Begins a frame whose points come in parts, by [`part`](Self::part): it ends with the last of them.
     pub fn begin_frame(&mut self, head: &Pose) -> Result<()> {
         let refuse = |what: String| Err(Error::new(what).in_file(&self.target));
-        let frame = self.frames;
+        let frame = self.frame();
+        if frame == self.frames {
+            return refuse(format!("frame {frame}: the cache is of {frame} frames"));
+        }
         if let Some((_, given)) = self.open {
             return refuse(format!("frame {frame}: {given} points, the cache is of {}", self.points));
         }
         if !head.is_valid() {
             return refuse(format!("frame {frame}: the head is at {}, turned {}", head.position_cm, head.rotation));
         }
-        let out = &mut self.file;
-        put(out, &[head.position_cm])
-            .and_then(|()| put(out, &[head.rotation.to_array()]))
+        self.sum = Sum::default();
+        let mut out = Summing { out: &mut self.file, sum: &mut self.sum };
+        put(&mut out, &[head.position_cm])
+            .and_then(|()| put(&mut out, &[head.rotation.to_array()]))
             .map_err(|e| e.in_file(&self.target))?;
         self.open = Some((*head, 0));
         Ok(())
@@ -162,40 +192,54 @@ impl Writer {
             return Err(Error::new("points of no frame").in_file(&self.target));
         };
         if given > self.points {
-            let what = format!("frame {}: {given} points, the cache is of {}", self.frames, self.points);
+            let what = format!("frame {}: {given} points, the cache is of {}", self.frame(), self.points);
             return Err(Error::new(what).in_file(&self.target));
         }
         self.check(points)?;
-        put(&mut self.file, points).map_err(|e| e.in_file(&self.target))?;
+        put(&mut Summing { out: &mut self.file, sum: &mut self.sum }, points).map_err(|e| e.in_file(&self.target))?;
         let [low, high] = turned_bounds(points, head.rotation);
         self.bounds = [self.bounds[0].min(low), self.bounds[1].max(high)];
         self.open = (given < self.points).then_some((head, given));
-        self.frames += u64::from(given == self.points);
+        if given == self.points {
+            self.sums.push(self.sum.value());
+        }
         Ok(())
+    }
+
+    /// The number of the frame that is begun, or will be next.
+    fn frame(&self) -> u64 {
+        self.sums.len() as u64
     }
 
     /// Refuses points that are not finite.
     fn check(&self, points: &[Vec3]) -> Result<()> {
         let Some(p) = not_finite(points) else { return Ok(()) };
-        let what = format!("frame {}: point {p} is {}: refused, the file would be useless", self.frames, points[p]);
+        let what = format!("frame {}: point {p} is {}: refused, the file would be useless", self.frame(), points[p]);
         Err(Error::new(what).in_file(&self.target))
     }
 
     /// Puts the cache under its name, and returns its number of frames.
     pub fn finish(mut self) -> Result<u64> {
         let named = |e: Error| e.in_file(&self.target);
-        if self.frames == 0 {
-            return Err(named(Error::new("there are no frames to write")));
-        }
         if let Some((_, given)) = self.open {
-            let what = format!("frame {}: {given} points, the cache is of {}", self.frames, self.points);
+            let what = format!("frame {}: {given} points, the cache is of {}", self.frame(), self.points);
             return Err(named(Error::new(what)));
         }
+        if self.frame() != self.frames {
+            return Err(named(Error::new(format!("{} frames, the cache is of {}", self.frame(), self.frames))));
+        }
+        let Places { bounds, sums } = self.places;
         let out = &mut self.file;
-        out.seek(SeekFrom::Start(FRAMES_AT)).map_err(|e| named(e.into()))?;
-        put(out, &[self.frames]).map_err(named)?;
-        out.seek(SeekFrom::Start(self.bounds_at)).map_err(|e| named(e.into()))?;
-        put(out, &self.bounds).map_err(named)?;
+        let complete = |out: &mut PartFile| -> Result<()> {
+            out.seek(SeekFrom::Start(bounds))?;
+            put(out, &self.bounds)?;
+            out.seek(SeekFrom::Start(0))?;
+            let header = Sum::of(out, sums)?;
+            out.seek(SeekFrom::Start(sums))?;
+            put(out, &[header])?;
+            put(out, &self.sums)
+        };
+        complete(out).map_err(named)?;
         self.file.finish().map_err(|e| Error::from(e).in_file(&self.target))?;
         Ok(self.frames)
     }
@@ -212,8 +256,7 @@ fn turned_bounds(points: &[Vec3], turn: Quat) -> [Vec3; 2] {
     })
 }
 
-/// Returns where the bounds are to be written in the end.
-fn write_header(out: &mut dyn Write, header: &Header) -> Result<u64> {
+fn write_header(out: &mut dyn Write, header: &Header, frames: u64) -> Result<Places> {
     let mut blocks = Vec::new();
     put(&mut blocks, &header.starts)?;
     blocks.resize(blocks.len().next_multiple_of(8), 0);
@@ -231,13 +274,18 @@ fn write_header(out: &mut dyn Write, header: &Header) -> Result<u64> {
     attributes::block(&mut blocks, START_TAG, start.as_ref().map(|start| &start[..]))?;
     let none = [Vec3::INFINITY, Vec3::NEG_INFINITY];
     attributes::block(&mut blocks, BOUNDS_TAG, Some(&none))?;
+    let bounds = HEADER_BYTES + (blocks.len() - size_of_val(&none)) as u64;
+    let room = usize::try_from(frames).ok().and_then(|n| n.checked_add(1)).filter(|&n| n < isize::MAX as usize / 8);
+    let room = vec![0_u64; room.ok_or_else(|| Error::new(format!("{frames} frames: more than memory has room for")))?];
+    attributes::block(&mut blocks, SUMS_TAG, Some(&room))?;
+    let sums = HEADER_BYTES + (blocks.len() - size_of_val(&room[..])) as u64;
     out.write_all(MAGIC)?;
-    put(out, &[VERSION, header.strand_count() as u32, header.point_count() as u32, 0])?;
-    put(out, &[0, HEADER_BYTES + blocks.len() as u64])?;
+    put(out, &[VERSION, header.strand_count() as u32, header.point_count() as u32, SUMMED])?;
+    put(out, &[frames, HEADER_BYTES + blocks.len() as u64])?;
     put(out, &[header.frame_rate])?;
     out.write_all(&header.scene.0.to_le_bytes())?;
     out.write_all(&blocks)?;
-    Ok(HEADER_BYTES + (blocks.len() - size_of_val(&none)) as u64)
+    Ok(Places { bounds, sums })
 }
 
 /// Reads any frame of a cache.
@@ -246,12 +294,14 @@ pub struct Reader<R = File> {
     path: PathBuf,
     header: Header,
     bounds: Option<[Vec3; 2]>,
+    /// Those of the frames.
+    sums: Option<Vec<u64>>,
     frames: u64,
     first_frame_at: u64,
 }
 
 impl Reader {
-    /// Opens a cache and checks its header against the file's length.
+    /// Opens a cache and checks its header, by its sum and against the file's length.
     pub fn open(path: &Path) -> Result<Self> {
         Self::from_source(Bytes::open(path)?, path)
     }
@@ -266,8 +316,9 @@ impl<'a> Reader<std::io::Cursor<&'a [u8]>> {
 
 impl<R: std::io::Read + Seek> Reader<R> {
     fn from_source(mut source: Bytes<R>, path: &Path) -> Result<Self> {
-        let Start { header, bounds, frames, first_frame_at } = read_header(&mut source).map_err(|e| e.in_file(path))?;
-        Ok(Self { source, path: path.to_owned(), header, bounds, frames, first_frame_at })
+        let start = read_header(&mut source).map_err(|e| e.in_file(path))?;
+        let Start { header, bounds, sums, frames, first_frame_at } = start;
+        Ok(Self { source, path: path.to_owned(), header, bounds, sums, frames, first_frame_at })
     }
 
     /// The file.
@@ -286,12 +337,20 @@ impl<R: std::io::Read + Seek> Reader<R> {
         self.bounds
     }
 
+    /// Whether it has sums of its bytes, by which damage is found; a cache of before that was kept has none.
+    pub fn is_summed(&self) -> bool {
+        self.sums.is_some()
+    }
+
     /// Number of frames, numbered from 0; frame 0 is the hair at rest.
     pub fn frame_count(&self) -> u64 {
         self.frames
     }
 
     /// Reads one frame into `strands`, made by [`Header::strands`], and returns where the head is.
+    ///
+    /// # Errors
+    /// A frame that is not in the cache, or is not as it was written; `strands` of another number of points.
     pub fn read(&mut self, frame: u64, strands: &mut Strands) -> Result<Pose> {
         let path = self.path.clone();
         self.read_frame(frame, strands).map_err(|e| e.in_file(&path))
@@ -307,10 +366,17 @@ impl<R: std::io::Read + Seek> Reader<R> {
             return Err(Error::new(format!("frame {frame}: room for {given} points, the cache has {own}")));
         }
         self.source.seek(self.first_frame_at + frame * self.header.frame_bytes())?;
+        let noted = self.sums.as_ref().map(|sums| sums[frame as usize]);
+        if noted.is_some() {
+            self.source.begin_sum();
+        }
         let position_cm: Vec3 = self.source.value("head position")?;
         let rotation = Quat::from_array(self.source.value("head rotation")?);
         let pose = Pose { position_cm, rotation };
         self.source.fill(strands.points_mut(), "points")?;
+        if self.source.end_sum() != noted {
+            return Err(Error::new(format!("frame {frame}: {DAMAGED}")));
+        }
         if !pose.is_valid() {
             let line =
                 format!("the head is at {position_cm}, turned {rotation}, which is no pose: the file is damaged");
@@ -332,8 +398,22 @@ impl<R: std::io::Read + Seek> Reader<R> {
 struct Start {
     header: Header,
     bounds: Option<[Vec3; 2]>,
+    sums: Option<Vec<u64>>,
     frames: u64,
     first_frame_at: u64,
+}
+
+/// Refuses strands of fewer than two points, which have no segment.
+fn check_starts(starts: &[u32]) -> Result<()> {
+    let too_short = |pair: &[u32]| pair[1].checked_sub(pair[0]).is_none_or(|points| points < 2);
+    match starts.windows(2).position(too_short) {
+        None => Ok(()),
+        Some(s) => Err(Error::new(format!(
+            "strand {s}: starts at point {} and the next at {}: a strand has 2 points at least",
+            starts[s],
+            starts[s + 1]
+        ))),
+    }
 }
 
 fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<Start> {
@@ -341,7 +421,7 @@ fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<Start> 
     if source.array::<u8>(8, "magic")? != MAGIC {
         return Err(Error::new("does not start with NABIKI: not a motion cache"));
     }
-    let [version, strand_count, point_count, _]: [u32; 4] = source.value("counts")?;
+    let [version, strand_count, point_count, summed]: [u32; 4] = source.value("counts")?;
     if version != VERSION {
         return Err(Error::new(format!("version is {version}: this program reads version {VERSION}")));
     }
@@ -365,13 +445,16 @@ fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<Start> 
         )));
     }
     let starts: Vec<u32> = source.array(strand_count as usize + 1, "starts")?;
-    if starts[0] != 0 || !starts.is_sorted() || starts.last() != Some(&point_count) {
+    if starts[0] != 0 || starts.last() != Some(&point_count) {
         return Err(Error::new(format!("starts of strands do not rise from 0 to {point_count}: the file is damaged")));
     }
+    check_starts(&starts).map_err(|e| Error::new(format!("{}: the file is damaged", e.what)))?;
     let blocks_at = HEADER_BYTES + (starts.len() as u64 * 4).next_multiple_of(8);
     source.seek(blocks_at)?;
-    let attributes::Blocks { attributes, origin, piece, bounds, first_frame } =
-        attributes::read(source, first_frame_at, strand_count as usize, point_count as usize)?;
+    let counts = attributes::Counts { strands: strand_count as usize, points: point_count as usize, frames };
+    let attributes::Blocks { attributes, origin, piece, bounds, first_frame, sums } =
+        attributes::read(source, first_frame_at, counts)?;
+    let sums = check_header_sum(source, summed, sums)?;
     if let Some(piece) = &piece {
         let expected = piece.shard.range(usize::try_from(piece.strands).unwrap_or(usize::MAX)).len();
         if expected != strand_count as usize {
@@ -380,5 +463,20 @@ fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<Start> 
         }
     }
     let header = Header { scene, frame_rate, first_frame, starts, attributes, origin, piece };
-    Ok(Start { header, bounds, frames, first_frame_at })
+    Ok(Start { header, bounds, sums, frames, first_frame_at })
+}
+
+/// Holds what stands before the sums against its own, and returns those of the frames.
+fn check_header_sum<R: std::io::Read + Seek>(
+    source: &mut Bytes<R>,
+    summed: u32,
+    sums: Option<attributes::Sums>,
+) -> Result<Option<Vec<u64>>> {
+    let damaged = || Error::new(format!("header: {DAMAGED}"));
+    let Some(sums) = sums else { return if summed == SUMMED { Err(damaged()) } else { Ok(None) } };
+    source.seek(0)?;
+    if source.sum_of(sums.at, "header")? != sums.header {
+        return Err(damaged());
+    }
+    Ok(Some(sums.frames))
 }

@@ -357,18 +357,18 @@ pub fn still(hair: &Hair, declared: DeclaredSpace) -> Export<'_> {
 /// # Errors
 /// What the disk says.
 pub fn write(path: &Path, hair: &Hair, declared: DeclaredSpace) -> Result<()> {
-    write_still(path, still(hair, declared))
+    write_still(path, still(hair, declared), &DAffine3::IDENTITY)
 }
 
-/// Writes hair that stands still, as `export` says.
+/// Writes hair that stands still, as `export` says, below a head that is at `world_from_head` (cm).
 ///
 /// # Errors
 /// What the disk says.
-pub fn write_still(path: &Path, export: Export<'_>) -> Result<()> {
+pub fn write_still(path: &Path, export: Export<'_>, world_from_head: &DAffine3) -> Result<()> {
     let hair = export.hair;
     let mut sink = sink(path, export, None)?;
     let named = |e: std::io::Error| Error::from(e).in_file(path);
-    sink.frame(&hair.strands, &DAffine3::IDENTITY).map_err(named)?;
+    sink.frame(&hair.strands, world_from_head).map_err(named)?;
     sink.finish().map_err(named)
 }
 

@@ -40,6 +40,7 @@ pub mod obj_lines;
 mod obj_text;
 pub mod placement;
 mod short;
+mod sum;
 pub mod tfx;
 mod unit;
 

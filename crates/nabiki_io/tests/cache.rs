@@ -4,6 +4,7 @@
 mod samples;
 
 use nabiki_io::cache::{Header, Reader, Writer};
+use twox_hash::XxHash3_64;
 
 #[test]
 fn every_frame_comes_back_to_the_bit_in_any_order_with_its_attributes() {
@@ -26,7 +27,7 @@ fn every_frame_comes_back_to_the_bit_in_any_order_with_its_attributes() {
 // A later version's tag in its place, the block is passed over: readers that do not know it read the rest.
 #[test]
 fn a_block_of_an_unknown_tag_is_passed_over() {
-    let mut bytes = samples::cache_bytes();
+    let mut bytes = samples::cache_bytes_without_sums();
     let mut renamed = 0;
     for at in (0..bytes.len() - 8).step_by(8) {
         if &bytes[at..at + 8] == b"other   " {
@@ -40,7 +41,7 @@ fn a_block_of_an_unknown_tag_is_passed_over() {
 
 #[test]
 fn attributes_under_their_own_names_that_lie_are_refused() {
-    let bytes = samples::cache_bytes();
+    let bytes = samples::cache_bytes_without_sums();
     let named = |name: &[u8]| bytes.windows(name.len()).position(|w| w == name).unwrap();
     let altered = |at: usize, word: u32| {
         let mut bytes = bytes.clone();
@@ -66,7 +67,7 @@ fn an_unfinished_cache_leaves_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let hair = samples::hair(&[2]);
     let header = Header::new(Default::default(), 24.0, &hair);
-    let mut writer = Writer::create(&folder.path().join("motion.nabiki"), &header).unwrap();
+    let mut writer = Writer::create(&folder.path().join("motion.nabiki"), &header, 2).unwrap();
     writer.push(&samples::pose(0), hair.strands.points()).unwrap();
     drop(writer);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
@@ -79,22 +80,29 @@ fn what_would_make_a_useless_cache_is_not_written() {
     let hair = samples::hair(&[2]);
     let header = Header::new(Default::default(), 24.0, &hair);
     let named = |text: &str| format!("{}: {text}", path.display());
-    let refused = |header: &Header| Writer::create(&path, header).err().unwrap().to_string();
+    let refused = |header: &Header| Writer::create(&path, header, 2).err().unwrap().to_string();
     assert_eq!(refused(&Header { frame_rate: 0.0, ..header.clone() }), named("frame rate is 0: must be above 0"));
     let mut no_strands = header.clone();
     no_strands.starts = vec![0];
     assert_eq!(refused(&no_strands), named("there are no strands to write"));
 
-    let mut writer = Writer::create(&path, &header).unwrap();
+    let mut stub = header.clone();
+    stub.starts = vec![0, 1, 2];
+    stub.attributes = Default::default();
+    assert_eq!(refused(&stub), named("strand 0: starts at point 0 and the next at 1: a strand has 2 points at least"));
+    let none = Writer::create(&path, &header, 0).err().unwrap().to_string();
+    assert_eq!(none, named("there are no frames to write"));
+
+    let mut writer = Writer::create(&path, &header, 2).unwrap();
     let mut points = hair.strands.points().to_vec();
     points[1].y = f32::NAN;
     let error = writer.push(&samples::pose(0), &points).unwrap_err().to_string();
     assert!(error.contains("frame 0: point 1 is [0, NaN, 0.25]"), "{error}");
     let error = writer.push(&samples::pose(0), &points[..1]).unwrap_err().to_string();
     assert_eq!(error, named("frame 0: 1 points, the cache is of 2"));
-    assert_eq!(writer.finish().unwrap_err().to_string(), named("there are no frames to write"));
+    assert_eq!(writer.finish().unwrap_err().to_string(), named("0 frames, the cache is of 2"));
     let nowhere = folder.path().join("absent/motion.nabiki");
-    assert!(Writer::create(&nowhere, &header).is_err());
+    assert!(Writer::create(&nowhere, &header, 2).is_err());
 }
 
 #[test]
@@ -106,7 +114,7 @@ fn a_cache_cut_short_says_how_many_frames_it_holds() {
 
 #[test]
 fn a_rotation_of_another_length_than_1_is_neither_read_nor_written() {
-    let mut bytes = samples::cache_bytes();
+    let mut bytes = samples::cache_bytes_without_sums();
     // Of the last frame, of 28 + 12 x 9 bytes, behind the position.
     let rotation = bytes.len() - 136 + 12;
     bytes[rotation..rotation + 16].fill(0);
@@ -119,7 +127,7 @@ fn a_rotation_of_another_length_than_1_is_neither_read_nor_written() {
     let folder = tempfile::tempdir().unwrap();
     let hair = samples::hair(&[2]);
     let path = folder.path().join("motion.nabiki");
-    let mut writer = Writer::create(&path, &Header::new(Default::default(), 24.0, &hair)).unwrap();
+    let mut writer = Writer::create(&path, &Header::new(Default::default(), 24.0, &hair), 1).unwrap();
     let flattened = nabiki::Pose { rotation: samples::pose(0).rotation * 0.5, ..samples::pose(0) };
     let error = writer.push(&flattened, hair.strands.points()).unwrap_err().to_string();
     assert!(error.contains("frame 0: the head is at"), "{error}");
@@ -133,7 +141,7 @@ fn frames_in_parts_are_frames_and_all_lie_in_the_bounds() {
     let header = samples::write_cache(&whole);
     let hair = samples::whole(&[3, 2, 4]);
     for size in [1, 2, 4, 9, 100] {
-        let mut writer = Writer::create(&parts, &header).unwrap();
+        let mut writer = Writer::create(&parts, &header, 3).unwrap();
         for frame in 0..3 {
             writer.begin_frame(&samples::pose(frame)).unwrap();
             samples::frame_points(&hair, frame).chunks(size).for_each(|part| writer.part(part).unwrap());
@@ -159,7 +167,7 @@ fn a_frame_that_is_not_whole_is_refused() {
     std::fs::remove_file(&path).unwrap();
     let points = samples::frame_points(&samples::whole(&[3, 2, 4]), 0);
     let writer = || {
-        let mut writer = Writer::create(&path, &header).unwrap();
+        let mut writer = Writer::create(&path, &header, 2).unwrap();
         writer.begin_frame(&samples::pose(0)).unwrap();
         writer
     };
@@ -167,7 +175,7 @@ fn a_frame_that_is_not_whole_is_refused() {
     let mut short = writer();
     short.part(&points[..8]).unwrap();
     assert!(said(short.begin_frame(&samples::pose(1))).ends_with("frame 0: 8 points, the cache is of 9"));
-    assert!(said(short.finish().map(drop)).contains("no frames"));
+    assert!(said(short.finish().map(drop)).ends_with("frame 0: 8 points, the cache is of 9"));
     let mut second = writer();
     second.part(&points).unwrap();
     second.begin_frame(&samples::pose(1)).unwrap();
@@ -177,6 +185,13 @@ fn a_frame_that_is_not_whole_is_refused() {
     long.part(&points[..8]).unwrap();
     assert!(said(long.part(&points[..2])).ends_with("frame 0: 10 points, the cache is of 9"));
     drop(long);
+    let mut one_more = writer();
+    for n in 0..2 {
+        one_more.part(&points).unwrap();
+        assert_eq!(one_more.begin_frame(&samples::pose(n + 1)).is_ok(), n == 0);
+    }
+    assert!(said(one_more.begin_frame(&samples::pose(2))).ends_with("frame 2: the cache is of 2 frames"));
+    drop(one_more);
     assert!(!path.exists());
 }
 
@@ -187,7 +202,7 @@ fn the_number_of_the_first_frame_is_kept_where_it_is_not_0() {
     let hair = samples::hair(&[2]);
     for first_frame in [1001, -24, 0] {
         let header = Header { first_frame, ..Header::new(Default::default(), 24.0, &hair) };
-        let mut writer = Writer::create(&path, &header).unwrap();
+        let mut writer = Writer::create(&path, &header, 1).unwrap();
         writer.push(&samples::pose(0), hair.strands.points()).unwrap();
         writer.finish().unwrap();
         assert_eq!(Reader::open(&path).unwrap().header().first_frame, first_frame);
@@ -207,4 +222,95 @@ fn info_tells_how_far_a_point_is_in_the_last_frame_from_where_it_was_in_the_firs
     // Every point goes by (0.1, -0.3, 0.7) a frame, of which there are three.
     assert!((found.farthest_move - 2.0 * 0.59f32.sqrt()).abs() < 1e-5, "{}", found.farthest_move);
     assert!(found.head_moves);
+}
+
+// Points of a hole in a file, a bit that has turned over, a block that is lost: whatever is no longer what was written is found.
+#[test]
+fn any_damage_to_a_cache_is_refused_by_the_frame_or_the_header() {
+    let bytes = samples::cache_bytes();
+    let read = |bytes: &[u8]| {
+        let mut reader = Reader::from_bytes(bytes).map_err(|e| e.to_string())?;
+        assert!(reader.is_summed());
+        let said = |n: u64, reader: &mut Reader<_>| reader.hair(n).map_err(|e| e.to_string());
+        let frames: Vec<_> = (0..3).map(|n| said(n, &mut reader)).collect();
+        Ok::<_, String>(frames)
+    };
+    assert!(read(&bytes).unwrap().iter().all(Result::is_ok));
+    let way_out = "the bytes are not those that were written: the file is damaged; copy it again, or make it again";
+    let first_frame = bytes.len() - 3 * 136;
+    let mut damaged = bytes.clone();
+    for at in 0..bytes.len() {
+        for bit in 0..8 {
+            damaged[at] ^= 1 << bit;
+            let found = read(&damaged);
+            // In the header nothing is read any longer; of the frames, the one that is damaged.
+            if at >= first_frame {
+                let frame = (at - first_frame) / 136;
+                for (n, of_frame) in found.unwrap().into_iter().enumerate() {
+                    let expected = (n == frame).then(|| format!("cache: frame {n}: {way_out}"));
+                    assert_eq!(of_frame.err(), expected, "byte {at}, bit {bit}");
+                }
+            } else {
+                assert!(found.is_err() || found.unwrap().iter().any(Result::is_err), "byte {at}, bit {bit}");
+            }
+            damaged[at] = bytes[at];
+        }
+    }
+    for frame in 0..3 {
+        let points = first_frame + frame * 136 + 28..first_frame + (frame + 1) * 136;
+        damaged[points.clone()].fill(0);
+        let found = read(&damaged).unwrap();
+        assert_eq!(found.iter().position(Result::is_err), Some(frame));
+        damaged[points.clone()].copy_from_slice(&bytes[points]);
+    }
+    // Hair that begins elsewhere, of strands that are whole.
+    let starts = [0_u32, 3, 5, 9].map(u32::to_le_bytes).concat();
+    assert_eq!(bytes[64..80], starts);
+    damaged[72..76].copy_from_slice(&6_u32.to_le_bytes());
+    assert_eq!(read(&damaged).unwrap_err(), format!("cache: header: {way_out}"));
+}
+
+// As docs/cache.md has it, with nothing of the writer's.
+#[test]
+fn sums_are_those_that_the_document_describes() {
+    let bytes = samples::cache_bytes();
+    let at = bytes.windows(8).position(|tag| tag == b"sums    ").unwrap() + 16;
+    let sums: Vec<u64> = bytes[at..at + 32].chunks(8).map(|n| u64::from_le_bytes(n.try_into().unwrap())).collect();
+    let frames = bytes.len() - 3 * 136;
+    assert_eq!((at % 8, at + 32, bytes[20..24].to_vec()), (0, frames, vec![1, 0, 0, 0]));
+    assert_eq!(bytes[at - 8..at], 32_u64.to_le_bytes());
+    let all = std::iter::once(&bytes[..at]).chain(bytes[frames..].chunks(136));
+    assert_eq!(sums, all.map(XxHash3_64::oneshot).collect::<Vec<_>>());
+    // The algorithm is the one of that name: its sum of no bytes, as its authors give it.
+    assert_eq!(XxHash3_64::oneshot(b""), 0x2d06_8005_38d3_94c2);
+}
+
+#[test]
+fn a_cache_of_before_there_were_sums_is_read() {
+    let (old, new) = (samples::cache_bytes_without_sums(), samples::cache_bytes());
+    let (mut old, mut new) = (Reader::from_bytes(&old).unwrap(), Reader::from_bytes(&new).unwrap());
+    assert!(new.is_summed() && !old.is_summed());
+    assert_eq!(old.header(), new.header());
+    (0..3).for_each(|frame| assert_eq!(old.hair(frame).unwrap(), new.hair(frame).unwrap()));
+    let mut lost = samples::cache_bytes_without_sums();
+    lost[20] = 1;
+    assert!(Reader::from_bytes(&lost).err().unwrap().to_string().contains("header: the bytes are not those"));
+}
+
+#[test]
+fn strands_of_fewer_than_two_points_are_refused() {
+    let bytes = samples::cache_bytes_without_sums();
+    // The starts are 0, 3, 5, 9.
+    for (strand, start, line) in [
+        (1, 0_u32, "strand 0: starts at point 0 and the next at 0"),
+        (1, 1, "strand 0: starts at point 0 and the next at 1"),
+        (1, 4, "strand 1: starts at point 4 and the next at 5"),
+        (2, 2, "strand 1: starts at point 3 and the next at 2"),
+        (2, u32::MAX, "strand 2: starts at point 4294967295 and the next at 9"),
+    ] {
+        let mut damaged = bytes.clone();
+        damaged[64 + 4 * strand..][..4].copy_from_slice(&start.to_le_bytes());
+        let said = Reader::from_bytes(&damaged).err().unwrap().to_string();
+        assert_eq!(said, format!("cache: {line}: a strand has 2 points at least: the file is damaged"));
+    }
 }

@@ -16,7 +16,7 @@ const FORMATS: [&str; 6] = ["hair", "tfx", "usda", "usdc", "abc", "nabiki"];
 
 fn write(path: &Path, hair: &Hair) {
     if path.extension().is_some_and(|ending| ending == "nabiki") {
-        let mut writer = cache::Writer::create(path, &cache::Header::new(SceneId(7), 24.0, hair)).unwrap();
+        let mut writer = cache::Writer::create(path, &cache::Header::new(SceneId(7), 24.0, hair), 1).unwrap();
         let head = Pose { position_cm: Vec3::ZERO, rotation: Quat::IDENTITY };
         writer.push(&head, hair.strands.points()).unwrap();
         writer.finish().unwrap();

@@ -106,7 +106,7 @@ proptest! {
         let path = folder.path().join("motion.nabiki");
         let pose = Pose { position_cm: head.0.into(), rotation: Quat::from_array(head.1).normalize() };
         let header = Header::new(SceneId(scene), 23.976, &hair);
-        let mut writer = Writer::create(&path, &header).unwrap();
+        let mut writer = Writer::create(&path, &header, 1).unwrap();
         writer.push(&pose, hair.strands.points()).unwrap();
         writer.finish().unwrap();
         let mut reader = Reader::open(&path).unwrap();

@@ -21,14 +21,15 @@ impl<'a> SceneCache<'a> {
     pub fn begin(built: &'a BuiltScene, path: &Path, piece: Option<Piece>, watch: &mut dyn Watch) -> Result<Self> {
         let points = built.hair.strands.points().len() as u64;
         // A pose of seven numbers and the points, all of four bytes.
-        place::room(path, (u64::from(built.frames()) + 1) * (28 + 12 * points), watch)?;
+        let frames = u64::from(built.frames()) + 1;
+        place::room(path, frames * (28 + 12 * points), watch)?;
         let mut header = Header::new(built.identity()?, built.scene.frame_rate(), &built.hair);
         header.first_frame = built.first_frame();
         header.origin = built.hair_origin();
         if let Some(piece) = piece {
             header = header.of_piece(piece);
         }
-        Ok(Self { built, writer: Writer::create(path, &header)? })
+        Ok(Self { built, writer: Writer::create(path, &header, frames)? })
     }
 
     /// Takes the next frame, `n`.

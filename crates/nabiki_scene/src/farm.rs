@@ -119,6 +119,7 @@ impl Plan {
         ];
         if self.movie {
             let mut movie = vec!["movie".into(), result(&stills), "--scene".into(), scene()];
+            movie.extend(self.strands());
             movie.extend(self.changes());
             movie.extend(["-o".into(), result(&format!("{name}.mp4")), "--quiet".into()]);
             steps.push(step("Movie", Tasks::One, movie));

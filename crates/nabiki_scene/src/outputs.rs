@@ -4,6 +4,7 @@ use std::fs;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
+use nabiki_file::{HeldFolder, Hold};
 use nabiki_render::output::field_plot::{self, FieldPlot};
 use nabiki_render::output::{exr, png};
 use nabiki_render::{ContactSheet, Frame, Movie, Picture, RenderError, ToneMapping, View};
@@ -25,24 +26,32 @@ type WriteField = fn(&Path, &FieldPlot) -> Result<(), RenderError>;
 pub(crate) struct Stills {
     folder: PathBuf,
     output: Output,
+    /// Frames of two films would take each other's place.
+    _held: HeldFolder,
 }
 
 impl Stills {
-    /// Begins, in `folder`, the stills of the frames `wanted`, of so many pixels. What cannot be written is refused.
+    /// Begins, in `folder`, the stills of the frames `wanted`, of so many pixels. What cannot be written is refused, and so is
+    /// a folder that another command writes into, unless both `hold` it beside others.
     pub fn begin(
         folder: PathBuf,
         output: &Output,
         wanted: RangeInclusive<u32>,
         size: [u32; 2],
+        hold: Hold,
         folders: &mut Folders,
         watch: &mut dyn Watch,
     ) -> Result<Self> {
         folders.make(&folder, WAY_OUT)?;
+        let Some(held) = HeldFolder::hold(&folder, hold) else {
+            let line = "another command is writing frames into this folder; wait until it is done, or";
+            return Err(Error::refused(format!("{}: {line} {WAY_OUT}", folder.display())));
+        };
         let mut replaced = numbered(&folder, output).into_iter().filter(|(n, _)| wanted.contains(n));
         replaced.try_for_each(|(_, file)| place::free(&file, WAY_OUT))?;
         let frames = u64::from(wanted.end() - wanted.start()) + 1;
         place::room(&folder, frames.saturating_mul(least_bytes(output, size)), watch)?;
-        Ok(Self { folder, output: output.clone() })
+        Ok(Self { folder, output: output.clone(), _held: held })
     }
 
     /// Writes frame `n`.
@@ -143,7 +152,10 @@ impl<'a> PictureOutputs<'a> {
         files.iter().try_for_each(|file| place::free(file, WAY_OUT))?;
         place::not_inputs(&files, inputs)?;
         let stills = (output.png_frames || output.exr_frames)
-            .then(|| Stills::begin(stills_folder(folder, name), output, 0..=last, picture.size, folders, watch))
+            .then(|| {
+                let stills = stills_folder(folder, name);
+                Stills::begin(stills, output, 0..=last, picture.size, Hold::Alone, folders, watch)
+            })
             .transpose()?;
         let movie = match movie_file {
             Some(file) => {

@@ -6,7 +6,7 @@ use glam::Vec3;
 use nabiki::hair::Attributes;
 
 use super::{
-    BOUNDS_TAG, START_TAG,
+    BOUNDS_TAG, START_TAG, SUMS_TAG,
     origin::{self, Origin},
     other,
     piece::{self, Piece},
@@ -62,11 +62,31 @@ pub(super) struct Blocks {
     pub piece: Option<Piece>,
     pub bounds: Option<[Vec3; 2]>,
     pub first_frame: i32,
+    pub sums: Option<Sums>,
+}
+
+/// What was noted of the bytes that were written.
+pub(super) struct Sums {
+    /// The offset at which the block's values begin.
+    pub at: u64,
+    /// The sum of all before them.
+    pub header: u64,
+    /// That of each frame.
+    pub frames: Vec<u64>,
+}
+
+/// How many of each a cache has.
+#[derive(Clone, Copy)]
+pub(super) struct Counts {
+    pub strands: usize,
+    pub points: usize,
+    pub frames: u64,
 }
 
 /// Reads the blocks up to the offset `end`; tags of later versions are passed over.
-pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, end: u64, strands: usize, points: usize) -> Result<Blocks> {
-    let Blocks { attributes: mut a, mut origin, mut piece, mut bounds, mut first_frame } = Blocks::default();
+pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, end: u64, counts: Counts) -> Result<Blocks> {
+    let Counts { strands, points, frames } = counts;
+    let Blocks { attributes: mut a, mut origin, mut piece, mut bounds, mut first_frame, mut sums } = Blocks::default();
     let (mut groom, mut in_world) = (None, false);
     while source.at() < end {
         let tag: [u8; 8] = source.value("attribute tag")?;
@@ -107,13 +127,20 @@ pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, end: u64, strands: usi
                 bounds = <[Vec3; 2]>::try_from(corners).ok().filter(|[low, high]| low.is_finite() && high.is_finite());
             }
             START_TAG => first_frame = block.values(1)?[0],
+            SUMS_TAG => {
+                let at = block.source.at();
+                let mut all =
+                    block.values::<u64>(usize::try_from(frames).map_or(usize::MAX, |n| n.saturating_add(1)))?;
+                let header = all.remove(0);
+                sums = Some(Sums { at, header, frames: all });
+            }
             other::TAG => a.other.push(other::read(source, length, strands, points)?),
             _ => {}
         }
         source.seek(next)?;
     }
     let origin = origin.map(|origin| Origin { groom, in_world, ..origin });
-    Ok(Blocks { attributes: a, origin, piece, bounds, first_frame })
+    Ok(Blocks { attributes: a, origin, piece, bounds, first_frame, sums })
 }
 
 /// The values of one block.

@@ -97,7 +97,7 @@ pub fn frame_points(hair: &Hair, frame: usize) -> Vec<Vec3> {
 pub fn write_cache(path: &std::path::Path) -> cache::Header {
     let hair = whole(&[3, 2, 4]);
     let header = cache::Header::new(SceneId(0x0123_4567_89ab_cdef), 24.0, &hair);
-    let mut writer = cache::Writer::create(path, &header).unwrap();
+    let mut writer = cache::Writer::create(path, &header, 3).unwrap();
     for frame in 0..3 {
         writer.push(&pose(frame), &frame_points(&hair, frame)).unwrap();
     }
@@ -111,4 +111,13 @@ pub fn cache_bytes() -> Vec<u8> {
     let path = folder.path().join("sample.nabiki");
     write_cache(&path);
     std::fs::read(path).unwrap()
+}
+
+/// The same as a program of before wrote it, which noted no sums: their block has a tag of which nothing is known.
+pub fn cache_bytes_without_sums() -> Vec<u8> {
+    let mut bytes = cache_bytes();
+    let at = bytes.windows(8).position(|tag| tag == b"sums    ").unwrap();
+    bytes[at..at + 8].copy_from_slice(b"nothing ");
+    bytes[20] = 0;
+    bytes
 }

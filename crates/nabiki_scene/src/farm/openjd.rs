@@ -1,7 +1,10 @@
 //! The job as an Open Job Description template, jobtemplate-2023-09, in YAML.
 
 use std::fmt::Write;
-use std::path::Path;
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+use nabiki_file::folder_of;
 
 use super::{Names, Plan, Step, Tasks, Word};
 use crate::error::{Error, Result};
@@ -105,7 +108,15 @@ fn about_of(parameter: &str) -> &'static str {
 
 /// A default of a path parameter: from the template's folder and not out of it, as the format wants, or none.
 fn default_path(path: &Path, folder: &Path) -> Option<String> {
-    path.strip_prefix(folder).ok().map(|path| path.to_string_lossy().into_owned()).filter(|path| !path.is_empty())
+    let below = |path: &Path, folder: &Path| {
+        let inside = path.strip_prefix(folder).ok()?;
+        let stays = inside.components().all(|part| part != Component::ParentDir);
+        (stays && !inside.as_os_str().is_empty()).then(|| inside.to_string_lossy().into_owned())
+    };
+    // What `..` leads to behind a link the disk knows alone. The file itself keeps its name, be it a link: those that it names
+    // are beside that.
+    let real = || -> Option<PathBuf> { Some(fs::canonicalize(folder_of(path)).ok()?.join(path.file_name()?)) };
+    below(path, folder).or_else(|| below(&real()?, &fs::canonicalize(folder).ok()?))
 }
 
 /// A double-quoted scalar of YAML.
@@ -139,5 +150,19 @@ mod tests {
         assert_eq!(inside("/jobs/a/scenes/gust.toml").as_deref(), Some("scenes/gust.toml"));
         assert_eq!(inside("/jobs/gust.toml"), None);
         assert_eq!(inside("/jobs/a"), None);
+        assert_eq!(inside("/jobs/a/../gust.toml"), None);
+        assert_eq!(inside("/jobs/a/scenes/../../gust.toml"), None);
+    }
+
+    #[test]
+    fn a_path_that_goes_out_and_comes_back_is_named_from_the_folder() {
+        let jobs = tempfile::tempdir().unwrap();
+        let jobs = jobs.path();
+        fs::create_dir_all(jobs.join("a/scenes")).unwrap();
+        let inside = |path: &str, folder: &str| default_path(&jobs.join(path), &jobs.join(folder));
+        assert_eq!(inside("a/../gust.toml", "").as_deref(), Some("gust.toml"));
+        assert_eq!(inside("a/scenes/../gust.toml", "a/scenes/..").as_deref(), Some("gust.toml"));
+        assert_eq!(inside("a/scenes/../../a/gust.toml", "a").as_deref(), Some("gust.toml"));
+        assert_eq!(inside("a/../gust.toml", "a"), None);
     }
 }

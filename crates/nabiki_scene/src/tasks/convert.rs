@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use glam::DAffine3;
 use nabiki::{Hair, Pose, SettingError, error::check_positive, strands::check_points};
 use nabiki_io::Axis;
 use nabiki_io::cache::{Origin, Reader};
@@ -186,6 +187,15 @@ impl Input {
         }
     }
 
+    /// Where `pose` puts its hair, in the space of the file that it came from.
+    fn world_from_hair(&self, pose: &Pose) -> DAffine3 {
+        let Self::Cache(cache) = self else { return DAffine3::IDENTITY };
+        let world_from_head = Origin::world_from_head(cache.header().origin.as_ref(), pose);
+        let hair = Hair::default();
+        let export = exchange::export(&hair, cache.header().frame_rate, placement(cache).as_ref());
+        DAffine3::from_mat4(export.parent(&world_from_head))
+    }
+
     /// Its motion, where one frame is all that is kept of it.
     fn lost_motion(&mut self, options: &ConvertOptions) -> Result<Option<String>> {
         let Self::Groom(groom) = self else { return Ok(None) };
@@ -214,16 +224,17 @@ fn one_frame(options: &ConvertOptions, mut input: Input, watch: &mut dyn Watch) 
     super::unread(&options.input, &hair.attributes.unread, watch);
     place::room(output, hair::least_bytes(output, &hair)?, watch)?;
     let declared = input.declared_space()?;
-    let mut losses = if exchange::is_usd(output) || exchange::is_alembic(output) {
+    let to_tools = exchange::is_usd(output) || exchange::is_alembic(output);
+    let mut losses = if to_tools {
         let said = if let Input::Cache(_) = input { declared } else { said(options, declared)? };
-        exchange::write(output, &hair, said)?;
+        exchange::write_still(output, exchange::still(&hair, said), &input.world_from_hair(&pose))?;
         exchange::losses(output, &hair)
     } else {
         hair::write(output, &hair)?
     };
     losses.extend(input.lost_motion(options)?);
     losses.extend(unsaid_space(options, declared));
-    if pose != Pose::STILL {
+    if pose != Pose::STILL && !to_tools {
         losses.push(lost_pose(&pose));
     }
     finish(options, losses, format!("{} strands", hair.strands.len()), watch);
@@ -235,7 +246,7 @@ fn lost_pose(pose: &Pose) -> String {
     let (axis, angle) = pose.rotation.to_axis_angle();
     format!(
         "the head's pose: the points are those of a head that stands still at the origin; in this frame it is at ({x}, {y}, \
-         {z}) cm, turned by {:.2} degrees about ({:.3}, {:.3}, {:.3})",
+         {z}) cm, turned by {:.2} degrees about ({:.3}, {:.3}, {:.3}), as .usda, .usdc and .abc have it",
         angle.to_degrees(),
         axis.x,
         axis.y,

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use glam::DAffine3;
 use nabiki_io::exchange::{self, DeclaredSpace};
 use nabiki_io::hair;
 
@@ -27,7 +28,7 @@ pub fn groom(scene: Scene, shown: Shown, output: &Path, watch: &mut dyn Watch) -
         let mut export = exchange::still(&built.hair, DeclaredSpace::default());
         export.rest = true;
         place::room(output, exchange::least_bytes(output, &export, 1, false), watch)?;
-        exchange::write_still(output, export)?;
+        exchange::write_still(output, export, &DAffine3::IDENTITY)?;
         exchange::losses(output, &built.hair)
     } else {
         place::room(output, hair::least_bytes(output, &built.hair)?, watch)?;

@@ -25,7 +25,7 @@ pub fn join(files: &[PathBuf], output: &Path, watch: &mut dyn Watch) -> Result<(
     let points = u64::from(header.starts.last().copied().unwrap_or_default());
     place::room(output, frames * (28 + 12 * points), watch)?;
     let strands = header.starts.len() - 1;
-    let mut writer = Writer::create(output, &header)?;
+    let mut writer = Writer::create(output, &header, frames)?;
     drop(header);
     // The header of a cache holds fewer frames than that.
     let last = u32::try_from(frames - 1).unwrap_or(u32::MAX);
@@ -87,6 +87,9 @@ impl OpenPiece {
             let [mine, others] = [(frames, header), (others_frames, others)]
                 .map(|(frames, header)| format!("{frames} frames at {} a second", header.frame_rate));
             Some(format!("holds {mine} and not {others}"))
+        } else if header.first_frame != others.first_frame {
+            let (mine, others) = (header.first_frame, others.first_frame);
+            Some(format!("begins at frame {mine} of the shot and not {others} (output.first_frame)"))
         } else {
             None
         }

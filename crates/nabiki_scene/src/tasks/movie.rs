@@ -24,6 +24,8 @@ pub struct MovieOptions {
     pub scene: Option<Scene>,
     /// Changes to the scene file that make it this scene, `motion.frames=40`.
     pub sets: Vec<String>,
+    /// Strands of the scene's that they show, all without it: the command that draws a missing one says them.
+    pub strands: Option<usize>,
 }
 
 /// Codes numbered pictures, without a gap, as a movie. Of PNG files of 16 bits it is, to the bit, the movie that
@@ -161,6 +163,7 @@ fn drawing(file: &Path, (from, through): (u32, u32), options: &MovieOptions) -> 
             words.extend(["--motion".to_owned(), motion.display().to_string()]);
         }
     }
+    words.extend(options.strands.into_iter().flat_map(|count| ["--strands".to_owned(), count.to_string()]));
     words.extend(options.sets.iter().flat_map(|set| ["--set".to_owned(), set.clone()]));
     if png::read_depth(file).is_ok_and(|depth| depth == png::Depth::Sixteen) {
         words.extend(["--set".to_owned(), "output.png_bits=16".to_owned()]);

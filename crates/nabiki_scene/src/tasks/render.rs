@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use nabiki_file::Hold;
 use nabiki_render::output::{exr, png};
 use nabiki_render::{Frame, Movie, ToneMapping};
 
@@ -121,7 +122,9 @@ pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path
             let mut frames = source(&built, options)?;
             folders.make(folder, outputs::WAY_OUT)?;
             let stills = outputs::stills_folder(folder, &scene.name());
-            let stills = Stills::begin(stills, &scene.output, from..=through, scene.picture.size, &mut folders, watch)?;
+            let (frames_of_task, size) = (from..=through, scene.picture.size);
+            let stills =
+                Stills::begin(stills, &scene.output, frames_of_task, size, Hold::BesideOthers, &mut folders, watch)?;
             let mut film = Film::new(&built, &scene.picture, source(&built, options)?.as_mut(), watch)?;
             film.stills(from..=through, frames.as_mut(), &stills, watch)?;
             vec![stills.folder().to_owned()]
@@ -165,7 +168,7 @@ fn turntable(
     let stills = as_stills
         .then(|| {
             let stills = outputs::stills_folder(folder, &name);
-            Stills::begin(stills, output, 0..=pictures - 1, picture.size, &mut folders, watch)
+            Stills::begin(stills, output, 0..=pictures - 1, picture.size, Hold::Alone, &mut folders, watch)
         })
         .transpose()?;
     let frame_rate = picture.video.frame_rate.unwrap_or(scene.frame_rate());
