@@ -116,7 +116,7 @@ fn solve(v: &mut [DVec3], end: f64) {
         v[i] = (v[i] - before.1) / pivot;
     }
     for i in (0..n.saturating_sub(1)).rev() {
-        v[i] = v[i] - above[i] * v[i + 1];
+        v[i] -= above[i] * v[i + 1];
     }
 }
 

@@ -27,7 +27,6 @@ pub struct HairSettings {
 
 /// Where the strands come from.
 #[derive(Clone, Debug, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "a scene has one")]
 pub enum HairSource {
     /// Grown from the scalp.
     Grown(GrownHair),
