@@ -81,6 +81,8 @@ fn a_turntable_holds_its_frames_too() {
 #[cfg(unix)]
 #[test]
 fn a_command_told_to_end_lets_go_of_its_folder() {
+    use std::os::unix::process::ExitStatusExt;
+
     let folder = tempfile::tempdir().unwrap();
     let frames = folder.path().join("out/gust_frames");
     let endless = format!("run {GUST} {STILLS} --set motion.frames=20000 --out out --quiet");
@@ -90,8 +92,8 @@ fn a_command_told_to_end_lets_go_of_its_folder() {
         assert!(child.try_wait().unwrap().is_none(), "it runs until it is stopped");
         std::thread::yield_now();
     }
-    let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", child.id())]).status().unwrap();
+    let sent = Command::new("sh").args(["-c", &format!("kill -TERM {}", child.id())]).status().unwrap();
     assert!(sent.success());
-    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(child.wait().unwrap().signal(), Some(15));
     assert!(!frames.join(".nabiki-lock").exists());
 }
