@@ -1,5 +1,5 @@
 //! What looks wrong before anything is drawn: about the size and place of a head and its hair, a unit forgotten, hair beside
-//! the head or within it, a skull with a hole; and settings that change nothing beside the others.
+//! the head or within it, a skull with a hole, a head that leaps; and settings that change nothing beside the others.
 
 mod twice;
 mod unused;
@@ -7,10 +7,10 @@ mod unused;
 use std::fmt;
 
 use glam::Vec3;
-use nabiki::Head;
 use nabiki::dynamics::Form;
 use nabiki::groom::style::Cut;
 use nabiki::head::Opening;
+use nabiki::{Head, Pose};
 use nabiki_io::info::Short;
 use nabiki_render::settings::Projection;
 use nabiki_render::{Bounds, View};
@@ -73,6 +73,7 @@ pub(crate) fn advice(built: &BuiltScene) -> Vec<Advice> {
     advice.extend(cropped(built));
     advice.extend(open_bodies(built));
     advice.extend(within_the_head(built));
+    advice.extend(leap(built));
     advice.extend(twice::carried_twice(built));
     advice.extend(unused(&built.scene));
     advice
@@ -108,6 +109,30 @@ pub(crate) fn within_the_head(built: &BuiltScene) -> Option<Advice> {
          or another target"
     );
     Some(Advice { seen, settings: Vec::new() })
+}
+
+/// A head that goes or turns on more suddenly than any blow makes it: a cut of the shot, or samples that are missing.
+fn leap(built: &BuiltScene) -> Option<Advice> {
+    // A hundred times the weight of things (cm/s^2), and a change of the turn from one frame to the next (rad).
+    const SUDDEN: f32 = 1e5;
+    const TURNED: f32 = 1.0;
+    let poses = built.given_poses();
+    let rate = built.scene.frame_rate() as f32;
+    let is_sudden = |[a, b, c]: [&Pose; 3]| {
+        let change = (c.position_cm - b.position_cm) - (b.position_cm - a.position_cm);
+        let turns = [b.rotation * a.rotation.inverse(), c.rotation * b.rotation.inverse()];
+        change.length() * rate * rate > SUDDEN || turns[0].angle_between(turns[1]) > TURNED
+    };
+    let before = poses.windows(3).position(|at| is_sudden([&at[0], &at[1], &at[2]]))? + 1;
+    let (from, to) = (poses[before], poses[before + 1]);
+    let (way, turn) =
+        (from.position_cm.distance(to.position_cm), from.rotation.angle_between(to.rotation).to_degrees());
+    let seen = format!(
+        "the head goes {way:.0} cm and turns {turn:.0} degrees from frame {before} to frame {}, and hair feels that: if the shot cuts \
+         there, make a scene of each part",
+        before + 1
+    );
+    matches!(built.dynamics.form, Form::Free(_)).then_some(Advice { seen, settings: Vec::new() })
 }
 
 /// A tie that holds no hair.

@@ -92,3 +92,30 @@ fn a_swing_is_slowest_at_the_root_and_fastest_at_the_tip() {
     assert!((tip - period(50.0 * gain(&built.dynamics, k, k))).abs() < 1e-6 * tip, "{tip} frames");
     assert_eq!((table.rows[0].frames, table.rows[0].force), ([1, 50], 50.0));
 }
+
+#[test]
+fn a_head_that_leaps_is_said_and_one_that_falls_or_spins_evenly_is_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = |place: &dyn Fn(f32) -> Vec3, turn: &dyn Fn(f32) -> f32| -> Vec<String> {
+        let row = |n: u32| {
+            let (at, turn) = (place(n as f32), Quat::from_rotation_y(turn(n as f32)));
+            format!("{},{},{},{},{},{},{},{}\n", f64::from(n) / 24.0, at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w)
+        };
+        let track = "t_s,px_cm,py_cm,pz_cm,qx,qy,qz,qw\n".to_owned() + &(0..=10).map(row).collect::<String>();
+        std::fs::write(folder.path().join("track.csv"), track).unwrap();
+        let text = "[head]\nmotion = { file = \"track.csv\", up = \"+y\", facing = \"+x\" }\n[hair]\nstrands = 5\n\
+                    [motion]\nform = \"free\"\nframes = 10\n[[force]]\nthrough = 10\nvector = [0, 0, 0]\n";
+        let built = Scene::parse(text, &folder.path().join("scene.toml"), &[]).unwrap().build(Shown::All).unwrap();
+        let advice = built.advice().into_iter().map(|advice| advice.to_string());
+        advice.filter(|line| line.contains("hair feels that")).collect()
+    };
+    // A train's speed and a free fall; 57 degrees a frame.
+    let falls = |n: f32| Vec3::new(200.0 * n, -490.0 * (n / 24.0).powi(2), 0.0);
+    let spins = |n: f32| n;
+    assert_eq!(told(&falls, &spins), [""; 0]);
+    let leaps = |n: f32| falls(n) + if n < 6.5 { Vec3::ZERO } else { Vec3::new(0.0, 0.0, 1000.0) };
+    let said = told(&leaps, &|_| 0.0);
+    assert!(said.len() == 1 && said[0].contains(" and turns 0 degrees from frame 6 to frame 7,"), "{said:?}");
+    let turned = told(&falls, &|n| if n < 3.5 { 0.0 } else { 2.0 });
+    assert!(turned.len() == 1 && turned[0].contains("turns 115 degrees from frame 3 to frame 4,"), "{turned:?}");
+}
