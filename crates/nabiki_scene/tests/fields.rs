@@ -367,7 +367,7 @@ fn a_field_of_a_programs_own_is_added_and_cannot_be_written() {
     let written = scene.to_toml().unwrap_err().to_string();
     assert!(written.contains("cannot hold a field that a program gave"), "{written}");
     let marked = with.identity().unwrap_err().to_string();
-    assert!(marked.contains("export to .usdc"), "{marked}");
+    assert!(marked.contains("export to .usd"), "{marked}");
     assert!(without.identity().is_ok());
 }
 
