@@ -107,8 +107,11 @@ fn plan(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Result<Pl
     let built = super::build(scene, Shown::AtMost(options.strands.unwrap_or(TRIED).min(TRIED)), watch)?;
     // Refuses what cannot be stepped.
     built.simulation()?;
-    let strands =
-        Shown::of(options.strands.map_or(Shown::All, Shown::First), built.strands_of_scene, built.groom.is_none())?;
+    let strands = Shown::of(
+        options.strands.map_or(Shown::All, Shown::First),
+        built.strands_of_scene,
+        built.scene.hair.grown().is_some(),
+    )?;
     let shards = options.shards.unwrap_or(strands.div_ceil(STRANDS_A_SHARD) as u32);
     if shards as usize > strands {
         let line = format!("--shards {shards}: more than there are strands; give {strands} at the most");

@@ -25,6 +25,7 @@ pub(super) const GROUPS: &[Group] = &[
         "Where the strands are read from.",
         &[
             file("file", "File", HAIR_FILES, "A .hair, .tfx, .obj with polylines, USD layer or Alembic archive."),
+            Setting::new("groups", "Groups", "", Kind::Texts, "Curves of a USD layer or Alembic archive to keep, by name or path, separated by commas; all if empty."),
             whole("strands", "Strands", "", [1, 5_000_000], "An even choice of so many strands.").or("all"),
             whole("segments", "Segments", "", [1, 65_535], "Cuts every strand anew into so many equally long segments.").or("as in the file"),
             fine("segment_length", "Segment length", "cm", [0.01, 100.0], 0.01, "The unit of length in which stiffness and the paper's k are counted."),
