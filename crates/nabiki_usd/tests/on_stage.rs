@@ -252,7 +252,7 @@ fn that_a_mesh_bends_is_said() {
 fn curves_of_types_that_are_not_read_are_said_beside_those_that_are() {
     for kind in ["NurbsCurves", "HermiteCurves"] {
         let other = curve("n", "").replace("BasisCurves", kind);
-        let said = format!("curves /n, which are {kind}: convert them to BasisCurves");
+        let said = format!("{kind} /n: only BasisCurves are read");
         assert_eq!(curves(&format!("{}{other}", curve("h", ""))), (1, vec![said]));
         let refused = reader(&other).hair(0, None).unwrap_err().to_string();
         assert_eq!(refused, format!("has {kind} and no BasisCurves, which alone are read: convert them"));
