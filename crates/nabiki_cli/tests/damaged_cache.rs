@@ -1,30 +1,14 @@
 //! A motion cache that is no longer what was written is refused by every command that reads it, by file and frame, in one line.
 
+mod common;
+
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+
+use common::{refuse, succeed};
 
 const GUST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/gust.toml");
 const FEW: &str = "--strands 20 --frames 3 --set output.sheet=[0] --set picture.size=[96,64]";
-
-fn nabiki(folder: &Path, words: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_nabiki")).args(words.split(' ')).current_dir(folder).output().unwrap()
-}
-
-fn succeed(folder: &Path, words: &str) -> String {
-    let output = nabiki(folder, words);
-    assert!(output.status.success(), "{words}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
-}
-
-/// The one line of a refusal.
-fn refuse(folder: &Path, words: &str) -> String {
-    let output = nabiki(folder, words);
-    let line = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(1), "{words}: {line}");
-    assert_eq!(line.trim_end().lines().count(), 1, "{words}: {line}");
-    line.trim_end().to_owned()
-}
 
 /// Changes the points of frame `n` of the cache `name`, as bytes.
 fn change_points(folder: &Path, name: &str, n: usize, change: impl Fn(&mut [u8])) {
@@ -61,7 +45,7 @@ fn a_frame_whose_points_are_no_longer_its_own_is_used_by_nothing() {
             format!("convert {name} --frame {frame} out.hair"),
         ] {
             let words = words.replace("--frames 3 ", "--set motion.frames=3 ");
-            assert_eq!(refuse(folder, &words), format!("nabiki: {why}"), "{words}");
+            assert_eq!(refuse(folder, &words).trim_end(), format!("nabiki: {why}"), "{words}");
         }
         assert!(!folder.join("out.usdc").exists() && !folder.join("out.hair").exists());
         succeed(folder, &format!("convert {name} --frame 1 one.hair"));

@@ -1,31 +1,21 @@
 //! Work divided among machines gives the bits of one machine, whatever the division; and what is no such division is refused.
 
+mod common;
+
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 
 use tempfile::TempDir;
 
+use common::{nabiki, succeed};
+
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
-
-/// Runs in `folder`; `words` are parted by spaces.
-fn nabiki(folder: &TempDir, words: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_nabiki")).args(words.split(' ')).current_dir(folder.path()).output().unwrap()
-}
-
-fn succeed(folder: &TempDir, words: &str) -> String {
-    let output = nabiki(folder, words);
-    assert!(output.status.success(), "{words}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
-}
 
 /// The one line of a refusal, after which the folder holds what it held.
 fn refuse(folder: &TempDir, words: &str) -> String {
     let before = everything(folder.path());
-    let output = nabiki(folder, words);
-    let line = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(1), "{words}: {line}");
-    assert_eq!(line.trim_end().lines().count(), 1, "{words}: {line}");
+    let line = common::refuse(folder, words);
     assert!(line.starts_with("nabiki: "), "{words}: {line}");
     assert_eq!(everything(folder.path()), before, "{words} leaves nothing behind");
     line

@@ -1,29 +1,22 @@
 //! Frames of two commands at once: who may write beside whom into a folder, and what is left there in the end.
 
+mod common;
+
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 
 use nabiki_file::{HeldFolder, Hold};
+
+use common::succeed;
 
 const GUST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/paper/gust.toml");
 const STILLS: &str = "--strands 20 --set motion.frames=2 --set output.sheet=[0] --set picture.size=[48,32] \
                       --set output.png_frames=true --set output.movie=false";
 
-fn nabiki(folder: &Path, words: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_nabiki")).args(words.split(' ')).current_dir(folder).output().unwrap()
-}
-
-fn succeed(folder: &Path, words: &str) {
-    let output = nabiki(folder, words);
-    assert!(output.status.success(), "{words}: {}", String::from_utf8_lossy(&output.stderr));
-}
-
 /// A refusal because of another command that writes into the folder.
 fn refuse(folder: &Path, words: &str) {
-    let output = nabiki(folder, words);
-    let line = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(1), "{words}: {line}");
+    let line = common::refuse(folder, words);
     let why = "another command is writing frames into this folder; wait until it is done, or choose another folder with --out\n";
     assert!(line.starts_with("nabiki: out/gust") && line.ends_with(why), "{words}: {line}");
 }

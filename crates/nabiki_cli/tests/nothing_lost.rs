@@ -1,30 +1,14 @@
 //! No command takes what it reads for a place to write, nor drops what it could keep, without a word.
 
+mod common;
+
 use std::fs;
-use std::process::{Command, Output};
 
 use tempfile::TempDir;
 
+use common::{nabiki, refuse, succeed};
+
 const GUST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/paper/gust.toml");
-
-/// Runs in `folder`; `words` are parted by spaces.
-fn nabiki(folder: &TempDir, words: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_nabiki")).args(words.split(' ')).current_dir(folder.path()).output().unwrap()
-}
-
-fn succeed(folder: &TempDir, words: &str) -> String {
-    let output = nabiki(folder, words);
-    assert!(output.status.success(), "{words}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
-}
-
-fn refuse(folder: &TempDir, words: &str) -> String {
-    let output = nabiki(folder, words);
-    let line = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(1), "{words}: {line}");
-    assert_eq!(line.trim_end().lines().count(), 1, "{words}: {line}");
-    line
-}
 
 /// A folder with the gust as `scene.toml` and 40 of its strands in `hair.hair`.
 fn folder() -> TempDir {

@@ -1,28 +1,12 @@
 //! Layers that are not as most are: what is done with them is said, and what is refused has a way out.
 
+mod common;
+
 use std::fs;
-use std::process::{Command, Output};
 
 use tempfile::TempDir;
 
-/// Runs in `folder`; `words` are parted by spaces.
-fn nabiki(folder: &TempDir, words: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_nabiki")).args(words.split(' ')).current_dir(folder.path()).output().unwrap()
-}
-
-fn succeed(folder: &TempDir, words: &str) -> String {
-    let output = nabiki(folder, words);
-    assert!(output.status.success(), "{words}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
-}
-
-fn refuse(folder: &TempDir, words: &str) -> String {
-    let output = nabiki(folder, words);
-    let line = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(1), "{words}: {line}");
-    assert_eq!(line.trim_end().lines().count(), 1, "{words}: {line}");
-    line
-}
+use common::{refuse, succeed};
 
 /// A folder with `text` as `groom.usda` and a scene about it.
 fn folder(text: &str) -> TempDir {

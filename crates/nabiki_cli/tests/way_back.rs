@@ -1,8 +1,9 @@
 //! Hair from another tool comes back in that tool's own space, straight from the simulation or out of a cache.
 
+mod common;
+
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
 use glam::Vec3;
 use nabiki::{Hair, Strands};
@@ -11,21 +12,7 @@ use nabiki_io::Unit;
 use nabiki_io::exchange::{self, DeclaredSpace};
 use nabiki_io::hair;
 
-fn nabiki(folder: &Path, words: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_nabiki")).current_dir(folder).args(words.split(' ')).output().unwrap()
-}
-
-fn succeed(folder: &Path, words: &str) -> String {
-    let output = nabiki(folder, words);
-    assert!(output.status.success(), "{words}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
-}
-
-fn refuse(folder: &Path, words: &str) -> String {
-    let output = nabiki(folder, words);
-    assert_eq!(output.status.code(), Some(1), "{words}");
-    String::from_utf8(output.stderr).unwrap()
-}
+use common::{refuse, succeed};
 
 const SAID: DeclaredSpace = DeclaredSpace { unit: Some(Unit { cm: 100.0 }), up: Some(Axis::PlusZ) };
 
