@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
-use nabiki_scene::scene::{OwnField, Problem};
+use nabiki_scene::scene::OwnField;
 use nabiki_scene::{BuiltScene, Shown};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyMapping, PyTuple, PyType};
@@ -103,16 +103,6 @@ impl Scene {
             }
         };
         put().map_err(|refused| Self::refused(py, refused))
-    }
-
-    /// None, of a key without a value; any will do to hear whether there is a setting of that name.
-    fn none_at(&self, py: Python<'_>, key: &str) -> PyResult<Py<PyAny>> {
-        match self.now().with_setting(key, Some(true.into())) {
-            Err(refused) if matches!(*refused.problem, Problem::UnknownKey { .. } | Problem::Renamed { .. }) => {
-                Err(Self::refused(py, refused))
-            }
-            _ => Ok(py.None()),
-        }
     }
 
     /// A scene of the same class.
@@ -216,21 +206,10 @@ impl Scene {
     /// The value of a setting, `scene["force[0].vector"]`; None where it has none, or its table is not in the scene. What no setting is
     /// called is refused.
     fn __getitem__<'py>(&self, py: Python<'py>, key: &str) -> PyResult<Hinted<'py, Anything>> {
-        let mut place = Value::Table(self.now().settings().map_err(|refused| Self::refused(py, refused))?);
-        for step in key.replace('[', ".").replace(']', "").split('.') {
-            let below = match &mut place {
-                Value::Table(table) => table.remove(step),
-                Value::Array(values) => {
-                    step.parse().ok().filter(|&i: &usize| i < values.len()).map(|i| values.swap_remove(i))
-                }
-                _ => None,
-            };
-            match below {
-                Some(below) => place = below,
-                None => return self.none_at(py, key).map(|none| Hinted::new(none.into_bound(py))),
-            }
+        match self.now().setting(key).map_err(|refused| Self::refused(py, refused))? {
+            Some(value) => values::to_python(py, &value).map(Hinted::new),
+            None => Ok(Hinted::new(py.None().into_bound(py))),
         }
-        values::to_python(py, &place).map(Hinted::new)
     }
 
     /// Gives a setting another value; None takes it out, so that it is what it is when nobody says. Meshes may be files or

@@ -19,6 +19,24 @@ impl Scene {
         self.tree().map_err(|Unwritable(why)| self.origins.error("", Problem::Other(why)))
     }
 
+    /// The value of one setting, named as for [`with_setting`](Self::with_setting); `None` where it has none, or its table is not in the
+    /// scene.
+    ///
+    /// # Errors
+    /// No such setting; as [`to_toml`](Self::to_toml).
+    pub fn setting(&self, key: &str) -> Result<Option<Value>, SceneError> {
+        if let Some(value) = tree::at(&self.settings()?, key) {
+            return Ok(Some(value.clone()));
+        }
+        // Any value will do to hear whether there is a setting of that name.
+        match self.with_setting(key, Some(true.into())) {
+            Err(refused) if matches!(*refused.problem, Problem::UnknownKey { .. } | Problem::Renamed { .. }) => {
+                Err(refused)
+            }
+            _ => Ok(None),
+        }
+    }
+
     /// The scene with another value of one setting, named as in a file: `motion.time_step`, `force[1].vector`; an index one
     /// past the end adds to a list. Without a value the key, table or entry of a list is taken out. Ranges are left to
     /// [`check`](Self::check).
@@ -128,6 +146,9 @@ mod tests {
     fn what_no_setting_is_called_and_values_of_the_wrong_kind_are_refused_by_name() {
         let refused = |key: &str, value: Value| scene().with_setting(key, Some(value)).unwrap_err();
         assert!(matches!(*refused("motion.timestep", 1.0.into()).problem, Problem::UnknownKey { .. }));
+        assert_eq!(scene().setting("motion.timestep").unwrap_err(), refused("motion.timestep", true.into()));
+        assert_eq!(scene().setting("force[0].through").unwrap(), Some(50.into()));
+        assert!(["gust.seed", "force[7].vector"].iter().all(|key| scene().setting(key).unwrap().is_none()));
         let kind = refused("motion.frames", "many".into());
         assert_eq!(kind.key, "motion.frames");
         assert!(matches!(*kind.problem, Problem::Kind { .. }));

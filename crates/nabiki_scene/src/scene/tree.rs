@@ -252,6 +252,11 @@ fn place<'a>(table: &'a mut Table, path: &str) -> Result<&'a mut Value, String> 
     Ok(place)
 }
 
+/// What is at `path`.
+pub(super) fn at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
+    look(table, &dotted(path))
+}
+
 /// Puts `value` at `path`, making tables on the way where there are none; takes out what is there where there is no value.
 pub(super) fn put(table: &mut Table, path: &str, value: Option<Value>) -> Result<(), String> {
     match value {
