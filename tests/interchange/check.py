@@ -198,6 +198,17 @@ def there_and_back(nabiki, samples):
     run(nabiki, "convert", WORK / "spline.nabiki", samples / "spline_layer.usdc", "--export-layer", "/head/hair", "--quiet")
 
 
+def rigs(nabiki, python):
+    """Heads and hair on skeletons are where UsdSkel has them, in every frame."""
+    folder = WORK / "rigs"
+    run(python, HERE / "rigs.py", "write", folder)
+    for scene in sorted(folder.glob("*.toml")):
+        layer = scene.with_suffix("")
+        options = ["-o", folder / "rig.nabiki", "--export", folder / f"{layer.name}.out.usda", "--quiet"]
+        run(nabiki, "simulate", scene, *options)
+    run(python, HERE / "rigs.py", "compare", folder)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bpy", type=Path, help="a Python that has the package bpy")
@@ -219,6 +230,7 @@ def main():
     python = environment()
     types_stay(nabiki, python)
     made_elsewhere(nabiki, interchange, python)
+    rigs(nabiki, python)
     run(python, HERE / "usd.py", samples)
     run(python, HERE / "alembic.py", samples)
 

@@ -4,7 +4,7 @@ use std::io::{Read, Seek};
 
 use nabiki::hair::{Per, Role, Values};
 use nabiki_exchange::Uvs;
-use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values, past, whole};
+use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values, misindexed, whole};
 
 use crate::Problem;
 use crate::layout::{Kind, Pod, stored};
@@ -63,7 +63,8 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
         let mut unread: Vec<String> = other.map(|h| format!("property {}", h.name)).collect();
         let carried = schema.iter().filter(|h| OF_SCHEMA.contains(&&*h.name)).chain(parameters);
         let moving = carried.filter(|h| h.different_samples() > 1);
-        unread.extend(moving.map(|h| format!("motion of {}", h.name)));
+        let sample = self.frame;
+        unread.extend(moving.map(|h| format!("motion of {}: its value in sample {sample} is kept", h.name)));
         let own = schema.iter().find(|h| h.name == ".userProperties" && h.form == Form::Compound).map(|h| h.place);
         if let Some(place) = own {
             let properties = self.tree.properties(place)?;
@@ -72,16 +73,19 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
         Ok(unread)
     }
 
-    /// The texture coordinates of a mesh. `None` where it has none, or one for all or for each face, which say nothing of a
-    /// place.
-    pub fn texture_coordinates(&mut self) -> Result<Option<Uvs>, Problem> {
-        let scope = self.headers.iter().find(|h| h.name == "uv").and_then(|h| h.detail("geoScope"));
-        let of = match scope {
+    /// The texture coordinates of a mesh, if it has any, or why they are none.
+    pub fn texture_coordinates(&mut self) -> Result<std::result::Result<Option<Uvs>, String>, Problem> {
+        let Some(header) = self.headers.iter().find(|h| h.name == "uv") else { return Ok(Ok(None)) };
+        let of = match header.detail("geoScope") {
             Some("fvr") => Uvs::OfCorners,
             Some("vtx" | "var") => Uvs::OfVertices,
-            _ => return Ok(None),
+            Some("uni") => return Ok(Err("they are of faces, not of places".to_owned())),
+            _ => return Ok(Err("they are one pair for all, not of places".to_owned())),
         };
-        Ok(self.tuples::<2>("uv")?.map(of))
+        if let Some(why) = self.misindexed("uv")? {
+            return Ok(Err(why.to_owned()));
+        }
+        Ok(self.tuples::<2>("uv")?.map(|uvs| Some(of(uvs))).ok_or_else(|| "no pairs of numbers are in them".to_owned()))
     }
 
     fn stored(&mut self, name: &str) -> Result<Option<Sample>, Problem> {
@@ -137,12 +141,12 @@ fn per(header: &Header) -> Option<Per> {
 }
 
 impl<R: Read + Seek> NamedValues for Parameters<'_, R> {
-    fn misindexed(&mut self, name: &str) -> Result<bool, Problem> {
+    fn misindexed(&mut self, name: &str) -> Result<Option<&'static str>, Problem> {
         let compound = self.headers.iter().any(|h| h.name == name && h.form == Form::Compound);
-        let Some(sample) = (if compound { self.stored(name)? } else { None }) else { return Ok(false) };
+        let Some(sample) = (if compound { self.stored(name)? } else { None }) else { return Ok(None) };
         let size = sample.kind.pod.size() * usize::from(sample.kind.extent);
         let count = if sample.is_text() { words(sample.kind, &sample.bytes).len() } else { sample.bytes.len() / size };
-        Ok(sample.indices.is_some_and(|indices| past(&indices, count)))
+        Ok(sample.indices.and_then(|indices| misindexed(&indices, count)))
     }
 
     fn names(&self) -> Vec<String> {

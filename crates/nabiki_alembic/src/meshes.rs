@@ -57,8 +57,9 @@ impl<R: Read + Seek> ArchiveReader<R> {
         Ok(Chosen { objects, unread })
     }
 
-    /// Appends the polygons of an object as they are at `time` (s).
-    pub(crate) fn add_mesh(&mut self, mesh: &mut Mesh, object: usize, time: f64) -> Result<(), Problem> {
+    /// Appends the polygons of an object as they are at `time` (s); the answer says why they have no texture coordinates, if those
+    /// that it has are none.
+    pub(crate) fn add_mesh(&mut self, mesh: &mut Mesh, object: usize, time: f64) -> Result<Option<String>, Problem> {
         let path = self.tree.objects[object].path.clone();
         let inside = self.schema(object)?;
         let world = Affine3A::from_mat4(self.world(object, time)?.as_mat4());
@@ -77,9 +78,13 @@ impl<R: Read + Seek> ArchiveReader<R> {
             integers(header.kind, &self.tree.sample(header, sample)?)
         };
         let (counts, corners) = (numbers(".faceCounts")?, numbers(".faceIndices")?);
-        let uvs = Parameters::of(&mut self.tree, inside, frame)?.texture_coordinates()?;
+        let (uvs, none) = match Parameters::of(&mut self.tree, inside, frame)?.texture_coordinates()? {
+            Ok(uvs) => (uvs, None),
+            Err(why) => (None, Some(why)),
+        };
         // Alembic winds faces clockwise.
         let polygons = Polygons { positions: &positions, counts: &counts, corners: &corners, clockwise: true, uvs };
-        add_polygons(mesh, polygons, &world).map_err(|e| Problem(format!("mesh {path}: {e}")))
+        let misfit = add_polygons(mesh, polygons, &world).map_err(|e| Problem(format!("mesh {path}: {e}")))?;
+        Ok(none.or(misfit))
     }
 }

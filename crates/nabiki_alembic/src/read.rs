@@ -14,6 +14,8 @@ use crate::meshes::is_mesh;
 use crate::tree::{Form, Header, SAME_TIME, Timing, Tree};
 use crate::values::doubles;
 
+/// Steps of samples that differ by less than this, as a share of a frame, from a frame are frames: files round their times.
+const SAME_FRAME: f64 = 1e-3;
 /// Frames a second where an archive does not say.
 const DEFAULT_RATE: f64 = 24.0;
 
@@ -134,7 +136,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
     }
 
     /// The frames (s): the samples of the curves with the most, or of what moves them whole. Samples at uneven times, and
-    /// those of a shutter about a frame, give way to the whole frames, between which there is interpolation.
+    /// those of a shutter, give way to the whole frames, between which there is interpolation.
     fn frames(&mut self) -> Result<&Frames, Problem> {
         if self.frames.is_none() {
             self.frames = Some(self.find_frames()?);
@@ -163,8 +165,14 @@ impl<R: Read + Seek> ArchiveReader<R> {
                 most = motion;
             }
         }
-        let as_sampled = Frames::as_sampled(&most.times).filter(|frames| !most.shutter || frames.are_whole());
-        let period = most.period.unwrap_or(1.0 / self.tree.frame_rate.unwrap_or(DEFAULT_RATE));
+        // Of samples that follow each other within a frame of the archive's own rate, several make one, too.
+        let stated = self.tree.frame_rate.map(|rate| 1.0 / rate);
+        let as_sampled = Frames::as_sampled(&most.times).filter(|frames| {
+            let within = stated.is_some_and(|frame| most.times.len() > 1 && frames.step < frame * (1.0 - SAME_FRAME));
+            !(most.shutter || within)
+        });
+        let own = most.period.filter(|_| most.shutter);
+        let period = own.or(stated).or(most.period).unwrap_or(1.0 / DEFAULT_RATE);
         as_sampled.or_else(|| Frames::whole(&most.times, period)).ok_or_else(|| {
             let [first, last] = [most.times[0], most.times[most.times.len() - 1]];
             Problem(format!("its curves move from {first} s to {last} s, longer than is read"))
@@ -321,12 +329,15 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
         Ok(all)
     }
 
-    fn meshes(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Mesh, Problem> {
-        let mut mesh = Mesh::default();
+    fn meshes_with_losses(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<(Mesh, Vec<String>), Problem> {
+        let (mut mesh, mut lost) = (Mesh::default(), Vec::new());
         // Where the head stands as the hair's first frame finds it.
         let time = self.time_of(0)?;
         for object in self.chosen_meshes(wanted)?.objects {
-            self.add_mesh(&mut mesh, object, time)?;
+            let left_out = self.add_mesh(&mut mesh, object, time)?;
+            lost.extend(
+                left_out.map(|why| format!("texture coordinates of {}: {why}", self.tree.objects[object].path)),
+            );
         }
         match mesh.positions.iter().find(|p| !p.is_finite()) {
             Some(p) => Err(Problem(format!("has a vertex at {p}"))),
@@ -334,7 +345,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
                 let surfaces = self.left_out(NURBS_SURFACE, wanted);
                 Err(surfaces.refused("meshes of polygons").unwrap_or_else(|| Problem::new("has no polygons")))
             }
-            None => Ok(mesh),
+            None => Ok((mesh, lost)),
         }
     }
 

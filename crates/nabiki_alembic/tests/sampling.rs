@@ -75,6 +75,8 @@ fn shutter_samples_are_read_at_whole_frames_whatever_they_move() {
             // About the frames, evenly spaced or not.
             (&[0.75, 1.25, 1.75, 2.25, 2.75, 3.25], &[1.0, 2.0, 3.0], 6),
             (&[0.9, 1.1, 1.9, 2.1], &[1.0, 2.0], 4),
+            // Open for half of each frame: evenly spaced, and on whole frames as well.
+            (&[1.0, 1.5, 2.0, 2.5], &[1.0, 2.0], 2),
         ] {
             let mut archive = archive(times, FRAME, 2, hair_moves);
             check(&mut archive, wanted, 24.0, hair_moves);
@@ -90,8 +92,7 @@ fn shutter_samples_are_read_at_whole_frames_whatever_they_move() {
 #[test]
 fn even_samples_that_meet_the_frames_are_frames_themselves() {
     for (times, in_cycle, period, rate, off) in [
-        (&[1.0, 1.5, 2.0, 2.5][..], 2, FRAME, 48.0, None),
-        (&[3.0, 5.0, 7.0], 1, 2.0 * FRAME, 12.0, Some("1.500 goes out as frame 2")),
+        (&[3.0, 5.0, 7.0][..], 1, 2.0 * FRAME, 12.0, Some("1.500 goes out as frame 2")),
         (&[0.25, 1.25, 2.25], 1, FRAME, 24.0, Some("0.250 goes out as frame 0")),
         (&[1.0, 2.0, 3.0], 3, ACYCLIC, 24.0, None),
     ] {
@@ -99,6 +100,19 @@ fn even_samples_that_meet_the_frames_are_frames_themselves() {
         check(&mut archive, times, rate, true);
         let said = off.map(|off| format!("the place of its samples between frames: {off}"));
         assert_eq!(archive.hair(0, None).unwrap().attributes.unread, Vec::from_iter(said));
+    }
+}
+
+#[test]
+fn samples_within_a_frame_of_the_archives_own_rate_are_of_its_shutter() {
+    for (times, in_cycle, period) in
+        [(&[1.0, 1.5, 2.0, 2.5, 3.0][..], 1, 0.5 * FRAME), (&[1.0, 1.25, 1.5, 1.75, 2.0, 3.0], 6, ACYCLIC)]
+    {
+        let mut archive = archive(times, period, in_cycle, true);
+        check(&mut archive, &[1.0, 2.0, 3.0], 24.0, true);
+        let between = times.len() - 3;
+        let unread = archive.hair(0, None).unwrap().attributes.unread;
+        assert_eq!(unread, [format!("{between} samples between frames, of which there are 24 a second")]);
     }
 }
 

@@ -430,7 +430,8 @@ pub struct Convert {
     /// Imported hair comes out of a cache in the unit, axes and place of the file it came from
     pub output: PathBuf,
 
-    /// Frame to take out of a motion cache, a USD layer or an Alembic archive
+    /// Frame to take out of a motion cache, a USD layer or an Alembic archive, counted from 0: of frames 1001 to 1005 `--frame 2` is
+    /// 1003, a number that it keeps where the file that is written has a time line (USD, Alembic)
     #[arg(long, value_name = "N", value_parser = frame)]
     pub frame: Option<u32>,
 
@@ -451,9 +452,9 @@ pub struct Convert {
     #[arg(long, value_name = "PRIM", conflicts_with = "frame", value_parser = prim_path)]
     pub export_layer: Option<String>,
 
-    /// Number of the first frame on the time line of the file that is written (default: as a USD layer, an Alembic archive or the
-    /// cache has it; see output.first_frame)
-    #[arg(long, value_name = "N", allow_negative_numbers = true, conflicts_with = "frame")]
+    /// Number of the first frame on the time line of the file that is written, with --frame of the only one (default: as a USD layer,
+    /// an Alembic archive or the cache has it; see output.first_frame)
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub first_frame: Option<i32>,
 }
 

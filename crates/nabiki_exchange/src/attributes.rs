@@ -12,11 +12,11 @@ pub trait NamedValues {
     /// The names of all there are.
     fn names(&self) -> Vec<String>;
 
-    /// Whether the values of a name are stored by index, and some index lies past them, as an absent value's does.
+    /// Why the values of a name cannot be looked up, where they are stored by index: see [`misindexed`].
     ///
     /// # Errors
     /// What is wrong with the file.
-    fn misindexed(&mut self, name: &str) -> Result<bool, Problem>;
+    fn misindexed(&mut self, name: &str) -> Result<Option<&'static str>, Problem>;
 
     /// Whether the values of a name have more numbers than the `read` first of each, which are all that is read: such values
     /// also stay under that name.
@@ -112,9 +112,13 @@ pub mod names {
     pub const REST: &str = "rest";
 }
 
-/// Whether an index lies outside of `count` values.
-pub fn past(indices: &[i64], count: usize) -> bool {
-    indices.iter().any(|&i| usize::try_from(i).map_or(true, |i| i >= count))
+/// Why `count` values cannot be looked up by `indices`: one lies past them, as an absent value's does, or there are none.
+pub fn misindexed(indices: &[i64], count: usize) -> Option<&'static str> {
+    if indices.is_empty() && count > 0 {
+        return Some("its list of indices is empty");
+    }
+    let is_past = |&i: &i64| usize::try_from(i).map_or(true, |i| i >= count);
+    indices.iter().any(is_past).then_some("some of its indices name no value")
 }
 
 /// Values that are stored once for many, by `indices` into them.
@@ -274,8 +278,8 @@ impl<F: NamedValues> Search<'_, F> {
         let mut names = self.file.names();
         names.sort();
         for name in names {
-            if self.file.misindexed(&name)? {
-                self.unread.push(format!("{name}: some of its indices name no value"));
+            if let Some(why) = self.file.misindexed(&name)? {
+                self.unread.push(format!("{name}: {why}"));
                 self.misindexed.insert(name);
             }
         }

@@ -30,40 +30,46 @@ pub enum Uvs {
     OfCorners(Vec<[f32; 2]>),
 }
 
-/// The texture coordinates of each corner.
-fn at_corners(uvs: &Uvs, positions: usize, corners: &[i64]) -> Result<Vec<Vec2>, Problem> {
-    let (all, what, expected) = match uvs {
-        Uvs::OfVertices(all) => (all, "vertices", positions),
-        Uvs::OfCorners(all) => (all, "corners", corners.len()),
-    };
-    if all.len() != expected {
-        return Err(Problem(format!("{} texture coordinates for {expected} {what}", all.len())));
+impl Uvs {
+    /// Why they cannot be those of so many positions and corners, if they cannot: their number, or one that is not finite.
+    fn misfit(&self, positions: usize, corners: usize) -> Option<String> {
+        let (all, what, expected) = match self {
+            Self::OfVertices(all) => (all, "vertices", positions),
+            Self::OfCorners(all) => (all, "corners", corners),
+        };
+        if all.len() != expected {
+            return Some(format!("{} for {expected} {what}", all.len()));
+        }
+        let odd = all.iter().position(|uv| !(uv[0].is_finite() && uv[1].is_finite()))?;
+        Some(format!("those of number {odd} are ({}, {}), which are not finite", all[odd][0], all[odd][1]))
     }
-    if let Some(i) = all.iter().position(|uv| !(uv[0].is_finite() && uv[1].is_finite())) {
-        return Err(Problem(format!("texture coordinates {i} are {:?}: they must be finite", all[i])));
+
+    /// Those of each corner.
+    fn at_corners(&self, corners: &[i64]) -> Vec<Vec2> {
+        match self {
+            Self::OfCorners(all) => all.iter().map(|&uv| uv.into()).collect(),
+            // A corner past the positions is refused with the polygons.
+            Self::OfVertices(all) => corners
+                .iter()
+                .map(|&c| usize::try_from(c).ok().and_then(|c| all.get(c)).map_or(Vec2::ZERO, |&uv| uv.into()))
+                .collect(),
+        }
     }
-    Ok(match uvs {
-        Uvs::OfCorners(all) => all.iter().map(|&uv| uv.into()).collect(),
-        // A corner past the positions is refused with the polygons.
-        Uvs::OfVertices(all) => corners
-            .iter()
-            .map(|&c| usize::try_from(c).ok().and_then(|c| all.get(c)).map_or(Vec2::ZERO, |&uv| uv.into()))
-            .collect(),
-    })
 }
 
 /// Appends polygons to `mesh`, cut into triangles from their first corners; `to` takes their space to the mesh's, and
-/// turns them round where it mirrors. Where any polygons have no texture coordinates, `mesh` has none.
+/// turns them round where it mirrors. Where any polygons have no texture coordinates, `mesh` has none. Those that fit neither
+/// positions nor corners, or are not finite, are left out: the answer says why.
 ///
 /// # Errors
-/// Counts that do not fit the corners, a corner past the positions, texture coordinates that fit neither or are not
-/// finite.
+/// Counts that do not fit the corners, a corner past the positions.
 pub fn add_polygons(
     mesh: &mut Mesh,
     Polygons { positions, counts, corners, clockwise, uvs }: Polygons<'_>,
     to: &Affine3A,
-) -> Result<(), Problem> {
-    let uvs = uvs.map(|uvs| at_corners(&uvs, positions.len(), corners)).transpose()?;
+) -> Result<Option<String>, Problem> {
+    let misfit = uvs.as_ref().and_then(|uvs| uvs.misfit(positions.len(), corners.len()));
+    let uvs = uvs.filter(|_| misfit.is_none()).map(|uvs| uvs.at_corners(corners));
     let (base, own) = (mesh.positions.len(), positions.len());
     let turned = clockwise != (to.matrix3.determinant() < 0.0);
     let mut first = 0;
@@ -82,7 +88,7 @@ pub fn add_polygons(
         }
     }
     mesh.positions.extend(positions.iter().map(|&p| to.transform_point3(p)));
-    Ok(())
+    Ok(misfit)
 }
 
 #[cfg(test)]
@@ -90,7 +96,7 @@ mod tests {
     use super::*;
 
     /// A square whose corner at (x, y) has (x, y) of the texture, and a mesh that it is added to.
-    fn added(mesh: &mut Mesh, clockwise: bool, by_vertex: bool, to: Vec3) -> Result<(), Problem> {
+    fn added(mesh: &mut Mesh, clockwise: bool, by_vertex: bool, to: Vec3) -> Result<Option<String>, Problem> {
         let positions = [Vec3::ZERO, Vec3::Y, Vec3::ONE.with_z(0.0), Vec3::X];
         let corners = [2, 3, 0, 1];
         let of_vertices = positions.map(|p| [p.x, p.y]);
@@ -149,16 +155,13 @@ mod tests {
             assert_eq!((mesh.triangles.len(), mesh.corner_uvs), (3, None));
         }
         for (uvs, why) in [
-            (Uvs::OfVertices([[0.0; 2]; 2].to_vec()), "2 texture coordinates for 3 vertices"),
-            (Uvs::OfCorners([[0.0; 2]; 4].to_vec()), "4 texture coordinates for 3 corners"),
-            (
-                Uvs::OfCorners([[0.0, f32::NAN]; 3].to_vec()),
-                "texture coordinates 0 are [0.0, NaN]: they must be finite",
-            ),
+            (Uvs::OfVertices([[0.0; 2]; 2].to_vec()), "2 for 3 vertices"),
+            (Uvs::OfCorners([[0.0; 2]; 4].to_vec()), "4 for 3 corners"),
+            (Uvs::OfCorners([[0.0, f32::NAN]; 3].to_vec()), "those of number 0 are (0, NaN), which are not finite"),
         ] {
-            let wrong = Polygons { uvs: Some(uvs), ..bare };
-            let refused = add_polygons(&mut Mesh::default(), wrong, &Affine3A::IDENTITY).unwrap_err();
-            assert_eq!(refused.to_string(), why);
+            let (mut mesh, wrong) = (Mesh::default(), Polygons { uvs: Some(uvs), ..bare });
+            let left_out = add_polygons(&mut mesh, wrong, &Affine3A::IDENTITY).unwrap();
+            assert_eq!((left_out.as_deref(), mesh.triangles.len(), mesh.corner_uvs), (Some(why), 1, None));
         }
     }
 }

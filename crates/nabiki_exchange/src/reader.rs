@@ -47,11 +47,20 @@ pub trait GroomReader {
     }
 
     /// The meshes at the first frame, cut into triangles, transforms applied, as one: of those whose path is `wanted` the
-    /// ones that show, or all where none does.
+    /// ones that show, or all where none does. With what is left out of their texture coordinates, a phrase each: the
+    /// shape does without.
     ///
     /// # Errors
     /// No mesh, or one whose numbers contradict each other.
-    fn meshes(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Mesh, Problem>;
+    fn meshes_with_losses(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<(Mesh, Vec<String>), Problem>;
+
+    /// The meshes alone, as [`meshes_with_losses`](Self::meshes_with_losses).
+    ///
+    /// # Errors
+    /// As there.
+    fn meshes(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Mesh, Problem> {
+        Ok(self.meshes_with_losses(wanted)?.0)
+    }
 
     /// What [`meshes`](Self::meshes) leaves out of those that are wanted or does not obey, a phrase each.
     ///
@@ -81,7 +90,17 @@ pub trait GroomReader {
     /// No such object, with those that there are; a transform that flattens space.
     fn motion(&mut self, node: &str) -> Result<Vec<Placed>, Problem>;
 
-    /// Where that object was when meshes were bound to it; none where nothing says so.
+    /// The joint of a skeleton that carries the meshes whose path is `wanted`, by its path below that of the skeleton; `None` where none
+    /// is bound to any.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    fn joint_of_meshes(&mut self, _wanted: &dyn Fn(&str) -> bool) -> Result<Option<String>, Problem> {
+        Ok(None)
+    }
+
+    /// Where that object is in the pose in which [`meshes`](Self::meshes) has what is bound to it; none where that is the first of its
+    /// way.
     ///
     /// # Errors
     /// What is wrong with the file.

@@ -125,7 +125,10 @@ pub(crate) fn mesh(path: &Path, groups: &[String]) -> Result<(Mesh, Vec<String>)
         parts::check(groups, &meshes).map_err(|e| e.in_file(path))?;
     }
     let wanted = |mesh: &str| parts::is_kept(groups, mesh);
-    file.ask(|r| Ok((r.meshes(&wanted)?, r.meshes_unread(&wanted)?)))
+    file.ask(|r| {
+        let (mesh, lost) = r.meshes_with_losses(&wanted)?;
+        Ok((mesh, r.meshes_unread(&wanted)?.into_iter().chain(lost).collect()))
+    })
 }
 
 /// The paths of the meshes of a layer or archive, each with the number of its faces.
@@ -141,7 +144,7 @@ pub(crate) fn mesh_sizes(path: &Path) -> Result<Vec<(String, usize)>> {
     Ok(sizes.collect())
 }
 
-/// Whether the object or prim `node` carries one of the meshes that a scene reads. A joint carries none, as bodies are rigid.
+/// Whether the object, prim or joint `node` carries one of the meshes that a scene reads.
 ///
 /// # Errors
 /// What is wrong with the file.
@@ -150,13 +153,15 @@ pub fn carries_mesh(path: &Path, node: &str, groups: &[String]) -> Result<bool> 
     let all: Vec<String> = file.ask(|r| r.prims())?.into_iter().map(|prim| prim.path).collect();
     let by_name = |path: &&String| path.rsplit('/').next().is_some_and(|name| name.eq_ignore_ascii_case(node));
     let Some(node) = all.iter().find(|path| *path == node).or_else(|| all.iter().find(by_name)) else {
-        return Ok(false);
+        let joint = file.ask(|r| r.joint_of_meshes(&|mesh| parts::is_kept(groups, mesh)))?;
+        return Ok(joint.is_some_and(|joint| joint == node || joint.ends_with(&format!("/{node}"))));
     };
     let meshes = file.ask(|r| r.contents())?.meshes;
     Ok(meshes.iter().any(|mesh| parts::is_kept(groups, mesh) && parts::is_part(node, mesh)))
 }
 
-/// The transform that moves a mesh that a scene reads, the nearest above it; none in other files, and where nothing moves.
+/// What moves a mesh that a scene reads: the joint of the skeleton that it is bound to, or the nearest transform above it; none in
+/// other files, and where nothing moves.
 ///
 /// # Errors
 /// What is wrong with the file.
@@ -165,6 +170,11 @@ pub fn mover_of_mesh(path: &Path, groups: &[String]) -> Result<Option<String>> {
         return Ok(None);
     }
     let mut file = Opened::new(path)?;
+    if let Some(joint) = file.ask(|r| r.joint_of_meshes(&|mesh| parts::is_kept(groups, mesh)))? {
+        let way = file.ask(|r| r.motion(&joint))?;
+        let stays = |placed: &Placed| Placed { time: way[0].time, ..*placed } == way[0];
+        return Ok((!way.iter().all(stays)).then_some(joint));
+    }
     let (prims, mut meshes) = (file.ask(|r| r.prims())?, file.ask(|r| r.contents())?.meshes);
     meshes.retain(|mesh| parts::is_kept(groups, mesh));
     let moves = |prim: &Prim| prim.kind == PrimKind::Transform && prim.samples > 1;
@@ -178,18 +188,20 @@ pub(crate) fn track(path: &Path, node: &str) -> Result<Track> {
     let mut file = Opened::new(path)?;
     let motion = file.ask(|r| r.motion(node))?;
     let sample = |placed: Placed| Sample { position: placed.position, rotation: placed.rotation };
-    let bound = file.ask(|r| r.bound(node))?.map(sample);
+    let bound = file.ask(|r| r.bound(node))?;
     let DeclaredSpace { unit, up } = file.declared_space()?;
-    let left_out = left_out_of(&motion);
+    let left_out = left_out_of(&motion, bound.as_ref());
+    let bound = bound.map(sample);
     let (times, samples) = motion.into_iter().map(|placed| (placed.time, sample(placed))).unzip();
     let unit_cm = unit.map(|unit| 100.0 * unit.metres());
     Ok(Track { times, samples, what: format!("object {node}"), left_out, bound, unit_cm, up })
 }
 
 /// What a head or body, which is rigid, does not take from what moves it.
-fn left_out_of(motion: &[Placed]) -> Option<&'static str> {
+fn left_out_of(motion: &[Placed], bound: Option<&Placed>) -> Option<&'static str> {
     const SAME: f64 = 1e-3;
-    let first = motion.first()?.scale;
+    // That with which the mesh was read.
+    let first = bound.or(motion.first())?.scale;
     let scaled = motion.iter().any(|placed| !(placed.scale / first).abs_diff_eq(DVec3::ONE, SAME));
     let sheared = motion.iter().any(|placed| placed.sheared);
     match (scaled, sheared) {

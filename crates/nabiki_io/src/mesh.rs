@@ -38,15 +38,32 @@ pub struct MeshReport {
 /// or meshes, of USD prims or Alembic objects, to keep; all when empty. Larger polygons become fans, node transforms are
 /// applied.
 pub fn read(path: &Path, groups: &[String]) -> Result<Mesh> {
+    Ok(read_with_losses(path, groups)?.0)
+}
+
+/// The same with what of the file's meshes is left out or not obeyed, a phrase each.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_with_losses(path: &Path, groups: &[String]) -> Result<(Mesh, Vec<String>)> {
+    let mut lost = Vec::new();
+    let mesh = match extension(path).as_str() {
+        "abc" | "usd" | "usda" | "usdc" => return exchange::mesh(path, groups),
+        _ => read_plain(path, groups, &mut lost)?,
+    };
+    Ok((mesh, lost))
+}
+
+/// The mesh of a file that holds meshes alone.
+fn read_plain(path: &Path, groups: &[String], lost: &mut Vec<String>) -> Result<Mesh> {
     let named = |e: Error| e.in_file(path);
     let text = || input::read(path, MOST_TEXT_BYTES);
     let binary = || input::read(path, MOST_BINARY_BYTES);
     match extension(path).as_str() {
-        "obj" => obj::from_bytes(&text()?, groups).map_err(named),
-        "glb" | "gltf" => glb::from_bytes(&binary()?, path.parent(), groups).map_err(named),
-        "ply" => from_bytes(without_mark(&binary()?), "ply", groups).map_err(named),
+        "obj" => obj::from_bytes(&text()?, groups, lost).map_err(named),
+        "glb" | "gltf" => glb::from_bytes(&binary()?, path.parent(), groups, lost).map_err(named),
+        "ply" => ply(without_mark(&binary()?), groups, lost).map_err(named),
         "tfxmesh" => from_bytes(&text()?, "tfxmesh", groups).map_err(named),
-        "abc" | "usd" | "usda" | "usdc" => Ok(exchange::mesh(path, groups)?.0),
         other => {
             // A name without an ending may be a slip, or a folder.
             if other.is_empty() {
@@ -83,11 +100,15 @@ pub fn groups(path: &Path) -> Result<Vec<(String, usize)>> {
 /// The same from memory; `extension`: `obj`, `ply`, `tfxmesh`, `glb` or `gltf`. Buffers in files of their own are refused.
 pub fn from_bytes(bytes: &[u8], extension: &str, groups: &[String]) -> Result<Mesh> {
     match extension {
-        "obj" => obj::from_bytes(bytes, groups),
-        "ply" => ply::from_bytes(bytes).and_then(|mesh| without_parts(mesh, groups)),
+        "obj" => obj::from_bytes(bytes, groups, &mut Vec::new()),
+        "ply" => ply(bytes, groups, &mut Vec::new()),
         "tfxmesh" => tfxmesh::from_bytes(bytes).and_then(|mesh| without_parts(mesh, groups)),
-        _ => glb::from_bytes(bytes, None, groups),
+        _ => glb::from_bytes(bytes, None, groups, &mut Vec::new()),
     }
+}
+
+fn ply(bytes: &[u8], groups: &[String], lost: &mut Vec<String>) -> Result<Mesh> {
+    ply::from_bytes(bytes, lost).and_then(|mesh| without_parts(mesh, groups))
 }
 
 /// A mesh of a format that has no groups: none may be asked for.
@@ -98,10 +119,7 @@ fn without_parts(mesh: Mesh, groups: &[String]) -> Result<Mesh> {
 /// Reads a mesh into head space, joins vertices at the same place and drops triangles without area.
 pub fn import(path: &Path, placement: &Placement, groups: &[String]) -> Result<(Mesh, MeshReport)> {
     placement.check("head").map_err(|e| Error::from(e).in_file(path))?;
-    let (mesh, unread) = match exchange::is_usd(path) || exchange::is_alembic(path) {
-        true => exchange::mesh(path, groups)?,
-        false => (read(path, groups)?, Vec::new()),
-    };
+    let (mesh, unread) = read_with_losses(path, groups)?;
     let (mesh, report) = place_and_weld(mesh, placement).map_err(|e| e.in_file(path))?;
     Ok((mesh, MeshReport { unread, ..report }))
 }
@@ -252,12 +270,26 @@ mod tests {
         assert_eq!(refused("v 0 0 0\nf 1 1\n"), "\"f 1 1\": a face has three vertices or more");
         // Found by fuzzing.
         assert!(refused("v 1 0 0\nv 2 3 4\nf -1//-2 //4 1\n").contains("\"//4\" is not one of the 2 vertices"));
-        assert_eq!(
-            refused("v 1 0 0\nv 2 3 4\nvt 0 0\nf 1/1 2/2 1\n"),
-            "\"f 1/1 2/2 1\": \"2/2\" names none of the 1 texture coordinates that stand before this line"
-        );
-        assert_eq!(refused("vt 0 x\n"), "\"vt 0 x\": texture coordinates are one to three numbers");
-        let nan = refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 nan\nf 1/1 2/1 3/1\n");
-        assert_eq!(nan, "triangle 0: its texture coordinates (0, NaN) must be finite");
+    }
+
+    #[test]
+    fn texture_coordinates_that_are_none_cost_the_shape_nothing_and_are_said() {
+        let read = |text: &str| {
+            let mut lost = Vec::new();
+            let mesh = obj::from_bytes(text.as_bytes(), &[], &mut lost).unwrap();
+            assert_eq!((mesh.triangles.len(), mesh.corner_uvs), (1, None), "{text}");
+            lost
+        };
+        let named = "texture coordinates: line 5: \"f 1/1 2/2 3\": \"2/2\" names none of the 1 texture coordinates that stand before this line";
+        assert_eq!(read("v 1 0 0\nv 2 3 4\nv 0 0 1\nvt 0 0\nf 1/1 2/2 3\n"), [named]);
+        let word = "texture coordinates: line 4: \"vt 0 x\": texture coordinates are one to three numbers";
+        assert_eq!(read("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 x\nvt 0 0\nf 1/1 2/2 3/2\n"), [word]);
+        let nan = "texture coordinates: those of triangle 0 are (0, NaN), which are not finite";
+        assert_eq!(read("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 nan\nf 1/1 2/1 3/1\n"), [nan]);
+        // One that no face names is nothing's loss.
+        let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 x\nvt 0 0\nf 1/2 2/2 3/2\n";
+        let (mut lost, uvs) = (Vec::new(), Some(vec![[Vec2::ZERO; 3]]));
+        assert_eq!(obj::from_bytes(text.as_bytes(), &[], &mut lost).unwrap().corner_uvs, uvs);
+        assert!(lost.is_empty(), "{lost:?}");
     }
 }

@@ -5,7 +5,9 @@ use std::path::Path;
 use glam::{Quat, Vec3};
 use nabiki_io::exchange;
 use nabiki_scene::exports::ExportOptions;
-use nabiki_scene::tasks::{SimulateOptions, Twin, simulate};
+use nabiki_scene::tasks::{NewOptions, SimulateOptions, Twin, new, simulate};
+use nabiki_scene::told::Told;
+use nabiki_scene::watch::Watch;
 use nabiki_scene::{BuiltScene, Scene, Shown, Unwatched};
 
 /// A ball on a tail that stands at (0, 2, 1) m in its first frame, turned so far about z, and moves on.
@@ -213,4 +215,88 @@ fn what_is_bound_to_a_joint_goes_with_it_from_where_the_skeleton_binds_it() {
         let there = joint(frame).0 + Quat::from_rotation_z(turn(frame)) * (Vec3::new(0.05, 1.6, 0.02) - Vec3::Y * 1.5);
         assert!(root.distance(there) < 1e-5, "frame {frame}: {root} for {there}");
     }
+}
+
+/// What a task tells of settings that a scene lacks.
+#[derive(Debug, Default)]
+struct Advised(Vec<String>);
+
+impl Watch for Advised {
+    fn told(&mut self, told: Told) {
+        if let Told::Advice(advice) = told {
+            self.0.push(advice.to_string());
+        }
+    }
+}
+
+/// As UsdSkel has it: what is bound stands where its joints take it, below the skeleton's transforms, wherever its own prim is.
+#[test]
+fn a_head_and_hair_that_are_bound_go_with_their_joint_whatever_moves_the_skeleton() {
+    let api = "( prepend apiSchemas = [\"SkelBindingAPI\"] )";
+    let matrix = |x: f32, y: f32| format!("( (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), ({x}, {y}, 0, 1) )");
+    let bond = format!(
+        "rel skel:skeleton = </man/rig>\n uniform matrix4d primvars:skel:geomBindTransform = {}\n\
+         int[] primvars:skel:jointIndices = [1] ( elementSize = 1 interpolation = \"constant\" )\n\
+         float[] primvars:skel:jointWeights = [1] ( elementSize = 1 interpolation = \"constant\" )\n\
+         double3 xformOp:translate = (9, 9, 9)\n uniform token[] xformOpOrder = [\"xformOp:translate\"] }}\n",
+        matrix(0.0, 1.5)
+    );
+    // Turned by a fifth more in each frame, from the first on, and a decimetre to the side.
+    let turn = |frame: usize| 0.2 + 0.2 * frame as f32;
+    let samples =
+        |value: &dyn Fn(usize) -> String| (0..6).map(|n| format!("{n}: [{}], ", value(n))).collect::<String>();
+    let places = samples(&|n| format!("({}, 1, 0), (0, 0.5, 0)", 0.1 * n as f32));
+    let turns = samples(&|n| {
+        let half = Quat::from_rotation_y(turn(n));
+        format!("(1, 0, 0, 0), ({}, 0, {}, 0)", half.w, half.y)
+    });
+    let ball = ball().trim_end_matches('}').replace("\"ball\" {", &format!("\"ball\" {api} {{"));
+    let layer = format!(
+        "#usda 1.0\n( metersPerUnit = 1\n upAxis = \"Y\"\n timeCodesPerSecond = 24 )\n\
+         def SkelRoot \"man\" {{ double3 xformOp:translate = (1, 0, -2)\n float3 xformOp:scale = (2, 2, 2)\n\
+         uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:scale\"]\n\
+         def Skeleton \"rig\" {api} {{ uniform token[] joints = [\"hips\", \"hips/head\"]\n\
+         uniform matrix4d[] bindTransforms = [{}, {}]\n uniform matrix4d[] restTransforms = [{}, {}]\n\
+         rel skel:animationSource = </man/rig/walk>\n\
+         def SkelAnimation \"walk\" {{ uniform token[] joints = [\"hips\", \"hips/head\"]\n\
+         float3[] translations.timeSamples = {{ {places} }}\n quatf[] rotations.timeSamples = {{ {turns} }}\n\
+         half3[] scales = [(1, 1, 1), (1, 1, 1)] }} }}\n\
+         {ball} {bond}\n\
+         def BasisCurves \"hair\" {api} {{ uniform token type = \"linear\"\n int[] curveVertexCounts = [3]\n\
+         point3f[] points = [(0.05, 0.08, 0.02), (0.05, 0.13, 0.02), (0.05, 0.18, 0.02)]\n {bond} }}\n",
+        matrix(0.0, 1.0),
+        matrix(0.0, 1.5),
+        matrix(0.0, 1.0),
+        matrix(0.0, 0.5),
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name);
+    std::fs::write(file("man.usda"), layer).unwrap();
+    let motion = "{ file = \"man.usda\", node = \"/man/rig/hips/head\", facing = \"+z\", bind_at_start = true }";
+    for origin in ["[1, 3, -2]"] {
+        let scene = format!(
+            "[head]\nmesh = \"man.usda\"\nfacing = \"+z\"\norigin = {origin}\nmotion = {motion}\n\
+             ellipsoid = {{ center = [0, 0, 0], half_axes = [9, 9, 9] }}\n\
+             [hair]\nfile = \"man.usda\"\n[motion]\nform = \"free\"\nframes = 5\n[free]\nlag = 0.0\n"
+        );
+        let scene = Scene::parse(&scene, &file("scene.toml"), &[]).unwrap();
+        let (output, exports) = (file("out.usda"), ExportOptions::default());
+        let options = SimulateOptions { output: output.clone(), exports, twin: Twin::Fast, shard: None };
+        simulate(scene, Shown::All, &options, &mut Unwatched).unwrap();
+        for frame in 0..=5 {
+            let root = exchange::hair(&output, frame, None).unwrap().strands.strand(0)[0];
+            let joint = Vec3::new(0.1 * frame as f32, 1.5, 0.0);
+            let of_skeleton = joint + Quat::from_rotation_y(turn(frame)) * Vec3::new(0.05, 0.08, 0.02);
+            let there = Vec3::new(1.0, 0.0, -2.0) + 2.0 * of_skeleton;
+            assert!(root.distance(there) < 1e-4, "origin {origin}, frame {frame}: {root} for {there}");
+        }
+    }
+    let mut advised = Advised::default();
+    let options = NewOptions { head: Some(file("man.usda")), hair: Some(file("man.usda")), ..NewOptions::default() };
+    new(&file("new.toml"), &options, &mut advised).unwrap();
+    let proposed = "node = \"/man/rig/hips/head\"";
+    assert!(
+        advised.0.iter().any(|line| line.contains(proposed) && line.contains("bind_at_start = true")),
+        "{advised:?}"
+    );
 }

@@ -49,6 +49,7 @@ pub mod types {
     pub const VEC4H: u8 = 29;
     pub const VEC4I: u8 = 30;
     pub const TOKEN_LIST: u8 = 32;
+    pub const PATH_LIST: u8 = 34;
     pub const REFERENCE_LIST: u8 = 35;
     pub const TOKEN_VECTOR: u8 = 41;
     pub const SPECIFIER: u8 = 42;

@@ -39,8 +39,11 @@ mod primvars;
 mod read;
 mod shown;
 mod skeleton;
+mod skin;
 mod source;
+mod stance;
 mod text;
+mod timing;
 mod transform;
 mod write;
 

@@ -6,6 +6,8 @@ use crate::Problem;
 use crate::instances;
 use crate::opened::Layer;
 use crate::shown::hidden;
+use crate::skin::{Skin, Stance};
+use crate::transform;
 
 /// The meshes that make a head.
 pub struct Chosen {
@@ -15,8 +17,8 @@ pub struct Chosen {
     pub unread: Vec<String>,
 }
 
-/// Of the meshes whose path is `wanted` those that show; all, where none does.
-pub fn chosen(layer: &mut Layer, wanted: &dyn Fn(&str) -> bool) -> Result<Chosen, Problem> {
+/// Of the meshes whose path is `wanted` those that show; all, where none does. `stance`: the pose of those that joints bend.
+pub fn chosen(layer: &mut Layer, wanted: &dyn Fn(&str) -> bool, stance: Stance) -> Result<Chosen, Problem> {
     let mut all = Vec::new();
     for prim in layer.with_points("Mesh") {
         if wanted(&layer.path(prim)) {
@@ -29,7 +31,8 @@ pub fn chosen(layer: &mut Layer, wanted: &dyn Fn(&str) -> bool) -> Result<Chosen
     for &prim in &prims {
         let holes = layer.at(prim, "holeIndices", f64::NEG_INFINITY).map(|holes| layer.integers(holes)).transpose()?;
         unread.extend(kept_holes(&layer.path(prim), holes.map_or(0, |holes| holes.len())));
-        unread.extend(bent(layer, prim));
+        unread.extend(bent(layer, prim, stance)?);
+        unread.extend(transform::not_there(layer, prim)?);
     }
     unread.sort();
     unread.dedup();
@@ -37,11 +40,17 @@ pub fn chosen(layer: &mut Layer, wanted: &dyn Fn(&str) -> bool) -> Result<Chosen
 }
 
 /// What bends a mesh over time, which a head or body does not.
-fn bent(layer: &Layer, prim: usize) -> Option<String> {
+fn bent(layer: &mut Layer, prim: usize, stance: Stance) -> Result<Option<String>, Problem> {
     let path = layer.path(prim);
     if layer.prims[prim].attributes.get("points").is_some_and(|points| points.samples.len() > 1) {
-        return Some(format!("the motion of the points of {path}: {FIRST_SHAPE}"));
+        return Ok(Some(format!("the motion of the points of {path}: {FIRST_SHAPE}")));
     }
-    let bound = layer.prims[prim].relationships.iter().find(|name| name.starts_with("skel:"))?;
-    Some(format!("{bound} of {path}: it keeps the shape that its own points have"))
+    let Some(skin) = Skin::of(layer, prim)? else {
+        let bound = layer.prims[prim].related().find(|name| name.starts_with("skel:"));
+        return Ok(bound.map(|name| format!("{name} of {path}: it keeps the shape that its own points have")));
+    };
+    Ok(skin.bends().then(|| match stance {
+        Stance::First => format!("how joints bend {path}: {FIRST_SHAPE}"),
+        Stance::Bound => format!("how joints bend {path}: it keeps the shape in which it was bound"),
+    }))
 }

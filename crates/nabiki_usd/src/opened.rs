@@ -9,7 +9,7 @@ use glam::{DQuat, Vec3};
 use crate::Problem;
 use crate::crate_file::MAGIC;
 use crate::crate_file::read::CrateReader;
-use crate::source::{Handle, PrimInfo, Source};
+use crate::source::{AttributeInfo, BLOCKED, Handle, PrimInfo, Source};
 use crate::text::read as text;
 
 /// A layer.
@@ -19,6 +19,8 @@ pub struct Layer {
     /// What the layer says about itself.
     pub metadata: HashMap<String, Handle>,
     values: Values,
+    /// Prims by what is above them and their names, when they are first looked up.
+    by_name: Option<HashMap<(Option<usize>, String), usize>>,
 }
 
 enum Values {
@@ -36,7 +38,7 @@ impl Layer {
         from.seek(SeekFrom::Start(0))?;
         if first == *MAGIC {
             let (reader, prims, metadata) = CrateReader::new(from, length)?;
-            return Ok(Self { prims, metadata, values: Values::Binary(Box::new(reader)) });
+            return Ok(Self { prims, metadata, values: Values::Binary(Box::new(reader)), by_name: None });
         }
         if first.starts_with(b"PK\x03\x04") {
             return Err(Problem::new("is a .usdz package: unpack it and give the layer inside"));
@@ -50,7 +52,7 @@ impl Layer {
             return Err(Problem::new("is no USD layer: it begins neither with #usda nor with PXR-USDC"));
         }
         let (prims, metadata) = text::parse(&mut *from, length)?;
-        Ok(Self { prims, metadata, values: Values::Text(from) })
+        Ok(Self { prims, metadata, values: Values::Text(from), by_name: None })
     }
 
     /// Opens the layer in a file.
@@ -107,28 +109,75 @@ impl Layer {
         names.iter().rev().fold(String::new(), |path, name| path + "/" + name)
     }
 
-    /// The value of an attribute at a time code: the last sample at or before it, or the first.
+    /// What a relationship names: `None` for what is no prim of the layer. None at all where the prim does not have it.
+    pub fn targets(&mut self, prim: usize, name: &str) -> Result<Option<Vec<Option<usize>>>, Problem> {
+        let mut own = self.prims[prim].relationships.iter().filter(|(own, _)| own == name);
+        let Some(&(_, value)) = own.next_back() else { return Ok(None) };
+        if value == BLOCKED {
+            return Ok(Some(Vec::new()));
+        }
+        let paths = match &mut self.values {
+            Values::Text(from) => text::targets(&mut **from, value)?,
+            Values::Binary(reader) => return reader.targets(value.0).map(Some),
+        };
+        Ok(Some(paths.into_iter().map(|path| self.find(&path, prim)).collect()))
+    }
+
+    /// The prim that the nearest of `chain`, a prim and those above it, names by a relationship of skeletons.
+    pub fn bound_target(&mut self, chain: &[usize], name: &str) -> Result<Option<usize>, Problem> {
+        for &prim in chain {
+            if !self.prims[prim].is_bound {
+                continue;
+            }
+            // One that is blocked, or leads nowhere, is not inherited either.
+            if let Some(targets) = self.targets(prim, name)? {
+                return Ok(targets.first().copied().flatten());
+            }
+        }
+        Ok(None)
+    }
+
+    /// The prim at a path from the root, or from `base` on.
+    fn find(&mut self, path: &str, base: usize) -> Option<usize> {
+        let prims = &self.prims;
+        let by_name = self.by_name.get_or_insert_with(|| {
+            let all = prims.iter().enumerate().rev();
+            all.map(|(i, prim)| ((prim.parent, prim.name.clone()), i)).collect()
+        });
+        let mut at = if path.starts_with('/') { None } else { Some(base) };
+        for name in path.split('/').filter(|name| !name.is_empty()) {
+            at = match name {
+                ".." => prims[at?].parent,
+                name => Some(*by_name.get(&(at, name.to_owned()))?),
+            };
+        }
+        at
+    }
+
+    /// The value of an attribute at a time code: the last sample at or before it, or the first; none where that is blocked.
     pub fn at(&self, prim: usize, name: &str, time: f64) -> Option<Handle> {
         let attribute = self.prims[prim].attributes.get(name)?;
         let after = attribute.samples.partition_point(|&(t, _)| t <= time + 1e-6);
-        match attribute.samples.get(after.saturating_sub(1)) {
+        let value = match attribute.samples.get(after.saturating_sub(1)) {
             Some(&(_, handle)) => Some(handle),
             None => attribute.default,
-        }
+        };
+        value.filter(|&value| value != BLOCKED)
     }
 
     /// The values between which an attribute stands at a time code: the sample at or before it, and the one after with
-    /// its share (0..1). Before the first sample and after the last, these hold.
+    /// its share (0..1). Before the first sample and after the last, these hold, and so does what stands before a block.
     fn between(&self, prim: usize, name: &str, time: f64) -> Option<(Handle, Option<(Handle, f64)>)> {
         let attribute = self.prims[prim].attributes.get(name)?;
         let after = attribute.samples.partition_point(|&(t, _)| t <= time);
         let sample = |i: usize| attribute.samples.get(i).copied();
         match (after.checked_sub(1).and_then(sample), sample(after)) {
-            (Some((from, low)), Some((to, high))) if time > from => {
+            (Some((_, BLOCKED)), _) | (None, Some((_, BLOCKED))) => None,
+            (Some((from, low)), Some((to, high))) if time > from && high != BLOCKED => {
                 Some((low, Some((high, (time - from) / (to - from)))))
             }
             (Some((_, value)), _) | (None, Some((_, value))) => Some((value, None)),
-            (None, None) => attribute.default.map(|value| (value, None)),
+            (None, None) => attribute.default.filter(|&value| value != BLOCKED).map(|value| (value, None)),
         }
     }
 
@@ -233,7 +282,7 @@ impl Layer {
 
     /// Whether a prim has points at any time.
     pub fn has_points(&self, prim: usize) -> bool {
-        self.prims[prim].attributes.get("points").is_some_and(|a| a.default.is_some() || !a.samples.is_empty())
+        self.prims[prim].attributes.get("points").is_some_and(AttributeInfo::is_authored)
     }
 
     /// A prim and those above it, from below.

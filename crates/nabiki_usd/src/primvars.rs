@@ -2,12 +2,12 @@
 
 use nabiki::hair::{Per, Role, Stored, Values};
 use nabiki_exchange::Hidden;
-use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values, past, whole};
+use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values, misindexed, whole};
 
 use crate::Problem;
 use crate::opened::Layer;
 use crate::shown::hidden;
-use crate::source::Handle;
+use crate::source::{AttributeInfo, Handle};
 
 /// What a prim carries at a time code: its primvars, and `widths`, which is an attribute of its own.
 pub struct Primvars<'a> {
@@ -17,6 +17,10 @@ pub struct Primvars<'a> {
     pub prim: usize,
     /// The time code.
     pub time: f64,
+    /// The frame that this is.
+    pub frame: usize,
+    /// Whether the points hang on joints: what says how is obeyed, then, and is no primvar of theirs any more.
+    pub is_bound: bool,
 }
 
 /// Attributes of curves that are read elsewhere, or say nothing of the hair.
@@ -34,6 +38,11 @@ const KNOWN: [&str; 11] = [
     "xformOpOrder",
 ];
 
+/// Whether a property, or a primvar, says how a prim is bound to a skeleton.
+fn is_of_bond(name: &str) -> bool {
+    name.strip_prefix("primvars:").unwrap_or(name).starts_with("skel:")
+}
+
 impl Primvars<'_> {
     /// What the prim says of itself that is not read, a phrase each.
     pub fn unread(&mut self) -> Result<Vec<String>, Problem> {
@@ -42,23 +51,29 @@ impl Primvars<'_> {
         let other = |name: &&String| {
             !KNOWN.contains(&name.as_str()) && !name.starts_with("primvars:") && !name.starts_with("xformOp:")
         };
-        let mut unread: Vec<String> =
-            prim.attributes.keys().filter(other).map(|name| format!("attribute {name}")).collect();
+        let of_bond = |name: &str| self.is_bound && is_of_bond(name);
+        let mut unread: Vec<String> = prim
+            .authored()
+            .map(|(name, _)| name)
+            .filter(|name| other(name) && !of_bond(name))
+            .map(|name| format!("attribute {name}"))
+            .collect();
         let moving = prim
-            .attributes
-            .iter()
+            .authored()
             .filter(|(name, a)| (name.starts_with("primvars:") || name.as_str() == "widths") && a.samples.len() > 1);
-        unread.extend(moving.map(|(name, _)| format!("motion of {name}: its first value is kept")));
+        let frame = self.frame;
+        unread.extend(moving.map(|(name, _)| format!("motion of {name}: its value in frame {frame} is kept")));
         let splines = prim.attributes.iter().filter(|(name, a)| name.starts_with("primvars:") && a.has_spline);
         unread.extend(splines.map(|(name, _)| format!("the spline of {name}")));
         unread.append(&mut marks);
         for above in self.layer.upward(self.prim).skip(1) {
-            let names = self.layer.prims[above].attributes.keys();
-            let inherited = names.filter(|name| name.starts_with("primvars:") && !name.ends_with(":indices"));
+            let names = self.layer.prims[above].authored().map(|(name, _)| name);
+            let inherited =
+                names.filter(|name| name.starts_with("primvars:") && !name.ends_with(":indices") && !of_bond(name));
             unread.extend(inherited.map(|name| format!("{name} of {}, which is above it", self.layer.path(above))));
         }
         for above in self.layer.upward(self.prim) {
-            for name in &self.layer.prims[above].relationships {
+            for name in self.layer.prims[above].related().filter(|name| !of_bond(name)) {
                 unread.push(format!("{name} of {}", self.layer.path(above)));
             }
         }
@@ -102,19 +117,24 @@ impl Primvars<'_> {
 }
 
 impl NamedValues for Primvars<'_> {
-    fn misindexed(&mut self, name: &str) -> Result<bool, Problem> {
-        let (Some(indices), Some(handle)) = (self.indices(name)?, self.named(name)) else { return Ok(false) };
+    fn misindexed(&mut self, name: &str) -> Result<Option<&'static str>, Problem> {
+        let (Some(indices), Some(handle)) = (self.indices(name)?, self.named(name)) else { return Ok(None) };
         let type_name = &self.layer.prims[self.prim].attributes.get(&format!("primvars:{name}")).map(|a| &a.type_name);
         let count = match type_name.and_then(|name| kind(name)) {
             Some(Kind { stored: Stored::Text | Stored::Token, .. }) => self.layer.words(handle)?.len(),
             Some(Kind { extent, .. }) => self.layer.numbers(handle)?.len() / extent,
-            None => return Ok(false),
+            None => return Ok(None),
         };
-        Ok(past(&indices, count))
+        Ok(misindexed(&indices, count))
     }
 
     fn names(&self) -> Vec<String> {
-        let names = self.layer.prims[self.prim].attributes.keys().filter_map(|name| name.strip_prefix("primvars:"));
+        // Of a spline there is no value, which is said.
+        let has_value =
+            |(name, a): &(&String, &AttributeInfo)| a.has_spline || self.layer.at(self.prim, name, self.time).is_some();
+        let attributes = self.layer.prims[self.prim].authored().filter(has_value);
+        let names = attributes.filter_map(|(name, _)| name.strip_prefix("primvars:"));
+        let names = names.filter(|name| !(self.is_bound && is_of_bond(name)));
         names.filter(|name| !name.ends_with(":indices")).map(str::to_owned).collect()
     }
 

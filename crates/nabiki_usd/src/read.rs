@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use glam::{Affine3A, DAffine3, Vec3};
+use glam::{Affine3A, DAffine3, DMat4, Vec3};
 use nabiki::{Hair, Mesh};
 use nabiki_exchange::attributes::NamedValues;
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
@@ -18,13 +18,17 @@ use crate::meshes;
 use crate::opened::Layer;
 use crate::primvars::Primvars;
 use crate::skeleton::{self, Joint};
+use crate::skin::{Skin, Stance};
 use crate::source::Source;
 use crate::transform;
 
 /// A layer to read hair, heads and motion from.
 pub struct StageReader {
-    layer: Layer,
+    pub(crate) layer: Layer,
     kept: Kept,
+    /// Found when it is first asked for, like what follows.
+    pub(crate) frames: Option<Frames>,
+    pub(crate) stance: Option<Stance>,
 }
 
 /// The curves that are read.
@@ -38,7 +42,7 @@ impl StageReader {
     /// # Errors
     /// What is wrong with it, without its name.
     pub fn open(path: &Path) -> Result<Self, Problem> {
-        Ok(Self { layer: Layer::file(path)?, kept: Kept::default() })
+        Ok(Self::of(Layer::file(path)?))
     }
 
     /// Opens a layer.
@@ -46,17 +50,11 @@ impl StageReader {
     /// # Errors
     /// What is wrong with it.
     pub fn new(from: impl Source + 'static) -> Result<Self, Problem> {
-        Ok(Self { layer: Layer::open(Box::new(from))?, kept: Kept::default() })
+        Ok(Self::of(Layer::open(Box::new(from))?))
     }
 
-    /// A number that the layer says of itself, if it does.
-    fn positive(&mut self, name: &str, wanted: &str) -> Result<Option<f64>, Problem> {
-        match self.layer.metadata_number(name)? {
-            Some(x) if !(x.is_finite() && x > 0.0) => {
-                Err(Problem(format!("{name} = {x}: must be a finite number above 0, {wanted}")))
-            }
-            number => Ok(number),
-        }
+    fn of(layer: Layer) -> Self {
+        Self { layer, kept: Kept::default(), frames: None, stance: None }
     }
 
     fn z_up(&mut self) -> Result<Option<bool>, Problem> {
@@ -69,63 +67,32 @@ impl StageReader {
         }
     }
 
-    fn codes_a_second(&mut self) -> Result<f64, Problem> {
-        let rate = self.positive("timeCodesPerSecond", "24, say")?;
-        let rate = rate.or(self.positive("framesPerSecond", "24, say")?);
-        Ok(rate.unwrap_or(24.0))
-    }
-
-    /// The frames of the curves with the most samples, or of what moves them whole, in time codes. Samples at uneven
-    /// times, or farther apart than frames, give way to the frames, between which there is interpolation.
-    fn frames(&mut self) -> Result<Frames, Problem> {
-        let a_frame = self.codes_a_frame()?;
-        let samples = |i: usize| self.layer.prims[i].attributes.get("points").map(|a| &a.samples[..]).unwrap_or(&[]);
-        let most = self.layer.of_type("BasisCurves").into_iter().map(samples).max_by_key(|s| s.len());
-        let mut codes: Vec<f64> = most.unwrap_or_default().iter().map(|&(time, _)| time).collect();
-        if codes.len() < 2 {
-            let above = self.layer.of_type("BasisCurves").into_iter().map(|i| transform::times(&self.layer, i));
-            let mut above = above.max_by_key(Vec::len).unwrap_or_default();
-            above.sort_by(f64::total_cmp);
-            above.dedup();
-            codes = if above.len() > 1 { above } else { codes };
-        }
-        let as_sampled = Frames::as_sampled(&codes).filter(|frames| frames.step <= a_frame * (1.0 + SAME_TIME));
-        as_sampled.or_else(|| Frames::whole(&codes, a_frame)).ok_or_else(|| {
-            let [first, last] = [codes[0], codes[codes.len() - 1]];
-            Problem(format!("its curves move from time code {first} to {last}, longer than is read"))
-        })
-    }
-
-    /// Time codes from one frame to the next.
-    fn codes_a_frame(&mut self) -> Result<f64, Problem> {
-        // Codes so close that they are no frames of any film, in a layer that does not say how many make one.
-        const MOST_A_SECOND: f64 = 240.0;
-        let codes = self.codes_a_second()?;
-        let frames = self.positive("framesPerSecond", "24, say")?;
-        Ok(codes / frames.unwrap_or(if codes > MOST_A_SECOND { 24.0 } else { codes }))
-    }
-
-    /// The time code of a frame; that of the last after those there are.
-    fn code_of(&mut self, frame: usize) -> Result<f64, Problem> {
-        let codes = self.frames()?.times;
-        Ok(codes.get(frame).or(codes.last()).copied().unwrap_or(0.0))
-    }
-
-    fn curves(&mut self, prim: usize, time: f64, segments: Option<usize>, attributes: bool) -> Result<Hair, Problem> {
+    fn curves(
+        &mut self,
+        prim: usize,
+        frame: usize,
+        segments: Option<usize>,
+        attributes: bool,
+    ) -> Result<(Hair, DAffine3), Problem> {
+        let time = self.code_of(frame)?;
         let layer = &mut self.layer;
         let points = layer.points_at(prim, "points", time)?.ok_or_else(|| Problem::new("have no points"))?;
+        // Curves that are bound are where the stage has them in every frame.
+        let InPose { points, world, is_bound } = in_place(layer, prim, points, Stance::First, time)?;
+        let world = DAffine3::from_mat4(world);
         let counts = layer.at(prim, "curveVertexCounts", time);
         let counts = layer.integers(counts.ok_or_else(|| Problem::new("have no curveVertexCounts"))?)?;
         let counts = checked_counts(&counts, points.len())?;
         let Course { basis, pinned } = course(layer, prim)?;
         let lines = Shape { counts, basis, pinned }.walk(points, segments)?;
         if !attributes {
-            return Ok(Hair::from(lines.strands));
+            return Ok((Hair::from(lines.strands), world));
         }
-        let mut primvars = Primvars { layer: &mut self.layer, prim, time };
+        let mut primvars = Primvars { layer: &mut self.layer, prim, time, frame, is_bound };
         let mut attributes = lines.attributes(&mut primvars)?;
         attributes.unread.extend(primvars.unread()?);
-        Ok(Hair { strands: lines.strands, attributes })
+        attributes.unread.extend(transform::not_there(&mut self.layer, prim)?);
+        Ok((Hair { strands: lines.strands, attributes }, world))
     }
 
     /// Whether curves are closed, which no hair is.
@@ -208,16 +175,29 @@ impl StageReader {
         }
     }
 
-    /// The texture coordinates of a mesh. `None` where it has none, or one for all or for each face, which say nothing of a
-    /// place.
-    fn texture_coordinates(&mut self, prim: usize, time: f64) -> Result<Option<Uvs>, Problem> {
-        let of = match self.layer.interpolation(prim, "primvars:st")?.as_deref() {
+    /// The texture coordinates of a mesh, if it has any, or why they are none.
+    fn texture_coordinates(
+        &mut self,
+        prim: usize,
+        time: f64,
+    ) -> Result<std::result::Result<Option<Uvs>, String>, Problem> {
+        const NAME: &str = "primvars:st";
+        if self.layer.at(prim, NAME, time).is_none() {
+            return Ok(Ok(None));
+        }
+        let of = match self.layer.interpolation(prim, NAME)?.as_deref() {
             Some("faceVarying") => Uvs::OfCorners,
             Some("vertex" | "varying") => Uvs::OfVertices,
-            _ => return Ok(None),
+            Some("uniform") => return Ok(Err("they are of faces, not of places".to_owned())),
+            _ => return Ok(Err("they are one pair for all, not of places".to_owned())),
         };
-        let uvs = Primvars { layer: &mut self.layer, prim, time }.tuples::<2>("st")?;
-        Ok(uvs.map(of))
+        let type_name = self.layer.prims[prim].attributes[NAME].type_name.clone();
+        let mut primvars = Primvars { layer: &mut self.layer, prim, time, frame: 0, is_bound: false };
+        if let Some(why) = primvars.misindexed("st")? {
+            return Ok(Err(why.to_owned()));
+        }
+        let uvs = primvars.tuples::<2>("st")?;
+        Ok(uvs.map(|uvs| Some(of(uvs))).ok_or_else(|| format!("no pairs of numbers are in them ({type_name})")))
     }
 
     /// Paths of what can move a head: prims that move themselves, then joints; where there are none, any prim.
@@ -239,6 +219,32 @@ impl StageReader {
         }
         paths.truncate(MOST_NAMED);
         Ok(paths)
+    }
+}
+
+/// Points of a prim where they hang on joints, if they do.
+struct InPose {
+    points: Vec<Vec3>,
+    /// Takes them to the world.
+    world: DMat4,
+    /// Whether they do.
+    is_bound: bool,
+}
+
+/// Points of a prim, as its skeleton has them if it is bound to one.
+fn in_place(
+    layer: &mut Layer,
+    prim: usize,
+    mut points: Vec<Vec3>,
+    stance: Stance,
+    time: f64,
+) -> Result<InPose, Problem> {
+    match Skin::of(layer, prim)?.filter(|skin| skin.fits(points.len())) {
+        None => Ok(InPose { points, world: transform::world(layer, prim, time)?, is_bound: false }),
+        Some(skin) => {
+            skin.place(layer, &mut points, stance, time)?;
+            Ok(InPose { points, world: skin.world(layer, time)?, is_bound: true })
+        }
     }
 }
 
@@ -270,11 +276,11 @@ impl GroomReader for StageReader {
             prims.map(|i| layer.path(i)).collect::<Vec<_>>()
         };
         let curves = self.open_curves()?.0.into_iter().map(|i| self.layer.path(i)).collect();
-        let frames = self.frames()?;
+        let frames = self.frames()?.clone();
         let codes_a_second = self.codes_a_second()?;
         // Curves that move begin with the hair that is read first, whatever of the stage comes before or after.
         let start = match frames.times[..] {
-            [first, _, ..] => Some(first),
+            [first, ..] if frames.step > 0.0 => Some(first),
             _ => self.layer.metadata_number("startTimeCode")?.filter(|code| code.is_finite()),
         };
         Ok(Contents {
@@ -308,7 +314,11 @@ impl GroomReader for StageReader {
                     let curves = self.count(i, "curveVertexCounts")?;
                     // Curves that USD does not know are refused when they are read.
                     let course = course(&mut self.layer, i).unwrap_or(Course::LINEAR);
-                    let world = DAffine3::from_mat4(transform::world(&mut self.layer, i, time)?);
+                    let world = match Skin::of(&mut self.layer, i)? {
+                        Some(skin) => skin.world(&mut self.layer, time)?,
+                        None => transform::world(&mut self.layer, i, time)?,
+                    };
+                    let world = DAffine3::from_mat4(world);
                     PrimKind::Curves { curves, points: self.point_count(i)?, course, world_from_curves: world }
                 }
                 "Mesh" => {
@@ -320,7 +330,7 @@ impl GroomReader for StageReader {
                 _ => PrimKind::Other(type_name),
             };
             let samples = self.layer.prims[i].attributes.values().map(|a| a.samples.len()).max().unwrap_or(0);
-            let relationships = self.layer.prims[i].relationships.clone();
+            let relationships = self.layer.prims[i].related().cloned().collect();
             prims.push(Prim { path: self.layer.path(i), kind, samples, relationships });
         }
         Ok(prims)
@@ -331,7 +341,6 @@ impl GroomReader for StageReader {
     }
 
     fn hair_in_place(&mut self, frame: usize, segments: Option<usize>, attributes: bool) -> Result<InPlace, Problem> {
-        let time = self.code_of(frame)?;
         if self.layer.with_points("BasisCurves").is_empty() {
             return Err(self.no_curves());
         }
@@ -339,17 +348,16 @@ impl GroomReader for StageReader {
         closed.check(prims.len())?;
         let mut all = Gathered::default();
         for (group, &prim) in prims.iter().enumerate() {
-            let part = self.curves(prim, time, segments, attributes);
-            let part = part.map_err(|e| Problem(format!("curves {}: {e}", self.layer.path(prim))))?;
+            let part = self.curves(prim, frame, segments, attributes);
+            let (part, world) = part.map_err(|e| Problem(format!("curves {}: {e}", self.layer.path(prim))))?;
             let name = self.layer.prims[prim].name.clone();
-            let world = transform::world(&mut self.layer, prim, time)?;
-            all.append(part, DAffine3::from_mat4(world), (prims.len() > 1).then_some((group as i32, name)))?;
+            all.append(part, world, (prims.len() > 1).then_some((group as i32, name)))?;
         }
         let mut placed = all.hair()?;
         if attributes {
-            let (frames, codes_a_second) = (self.frames()?, self.codes_a_second()?);
+            let codes_a_second = self.codes_a_second()?;
             let unread = &mut placed.hair.attributes.unread;
-            unread.extend(frames.unread(codes_a_second));
+            unread.extend(self.frames()?.unread(codes_a_second));
             unread.extend(self.layer.without_points("BasisCurves", "curves"));
             unread.extend(closed.unread());
             unread.extend(self.other_curves().iter().filter_map(|others| others.unread(READ)));
@@ -359,23 +367,28 @@ impl GroomReader for StageReader {
         Ok(placed)
     }
 
-    fn meshes(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Mesh, Problem> {
-        let mut mesh = Mesh::default();
-        let time = self.code_of(0)?;
-        for prim in meshes::chosen(&mut self.layer, wanted)?.prims {
+    fn meshes_with_losses(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<(Mesh, Vec<String>), Problem> {
+        let (mut mesh, mut lost) = (Mesh::default(), Vec::new());
+        let (time, stance) = (self.code_of(0)?, self.stance()?);
+        for prim in meshes::chosen(&mut self.layer, wanted, stance)?.prims {
             let path = self.layer.path(prim);
             let problem = |what: &str| Problem(format!("mesh {path}: {what}"));
             let layer = &mut self.layer;
             let points: Vec<Vec3> = layer.points_at(prim, "points", time)?.ok_or_else(|| problem("has no points"))?;
+            let InPose { points, world, .. } = in_place(layer, prim, points, stance, time)?;
             let counts = layer.at(prim, "faceVertexCounts", time).ok_or_else(|| problem("has no faces"))?;
             let counts = layer.integers(counts)?;
             let corners = layer.at(prim, "faceVertexIndices", time).ok_or_else(|| problem("has no faces"))?;
             let corners = layer.integers(corners)?;
             let clockwise = layer.word(prim, "orientation")?.as_deref() == Some("leftHanded");
-            let world = Affine3A::from_mat4(transform::world(&mut self.layer, prim, time)?.as_mat4());
-            let uvs = self.texture_coordinates(prim, time)?;
+            let world = Affine3A::from_mat4(world.as_mat4());
+            let (uvs, none) = match self.texture_coordinates(prim, time)? {
+                Ok(uvs) => (uvs, None),
+                Err(why) => (None, Some(why)),
+            };
             let polygons = Polygons { positions: &points, counts: &counts, corners: &corners, clockwise, uvs };
-            add_polygons(&mut mesh, polygons, &world).map_err(|e| problem(&e.0))?;
+            let misfit = add_polygons(&mut mesh, polygons, &world).map_err(|e| problem(&e.0))?;
+            lost.extend(none.or(misfit).map(|why| format!("texture coordinates of {path}: {why}")));
         }
         match mesh.positions.iter().find(|p| !p.is_finite()) {
             Some(p) => Err(Problem(format!("has a vertex at {p}"))),
@@ -388,12 +401,13 @@ impl GroomReader for StageReader {
                     None => Err(Problem::new("has no meshes")),
                 },
             },
-            None => Ok(mesh),
+            None => Ok((mesh, lost)),
         }
     }
 
     fn meshes_unread(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Vec<String>, Problem> {
-        let mut unread = meshes::chosen(&mut self.layer, wanted)?.unread;
+        let stance = self.stance()?;
+        let mut unread = meshes::chosen(&mut self.layer, wanted, stance)?.unread;
         unread.extend(arcs::unread(&mut self.layer)?);
         Ok(unread)
     }
@@ -436,10 +450,20 @@ impl GroomReader for StageReader {
         Ok(motion)
     }
 
+    fn joint_of_meshes(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Option<String>, Problem> {
+        self.carrying_joint(wanted)
+    }
+
     fn bound(&mut self, node: &str) -> Result<Option<Placed>, Problem> {
         let bound = match self.mover(node)? {
             Mover::Prim(_) => None,
-            Mover::Joint(joint) => joint.bound(&mut self.layer)?,
+            Mover::Joint(joint) => {
+                let (time, stance) = (self.code_of(0)?, self.stance()?);
+                match stance {
+                    Stance::First => Some(joint.world(&mut self.layer, time)?),
+                    Stance::Bound => joint.bound(&mut self.layer, time)?,
+                }
+            }
         };
         match bound {
             Some(world) if !(world.is_finite() && world.determinant().abs() > 0.0) => {

@@ -4,7 +4,7 @@ use nabiki_exchange::Hidden;
 
 use crate::Problem;
 use crate::opened::Layer;
-use crate::source::Handle;
+use crate::source::{BLOCKED, Handle};
 
 /// What keeps a prim out of a final picture; nothing for one that shows.
 pub fn hidden(layer: &mut Layer, prim: usize) -> Result<Vec<Hidden>, Problem> {
@@ -35,7 +35,8 @@ fn invisible(layer: &mut Layer, prim: usize) -> Result<Option<bool>, Problem> {
         samples => samples.iter().map(|&(_, value)| value).collect(),
     };
     let (mut seen, mut unseen) = (false, false);
-    for value in values {
+    // What is blocked is inherited.
+    for value in values.into_iter().filter(|&value| value != BLOCKED) {
         match layer.words(value)?.first().map(String::as_str) {
             Some("invisible") => unseen = true,
             _ => seen = true,

@@ -6,6 +6,12 @@ use std::io::{Read, Seek};
 /// Where a value is: in text its first byte and length, in binary what names it.
 pub type Handle = (u64, u64);
 
+/// A value that is blocked: there is none, whatever weaker layers and the attribute's own default say.
+pub const BLOCKED: Handle = (0, 0);
+
+/// The schema by which a prim says how it is bound to a skeleton.
+pub const SKEL_BINDING: &str = "SkelBindingAPI";
+
 /// A prim of the layer.
 #[derive(Clone, Debug, Default)]
 pub struct PrimInfo {
@@ -19,14 +25,28 @@ pub struct PrimInfo {
     pub is_over: bool,
     /// The prim above it in the list.
     pub parent: Option<usize>,
-    /// Attributes by name.
+    /// Attributes by name, those that are declared and have no value among them.
     pub attributes: HashMap<String, AttributeInfo>,
-    /// Names of its relationships: `material:binding`.
-    pub relationships: Vec<String>,
+    /// Its relationships by name, `material:binding`: where their targets stand, [`BLOCKED`] where they have none.
+    pub relationships: Vec<(String, Handle)>,
+    /// Whether it says how it is bound to a skeleton: `SkelBindingAPI` is applied to it.
+    pub is_bound: bool,
     /// Whether what comes to it by arcs is shared with other prims, as `instanceable` asks for.
     pub is_instance: bool,
     /// Arcs by which content from elsewhere comes to it, by the words of text layers: `references`.
     pub arcs: Vec<&'static str>,
+}
+
+impl PrimInfo {
+    /// The names of its relationships that have targets.
+    pub fn related(&self) -> impl Iterator<Item = &String> {
+        self.relationships.iter().filter(|&&(_, targets)| targets != BLOCKED).map(|(name, _)| name)
+    }
+
+    /// Its attributes that have a value at some time: one that is blocked is as if it were not there.
+    pub fn authored(&self) -> impl Iterator<Item = (&String, &AttributeInfo)> {
+        self.attributes.iter().filter(|(_, attribute)| attribute.is_authored())
+    }
 }
 
 /// An attribute of a prim.
@@ -36,14 +56,22 @@ pub struct AttributeInfo {
     pub type_name: String,
     /// Whether it had these.
     pub is_array: bool,
-    /// Value without a time.
+    /// Value without a time; [`BLOCKED`] where it says that there is none.
     pub default: Option<Handle>,
     /// Whether a spline moves it, which is not read.
     pub has_spline: bool,
-    /// Time codes and values, times growing.
+    /// Time codes and values, times growing; [`BLOCKED`] where there is none from then on.
     pub samples: Vec<(f64, Handle)>,
     /// What says how many values there are: in text all that stands in parentheses behind the value.
     pub interpolation: Option<Handle>,
+}
+
+impl AttributeInfo {
+    /// Whether it has a value at some time.
+    pub fn is_authored(&self) -> bool {
+        let by_default = self.samples.is_empty() && self.default.is_some_and(|value| value != BLOCKED);
+        by_default || self.has_spline || self.samples.iter().any(|&(_, value)| value != BLOCKED)
+    }
 }
 
 /// What a layer is read from.

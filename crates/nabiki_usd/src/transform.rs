@@ -1,9 +1,11 @@
 //! Transforms of prims, from the operations that each lists.
 
 use glam::{DMat4, DVec3};
+use nabiki::hair::Stored;
 
 use crate::Problem;
 use crate::opened::Layer;
+use crate::primvars;
 
 /// The product of all transforms from the top down to `prim` at a time code. Between samples, each operation is
 /// interpolated before the product is taken, as USD does.
@@ -27,13 +29,34 @@ pub fn times(layer: &Layer, prim: usize) -> Vec<f64> {
     moving.flat_map(|(_, a)| a.samples.iter().map(|&(t, _)| t)).collect()
 }
 
+/// The operations that the order of `prim`, or of one above it, names and that are not there, a phrase each: USD passes over them, too.
+pub fn not_there(layer: &mut Layer, prim: usize) -> Result<Vec<String>, Problem> {
+    let mut lines = Vec::new();
+    let upward: Vec<usize> = layer.upward(prim).collect();
+    for i in upward {
+        let Some(order) = layer.at(i, "xformOpOrder", f64::NEG_INFINITY) else { continue };
+        for word in layer.words(order)? {
+            let name = word.strip_prefix("!invert!").unwrap_or(&word);
+            if name != RESET && !layer.prims[i].attributes.contains_key(name) {
+                lines.push(format!("{word:?} of {}: its xformOpOrder names it, and it is not there", layer.path(i)));
+            }
+        }
+    }
+    lines.sort();
+    lines.dedup();
+    Ok(lines)
+}
+
+/// What in an order takes away the transforms above.
+const RESET: &str = "!resetXformStack!";
+
 /// A prim's own transform, and whether those above it do not count.
 fn local(layer: &mut Layer, prim: usize, time: f64) -> Result<(DMat4, bool), Problem> {
     let mut local = DMat4::IDENTITY;
     let mut resets = false;
     let Some(order) = layer.at(prim, "xformOpOrder", time) else { return Ok((local, resets)) };
     for word in layer.words(order)? {
-        if word == "!resetXformStack!" {
+        if word == RESET {
             (local, resets) = (DMat4::IDENTITY, true);
             continue;
         }
@@ -41,29 +64,49 @@ fn local(layer: &mut Layer, prim: usize, time: f64) -> Result<(DMat4, bool), Pro
             Some(name) => (true, name),
             None => (false, word.as_str()),
         };
-        let kind = name.strip_prefix("xformOp:").unwrap_or(name).split(':').next().unwrap_or_default();
-        if layer.prims[prim].attributes.get(name).is_some_and(|a| a.has_spline && a.samples.is_empty()) {
+        let Some(attribute) = layer.prims[prim].attributes.get(name) else { continue };
+        let kind = name.strip_prefix("xformOp:").and_then(|rest| rest.split(':').next()).unwrap_or_default();
+        if attribute.has_spline && attribute.samples.is_empty() {
             let path = layer.path(prim);
             return Err(Problem(format!(
                 "prim {path}: {name} is a spline, which is not read: bake it to time samples"
             )));
         }
-        let operation = if kind == "orient" {
-            let turn = layer.quaternions_at(prim, name, time)?;
-            turn.map(|turn| Some(turn.first().map_or(DMat4::IDENTITY, |&turn| DMat4::from_quat(turn))))
+        let is_known = attribute.type_name.is_empty() || fits(kind, &attribute.type_name) && !attribute.is_array;
+        let operation = if !is_known {
+            None
+        } else if kind == "orient" {
+            let turn = layer.quaternions_at(prim, name, time)?.unwrap_or_default();
+            Some(turn.first().map_or(DMat4::IDENTITY, |&turn| DMat4::from_quat(turn)))
         } else {
-            layer.numbers_at(prim, name, time)?.map(|numbers| match numbers[..] {
-                // A value that is blocked moves nothing in USD.
-                [] => Some(DMat4::IDENTITY),
-                _ => operation(kind, &numbers),
-            })
+            match layer.numbers_at(prim, name, time)?.as_deref() {
+                // What has no value, or one that is blocked, moves nothing in USD.
+                None | Some([]) => Some(DMat4::IDENTITY),
+                Some(numbers) => operation(kind, numbers),
+            }
         };
-        let problem = |what: &str| Problem(format!("prim {}: {what}", layer.path(prim)));
-        let operation = operation.ok_or_else(|| problem(&format!("has no {name}")))?;
-        let operation = operation.ok_or_else(|| problem(&format!("{name} is no transform")))?;
+        let Some(operation) = operation else {
+            let path = layer.path(prim);
+            return Err(Problem(format!("prim {path}: {name} is no transform that USD knows")));
+        };
         local *= if inverted { operation.inverse() } else { operation };
     }
     Ok((local, resets))
+}
+
+/// Whether values of a type can be operations of a kind.
+fn fits(kind: &str, type_name: &str) -> bool {
+    if kind == "orient" {
+        return matches!(type_name, "quath" | "quatf" | "quatd");
+    }
+    let numbers = primvars::kind(type_name).filter(|k| matches!(k.stored, Stored::F16 | Stored::F32 | Stored::F64));
+    let wanted = match kind {
+        "transform" => 16,
+        "translateX" | "translateY" | "translateZ" | "scaleX" | "scaleY" | "scaleZ" => 1,
+        "rotateX" | "rotateY" | "rotateZ" => 1,
+        _ => 3,
+    };
+    numbers.is_some_and(|numbers| numbers.extent == wanted)
 }
 
 /// One operation as a matrix that multiplies columns.

@@ -249,6 +249,52 @@ fn that_a_mesh_bends_is_said() {
 }
 
 #[test]
+fn a_head_whose_texture_coordinates_are_none_keeps_its_shape_and_that_is_said() {
+    let four = "[(0, 0), (1, 0), (0, 1), (1, 1)]";
+    let vertex = "( interpolation = \"vertex\" )";
+    for (more, why) in [
+        (
+            format!("texCoord2f[] primvars:st = {four} {vertex}\n int[] primvars:st:indices = []"),
+            "its list of indices is empty",
+        ),
+        (
+            format!("texCoord2f[] primvars:st = {four} {vertex}\n int[] primvars:st:indices = [0, 1, 2, 4]"),
+            "some of its indices name no value",
+        ),
+        (
+            format!("texCoord2f[] primvars:st = {four} {vertex}\n int[] primvars:st:indices = [0, 1, -1, 2]"),
+            "some of its indices name no value",
+        ),
+        (
+            "texCoord2f[] primvars:st = [(0, 0), (1, 1)] ( interpolation = \"faceVarying\" )".to_owned(),
+            "2 for 12 corners",
+        ),
+        (format!("texCoord2f[] primvars:st = [(0, 0)] {vertex}"), "1 for 4 vertices"),
+        (
+            format!("texCoord2f[] primvars:st = [(0, 0), (1, 0), (0, nan), (1, 1)] {vertex}"),
+            "those of number 2 are (0, NaN), which are not finite",
+        ),
+        (
+            format!("token[] primvars:st = [\"a\", \"b\", \"c\", \"d\"] {vertex}"),
+            "no pairs of numbers are in them (token)",
+        ),
+        (format!("float[] primvars:st = [0, 1, 2, 3] {vertex}"), "no pairs of numbers are in them (float)"),
+        (format!("texCoord2f[] primvars:st = [] {vertex}"), "no pairs of numbers are in them (texCoord2f)"),
+        (
+            format!("texCoord2f[] primvars:st = {four} ( interpolation = \"uniform\" )"),
+            "they are of faces, not of places",
+        ),
+    ] {
+        let (found, losses) = reader(&mesh("head", &more)).meshes_with_losses(&|_| true).unwrap();
+        assert_eq!((found.triangles.len(), found.corner_uvs), (4, None), "{more}");
+        assert_eq!(losses, [format!("texture coordinates of /head: {why}")], "{more}");
+    }
+    let whole = format!("texCoord2f[] primvars:st = {four} {vertex}\n int[] primvars:st:indices = [3, 2, 1, 0]");
+    let (found, losses) = reader(&mesh("head", &whole)).meshes_with_losses(&|_| true).unwrap();
+    assert!(found.corner_uvs.is_some_and(|uvs| uvs[0][0] == glam::Vec2::ONE) && losses.is_empty());
+}
+
+#[test]
 fn curves_of_types_that_are_not_read_are_said_beside_those_that_are() {
     for kind in ["NurbsCurves", "HermiteCurves"] {
         let other = curve("n", "").replace("BasisCurves", kind);

@@ -31,16 +31,16 @@ fn tips(stage: &mut StageReader) -> Vec<f32> {
 #[test]
 fn codes_are_told_from_frames_where_a_layer_says_both() {
     let both = "framesPerSecond = 24\n timeCodesPerSecond = 48";
-    // Samples at every second code are the frames; those farther apart give way to them; closer ones are frames themselves.
-    for (samples, rate, expected) in [
-        (&[(96.0, 1.0), (98.0, 3.0), (100.0, 5.0)][..], 24.0, &[1.0, 3.0, 5.0, 5.0][..]),
-        (&[(96.0, 1.0), (100.0, 5.0)], 24.0, &[1.0, 3.0, 5.0, 5.0]),
-        (&[(96.0, 1.0), (97.0, 2.0), (98.0, 3.0)], 48.0, &[1.0, 2.0, 3.0, 3.0]),
+    // Samples at every second code are the frames; those farther apart, or closer, give way to them.
+    for (samples, expected) in [
+        (&[(96.0, 1.0), (98.0, 3.0), (100.0, 5.0)][..], &[1.0, 3.0, 5.0, 5.0][..]),
+        (&[(96.0, 1.0), (100.0, 5.0)], &[1.0, 3.0, 5.0, 5.0]),
+        (&[(96.0, 1.0), (97.0, 2.0), (98.0, 3.0)], &[1.0, 3.0, 3.0]),
     ] {
         let mut stage = reader(both, &curve("h", samples, ""));
         let contents = stage.contents().unwrap();
-        assert_eq!((contents.frame_rate, contents.start), (rate, Some(2.0)));
-        let times: Vec<f64> = (0..expected.len() - 1).map(|n| 2.0 + n as f64 / rate).collect();
+        assert_eq!((contents.frame_rate, contents.start), (24.0, Some(2.0)));
+        let times: Vec<f64> = (0..expected.len() - 1).map(|n| 2.0 + n as f64 / 24.0).collect();
         assert_eq!((contents.times, tips(&mut stage)), (times, expected.to_vec()));
     }
     let motion = reader(
@@ -50,6 +50,57 @@ fn codes_are_told_from_frames_where_a_layer_says_both() {
     );
     let last = { motion }.motion("a").unwrap().pop().unwrap();
     assert_eq!((last.time, last.position), (1.0, DVec3::X * 5.0));
+}
+
+/// Samples of a tip that goes a unit a time code, at these codes.
+fn even(codes: &[f64]) -> String {
+    curve("h", &codes.iter().map(|&code| (code, code as f32)).collect::<Vec<_>>(), "")
+}
+
+#[test]
+fn samples_within_a_frame_are_of_its_shutter_whatever_their_spacing() {
+    let every = |step: f64, n: i32| (0..n).map(|i| 1001.0 + f64::from(i) * step).collect::<Vec<_>>();
+    for (head, codes, rate, frames, between) in [
+        ("timeCodesPerSecond = 24", every(0.5, 9), 24.0, &[1001.0, 1002.0, 1003.0, 1004.0, 1005.0][..], 4),
+        ("", every(0.25, 5), 24.0, &[1001.0, 1002.0], 3),
+        ("timeCodesPerSecond = 24\n framesPerSecond = 24", every(0.4, 6), 24.0, &[1001.0, 1002.0, 1003.0], 3),
+        ("timeCodesPerSecond = 30", vec![1000.75, 1001.25, 1001.75, 1002.25], 30.0, &[1001.0, 1002.0], 4),
+        // Poses of which the layer says that they are frames.
+        ("timeCodesPerSecond = 24\n framesPerSecond = 48", every(0.5, 4), 48.0, &[1001.0, 1001.5, 1002.0, 1002.5], 0),
+        ("timeCodesPerSecond = 48", every(1.0, 3), 48.0, &[1001.0, 1002.0, 1003.0], 0),
+        // Codes that are seconds, of which nothing says how many frames they have.
+        ("timeCodesPerSecond = 1", every(0.125, 4), 8.0, &[1001.0, 1001.125, 1001.25, 1001.375], 0),
+    ] {
+        let mut stage = reader(head, &even(&codes));
+        let contents = stage.contents().unwrap();
+        assert_eq!((contents.frame_rate, contents.times.len()), (rate, frames.len()), "{head} {codes:?}");
+        let mut expected: Vec<f32> = frames.iter().map(|&code| code as f32).collect();
+        expected.extend(expected.last().copied());
+        assert_eq!(tips(&mut stage), expected, "{head} {codes:?}");
+        let said =
+            (between > 0).then(|| format!("{between} samples between frames, of which there are {rate} a second"));
+        assert_eq!(stage.hair(0, None).unwrap().attributes.unread, Vec::from_iter(said), "{head} {codes:?}");
+    }
+}
+
+#[test]
+fn the_samples_of_one_shutter_are_one_frame() {
+    for (head, codes, frame, between) in [
+        ("startTimeCode = 1004\n endTimeCode = 1004", &[1003.5, 1004.0][..], 1004.0, "1 sample"),
+        ("", &[0.75, 1.25], 1.0, "2 samples"),
+        ("", &[1.0, 1.5], 1.0, "1 sample"),
+        ("", &[7.75, 8.0, 8.25], 8.0, "2 samples"),
+        // The shutter is open all the time, and the layer has one frame.
+        ("startTimeCode = 5\n endTimeCode = 5", &[4.0, 5.0], 5.0, "1 sample"),
+        ("startTimeCode = 5\n endTimeCode = 5", &[4.5, 5.5], 5.0, "2 samples"),
+    ] {
+        let mut stage = reader(head, &even(codes));
+        let contents = stage.contents().unwrap();
+        assert_eq!((contents.times, contents.start), (vec![frame / 24.0], Some(frame / 24.0)), "{head} {codes:?}");
+        assert_eq!(tips(&mut stage), [frame as f32; 2], "{head} {codes:?}");
+        let said = format!("{between} between frames, of which there are 24 a second");
+        assert_eq!(stage.hair(0, None).unwrap().attributes.unread, [said], "{head} {codes:?}");
+    }
 }
 
 #[test]
@@ -109,6 +160,8 @@ fn attributes_are_those_of_the_frame_before_which_they_were_set() {
         assert_eq!(at.width, Some(vec![width; 2]), "frame {frame}");
         let own = at.other.iter().find(|other| other.name == "stiff").unwrap();
         assert_eq!((own.per, &own.values), (Per::Strand, &Values::Floats(vec![stiff])), "frame {frame}");
+        let said = |name: &str| format!("motion of primvars:{name}: its value in frame {frame} is kept");
+        assert_eq!(at.unread, [said("stiff"), said("widths")]);
     }
 }
 

@@ -176,6 +176,52 @@ fn operations_and_values_are_alike_in_text_and_in_binary() {
     }
 }
 
+/// As usd-core 26.11 has it, which warns.
+#[test]
+fn an_operation_that_is_named_and_not_there_is_passed_over_and_said() {
+    let at = "double3 xformOp:translate = (10, 20, 30)";
+    let said = |word: &str| format!("\"{word}\" of /a: its xformOpOrder names it, and it is not there");
+    for (operations, order, expected, missing) in [
+        (&[at][..], &["xformOp:translate", "xformOp:scale"][..], [11.0, 22.0, 33.0], &["xformOp:scale"][..]),
+        (&[at], &["xformOp:scale:pivot", "xformOp:translate"], [11.0, 22.0, 33.0], &["xformOp:scale:pivot"]),
+        (&[at], &["!invert!xformOp:rotateX", "xformOp:translate"], [11.0, 22.0, 33.0], &["!invert!xformOp:rotateX"]),
+        (&[], &["xformOp:orient", "xformOp:transform"], [1.0, 2.0, 3.0], &["xformOp:orient", "xformOp:transform"]),
+        // Declared without a value it is there, and moves nothing.
+        (&[at, "float3 xformOp:scale"], &["xformOp:translate", "xformOp:scale"], [11.0, 22.0, 33.0], &[]),
+        (&[at], &["xformOp:translate", ""], [11.0, 22.0, 33.0], &[""]),
+    ] {
+        let text = prim("a", operations, order, CURVE);
+        is_near(tip(&text), expected, &text);
+        let unread = reader(&text).hair(0, None).unwrap().attributes.unread;
+        assert_eq!(unread, missing.iter().map(|word| said(word)).collect::<Vec<_>>(), "{text}");
+    }
+    let skin = "def Mesh \"m\" { point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n\
+                int[] faceVertexCounts = [3]\n int[] faceVertexIndices = [0, 1, 2] }\n";
+    let mut stage = reader(&prim("a", &[at], &["xformOp:translate", "xformOp:scale"], skin));
+    assert_eq!(stage.mesh().unwrap().positions[1], Vec3::new(11.0, 20.0, 30.0));
+    assert_eq!(stage.mesh_unread().unwrap(), [said("xformOp:scale")]);
+}
+
+/// usd-core raises an error for these.
+#[test]
+fn what_is_no_operation_of_usd_is_refused() {
+    for (operation, word) in [
+        ("double3 xformOp:foo = (1, 2, 3)", "xformOp:foo"),
+        ("double3 translate = (1, 2, 3)", "translate"),
+        ("float4 xformOp:translate = (1, 2, 3, 4)", "xformOp:translate"),
+        ("int3 xformOp:translate = (1, 2, 3)", "xformOp:translate"),
+        ("double3[] xformOp:translate = [(1, 2, 3)]", "xformOp:translate"),
+        ("float3 xformOp:rotateX = (90, 0, 0)", "xformOp:rotateX"),
+        ("double xformOp:scale = 2", "xformOp:scale"),
+        ("quatd xformOp:rotateXYZ = (1, 0, 0, 0)", "xformOp:rotateXYZ"),
+        ("float3 xformOp:orient = (90, 0, 0)", "xformOp:orient"),
+        ("matrix3d xformOp:transform = ( (1, 0, 0), (0, 1, 0), (0, 0, 1) )", "xformOp:transform"),
+    ] {
+        let refused = reader(&prim("a", &[operation], &[word], CURVE)).hair(0, None).unwrap_err().to_string();
+        assert_eq!(refused, format!("prim /a: {word} is no transform that USD knows"), "{operation}");
+    }
+}
+
 /// As usd-core 26.11 has it: before the block the value is held, from it on nothing moves, whatever the default.
 #[test]
 fn a_blocked_value_of_an_operation_moves_nothing() {

@@ -105,10 +105,11 @@ impl ExchangeInfo {
         let prims: Vec<PrimSummary> = file.ask(|r| r.prims())?.into_iter().map(PrimSummary::from).collect();
         let has = |paths: &[String]| !paths.is_empty();
         let hair = has(&contents.curves).then(|| file.ask(|r| r.hair(0, None))).transpose()?;
-        let mesh = has(&contents.meshes).then(|| file.ask(|r| r.mesh())).transpose()?;
-        let (hair, mut mesh) = (hair.as_ref().map(HairInfo::of), mesh.as_ref().map(MeshInfo::of));
+        let mesh = has(&contents.meshes).then(|| file.ask(|r| r.meshes_with_losses(&|_| true))).transpose()?;
+        let (hair, lost) = (hair.as_ref().map(HairInfo::of), mesh.as_ref().map(|(_, lost)| lost.clone()));
+        let mut mesh = mesh.as_ref().map(|(mesh, _)| MeshInfo::of(mesh));
         if let Some(mesh) = &mut mesh {
-            mesh.unread = file.ask(|r| r.mesh_unread())?;
+            mesh.unread = file.ask(|r| r.mesh_unread())?.into_iter().chain(lost.unwrap_or_default()).collect();
             // What the hair says already.
             mesh.unread.retain(|line| hair.as_ref().is_none_or(|hair| !hair.unread.contains(line)));
         }

@@ -5,18 +5,19 @@ use nabiki::Mesh;
 use crate::error::{Error, Result};
 use crate::names::nearest;
 
-/// Refuses what cannot be a mesh: NaN, infinities, no triangle. The readers have checked the indices.
-pub(super) fn check(mesh: Mesh) -> Result<Mesh> {
+/// Refuses what cannot be a mesh: places that are not finite, no triangle. The readers have checked the indices. Texture
+/// coordinates that are not finite are left out, which joins what of these is `lost`.
+pub(super) fn check(mut mesh: Mesh, lost: &mut Vec<String>) -> Result<Mesh> {
     if let Some(v) = mesh.positions.iter().position(|p| !p.is_finite()) {
         let p = mesh.positions[v];
         let place = format!("({}, {}, {})", p.x, p.y, p.z);
         return Err(Error::new(format!("vertex {v}: {place} is not a place: coordinates must be finite")));
     }
-    for (t, uvs) in mesh.corner_uvs.iter().flatten().enumerate() {
-        if let Some(uv) = uvs.iter().find(|uv| !uv.is_finite()) {
-            let line = format!("triangle {t}: its texture coordinates ({}, {}) must be finite", uv.x, uv.y);
-            return Err(Error::new(line));
-        }
+    let corners = mesh.corner_uvs.iter().flatten().enumerate();
+    let odd = corners.flat_map(|(t, uvs)| uvs.map(|uv| (t, uv))).find(|(_, uv)| !uv.is_finite());
+    if let Some((t, uv)) = odd {
+        lost.push(format!("texture coordinates: those of triangle {t} are ({}, {}), which are not finite", uv.x, uv.y));
+        mesh.corner_uvs = None;
     }
     if mesh.triangles.is_empty() {
         return Err(Error::new("holds no triangles"));

@@ -21,8 +21,14 @@ use crate::{
 /// A mesh drawn by many nodes is copied for each; beyond this many times the file's size it is a trick, not a head.
 const MOST_COPIES: usize = 64;
 
-/// `folder`: where buffers in files of their own are; `None` refuses them.
-pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String]) -> Result<Mesh> {
+/// `folder`: where buffers in files of their own are; `None` refuses them. `lost`: what of the texture coordinates is left out is put
+/// there; the shape does without.
+pub(super) fn from_bytes(
+    bytes: &[u8],
+    folder: Option<&Path>,
+    groups: &[String],
+    lost: &mut Vec<String>,
+) -> Result<Mesh> {
     let (document, blob) = open(bytes)?;
     let buffers = buffers(&document, blob.as_deref(), folder)?;
     let nodes = document.nodes().filter_map(|n| n.name());
@@ -48,8 +54,9 @@ pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String])
         let node_wanted = parent_wanted || wanted(node.name());
         if let Some(node_mesh) = node.mesh().filter(|m| node_wanted || wanted(m.name())) {
             for primitive in node_mesh.primitives() {
-                append(&mut mesh, &primitive, &buffers, scene_from_node)
+                let left_out = append(&mut mesh, &primitive, &buffers, scene_from_node)
                     .map_err(|e| Error::new(format!("mesh {}: {}", node_mesh.index(), e.what)))?;
+                lost.extend(left_out.map(|e| format!("texture coordinates of mesh {}: {}", node_mesh.index(), e.what)));
                 if mesh.positions.len() > room || mesh.triangles.len() > room {
                     return Err(Error::new(format!(
                         "its nodes repeat meshes to more than {MOST_COPIES} times the file"
@@ -59,7 +66,8 @@ pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String])
         }
         open.extend(node.children().map(|child| (child, scene_from_node, node_wanted)));
     }
-    check(mesh)
+    lost.dedup();
+    check(mesh, lost)
 }
 
 /// The named nodes that have a mesh, with its triangles.
@@ -76,8 +84,13 @@ pub(super) fn groups(bytes: &[u8]) -> Result<Vec<(String, usize)>> {
     Ok(document.nodes().filter_map(group).collect())
 }
 
-/// Adds one primitive's triangles.
-fn append(mesh: &mut Mesh, primitive: &gltf::Primitive, buffers: &[Vec<u8>], scene_from_node: Mat4) -> Result<()> {
+/// Adds one primitive's triangles. The answer says why they have no texture coordinates, if those that they have are none.
+fn append(
+    mesh: &mut Mesh,
+    primitive: &gltf::Primitive,
+    buffers: &[Vec<u8>],
+    scene_from_node: Mat4,
+) -> Result<Option<Error>> {
     if primitive.mode() != Mode::Triangles {
         return Err(Error::new(format!("primitives of mode {:?} are not read: export triangles", primitive.mode())));
     }
@@ -113,12 +126,15 @@ fn append(mesh: &mut Mesh, primitive: &gltf::Primitive, buffers: &[Vec<u8>], sce
     }
     // A mirroring transform would turn the surface inside out.
     let mirrored = scene_from_node.determinant() < 0.0;
-    let uvs = texture_coordinates(primitive, buffers, count)?;
+    let (uvs, left_out) = match texture_coordinates(primitive, buffers, count) {
+        Ok(uvs) => (uvs, None),
+        Err(why) => (None, Some(why)),
+    };
     for &[a, b, c] in indices.as_chunks::<3>().0 {
         let corners = if mirrored { [a, c, b] } else { [a, b, c] };
         mesh.push(corners.map(|v| first + v), uvs.as_ref().map(|uvs| corners.map(|v| uvs[v as usize])));
     }
-    Ok(())
+    Ok(left_out)
 }
 
 /// The first texture coordinates of each of `count` vertices, v upward: that of glTF runs down.
@@ -126,14 +142,14 @@ fn texture_coordinates(primitive: &gltf::Primitive, buffers: &[Vec<u8>], count: 
     let Some(accessor) = primitive.get(&gltf::Semantic::TexCoords(0)) else { return Ok(None) };
     let (kind, found) = (accessor.data_type(), accessor.count());
     if found != count {
-        return Err(Error::new(format!("{found} texture coordinates for {count} vertices")));
+        return Err(Error::new(format!("{found} for {count} vertices")));
     }
     // Whole numbers stand for shares of their type's largest, as glTF 2.0 has it (section 3.7.2.1).
     let (width, number): (usize, fn(&[u8]) -> f32) = match (kind, accessor.dimensions()) {
         (DataType::F32, Dimensions::Vec2) => (4, |b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])),
         (DataType::U8, Dimensions::Vec2) => (1, |b| f32::from(b[0]) / 255.0),
         (DataType::U16, Dimensions::Vec2) => (2, |b| f32::from(u16::from_le_bytes([b[0], b[1]])) / 65535.0),
-        (kind, _) => return Err(Error::new(format!("texture coordinates of type {kind:?} are not read"))),
+        (kind, _) => return Err(Error::new(format!("those of type {kind:?} are not read"))),
     };
     let uvs = items(&accessor, buffers, 2 * width)?;
     Ok(Some(uvs.map(|item| Vec2::new(number(item), 1.0 - number(&item[width..]))).collect()))
@@ -168,6 +184,10 @@ fn items<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String]) -> Result<Mesh> {
+        super::from_bytes(bytes, folder, groups, &mut Vec::new())
+    }
 
     /// A .glb of one triangle with texture coordinates of a component type, and, if so wanted, once more without any.
     fn glb(component: u32, normalised: bool, uvs: &[u8], without: bool) -> Vec<u8> {
@@ -249,9 +269,20 @@ mod tests {
         }
         let bare = from_bytes(&glb(5121, true, &bytes, true), None, &[]).unwrap();
         assert_eq!((bare.triangles.len(), bare.corner_uvs), (2, None));
-        let signed = from_bytes(&glb(5122, true, &shorts, false), None, &[]).unwrap_err().to_string();
-        assert_eq!(signed, "mesh 0: texture coordinates of type I16 are not read");
-        let short = from_bytes(&glb(5126, false, &floats[..20], false), None, &[]).unwrap_err().to_string();
-        assert!(short.starts_with("mesh 0: accessor 1: 3 items reach beyond"), "{short}");
+    }
+
+    #[test]
+    fn a_mesh_whose_texture_coordinates_are_none_keeps_its_shape_and_that_is_said() {
+        let numbers = |uvs: [f32; 6]| uvs.map(f32::to_le_bytes).concat();
+        let (whole, odd) = (numbers([0.5; 6]), numbers([0.5, 0.5, 0.5, f32::NAN, 0.5, 0.5]));
+        for (component, bytes, why) in [
+            (5122, &whole[..12], "texture coordinates of mesh 0: those of type I16 are not read"),
+            (5126, &whole[..20], "texture coordinates of mesh 0: accessor 1: 3 items reach beyond their buffer"),
+            (5126, &odd, "texture coordinates: those of triangle 0 are (0.5, NaN), which are not finite"),
+        ] {
+            let mut lost = Vec::new();
+            let mesh = super::from_bytes(&glb(component, false, bytes, false), None, &[], &mut lost).unwrap();
+            assert_eq!((mesh.triangles.len(), mesh.corner_uvs, lost), (1, None, vec![why.to_owned()]));
+        }
     }
 }

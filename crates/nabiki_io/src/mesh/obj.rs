@@ -14,10 +14,13 @@ use crate::{
     obj_text,
 };
 
-/// `groups`: names that follow a `g` or an `o`; faces under any of them are kept, all where there are none.
-pub(super) fn from_bytes(bytes: &[u8], groups: &[String]) -> Result<Mesh> {
+/// `groups`: names that follow a `g` or an `o`; faces under any of them are kept, all where there are none. `lost`: what of the
+/// texture coordinates is left out is put there; the shape does without.
+pub(super) fn from_bytes(bytes: &[u8], groups: &[String], lost: &mut Vec<String>) -> Result<Mesh> {
     let mut mesh = Mesh::default();
-    let mut uvs: Vec<Vec2> = Vec::new();
+    // `None` keeps the number of one that is none.
+    let mut uvs: Vec<Option<Vec2>> = Vec::new();
+    let mut wrong_uv: Option<Error> = None;
     let mut face: Vec<(u32, Option<Vec2>)> = Vec::new();
     let text = obj_text::text(bytes);
     let mut names: BTreeSet<&str> = BTreeSet::new();
@@ -27,13 +30,17 @@ pub(super) fn from_bytes(bytes: &[u8], groups: &[String]) -> Result<Mesh> {
         let mut words = obj_text::words(line);
         match words.next() {
             Some("v") => mesh.positions.push(obj_text::place(words, line, i + 1)?),
-            Some("vt") => uvs.push(obj_text::texture_coordinates(words, line, i + 1)?),
+            Some("vt") => {
+                let uv = obj_text::texture_coordinates(words, line, i + 1);
+                uvs.push(uv.map_err(|e| wrong_uv.get_or_insert(e)).ok());
+            }
             Some("f") if groups.is_empty() || in_object || in_group => {
                 face.clear();
                 for word in words {
                     let vertex = obj_text::vertex(word, mesh.positions.len(), line, i + 1)?;
-                    let uv = obj_text::texture(word, uvs.len(), line, i + 1)?;
-                    face.push((vertex, uv.map(|uv| uvs[uv])));
+                    let uv = obj_text::texture(word, uvs.len(), line, i + 1);
+                    let uv = uv.map_err(|e| wrong_uv.get_or_insert(e)).ok().flatten();
+                    face.push((vertex, uv.and_then(|uv| uvs[uv])));
                 }
                 if face.len() < 3 {
                     return Err(obj_text::refusal(line, i + 1, "a face has three vertices or more"));
@@ -57,7 +64,10 @@ pub(super) fn from_bytes(bytes: &[u8], groups: &[String]) -> Result<Mesh> {
     if mesh.triangles.is_empty() {
         return Err(Error::new(format!("holds {} vertices but no faces: not a head", mesh.positions.len())));
     }
-    check(only_used(mesh))
+    if let Some(Error { what, line, .. }) = wrong_uv.filter(|_| mesh.corner_uvs.is_none()) {
+        lost.push(format!("texture coordinates: line {}: {what}", line.unwrap_or(0)));
+    }
+    check(only_used(mesh), lost)
 }
 
 /// Every name that follows a `g` or an `o`, with the faces under it.

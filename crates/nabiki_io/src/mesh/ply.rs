@@ -60,8 +60,9 @@ struct Element {
 const UV: [[&str; 2]; 3] = [["s", "t"], ["u", "v"], ["texture_u", "texture_v"]];
 
 /// Reads the vertices and faces; larger polygons become fans, other elements are passed over. Texture coordinates are
-/// those that the faces list for their corners (`texcoord`), else those of the vertices.
-pub fn from_bytes(bytes: &[u8]) -> Result<Mesh> {
+/// those that the faces list for their corners (`texcoord`), else those of the vertices. `lost`: what of them is left out is put
+/// there; the shape does without.
+pub fn from_bytes(bytes: &[u8], lost: &mut Vec<String>) -> Result<Mesh> {
     let (encoding, elements, body) = header(bytes)?;
     let mut body = Body { encoding, rest: body };
     let mut mesh = Mesh::default();
@@ -97,7 +98,7 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Mesh> {
                     n += 1.0;
                 }
             }
-            push_fan(&mut mesh, &polygon(i, &face, &texcoord)?);
+            push_fan(&mut mesh, &polygon(i, &face, &texcoord, lost)?);
             if element.name == "vertex" {
                 let [x, y, z, s, t] = vertex;
                 mesh.positions.push(Vec3::new(x, y, z));
@@ -112,17 +113,18 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Mesh> {
     if mesh.corner_uvs.is_none() && uvs.len() == vertices {
         mesh.corner_uvs = Some(mesh.triangles.iter().map(|t| t.map(|v| uvs[v as usize])).collect());
     }
-    check(mesh)
+    check(mesh, lost)
 }
 
-/// The corners of face `i`, with their texture coordinates if it lists any.
-fn polygon(i: usize, face: &[f64], texcoord: &[f64]) -> Result<Vec<(u32, Option<Vec2>)>> {
-    let (uvs, corners) = (texcoord.as_chunks::<2>().0, face.len());
-    if !texcoord.is_empty() && texcoord.len() != 2 * corners {
-        let found = texcoord.len();
-        return Err(Error::new(format!("face {i}: {found} numbers are no texture coordinates of {corners} corners")));
+/// The corners of face `i`, with their texture coordinates if it lists any that can be theirs.
+fn polygon(i: usize, face: &[f64], texcoord: &[f64], lost: &mut Vec<String>) -> Result<Vec<(u32, Option<Vec2>)>> {
+    let (found, corners) = (texcoord.len(), face.len());
+    let fit = found == 2 * corners;
+    if !(fit || found == 0) && lost.is_empty() {
+        lost.push(format!("texture coordinates: face {i} has {found} numbers for {corners} corners"));
     }
-    let uv = |k: usize| uvs.get(k).map(|&[u, v]| Vec2::new(u as f32, v as f32));
+    let uvs = texcoord.as_chunks::<2>().0;
+    let uv = |k: usize| uvs.get(k).filter(|_| fit).map(|&[u, v]| Vec2::new(u as f32, v as f32));
     face.iter().enumerate().map(|(k, &v)| Ok((corner(v)?, uv(k)))).collect()
 }
 
@@ -225,6 +227,10 @@ impl Body<'_> {
 mod tests {
     use super::*;
 
+    fn from_bytes(bytes: &[u8]) -> Result<Mesh> {
+        super::from_bytes(bytes, &mut Vec::new())
+    }
+
     const HEADER: &str = "ply\nformat FORMAT 1.0\ncomment a square\nelement vertex 4\nproperty float x\nproperty uchar red\n\
         property float y\nproperty double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
 
@@ -285,8 +291,11 @@ mod tests {
         assert_eq!(uvs(["s", "t"], list, own), Ok(Some(expected)));
         let some = "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 1 0\n";
         assert_eq!(uvs(["s", "t"], list, some), Ok(Some(vec![[a, b, c], [a, c, b]])));
-        let short = uvs(["s", "t"], list, "3 0 1 2 4 0 0 1 0\n3 0 2 1 0\n").unwrap_err();
-        assert_eq!(short, "face 0: 4 numbers are no texture coordinates of 3 corners");
+        // Those of the vertices stand in for a list that is too short.
+        let (short, mut lost) = ("3 0 1 2 4 0 0 1 0\n3 0 2 1 0\n", Vec::new());
+        let mesh = super::from_bytes(text(["s", "t"], list, short).as_bytes(), &mut lost).unwrap();
+        assert_eq!(mesh.corner_uvs, Some(vec![[a, b, c], [a, c, b]]));
+        assert_eq!(lost, ["texture coordinates: face 0 has 4 numbers for 3 corners"]);
     }
 
     #[test]

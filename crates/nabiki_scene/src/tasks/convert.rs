@@ -34,7 +34,7 @@ pub struct ConvertOptions {
     pub z_up: bool,
     /// Prim path of the groom over which samples alone are laid.
     pub layer: Option<String>,
-    /// Number of the first frame on the time line of the output, in the place of the input's own.
+    /// Number of the first frame that is written on the time line of the output, in the place of the input's own.
     pub first_frame: Option<i32>,
 }
 
@@ -57,9 +57,11 @@ pub fn convert(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
         let line = line.replace("{}", &segments.to_string());
         return Err(Error::refused(format!("{}: {line}", options.input.display())));
     }
-    if let (Some(first), false) = (options.first_frame, moves && frames > 1) {
-        let line = format!("--first-frame {first}: a single frame stands in no time; leave it out");
-        return Err(Error::refused(format!("{}: {line}", options.input.display())));
+    if let (Some(first), false) = (options.first_frame, to_tools) {
+        let line = format!(
+            "--first-frame {first}: this file has no time line; leave it out, or write .usd, .usda, .usdc or .abc"
+        );
+        return Err(Error::refused(format!("{}: {line}", options.output.display())));
     }
     advise_space(options, watch);
     match input {
@@ -187,6 +189,21 @@ impl Input {
         }
     }
 
+    /// The number of the frame that is written alone on the time line of the input, and the frames a second of that.
+    fn number(&mut self, options: &ConvertOptions) -> Result<(i32, f64)> {
+        let frame = options.frame.unwrap_or(0);
+        let (first, rate) = match self {
+            Self::Cache(cache) => (cache.header().first_frame, cache.header().frame_rate),
+            Self::Groom(groom) => {
+                let (start, rate) = (groom.start()?, groom.frame_rate()?);
+                let first = start.map_or(0, |start| (start * rate).round() as i32);
+                // A number that no shot has is a program's way of saying none.
+                (if check_first_frame("", first).is_ok() { first } else { 0 }, rate)
+            }
+        };
+        Ok((first.saturating_add_unsigned(frame), rate))
+    }
+
     /// Where `pose` puts its hair, in the space of the file that it came from.
     fn world_from_hair(&self, pose: &Pose) -> DAffine3 {
         let Self::Cache(cache) = self else { return DAffine3::IDENTITY };
@@ -227,7 +244,10 @@ fn one_frame(options: &ConvertOptions, mut input: Input, watch: &mut dyn Watch) 
     let to_tools = exchange::is_usd(output) || exchange::is_alembic(output);
     let mut losses = if to_tools {
         let said = if let Input::Cache(_) = input { declared } else { said(options, declared)? };
-        exchange::write_still(output, exchange::still(&hair, said), &input.world_from_hair(&pose))?;
+        let (number, rate) = input.number(options)?;
+        let mut export = exchange::still(&hair, said);
+        (export.first_frame, export.frame_rate) = (options.first_frame.unwrap_or(number), rate);
+        exchange::write_still(output, export, &input.world_from_hair(&pose))?;
         exchange::losses(output, &hair)
     } else {
         hair::write(output, &hair)?

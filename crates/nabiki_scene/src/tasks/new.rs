@@ -86,6 +86,11 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     if let Some(file) = &options.hair {
         super::unread(file, &built.hair.attributes.unread, watch);
     }
+    if let (Some(file), Some(report)) = (&options.head, &built.mesh_report) {
+        let of_hair = options.hair.as_ref().map(|_| &built.hair.attributes.unread[..]).unwrap_or_default();
+        let unread: Vec<String> = report.unread.iter().filter(|line| !of_hair.contains(line)).cloned().collect();
+        super::unread(file, &unread, watch);
+    }
     template.guesses.into_iter().for_each(|guess| watch.told(Told::Guessed(guess)));
     built.advice().into_iter().chain(unmoved(&built)?).for_each(|advice| watch.told(Told::Advice(advice)));
     super::wrote(vec![path.to_owned()], watch);

@@ -10,7 +10,7 @@ use super::numbers::{Scalar, inlined, shape};
 use super::{END_OF_SET, HEADER, MAGIC, Rep, specs, types};
 use crate::Problem;
 use crate::arcs;
-use crate::source::{AttributeInfo, Handle, PrimInfo};
+use crate::source::{AttributeInfo, BLOCKED, Handle, PrimInfo, SKEL_BINDING};
 
 /// Arrays shorter than this are not packed even where they say so.
 const SHORTEST_PACKED: usize = 16;
@@ -24,6 +24,8 @@ pub struct CrateReader<R> {
     version: [u8; 3],
     tokens: Vec<String>,
     strings: Vec<u32>,
+    /// Prims by the numbers of their paths.
+    prim_of_path: HashMap<usize, usize>,
 }
 
 /// What a path names, before prims and attributes are told apart.
@@ -40,7 +42,8 @@ type Opened<R> = (CrateReader<R>, Vec<PrimInfo>, HashMap<String, Handle>);
 impl<R: Read + Seek> CrateReader<R> {
     /// Reads the tables.
     pub fn new(from: R, size: u64) -> Result<Opened<R>, Problem> {
-        let mut reader = Self { from, size, version: [0; 3], tokens: Vec::new(), strings: Vec::new() };
+        let (version, prim_of_path) = ([0; 3], HashMap::new());
+        let mut reader = Self { from, size, version, tokens: Vec::new(), strings: Vec::new(), prim_of_path };
         let header = reader.bytes(0, HEADER as u64)?;
         if header[..8] != *MAGIC {
             return Err(Problem::new("is no binary USD layer"));
@@ -124,11 +127,13 @@ impl<R: Read + Seek> CrateReader<R> {
                     }
                     let type_name = word(field("typeName"));
                     prim_of_node.insert(i, layer.0.len());
+                    reader.prim_of_path.insert(node.path, layer.0.len());
                     const OVER: u64 = 1;
                     const CLASS: u64 = 2;
                     let is = |name: &str, value: u64| field(name).is_some_and(|rep| Rep(rep).payload() == value);
                     let is_off_stage = is("specifier", CLASS) || is("active", 0);
                     let (is_over, is_instance) = (is("specifier", OVER), is("instanceable", 1));
+                    let schemas = field("apiSchemas");
                     let named_arcs = arcs::OF_PRIMS.map(|(arc, name)| (arc, field(name)));
                     let mut arcs = Vec::new();
                     for (arc, rep) in named_arcs {
@@ -138,12 +143,14 @@ impl<R: Read + Seek> CrateReader<R> {
                             arcs.push(arc);
                         }
                     }
+                    let schemas = schemas.map(|rep| reader.list_items(rep)).transpose()?.unwrap_or_default();
+                    let is_bound = schemas.into_iter().any(|schema| reader.token(schema.into()) == SKEL_BINDING);
                     let prim = PrimInfo { name, type_name, is_off_stage, is_over, parent, arcs, ..PrimInfo::default() };
-                    layer.0.push(PrimInfo { is_instance, ..prim });
+                    layer.0.push(PrimInfo { is_instance, is_bound, ..prim });
                 }
                 specs::ATTRIBUTE => {
                     let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&p)) else { continue };
-                    let default = field("default").map(|rep| (rep, 0));
+                    let default = field("default").map(value);
                     let type_name = word(field("typeName"));
                     let is_array = type_name.ends_with("[]");
                     let type_name = type_name.trim_end_matches("[]").to_owned();
@@ -157,7 +164,10 @@ impl<R: Read + Seek> CrateReader<R> {
                 }
                 specs::RELATIONSHIP => {
                     let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&p)) else { continue };
-                    layer.0[prim].relationships.push(name);
+                    if let Some(rep) = field("targetPaths") {
+                        let targets = if reader.holds_any(rep)? { (rep, 0) } else { BLOCKED };
+                        layer.0[prim].relationships.push((name, targets));
+                    }
                 }
                 _ => {}
             }
@@ -176,6 +186,32 @@ impl<R: Read + Seek> CrateReader<R> {
             types::STRING_VECTOR => Ok(number(&self.bytes(rep.payload(), 8)?) != 0),
             _ => Ok(true),
         }
+    }
+
+    /// The prims that a relationship's value names; `None` for what is no prim of the layer.
+    pub fn targets(&mut self, rep: u64) -> Result<Vec<Option<usize>>, Problem> {
+        let paths = self.list_items(rep)?;
+        Ok(paths.into_iter().map(|path| self.prim_of_path.get(&(path as usize)).copied()).collect())
+    }
+
+    /// What a list of tokens or paths sets, or what items it adds, by their numbers.
+    fn list_items(&mut self, rep: u64) -> Result<Vec<u32>, Problem> {
+        let rep = Rep(rep);
+        if !matches!(rep.kind(), types::TOKEN_LIST | types::PATH_LIST) {
+            return Ok(Vec::new());
+        }
+        let flags = self.bytes(rep.payload(), 1)?[0];
+        let (mut place, mut items) = (rep.payload() + 1, Vec::new());
+        // Set, added, prepended, appended; what is taken away comes behind them.
+        for flag in [2, 4, 32, 64] {
+            if flags & flag != 0 {
+                let count = number(&self.bytes(place, 8)?);
+                let bytes = self.bytes(place + 8, count.saturating_mul(4))?;
+                items.extend(bytes.as_chunks::<4>().0.iter().map(|&b| u32::from_le_bytes(b)));
+                place += 8 + bytes.len() as u64;
+            }
+        }
+        Ok(items)
     }
 
     /// Time codes and values of an attribute.
@@ -197,7 +233,7 @@ impl<R: Read + Seek> CrateReader<R> {
             return Err(Problem(format!("has {} times for {count} samples", times.len())));
         }
         let mut found: Vec<(f64, Handle)> =
-            times.into_iter().zip(values.chunks_exact(8).map(|b| (number(b), 0))).collect();
+            times.into_iter().zip(values.chunks_exact(8).map(|b| value(number(b)))).collect();
         if found.iter().any(|(t, _)| !t.is_finite()) {
             return Err(Problem::new("has a time code that is not finite"));
         }
@@ -464,6 +500,11 @@ fn paths(table: &mut Table) -> Result<Vec<Node>, Problem> {
     Ok(nodes)
 }
 
+/// What names a value, or says that there is none.
+fn value(rep: u64) -> Handle {
+    if Rep(rep).kind() == types::VALUE_BLOCK { BLOCKED } else { (rep, 0) }
+}
+
 fn number(bytes: &[u8]) -> u64 {
     u64::from_le_bytes(bytes[..8].try_into().expect("eight bytes"))
 }
@@ -486,7 +527,8 @@ mod tests {
             bytes.extend((packed.len() as u64).to_le_bytes());
             bytes.extend(&packed);
             let (tokens, strings) = (Vec::new(), Vec::new());
-            let mut reader = CrateReader { from: Cursor::new(bytes), size, version: [0, 8, 0], tokens, strings };
+            let (from, prim_of_path) = (Cursor::new(bytes), HashMap::new());
+            let mut reader = CrateReader { from, size, version: [0, 8, 0], tokens, strings, prim_of_path };
             reader.integers(Rep::array(types::INT, HEADER as u64).0 | Rep::COMPRESSED)
         };
         assert_eq!(read(4096, 2000).unwrap(), [7; 4096]);

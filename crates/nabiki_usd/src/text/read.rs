@@ -8,7 +8,7 @@ use super::numbers::{Number, Numbers, is_part};
 use super::scan::{Scanner, WINDOW};
 use crate::Problem;
 use crate::arcs;
-use crate::source::{Handle, PrimInfo, Source};
+use crate::source::{BLOCKED, Handle, PrimInfo, SKEL_BINDING, Source};
 
 /// Prims below prims.
 const DEEPEST: usize = 512;
@@ -106,6 +106,10 @@ fn note_details(from: &mut dyn Source, details: Handle, prim: &mut PrimInfo) -> 
                         prim.arcs.push(arc);
                     }
                 }
+                if word == "apiSchemas" && !takes_away && text.peek()? == Some(b'=') {
+                    text.pass();
+                    prim.is_bound |= lists(&mut text, SKEL_BINDING)?;
+                }
                 takes_away = matches!(word.as_str(), "delete" | "reorder");
                 before = word;
             }
@@ -113,6 +117,21 @@ fn note_details(from: &mut dyn Source, details: Handle, prim: &mut PrimInfo) -> 
         }
     }
     Ok(())
+}
+
+/// Whether a word in quotation marks is in the list that follows.
+fn lists(text: &mut Scanner<'_>, wanted: &str) -> Result<bool, Problem> {
+    let mut found = false;
+    if text.peek()? == Some(b'[') {
+        text.pass();
+        while let Some(byte) = text.peek()?.filter(|&byte| byte != b']') {
+            match byte {
+                b'"' | b'\'' => found |= text.quoted()? == wanted,
+                _ => text.pass(),
+            }
+        }
+    }
+    Ok(found)
 }
 
 /// Whether anything stands in a value, the bracket of whose list is passed over: it is neither `None` nor an empty list.
@@ -191,13 +210,14 @@ fn property(text: &mut Scanner<'_>, first: String, prim: &mut PrimInfo) -> Resul
     if text.peek()? == Some(b'=') {
         text.pass();
         if is_relation || connection {
-            text.skip_value()?;
-            if is_relation {
-                prim.relationships.push(name.to_owned());
+            let targets = value(text)?;
+            // What is taken away from weaker layers is none of this one's.
+            if is_relation && !words.iter().any(|word| word == "delete" || word == "reorder") {
+                prim.relationships.push((name.to_owned(), targets));
             }
         } else {
             let samples = if timed { Some(samples(text)?) } else { None };
-            let value = if timed { None } else { Some(text.skip_value()?) };
+            let value = if timed { None } else { Some(value(text)?) };
             let attribute = prim.attributes.entry(name.to_owned()).or_default();
             attribute.has_spline |= is_spline;
             attribute.type_name.clone_from(type_name);
@@ -205,6 +225,9 @@ fn property(text: &mut Scanner<'_>, first: String, prim: &mut PrimInfo) -> Resul
             attribute.samples = samples.unwrap_or(std::mem::take(&mut attribute.samples));
             attribute.default = value.filter(|_| !is_spline).or(attribute.default);
         }
+    } else if !is_relation && !connection {
+        // Declared without a value.
+        prim.attributes.entry(name.to_owned()).or_default();
     }
     if text.peek()? == Some(b'(') {
         let details = text.skip_value()?;
@@ -213,6 +236,14 @@ fn property(text: &mut Scanner<'_>, first: String, prim: &mut PrimInfo) -> Resul
         }
     }
     Ok(())
+}
+
+/// Passes over one value and gives its place, or [`BLOCKED`].
+fn value(text: &mut Scanner<'_>) -> Result<Handle, Problem> {
+    // No other value begins like `None`.
+    let begins_as_none = text.peek()? == Some(b'N');
+    let place = text.skip_value()?;
+    Ok(if begins_as_none && place.1 == "None".len() as u64 { BLOCKED } else { place })
 }
 
 fn samples(text: &mut Scanner<'_>) -> Result<Vec<(f64, Handle)>, Problem> {
@@ -235,7 +266,7 @@ fn samples(text: &mut Scanner<'_>) -> Result<Vec<(f64, Handle)>, Problem> {
                 if number.len() == word.len() {
                     text.expect(b':')?;
                 }
-                found.push((time, text.skip_value()?));
+                found.push((time, value(text)?));
             }
         }
     }
@@ -294,6 +325,16 @@ pub fn interpolation(from: &mut dyn Source, details: Handle) -> Result<Option<St
         }
     }
     Ok(None)
+}
+
+/// The paths that a relationship's value names.
+pub fn targets(from: &mut dyn Source, (start, length): Handle) -> Result<Vec<String>, Problem> {
+    from.seek(SeekFrom::Start(start))?;
+    let mut value = vec![0; length as usize];
+    from.read_exact(&mut value)?;
+    let value = String::from_utf8_lossy(&value);
+    let paths = value.split('<').skip(1).filter_map(|rest| rest.split_once('>'));
+    Ok(paths.map(|(path, _)| path.to_owned()).collect())
 }
 
 /// Words in quotation marks of a value.
