@@ -43,7 +43,11 @@ impl Stills {
         watch: &mut dyn Watch,
     ) -> Result<Self> {
         folders.make(&folder, WAY_OUT)?;
-        let Some(held) = HeldFolder::hold(&folder, hold) else {
+        let held = HeldFolder::hold(&folder, hold).map_err(|lock| {
+            let line = "this is no ordinary file, as a lock is; remove it, or";
+            Error::refused(format!("{}: {line} {WAY_OUT}", lock.display()))
+        })?;
+        let Some(held) = held else {
             let line = "another command is writing frames into this folder; wait until it is done, or";
             return Err(Error::refused(format!("{}: {line} {WAY_OUT}", folder.display())));
         };
