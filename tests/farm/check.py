@@ -69,6 +69,44 @@ def openjd_run(openjd, template, scene, nabiki, step, *more):
     assert done.returncode == 0, f"{template}: {step}\n{done.stdout}{done.stderr}"
 
 
+# Names of scenes and changes to them that a template may trip over.
+NAMES = [
+    "風 \u202ewind\u2028 \x85\x1b[2J\n",
+    "n" * 240,
+    ": - {a} # 'b' \"c\" \\",
+    "a\ttab",
+    "{{Param.Scene}}",
+    "x}}",
+    "-n",
+    "!!int 7",
+    "\ufeff\ufffe&*",
+]
+CHANGES = ["picture.camera={to={azimuth=1}}", "hair.style.curl={share=\t0.5,radius=1.0}", 'head.mesh="{{x}}.obj"']
+
+
+def names(openjd, nabiki):
+    """Each is written as a template that openjd takes, or refused in one line."""
+    folder = WORK / "names"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    force = "[hair]\nstrands = 20\n[motion]\nframes = 3\n[[force]]\nthrough = 3\nvector = [0, -9, 0]\n"
+    taken = 0
+    for name, changes in [(name, []) for name in NAMES] + [("plain", ["--set", change]) for change in CHANGES]:
+        scene, template = folder / f"{name}.toml", folder / "job.yaml"
+        scene.write_text(force)
+        words = [nabiki, "farm", scene, *changes, "--engine", "openjd", "-o", template, "--quiet"]
+        done = subprocess.run([str(word) for word in words], capture_output=True, text=True)
+        if done.returncode == 0:
+            run(openjd, "check", template, stdout=subprocess.DEVNULL)
+            taken += 1
+            template.unlink()
+        else:
+            assert done.returncode == 1 and done.stderr.count("\n") == 1, (name, done.stderr)
+    # Braces in pairs, tabs and other control characters that commands would hold are all that is refused.
+    assert taken == 7, taken
+    print(f"names: {taken} of {len(NAMES) + len(CHANGES)} are taken, and openjd takes their jobs")
+
+
 def slurm_tasks(script, steps, nabiki):
     """What Slurm does with the script, without Slurm."""
     for step, numbers in steps:
@@ -121,6 +159,7 @@ def main():
     nabiki = arguments.nabiki or build()
     WORK.mkdir(parents=True, exist_ok=True)
     openjd = environment()
+    names(openjd, nabiki)
 
     for scene, changes, shards, frames_a_task, frames in JOBS:
         scene = ROOT / scene

@@ -11,7 +11,7 @@ use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
 use crate::random::{GOLDEN_GAMMA, finalise, unit};
-use crate::subset::farthest_first;
+use crate::subset::{self, farthest_first};
 use crate::{Head, SettingError};
 
 pub use hairline::Hairline;
@@ -54,6 +54,13 @@ pub fn check_count(count: usize) -> Result<(), SettingError> {
         return Ok(());
     }
     Err(SettingError::new("hair.strands", count, format!("must be at most {MOST_ROOTS}: grow less")))
+}
+
+/// Bytes of memory that it takes at least to spread so many roots, however few of them are wanted.
+pub fn least_bytes(count: usize) -> u64 {
+    // The candidates, their places, and the cells that these lie in with number, place and gap.
+    let each = size_of::<Root>() + size_of::<Vec3>() + subset::BYTES_A_POINT;
+    (count as u64).saturating_mul((CANDIDATES * each) as u64)
 }
 
 /// Spreads `count` roots evenly within `hairline`, in farthest-first order; the same `seed` gives the same roots to the

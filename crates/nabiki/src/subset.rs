@@ -32,6 +32,9 @@ pub fn evenly_while(roots: &[Vec3], count: usize, goes_on: &dyn Fn() -> bool) ->
 /// Points that are looked at between two questions whether to go on: some milliseconds.
 const LOOKED_AT: usize = 1 << 20;
 
+/// Bytes that putting points in order takes for each, at least: its cell, its number there, its place and its gap.
+pub(crate) const BYTES_A_POINT: usize = size_of::<usize>() + size_of::<u32>() + size_of::<Vec3>() + size_of::<f32>();
+
 /// The cells of a grid over points on a surface, with how far each point is from the nearest chosen one.
 struct Cells {
     low: Vec3,

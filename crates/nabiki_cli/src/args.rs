@@ -12,6 +12,9 @@ use nabiki_scene::farm::Engine;
 use nabiki_scene::tasks::{Pictures, Twin};
 use nabiki_scene::{Error, Result};
 
+/// Threads to work with at the most.
+const MOST_THREADS: u16 = 512;
+
 /// Hair in the wind: groom it, blow on it, draw it.
 #[derive(Parser)]
 #[command(
@@ -38,7 +41,7 @@ pub struct Cli {
     pub quiet: bool,
 
     /// Threads to work with, 512 at the most (default: all cores); the result is the same with any
-    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=512))]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(MOST_THREADS)))]
     pub threads: Option<u16>,
 }
 
@@ -149,14 +152,34 @@ impl Cli {
     pub fn read() -> Self {
         let numbers = |arg: Arg| if arg.get_action().takes_values() { arg.allow_negative_numbers(true) } else { arg };
         let command = Self::command().mut_args(numbers).mut_subcommands(|command| command.mut_args(numbers));
-        Self::from_arg_matches(&command.get_matches()).unwrap_or_else(|e| e.exit())
+        let read = command.try_get_matches().and_then(|matches| Self::from_arg_matches(&matches));
+        read.unwrap_or_else(|refused| crate::say::misuse(&refused))
     }
 
-    /// Makes the threads that were asked for.
+    /// Makes the threads that were asked for, or one a core. Made where they are first wanted, those that the system does not give would
+    /// end the program.
     pub fn use_threads(&self) -> Result<()> {
-        let Some(threads) = self.threads else { return Ok(()) };
-        let built = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
-        built.map_err(|e| Error::refused(format!("--threads {threads}: {e}")))
+        const VARIABLE: &str = "RAYON_NUM_THREADS";
+        let in_environment = || std::env::var(VARIABLE).ok()?.parse::<u64>().ok().filter(|&count| count > 0);
+        if let Some(count) = in_environment().filter(|&count| self.threads.is_none() && count > u64::from(MOST_THREADS))
+        {
+            let line =
+                format!("{VARIABLE}={count}: {MOST_THREADS} threads are the most: set it lower, or leave it out");
+            return Err(Error::refused(line));
+        }
+        let builder = rayon::ThreadPoolBuilder::new();
+        let built = match self.threads {
+            Some(threads) => builder.num_threads(threads.into()),
+            None => builder,
+        };
+        built.build_global().map_err(|e| {
+            let wanted = match (self.threads, in_environment()) {
+                (Some(threads), _) => format!("--threads {threads}"),
+                (None, Some(count)) => format!("{VARIABLE}={count}"),
+                (None, None) => "a thread for each core".to_owned(),
+            };
+            Error::refused(format!("{wanted}: the system does not give so many ({e}); give fewer with --threads N"))
+        })
     }
 }
 

@@ -1,10 +1,12 @@
 //! Each subcommand as the task that it asks for.
 
+use nabiki_io::screen::is_unsafe;
+use nabiki_io::shell;
 use nabiki_scene::tasks::{
     self, ConvertOptions, FarmOptions, MovieOptions, NewOptions, PREVIEW_STRANDS, Pictures, RenderOptions,
     ShardOptions, SimulateOptions, SolveOptions,
 };
-use nabiki_scene::{Error, Result, Shown, shell};
+use nabiki_scene::{Error, Result, Shown};
 
 use crate::args::{
     Convert, Farm, Frames, Groom, Info, Join, Movie, New, Preview, Render, Run, SceneArgs, Simulate, Solve, StepperName,
@@ -52,7 +54,7 @@ pub fn simulate(args: &Simulate, terminal: &mut Terminal) -> Result<()> {
 /// The command that simulates this scene, up to which shard of it and into which file.
 fn without_shard(args: &Simulate) -> Result<String> {
     let SceneArgs { scene, .. } = &args.scene;
-    let mut words = vec!["nabiki".to_owned(), "simulate".to_owned(), scene.to_string_lossy().into_owned()];
+    let mut words = vec!["nabiki".to_owned(), "simulate".to_owned(), shell::operand(&scene.to_string_lossy())];
     words.extend(args.strands.into_iter().flat_map(|count| ["--strands".to_owned(), count.to_string()]));
     words.extend(args.scene.as_sets()?.into_iter().flat_map(|set| ["--set".to_owned(), set]));
     if matches!(args.stepper, StepperName::F64) {
@@ -138,12 +140,19 @@ pub fn convert(args: &Convert, terminal: &mut Terminal) -> Result<()> {
 
 pub fn info(args: &Info) -> Result<()> {
     let info = nabiki_scene::info::info(&args.file)?;
-    let text = if args.json {
-        serde_json::to_string_pretty(&info).map_err(|e| Error::refused(e.to_string()))?
-    } else {
-        info.to_string()
-    };
+    let text = if args.json { json(&info)? } else { info.to_string() };
     say::answer(text)
+}
+
+/// Of what a terminal obeys JSON itself escapes only a part. All of it can stand in strings alone.
+fn json(info: &nabiki_scene::info::Info) -> Result<String> {
+    let text = serde_json::to_string_pretty(info).map_err(|e| Error::refused(e.to_string()))?;
+    let escaped = |c: char| match c {
+        '\n' => "\n".to_owned(),
+        c if is_unsafe(c) => format!("\\u{:04x}", u32::from(c)),
+        c => c.to_string(),
+    };
+    Ok(text.chars().map(escaped).collect())
 }
 
 fn shown(strands: Option<usize>) -> Shown {

@@ -20,7 +20,7 @@ mod system {
         let ending = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
         // Without a handler files are left as after a crash, and the next run to the same place removes them.
         let Ok(mut signals) = Signals::new(ending) else { return };
-        std::thread::spawn(move || {
+        let watch = move || {
             let Some(signal) = signals.forever().next() else { return };
             nabiki_file::remove_unfinished();
             // Who pressed Ctrl-C knows it. A terminal that closed takes no more words.
@@ -28,7 +28,9 @@ mod system {
                 let _ = writeln!(std::io::stderr(), "nabiki: ended by {name}");
             }
             let _ = signal_hook::low_level::emulate_default_handler(signal);
-        });
+        };
+        // Without a thread, too.
+        let _ = std::thread::Builder::new().name("ending".to_owned()).spawn(watch);
     }
 
     /// The signals that the program was started to ignore, a bit each from signal 1 on, where the system has a file that says so.

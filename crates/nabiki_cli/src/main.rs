@@ -20,7 +20,7 @@ fn main() -> ExitCode {
     match run(&cli) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("nabiki: {error}");
+            say::failure(error);
             ExitCode::FAILURE
         }
     }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use nabiki_io::input::{MOST_SCENE_BYTES, read_text};
 use nabiki_scene::{Error, Result, Scene};
 
 use crate::args::SceneArgs;
@@ -49,7 +50,7 @@ impl SceneArgs {
 /// The contact sheet of the scene without the frames that a shorter try does not reach. A file that cannot be read
 /// is left for the scene's own reader to refuse.
 fn shorter_sheet(scene: &Path, frames: u32) -> Option<(String, String)> {
-    let table: toml::Table = std::fs::read_to_string(scene).ok()?.parse().ok()?;
+    let table: toml::Table = read_text(scene, MOST_SCENE_BYTES).ok()?.parse().ok()?;
     let sheet = table.get("output")?.get("sheet")?.as_array()?;
     let reached: Vec<String> = sheet
         .iter()

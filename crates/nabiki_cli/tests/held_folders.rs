@@ -40,10 +40,10 @@ fn frames_of_one_command_are_not_taken_away_by_another() {
     // What an earlier, longer run left would be removed.
     fs::copy(frames.join("0000.png"), frames.join("0009.png")).unwrap();
 
-    let alone = HeldFolder::hold(&frames, Hold::Alone).unwrap();
+    let alone = HeldFolder::hold(&frames, Hold::Alone).unwrap().unwrap();
     [&run, &render, &task].into_iter().for_each(|words| refuse(folder, words));
     drop(alone);
-    let task_of_another = HeldFolder::hold(&frames, Hold::BesideOthers).unwrap();
+    let task_of_another = HeldFolder::hold(&frames, Hold::BesideOthers).unwrap().unwrap();
     [&run, &render].into_iter().for_each(|words| refuse(folder, words));
     succeed(folder, &task);
     assert_eq!(names(&frames), [".nabiki-lock", "0000.png", "0001.png", "0009.png"]);
@@ -64,7 +64,7 @@ fn a_turntable_holds_its_frames_too() {
     let (folder, frames) = (folder.path(), folder.path().join("out/gust_0001_turntable_frames"));
     let turn = format!("render {GUST} {STILLS} --frame 1 --turntable 2 --out out");
     fs::create_dir_all(&frames).unwrap();
-    let alone = HeldFolder::hold(&frames, Hold::BesideOthers).unwrap();
+    let alone = HeldFolder::hold(&frames, Hold::BesideOthers).unwrap().unwrap();
     refuse(folder, &turn);
     drop(alone);
     succeed(folder, &turn);

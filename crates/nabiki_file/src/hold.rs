@@ -7,6 +7,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::sleep;
 use std::time::Duration;
 
+use crate::is_at;
+
 /// The file by which a folder is held: the system frees it when a program ends, however that comes.
 const NAME: &str = ".nabiki-lock";
 
@@ -43,13 +45,20 @@ struct LockFile {
 impl HeldFolder {
     /// Holds `folder`, which is there; `None` where another holder, in this program or another, does not allow it. Where a file
     /// system has no locks, or takes no file, all are allowed.
-    pub fn hold(folder: &Path, hold: Hold) -> Option<Self> {
+    ///
+    /// # Errors
+    /// What stands in the place of the lock file is no file: its path.
+    pub fn hold(folder: &Path, hold: Hold) -> Result<Option<Self>, PathBuf> {
         let path = folder.join(NAME);
         for turn in 0..TRIES {
             if turn > 0 {
                 sleep(PAUSE);
             }
-            let Ok(file) = open(&path) else { return Some(Self(None)) };
+            let file = match open(&path) {
+                Ok(file) => file,
+                Err(e) if e.kind() == io::ErrorKind::AlreadyExists => return Err(path),
+                Err(_) => return Ok(Some(Self(None))),
+            };
             let locked = match hold {
                 Hold::Alone => file.try_lock(),
                 Hold::BesideOthers => file.try_lock_shared(),
@@ -59,16 +68,16 @@ impl HeldFolder {
                 Ok(()) if is_at(&file, &path) => {
                     let file = Arc::new(LockFile { file, path });
                     held().push(file.clone());
-                    return Some(Self(Some(file)));
+                    return Ok(Some(Self(Some(file))));
                 }
                 Ok(()) | Err(TryLockError::WouldBlock) => {}
                 Err(TryLockError::Error(_)) => {
                     let _ = fs::remove_file(&path);
-                    return Some(Self(None));
+                    return Ok(Some(Self(None)));
                 }
             }
         }
-        None
+        Ok(None)
     }
 }
 
@@ -99,21 +108,10 @@ pub(super) fn let_go_of_all() {
 
 /// The lock file, made if it is not there. One that another user has left can only be read, which is enough for most locks.
 fn open(path: &Path) -> io::Result<File> {
+    // A link would be followed to a file that is none of ours, be it to make it; a pipe would be waited for.
+    if fs::symlink_metadata(path).is_ok_and(|there| !there.is_file()) {
+        return Err(io::Error::from(io::ErrorKind::AlreadyExists));
+    }
     let there = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
     there.or_else(|_| File::open(path))
-}
-
-/// Whether `file` is still the one of that name.
-fn is_at(file: &File, path: &Path) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt;
-        let place = |about: &fs::Metadata| (about.dev(), about.ino());
-        matches!((file.metadata(), fs::metadata(path)), (Ok(a), Ok(b)) if place(&a) == place(&b))
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = file;
-        path.exists()
-    }
 }

@@ -23,9 +23,11 @@
 
 #![forbid(unsafe_code)]
 
+#[cfg(unix)]
+mod access;
 mod hold;
 
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -37,6 +39,9 @@ pub use hold::{HeldFolder, Hold};
 
 /// How the name of every part file begins.
 const MARK: &str = ".nabiki-part-";
+
+/// How often a part file is begun anew that another program took for a stale one.
+const TRIES: u32 = 100;
 
 /// Bytes gathered before they are written.
 const BUFFER: usize = 1 << 20;
@@ -67,9 +72,16 @@ impl Drop for Part {
     }
 }
 
+impl Part {
+    fn path(&self) -> &Path {
+        self.0.as_deref().unwrap_or(Path::new(""))
+    }
+}
+
 impl PartFile {
     /// Starts the file that will be `target`. A `target` that is a link stays one: what it leads to is replaced. Whoever
-    /// may read other new files may read this one (the umask holds).
+    /// may read other new files may read this one (the umask holds); a file that is replaced keeps its permissions, and its
+    /// owner and group where the system lets it.
     ///
     /// # Errors
     /// What the disk says.
@@ -77,21 +89,20 @@ impl PartFile {
         let target = behind_links(target)?;
         let folder = folder_of(&target);
         remove_stale(folder, &target);
-        let mut builder = tempfile::Builder::new();
-        let prefix = prefix_of(&target);
-        builder.prefix(&prefix);
-        // Temporary files are private by default; this one becomes an ordinary file.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        // The list is held while the file is made, so that a signal in between finds it.
-        let mut open = open_parts();
-        let (file, path) = builder.tempfile_in(folder).map_err(without_path)?.into_parts();
-        open.push(path.to_path_buf());
-        drop(open);
-        let part = Part(Some(path));
-        // Where a file system has no locks, the part file of a killed program stays.
-        let _ = file.try_lock();
-        Ok(Self { file: BufWriter::with_capacity(BUFFER, file), part, target })
+        for _ in 0..TRIES {
+            let (file, part) = new_part(folder, &target)?;
+            // Whoever looks for stale parts holds a file for an instant, and removes what it could hold.
+            match file.try_lock() {
+                Ok(()) if is_at(&file, part.path()) => {}
+                Ok(()) | Err(TryLockError::WouldBlock) => continue,
+                // Where a file system has no locks, nobody removes the part, and that of a killed program stays.
+                Err(TryLockError::Error(_)) => {}
+            }
+            #[cfg(unix)]
+            access::keep(&file, &target);
+            return Ok(Self { file: BufWriter::with_capacity(BUFFER, file), part, target });
+        }
+        Err(io::Error::other("other programs remove the new file again and again"))
     }
 
     /// Puts the content under its final name.
@@ -100,9 +111,15 @@ impl PartFile {
     /// What the disk says; the file that was there before is then as it was.
     pub fn finish(mut self) -> io::Result<()> {
         self.file.flush()?;
+        // A name that reaches the disk before its content would stand for an empty file after a power cut.
+        on_disk(self.file.get_ref())?;
         let path = self.part.0.take().ok_or_else(|| io::Error::other("the file is finished already"))?;
         open_parts().retain(|open| *open != *path);
-        path.persist(&self.target).map_err(|e| e.error)
+        path.persist(&self.target).map_err(|e| e.error)?;
+        // The file is whole under its name by now: a folder that cannot be synchronised does not change that.
+        #[cfg(unix)]
+        let _ = File::open(folder_of(&self.target)).and_then(|folder| folder.sync_all());
+        Ok(())
     }
 }
 
@@ -188,12 +205,50 @@ fn remove_stale(folder: &Path, target: &Path) {
             continue;
         }
         let path = entry.path();
-        if open_parts().contains(&path) {
+        // A pipe of such a name would be waited for, and is none of ours.
+        if open_parts().contains(&path) || !entry.file_type().is_ok_and(|kind| kind.is_file()) {
             continue;
         }
         if File::open(&path).is_ok_and(|file| file.try_lock().is_ok()) {
             let _ = fs::remove_file(&path);
         }
+    }
+}
+
+/// A new, empty part file of `target`, listed among those that are open.
+fn new_part(folder: &Path, target: &Path) -> io::Result<(File, Part)> {
+    let mut builder = tempfile::Builder::new();
+    let prefix = prefix_of(target);
+    builder.prefix(&prefix);
+    #[cfg(unix)]
+    builder.permissions(access::at_first(target));
+    // The list is held while the file is made, so that a signal in between finds it.
+    let mut open = open_parts();
+    let (file, path) = builder.tempfile_in(folder).map_err(without_path)?.into_parts();
+    open.push(path.to_path_buf());
+    Ok((file, Part(Some(path))))
+}
+
+/// Brings what has been written onto the disk, as far as its file system can.
+fn on_disk(file: &File) -> io::Result<()> {
+    match file.sync_all() {
+        Err(e) if matches!(e.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported) => Ok(()),
+        done => done,
+    }
+}
+
+/// Whether `file` is the one of that name. What a link leads to is not.
+fn is_at(file: &File, path: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let place = |about: &fs::Metadata| (about.dev(), about.ino());
+        matches!((file.metadata(), fs::symlink_metadata(path)), (Ok(a), Ok(b)) if place(&a) == place(&b))
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = file;
+        path.exists()
     }
 }
 

@@ -88,7 +88,7 @@ fn a_name_may_be_as_long_as_the_disk_takes() {
 #[test]
 fn a_folder_is_held_by_one_alone_or_by_many_that_allow_others() {
     let folder = folder();
-    let hold = |hold| HeldFolder::hold(folder.path(), hold);
+    let hold = |hold| HeldFolder::hold(folder.path(), hold).unwrap();
     let alone = hold(Hold::Alone).unwrap();
     assert!(hold(Hold::Alone).is_none() && hold(Hold::BesideOthers).is_none());
     drop(alone);
@@ -106,7 +106,7 @@ fn a_lock_file_that_a_killed_program_left_holds_nothing() {
     let folder = folder();
     fs::write(folder.path().join(".nabiki-lock"), "").unwrap();
     for hold in [Hold::Alone, Hold::BesideOthers] {
-        drop(HeldFolder::hold(folder.path(), hold).unwrap());
+        drop(HeldFolder::hold(folder.path(), hold).unwrap().unwrap());
         assert_eq!(names(folder.path()), [""; 0]);
     }
 }
@@ -121,7 +121,7 @@ fn of_many_at_once_one_has_a_folder_for_itself() {
         for _ in 0..4 {
             scope.spawn(|| {
                 for _ in 0..200 {
-                    let Some(held) = HeldFolder::hold(folder.path(), Hold::Alone) else { continue };
+                    let Some(held) = HeldFolder::hold(folder.path(), Hold::Alone).unwrap() else { continue };
                     assert_eq!(inside.fetch_add(1, std::sync::atomic::Ordering::SeqCst), 0);
                     std::thread::yield_now();
                     inside.fetch_sub(1, std::sync::atomic::Ordering::SeqCst);
@@ -131,4 +131,81 @@ fn of_many_at_once_one_has_a_folder_for_itself() {
         }
     });
     assert_eq!(names(folder.path()), [""; 0]);
+}
+
+// Each looks for stale parts while the others begin theirs, as programs do that write to one place at the same moment.
+#[test]
+fn of_many_that_write_one_file_none_fails() {
+    let folder = folder();
+    let target = folder.path().join("same.abc");
+    std::thread::scope(|scope| {
+        for writer in 0..4_u8 {
+            let target = &target;
+            scope.spawn(move || {
+                for _ in 0..300 {
+                    let mut part = PartFile::create(target).unwrap();
+                    part.write_all(&[writer; 10]).unwrap();
+                    part.finish().unwrap();
+                }
+            });
+        }
+        scope.spawn(|| (0..3000).for_each(|_| remove_stale_of_another_program(folder.path(), &target)));
+    });
+    let written = fs::read(&target).unwrap();
+    assert!(written.len() == 10 && written.iter().all(|&byte| byte == written[0]), "{written:?}");
+    assert_eq!(names(folder.path()), ["same.abc"]);
+}
+
+/// What a program does that has none of these parts open itself.
+fn remove_stale_of_another_program(folder: &Path, target: &Path) {
+    for entry in fs::read_dir(folder).unwrap().flatten() {
+        let path = entry.path();
+        if path != *target && File::open(&path).is_ok_and(|file| file.try_lock().is_ok()) {
+            let _ = fs::remove_file(&path);
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_replaced_file_keeps_its_permissions() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = folder();
+    let target = folder.path().join("private.usdc");
+    let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode() & 0o777;
+    for wanted in [0o600, 0o640, 0o664, 0o444, 0o666, 0o755] {
+        fs::write(&target, "old").ok();
+        fs::set_permissions(&target, fs::Permissions::from_mode(wanted)).unwrap();
+        let part = PartFile::create(&target).unwrap();
+        assert_eq!(mode(part.part.path()) & !wanted, 0, "{wanted:o}: nobody else may read it while it grows");
+        part.finish().unwrap();
+        assert_eq!(mode(&target), wanted, "{wanted:o}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_the_place_of_a_part_or_a_lock_is_not_waited_for() {
+    let folder = folder();
+    let pipe = |name: &str| {
+        let pipe = folder.path().join(name);
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        pipe
+    };
+    let target = folder.path().join("hair.abc");
+    let part = pipe(&(prefix_of(&target) + "pipe"));
+    PartFile::create(&target).unwrap().finish().unwrap();
+    let lock = pipe(".nabiki-lock");
+    assert_eq!(HeldFolder::hold(folder.path(), Hold::Alone).unwrap_err(), lock);
+    assert!(part.exists() && lock.exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_in_the_place_of_a_lock_is_not_followed() {
+    let folder = folder();
+    let (lock, nowhere) = (folder.path().join(".nabiki-lock"), folder.path().join("nowhere"));
+    std::os::unix::fs::symlink(&nowhere, &lock).unwrap();
+    assert_eq!(HeldFolder::hold(folder.path(), Hold::BesideOthers).unwrap_err(), lock);
+    assert!(!nowhere.exists(), "nothing is made where it leads");
 }

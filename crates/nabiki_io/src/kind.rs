@@ -6,6 +6,7 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 use crate::input;
+use crate::shell::{operand, quoted};
 
 /// A name's ending in lower case, without the dot.
 pub(crate) fn extension(path: &Path) -> String {
@@ -138,7 +139,10 @@ impl FileKind {
             }
             Self::Bvh | Self::AcclaimMotion | Self::ObjectStream | Self::Table => in_scene("head.motion.file"),
             Self::AcclaimSkeleton => in_scene("head.motion.skeleton"),
-            Self::Cache => format!("nabiki render SCENE --motion {file} draws it, nabiki info {file} looks into it"),
+            Self::Cache => {
+                let file = quoted(&operand(file));
+                format!("nabiki render SCENE --motion {file} draws it, nabiki info {file} looks into it")
+            }
             _ => "give the scene that is meant".to_owned(),
         }
     }

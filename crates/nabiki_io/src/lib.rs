@@ -39,6 +39,8 @@ pub mod names;
 pub mod obj_lines;
 mod obj_text;
 pub mod placement;
+pub mod screen;
+pub mod shell;
 mod short;
 mod sum;
 pub mod tfx;

@@ -15,8 +15,8 @@ use crate::RenderError;
 use crate::backdrop::Backdrop;
 use crate::camera::View;
 use crate::colour::{self, luminance};
-use crate::curve::{Curves, bounds, drawable};
-use crate::frame::Frame;
+use crate::curve::{CurveNode, Curves, bounds, drawable};
+use crate::frame::{Frame, Layer};
 use crate::lens::{Spread, Subject};
 use crate::light::approx::exp_of_negative;
 use crate::light::fibre::Fibre;
@@ -135,6 +135,16 @@ impl Renderer {
             lens_points: None,
             timing: Timing::default(),
         })
+    }
+
+    /// Bytes of memory that it takes at least to draw so many strands as a scene's settings say. `layers`: with those of its frames.
+    pub fn least_bytes(picture: &Picture, strands: usize, layers: bool) -> u64 {
+        let pixels = picture.size.iter().map(|&side| u64::from(side)).product::<u64>();
+        let layers = if layers { size_of::<Layer>() } else { 0 };
+        let pixel = size_of::<[f32; 4]>() + size_of::<f32>() + layers;
+        // However straight it is, a strand has two ends.
+        let strand = 2 * (size_of::<CurveNode>() + size_of::<Node>() + size_of::<f32>());
+        pixels * pixel as u64 + strands as u64 * strand as u64
     }
 
     /// Draws the face of the head whose mesh was given, if it has one and `picture.head.face` is wished for. A lens that is given no

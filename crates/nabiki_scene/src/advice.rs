@@ -10,13 +10,14 @@ use glam::Vec3;
 use nabiki::dynamics::Form;
 use nabiki::groom::style::Cut;
 use nabiki::head::Opening;
-use nabiki::{Head, Pose};
+use nabiki::{Ellipsoid, Head, Pose};
 use nabiki_io::info::Short;
+use nabiki_io::{DeclaredSpace, Placement};
 use nabiki_render::settings::Projection;
 use nabiki_render::{Bounds, View};
 
 use crate::built::BuiltScene;
-use crate::scene::{EllipsoidChoice, HeadSource};
+use crate::scene::{EllipsoidChoice, HeadSettings, HeadSource};
 use crate::seat::{Lie, Mended, Seat};
 use crate::size::{HALF_AXIS, mean_half_axis, unit_for, vector};
 
@@ -200,7 +201,16 @@ fn open_skull(head: &Head, hole: &Opening) -> Option<Advice> {
 }
 
 fn head_size(built: &BuiltScene) -> Option<Advice> {
-    let (settings, ellipsoid) = (&built.scene.head, &built.head.ellipsoid);
+    of_head_size(&built.scene.head, &built.head.ellipsoid, built.head_declared, &built.placement)
+}
+
+/// A head that is no person's by its size. `declared`: what its file says of its space; `placement`: how it was taken.
+pub(crate) fn of_head_size(
+    settings: &HeadSettings,
+    ellipsoid: &Ellipsoid,
+    declared: DeclaredSpace,
+    placement: &Placement,
+) -> Option<Advice> {
     let size = mean_half_axis(ellipsoid);
     if (HALF_AXES[0]..=HALF_AXES[1]).contains(&size) {
         return None;
@@ -212,7 +222,7 @@ fn head_size(built: &BuiltScene) -> Option<Advice> {
     let HeadSource::Imported(head) = &settings.source else {
         return Some(Advice { seen: format!("{seen}: mend head.ellipsoid"), settings: Vec::new() });
     };
-    let seen = match built.head_declared.unit.filter(|_| head.unit.is_none()) {
+    let seen = match declared.unit.filter(|_| head.unit.is_none()) {
         Some(unit) => format!("{seen}; its file is in {unit}"),
         None => seen,
     };
@@ -220,7 +230,7 @@ fn head_size(built: &BuiltScene) -> Option<Advice> {
         let seen = format!("{seen}: mend head.unit or head.ellipsoid");
         return Some(Advice { seen, settings: Vec::new() });
     }
-    let value = unit_for(size / built.placement.unit.cm, HALF_AXIS);
+    let value = unit_for(size / placement.unit.cm, HALF_AXIS);
     Some(Advice { seen, settings: vec![Setting { key: "head.unit", value }] })
 }
 

@@ -21,6 +21,7 @@ use nabiki_render::DrawnBody;
 
 use crate::advice::{Advice, advice};
 use crate::error::{Error, Result};
+use crate::memory;
 use crate::scene::{FieldBound, FieldParts, Scene};
 use crate::seat::Seat;
 
@@ -216,8 +217,21 @@ impl BuiltScene {
     /// # Errors
     /// A field too strong for the hair; strands that cannot be moved.
     pub fn simulation(&self) -> Result<Simulation> {
+        self.check_memory(1)?;
         let built = Simulation::with_ids(&self.hair.strands, &self.ids, &self.dynamics, &*self.field);
         built.map_err(|refused| self.refusal(refused))
+    }
+
+    /// Refuses hair whose motion takes more memory than there is, `times` what the fast stepper takes.
+    fn check_memory(&self, times: u64) -> Result<()> {
+        let strands = &self.hair.strands;
+        let Some(short) = memory::short_of(times * Simulation::least_bytes(strands, &self.dynamics)) else {
+            return Ok(());
+        };
+        let key = if self.scene.hair.grown().is_some() { "hair.strands" } else { "hair.file" };
+        let what = format!("{} strands of {} segments in all", strands.len(), strands.segment_count());
+        let remedy = format!("to move them {short}: show fewer of them, or simulate them in shards");
+        Err(self.scene.refusal(SettingError::new(key, what, remedy)).into())
     }
 
     /// The f64 stepper, at rest.
@@ -225,6 +239,8 @@ impl BuiltScene {
     /// # Errors
     /// As [`simulation`](Self::simulation).
     pub fn reference(&self) -> Result<Reference> {
+        // Its numbers are twice as long.
+        self.check_memory(2)?;
         let built = Reference::with_ids(&self.hair.strands, &self.ids, &self.dynamics, &*self.field);
         built.map_err(|refused| self.refusal(refused))
     }
@@ -234,6 +250,7 @@ impl BuiltScene {
     /// # Errors
     /// As [`simulation`](Self::simulation).
     pub fn timeline(&self) -> Result<Timeline> {
+        self.check_memory(1)?;
         let (field, poses) = (self.field.clone(), self.given_poses());
         let built = Timeline::with_ids(&self.hair.strands, &self.ids, &self.dynamics, field, poses, self.frames());
         built.map_err(|refused| self.refusal(refused))

@@ -1,23 +1,25 @@
 //! What building and running a scene may fail with.
 
+use nabiki_io::screen::OneLine;
 use nabiki_render::RenderError;
 
-use crate::scene::SceneError;
+use crate::advice::Advice;
+use crate::scene::{Problem, SceneError};
 
-/// What went wrong, in one line: file, thing, value, way out.
+/// What went wrong, in one line: file, thing, value, way out. What a terminal would obey is escaped in it.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A setting of the scene is refused.
-    #[error(transparent)]
+    #[error("{}", OneLine(.0))]
     Scene(#[from] SceneError),
     /// A file that the scene names is refused; a file could not be written.
-    #[error(transparent)]
+    #[error("{}", OneLine(.0))]
     File(#[from] nabiki_io::Error),
     /// A picture or movie could not be made.
-    #[error(transparent)]
+    #[error("{}", OneLine(.0))]
     Picture(#[from] RenderError),
     /// A request that the scene cannot meet, or a place that a result cannot go to.
-    #[error("{0}")]
+    #[error("{}", OneLine(.0))]
     Refused(String),
     /// The watcher asked to stop; nothing is left under a final name.
     #[error("cancelled")]
@@ -28,6 +30,19 @@ impl Error {
     /// A refusal in one line.
     pub fn refused(line: impl Into<String>) -> Self {
         Self::Refused(line.into())
+    }
+
+    /// The same with what is the likelier cause, if anything is: where a head or hair has the size of neither, a number is refused that
+    /// is right for one that has.
+    pub(crate) fn blamed_on(mut self, size: Option<Advice>) -> Self {
+        if let (Self::Scene(refused), Some(size)) = (&mut self, size)
+            && let Problem::Range { value, remedy } = &mut *refused.problem
+            // A file that is not there, or a word, has no size.
+            && !value.starts_with('"')
+        {
+            *remedy += &format!("; look first at the size: {size}");
+        }
+        self
     }
 }
 

@@ -4,13 +4,14 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use glam::{Quat, Vec3};
-use nabiki::Strands;
 use nabiki::dynamics::ForceSpace;
+use nabiki::{SettingError, Strands};
 use nabiki_render::{Bounds, Frame, FrameToDraw, Moment, Picture, RenderError, Renderer, ToneMapping, View};
 
 use crate::built::BuiltScene;
 use crate::error::{Error, Result};
 use crate::frames::FrameSource;
+use crate::memory;
 use crate::motion_summary::MotionSummary;
 use crate::outputs::{PictureOutputs, Stills};
 use crate::watch::{Watch, each_frame};
@@ -60,7 +61,15 @@ impl<'a> Film<'a> {
 
     /// Shows the scene, moved by `frames`, as `picture` says, framed so that it holds the head.
     fn of_head(built: &'a BuiltScene, picture: &Picture, frames: &dyn FrameSource) -> Result<Self> {
-        let head = &built.head;
+        let (head, strands) = (&built.head, built.hair.strands.len());
+        if let Some(short) = memory::short_of(Renderer::least_bytes(picture, strands, built.scene.output.exr_frames)) {
+            let [width, height] = picture.size;
+            let remedy = format!("a picture of {strands} strands {short}: give a smaller one, or fewer strands");
+            return Err(built
+                .scene
+                .refusal(SettingError::new("picture.size", format!("[{width}, {height}]"), remedy))
+                .into());
+        }
         let renderer = Renderer::new(picture, &head.mesh)?.with_face(head).with_bodies(built.drawn_bodies())?;
         let mut bounds = Bounds::default();
         bounds.include_head(&head.mesh, &head.ellipsoid);

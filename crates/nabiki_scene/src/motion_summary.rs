@@ -13,6 +13,9 @@ use crate::built::BuiltScene;
 /// Cosine of the angle between two segments from which on their joint is called a kink: 60 degrees.
 const KINK: f32 = 0.5;
 
+/// How far a node may go to and fro from frame to frame before it is said (cm).
+const HOP: f32 = 3.0;
+
 /// What one frame is like.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameSummary {
@@ -26,23 +29,29 @@ pub struct FrameSummary {
     pub kinks: f64,
     /// The farthest that a node has gone since the frame before (head space, cm); 0 in the first frame.
     pub jump: f32,
+    /// How far a node has gone the way back that it came in the frame before (cm); 0 where none turns about. What swings stands
+    /// still where it turns: a step that is too long for what moves hair throws it to and fro.
+    pub hop: f32,
 }
 
 impl FrameSummary {
-    /// Of the hair as it is in `frame`. `before`: its points in the frame before, or none.
-    pub fn of(built: &BuiltScene, frame: u32, strands: &Strands, before: &[Vec3]) -> Self {
+    /// Of the hair as it is in `frame`. `before`: its points in the frame before and in that before this, or none.
+    pub fn of(built: &BuiltScene, frame: u32, strands: &Strands, before: [&[Vec3]; 2]) -> Self {
         let others = others(built, frame);
         let strand = |s: usize| {
             let points = strands.strand(s);
-            let before = before.get(strands.range(s)).unwrap_or(&[]);
+            let [before, earlier] = before.map(|points| points.get(strands.range(s)).unwrap_or(&[]));
             let depths = points[1..].iter().map(|&p| depth(built, &others, p)).filter(|&depth| depth > 0.0);
             let (inside, depth) = depths.fold((0_u64, 0.0_f32), |(count, deepest), d| (count + 1, deepest.max(d)));
             let jump = points.iter().zip(before).map(|(a, b)| a.distance_squared(*b)).fold(0.0, f32::max);
-            (inside, depth, kinks(points), jump)
+            let hops =
+                points.iter().zip(before).zip(earlier).map(|((now, before), earlier)| hop(*earlier, *before, *now));
+            (inside, depth, kinks(points), jump, hops.fold(0.0, f32::max))
         };
-        let sum = |a: (u64, f32, u64, f32), b: (u64, f32, u64, f32)| (a.0 + b.0, a.1.max(b.1), a.2 + b.2, a.3.max(b.3));
+        type Sums = (u64, f32, u64, f32, f32);
+        let sum = |a: Sums, b: Sums| (a.0 + b.0, a.1.max(b.1), a.2 + b.2, a.3.max(b.3), a.4.max(b.4));
         let all = (0..strands.len()).into_par_iter().with_min_len(64);
-        let (inside, depth, kinks, jump) = all.map(strand).reduce(|| (0, 0.0, 0, 0.0), sum);
+        let (inside, depth, kinks, jump, hop) = all.map(strand).reduce(|| (0, 0.0, 0, 0.0, 0.0), sum);
         let segments = strands.segment_count() as f64;
         let joints = segments - strands.len() as f64;
         Self {
@@ -51,6 +60,7 @@ impl FrameSummary {
             depth,
             kinks: if joints > 0.0 { kinks as f64 / joints } else { 0.0 },
             jump: jump.sqrt(),
+            hop,
         }
     }
 }
@@ -67,6 +77,13 @@ fn depth(built: &BuiltScene, others: &[(&Body, Affine3A)], p: Vec3) -> f32 {
         body.distance.sample(body_from_head.transform_point3(p)).map_or(0.0, |(distance, _)| -distance)
     };
     others.iter().map(in_body).fold(built.head.depth(p), f32::max)
+}
+
+/// How far a point goes the way back that it has come.
+fn hop(earlier: Vec3, before: Vec3, now: Vec3) -> f32 {
+    let (came, goes) = (before - earlier, now - before);
+    let shorter = came.length().min(goes.length());
+    if came.dot(goes) < -0.5 * came.length() * goes.length() { shorter } else { 0.0 }
 }
 
 /// Joints of a strand that are kinks.
@@ -91,28 +108,39 @@ pub struct MotionSummary {
     pub most_kinked: FrameSummary,
     /// The frame of the farthest jump.
     pub farthest_jump: FrameSummary,
+    /// The frame of the farthest hop.
+    pub farthest_hop: FrameSummary,
     /// The last frame.
     pub last: FrameSummary,
     /// What nodes may be inside of, in words.
     met: &'static str,
-    before: Vec<Vec3>,
+    /// What may throw hair to and fro, and the way out.
+    blamed: String,
+    /// The points in the frame before, and in that before this.
+    before: [Vec<Vec3>; 2],
 }
 
 impl MotionSummary {
     /// Takes in the next frame; each once, from 0 on.
     pub fn add(&mut self, built: &BuiltScene, frame: u32, strands: &Strands) {
-        let now = FrameSummary::of(built, frame, strands, &self.before);
+        let [before, earlier] = &self.before;
+        let now = FrameSummary::of(built, frame, strands, [before, earlier]);
         self.met = if others(built, frame).is_empty() { "the head" } else { "the head or a body" };
+        if frame == 0 {
+            self.blamed = blamed(built);
+        }
         self.add_frame(now);
-        self.before.clear();
-        self.before.extend_from_slice(strands.points());
+        self.before.swap(0, 1);
+        self.before[0].clear();
+        self.before[0].extend_from_slice(strands.points());
     }
 
     fn add_frame(&mut self, now: FrameSummary) {
         if now.frame == 0 {
-            let (met, before) = (self.met, std::mem::take(&mut self.before));
-            let [rest, worst, deepest, most_kinked, farthest_jump, last] = [now; 6];
-            *self = Self { rest, worst, deepest, most_kinked, farthest_jump, last, met, before };
+            let (met, blamed) = (self.met, std::mem::take(&mut self.blamed));
+            let [rest, worst, deepest, most_kinked, farthest_jump, farthest_hop, last] = [now; 7];
+            let before = [Vec::new(), Vec::new()];
+            *self = Self { rest, worst, deepest, most_kinked, farthest_jump, farthest_hop, last, met, blamed, before };
         }
         self.last = now;
         let more = |most: &mut FrameSummary, of: fn(&FrameSummary) -> f64| {
@@ -124,12 +152,13 @@ impl MotionSummary {
         more(&mut self.deepest, |frame| frame.depth.into());
         more(&mut self.most_kinked, |frame| frame.kinks);
         more(&mut self.farthest_jump, |frame| frame.jump.into());
+        more(&mut self.farthest_hop, |frame| frame.hop.into());
     }
 }
 
 impl fmt::Display for MotionSummary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { rest, worst, deepest, most_kinked, farthest_jump, last, met, .. } = self;
+        let Self { rest, worst, deepest, most_kinked, farthest_jump, farthest_hop, last, met, blamed, .. } = self;
         write!(
             f,
             "  inside  {:.2} % of the nodes are inside {met} at frame {} ({:.2} % at rest, at worst {:.2} % at frame {})",
@@ -152,7 +181,30 @@ impl fmt::Display for MotionSummary {
             farthest_jump.jump,
             farthest_jump.frame,
             last.jump,
-        )
+        )?;
+        if farthest_hop.hop > HOP {
+            let (hop, frame) = (farthest_hop.hop, farthest_hop.frame);
+            write!(
+                f,
+                "\n  look    hair hops: a node goes {hop:.1} cm and back again at frame {frame}, which nothing that swings does: {blamed}"
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// What makes a step too long that [`BuiltScene::simulation`] does not refuse.
+fn blamed(built: &BuiltScene) -> String {
+    let neighbours = match &built.dynamics.form {
+        Form::Free(free) => free.neighbours.as_ref().map(|neighbours| &neighbours.forces),
+        Form::Paper => None,
+    };
+    match neighbours {
+        Some(forces) => format!(
+            "neighbours.cohesion = {} or neighbours.pressure = {} is too much for motion.time_step = {}; lower one of these",
+            forces.cohesion, forces.pressure, built.dynamics.motion.time_step
+        ),
+        None => "lower the strengths, or motion.time_step".to_owned(),
     }
 }
 
@@ -166,10 +218,19 @@ mod tests {
         let frames =
             [(0, 0.1, 0.2, 0.0, 0.0), (1, 0.4, 0.1, 0.1, 2.0), (2, 0.4, 0.9, 0.3, 1.0), (3, 0.2, 0.3, 0.3, 0.5)];
         for (frame, inside, depth, kinks, jump) in frames {
-            summary.add_frame(FrameSummary { frame, inside, depth, kinks, jump });
+            summary.add_frame(FrameSummary { frame, inside, depth, kinks, jump, hop: kinks as f32 });
         }
-        let MotionSummary { rest, worst, deepest, most_kinked, farthest_jump, last, .. } = summary;
-        assert_eq!([rest, worst, deepest, most_kinked, farthest_jump, last].map(|f| f.frame), [0, 1, 2, 2, 1, 3]);
+        let MotionSummary { rest, worst, deepest, most_kinked, farthest_jump, farthest_hop, last, .. } = summary;
+        let all = [rest, worst, deepest, most_kinked, farthest_jump, farthest_hop, last];
+        assert_eq!(all.map(|f| f.frame), [0, 1, 2, 2, 1, 2, 3]);
+    }
+
+    #[test]
+    fn what_turns_about_hops_by_the_shorter_of_its_ways() {
+        let x = |to: [f32; 3]| hop(Vec3::X * to[0], Vec3::X * to[1], Vec3::X * to[2]);
+        assert_eq!([[0.0, 3.0, 1.0], [0.0, 3.0, -5.0], [0.0, 3.0, 9.0], [0.0, 0.0, 4.0]].map(x), [2.0, 3.0, 0.0, 0.0]);
+        // Round a bend.
+        assert_eq!(hop(Vec3::ZERO, Vec3::X, Vec3::X + Vec3::Y), 0.0);
     }
 
     #[test]

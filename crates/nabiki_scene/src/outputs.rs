@@ -9,6 +9,7 @@ use nabiki_render::output::field_plot::{self, FieldPlot};
 use nabiki_render::output::{exr, png};
 use nabiki_render::{ContactSheet, Frame, Movie, Picture, RenderError, ToneMapping, View};
 
+use crate::advice::Advice;
 use crate::built::BuiltScene;
 use crate::error::{Error, Result};
 use crate::field_picture;
@@ -43,7 +44,11 @@ impl Stills {
         watch: &mut dyn Watch,
     ) -> Result<Self> {
         folders.make(&folder, WAY_OUT)?;
-        let Some(held) = HeldFolder::hold(&folder, hold) else {
+        let held = HeldFolder::hold(&folder, hold).map_err(|lock| {
+            let line = "this is no ordinary file, as a lock is; remove it, or";
+            Error::refused(format!("{}: {line} {WAY_OUT}", lock.display()))
+        })?;
+        let Some(held) = held else {
             let line = "another command is writing frames into this folder; wait until it is done, or";
             return Err(Error::refused(format!("{}: {line} {WAY_OUT}", folder.display())));
         };
@@ -65,16 +70,28 @@ impl Stills {
         Ok(())
     }
 
-    /// Removes those after `last`, so that the folder holds one film. Whatever has another name, or is no ordinary file, stays.
+    /// Removes those after `last` that Nabiki has drawn, so that the folder holds one film. Whatever has another name, is no
+    /// ordinary file, or was made by somebody else, stays.
     pub fn remove_beyond(&self, last: u32, watch: &mut dyn Watch) -> Result<()> {
         let is_file = |file: &Path| fs::symlink_metadata(file).is_ok_and(|about| about.is_file());
         let there = numbered(&self.folder, &self.output).into_iter();
-        let beyond: Vec<_> = there.filter(|(n, file)| *n > last && is_file(file)).collect();
-        for (_, file) in &beyond {
+        let beyond = there.filter(|(n, file)| *n > last && is_file(file)).map(|(_, file)| file);
+        let (ours, others): (Vec<_>, Vec<_>) = beyond.partition(|file| png::is_ours(file) || exr::is_ours(file));
+        for file in &ours {
             fs::remove_file(file).map_err(|e| nabiki_io::Error::from(e).in_file(file))?;
         }
-        if !beyond.is_empty() {
-            watch.told(Told::Removed { folder: self.folder.clone(), frames: beyond.len(), last });
+        if !ours.is_empty() {
+            watch.told(Told::Removed { folder: self.folder.clone(), frames: ours.len(), last });
+        }
+        if let Some(first) = others.iter().min() {
+            let (files, them) = if others.len() == 1 { ("file", "it is") } else { ("files", "they are") };
+            let seen = format!(
+                "{} holds {} {files} of frames after {last} that bear no mark of Nabiki's, {} first: {them} left there",
+                self.folder.display(),
+                others.len(),
+                first.file_name().unwrap_or_default().display()
+            );
+            watch.told(Told::Advice(Advice { seen, settings: Vec::new() }));
         }
         Ok(())
     }
@@ -167,6 +184,14 @@ impl<'a> PictureOutputs<'a> {
         };
         let tone_mapping = ToneMapping::new(picture);
         Ok(Self { built, tone_mapping, movie, sheet: ContactSheet::new(2), sheet_file, on_sheet, stills, fields })
+    }
+
+    /// Refuses other results of the same task that would take the place of a picture.
+    pub fn check_apart_from(&self, others: &[&Path]) -> Result<()> {
+        let sheet = (!self.on_sheet.is_empty()).then_some(&self.sheet_file);
+        let movie = self.movie.iter().map(|(file, _)| file);
+        let own = movie.chain(sheet).chain(self.fields.iter().map(|(file, _)| file)).map(PathBuf::as_path);
+        place::distinct(&own.chain(others.iter().copied()).collect::<Vec<_>>())
     }
 
     /// Takes frame `n`, which `view` shows in the space of the forces.

@@ -84,19 +84,16 @@ pub fn cache(path: &Path, way_out: &str, inputs: &[PathBuf]) -> Result<()> {
     not_inputs(&[path], inputs)
 }
 
-/// Refuses files that would be written over one another, however their folders are spelled. All can be written, as
+/// Refuses files that would be written over one another, however they are spelled or linked. All can be written, as
 /// [`file()`] says.
 pub fn distinct(paths: &[&Path]) -> Result<()> {
-    let mut places = Vec::new();
-    for path in paths {
-        let place = real(path);
-        if places.contains(&place) {
+    for (i, path) in paths.iter().enumerate() {
+        if paths[..i].iter().any(|before| is_one(before, path)) {
             return Err(Error::refused(format!(
                 "{}: asked for twice; give each file a name of its own",
                 path.display()
             )));
         }
-        places.push(place);
     }
     Ok(())
 }
@@ -104,9 +101,7 @@ pub fn distinct(paths: &[&Path]) -> Result<()> {
 /// Refuses results that would take the place of what they are made from, however either is spelled or linked.
 pub fn not_inputs(outputs: &[&Path], inputs: &[PathBuf]) -> Result<()> {
     for output in outputs {
-        if let Some(input) =
-            inputs.iter().find(|input| fs::canonicalize(input).is_ok_and(|input| input == real(output)))
-        {
+        if let Some(input) = inputs.iter().find(|input| input.exists() && is_one(input, output)) {
             let is = if input == output { String::new() } else { format!(", which is {}", input.display()) };
             return Err(Error::refused(format!(
                 "{}: this is read to make the result{is}; give the result another name",
@@ -141,11 +136,48 @@ pub fn room(path: &Path, bytes: u64, watch: &mut dyn Watch) -> Result<()> {
     Ok(())
 }
 
+/// Whether two names are, or will be, those of one file.
+fn is_one(a: &Path, b: &Path) -> bool {
+    let places = [a, b].map(real);
+    places[0] == places[1] || are_linked(a, b) || are_one_where_capitals_do_not_count(&places)
+}
+
 /// Where a file is or will be, without links on the way.
 fn real(path: &Path) -> PathBuf {
-    fs::canonicalize(path).unwrap_or_else(|_| {
-        fs::canonicalize(folder_of(path)).unwrap_or_default().join(path.file_name().unwrap_or_default())
+    // What a link to nothing names is made.
+    let path = behind_links(path).unwrap_or_else(|_| path.to_owned());
+    fs::canonicalize(&path).unwrap_or_else(|_| {
+        fs::canonicalize(folder_of(&path)).unwrap_or_default().join(path.file_name().unwrap_or_default())
     })
+}
+
+/// Whether two names are hard links to one file.
+fn are_linked(a: &Path, b: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let place = |path: &Path| fs::metadata(path).map(|about| (about.dev(), about.ino()));
+        matches!((place(a), place(b)), (Ok(a), Ok(b)) if a == b)
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = (a, b);
+        false
+    }
+}
+
+/// Whether two files in one folder differ in capitals alone, and its file system takes those for one another.
+fn are_one_where_capitals_do_not_count([a, b]: &[PathBuf; 2]) -> bool {
+    let (Some(first), Some(second)) = (a.file_name().and_then(|n| n.to_str()), b.file_name().and_then(|n| n.to_str()))
+    else {
+        return false;
+    };
+    if a.parent() != b.parent() || first.to_lowercase() != second.to_lowercase() {
+        return false;
+    }
+    let Ok(tried) = tempfile::Builder::new().prefix(".nabiki-try-a").tempfile_in(folder_of(a)) else { return false };
+    let name = tried.path().file_name().map(|name| name.to_string_lossy().to_uppercase()).unwrap_or_default();
+    tried.path().with_file_name(name).exists()
 }
 
 /// Refuses a name that belongs to something else than an ordinary file. A file that is there already is replaced when

@@ -35,6 +35,7 @@ use crate::error::Result;
 use crate::scene::{HairSource, Scene};
 use crate::told::{SceneSummary, SwingTable, Told};
 use crate::watch::Watch;
+use nabiki_io::shell;
 
 /// Builds a scene, and says before which files are read for it, and then what of the hair's is not.
 fn build(scene: Scene, shown: Shown, watch: &mut dyn Watch) -> Result<BuiltScene> {
@@ -86,8 +87,9 @@ fn introduce(built: &BuiltScene, watch: &mut dyn Watch) {
 fn unread(file: &Path, all: &[String], watch: &mut dyn Watch) {
     const MOST_SAID: usize = 12;
     let said = if all.len() > MOST_SAID { &all[..MOST_SAID - 1] } else { all };
+    let named = shell::quoted(&shell::operand(&file.to_string_lossy()));
     let more = (said.len() < all.len())
-        .then(|| format!("and {} more, which nabiki info {} lists", all.len() - said.len(), file.display()));
+        .then(|| format!("and {} more, which nabiki info {} lists", all.len() - said.len(), named));
     said.iter().cloned().chain(more).for_each(|what| watch.told(Told::Unread { file: file.to_owned(), what }));
 }
 

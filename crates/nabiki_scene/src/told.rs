@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use glam::Vec3;
 use nabiki::dynamics::{Form, gain, period};
 use nabiki_io::hair::ImportReport;
+use nabiki_io::screen::OneLine;
 
 use crate::advice::Advice;
 use crate::built::{BuiltScene, ShardOf};
@@ -71,30 +72,39 @@ pub enum Told {
 impl fmt::Display for Told {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Reading(files) => {
-                let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
-                write!(f, "  reading {}", names.join(", "))
-            }
             Self::Scene(summary) => summary.fmt(f),
             Self::Swing(table) => table.fmt(f),
             Self::Motion(summary) => summary.fmt(f),
             Self::Solved(solved) => solved.fmt(f),
-            Self::Advice(advice) => write!(f, "  look    {advice}"),
-            Self::Guessed(what) => write!(f, "  guessed {what}"),
-            Self::Unread { file, what } => write!(f, "  unread  of {}: {what}", file.display()),
-            Self::Lost { file, what } => write!(f, "  lost    {} cannot hold {what}", file.display()),
+            line => OneLine(line.line()).fmt(f),
+        }
+    }
+}
+
+impl Told {
+    /// What is told in one line, as it is.
+    fn line(&self) -> String {
+        match self {
+            Self::Reading(files) => {
+                let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
+                format!("  reading {}", names.join(", "))
+            }
+            Self::Scene(_) | Self::Swing(_) | Self::Motion(_) | Self::Solved(_) => String::new(),
+            Self::Advice(advice) => format!("  look    {advice}"),
+            Self::Guessed(what) => format!("  guessed {what}"),
+            Self::Unread { file, what } => format!("  unread  of {}: {what}", file.display()),
+            Self::Lost { file, what } => format!("  lost    {} cannot hold {what}", file.display()),
             Self::Large { file, bytes } => {
-                write!(f, "  large   {} will take {} at least", file.display(), size(*bytes))
+                format!("  large   {} will take {} at least", file.display(), size(*bytes))
             }
             Self::Removed { folder, frames, last } => {
-                write!(
-                    f,
+                format!(
                     "  removed {frames} files of frames after {last} from {}, left by a longer run",
                     folder.display()
                 )
             }
-            Self::Wrote { file, holds: None } => write!(f, "  wrote   {}", file.display()),
-            Self::Wrote { file, holds: Some(what) } => write!(f, "  wrote   {}: {what}", file.display()),
+            Self::Wrote { file, holds: None } => format!("  wrote   {}", file.display()),
+            Self::Wrote { file, holds: Some(what) } => format!("  wrote   {}: {what}", file.display()),
         }
     }
 }
@@ -175,9 +185,9 @@ impl SceneSummary {
 
 impl fmt::Display for SceneSummary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{}", self.file.display())?;
+        writeln!(f, "{}", OneLine(self.file.display()))?;
         let [x, y, z] = self.half_axes;
-        writeln!(f, "  head    {}, ellipsoid {x:.1} x {y:.1} x {z:.1} cm", self.head)?;
+        writeln!(f, "  head    {}, ellipsoid {x:.1} x {y:.1} x {z:.1} cm", OneLine(&self.head))?;
         if self.doubled_triangles > 0 {
             writeln!(f, "          {} triangles of second sides were left out", self.doubled_triangles)?;
         }
@@ -193,13 +203,13 @@ impl fmt::Display for SceneSummary {
             )?;
         }
         for unread in &self.unread {
-            writeln!(f, "          not read of its file: {unread}")?;
+            writeln!(f, "          not read of its file: {}", OneLine(unread))?;
         }
         if let Some(motion) = &self.motion {
-            writeln!(f, "          {motion}")?;
+            writeln!(f, "          {}", OneLine(motion))?;
         }
         for (i, unread) in &self.unread_of_bodies {
-            writeln!(f, "  body[{i}] not read of its file: {unread}")?;
+            writeln!(f, "  body[{i}] not read of its file: {}", OneLine(unread))?;
         }
         write!(f, "  hair    {} strands", self.strands)?;
         if self.strands < self.strands_of_scene {

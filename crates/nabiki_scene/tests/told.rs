@@ -38,12 +38,12 @@ fn a_summary_counts_what_is_in_a_body_where_that_is_in_its_frame() {
     let mut strands = Strands::default();
     strands.push([4.0, 1.0, -3.0, -9.0].map(|x| in_head(Vec3::new(x, 4.0, 4.0))));
     strands.push([-9.0, -4.0, 2.0, 9.0].map(|x| in_head(Vec3::new(x, 4.0, 4.0))));
-    let summary = FrameSummary::of(&built, frame, &strands, &[]);
+    let summary = FrameSummary::of(&built, frame, &strands, [&[], &[]]);
     assert_eq!(summary.inside, 2.0 / 6.0);
     // Sampled in steps of a part of a cm; within flat sides that is exact but for rounding.
     assert!((summary.depth - 2.0).abs() < 0.02, "{} cm", summary.depth);
     // In another frame the cube is elsewhere, and no hair of a head stands still 60 cm to its side.
-    assert_ne!(FrameSummary::of(&built, 0, &strands, &[]).depth, summary.depth);
+    assert_ne!(FrameSummary::of(&built, 0, &strands, [&[], &[]]).depth, summary.depth);
 }
 
 #[test]

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use eframe::egui;
+use nabiki_io::screen::OneLine;
 use nabiki_studio::app::App;
 use nabiki_studio::icon;
 use nabiki_studio::preferences::{self, Preferences};
@@ -32,11 +33,12 @@ fn main() -> ExitCode {
                 return ExitCode::SUCCESS;
             }
             Some(option) if option.starts_with('-') && option.len() > 1 => {
-                eprintln!("nabiki-studio: {option}: no such option; see --help");
+                eprintln!("nabiki-studio: {}: no such option; see --help", OneLine(option));
                 return ExitCode::FAILURE;
             }
             _ if scene.is_some() => {
-                eprintln!("nabiki-studio: {}: a window shows one scene; start another for it", argument.display());
+                let second = OneLine(argument.display());
+                eprintln!("nabiki-studio: {second}: a window shows one scene; start another for it");
                 return ExitCode::FAILURE;
             }
             _ => scene = Some(PathBuf::from(argument)),

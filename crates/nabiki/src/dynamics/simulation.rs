@@ -3,8 +3,9 @@
 use glam::Vec3;
 use pulp::Arch;
 
+use super::row::LANES;
 use super::runner::Runner;
-use super::{Dynamics, FrameInput, Stepper};
+use super::{Dynamics, Form, FrameInput, Stepper, free, paper};
 use crate::error::SettingError;
 use crate::field::Field;
 use crate::strands::Strands;
@@ -84,6 +85,17 @@ impl Simulation {
         let mut simulation = Self { runner, width: VectorWidth::default(), frame: 0, strands: strands.clone() };
         simulation.rewind();
         Ok(simulation)
+    }
+
+    /// Bytes of memory that it takes at least to move this hair.
+    #[must_use]
+    pub fn least_bytes(strands: &Strands, dynamics: &Dynamics) -> u64 {
+        let row = match dynamics.form {
+            Form::Paper => paper::Runner::BYTES_A_ROW,
+            Form::Free(_) => free::Runner::BYTES_A_ROW,
+        };
+        let rows = strands.segment_count().div_ceil(LANES);
+        (rows * row + size_of_val(strands.points())) as u64
     }
 
     /// The same simulation with vectors of another width.

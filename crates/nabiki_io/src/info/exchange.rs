@@ -10,6 +10,7 @@ use super::measure::Guess;
 use super::mesh::MeshInfo;
 use crate::error::Result;
 use crate::exchange::Opened;
+use crate::screen::{OneLine, list};
 use crate::short::Short;
 use crate::unit::Unit;
 
@@ -78,16 +79,16 @@ impl fmt::Display for PrimSummary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // As many joints as fit a line or two: a face alone may have hundreds.
         const MOST_JOINTS: usize = 8;
-        write!(f, "{}: {}", self.path, self.what)?;
+        write!(f, "{}: {}", OneLine(&self.path), OneLine(&self.what))?;
         if !self.joints.is_empty() {
             let more = if self.joints.len() > MOST_JOINTS { ", ..." } else { "" };
-            write!(f, " ({}{more})", self.joints[..self.joints.len().min(MOST_JOINTS)].join(", "))?;
+            write!(f, " ({}{more})", list(&self.joints[..self.joints.len().min(MOST_JOINTS)]))?;
         }
         if let Some(samples) = self.samples {
             write!(f, ", {samples} samples")?;
         }
         for relationship in &self.relationships {
-            write!(f, ", {relationship}")?;
+            write!(f, ", {}", OneLine(relationship))?;
         }
         Ok(())
     }
@@ -145,7 +146,7 @@ impl fmt::Display for ExchangeInfo {
             writeln!(f, "{mesh}")?;
         }
         for unread in &self.unread {
-            writeln!(f, "not read: {unread}")?;
+            writeln!(f, "not read: {}", OneLine(unread))?;
         }
         match (&self.hair, self.frame_rate) {
             (Some(_), Some(rate)) => writeln!(f, "frames: {} at {} a second", self.frames, Short(rate as f32))?,

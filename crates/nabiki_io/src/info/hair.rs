@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use super::measure::{Box3, Guess, Spread, guess_unit};
 use crate::hair::{held_at_both_ends, length};
+use crate::screen::OneLine;
 
 /// Strands and what is known of them, in the file's own unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -117,7 +118,7 @@ impl Carried {
 
 impl fmt::Display for Carried {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.name, self.type_name)?;
+        write!(f, "{}: {}", OneLine(&self.name), self.type_name)?;
         if let Some(role) = self.role {
             write!(f, " ({role})")?;
         }
@@ -166,7 +167,7 @@ impl fmt::Display for HairInfo {
             write!(f, "\npassed on: {carried}")?;
         }
         for unread in &self.unread {
-            write!(f, "\nnot read: {unread}")?;
+            write!(f, "\nnot read: {}", OneLine(unread))?;
         }
         match self.guess {
             Some(guess) => write!(f, "\n{guess}"),

@@ -14,6 +14,7 @@ use crate::{
     kind::extension,
     mesh::{self, place_and_weld},
     placement::Placement,
+    screen::{OneLine, list},
     unit::Unit,
 };
 
@@ -137,15 +138,15 @@ impl fmt::Display for MeshInfo {
             write!(f, "degenerate: {degenerate} triangles without area; {doubled} doubled vertices")?;
         }
         for unread in &self.unread {
-            write!(f, "\nnot read: {unread}")?;
+            write!(f, "\nnot read: {}", OneLine(unread))?;
         }
         if !self.clips.is_empty() {
             let clips = self.clips.iter().map(|clip| match clip.end {
                 Some(end) => format!("{} ({end:.3} s)", clip.name),
                 None => clip.name.clone(),
             });
-            write!(f, "\nnodes: {}", self.nodes.join(", "))?;
-            write!(f, "\nclips: {}", clips.collect::<Vec<_>>().join(", "))?;
+            write!(f, "\nnodes: {}", list(&self.nodes))?;
+            write!(f, "\nclips: {}", list(&clips.collect::<Vec<_>>()))?;
             write!(f, "\nas motion: facing +z; to be given in the scene: node, clip")?;
         }
         if let (Some(cm), Some(up)) = (self.unit_cm, &self.up) {

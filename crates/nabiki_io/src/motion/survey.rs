@@ -10,6 +10,7 @@ use super::{acclaim, bvh, csv, tof};
 use crate::error::{Error, Result};
 use crate::input::{self, MOST_TEXT_BYTES};
 use crate::kind::extension;
+use crate::screen::list;
 use crate::unit::Unit;
 
 /// Samples of a head or of a skeleton.
@@ -98,7 +99,7 @@ impl fmt::Display for MotionInfo {
             }
         }
         if !self.joints.is_empty() {
-            writeln!(f, "joints: {}", self.joints.join(", "))?;
+            writeln!(f, "joints: {}", list(&self.joints))?;
         }
         match self.unit_cm {
             Some(cm) => write!(f, "unit: {}; ", Unit { cm: cm as f32 })?,

@@ -3,6 +3,8 @@
 use std::io::{Cursor, Seek, Write};
 use std::path::Path;
 
+use exr::meta::MetaData;
+use exr::meta::header::Header;
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer, LayerAttributes,
     Vec2, WritableImage,
@@ -21,6 +23,18 @@ use crate::frame::{Frame, Layer as PixelLayer};
 pub fn write(path: &Path, frame: &Frame) -> Result<(), RenderError> {
     write_whole(path, |file| into(file, frame).map_err(Into::into))
 }
+
+/// Whether a file is an OpenEXR file that this crate has written, by the mark in it.
+pub fn is_ours(path: &Path) -> bool {
+    // Opening a pipe waits for someone to write into it.
+    let is_file = std::fs::metadata(path).is_ok_and(|about| about.is_file());
+    let Some(meta) = is_file.then(|| MetaData::read_from_file(path, false)) else { return false };
+    let of = |header: &Header| header.own_attributes.software_name.as_ref().is_some_and(|name| name.eq(MARK));
+    meta.is_ok_and(|meta| meta.headers.iter().any(of))
+}
+
+/// What says who has made the file, by which a later run knows which frames it may remove.
+const MARK: &str = "Nabiki";
 
 /// A frame as the bytes of an OpenEXR file, as [`write()`] writes them.
 pub fn bytes(frame: &Frame) -> Result<Vec<u8>, RenderError> {
@@ -54,7 +68,7 @@ fn into(file: &mut (impl Write + Seek), frame: &Frame) -> exr::error::UnitResult
     let size = Vec2(frame.size[0] as usize, frame.size[1] as usize);
     let layer = Layer::new(
         size,
-        LayerAttributes::default(),
+        LayerAttributes { software_name: Some(MARK.into()), ..LayerAttributes::default() },
         Encoding::SMALL_LOSSLESS,
         AnyChannels::sort(channels.into_iter().collect()),
     );

@@ -1,7 +1,7 @@
 //! PNG files: sRGB with straight alpha, of 8 or 16 bit.
 
 use std::fs::File;
-use std::io::{BufReader, Write};
+use std::io::{BufReader, Read, Write};
 use std::path::Path;
 
 use image::codecs::png::{CompressionType, FilterType, PngDecoder, PngEncoder};
@@ -67,8 +67,27 @@ pub fn read(path: &Path) -> Result<Still, RenderError> {
     Ok(Still { size, rgb })
 }
 
+/// Whether a file is a PNG file that this crate has written, by the mark in it.
+pub fn is_ours(path: &Path) -> bool {
+    let mut begins = [0; BEFORE_MARK + MARK.len()];
+    let read = open(path).is_ok_and(|mut file| file.read_exact(&mut begins).is_ok());
+    read && begins.starts_with(b"\x89PNG\r\n\x1a\n") && begins[BEFORE_MARK..] == *MARK
+}
+
+/// Opens a file. A folder, a device and a pipe, which may never begin, are refused.
+fn open(path: &Path) -> Result<File, RenderError> {
+    let failed = |e| RenderError::read(path, e);
+    // Asked before it is opened: opening a pipe waits for someone to write into it.
+    let about = std::fs::metadata(path).map_err(failed)?;
+    if !about.is_file() {
+        let what = if about.is_dir() { "a folder" } else { "a device or a pipe" };
+        return Err(RenderError::read(path, format!("is {what}, not a regular file: give a file")));
+    }
+    File::open(path).map_err(failed)
+}
+
 fn decoder(path: &Path) -> Result<PngDecoder<BufReader<File>>, RenderError> {
-    let file = File::open(path).map_err(|e| RenderError::read(path, e))?;
+    let file = open(path)?;
     PngDecoder::new(BufReader::new(file)).map_err(|e| RenderError::read(path, e))
 }
 
@@ -120,7 +139,18 @@ fn encode(path: &Path, size: [u32; 2], bytes: &[u8], colour: ExtendedColorType) 
     write_whole(path, |file| into(file, size, bytes, colour).map_err(Into::into))
 }
 
-fn into(file: impl Write, size: [u32; 2], bytes: &[u8], colour: ExtendedColorType) -> ImageResult<()> {
-    let encoder = PngEncoder::new_with_quality(file, CompressionType::Default, FilterType::Adaptive);
-    encoder.write_image(bytes, size[0], size[1], colour)
+fn into(mut file: impl Write, size: [u32; 2], bytes: &[u8], colour: ExtendedColorType) -> ImageResult<()> {
+    let mut whole = Vec::new();
+    let encoder = PngEncoder::new_with_quality(&mut whole, CompressionType::Default, FilterType::Adaptive);
+    encoder.write_image(bytes, size[0], size[1], colour)?;
+    file.write_all(&whole[..BEFORE_MARK])?;
+    file.write_all(MARK)?;
+    file.write_all(&crc32fast::hash(&MARK[4..]).to_be_bytes())?;
+    Ok(file.write_all(&whole[BEFORE_MARK..])?)
 }
+
+/// What says who has made the file, by which a later run knows which frames it may remove: a chunk of text, but for its sum.
+const MARK: &[u8; 23] = b"\0\0\0\x0ftEXtSoftware\0Nabiki";
+
+/// Bytes of a PNG file before it: the signature and the chunk IHDR, which must be the first.
+const BEFORE_MARK: usize = 8 + 25;

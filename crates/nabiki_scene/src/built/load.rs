@@ -24,6 +24,7 @@ pub(crate) use hair::hair_placement;
 use hair::{LoadedHair, Wanted, load_hair};
 
 use super::{BuiltScene, Shown};
+use crate::advice::of_head_size;
 use crate::error::{Error, Result};
 use crate::scene::{EllipsoidChoice, FieldParts, FieldPlace, FormChoice, HeadSource, Scene};
 
@@ -45,11 +46,24 @@ pub(super) fn build(
         let (head, was) = (&scene.head, &known.scene.head);
         head.source == was.source && head.ellipsoid == was.ellipsoid
     });
-    let LoadedHead { head, placement, report: mesh_report, declared: head_declared } = match same_head {
+    let head = match same_head {
         Some(known) => LoadedHead::of(known),
         None => load_head(&scene)?,
     };
     still_wanted(goes_on, 0.0)?;
+    let size = of_head_size(&scene.head, &head.head.ellipsoid, head.declared, &head.placement);
+    build_about(head, scene, (shown, shard), (known, same_head), goes_on).map_err(|refused| refused.blamed_on(size))
+}
+
+/// The same about a head that is loaded.
+fn build_about(
+    head: LoadedHead,
+    scene: Scene,
+    (shown, shard): (Shown, Option<Shard>),
+    (known, same_head): (Option<&BuiltScene>, Option<&BuiltScene>),
+    goes_on: GoesOn<'_>,
+) -> Result<BuiltScene> {
+    let LoadedHead { head, placement, report: mesh_report, declared: head_declared } = head;
     let same_rate = known.filter(|known| known.scene.frame_rate() == scene.frame_rate());
     let (poses, motion_report, motion_begins) =
         match same_rate.filter(|known| same_head.is_some() && known.scene.head.motion == scene.head.motion) {
@@ -146,9 +160,10 @@ fn field(scene: &Scene, head: &Head, poses: &[Pose]) -> Result<FieldParts> {
 
 /// What pushes the hair, once the head and its motion are loaded.
 pub(crate) fn load_field(scene: &Scene) -> Result<FieldParts> {
-    let LoadedHead { head, placement, .. } = load_head(scene)?;
+    let LoadedHead { head, placement, declared, .. } = load_head(scene)?;
     let poses = head_motion(scene, &placement)?.map_or_else(Vec::new, |motion| motion.poses);
-    field(scene, &head, &poses)
+    let size = || of_head_size(&scene.head, &head.ellipsoid, declared, &placement);
+    field(scene, &head, &poses).map_err(|refused| refused.blamed_on(size()))
 }
 
 /// Where the head is in each frame; `None` for a head that stands still.

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use nabiki_file::folder_of;
+use nabiki_io::screen::{OneLine, is_unsafe};
 
 use super::{Names, Plan, Step, Tasks, Word};
 use crate::error::{Error, Result};
@@ -20,6 +21,9 @@ const NAMES: Names = Names {
 /// Longest name of a job (characters).
 const LONGEST_NAME: usize = 128;
 
+/// Longest default of a parameter (characters).
+const LONGEST_DEFAULT: usize = 1024;
+
 impl Plan {
     /// The template.
     ///
@@ -27,16 +31,18 @@ impl Plan {
     /// Words that the format would take for its own.
     pub fn template(&self) -> Result<String> {
         let mut out = String::new();
-        let name: String = format!("Nabiki {}", self.name).chars().take(LONGEST_NAME).collect();
+        // A label, in which the format has no control characters.
+        let name: String = OneLine(format!("Nabiki {}", self.name)).to_string().chars().take(LONGEST_NAME).collect();
         let scene = default_path(&self.scene, &self.folder);
         let results = default_path(&self.results, &self.folder);
-        let reserved = "holds {{, which Open Job Description takes for the name of a parameter";
-        if self.name.contains("{{") {
-            return Err(Error::refused(format!("{}: its name {reserved}; rename the scene", self.scene.display())));
+        if let Some(why) = not_held(&self.name) {
+            return Err(Error::refused(format!("{}: its name {why}; rename the scene", self.scene.display())));
         }
-        if let Some(set) = self.sets.iter().find(|set| set.contains("{{")) {
-            return Err(Error::refused(format!("{set}: {reserved}; leave it out")));
+        let sets: Vec<String> = self.sets.iter().map(|set| spaced(set)).collect();
+        if let Some((set, why)) = sets.iter().find_map(|set| Some((set, not_held(set)?))) {
+            return Err(Error::refused(format!("{set}: {why}; leave it out, or write it into the scene")));
         }
+        let held = Self { sets, ..self.clone() };
         let parameter = |name: &str, kind: &str, about: &str, default: Option<String>| {
             let default = default.map_or_else(String::new, |path| format!("    default: {}\n", text(&path)));
             format!("  - name: {name}\n    type: {kind}\n    description: {}\n{about}{default}", text(about_of(name)))
@@ -50,8 +56,8 @@ impl Plan {
             parameter("Nabiki", "STRING", "", Some("nabiki".to_owned())),
         );
         let mut before = None;
-        for step in self.steps(&NAMES) {
-            self.step(&mut out, &step, before);
+        for step in held.steps(&NAMES) {
+            held.step(&mut out, &step, before);
             before = Some(step.name);
         }
         Ok(out)
@@ -98,6 +104,27 @@ impl Plan {
     }
 }
 
+/// Why the format cannot hold this in the words of a command.
+fn not_held(text: &str) -> Option<&'static str> {
+    if text.contains("{{") || text.contains("}}") {
+        Some("holds {{ or }}, between which Open Job Description looks for the name of a parameter")
+    } else if text.contains(|c: char| c.is_control() && c != '\n') {
+        Some("holds a control character, which Open Job Description takes nowhere")
+    } else {
+        None
+    }
+}
+
+/// The same `KEY=VALUE`, with spaces between braces and for tabs, where TOML takes it for the same.
+fn spaced(set: &str) -> String {
+    let parsed = |set: &str| set.parse::<toml::Table>().ok();
+    let mut other = set.replace('\t', " ");
+    while other.contains("{{") || other.contains("}}") {
+        other = other.replace("{{", "{ {").replace("}}", "} }");
+    }
+    if parsed(&other).is_some_and(|other| Some(other) == parsed(set)) { other } else { set.to_owned() }
+}
+
 fn about_of(parameter: &str) -> &'static str {
     match parameter {
         "Scene" => "The scene (TOML). The files that it names are looked for beside it.",
@@ -111,7 +138,8 @@ fn default_path(path: &Path, folder: &Path) -> Option<String> {
     let below = |path: &Path, folder: &Path| {
         let inside = path.strip_prefix(folder).ok()?;
         let stays = inside.components().all(|part| part != Component::ParentDir);
-        (stays && !inside.as_os_str().is_empty()).then(|| inside.to_string_lossy().into_owned())
+        let inside = inside.to_str().filter(|inside| stays && !inside.is_empty())?;
+        (inside.chars().count() <= LONGEST_DEFAULT).then(|| inside.to_owned())
     };
     // What `..` leads to behind a link the disk knows alone. The file itself keeps its name, be it a link: those that it names
     // are beside that.
@@ -125,7 +153,8 @@ fn text(text: &str) -> String {
     for c in text.chars() {
         match c {
             '"' | '\\' => out.extend(['\\', c]),
-            c if c.is_control() => {
+            // Of these YAML folds some into spaces, and takes others nowhere.
+            c if is_unsafe(c) || matches!(c, '\u{feff}' | '\u{fffe}' | '\u{ffff}') => {
                 let _ = write!(out, "\\u{:04x}", u32::from(c));
             }
             c => out.push(c),
@@ -141,7 +170,31 @@ mod tests {
 
     #[test]
     fn quoted_text_is_one_line_of_yaml() {
-        assert_eq!(text("a \"b\" \\ \n \u{85}\u{98a8}"), "\"a \\\"b\\\" \\\\ \\u000a \\u0085\u{98a8}\"");
+        assert_eq!(
+            text("a \"b\" \\ \n \u{85}\u{2028}\u{feff}\u{98a8}"),
+            "\"a \\\"b\\\" \\\\ \\u000a \\u0085\\u2028\\ufeff\u{98a8}\""
+        );
+    }
+
+    #[test]
+    fn what_the_format_cannot_hold_is_written_in_other_words_or_refused() {
+        assert_eq!(spaced("picture={camera={azimuth=\t1}}"), "picture={camera={azimuth= 1} }");
+        assert_eq!(spaced("a=[{b={c={d=1}}}]"), "a=[{b={c={d=1} } }]");
+        for kept in ["head.mesh=\"{{x}}.obj\"", "head.mesh=\"a\tb\"", "a = 1"] {
+            assert_eq!(spaced(kept), kept);
+        }
+        for held in ["a\nb", "a}b{c", "\u{2028}"] {
+            assert_eq!(not_held(held), None, "{held}");
+        }
+        for refused in ["{{", "a}}", "\t", "\u{1b}", "\u{9b}"] {
+            assert!(not_held(refused).is_some(), "{refused}");
+        }
+    }
+
+    #[test]
+    fn a_default_that_is_too_long_is_left_out() {
+        let deep = format!("/jobs/{}gust.toml", "scenes/".repeat(150));
+        assert_eq!(default_path(deep.as_ref(), "/jobs".as_ref()), None);
     }
 
     #[test]

@@ -25,7 +25,7 @@ const SUBMIT: &str = "*)
         local step=$1 before=$2
         shift 2
         sbatch --parsable --requeue --open-mode=append --kill-on-invalid-dep=yes --job-name=\"$name-$step\" \\
-            --output=\"$results/logs/$step-%a.txt\" ${before:+--dependency=afterok:$before} \"$@\" \"$0\" \"step:$step\" |
+            --output=\"${results//\\%/%%}/logs/$step-%a.txt\" ${before:+--dependency=afterok:$before} \"$@\" \"$0\" \"step:$step\" |
             cut -d ';' -f 1
     }
     before=

@@ -14,6 +14,7 @@ use crate::scene::{
 };
 use nabiki_io::info::Short;
 use nabiki_io::motion::MotionSource;
+use nabiki_io::screen::OneLine;
 
 /// The outline of a scene; of what it names the head and its motion alone are loaded. Other files that are not there are said to
 /// be missing beside their names.
@@ -140,9 +141,9 @@ impl SceneInfo {
 impl fmt::Display for SceneInfo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "scene: {} frames, {} x {} pixels", self.frames, self.picture[0], self.picture[1])?;
-        write!(f, "head: {}", self.head)?;
+        write!(f, "head: {}", OneLine(&self.head))?;
         if let Some(motion) = &self.head_motion {
-            write!(f, ", moved by {motion}")?;
+            write!(f, ", moved by {}", OneLine(motion))?;
         }
         writeln!(f)?;
         if let Some(Ellipsoid { center, half_axes }) = self.ellipsoid {
@@ -151,9 +152,9 @@ impl fmt::Display for SceneInfo {
             writeln!(f, "ellipsoid: {a} x {b} x {c} cm about ({x}, {y}, {z}), shell {} of it", Short(self.shell))?;
         }
         if let Some(problem) = &self.head_problem {
-            writeln!(f, "ellipsoid: unknown, {problem}")?;
+            writeln!(f, "ellipsoid: unknown, {}", OneLine(problem))?;
         }
-        writeln!(f, "hair: {}", self.hair)?;
+        writeln!(f, "hair: {}", OneLine(&self.hair))?;
         let (step, density) = (Short(self.time_step), Short(self.linear_density));
         let form = if self.free.is_some() { "free form, " } else { "" };
         write!(f, "motion: {form}time step {step}, linear density {density}")?;
@@ -167,7 +168,7 @@ impl fmt::Display for SceneInfo {
             write!(f, "\n{free}")?;
         }
         for (name, words) in &self.bodies {
-            write!(f, "\n{name}: {words}")?;
+            write!(f, "\n{name}: {}", OneLine(words))?;
         }
         let mut first = 1;
         for key in &self.force {
@@ -181,7 +182,7 @@ impl fmt::Display for SceneInfo {
             Ease::Smooth => write!(f, "\nwind: eased smoothly from one to the next")?,
         }
         for (name, words) in &self.fields {
-            write!(f, "\n{name}: {words}")?;
+            write!(f, "\n{name}: {}", OneLine(words))?;
             match self.bounds.iter().find(|bound| bound.name == *name) {
                 Some(FieldBound { at_most, .. }) if name == "gust" || name == "flow" => {
                     write!(f, ", at most {} times the wind", Short(*at_most))?;
@@ -192,10 +193,10 @@ impl fmt::Display for SceneInfo {
         }
         match (self.bounds.iter().find(|bound| bound.name == "all"), &self.bounds_problem) {
             (Some(all), _) => write!(f, "\nall fields: |F| at most {}", Short(all.at_most))?,
-            (None, Some(problem)) => write!(f, "\nall fields: bound unknown, {problem}")?,
+            (None, Some(problem)) => write!(f, "\nall fields: bound unknown, {}", OneLine(problem))?,
             (None, None) => {}
         }
-        self.unused.iter().try_for_each(|line| write!(f, "\nlook: {line}"))
+        self.unused.iter().try_for_each(|line| write!(f, "\nlook: {}", OneLine(line)))
     }
 }
 

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use nabiki::solve::{Report, Unknown, WishLeft};
+use nabiki_io::screen::OneLine;
 
 /// A wish is met where no more is left of it than this (cm, root mean square over its nodes).
 pub const MET_CM: f64 = 0.5;
@@ -74,7 +75,12 @@ impl fmt::Display for Solved {
                     true => format!("has moved by {after_cm:.1} cm"),
                     false => format!("is not reached: {after_cm:.1} cm are left of {before_cm:.1}"),
                 };
-                write!(f, "\n  far     {name} {far}; no nearer motion was found in {} steps", report.iterations)?;
+                write!(
+                    f,
+                    "\n  far     {} {far}; no nearer motion was found in {} steps",
+                    OneLine(name),
+                    report.iterations
+                )?;
             }
         }
         Ok(())

@@ -10,6 +10,7 @@ use crate::error::{Error, Result};
 use crate::place;
 use crate::told::Told;
 use crate::watch::{Watch, each_frame};
+use nabiki_io::shell;
 
 /// Writes, out of all shards of a motion in any order, the motion cache that [`simulate`](super::simulate()) writes of
 /// the whole, byte for byte.
@@ -150,7 +151,12 @@ fn missing_shard(first: &OpenPiece, shard: Shard, files: &[&PathBuf]) -> Error {
     let named = format!("{}_of_{}.nabiki", shard.number(), shard.of());
     let given = files.iter().find(|file| file.ends_with(&named)).or(files.first());
     let file = given.map_or_else(|| first.reader.path().with_file_name(named), |file| (*file).clone());
-    let words = format!("{} --shard {shard} -o {}", first.piece.command, crate::shell::quoted(&file.to_string_lossy()));
+    // The file that says the command may come from anywhere, and whoever reads it will paste it.
+    let begins = match &first.piece.command {
+        command if shell::is_command(command, &["nabiki", "simulate"]) => command.clone(),
+        _ => "nabiki simulate SCENE".to_owned(),
+    };
+    let words = format!("{begins} --shard {shard} -o {}", shell::quoted(&shell::operand(&file.to_string_lossy())));
     Error::refused(format!("shard {shard} is missing: make it with {words}"))
 }
 

@@ -11,6 +11,7 @@ use crate::place;
 use crate::scene::Scene;
 use crate::told::Told;
 use crate::watch::{Watch, each_frame};
+use nabiki_io::shell::operand;
 
 /// What [`movie`] is made of.
 #[derive(Clone, Debug, Default)]
@@ -152,15 +153,15 @@ fn whole(frames: &[(u32, PathBuf)], options: &MovieOptions) -> Result<()> {
 fn drawing(file: &Path, (from, through): (u32, u32), options: &MovieOptions) -> String {
     let mut words = vec!["nabiki".to_owned(), "render".to_owned()];
     let scene = options.scene.as_ref();
-    words.push(scene.map_or("SCENE".to_owned(), |scene| scene.file().display().to_string()));
+    words.push(scene.map_or("SCENE".to_owned(), |scene| operand(&scene.file().to_string_lossy())));
     words.extend(["--frames".to_owned(), format!("{from}..{through}")]);
     let folder = file.parent().unwrap_or(Path::new(""));
     if let Some(scene) = scene.filter(|scene| folder.file_name() == Some(format!("{}_frames", scene.name()).as_ref())) {
         let beside = nabiki_file::folder_of(folder);
-        words.extend(["--out".to_owned(), beside.display().to_string()]);
+        words.extend(["--out".to_owned(), operand(&beside.to_string_lossy())]);
         let motion = beside.join(format!("{}.nabiki", scene.name()));
         if motion.exists() {
-            words.extend(["--motion".to_owned(), motion.display().to_string()]);
+            words.extend(["--motion".to_owned(), operand(&motion.to_string_lossy())]);
         }
     }
     words.extend(options.strands.into_iter().flat_map(|count| ["--strands".to_owned(), count.to_string()]));
@@ -168,7 +169,7 @@ fn drawing(file: &Path, (from, through): (u32, u32), options: &MovieOptions) -> 
     if png::read_depth(file).is_ok_and(|depth| depth == png::Depth::Sixteen) {
         words.extend(["--set".to_owned(), "output.png_bits=16".to_owned()]);
     }
-    crate::shell::command(&words)
+    nabiki_io::shell::command(&words)
 }
 
 /// The size of all pictures, which a movie can have.

@@ -40,6 +40,7 @@ pub fn preview(scene: Scene, shown: Shown, folder: &Path, cache: Option<&Path>, 
     let mut folders = Folders::default();
     let name = format!("{}_preview", scene.name());
     let mut outputs = PictureOutputs::begin(&built, &picture, folder, &name, &scene.inputs(), &mut folders, watch)?;
+    outputs.check_apart_from(cache.as_slice())?;
     super::introduce(&built, watch);
     super::advise(whole_is_refused(&built)?, watch);
     let mut film = Film::new(&built, &picture, &mut simulated.again(), watch)?;

@@ -32,6 +32,7 @@ pub fn run(scene: Scene, shown: Shown, folder: &Path, exports: &ExportOptions, w
     let mut folders = Folders::default();
     let mut outputs =
         PictureOutputs::begin(&built, &scene.picture, folder, &scene.name(), &scene.inputs(), &mut folders, watch)?;
+    outputs.check_apart_from(&files)?;
     super::introduce(&built, watch);
     let mut exports = Exports::begin(exports, &built, watch)?;
     let mut rehearsal = simulated.again();

@@ -51,6 +51,10 @@ pub(super) struct Packed {
 }
 
 impl Packed {
+    /// Bytes of a row of sixteen segments, with what moves of it.
+    pub const BYTES_A_ROW: usize =
+        size_of::<FreeRow>() + size_of::<StrengthRow>() + size_of::<Row>() + 2 * size_of::<FreeState>();
+
     /// Packs hair at rest in the given shape, whose settings have been checked. `known`: the same hair, packed with other
     /// settings; what these do not change is taken from there.
     pub fn new(

@@ -30,6 +30,9 @@ pub(in crate::dynamics) struct Runner {
 }
 
 impl Runner {
+    /// Bytes of a row of sixteen segments.
+    pub const BYTES_A_ROW: usize = Packed::BYTES_A_ROW;
+
     /// Hair at rest in the given shape, whose settings have been checked. `known`: the same hair with other settings.
     pub fn new(
         strands: &Strands,

@@ -34,6 +34,9 @@ pub(super) struct Packed {
 }
 
 impl Packed {
+    /// Bytes of a row of sixteen segments, with what moves of it.
+    pub const BYTES_A_ROW: usize = size_of::<ShapeRow>() + size_of::<Row>() + 2 * size_of::<SegmentState>();
+
     /// Packs hair at rest in the given shape; `ids` are the strands' numbers in the set they are some of.
     pub fn new(strands: &Strands, ids: &[u32], dynamics: &Dynamics) -> Result<Self, SettingError> {
         let stability = Stability::of(strands, dynamics)?;

@@ -23,6 +23,9 @@ pub(in crate::dynamics) struct Runner {
 }
 
 impl Runner {
+    /// Bytes of a row of sixteen segments.
+    pub const BYTES_A_ROW: usize = Packed::BYTES_A_ROW;
+
     /// Hair at rest in the given shape, whose settings have been checked; `ids` are the strands' numbers in the set they
     /// are some of.
     pub fn new(strands: &Strands, ids: &[u32], dynamics: &Dynamics) -> Result<Self, SettingError> {

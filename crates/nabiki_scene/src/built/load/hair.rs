@@ -1,5 +1,6 @@
 //! A scene's hair: grown on its head, or read from a file and put into head space.
 
+use std::fmt::Display;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -17,6 +18,7 @@ use nabiki_io::{DeclaredSpace, GroomCurves, GroomFile};
 use super::{GoesOn, free, still_wanted, there};
 use crate::built::{BuiltScene, ShardOf, Shown};
 use crate::error::{Error, Result};
+use crate::memory;
 use crate::scene::{EllipsoidChoice, GrownHair, HairSource, ImportedHair, Scene};
 use crate::seat;
 
@@ -115,6 +117,9 @@ pub(super) fn load_hair(
                 Some(roots) => roots,
                 None => {
                     let GrownHair { strands, seed, hairline, .. } = settings;
+                    // The roots of all are spread, however few are shown.
+                    let needed = roots::least_bytes(*strands);
+                    check_memory(scene, "hair.strands", strands, needed, "to spread its roots", "grow less")?;
                     let still = || goes_on(0.0);
                     let roots = roots::spread_first_while(head, hairline, *strands, rooted, *seed, &still);
                     roots.map_err(|refused| no_scalp(scene, refused))?.ok_or(Error::Cancelled)?.into()
@@ -194,9 +199,23 @@ fn import(
     } else {
         (hair, (0..of_scene as u32).collect())
     };
-    let cut = |hair: Hair| match settings.segments {
-        Some(segments) => cut_anew(&hair, segments).map_err(|refused| scene.refusal(refused)),
-        None => Ok(hair),
+    let cut = |hair: Hair| -> Result<Hair> {
+        match settings.segments {
+            Some(segments) => {
+                let points = (hair.strands.len() as u64).saturating_mul(segments as u64 + 1);
+                let needed = points.saturating_mul(size_of::<Vec3>() as u64);
+                check_memory(
+                    scene,
+                    "hair.segments",
+                    segments,
+                    needed,
+                    "to cut it",
+                    "cut into fewer, or show fewer strands",
+                )?;
+                cut_anew(&hair, segments).map_err(|refused| scene.refusal(refused).into())
+            }
+            None => Ok(hair),
+        }
     };
     let (hair, first) = (cut(hair)?, cut(first)?.strands);
     let (frames, begins, groom) = (groom.frames()?, groom.start()?, groom.curves(&settings.file)?);
@@ -261,8 +280,52 @@ fn grown(
         segment_length: scene.hair.segment_length,
         seed: *seed,
     };
+    check_growth(scene, &growth, head, roots)?;
     let grown = grow_run_while(head, &growth, roots, first, goes_on).map_err(|refused| scene.refusal(refused))?;
     grown.ok_or(Error::Cancelled)
+}
+
+/// Refuses hair whose points take more memory than there is.
+fn check_growth(scene: &Scene, growth: &Growth<'_>, head: &Head, roots: &[Root]) -> Result<()> {
+    // So many show how long the others will be.
+    const FEW: usize = 256;
+    // As it grows, and as it is straightened or not.
+    let bytes = |points: f64| (2.0 * points * size_of::<Vec3>() as f64) as u64;
+    if memory::short_of(bytes(roots.len() as f64 * (growth.segments as f64 + 1.0))).is_none() {
+        return Ok(());
+    }
+    // Short hair has fewer segments than it may have.
+    let few = &roots[..roots.len().min(FEW)];
+    let tried = grow_run_while(head, growth, few, 0, &|_| true).map_err(|refused| scene.refusal(refused))?;
+    let mean = tried.map_or(0.0, |hair| hair.strands.points().len() as f64 / few.len().max(1) as f64);
+    // What is certain: those tried may be longer than most.
+    let needed = bytes(0.9 * mean * roots.len() as f64);
+    let count = growth.strands;
+    check_memory(
+        scene,
+        "hair.strands",
+        count,
+        needed,
+        &format!("to grow {} of them", roots.len()),
+        "show fewer strands",
+    )
+}
+
+/// Refuses what takes more memory than there is.
+fn check_memory(
+    scene: &Scene,
+    key: &str,
+    value: impl Display,
+    needed: u64,
+    what_for: &str,
+    way_out: &str,
+) -> Result<()> {
+    match memory::short_of(needed) {
+        None => Ok(()),
+        Some(short) => {
+            Err(scene.refusal(SettingError::new(key, value, format!("{what_for} {short}: {way_out}"))).into())
+        }
+    }
 }
 
 /// The same strands in `segments` equally long segments each.

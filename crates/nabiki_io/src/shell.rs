@@ -1,0 +1,184 @@
+//! Words of a command as a POSIX shell takes them.
+
+use crate::screen::is_unsafe;
+
+/// One word, in quotes where it has anything but letters, digits and what no shell takes for a sign.
+///
+/// What a terminal obeys is written in octal between `$'` and `'`, which POSIX has since 2024 and the shells in use have had for
+/// long: so a command that is shown is one that can be pasted.
+#[must_use]
+pub fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./=:,+@%".contains(c);
+    if word.contains(is_unsafe) {
+        return in_octal(word);
+    }
+    // Of a word that begins with = zsh makes the place of a command.
+    if !word.is_empty() && !word.starts_with('=') && word.chars().all(plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
+}
+
+fn in_octal(word: &str) -> String {
+    let mut out = "$'".to_owned();
+    for c in word.chars() {
+        match c {
+            '\n' => out.push_str(r"\n"),
+            '\t' => out.push_str(r"\t"),
+            '\'' | '\\' => out.extend(['\\', c]),
+            c if is_unsafe(c) => out.extend(c.encode_utf8(&mut [0; 4]).bytes().map(|byte| format!(r"\{byte:03o}"))),
+            c => out.push(c),
+        }
+    }
+    out + "'"
+}
+
+/// A file that stands by itself in a command, where one whose name begins with a hyphen would be taken for an option.
+#[must_use]
+pub fn operand(file: &str) -> String {
+    if file.starts_with('-') { format!("./{file}") } else { file.to_owned() }
+}
+
+/// A command of such words, parted by spaces.
+#[must_use]
+pub fn command(words: &[String]) -> String {
+    words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
+}
+
+/// Whether `text` is a command as [`command`] writes it, which begins with `first`: words, and nothing that a shell would do besides.
+/// A file of others may hold any text in its place.
+#[must_use]
+pub fn is_command(text: &str, first: &[&str]) -> bool {
+    words(text).is_some_and(|words| {
+        words.iter().zip(first).all(|(word, first)| word == first)
+            && words.len() >= first.len()
+            && command(&words) == text
+    })
+}
+
+/// The words of a text as [`command`] writes it; nothing of which is certain in another.
+fn words(text: &str) -> Option<Vec<String>> {
+    let (mut words, mut rest) = (Vec::new(), text);
+    loop {
+        let (word, after) = match rest.strip_prefix("$'") {
+            Some(inside) => from_octal(inside)?,
+            None => plain_or_quoted(rest)?,
+        };
+        words.push(word);
+        if after.is_empty() {
+            return Some(words);
+        }
+        rest = after.strip_prefix(' ')?;
+    }
+}
+
+/// A word without quotes, or in single ones, and what follows it.
+fn plain_or_quoted(text: &str) -> Option<(String, &str)> {
+    let (mut word, mut rest) = (String::new(), text);
+    while !rest.is_empty() && !rest.starts_with(' ') {
+        if let Some(inside) = rest.strip_prefix('\'') {
+            let (quoted, after) = inside.split_once('\'')?;
+            word += quoted;
+            rest = after;
+        } else if let Some(after) = rest.strip_prefix(r"\'") {
+            word.push('\'');
+            rest = after;
+        } else {
+            let length = rest.find([' ', '\'', '\\']).unwrap_or(rest.len());
+            let (plain, after) = rest.split_at(length);
+            if plain.is_empty() {
+                return None;
+            }
+            word += plain;
+            rest = after;
+        }
+    }
+    Some((word, rest))
+}
+
+/// A word whose `$'` is behind, and what follows it.
+fn from_octal(text: &str) -> Option<(String, &str)> {
+    let (mut bytes, mut chars) = (Vec::new(), text.chars());
+    loop {
+        match chars.next()? {
+            '\'' => return Some((String::from_utf8(bytes).ok()?, chars.as_str())),
+            '\\' => match chars.next()? {
+                'n' => bytes.push(b'\n'),
+                't' => bytes.push(b'\t'),
+                c @ ('\'' | '\\') => bytes.push(c as u8),
+                first => {
+                    let octal: String = [first, chars.next()?, chars.next()?].into_iter().collect();
+                    bytes.push(u8::from_str_radix(&octal, 8).ok()?);
+                }
+            },
+            c => bytes.extend(c.encode_utf8(&mut [0; 4]).bytes()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WORDS: [(&str, &str); 10] = [
+        ("scenes/gust.toml", "scenes/gust.toml"),
+        ("force.1.vector=[0, -100, 0]", "'force.1.vector=[0, -100, 0]'"),
+        ("it's", r"'it'\''s'"),
+        ("$HOME `x` \"y\"", "'$HOME `x` \"y\"'"),
+        ("", "''"),
+        ("\u{98a8}.toml", "'\u{98a8}.toml'"),
+        ("=ls", "'=ls'"),
+        ("a\nb's\\ \u{1b}[2J", r"$'a\nb\'s\\ \033[2J'"),
+        ("\u{9b}7\u{202e}", r"$'\302\2337\342\200\256'"),
+        ("~/x", "'~/x'"),
+    ];
+
+    #[test]
+    fn a_shell_takes_quoted_words_as_they_are() {
+        for (word, as_written) in WORDS {
+            assert_eq!(quoted(word), as_written);
+        }
+        assert_eq!(command(&["a".to_owned(), "b c".to_owned()]), "a 'b c'");
+        assert_eq!([operand("-o.toml"), operand("a-b")], ["./-o.toml", "a-b"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn bash_gives_every_word_back() {
+        for (word, as_written) in WORDS {
+            let printed = std::process::Command::new("bash").args(["-c", &format!("printf %s {as_written}")]).output();
+            // A machine without bash has its own way.
+            let Ok(printed) = printed else { return };
+            assert_eq!(String::from_utf8(printed.stdout).unwrap(), word);
+        }
+    }
+
+    #[test]
+    fn a_command_is_known_by_being_words_alone() {
+        let all: Vec<String> =
+            ["nabiki", "simulate"].into_iter().chain(WORDS.map(|(word, _)| word)).map(str::to_owned).collect();
+        assert_eq!(words(&command(&all)), Some(all.clone()));
+        let is = |text: &str| is_command(text, &["nabiki", "simulate"]);
+        assert!(is(&command(&all)) && is("nabiki simulate a.toml"));
+        for text in [
+            "",
+            "nabiki",
+            "nabiki simulate a; rm -rf x",
+            "nabiki simulate $(rm x)",
+            "nabiki simulate `rm x`",
+            "nabiki simulate a && b",
+            "nabiki simulate a\nrm x",
+            "nabiki simulate \u{1b}[2J",
+            "nabiki simulate a > b",
+            "nabiki simulate 'a",
+            "nabiki simulate $'a",
+            "nabiki simulate \"a\"",
+            "nabiki  simulate a",
+            "nabiki simulate a\\",
+            "rm simulate a",
+            "nabiki simulate ~/x",
+        ] {
+            assert!(!is(text), "{text}");
+        }
+    }
+}
