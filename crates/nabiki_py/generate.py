@@ -273,7 +273,7 @@ def modules(structs, enums):
     scene_docs = {field.name: field.doc for field in structs["Scene"].fields}
     scene_docs |= {field.name: field.doc for field in structs["FieldSettings"].fields}
     scene_docs["body"] = scene_docs["bodies"]
-    written, where, scene = {}, {}, []
+    written, where, scene, tables_given = {}, {}, [], []
     for module, keys in MODULES.items():
         for key in keys:
             entry = tables.pop(key)
@@ -289,6 +289,8 @@ def modules(structs, enums):
                 entry.doc += " " + OPTIONAL_DOC
             entry.doc = entry.doc[:1].upper() + entry.doc[1:]
             scene.append("\n".join(writer.setting("Tables", entry, "{name!r}")))
+            if key not in ("head", "hair"):
+                tables_given.append((key, writer.type_of(entry.type, "Tables")[1]))
         new = {name: text for name, text in writer.classes.items() if name not in where}
         # A class stands after those that it makes.
         where |= dict.fromkeys(new, module)
@@ -312,8 +314,12 @@ def modules(structs, enums):
     )
     result["__init__.py"] = (
         '"""Every setting of a scene as an attribute. Written by generate.py from the doc comments of the Rust structs."""\n\n'
-        "from __future__ import annotations\n\nfrom collections.abc import Iterable, Mapping\nfrom typing import Any\n\n"
+        "from __future__ import annotations\n\nfrom collections.abc import Iterable, Mapping\nfrom typing import Any, TypedDict\n\n"
         "from .. import _nabiki\nfrom ._table import Table, Tables\n" + homes + "\n\n"
+        "class SceneTables(TypedDict, total=False):\n"
+        '    """What may be said of a scene that is put together, but for what the scene itself names."""\n\n'
+        + "".join(f"    {key}: {given} | None\n" for key, given in tables_given)
+        + "\n\n"
         "class SceneSettings(_nabiki.Scene):\n"
         '    """The tables of a scene by the names that they have in a file."""\n\n    __slots__ = ()\n'
         + "\n".join(scene)

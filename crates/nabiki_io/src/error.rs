@@ -55,6 +55,16 @@ impl Error {
         Self { what: format!("{table}.{}", self.what), of_setting: false, ..self }
     }
 
+    /// What the system said, where it was the system that refused the file and not we its content.
+    pub fn system(&self) -> Option<io::ErrorKind> {
+        self.source.as_ref().map(io::Error::kind)
+    }
+
+    /// Names what a system would have said of the file.
+    pub(crate) fn of_system(self, kind: io::ErrorKind) -> Self {
+        Self { source: Some(kind.into()), ..self }
+    }
+
     /// Names the line (from 1).
     pub fn at_line(mut self, line: Option<usize>) -> Self {
         self.line = line;

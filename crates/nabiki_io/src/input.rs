@@ -28,7 +28,8 @@ pub fn open(path: &Path) -> Result<File> {
         Some(file) if file.metadata().map_err(named)?.is_file() => Ok(file),
         _ => {
             let what = if before.is_dir() { "a folder" } else { "a device or a pipe" };
-            Err(Error::new(format!("is {what}, not a regular file: give a file")).in_file(path))
+            let refused = Error::new(format!("is {what}, not a regular file: give a file")).in_file(path);
+            Err(if before.is_dir() { refused.of_system(std::io::ErrorKind::IsADirectory) } else { refused })
         }
     }
 }

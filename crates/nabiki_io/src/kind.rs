@@ -194,6 +194,20 @@ pub fn check_scene(path: &Path) -> Result<()> {
     }
 }
 
+/// Refuses a name under which nobody would take this text for a scene, before it is written there.
+///
+/// # Errors
+/// Says what the file would be taken for.
+pub fn check_scene_to_be(path: &Path, text: &str) -> Result<()> {
+    match FileKind::of_bytes(text.as_bytes()).or_else(|| FileKind::of_name(path)) {
+        None | Some(FileKind::Scene) => Ok(()),
+        Some(kind) => {
+            let line = format!("would be taken for {kind}: a scene ends in .toml, choose another name");
+            Err(Error::new(line).in_file(path))
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -52,6 +52,13 @@ impl Points {
     }
 }
 
+#[pymethods]
+impl Points {
+    fn __repr__(&self) -> String {
+        format!("<the memory of {} points>", self.points.len())
+    }
+}
+
 impl Drop for Points {
     fn drop(&mut self) {
         if let Some(rooms) = &self.rooms {

@@ -11,6 +11,9 @@ use pyo3::prelude::*;
 
 use crate::error;
 use crate::hints::{Forces, Given};
+use crate::made;
+use crate::numbers::Strongest;
+use crate::values::shown;
 
 /// A field of force that a Python function answers.
 ///
@@ -29,13 +32,11 @@ pub struct Field {
 #[pymethods]
 impl Field {
     #[new]
-    fn new(py: Python<'_>, function: Given<'_, Forces>, strongest: f32) -> PyResult<Self> {
+    fn new(py: Python<'_>, function: Given<'_, Forces>, strongest: Strongest) -> PyResult<Self> {
+        let strongest = strongest.0;
         let function = function.0;
         if !function.is_callable() {
-            return Err(error::argument(py, "function", function.repr()?, "must be a function of points and frame"));
-        }
-        if !(strongest.is_finite() && strongest >= 0.0) {
-            return Err(error::argument(py, "strongest", strongest, "must be a finite strength of at least 0"));
+            return Err(error::argument(py, "function", shown(&function), "must be a function of points and frame"));
         }
         let (failure, failed, stopped) = (Mutex::new(None), AtomicBool::new(false), AtomicBool::new(false));
         Ok(Self { shared: Arc::new(PythonField { function: function.unbind(), strongest, failure, failed, stopped }) })
@@ -52,6 +53,21 @@ impl Field {
     fn strongest(&self) -> f32 {
         self.shared.strongest
     }
+
+    /// Whether both ask the same function, within the same bound.
+    fn __eq__(&self, py: Python<'_>, other: &Self) -> PyResult<bool> {
+        self.shared.is(py, &other.shared)
+    }
+
+    fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
+        self.shared.function.bind(py).hash()
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> String {
+        let function = self.shared.function.bind(py);
+        let name = function.getattr(intern!(py, "__qualname__")).and_then(|name| name.extract::<String>());
+        format!("<nabiki.Field {}, strongest {}>", name.unwrap_or_else(|_| shown(function)), self.shared.strongest)
+    }
 }
 
 /// The function, and what went wrong when it was asked. A step cannot fail, so that from then on the force is none.
@@ -65,6 +81,11 @@ pub struct PythonField {
 }
 
 impl PythonField {
+    /// Whether both ask the same function, within the same bound.
+    pub fn is(&self, py: Python<'_>, other: &Self) -> PyResult<bool> {
+        Ok(self.strongest == other.strongest && self.function.bind(py).eq(&other.function)?)
+    }
+
     /// Before work begins.
     pub fn begin(&self) {
         self.take_failure();
@@ -139,6 +160,7 @@ impl PythonField {
 fn asked_of_numpy<'py>(answer: &Bound<'py, PyAny>, rows: usize) -> PyResult<PyReadonlyArray2<'py, f32>> {
     let py = answer.py();
     let numpy = py.import(intern!(py, "numpy"))?;
+    made::check_depth("a field's forces", answer, 0)?;
     let array = numpy.call_method1(intern!(py, "asarray"), (answer, intern!(py, "float32")))?;
     let shape: Vec<usize> = array.getattr(intern!(py, "shape"))?.extract()?;
     if shape == [3] {

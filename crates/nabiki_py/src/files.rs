@@ -7,11 +7,13 @@ use nabiki_io::exchange::{self, DeclaredSpace};
 use nabiki_scene::Error;
 use nabiki_scene::tasks::{self, ConvertOptions, NewOptions};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyString, PyTuple};
 
 use crate::error;
 use crate::hints::{ArrayLike, Dictionary, Given, Hinted, Progress, Report, UnitName};
 use crate::made;
+use crate::numbers::{FirstFrame, FrameNumber, Segments};
+use crate::values::shown;
 use crate::watched::{Ears, watched};
 
 /// Reads hair of one format and writes it in another: .hair, .tfx, .obj, .usda, .usdc, .abc, or frames of a motion cache,
@@ -28,16 +30,18 @@ pub fn convert(
     py: Python<'_>,
     input: PathBuf,
     output: PathBuf,
-    frame: Option<u32>,
-    segments: Option<usize>,
+    frame: Option<FrameNumber>,
+    segments: Option<Segments>,
     unit: Option<Given<'_, UnitName>>,
     z_up: bool,
     layer: Option<String>,
-    first_frame: Option<i32>,
+    first_frame: Option<FirstFrame>,
     progress: Option<Given<'_, Progress>>,
     report: Option<Given<'_, Report>>,
 ) -> PyResult<()> {
     let unit = unit.as_ref().map(unit_of).transpose()?;
+    let (frame, segments) = (frame.map(|FrameNumber(n)| n), segments.map(|Segments(count)| count));
+    let first_frame = first_frame.map(|FirstFrame(n)| n);
     let options = ConvertOptions { input, output, frame, segments, unit, z_up, layer, first_frame };
     let ears = Ears::new(&progress, &report);
     watched(py, ears, &[], |watch| tasks::convert(&options, watch))
@@ -45,7 +49,10 @@ pub fn convert(
 
 /// A unit by its name, or in centimetres.
 fn unit_of(Given(given, _): &Given<'_, UnitName>) -> PyResult<Unit> {
-    let text = given.str()?.to_string();
+    let text = match given.is_instance_of::<PyString>() {
+        true => given.extract()?,
+        false => shown(given),
+    };
     text.parse().map_err(|refused: String| error::line(given.py(), format!("unit = {text}: {refused}")))
 }
 
@@ -73,6 +80,11 @@ pub fn new(
     replace: bool,
     report: Option<Given<'_, Report>>,
 ) -> PyResult<()> {
+    // The command would name its own option.
+    if !replace && file.symlink_metadata().is_ok() {
+        let what = "is there already; choose another name, or give replace=True";
+        return Err(error::place(py, &file, what, std::io::ErrorKind::AlreadyExists));
+    }
     let options = NewOptions { head, groups, hair, replace };
     let ears = Ears::new(&None, &report);
     watched(py, ears, &[], |watch| tasks::new(&file, &options, watch))

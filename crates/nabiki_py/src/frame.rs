@@ -67,8 +67,8 @@ impl Frame {
     }
 
     fn __repr__(&self) -> String {
-        let strands = self.built.hair.strands.len();
-        format!("<nabiki.Frame {}: {strands} strands, {} points>", self.number, self.points.get().points().len())
+        let (strands, points) = (self.built.hair.strands.len(), self.points.get().points().len());
+        format!("<nabiki.Frame {}: {strands} strands, {points} points (cm, head space)>", self.number)
     }
 }
 

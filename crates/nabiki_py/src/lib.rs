@@ -12,6 +12,7 @@ mod files;
 mod frame;
 mod hints;
 mod made;
+mod numbers;
 mod poses;
 mod scene;
 mod simulation;

@@ -10,7 +10,7 @@ use nabiki::{Hair, Strands};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::intern;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyFloat, PyList, PyTuple};
 use tempfile::TempPath;
 
 use crate::error;
@@ -181,6 +181,7 @@ pub fn numbers<'py>(thing: &str, given: &Bound<'py, PyAny>, kind: &str) -> PyRes
         let type_ = given.get_type().name().map_or_else(|_| String::new(), |name| name.to_string());
         made.map_err(|e| refused(type_, &format!("is no array of numbers: {}", e.value(py))))
     };
+    check_depth(thing, given, 0)?;
     let array = made(given, (given, None))?;
     let dtype = array.getattr(intern!(py, "dtype"))?;
     let letter: String = dtype.getattr(intern!(py, "kind"))?.extract()?;
@@ -200,6 +201,20 @@ pub fn numbers<'py>(thing: &str, given: &Bound<'py, PyAny>, kind: &str) -> PyRes
         }
     }
     made(given, (&array, Some(kind)))
+}
+
+/// Refuses lists that lie deeper in one another than any array of ours has dimensions. NumPy goes through them before it refuses them,
+/// and a list that holds another one twice, which holds a third one twice, has no end.
+pub fn check_depth(thing: &str, given: &Bound<'_, PyAny>, depth: usize) -> PyResult<()> {
+    const DEEPEST: usize = 3;
+    if given.is_instance_of::<PyFloat>() || !(given.is_instance_of::<PyList>() || given.is_instance_of::<PyTuple>()) {
+        return Ok(());
+    }
+    if depth == DEEPEST {
+        let way_out = "must be an array of numbers";
+        return Err(error::argument(given.py(), thing, format!("a list more than {DEEPEST} lists deep"), way_out));
+    }
+    given.try_iter()?.try_for_each(|item| check_depth(thing, &item?, depth + 1))
 }
 
 /// The shape of an array, as a refused value.

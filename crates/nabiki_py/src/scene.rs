@@ -1,7 +1,10 @@
 //! The scene as Python has it: settings by key, and what can be done with them.
 
+mod given;
+pub(crate) mod said;
 mod tasks;
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
@@ -9,13 +12,14 @@ use std::time::SystemTime;
 use nabiki_scene::scene::OwnField;
 use nabiki_scene::{BuiltScene, Shown};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList, PyMapping, PyTuple, PyType};
-use toml::{Table, Value};
+use pyo3::types::{PyDict, PyMapping, PyTuple, PyType};
+use toml::Value;
 
 use crate::error;
 use crate::field::{Field, PythonField};
 use crate::hints::{Anything, ByName, Dictionary, Given, Hinted, SameClass};
 use crate::made::Files;
+use crate::scene::given::setting;
 use crate::values;
 use crate::watched::{Ears, watched};
 
@@ -63,9 +67,8 @@ impl Scene {
     }
 
     /// All that the scene names, loaded; what has not changed since it was built last is taken from there.
-    fn built(&self, py: Python<'_>, strands: Option<usize>, ears: Ears<'_, '_>) -> PyResult<Arc<BuiltScene>> {
-        let shown = strands.map_or(Shown::All, Shown::First);
-        let State { scene, built: known, made: _held, .. } = self.state().clone();
+    fn built(&self, py: Python<'_>, shown: Shown, ears: Ears<'_, '_>) -> PyResult<Arc<BuiltScene>> {
+        let State { scene, built: known, made: _held, .. } = self.checked(py)?;
         let files = files_of(&scene);
         let known = known.filter(|known| known.files == files);
         if let Some(known) = known.as_ref().filter(|known| known.shown == shown && known.scene.scene == scene) {
@@ -78,6 +81,14 @@ impl Scene {
         let scene = Arc::new(built);
         self.state().built = Some(Built { shown, scene: scene.clone(), files });
         Ok(scene)
+    }
+
+    /// What it is, unless a file of it would be refused: settings that do not go together may stand in a scene while it is changed, one
+    /// after the other, and no longer.
+    fn checked(&self, py: Python<'_>) -> PyResult<State> {
+        let state = self.state().clone();
+        state.scene.check().map_err(|wrong| Self::refused(py, state.scene.refusal(wrong)))?;
+        Ok(state)
     }
 
     fn functions(&self) -> Vec<Arc<PythonField>> {
@@ -111,6 +122,12 @@ impl Scene {
         *another.cast::<Self>()?.get().state() = state;
         Ok(another)
     }
+}
+
+/// The scene without its functions, and with paths that mean the same from every folder.
+fn anywhere(mut scene: nabiki_scene::Scene) -> nabiki_scene::Scene {
+    scene.field.own.clear();
+    scene.moved_to(Path::new("/scene.toml"))
 }
 
 /// Whether one of two keys lies in the other.
@@ -176,26 +193,23 @@ impl Scene {
     }
 
     /// Other processes get its text, with its file, beside which relative paths lie.
-    fn __reduce__<'py>(this: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, String))> {
+    fn __reduce__<'py>(this: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, OsString))> {
         let (py, scene) = (this.py(), this.get());
         if !scene.functions().is_empty() {
             let line = "the fields of this scene are functions of Python, which stay in their process: \
                         send a scene without them, and give it there its fields";
             return Err(error::line(py, line));
         }
-        let (text, file) = (scene.to_toml(py)?, scene.now().file().to_owned());
-        // The other process had better not find it out: a pool that cannot read what it was sent says nothing.
-        nabiki_scene::Scene::parse(&text, &file, &[]).map_err(|refused| error::raised(py, refused.into()))?;
-        let file = file.to_string_lossy().into_owned();
+        // The other process had better not find out what is wrong: a pool that cannot read what it was sent says nothing.
+        let (text, file) = (scene.to_toml(py)?, scene.now().file().as_os_str().to_owned());
         Ok((this.get_type().getattr("parse")?, (text, file)))
     }
 
     /// Its file, or nothing for a scene made in code.
     #[getter]
-    fn file(&self) -> Option<String> {
-        let scene = self.now();
-        let file = scene.file();
-        (!file.as_os_str().is_empty()).then(|| file.display().to_string())
+    fn file(&self) -> Option<OsString> {
+        let file = self.state().scene.file().as_os_str().to_owned();
+        (!file.is_empty()).then_some(file)
     }
 
     /// Every setting with the value that it has, given or not: what a file that says everything would hold.
@@ -242,108 +256,38 @@ impl Scene {
         state.fields = fields;
     }
 
-    /// The scene as TOML: the text it was read from with what has changed since in its place, comments as they were.
+    /// The scene as TOML: the text it was read from with what has changed since in its place, comments as they were. What no file
+    /// can say is refused.
     fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
-        self.writable(py)?.to_toml().map_err(|refused| Self::refused(py, refused))
+        let scene = self.writable(py)?;
+        scene.text_to_be(scene.file()).map_err(|refused| Self::refused(py, refused))
     }
 
-    /// Writes it, comments and layout as they were. From then on `path` is its file.
+    /// Writes it, comments and layout as they were; paths lead where they led. From then on `path` is its file.
     #[pyo3(signature = (path))]
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        let mut scene = self.writable(py)?;
-        // Only a scene that has a place of its own has paths that are relative to it.
-        if !scene.file().as_os_str().is_empty() {
-            scene = scene.moved_to(&path);
-        }
+        let scene = self.writable(py)?;
+        // Under its old name first, whose lines the user has before him.
+        scene.check().map_err(|wrong| Self::refused(py, scene.refusal(wrong)))?;
+        let mut scene = scene.moved_to(&path);
         scene.save(&path).map_err(|refused| Self::refused(py, refused))?;
         self.state().scene = scene;
         Ok(())
     }
 
+    /// Whether both mean the same, wherever they came from: settings, functions as fields, and the files that are named.
+    fn __eq__(&self, py: Python<'_>, other: &Self) -> PyResult<bool> {
+        let same = anywhere(self.now()) == anywhere(other.now());
+        let (fields, others) = (self.functions(), other.functions());
+        if !same || fields.len() != others.len() {
+            return Ok(false);
+        }
+        fields.iter().zip(&others).try_fold(true, |same, (field, other)| Ok(same && field.is(py, other)?))
+    }
+
     fn __repr__(&self) -> String {
-        match self.file() {
-            None => "<nabiki.Scene>".to_owned(),
-            Some(file) => format!("<nabiki.Scene {file}>"),
-        }
+        said::scene(&self.now())
     }
-}
-
-/// A value of a setting, or of a table of them, in which arrays of hair, meshes and motion become files. `rate`: matrices a second,
-/// where they do not say it themselves.
-fn setting(key: &str, given: &Bound<'_, PyAny>, rate: Option<f64>, files: &mut Files) -> PyResult<Value> {
-    let name = key.rsplit('.').next().unwrap_or(key);
-    let is_motion = name == "motion" && key != name;
-    if is_motion && is_array(given)? {
-        return Ok(Value::Table(moved(key, given, rate, files)?));
-    }
-    let pair = match given.cast::<PyList>() {
-        Ok(list) => Ok(list.to_tuple()),
-        Err(_) => given.cast::<PyTuple>().cloned(),
-    };
-    if let Ok(arrays) = pair {
-        let path = match name {
-            "mesh" => Some(files.mesh(key, &arrays)?),
-            "file" if key == "hair.file" => Some(files.hair(&arrays)?),
-            _ => None,
-        };
-        if let Some(path) = path {
-            return Ok(text(&path));
-        }
-    }
-    if let Ok(table) = given.cast::<PyMapping>() {
-        let (mut values, mut matrices, mut own_rate) = (Table::new(), None, None);
-        for entry in table.items()?.iter() {
-            let (name, value): (String, Bound<'_, PyAny>) = entry.extract()?;
-            if is_motion && name == "file" && is_array(&value)? {
-                matrices = Some(value);
-            } else if !value.is_none() {
-                values.insert(name.clone(), setting(&format!("{key}.{name}"), &value, rate, files)?);
-            }
-        }
-        if let Some(matrices) = matrices {
-            // Of a table of poses it is known by its times.
-            if let Some(given) = values.remove("frames_per_second") {
-                own_rate = given.as_float().or(given.as_integer().map(|whole| whole as f64));
-                if !own_rate.is_some_and(|rate| rate.is_finite() && rate > 0.0) {
-                    let (thing, way_out) = (format!("{key}.frames_per_second"), "must be a finite number above 0");
-                    return Err(error::argument(matrices.py(), &thing, given, way_out));
-                }
-            }
-            let mut moved = moved(key, &matrices, own_rate.or(rate), files)?;
-            moved.extend(values);
-            return Ok(Value::Table(moved));
-        }
-        return Ok(Value::Table(values));
-    }
-    if key == "body"
-        && let Ok(bodies) = given.cast::<PyList>()
-    {
-        let entry = |(i, body): (usize, Bound<'_, PyAny>)| setting(&format!("body[{i}]"), &body, rate, files);
-        return bodies.iter().enumerate().map(entry).collect::<PyResult<_>>().map(Value::Array);
-    }
-    values::to_toml(given)
-}
-
-/// Whether numbers are given, and neither a file nor a table.
-fn is_array(given: &Bound<'_, PyAny>) -> PyResult<bool> {
-    Ok(given.is_instance_of::<PyList>() || given.is_instance_of::<PyTuple>() || given.hasattr("__array__")?)
-}
-
-/// The table of a motion of matrices, in the space of the scene unless it says otherwise.
-fn moved(key: &str, matrices: &Bound<'_, PyAny>, rate: Option<f64>, files: &mut Files) -> PyResult<Table> {
-    let Some(rate) = rate else {
-        let way_out =
-            "needs {\"file\": matrices, \"frames_per_second\": ...}, as the scene that says it is not read yet";
-        return Err(error::argument(matrices.py(), key, "an array", way_out));
-    };
-    let file = text(&files.motion(key, matrices, rate)?);
-    let axis = |axis: &str| Value::String(axis.to_owned());
-    let values = [("file", file), ("up", axis("+y")), ("facing", axis("+x"))];
-    Ok(values.map(|(key, value)| (key.to_owned(), value)).into_iter().collect())
-}
-
-fn text(path: &Path) -> Value {
-    Value::String(path.to_string_lossy().into_owned())
 }
 
 impl Scene {

@@ -17,6 +17,7 @@ use crate::field::{Field, PythonField};
 use crate::frame::{self, Frame};
 use crate::hints::{ForceLike, Given, Hinted, PoseLike, PosesLike, UInt32};
 use crate::poses;
+use crate::scene::said;
 use crate::threads::{alone, detached};
 use crate::watched::{Ears, watched};
 use crate::way::{self, Told, Way};
@@ -258,6 +259,15 @@ impl Simulation {
 
     fn __len__(&self) -> usize {
         self.built.frames() as usize + 1
+    }
+
+    fn __repr__(&self) -> String {
+        // Whoever has it at work need not wait to be shown.
+        let at = match self.place() {
+            Ok(place) => format!("at frame {}", place.stepper.frame()),
+            Err(_) => "at work".to_owned(),
+        };
+        format!("<nabiki.Simulation {}; {at}>", said::motion(&self.built))
     }
 
     /// Frames that are still to come, for bars of progress.

@@ -71,7 +71,15 @@ impl Solution {
         Ok(Hinted::new(found))
     }
 
-    fn __repr__(&self) -> String {
+    /// What the command prints of it.
+    fn __str__(&self) -> String {
         self.solved.to_string().trim().to_owned()
+    }
+
+    fn __repr__(&self) -> String {
+        let report = &self.solved.report;
+        let (before, after, wishes) = (report.before_cm, report.after_cm, report.wishes.len());
+        let met = if self.solved.all_met() { "all met" } else { "not all met" };
+        format!("<nabiki.Solution: {before:.2} cm from {wishes} wishes and nails before, {after:.2} cm now, {met}>")
     }
 }

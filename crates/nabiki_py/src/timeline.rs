@@ -5,7 +5,6 @@ use std::sync::{Arc, Mutex};
 use glam::Vec3;
 use nabiki_scene::BuiltScene;
 use numpy::PyArray1;
-use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 
 use crate::arrays::{self, Points};
@@ -13,10 +12,12 @@ use crate::error;
 use crate::field::PythonField;
 use crate::frame::{self, Frame};
 use crate::hints::{Float32, Hinted, UInt32};
+use crate::numbers::FrameNumber;
+use crate::scene::said;
 use crate::threads::{alone, detached};
 use crate::watched::{Ears, watched};
 
-/// A motion at hand: any frame of it, or all of them at once.
+/// A motion at hand: any frame of it, or all of them at once. Python's own class makes a sequence of it.
 #[pyclass(frozen, module = "nabiki")]
 pub struct Timeline {
     built: Arc<BuiltScene>,
@@ -61,14 +62,12 @@ impl Timeline {
         Ok(Hinted::new(arrays::film(&Bound::new(py, Points::new(film, None))?, frames)))
     }
 
-    /// Any frame, computed from the one before it that was asked for last; `timeline[-1]` is the last frame.
-    fn __getitem__(&self, py: Python<'_>, frame: i64) -> PyResult<Frame> {
-        let count = i64::from(self.built.frames()) + 1;
-        let number = if frame < 0 { frame + count } else { frame };
-        if !(0..count).contains(&number) {
-            return Err(PyIndexError::new_err(format!("frame {frame}: the frames are 0 to {}", count - 1)));
+    /// Any frame, computed from the one before it that was asked for last.
+    fn frame(&self, py: Python<'_>, number: FrameNumber) -> PyResult<Frame> {
+        let (number, last) = (number.0, self.built.frames());
+        if number > last {
+            return Err(error::argument(py, "frame", number, &format!("the frames are 0 to {last}")));
         }
-        let number = number as u32;
         let points = self.asked(py, |timeline| timeline.seek(number).points().to_vec())?;
         let points = Py::new(py, Points::new(points, None))?;
         let (built, offsets) = (self.built.clone(), self.offsets.clone_ref(py));
@@ -90,5 +89,9 @@ impl Timeline {
     #[getter]
     fn ids<'py>(&self, py: Python<'py>) -> Hinted<'py, UInt32> {
         Hinted::new(PyArray1::from_slice(py, self.built.ids()))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<nabiki.Timeline {}>", said::motion(&self.built))
     }
 }

@@ -184,8 +184,6 @@ def test_tables_come_and_go():
 
 def test_what_a_scene_has_no_name_for_is_refused():
     scene = nabiki.Scene.parse(WIND)
-    with pytest.raises(AttributeError):
-        scene.motions = {}
     with pytest.raises(nabiki.Error, match="did you mean motion.frames"):
         scene["motion.framez"] = 3
     for typo, meant in (("motion.framez", "motion.frames"), ("gust.sead", "gust.seed"), ("picture.tone", "tone_mapping")):
@@ -193,6 +191,52 @@ def test_what_a_scene_has_no_name_for_is_refused():
             scene[typo]
     # No gust, and no eighth force.
     assert scene["gust.seed"] is scene["force[7].vector"] is scene["gust"] is None
+
+
+@pytest.mark.parametrize(
+    ("owner", "name", "meant"),
+    [
+        (lambda scene: scene, "motions", "motion"),
+        (lambda scene: scene, "time_step", "motion.time_step"),
+        (lambda scene: scene, "frames", "motion.frames"),
+        (lambda scene: scene, "simulat", "simulate"),
+        (lambda scene: scene, "savee", "save"),
+        (lambda scene: scene.motion, "framez", "motion.frames"),
+        (lambda scene: scene.motion, "to_dic", "to_dict"),
+        (lambda scene: scene.gust, "sead", "gust.seed"),
+        (lambda scene: scene.picture, "tone", "tone_mapping"),
+        (lambda scene: scene.hair.style.length, "topp", "hair.style.length.top"),
+        (lambda scene: scene.force[0], "vektor", "force[0].vector"),
+        (lambda scene: scene.free, "quite_another", "keys here are"),
+    ],
+)
+def test_an_attribute_that_is_not_there_is_refused_with_what_was_perhaps_meant(owner, name, meant):
+    scene = nabiki.Scene.parse(WIND)
+    before = scene.settings()
+    asked = [lambda: getattr(owner(scene), name), lambda: setattr(owner(scene), name, {})]
+    for ask in asked:
+        with pytest.raises(AttributeError) as refused:
+            ask()
+        assert isinstance(refused.value, nabiki.Error) and meant in str(refused.value) and refused.value.thing
+        assert pickle.loads(pickle.dumps(refused.value)).thing == refused.value.thing
+    assert not hasattr(owner(scene), name) and getattr(owner(scene), name, 5) == 5
+    assert scene.settings() == before
+
+
+def test_attributes_that_cannot_be_set_stay_so(gust):
+    for owner, name in [(gust, "file"), (gust, "save"), (gust.motion, "to_dict"), (gust, "_x"), (gust.motion, "__len__")]:
+        with pytest.raises(AttributeError):
+            setattr(owner, name, 5)
+    for owner in (gust.simulate(strands=1), gust.timeline(strands=1)[0], gust.timeline(strands=1)):
+        with pytest.raises(AttributeError):
+            owner.pointz = 5
+
+    class Shot(nabiki.Scene):
+        pass
+
+    shot = Shot.open(SCENES / "gust.toml")
+    shot.number = 7
+    assert shot.number == 7 and type(shot.copy()) is Shot
 
 
 def test_copies_change_by_themselves():

@@ -1,5 +1,7 @@
 //! What building and running a scene may fail with.
 
+use std::path::{Path, PathBuf};
+
 use nabiki_io::screen::OneLine;
 use nabiki_render::RenderError;
 
@@ -21,6 +23,16 @@ pub enum Error {
     /// A request that the scene cannot meet, or a place that a result cannot go to.
     #[error("{}", OneLine(.0))]
     Refused(String),
+    /// A place that a result cannot go to, of which the system said so, or would have.
+    #[error("{}", OneLine(&format_args!("{}: {what}", file.display())))]
+    Place {
+        /// Where it was to go.
+        file: PathBuf,
+        /// What is wrong there, and the way out.
+        what: String,
+        /// In the system's words.
+        system: std::io::ErrorKind,
+    },
     /// The watcher asked to stop; nothing is left under a final name.
     #[error("cancelled")]
     Cancelled,
@@ -43,6 +55,11 @@ impl Error {
             *remedy += &format!("; look first at the size: {size}");
         }
         self
+    }
+
+    /// A place that is refused.
+    pub(crate) fn place(file: &Path, what: impl Into<String>, system: std::io::ErrorKind) -> Self {
+        Self::Place { file: file.to_owned(), what: what.into(), system }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Where results will stand: what cannot be written is refused before there is anything to write.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use nabiki_file::{behind_links, folder_of};
@@ -34,7 +35,7 @@ impl Folders {
             writable(path).map_err(|e| refused(path, "cannot write in this folder", e, way_out))
         } else {
             let is = if path.exists() { "a file, not a folder" } else { "a link to nothing" };
-            Err(Error::refused(format!("{}: this is {is}; move it away, or {way_out}", path.display())))
+            Err(Error::place(path, format!("this is {is}; move it away, or {way_out}"), ErrorKind::NotADirectory))
         }
     }
 }
@@ -55,11 +56,10 @@ pub fn file(path: &Path) -> Result<()> {
     let folder = folder_of(&target);
     match writable(folder) {
         Ok(()) => Ok(()),
-        Err(_) if !folder.exists() => Err(Error::refused(format!(
-            "{}: there is no folder {}; make it, or choose another",
-            path.display(),
-            folder.display()
-        ))),
+        Err(_) if !folder.exists() => {
+            let what = format!("there is no folder {}; make it, or choose another", folder.display());
+            Err(Error::place(path, what, ErrorKind::NotFound))
+        }
         Err(e) => Err(refused(path, "cannot be written there", e, "choose another folder")),
     }
 }
@@ -183,13 +183,13 @@ fn are_one_where_capitals_do_not_count([a, b]: &[PathBuf; 2]) -> bool {
 /// Refuses a name that belongs to something else than an ordinary file. A file that is there already is replaced when
 /// the new one is whole.
 pub fn free(path: &Path, way_out: &str) -> Result<()> {
-    let is = match fs::metadata(path) {
-        Ok(there) if there.is_dir() => "a folder",
-        Ok(there) if !there.is_file() => "a device or a pipe",
+    let (is, system) = match fs::metadata(path) {
+        Ok(there) if there.is_dir() => ("a folder", ErrorKind::IsADirectory),
+        Ok(there) if !there.is_file() => ("a device or a pipe", ErrorKind::AlreadyExists),
         Ok(_) => return Ok(()),
         Err(_) => return leads_to_a_folder(path, way_out),
     };
-    Err(Error::refused(format!("{}: this is {is}, not a file; move it away, or {way_out}", path.display())))
+    Err(Error::place(path, format!("this is {is}, not a file; move it away, or {way_out}"), system))
 }
 
 /// Refuses a link to a file in a folder that is not there.
@@ -199,12 +199,9 @@ fn leads_to_a_folder(path: &Path, way_out: &str) -> Result<()> {
     if target == path || folder.exists() {
         return Ok(());
     }
-    Err(Error::refused(format!(
-        "{}: is a link to {}, and there is no folder {}; make it, or {way_out}",
-        path.display(),
-        target.display(),
-        folder.display()
-    )))
+    let (target, folder) = (target.display(), folder.display());
+    let what = format!("is a link to {target}, and there is no folder {folder}; make it, or {way_out}");
+    Err(Error::place(path, what, ErrorKind::NotFound))
 }
 
 /// Whether a folder takes files, by putting one there that has no name.
@@ -213,5 +210,6 @@ fn writable(folder: &Path) -> std::io::Result<()> {
 }
 
 fn refused(path: &Path, what: &str, source: std::io::Error, way_out: &str) -> Error {
-    Error::refused(format!("{}: {what}: {}; {way_out}", path.display(), nabiki_io::Error::from(source).what))
+    let system = source.kind();
+    Error::place(path, format!("{what}: {}; {way_out}", nabiki_io::Error::from(source).what), system)
 }

@@ -148,7 +148,7 @@ impl Scene {
     /// What is wrong with the file or an override: place, key, value and the way out.
     pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
         let text = kind::check_scene(path).and_then(|()| input::read_text(path, input::MOST_SCENE_BYTES));
-        let text = text.map_err(|e| file_error(path, e.what))?;
+        let text = text.map_err(|e| file_error(path, e))?;
         Self::parse(&text, path, overrides)
     }
 
@@ -164,18 +164,28 @@ impl Scene {
 
     /// What the text says, whether or not it is in its ranges.
     fn read(text: &str, path: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
-        let defaults = || Self::default().with_optional_tables().tree().unwrap_or_default();
-        let (table, origins) = tree::parse(text, path, overrides, defaults)?;
+        let (table, origins) = tree::parse(text, path, overrides, Self::whole_tree)?;
         match Self::of_tree(table) {
             Ok(scene) => Ok(Self { text: text.to_owned(), origins, ..scene }),
-            Err(refusal) => {
-                let (key, mut problem) = refusal.into_parts();
-                if let Problem::UnknownKey { near: near @ None, .. } = &mut problem {
-                    *near = tree::elsewhere(&defaults(), &key);
-                }
-                Err(origins.error(&key, problem))
-            }
+            Err(refusal) => Err(Self::unreadable(refusal, &origins)),
         }
+    }
+
+    /// The tree of the defaults, optional tables as well.
+    fn whole_tree() -> Table {
+        Self::default().with_optional_tables().tree().unwrap_or_default()
+    }
+
+    /// A tree that is refused, with the place of what is wrong in it.
+    fn unreadable(refusal: Refusal, origins: &tree::Origins) -> SceneError {
+        let (key, mut problem) = refusal.into_parts();
+        // A key that another table has was meant as it is spelled, whatever is spelled like it here.
+        if let Problem::UnknownKey { near, .. } = &mut problem
+            && let Some(there) = tree::elsewhere(&Self::whole_tree(), &key)
+        {
+            *near = Some(there);
+        }
+        origins.error(&key, problem)
     }
 
     /// What a tree of settings says; made in code, as far as anybody can see.
@@ -327,15 +337,32 @@ impl Scene {
     }
 
     /// Writes [`to_toml`](Self::to_toml) to `path`; the file appears when whole. From then on it is the scene's file, to
-    /// whose folder its paths are relative.
+    /// whose folder its paths are relative. What could not be [loaded](Self::load) from there is refused.
     ///
     /// # Errors
-    /// As there, and what the disk says.
+    /// As there, what [`load`](Self::load) would say of the file, and what the disk says.
     pub fn save(&mut self, path: &Path) -> Result<(), SceneError> {
-        let text = self.to_toml()?;
+        let text = self.text_to_be(path)?;
         write_scene(path, &text)?;
         *self = Self { origins: Self::read(&text, path, &[])?.origins, text, ..self.clone() };
         Ok(())
+    }
+
+    /// The text that [`save`](Self::save) writes to `path`.
+    ///
+    /// # Errors
+    /// As there, but for what the disk says.
+    pub fn text_to_be(&self, path: &Path) -> Result<String, SceneError> {
+        // First, since it knows the lines that the user has before him.
+        self.check().map_err(|refused| self.refusal(refused))?;
+        let text = self.to_toml()?;
+        kind::check_scene_to_be(path, &text).map_err(|e| file_error(path, e))?;
+        if text.len() as u64 > input::MOST_SCENE_BYTES {
+            let line = format!("would be {} bytes long: a scene has at most {}", text.len(), input::MOST_SCENE_BYTES);
+            return Err(file_error(path, nabiki_io::Error::new(line)));
+        }
+        Self::parse(&text, path, &[])?;
+        Ok(text)
     }
 
     /// The settings as the tree that they are read from.
@@ -388,21 +415,22 @@ pub fn write_scene(path: &Path, text: &str) -> Result<(), SceneError> {
         file.finish()
     };
     write().map_err(|e: std::io::Error| {
-        let what = match e.kind() {
-            // The file need not be there, only where it goes.
-            std::io::ErrorKind::NotFound => "there is no such folder".to_owned(),
-            _ => e.to_string(),
-        };
-        file_error(path, what)
+        let mut refused = nabiki_io::Error::from(e);
+        // The file need not be there, only where it goes.
+        if refused.system() == Some(std::io::ErrorKind::NotFound) {
+            refused.what = "there is no such folder".to_owned();
+        }
+        file_error(path, refused)
     })
 }
 
-pub(crate) fn file_error(path: &Path, what: String) -> SceneError {
+pub(crate) fn file_error(path: &Path, refused: nabiki_io::Error) -> SceneError {
+    let system = refused.system();
     SceneError {
         file: path.to_owned(),
         line: None,
         set: None,
         key: String::new(),
-        problem: Box::new(Problem::File(what)),
+        problem: Box::new(Problem::File { what: refused.what, system }),
     }
 }

@@ -231,7 +231,36 @@ fn a_saved_scene_is_the_file_from_then_on() {
     let line = 1 + written.lines().position(|line| line.starts_with("alpha")).unwrap();
     assert_eq!((refused.file, refused.line), (path, Some(line)));
     let error = sample().save(&folder.path().join("no/folder.toml")).unwrap_err();
-    assert!(matches!(*error.problem, Problem::File(_)), "{error}");
+    assert!(matches!(*error.problem, Problem::File { system: Some(std::io::ErrorKind::NotFound), .. }), "{error}");
+}
+
+#[test]
+fn what_could_not_be_loaded_again_is_not_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.toml");
+    let refused = |change: &dyn Fn(&mut Scene), path: &Path| {
+        let mut scene = sample();
+        change(&mut scene);
+        let line = scene.save(path).unwrap_err().to_string();
+        assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 0, "{line}");
+        line
+    };
+    // Each of the two is good by itself.
+    let beyond = |scene: &mut Scene| {
+        scene.motion.frames = 3;
+        scene.output.sheet = Some(vec![0, 4]);
+    };
+    assert!(refused(&beyond, &path).contains("output.sheet[1] = 4: the last frame is motion.frames = 3"));
+    assert!(refused(&|scene| scene.motion.time_step = f32::NAN, &path).contains("motion.time_step"));
+    let long = |scene: &mut Scene| {
+        scene.head.motion = Some(MotionSource { file: "m".repeat(17 << 20).into(), ..MotionSource::default() });
+    };
+    assert!(refused(&long, &path).contains("bytes long: a scene has at most 16777216"));
+    for name in ["a.abc", "a.usdc", "a.hair", "a.nabiki", "a.png"] {
+        assert!(refused(&|_| (), &folder.path().join(name)).contains("a scene ends in .toml"), "{name}");
+    }
+    sample().save(&path).unwrap();
+    assert_eq!(Scene::load(&path, &[]).unwrap(), sample());
 }
 
 #[test]

@@ -9,8 +9,9 @@
 """
 
 from ._error import Error
-from ._nabiki import Field, Frame, Simulation, Solution, Timeline, __version__, convert, info, new, write_hair
+from ._nabiki import Field, Frame, Simulation, Solution, __version__, convert, info, new, write_hair
 from ._scene import Scene
+from ._timeline import Timeline
 
 __all__ = [
     "Error",

@@ -3,16 +3,26 @@
 from __future__ import annotations
 
 import os
+import reprlib
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from ._attributes import no_attribute
 from ._error import Error
 from ._nabiki import Field, Solution
+from ._timeline import Timeline
 from ._written import Written
 from .settings import SceneSettings
 from .settings._table import Arrays, File, Numbers
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .settings import SceneTables
+
 Force = tuple[int, Numbers]
+Interval = tuple[int, tuple[float, float, float]]
+Body = File | Arrays | Mapping[str, Any]
 
 
 def _interval(place: int, force: Any) -> dict[str, Any]:
@@ -20,7 +30,10 @@ def _interval(place: int, force: Any) -> dict[str, Any]:
     try:
         through, vector = force
     except (TypeError, ValueError):
-        thing, value, way_out = f"forces[{place}]", " ".join(repr(force).split()), "must be (last frame, (x, y, z))"
+        value = " ".join(reprlib.repr(force).split())
+        if len(value) > 80:
+            value = f"a {type(force).__name__}"
+        thing, way_out = f"forces[{place}]", "must be (last frame, (x, y, z))"
         raise Error(f"{thing} = {value}: {way_out}", thing=thing, value=value, way_out=way_out) from None
     return {"through": through, "vector": vector}
 
@@ -43,9 +56,9 @@ class Scene(SceneSettings):
         hair: File | Arrays | Mapping[str, Any] | None = None,
         *,
         forces: Iterable[Force] | None = None,
-        bodies: Iterable[File | Arrays | Mapping[str, Any]] | None = None,
+        bodies: Iterable[Body] | None = None,
         fields: Iterable[Field] | None = None,
-        **settings: Any,
+        **settings: Unpack[SceneTables],
     ) -> None:
         # First, as matrices of a head or body go by the frame rate.
         for name, value in settings.items():
@@ -62,7 +75,7 @@ class Scene(SceneSettings):
             self.fields = fields
 
     @property
-    def forces(self) -> Written[tuple[int, tuple[float, float, float]]]:
+    def forces(self) -> Written[Interval, Force]:
         """The intervals of `[[force]]`: the last frame of each, and the vector that pulls through it."""
 
         def write(forces: Iterable[Force]) -> None:
@@ -75,20 +88,20 @@ class Scene(SceneSettings):
         self["force"] = [_interval(place, force) for place, force in enumerate(forces)]
 
     @property
-    def bodies(self) -> Written[Any]:
+    def bodies(self) -> Written[dict[str, Any], Body]:
         """What else hair does not enter, in the free form: a list of settings of bodies, mesh files or (points, faces)."""
 
-        def write(bodies: Iterable[Any]) -> None:
+        def write(bodies: Iterable[Body]) -> None:
             self.bodies = bodies
 
         return Written(lambda: self.body.to_list(), write)
 
     @bodies.setter
-    def bodies(self, bodies: Iterable[File | Arrays | Mapping[str, Any]]) -> None:
+    def bodies(self, bodies: Iterable[Body]) -> None:
         self["body"] = [body if isinstance(body, Mapping) else {"mesh": body} for body in bodies]
 
     @property
-    def fields(self) -> Written[Field]:
+    def fields(self) -> Written[Field, Field]:
         """Fields of Python functions, which are added to those of the settings."""
 
         def write(fields: Iterable[Field]) -> None:
@@ -99,6 +112,10 @@ class Scene(SceneSettings):
     @fields.setter
     def fields(self, fields: Iterable[Field]) -> None:
         self._fields = list(fields)
+
+    def timeline(self, strands: int | None = None) -> Timeline:
+        """The motion at hand, a sequence of its frames: any frame, some, or all of them at once."""
+        return Timeline(self._timeline(strands))
 
     def solve(
         self,
@@ -126,3 +143,17 @@ class Scene(SceneSettings):
         given = {"unknowns": unknowns, "prior": prior, "search": search}
         problem |= {name: value for name, value in given.items() if value is not None}
         return self._solve(problem, strands=strands, progress=progress, report=report)
+
+    if not TYPE_CHECKING:
+        # To a type checker these would be leave to ask for anything, and to set it.
+
+        def __getattr__(self, name: str) -> Any:
+            raise no_attribute(self, self, name, name)
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            try:
+                super().__setattr__(name, value)
+            except AttributeError:
+                if hasattr(type(self), name):
+                    raise
+                raise no_attribute(self, self, name, name) from None

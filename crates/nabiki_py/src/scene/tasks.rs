@@ -16,11 +16,12 @@ use super::{Scene, State};
 use crate::arrays::{self, Points};
 use crate::error;
 use crate::hints::{ArrayLike, ByName, Float32, Given, Hinted, Progress, Report, UInt32};
+use crate::numbers::{FrameNumber, Strands};
 use crate::simulation::Simulation;
 use crate::solution::Solution;
 use crate::threads::detached;
 use crate::timeline::Timeline;
-use crate::values;
+use crate::values::Walk;
 use crate::watched::{Ears, watched};
 
 /// Refuses frames that the scene does not reach.
@@ -38,7 +39,9 @@ fn check_picture(py: Python<'_>, file: &Path, ending: &str, others: &str) -> PyR
         return refused(&format!("must end in .{ending}; {others}, scene.render gives light itself"));
     }
     match file.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => refused("is in no folder: make it first"),
+        Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
+            Err(error::place(py, file, "is in no folder: make it first", std::io::ErrorKind::NotFound))
+        }
         _ => Ok(()),
     }
 }
@@ -62,13 +65,13 @@ impl Scene {
     fn drawn(
         &self,
         py: Python<'_>,
-        frame: u32,
+        FrameNumber(frame): FrameNumber,
         layers: bool,
-        strands: Option<usize>,
+        strands: Option<Strands>,
         ears: Ears<'_, '_>,
     ) -> PyResult<(nabiki_render::Frame, ToneMapping)> {
         check_frame(py, frame, self.now().motion.frames)?;
-        let built = self.built(py, strands, ears)?;
+        let built = self.built(py, shown(strands), ears)?;
         let frame = watched(py, ears, &self.functions(), |watch| tasks::draw(&built, frame, layers, watch))?;
         Ok((frame, ToneMapping::new(&built.scene.picture)))
     }
@@ -83,16 +86,16 @@ impl Scene {
     fn groom<'py>(
         &self,
         py: Python<'py>,
-        strands: Option<usize>,
+        strands: Option<Strands>,
         file: Option<PathBuf>,
         report: Option<Given<'_, Report>>,
     ) -> PyResult<(Hinted<'py, Float32>, Hinted<'py, UInt32>)> {
         let ears = Ears::new(&None, &report);
         if let Some(file) = file {
-            let State { scene, made: _held, .. } = self.state().clone();
+            let State { scene, made: _held, .. } = self.checked(py)?;
             watched(py, ears, &[], |watch| tasks::groom(scene, shown(strands), &file, watch))?;
         }
-        let built = self.built(py, strands, ears)?;
+        let built = self.built(py, shown(strands), ears)?;
         let points = Bound::new(py, Points::new(built.hair.strands.points().to_vec(), None))?;
         Ok((Hinted::new(arrays::flat(&points)), Hinted::new(crate::frame::offsets(py, &built).into_bound(py))))
     }
@@ -100,15 +103,15 @@ impl Scene {
     /// The motion, frame by frame, from rest on. `strands`: the first so many of the scene's, spread evenly over the scalp;
     /// each moves, to the bit, as it does in the whole.
     #[pyo3(signature = (strands=None))]
-    fn simulate(&self, py: Python<'_>, strands: Option<usize>) -> PyResult<Simulation> {
-        let built = self.built(py, strands, Ears::default())?;
+    fn simulate(&self, py: Python<'_>, strands: Option<Strands>) -> PyResult<Simulation> {
+        let built = self.built(py, shown(strands), Ears::default())?;
         Simulation::of(py, built, self.functions())
     }
 
     /// The motion at hand: any frame, or all of them at once.
     #[pyo3(signature = (strands=None))]
-    fn timeline(&self, py: Python<'_>, strands: Option<usize>) -> PyResult<Timeline> {
-        let built = self.built(py, strands, Ears::default())?;
+    fn _timeline(&self, py: Python<'_>, strands: Option<Strands>) -> PyResult<Timeline> {
+        let built = self.built(py, shown(strands), Ears::default())?;
         Timeline::of(py, built, self.functions())
     }
 
@@ -119,12 +122,12 @@ impl Scene {
         &self,
         py: Python<'py>,
         points: Given<'py, ArrayLike>,
-        frame: u32,
+        frame: FrameNumber,
     ) -> PyResult<Hinted<'py, Float32>> {
         let points = crate::made::points_of("points", &points.0)?;
         let built = self.built(py, self.shown_last(), Ears::default())?;
         let forces = watched(py, Ears::default(), &self.functions(), |_| {
-            Ok(points.iter().flat_map(|&point| built.force_at(point, frame).to_array()).collect::<Vec<f32>>())
+            Ok(points.iter().flat_map(|&point| built.force_at(point, frame.0).to_array()).collect::<Vec<f32>>())
         })?;
         PyArray1::from_vec(py, forces).reshape([points.len(), 3]).map(Hinted::new)
     }
@@ -134,8 +137,8 @@ impl Scene {
     fn render<'py>(
         &self,
         py: Python<'py>,
-        frame: u32,
-        strands: Option<usize>,
+        frame: FrameNumber,
+        strands: Option<Strands>,
         progress: Option<Given<'_, Progress>>,
     ) -> PyResult<Hinted<'py, Float32>> {
         let (frame, _) = self.drawn(py, frame, false, strands, Ears::new(&progress, &None))?;
@@ -148,9 +151,9 @@ impl Scene {
     fn render_png<'py>(
         &self,
         py: Python<'py>,
-        frame: u32,
+        frame: FrameNumber,
         file: Option<PathBuf>,
-        strands: Option<usize>,
+        strands: Option<Strands>,
         progress: Option<Given<'_, Progress>>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         if let Some(file) = &file {
@@ -166,9 +169,9 @@ impl Scene {
     fn render_exr<'py>(
         &self,
         py: Python<'py>,
-        frame: u32,
+        frame: FrameNumber,
         file: Option<PathBuf>,
-        strands: Option<usize>,
+        strands: Option<Strands>,
         progress: Option<Given<'_, Progress>>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         if let Some(file) = &file {
@@ -185,11 +188,11 @@ impl Scene {
         &self,
         py: Python<'_>,
         folder: PathBuf,
-        strands: Option<usize>,
+        strands: Option<Strands>,
         progress: Option<Given<'_, Progress>>,
         report: Option<Given<'_, Report>>,
     ) -> PyResult<()> {
-        let State { scene, fields, made: _held, .. } = self.state().clone();
+        let State { scene, fields, made: _held, .. } = self.checked(py)?;
         let (shown, none) = (shown(strands), ExportOptions::default());
         watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::run(scene, shown, &folder, &none, watch))
     }
@@ -201,12 +204,12 @@ impl Scene {
         &self,
         py: Python<'_>,
         folder: PathBuf,
-        strands: Option<usize>,
+        strands: Option<Strands>,
         progress: Option<Given<'_, Progress>>,
         report: Option<Given<'_, Report>>,
     ) -> PyResult<()> {
-        let State { scene, fields, made: _held, .. } = self.state().clone();
-        let shown = strands.map_or(Shown::AtMost(PREVIEW_STRANDS), Shown::First);
+        let State { scene, fields, made: _held, .. } = self.checked(py)?;
+        let shown = strands.map_or(Shown::AtMost(PREVIEW_STRANDS), |Strands(count)| Shown::First(count));
         watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::preview(scene, shown, &folder, None, watch))
     }
 
@@ -221,7 +224,7 @@ impl Scene {
         &self,
         py: Python<'_>,
         file: PathBuf,
-        strands: Option<usize>,
+        strands: Option<Strands>,
         layer: Option<String>,
         head: bool,
         progress: Option<Given<'_, Progress>>,
@@ -229,7 +232,7 @@ impl Scene {
     ) -> PyResult<()> {
         let exports = ExportOptions { files: Vec::new(), layer, head };
         let options = SimulateOptions { output: file, exports, twin: Twin::Fast, shard: None };
-        let State { scene, fields, made: _held, .. } = self.state().clone();
+        let State { scene, fields, made: _held, .. } = self.checked(py)?;
         let shown = shown(strands);
         watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::simulate(scene, shown, &options, watch))
     }
@@ -237,26 +240,26 @@ impl Scene {
     /// Finds the wind that makes the hair do what is wished for. This scene stays as it is; the answer has one of its own.
     ///
     /// `problem`: what a wish file says, as a dictionary. `strands`: among which locks near a point are looked for.
-    #[pyo3(signature = (problem, *, strands=300, progress=None, report=None))]
+    #[pyo3(signature = (problem, *, strands=Strands(300), progress=None, report=None))]
     fn _solve<'py>(
         this: &Bound<'py, Self>,
         problem: Given<'py, ByName>,
-        strands: usize,
+        strands: Strands,
         progress: Option<Given<'_, Progress>>,
         report: Option<Given<'_, Report>>,
     ) -> PyResult<Solution> {
         let py = this.py();
-        let text = values::table(problem.0.cast()?)?.to_string();
+        let text = Walk::default().table("", problem.0.cast()?)?.to_string();
         let wishes = WishFile::parse(&text, "".as_ref()).map_err(|refused| error::raised(py, refused.into()))?;
         Self::found(this, &wishes, strands, Ears::new(&progress, &report))
     }
 
     /// The same for a wish file.
-    #[pyo3(signature = (wishes, *, strands=300, progress=None, report=None))]
+    #[pyo3(signature = (wishes, *, strands=Strands(300), progress=None, report=None))]
     fn _solve_file<'py>(
         this: &Bound<'py, Self>,
         wishes: PathBuf,
-        strands: usize,
+        strands: Strands,
         progress: Option<Given<'_, Progress>>,
         report: Option<Given<'_, Report>>,
     ) -> PyResult<Solution> {
@@ -269,25 +272,22 @@ impl Scene {
     fn found<'py>(
         this: &Bound<'py, Self>,
         wishes: &WishFile,
-        strands: usize,
+        Strands(strands): Strands,
         ears: Ears<'_, 'py>,
     ) -> PyResult<Solution> {
         let py = this.py();
-        let State { scene, fields, made, built } = this.get().state().clone();
+        let State { scene, fields, made, built } = this.get().checked(py)?;
         let (scene, solved) = watched(py, ears, &fields, |watch| tasks::find(scene, wishes, strands, watch))?;
         let state = State { scene, fields, made, built };
         Ok(Solution { scene: Self::another(&this.get_type(), state)?.unbind(), solved })
     }
 
-    /// How many strands were asked for last, so that they are not built anew.
-    fn shown_last(&self) -> Option<usize> {
-        match self.state().built.as_ref()?.shown {
-            Shown::First(count) => Some(count),
-            Shown::All | Shown::AtMost(_) => None,
-        }
+    /// The strands that were asked for last, so that they are not built anew.
+    fn shown_last(&self) -> Shown {
+        self.state().built.as_ref().map_or(Shown::All, |built| built.shown)
     }
 }
 
-fn shown(strands: Option<usize>) -> Shown {
-    strands.map_or(Shown::All, Shown::First)
+fn shown(strands: Option<Strands>) -> Shown {
+    strands.map_or(Shown::All, |Strands(count)| Shown::First(count))
 }

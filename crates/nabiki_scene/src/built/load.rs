@@ -26,7 +26,7 @@ use hair::{LoadedHair, Wanted, load_hair};
 use super::{BuiltScene, Shown};
 use crate::advice::of_head_size;
 use crate::error::{Error, Result};
-use crate::scene::{EllipsoidChoice, FieldParts, FieldPlace, FormChoice, HeadSource, Scene};
+use crate::scene::{EllipsoidChoice, FieldParts, FieldPlace, FormChoice, HeadSource, Problem, Scene};
 
 /// Asked again and again, by any thread, whether to go on; told how much is done, 0..1.
 pub(super) type GoesOn<'a> = &'a (dyn Fn(f32) -> bool + Sync);
@@ -237,19 +237,23 @@ impl LoadedHead {
 /// The file that the scene names under `key`; that it is not there is said with the scene's line.
 fn there(scene: &Scene, key: &str, file: &Path) -> Result<PathBuf> {
     let path = scene.resolve(file);
-    let refused =
-        |remedy: String| scene.refusal(SettingError::new(key, format!("\"{}\"", file.display()), remedy)).into();
+    let value = format!("\"{}\"", file.display());
+    let refused = |remedy: String, system: ErrorKind| {
+        let mut refused = scene.refusal(SettingError::new(key, &value, &*remedy));
+        *refused.problem = Problem::NoFile { value: value.clone(), remedy, path: path.clone(), system };
+        refused.into()
+    };
     if file.as_os_str().is_empty() {
-        return Err(refused("name a file".to_owned()));
+        return Err(scene.refusal(SettingError::new(key, &value, "name a file")).into());
     }
     match std::fs::metadata(&path) {
-        Ok(there) if there.is_dir() => Err(refused("is a folder: name a file".to_owned())),
+        Ok(there) if there.is_dir() => Err(refused("is a folder: name a file".to_owned(), ErrorKind::IsADirectory)),
         Err(e) if matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
             let remedy = match path == file {
                 true => "there is no such file".to_owned(),
                 false => format!("there is no {}; paths are relative to the scene's folder", path.display()),
             };
-            Err(refused(remedy))
+            Err(refused(remedy, e.kind()))
         }
         _ => Ok(path),
     }

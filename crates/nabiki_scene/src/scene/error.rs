@@ -23,8 +23,13 @@ pub struct SceneError {
 /// What is wrong with a setting, or with the file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Problem {
-    /// The file cannot be read or written: the system's words.
-    File(String),
+    /// The file cannot be read or written.
+    File {
+        /// The system's words, or ours.
+        what: String,
+        /// What the system said, where it was the system that refused.
+        system: Option<std::io::ErrorKind>,
+    },
     /// The text is not TOML: the parser's words.
     NotToml(String),
     /// No setting has this name.
@@ -57,6 +62,17 @@ pub enum Problem {
         /// The range, or the way out.
         remedy: String,
     },
+    /// A file that is named and that the system refuses.
+    NoFile {
+        /// The name, as a scene file has it.
+        value: String,
+        /// The way out.
+        remedy: String,
+        /// Where the name leads.
+        path: PathBuf,
+        /// What the system says of it.
+        system: std::io::ErrorKind,
+    },
     /// Anything else, in words.
     Other(String),
 }
@@ -65,7 +81,9 @@ impl SceneError {
     /// The refused value, where there is one.
     pub fn value(&self) -> Option<&str> {
         match &*self.problem {
-            Problem::Kind { found: value, .. } | Problem::Range { value, .. } => Some(value),
+            Problem::Kind { found: value, .. } | Problem::Range { value, .. } | Problem::NoFile { value, .. } => {
+                Some(value)
+            }
             _ => None,
         }
     }
@@ -74,7 +92,7 @@ impl SceneError {
     pub fn remedy(&self) -> String {
         match &*self.problem {
             Problem::Kind { wanted, .. } => format!("must be {wanted}"),
-            Problem::Range { remedy, .. } => remedy.clone(),
+            Problem::Range { remedy, .. } | Problem::NoFile { remedy, .. } => remedy.clone(),
             Problem::UnknownKey { near: Some(near), .. } => format!("did you mean {near}?"),
             Problem::UnknownKey { known, .. } => format!("the keys here are {}", known.join(", ")),
             Problem::Renamed { now } => format!("is now called {now}: rename it"),
@@ -82,9 +100,10 @@ impl SceneError {
                 let name = self.key.rsplit('.').next().unwrap_or_default();
                 format!("write {name} = ...")
             }
-            Problem::File(text) | Problem::NotToml(text) | Problem::Useless(text) | Problem::Other(text) => {
-                text.clone()
-            }
+            Problem::File { what: text, .. }
+            | Problem::NotToml(text)
+            | Problem::Useless(text)
+            | Problem::Other(text) => text.clone(),
         }
     }
 }
@@ -103,7 +122,7 @@ impl fmt::Display for SceneError {
         }
         f.write_str(&self.key)?;
         match &*self.problem {
-            Problem::Range { value, .. } => write!(f, " = {value}: ")?,
+            Problem::Range { value, .. } | Problem::NoFile { value, .. } => write!(f, " = {value}: ")?,
             _ if self.key.is_empty() => {}
             _ => write!(f, ": ")?,
         }

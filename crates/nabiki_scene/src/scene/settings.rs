@@ -46,22 +46,23 @@ impl Scene {
     pub fn with_setting(&self, key: &str, value: Option<Value>) -> Result<Self, SceneError> {
         let (mut tree, mut origins) = (self.settings()?, self.origins.clone());
         origins.set_anew(key);
-        tree::put(&mut tree, key, value).map_err(|what| origins.error(key, Problem::Other(what)))?;
+        tree::put(&mut tree, key, value).map_err(|what| origins.error(&tree::short(key), Problem::Other(what)))?;
         match Self::of_tree(tree) {
             Ok(mut scene) => {
                 scene.field.own.clone_from(&self.field.own);
                 Ok(Self { text: self.text.clone(), origins, ..scene })
             }
-            Err(refusal) => {
-                let (key, problem) = refusal.into_parts();
-                Err(origins.error(&key, problem))
-            }
+            Err(refusal) => Err(Self::unreadable(refusal, &origins)),
         }
     }
 
     /// The same scene as that of the file `path`, which need not exist: relative paths lead where they led before.
     pub fn moved_to(mut self, path: &Path) -> Self {
-        let folder = |file: &Path| std::path::absolute(file.parent().unwrap_or(Path::new(""))).unwrap_or_default();
+        // A name alone lies in the working folder, as does what a scene of no file names.
+        let folder = |file: &Path| {
+            let parent = file.parent().filter(|parent| !parent.as_os_str().is_empty());
+            std::path::absolute(parent.unwrap_or(Path::new("."))).unwrap_or_default()
+        };
         let (from, to) = (folder(self.file()), folder(path));
         self.origins.file = path.to_owned();
         if from == to {
@@ -149,6 +150,12 @@ mod tests {
         assert_eq!(scene().setting("motion.timestep").unwrap_err(), refused("motion.timestep", true.into()));
         assert_eq!(scene().setting("force[0].through").unwrap(), Some(50.into()));
         assert!(["gust.seed", "force[7].vector"].iter().all(|key| scene().setting(key).unwrap().is_none()));
+        for key in ["free.".to_owned() + &"a.".repeat(100_000) + "b", "force".to_owned() + &"[0]".repeat(100_000)] {
+            let line = refused(&key, 1.into()).to_string();
+            assert!(line.contains("no setting lies so deep") && line.len() < 300, "{line}");
+            let open = [(key.clone(), "1".to_owned())];
+            assert!(Scene::parse("", "".as_ref(), &open).unwrap_err().to_string().len() < 300);
+        }
         let kind = refused("motion.frames", "many".into());
         assert_eq!(kind.key, "motion.frames");
         assert!(matches!(*kind.problem, Problem::Kind { .. }));
@@ -165,6 +172,13 @@ mod tests {
         assert_eq!(moved.head.motion.as_ref().unwrap().file, Path::new("../../motion/turn.csv"));
         assert_eq!(moved.moved_to("/a/b/d.toml".as_ref()), Scene::parse(text, "/a/b/d.toml".as_ref(), &[]).unwrap());
         assert_eq!(scene.clone().moved_to("/a/b/d.toml".as_ref()), scene);
+        // A name alone, or none, lies in the working folder.
+        for file in ["c.toml", ""] {
+            let here = Scene::parse(text, file.as_ref(), &[]).unwrap();
+            let below = here.clone().moved_to("x/c.toml".as_ref());
+            assert_eq!(below.bodies[0].mesh, Path::new("../ball.obj"), "{file}");
+            assert_eq!(below.moved_to("d.toml".as_ref()).bodies, here.bodies);
+        }
         let far = scene.moved_to("/z/c.toml".as_ref());
         assert_eq!(far.bodies[0].mesh, Path::new("/a/b/ball.obj"));
     }

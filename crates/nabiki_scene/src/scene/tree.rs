@@ -135,7 +135,7 @@ pub(crate) fn parse(
         set(&mut table, path, value, &defaults).map_err(|what| SceneError {
             file: file.to_owned(),
             line: None,
-            set: Some(text.clone()),
+            set: Some(short(&text)),
             key: String::new(),
             problem: Box::new(Problem::Other(what)),
         })?;
@@ -225,11 +225,17 @@ fn look<'a>(table: &'a Table, steps: &[String]) -> Option<&'a Value> {
     })
 }
 
+/// Names and places of a path that are followed; no setting has half as many.
+const DEEPEST: usize = 32;
+
 /// The place at `path`, with tables made on the way where there are none.
 fn place<'a>(table: &'a mut Table, path: &str) -> Result<&'a mut Value, String> {
     let steps = dotted(path);
     if steps.iter().any(String::is_empty) || path.matches('[').count() != path.matches(']').count() {
         return Err("write a key as motion.time_step or force.0.vector".to_owned());
+    }
+    if steps.len() > DEEPEST {
+        return Err(format!("{} names within one another: no setting lies so deep", steps.len()));
     }
     let mut place = table.entry(steps[0].clone()).or_insert_with(|| below(&steps, 1));
     for (depth, step) in steps.iter().enumerate().skip(1) {
@@ -250,6 +256,15 @@ fn place<'a>(table: &'a mut Table, path: &str) -> Result<&'a mut Value, String> 
         };
     }
     Ok(place)
+}
+
+/// A path as a line has it: one that nobody can read is cut.
+pub(super) fn short(path: &str) -> String {
+    const MOST: usize = 80;
+    match path.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}...", &path[..end]),
+        None => path.to_owned(),
+    }
 }
 
 /// What is at `path`.

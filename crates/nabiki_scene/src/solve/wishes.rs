@@ -208,7 +208,7 @@ impl WishFile {
     /// # Errors
     /// What is wrong with it: file, line, key, value and the way out.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
-        let text = input::read_text(path, input::MOST_SCENE_BYTES).map_err(|e| file_error(path, e.what))?;
+        let text = input::read_text(path, input::MOST_SCENE_BYTES).map_err(|e| file_error(path, e))?;
         Self::parse(&text, path)
     }
 

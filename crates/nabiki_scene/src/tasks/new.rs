@@ -45,10 +45,8 @@ pub struct NewOptions {
 /// A file that cannot be read, a head without a skull, a name that does not end in .toml, a place that is taken or cannot be written.
 pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<()> {
     if !options.replace && std::fs::symlink_metadata(path).is_ok() {
-        return Err(Error::refused(format!(
-            "{}: is there already; choose another name, or replace it with --force",
-            path.display()
-        )));
+        let what = "is there already; choose another name, or replace it with --force";
+        return Err(Error::place(path, what, std::io::ErrorKind::AlreadyExists));
     }
     place::scene(path)?;
     let inputs: Vec<PathBuf> = options.head.iter().chain(&options.hair).cloned().collect();

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, TypedDict
 
 from .. import _nabiki
 from ._table import Table, Tables
@@ -12,6 +12,29 @@ from .head import BodySettings, HeadSettings, MotionSource
 from .motion import Contact, Disturbance, FreeSettings, Motion, NeighbourForces, PseudoForce, Tie
 from .picture import Background, Camera, CameraKey, HairLook, HeadLook, Light, Output, Picture, Sky, Video
 from .wind import BodyWind, EnvelopeKey, Falloff, Fan, Flow, Gust, Keyframe, Point, Turbulence, Vortex, Wind
+
+
+class SceneTables(TypedDict, total=False):
+    """What may be said of a scene that is put together, but for what the scene itself names."""
+
+    picture: Picture | Mapping[str, Any] | None
+    output: Output | Mapping[str, Any] | None
+    force: Iterable[Keyframe | Mapping[str, Any]] | None
+    wind: Wind | Mapping[str, Any] | None
+    gust: Gust | Mapping[str, Any] | None
+    body_wind: BodyWind | Mapping[str, Any] | None
+    flow: Flow | Mapping[str, Any] | None
+    turbulence: Turbulence | Mapping[str, Any] | None
+    point: Iterable[Point | Mapping[str, Any]] | None
+    vortex: Iterable[Vortex | Mapping[str, Any]] | None
+    fan: Iterable[Fan | Mapping[str, Any]] | None
+    motion: Motion | Mapping[str, Any] | None
+    free: FreeSettings | Mapping[str, Any] | None
+    contact: Contact | Mapping[str, Any] | None
+    neighbours: NeighbourForces | Mapping[str, Any] | None
+    pseudo_force: PseudoForce | Mapping[str, Any] | None
+    disturbance: Disturbance | Mapping[str, Any] | None
+    body: Iterable[BodySettings | Mapping[str, Any]] | None
 
 
 class SceneSettings(_nabiki.Scene):

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, MutableSequence, Sequence
-from typing import Any, Generic, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Generic, SupportsIndex, TypeVar, overload
 
 import numpy
 import numpy.typing
 
 from .. import _nabiki
+from .._attributes import no_attribute
 from .._error import Error
 
 File = str | os.PathLike[str]
@@ -43,12 +45,16 @@ class Table:
     def _set(self, name: str, value: object) -> None:
         self._scene[self._key_of(name)] = value
 
-    def __setattr__(self, name: str, value: object) -> None:
-        # The scene knows which key was perhaps meant.
-        if isinstance(getattr(type(self), name, None), property):
+    if not TYPE_CHECKING:
+        # To a type checker these would be leave to ask for anything, and to set it.
+
+        def __getattr__(self, name: str) -> Any:
+            raise no_attribute(self, self._scene, name, self._key_of(name))
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            if not isinstance(getattr(type(self), name, None), property):
+                raise no_attribute(self, self._scene, name, self._key_of(name))
             object.__setattr__(self, name, value)
-        else:
-            self._set(name, value)
 
     def __bool__(self) -> bool:
         """Whether the scene has this table."""
@@ -61,7 +67,7 @@ class Table:
 
     def __eq__(self, other: object) -> bool:
         if isinstance(other, Table):
-            return self.to_dict() == other.to_dict()
+            return type(self) is type(other) and self.to_dict() == other.to_dict()
         return isinstance(other, Mapping) and self.to_dict() == dict(other)
 
     __hash__ = None  # type: ignore[assignment]
@@ -70,7 +76,7 @@ class Table:
         return type(self), (self._scene, self._key)
 
     def __repr__(self) -> str:
-        return f"<{self._key}: {self.to_dict()}>"
+        return f"<{self._key}: {self.to_dict() if self else 'not in this scene'}>"
 
 
 T = TypeVar("T", bound=Table)
@@ -84,8 +90,8 @@ class Tables(MutableSequence[T], Generic[T]):
     def __init__(self, scene: _nabiki.Scene, key: str, entry: Callable[[_nabiki.Scene, str], T]) -> None:
         self._scene, self._key, self._entry = scene, key, entry
 
-    def _place(self, index: int) -> str:
-        count = len(self)
+    def _place(self, index: SupportsIndex) -> str:
+        index, count = operator.index(index), len(self)
         if not -count <= index < count:
             raise IndexError(f"{self._key}[{index}]: there are {count}")
         return f"{self._key}[{index % count}]"
@@ -94,15 +100,19 @@ class Tables(MutableSequence[T], Generic[T]):
         return len(self._scene[self._key] or ())
 
     @overload
-    def __getitem__(self, index: int) -> T: ...
+    def __getitem__(self, index: SupportsIndex) -> T: ...
     @overload
-    def __getitem__(self, index: slice) -> MutableSequence[T]: ...
-    def __getitem__(self, index: int | slice) -> T | MutableSequence[T]:
+    def __getitem__(self, index: slice) -> list[T]: ...
+    def __getitem__(self, index: SupportsIndex | slice) -> T | list[T]:
         if isinstance(index, slice):
             return [self[i] for i in range(*index.indices(len(self)))]
         return self._entry(self._scene, self._place(index))
 
-    def __setitem__(self, index: Any, value: Any) -> None:
+    @overload
+    def __setitem__(self, index: SupportsIndex, value: T | Mapping[str, Any]) -> None: ...
+    @overload
+    def __setitem__(self, index: slice, value: Iterable[T | Mapping[str, Any]]) -> None: ...
+    def __setitem__(self, index: SupportsIndex | slice, value: Any) -> None:
         if isinstance(index, slice):
             entries = self.to_list()
             entries[index] = value
@@ -110,7 +120,7 @@ class Tables(MutableSequence[T], Generic[T]):
         else:
             self._scene[self._place(index)] = value
 
-    def __delitem__(self, index: int | slice) -> None:
+    def __delitem__(self, index: SupportsIndex | slice) -> None:
         if isinstance(index, slice):
             entries = self.to_list()
             del entries[index]
@@ -118,7 +128,7 @@ class Tables(MutableSequence[T], Generic[T]):
         else:
             del self._scene[self._place(index)]
 
-    def insert(self, index: int, value: T | Mapping[str, Any]) -> None:
+    def insert(self, index: SupportsIndex, value: T | Mapping[str, Any]) -> None:
         entries = self.to_list()
         entries.insert(index, value)
         self._scene[self._key] = entries
@@ -129,7 +139,7 @@ class Tables(MutableSequence[T], Generic[T]):
     def extend(self, values: Iterable[T | Mapping[str, Any]]) -> None:
         self._scene[self._key] = [*self.to_list(), *values]
 
-    def pop(self, index: int = -1) -> T:
+    def pop(self, index: SupportsIndex = -1) -> T:
         """Takes an entry out; it is then one of a copy of the scene, since entries have no values of their own."""
         entry = self._entry(self._scene.copy(), self._place(index))
         del self[index]
@@ -148,6 +158,13 @@ class Tables(MutableSequence[T], Generic[T]):
 
     def __iter__(self) -> Iterator[T]:
         return (self[i] for i in range(len(self)))
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Tables):
+            return self._entry is other._entry and self.to_list() == other.to_list()
+        return isinstance(other, list) and list(self) == other
+
+    __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
         return f"<{self._key}: {self.to_list()}>"
