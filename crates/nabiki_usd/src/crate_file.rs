@@ -5,6 +5,7 @@
 //! its type, and either itself, if small, or its place. This writes version 0.8.0, which every USD since 2020 reads.
 
 pub mod integers;
+pub mod lists;
 pub mod numbers;
 pub mod read;
 pub mod write;

@@ -67,32 +67,30 @@ impl StageReader {
         }
     }
 
+    /// The curves of a prim in a frame, whose points are given.
     fn curves(
         &mut self,
         prim: usize,
+        InPose { points, is_bound, .. }: InPose,
         frame: usize,
         segments: Option<usize>,
         attributes: bool,
-    ) -> Result<(Hair, DAffine3), Problem> {
+    ) -> Result<Hair, Problem> {
         let time = self.code_of(frame)?;
         let layer = &mut self.layer;
-        let points = layer.points_at(prim, "points", time)?.ok_or_else(|| Problem::new("have no points"))?;
-        // Curves that are bound are where the stage has them in every frame.
-        let InPose { points, world, is_bound } = in_place(layer, prim, points, Stance::First, time)?;
-        let world = DAffine3::from_mat4(world);
         let counts = layer.at(prim, "curveVertexCounts", time);
         let counts = layer.integers(counts.ok_or_else(|| Problem::new("have no curveVertexCounts"))?)?;
         let counts = checked_counts(&counts, points.len())?;
         let Course { basis, pinned } = course(layer, prim)?;
         let lines = Shape { counts, basis, pinned }.walk(points, segments)?;
         if !attributes {
-            return Ok((Hair::from(lines.strands), world));
+            return Ok(Hair::from(lines.strands));
         }
         let mut primvars = Primvars { layer: &mut self.layer, prim, time, frame, is_bound };
         let mut attributes = lines.attributes(&mut primvars)?;
         attributes.unread.extend(primvars.unread()?);
         attributes.unread.extend(transform::not_there(&mut self.layer, prim)?);
-        Ok((Hair { strands: lines.strands, attributes }, world))
+        Ok(Hair { strands: lines.strands, attributes })
     }
 
     /// Whether curves are closed, which no hair is.
@@ -167,7 +165,14 @@ impl StageReader {
         let found = all.clone().find(|&i| self.layer.path(i) == node);
         let by_name = || all.clone().find(|&i| self.layer.prims[i].name.eq_ignore_ascii_case(node));
         if let Some(prim) = found.or_else(by_name) {
-            return Ok(Mover::Prim(prim));
+            // A mesh that is bound goes with its joint, which often has its name, and not with its prim.
+            let path = self.layer.path(prim);
+            let bound = self.layer.prims[prim].type_name == "Mesh" && Skin::of(&mut self.layer, prim)?.is_some();
+            let joint = if bound { self.carrying_joint(&|mesh| mesh == path)? } else { None };
+            return Ok(match joint.map(|joint| skeleton::joint(&mut self.layer, &joint)).transpose()?.flatten() {
+                Some(joint) => Mover::Joint(joint),
+                None => Mover::Prim(prim),
+            });
         }
         match skeleton::joint(&mut self.layer, node)? {
             Some(joint) => Ok(Mover::Joint(joint)),
@@ -346,10 +351,19 @@ impl GroomReader for StageReader {
         }
         let (prims, closed) = self.open_curves()?;
         closed.check(prims.len())?;
+        let time = self.code_of(frame)?;
         let mut all = Gathered::default();
         for (group, &prim) in prims.iter().enumerate() {
-            let part = self.curves(prim, frame, segments, attributes);
-            let (part, world) = part.map_err(|e| Problem(format!("curves {}: {e}", self.layer.path(prim))))?;
+            let path = self.layer.path(prim);
+            let named = |e: Problem| Problem(format!("curves {path}: {e}"));
+            let points = self
+                .layer
+                .points_at(prim, "points", time)
+                .and_then(|points| points.ok_or_else(|| Problem::new("have no points")));
+            // Curves that are bound are where the stage has them in every frame.
+            let posed = in_place(&mut self.layer, prim, points.map_err(named)?, Stance::First, time)?;
+            let world = DAffine3::from_mat4(posed.world);
+            let part = self.curves(prim, posed, frame, segments, attributes).map_err(named)?;
             let name = self.layer.prims[prim].name.clone();
             all.append(part, world, (prims.len() > 1).then_some((group as i32, name)))?;
         }

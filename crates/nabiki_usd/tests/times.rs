@@ -63,7 +63,7 @@ fn samples_within_a_frame_are_of_its_shutter_whatever_their_spacing() {
     for (head, codes, rate, frames, between) in [
         ("timeCodesPerSecond = 24", every(0.5, 9), 24.0, &[1001.0, 1002.0, 1003.0, 1004.0, 1005.0][..], 4),
         ("", every(0.25, 5), 24.0, &[1001.0, 1002.0], 3),
-        ("timeCodesPerSecond = 24\n framesPerSecond = 24", every(0.4, 6), 24.0, &[1001.0, 1002.0, 1003.0], 3),
+        ("timeCodesPerSecond = 24\n framesPerSecond = 24", every(0.4, 6), 24.0, &[1001.0, 1002.0, 1003.0], 4),
         ("timeCodesPerSecond = 30", vec![1000.75, 1001.25, 1001.75, 1002.25], 30.0, &[1001.0, 1002.0], 4),
         // Poses of which the layer says that they are frames.
         ("timeCodesPerSecond = 24\n framesPerSecond = 48", every(0.5, 4), 48.0, &[1001.0, 1001.5, 1002.0, 1002.5], 0),

@@ -25,7 +25,7 @@ pub struct CrateReader<R> {
     tokens: Vec<String>,
     strings: Vec<u32>,
     /// Prims by the numbers of their paths.
-    prim_of_path: HashMap<usize, usize>,
+    pub(super) prim_of_path: HashMap<usize, usize>,
 }
 
 /// What a path names, before prims and attributes are told apart.
@@ -173,45 +173,6 @@ impl<R: Read + Seek> CrateReader<R> {
             }
         }
         Ok((reader, layer.0, layer.1))
-    }
-
-    /// Whether what names other content names any.
-    pub fn holds_any(&mut self, rep: u64) -> Result<bool, Problem> {
-        let rep = Rep(rep);
-        match rep.kind() {
-            // Flags come first: those of lists that are set, or that items are added, prepended or appended to.
-            types::TOKEN_LIST..=types::REFERENCE_LIST | types::PAYLOAD_LIST => {
-                Ok(self.bytes(rep.payload(), 1)?[0] & 0b0110_0110 != 0)
-            }
-            types::STRING_VECTOR => Ok(number(&self.bytes(rep.payload(), 8)?) != 0),
-            _ => Ok(true),
-        }
-    }
-
-    /// The prims that a relationship's value names; `None` for what is no prim of the layer.
-    pub fn targets(&mut self, rep: u64) -> Result<Vec<Option<usize>>, Problem> {
-        let paths = self.list_items(rep)?;
-        Ok(paths.into_iter().map(|path| self.prim_of_path.get(&(path as usize)).copied()).collect())
-    }
-
-    /// What a list of tokens or paths sets, or what items it adds, by their numbers.
-    fn list_items(&mut self, rep: u64) -> Result<Vec<u32>, Problem> {
-        let rep = Rep(rep);
-        if !matches!(rep.kind(), types::TOKEN_LIST | types::PATH_LIST) {
-            return Ok(Vec::new());
-        }
-        let flags = self.bytes(rep.payload(), 1)?[0];
-        let (mut place, mut items) = (rep.payload() + 1, Vec::new());
-        // Set, added, prepended, appended; what is taken away comes behind them.
-        for flag in [2, 4, 32, 64] {
-            if flags & flag != 0 {
-                let count = number(&self.bytes(place, 8)?);
-                let bytes = self.bytes(place + 8, count.saturating_mul(4))?;
-                items.extend(bytes.as_chunks::<4>().0.iter().map(|&b| u32::from_le_bytes(b)));
-                place += 8 + bytes.len() as u64;
-            }
-        }
-        Ok(items)
     }
 
     /// Time codes and values of an attribute.
@@ -399,7 +360,7 @@ impl<R: Read + Seek> CrateReader<R> {
         self.bytes(place + 8, length)
     }
 
-    fn bytes(&mut self, place: u64, length: u64) -> Result<Vec<u8>, Problem> {
+    pub(super) fn bytes(&mut self, place: u64, length: u64) -> Result<Vec<u8>, Problem> {
         self.go_to(place, length)?;
         let mut bytes = vec![0; length as usize];
         self.from.read_exact(&mut bytes)?;
@@ -415,7 +376,7 @@ impl<R: Read + Seek> CrateReader<R> {
         Ok(())
     }
 
-    fn token(&self, index: u64) -> String {
+    pub(super) fn token(&self, index: u64) -> String {
         self.tokens.get(index as usize).cloned().unwrap_or_default()
     }
 }
@@ -505,7 +466,7 @@ fn value(rep: u64) -> Handle {
     if Rep(rep).kind() == types::VALUE_BLOCK { BLOCKED } else { (rep, 0) }
 }
 
-fn number(bytes: &[u8]) -> u64 {
+pub(super) fn number(bytes: &[u8]) -> u64 {
     u64::from_le_bytes(bytes[..8].try_into().expect("eight bytes"))
 }
 
