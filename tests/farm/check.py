@@ -71,17 +71,18 @@ def openjd_run(openjd, template, scene, nabiki, step, *more):
 
 # Names of scenes and changes to them that a template may trip over.
 NAMES = [
-    "風 \u202ewind\u2028 \x85\x1b[2J\n",
+    "風 \u202ewind\u2028",
     "n" * 240,
     ": - {a} # 'b' \"c\" \\",
     "a\ttab",
+    "esc\x1b",
     "{{Param.Scene}}",
     "x}}",
     "-n",
     "!!int 7",
     "\ufeff\ufffe&*",
 ]
-CHANGES = ["picture.camera={to={azimuth=1}}", "hair.style.curl={share=\t0.5,radius=1.0}", 'head.mesh="{{x}}.obj"']
+CHANGES = ["picture.camera={to={azimuth=1}}", "hair.style.curl={radius=\t0.5,pitch=3.0}", 'head.mesh="{{x}}.obj"']
 
 
 def names(openjd, nabiki):
@@ -103,7 +104,7 @@ def names(openjd, nabiki):
         else:
             assert done.returncode == 1 and done.stderr.count("\n") == 1, (name, done.stderr)
     # Braces in pairs, tabs and other control characters that commands would hold are all that is refused.
-    assert taken == 7, taken
+    assert taken == 8, taken
     print(f"names: {taken} of {len(NAMES) + len(CHANGES)} are taken, and openjd takes their jobs")
 
 

@@ -272,6 +272,37 @@ fn strengths_too_great_for_the_step_are_refused_and_those_below_hold() {
     assert!((1e-3..0.1).contains(&farthest), "{farthest}");
 }
 
+/// What cohesion takes of an increment is that increment times c_i l_i cohesion: more than twice of it would turn it about.
+#[test]
+fn cohesion_is_refused_from_the_bound_on_and_calms_hair_below_it() {
+    let strands = hair(24, 18);
+    let with = |cohesion: f64| {
+        let mut dynamics = with_neighbours(free(FreeForm { hold: 0.0.into(), gravity: 0.0, ..Default::default() }));
+        if let Form::Free(free) = &mut dynamics.form {
+            free.form.stiffness = 0.0.into();
+            let neighbours = free.neighbours.as_mut().unwrap();
+            (neighbours.forces.cohesion, neighbours.forces.pressure) = (cohesion as f32, 0.0);
+        }
+        dynamics
+    };
+    let length = f64::from(strands.strand(0)[0].distance(strands.strand(0)[1]));
+    let strongest = 4.0 / gain(&with(0.0), 18.0, 18.0) / (2.0 * length);
+    let refused = Simulation::new(&strands, &with(1.001 * strongest), &calm()).unwrap_err();
+    assert_eq!(refused.thing, "neighbours.cohesion");
+    assert!(refused.remedy.contains("keep cohesion below ") && refused.remedy.contains("2 l cohesion"), "{refused}");
+    assert!(Simulation::new(&strands, &with(0.999 * strongest), &calm()).is_ok());
+    let push = field(&[(3, [0.0, 0.0, 10.0]), (400, [0.0; 3])]);
+    let mut stepper = fast(&strands, &with(0.6 * strongest), &push);
+    let mut last = 0.0_f32;
+    for _ in 0..400 {
+        let before = stepper.strands().points().to_vec();
+        step(&mut stepper, &push);
+        let moved = stepper.strands().points().iter().zip(&before);
+        last = moved.map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+    }
+    assert!(last < 0.01, "hair goes {last} cm a frame");
+}
+
 /// By c_i (|F| + 4 K + H + 2 gravity) < 4 on the segment that moves most, the tip's, where nothing else pulls.
 #[test]
 fn hold_and_gravity_are_refused_from_the_bound_on() {

@@ -254,7 +254,8 @@ fn is_at(file: &File, path: &Path) -> bool {
 
 /// The crate tempfile adds the name of the part file, which is gone by the time anyone reads this.
 fn without_path(error: io::Error) -> io::Error {
-    match error.raw_os_error() {
+    let inner = error.get_ref().and_then(|e| e.source()).and_then(|e| e.downcast_ref::<io::Error>());
+    match error.raw_os_error().or(inner.and_then(io::Error::raw_os_error)) {
         Some(code) => io::Error::from_raw_os_error(code),
         None => io::Error::new(error.kind(), error.kind().to_string()),
     }

@@ -209,3 +209,11 @@ fn a_link_in_the_place_of_a_lock_is_not_followed() {
     assert_eq!(HeldFolder::hold(folder.path(), Hold::BesideOthers).unwrap_err(), lock);
     assert!(!nowhere.exists(), "nothing is made where it leads");
 }
+
+#[test]
+fn what_the_system_says_is_said_in_its_words() {
+    let folder = folder();
+    let system = fs::read_dir(folder.path().join("nowhere")).unwrap_err();
+    let ours = PartFile::create(&folder.path().join("nowhere/hair.abc")).unwrap_err();
+    assert_eq!((ours.raw_os_error(), ours.to_string()), (system.raw_os_error(), system.to_string()));
+}

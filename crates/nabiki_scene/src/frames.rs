@@ -80,9 +80,9 @@ fn flown_off(built: &BuiltScene, frame: u32, point: usize) -> Error {
     };
     let way_out = match neighbours.map(|neighbours| &neighbours.forces) {
         Some(forces) => format!(
-            "hair against hair has no bound by which it could be refused before: lower neighbours.cohesion = {} or \
-             neighbours.pressure = {}",
-            forces.cohesion, forces.pressure
+            "the pressure of hair against hair has no bound by which it could be refused before: lower neighbours.pressure = {} or \
+             neighbours.cohesion = {}",
+            forces.pressure, forces.cohesion
         ),
         None => "lower the strengths of the fields".to_owned(),
     };

@@ -13,8 +13,9 @@ use crate::built::BuiltScene;
 /// Cosine of the angle between two segments from which on their joint is called a kink: 60 degrees.
 const KINK: f32 = 0.5;
 
-/// How far a node may go to and fro from frame to frame before it is said (cm).
-const HOP: f32 = 3.0;
+/// How far a node may go to and fro from frame to frame before it is said (cm), of hair that feels its neighbours: their pressure has
+/// no bound by which it could be refused.
+const HOP: f32 = 1.5;
 
 /// What one frame is like.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -115,7 +116,7 @@ pub struct MotionSummary {
     /// What nodes may be inside of, in words.
     met: &'static str,
     /// What may throw hair to and fro, and the way out.
-    blamed: String,
+    blamed: Option<String>,
     /// The points in the frame before, and in that before this.
     before: [Vec<Vec3>; 2],
 }
@@ -182,30 +183,30 @@ impl fmt::Display for MotionSummary {
             farthest_jump.frame,
             last.jump,
         )?;
-        if farthest_hop.hop > HOP {
-            let (hop, frame) = (farthest_hop.hop, farthest_hop.frame);
-            write!(
-                f,
-                "\n  look    hair hops: a node goes {hop:.1} cm and back again at frame {frame}, which nothing that swings does: {blamed}"
-            )?;
+        match blamed {
+            Some(blamed) if farthest_hop.hop > HOP => {
+                let FrameSummary { hop, frame, .. } = farthest_hop;
+                write!(
+                    f,
+                    "\n  look    hair hops: a node goes {hop:.1} cm to and fro by frame {frame}, which no hair does: {blamed}"
+                )
+            }
+            _ => Ok(()),
         }
-        Ok(())
     }
 }
 
-/// What makes a step too long that [`BuiltScene::simulation`] does not refuse.
-fn blamed(built: &BuiltScene) -> String {
-    let neighbours = match &built.dynamics.form {
-        Form::Free(free) => free.neighbours.as_ref().map(|neighbours| &neighbours.forces),
-        Form::Paper => None,
-    };
-    match neighbours {
-        Some(forces) => format!(
-            "neighbours.cohesion = {} or neighbours.pressure = {} is too much for motion.time_step = {}; lower one of these",
-            forces.cohesion, forces.pressure, built.dynamics.motion.time_step
-        ),
-        None => "lower the strengths, or motion.time_step".to_owned(),
-    }
+/// What throws hair to and fro where [`BuiltScene::simulation`] does not refuse it, and the way out.
+fn blamed(built: &BuiltScene) -> Option<String> {
+    let Form::Free(free) = &built.dynamics.form else { return None };
+    let forces = &free.neighbours.as_ref()?.forces;
+    let step = built.dynamics.motion.time_step;
+    let line = |thing: &str, value: f32| format!("lower {thing} = {value}, or motion.time_step = {step}");
+    Some(if forces.pressure > 0.0 {
+        line("neighbours.pressure", forces.pressure)
+    } else {
+        line("neighbours.cohesion", forces.cohesion)
+    })
 }
 
 #[cfg(test)]

@@ -167,41 +167,54 @@ impl Stability {
 }
 
 /// What pulls on a segment in the free form, by Gershgorin's circles the most that it can: twice the stiffness of both of its
-/// joints, H, and twice the weight.
+/// joints, H, and twice the weight; and twice what cohesion holds against its own increment.
 struct Pull {
     gain: f64,
-    own: [f64; 3],
+    own: [f64; OWN],
     length: f64,
 }
 
+/// How many things pull on a segment beside the force.
+const OWN: usize = 4;
 /// The number of the force among all that pulls.
-const FORCE: usize = 3;
+const FORCE: usize = OWN;
 
 /// What these come from in a scene, what they are called, and what the largest of each is.
-fn owners(dynamics: &Dynamics) -> [(&'static str, &'static str, f32); 3] {
+fn owners(dynamics: &Dynamics) -> [(&'static str, &'static str, f32); OWN] {
     let of_form = |form: &FreeForm| [form.stiffness.largest(), form.hold.largest(), form.gravity];
     let [stiffness, hold, gravity] = match &dynamics.form {
         Form::Paper => [0.0; 3],
         Form::Free(free) => of_form(&free.form),
     };
+    let cohesion = cohesion(dynamics);
     [
         ("free.stiffness", "the largest stiffness", stiffness),
         ("free.hold", "the largest hold", hold),
         ("free.gravity", "gravity", gravity),
+        ("neighbours.cohesion", "cohesion", cohesion),
     ]
+}
+
+/// The strength of what holds a node against its own motion; 0 where neighbours are not felt.
+fn cohesion(dynamics: &Dynamics) -> f32 {
+    match &dynamics.form {
+        Form::Free(free) => free.neighbours.as_ref().map_or(0.0, |neighbours| neighbours.forces.cohesion),
+        Form::Paper => 0.0,
+    }
 }
 
 fn pulls(dynamics: &Dynamics, strand: &[glam::Vec3], s: usize) -> Result<Vec<Pull>, SettingError> {
     let Form::Free(free) = &dynamics.form else {
-        let pull = |shape: SegmentShape| Pull { gain: shape.gain, own: [0.0; 3], length: shape.length };
+        let pull = |shape: SegmentShape| Pull { gain: shape.gain, own: [0.0; OWN], length: shape.length };
         return Ok(segment_shapes(dynamics, strand, s)?.into_iter().map(pull).collect());
     };
     let segments = free_segments(dynamics, &free.form, strand, s)?;
     let after = segments.iter().skip(1).map(|segment| segment.stiffness).chain([0.0]);
     let weight = 2.0 * f64::from(free.form.gravity);
+    let cohesion = 2.0 * f64::from(cohesion(dynamics));
     let pull = |(segment, after): (&FreeSegment, f64)| Pull {
         gain: segment.shape.gain,
-        own: [2.0 * (segment.stiffness + after), segment.hold, weight],
+        own: [2.0 * (segment.stiffness + after), segment.hold, weight, cohesion * segment.shape.length],
         length: segment.shape.length,
     };
     Ok(segments.iter().zip(after).map(pull).collect())
@@ -219,7 +232,10 @@ pub(super) struct Named<'a> {
 /// hold beside all else.
 pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Field) -> SettingError {
     let strongest = f64::from(field.strongest());
-    let parts = |pull: &Pull| [pull.own[0], pull.own[1], pull.own[2], strongest];
+    let parts = |pull: &Pull| {
+        let [stiffness, hold, weight, cohesion] = pull.own;
+        [stiffness, hold, weight, cohesion, strongest]
+    };
     let reached = |pull: &Pull| pull.gain * parts(pull).iter().sum::<f64>();
     let strands = || {
         hair.iter().flat_map(|&Named { name, strands, ids }| {
@@ -229,16 +245,16 @@ pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Fiel
     };
     let of = |s: usize, strand: &[glam::Vec3]| pulls(dynamics, strand, s).unwrap_or_default();
     // All others being as they are: by how many times each part may be as large as it is, and how large the force.
-    let mut rooms = [f64::INFINITY; 4];
-    let (mut worst, mut most) = ((String::new(), [0.0; 4]), 0.0);
+    let mut rooms = [f64::INFINITY; OWN + 1];
+    let (mut worst, mut most) = ((String::new(), [0.0; OWN + 1]), 0.0);
     for (name, s, strand) in strands() {
         let pulls = of(s, strand);
         let moving = || pulls.iter().filter(|pull| pull.gain > 0.0);
         for pull in moving() {
             let parts = parts(pull);
-            for part in (0..4).filter(|&part| parts[part] > 0.0) {
+            for part in (0..=OWN).filter(|&part| parts[part] > 0.0) {
                 // Never from the sum of all, in which one that is too large swallows the others.
-                let others: f64 = (0..4).filter(|&other| other != part).map(|other| parts[other]).sum();
+                let others: f64 = (0..=OWN).filter(|&other| other != part).map(|other| parts[other]).sum();
                 let room = 4.0 / pull.gain - others;
                 rooms[part] = rooms[part].min(if part == FORCE { room } else { room / parts[part] });
             }
@@ -251,9 +267,13 @@ pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Fiel
     }
     let (place, parts) = worst;
     let free = matches!(dynamics.form, Form::Free(_));
-    let what = if free { "c_i (|F| + 4 K + H + 2 gravity)" } else { "c_i |F|" };
+    let what = match (free, cohesion(dynamics) > 0.0) {
+        (false, _) => "c_i |F|",
+        (true, false) => "c_i (|F| + 4 K + H + 2 gravity)",
+        (true, true) => "c_i (|F| + 4 K + H + 2 gravity + 2 l cohesion)",
+    };
     let ways = "make motion.time_step smaller, or set motion.inertia_length_floor so that short hair is held by its neighbours";
-    let mut largest_first = [0, 1, 2, 3];
+    let mut largest_first = [0, 1, 2, 3, 4];
     largest_first.sort_by(|&a, &b| parts[b].total_cmp(&parts[a]));
     let blamed = largest_first.into_iter().find(|&part| rooms[part] > 0.0 && rooms[part].is_finite());
     let refused = |thing: &str, value: String, keep: String| {
