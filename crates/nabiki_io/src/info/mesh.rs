@@ -62,7 +62,10 @@ pub struct ClipInfo {
 impl MeshInfo {
     /// Looks into a mesh file.
     pub fn of_file(path: &Path) -> Result<Self> {
-        let of_meshes = || Ok(Self::of(&mesh::read(path, &[])?));
+        let of_meshes = || {
+            let (mesh, unread) = mesh::read_all(path, &[])?;
+            Ok(Self { unread, ..Self::of(&mesh) })
+        };
         if !matches!(extension(path).as_str(), "glb" | "gltf") {
             return of_meshes();
         }

@@ -357,7 +357,7 @@ fn values_of_another_shape_than_what_they_move_are_refused() {
     let at = four_wide.windows(9).position(|w| w == b"\"count\":4").unwrap();
     four_wide[at + 8] = b'3';
     let error = clip_motion(&four_wide, 24.0).unwrap_err().to_string();
-    assert!(error.contains("accessor 1: F32 Vec4 is not a Translation"), "{error}");
+    assert!(error.contains("accessor 1: translations of type F32 Vec4 are not read"), "{error}");
 }
 
 /// Reads `bytes` as each kind of motion; only a panic, or never coming back, is wrong.
