@@ -3,6 +3,7 @@
 mod join;
 mod other;
 mod resample;
+mod turn;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -48,6 +49,9 @@ pub struct Attributes {
     pub point_uv: Option<Vec<[f32; 2]>>,
     /// TressFX's w: 0 where a point is held by the skin, 1 where it is free, by point.
     pub inverse_mass: Option<Vec<f32>>,
+    /// Whether the source has the points of a strand from its tip to its root, by strand. Here they run from the root on:
+    /// [`Hair::as_in_source`] turns them back.
+    pub tip_first: Option<Vec<bool>>,
     /// Whatever else the source carries, under its own names.
     pub other: Vec<Other>,
     /// What the source says of its strands that could not be kept, a phrase each.
@@ -108,6 +112,7 @@ impl Hair {
         check("root_uv", &a.root_uv, strands)?;
         check("group", &a.group, strands)?;
         check("guide", &a.guide, strands)?;
+        check("tip_first", &a.tip_first, strands)?;
         check("width", &a.width, points)?;
         check("colour", &a.colour, points)?;
         check("transparency", &a.transparency, points)?;
@@ -202,6 +207,7 @@ impl Attributes {
             group,
             group_names: named.map(|(&number, name)| (number, name.clone())).collect(),
             guide: pick(&self.guide, strands),
+            tip_first: pick(&self.tip_first, strands),
             width: pick(&self.width, points),
             colour: pick(&self.colour, points),
             transparency: pick(&self.transparency, points),

@@ -170,6 +170,13 @@ impl Strands {
         &mut self.points
     }
 
+    /// Turns the strands round for which `which` holds.
+    pub fn turn(&mut self, which: &[bool]) {
+        for (s, _) in which.iter().enumerate().filter(|(_, turned)| **turned) {
+            self.strand_mut(s).reverse();
+        }
+    }
+
     /// The length of every strand (cm).
     pub fn lengths(&self) -> impl ExactSizeIterator<Item = f32> {
         self.iter().map(length)

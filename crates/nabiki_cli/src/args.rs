@@ -195,7 +195,8 @@ pub struct ExportArgs {
     #[arg(long, value_name = "PRIM", value_parser = prim_path)]
     pub export_layer: Option<String>,
 
-    /// Put the head into .abc files too; Unreal then takes them for a mesh, not for a groom
+    /// Put the head into files that would be without it: the built-in bust, and any head in .abc files, which Unreal then takes for a
+    /// mesh and not for a groom
     #[arg(long)]
     pub export_head: bool,
 }

@@ -22,6 +22,27 @@ fn bytes(folder: &TempDir, name: &str) -> Vec<u8> {
     fs::read(folder.path().join(name)).unwrap()
 }
 
+/// A ball of 9 cm as the text of a .obj, of rows of quads.
+fn ball() -> String {
+    const ROWS: usize = 16;
+    const COLUMNS: usize = 24;
+    let (mut vertices, mut faces) = (String::new(), String::new());
+    for row in 0..=ROWS {
+        let down = std::f32::consts::PI * row as f32 / ROWS as f32;
+        for column in 0..COLUMNS {
+            let around = std::f32::consts::TAU * column as f32 / COLUMNS as f32;
+            let [x, y, z] = [down.sin() * around.cos(), down.cos(), down.sin() * around.sin()].map(|x| 9.0 * x);
+            vertices += &format!("v {x} {y} {z}\n");
+            if row < ROWS {
+                let at = |row: usize, column: usize| row * COLUMNS + column % COLUMNS + 1;
+                let corners = [at(row, column), at(row, column + 1), at(row + 1, column + 1), at(row + 1, column)];
+                faces += &format!("f {} {} {} {}\n", corners[0], corners[1], corners[2], corners[3]);
+            }
+        }
+    }
+    vertices + &faces
+}
+
 const FEW: &str = "--strands 40 --frames 3 --set output.sheet=[0]";
 
 #[test]
@@ -351,8 +372,17 @@ fn the_head_goes_into_an_archive_that_is_the_result_itself_and_nowhere_unasked()
     succeed(&folder, &format!("simulate scene.toml {FEW} -o with.abc --export-head"));
     succeed(&folder, &format!("simulate scene.toml {FEW} -o without.abc"));
     assert!(faces("with.abc") && !faces("without.abc"));
-    let line = refuse(&folder, &format!("simulate scene.toml {FEW} -o m.nabiki --export m.usda --export-head"));
-    assert!(line.contains("--export-head: puts the head into .abc files, and none is written"), "{line}");
+    // The built-in one is everybody's.
+    succeed(&folder, &format!("simulate scene.toml {FEW} -o m.nabiki --export with.usdc --export-head"));
+    succeed(&folder, &format!("simulate scene.toml {FEW} -o without.usdc"));
+    assert!(faces("with.usdc") && !faces("without.usdc"));
+    fs::write(folder.path().join("own.obj"), ball()).unwrap();
+    let own = "--set head.mesh=own.obj --set head.ellipsoid={center=[0,0,0],half_axes=[9,9,9]}";
+    succeed(&folder, &format!("simulate scene.toml {FEW} {own} -o own.usdc"));
+    succeed(&folder, &format!("simulate scene.toml {FEW} {own} -o own.abc"));
+    assert!(faces("own.usdc") && !faces("own.abc"));
+    let line = refuse(&folder, &format!("simulate scene.toml {FEW} -o m.nabiki --export-head"));
+    assert!(line.contains("--export-head: puts the head beside moving hair, and none is written"), "{line}");
 }
 
 #[test]

@@ -194,7 +194,7 @@ pub(crate) fn track(path: &Path, node: &str) -> Result<Track> {
     let bound = bound.map(sample);
     let (times, samples) = motion.into_iter().map(|placed| (placed.time, sample(placed))).unzip();
     let unit_cm = unit.map(|unit| 100.0 * unit.metres());
-    Ok(Track { times, samples, what: format!("object {node}"), left_out, bound, unit_cm, up })
+    Ok(Track { times, samples, what: format!("object {node}"), left_out, unlike: None, bound, unit_cm, up })
 }
 
 /// What a head or body, which is rigid, does not take from what moves it.

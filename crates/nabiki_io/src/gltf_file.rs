@@ -1,6 +1,9 @@
 //! glTF documents and their buffers, for the readers of meshes and of motion. The crate gltf parses and validates; lengths,
 //! and buffers in files of their own, are seen to here.
 
+pub(crate) mod accessors;
+pub(crate) mod pose;
+
 use std::path::Path;
 
 use gltf::buffer::Source;
@@ -18,7 +21,11 @@ pub(crate) fn open(bytes: &[u8]) -> Result<(gltf::Document, Option<Vec<u8>>)> {
         return Err(Error::new("is not a glTF: it does not start with glTF or {"));
     }
     let gltf = gltf::Gltf::from_slice_without_validation(text).map_err(unreadable)?;
-    let json = gltf.document.into_json();
+    let mut json = gltf.document.into_json();
+    json.extensions_required.retain(|extension| !is_met(extension));
+    if !json.extensions_required.is_empty() {
+        return Err(not_met(&json.extensions_required));
+    }
     // The crate's validation looks at these accessors before it has checked that they exist.
     let primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
     if let Some(missing) = primitives.flat_map(|p| p.attributes.values()).find(|a| a.value() >= json.accessors.len()) {
@@ -26,6 +33,37 @@ pub(crate) fn open(bytes: &[u8]) -> Result<(gltf::Document, Option<Vec<u8>>)> {
         return Err(Error::new(format!("is not a readable glTF: accessor {missing} is named, there are {count}")));
     }
     Ok((gltf::Document::from_json(json).map_err(unreadable)?, blob.map(<[u8]>::to_vec)))
+}
+
+/// Whether shapes and motion are read as they are, though the file requires the extension: other component types are read by their
+/// type ([`accessors`]), and looks, lights and notes are no part of a shape.
+fn is_met(extension: &str) -> bool {
+    const OF_LOOKS: [&str; 8] = [
+        "KHR_materials_",
+        "KHR_texture_",
+        "EXT_texture_",
+        "MSFT_texture_",
+        "KHR_lights_",
+        "EXT_lights_",
+        "KHR_xmp",
+        "KHR_node_visibility",
+    ];
+    extension == "KHR_mesh_quantization" || OF_LOOKS.iter().any(|beginning| extension.starts_with(beginning))
+}
+
+/// A refusal of what a file requires and is not read, with the way out.
+fn not_met(extensions: &[String]) -> Error {
+    let way_out = |extension: &String| match extension.as_str() {
+        "KHR_draco_mesh_compression" => "export it without compression (in Blender, Data > Compression off)",
+        "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
+            "pack it without compression (gltfpack without -c and -cc)"
+        }
+        _ => "export it without that",
+    };
+    let mut ways: Vec<&str> = extensions.iter().map(way_out).collect();
+    ways.dedup();
+    let (names, ways) = (extensions.join(" and "), ways.join(", and "));
+    Error::new(format!("requires the glTF extension {names}, which is not read: {ways}"))
 }
 
 /// The JSON and the binary chunk of a .glb. (The crate's own reader of them trusts their lengths.)

@@ -70,11 +70,19 @@ pub struct ImportReport {
     pub degenerate: Degenerate,
     /// Strands dropped because they are shorter than [`Cleaning::drop_shorter_than`].
     pub dropped_short: usize,
+    /// Strands left that the file has tip first, and that were turned round.
+    pub tip_first: usize,
     /// Strands left whose file holds their tips as well as their roots. The motion holds roots only: their tips swing.
     pub held_at_both_ends: usize,
 }
 
 impl ImportReport {
+    /// That strands were turned round, in a line for the user; `None` where none was.
+    pub fn turned(&self) -> Option<String> {
+        let count = self.tip_first;
+        (count > 0).then(|| format!("{count} strands run from tip to root in the file and are turned round"))
+    }
+
     /// What of the file the motion does not obey, in a line for the user; `None` where there is nothing.
     pub fn warning(&self) -> Option<String> {
         let count = self.held_at_both_ends;
@@ -159,7 +167,9 @@ pub fn place_and_clean(read: InPlace, placement: &Placement, cleaning: &Cleaning
         )));
     }
     let held_at_both_ends = held_at_both_ends(&hair);
-    Ok((hair, ImportReport { strands_in_file, points_in_file, degenerate, dropped_short, held_at_both_ends }))
+    let report =
+        ImportReport { strands_in_file, points_in_file, degenerate, dropped_short, tip_first: 0, held_at_both_ends };
+    Ok((hair, report))
 }
 
 pub(crate) use nabiki::strands::length;

@@ -1,7 +1,7 @@
 //! Files that are read: regular ones, and no more of them than is stated.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
 use crate::error::{Error, Result};
@@ -15,7 +15,8 @@ pub const MOST_SCENE_BYTES: u64 = 16 << 20;
 /// Bytes of a binary file that is read into memory whole; as much as a .glb can say that it has.
 pub const MOST_BINARY_BYTES: u64 = 1 << 32;
 
-/// Opens a regular file. A folder, a device and a pipe, which may never end or never begin, are refused.
+/// Opens a regular file. A folder, a device and a pipe, which may never end or never begin, are refused, and so is what Git LFS
+/// leaves in the place of a file that it has not fetched.
 ///
 /// # Errors
 /// One line that names the file.
@@ -25,13 +26,32 @@ pub fn open(path: &Path) -> Result<File> {
     let before = std::fs::metadata(path).map_err(named)?;
     let file = if before.is_file() { Some(File::open(path).map_err(named)?) } else { None };
     match file {
-        Some(file) if file.metadata().map_err(named)?.is_file() => Ok(file),
+        Some(mut file) if file.metadata().map_err(named)?.is_file() => {
+            if is_lfs_pointer(&mut file).map_err(named)? {
+                return Err(Error::new("is a Git LFS pointer: fetch the file with git lfs pull").in_file(path));
+            }
+            Ok(file)
+        }
         _ => {
             let what = if before.is_dir() { "a folder" } else { "a device or a pipe" };
             let refused = Error::new(format!("is {what}, not a regular file: give a file")).in_file(path);
             Err(if before.is_dir() { refused.of_system(std::io::ErrorKind::IsADirectory) } else { refused })
         }
     }
+}
+
+/// Whether a file, at its beginning, is a pointer as the specification of Git LFS has it: a short text that begins so.
+fn is_lfs_pointer(file: &mut File) -> std::io::Result<bool> {
+    const SHORTER_THAN: u64 = 1024;
+    const BEGINNINGS: [&[u8]; 2] =
+        [b"version https://git-lfs.github.com/spec/", b"version https://hawser.github.com/spec/"];
+    if file.metadata()?.len() >= SHORTER_THAN {
+        return Ok(false);
+    }
+    let mut first = Vec::new();
+    file.take(48).read_to_end(&mut first)?;
+    file.seek(SeekFrom::Start(0))?;
+    Ok(BEGINNINGS.iter().any(|beginning| first.starts_with(beginning)))
 }
 
 /// All of a regular file of at most `most` bytes.

@@ -1,7 +1,7 @@
 //! Triangle meshes of heads: .obj, .glb, .gltf, .ply, .tfxmesh, USD and Alembic, told apart by their name's ending.
 
 mod check;
-mod glb;
+pub(crate) mod glb;
 mod obj;
 pub(crate) mod parts;
 mod ply;
@@ -36,34 +36,22 @@ pub struct MeshReport {
 
 /// Reads the triangles of a mesh file in its own unit and axes. `groups`: names of .obj groups or objects, of glTF nodes
 /// or meshes, of USD prims or Alembic objects, to keep; all when empty. Larger polygons become fans, node transforms are
-/// applied.
+/// applied, and skins of glTF bend as their joints stand in the file.
 pub fn read(path: &Path, groups: &[String]) -> Result<Mesh> {
-    Ok(read_with_losses(path, groups)?.0)
+    read_all(path, groups).map(|(mesh, _)| mesh)
 }
 
-/// The same with what of the file's meshes is left out or not obeyed, a phrase each.
-///
-/// # Errors
-/// As [`read`].
-pub fn read_with_losses(path: &Path, groups: &[String]) -> Result<(Mesh, Vec<String>)> {
-    let mut lost = Vec::new();
-    let mesh = match extension(path).as_str() {
-        "abc" | "usd" | "usda" | "usdc" => return exchange::mesh(path, groups),
-        _ => read_plain(path, groups, &mut lost)?,
-    };
-    Ok((mesh, lost))
-}
-
-/// The mesh of a file that holds meshes alone.
-fn read_plain(path: &Path, groups: &[String], lost: &mut Vec<String>) -> Result<Mesh> {
+/// The same, with what of the meshes is left out or not obeyed, a phrase each.
+pub(crate) fn read_all(path: &Path, groups: &[String]) -> Result<(Mesh, Vec<String>)> {
     let named = |e: Error| e.in_file(path);
     let text = || input::read(path, MOST_TEXT_BYTES);
     let binary = || input::read(path, MOST_BINARY_BYTES);
     match extension(path).as_str() {
-        "obj" => obj::from_bytes(&text()?, groups, lost).map_err(named),
-        "glb" | "gltf" => glb::from_bytes(&binary()?, path.parent(), groups, lost).map_err(named),
-        "ply" => ply(without_mark(&binary()?), groups, lost).map_err(named),
-        "tfxmesh" => from_bytes(&text()?, "tfxmesh", groups).map_err(named),
+        "obj" => with_losses(&mut |lost| obj::from_bytes(&text()?, groups, lost)).map_err(named),
+        "glb" | "gltf" => glb::from_bytes(&binary()?, path.parent(), groups).map_err(named),
+        "ply" => with_losses(&mut |lost| ply(without_mark(&binary()?), groups, lost)).map_err(named),
+        "tfxmesh" => from_bytes(&text()?, "tfxmesh", groups).map(|mesh| (mesh, Vec::new())).map_err(named),
+        "abc" | "usd" | "usda" | "usdc" => exchange::mesh(path, groups),
         other => {
             // A name without an ending may be a slip, or a folder.
             if other.is_empty() {
@@ -73,6 +61,17 @@ fn read_plain(path: &Path, groups: &[String], lost: &mut Vec<String>) -> Result<
             Err(named(Error::new(format!("ending \"{other}\" is not a mesh format: {known}{}", way_out(other)))))
         }
     }
+}
+
+/// What `read` answers, with what it says is lost.
+fn with_losses(read: &mut dyn FnMut(&mut Vec<String>) -> Result<Mesh>) -> Result<(Mesh, Vec<String>)> {
+    let mut lost = Vec::new();
+    Ok((read(&mut lost)?, lost))
+}
+
+/// Whether a file's ending is that of a glTF.
+pub fn is_gltf(path: &Path) -> bool {
+    matches!(extension(path).as_str(), "glb" | "gltf")
 }
 
 /// What some editors put before a text is no part of it.
@@ -103,7 +102,7 @@ pub fn from_bytes(bytes: &[u8], extension: &str, groups: &[String]) -> Result<Me
         "obj" => obj::from_bytes(bytes, groups, &mut Vec::new()),
         "ply" => ply(bytes, groups, &mut Vec::new()),
         "tfxmesh" => tfxmesh::from_bytes(bytes).and_then(|mesh| without_parts(mesh, groups)),
-        _ => glb::from_bytes(bytes, None, groups, &mut Vec::new()),
+        _ => glb::from_bytes(bytes, None, groups).map(|(mesh, _)| mesh),
     }
 }
 
@@ -119,7 +118,7 @@ fn without_parts(mesh: Mesh, groups: &[String]) -> Result<Mesh> {
 /// Reads a mesh into head space, joins vertices at the same place and drops triangles without area.
 pub fn import(path: &Path, placement: &Placement, groups: &[String]) -> Result<(Mesh, MeshReport)> {
     placement.check("head").map_err(|e| Error::from(e).in_file(path))?;
-    let (mesh, unread) = read_with_losses(path, groups)?;
+    let (mesh, unread) = read_all(path, groups)?;
     let (mesh, report) = place_and_weld(mesh, placement).map_err(|e| e.in_file(path))?;
     Ok((mesh, MeshReport { unread, ..report }))
 }

@@ -5,6 +5,7 @@ mod bvh;
 mod clip;
 mod csv;
 mod joints;
+mod mover;
 mod resample;
 mod source;
 mod survey;
@@ -22,6 +23,7 @@ use crate::kind::extension;
 use source::asked;
 
 pub use crate::axis::Axis;
+pub use mover::{ClipMover, clip_carries, clip_mover};
 pub use source::{Interpolation, MotionSource};
 pub use survey::{MotionInfo, survey};
 pub use track::{Sample, Track};

@@ -1,4 +1,6 @@
-//! Strands kept as the `l` polylines of a Wavefront .obj, in its own unit and axes.
+//! Strands kept as the `l` elements of a Wavefront .obj, in its own unit and axes: polylines, or their edges one by one.
+
+mod join;
 
 use glam::Vec3;
 use nabiki::{Hair, Strands};
@@ -7,29 +9,40 @@ use crate::{
     error::{Error, Result},
     finite, obj_text,
 };
+use join::Lines;
 
-/// Reads every `l` element as one strand, its first vertex as the root. All else but `v` is passed over.
+/// Reads `l` elements as strands, their first vertices as roots. Elements that go on where another ends are one strand, and so are
+/// edges, of two vertices each, that meet in twos, whatever their order and direction: of these the end that stands first in the
+/// file is the root. Closed lines are left out. All else but `v` is passed over.
 pub fn from_bytes(bytes: &[u8]) -> Result<Hair> {
     let mut vertices: Vec<Vec3> = Vec::new();
-    let mut strands = Strands::default();
+    let mut lines = Lines::default();
     for (i, line) in obj_text::text(bytes).lines().enumerate() {
         let mut words = obj_text::words(line);
         match words.next() {
             Some("v") => vertices.push(obj_text::place(words, line, i + 1)?),
             Some("l") => {
-                let point = |word| Ok(vertices[obj_text::vertex(word, vertices.len(), line, i + 1)? as usize]);
-                let points: Vec<Vec3> = words.map(point).collect::<Result<_>>()?;
-                if points.is_empty() {
+                let vertex = |word| obj_text::vertex(word, vertices.len(), line, i + 1);
+                if !lines.push(words.map(vertex), i + 1)? {
                     return Err(obj_text::refusal(line, i + 1, "a line has vertices"));
                 }
-                strands.push(points);
             }
             _ => {}
         }
     }
-    if strands.is_empty() {
+    if lines.is_empty() {
         return Err(Error::new("has no l elements: the file holds no strands"));
     }
+    let (joined, closed) = lines.joined(&vertices)?;
+    if joined.is_empty() {
+        return Err(Error::new("its l elements are closed lines, which no hair is: the file holds no strands"));
+    }
+    let mut strands = Strands::with_capacity(joined.len(), joined.iter().map(Vec::len).sum());
+    joined.iter().for_each(|strand| strands.push(strand.iter().map(|&v| vertices[v as usize])));
     finite::points(&strands)?;
-    Ok(strands.into())
+    let mut hair = Hair::from(strands);
+    if closed > 0 {
+        hair.attributes.unread.push(format!("{closed} closed lines, as no hair is"));
+    }
+    Ok(hair)
 }

@@ -235,11 +235,21 @@ pub(crate) fn of_head_size(
 }
 
 fn of_seat(seat: &Seat<'_>) -> Option<Advice> {
+    let astray = seat.astray();
+    if !astray.is_empty() {
+        let (keys, file) = (astray.join(" and "), seat.settings.file.display());
+        let seen = format!("{keys}: the hair is moved away from the head, which is from {file}, too; leave that out");
+        return Some(Advice { seen, settings: Vec::new() });
+    }
     let now = seat.lie();
     if now.is_good() {
         return None;
     }
     let seen = wrong(&now);
+    if seat.of_head {
+        let seen = format!("{seen}: so it lies in its file, which the head is from, too");
+        return Some(Advice { seen, settings: Vec::new() });
+    }
     let Some((Mended { facing, unit, origin }, then)) = seat.mended() else {
         // Beside an origin that is given no other facing is sought.
         let sought = if seat.has_origin() { "hair.unit" } else { "hair.facing, hair.unit" };

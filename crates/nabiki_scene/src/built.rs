@@ -3,6 +3,7 @@
 mod identity;
 mod load;
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::Vec3;
@@ -22,8 +23,8 @@ use nabiki_render::DrawnBody;
 use crate::advice::{Advice, advice};
 use crate::error::{Error, Result};
 use crate::memory;
-use crate::scene::{FieldBound, FieldParts, Scene};
-use crate::seat::Seat;
+use crate::scene::{FieldBound, FieldParts, HairSource, HeadSource, Scene};
+use crate::seat::{self, LikelyRoots, Seat};
 
 pub(crate) use load::{hair_placement, holds_scenes};
 
@@ -145,6 +146,16 @@ impl Scene {
         let FieldParts { field, mut bounds, .. } = load::load_field(self)?;
         bounds.push(FieldBound { name: "all".to_owned(), at_most: field.strongest() });
         Ok(bounds)
+    }
+
+    /// Whether the hair comes out of the file that the head comes from.
+    pub(crate) fn hair_is_of_head(&self) -> bool {
+        match (&self.head.source, &self.hair.source) {
+            (HeadSource::Imported(head), HairSource::Imported(hair)) => {
+                seat::is_one_file(&self.resolve(&head.file), &self.resolve(&hair.file))
+            }
+            _ => false,
+        }
     }
 
     /// Loads the head alone.
@@ -306,12 +317,15 @@ impl BuiltScene {
 
     /// Where imported hair sits.
     pub(crate) fn seat(&self) -> Option<Seat<'_>> {
+        let of_head = self.scene.hair_is_of_head();
         self.scene.hair.imported().map(|settings| Seat {
             head: &self.head,
             strands: &self.judged,
             settings,
             head_placement: &self.placement,
-            declared: self.hair_declared,
+            declared: seat::heeded(self.hair_declared, of_head),
+            of_head,
+            ends: LikelyRoots::default(),
         })
     }
 
@@ -335,6 +349,14 @@ impl BuiltScene {
         let (placement, report) = (self.hair_placement?, self.import_report?);
         let in_world = self.scene.head.motion.as_ref().is_some_and(|motion| !motion.start_at_origin);
         Some(Origin { placement, points: report.points_in_file as u64, groom: self.groom.clone(), in_world })
+    }
+
+    /// The hair at rest with its points in the order of its file, which may have strands tip first.
+    pub(crate) fn hair_in_source(&self) -> Cow<'_, Hair> {
+        match self.hair.attributes.tip_first {
+            Some(_) => Cow::Owned(self.hair.clone().as_in_source()),
+            None => Cow::Borrowed(&self.hair),
+        }
     }
 
     /// Number of frame 0 on the time line of the shot, from which exports go on: as the scene says, or else as the head's motion, or

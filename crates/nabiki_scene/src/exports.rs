@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use nabiki::{Pose, Strands};
+use nabiki::{Hair, Pose, Strands};
 use nabiki_exchange::FrameSink;
 use nabiki_io::cache::Origin;
 use nabiki_io::exchange;
@@ -11,6 +11,7 @@ use nabiki_render::colour;
 use crate::built::BuiltScene;
 use crate::error::{Error, Result};
 use crate::place;
+use crate::scene::HeadSource;
 use crate::watch::Watch;
 
 /// Which files of moving hair a task writes beside its other results.
@@ -20,7 +21,8 @@ pub struct ExportOptions {
     pub files: Vec<PathBuf>,
     /// Prim path of the groom over which samples alone are laid; `None` writes complete stages.
     pub layer: Option<String>,
-    /// Whether the head goes into .abc files too; Unreal then takes them for a mesh, not for a groom.
+    /// Whether the head goes into the files where it would be left out: the built-in one, which is large and everybody's, and any head
+    /// in .abc files, which Unreal then takes for a mesh, not for a groom.
     pub head: bool,
 }
 
@@ -35,8 +37,14 @@ impl ExportOptions {
                 "--export-layer {prim}: give the layer's file, too: --export FILE.usdc"
             )));
         }
-        if self.head && !self.files.iter().any(|file| exchange::is_alembic(file)) {
-            let line = "--export-head: puts the head into .abc files, and none is written; other files have it without";
+        if let (true, Some(prim)) = (self.head, &self.layer) {
+            return Err(Error::refused(format!(
+                "--export-head: a layer over {prim} holds samples of the hair alone; leave one of the two out"
+            )));
+        }
+        if self.head && self.files.is_empty() {
+            let line =
+                "--export-head: puts the head beside moving hair, and none is written: give --export FILE.usdc, too";
             return Err(Error::refused(line));
         }
         self.files.iter().try_for_each(|file| {
@@ -54,23 +62,31 @@ impl ExportOptions {
 pub(crate) struct Exports<'a> {
     sinks: Vec<(PathBuf, Box<dyn FrameSink + 'a>)>,
     origin: Option<Origin>,
+    /// Strands that the hair's file has tip first, and room for a frame with these turned back.
+    turned: Option<(&'a [bool], Strands)>,
     next: u32,
 }
 
 impl<'a> Exports<'a> {
-    /// Begins the files.
-    pub fn begin(options: &ExportOptions, built: &'a BuiltScene, watch: &mut dyn Watch) -> Result<Self> {
+    /// Begins the files. `hair`: that of the scene as its own file has it.
+    pub fn begin(
+        options: &ExportOptions,
+        built: &'a BuiltScene,
+        hair: &'a Hair,
+        watch: &mut dyn Watch,
+    ) -> Result<Self> {
         let mut sinks = Vec::new();
         for path in &options.files {
             let frame_rate = built.scene.frame_rate();
-            let mut export = exchange::export(&built.hair, frame_rate, built.hair_placement.as_ref());
+            let mut export = exchange::export(hair, frame_rate, built.hair_placement.as_ref());
             export.first_frame = built.first_frame();
             export.default_width = Some(built.scene.picture.hair.width);
             export.default_colour = Some(colour::of_mass(&built.scene.picture.hair));
-            export.head = (!exchange::is_alembic(path) || options.head).then_some(&built.head.mesh);
+            let own = built.scene.head.source != HeadSource::Builtin;
+            export.head = (options.head || own && !exchange::is_alembic(path)).then_some(&built.head.mesh);
             if let Some(prim) = &options.layer {
                 let in_file = built.import_report.map(|report| report.points_in_file as u64);
-                let used = built.hair.strands.points().len();
+                let used = hair.strands.points().len();
                 let fits = |in_file| exchange::check_layer(in_file, used).map_err(|e| e.in_file(path));
                 fits(in_file)?;
                 if let Some(groom) = &built.groom {
@@ -84,11 +100,13 @@ impl<'a> Exports<'a> {
             let bytes = exchange::least_bytes(path, &export, u64::from(built.frames()) + 1, options.layer.is_some());
             place::room(path, bytes, watch)?;
             if options.layer.is_none() {
-                super::tasks::lost(path, exchange::losses(path, &built.hair), watch);
+                super::tasks::lost(path, exchange::losses(path, hair), watch);
             }
             sinks.push((path.clone(), exchange::sink(path, export, options.layer.as_deref())?));
         }
-        Ok(Self { sinks, origin: built.hair_origin(), next: 0 })
+        let turned = built.hair.attributes.tip_first.as_deref().filter(|_| !sinks.is_empty());
+        let turned = turned.map(|turned| (turned, built.hair.strands.clone()));
+        Ok(Self { sinks, origin: built.hair_origin(), turned, next: 0 })
     }
 
     /// Passes on frame `n`, unless it has been passed on before.
@@ -98,6 +116,14 @@ impl<'a> Exports<'a> {
         }
         self.next += 1;
         let world_from_head = Origin::world_from_head(self.origin.as_ref(), pose);
+        let strands = match &mut self.turned {
+            Some((tip_first, room)) => {
+                room.points_mut().copy_from_slice(strands.points());
+                room.turn(tip_first);
+                room
+            }
+            None => strands,
+        };
         for (path, sink) in &mut self.sinks {
             sink.frame(strands, &world_from_head).map_err(|e| named(e, path))?;
         }

@@ -40,7 +40,7 @@ pub use error::{Problem, SceneError};
 pub use field::{FieldBound, FieldSettings, OwnField};
 pub(crate) use field::{FieldParts, FieldPlace};
 pub use free::{BodySettings, FormChoice, FreeSettings, Gravity};
-pub use hair::{GrownHair, HairSettings, HairSource, ImportedHair};
+pub use hair::{GrownHair, HairSettings, HairSource, ImportedHair, RootEnd};
 pub use head::{EllipsoidChoice, HeadSettings, HeadSource, ImportedHead};
 pub use output::{Output, check_first_frame};
 

@@ -4,13 +4,16 @@
 //! the file, the head, the axes and the unit alone; a facing is sought only where no origin is given. So what is advised, once
 //! followed, is not advised away.
 
+use std::path::Path;
+
 use glam::{Mat3, Vec3};
 use nabiki::{Ellipsoid, Hair, Head, Strands};
 use nabiki_exchange::InPlace;
 use nabiki_io::{Axis, DeclaredSpace, Placement, Unit};
 
 use crate::built::hair_placement;
-use crate::scene::ImportedHair;
+use crate::root_ends;
+use crate::scene::{ImportedHair, RootEnd};
 use crate::size::{decimal, mean_half_axis, middle, spread, unit_for};
 
 /// Roots whose median lies farther than this from the skin do not grow on it (share of the mean half axis).
@@ -19,6 +22,9 @@ const AFLOAT: f32 = 0.15;
 /// Hair of which more than this share of the points is inside the head was made for another. (Hair that fits has 0.2 to
 /// 1.5 %, as its lowest layers meet a skin between whose vertices they were modelled.)
 const INSIDE: f32 = 0.05;
+
+/// Roots whose median lies nearer to the skin than this grow on it (share of the mean half axis).
+const FITS: f32 = 0.02;
 
 /// Strands of a file by which it is judged.
 const JUDGED: usize = 600;
@@ -78,6 +84,16 @@ pub(crate) struct Mended {
     pub origin: Option<Vec3>,
 }
 
+/// What hair goes by that its file says of its space: of the head's own file, nothing but what the head has.
+pub(crate) fn heeded(declared: DeclaredSpace, of_head: bool) -> DeclaredSpace {
+    if of_head { DeclaredSpace::default() } else { declared }
+}
+
+/// Whether two names are of one file.
+pub(crate) fn is_one_file(a: &Path, b: &Path) -> bool {
+    a == b || a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b)
+}
+
 /// An even choice of a file's strands, as they are in its world.
 pub(crate) fn judged(read: &InPlace) -> Strands {
     let all = &read.hair.strands;
@@ -94,8 +110,24 @@ pub(crate) struct Seat<'a> {
     /// What the scene says of the file.
     pub settings: &'a ImportedHair,
     pub head_placement: &'a Placement,
-    /// What the file says itself.
+    /// What the file says itself; nothing where it is the head's as well, whose place it has then.
     pub declared: DeclaredSpace,
+    /// Whether it is the head's file as well.
+    pub of_head: bool,
+    /// Which of the strands' ends lie on the skin, where it is not known yet how the file lies.
+    pub ends: LikelyRoots,
+}
+
+/// Ends of strands among which roots are.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) enum LikelyRoots {
+    /// The first of each.
+    #[default]
+    First,
+    /// The last of each.
+    Last,
+    /// One of the two.
+    Either,
 }
 
 impl Seat<'_> {
@@ -104,17 +136,43 @@ impl Seat<'_> {
         self.lie_at(&self.placement(&Mended::default()))
     }
 
+    /// Settings by which hair of the head's own file has another place there than the head.
+    pub fn astray(&self) -> Vec<&'static str> {
+        if !self.of_head || self.placement(&Mended::default()) == *self.head_placement {
+            return Vec::new();
+        }
+        let ImportedHair { unit, up, facing, origin, .. } = self.settings;
+        let given = [
+            (unit.is_some(), "hair.unit"),
+            (up.is_some(), "hair.up"),
+            (facing.is_some(), "hair.facing"),
+            (origin.is_some(), "hair.origin"),
+        ];
+        given.into_iter().filter(|(given, _)| *given).map(|(_, key)| key).collect()
+    }
+
     /// Whether the scene gives the place of the head in the file.
     pub fn has_origin(&self) -> bool {
         self.settings.origin.is_some()
     }
 
-    /// What would make it lie clearly better, and how it would lie then.
+    /// What would make it lie clearly better, and how it would lie then. Hair of the head's own file is where it is.
     pub fn mended(&self) -> Option<(Mended, Lie)> {
         let now = self.lie();
-        if now.is_good() {
+        if now.is_good() || self.of_head {
             return None;
         }
+        let best = self.mended_from(now);
+        if self.settings.root != RootEnd::Skin || best.as_ref().is_some_and(|(_, then)| then.is_good()) {
+            return best;
+        }
+        // Its file may have them tip first.
+        let others = [LikelyRoots::Last, LikelyRoots::Either].into_iter();
+        let mut others = others.filter_map(|ends| Seat { ends, ..*self }.mended_from(now));
+        others.find(|(_, then)| then.is_good()).or(best)
+    }
+
+    fn mended_from(&self, now: Lie) -> Option<(Mended, Lie)> {
         let mended = self.turned(&now).unwrap_or_else(|| self.best());
         let then = self.lie_at(&self.placement(&mended));
         if !then.is_good()
@@ -155,13 +213,24 @@ impl Seat<'_> {
 
     fn lie_at(&self, placement: &Placement) -> Lie {
         let place = placement.head_from_file();
+        let tip_first = match self.settings.root {
+            RootEnd::Skin => root_ends::tip_first(self.strands, self.head, placement).unwrap_or_default(),
+            RootEnd::First => Vec::new(),
+            RootEnd::Last => vec![true; self.strands.len()],
+        };
+        // The root of each strand, and its other points.
+        let parted = self.strands.iter().enumerate().map(|(s, strand)| match tip_first.get(s) {
+            Some(true) => (strand[strand.len() - 1], &strand[..strand.len() - 1]),
+            _ => (strand[0], &strand[1..]),
+        });
+        let parted: Vec<(Vec3, &[Vec3])> = parted.collect();
         let mut off: Vec<f32> =
-            self.strands.iter().map(|s| self.head.distance(place.transform_point3(s[0])).abs()).collect();
+            parted.iter().map(|(root, _)| self.head.distance(place.transform_point3(*root)).abs()).collect();
         off.sort_by(f32::total_cmp);
         let off = off.get(off.len() / 2).copied().unwrap_or(0.0);
         let mut points = 0;
         let (mut inside, mut depth) = (0, 0.0_f32);
-        for &p in self.strands.iter().flat_map(|strand| &strand[1..]) {
+        for &p in parted.iter().flat_map(|(_, others)| *others) {
             let deep = self.head.depth(place.transform_point3(p));
             points += 1;
             inside += usize::from(deep > 0.0);
@@ -186,9 +255,11 @@ impl Seat<'_> {
         let turned = || around.clone().map(|axis| Mended { facing: Some(axis), ..Mended::default() });
         // Hair is about as long to all sides: what is little better may be so by chance.
         let least = 0.5 * if now.on_skin { now.inside.min(as_it_faces.inside) } else { as_it_faces.inside };
+        // Hair that was but moved aside fits its head as it faces, whatever share of it lies inside.
+        let off = as_it_faces.off.max(FITS * mean_half_axis(&self.head.ellipsoid));
         let lies_well = |mended: &Mended| {
             let lie = self.lie_at(&self.placement(mended));
-            lie.is_good() && lie.inside < least
+            lie.is_good() && lie.inside < least && lie.off <= off
         };
         turned().find(lies_well).or_else(|| turned().map(|mended| self.moved(mended)).find(lies_well))
     }
@@ -222,7 +293,16 @@ impl Seat<'_> {
     }
 
     fn roots(&self) -> Vec<Vec3> {
-        self.strands.iter().map(|strand| strand[0]).collect()
+        let last = |strand: &[Vec3]| strand[strand.len() - 1];
+        match (self.settings.root, self.ends) {
+            (RootEnd::Last, _) | (RootEnd::Skin, LikelyRoots::Last) => self.strands.iter().map(last).collect(),
+            (RootEnd::First, _) | (RootEnd::Skin, LikelyRoots::First) => {
+                self.strands.iter().map(|strand| strand[0]).collect()
+            }
+            (RootEnd::Skin, LikelyRoots::Either) => {
+                self.strands.iter().flat_map(|strand| [strand[0], last(strand)]).collect()
+            }
+        }
     }
 
     /// The point of the file to put at the origin, so that the roots come as near to the skin as they can: the least sum of

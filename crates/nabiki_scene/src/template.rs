@@ -8,7 +8,7 @@ use nabiki_io::{Axis, DeclaredSpace, Error, GroomFile, Placement, Result, Unit, 
 
 use crate::built::holds_scenes;
 use crate::scene::ImportedHair;
-use crate::seat::{self, Mended, Seat, centimetres};
+use crate::seat::{self, LikelyRoots, Mended, Seat, centimetres};
 use crate::size::{HALF_AXIS, decimal, mean_half_axis, middle, named_unit, spread, vector};
 
 /// A scene to begin with.
@@ -29,21 +29,23 @@ pub fn template(scene: &Path, head: Option<&Path>, groups: &[String], hair: Opti
     let mut guesses = Vec::new();
     let (strands, shot) = hair.map(strands_of).transpose()?.unzip();
     let shot = shot.unwrap_or_default();
-    let roots: Option<Vec<Vec3>> = strands.as_ref().map(|strands| strands.iter().map(|strand| strand[0]).collect());
     let (of_head, head_text) = match head {
         None => (
             None,
             "[head]\nmesh = \"builtin:bust\"      # or a .obj, .glb, .ply, USD layer or Alembic archive\n".to_owned(),
         ),
         Some(file) => {
-            let found = look_at_head(file, groups, roots.as_deref())?;
+            let found = look_at_head(file, groups, strands.as_ref())?;
             guesses.extend(found.guesses.iter().cloned());
             let text = found.text(scene, file)?;
             (Some(found), text)
         }
     };
     let hair_text = match (hair, &strands) {
-        (Some(file), Some(strands)) => imported_hair(scene, file, strands, of_head.as_ref(), &mut guesses)?,
+        (Some(file), Some(strands)) => {
+            let of_head = of_head.as_ref().zip(head).map(|(found, head)| (found, seat::is_one_file(head, file)));
+            imported_hair(scene, file, strands, of_head, &mut guesses)?
+        }
         _ => GROWN.to_owned(),
     };
     let rest = REST.replace("{frames}", &shot.frames.to_string());
@@ -169,12 +171,13 @@ impl Looked {
     }
 }
 
-fn look_at_head(file: &Path, groups: &[String], roots: Option<&[Vec3]>) -> Result<Looked> {
+fn look_at_head(file: &Path, groups: &[String], strands: Option<&Strands>) -> Result<Looked> {
     let declared = declared_space(file)?;
     let mut guesses = Vec::new();
     let Chosen { mesh, groups, up, skull } = chosen(file, groups, &declared, &mut guesses)?;
     // Hair of another head, or in another unit, says nothing of this one.
-    let roots = roots.filter(|roots| grow_on(roots, &mesh));
+    let roots = strands.map(|strands| likely_roots(strands, &mesh)).filter(|roots| grow_on(roots, &mesh));
+    let roots = roots.as_deref();
     let front = front_of(up);
     let as_is = Placement { unit: Unit { cm: 1.0 }, up, facing: front, origin: Vec3::ZERO };
     let facing = roots.and_then(|roots| facing_of(roots, &mesh, &as_is)).unwrap_or(front);
@@ -304,16 +307,42 @@ fn by_height(mesh: &Mesh, up: Axis) -> (String, String) {
     }
 }
 
-/// Whether roots lie on a mesh: half of them nearer to one of its vertices than a part of how far they spread.
+/// Roots by which it is judged whether they lie on a mesh.
+const JUDGED: usize = 100;
+
+/// Whether roots lie on a mesh: half of them near one of its vertices.
 fn grow_on(roots: &[Vec3], mesh: &Mesh) -> bool {
-    // A coarse mesh has vertices a tenth of a scalp apart, and its roots lie between them.
-    const NEAR: f32 = 0.15;
-    const JUDGED: usize = 100;
     let step = roots.len().div_ceil(JUDGED).max(1);
-    let near = (NEAR * spread(roots)).powi(2);
     let judged: Vec<Vec3> = roots.iter().copied().step_by(step).collect();
-    let on = judged.iter().filter(|root| mesh.positions.iter().any(|p| p.distance_squared(**root) <= near)).count();
-    2 * on >= judged.len()
+    let within = near(roots);
+    2 * judged.iter().filter(|root| is_near(**root, mesh, within)).count() >= judged.len()
+}
+
+/// The first points of strands, or some of their roots, where many have the last point and not the first on the mesh.
+fn likely_roots(strands: &Strands, mesh: &Mesh) -> Vec<Vec3> {
+    // Fewer may lie on the skin with their tips, as on a shoulder.
+    const MANY: f32 = 0.2;
+    let firsts: Vec<Vec3> = strands.iter().map(|strand| strand[0]).collect();
+    let within = near(&firsts);
+    let judged = strands.iter().step_by(strands.len().div_ceil(JUDGED).max(1));
+    let root = |strand: &[Vec3]| {
+        let (first, last) = (strand[0], strand[strand.len() - 1]);
+        let tip_first = !is_near(first, mesh, within) && is_near(last, mesh, within);
+        (if tip_first { last } else { first }, tip_first)
+    };
+    let (roots, tip_first): (Vec<Vec3>, Vec<bool>) = judged.map(root).unzip();
+    let count = tip_first.iter().filter(|&&tip_first| tip_first).count();
+    if count as f32 >= MANY * roots.len() as f32 && count > 0 { roots } else { firsts }
+}
+
+/// How near to a vertex what is on a mesh lies, by how far roots spread: a coarse mesh has vertices a tenth of a scalp apart, and its
+/// roots lie between them.
+fn near(roots: &[Vec3]) -> f32 {
+    0.15 * spread(roots)
+}
+
+fn is_near(place: Vec3, mesh: &Mesh, within: f32) -> bool {
+    mesh.positions.iter().any(|p| p.distance_squared(place) <= within * within)
 }
 
 /// The axis along which a mesh that does not say it stands: z where it is clearly taller that way, else y.
@@ -383,26 +412,30 @@ fn strands_of(file: &Path) -> Result<(Strands, Shot)> {
     Ok((strands, Shot { frames, rate: opened.frame_rate()? }))
 }
 
+/// `head`: that of the scene, where it is no built-in one, and whether it is of the same file.
 fn imported_hair(
     scene: &Path,
     file: &Path,
     strands: &Strands,
-    head: Option<&Looked>,
+    head: Option<(&Looked, bool)>,
     guesses: &mut Vec<String>,
 ) -> Result<String> {
-    let declared = declared_space(file)?;
+    let of_head = head.is_some_and(|(_, same)| same);
+    let declared = seat::heeded(declared_space(file)?, of_head);
     let mut text = format!("[hair]\nfile = {}\n", quoted(scene, file)?);
     let mut settings = ImportedHair { file: file.to_owned(), ..ImportedHair::default() };
     let built_in;
     let (skin, head_placement) = match head {
-        Some(looked) => (&looked.head, looked.placement),
+        Some((looked, _)) => (&looked.head, looked.placement),
         None => {
             built_in = Head::builtin();
             (&built_in, Placement::default())
         }
     };
     settings.facing = head.is_none().then(|| front_of(declared.up.unwrap_or(head_placement.up)));
-    let seat = Seat { head: skin, strands, settings: &settings, head_placement: &head_placement, declared };
+    let ends = LikelyRoots::default();
+    let seat =
+        Seat { head: skin, strands, settings: &settings, head_placement: &head_placement, declared, of_head, ends };
     let (Mended { facing, unit, origin }, on_skin) =
         seat.mended().map_or((Mended::default(), true), |(mended, then)| (mended, then.on_skin));
     let how = if facing.is_some() { "in which the hair lies on the head" } else { "as most files have it" };

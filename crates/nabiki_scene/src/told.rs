@@ -235,8 +235,8 @@ impl fmt::Display for SceneSummary {
                     self.frames_in_file
                 )?;
             }
-            if let Some(warning) = import.warning() {
-                write!(f, "\n          {warning}")?;
+            for line in import.turned().into_iter().chain(import.warning()) {
+                write!(f, "\n          {line}")?;
             }
         }
         Ok(())

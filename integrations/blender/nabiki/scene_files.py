@@ -66,7 +66,8 @@ def write(sample, plain, folder, apart=()):
     settings = {"head": {"mesh": named(head, f'the head "{sample.head.name}"'), **space}}
     if sample.head.moves():
         settings["head"]["motion"] = track(sample.head, folder / "head.csv")
-    settings["hair"] = {"file": named(hair, "the hair"), "join_within": 0.0, **space}
+    # Frames come back in the order of Blender's points, whichever end lies on the skin.
+    settings["hair"] = {"file": named(hair, "the hair"), "root": "first", "join_within": 0.0, **space}
     bodies = []
     for number, body in enumerate(sample.bodies):
         file = folder / f"body_{number}.ply"

@@ -22,6 +22,7 @@ impl Attributes {
             && both(&mut self.root_uv, further.root_uv)
             && both(&mut self.group, further.group)
             && both(&mut self.guide, further.guide)
+            && both(&mut self.tip_first, further.tip_first)
             && both(&mut self.width, further.width)
             && both(&mut self.colour, further.colour)
             && both(&mut self.transparency, further.transparency)
@@ -70,6 +71,7 @@ mod tests {
                 .map(|(g, n)| (g, n.into()))
                 .into(),
             guide: Some(vec![true, false, true, false, false]),
+            tip_first: Some(vec![false, true, true, false, true]),
             width: Some((0..points).map(number).collect()),
             colour: Some((0..points).map(|i| [number(i); 3]).collect()),
             transparency: Some((0..points).map(number).collect()),

@@ -33,6 +33,9 @@ pub(super) fn write(out: &mut Vec<u8>, a: &Attributes) -> Result<()> {
     block(out, b"group   ", a.group.as_deref())?;
     let guide: Option<Vec<u8>> = a.guide.as_ref().map(|guide| guide.iter().map(|&g| u8::from(g)).collect());
     block(out, b"guide   ", guide.as_deref())?;
+    let tip_first: Option<Vec<u8>> =
+        a.tip_first.as_ref().map(|all| all.iter().map(|&turned| u8::from(turned)).collect());
+    block(out, b"tipfirst", tip_first.as_deref())?;
     block(out, b"width   ", a.width.as_deref())?;
     block(out, b"color   ", a.colour.as_deref())?;
     block(out, b"transpar", a.transparency.as_deref())?;
@@ -102,6 +105,7 @@ pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, end: u64, counts: Coun
             b"root_uv " => a.root_uv = Some(finite::tuples(&name, block.values(strands)?)?),
             b"group   " => a.group = Some(block.values(strands)?),
             b"guide   " => a.guide = Some(block.values::<u8>(strands)?.iter().map(|&g| g != 0).collect()),
+            b"tipfirst" => a.tip_first = Some(block.values::<u8>(strands)?.iter().map(|&turned| turned != 0).collect()),
             b"width   " => a.width = Some(finite::widths(&name, block.values(points)?)?),
             b"color   " => a.colour = Some(finite::tuples(&name, block.values(points)?)?),
             b"transpar" => a.transparency = Some(finite::values(&name, block.values(points)?)?),

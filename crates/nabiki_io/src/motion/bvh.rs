@@ -62,7 +62,8 @@ fn motion(words: &mut Words<'_>, joints: &[Joint], columns: usize, chain: &[usiz
     let rate = rate(frame_time);
     let mut row = vec![0.0; columns];
     let mut frame = 0;
-    while (frame as f64) < frames {
+    // As many rows as there are, whatever number of them is declared: programs that cut a motion forget to change it.
+    while !words.is_at_end() {
         for (column, value) in row.iter_mut().enumerate() {
             let in_channel = |e: Error| e.under(format!("frame {frame} of {frames}, {}", channel_of(joints, column)));
             *value = words.number("its value").map_err(in_channel)?;
@@ -70,6 +71,12 @@ fn motion(words: &mut Words<'_>, joints: &[Joint], columns: usize, chain: &[usiz
         track.times.push(frame as f64 / rate);
         track.samples.push(pose(joints, chain, &row));
         frame += 1;
+    }
+    if frame == 0 {
+        return Err(Error::new(format!("declares {frames} frames and has none: is it whole?")));
+    }
+    if frame as f64 != frames {
+        track.unlike = Some(format!("the {frame} frames that are there, of {frames} declared"));
     }
     Ok(track)
 }
@@ -111,9 +118,10 @@ fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize)> {
     loop {
         let word = words.next("MOTION")?;
         let current = open.last().copied().flatten();
-        match word {
-            "ROOT" | "JOINT" => {
-                if word == "JOINT" && current.is_none() {
+        // Programs differ in their capitals.
+        match &*word.to_ascii_uppercase() {
+            kind @ ("ROOT" | "JOINT") => {
+                if kind == "JOINT" && current.is_none() {
                     return Err(words.refusal(word, "a joint hangs below another; the first is a ROOT"));
                 }
                 let name = words.line_before('{', "a joint's name")?.to_owned();
@@ -123,7 +131,7 @@ fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize)> {
                 let parent = current;
                 joints.push(Joint { name, parent, offset: DVec3::ZERO, channels: Vec::new(), first_column });
             }
-            "End" => {
+            "END" => {
                 words.expect("Site")?;
                 words.expect("{")?;
                 open.push(None);
@@ -155,7 +163,7 @@ fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize)> {
                 columns += joints[j].channels.len();
             }
             "MOTION" if open.is_empty() => return Ok((joints, columns)),
-            other => return Err(words.refusal(other, "not a word of a hierarchy")),
+            _ => return Err(words.refusal(word, "not a word of a hierarchy")),
         }
     }
 }

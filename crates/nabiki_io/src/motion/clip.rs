@@ -5,15 +5,16 @@
 //! still pose, the one the file has without its animation, since a bone's own axes seldom lie along the world's.
 
 use glam::{DAffine3, DMat4, DQuat, DVec3, DVec4};
-use gltf::animation::{Interpolation, Property, util::ReadOutputs};
+use gltf::animation::{Interpolation, Property};
 
 use super::joints::Tree;
 use super::source::MotionSource;
 use super::track::{Sample, hermite};
-use super::world::{HeadMotion, WorldFromFile, frame_count, poses};
+use super::world::{HeadMotion, WorldFromFile, frame_count, pose_of, poses};
 use crate::axis::Axis;
 use crate::error::{Error, Result};
-use crate::gltf_file;
+use crate::gltf_file::accessors::{Whole, numbers};
+use crate::gltf_file::{self, pose};
 
 /// Reads the poses of `source.node` in `source.clip` out of the file's bytes.
 pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) -> Result<HeadMotion> {
@@ -36,43 +37,46 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
     let mut curves: Vec<Curves> = chain.iter().map(still).collect();
     let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
     for channel in animation.channels() {
-        check_accessors(&channel, &buffers)?;
-        let reader = channel.reader(|buffer| buffers.get(buffer.index()).map(Vec::as_slice));
-        let times: Vec<f64> =
-            reader.read_inputs().ok_or_else(|| Error::new("an animation without times"))?.map(f64::from).collect();
         let node = channel.target().node();
         let name = node.name().unwrap_or("without a name");
+        let sampler = channel.sampler();
+        let times = numbers::<1>(&sampler.input(), &buffers, Whole::AsSaid, "times")?;
+        let times: Vec<f64> = times.into_iter().map(|[t]| f64::from(t)).collect();
         if times.is_empty() || !times.iter().all(|t| t.is_finite()) || times.windows(2).any(|w| w[0] >= w[1]) {
             return Err(Error::new(format!("clip of node {name}: its times must grow and be finite")));
         }
         start = start.min(times[0]);
         end = end.max(times[times.len() - 1]);
         let Some(place) = chain.iter().position(|n| n.index() == node.index()) else { continue };
-        let interpolation = channel.sampler().interpolation();
-        let curve = |values: Vec<DVec4>| Curve::new(times.clone(), values, interpolation, name);
-        let wide = |v: [f32; 3]| DVec3::from(v.map(f64::from)).extend(0.0);
-        match reader.read_outputs().ok_or_else(|| Error::new("an animation without values"))? {
-            ReadOutputs::Translations(v) => curves[place].translation = curve(v.map(wide).collect())?,
-            ReadOutputs::Scales(v) => curves[place].scale = curve(v.map(wide).collect())?,
-            ReadOutputs::Rotations(v) => {
-                let values = v.into_f32().map(|q| DVec4::from(q.map(f64::from))).collect();
-                curves[place].rotation = curve(values)?;
+        let curve = |values: Vec<DVec4>| Curve::new(times.clone(), values, sampler.interpolation(), name);
+        let triples = |what| -> Result<Vec<DVec4>> {
+            let values = numbers::<3>(&sampler.output(), &buffers, Whole::Shares, what)?;
+            Ok(values.into_iter().map(|v| DVec3::from(v.map(f64::from)).extend(0.0)).collect())
+        };
+        match channel.target().property() {
+            Property::Translation => curves[place].translation = curve(triples("translations")?)?,
+            Property::Scale => curves[place].scale = curve(triples("scales")?)?,
+            Property::Rotation => {
+                let values = numbers::<4>(&sampler.output(), &buffers, Whole::Shares, "rotations")?;
+                curves[place].rotation = curve(values.into_iter().map(|q| DVec4::from(q.map(f64::from))).collect())?;
             }
-            ReadOutputs::MorphTargetWeights(_) => {}
+            Property::MorphTargetWeights => {}
         }
     }
     if start > end {
         return Err(Error::new(format!("clip \"{}\" has no channel", animation.name().unwrap_or_default())));
     }
-    let still_pose = world(chain.iter().map(|node| matrix(node.transform())), &source.node)?;
+    let (still_pose, _) = world(chain.iter().map(|node| matrix(node.transform())), &source.node)?;
     let (up, facing) = (source.up.unwrap_or(Axis::PlusY), source.facing.unwrap_or(Axis::PlusZ));
     let unit_cm = source.unit_cm.unwrap_or(100.0);
     let world_from_file = WorldFromFile::new(Some(unit_cm), Some(up), Some(facing))?;
     let frames = frame_count(end - start, frame_rate / source.speed)?;
     let mut samples = Vec::with_capacity(frames.min(1 << 16));
+    let (mut first_scale, mut grows) = (None, false);
     for n in 0..frames {
         let time = start + n as f64 / (frame_rate / source.speed);
-        let pose = world(curves.iter().map(|c| c.matrix_at(time)), &source.node)?;
+        let (pose, scale) = world(curves.iter().map(|c| c.matrix_at(time)), &source.node)?;
+        grows |= !(scale / *first_scale.get_or_insert(scale)).abs_diff_eq(DVec3::ONE, SAME_SCALE);
         samples.push(Sample {
             position: pose.position,
             rotation: (pose.rotation * still_pose.rotation.inverse()).normalize(),
@@ -80,28 +84,25 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
     }
     let report = format!(
         "{}: clip {}, node {}, {:.3} s -> {frames} frames at {frame_rate} Hz{} (evaluated at the frames; unit {unit_cm} cm, \
-         up {up}, face {facing})",
+         up {up}, face {facing}){}",
         source.file.display(),
         animation.name().unwrap_or("without a name"),
         source.node,
         end - start,
         source.changes(),
+        if grows { "; not obeyed: its scale, which changes" } else { "" },
     );
     let poses = poses(&world_from_file, samples.into_iter(), source)?;
-    Ok(HeadMotion { frame_rate, poses, bound: None, first_frame: None, report })
+    // Meshes stand in the still pose, from which turns are counted.
+    let unturned = Sample { rotation: DQuat::IDENTITY, ..still_pose };
+    let bound = Some(pose_of(world_from_file.pose(unturned)));
+    Ok(HeadMotion { frame_rate, poses, bound, first_frame: None, report })
 }
 
 /// The nodes from the scene's root down to the one named.
-fn chain<'a>(document: &'a gltf::Document, name: &str) -> Result<Vec<gltf::Node<'a>>> {
+pub(super) fn chain<'a>(document: &'a gltf::Document, name: &str) -> Result<Vec<gltf::Node<'a>>> {
     let nodes: Vec<gltf::Node<'a>> = document.nodes().collect();
-    let mut parents = vec![None; nodes.len()];
-    for node in &nodes {
-        for child in node.children() {
-            if parents[child.index()].replace(node.index()).is_some() {
-                return Err(Error::new(format!("node {} hangs below two others", child.index())));
-            }
-        }
-    }
+    let parents = pose::parents(document)?;
     let names = nodes.iter().map(|node| node.name()).collect();
     let chain = Tree { kind: "node", names, parents }.chain(name)?;
     Ok(chain.into_iter().map(|node| nodes[node].clone()).collect())
@@ -124,48 +125,6 @@ fn animation<'a>(document: &'a gltf::Document, clip: &str) -> Result<gltf::Anima
             _ => Err(Error::new(format!("clip \"{clip}\": several have that name; rename all but one in the file"))),
         }
     }
-}
-
-/// Refuses accessors that reach past their buffers, which the reader itself would meet with a panic, and those of
-/// another shape than what the channel moves, which it would read askew.
-fn check_accessors(channel: &gltf::animation::Channel<'_>, buffers: &[Vec<u8>]) -> Result<()> {
-    let sampler = channel.sampler();
-    for accessor in [sampler.input(), sampler.output()] {
-        let problem = |what: &str| Error::new(format!("accessor {}: {what}", accessor.index()));
-        if accessor.sparse().is_some() {
-            return Err(problem("sparse animation data is not read"));
-        }
-        let view = accessor.view().ok_or_else(|| problem("without a view of a buffer"))?;
-        let size = accessor.size() as u128;
-        let stride = view.stride().map_or(size, |s| s as u128);
-        let used = match accessor.count() as u128 {
-            0 => return Err(problem("is empty")),
-            n => accessor.offset() as u128 + stride * (n - 1) + size,
-        };
-        let held = buffers.get(view.buffer().index()).map_or(0, |b| b.len() as u128);
-        if stride < size || used > view.length() as u128 || view.offset() as u128 + view.length() as u128 > held {
-            return Err(problem("reaches past the end of its buffer: is the file whole?"));
-        }
-    }
-    use gltf::accessor::{DataType, Dimensions};
-    let input = sampler.input();
-    if (input.data_type(), input.dimensions()) != (DataType::F32, Dimensions::Scalar) {
-        return Err(Error::new(format!("accessor {}: times must be 32-bit floats", input.index())));
-    }
-    let (output, moved) = (sampler.output(), channel.target().property());
-    let whole = matches!(output.data_type(), DataType::I8 | DataType::U8 | DataType::I16 | DataType::U16);
-    let fits = match (moved, output.dimensions()) {
-        (Property::Translation | Property::Scale, Dimensions::Vec3) => output.data_type() == DataType::F32,
-        (Property::Rotation, Dimensions::Vec4) | (Property::MorphTargetWeights, Dimensions::Scalar) => {
-            output.data_type() == DataType::F32 || whole
-        }
-        _ => false,
-    };
-    if fits {
-        return Ok(());
-    }
-    let (kind, shape) = (output.data_type(), output.dimensions());
-    Err(Error::new(format!("accessor {}: {kind:?} {shape:?} is not a {moved:?}", output.index())))
 }
 
 /// What moves one node; a curve without times holds its one value.
@@ -212,16 +171,19 @@ impl Curves {
     }
 }
 
-/// Position and rotation of the product of `matrices`, root first.
-fn world(matrices: impl Iterator<Item = DMat4>, name: &str) -> Result<Sample> {
+/// Scales that differ by less than this part are one scale.
+const SAME_SCALE: f64 = 1e-3;
+
+/// Position and rotation of the product of `matrices`, root first, and its scale.
+fn world(matrices: impl Iterator<Item = DMat4>, name: &str) -> Result<(Sample, DVec3)> {
     let product = matrices.fold(DMat4::IDENTITY, |product, m| product * m);
     let affine = DAffine3::from_mat4(product);
     let volume = affine.matrix3.determinant();
     if !(product.is_finite() && volume.is_finite() && volume.abs() > 0.0) {
         return Err(Error::new(format!("node {name}: its transform is not finite or flattens space")));
     }
-    let (_, rotation, position) = affine.to_scale_rotation_translation();
-    Ok(Sample { position, rotation })
+    let (scale, rotation, position) = affine.to_scale_rotation_translation();
+    Ok((Sample { position, rotation }, scale))
 }
 
 /// Values over time; CUBICSPLINE keeps in-tangent, value and out-tangent for each time.

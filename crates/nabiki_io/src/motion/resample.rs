@@ -45,7 +45,7 @@ impl Track {
         let shot = shot.map_or_else(String::new, |first| format!(" from frame {first} of the shot on"));
         let report = format!(
             "{}: {}, {} samples at {} Hz ({:.3} s) -> {} frames at {} Hz{shot}{} (positions {}, rotations slerp; unit {} cm, \
-             up {}, face {}){}",
+             up {}, face {}){}{}",
             source.file.display(),
             self.what,
             self.times.len(),
@@ -62,6 +62,7 @@ impl Track {
             world_from_file.up,
             world_from_file.facing,
             self.left_out.map_or_else(String::new, |what| format!("; not obeyed: {what}")),
+            self.unlike.as_ref().map_or_else(String::new, |unlike| format!("; {unlike}")),
         );
         Ok(HeadMotion { frame_rate, poses, bound, first_frame, report })
     }

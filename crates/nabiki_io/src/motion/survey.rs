@@ -24,6 +24,9 @@ pub struct MotionInfo {
     pub joints: Vec<String>,
     /// Centimetres in the file's unit, where it says so.
     pub unit_cm: Option<f64>,
+    /// How many frames are there where the file declares another number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unlike: Option<String>,
     /// Settings of `head.motion` that the file leaves for the scene to give.
     pub asked: Vec<&'static str>,
 }
@@ -54,7 +57,8 @@ pub fn survey(file: &Path) -> Result<MotionInfo> {
 
 fn of_track(track: &Track, joints: Vec<String>, asked: Vec<&'static str>) -> MotionInfo {
     let duration = track.times.last().zip(track.times.first()).map_or(0.0, |(last, first)| last - first);
-    MotionInfo { samples: track.samples.len(), duration: Some(duration), joints, unit_cm: track.unit_cm, asked }
+    let unlike = track.unlike.clone();
+    MotionInfo { samples: track.samples.len(), duration: Some(duration), joints, unit_cm: track.unit_cm, unlike, asked }
 }
 
 fn amc(text: &str) -> Result<MotionInfo> {
@@ -64,13 +68,20 @@ fn amc(text: &str) -> Result<MotionInfo> {
         asked.push("frames_per_second");
     }
     let duration = outline.rate.map(|rate| (outline.frames - 1) as f64 / rate);
-    Ok(MotionInfo { samples: outline.frames, duration, joints: outline.names, unit_cm: None, asked })
+    Ok(MotionInfo { samples: outline.frames, duration, joints: outline.names, unit_cm: None, unlike: None, asked })
 }
 
 fn asf(text: &str) -> Result<MotionInfo> {
     let skeleton = acclaim::Skeleton::read(text)?;
     let asked = if skeleton.unit_cm.is_some() { vec!["up", "facing"] } else { vec!["unit_cm", "up", "facing"] };
-    Ok(MotionInfo { samples: 0, duration: None, joints: skeleton.names(), unit_cm: skeleton.unit_cm, asked })
+    Ok(MotionInfo {
+        samples: 0,
+        duration: None,
+        joints: skeleton.names(),
+        unit_cm: skeleton.unit_cm,
+        unlike: None,
+        asked,
+    })
 }
 
 /// The animation in a .tof, or else the skeleton.
@@ -78,13 +89,13 @@ fn object_stream(text: &str) -> Result<MotionInfo> {
     let mut asked = vec!["unit_cm", "up", "facing"];
     if !text.contains("object SkeletalAnimation ") {
         let joints = tof::skeleton(text)?.into_iter().map(|joint| joint.name).collect();
-        return Ok(MotionInfo { samples: 0, duration: None, joints, unit_cm: None, asked });
+        return Ok(MotionInfo { samples: 0, duration: None, joints, unit_cm: None, unlike: None, asked });
     }
     asked.insert(0, "skeleton");
     let animation = tof::animation(text)?;
     let (duration, samples) = tof::extent(&animation);
     let joints = animation.into_iter().map(|joint| joint.name).collect();
-    Ok(MotionInfo { samples, duration: Some(duration), joints, unit_cm: None, asked })
+    Ok(MotionInfo { samples, duration: Some(duration), joints, unit_cm: None, unlike: None, asked })
 }
 
 impl fmt::Display for MotionInfo {
@@ -97,6 +108,9 @@ impl fmt::Display for MotionInfo {
                 let rate = samples.saturating_sub(1) as f64 / duration.max(f64::MIN_POSITIVE);
                 writeln!(f, "motion: {samples} samples over {duration:.3} s, {rate:.2} a second")?;
             }
+        }
+        if let Some(unlike) = &self.unlike {
+            writeln!(f, "frames: {unlike}")?;
         }
         if !self.joints.is_empty() {
             writeln!(f, "joints: {}", list(&self.joints))?;

@@ -45,6 +45,50 @@ fn channels_count_in_the_order_in_which_they_stand() {
 }
 
 #[test]
+fn words_count_in_any_capitals_and_with_any_spaces_and_line_ends() {
+    let text = bvh("Zrotation Xrotation Yrotation", "3 1 2 0 0 90 10 20 30");
+    let plain = bvh::track(&text, "Head").unwrap();
+    let words = ["HIERARCHY", "ROOT", "OFFSET", "CHANNELS", "JOINT", "End Site", "MOTION", "Frames:", "Frame Time:"];
+    let with =
+        |change: fn(&str) -> String| words.iter().fold(text.clone(), |text, word| text.replace(word, &change(word)));
+    let title = |word: &str| word[..1].to_uppercase() + &word[1..].to_lowercase();
+    for other in [
+        with(|word| word.to_lowercase()),
+        with(|word| word.to_uppercase()),
+        with(title),
+        text.replace("rotation", "ROTATION").replace("position", "Position"),
+        text.replace('\n', "\r\n"),
+        text.replace(' ', "\t").replace('\n', "\t\r\n\t"),
+    ] {
+        assert_eq!(bvh::track(&other, "Head").unwrap(), plain, "{other}");
+    }
+}
+
+#[test]
+fn the_frames_that_are_there_count_and_not_those_that_are_declared() {
+    let row = "3 1 2 0 0 90 10 20 30";
+    let text = |declared: usize, rows: usize| {
+        let text = bvh("Zrotation Xrotation Yrotation", &vec![row; rows].join("\n"));
+        text.replace("Frames: 1", &format!("Frames: {declared}"))
+    };
+    for (declared, rows) in [(3, 3), (5, 3), (2, 3), (1, 2)] {
+        let (_folder, path) = written("walk.bvh", text(declared, rows).as_bytes());
+        let found = read(&straight(path.clone(), Some(1.0)), 25.0).unwrap();
+        assert_eq!(found.poses.len(), rows, "{declared} declared");
+        let said = format!("the {rows} frames that are there, of {declared} declared");
+        assert_eq!(found.report.contains(&said), declared != rows, "{}", found.report);
+        let info = survey(&path).unwrap();
+        assert_eq!((info.samples, info.unlike), (rows, (declared != rows).then_some(said)));
+    }
+    let refused = |text: String| bvh::track(&text, "Head").unwrap_err().to_string();
+    assert!(
+        refused(text(4, 3) + "1 2 3\n").contains("frame 3 of 4, Hips.Xrotation: ends where a number should follow")
+    );
+    assert_eq!(refused(text(3, 0)), "declares 3 frames and has none: is it whole?");
+    assert!(refused(text(1, 1) + "and more\n").contains("frame 1 of 1, Hips.Zposition: \"and\": its value must be"));
+}
+
+#[test]
 fn a_joints_name_is_the_rest_of_its_line() {
     let text = bvh("Zrotation Xrotation Yrotation", "3 1 2 0 0 90 0 0 0");
     let plain = bvh::track(&text, "Head").unwrap().samples;
@@ -357,7 +401,7 @@ fn values_of_another_shape_than_what_they_move_are_refused() {
     let at = four_wide.windows(9).position(|w| w == b"\"count\":4").unwrap();
     four_wide[at + 8] = b'3';
     let error = clip_motion(&four_wide, 24.0).unwrap_err().to_string();
-    assert!(error.contains("accessor 1: F32 Vec4 is not a Translation"), "{error}");
+    assert!(error.contains("accessor 1: translations of type F32 Vec4 are not read"), "{error}");
 }
 
 /// Reads `bytes` as each kind of motion; only a panic, or never coming back, is wrong.

@@ -26,6 +26,8 @@ pub struct Track {
     pub what: String,
     /// What of the joint's transform the samples do not hold, for the report.
     pub left_out: Option<&'static str>,
+    /// How many frames were read where the file declares another number, for the report.
+    pub unlike: Option<String>,
     /// Where the joint was when meshes were bound to it, where the file says it.
     pub bound: Option<Sample>,
     /// Length of the file's unit (cm) where the file says it.

@@ -24,6 +24,11 @@ impl<'a> Words<'a> {
         Self { quotes: true, ..Self::plain(text) }
     }
 
+    /// Whether no word is left.
+    pub fn is_at_end(&self) -> bool {
+        self.text[self.rest..].trim_ascii_start().is_empty()
+    }
+
     /// The next word; `wanted` says what should stand there.
     pub fn next(&mut self, wanted: &str) -> Result<&'a str> {
         let rest = &self.text[self.rest..];

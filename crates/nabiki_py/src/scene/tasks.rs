@@ -216,7 +216,7 @@ impl Scene {
     /// Writes the moving hair: .usdc, .usda or .abc for other programs, or a motion cache, .nabiki.
     ///
     /// `strands`: the first so many. `layer`: the prim path of the groom over which samples alone are laid. `head`: whether the
-    /// head goes into an .abc file, too.
+    /// head goes along where it would be left out: the built-in one, and any in an .abc file.
     #[pyo3(signature = (file, *, strands=None, layer=None, head=false, progress=None,
         report=None))]
     #[expect(clippy::too_many_arguments, reason = "named in Python")]

@@ -7,8 +7,8 @@ use glam::Quat;
 use nabiki::Pose;
 use nabiki::body::BodyWay;
 use nabiki_io::exchange::carries_mesh;
-use nabiki_io::motion::MotionSource;
-use nabiki_io::{Placement, declared_space};
+use nabiki_io::motion::{MotionSource, clip_carries};
+use nabiki_io::{Placement, declared_space, mesh};
 
 use super::{Advice, Setting};
 use crate::built::{BuiltScene, holds_scenes};
@@ -94,7 +94,8 @@ fn twice(built: &BuiltScene, moved: &Moved<'_>) -> Option<Advice> {
     }
     let off = first.position_cm.distance(placement.origin_in_world().as_vec3());
     let turned = first.rotation.angle_between(Quat::IDENTITY);
-    if off < NEAR && turned < TURNED || !carries_mesh(&file, &motion.node, groups).unwrap_or(false) {
+    let carries = if mesh::is_gltf(&file) { clip_carries } else { carries_mesh };
+    if off < NEAR && turned < TURNED || !carries(&file, &motion.node, groups).unwrap_or(false) {
         return None;
     }
     let (file, node) = (mesh.display(), &motion.node);

@@ -192,7 +192,7 @@ fn check_length(scene: &Scene, poses: &[Pose]) -> Result<()> {
 }
 
 /// The motion that the scene names under `key`, at its frame rate, of a mesh and how its file holds it. A motion out of the
-/// mesh's own file faces as the mesh does, and what binds it there is where its mesh stands.
+/// mesh's own file faces and is measured as the mesh is, and what binds it there is where its mesh stands.
 fn read_motion(
     scene: &Scene,
     source: &motion::MotionSource,
@@ -207,7 +207,8 @@ fn read_motion(
     };
     let of_mesh = mesh == Some(&source.file) && holds_scenes(&source.file);
     let facing = source.facing.or(of_mesh.then_some(placement.facing));
-    let source = motion::MotionSource { facing, ..source };
+    let unit_cm = source.unit_cm.or(of_mesh.then_some(100.0 * placement.unit.metres()));
+    let source = motion::MotionSource { facing, unit_cm, ..source };
     let mut motion = motion::read(&source, scene.frame_rate()).map_err(|e| e.below(key))?;
     motion.bound = motion.bound.filter(|_| of_mesh);
     Ok(if source.bind_at_start { motion.bound_at(placement.origin_in_world().as_vec3()) } else { motion })
@@ -215,7 +216,7 @@ fn read_motion(
 
 /// Whether files of this kind hold meshes and what moves them in one space.
 pub(crate) fn holds_scenes(file: &Path) -> bool {
-    exchange::is_usd(file) || exchange::is_alembic(file)
+    exchange::is_usd(file) || exchange::is_alembic(file) || mesh::is_gltf(file)
 }
 
 /// A head in its place.

@@ -70,11 +70,27 @@ pub struct ImportedHair {
     pub facing: Option<Axis>,
     /// Point of the file that becomes the origin of head space (file units; default: the same place as the head's).
     pub origin: Option<Vec3>,
+    /// Which end of a strand is its root: "skin", the one that lies on the head's skin where the other does not, and else the first (default);
+    /// "first"; or "last".
+    pub root: RootEnd,
     /// Neighbouring points of a strand this close are joined (cm, default 0.001; 0 joins those alone that lie in one place, between which a
     /// strand has no direction to move in).
     pub join_within: f32,
     /// Strands shorter than this are dropped (cm, default 0: only those without any extent).
     pub drop_shorter_than: f32,
+}
+
+/// Which end of an imported strand is its root.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RootEnd {
+    /// The one that lies on the head's skin, where the other does not; otherwise the first.
+    #[default]
+    Skin,
+    /// The first point of the file.
+    First,
+    /// The last point of the file.
+    Last,
 }
 
 /// The keys of any hair.
@@ -108,6 +124,7 @@ impl Default for ImportedHair {
             up: None,
             facing: None,
             origin: None,
+            root: RootEnd::default(),
             join_within,
             drop_shorter_than,
         }

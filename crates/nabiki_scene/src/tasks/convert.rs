@@ -171,7 +171,7 @@ impl Input {
                 };
                 check_frame(input, frame, cache.frame_count())?;
                 let pose = cache.read(frame.into(), &mut cache.header().strands())?;
-                let hair = cache.hair(frame.into())?;
+                let hair = cache.hair(frame.into())?.as_in_source();
                 let hair = match placement(cache) {
                     Some(placement) => hair.transformed(&placement.file_from_head_in_doubles()),
                     None => hair,
@@ -361,7 +361,9 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
     let output = options.output.as_path();
     let layer = options.layer.as_deref();
     let curves = layer.map(|prim| under_layer(options, prim, &cache).cloned()).transpose()?;
-    let hair = cache.hair(0)?;
+    let mut hair = cache.hair(0)?;
+    let tip_first = hair.attributes.tip_first.clone();
+    hair = hair.as_in_source();
     let origin = cache.header().origin.clone();
     let placement = placement(&cache);
     let mut export = exchange::export(&hair, cache.header().frame_rate, placement.as_ref());
@@ -380,6 +382,7 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
     each_frame(watch, "converting", 0..=last, |frame| {
         let pose = cache.read(frame.into(), &mut strands)?;
         head_moves |= pose != Pose::STILL;
+        strands.turn(tip_first.as_deref().unwrap_or_default());
         sink.frame(&strands, &Origin::world_from_head(origin.as_ref(), &pose)).map_err(failed)
     })?;
     sink.finish().map_err(failed)?;

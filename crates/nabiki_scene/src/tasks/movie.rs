@@ -174,7 +174,12 @@ fn drawing(file: &Path, (from, through): (u32, u32), options: &MovieOptions) -> 
 
 /// The size of all pictures, which a movie can have.
 fn one_size(files: &[PathBuf]) -> Result<[u32; 2]> {
-    let size = png::read_size(&files[0])?;
+    let size_of = |file: &Path| -> Result<[u32; 2]> {
+        // Refuses what is no regular file, or not the file itself.
+        nabiki_io::input::open(file)?;
+        Ok(png::read_size(file)?)
+    };
+    let size = size_of(&files[0])?;
     if !Movie::takes(size) {
         return Err(Error::refused(format!(
             "{}: {} x {} pixels; {}: draw with another picture.size",
@@ -185,7 +190,7 @@ fn one_size(files: &[PathBuf]) -> Result<[u32; 2]> {
         )));
     }
     for file in &files[1..] {
-        let other = png::read_size(file)?;
+        let other = size_of(file)?;
         if other != size {
             return Err(Error::refused(format!(
                 "{}: {} x {} pixels and {} has {} x {}; draw all frames in one size",

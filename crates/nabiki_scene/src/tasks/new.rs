@@ -4,17 +4,19 @@ use std::io::Write;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use glam::Vec3;
 use nabiki::dynamics::{Form, check_field};
 use nabiki::{Hair, Profile};
 use nabiki_file::PartFile;
-use nabiki_io::exchange;
+use nabiki_io::motion::{self, ClipMover};
+use nabiki_io::{exchange, mesh};
 use nabiki_render::settings::{HairLook, Picture};
 
 use crate::advice::{Advice, Setting};
 use crate::built::{BuiltScene, Shown};
 use crate::error::{Error, Result};
 use crate::place;
-use crate::scene::{HeadSource, Scene};
+use crate::scene::{HeadSource, ImportedHead, Scene};
 use crate::size::decimal;
 use crate::template::{STIFFNESS, stiffness_line, template};
 use crate::told::Told;
@@ -25,6 +27,12 @@ const HALVINGS: i32 = 12;
 
 /// Strands that show that a new scene can be built.
 const TRIED: usize = 50;
+
+/// Vertices within the head ellipsoid, or as little outside it as this value of its function says, are the skull's.
+const SKULL: f32 = 0.3;
+
+/// Clips that are named of many.
+const MOST_NAMED: usize = 6;
 
 /// What a [`new`] scene is about.
 #[derive(Clone, Debug, Default)]
@@ -89,6 +97,8 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
         let unread: Vec<String> = report.unread.iter().filter(|line| !of_hair.contains(line)).cloned().collect();
         super::unread(file, &unread, watch);
     }
+    let turned = built.import_report.and_then(|report| report.turned());
+    template.guesses.extend(turned.map(|line| format!("hair.root, by the skin: {line}")));
     template.guesses.into_iter().for_each(|guess| watch.told(Told::Guessed(guess)));
     built.advice().into_iter().chain(unmoved(&built)?).for_each(|advice| watch.told(Told::Advice(advice)));
     super::wrote(vec![path.to_owned()], watch);
@@ -99,6 +109,9 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
 fn unmoved(built: &BuiltScene) -> Result<Option<Advice>> {
     let HeadSource::Imported(head) = &built.scene.head.source else { return Ok(None) };
     let file = built.scene.resolve(&head.file);
+    if mesh::is_gltf(&file) {
+        return unmoved_by_clip(built, head, &file);
+    }
     let Some(node) = exchange::mover_of_mesh(&file, &head.groups)? else { return Ok(None) };
     let word = |text: &str| toml::Value::String(text.to_owned());
     let named = head.file.display();
@@ -111,6 +124,28 @@ fn unmoved(built: &BuiltScene) -> Result<Option<Advice>> {
     };
     let value = format!("{{ file = {file}, node = {of_node}{unit}, facing = \"{facing}\", bind_at_start = true }}");
     let seen = format!("{node} moves the head in {named}, which stands still here");
+    Ok(Some(Advice { seen, settings: vec![Setting { key: "head.motion", value }] }))
+}
+
+/// The same of a head in a glTF: what carries its skull may be a joint of its skin.
+fn unmoved_by_clip(built: &BuiltScene, head: &ImportedHead, file: &Path) -> Result<Option<Advice>> {
+    let place = built.placement.head_from_file();
+    let is_skull = |p: Vec3| built.head.ellipsoid.value(place.transform_point3(p)) <= SKULL;
+    let Some(ClipMover { node, clip, clips }) = motion::clip_mover(file, &head.groups, &is_skull)? else {
+        return Ok(None);
+    };
+    let word = |text: &str| toml::Value::String(text.to_owned());
+    let named = head.file.display();
+    let (file, of_node, facing) = (word(&named.to_string()), word(&node), built.placement.facing);
+    let of_clip = if clip.is_empty() { String::new() } else { format!(", clip = {}", word(&clip)) };
+    let value = format!("{{ file = {file}, node = {of_node}{of_clip}, facing = \"{facing}\", bind_at_start = true }}");
+    let more = if clips.len() > MOST_NAMED { ", .." } else { "" };
+    let named_clips = clips.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join(", ");
+    let others = match clips.len() {
+        0 | 1 => String::new(),
+        count => format!(" in {count} clips ({named_clips}{more})"),
+    };
+    let seen = format!("{node} moves the head in {named}{others}, which stands still here");
     Ok(Some(Advice { seen, settings: vec![Setting { key: "head.motion", value }] }))
 }
 

@@ -34,7 +34,8 @@ pub fn run(scene: Scene, shown: Shown, folder: &Path, exports: &ExportOptions, w
         PictureOutputs::begin(&built, &scene.picture, folder, &scene.name(), &scene.inputs(), &mut folders, watch)?;
     outputs.check_apart_from(&files)?;
     super::introduce(&built, watch);
-    let mut exports = Exports::begin(exports, &built, watch)?;
+    let in_source = built.hair_in_source();
+    let mut exports = Exports::begin(exports, &built, &in_source, watch)?;
     let mut rehearsal = simulated.again();
     let mut frames = Exported { frames: simulated, built: &built, exports: &mut exports };
     let summary = Film::new(&built, &scene.picture, &mut rehearsal, watch)?.shoot(&mut frames, &mut outputs, watch)?;

@@ -89,7 +89,8 @@ pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &m
         Twin::Reference => Box::new(Simulated::by(&built, built.reference()?)),
     };
     super::introduce(&built, watch);
-    let mut exports = Exports::begin(&exports, &built, watch)?;
+    let in_source = built.hair_in_source();
+    let mut exports = Exports::begin(&exports, &built, &in_source, watch)?;
     let reference = options.twin == Twin::Reference;
     let piece = options.shard.as_ref().map(|ShardOptions { command, .. }| built.piece(reference, command));
     let piece = piece.transpose()?.flatten();

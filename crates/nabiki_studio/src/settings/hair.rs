@@ -4,6 +4,7 @@ use super::{AXES, Group, HAIR_FILES, Kind, Setting, Shape, When, choice, file, f
 
 const PART: [f64; 2] = [0.0, 1.0];
 const LOAD: [f64; 2] = [0.0, 1000.0];
+const ROOT_ENDS: &[&str] = &["skin", "first", "last"];
 
 pub(super) const GROUPS: &[Group] = &[
     Group::new(
@@ -33,6 +34,7 @@ pub(super) const GROUPS: &[Group] = &[
             choice("up", "Up", AXES, "Axis of the file that points up.").or("what files say"),
             choice("facing", "Facing", AXES, "Axis of the file along which the face looks.").or("the head's"),
             vector("origin", "Origin", "", 0.1, "Point of the file that becomes the origin of head space, in the file's unit.").or("the head's"),
+            choice("root", "Root", ROOT_ENDS, "Which end of a strand is its root: the one on the skin where the other is not, the first, or the last."),
             fine("join_within", "Join within", "cm", [0.0, 1.0], 0.0005, "Neighbouring points of a strand this close are joined."),
             fine("drop_shorter_than", "Drop shorter", "cm", [0.0, 1000.0], 0.02, "Strands shorter than this are dropped."),
         ],

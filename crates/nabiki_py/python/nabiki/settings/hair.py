@@ -152,6 +152,18 @@ class HairSettings(Table):
         self._set('origin', value)
 
     @property
+    def root(self) -> Literal["skin", "first", "last"]:
+        """Which end of a strand is its root: "skin", the one that lies on the head's skin where the other does not, and
+        else the first (default); "first"; or "last".
+        """
+        value: Literal["skin", "first", "last"] = self._get('root')
+        return value
+
+    @root.setter
+    def root(self, value: Literal["skin", "first", "last"] | None) -> None:
+        self._set('root', value)
+
+    @property
     def join_within(self) -> float:
         """Neighbouring points of a strand this close are joined (cm, default 0.001; 0 joins those alone that lie in one
         place, between which a strand has no direction to move in).

@@ -19,7 +19,8 @@ use super::{GoesOn, free, still_wanted, there};
 use crate::built::{BuiltScene, ShardOf, Shown};
 use crate::error::{Error, Result};
 use crate::memory;
-use crate::scene::{EllipsoidChoice, GrownHair, HairSource, ImportedHair, Scene};
+use crate::root_ends;
+use crate::scene::{EllipsoidChoice, GrownHair, HairSource, ImportedHair, RootEnd, Scene};
 use crate::seat;
 
 /// Hair at rest, some or all of the scene's.
@@ -142,7 +143,7 @@ pub(super) fn load_hair(
             let of_scene = settings.strands;
             Ok(LoadedHair { hair, roots, ids, of_scene, shard, first, imported: None, frames: 1, begins: None })
         }
-        HairSource::Imported(settings) => import(scene, settings, head_placement, wanted, goes_on),
+        HairSource::Imported(settings) => import(scene, settings, (head, head_placement), wanted, goes_on),
     }
 }
 
@@ -157,20 +158,35 @@ fn no_scalp(scene: &Scene, mut refused: SettingError) -> Error {
 fn import(
     scene: &Scene,
     settings: &ImportedHair,
-    head_placement: &Placement,
+    (head, head_placement): (&Head, &Placement),
     wanted: Wanted,
     goes_on: GoesOn<'_>,
 ) -> Result<LoadedHair> {
     let file = there(scene, "hair.file", &settings.file)?;
     let mut groom = GroomFile::open(&file)?.keep(&settings.groups).map_err(|e| e.below("hair"))?;
     let declared = groom.declared_space()?;
-    let placement = hair_placement(settings, head_placement, declared);
+    let placement = hair_placement(settings, head_placement, seat::heeded(declared, scene.hair_is_of_head()));
     placement.check("hair").map_err(|refused| scene.refusal(refused))?;
     let in_file = groom.hair_in_place(0, None)?;
     still_wanted(goes_on, 0.0)?;
     let judged = seat::judged(&in_file);
     let placed = hair::place_and_clean(in_file, &placement, &settings.cleaning());
-    let (hair, report) = placed.map_err(|e| e.in_file(&file))?;
+    let (hair, mut report) = placed.map_err(|e| e.in_file(&file))?;
+    still_wanted(goes_on, 0.0)?;
+    let tip_first = match settings.root {
+        RootEnd::First => None,
+        RootEnd::Last => Some(vec![true; hair.strands.len()]),
+        // Few tell whether it is worth asking all.
+        RootEnd::Skin => root_ends::tip_first(&judged, head, &placement)
+            .and_then(|_| root_ends::tip_first(&hair.strands, head, &Placement::default())),
+    };
+    let hair = match tip_first {
+        Some(tip_first) => {
+            report.tip_first = tip_first.iter().filter(|&&turned| turned).count();
+            hair.from_tip_first(tip_first)
+        }
+        None => hair,
+    };
     still_wanted(goes_on, 0.0)?;
     let hair = match settings.strands {
         Some(count) if count > hair.strands.len() => {
