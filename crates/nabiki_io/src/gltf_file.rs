@@ -1,22 +1,35 @@
 //! glTF documents and their buffers, for the readers of meshes and of motion. The crate gltf parses and validates; lengths,
 //! and buffers in files of their own, are seen to here.
 
-use std::path::Path;
+use std::collections::HashMap;
+use std::ops::Deref;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 use gltf::buffer::Source;
+use nabiki_exchange::Budget;
 
 use crate::bytes::Bytes;
 use crate::error::{Error, Result};
 use crate::input::{self, MOST_BINARY_BYTES};
 
+/// What an object of JSON takes in memory once it is read, and what one of its values or of an array's; half of that, as
+/// budgets count.
+const OBJECT_BYTES: u64 = 150;
+const VALUE_BYTES: u64 = 16;
+
 /// The document, valid, and the binary chunk of a .glb.
-pub(crate) fn open(bytes: &[u8]) -> Result<(gltf::Document, Option<Vec<u8>>)> {
+pub(crate) fn open(bytes: &[u8]) -> Result<(gltf::Document, Option<&[u8]>)> {
     let unreadable = |e: gltf::Error| Error::new(format!("is not a readable glTF: {e}"));
     let (text, blob) = if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (bytes, None) };
     let text = text.strip_prefix(input::BYTE_ORDER_MARK).unwrap_or(text);
     if text.trim_ascii_start().first() != Some(&b'{') {
         return Err(Error::new("is not a glTF: it does not start with glTF or {"));
     }
+    // The crate makes all of it at once, a node of two bytes as large as any.
+    let count = |wanted: u8| text.iter().filter(|&&byte| byte == wanted).count() as u64;
+    let takes = count(b'{') * OBJECT_BYTES + count(b',') * VALUE_BYTES;
+    Budget::of(bytes.len() as u64).take(takes, "nodes and other objects")?;
     let gltf = gltf::Gltf::from_slice_without_validation(text).map_err(unreadable)?;
     let json = gltf.document.into_json();
     // The crate's validation looks at these accessors before it has checked that they exist.
@@ -25,7 +38,7 @@ pub(crate) fn open(bytes: &[u8]) -> Result<(gltf::Document, Option<Vec<u8>>)> {
         let (missing, count) = (missing.value(), json.accessors.len());
         return Err(Error::new(format!("is not a readable glTF: accessor {missing} is named, there are {count}")));
     }
-    Ok((gltf::Document::from_json(json).map_err(unreadable)?, blob.map(<[u8]>::to_vec)))
+    Ok((gltf::Document::from_json(json).map_err(unreadable)?, blob))
 }
 
 /// The JSON and the binary chunk of a .glb. (The crate's own reader of them trusts their lengths.)
@@ -53,18 +66,52 @@ fn chunks(glb: &[u8]) -> Result<(&[u8], Option<&[u8]>)> {
     Ok((text, chunk(b"BIN\0")?))
 }
 
+/// The bytes of a buffer. Many buffers may be of the same chunk or file, which is in memory once.
+#[derive(Clone)]
+pub(crate) enum Buffer<'a> {
+    /// The chunk of a .glb.
+    Chunk(&'a [u8]),
+    /// Read or unpacked for it.
+    Read(Rc<Vec<u8>>),
+}
+
+impl Deref for Buffer<'_> {
+    type Target = [u8];
+
+    fn deref(&self) -> &[u8] {
+        match self {
+            Self::Chunk(bytes) => bytes,
+            Self::Read(bytes) => bytes,
+        }
+    }
+}
+
 /// The bytes of every buffer.
-pub(crate) fn buffers(document: &gltf::Document, blob: Option<&[u8]>, folder: Option<&Path>) -> Result<Vec<Vec<u8>>> {
+pub(crate) fn buffers<'a>(
+    document: &gltf::Document,
+    blob: Option<&'a [u8]>,
+    folder: Option<&Path>,
+) -> Result<Vec<Buffer<'a>>> {
     let mut all = Vec::new();
+    let mut files: HashMap<PathBuf, Rc<Vec<u8>>> = HashMap::new();
     for buffer in document.buffers() {
         let name = |e: Error| e.under(format!("buffer {}", buffer.index()));
         let bytes = match buffer.source() {
-            Source::Bin => blob.ok_or_else(|| name(Error::new("the file has no binary chunk")))?.to_vec(),
+            Source::Bin => Buffer::Chunk(blob.ok_or_else(|| name(Error::new("the file has no binary chunk")))?),
             Source::Uri(uri) if uri.starts_with("data:") => {
                 let data = gltf::buffer::Data::from_source(buffer.source(), None);
-                data.map_err(|e| name(Error::new(e.to_string())))?.0
+                Buffer::Read(Rc::new(data.map_err(|e| name(Error::new(e.to_string())))?.0))
             }
-            Source::Uri(uri) => external(uri, folder).map_err(name)?,
+            Source::Uri(uri) => {
+                let file = external(uri, folder).map_err(name)?;
+                // Under whichever of its names.
+                let file = file.canonicalize().unwrap_or(file);
+                let bytes = match files.get(&file) {
+                    Some(known) => known.clone(),
+                    None => Rc::new(input::read(&file, MOST_BINARY_BYTES).map_err(name)?),
+                };
+                Buffer::Read(files.entry(file).or_insert(bytes).clone())
+            }
         };
         if bytes.len() < buffer.length() {
             let (found, expected) = (bytes.len(), buffer.length());
@@ -75,11 +122,23 @@ pub(crate) fn buffers(document: &gltf::Document, blob: Option<&[u8]>, folder: Op
     Ok(all)
 }
 
+/// What reading a file of `bytes` with its buffers may take: those that lie in it or in each other count once.
+pub(crate) fn budget(bytes: &[u8], buffers: &[Buffer<'_>]) -> Budget {
+    let mut files: Vec<(*const u8, usize)> = Vec::new();
+    files.extend(buffers.iter().filter_map(|buffer| match buffer {
+        Buffer::Chunk(_) => None,
+        Buffer::Read(bytes) => Some((bytes.as_ptr(), bytes.len())),
+    }));
+    files.sort_unstable();
+    files.dedup();
+    Budget::of(bytes.len() as u64 + files.iter().map(|&(_, length)| length as u64).sum::<u64>())
+}
+
 /// A buffer in a file of its own, beside the .gltf.
-fn external(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>> {
+fn external(uri: &str, folder: Option<&Path>) -> Result<PathBuf> {
     let plain = !uri.contains([':', '%', '\\']) && !uri.starts_with('/') && !uri.split('/').any(|part| part == "..");
     match folder {
-        Some(folder) if plain => input::read(&folder.join(uri), MOST_BINARY_BYTES),
+        Some(folder) if plain => Ok(folder.join(uri)),
         _ => Err(Error::new(format!("\"{uri}\" is not a file in the folder of the .gltf: save as .glb"))),
     }
 }

@@ -7,6 +7,7 @@
 pub mod integers;
 pub mod numbers;
 pub mod read;
+pub mod tables;
 pub mod write;
 
 /// What a file begins with.

@@ -40,6 +40,7 @@ mod read;
 mod shown;
 mod skeleton;
 mod source;
+mod standing;
 mod text;
 mod transform;
 mod write;

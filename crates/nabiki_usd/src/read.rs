@@ -83,8 +83,8 @@ impl StageReader {
         let most = self.layer.of_type("BasisCurves").into_iter().map(samples).max_by_key(|s| s.len());
         let mut codes: Vec<f64> = most.unwrap_or_default().iter().map(|&(time, _)| time).collect();
         if codes.len() < 2 {
-            let above = self.layer.of_type("BasisCurves").into_iter().map(|i| transform::times(&self.layer, i));
-            let mut above = above.max_by_key(Vec::len).unwrap_or_default();
+            let most = self.layer.of_type("BasisCurves").into_iter().max_by_key(|&i| self.layer.standing[i].moves);
+            let mut above = most.map(|i| transform::times(&self.layer, i)).unwrap_or_default();
             above.sort_by(f64::total_cmp);
             above.dedup();
             codes = if above.len() > 1 { above } else { codes };
@@ -182,14 +182,14 @@ impl StageReader {
     /// Number of values of an attribute at its first time code.
     fn count(&mut self, prim: usize, name: &str) -> Result<usize, Problem> {
         match self.layer.at(prim, name, f64::NEG_INFINITY) {
-            Some(handle) => Ok(self.layer.integers(handle)?.len()),
+            Some(handle) => self.layer.count(handle, 1),
             None => Ok(0),
         }
     }
 
     fn point_count(&mut self, prim: usize) -> Result<usize, Problem> {
         match self.layer.at(prim, "points", f64::NEG_INFINITY) {
-            Some(handle) => Ok(self.layer.points(handle)?.len()),
+            Some(handle) => self.layer.count(handle, 3),
             None => Ok(0),
         }
     }
@@ -265,6 +265,7 @@ enum Mover {
 
 impl GroomReader for StageReader {
     fn contents(&mut self) -> Result<Contents, Problem> {
+        self.layer.budget.next_question();
         let paths = |layer: &Layer, kind: &str| {
             let prims = layer.of_type(kind).into_iter().filter(|&i| layer.has_points(i));
             prims.map(|i| layer.path(i)).collect::<Vec<_>>()
@@ -289,6 +290,7 @@ impl GroomReader for StageReader {
     }
 
     fn prims(&mut self) -> Result<Vec<Prim>, Problem> {
+        self.layer.budget.next_question();
         let mut prims = Vec::with_capacity(self.layer.prims.len());
         // Found by looking at all curves: once, not for each of thousands.
         let time = if self.layer.of_type("BasisCurves").is_empty() { 0.0 } else { self.code_of(0)? };
@@ -317,10 +319,14 @@ impl GroomReader for StageReader {
                 }
                 "Xform" => PrimKind::Transform,
                 "Skeleton" => PrimKind::Skeleton { joints: skeleton::joints(&mut self.layer, i)? },
-                _ => PrimKind::Other(type_name),
+                _ => PrimKind::Other(type_name.to_string()),
             };
             let samples = self.layer.prims[i].attributes.values().map(|a| a.samples.len()).max().unwrap_or(0);
-            let relationships = self.layer.prims[i].relationships.clone();
+            let relationships = self.layer.prims[i].relationships.iter().map(|name| name.to_string());
+            let relationships: Vec<String> = relationships.collect();
+            let letters: usize = relationships.iter().map(|name| size_of::<String>() + name.len()).sum();
+            let path = self.layer.standing[i].path_bytes as usize;
+            self.layer.budget.take((size_of::<Prim>() + path + letters) as u64, "prims")?;
             prims.push(Prim { path: self.layer.path(i), kind, samples, relationships });
         }
         Ok(prims)
@@ -331,6 +337,7 @@ impl GroomReader for StageReader {
     }
 
     fn hair_in_place(&mut self, frame: usize, segments: Option<usize>, attributes: bool) -> Result<InPlace, Problem> {
+        self.layer.budget.next_question();
         let time = self.code_of(frame)?;
         if self.layer.with_points("BasisCurves").is_empty() {
             return Err(self.no_curves());
@@ -341,7 +348,7 @@ impl GroomReader for StageReader {
         for (group, &prim) in prims.iter().enumerate() {
             let part = self.curves(prim, time, segments, attributes);
             let part = part.map_err(|e| Problem(format!("curves {}: {e}", self.layer.path(prim))))?;
-            let name = self.layer.prims[prim].name.clone();
+            let name = self.layer.prims[prim].name.to_string();
             let world = transform::world(&mut self.layer, prim, time)?;
             all.append(part, DAffine3::from_mat4(world), (prims.len() > 1).then_some((group as i32, name)))?;
         }
@@ -360,6 +367,7 @@ impl GroomReader for StageReader {
     }
 
     fn meshes(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Mesh, Problem> {
+        self.layer.budget.next_question();
         let mut mesh = Mesh::default();
         let time = self.code_of(0)?;
         for prim in meshes::chosen(&mut self.layer, wanted)?.prims {
@@ -393,12 +401,14 @@ impl GroomReader for StageReader {
     }
 
     fn meshes_unread(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Vec<String>, Problem> {
+        self.layer.budget.next_question();
         let mut unread = meshes::chosen(&mut self.layer, wanted)?.unread;
         unread.extend(arcs::unread(&mut self.layer)?);
         Ok(unread)
     }
 
     fn motion(&mut self, node: &str) -> Result<Vec<Placed>, Problem> {
+        self.layer.budget.next_question();
         let rate = self.codes_a_second()?;
         let mover = self.mover(node)?;
         let mut times = match &mover {
@@ -424,6 +434,7 @@ impl GroomReader for StageReader {
         }
         let mut motion = Vec::with_capacity(times.len());
         for time in times {
+            self.layer.budget.next_moment()?;
             let world = match &mover {
                 Mover::Prim(prim) => transform::world(&mut self.layer, *prim, time)?,
                 Mover::Joint(joint) => joint.world(&mut self.layer, time)?,
@@ -437,6 +448,7 @@ impl GroomReader for StageReader {
     }
 
     fn bound(&mut self, node: &str) -> Result<Option<Placed>, Problem> {
+        self.layer.budget.next_question();
         let bound = match self.mover(node)? {
             Mover::Prim(_) => None,
             Mover::Joint(joint) => joint.bound(&mut self.layer)?,

@@ -11,26 +11,27 @@ use gltf::{
     mesh::Mode,
 };
 use nabiki::Mesh;
+use nabiki_exchange::Budget;
 
-use super::check::{check, check_groups};
+use super::{
+    TRIANGLE_BYTES, VERTEX_BYTES,
+    check::{check, check_groups},
+};
 use crate::{
     error::{Error, Result},
-    gltf_file::{buffers, open},
+    gltf_file::{Buffer, budget, buffers, open},
 };
-
-/// A mesh drawn by many nodes is copied for each; beyond this many times the file's size it is a trick, not a head.
-const MOST_COPIES: usize = 64;
 
 /// `folder`: where buffers in files of their own are; `None` refuses them.
 pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String]) -> Result<Mesh> {
     let (document, blob) = open(bytes)?;
-    let buffers = buffers(&document, blob.as_deref(), folder)?;
+    let buffers = buffers(&document, blob, folder)?;
     let nodes = document.nodes().filter_map(|n| n.name());
     let names: Vec<&str> = nodes.chain(document.meshes().filter_map(|m| m.name())).collect();
     check_groups(groups, &names)?;
     let wanted = |name: Option<&str>| name.is_some_and(|name| groups.iter().any(|g| g == name));
 
-    let room = MOST_COPIES * (bytes.len() + buffers.iter().map(Vec::len).sum::<usize>()) / size_of::<Vec3>();
+    let budget = budget(bytes, &buffers);
     let mut seen = vec![false; document.nodes().len()];
     let mut mesh = Mesh::default();
     let scene = document.default_scene().or_else(|| document.scenes().next());
@@ -48,13 +49,8 @@ pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String])
         let node_wanted = parent_wanted || wanted(node.name());
         if let Some(node_mesh) = node.mesh().filter(|m| node_wanted || wanted(m.name())) {
             for primitive in node_mesh.primitives() {
-                append(&mut mesh, &primitive, &buffers, scene_from_node)
+                append(&mut mesh, &primitive, &buffers, scene_from_node, &budget)
                     .map_err(|e| Error::new(format!("mesh {}: {}", node_mesh.index(), e.what)))?;
-                if mesh.positions.len() > room || mesh.triangles.len() > room {
-                    return Err(Error::new(format!(
-                        "its nodes repeat meshes to more than {MOST_COPIES} times the file"
-                    )));
-                }
             }
         }
         open.extend(node.children().map(|child| (child, scene_from_node, node_wanted)));
@@ -77,7 +73,13 @@ pub(super) fn groups(bytes: &[u8]) -> Result<Vec<(String, usize)>> {
 }
 
 /// Adds one primitive's triangles.
-fn append(mesh: &mut Mesh, primitive: &gltf::Primitive, buffers: &[Vec<u8>], scene_from_node: Mat4) -> Result<()> {
+fn append(
+    mesh: &mut Mesh,
+    primitive: &gltf::Primitive,
+    buffers: &[Buffer<'_>],
+    scene_from_node: Mat4,
+    budget: &Budget,
+) -> Result<()> {
     if primitive.mode() != Mode::Triangles {
         return Err(Error::new(format!("primitives of mode {:?} are not read: export triangles", primitive.mode())));
     }
@@ -88,7 +90,10 @@ fn append(mesh: &mut Mesh, primitive: &gltf::Primitive, buffers: &[Vec<u8>], sce
     }
     let first = u32::try_from(mesh.positions.len()).map_err(|_| Error::new("more than 2^32 vertices"))?;
     let count = positions.count();
-    for item in items(&positions, buffers, 12)? {
+    let places = items(&positions, buffers, 12)?;
+    // A mesh drawn by many nodes is copied for each.
+    budget.take(count as u64 * VERTEX_BYTES, "vertices")?;
+    for item in places {
         let f = |i: usize| f32::from_le_bytes([item[i], item[i + 1], item[i + 2], item[i + 3]]);
         mesh.positions.push(scene_from_node.transform_point3(Vec3::new(f(0), f(4), f(8))));
     }
@@ -105,7 +110,9 @@ fn append(mesh: &mut Mesh, primitive: &gltf::Primitive, buffers: &[Vec<u8>], sce
                 other => return Err(Error::new(format!("indices of type {other:?} are not read"))),
             };
             let number = |item: &[u8]| item.iter().rev().fold(0u32, |n, &byte| n << 8 | u32::from(byte));
-            items(&indices, buffers, width)?.map(number).collect()
+            let all = items(&indices, buffers, width)?;
+            budget.take(indices.count() as u64 / 3 * TRIANGLE_BYTES, "triangles")?;
+            all.map(number).collect()
         }
     };
     if let Some(&bad) = indices.iter().find(|&&v| v as usize >= count) {
@@ -122,7 +129,7 @@ fn append(mesh: &mut Mesh, primitive: &gltf::Primitive, buffers: &[Vec<u8>], sce
 }
 
 /// The first texture coordinates of each of `count` vertices, v upward: that of glTF runs down.
-fn texture_coordinates(primitive: &gltf::Primitive, buffers: &[Vec<u8>], count: usize) -> Result<Option<Vec<Vec2>>> {
+fn texture_coordinates(primitive: &gltf::Primitive, buffers: &[Buffer<'_>], count: usize) -> Result<Option<Vec<Vec2>>> {
     let Some(accessor) = primitive.get(&gltf::Semantic::TexCoords(0)) else { return Ok(None) };
     let (kind, found) = (accessor.data_type(), accessor.count());
     if found != count {
@@ -142,7 +149,7 @@ fn texture_coordinates(primitive: &gltf::Primitive, buffers: &[Vec<u8>], count: 
 /// The items of an accessor, each of `size` bytes, all within their buffer.
 fn items<'a>(
     accessor: &gltf::Accessor,
-    buffers: &'a [Vec<u8>],
+    buffers: &'a [Buffer<'_>],
     size: usize,
 ) -> Result<impl Iterator<Item = &'a [u8]> + use<'a>> {
     let index = accessor.index();

@@ -4,10 +4,13 @@
 //! or CUBICSPLINE as each channel says), so nothing is interpolated twice. The rotation given is that from the node's
 //! still pose, the one the file has without its animation, since a bone's own axes seldom lie along the world's.
 
+use std::collections::HashMap;
+use std::rc::Rc;
+
 use glam::{DAffine3, DMat4, DQuat, DVec3, DVec4};
 use gltf::animation::{Interpolation, Property, util::ReadOutputs};
 
-use super::joints::Tree;
+use super::joints::{Tree, check_poses};
 use super::source::MotionSource;
 use super::track::{Sample, hermite};
 use super::world::{HeadMotion, WorldFromFile, frame_count, poses};
@@ -18,7 +21,8 @@ use crate::gltf_file;
 /// Reads the poses of `source.node` in `source.clip` out of the file's bytes.
 pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) -> Result<HeadMotion> {
     let (document, blob) = gltf_file::open(bytes)?;
-    let buffers = gltf_file::buffers(&document, blob.as_deref(), source.file.parent())?;
+    let buffers = gltf_file::buffers(&document, blob, source.file.parent())?;
+    let budget = gltf_file::budget(bytes, &buffers);
     let chain = chain(&document, &source.node)?;
     let animation = animation(&document, &source.clip)?;
     // The crate's own validation passes over a channel's target, and its reader would panic.
@@ -35,11 +39,20 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
 
     let mut curves: Vec<Curves> = chain.iter().map(still).collect();
     let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
+    // Many channels share their times.
+    let mut known: HashMap<usize, Rc<[f64]>> = HashMap::new();
     for channel in animation.channels() {
         check_accessors(&channel, &buffers)?;
-        let reader = channel.reader(|buffer| buffers.get(buffer.index()).map(Vec::as_slice));
-        let times: Vec<f64> =
-            reader.read_inputs().ok_or_else(|| Error::new("an animation without times"))?.map(f64::from).collect();
+        let reader = channel.reader(|buffer| buffers.get(buffer.index()).map(|bytes| &**bytes));
+        let input = channel.sampler().input();
+        let times = match known.get(&input.index()) {
+            Some(times) => times.clone(),
+            None => {
+                budget.take_list::<f64>(input.count(), "times")?;
+                let times = reader.read_inputs().ok_or_else(|| Error::new("an animation without times"))?;
+                known.entry(input.index()).or_insert(times.map(f64::from).collect()).clone()
+            }
+        };
         let node = channel.target().node();
         let name = node.name().unwrap_or("without a name");
         if times.is_empty() || !times.iter().all(|t| t.is_finite()) || times.windows(2).any(|w| w[0] >= w[1]) {
@@ -48,6 +61,7 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
         start = start.min(times[0]);
         end = end.max(times[times.len() - 1]);
         let Some(place) = chain.iter().position(|n| n.index() == node.index()) else { continue };
+        budget.take_list::<[f32; 4]>(channel.sampler().output().count(), "values")?;
         let interpolation = channel.sampler().interpolation();
         let curve = |values: Vec<DVec4>| Curve::new(times.clone(), values, interpolation, name);
         let wide = |v: [f32; 3]| DVec3::from(v.map(f64::from)).extend(0.0);
@@ -69,6 +83,7 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
     let unit_cm = source.unit_cm.unwrap_or(100.0);
     let world_from_file = WorldFromFile::new(Some(unit_cm), Some(up), Some(facing))?;
     let frames = frame_count(end - start, frame_rate / source.speed)?;
+    check_poses(chain.len(), frames)?;
     let mut samples = Vec::with_capacity(frames.min(1 << 16));
     for n in 0..frames {
         let time = start + n as f64 / (frame_rate / source.speed);
@@ -128,7 +143,7 @@ fn animation<'a>(document: &'a gltf::Document, clip: &str) -> Result<gltf::Anima
 
 /// Refuses accessors that reach past their buffers, which the reader itself would meet with a panic, and those of
 /// another shape than what the channel moves, which it would read askew.
-fn check_accessors(channel: &gltf::animation::Channel<'_>, buffers: &[Vec<u8>]) -> Result<()> {
+fn check_accessors(channel: &gltf::animation::Channel<'_>, buffers: &[gltf_file::Buffer<'_>]) -> Result<()> {
     let sampler = channel.sampler();
     for accessor in [sampler.input(), sampler.output()] {
         let problem = |what: &str| Error::new(format!("accessor {}: {what}", accessor.index()));
@@ -179,7 +194,7 @@ struct Curves {
 
 fn still(node: &gltf::Node<'_>) -> Curves {
     let (t, r, s) = node.transform().decomposed();
-    let constant = |value| Curve { times: Vec::new(), values: vec![value], interpolation: Interpolation::Step };
+    let constant = |value| Curve { times: Rc::default(), values: vec![value], interpolation: Interpolation::Step };
     Curves {
         translation: constant(DVec3::from(t.map(f64::from)).extend(0.0)),
         rotation: constant(DVec4::from(r.map(f64::from))),
@@ -226,13 +241,13 @@ fn world(matrices: impl Iterator<Item = DMat4>, name: &str) -> Result<Sample> {
 
 /// Values over time; CUBICSPLINE keeps in-tangent, value and out-tangent for each time.
 struct Curve {
-    times: Vec<f64>,
+    times: Rc<[f64]>,
     values: Vec<DVec4>,
     interpolation: Interpolation,
 }
 
 impl Curve {
-    fn new(times: Vec<f64>, values: Vec<DVec4>, interpolation: Interpolation, node: &str) -> Result<Self> {
+    fn new(times: Rc<[f64]>, values: Vec<DVec4>, interpolation: Interpolation, node: &str) -> Result<Self> {
         let each = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
         if values.len() != each * times.len() {
             let (v, t) = (values.len(), times.len());
