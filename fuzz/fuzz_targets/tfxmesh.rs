@@ -2,10 +2,13 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use nabiki_fuzz::within_budget;
 use nabiki_io::mesh;
 
 fuzz_target!(|bytes: &[u8]| {
-    if let Ok(mesh) = mesh::from_bytes(bytes, "tfxmesh", &[]) {
-        assert!(mesh.triangles.iter().flatten().all(|&v| (v as usize) < mesh.positions.len()));
-    }
+    within_budget(bytes.len(), || {
+        if let Ok(mesh) = mesh::from_bytes(bytes, "tfxmesh", &[]) {
+            assert!(mesh.triangles.iter().flatten().all(|&v| (v as usize) < mesh.positions.len()));
+        }
+    });
 });

@@ -186,6 +186,24 @@ def types_stay(nabiki, python):
     print("primvars: 20 types through .usda, .usdc and .abc, the same types and values")
 
 
+def names_are_allowed(nabiki, python):
+    """Attributes of any names, from an archive that alembic3d writes, through each format and back, as the formats' own readers see them."""
+    folder = WORK / "names"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    source = folder / "names.abc"
+    run(python, HERE / "names.py", "write", source)
+    for ending in ["usda", "usdc", "abc"]:
+        there = folder / f"there.{ending}"
+        run(nabiki, "convert", source, there, "--unit", "cm", "--quiet")
+        run(python, HERE / "names.py", "compare", there)
+        for last in ["usda", "usdc"]:
+            back = folder / f"{there.name}.{last}"
+            run(nabiki, "convert", there, back, "--unit", "cm", "--quiet")
+            run(python, HERE / "names.py", "compare", back)
+    print("names: attributes of any names in layers that usd-core opens and archives that alembic3d does, each under one of its own")
+
+
 def there_and_back(nabiki, samples):
     """A groom of another tool gets wind, and comes back as a layer over itself."""
     scene = WORK / "trip.toml"
@@ -229,6 +247,7 @@ def main():
     there_and_back(nabiki, samples)
     python = environment()
     types_stay(nabiki, python)
+    names_are_allowed(nabiki, python)
     made_elsewhere(nabiki, interchange, python)
     rigs(nabiki, python)
     run(python, HERE / "usd.py", samples)

@@ -1,10 +1,12 @@
 //! What curves carry beside their points: properties of their schema and its geometry parameters.
 
+use std::collections::HashMap;
 use std::io::{Read, Seek};
+use std::rc::Rc;
 
 use nabiki::hair::{Per, Role, Values};
-use nabiki_exchange::Uvs;
 use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values, misindexed, whole};
+use nabiki_exchange::{Budget, Uvs};
 
 use crate::Problem;
 use crate::layout::{Kind, Pod, stored};
@@ -15,6 +17,8 @@ use crate::values::{doubles, integers, singles, words};
 pub struct Parameters<'a, R> {
     tree: &'a mut Tree<R>,
     headers: Vec<Header>,
+    /// Which of them has a name; the first of several.
+    named: HashMap<Rc<str>, usize>,
     /// How many of them are the schema's own; the rest are geometry parameters.
     of_schema: usize,
     frame: usize,
@@ -48,26 +52,40 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
     /// Those of curves whose schema has the properties `inside`, in sample `frame`.
     pub fn of(tree: &'a mut Tree<R>, mut inside: Vec<Header>, frame: usize) -> Result<Self, Problem> {
         let of_schema = inside.len();
-        let more = inside.iter().find(|h| h.name == ".arbGeomParams" && h.form == Form::Compound);
+        let more = inside.iter().find(|h| &*h.name == ".arbGeomParams" && h.form == Form::Compound);
         if let Some(place) = more.map(|h| h.place) {
             inside.extend(tree.properties(place)?);
         }
-        Ok(Self { tree, headers: inside, of_schema, frame })
+        let mut named = HashMap::new();
+        for (i, header) in inside.iter().enumerate() {
+            named.entry(header.name.clone()).or_insert(i);
+        }
+        Ok(Self { tree, headers: inside, named, of_schema, frame })
+    }
+
+    fn header(&self, name: &str) -> Option<&Header> {
+        self.named.get(name).map(|&i| &self.headers[i])
     }
 
     /// What the curves say of themselves that is not read, a phrase each.
     pub fn unread(&mut self) -> Result<Vec<String>, Problem> {
         let (schema, parameters) = self.headers.split_at(self.of_schema);
+        let letters: usize = self.headers.iter().map(|h| 48 + h.name.len()).sum();
+        self.tree.budget().take(letters as u64, "notes on what is not read")?;
         let known = |name: &str| KNOWN.contains(&name) || OF_SCHEMA.contains(&name);
         let other = schema.iter().filter(|h| !known(&h.name));
         let mut unread: Vec<String> = other.map(|h| format!("property {}", h.name)).collect();
+        let again = self.headers.iter().enumerate().filter(|&(i, h)| self.named.get(&h.name) != Some(&i));
+        unread.extend(again.map(|(_, h)| format!("a further property of the name {}", h.name)));
         let carried = schema.iter().filter(|h| OF_SCHEMA.contains(&&*h.name)).chain(parameters);
         let moving = carried.filter(|h| h.different_samples() > 1);
         let sample = self.frame;
         unread.extend(moving.map(|h| format!("motion of {}: its value in sample {sample} is kept", h.name)));
-        let own = schema.iter().find(|h| h.name == ".userProperties" && h.form == Form::Compound).map(|h| h.place);
+        let own = schema.iter().find(|h| &*h.name == ".userProperties" && h.form == Form::Compound).map(|h| h.place);
         if let Some(place) = own {
             let properties = self.tree.properties(place)?;
+            let letters: usize = properties.iter().map(|h| 48 + h.name.len()).sum();
+            self.tree.budget().take(letters as u64, "notes on what is not read")?;
             unread.extend(properties.into_iter().map(|h| format!("user property {}", h.name)));
         }
         Ok(unread)
@@ -75,7 +93,7 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
 
     /// The texture coordinates of a mesh, if it has any, or why they are none.
     pub fn texture_coordinates(&mut self) -> Result<std::result::Result<Option<Uvs>, String>, Problem> {
-        let Some(header) = self.headers.iter().find(|h| h.name == "uv") else { return Ok(Ok(None)) };
+        let Some(header) = self.header("uv") else { return Ok(Ok(None)) };
         let of = match header.detail("geoScope") {
             Some("fvr") => Uvs::OfCorners,
             Some("vtx" | "var") => Uvs::OfVertices,
@@ -89,7 +107,8 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
     }
 
     fn stored(&mut self, name: &str) -> Result<Option<Sample>, Problem> {
-        let Some(header) = self.headers.iter().find(|h| h.name == name) else { return Ok(None) };
+        let Some(header) = self.header(name).cloned() else { return Ok(None) };
+        let header = &header;
         let (role, per) = (role(header), per(header));
         if header.form != Form::Compound {
             let bytes = self.tree.sample(header, self.frame)?;
@@ -97,7 +116,7 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
         }
         let inside = self.tree.properties(header.place)?;
         let part = |part: &str| {
-            let found = inside.iter().find(|h| h.name == part && h.form != Form::Compound);
+            let found = inside.iter().find(|h| &*h.name == part && h.form != Form::Compound);
             found.ok_or_else(|| Problem(format!("attribute {name}: has no {part}")))
         };
         let (values, indices) = (part(".vals")?, part(".indices")?);
@@ -112,9 +131,12 @@ impl Sample {
         matches!(self.kind.pod, Pod::Text | Pod::WideText)
     }
 
-    fn expanded<T: Clone>(&self, name: &str, values: Vec<T>) -> Result<Option<Vec<T>>, Problem> {
+    fn expanded<T: Clone>(&self, name: &str, values: Vec<T>, budget: &Budget) -> Result<Option<Vec<T>>, Problem> {
         match &self.indices {
-            Some(indices) => indexed(name, &values, indices).map(Some),
+            Some(indices) => {
+                budget.take_list::<T>(indices.len(), name)?;
+                indexed(name, &values, indices).map(Some)
+            }
             None => Ok(Some(values)),
         }
     }
@@ -141,8 +163,12 @@ fn per(header: &Header) -> Option<Per> {
 }
 
 impl<R: Read + Seek> NamedValues for Parameters<'_, R> {
+    fn budget(&self) -> &Budget {
+        self.tree.budget()
+    }
+
     fn misindexed(&mut self, name: &str) -> Result<Option<&'static str>, Problem> {
-        let compound = self.headers.iter().any(|h| h.name == name && h.form == Form::Compound);
+        let compound = self.header(name).is_some_and(|h| h.form == Form::Compound);
         let Some(sample) = (if compound { self.stored(name)? } else { None }) else { return Ok(None) };
         let size = sample.kind.pod.size() * usize::from(sample.kind.extent);
         let count = if sample.is_text() { words(sample.kind, &sample.bytes).len() } else { sample.bytes.len() / size };
@@ -150,9 +176,10 @@ impl<R: Read + Seek> NamedValues for Parameters<'_, R> {
     }
 
     fn names(&self) -> Vec<String> {
-        let (schema, parameters) = self.headers.split_at(self.of_schema);
-        let of_schema = schema.iter().filter(|h| OF_SCHEMA.contains(&&*h.name));
-        of_schema.chain(parameters).map(|h| h.name.clone()).collect()
+        let carried = |&(i, h): &(usize, &Header)| i >= self.of_schema || OF_SCHEMA.contains(&&*h.name);
+        let first = |&(i, h): &(usize, &Header)| self.named.get(&h.name) == Some(&i);
+        let all = self.headers.iter().enumerate().filter(carried).filter(first);
+        all.map(|(_, h)| h.name.to_string()).collect()
     }
 
     fn whatever(&mut self, name: &str) -> Result<Option<Whatever>, Problem> {
@@ -166,6 +193,7 @@ impl<R: Read + Seek> NamedValues for Parameters<'_, R> {
         };
         let extent = usize::from(kind.extent);
         if let Some(indices) = indices {
+            self.tree.budget().take_values(&values, extent, &indices, name)?;
             values = indexed_values(name, &values, extent, &indices)?;
         }
         // Alembic has lists only: one value for all is as good as a value that is none.
@@ -182,7 +210,7 @@ impl<R: Read + Seek> NamedValues for Parameters<'_, R> {
         // Blender writes colours with an alpha; only what comes before it is kept.
         let numbers = singles(stored.kind, &stored.bytes)?;
         let values = numbers.chunks_exact(extent).map(|v| std::array::from_fn(|i| v[i])).collect();
-        stored.expanded(name, values)
+        stored.expanded(name, values, self.tree.budget())
     }
 
     fn integers(&mut self, name: &str) -> Result<Option<Vec<i64>>, Problem> {
@@ -192,7 +220,7 @@ impl<R: Read + Seek> NamedValues for Parameters<'_, R> {
                     Pod::F16 | Pod::F32 | Pod::F64 => whole(&doubles(stored.kind, &stored.bytes)?),
                     _ => Some(integers(stored.kind, &stored.bytes)?),
                 };
-                values.map_or(Ok(None), |values| stored.expanded(name, values))
+                values.map_or(Ok(None), |values| stored.expanded(name, values, self.tree.budget()))
             }
             _ => Ok(None),
         }
@@ -200,7 +228,13 @@ impl<R: Read + Seek> NamedValues for Parameters<'_, R> {
 
     fn words(&mut self, name: &str) -> Result<Option<Vec<String>>, Problem> {
         match self.stored(name)? {
-            Some(stored) => stored.expanded(name, words(stored.kind, &stored.bytes)),
+            Some(stored) => {
+                let values = words(stored.kind, &stored.bytes);
+                if let Some(indices) = &stored.indices {
+                    self.tree.budget().take_words(&values, indices, name)?;
+                }
+                stored.expanded(name, values, self.tree.budget())
+            }
             None => Ok(None),
         }
     }

@@ -2,13 +2,50 @@
 
 use half::f16;
 use nabiki::hair::{Other, Per, Role, Stored, Values};
-use nabiki_exchange::attributes::type_change;
+use nabiki_exchange::attributes::{renamed, type_change, unique_names};
 
 use crate::layout::{Kind, pod, stored};
 use crate::property::Property;
 
-/// What an archive cannot keep of an attribute that is passed on, a phrase each.
-pub fn changes(other: &Other) -> Vec<String> {
+/// What an archive cannot keep of attributes that are passed on, a phrase each.
+pub fn changes(others: &[Other]) -> Vec<String> {
+    let named = others.iter().zip(names(others));
+    let renamed = |(other, name): (&Other, String)| (name != other.name).then(|| renamed(&other.name, &name));
+    let renamed: Vec<String> = named.filter_map(renamed).collect();
+    others.iter().flat_map(changes_of).chain(renamed).collect()
+}
+
+/// The names of attributes as an archive has them, each once.
+pub fn names(others: &[Other]) -> Vec<String> {
+    // What a path is made of is no part of a name.
+    let valid = |name: &str| match name {
+        "" => "_".to_owned(),
+        name => name.replace(['/', '\0'], "_"),
+    };
+    unique_names(others, valid, &RESERVED)
+}
+
+/// Names under which the archive has what hair has a place for, and those of its schemas.
+const RESERVED: [&str; 16] = [
+    "P",
+    "uv",
+    "width",
+    "groom_color",
+    "point_uv",
+    "transparency",
+    "freedom",
+    "rest",
+    "groom_root_uv",
+    "surface_uv_coordinate",
+    "groom_id",
+    "id",
+    "groom_group_id",
+    "groom_group_name",
+    "groom_guide",
+    "nVertices",
+];
+
+fn changes_of(other: &Other) -> Vec<String> {
     if extent(other).is_none() {
         let most = u8::MAX;
         return vec![format!("{}: {} numbers a value, and Alembic has room for 1 to {most}", other.name, other.extent)];
@@ -31,8 +68,8 @@ fn extent(other: &Other) -> Option<u8> {
     u8::try_from(other.extent).ok().filter(|&extent| extent > 0)
 }
 
-/// The property that holds it, without its value; `None` for values of more numbers than a property has.
-pub fn property(other: &Other) -> Option<Property> {
+/// The property of a name that holds it, without its value; `None` for values of more numbers than a property has.
+pub fn property(other: &Other, name: &str) -> Option<Property> {
     let scope = match other.per {
         Per::Groom => "con",
         Per::Strand => "uni",
@@ -47,7 +84,7 @@ pub fn property(other: &Other) -> Option<Property> {
         (Role::Normal, _) => "normal",
     };
     let kind = Kind { pod: pod(kept(other)), extent: extent(other)? };
-    Some(Property::attribute(&other.name, scope, interpretation, kind, 0))
+    Some(Property::attribute(name, scope, interpretation, kind, 0))
 }
 
 /// How its values are written: as they were stored, where they still fit.

@@ -56,10 +56,10 @@ impl<R: Read + Seek> ArchiveReader<R> {
             inside.retain(|h| !matches!(&*h.name, ".knots" | ".orders"));
         }
         // Weights that are alike, or none, pull nowhere.
-        if let Some(weights) = inside.iter().find(|h| h.name == "w" && h.form != Form::Compound) {
+        if let Some(weights) = inside.iter().find(|h| &*h.name == "w" && h.form != Form::Compound) {
             let weights = doubles(weights.kind, &self.tree.sample(weights, frame)?)?;
             if weights.windows(2).all(|pair| pair[0] == pair[1]) {
-                inside.retain(|h| h.name != "w");
+                inside.retain(|h| &*h.name != "w");
             }
         }
         let lines = Shape { counts, basis, pinned: false }.walk_by(knots, points, segments)?;
@@ -80,7 +80,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
 
     /// How curves of so many control points run in a sample, and their knots where they go by any.
     fn basis(&mut self, inside: &[Header], counts: &[usize], frame: usize) -> Result<(Basis, Vec<Knots>), Problem> {
-        let mut numbers = |name: &str| match inside.iter().find(|h| h.name == name && h.form != Form::Compound) {
+        let mut numbers = |name: &str| match inside.iter().find(|h| &*h.name == name && h.form != Form::Compound) {
             Some(header) => doubles(header.kind, &self.tree.sample(header, frame)?),
             None => Ok(Vec::new()),
         };
@@ -117,7 +117,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
 
     /// How curves run, as far as they say it.
     pub(crate) fn course(&mut self, inside: &[Header]) -> Result<Course, Problem> {
-        let Some(header) = inside.iter().find(|h| h.name == "curveBasisAndType" && h.samples > 0) else {
+        let Some(header) = inside.iter().find(|h| &*h.name == "curveBasisAndType" && h.samples > 0) else {
             return Ok(Course::LINEAR);
         };
         let said = self.tree.sample(header, 0)?;
@@ -133,7 +133,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
     /// Whether curves are closed, which no hair is.
     pub(crate) fn are_closed(&mut self, object: usize) -> Result<bool, Problem> {
         let inside = self.schema(object)?;
-        let Some(header) = inside.iter().find(|h| h.name == "curveBasisAndType" && h.samples > 0) else {
+        let Some(header) = inside.iter().find(|h| &*h.name == "curveBasisAndType" && h.samples > 0) else {
             return Ok(false);
         };
         let wrap = self.tree.sample(header, 0)?.get(1).copied();
@@ -144,11 +144,11 @@ impl<R: Read + Seek> ArchiveReader<R> {
     pub(crate) fn open_curves(&mut self) -> Result<(Vec<usize>, Closed), Problem> {
         let (mut open, mut closed) = (Vec::new(), Vec::new());
         for object in self.of_schema("AbcGeom_Curve") {
-            if !self.kept.holds(&self.tree.objects[object].path) {
+            if !self.kept.holds(&self.tree.path(object)) {
                 continue;
             }
             if self.are_closed(object)? {
-                closed.push(self.tree.objects[object].path.clone());
+                closed.push(self.tree.path(object));
             } else {
                 open.push(object);
             }
@@ -159,7 +159,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
     /// Objects whose paths are `wanted` and that have a shape which is not read.
     pub(crate) fn left_out(&self, schema: &str, wanted: &dyn Fn(&str) -> bool) -> LeftOut<'static> {
         let kind = if schema == NURBS_SURFACE { "NURBS surfaces" } else { "points" };
-        let paths = self.of_schema(schema).into_iter().map(|object| self.tree.objects[object].path.clone());
+        let paths = self.of_schema(schema).into_iter().map(|object| self.tree.path(object));
         LeftOut { kind, paths: paths.filter(|path| wanted(path)).collect() }
     }
 }

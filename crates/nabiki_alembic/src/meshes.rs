@@ -37,19 +37,19 @@ impl<R: Read + Seek> ArchiveReader<R> {
     pub(crate) fn chosen_meshes(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Chosen, Problem> {
         let mut all = Vec::new();
         for mesh in self.all_meshes() {
-            let path = self.tree.objects[mesh].path.clone();
+            let path = self.tree.path(mesh);
             if wanted(&path) {
                 all.push(Candidate { mesh, path, hidden: hidden(&mut self.tree, mesh)? });
             }
         }
         let (objects, mut unread) = those_that_show(all);
         for &object in &objects {
-            let path = self.tree.objects[object].path.clone();
+            let path = self.tree.path(object);
             let inside = self.schema(object)?;
             if required(&inside, "P", &path)?.different_samples() > 1 {
                 unread.push(format!("the motion of the points of {path}: {FIRST_SHAPE}"));
             }
-            unread.extend(kept_holes(&path, self.count(inside.iter().find(|h| h.name == ".holes"))?));
+            unread.extend(kept_holes(&path, self.count(inside.iter().find(|h| &*h.name == ".holes"))?));
         }
         unread.extend(self.left_out(NURBS_SURFACE, wanted).unread(READ));
         unread.sort();
@@ -60,7 +60,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
     /// Appends the polygons of an object as they are at `time` (s); the answer says why they have no texture coordinates, if those
     /// that it has are none.
     pub(crate) fn add_mesh(&mut self, mesh: &mut Mesh, object: usize, time: f64) -> Result<Option<String>, Problem> {
-        let path = self.tree.objects[object].path.clone();
+        let path = self.tree.path(object);
         let inside = self.schema(object)?;
         let world = Affine3A::from_mat4(self.world(object, time)?.as_mat4());
         let header = required(&inside, "P", &path)?;

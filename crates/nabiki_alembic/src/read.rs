@@ -1,5 +1,6 @@
 //! Hair, heads and their motion out of an archive.
 
+use std::collections::HashMap;
 use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
@@ -19,12 +20,17 @@ const SAME_FRAME: f64 = 1e-3;
 /// Frames a second where an archive does not say.
 const DEFAULT_RATE: f64 = 24.0;
 
+/// What a transform counts for in the budget of its file.
+const A_TRANSFORM: u64 = 32;
+
 /// An archive to read hair, heads and motion from. Alembic names no unit, and y is up.
 pub struct ArchiveReader<R = File> {
     pub(crate) tree: Tree<R>,
     pub(crate) kept: Kept,
     /// The frames, once they have been asked for (s).
     frames: Option<Frames>,
+    /// The values of transforms that move, of the objects that were asked.
+    moving: HashMap<usize, Option<Header>>,
 }
 
 impl ArchiveReader<File> {
@@ -43,7 +49,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
     /// # Errors
     /// What is wrong with it.
     pub fn new(from: R) -> Result<Self, Problem> {
-        Ok(Self { tree: Tree::new(from)?, kept: Kept::default(), frames: None })
+        Ok(Self { tree: Tree::new(from)?, kept: Kept::default(), frames: None, moving: HashMap::new() })
     }
 
     /// The properties of an object's schema.
@@ -51,23 +57,35 @@ impl<R: Read + Seek> ArchiveReader<R> {
         let properties = self.tree.properties_of(object)?;
         match properties.iter().find(|h| h.form == Form::Compound && matches!(&*h.name, ".geom" | ".xform")) {
             Some(header) => self.tree.properties(header.place),
-            None => Err(Problem(format!("object {}: its schema is empty", self.tree.objects[object].path))),
+            None => Err(Problem(format!("object {}: its schema is empty", self.tree.path(object)))),
         }
     }
 
     /// The product of all transforms from the top down to `object` at `time` (s).
     pub(crate) fn world(&mut self, object: usize, time: f64) -> Result<DMat4, Problem> {
+        // Many objects stand below the same ones.
+        if self.tree.worlds.0 != time {
+            self.tree.worlds = (time, HashMap::new());
+        }
         let mut world = DMat4::IDENTITY;
+        let mut locals: Vec<(usize, DMat4)> = Vec::new();
         let mut above = Some(object);
         while let Some(i) = above {
-            if self.tree.objects[i].is("AbcGeom_Xform") {
-                let (local, inherits) = self.local(i, time)?;
-                world = local * world;
-                if !inherits {
-                    break;
-                }
+            if let Some(&known) = self.tree.worlds.1.get(&i) {
+                world = known;
+                break;
+            }
+            let is_transform = self.tree.objects[i].is("AbcGeom_Xform");
+            let (local, inherits) = if is_transform { self.local(i, time)? } else { (DMat4::IDENTITY, true) };
+            locals.push((i, local));
+            if !inherits {
+                break;
             }
             above = self.tree.objects[i].parent;
+        }
+        for (i, local) in locals.into_iter().rev() {
+            world *= local;
+            self.tree.worlds.1.insert(i, world);
         }
         Ok(world)
     }
@@ -76,7 +94,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
     fn local(&mut self, object: usize, time: f64) -> Result<(DMat4, bool), Problem> {
         let inside = self.schema(object)?;
         let mut numbers = |name: &str, between: bool| -> Result<Vec<f64>, Problem> {
-            let Some(header) = inside.iter().find(|h| h.name == name) else { return Ok(Vec::new()) };
+            let Some(header) = inside.iter().find(|h| &*h.name == name) else { return Ok(Vec::new()) };
             let (low, share) = self.tree.timings[header.timing].at(time, header.samples);
             let mut numbers = doubles(header.kind, &self.tree.sample(header, low)?)?;
             if between && share > 0.0 {
@@ -92,6 +110,8 @@ impl<R: Read + Seek> ArchiveReader<R> {
         let mut values = &values[..];
         let mut local = DMat4::IDENTITY;
         for operation in operations {
+            // Each is looked up and multiplied at every time.
+            self.tree.budget().take(A_TRANSFORM, "transforms")?;
             let kind = operation as u8 >> 4;
             let needed = match kind {
                 0 | 1 => 3,
@@ -100,7 +120,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
                 4..=6 => 1,
                 _ => return Err(Problem(format!("transform of unknown kind {kind}"))),
             };
-            let path = &self.tree.objects[object].path;
+            let path = &self.tree.path(object);
             let (v, rest) = values
                 .split_at_checked(needed)
                 .ok_or_else(|| Problem(format!("transform {path}: fewer numbers than it needs")))?;
@@ -128,7 +148,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
         for i in 1..self.tree.objects.len() {
             let moves = self.moving(i)?.is_some();
             let list = if moves { &mut moving } else { &mut still };
-            list.push(self.tree.objects[i].path.clone());
+            list.push(self.tree.path(i));
         }
         moving.extend(still);
         moving.truncate(MOST_NAMED);
@@ -148,13 +168,18 @@ impl<R: Read + Seek> ArchiveReader<R> {
         let mut most = Motion::default();
         for object in self.of_schema("AbcGeom_Curve") {
             let inside = self.schema(object)?;
-            let header = required(&inside, "P", &self.tree.objects[object].path)?;
+            let header = required(&inside, "P", &self.tree.path(object))?;
             if header.samples > MOST_FRAMES {
                 return Err(Problem(format!("its curves have {} samples, more than is read", header.samples)));
             }
             if header.samples == 0 {
                 continue;
             }
+            // Not more than there are already.
+            if header.samples > 1 && header.samples <= most.times.len() {
+                continue;
+            }
+            self.tree.budget().take_list::<f64>(header.samples, "times of samples")?;
             let mut motion = Motion::default();
             motion.add(&self.tree.timings[header.timing], header.samples);
             if motion.times.len() < 2 {
@@ -195,8 +220,14 @@ impl<R: Read + Seek> ArchiveReader<R> {
         if !self.tree.objects[object].is("AbcGeom_Xform") {
             return Ok(None);
         }
+        if let Some(known) = self.moving.get(&object) {
+            return Ok(known.clone());
+        }
         let inside = self.schema(object)?;
-        Ok(inside.into_iter().find(|h| h.name == ".vals" && h.different_samples() > 1))
+        let found = inside.into_iter().find(|h| &*h.name == ".vals" && h.different_samples() > 1);
+        self.tree.budget().keep(size_of::<Header>() as u64, "objects")?;
+        self.moving.insert(object, found.clone());
+        Ok(found)
     }
 
     /// How `object` and those above it move.
@@ -207,9 +238,10 @@ impl<R: Read + Seek> ArchiveReader<R> {
             if let Some(values) = self.moving(i)? {
                 let samples = values.different_samples();
                 if samples + motion.times.len() > MOST_FRAMES {
-                    let path = &self.tree.objects[i].path;
+                    let path = &self.tree.path(i);
                     return Err(Problem(format!("object {path}: moves over {samples} samples, more than is read")));
                 }
+                self.tree.budget().take_list::<f64>(samples, "times of samples")?;
                 motion.add(&self.tree.timings[values.timing], samples);
             }
             above = self.tree.objects[i].parent;
@@ -226,14 +258,15 @@ impl<R: Read + Seek> ArchiveReader<R> {
     pub(crate) fn count(&mut self, header: Option<&Header>) -> Result<usize, Problem> {
         let Some(header) = header else { return Ok(0) };
         let size = header.kind.pod.size() * usize::from(header.kind.extent);
-        Ok(self.tree.sample(header, 0)?.len() / size)
+        Ok(self.tree.sample_length(header, 0)? / size)
     }
 }
 
 impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
     fn contents(&mut self) -> Result<Contents, Problem> {
+        self.tree.budget().next_question();
         let (curves, meshes) = (self.open_curves()?.0, self.all_meshes());
-        let paths = |of: Vec<usize>| of.into_iter().map(|i| self.tree.objects[i].path.clone()).collect();
+        let paths = |of: Vec<usize>| of.into_iter().map(|i| self.tree.path(i)).collect();
         let mut contents = Contents {
             curves: paths(curves),
             meshes: paths(meshes),
@@ -251,10 +284,12 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
     }
 
     fn prims(&mut self) -> Result<Vec<Prim>, Problem> {
+        self.tree.budget().next_question();
         let mut prims = Vec::new();
         for i in 1..self.tree.objects.len() {
+            let path = self.tree.path(i);
+            self.tree.budget().take((size_of::<Prim>() + path.len()) as u64, "objects")?;
             let object = &self.tree.objects[i];
-            let path = object.path.clone();
             let known = ["AbcGeom_Curve", "AbcGeom_Xform"].into_iter().find(|s| object.is(s));
             let Some(schema) = known.or(is_mesh(object).then_some("")) else {
                 let known = object.metadata.split(';').find_map(|entry| entry.strip_prefix("schema="));
@@ -263,7 +298,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
                 continue;
             };
             let inside = self.schema(i)?;
-            let named = |name: &str| inside.iter().find(|h| h.name == name && h.form != Form::Compound);
+            let named = |name: &str| inside.iter().find(|h| &*h.name == name && h.form != Form::Compound);
             let samples = |name: &str| named(name).map_or(0, Header::different_samples);
             prims.push(match schema {
                 "AbcGeom_Xform" => {
@@ -304,6 +339,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
     }
 
     fn hair_in_place(&mut self, frame: usize, segments: Option<usize>, attributes: bool) -> Result<InPlace, Problem> {
+        self.tree.budget().next_question();
         if self.of_schema("AbcGeom_Curve").is_empty() {
             let points = self.left_out(POINTS, &|_| true);
             return Err(points.refused("curves").unwrap_or_else(|| Problem::new("has no curves")));
@@ -313,7 +349,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
         let time = self.time_of(frame)?;
         let mut all = Gathered::default();
         for (group, &object) in objects.iter().enumerate() {
-            let path = self.tree.objects[object].path.clone();
+            let path = self.tree.path(object);
             let name = path.rsplit('/').next().unwrap_or_default().to_owned();
             let part = self.curves(object, time, segments, attributes);
             let (hair, world) = part.map_err(|e| Problem(format!("curves {path}: {e}")))?;
@@ -330,13 +366,14 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
     }
 
     fn meshes_with_losses(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<(Mesh, Vec<String>), Problem> {
+        self.tree.budget().next_question();
         let (mut mesh, mut lost) = (Mesh::default(), Vec::new());
         // Where the head stands as the hair's first frame finds it.
         let time = self.time_of(0)?;
         for object in self.chosen_meshes(wanted)?.objects {
             let left_out = self.add_mesh(&mut mesh, object, time)?;
             lost.extend(
-                left_out.map(|why| format!("texture coordinates of {}: {why}", self.tree.objects[object].path)),
+                left_out.map(|why| format!("texture coordinates of {}: {why}", self.tree.path(object))),
             );
         }
         match mesh.positions.iter().find(|p| !p.is_finite()) {
@@ -350,19 +387,25 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
     }
 
     fn meshes_unread(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Vec<String>, Problem> {
+        self.tree.budget().next_question();
         Ok(self.chosen_meshes(wanted)?.unread)
     }
 
     fn motion(&mut self, node: &str) -> Result<Vec<Placed>, Problem> {
-        let named = |o: &crate::tree::Object| {
-            o.path == node || o.path.rsplit('/').next().is_some_and(|n| n.eq_ignore_ascii_case(node))
+        self.tree.budget().next_question();
+        // The topmost has no name.
+        let named = |i: &usize| {
+            let name = &self.tree.objects[*i].name;
+            name.eq_ignore_ascii_case(node)
+                || (node.starts_with('/') && node.ends_with(&**name) && self.tree.path(*i) == node)
         };
-        let Some(object) = self.tree.objects.iter().position(|o| named(o) && !o.path.is_empty()) else {
+        let Some(object) = (1..self.tree.objects.len()).find(named) else {
             return Err(Problem(format!("has no object {node}: node can be {}", self.movers()?.join(", "))));
         };
         let times = self.above(object)?.times;
         let mut motion = Vec::with_capacity(times.len());
         for time in times {
+            self.tree.budget().next_moment()?;
             let world = self.world(object, time)?;
             if !(world.is_finite() && world.determinant().abs() > 0.0) {
                 return Err(Problem(format!("object {node}: its transform at {time} s flattens space")));
@@ -395,7 +438,7 @@ impl Motion {
 }
 
 pub(crate) fn required<'a>(headers: &'a [Header], name: &str, path: &str) -> Result<&'a Header, Problem> {
-    let found = headers.iter().find(|h| h.name == name && h.form != Form::Compound);
+    let found = headers.iter().find(|h| &*h.name == name && h.form != Form::Compound);
     found.ok_or_else(|| Problem(format!("{path} has no property {name}")))
 }
 

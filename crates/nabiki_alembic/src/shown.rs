@@ -21,7 +21,8 @@ pub fn hidden<R: Read + Seek>(tree: &mut Tree<R>, object: usize) -> Result<Vec<H
         let said = visible(tree, i)?;
         if said.contains(&HIDDEN) {
             let at_times = said.iter().any(|&value| value != HIDDEN);
-            let (by, value) = (tree.objects[i].path.clone(), "hidden".to_owned());
+            let (by, value) = (tree.path(i), "hidden".to_owned());
+            tree.budget().take(by.len() as u64, "paths of objects")?;
             found.push(Hidden { by, name: "visibility", value, at_times });
         }
         if !said.is_empty() && said.iter().all(|&value| value >= HIDDEN) {
@@ -34,9 +35,18 @@ pub fn hidden<R: Read + Seek>(tree: &mut Tree<R>, object: usize) -> Result<Vec<H
 
 /// What an object itself says over time, each value once.
 fn visible<R: Read + Seek>(tree: &mut Tree<R>, object: usize) -> Result<Vec<i64>, Problem> {
+    if let Some(known) = tree.visible.get(&object) {
+        return Ok(known.clone());
+    }
+    let found = read_visible(tree, object)?;
+    tree.visible.insert(object, found.clone());
+    Ok(found)
+}
+
+fn read_visible<R: Read + Seek>(tree: &mut Tree<R>, object: usize) -> Result<Vec<i64>, Problem> {
     let properties = tree.properties_of(object)?;
     let is_number = |pod: Pod| !matches!(pod, Pod::Text | Pod::WideText);
-    let found = properties.iter().find(|h| h.name == "visible" && h.form == Form::Scalar && is_number(h.kind.pod));
+    let found = properties.iter().find(|h| &*h.name == "visible" && h.form == Form::Scalar && is_number(h.kind.pod));
     let Some(header) = found else { return Ok(Vec::new()) };
     let mut said = Vec::new();
     for sample in 0..header.different_samples() {

@@ -1,12 +1,15 @@
 //! The objects and properties of an archive being read.
 
+use std::collections::{HashMap, HashSet};
 use std::io::{Read, Seek};
+use std::rc::Rc;
 
-use glam::Vec3;
+use glam::{DMat4, Vec3};
+use nabiki_exchange::Budget;
 
 use crate::Problem;
 use crate::layout::{INLINE_METADATA, Kind, Pod, flags};
-use crate::ogawa::read::{Group, Reader, is_data};
+use crate::ogawa::read::{Reader, is_data};
 use crate::values::singles;
 
 /// Times apart by no more than this are the same (s).
@@ -14,10 +17,10 @@ pub const SAME_TIME: f64 = 1e-6;
 
 /// Bytes of digest before the values of a sample.
 const DIGEST: usize = 16;
-/// Objects below objects; an archive that claims more refers to itself.
+/// Objects below objects; an archive that claims more was made to harm.
 const DEEPEST: usize = 64;
-/// Objects of one archive; see [`DEEPEST`].
-const MOST_OBJECTS: usize = 1 << 20;
+/// Bytes of the name of an object or property that is read: names are compared again and again.
+const LONGEST_NAME: usize = 1024;
 
 /// One of the archive's time samplings.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,10 +66,10 @@ impl Timing {
 /// An object: where it is, what it is, and what is above it.
 #[derive(Clone, Debug)]
 pub struct Object {
-    /// Names from the top down, joined by `/`.
-    pub path: String,
+    /// Its name; empty at the top.
+    pub name: Rc<str>,
     /// Its metadata: `schema=AbcGeom_Curve_v2;...`.
-    pub metadata: String,
+    pub metadata: Rc<str>,
     /// Its group.
     pub place: u64,
     /// Index of the object above it in the list.
@@ -95,13 +98,13 @@ pub enum Form {
 #[derive(Clone, Debug)]
 pub struct Header {
     /// Name.
-    pub name: String,
+    pub name: Rc<str>,
     /// What it is.
     pub form: Form,
     /// Type of its values (meaningless for compounds).
     pub kind: Kind,
     /// What else is said of it: `geoScope=vtx;interpretation=rgb`.
-    pub metadata: String,
+    pub metadata: Rc<str>,
     /// Number of samples.
     pub samples: usize,
     first_change: usize,
@@ -138,13 +141,17 @@ impl Header {
 /// An archive's tables and its file.
 pub struct Tree<R> {
     from: Reader<R>,
-    metadata: Vec<String>,
+    metadata: Vec<Rc<str>>,
     /// Time samplings.
     pub timings: Vec<Timing>,
     /// Frames a second in the program that wrote it, where it says so.
     pub frame_rate: Option<f64>,
     /// All objects, parents before their children; the first is the top.
     pub objects: Vec<Object>,
+    /// Transforms of objects to the world at the time asked for last (s).
+    pub worlds: (f64, HashMap<usize, DMat4>),
+    /// Whether objects themselves are hidden, of those that were asked.
+    pub visible: HashMap<usize, Vec<i64>>,
 }
 
 impl<R: Read + Seek> Tree<R> {
@@ -163,42 +170,77 @@ impl<R: Read + Seek> Tree<R> {
         let about = String::from_utf8_lossy(&from.data(about).unwrap_or_default()).into_owned();
         let frame_rate = about.split(';').find_map(|entry| entry.strip_prefix("_ai_DCC_FPS=")?.parse().ok());
         let frame_rate = frame_rate.filter(|rate: &f64| rate.is_finite() && *rate > 0.0);
-        let mut tree = Self { from, metadata, timings, frame_rate, objects: Vec::new() };
-        tree.list(Object { path: String::new(), metadata: String::new(), place: top, parent: None }, 0)?;
+        let worlds = (f64::NAN, HashMap::new());
+        let (objects, visible) = (Vec::new(), HashMap::new());
+        let mut tree = Self { from, metadata, timings, frame_rate, objects, worlds, visible };
+        let top = Object { name: "".into(), metadata: "".into(), place: top, parent: None };
+        let paths = tree.list(top, 0, 0, &mut HashSet::new())?;
+        // A question may name every object several times: as what is there, as what is left out.
+        tree.budget().next_question();
+        tree.budget().take(paths.saturating_mul(4), "paths of objects")?;
         Ok(tree)
     }
 
-    fn list(&mut self, object: Object, depth: usize) -> Result<(), Problem> {
-        if depth > DEEPEST || self.objects.len() >= MOST_OBJECTS {
-            return Err(Problem(format!("object {}: so many lie above or before it that it must repeat", object.path)));
+    /// What reading the archive may take.
+    pub fn budget(&self) -> &Budget {
+        &self.from.budget
+    }
+
+    /// The names from the top down to an object, each behind a `/`.
+    pub fn path(&self, object: usize) -> String {
+        let upward = std::iter::successors(Some(object), |&i| self.objects[i].parent);
+        let mut names: Vec<&str> = upward.map(|i| &*self.objects[i].name).collect();
+        // The topmost has no name.
+        names.pop();
+        names.iter().rev().flat_map(|name| ["/", name]).collect()
+    }
+
+    /// Lists an object and all below it, and gives the bytes of their paths. `above`: those of the path of what it is in; `known`:
+    /// the places of all before it.
+    fn list(&mut self, object: Object, depth: usize, above: u64, known: &mut HashSet<u64>) -> Result<u64, Problem> {
+        if depth > DEEPEST {
+            let name = &object.name;
+            return Err(Problem(format!("object {name:.80}: lies deeper than {DEEPEST} others, as none does")));
         }
+        if object.name.len() > LONGEST_NAME {
+            return Err(too_long(&object.name));
+        }
+        // Objects that lie in each other, or are shared by several, would be come to again and again.
+        if object.place != 0 && !known.insert(object.place) {
+            let name = &object.name;
+            let what = "lies in several others at once, which no program writes: export the archive again";
+            return Err(Problem(format!("object {name:.80}: {what}")));
+        }
+        self.budget().keep((size_of::<Object>() + object.name.len() + 64) as u64, "objects")?;
+        let own = above + object.name.len() as u64 + 1;
+        let mut paths = own;
         let children = self.from.group(object.place)?;
         let parent = self.objects.len();
-        let path = object.path.clone();
+        let named = object.name.clone();
         self.objects.push(object);
-        let Some((&headers, [_, children @ ..])) = children.split_last() else { return Ok(()) };
+        let Some((&headers, [_, children @ ..])) = children.split_last() else { return Ok(paths) };
         if !is_data(headers) {
-            return Ok(());
+            return Ok(paths);
         }
         let bytes = self.from.data(headers)?;
         let mut bytes = Bytes(&bytes[..bytes.len().saturating_sub(32)]);
         let mut children = children.iter();
         while !bytes.0.is_empty() {
             let length = bytes.number(4)?;
-            let name = bytes.text(length)?;
+            let name = bytes.text(length)?.into();
             let index = bytes.number(1)?;
             let metadata = self.metadata(index, 4, &mut bytes)?;
-            let &place = children.next().ok_or_else(|| Problem(format!("object {path}: a child has no place")))?;
-            let child = Object { path: format!("{path}/{name}"), metadata, place, parent: Some(parent) };
-            self.list(child, depth + 1)?;
+            let &place = children.next().ok_or_else(|| Problem(format!("object {named}: a child has no place")))?;
+            let child = Object { name, metadata, place, parent: Some(parent) };
+            paths += self.list(child, depth + 1, own, known)?;
         }
-        Ok(())
+        Ok(paths)
     }
 
-    fn metadata(&self, index: usize, width: usize, bytes: &mut Bytes<'_>) -> Result<String, Problem> {
+    fn metadata(&self, index: usize, width: usize, bytes: &mut Bytes<'_>) -> Result<Rc<str>, Problem> {
         if index == usize::from(INLINE_METADATA) {
             let length = bytes.number(width)?;
-            bytes.text(length)
+            Ok(bytes.text(length)?.into())
         } else {
             let entry = self.metadata.get(index);
             entry.cloned().ok_or_else(|| Problem(format!("names metadata {index} of {}", self.metadata.len())))
@@ -207,8 +249,8 @@ impl<R: Read + Seek> Tree<R> {
 
     /// The properties of an object.
     pub fn properties_of(&mut self, object: usize) -> Result<Vec<Header>, Problem> {
-        match self.from.group(self.objects[object].place)?.first() {
-            Some(&place) => self.properties(place),
+        match self.from.child_of(self.objects[object].place, 0)? {
+            Some(place) => self.properties(place),
             None => Ok(Vec::new()),
         }
     }
@@ -227,6 +269,7 @@ impl<R: Read + Seek> Tree<R> {
             if bytes.0.is_empty() {
                 break;
             }
+            self.budget().take(size_of::<Header>() as u64 / 2, "properties")?;
             found.push(self.header(&mut bytes, place)?);
         }
         Ok(found)
@@ -263,7 +306,10 @@ impl<R: Read + Seek> Tree<R> {
             }
         }
         let length = bytes.number(width)?;
-        let name = bytes.text(length)?;
+        let name: Rc<str> = bytes.text(length)?.into();
+        if name.len() > LONGEST_NAME {
+            return Err(too_long(&name));
+        }
         let metadata = self.metadata((info >> flags::METADATA_SHIFT & 0xff) as usize, width, bytes)?;
         if timing >= self.timings.len() || kind.extent == 0 || first_change > last_change {
             return Err(Problem(format!("property {name}: its header contradicts itself")));
@@ -273,9 +319,24 @@ impl<R: Read + Seek> Tree<R> {
 
     /// Bytes of sample `i` of a property; the nearest one it has.
     pub fn sample(&mut self, header: &Header, i: usize) -> Result<Vec<u8>, Problem> {
+        let bytes = match self.place(header, i)? {
+            Some(data) => self.from.data_after(data, DIGEST)?,
+            None => Vec::new(),
+        };
+        // They become numbers of eight bytes or words that are each in memory by itself; half of that counts.
+        let half = match header.kind.pod {
+            Pod::Text => 24 * bytes.iter().filter(|&&b| b == 0).count(),
+            pod => 4 * (bytes.len() / pod.size()),
+        };
+        self.budget().take(half.saturating_sub(bytes.len()) as u64, "samples")?;
+        Ok(bytes)
+    }
+
+    /// Number of these bytes, which are not read.
+    pub fn sample_length(&mut self, header: &Header, i: usize) -> Result<usize, Problem> {
         match self.place(header, i)? {
-            Some(data) => self.from.data_after(data, DIGEST),
-            None => Ok(Vec::new()),
+            Some(data) => Ok(self.from.length(data)?.saturating_sub(DIGEST)),
+            None => Ok(0),
         }
     }
 
@@ -297,11 +358,17 @@ impl<R: Read + Seek> Tree<R> {
             return Ok(None);
         }
         let each = if header.form == Form::Array { 2 } else { 1 };
-        let group: Group = self.from.group(header.place)?;
         let stored = header.stored(i.min(header.samples - 1));
-        let data = group.get(each * stored).copied();
+        let data = self.from.child_of(header.place, each * stored)?;
         data.map(Some).ok_or_else(|| Problem(format!("property {}: sample {i} is missing", header.name)))
     }
+}
+
+fn too_long(name: &str) -> Problem {
+    let length = name.len();
+    Problem(format!(
+        "has the name \"{name:.40}...\" of {length} bytes: names of at most {LONGEST_NAME} are read; rename it"
+    ))
 }
 
 fn timings(bytes: &[u8]) -> Result<Vec<Timing>, Problem> {
@@ -323,12 +390,12 @@ fn timings(bytes: &[u8]) -> Result<Vec<Timing>, Problem> {
     Ok(found)
 }
 
-fn table(bytes: &[u8]) -> Result<Vec<String>, Problem> {
+fn table(bytes: &[u8]) -> Result<Vec<Rc<str>>, Problem> {
     let mut bytes = Bytes(bytes);
-    let mut found = vec![String::new()];
+    let mut found: Vec<Rc<str>> = vec!["".into()];
     while !bytes.0.is_empty() {
         let length = bytes.number(1)?;
-        found.push(bytes.text(length)?);
+        found.push(bytes.text(length)?.into());
     }
     Ok(found)
 }

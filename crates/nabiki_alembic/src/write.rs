@@ -272,23 +272,24 @@ impl Held<'_> {
 /// The geometry parameters. What was carried along goes before what is made here under the same name.
 fn parameters(more: &mut Held<'_>, export: &Export<'_>) -> io::Result<()> {
     let at = &export.hair.attributes;
-    let others = at.other.iter().filter(|other| !is_own_uv(other));
+    let names = carried::names(&at.other);
+    let others = at.other.iter().zip(&names).filter(|(other, name)| !(is_own_uv(other) && *name == "uv"));
     let passed_on: Vec<(&Other, Property)> =
-        others.filter_map(|other| Some((other, carried::property(other)?))).collect();
-    let made = |name: &str| passed_on.iter().all(|(other, _)| other.name != name);
+        others.clone().filter_map(|(other, name)| Some((other, carried::property(other, name)?))).collect();
+    let made = |name: &str| others.clone().all(|(_, other)| other != name);
     roots(more, at, &made)?;
     let points = export.hair.strands.points().len();
     let one_color = at.constant.colour.or(export.default_colour).map(|c| vec![c; points]);
     if let Some(colors) = at.colour.as_ref().or(one_color.as_ref()).filter(|_| made("groom_color")) {
         more.by_point("groom_color", "rgb", POINT, bytemuck::cast_slice(colors))?;
     }
-    if let Some(uv) = &at.point_uv {
+    if let Some(uv) = at.point_uv.as_ref().filter(|_| made("point_uv")) {
         more.by_point("point_uv", "vector", UV, bytemuck::cast_slice(uv))?;
     }
-    if let Some(values) = export.transparency() {
+    if let Some(values) = export.transparency().filter(|_| made("transparency")) {
         more.by_point("transparency", "", NUMBER, bytemuck::cast_slice(&values))?;
     }
-    if let Some(values) = &at.inverse_mass {
+    if let Some(values) = at.inverse_mass.as_ref().filter(|_| made("freedom")) {
         more.by_point("freedom", "", NUMBER, bytemuck::cast_slice(values))?;
     }
     if export.rest && made(names::REST) {
@@ -304,7 +305,7 @@ fn roots(more: &mut Held<'_>, at: &Attributes, made: &dyn Fn(&str) -> bool) -> i
             more.by_strand(name, "vector", UV, bytemuck::cast_slice(uv))?;
         }
     }
-    if let Some(ids) = &at.id {
+    if let Some(ids) = at.id.as_ref().filter(|_| made("groom_id")) {
         // Unreal's ids are 32-bit; others are kept whole under a name of our own.
         match ids.iter().map(|&id| i32::try_from(id)).collect::<Result<Vec<_>, _>>() {
             Ok(ids) => more.by_strand("groom_id", "", INTEGER, bytemuck::cast_slice(&ids))?,
@@ -314,16 +315,16 @@ fn roots(more: &mut Held<'_>, at: &Attributes, made: &dyn Fn(&str) -> bool) -> i
             }
         }
     }
-    if let Some(groups) = &at.group {
+    if let Some(groups) = at.group.as_ref().filter(|_| made("groom_group_id")) {
         more.by_strand("groom_group_id", "", INTEGER, bytemuck::cast_slice(groups))?;
-        if !at.group_names.is_empty() {
+        if !at.group_names.is_empty() && made("groom_group_name") {
             let empty = String::new();
             let name = |g: &i32| at.group_names.get(g).unwrap_or(&empty).replace('\0', "") + "\0";
             let names: String = groups.iter().map(name).collect();
             more.by_strand("groom_group_name", "", TEXT, names.as_bytes())?;
         }
     }
-    if let Some(guides) = &at.guide {
+    if let Some(guides) = at.guide.as_ref().filter(|_| made("groom_guide")) {
         let guides: Vec<i16> = guides.iter().map(|&g| i16::from(g)).collect();
         more.by_strand("groom_guide", "", Kind { pod: Pod::I16, extent: 1 }, bytemuck::cast_slice(&guides))?;
     }
@@ -369,7 +370,7 @@ mod tests {
 
     /// The properties of the object at `path`.
     fn properties(tree: &mut Tree<Cursor<Vec<u8>>>, path: &str) -> Vec<Header> {
-        let object = tree.objects.iter().position(|object| object.path == path).unwrap();
+        let object = (0..tree.objects.len()).find(|&object| tree.path(object) == path).unwrap();
         let schema = tree.properties_of(object).unwrap();
         tree.properties(schema[0].place).unwrap()
     }
@@ -397,7 +398,7 @@ mod tests {
         sink.finish().unwrap();
         let mut tree = Tree::new(Cursor::new(std::fs::read(path).unwrap())).unwrap();
         let of_hair = properties(&mut tree, "/head/hair");
-        let named = |headers: &[Header], name: &str| headers.iter().find(|h| h.name == name).unwrap().clone();
+        let named = |headers: &[Header], name: &str| headers.iter().find(|h| &*h.name == name).unwrap().clone();
         let (bounds, velocities) = (named(&of_hair, ".selfBnds"), named(&of_hair, ".velocities"));
         assert_eq!((bounds.samples, velocities.samples, velocities.timing), (3, 3, FRAMES as usize));
         // The tip goes by 1 and by 3, eight times a second; the last frame goes on as it came.

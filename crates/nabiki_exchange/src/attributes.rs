@@ -1,14 +1,18 @@
 //! What curves of a file carry beside their points, by the names that programs give it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::rc::Rc;
 
 use nabiki::hair::{Attributes, Other, Per, Role, Stored, Values};
 
-use crate::Problem;
 use crate::curves::Polylines;
+use crate::{Budget, Problem};
 
 /// Where a file keeps what its curves carry: values by name, as many as there are.
 pub trait NamedValues {
+    /// What reading the file may take.
+    fn budget(&self) -> &Budget;
+
     /// The names of all there are.
     fn names(&self) -> Vec<String>;
 
@@ -151,6 +155,46 @@ pub fn type_change(other: &Other, stored: Stored, role: Role) -> Option<String> 
         .then(|| format!("what the numbers of {name} stand for: {} become plain ones", plural(other.role)))
 }
 
+/// Bytes of a name that is written; readers refuse much longer ones.
+const LONGEST_NAME: usize = 1000;
+
+/// The names under which a format keeps attributes, in their order, each once: as it is what `valid` lets be, other names as
+/// `valid` makes them, with a number behind those that are taken, by another attribute or by what is `reserved`.
+pub fn unique_names(others: &[Other], valid: impl Fn(&str) -> String, reserved: &[&str]) -> Vec<String> {
+    let short = |name: &str| {
+        let end = (0..=LONGEST_NAME.min(name.len())).rev().find(|&end| name.is_char_boundary(end));
+        valid(&name[..end.unwrap_or_default()])
+    };
+    let valid: Vec<String> = others.iter().map(|other| short(&other.name)).collect();
+    let mut taken: HashSet<String> = HashSet::new();
+    let kept: Vec<bool> =
+        others.iter().zip(&valid).map(|(other, valid)| *valid == other.name && taken.insert(valid.clone())).collect();
+    taken.extend(reserved.iter().map(|&name| name.to_owned()));
+    // The number that each name came to, so that thousands of one name are not counted anew.
+    let mut numbers: HashMap<String, usize> = HashMap::new();
+    let unique = |(kept, name): (bool, String)| {
+        if kept || taken.insert(name.clone()) {
+            return name;
+        }
+        let number = numbers.entry(name.clone()).or_insert(1);
+        loop {
+            *number += 1;
+            let numbered = format!("{name}_{number}");
+            if taken.insert(numbered.clone()) {
+                return numbered;
+            }
+        }
+    };
+    kept.into_iter().zip(valid).map(unique).collect()
+}
+
+/// That an attribute has another name in a file that is written, as a phrase.
+pub fn renamed(from: &str, to: &str) -> String {
+    // Of a name that is as long as a page its beginning tells enough.
+    let shown = |name: &str| if name.chars().count() > 80 { format!("{name:.80}...") } else { name.to_owned() };
+    format!("the name {}: it is {} there", shown(from), shown(to))
+}
+
 /// The name of a type of numbers or words.
 pub fn type_name(stored: Stored) -> &'static str {
     match stored {
@@ -273,11 +317,18 @@ struct Search<'a, F> {
 }
 
 impl<F: NamedValues> Search<'_, F> {
+    /// The names of all there are, in order.
+    fn sorted_names(&self) -> Result<Vec<String>, Problem> {
+        let mut names = self.file.names();
+        let letters: usize = names.iter().map(String::len).sum();
+        self.file.budget().take(letters as u64, "names of attributes")?;
+        names.sort();
+        Ok(names)
+    }
+
     /// Sets aside what is stored by index and cannot be looked up.
     fn indices(&mut self) -> Result<(), Problem> {
-        let mut names = self.file.names();
-        names.sort();
-        for name in names {
+        for name in self.sorted_names()? {
             if let Some(why) = self.file.misindexed(&name)? {
                 self.unread.push(format!("{name}: {why}"));
                 self.misindexed.insert(name);
@@ -295,6 +346,7 @@ impl<F: NamedValues> Search<'_, F> {
     fn by_point<const N: usize>(&mut self, names: &[&'static str]) -> Result<Option<Vec<[f32; N]>>, Problem> {
         for name in self.readable(names) {
             let Some(values) = self.file.tuples::<N>(name)?.filter(|values| !values.is_empty()) else { continue };
+            self.file.budget().take_list::<[f32; N]>(self.lines.strands.points().len(), name)?;
             let found = self.lines.at_points(&values);
             if !self.file.is_wider(name, N) {
                 self.used.insert(name);
@@ -312,6 +364,7 @@ impl<F: NamedValues> Search<'_, F> {
         for name in self.readable(names) {
             if let Some(values) = self.file.integers(name)?.filter(|values| !values.is_empty()) {
                 self.used.insert(name);
+                self.file.budget().take_list::<i64>(self.lines.shape.counts.len(), name)?;
                 return Ok(self.of_strands(name, &values));
             }
         }
@@ -348,17 +401,23 @@ impl<F: NamedValues> Search<'_, F> {
         for name in self.readable(names::GROUP_NAME) {
             let Some(words) = self.file.words(name)?.filter(|words| !words.is_empty()) else { continue };
             self.used.insert(name);
+            // One name may stand for many strands.
+            let words: Vec<Rc<str>> = words.into_iter().map(Rc::from).collect();
+            self.file.budget().take_list::<Rc<str>>(self.lines.shape.counts.len(), name)?;
             let Some(words) = self.of_strands(name, &words) else { return Ok(()) };
             let groups = found.group.get_or_insert_with(|| {
-                let mut numbers = std::collections::BTreeMap::new();
-                let number = |word: &String| {
+                let mut numbers = BTreeMap::new();
+                let number = |word: &Rc<str>| {
                     let next = numbers.len() as i32;
                     *numbers.entry(word.clone()).or_insert(next)
                 };
                 words.iter().map(number).collect()
             });
-            let named = groups.iter().copied().zip(words);
-            found.group_names = named.filter(|(_, name)| !name.is_empty()).collect();
+            let named = groups.iter().copied().zip(words).filter(|(_, name)| !name.is_empty());
+            let named: BTreeMap<i32, Rc<str>> = named.collect();
+            let letters: usize = named.values().map(|name| name.len()).sum();
+            self.file.budget().take(letters as u64, "names of groups")?;
+            found.group_names = named.into_iter().map(|(number, name)| (number, name.to_string())).collect();
             return Ok(());
         }
         Ok(())
@@ -367,9 +426,9 @@ impl<F: NamedValues> Search<'_, F> {
     /// All that has no place of its own.
     fn others(&mut self) -> Result<Vec<Other>, Problem> {
         let mut others = Vec::new();
-        let mut names = self.file.names();
-        names.sort();
-        for name in names {
+        // What was looked for under a name has said so already.
+        let said: BTreeSet<String> = self.unread.iter().cloned().collect();
+        for name in self.sorted_names()? {
             if self.misindexed.contains(&name) {
                 continue;
             }
@@ -384,8 +443,7 @@ impl<F: NamedValues> Search<'_, F> {
                         Some(other) => others.push(other),
                         None => {
                             let line = self.misfit(&name, count);
-                            // What was looked for under that name has said so already.
-                            if !self.unread.contains(&line) {
+                            if !said.contains(&line) {
                                 self.unread.push(line);
                             }
                         }

@@ -1,6 +1,6 @@
 //! Curves that lie in several objects of a file, as one groom.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use glam::DAffine3;
 use nabiki::Hair;
@@ -19,6 +19,8 @@ pub struct Gathered {
     short: usize,
     /// Names of what some parts have and the whole has not.
     dropped: BTreeSet<String>,
+    /// What is said already: thousands of objects may have a line each.
+    said: HashSet<String>,
 }
 
 impl Gathered {
@@ -51,6 +53,7 @@ impl Gathered {
             self.named += 1;
         }
         let Some(mut all) = self.all.take() else {
+            self.said.extend(part.attributes.unread.iter().cloned());
             self.all = Some(InPlace { hair: part, world_from_hair: world_from_part });
             return Ok(());
         };
@@ -61,7 +64,7 @@ impl Gathered {
             }
             part = part.transformed(&world_from_part);
         }
-        join(&mut all.hair, part, &mut self.dropped);
+        join(&mut all.hair, part, &mut self.dropped, &mut self.said);
         self.all = Some(all);
         Ok(())
     }
@@ -115,8 +118,8 @@ impl Closed {
     }
 }
 
-/// Appends `part`; `dropped`: names of what parts before it had, and which stays away.
-fn join(all: &mut Hair, part: Hair, dropped: &mut BTreeSet<String>) {
+/// Appends `part`; `dropped`: names of what parts before it had, and which stays away; `said`: the lines of what is unread.
+fn join(all: &mut Hair, part: Hair, dropped: &mut BTreeSet<String>, said: &mut HashSet<String>) {
     for strand in part.strands.iter() {
         all.strands.push(strand.iter().copied());
     }
@@ -136,12 +139,11 @@ fn join(all: &mut Hair, part: Hair, dropped: &mut BTreeSet<String>) {
     both("transparencies", extend(&mut a.transparency, b.transparency));
     both("point UVs", extend(&mut a.point_uv, b.point_uv));
     both("held points", extend(&mut a.inverse_mass, b.inverse_mass));
-    let mut others = b.other;
-    others.retain(|theirs| !dropped.contains(&theirs.name));
+    let others = b.other.into_iter().filter(|theirs| !dropped.contains(&theirs.name));
+    let mut others: BTreeMap<String, Other> = others.map(|theirs| (theirs.name.clone(), theirs)).collect();
     a.other.retain_mut(|mine| {
         let stored = mine.stored;
-        let theirs = others.iter().position(|theirs| theirs.name == mine.name).map(|i| others.swap_remove(i));
-        let Err(why) = append(mine, theirs) else {
+        let Err(why) = append(mine, others.remove(&mine.name)) else {
             if mine.stored != stored {
                 retyped.push(format!("the types of {}, which its objects store in several", mine.name));
             }
@@ -151,14 +153,14 @@ fn join(all: &mut Hair, part: Hair, dropped: &mut BTreeSet<String>) {
         dropped.insert(mine.name.clone());
         false
     });
-    for theirs in others {
-        lost.push(format!("{}, {SOME}", theirs.name));
-        dropped.insert(theirs.name);
+    for name in others.into_keys() {
+        lost.push(format!("{name}, {SOME}"));
+        dropped.insert(name);
     }
     a.group_names.extend(b.group_names);
     lost.append(&mut retyped);
     lost.extend(b.unread);
-    lost.retain(|line| !a.unread.contains(line));
+    lost.retain(|line| said.insert(line.clone()));
     a.unread.extend(lost);
 }
 

@@ -1,7 +1,7 @@
 //! What the formats that exchange grooms between programs share, apart from how each is stored.
 //!
 //! [`curves`] turns curves into strands, by their [`Knots`] where they have any, [`attributes`] knows the names by which programs call what curves carry,
-//! [`Gathered`] joins curves of several objects, [`Frames`] are those of samples at any times, [`export`] is what a writer of moving hair is told, and
+//! [`Gathered`] joins curves of several objects, a [`Budget`] bounds what reading a file takes, [`Frames`] are those of samples at any times, [`export`] is what a writer of moving hair is told, and
 //! [`GroomReader`] what a reader answers.
 //!
 //! ```
@@ -22,6 +22,7 @@
 #![forbid(unsafe_code)]
 
 pub mod attributes;
+mod budget;
 mod control;
 pub mod curves;
 pub mod export;
@@ -35,6 +36,7 @@ mod problem;
 mod reader;
 mod shown;
 
+pub use budget::Budget;
 pub use control::Course;
 pub use export::{Export, FrameSink, Velocities};
 pub use frames::{Frames, MOST_FRAMES};

@@ -104,6 +104,12 @@ impl From<io::Error> for Error {
     }
 }
 
+impl From<nabiki_exchange::Problem> for Error {
+    fn from(problem: nabiki_exchange::Problem) -> Self {
+        Self::new(problem.0)
+    }
+}
+
 impl From<nabiki::SettingError> for Error {
     fn from(refused: nabiki::SettingError) -> Self {
         Self::new(refused.to_string())

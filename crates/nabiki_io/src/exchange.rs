@@ -393,6 +393,6 @@ pub fn losses(path: &Path, hair: &Hair) -> Vec<String> {
         lost.push("names of groups without strands".to_owned());
     }
     let changes = if is_usd(path) { nabiki_usd::changes } else { nabiki_alembic::changes };
-    lost.extend(at.other.iter().flat_map(changes));
+    lost.extend(changes(&at.other));
     lost
 }

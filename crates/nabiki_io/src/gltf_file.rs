@@ -4,22 +4,35 @@
 pub(crate) mod accessors;
 pub(crate) mod pose;
 
-use std::path::Path;
+use std::collections::HashMap;
+use std::ops::Deref;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 use gltf::buffer::Source;
+use nabiki_exchange::Budget;
 
 use crate::bytes::Bytes;
 use crate::error::{Error, Result};
 use crate::input::{self, MOST_BINARY_BYTES};
 
+/// What an object of JSON takes in memory once it is read, and what one of its values or of an array's; half of that, as
+/// budgets count.
+const OBJECT_BYTES: u64 = 150;
+const VALUE_BYTES: u64 = 16;
+
 /// The document, valid, and the binary chunk of a .glb.
-pub(crate) fn open(bytes: &[u8]) -> Result<(gltf::Document, Option<Vec<u8>>)> {
+pub(crate) fn open(bytes: &[u8]) -> Result<(gltf::Document, Option<&[u8]>)> {
     let unreadable = |e: gltf::Error| Error::new(format!("is not a readable glTF: {e}"));
     let (text, blob) = if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (bytes, None) };
     let text = text.strip_prefix(input::BYTE_ORDER_MARK).unwrap_or(text);
     if text.trim_ascii_start().first() != Some(&b'{') {
         return Err(Error::new("is not a glTF: it does not start with glTF or {"));
     }
+    // The crate makes all of it at once, a node of two bytes as large as any.
+    let count = |wanted: u8| text.iter().filter(|&&byte| byte == wanted).count() as u64;
+    let takes = count(b'{') * OBJECT_BYTES + count(b',') * VALUE_BYTES;
+    Budget::of(bytes.len() as u64).take(takes, "nodes and other objects")?;
     let gltf = gltf::Gltf::from_slice_without_validation(text).map_err(unreadable)?;
     let mut json = gltf.document.into_json();
     json.extensions_required.retain(|extension| !is_met(extension));
@@ -32,7 +45,7 @@ pub(crate) fn open(bytes: &[u8]) -> Result<(gltf::Document, Option<Vec<u8>>)> {
         let (missing, count) = (missing.value(), json.accessors.len());
         return Err(Error::new(format!("is not a readable glTF: accessor {missing} is named, there are {count}")));
     }
-    Ok((gltf::Document::from_json(json).map_err(unreadable)?, blob.map(<[u8]>::to_vec)))
+    Ok((gltf::Document::from_json(json).map_err(unreadable)?, blob))
 }
 
 /// Whether shapes and motion are read as they are, though the file requires the extension: other component types are read by their
@@ -91,33 +104,84 @@ fn chunks(glb: &[u8]) -> Result<(&[u8], Option<&[u8]>)> {
     Ok((text, chunk(b"BIN\0")?))
 }
 
-/// The bytes of every buffer.
-pub(crate) fn buffers(document: &gltf::Document, blob: Option<&[u8]>, folder: Option<&Path>) -> Result<Vec<Vec<u8>>> {
-    let mut all = Vec::new();
-    for buffer in document.buffers() {
-        let name = |e: Error| e.under(format!("buffer {}", buffer.index()));
-        let bytes = match buffer.source() {
-            Source::Bin => blob.ok_or_else(|| name(Error::new("the file has no binary chunk")))?.to_vec(),
-            Source::Uri(uri) if uri.starts_with("data:") => {
-                let data = gltf::buffer::Data::from_source(buffer.source(), None);
-                data.map_err(|e| name(Error::new(e.to_string())))?.0
-            }
-            Source::Uri(uri) => external(uri, folder).map_err(name)?,
-        };
-        if bytes.len() < buffer.length() {
-            let (found, expected) = (bytes.len(), buffer.length());
-            return Err(name(Error::new(format!("{expected} bytes expected, {found} found: the file is cut short"))));
+/// The bytes of a buffer. Many buffers may be of the same chunk or file, which is in memory once.
+#[derive(Clone)]
+enum Buffer<'a> {
+    /// The chunk of a .glb.
+    Chunk(&'a [u8]),
+    /// Read or unpacked for it.
+    Read(Rc<Vec<u8>>),
+}
+
+impl Deref for Buffer<'_> {
+    type Target = [u8];
+
+    fn deref(&self) -> &[u8] {
+        match self {
+            Self::Chunk(bytes) => bytes,
+            Self::Read(bytes) => bytes,
         }
-        all.push(bytes);
     }
-    Ok(all)
+}
+
+/// The bytes of every buffer, and what may be made of them.
+pub(crate) struct Buffers<'a> {
+    all: Vec<Buffer<'a>>,
+    /// What lies in the file, or in another's, counts once.
+    pub budget: Budget,
+}
+
+impl<'a> Buffers<'a> {
+    /// Those of a document, which was read out of `file` with this binary chunk. `folder`: where buffers in files of their own are;
+    /// `None` refuses them.
+    pub fn new(document: &gltf::Document, file: &[u8], blob: Option<&'a [u8]>, folder: Option<&Path>) -> Result<Self> {
+        let mut all = Vec::new();
+        let mut files: HashMap<PathBuf, Rc<Vec<u8>>> = HashMap::new();
+        let mut held = file.len() as u64;
+        for buffer in document.buffers() {
+            let name = |e: Error| e.under(format!("buffer {}", buffer.index()));
+            let bytes = match buffer.source() {
+                Source::Bin => Buffer::Chunk(blob.ok_or_else(|| name(Error::new("the file has no binary chunk")))?),
+                // Its letters are the file's.
+                Source::Uri(uri) if uri.starts_with("data:") => {
+                    let data = gltf::buffer::Data::from_source(buffer.source(), None);
+                    Buffer::Read(Rc::new(data.map_err(|e| name(Error::new(e.to_string())))?.0))
+                }
+                Source::Uri(uri) => {
+                    let file = external(uri, folder).map_err(name)?;
+                    // Under whichever of its names.
+                    let file = file.canonicalize().unwrap_or(file);
+                    let bytes = match files.get(&file) {
+                        Some(known) => known.clone(),
+                        None => Rc::new(input::read(&file, MOST_BINARY_BYTES).map_err(name)?),
+                    };
+                    if !files.contains_key(&file) {
+                        held += bytes.len() as u64;
+                    }
+                    Buffer::Read(files.entry(file).or_insert(bytes).clone())
+                }
+            };
+            if bytes.len() < buffer.length() {
+                let (found, expected) = (bytes.len(), buffer.length());
+                let line = format!("{expected} bytes expected, {found} found: the file is cut short");
+                return Err(name(Error::new(line)));
+            }
+            all.push(bytes);
+        }
+        Ok(Self { all, budget: Budget::of(held) })
+    }
+
+    /// The bytes of one.
+    pub fn get(&self, index: usize) -> Option<&[u8]> {
+        self.all.get(index).map(|bytes| &**bytes)
+    }
 }
 
 /// A buffer in a file of its own, beside the .gltf.
-fn external(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>> {
+fn external(uri: &str, folder: Option<&Path>) -> Result<PathBuf> {
     let plain = !uri.contains([':', '%', '\\']) && !uri.starts_with('/') && !uri.split('/').any(|part| part == "..");
     match folder {
-        Some(folder) if plain => input::read(&folder.join(uri), MOST_BINARY_BYTES),
+        Some(folder) if plain => Ok(folder.join(uri)),
         _ => Err(Error::new(format!("\"{uri}\" is not a file in the folder of the .gltf: save as .glb"))),
     }
 }

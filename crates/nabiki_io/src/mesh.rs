@@ -151,6 +151,11 @@ pub fn place_and_weld(mesh: Mesh, placement: &Placement) -> Result<(Mesh, MeshRe
     Ok((welded, report))
 }
 
+/// What a vertex takes in memory until it is welded and its edges are counted, and what a triangle does; half of that, as budgets
+/// count.
+const VERTEX_BYTES: u64 = 50;
+const TRIANGLE_BYTES: u64 = 60;
+
 /// Appends a polygon, cut into triangles from its first corner: the vertex and the texture coordinates of each.
 fn push_fan(mesh: &mut Mesh, polygon: &[(u32, Option<Vec2>)]) {
     for k in 2..polygon.len() {

@@ -1,11 +1,18 @@
 //! The nearest of the known names, for "did you mean".
 
+/// Bytes beyond which nothing is a name that somebody has typed.
+const LONGEST: usize = 256;
+
 /// The candidate nearest to `name` by edit distance, unless all are too far to be meant.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let distance = |candidate: &str| edit_distance(&name.to_lowercase(), &candidate.to_lowercase());
-    let best = candidates.into_iter().map(|c| (distance(c), c)).min_by_key(|&(d, _)| d)?;
-    // A name mostly rewritten is another name.
-    (best.0 <= 1 + name.chars().count().max(best.1.chars().count()) / 3).then_some(best.1)
+    // A name mostly rewritten is another name; so is one much longer or shorter, of which no more need be known.
+    let most = |candidate: &str| 1 + name.chars().count().max(candidate.chars().count()) / 3;
+    let near = |candidate: &&str| name.chars().count().abs_diff(candidate.chars().count()) <= most(candidate);
+    let is_short = |candidate: &&str| name.len().max(candidate.len()) <= LONGEST;
+    let candidates = candidates.into_iter().filter(is_short).filter(near);
+    let best = candidates.map(|c| (distance(c), c)).min_by_key(|&(d, _)| d)?;
+    (best.0 <= most(best.1)).then_some(best.1)
 }
 
 /// Optimal string alignment: insertions, deletions, replacements and swaps of neighbours count 1 each.

@@ -32,15 +32,16 @@ pub fn has_instances(layer: &Layer) -> bool {
 
 /// What comes to the stage by arcs, as a phrase.
 pub fn unread(layer: &mut Layer) -> Result<Option<String>, Problem> {
-    let mut found = Vec::new();
-    if layer.has_sublayers()? {
-        found.push("subLayers of the layer".to_owned());
-    }
+    let mut first = layer.has_sublayers()?.then(|| "subLayers of the layer".to_owned());
+    let mut count = usize::from(first.is_some());
     for prim in (0..layer.prims.len()).filter(|&prim| layer.is_active(prim)) {
-        found.extend(layer.prims[prim].arcs.iter().map(|arc| format!("{arc} of {}", layer.path(prim))));
+        for arc in &layer.prims[prim].arcs {
+            count += 1;
+            first.get_or_insert_with(|| format!("{arc} of {}", layer.path(prim)));
+        }
     }
-    let Some(first) = found.first() else { return Ok(None) };
-    let more = match found.len() - 1 {
+    let Some(first) = first else { return Ok(None) };
+    let more = match count - 1 {
         0 => String::new(),
         more => format!(", and by {more} more of its arcs"),
     };

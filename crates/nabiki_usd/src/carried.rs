@@ -2,7 +2,7 @@
 
 use half::f16;
 use nabiki::hair::{Other, Per, Role, Stored, Values};
-use nabiki_exchange::attributes::type_change;
+use nabiki_exchange::attributes::{renamed, type_change, unique_names};
 
 use crate::content::primvar;
 use crate::layer::{Attribute, Value};
@@ -23,30 +23,38 @@ const TYPES: [(Role, usize, [&str; 3]); 11] = [
     (Role::TextureCoordinate, 3, ["texCoord3h[]", "texCoord3f[]", "texCoord3d[]"]),
 ];
 
-/// The attribute as a primvar; `None` for values of a shape that USD has no type for.
-pub fn carried<S>(other: &Other) -> Option<Attribute<S>> {
+/// The attributes as primvars, but for values of a shape that USD has no type for.
+pub fn carried<S>(others: &[Other]) -> Vec<Attribute<S>> {
+    let named = others.iter().zip(names(others));
+    named.filter_map(|(other, name)| primvar_of(other, &name)).collect()
+}
+
+fn primvar_of<S>(other: &Other, name: &str) -> Option<Attribute<S>> {
     let (type_name, value) = typed(other)?;
     let interpolation = match other.per {
         Per::Groom => "constant",
         Per::Strand => "uniform",
         Per::Point => "vertex",
     };
-    let name = primvar(&valid_name(&other.name));
+    let name = primvar(name);
     Some(match type_name.strip_suffix("[]").filter(|_| other.single) {
         Some(type_name) => Attribute::primvar(name, type_name, interpolation, Value::One(Box::new(value))),
         None => Attribute::primvar(name, type_name, interpolation, value),
     })
 }
 
-/// What a USD layer cannot keep of an attribute that is passed on, a phrase each.
-pub fn changes(other: &Other) -> Vec<String> {
+/// What a USD layer cannot keep of attributes that are passed on, a phrase each.
+pub fn changes(others: &[Other]) -> Vec<String> {
+    others.iter().zip(names(others)).flat_map(|(other, name)| changes_of(other, &name)).collect()
+}
+
+fn changes_of(other: &Other, name: &str) -> Vec<String> {
     let Some((type_name, _)) = typed(other) else {
         return vec![format!("{}: USD has no type for its values", other.name)];
     };
-    let name = valid_name(&other.name);
     let mut changes = Vec::new();
     if name != other.name {
-        changes.push(format!("the name {}: it is {name} there", other.name));
+        changes.push(renamed(&other.name, name));
     }
     if let Some(Kind { stored, role, .. }) = kind(type_name.trim_end_matches("[]")) {
         changes.extend(type_change(other, stored, role));
@@ -54,14 +62,46 @@ pub fn changes(other: &Other) -> Vec<String> {
     changes
 }
 
-/// The name with what USD allows in one: letters, digits, underscores, and colons between.
+/// The names of attributes as a layer has them: those that USD allows as they are, others as near to them as it allows.
+fn names(others: &[Other]) -> Vec<String> {
+    unique_names(others, valid_name, &RESERVED)
+}
+
+/// Names under which the layer has what hair has a place for.
+const RESERVED: [&str; 16] = [
+    "displayColor",
+    "displayOpacity",
+    "transparency",
+    "st",
+    "groom_root_uv",
+    "surface_uv_coordinate",
+    "groom_id",
+    "groom_group_id",
+    "groom_group_name",
+    "groom_guide",
+    "point_uv",
+    "freedom",
+    "width",
+    "widths",
+    "rest",
+    "indices",
+];
+
+/// The name with what USD allows in one: identifiers as Unicode has them (XID), with colons between. One that ends with
+/// `:indices` would be taken for the indices of another.
 fn valid_name(name: &str) -> String {
-    let mut valid: String =
-        name.chars().map(|c| if c.is_ascii_alphanumeric() || matches!(c, '_' | ':') { c } else { '_' }).collect();
-    if valid.starts_with(|c: char| c.is_ascii_digit()) {
-        valid.insert(0, '_');
+    let identifier = |part: &str| {
+        let continues = |c: char| if c == '_' || unicode_ident::is_xid_continue(c) { c } else { '_' };
+        let valid: String = part.chars().map(continues).collect();
+        let begins = valid.starts_with(|c: char| c == '_' || unicode_ident::is_xid_start(c));
+        if begins { valid } else { format!("_{valid}") }
+    };
+    let parts: Vec<String> = name.split(':').filter(|part| !part.is_empty()).map(identifier).collect();
+    match &*parts.join(":") {
+        "" => "_".to_owned(),
+        name if name.ends_with(":indices") => format!("{name}_"),
+        name => name.to_owned(),
     }
-    valid
 }
 
 /// The type of the values as a list, and these.
@@ -130,4 +170,26 @@ fn integers(stored: Stored, v: &[i64]) -> (&'static str, Value) {
 /// All numbers in a narrower kind, if it holds them.
 fn all<T: TryFrom<i64>>(v: &[i64]) -> Option<Vec<T>> {
     v.iter().map(|&x| T::try_from(x).ok()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_what_usd_allows_and_each_stands_once() {
+        let one = |name: &str| Other::new(name, Per::Groom, Role::Plain, 1, Values::Floats(vec![1.0]));
+        let named = |names_of: &[&str]| names(&names_of.iter().map(|name| one(name)).collect::<Vec<_>>());
+        // Those that are allowed are kept, whichever comes first.
+        assert_eq!(named(&["a b", "a_b", "a-b", "a b"]), ["a_b_2", "a_b", "a_b_3", "a_b_4"]);
+        assert_eq!(named(&["髪", "é:髪", "a·b", "名 前"]), ["髪", "é:髪", "a·b", "名_前"]);
+        assert_eq!(named(&["ns::a", "ns:a", ":a", "a:", "a", "::"]), ["ns:a_2", "ns:a", "a_2", "a_3", "a", "_"]);
+        assert_eq!(named(&["", "1a", "a:1", "_", "a:indices"]), ["__2", "_1a", "a:_1", "_", "a:indices_"]);
+        // Nor does one take the place of what the layer says by itself.
+        assert_eq!(named(&["groom id", "a\u{1b}\"'.b"]), ["groom_id_2", "a____b"]);
+        let long = "n".repeat(5000);
+        let found = named(&[&long, &format!("{long}x")]);
+        assert!(found.iter().all(|name| name.len() <= 1010) && found[0] != found[1]);
+        assert_eq!(changes(&[one("a b"), one("a_b")]), ["the name a b: it is a_b_2 there"]);
+    }
 }

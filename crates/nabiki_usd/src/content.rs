@@ -1,5 +1,7 @@
 //! The prims of a groom: the same for text and for binary layers.
 
+use std::collections::HashSet;
+
 use glam::Vec3;
 use nabiki::Mesh;
 use nabiki::hair::Attributes;
@@ -40,8 +42,9 @@ pub fn curves<S>(export: &Export<'_>, name: &str) -> Prim<S> {
         attributes.push(Attribute::primvar("primvars:freedom", "float[]", "vertex", value));
     }
     // What was carried along goes before what is made here under the same name.
-    let carried: Vec<Attribute<S>> = at.other.iter().filter_map(carried).collect();
-    attributes.retain(|made| carried.iter().all(|c| c.name != made.name));
+    let carried: Vec<Attribute<S>> = carried(&at.other);
+    let names: HashSet<&str> = carried.iter().map(|c| &*c.name).collect();
+    attributes.retain(|made| !names.contains(&*made.name));
     attributes.extend(carried);
     Prim { name: name.to_owned(), type_name: "BasisCurves", attributes, children: Vec::new() }
 }

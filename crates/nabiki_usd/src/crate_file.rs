@@ -8,6 +8,7 @@ pub mod integers;
 pub mod lists;
 pub mod numbers;
 pub mod read;
+pub mod tables;
 pub mod write;
 
 /// What a file begins with.

@@ -42,6 +42,7 @@ mod skeleton;
 mod skin;
 mod source;
 mod stance;
+mod standing;
 mod text;
 mod timing;
 mod transform;

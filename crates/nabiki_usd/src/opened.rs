@@ -3,13 +3,16 @@
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::SeekFrom;
+use std::rc::Rc;
 
-use glam::{DQuat, Vec3};
+use glam::{DMat4, DQuat, Vec3};
+use nabiki_exchange::Budget;
 
 use crate::Problem;
 use crate::crate_file::MAGIC;
 use crate::crate_file::read::CrateReader;
-use crate::source::{AttributeInfo, BLOCKED, Handle, PrimInfo, Source};
+use crate::source::{AttributeInfo, BLOCKED, Handle, Name, PrimInfo, Source};
+use crate::standing::Standing;
 use crate::text::read as text;
 
 /// A layer.
@@ -17,10 +20,18 @@ pub struct Layer {
     /// Prims, parents before their children.
     pub prims: Vec<PrimInfo>,
     /// What the layer says about itself.
-    pub metadata: HashMap<String, Handle>,
+    pub metadata: HashMap<Name, Handle>,
+    /// What reading the layer may take.
+    pub budget: Rc<Budget>,
+    /// What each prim is by those above it.
+    pub standing: Vec<Standing>,
+    /// Whether a prim is itself invisible, once that was asked.
+    pub invisible: HashMap<usize, Option<bool>>,
+    /// Transforms of prims to the world at the time code asked for last.
+    pub worlds: (f64, HashMap<usize, DMat4>),
     values: Values,
     /// Prims by what is above them and their names, when they are first looked up.
-    by_name: Option<HashMap<(Option<usize>, String), usize>>,
+    by_name: Option<HashMap<(Option<usize>, Name), usize>>,
 }
 
 enum Values {
@@ -36,9 +47,10 @@ impl Layer {
         from.seek(SeekFrom::Start(0))?;
         from.read_exact(&mut first[..length.min(8) as usize])?;
         from.seek(SeekFrom::Start(0))?;
+        let budget = Rc::new(Budget::of(length));
         if first == *MAGIC {
-            let (reader, prims, metadata) = CrateReader::new(from, length)?;
-            return Ok(Self { prims, metadata, values: Values::Binary(Box::new(reader)), by_name: None });
+            let (reader, prims, metadata) = CrateReader::new(from, length, budget.clone())?;
+            return Self::of(prims, metadata, budget, Values::Binary(Box::new(reader)));
         }
         if first.starts_with(b"PK\x03\x04") {
             return Err(Problem::new("is a .usdz package: unpack it and give the layer inside"));
@@ -51,8 +63,25 @@ impl Layer {
         if !first.starts_with(b"#usda") && !first.starts_with(b"#sdf") {
             return Err(Problem::new("is no USD layer: it begins neither with #usda nor with PXR-USDC"));
         }
-        let (prims, metadata) = text::parse(&mut *from, length)?;
-        Ok(Self { prims, metadata, values: Values::Text(from), by_name: None })
+        let (prims, metadata) = text::parse(&mut *from, length, &budget)?;
+        Self::of(prims, metadata, budget, Values::Text(from))
+    }
+
+    fn of(
+        prims: Vec<PrimInfo>,
+        metadata: HashMap<Name, Handle>,
+        budget: Rc<Budget>,
+        values: Values,
+    ) -> Result<Self, Problem> {
+        budget.keep((prims.len() * size_of::<Standing>()) as u64, "prims")?;
+        let standing = Standing::of_all(&prims);
+        let paths: u64 = standing.iter().map(|prim| u64::from(prim.path_bytes)).sum();
+        // A question may name every prim several times: as what is there, as what is left out.
+        budget.next_question();
+        budget.take(4 * paths, "paths of prims")?;
+        let worlds = (f64::NAN, HashMap::new());
+        let invisible = HashMap::new();
+        Ok(Self { prims, metadata, budget, standing, invisible, worlds, values, by_name: None })
     }
 
     /// Opens the layer in a file.
@@ -63,7 +92,7 @@ impl Layer {
     /// All numbers of a value, in a row; nothing for text.
     pub fn numbers(&mut self, handle: Handle) -> Result<Vec<f64>, Problem> {
         match &mut self.values {
-            Values::Text(from) => text::numbers(&mut **from, handle),
+            Values::Text(from) => text::numbers(&mut **from, handle, &self.budget),
             Values::Binary(reader) => reader.numbers(handle.0),
         }
     }
@@ -71,7 +100,7 @@ impl Layer {
     /// All numbers of a value as singles.
     pub fn singles(&mut self, handle: Handle) -> Result<Vec<f32>, Problem> {
         match &mut self.values {
-            Values::Text(from) => text::numbers(&mut **from, handle),
+            Values::Text(from) => text::numbers(&mut **from, handle, &self.budget),
             Values::Binary(reader) => reader.singles(handle.0),
         }
     }
@@ -80,7 +109,7 @@ impl Layer {
     pub fn points(&mut self, handle: Handle) -> Result<Vec<Vec3>, Problem> {
         match &mut self.values {
             Values::Text(from) => {
-                let numbers: Vec<f32> = text::numbers(&mut **from, handle)?;
+                let numbers: Vec<f32> = text::numbers(&mut **from, handle, &self.budget)?;
                 Ok(numbers.as_chunks::<3>().0.iter().map(|&p| Vec3::from(p)).collect())
             }
             Values::Binary(reader) => reader.points(handle.0),
@@ -90,23 +119,46 @@ impl Layer {
     /// All numbers of a value as whole numbers.
     pub fn integers(&mut self, handle: Handle) -> Result<Vec<i64>, Problem> {
         match &mut self.values {
-            Values::Text(from) => text::numbers(&mut **from, handle),
+            Values::Text(from) => text::numbers(&mut **from, handle, &self.budget),
             Values::Binary(reader) => reader.integers(handle.0),
+        }
+    }
+
+    /// How many values an attribute of `extent` numbers a value has.
+    pub fn count(&mut self, handle: Handle, extent: usize) -> Result<usize, Problem> {
+        if let Values::Binary(reader) = &mut self.values
+            && let Some(count) = reader.count(handle.0)?
+        {
+            return Ok(count);
+        }
+        Ok(self.numbers(handle)?.len() / extent)
+    }
+
+    /// Whether a value has more than so many numbers, as far as that can be told without reading them.
+    pub fn has_more_than(&mut self, handle: Handle, numbers: usize) -> Result<bool, Problem> {
+        // More letters than a double ever has, with blanks about it.
+        const LETTERS: u64 = 400;
+        match &mut self.values {
+            Values::Text(_) => Ok(handle.1 > LETTERS * numbers as u64),
+            Values::Binary(reader) => Ok(reader.count(handle.0)?.is_some_and(|count| count > numbers)),
         }
     }
 
     /// All words of a value: tokens or strings.
     pub fn words(&mut self, handle: Handle) -> Result<Vec<String>, Problem> {
         match &mut self.values {
-            Values::Text(from) => text::words(&mut **from, handle),
+            Values::Text(from) => text::words(&mut **from, handle, &self.budget),
             Values::Binary(reader) => reader.words(handle.0),
         }
     }
 
     /// Path of a prim.
     pub fn path(&self, prim: usize) -> String {
-        let names: Vec<&str> = self.upward(prim).map(|i| self.prims[i].name.as_str()).collect();
-        names.iter().rev().fold(String::new(), |path, name| path + "/" + name)
+        let mut names: Vec<&str> = self.upward(prim).map(|i| self.prims[i].name.as_str()).collect();
+        names.reverse();
+        let mut path = String::with_capacity(self.standing[prim].path_bytes as usize);
+        names.into_iter().for_each(|name| path.extend(["/", name]));
+        path
     }
 
     /// What a relationship names: `None` for what is no prim of the layer. None at all where the prim does not have it.
@@ -148,7 +200,7 @@ impl Layer {
         for name in path.split('/').filter(|name| !name.is_empty()) {
             at = match name {
                 ".." => prims[at?].parent,
-                name => Some(*by_name.get(&(at, name.to_owned()))?),
+                name => Some(*by_name.get(&(at, Name::from(name)))?),
             };
         }
         at
@@ -247,7 +299,7 @@ impl Layer {
 
     /// Whether neither a prim nor any above it is inactive or a class.
     pub fn is_active(&self, prim: usize) -> bool {
-        self.upward(prim).all(|i| !self.prims[i].is_off_stage)
+        self.standing[prim].is_active
     }
 
     /// Whether this layer by itself has a prim on its stage, at the prim's own place.
@@ -257,12 +309,12 @@ impl Layer {
 
     /// Whether this layer by itself defines a prim that is active.
     pub fn is_defined(&self, prim: usize) -> bool {
-        self.is_active(prim) && self.upward(prim).all(|i| !self.prims[i].is_over)
+        self.standing[prim].is_defined
     }
 
     /// What draws a prim at other places than its own: the point instancer that it stands below.
     pub fn instancer(&self, prim: usize) -> Option<usize> {
-        self.upward(prim).skip(1).find(|&above| self.prims[above].type_name == "PointInstancer")
+        self.standing[prim].instancer
     }
 
     /// Prims of a type that are on the stage and have points; all that are there, where none has.
@@ -282,7 +334,7 @@ impl Layer {
 
     /// Whether a prim has points at any time.
     pub fn has_points(&self, prim: usize) -> bool {
-        self.prims[prim].attributes.get("points").is_some_and(AttributeInfo::is_authored)
+        self.prims[prim].attributes.get("points").is_some_and(|points| points.is_authored())
     }
 
     /// A prim and those above it, from below.

@@ -1,13 +1,13 @@
 //! What a prim of curves carries, and what of it is not read.
 
 use nabiki::hair::{Per, Role, Stored, Values};
-use nabiki_exchange::Hidden;
 use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values, misindexed, whole};
+use nabiki_exchange::{Budget, Hidden};
 
 use crate::Problem;
 use crate::opened::Layer;
 use crate::shown::hidden;
-use crate::source::{AttributeInfo, Handle};
+use crate::source::{AttributeInfo, Handle, Name};
 
 /// What a prim carries at a time code: its primvars, and `widths`, which is an attribute of its own.
 pub struct Primvars<'a> {
@@ -43,12 +43,15 @@ fn is_of_bond(name: &str) -> bool {
     name.strip_prefix("primvars:").unwrap_or(name).starts_with("skel:")
 }
 
+/// What is called in the budget what is said of what is not read.
+const LINES: &str = "notes on what is not read";
+
 impl Primvars<'_> {
     /// What the prim says of itself that is not read, a phrase each.
     pub fn unread(&mut self) -> Result<Vec<String>, Problem> {
         let mut marks: Vec<String> = hidden(self.layer, self.prim)?.iter().map(Hidden::kept).collect();
         let prim = &self.layer.prims[self.prim];
-        let other = |name: &&String| {
+        let other = |name: &&Name| {
             !KNOWN.contains(&name.as_str()) && !name.starts_with("primvars:") && !name.starts_with("xformOp:")
         };
         let of_bond = |name: &str| self.is_bound && is_of_bond(name);
@@ -66,17 +69,26 @@ impl Primvars<'_> {
         let splines = prim.attributes.iter().filter(|(name, a)| name.starts_with("primvars:") && a.has_spline);
         unread.extend(splines.map(|(name, _)| format!("the spline of {name}")));
         unread.append(&mut marks);
-        for above in self.layer.upward(self.prim).skip(1) {
-            let names = self.layer.prims[above].authored().map(|(name, _)| name);
-            let inherited =
-                names.filter(|name| name.starts_with("primvars:") && !name.ends_with(":indices") && !of_bond(name));
-            unread.extend(inherited.map(|name| format!("{name} of {}, which is above it", self.layer.path(above))));
-        }
         for above in self.layer.upward(self.prim) {
-            for name in self.layer.prims[above].related().filter(|name| !of_bond(name)) {
-                unread.push(format!("{name} of {}", self.layer.path(above)));
+            if !self.layer.standing[above].says {
+                continue;
             }
+            let path = self.layer.path(above);
+            let mut say = |name: &Name, end: &str| {
+                let line = format!("{name} of {path}{end}");
+                self.layer.budget.take(line.len() as u64, LINES)?;
+                unread.push(line);
+                Ok::<_, Problem>(())
+            };
+            let prim = &self.layer.prims[above];
+            let names = prim.authored().map(|(name, _)| name).filter(|_| above != self.prim);
+            let mut inherited =
+                names.filter(|name| name.starts_with("primvars:") && !name.ends_with(":indices") && !of_bond(name));
+            inherited.try_for_each(|name| say(name, ", which is above it"))?;
+            prim.related().filter(|name| !of_bond(name)).try_for_each(|name| say(name, ""))?;
         }
+        let letters: usize = unread.iter().map(|line| size_of::<String>() + line.len()).sum();
+        self.layer.budget.take(letters as u64, LINES)?;
         unread.sort();
         Ok(unread)
     }
@@ -110,19 +122,27 @@ impl Primvars<'_> {
     /// Values, looked up where they are stored by index.
     fn expanded<T: Clone>(&mut self, name: &str, values: Vec<T>) -> Result<Option<Vec<T>>, Problem> {
         match self.indices(name)? {
-            Some(indices) => indexed(name, &values, &indices).map(Some),
+            Some(indices) => {
+                self.layer.budget.take_list::<T>(indices.len(), name)?;
+                indexed(name, &values, &indices).map(Some)
+            }
             None => Ok(Some(values)),
         }
     }
 }
 
 impl NamedValues for Primvars<'_> {
+    fn budget(&self) -> &Budget {
+        &self.layer.budget
+    }
+
     fn misindexed(&mut self, name: &str) -> Result<Option<&'static str>, Problem> {
         let (Some(indices), Some(handle)) = (self.indices(name)?, self.named(name)) else { return Ok(None) };
-        let type_name = &self.layer.prims[self.prim].attributes.get(&format!("primvars:{name}")).map(|a| &a.type_name);
+        let type_name =
+            &self.layer.prims[self.prim].attributes.get(format!("primvars:{name}").as_str()).map(|a| &a.type_name);
         let count = match type_name.and_then(|name| kind(name)) {
             Some(Kind { stored: Stored::Text | Stored::Token, .. }) => self.layer.words(handle)?.len(),
-            Some(Kind { extent, .. }) => self.layer.numbers(handle)?.len() / extent,
+            Some(Kind { extent, .. }) => self.layer.count(handle, extent)?,
             None => return Ok(None),
         };
         Ok(misindexed(&indices, count))
@@ -131,7 +151,7 @@ impl NamedValues for Primvars<'_> {
     fn names(&self) -> Vec<String> {
         // Of a spline there is no value, which is said.
         let has_value =
-            |(name, a): &(&String, &AttributeInfo)| a.has_spline || self.layer.at(self.prim, name, self.time).is_some();
+            |(name, a): &(&Name, &AttributeInfo)| a.has_spline || self.layer.at(self.prim, name, self.time).is_some();
         let attributes = self.layer.prims[self.prim].authored().filter(has_value);
         let names = attributes.filter_map(|(name, _)| name.strip_prefix("primvars:"));
         let names = names.filter(|name| !(self.is_bound && is_of_bond(name)));
@@ -168,13 +188,16 @@ impl NamedValues for Primvars<'_> {
     fn words(&mut self, name: &str) -> Result<Option<Vec<String>>, Problem> {
         let Some(handle) = self.named(name) else { return Ok(None) };
         let values = self.layer.words(handle)?;
+        if let Some(indices) = self.indices(name)? {
+            self.layer.budget.take_words(&values, &indices, name)?;
+        }
         self.expanded(name, values)
     }
 
     fn whatever(&mut self, name: &str) -> Result<Option<Whatever>, Problem> {
         let whole = format!("primvars:{name}");
         let Some(handle) = self.layer.at(self.prim, &whole, self.time) else { return Ok(None) };
-        let attribute = &self.layer.prims[self.prim].attributes[&whole];
+        let attribute = &self.layer.prims[self.prim].attributes[whole.as_str()];
         let single = !attribute.is_array;
         let Some(Kind { stored, role, extent }) = kind(&attribute.type_name) else { return Ok(None) };
         let mut values = match stored {
@@ -184,6 +207,7 @@ impl NamedValues for Primvars<'_> {
             _ => Values::Integers(self.layer.integers(handle)?),
         };
         if let Some(indices) = self.indices(name)? {
+            self.layer.budget.take_values(&values, extent, &indices, name)?;
             values = indexed_values(name, &values, extent, &indices)?;
         }
         let per = match self.layer.interpolation(self.prim, &whole)?.as_deref() {

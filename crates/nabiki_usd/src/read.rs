@@ -147,14 +147,14 @@ impl StageReader {
     /// Number of values of an attribute at its first time code.
     fn count(&mut self, prim: usize, name: &str) -> Result<usize, Problem> {
         match self.layer.at(prim, name, f64::NEG_INFINITY) {
-            Some(handle) => Ok(self.layer.integers(handle)?.len()),
+            Some(handle) => self.layer.count(handle, 1),
             None => Ok(0),
         }
     }
 
     fn point_count(&mut self, prim: usize) -> Result<usize, Problem> {
         match self.layer.at(prim, "points", f64::NEG_INFINITY) {
-            Some(handle) => Ok(self.layer.points(handle)?.len()),
+            Some(handle) => self.layer.count(handle, 3),
             None => Ok(0),
         }
     }
@@ -276,6 +276,7 @@ enum Mover {
 
 impl GroomReader for StageReader {
     fn contents(&mut self) -> Result<Contents, Problem> {
+        self.layer.budget.next_question();
         let paths = |layer: &Layer, kind: &str| {
             let prims = layer.of_type(kind).into_iter().filter(|&i| layer.has_points(i));
             prims.map(|i| layer.path(i)).collect::<Vec<_>>()
@@ -300,6 +301,7 @@ impl GroomReader for StageReader {
     }
 
     fn prims(&mut self) -> Result<Vec<Prim>, Problem> {
+        self.layer.budget.next_question();
         let mut prims = Vec::with_capacity(self.layer.prims.len());
         // Found by looking at all curves: once, not for each of thousands.
         let time = if self.layer.of_type("BasisCurves").is_empty() { 0.0 } else { self.code_of(0)? };
@@ -332,10 +334,13 @@ impl GroomReader for StageReader {
                 }
                 "Xform" => PrimKind::Transform,
                 "Skeleton" => PrimKind::Skeleton { joints: skeleton::joints(&mut self.layer, i)? },
-                _ => PrimKind::Other(type_name),
+                _ => PrimKind::Other(type_name.to_string()),
             };
             let samples = self.layer.prims[i].attributes.values().map(|a| a.samples.len()).max().unwrap_or(0);
-            let relationships = self.layer.prims[i].related().cloned().collect();
+            let relationships: Vec<String> = self.layer.prims[i].related().map(|name| name.to_string()).collect();
+            let letters: usize = relationships.iter().map(|name| size_of::<String>() + name.len()).sum();
+            let path = self.layer.standing[i].path_bytes as usize;
+            self.layer.budget.take((size_of::<Prim>() + path + letters) as u64, "prims")?;
             prims.push(Prim { path: self.layer.path(i), kind, samples, relationships });
         }
         Ok(prims)
@@ -346,6 +351,7 @@ impl GroomReader for StageReader {
     }
 
     fn hair_in_place(&mut self, frame: usize, segments: Option<usize>, attributes: bool) -> Result<InPlace, Problem> {
+        self.layer.budget.next_question();
         if self.layer.with_points("BasisCurves").is_empty() {
             return Err(self.no_curves());
         }
@@ -364,7 +370,7 @@ impl GroomReader for StageReader {
             let posed = in_place(&mut self.layer, prim, points.map_err(named)?, Stance::First, time)?;
             let world = DAffine3::from_mat4(posed.world);
             let part = self.curves(prim, posed, frame, segments, attributes).map_err(named)?;
-            let name = self.layer.prims[prim].name.clone();
+            let name = self.layer.prims[prim].name.to_string();
             all.append(part, world, (prims.len() > 1).then_some((group as i32, name)))?;
         }
         let mut placed = all.hair()?;
@@ -382,6 +388,7 @@ impl GroomReader for StageReader {
     }
 
     fn meshes_with_losses(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<(Mesh, Vec<String>), Problem> {
+        self.layer.budget.next_question();
         let (mut mesh, mut lost) = (Mesh::default(), Vec::new());
         let (time, stance) = (self.code_of(0)?, self.stance()?);
         for prim in meshes::chosen(&mut self.layer, wanted, stance)?.prims {
@@ -420,6 +427,7 @@ impl GroomReader for StageReader {
     }
 
     fn meshes_unread(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Vec<String>, Problem> {
+        self.layer.budget.next_question();
         let stance = self.stance()?;
         let mut unread = meshes::chosen(&mut self.layer, wanted, stance)?.unread;
         unread.extend(arcs::unread(&mut self.layer)?);
@@ -427,6 +435,7 @@ impl GroomReader for StageReader {
     }
 
     fn motion(&mut self, node: &str) -> Result<Vec<Placed>, Problem> {
+        self.layer.budget.next_question();
         let rate = self.codes_a_second()?;
         let mover = self.mover(node)?;
         let mut times = match &mover {
@@ -452,6 +461,7 @@ impl GroomReader for StageReader {
         }
         let mut motion = Vec::with_capacity(times.len());
         for time in times {
+            self.layer.budget.next_moment()?;
             let world = match &mover {
                 Mover::Prim(prim) => transform::world(&mut self.layer, *prim, time)?,
                 Mover::Joint(joint) => joint.world(&mut self.layer, time)?,
@@ -469,6 +479,7 @@ impl GroomReader for StageReader {
     }
 
     fn bound(&mut self, node: &str) -> Result<Option<Placed>, Problem> {
+        self.layer.budget.next_question();
         let bound = match self.mover(node)? {
             Mover::Prim(_) => None,
             Mover::Joint(joint) => {

@@ -13,6 +13,7 @@ pub fn hidden(layer: &mut Layer, prim: usize) -> Result<Vec<Hidden>, Problem> {
     let mut found = Vec::new();
     for &i in &upward {
         if let Some(at_times) = invisible(layer, i)? {
+            layer.budget.take(layer.standing[i].path_bytes.into(), "paths of prims")?;
             found.push(Hidden { by: layer.path(i), name: "visibility", value: "invisible".to_owned(), at_times });
         }
     }
@@ -29,6 +30,15 @@ pub fn hidden(layer: &mut Layer, prim: usize) -> Result<Vec<Hidden>, Problem> {
 
 /// Whether a prim is itself invisible: `Some(true)` at some of its time codes, `Some(false)` at all.
 fn invisible(layer: &mut Layer, prim: usize) -> Result<Option<bool>, Problem> {
+    if let Some(&known) = layer.invisible.get(&prim) {
+        return Ok(known);
+    }
+    let found = read_invisible(layer, prim)?;
+    layer.invisible.insert(prim, found);
+    Ok(found)
+}
+
+fn read_invisible(layer: &mut Layer, prim: usize) -> Result<Option<bool>, Problem> {
     let Some(attribute) = layer.prims[prim].attributes.get("visibility") else { return Ok(None) };
     let values: Vec<Handle> = match &attribute.samples[..] {
         [] => attribute.default.into_iter().collect(),

@@ -67,14 +67,20 @@ impl StageReader {
             return Ok(codes);
         }
         let mut most: Vec<f64> = Vec::new();
+        let mut carried: Option<usize> = None;
         for prim in curves {
-            let mut moving = match Skin::of(&mut self.layer, prim)? {
-                Some(skin) => skin.rig.times(&self.layer),
-                None => transform::times(&self.layer, prim),
-            };
-            if moving.len() > most.len() {
-                std::mem::swap(&mut most, &mut moving);
+            match Skin::of(&mut self.layer, prim)? {
+                Some(skin) => {
+                    let moving = skin.rig.times(&self.layer);
+                    if moving.len() > most.len() {
+                        most = moving;
+                    }
+                }
+                None => carried = carried.into_iter().chain([prim]).max_by_key(|&prim| self.layer.standing[prim].moves),
             }
+        }
+        if let Some(prim) = carried.filter(|&prim| self.layer.standing[prim].moves > most.len()) {
+            most = transform::times(&self.layer, prim);
         }
         most.sort_by(f64::total_cmp);
         most.dedup();

@@ -1,5 +1,7 @@
 //! Transforms of prims, from the operations that each lists.
 
+use std::collections::HashMap;
+
 use glam::{DMat4, DVec3};
 use nabiki::hair::Stored;
 
@@ -7,24 +9,45 @@ use crate::Problem;
 use crate::opened::Layer;
 use crate::primvars;
 
+/// Transforms of one prim; a tool that bakes writes one, a rig some ten.
+const MOST_OPERATIONS: usize = 1024;
+/// Numbers of the largest, a matrix.
+const MOST_NUMBERS: usize = 16;
+/// What one counts for in the budget of its file.
+const A_TRANSFORM: u64 = 32;
+
 /// The product of all transforms from the top down to `prim` at a time code. Between samples, each operation is
 /// interpolated before the product is taken, as USD does.
 pub fn world(layer: &mut Layer, prim: usize, time: f64) -> Result<DMat4, Problem> {
+    // Many prims stand below the same ones.
+    if layer.worlds.0 != time {
+        layer.worlds = (time, HashMap::new());
+    }
     let mut world = DMat4::IDENTITY;
+    let mut locals: Vec<(usize, DMat4)> = Vec::new();
     let upward: Vec<usize> = layer.upward(prim).collect();
     for i in upward {
+        if let Some(&known) = layer.worlds.1.get(&i) {
+            world = known;
+            break;
+        }
         let (local, resets) = local(layer, i, time)?;
-        world = local * world;
+        locals.push((i, local));
         if resets {
             break;
         }
+    }
+    for (i, local) in locals.into_iter().rev() {
+        world *= local;
+        layer.worlds.1.insert(i, world);
     }
     Ok(world)
 }
 
 /// The time codes at which `prim` or a prim above it moves.
 pub fn times(layer: &Layer, prim: usize) -> Vec<f64> {
-    let attributes = layer.upward(prim).flat_map(|i| &layer.prims[i].attributes);
+    let moving = layer.upward(prim).filter(|&i| layer.standing[i].moves_itself);
+    let attributes = moving.flat_map(|i| &layer.prims[i].attributes);
     let moving = attributes.filter(|(name, _)| name.starts_with("xformOp:"));
     moving.flat_map(|(_, a)| a.samples.iter().map(|&(t, _)| t)).collect()
 }
@@ -55,7 +78,16 @@ fn local(layer: &mut Layer, prim: usize, time: f64) -> Result<(DMat4, bool), Pro
     let mut local = DMat4::IDENTITY;
     let mut resets = false;
     let Some(order) = layer.at(prim, "xformOpOrder", time) else { return Ok((local, resets)) };
-    for word in layer.words(order)? {
+    let words = layer.words(order)?;
+    if words.len() > MOST_OPERATIONS {
+        let (path, found) = (layer.path(prim), words.len());
+        return Err(Problem(format!(
+            "prim {path}: {found} transforms in its xformOpOrder, and {MOST_OPERATIONS} are the most that are read: combine them"
+        )));
+    }
+    for word in words {
+        // Each is looked up, read and multiplied at every time code.
+        layer.budget.take(A_TRANSFORM, "transforms")?;
         if word == RESET {
             (local, resets) = (DMat4::IDENTITY, true);
             continue;
@@ -79,6 +111,11 @@ fn local(layer: &mut Layer, prim: usize, time: f64) -> Result<(DMat4, bool), Pro
             let turn = layer.quaternions_at(prim, name, time)?.unwrap_or_default();
             Some(turn.first().map_or(DMat4::IDENTITY, |&turn| DMat4::from_quat(turn)))
         } else {
+            if let Some(value) = layer.at(prim, name, time)
+                && layer.has_more_than(value, MOST_NUMBERS)?
+            {
+                return Err(Problem(format!("prim {}: {name} is no transform", layer.path(prim))));
+            }
             match layer.numbers_at(prim, name, time)?.as_deref() {
                 // What has no value, or one that is blocked, moves nothing in USD.
                 None | Some([]) => Some(DMat4::IDENTITY),

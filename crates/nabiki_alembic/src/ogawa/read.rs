@@ -1,6 +1,9 @@
 //! Reading of groups and data, with nothing believed that the file's size contradicts.
 
 use std::io::{Read, Seek, SeekFrom};
+use std::rc::Rc;
+
+use nabiki_exchange::Budget;
 
 use super::{DATA, HEADER};
 use crate::Problem;
@@ -9,6 +12,8 @@ use crate::Problem;
 pub struct Reader<R> {
     from: R,
     size: u64,
+    /// What reading the archive may take.
+    pub budget: Rc<Budget>,
 }
 
 /// Places of a group's children.
@@ -36,7 +41,7 @@ impl<R: Read + Seek> Reader<R> {
         if head[5] != 0xff {
             return Err(Problem::new("was never finished by the program that wrote it"));
         }
-        let mut reader = Self { from, size };
+        let mut reader = Self { from, size, budget: Rc::new(Budget::of(size)) };
         let root = reader.group(number(&head[8..]))?;
         Ok((reader, root))
     }
@@ -50,9 +55,24 @@ impl<R: Read + Seek> Reader<R> {
             return Ok(Group::new());
         }
         let count = self.count(child, 8)?;
+        self.budget.take(8 * count as u64, "objects and properties")?;
         let mut bytes = vec![0; 8 * count];
         self.from.read_exact(&mut bytes)?;
         Ok(bytes.chunks_exact(8).map(number).collect())
+    }
+
+    /// Child number `index` of the group at `child`, without reading the others; `None` past them.
+    pub fn child_of(&mut self, child: u64, index: usize) -> Result<Option<u64>, Problem> {
+        if is_data(child) {
+            return Err(Problem::new("has data where a group should be"));
+        }
+        if child == 0 || index >= self.count(child, 8)? {
+            return Ok(None);
+        }
+        self.from.seek_relative(8 * index as i64)?;
+        let mut bytes = [0; 8];
+        self.from.read_exact(&mut bytes)?;
+        Ok(Some(number(&bytes)))
     }
 
     /// The bytes of the data at `child`.
@@ -67,6 +87,7 @@ impl<R: Read + Seek> Reader<R> {
             return Ok(Vec::new());
         }
         self.from.seek_relative(skip as i64)?;
+        self.budget.take((length - skip) as u64, "samples")?;
         let mut bytes = vec![0; length - skip];
         self.from.read_exact(&mut bytes)?;
         Ok(bytes)
@@ -76,6 +97,7 @@ impl<R: Read + Seek> Reader<R> {
     /// the end is left out.
     pub fn plain_after<T: bytemuck::Pod>(&mut self, child: u64, skip: usize) -> Result<Vec<T>, Problem> {
         let length = self.length(child)?.saturating_sub(skip);
+        self.budget.take(length as u64, "samples")?;
         let mut values = bytemuck::zeroed_vec(length / size_of::<T>());
         if !values.is_empty() {
             self.from.seek_relative(skip as i64)?;

@@ -4,6 +4,7 @@
 use glam::DAffine3;
 use gltf::accessor::{Accessor, DataType, Dimensions};
 
+use super::Buffers;
 use crate::error::{Error, Result};
 
 /// What whole numbers stand for.
@@ -18,7 +19,7 @@ pub(crate) enum Whole {
 /// Items of `N` numbers each, whole ones or singles; `what` they are.
 pub(crate) fn numbers<const N: usize>(
     accessor: &Accessor,
-    buffers: &[Vec<u8>],
+    buffers: &Buffers<'_>,
     whole: Whole,
     what: &str,
 ) -> Result<Vec<[f32; N]>> {
@@ -48,7 +49,7 @@ pub(crate) fn numbers<const N: usize>(
 /// Items of `N` whole numbers from 0 on, which are `what`.
 pub(crate) fn whole_numbers<const N: usize>(
     accessor: &Accessor,
-    buffers: &[Vec<u8>],
+    buffers: &Buffers<'_>,
     what: &str,
 ) -> Result<Vec<[u32; N]>> {
     let (kind, shape) = (accessor.data_type(), accessor.dimensions());
@@ -62,7 +63,7 @@ pub(crate) fn whole_numbers<const N: usize>(
 }
 
 /// The transforms of an accessor of matrices.
-pub(crate) fn transforms(accessor: &Accessor, buffers: &[Vec<u8>], what: &str) -> Result<Vec<DAffine3>> {
+pub(crate) fn transforms(accessor: &Accessor, buffers: &Buffers<'_>, what: &str) -> Result<Vec<DAffine3>> {
     if (accessor.data_type(), accessor.dimensions()) != (DataType::F32, Dimensions::Mat4) {
         let (kind, shape) = (accessor.data_type(), accessor.dimensions());
         return Err(Error::new(format!(
@@ -84,26 +85,24 @@ fn whole_number(little_endian: &[u8]) -> u32 {
 /// The items of an accessor, each of `N` components, all within their buffer.
 fn items<T: Copy + Default, const N: usize>(
     accessor: &Accessor,
-    buffers: &[Vec<u8>],
+    buffers: &Buffers<'_>,
     component: impl Fn(&[u8]) -> T,
 ) -> Result<Vec<[T; N]>> {
     let width = accessor.data_type().size();
     let (count, index) = (accessor.count(), accessor.index());
+    let take = |count: usize| buffers.budget.take_list::<[T; N]>(count, "accessors").map_err(Error::from);
     let item = |bytes: &[u8]| std::array::from_fn(|i| component(&bytes[i * width..(i + 1) * width]));
     let mut items: Vec<[T; N]> = match accessor.view() {
         Some(view) => {
             let part = Part { index, offset: accessor.offset(), count, size: N * width };
             let bytes = part.within(&view, buffers)?;
+            take(count)?;
             bytes.map(item).collect()
         }
         // Noughts, but for those that are given one by one.
         None => {
-            let held: usize = buffers.iter().map(Vec::len).sum();
-            if count > held {
-                let line =
-                    format!("accessor {index}: {count} items without data of their own, more than the file has bytes");
-                return Err(Error::new(line));
-            }
+            // Of these nothing lies in the file.
+            take(count)?;
             vec![[T::default(); N]; count]
         }
     };
@@ -136,7 +135,7 @@ impl Part {
     fn within<'b>(
         &self,
         view: &gltf::buffer::View,
-        buffers: &'b [Vec<u8>],
+        buffers: &'b Buffers<'_>,
     ) -> Result<impl Iterator<Item = &'b [u8]> + use<'b>> {
         let &Self { index, offset, count, size } = self;
         let stride = view.stride().unwrap_or(size);

@@ -33,10 +33,10 @@ pub(super) fn check_groups(wanted: &[String], known: &[&str]) -> Result<()> {
                 Some(near) => format!("did you mean \"{near}\"?"),
                 None => match known {
                     [] => "it has no named groups".to_owned(),
-                    [first, ..] => format!("it has {} groups, the first \"{first}\"", known.len()),
+                    [first, ..] => format!("it has {} groups, the first \"{first:.80}\"", known.len()),
                 },
             };
-            return Err(Error::new(format!("group \"{group}\" is not in the file; {hint}")));
+            return Err(Error::new(format!("group \"{group:.80}\" is not in the file; {hint}")));
         }
     }
     Ok(())

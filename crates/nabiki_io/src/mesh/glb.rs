@@ -10,28 +10,19 @@ use gltf::{Semantic, mesh::Mode};
 use nabiki::Mesh;
 
 use super::check::{check, check_groups};
+use super::{TRIANGLE_BYTES, VERTEX_BYTES};
 use crate::error::{Error, Result};
 use crate::gltf_file::accessors::{Whole, numbers, whole_numbers};
-use crate::gltf_file::{buffers, open, pose};
+use crate::gltf_file::{Buffers, open, pose};
 use skin::Skin;
-
-/// A mesh drawn by many nodes is copied for each; beyond this many times the file's size it is a trick, not a head.
-const MOST_COPIES: usize = 64;
 
 /// The triangles, and what of the meshes is left out or not obeyed, a phrase each. `folder`: where buffers in files of their own
 /// are; `None` refuses them.
 pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String]) -> Result<(Mesh, Vec<String>)> {
     let (document, blob) = open(bytes)?;
-    let buffers = buffers(&document, blob.as_deref(), folder)?;
-    let room = MOST_COPIES * (bytes.len() + buffers.iter().map(Vec::len).sum::<usize>()) / size_of::<Vec3>();
+    let buffers = Buffers::new(&document, bytes, blob, folder)?;
     let (mut mesh, mut unread) = (Mesh::default(), Vec::new());
-    each_part(&document, &buffers, groups, &mut |part| {
-        part.append_to(&mut mesh, &buffers, &mut unread)?;
-        if mesh.positions.len() > room || mesh.triangles.len() > room {
-            return Err(Error::new(format!("its nodes repeat meshes to more than {MOST_COPIES} times the file")));
-        }
-        Ok(())
-    })?;
+    each_part(&document, &buffers, groups, &mut |part| part.append_to(&mut mesh, &buffers, &mut unread))?;
     let used = |extension: &str| document.extensions_used().any(|used| used == extension);
     if mesh.corner_uvs.is_some() && used("KHR_texture_transform") {
         unread.push("KHR_texture_transform: texture coordinates are as the meshes have them".to_owned());
@@ -49,7 +40,7 @@ pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String])
 /// share of one, or the node of a mesh that has no skin.
 pub(crate) fn carried(
     document: &gltf::Document,
-    buffers: &[Vec<u8>],
+    buffers: &Buffers<'_>,
     groups: &[String],
     counts: &dyn Fn(Vec3) -> bool,
 ) -> Result<Vec<usize>> {
@@ -93,7 +84,7 @@ struct Part<'a> {
 /// Goes through what the default scene shows, or of it what `groups` name.
 fn each_part<'a>(
     document: &'a gltf::Document,
-    buffers: &[Vec<u8>],
+    buffers: &Buffers<'_>,
     groups: &[String],
     visit: &mut dyn FnMut(&Part<'a>) -> Result<()>,
 ) -> Result<()> {
@@ -150,7 +141,7 @@ impl<'a> Part<'a> {
         node: gltf::Node<'a>,
         mesh: gltf::Mesh<'a>,
         primitive: gltf::Primitive<'a>,
-        buffers: &[Vec<u8>],
+        buffers: &Buffers<'_>,
         scene_from_node: DAffine3,
         skin: Option<&Skin>,
     ) -> Result<Self> {
@@ -160,6 +151,9 @@ impl<'a> Part<'a> {
                 primitive.mode()
             )));
         }
+        // A mesh drawn by many nodes is copied for each.
+        let vertices = primitive.get(&Semantic::Positions).map_or(0, |accessor| accessor.count());
+        buffers.budget.take(vertices as u64 * VERTEX_BYTES, "vertices")?;
         let weights = node.weights().or(mesh.weights()).unwrap_or_default();
         let own = positions(&primitive, weights, buffers)?;
         if let Some(bent) = skin.map(|skin| skin.bend(&primitive, &own, buffers)).transpose()?.flatten() {
@@ -172,7 +166,7 @@ impl<'a> Part<'a> {
     }
 
     /// Adds its triangles, and to `unread` what of it is left out or not obeyed.
-    fn append_to(&self, mesh: &mut Mesh, buffers: &[Vec<u8>], unread: &mut Vec<String>) -> Result<()> {
+    fn append_to(&self, mesh: &mut Mesh, buffers: &Buffers<'_>, unread: &mut Vec<String>) -> Result<()> {
         let first = u32::try_from(mesh.positions.len()).map_err(|_| Error::new("more than 2^32 vertices"))?;
         let count = self.positions.len();
         let indices: Vec<u32> = match self.primitive.indices() {
@@ -182,6 +176,7 @@ impl<'a> Part<'a> {
         if let Some(&bad) = indices.iter().find(|&&v| v as usize >= count) {
             return Err(Error::new(format!("index {bad} names a vertex beyond the {count} there are")));
         }
+        buffers.budget.take(indices.len() as u64 / 3 * TRIANGLE_BYTES, "triangles")?;
         mesh.positions.extend(&self.positions);
         let uvs = texture_coordinates(&self.primitive, buffers, count).unwrap_or_else(|e| {
             unread.push(format!("the texture coordinates of {}: {}", self.name(), e.what));
@@ -217,7 +212,7 @@ impl<'a> Part<'a> {
 }
 
 /// The vertices of a primitive in its node's space, moved by its morphs.
-fn positions(primitive: &gltf::Primitive, weights: &[f32], buffers: &[Vec<u8>]) -> Result<Vec<Vec3>> {
+fn positions(primitive: &gltf::Primitive, weights: &[f32], buffers: &Buffers<'_>) -> Result<Vec<Vec3>> {
     let accessor = primitive.get(&Semantic::Positions).ok_or_else(|| Error::new("a primitive has no positions"))?;
     let numbers = |accessor, what| numbers::<3>(&accessor, buffers, Whole::AsSaid, what);
     let mut positions: Vec<Vec3> = numbers(accessor, "positions")?.into_iter().map(Vec3::from).collect();
@@ -234,7 +229,7 @@ fn positions(primitive: &gltf::Primitive, weights: &[f32], buffers: &[Vec<u8>]) 
 }
 
 /// The first texture coordinates of each of `count` vertices, v upward: that of glTF runs down.
-fn texture_coordinates(primitive: &gltf::Primitive, buffers: &[Vec<u8>], count: usize) -> Result<Option<Vec<Vec2>>> {
+fn texture_coordinates(primitive: &gltf::Primitive, buffers: &Buffers<'_>, count: usize) -> Result<Option<Vec<Vec2>>> {
     let Some(accessor) = primitive.get(&Semantic::TexCoords(0)) else { return Ok(None) };
     let found = accessor.count();
     if found != count {

@@ -4,8 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::Vec2;
 use nabiki::Mesh;
+use nabiki_exchange::Budget;
 
 use super::{
+    TRIANGLE_BYTES,
     check::{check, check_groups},
     push_fan,
 };
@@ -23,6 +25,7 @@ pub(super) fn from_bytes(bytes: &[u8], groups: &[String], lost: &mut Vec<String>
     let mut wrong_uv: Option<Error> = None;
     let mut face: Vec<(u32, Option<Vec2>)> = Vec::new();
     let text = obj_text::text(bytes);
+    let budget = Budget::of(bytes.len() as u64);
     let mut names: BTreeSet<&str> = BTreeSet::new();
     let wanted = |name: &str| groups.iter().any(|group| group == name);
     let (mut in_object, mut in_group) = (false, false);
@@ -45,6 +48,7 @@ pub(super) fn from_bytes(bytes: &[u8], groups: &[String], lost: &mut Vec<String>
                 if face.len() < 3 {
                     return Err(obj_text::refusal(line, i + 1, "a face has three vertices or more"));
                 }
+                budget.take((face.len() - 2) as u64 * TRIANGLE_BYTES, "triangles")?;
                 push_fan(&mut mesh, &face);
             }
             Some("o") => {

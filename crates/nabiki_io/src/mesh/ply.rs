@@ -2,8 +2,9 @@
 
 use glam::{Vec2, Vec3};
 use nabiki::Mesh;
+use nabiki_exchange::Budget;
 
-use super::{check::check, push_fan};
+use super::{TRIANGLE_BYTES, VERTEX_BYTES, check::check, push_fan};
 use crate::error::{Error, Result};
 
 /// How the body is written.
@@ -41,6 +42,16 @@ impl Kind {
             _ => return None,
         })
     }
+
+    /// Bytes of a number that is not text.
+    fn size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::I32 | Self::U32 | Self::F32 => 4,
+            Self::F64 => 8,
+        }
+    }
 }
 
 struct Property {
@@ -64,6 +75,8 @@ const UV: [[&str; 2]; 3] = [["s", "t"], ["u", "v"], ["texture_u", "texture_v"]];
 /// there; the shape does without.
 pub fn from_bytes(bytes: &[u8], lost: &mut Vec<String>) -> Result<Mesh> {
     let (encoding, elements, body) = header(bytes)?;
+    check_counts(encoding, &elements, body)?;
+    let budget = Budget::of(bytes.len() as u64);
     let mut body = Body { encoding, rest: body };
     let mut mesh = Mesh::default();
     let mut uvs: Vec<Vec2> = Vec::new();
@@ -98,8 +111,10 @@ pub fn from_bytes(bytes: &[u8], lost: &mut Vec<String>) -> Result<Mesh> {
                     n += 1.0;
                 }
             }
+            budget.take(face.len().saturating_sub(2) as u64 * TRIANGLE_BYTES, "triangles")?;
             push_fan(&mut mesh, &polygon(i, &face, &texcoord, lost)?);
             if element.name == "vertex" {
+                budget.take(VERTEX_BYTES, "vertices")?;
                 let [x, y, z, s, t] = vertex;
                 mesh.positions.push(Vec3::new(x, y, z));
                 uvs.extend(u.map(|_| Vec2::new(s, t)));
@@ -114,6 +129,33 @@ pub fn from_bytes(bytes: &[u8], lost: &mut Vec<String>) -> Result<Mesh> {
         mesh.corner_uvs = Some(mesh.triangles.iter().map(|t| t.map(|v| uvs[v as usize])).collect());
     }
     check(mesh, lost)
+}
+
+/// Refuses counts of elements for which there are too few bytes: each has some for every property, a list for its length.
+fn check_counts(encoding: Encoding, elements: &[Element], body: &[u8]) -> Result<()> {
+    let mut least = 0usize;
+    for Element { name, count, properties } in elements {
+        if properties.is_empty() && *count > 0 {
+            return Err(Error::new(format!(
+                "claims {count} of {name}, which have no properties: there is nothing of them"
+            )));
+        }
+        let least_of = |property: &Property| match encoding {
+            // A digit and a blank.
+            Encoding::Text => 2,
+            _ => property.list.unwrap_or(property.kind).size(),
+        };
+        let each: usize = properties.iter().map(least_of).sum();
+        least = count.saturating_mul(each).saturating_add(least);
+        // The last of a text may stand without a blank.
+        if least > body.len() + 1 {
+            let found = body.len();
+            return Err(Error::new(format!(
+                "claims {count} of {name}, more than its {found} bytes hold: is it whole?"
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// The corners of face `i`, with their texture coordinates if it lists any that can be theirs.
@@ -159,10 +201,6 @@ fn header(bytes: &[u8]) -> Result<(Encoding, Vec<Element>, &[u8])> {
             ["comment" | "obj_info", ..] | [] => {}
             ["element", name, count] => {
                 let count: usize = count.parse().map_err(|_| unknown())?;
-                // Every element of a file takes a byte at least, if it has properties.
-                if count > bytes.len() {
-                    return Err(Error::new(format!("claims {count} of {name}, more than its {} bytes", bytes.len())));
-                }
                 elements.push(Element { name: name.to_owned(), count, properties: Vec::new() });
             }
             ["property", "list", length, kind, name] => {
@@ -312,6 +350,9 @@ mod tests {
             from_bytes(file.replacen(from, to, 1).as_bytes()).unwrap_err().to_string()
         };
         assert!(broken("vertex 4", "vertex 99999999999").contains("more than its"));
+        assert!(
+            broken("element face", "element vertex 9\nelement face").contains("9 of vertex, which have no properties")
+        );
         assert!(broken("0 1 2 3", "0 1 2 4").contains("vertex 4 of 4"));
         assert!(broken("0 1 2 3", "0 1 -2 3").contains("which is none"));
         assert!(broken("1 9 1 0.5", "1 9 inf 0.5").contains("is not a place"));

@@ -12,7 +12,7 @@ use std::collections::HashMap;
 
 use glam::{DQuat, DVec3};
 
-use super::joints::Tree;
+use super::joints::{Tree, check_poses};
 use super::source::asked;
 use super::track::{Sample, Track};
 use crate::error::{Error, Result};
@@ -224,6 +224,7 @@ impl Skeleton {
                 [word] if is_frame(word) => {
                     let next = word.parse().map_err(|_| refusal(line, format!("frame {word:.40}: too large")))?;
                     if let Some((begun, before)) = frame {
+                        check_poses(chain.len(), samples.len())?;
                         samples.push(self.pose(chain, &row, samples.len() + 1, degrees).map_err(|e| at(e, begun))?);
                         if before.checked_add(1) != Some(next) {
                             let what = format!("frame {next} follows frame {before}: frames must be without gaps");

@@ -7,7 +7,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::joints::Tree;
+use super::joints::{Tree, check_poses};
 use super::track::{Sample, Track};
 use super::words::Words;
 use crate::error::{Error, Result};
@@ -68,6 +68,7 @@ fn motion(words: &mut Words<'_>, joints: &[Joint], columns: usize, chain: &[usiz
             let in_channel = |e: Error| e.under(format!("frame {frame} of {frames}, {}", channel_of(joints, column)));
             *value = words.number("its value").map_err(in_channel)?;
         }
+        check_poses(chain.len(), frame)?;
         track.times.push(frame as f64 / rate);
         track.samples.push(pose(joints, chain, &row));
         frame += 1;

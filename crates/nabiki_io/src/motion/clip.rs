@@ -4,22 +4,25 @@
 //! or CUBICSPLINE as each channel says), so nothing is interpolated twice. The rotation given is that from the node's
 //! still pose, the one the file has without its animation, since a bone's own axes seldom lie along the world's.
 
+use std::collections::HashMap;
+use std::rc::Rc;
+
 use glam::{DAffine3, DMat4, DQuat, DVec3, DVec4};
 use gltf::animation::{Interpolation, Property};
 
-use super::joints::Tree;
+use super::joints::{Tree, check_poses};
 use super::source::MotionSource;
 use super::track::{Sample, hermite};
 use super::world::{HeadMotion, WorldFromFile, frame_count, pose_of, poses};
 use crate::axis::Axis;
 use crate::error::{Error, Result};
 use crate::gltf_file::accessors::{Whole, numbers};
-use crate::gltf_file::{self, pose};
+use crate::gltf_file::{self, Buffers, pose};
 
 /// Reads the poses of `source.node` in `source.clip` out of the file's bytes.
 pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) -> Result<HeadMotion> {
     let (document, blob) = gltf_file::open(bytes)?;
-    let buffers = gltf_file::buffers(&document, blob.as_deref(), source.file.parent())?;
+    let buffers = Buffers::new(&document, bytes, blob, source.file.parent())?;
     let chain = chain(&document, &source.node)?;
     let animation = animation(&document, &source.clip)?;
     // The crate's own validation passes over a channel's target, and its reader would panic.
@@ -36,12 +39,20 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
 
     let mut curves: Vec<Curves> = chain.iter().map(still).collect();
     let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
+    // Many channels share their times.
+    let mut known: HashMap<usize, Rc<[f64]>> = HashMap::new();
     for channel in animation.channels() {
+        let sampler = channel.sampler();
+        let input = sampler.input();
+        let times = match known.get(&input.index()) {
+            Some(times) => times.clone(),
+            None => {
+                let times = numbers::<1>(&input, &buffers, Whole::AsSaid, "times")?;
+                known.entry(input.index()).or_insert(times.into_iter().map(|[t]| f64::from(t)).collect()).clone()
+            }
+        };
         let node = channel.target().node();
         let name = node.name().unwrap_or("without a name");
-        let sampler = channel.sampler();
-        let times = numbers::<1>(&sampler.input(), &buffers, Whole::AsSaid, "times")?;
-        let times: Vec<f64> = times.into_iter().map(|[t]| f64::from(t)).collect();
         if times.is_empty() || !times.iter().all(|t| t.is_finite()) || times.windows(2).any(|w| w[0] >= w[1]) {
             return Err(Error::new(format!("clip of node {name}: its times must grow and be finite")));
         }
@@ -71,6 +82,7 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
     let unit_cm = source.unit_cm.unwrap_or(100.0);
     let world_from_file = WorldFromFile::new(Some(unit_cm), Some(up), Some(facing))?;
     let frames = frame_count(end - start, frame_rate / source.speed)?;
+    check_poses(chain.len(), frames)?;
     let mut samples = Vec::with_capacity(frames.min(1 << 16));
     let (mut first_scale, mut grows) = (None, false);
     for n in 0..frames {
@@ -138,7 +150,7 @@ struct Curves {
 
 fn still(node: &gltf::Node<'_>) -> Curves {
     let (t, r, s) = node.transform().decomposed();
-    let constant = |value| Curve { times: Vec::new(), values: vec![value], interpolation: Interpolation::Step };
+    let constant = |value| Curve { times: Rc::default(), values: vec![value], interpolation: Interpolation::Step };
     Curves {
         translation: constant(DVec3::from(t.map(f64::from)).extend(0.0)),
         rotation: constant(DVec4::from(r.map(f64::from))),
@@ -188,13 +200,13 @@ fn world(matrices: impl Iterator<Item = DMat4>, name: &str) -> Result<(Sample, D
 
 /// Values over time; CUBICSPLINE keeps in-tangent, value and out-tangent for each time.
 struct Curve {
-    times: Vec<f64>,
+    times: Rc<[f64]>,
     values: Vec<DVec4>,
     interpolation: Interpolation,
 }
 
 impl Curve {
-    fn new(times: Vec<f64>, values: Vec<DVec4>, interpolation: Interpolation, node: &str) -> Result<Self> {
+    fn new(times: Rc<[f64]>, values: Vec<DVec4>, interpolation: Interpolation, node: &str) -> Result<Self> {
         let each = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
         if values.len() != each * times.len() {
             let (v, t) = (values.len(), times.len());

@@ -11,6 +11,9 @@ const WANTED: [&str; 8] = ["t_s", "px", "py", "pz", "qx", "qy", "qz", "qw"];
 /// Endings of the position's columns, and the centimetres in their unit.
 const UNITS: [(&str, f64); 3] = [("_m", 100.0), ("_cm", 1.0), ("_mm", 0.1)];
 
+/// Columns that a table may have.
+const MOST_COLUMNS: usize = 10_000;
+
 /// Reads the table. The header names the columns `t_s`, `qx`, `qy`, `qz`, `qw` and `px`, `py`, `pz` with the unit
 /// behind them, `_m`, `_cm` or `_mm`; other columns are left alone.
 pub(super) fn track(text: &str) -> Result<Track> {
@@ -37,7 +40,8 @@ fn cells(line: &str) -> Vec<&str> {
         quoted ^= c == '"';
         c == ',' && !quoted
     });
-    cells.map(|cell| cell.trim().trim_matches('"').trim()).collect()
+    // One more shows that they are too many.
+    cells.map(|cell| cell.trim().trim_matches('"').trim()).take(MOST_COLUMNS + 1).collect()
 }
 
 /// Where in a row the wanted numbers stand.
@@ -53,6 +57,11 @@ struct Columns<'a> {
 impl<'a> Columns<'a> {
     fn of(header: &'a str) -> Result<Self> {
         let names: Vec<&str> = cells(header);
+        if names.len() > MOST_COLUMNS {
+            return Err(Error::new(format!(
+                "names more than {MOST_COLUMNS} columns, of which eight are poses: leave out others"
+            )));
+        }
         if let Some(separator) = [(';', "semicolons"), ('\t', "tabs")].iter().find(|(c, _)| header.contains(*c)) {
             return Err(Error::new(format!("columns are separated by {}: save the table with commas", separator.1)));
         }

@@ -6,6 +6,20 @@ use crate::error::{Error, Result};
 /// a body has a dozen.
 const DEEPEST: usize = 1000;
 
+/// Poses of joints that the frames of a motion may take in all: three hours of a chain of thirty.
+const MOST_POSES: usize = 1 << 23;
+
+/// Refuses a motion of a chain of so many joints that is longer than is read.
+pub(super) fn check_poses(joints: usize, frames: usize) -> Result<()> {
+    if joints.saturating_mul(frames) <= MOST_POSES {
+        return Ok(());
+    }
+    Err(Error::new(format!(
+        "moves {joints} joints one below the other over {frames} frames or more: that is more than are read; bake the motion of \
+         the head alone, or cut it into parts"
+    )))
+}
+
 /// Joints by number: their names, and who hangs below whom.
 pub(super) struct Tree<'a> {
     /// What the file calls them: `joint`, `bone`, `node`.

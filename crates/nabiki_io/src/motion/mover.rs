@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use super::clip;
 use crate::error::{Error, Result};
-use crate::gltf_file::{self, pose};
+use crate::gltf_file::{self, Buffers, pose};
 use crate::input::{self, MOST_BINARY_BYTES};
 use crate::mesh::glb;
 
@@ -33,7 +33,7 @@ pub fn clip_mover(file: &Path, groups: &[String], counts: &dyn Fn(Vec3) -> bool)
         if document.animations().len() == 0 {
             return Ok(None);
         }
-        let buffers = gltf_file::buffers(&document, blob.as_deref(), file.parent())?;
+        let buffers = Buffers::new(&document, &bytes, blob, file.parent())?;
         let carried = glb::carried(&document, &buffers, groups, counts)?;
         let Some(carrier) = head_of(&document, &carried) else { return Ok(None) };
         let parents = pose::parents(&document)?;
@@ -80,7 +80,7 @@ pub fn clip_carries(file: &Path, name: &str, groups: &[String]) -> Result<bool> 
     let found = || {
         let bytes = input::read(file, MOST_BINARY_BYTES)?;
         let (document, blob) = gltf_file::open(&bytes)?;
-        let buffers = gltf_file::buffers(&document, blob.as_deref(), file.parent())?;
+        let buffers = Buffers::new(&document, &bytes, blob, file.parent())?;
         let node = clip::chain(&document, name)?.pop().map(|node| node.index());
         let parents = pose::parents(&document)?;
         let carried = glb::carried(&document, &buffers, groups, &|_| true)?;

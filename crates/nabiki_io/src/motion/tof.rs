@@ -13,7 +13,7 @@ use std::collections::HashMap;
 
 use glam::{DQuat, DVec3};
 
-use super::joints::Tree;
+use super::joints::{Tree, check_poses};
 use super::track::{Sample, Track};
 use super::words::Words;
 use crate::error::{Error, Result};
@@ -128,6 +128,7 @@ pub(super) fn track(chain: &[String], animation: &[AnimatedJoint]) -> Result<Tra
     let mut times: Vec<f64> = keys.iter().copied().flatten().map(|key| key.time).collect();
     times.sort_unstable_by(f64::total_cmp);
     times.dedup();
+    check_poses(keys.len(), times.len())?;
     let samples = times.iter().map(|&time| {
         let mut world = Sample { position: DVec3::ZERO, rotation: DQuat::IDENTITY };
         for keys in &keys {

@@ -7,6 +7,7 @@
 use glam::{DQuat, DVec3, Vec3};
 use nabiki::Pose;
 use nabiki::smoothing::smoothed;
+use nabiki_exchange::MOST_FRAMES;
 
 use super::source::{MotionSource, asked};
 use super::track::Sample;
@@ -126,7 +127,7 @@ fn mean(before: (DVec3, DQuat), now: (DVec3, DQuat), after: (DVec3, DQuat), b: f
 
 /// Number of scene frames that fit into `duration` seconds, the first at 0.
 pub(super) fn frame_count(duration: f64, frame_rate: f64) -> Result<usize> {
-    const MOST: f64 = 1e7;
+    const MOST: f64 = MOST_FRAMES as f64;
     // A last frame that misses the end by no more than times of three decimals are rounded by still counts.
     const MISSED: f64 = 0.05;
     let last = (duration * frame_rate + MISSED).floor();

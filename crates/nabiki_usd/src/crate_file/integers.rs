@@ -99,8 +99,12 @@ pub fn pack_integers(values: &[u32]) -> Vec<u8> {
     pack(&coded)
 }
 
-/// Unpacks `count` integers of `WIDTH` bytes, 4 or 8, as 64-bit ones.
-pub fn unpack_integers<const WIDTH: usize>(packed: &[u8], count: usize) -> Result<Vec<i64>, String> {
+/// Unpacks `count` integers of `WIDTH` bytes, 4 or 8, each as `number` makes it of a 64-bit one.
+pub fn unpack_integers_as<const WIDTH: usize, T>(
+    packed: &[u8],
+    count: usize,
+    number: impl Fn(i64) -> T,
+) -> Result<Vec<T>, String> {
     let too_short = || "a table of integers that ends too early".to_owned();
     if count == 0 {
         return Ok(Vec::new());
@@ -134,9 +138,14 @@ pub fn unpack_integers<const WIDTH: usize>(packed: &[u8], count: usize) -> Resul
         if WIDTH == 4 {
             value = i64::from(value as i32);
         }
-        values.push(value);
+        values.push(number(value));
     }
     Ok(values)
+}
+
+/// The same as 64-bit integers.
+pub fn unpack_integers<const WIDTH: usize>(packed: &[u8], count: usize) -> Result<Vec<i64>, String> {
+    unpack_integers_as::<WIDTH, i64>(packed, count, |value| value)
 }
 
 /// One to eight bytes as a signed number.

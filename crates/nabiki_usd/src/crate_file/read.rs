@@ -1,49 +1,43 @@
 //! Reading of binary layers, with nothing believed that the file's size contradicts.
 
+use std::cell::Cell;
 use std::collections::HashMap;
 use std::io::{Read, Seek, SeekFrom};
+use std::rc::Rc;
 
 use glam::Vec3;
+use nabiki_exchange::Budget;
 
-use super::integers::{most_integers, unpack, unpack_integers};
+use super::integers::{most_integers, unpack_integers, unpack_integers_as};
 use super::numbers::{Scalar, inlined, shape};
+use super::tables::{Table, paths, tokens};
 use super::{END_OF_SET, HEADER, MAGIC, Rep, specs, types};
 use crate::Problem;
 use crate::arcs;
-use crate::source::{AttributeInfo, BLOCKED, Handle, PrimInfo, SKEL_BINDING};
+use crate::source::{AttributeInfo, BLOCKED, DEEPEST, Handle, Name, PrimInfo, SKEL_BINDING, keep_prim, keep_property};
 
 /// Arrays shorter than this are not packed even where they say so.
 const SHORTEST_PACKED: usize = 16;
-/// Elements of an array that a file of any size may have.
-const MANY: u64 = 1 << 24;
 
 /// The values of a binary layer.
 pub struct CrateReader<R> {
     from: R,
     size: u64,
     version: [u8; 3],
-    tokens: Vec<String>,
+    tokens: Vec<Name>,
     strings: Vec<u32>,
     /// Prims by the numbers of their paths.
     pub(super) prim_of_path: HashMap<usize, usize>,
+    pub(super) budget: Rc<Budget>,
 }
 
-/// What a path names, before prims and attributes are told apart.
-struct Node {
-    /// Number by which specs know it.
-    path: usize,
-    parent: Option<usize>,
-    token: usize,
-    is_property: bool,
-}
-
-type Opened<R> = (CrateReader<R>, Vec<PrimInfo>, HashMap<String, Handle>);
+type Opened<R> = (CrateReader<R>, Vec<PrimInfo>, HashMap<Name, Handle>);
 
 impl<R: Read + Seek> CrateReader<R> {
     /// Reads the tables.
-    pub fn new(from: R, size: u64) -> Result<Opened<R>, Problem> {
+    pub fn new(from: R, size: u64, budget: Rc<Budget>) -> Result<Opened<R>, Problem> {
         let (version, prim_of_path) = ([0; 3], HashMap::new());
-        let mut reader = Self { from, size, version, tokens: Vec::new(), strings: Vec::new(), prim_of_path };
+        let mut reader = Self { from, size, version, tokens: Vec::new(), strings: Vec::new(), prim_of_path, budget };
         let header = reader.bytes(0, HEADER as u64)?;
         if header[..8] != *MAGIC {
             return Err(Problem::new("is no binary USD layer"));
@@ -63,9 +57,10 @@ impl<R: Read + Seek> CrateReader<R> {
             let name = String::from_utf8_lossy(&entry[..16]).trim_end_matches('\0').to_owned();
             sections.insert(name, (number(&entry[16..24]), number(&entry[24..32])));
         }
-        let mut section = |reader: &mut Self, name: &str| {
+        let mut section = |reader: &mut Self, name: &'static str| {
             let (start, length) = sections.remove(name).ok_or_else(|| Problem(format!("has no table {name}")))?;
-            Ok::<_, Problem>(Table { bytes: reader.bytes(start, length)?, at: 0, most: most_integers(size) })
+            let bytes = reader.bytes(start, length)?;
+            Ok::<_, Problem>(Table { bytes, at: 0, most: most_integers(size), name, budget: reader.budget.clone() })
         };
 
         let mut table = section(&mut reader, "TOKENS")?;
@@ -78,8 +73,9 @@ impl<R: Read + Seek> CrateReader<R> {
         let count = table.count()?;
         let names = table.integers(count)?;
         let reps = table.packed(8 * count)?;
+        table.budget.take_list::<(usize, u64)>(count, table.name)?;
         let fields: Vec<(usize, u64)> =
-            names.iter().map(|&n| n as usize).zip(reps.chunks_exact(8).map(number)).collect();
+            names.iter().map(|&n| n as u32 as usize).zip(reps.chunks_exact(8).map(number)).collect();
         let mut table = section(&mut reader, "FIELDSETS")?;
         let count = table.count()?;
         let sets = table.integers(count)?;
@@ -90,9 +86,12 @@ impl<R: Read + Seek> CrateReader<R> {
         let (spec_paths, spec_sets, spec_kinds) =
             (table.integers(count)?, table.integers(count)?, table.integers(count)?);
 
-        let mut of_path = HashMap::new();
+        // Paths are numbered from 0 on; a spec of one that the layer does not list is of no prim.
+        let mut of_path = vec![None; nodes.len()];
         for ((&path, &set), &kind) in spec_paths.iter().zip(&spec_sets).zip(&spec_kinds) {
-            of_path.insert(path as usize, (set as usize, kind as u32));
+            if let Some(spec) = of_path.get_mut(path as u32 as usize) {
+                *spec = Some((set as u32 as usize, kind as u32));
+            }
         }
         let set_fields = |set: usize| {
             let numbers = sets.get(set..).unwrap_or_default();
@@ -100,26 +99,36 @@ impl<R: Read + Seek> CrateReader<R> {
         };
         let mut layer = (Vec::new(), HashMap::new());
         let mut prim_of_node: HashMap<usize, usize> = HashMap::new();
+        // Names of types without the brackets of arrays.
+        let mut types_of_values: HashMap<Name, Name> = HashMap::new();
         // Fields are listed once a spec, and sets may share them: more in all than this is a file that repeats itself.
         let mut budget = 16 * (fields.len() + nodes.len()) + 1024;
         for (i, node) in nodes.iter().enumerate() {
-            let Some(&(set, kind)) = of_path.get(&node.path) else { continue };
+            let Some(&Some((set, kind))) = of_path.get(node.path as usize) else { continue };
             let named: Vec<(&str, u64)> = set_fields(set)
                 .take(budget)
-                .map(|(name, rep)| (reader.tokens.get(name).map_or("", String::as_str), rep))
+                .map(|(name, rep)| (reader.tokens.get(name).map_or("", Name::as_str), rep))
                 .collect();
             budget = budget
                 .checked_sub(named.len() + 1)
                 .ok_or_else(|| Problem::new("names its fields over and over: it must be damaged"))?;
             let field = |wanted: &str| named.iter().find(|(name, _)| *name == wanted).map(|&(_, rep)| rep);
             let word = |rep: Option<u64>| rep.map(|r| reader.token(Rep(r).payload())).unwrap_or_default();
-            let name = reader.tokens.get(node.token).cloned().unwrap_or_default();
+            let name = reader.token(node.token.into());
             match kind {
                 specs::LAYER => {
-                    layer.1.extend(named.iter().map(|&(name, rep)| (name.to_owned(), (rep, 0))));
+                    for (name, rep) in set_fields(set).take(named.len()) {
+                        let name = reader.token(name as u64);
+                        keep_property(&reader.budget, &name)?;
+                        layer.1.insert(name, (rep, 0));
+                    }
                 }
                 specs::PRIM if !node.is_property => {
-                    let above = node.parent.filter(|&p| nodes[p].parent.is_some());
+                    if node.depth as usize > DEEPEST {
+                        return Err(Problem(format!("has prims nested deeper than {DEEPEST}, as no scene has them")));
+                    }
+                    keep_prim(&reader.budget, &name)?;
+                    let above = node.parent.map(|p| p as usize).filter(|&p| nodes[p].parent.is_some());
                     let parent = above.and_then(|p| prim_of_node.get(&p).copied());
                     // In a variant.
                     if above.is_some() && parent.is_none() {
@@ -127,7 +136,7 @@ impl<R: Read + Seek> CrateReader<R> {
                     }
                     let type_name = word(field("typeName"));
                     prim_of_node.insert(i, layer.0.len());
-                    reader.prim_of_path.insert(node.path, layer.0.len());
+                    reader.prim_of_path.insert(node.path as usize, layer.0.len());
                     const OVER: u64 = 1;
                     const CLASS: u64 = 2;
                     let is = |name: &str, value: u64| field(name).is_some_and(|rep| Rep(rep).payload() == value);
@@ -149,22 +158,27 @@ impl<R: Read + Seek> CrateReader<R> {
                     layer.0.push(PrimInfo { is_instance, is_bound, ..prim });
                 }
                 specs::ATTRIBUTE => {
-                    let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&p)) else { continue };
+                    let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&(p as usize))) else { continue };
+                    keep_property(&reader.budget, &name)?;
                     let default = field("default").map(value);
                     let type_name = word(field("typeName"));
                     let is_array = type_name.ends_with("[]");
-                    let type_name = type_name.trim_end_matches("[]").to_owned();
+                    let type_name = types_of_values
+                        .entry(type_name)
+                        .or_insert_with_key(|whole| Name::from(whole.trim_end_matches("[]")));
+                    let type_name = type_name.clone();
                     let interpolation = field("interpolation").map(|rep| (rep, 0));
                     let has_spline = field("spline").is_some();
                     let samples = field("timeSamples");
                     let samples = samples.map(|rep| reader.samples(Rep(rep))).transpose()?.unwrap_or_default();
                     let read = AttributeInfo { type_name, is_array, default, has_spline, samples, interpolation };
                     let prim: &mut PrimInfo = &mut layer.0[prim];
-                    prim.attributes.insert(name, read);
+                    prim.attributes.insert(name, Box::new(read));
                 }
                 specs::RELATIONSHIP => {
-                    let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&p)) else { continue };
+                    let Some(&prim) = node.parent.and_then(|p| prim_of_node.get(&(p as usize))) else { continue };
                     if let Some(rep) = field("targetPaths") {
+                        keep_property(&reader.budget, &name)?;
                         let targets = if reader.holds_any(rep)? { (rep, 0) } else { BLOCKED };
                         layer.0[prim].relationships.push((name, targets));
                     }
@@ -189,6 +203,7 @@ impl<R: Read + Seek> CrateReader<R> {
         let values_at = second.checked_add(number(&self.bytes(second, 8)?)).ok_or_else(beyond)?;
         let count = number(&self.bytes(values_at, 8)?);
         let values = self.bytes(values_at + 8, count.checked_mul(8).ok_or_else(beyond)?)?;
+        self.budget.keep(count * size_of::<(f64, Handle)>() as u64 / 2, "time samples")?;
         let times = self.numbers(times.0)?;
         if times.len() as u64 != count {
             return Err(Problem(format!("has {} times for {count} samples", times.len())));
@@ -218,10 +233,25 @@ impl<R: Read + Seek> CrateReader<R> {
         }
         let (count, place) = self.array_count(rep)?;
         if rep.is_compressed() && count >= SHORTEST_PACKED {
-            return self.packed_numbers(scalar, count * extent, place);
+            return self.packed_numbers(scalar, count.saturating_mul(extent), place);
         }
         let bytes = self.bytes(place, (count as u64).saturating_mul((scalar.size() * extent) as u64))?;
+        self.takes::<f64>(count * extent, bytes.len())?;
         Ok(scalar.numbers(&bytes))
+    }
+
+    /// Number of values of an array, where it says so itself; none of them is read.
+    pub fn count(&mut self, rep: u64) -> Result<Option<usize>, Problem> {
+        let rep = Rep(rep);
+        let said = rep.is_array() && !rep.is_inlined() && rep.payload() != 0 && shape(rep.kind()).is_some();
+        if said { Ok(Some(self.array_count(rep)?.0)) } else { Ok(None) }
+    }
+
+    /// Counts values of which `stored` bytes are counted already: what half of their memory is more than that, as all are read
+    /// as wide as the widest of their kind.
+    fn takes<T>(&self, values: usize, stored: usize) -> Result<(), Problem> {
+        let half = values.saturating_mul(size_of::<T>()) / 2;
+        self.budget.take(half.saturating_sub(stored) as u64, ARRAYS)
     }
 
     /// As [`numbers`](Self::numbers) in single precision; arrays of singles are only copied.
@@ -245,6 +275,7 @@ impl<R: Read + Seek> CrateReader<R> {
         }
         let (count, place) = self.array_count(found)?;
         self.go_to(place, (count as u64).saturating_mul(12))?;
+        self.budget.take_list::<Vec3>(count, "points")?;
         let mut points = bytemuck::zeroed_vec(count);
         self.from.read_exact(bytemuck::cast_slice_mut(&mut points))?;
         Ok(points)
@@ -259,6 +290,7 @@ impl<R: Read + Seek> CrateReader<R> {
         }
         let (count, place) = if found.is_array() { self.array_count(found)? } else { (1, found.payload()) };
         if found.is_compressed() && count >= SHORTEST_PACKED {
+            self.takes::<u64>(count, 0)?;
             return unpack_integers::<8>(&self.sized(place)?, count).map_err(Problem);
         }
         let bytes = self.bytes(place, (count as u64).saturating_mul(8))?;
@@ -275,28 +307,24 @@ impl<R: Read + Seek> CrateReader<R> {
             }
             _ => reader.token(index),
         };
+        // A copy of its own for each.
+        let spelt = |reader: &Self, word: Name| {
+            reader.budget.take((size_of::<String>() + word.len()) as u64, "words")?;
+            Ok(word.to_string())
+        };
         if !matches!(rep.kind(), types::STRING | types::TOKEN | types::TOKEN_VECTOR) {
             return Ok(Vec::new());
         }
         if rep.is_inlined() {
-            return Ok(vec![word(self, rep.payload())]);
+            return Ok(vec![spelt(self, word(self, rep.payload()))?]);
         }
         if rep.payload() == 0 {
             return Ok(Vec::new());
         }
         let (count, place) = self.array_count(rep)?;
-        let bytes = self.bytes(place, 4 * count as u64)?;
-        let indices = bytes.as_chunks::<4>().0;
-        let mut budget = 64 * self.size as usize + 4096;
-        let mut words = Vec::with_capacity(indices.len());
-        for &index in indices {
-            let word = word(self, u64::from(u32::from_le_bytes(index)));
-            budget = budget
-                .checked_sub(word.len())
-                .ok_or_else(|| Problem::new("repeats long words more often than any honest file"))?;
-            words.push(word);
-        }
-        Ok(words)
+        let bytes = self.bytes(place, (count as u64).saturating_mul(4))?;
+        let indices = bytes.as_chunks::<4>().0.iter().map(|&index| u64::from(u32::from_le_bytes(index)));
+        indices.map(|index| spelt(self, word(self, index))).collect()
     }
 
     /// Number of elements of an array, and where they begin.
@@ -311,9 +339,7 @@ impl<R: Read + Seek> CrateReader<R> {
             let bytes = self.bytes(place + skip, 4)?;
             (u64::from(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])), place + skip + 4)
         };
-        // Packed numbers that are all alike take next to nothing, and a layer may hold nothing else. Many of them stand beside points, which
-        // are not packed: each takes six bytes at least, and about a vertex of a closed mesh six corners lie.
-        if count > most_integers(self.size).min(self.size.max(MANY)) {
+        if count > most_integers(self.size) {
             let size = self.size;
             return Err(Problem(format!(
                 "claims {count} elements at byte {place}, more than a file of {size} bytes has"
@@ -323,30 +349,35 @@ impl<R: Read + Seek> CrateReader<R> {
     }
 
     fn packed_numbers(&mut self, scalar: Scalar, count: usize, place: u64) -> Result<Vec<f64>, Problem> {
+        // Numbers that are all alike take next to nothing.
+        self.takes::<f64>(count, 0)?;
         match scalar {
-            Scalar::I32 | Scalar::U32 => {
-                let found = unpack_integers::<4>(&self.sized(place)?, count).map_err(Problem)?;
-                let unsigned = scalar == Scalar::U32;
-                Ok(found.into_iter().map(|x| if unsigned { f64::from(x as u32) } else { x as f64 }).collect())
+            Scalar::I32 => unpack_integers_as::<4, f64>(&self.sized(place)?, count, |x| x as f64).map_err(Problem),
+            Scalar::U32 => {
+                unpack_integers_as::<4, f64>(&self.sized(place)?, count, |x| f64::from(x as u32)).map_err(Problem)
             }
             Scalar::I64 | Scalar::U64 => {
-                let found = unpack_integers::<8>(&self.sized(place)?, count).map_err(Problem)?;
-                Ok(found.into_iter().map(|x| x as f64).collect())
+                unpack_integers_as::<8, f64>(&self.sized(place)?, count, |x| x as f64).map_err(Problem)
             }
             Scalar::F16 | Scalar::F32 | Scalar::F64 => match self.bytes(place, 1)?[0] {
-                b'i' => {
-                    let found = unpack_integers::<4>(&self.sized(place + 1)?, count).map_err(Problem)?;
-                    Ok(found.into_iter().map(|x| x as f64).collect())
-                }
+                b'i' => unpack_integers_as::<4, f64>(&self.sized(place + 1)?, count, |x| x as f64).map_err(Problem),
                 b't' => {
                     let bytes = self.bytes(place + 1, 4)?;
                     let length = u64::from(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
                     let length = length * scalar.size() as u64;
                     let values = scalar.numbers(&self.bytes(place + 5, length)?);
-                    let indices = unpack_integers::<4>(&self.sized(place + 5 + length)?, count).map_err(Problem)?;
-                    let pick = |i: i64| usize::try_from(i).ok().and_then(|i| values.get(i)).copied();
-                    let found: Option<Vec<f64>> = indices.into_iter().map(pick).collect();
-                    found.ok_or_else(|| Problem::new("has a packed array that names values it does not have"))
+                    let indices = self.sized(place + 5 + length)?;
+                    let missing = Cell::new(false);
+                    let pick = |i: i64| {
+                        let found = usize::try_from(i).ok().and_then(|i| values.get(i)).copied();
+                        missing.set(missing.get() || found.is_none());
+                        found.unwrap_or_default()
+                    };
+                    let found = unpack_integers_as::<4, f64>(&indices, count, pick).map_err(Problem)?;
+                    if missing.get() {
+                        return Err(Problem::new("has a packed array that names values it does not have"));
+                    }
+                    Ok(found)
                 }
                 code => Err(Problem(format!("has an array packed in an unknown way ({code})"))),
             },
@@ -362,6 +393,7 @@ impl<R: Read + Seek> CrateReader<R> {
 
     pub(super) fn bytes(&mut self, place: u64, length: u64) -> Result<Vec<u8>, Problem> {
         self.go_to(place, length)?;
+        self.budget.take(length, ARRAYS)?;
         let mut bytes = vec![0; length as usize];
         self.from.read_exact(&mut bytes)?;
         Ok(bytes)
@@ -376,97 +408,20 @@ impl<R: Read + Seek> CrateReader<R> {
         Ok(())
     }
 
-    pub(super) fn token(&self, index: u64) -> String {
+    pub(super) fn token(&self, index: u64) -> Name {
         self.tokens.get(index as usize).cloned().unwrap_or_default()
     }
 }
 
-/// A table's bytes.
-struct Table {
-    bytes: Vec<u8>,
-    at: usize,
-    /// Entries beyond which a count is a lie.
-    most: u64,
-}
-
-impl Table {
-    fn take(&mut self, length: usize) -> Result<&[u8], Problem> {
-        let end = self.at.checked_add(length).filter(|&end| end <= self.bytes.len());
-        let end = end.ok_or_else(|| Problem::new("has a table that ends too early"))?;
-        let taken = &self.bytes[self.at..end];
-        self.at = end;
-        Ok(taken)
-    }
-
-    fn number(&mut self) -> Result<u64, Problem> {
-        Ok(number(self.take(8)?))
-    }
-
-    fn count(&mut self) -> Result<usize, Problem> {
-        let count = self.number()?;
-        if count > self.most {
-            return Err(Problem(format!("has a table of {count} entries, more than it can hold")));
-        }
-        Ok(count as usize)
-    }
-
-    fn integers(&mut self, count: usize) -> Result<Vec<i64>, Problem> {
-        let length = self.number()?;
-        unpack_integers::<4>(self.take(usize::try_from(length).unwrap_or(usize::MAX))?, count).map_err(Problem)
-    }
-
-    fn packed(&mut self, size: usize) -> Result<Vec<u8>, Problem> {
-        let length = self.number()?;
-        unpack(self.take(usize::try_from(length).unwrap_or(usize::MAX))?, size).map_err(Problem)
-    }
-}
-
-fn tokens(table: &mut Table) -> Result<Vec<String>, Problem> {
-    let count = table.count()?;
-    let size = table.number()?;
-    let words = table.packed(usize::try_from(size).unwrap_or(usize::MAX))?;
-    let tokens: Vec<String> =
-        words.split(|&b| b == 0).take(count).map(|w| String::from_utf8_lossy(w).into_owned()).collect();
-    if tokens.len() < count {
-        return Err(Problem(format!("has {} words where it claims {count}", tokens.len())));
-    }
-    Ok(tokens)
-}
-
-/// The paths, parents before what hangs below them.
-fn paths(table: &mut Table) -> Result<Vec<Node>, Problem> {
-    let damaged = || Problem::new("has a table of paths that contradicts itself");
-    table.count()?;
-    let count = table.count()?;
-    let (indices, tokens, jumps) = (table.integers(count)?, table.integers(count)?, table.integers(count)?);
-    let mut nodes: Vec<Node> = Vec::new();
-    // Entries to visit, each with the node above it.
-    let mut todo = if count == 0 { Vec::new() } else { vec![(0, None)] };
-    while let Some((entry, parent)) = todo.pop() {
-        if nodes.len() == count || entry >= count {
-            return Err(damaged());
-        }
-        let (token, jump) = (tokens[entry], jumps[entry]);
-        let is_property = token < 0;
-        let token = token.unsigned_abs() as usize;
-        nodes.push(Node { path: indices[entry] as usize, parent, token, is_property });
-        if jump >= 0 {
-            let sibling = if jump == 0 { entry + 1 } else { entry + jump as usize };
-            todo.push((sibling, parent));
-        }
-        if jump > 0 || jump == -1 {
-            todo.push((entry + 1, Some(nodes.len() - 1)));
-        }
-    }
-    Ok(nodes)
-}
+/// What values are called in the budget.
+const ARRAYS: &str = "arrays";
 
 /// What names a value, or says that there is none.
 fn value(rep: u64) -> Handle {
     if Rep(rep).kind() == types::VALUE_BLOCK { BLOCKED } else { (rep, 0) }
 }
 
-pub(super) fn number(bytes: &[u8]) -> u64 {
+pub fn number(bytes: &[u8]) -> u64 {
     u64::from_le_bytes(bytes[..8].try_into().expect("eight bytes"))
 }
 
@@ -477,23 +432,56 @@ mod tests {
     use super::super::integers::pack_integers;
     use super::*;
 
+    fn reader(bytes: Vec<u8>, size: u64) -> CrateReader<Cursor<Vec<u8>>> {
+        let budget = Rc::new(Budget::of(size));
+        let (tokens, strings, prim_of_path) = (Vec::new(), Vec::new(), HashMap::new());
+        CrateReader { from: Cursor::new(bytes), size, version: [0, 8, 0], tokens, strings, prim_of_path, budget }
+    }
+
     #[test]
-    fn an_array_of_very_many_elements_has_no_more_than_its_file_has_bytes() {
+    fn packed_arrays_take_no_more_than_their_file_may_in_all() {
         // A layer of numbers that are all alike has fewer bytes than they are.
-        let packed = pack_integers(&[7; 4096]);
-        assert!(packed.len() < 1000);
-        let read = |count: u64, size: u64| {
+        const COUNT: usize = 1 << 20;
+        let packed = pack_integers(&[7; COUNT]);
+        assert!(packed.len() < COUNT / 500);
+        let mut bytes = vec![0; HEADER];
+        bytes.extend((COUNT as u64).to_le_bytes());
+        bytes.extend((packed.len() as u64).to_le_bytes());
+        bytes.extend(&packed);
+        let size = bytes.len() as u64;
+        let mut reader = reader(bytes, size);
+        let array = Rep::array(types::INT, HEADER as u64).0 | Rep::COMPRESSED;
+        assert_eq!(reader.integers(array).unwrap(), [7; COUNT]);
+        let reads = (0..1000).take_while(|_| reader.integers(array).is_ok()).count() as u64 + 1;
+        assert!(reads * COUNT as u64 * 4 <= Budget::of(size).most(), "{reads}");
+        let refused = reader.integers(array).unwrap_err().to_string();
+        assert!(refused.starts_with("with its arrays it takes 3"), "{refused}");
+        // A further question begins anew.
+        reader.budget.next_question();
+        assert!(reader.integers(array).is_ok());
+    }
+
+    #[test]
+    fn a_picked_value_that_is_not_there_is_refused_and_one_that_is_no_number_is_kept() {
+        let array = |values: [f32; 2], last: u32| {
+            let mut indices = [0u32; 20];
+            indices[19] = last;
+            let packed = pack_integers(&indices);
             let mut bytes = vec![0; HEADER];
-            bytes.extend(count.to_le_bytes());
+            bytes.extend(20u64.to_le_bytes());
+            bytes.push(b't');
+            bytes.extend(2u32.to_le_bytes());
+            bytes.extend(values.iter().flat_map(|x| x.to_le_bytes()));
             bytes.extend((packed.len() as u64).to_le_bytes());
-            bytes.extend(&packed);
-            let (tokens, strings) = (Vec::new(), Vec::new());
-            let (from, prim_of_path) = (Cursor::new(bytes), HashMap::new());
-            let mut reader = CrateReader { from, size, version: [0, 8, 0], tokens, strings, prim_of_path };
-            reader.integers(Rep::array(types::INT, HEADER as u64).0 | Rep::COMPRESSED)
+            bytes.extend(packed);
+            let size = bytes.len() as u64;
+            reader(bytes, size).singles(Rep::array(types::FLOAT, HEADER as u64).0 | Rep::COMPRESSED)
         };
-        assert_eq!(read(4096, 2000).unwrap(), [7; 4096]);
-        let refused = read(MANY + 1, 1 << 20).unwrap_err().to_string();
-        assert_eq!(refused, "claims 16777217 elements at byte 88, more than a file of 1048576 bytes has");
+        assert_eq!(array([0.5, 2.0], 1).unwrap()[18..], [0.5, 2.0]);
+        assert!(array([0.5, f32::NAN], 1).unwrap()[19].is_nan());
+        for values in [[0.5, 2.0], [0.5, f32::NAN]] {
+            let refused = array(values, 2).unwrap_err().to_string();
+            assert_eq!(refused, "has a packed array that names values it does not have");
+        }
     }
 }

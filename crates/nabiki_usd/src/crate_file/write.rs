@@ -256,7 +256,8 @@ impl<W: Write + Seek> CrateWriter<W> {
     }
 
     fn token(&mut self, word: &str) -> u32 {
-        self.tokens.add(word.to_owned())
+        // Zeros part the words of the table.
+        self.tokens.add(word.replace('\0', ""))
     }
 
     fn string(&mut self, word: &str) -> u32 {

@@ -1,29 +1,28 @@
 //! Reading of text layers: one pass notes where values are; each is turned into numbers when it is asked for.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::io::SeekFrom;
 use std::str::FromStr;
+
+use nabiki_exchange::Budget;
 
 use super::numbers::{Number, Numbers, is_part};
 use super::scan::{Scanner, WINDOW};
 use crate::Problem;
 use crate::arcs;
-use crate::source::{BLOCKED, Handle, PrimInfo, SKEL_BINDING, Source};
+use crate::source::{BLOCKED, DEEPEST, Handle, Name, PrimInfo, SKEL_BINDING, Source, keep_prim, keep_property};
 
-/// Prims below prims.
-const DEEPEST: usize = 512;
-
-type Parsed = (Vec<PrimInfo>, HashMap<String, Handle>);
+type Parsed = (Vec<PrimInfo>, HashMap<Name, Handle>);
 
 /// Finds the prims of a layer of `length` bytes and what it says about itself.
-pub fn parse(from: &mut dyn Source, length: u64) -> Result<Parsed, Problem> {
+pub fn parse(from: &mut dyn Source, length: u64, budget: &Budget) -> Result<Parsed, Problem> {
     let mut text = Scanner::new(from, (0, length))?;
     let mut metadata = HashMap::new();
     let mut prims: Vec<PrimInfo> = Vec::new();
     // Prims whose braces are open.
     let mut open: Vec<usize> = Vec::new();
-    // What stands in parentheses behind the names of prims.
-    let mut details: Vec<(usize, Handle)> = Vec::new();
+    // Names of types, each once.
+    let mut types: HashSet<Name> = HashSet::new();
     if text.peek()? == Some(b'(') {
         layer_metadata(&mut text, &mut metadata)?;
     }
@@ -43,19 +42,21 @@ pub fn parse(from: &mut dyn Source, length: u64) -> Result<Parsed, Problem> {
         match word.as_str() {
             "def" | "over" | "class" => {
                 let type_name = if text.peek()? == Some(b'"') { String::new() } else { text.word()? };
-                let name = text.quoted()?;
+                let name = Name::from(text.quoted()?);
+                keep_prim(budget, &name)?;
+                let (is_off_stage, is_over) = (word == "class", word == "over");
+                let parent = open.last().copied();
+                let type_name = shared(&mut types, type_name);
+                let mut prim = PrimInfo { name, type_name, is_off_stage, is_over, parent, ..PrimInfo::default() };
                 if text.peek()? == Some(b'(') {
-                    details.push((prims.len(), text.skip_value()?));
+                    note_details(&mut text, &mut prim)?;
                 }
                 text.expect(b'{')?;
-                let parent = open.last().copied();
                 open.push(prims.len());
                 if open.len() > DEEPEST {
                     return Err(text.problem("prims nested deeper than any scene is"));
                 }
-                let is_off_stage = word == "class";
-                let is_over = word == "over";
-                prims.push(PrimInfo { name, type_name, is_off_stage, is_over, parent, ..PrimInfo::default() });
+                prims.push(prim);
             }
             "variantSet" => {
                 text.quoted()?;
@@ -68,25 +69,35 @@ pub fn parse(from: &mut dyn Source, length: u64) -> Result<Parsed, Problem> {
                 text.skip_value()?;
             }
             _ if open.is_empty() => return Err(text.problem(&format!("\"{word:.40}\" where a prim should begin"))),
-            _ => property(&mut text, word, &mut prims[open[open.len() - 1]])?,
+            _ => property(&mut text, word, &mut prims[open[open.len() - 1]], &mut types, budget)?,
         }
     }
     if let Some(&prim) = open.last() {
         return Err(Problem(format!("ends within prim {}: is it whole?", prims[prim].name)));
     }
-    for (prim, details) in details {
-        note_details(from, details, &mut prims[prim])?;
-    }
     Ok((prims, metadata))
 }
 
+/// A name that many have, in memory once.
+fn shared(names: &mut HashSet<Name>, letters: String) -> Name {
+    if let Some(known) = names.get(letters.as_str()) {
+        return known.clone();
+    }
+    let name = Name::from(letters);
+    names.insert(name.clone());
+    name
+}
+
 /// Notes of the details of a prim whether `active = false` or `instanceable = true` stands there, and which arcs.
-fn note_details(from: &mut dyn Source, details: Handle, prim: &mut PrimInfo) -> Result<(), Problem> {
-    let mut text = Scanner::new(from, details)?;
+fn note_details(text: &mut Scanner<'_>, prim: &mut PrimInfo) -> Result<(), Problem> {
     text.expect(b'(')?;
     let (mut before, mut takes_away) = (String::new(), false);
     while let Some(byte) = text.peek()? {
         match byte {
+            b')' => {
+                text.pass();
+                return Ok(());
+            }
             b'"' | b'\'' | b'@' | b'<' | b'[' | b'(' | b'{' => {
                 text.skip_value()?;
             }
@@ -102,13 +113,13 @@ fn note_details(from: &mut dyn Source, details: Handle, prim: &mut PrimInfo) -> 
                     && text.peek()? == Some(b'=')
                 {
                     text.pass();
-                    if begins_to_hold_any(&mut text)? && !prim.arcs.contains(&arc) {
+                    if begins_to_hold_any(text)? && !prim.arcs.contains(&arc) {
                         prim.arcs.push(arc);
                     }
                 }
                 if word == "apiSchemas" && !takes_away && text.peek()? == Some(b'=') {
                     text.pass();
-                    prim.is_bound |= lists(&mut text, SKEL_BINDING)?;
+                    prim.is_bound |= lists(text, SKEL_BINDING)?;
                 }
                 takes_away = matches!(word.as_str(), "delete" | "reorder");
                 before = word;
@@ -116,7 +127,7 @@ fn note_details(from: &mut dyn Source, details: Handle, prim: &mut PrimInfo) -> 
             _ => text.pass(),
         }
     }
-    Ok(())
+    Err(text.problem("a parenthesis that is never closed: is the file whole?"))
 }
 
 /// Whether a word in quotation marks is in the list that follows.
@@ -148,7 +159,7 @@ pub fn holds_any(from: &mut dyn Source, value: Handle) -> Result<bool, Problem> 
 }
 
 /// Passes over the layer's metadata in parentheses, noting `name = value`.
-fn layer_metadata(text: &mut Scanner<'_>, into: &mut HashMap<String, Handle>) -> Result<(), Problem> {
+fn layer_metadata(text: &mut Scanner<'_>, into: &mut HashMap<Name, Handle>) -> Result<(), Problem> {
     text.expect(b'(')?;
     loop {
         match text.peek()? {
@@ -167,7 +178,7 @@ fn layer_metadata(text: &mut Scanner<'_>, into: &mut HashMap<String, Handle>) ->
                 }
                 text.expect(b'=')?;
                 let value = text.skip_value()?;
-                into.insert(name, value);
+                into.insert(name.into(), value);
             }
             None => return Err(text.problem("a parenthesis that is never closed: is the file whole?")),
         }
@@ -175,7 +186,13 @@ fn layer_metadata(text: &mut Scanner<'_>, into: &mut HashMap<String, Handle>) ->
 }
 
 /// A property of `prim` whose first word was `first`.
-fn property(text: &mut Scanner<'_>, first: String, prim: &mut PrimInfo) -> Result<(), Problem> {
+fn property(
+    text: &mut Scanner<'_>,
+    first: String,
+    prim: &mut PrimInfo,
+    types: &mut HashSet<Name>,
+    budget: &Budget,
+) -> Result<(), Problem> {
     let mut words = vec![first];
     let mut is_array = false;
     loop {
@@ -213,21 +230,27 @@ fn property(text: &mut Scanner<'_>, first: String, prim: &mut PrimInfo) -> Resul
             let targets = value(text)?;
             // What is taken away from weaker layers is none of this one's.
             if is_relation && !words.iter().any(|word| word == "delete" || word == "reorder") {
-                prim.relationships.push((name.to_owned(), targets));
+                let name = Name::from(name);
+                keep_property(budget, &name)?;
+                prim.relationships.push((name, targets));
             }
         } else {
+            let name = Name::from(name);
+            keep_property(budget, &name)?;
             let samples = if timed { Some(samples(text)?) } else { None };
             let value = if timed { None } else { Some(value(text)?) };
-            let attribute = prim.attributes.entry(name.to_owned()).or_default();
+            let attribute = prim.attributes.entry(name).or_default();
             attribute.has_spline |= is_spline;
-            attribute.type_name.clone_from(type_name);
+            attribute.type_name = shared(types, type_name.clone());
             attribute.is_array = is_array;
             attribute.samples = samples.unwrap_or(std::mem::take(&mut attribute.samples));
             attribute.default = value.filter(|_| !is_spline).or(attribute.default);
         }
     } else if !is_relation && !connection {
         // Declared without a value.
-        prim.attributes.entry(name.to_owned()).or_default();
+        let name = Name::from(name);
+        keep_property(budget, &name)?;
+        prim.attributes.entry(name).or_default();
     }
     if text.peek()? == Some(b'(') {
         let details = text.skip_value()?;
@@ -280,11 +303,13 @@ fn is_prefix(word: &str) -> bool {
 }
 
 /// Numbers of a value, whatever brackets stand between them.
-pub fn numbers<T: Number>(from: &mut dyn Source, (start, length): Handle) -> Result<Vec<T>, Problem> {
+pub fn numbers<T: Number>(from: &mut dyn Source, (start, length): Handle, budget: &Budget) -> Result<Vec<T>, Problem> {
+    budget.take(length, "values")?;
     from.seek(SeekFrom::Start(start))?;
     let mut numbers = Numbers::new();
     let mut window = Vec::new();
     let mut left = length;
+    let mut beyond = 0;
     while left > 0 {
         // Behind what was left of the last window, the beginning of a number.
         let begun = window.len();
@@ -298,6 +323,11 @@ pub fn numbers<T: Number>(from: &mut dyn Source, (start, length): Handle) -> Res
             None => return Err(Problem(format!("byte {start}: a number of more than {WINDOW} digits"))),
         };
         numbers.read(&window[..whole]).map_err(|e| Problem(format!("byte {start}: {e}")))?;
+        // Digits with nothing between them but a comma take less than the numbers.
+        let half = (numbers.found.len() * size_of::<T>()) as u64 / 2;
+        let more = half.saturating_sub(length).saturating_sub(beyond);
+        budget.take(more, "values")?;
+        beyond += more;
         if numbers.found.capacity() * 2 < numbers.found.len() * 3 && left > 0 {
             let share = (length - left) as f64 / length as f64;
             let expected = (numbers.found.len() as f64 / share) as usize;
@@ -338,11 +368,13 @@ pub fn targets(from: &mut dyn Source, (start, length): Handle) -> Result<Vec<Str
 }
 
 /// Words in quotation marks of a value.
-pub fn words(from: &mut dyn Source, value: Handle) -> Result<Vec<String>, Problem> {
+pub fn words(from: &mut dyn Source, value: Handle, budget: &Budget) -> Result<Vec<String>, Problem> {
+    budget.take(value.1, "words")?;
     let mut text = Scanner::new(from, value)?;
     let mut found = Vec::new();
     while let Some(byte) = text.peek()? {
         if matches!(byte, b'"' | b'\'') {
+            budget.take(size_of::<String>() as u64, "words")?;
             found.push(text.quoted()?);
         } else {
             text.pass();

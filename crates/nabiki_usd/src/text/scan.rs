@@ -198,6 +198,8 @@ impl<'a> Scanner<'a> {
                         b'n' => b'\n',
                         b'r' => b'\r',
                         b't' => b'\t',
+                        b'x' => self.digits(0, 16, 2)?,
+                        b'0'..=b'7' => self.digits(escaped - b'0', 8, 2)?,
                         other => other,
                     });
                     closing = 0;
@@ -213,6 +215,17 @@ impl<'a> Scanner<'a> {
             }
         }
         Err(self.problem("quotation marks that are never closed"))
+    }
+
+    /// The byte that at most `most` further digits stand for, after one worth `value`.
+    fn digits(&mut self, mut value: u8, base: u32, most: usize) -> Result<u8, Problem> {
+        for _ in 0..most {
+            let digit = self.here()?.and_then(|b| char::from(b).to_digit(base));
+            let Some(digit) = digit else { break };
+            value = value.wrapping_mul(base as u8).wrapping_add(digit as u8);
+            self.pass();
+        }
+        Ok(value)
     }
 
     /// Passes over one value and gives its place.

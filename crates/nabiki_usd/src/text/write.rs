@@ -285,6 +285,9 @@ impl std::fmt::Display for Quoted<'_> {
                 '\\' => f.write_str("\\\\")?,
                 '\n' => f.write_str("\\n")?,
                 '\r' => f.write_str("\\r")?,
+                '\t' => f.write_str("\\t")?,
+                // Three digits, so that none that follows is taken for one more.
+                c if c.is_ascii_control() => write!(f, "\\{:03o}", u32::from(c))?,
                 c => write!(f, "{c}")?,
             }
         }

@@ -4,6 +4,7 @@ use glam::{DAffine3, DVec3, Vec3};
 use gltf::{Primitive, Semantic};
 
 use crate::error::{Error, Result};
+use crate::gltf_file::Buffers;
 use crate::gltf_file::accessors::{Whole, numbers, transforms, whole_numbers};
 
 /// The joints of a skin in the still pose.
@@ -25,7 +26,7 @@ pub(super) struct Bent {
 
 impl Skin {
     /// `pose`: takes each node's space to the scene's.
-    pub fn new(skin: &gltf::Skin, pose: &[Option<DAffine3>], buffers: &[Vec<u8>]) -> Result<Self> {
+    pub fn new(skin: &gltf::Skin, pose: &[Option<DAffine3>], buffers: &Buffers<'_>) -> Result<Self> {
         let joints: Vec<usize> = skin.joints().map(|joint| joint.index()).collect();
         let binds = match skin.inverse_bind_matrices() {
             Some(accessor) => transforms(&accessor, buffers, "inverse bind matrices")?,
@@ -45,7 +46,7 @@ impl Skin {
     }
 
     /// Bends vertices of `positions` by the joints and weights of their primitive; `None` where it has none.
-    pub fn bend(&self, primitive: &Primitive, positions: &[Vec3], buffers: &[Vec<u8>]) -> Result<Option<Bent>> {
+    pub fn bend(&self, primitive: &Primitive, positions: &[Vec3], buffers: &Buffers<'_>) -> Result<Option<Bent>> {
         let mut joints: Vec<Vec<[u32; 4]>> = Vec::new();
         let mut weights: Vec<Vec<[f32; 4]>> = Vec::new();
         for set in 0.. {
