@@ -19,9 +19,9 @@ def value(i):
 
 
 def write(path):
-    from alembic3d.Abc import OArchive, WrapExistingFlag
+    from alembic3d.Abc import OArchive
     from alembic3d.AbcGeom import CurvePeriodicity, CurveType, GeometryScope, OCurves, OCurvesSchemaSample
-    from alembic3d.AbcGeom import BasisType, OFloatGeomParam, OFloatGeomParamSample
+    from alembic3d.AbcGeom import OFloatGeomParam, OFloatGeomParamSample
     from imath import FloatArray, IntArray, V3fArray, V3f
 
     archive = OArchive(path)
@@ -46,8 +46,9 @@ def found_in_layer(path):
     prim = stage.GetPrimAtPath("/head/hair")
     for name in prim.GetPropertyNames():
         assert Sdf.Path.IsValidNamespacedIdentifier(name), f"{path}: {name}"
-    primvars = [p for p in UsdGeom.PrimvarsAPI(prim).GetPrimvars() if p.GetTypeName() == Sdf.ValueTypeNames.FloatArray]
-    return {p.GetPrimvarName(): [float(x) for x in p.Get()] for p in primvars if len(p.Get()) == 2}
+    primvars = [p for p in UsdGeom.PrimvarsAPI(prim).GetPrimvars() if p.HasValue()]
+    floats = [p for p in primvars if p.GetTypeName() == Sdf.ValueTypeNames.FloatArray]
+    return {p.GetPrimvarName(): [float(x) for x in p.Get()] for p in floats}
 
 
 def found_in_archive(path):

@@ -192,7 +192,7 @@ pub fn unique_names(others: &[Other], valid: impl Fn(&str) -> String, reserved: 
 pub fn renamed(from: &str, to: &str) -> String {
     // Of a name that is as long as a page its beginning tells enough.
     let shown = |name: &str| if name.chars().count() > 80 { format!("{name:.80}...") } else { name.to_owned() };
-    format!("the name {}: it is {} there", shown(from), shown(to))
+    format!("the name {:?}: it is {} there", shown(from), shown(to))
 }
 
 /// The name of a type of numbers or words.
