@@ -80,6 +80,6 @@ impl Solution {
         let report = &self.solved.report;
         let (before, after, wishes) = (report.before_cm, report.after_cm, report.wishes.len());
         let met = if self.solved.all_met() { "all met" } else { "not all met" };
-        format!("<nabiki.Solution: {before:.2} cm from {wishes} wishes and nails before, {after:.2} cm now, {met}>")
+        format!("<nabiki.Solution: {before:.2} cm before, {after:.2} cm after; wishes and nails: {wishes}, {met}>")
     }
 }

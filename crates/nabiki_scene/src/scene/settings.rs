@@ -25,6 +25,7 @@ impl Scene {
     /// # Errors
     /// No such setting; as [`to_toml`](Self::to_toml).
     pub fn setting(&self, key: &str) -> Result<Option<Value>, SceneError> {
+        tree::check_path(key).map_err(|what| self.origins.error(&tree::short(key), Problem::Other(what)))?;
         if let Some(value) = tree::at(&self.settings()?, key) {
             return Ok(Some(value.clone()));
         }
@@ -153,6 +154,7 @@ mod tests {
         for key in ["free.".to_owned() + &"a.".repeat(100_000) + "b", "force".to_owned() + &"[0]".repeat(100_000)] {
             let line = refused(&key, 1.into()).to_string();
             assert!(line.contains("no setting lies so deep") && line.len() < 300, "{line}");
+            assert_eq!(scene().setting(&key).unwrap_err().to_string(), line);
             let open = [(key.clone(), "1".to_owned())];
             assert!(Scene::parse("", "".as_ref(), &open).unwrap_err().to_string().len() < 300);
         }

@@ -234,9 +234,7 @@ fn place<'a>(table: &'a mut Table, path: &str) -> Result<&'a mut Value, String> 
     if steps.iter().any(String::is_empty) || path.matches('[').count() != path.matches(']').count() {
         return Err("write a key as motion.time_step or force.0.vector".to_owned());
     }
-    if steps.len() > DEEPEST {
-        return Err(format!("{} names within one another: no setting lies so deep", steps.len()));
-    }
+    check_depth(&steps)?;
     let mut place = table.entry(steps[0].clone()).or_insert_with(|| below(&steps, 1));
     for (depth, step) in steps.iter().enumerate().skip(1) {
         let so_far = steps[..depth].join(".");
@@ -256,6 +254,19 @@ fn place<'a>(table: &'a mut Table, path: &str) -> Result<&'a mut Value, String> 
         };
     }
     Ok(place)
+}
+
+/// Refuses a path of more steps than are followed.
+fn check_depth(steps: &[String]) -> Result<(), String> {
+    if steps.len() <= DEEPEST {
+        return Ok(());
+    }
+    Err(format!("{} names within one another: no setting lies so deep", steps.len()))
+}
+
+/// The same of a path that is not taken apart yet.
+pub(super) fn check_path(path: &str) -> Result<(), String> {
+    check_depth(&dotted(path))
 }
 
 /// A path as a line has it: one that nobody can read is cut.
