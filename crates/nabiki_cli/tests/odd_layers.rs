@@ -95,3 +95,45 @@ fn files_of_other_programs_are_refused_with_what_these_write() {
         }
     }
 }
+
+/// One frame of a shot is on its time line where the shot has it, whatever it is written as.
+#[test]
+fn one_frame_keeps_its_number() {
+    let samples = |n: i32| format!("{n}: [(9, 1, 0), (12, {}, 0)]", n - 1000);
+    let points: Vec<String> = (1001..=1005).map(samples).collect();
+    let widths =
+        "float[] widths.timeSamples = { 1001: [1, 1], 1003: [3, 3], 1004: [4, 4] } ( interpolation = \"vertex\" )";
+    let hair = curves(&format!(
+        "int[] curveVertexCounts = [2]\n {widths}\n point3f[] points.timeSamples = {{ {} }}",
+        points.join(", ")
+    ));
+    let folder = folder(&format!("( timeCodesPerSecond = 30 )\n{hair}"));
+    let number = |name: &str| {
+        let text = fs::read_to_string(folder.path().join(name)).unwrap();
+        let one = |key: &str| text.lines().find_map(|line| line.trim().strip_prefix(key)?.trim().parse::<f64>().ok());
+        let [start, end, rate] = ["startTimeCode =", "endTimeCode =", "timeCodesPerSecond ="].map(one);
+        assert_eq!(start, end, "{name}");
+        (start.unwrap(), rate.unwrap(), text)
+    };
+    let said = succeed(&folder, "convert groom.usda pose.usda --frame 2");
+    assert!(said.contains("motion of widths: its value in frame 2 is kept"), "{said}");
+    let (start, rate, text) = number("pose.usda");
+    assert_eq!((start, rate), (1003.0, 30.0));
+    assert!(text.contains("1003: [(9, 1, 0), (12, 3, 0)]") && text.contains("widths = [3, 3]"), "{text}");
+    // By way of binary layers and archives, which have nothing else to say it by.
+    succeed(&folder, "convert groom.usda pose.usdc --frame 2");
+    succeed(&folder, "convert pose.usdc binary.usda");
+    assert_eq!(number("binary.usda").0, 1003.0);
+    succeed(&folder, "convert groom.usda pose.abc --frame 2");
+    succeed(&folder, "convert pose.abc archive.usda --unit cm");
+    let (start, rate, _) = number("archive.usda");
+    assert!((start / rate - 1003.0 / 30.0).abs() < 0.5 / rate, "{start} at {rate}");
+    // Another number, and none where nothing has any.
+    succeed(&folder, "convert groom.usda other.usda --frame 2 --first-frame -7");
+    assert_eq!(number("other.usda").0, -7.0);
+    succeed(&folder, "convert groom.usda pose.hair --frame 2");
+    succeed(&folder, "convert pose.hair plain.usda --unit cm");
+    assert_eq!(number("plain.usda").0, 0.0);
+    let line = refuse(&folder, "convert groom.usda x.hair --frame 2 --first-frame 5");
+    assert!(line.contains("x.hair: --first-frame 5: this file has no time line"), "{line}");
+}
