@@ -38,11 +38,11 @@ pub struct MeshReport {
 /// or meshes, of USD prims or Alembic objects, to keep; all when empty. Larger polygons become fans, node transforms are
 /// applied, and skins of glTF bend as their joints stand in the file.
 pub fn read(path: &Path, groups: &[String]) -> Result<Mesh> {
-    read_all(path, groups).map(|(mesh, _)| mesh)
+    read_with_losses(path, groups).map(|(mesh, _)| mesh)
 }
 
 /// The same, with what of the meshes is left out or not obeyed, a phrase each.
-pub(crate) fn read_all(path: &Path, groups: &[String]) -> Result<(Mesh, Vec<String>)> {
+pub fn read_with_losses(path: &Path, groups: &[String]) -> Result<(Mesh, Vec<String>)> {
     let named = |e: Error| e.in_file(path);
     let text = || input::read(path, MOST_TEXT_BYTES);
     let binary = || input::read(path, MOST_BINARY_BYTES);
@@ -118,7 +118,7 @@ fn without_parts(mesh: Mesh, groups: &[String]) -> Result<Mesh> {
 /// Reads a mesh into head space, joins vertices at the same place and drops triangles without area.
 pub fn import(path: &Path, placement: &Placement, groups: &[String]) -> Result<(Mesh, MeshReport)> {
     placement.check("head").map_err(|e| Error::from(e).in_file(path))?;
-    let (mesh, unread) = read_all(path, groups)?;
+    let (mesh, unread) = read_with_losses(path, groups)?;
     let (mesh, report) = place_and_weld(mesh, placement).map_err(|e| e.in_file(path))?;
     Ok((mesh, MeshReport { unread, ..report }))
 }

@@ -55,6 +55,8 @@ fn every_attribute_is_kept_or_said_to_be_lost() {
         transparency: Some(_),
         point_uv: Some(_),
         inverse_mass: Some(_),
+        // Says how the file that was read had its strands; no format has a place for it.
+        tip_first: _,
         other,
         unread,
         constant: Constants { width: Some(_), colour: Some(_), transparency: Some(_) },

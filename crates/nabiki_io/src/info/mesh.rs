@@ -64,7 +64,7 @@ impl MeshInfo {
     /// Looks into a mesh file.
     pub fn of_file(path: &Path) -> Result<Self> {
         let of_meshes = || -> Result<Self> {
-            let (mesh, unread) = mesh::read_all(path, &[])?;
+            let (mesh, unread) = mesh::read_with_losses(path, &[])?;
             Ok(Self { unread, ..Self::of(&mesh) })
         };
         if !matches!(extension(path).as_str(), "glb" | "gltf") {
