@@ -7,9 +7,12 @@ use crate::settings::HairLook;
 
 pub use crate::light::fibre::{COLUMNS, GRADES, ROWS};
 pub use crate::light::lamps::{Lamp, lamps, zenith};
+pub use crate::light::sky::{Carry, Direction, LENGTHS};
 
 /// Share of the sky's light that each scattering in hair keeps on its way.
 pub const SKY_KEPT: f32 = shade::SKY_KEPT;
+/// Of the light that a fibre lets through, the share that goes on by other ways than straight from the lamp.
+pub const STRAYS: f32 = shade::STRAYS;
 /// Share of light scattered forward by hair that falls onto skin behind.
 pub const ON_SKIN: f32 = crate::skin::ON_SKIN;
 /// Largest deviation of a strand's tilt (rad), for a variation of 1.

@@ -302,7 +302,7 @@ pub const ACTIONS: &[Entry] = &[
     entry(Action::ZoomIn, "View", "Larger", command("Equals"), "Type and panels a tenth larger."),
     entry(Action::ZoomOut, "View", "Smaller", command("Minus"), "Type and panels a tenth smaller."),
     entry(Action::ResetLayout, "View", "Reset panels", None, "Panels where they were at the first start."),
-    entry(Action::Palette, "Help", "Find a command...", command("P"), "All of this, by a few letters of its name."),
+    entry(Action::Palette, "Help", "Find...", command("P"), "All of this and every setting, by a few letters."),
     entry(Action::Keys, "Help", "Keys", plain("F1"), "The list of keys."),
     entry(Action::Welcome, "Help", "What to try first", None, "The words of the first start."),
     entry(Action::Preferences, "Edit", "Preferences...", command("Comma"), "Navigation, strands, size of the type."),
@@ -316,28 +316,6 @@ impl Action {
     pub fn entry(self) -> &'static Entry {
         ACTIONS.iter().find(|entry| entry.action == self).expect("every action is in the table")
     }
-}
-
-/// The actions whose name holds all words of `query`, in any order; the best first.
-pub fn matching(query: &str) -> Vec<&'static Entry> {
-    let query = query.to_lowercase();
-    let words: Vec<&str> = query.split_whitespace().collect();
-    let found = |entry: &&Entry| {
-        let text = format!("{} {} {}", entry.menu, entry.name, entry.help).to_lowercase();
-        words.iter().all(|word| text.contains(word))
-    };
-    let mut entries: Vec<&Entry> = ACTIONS.iter().filter(found).collect();
-    // Those whose own name begins so come before those whose help only speaks of it.
-    entries.sort_by_key(|entry| {
-        let name = entry.name.to_lowercase();
-        match words.first() {
-            Some(word) if name.starts_with(word) => 0,
-            Some(word) if name.contains(word) => 1,
-            Some(_) => 2,
-            None => 0,
-        }
-    });
-    entries
 }
 
 #[cfg(test)]
@@ -362,13 +340,5 @@ mod tests {
             let row = format!("| {} | {} | {} |", entry.keys_text(), entry.name.trim_end_matches("..."), entry.help);
             assert!(text.contains(&row), "docs/studio.md lacks this row:\n{row}");
         }
-    }
-
-    #[test]
-    fn the_palette_finds_by_parts_of_words() {
-        assert_eq!(matching("und")[0].action, Action::Undo);
-        assert_eq!(matching("sav as")[0].action, Action::SaveAs);
-        assert_eq!(matching("").len(), ACTIONS.len());
-        assert!(matching("no such thing").is_empty());
     }
 }

@@ -29,6 +29,10 @@ pub struct App {
     title: String,
     remembered: Preferences,
     zoom: f32,
+    /// Whether the window fits its screen, as far as this has been seen to.
+    fits: bool,
+    /// Whether a field was typed into when the last picture was drawn: Escape is then the field's.
+    was_typing: bool,
     /// What waits for the field that is typed into to be left.
     waiting: Vec<Action>,
 }
@@ -48,10 +52,21 @@ impl App {
         let mut session = Session::new(folder, move || ctx.request_repaint())?;
         session.begin(scene.as_deref());
         let (layout, said) = session.folder().map(|folder| Layout::load(&folder.join(LAYOUT))).unwrap_or_default();
-        said.into_iter().for_each(|said| session.say(said, true));
+        said.into_iter().for_each(|said| session.say_of_window(said, true));
         let view = View::new(cc.wgpu_render_state.as_ref());
         let (remembered, zoom) = (session.preferences().clone(), 0.0);
-        Ok(Self { session, view, layout, fps: 0.0, title: String::new(), remembered, zoom, waiting: Vec::new() })
+        Ok(Self {
+            session,
+            view,
+            layout,
+            fps: 0.0,
+            title: String::new(),
+            remembered,
+            zoom,
+            fits: false,
+            was_typing: false,
+            waiting: Vec::new(),
+        })
     }
 
     /// What the window knows.
@@ -76,14 +91,18 @@ impl App {
             self.fps += 0.1 * (1.0 / seconds.max(1e-4) as f32 - self.fps);
             ctx.request_repaint();
         } else {
-            // The file on the disk, and what is to be kept, are looked at now and then.
-            ctx.request_repaint_after(std::time::Duration::from_secs_f64(self.session.waits()));
+            // At rest nothing is drawn: what comes of itself calls.
+            let waits = self.session.waits();
+            if waits.is_finite() {
+                ctx.request_repaint_after(std::time::Duration::from_secs_f64(waits));
+            }
         }
         let zoom = self.session.preferences().zoom;
         if (self.zoom - zoom).abs() > 1e-3 {
             ctx.set_zoom_factor(zoom);
             self.zoom = zoom;
         }
+        self.fit_screen(ctx);
         self.remember_window(ctx);
         let mark = |changed| if changed { "*" } else { "" };
         let title = match (self.session.broken(), self.session.document()) {
@@ -94,6 +113,26 @@ impl App {
         if title != self.title {
             ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
             self.title = title;
+        }
+    }
+
+    /// A window larger than what a screen has free, at the first start or on a smaller screen than the last, fills that: the desktop
+    /// knows what is free. Where none does, it is as large as leaves room for bars.
+    fn fit_screen(&mut self, ctx: &egui::Context) {
+        if self.fits {
+            return;
+        }
+        let zoom = ctx.zoom_factor();
+        let (screen, maximised) = ctx.input(|input| {
+            let viewport = input.viewport();
+            (viewport.monitor_size, viewport.maximized.unwrap_or_default())
+        });
+        let Some(screen) = screen else { return };
+        self.fits = true;
+        let wanted = egui::Vec2::from(self.session.preferences().window) / zoom;
+        if let Some(size) = fitting(wanted, screen, zoom).filter(|_| !maximised) {
+            ctx.send_viewport_cmd(ViewportCommand::InnerSize(size));
+            ctx.send_viewport_cmd(ViewportCommand::Maximized(true));
         }
     }
 
@@ -138,7 +177,7 @@ impl App {
             }
             return;
         }
-        keys(ctx, held, egui::Popup::is_any_open(ctx), commands);
+        keys(ctx, held, egui::Popup::is_any_open(ctx) || self.was_typing, commands);
     }
 
     /// What has waited for the field that was typed into: it is left now, and takes what was typed before any of it is done. A
@@ -160,6 +199,7 @@ impl App {
                 Wish::SceneCamera => self.view.reset_camera(),
                 Wish::UseCamera => self.use_camera(),
                 Wish::ResetLayout => self.layout = Layout::default(),
+                Wish::Page(page) => self.layout.show(page),
                 Wish::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             }
         }
@@ -206,6 +246,7 @@ impl eframe::App for App {
             commands.push(Command::EndDrag);
         }
         commands.extend(waited.into_iter().map(Command::Act));
+        self.was_typing = ctx.egui_wants_keyboard_input();
         self.carry_out(&ctx, commands);
     }
 
@@ -221,8 +262,17 @@ impl eframe::App for App {
     }
 }
 
+/// What bars and titles of a desktop take of a screen's width and height, at least in most (points).
+const BARS: egui::Vec2 = egui::Vec2::new(24.0, 84.0);
+
+/// The size of a window on a screen with less free than is wanted (points of a zoom); none where there is room.
+fn fitting(wanted: egui::Vec2, screen: egui::Vec2, zoom: f32) -> Option<egui::Vec2> {
+    let free = (screen - BARS / zoom).max(egui::Vec2::splat(100.0));
+    (wanted.x > free.x || wanted.y > free.y).then(|| wanted.min(free).floor())
+}
+
 /// The keys of all actions, in the order in which they were pressed. `held`: something is being dragged, which Escape gives
-/// up before it means anything else. `menu`: one is open, which Escape closes.
+/// up before it means anything else. `menu`: one is open, which Escape closes, or a field was typed into, which Escape leaves as it was.
 fn keys(ctx: &egui::Context, mut held: bool, menu: bool, commands: &mut Commands) {
     ctx.input_mut(|input| {
         input.events.retain(|event| {
@@ -314,6 +364,7 @@ impl Panes<'_> {
         // From where the scene is seen, or nothing could be compared.
         let picture = Picture { camera: document.scene().picture.camera, ..scene.picture.clone() };
         let shown = Shown {
+            scene: self.session.opened(),
             take,
             picture: &picture,
             force: &scene.field.force,
@@ -405,6 +456,24 @@ mod tests {
     use eframe::egui::{Event, RawInput};
 
     use super::*;
+
+    #[test]
+    fn a_window_larger_than_the_free_part_of_its_screen_is_as_large_as_that() {
+        let first = egui::Vec2::from(Preferences::default().window);
+        for screen in [[1280.0, 720.0], [1366.0, 768.0], [1440.0, 900.0], [1024.0, 600.0]].map(egui::Vec2::from) {
+            for zoom in [1.0, 1.5] {
+                // Both in the points of a zoom.
+                let (wanted, screen) = (first / zoom, screen / zoom);
+                let size = fitting(wanted, screen, zoom).unwrap();
+                assert!(size.x <= screen.x - BARS.x / zoom && size.y <= screen.y - BARS.y / zoom, "{size} on {screen}");
+                assert!(size.x <= wanted.x && size.y <= wanted.y && size.y > 300.0);
+            }
+        }
+        for screen in [[1920.0, 1080.0], [3840.0, 2160.0]] {
+            assert_eq!(fitting(first, screen.into(), 1.0), None);
+        }
+        assert!(fitting(egui::vec2(1900.0, 1060.0), egui::vec2(1920.0, 1080.0), 1.0).is_some(), "of a larger screen");
+    }
 
     fn pressed(held: bool, keys: &[(Key, Modifiers)]) -> Vec<Command> {
         let event = |&(key, modifiers): &(Key, Modifiers)| Event::Key {

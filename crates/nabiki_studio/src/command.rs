@@ -99,6 +99,8 @@ pub enum Command {
     GoOn,
     /// Saves what this would lose, asks for a name if there is none, and goes on with it.
     SaveAndGoOn(crate::dialog::Next),
+    /// Shows where a setting is, by its key; that of a table shows its title.
+    Reveal(String),
     /// Begins an export.
     Export(Order),
     /// Stops the export of this number.

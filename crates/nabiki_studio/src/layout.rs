@@ -86,6 +86,11 @@ impl Layout {
         }
     }
 
+    /// Brings a page to the front.
+    pub fn show(&mut self, page: Page) {
+        self.tree.make_active(|_, tile| matches!(tile, Tile::Pane(Pane::Page(shown)) if *shown == page));
+    }
+
     /// Draws all panels into the room that is left. Where their shares of a small window would be less than they need, they
     /// have what they need; in a larger one their shares again.
     pub fn ui(&mut self, behavior: &mut impl Behavior<Pane>, ui: &mut Ui) {

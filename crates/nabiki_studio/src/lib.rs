@@ -9,6 +9,7 @@ pub mod desktop;
 pub mod dialog;
 pub mod document;
 pub mod drag;
+pub mod finding;
 pub mod gestures;
 pub mod icon;
 pub mod layout;

@@ -3,6 +3,7 @@
 pub mod dialogs;
 pub mod fields;
 pub mod files;
+pub mod hands;
 pub mod interval;
 pub mod kept;
 pub mod mend;

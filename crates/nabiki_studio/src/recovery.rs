@@ -90,6 +90,16 @@ impl Keeper {
         Ok(())
     }
 
+    /// Whether the document is kept as it is, or has been seen to need no keeping.
+    pub fn has(&self, document: &Document) -> bool {
+        self.kept == Some(document.version())
+    }
+
+    /// The text that is kept.
+    pub fn text(&self) -> Option<&str> {
+        self.text.as_deref()
+    }
+
     /// Keeps a text that is no scene yet, if it is not kept yet.
     ///
     /// # Errors

@@ -4,8 +4,12 @@
 mod deep;
 mod edit;
 mod files;
+mod followed;
 mod kept;
 mod lost;
+mod revealed;
+mod taken;
+mod watch;
 mod words;
 
 use std::path::{Path, PathBuf};
@@ -24,6 +28,7 @@ use crate::motion::{Manner, Motion, Moved, Stage};
 use crate::play::{Ending, Play};
 use crate::preferences::Preferences;
 use crate::recovery::{self, Keeper};
+use crate::settings::Page;
 use crate::take::{TOUCHED, Take};
 use crate::tasks::Task;
 use crate::timeline::Clip;
@@ -31,9 +36,11 @@ use deep::Deep;
 pub use kept::Difference;
 use kept::KeptTake;
 pub use lost::Broken;
+use revealed::Revealed;
+use watch::Watch;
 pub use words::Word;
 
-/// Between two looks at the scene's file, and between the last change and its being kept.
+/// Between two looks at the scene's file, and between two times at which what is not saved is kept.
 const LOOK: Duration = Duration::from_secs(1);
 
 /// What only the window itself can do.
@@ -47,6 +54,8 @@ pub enum Wish {
     UseCamera,
     /// Put the panels where they were at the first start.
     ResetLayout,
+    /// Show a page.
+    Page(Page),
     /// Close.
     Quit,
 }
@@ -78,8 +87,14 @@ pub struct Session {
     asked: u64,
     /// The first motion that was asked for of this scene.
     first_asked: u64,
+    /// How large head and hair were before a head that is of another size since.
+    sizes: Option<followed::Sizes>,
+    /// How many scenes have been opened: what belongs to one scene goes with it.
+    opened: u64,
     chosen: Vec<usize>,
     clip: Clip,
+    /// The setting that is pointed out.
+    revealed: Option<Revealed>,
     dialog: Option<Dialog>,
     /// When it was asked, by the clock.
     asked_at: Option<f64>,
@@ -92,7 +107,10 @@ pub struct Session {
     /// Keeps the text being mended, while it is not saved.
     text_keeper: Option<Keeper>,
     clock: f64,
+    /// When what is not saved was kept last.
     looked: Instant,
+    /// Looks at the scene's file.
+    watch: Watch,
     said_changed: bool,
     seen_version: u64,
     wake: Waker,
@@ -118,8 +136,9 @@ impl Session {
     /// The system's, if it gives no thread.
     pub fn new(folder: Option<PathBuf>, wake: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
         let wake = Waker(Arc::new(wake));
-        let theirs = wake.clone();
+        let [theirs, of_files] = [wake.clone(), wake.clone()];
         let motion = Motion::start(Manner::Finishes, move || theirs.0())?;
+        let watch = Watch::start(LOOK, move || of_files.0())?;
         let (preferences, said) = folder.as_deref().map_or((Preferences::default(), None), Preferences::load);
         let mut session = Self {
             document: None,
@@ -136,8 +155,11 @@ impl Session {
             took: Duration::ZERO,
             asked: 0,
             first_asked: 0,
+            sizes: None,
+            opened: 0,
             chosen: Vec::new(),
             clip: Clip::default(),
+            revealed: None,
             dialog: None,
             asked_at: None,
             tasks: Vec::new(),
@@ -150,11 +172,12 @@ impl Session {
             folder,
             clock: 0.0,
             looked: Instant::now(),
+            watch,
             said_changed: false,
             seen_version: 0,
             wake,
         };
-        said.into_iter().for_each(|said| session.say(said, true));
+        said.into_iter().for_each(|said| session.say_of_window(said, true));
         session.look_for_what_is_left();
         Ok(session)
     }
@@ -169,7 +192,7 @@ impl Session {
         match Keeper::begin(&folder) {
             Ok(keeper) => self.keeper = Some(keeper),
             Err(e) => {
-                self.say(
+                self.say_of_window(
                     format!("{}: {e}; what is not saved is lost if this window is killed", folder.display()),
                     true,
                 );
@@ -236,11 +259,17 @@ impl Session {
         self.receive();
     }
 
-    /// Seconds until there is something to do that nobody calls for.
+    /// Seconds until there is something to do that nobody calls for; endless where there is not: a window at rest is not drawn.
     pub fn waits(&self) -> f64 {
         // More strands wait for the motion of the few, which calls when it is there.
         let deep = if self.motion.is_working() { f64::INFINITY } else { self.deep.waits(self.clock) };
-        deep.min(LOOK.as_secs_f64())
+        let keep = if self.is_kept() { f64::INFINITY } else { LOOK.as_secs_f64() };
+        deep.min(keep).min(self.news_goes_in()).min(self.revealed_for())
+    }
+
+    /// How many scenes have been opened, this one included.
+    pub fn opened(&self) -> u64 {
+        self.opened
     }
 
     /// The intervals chosen, in ascending order.
@@ -287,6 +316,7 @@ impl Session {
     /// does not leap over what a window has rested for.
     pub fn tick(&mut self, passed: f64, played: f64) {
         self.clock += passed;
+        self.see_revealed();
         if let Some(document) = &self.document {
             self.play.advance(played, document.scene().frame_rate());
         }
@@ -296,9 +326,14 @@ impl Session {
             self.deepen();
         }
         self.forget_good_news();
+        let open = self.document.as_ref().and_then(Document::path);
+        let files = open.into_iter().chain(self.broken.as_ref().map(|broken| broken.path.as_path()));
+        self.watch.of(files.map(Path::to_owned).collect());
+        if self.watch.has_changed() {
+            self.look_at_file();
+        }
         if self.looked.elapsed() >= LOOK {
             self.looked = Instant::now();
-            self.look_at_file();
             self.keep();
         }
     }
@@ -323,6 +358,7 @@ impl Session {
         match result {
             Ok((take, swings)) => {
                 self.play.set_last(take.frames());
+                self.say_what_followed(&take);
                 (self.take, self.swings, self.took) = (Some(take), Some(swings), took);
                 if number == self.asked {
                     self.trouble = None;
@@ -387,6 +423,7 @@ impl Session {
                     self.show_strands(strands);
                 }
             }
+            Command::Reveal(key) => self.reveal(&key),
             Command::Export(order) => self.export(order),
             command => self.apply_to_document(command),
         }
@@ -444,7 +481,7 @@ impl Session {
     pub fn remember(&mut self) {
         let Some(folder) = &self.folder else { return };
         if let Err(e) = self.preferences.save(folder) {
-            self.say(format!("{}: {e}; preferences are not remembered", folder.display()), true);
+            self.say_of_window(format!("{}: {e}; preferences are not remembered", folder.display()), true);
         }
     }
 

@@ -47,6 +47,20 @@ pub fn move_border(keys: &[Keyframe], j: usize, frame: u32, ripple: bool) -> Vec
     keys
 }
 
+/// Gives each chosen interval as many frames as `length` says for it, one at least; what comes after moves along, as far as there
+/// are frames.
+pub fn with_lengths(keys: &[Keyframe], chosen: &[usize], length: impl Fn(usize) -> u32) -> Vec<Keyframe> {
+    let mut end = 0_u32;
+    let with = |(j, key): (usize, &Keyframe)| {
+        let frames = if chosen.contains(&j) { length(j).max(1) } else { key.through - first(keys, j) + 1 };
+        // Each interval that is still to come keeps a frame.
+        let room = u32::MAX - (keys.len() - 1 - j) as u32;
+        end = end.saturating_add(frames).min(room);
+        Keyframe { through: end, ..*key }
+    };
+    keys.iter().enumerate().map(with).collect()
+}
+
 /// Moves the intervals of `chosen` (neighbours or not; those that are there) by so many frames, each as far as the intervals beside it
 /// let it.
 pub fn slide(keys: &[Keyframe], chosen: &[usize], by: i64) -> Vec<Keyframe> {

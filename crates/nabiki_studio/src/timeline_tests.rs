@@ -141,3 +141,12 @@ fn an_interval_that_ends_with_the_last_frame_that_there_is_can_be_worked_on_like
         assert_eq!((pasted.last().unwrap().through, chosen.last().unwrap() + 1), (LAST, pasted.len()));
     }
 }
+
+#[test]
+fn chosen_intervals_get_their_lengths_and_what_comes_after_moves_along() {
+    let keys = three();
+    assert_eq!(ends(&with_lengths(&keys, &[0, 2], |j| 5 + j as u32)), [5, 25, 32]);
+    assert_eq!(ends(&with_lengths(&keys, &[1], |_| 0)), [10, 11, 41], "each keeps a frame");
+    assert_eq!(ends(&with_lengths(&keys, &[0, 1], |_| u32::MAX)), [u32::MAX - 2, u32::MAX - 1, u32::MAX]);
+    assert_eq!(with_lengths(&keys, &[], |_| 1), keys);
+}

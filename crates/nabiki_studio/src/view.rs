@@ -14,6 +14,7 @@ mod overlay;
 pub mod pick;
 mod screen;
 mod shown;
+mod sources;
 pub mod volume;
 
 use eframe::egui;
@@ -58,6 +59,10 @@ pub struct View {
     nails: Vec<Lock>,
     /// What was let go last.
     let_go: Option<LetGo>,
+    /// The arrow whose tip was let go last.
+    left_tip: Option<hand::LeftTip>,
+    /// The scene that is shown, by its number.
+    scene: u64,
     rest: Rest,
     final_picture: Option<FinalPicture>,
     /// Why something could not be drawn, to be said.
@@ -82,6 +87,8 @@ impl View {
             hand: Hand::Idle,
             nails: Vec::new(),
             let_go: None,
+            left_tip: None,
+            scene: 0,
             rest: Rest::default(),
             final_picture: None,
             failed: None,
@@ -152,6 +159,7 @@ impl View {
         let now = ui.input(|input| input.time);
         let mut touches: Vec<Touch> = self.failed.take().map(Touch::Refused).into_iter().collect();
 
+        self.leave_other_scene(shown.scene);
         self.place_camera(shown, size);
         if self.move_camera(ui, &response, shown, rect) {
             touches.push(Touch::CameraMoved);
@@ -186,6 +194,17 @@ impl View {
         self.draw_over(&overlay, &response, shown, &view);
         self.refused |= touches.iter().any(|touch| matches!(touch, Touch::Refused(_)));
         touches
+    }
+
+    /// What belongs to a scene goes with it: nails, what a hand holds or has let go, where a hand has put the camera, what was refused.
+    fn leave_other_scene(&mut self, scene: u64) {
+        if std::mem::replace(&mut self.scene, scene) == scene {
+            return;
+        }
+        self.nails.clear();
+        self.hand = Hand::Idle;
+        (self.let_go, self.left_tip, self.failed, self.refused) = (None, None, None, false);
+        (self.orbit, self.scenes, self.is_free, self.frames_hair) = (None, None, false, false);
     }
 
     /// Goes where the scene's camera is, unless a hand has moved it.
@@ -274,12 +293,18 @@ impl View {
             touches.extend(self.hand.give_up());
             return;
         }
+        // Between two pictures a hand may have gone on: it has taken hold, and lets go, where the button says.
+        let [pressed_at, released_at] = [true, false].map(|down| button_at(ui, rect, down).unwrap_or(pixel));
         if pressed && response.contains_pointer() && matches!(self.hand, Hand::Idle) {
             touches.extend(std::mem::take(&mut self.refused).then_some(Touch::Heard));
             self.let_go = None;
-            self.take_hold(ui.ctx(), shown, view, pixel, scale, nailing, touches);
+            self.take_hold(ui.ctx(), shown, view, pressed_at, scale, nailing, touches);
+            self.left_tip = None;
         }
         if !down && self.hand.is_busy() {
+            let (of_forces, _) = hand::of_forces(shown, view);
+            touches.extend(self.hand.drag_tip(&of_forces, released_at));
+            self.left_tip = self.hand.tip_let_go(shown, view);
             if let Hand::Hair(held) = &self.hand {
                 self.let_go = held.let_go();
             }
@@ -292,6 +317,12 @@ impl View {
             held.drag(&view.in_head(&shown.take.pose(shown.frame)), pixel);
             touches.extend(held.follow());
         }
+    }
+
+    /// The arrow of the chosen interval, with its number: as a hand has left it, or as it is drawn anew.
+    fn arrow(&self, shown: &Shown<'_>, scale: f32, view: &Seen) -> Option<(usize, handle::Arrow)> {
+        let left = self.left_tip.as_ref().and_then(|left| left.arrow(shown, view));
+        left.or_else(|| hand::arrow(shown, scale, view))
     }
 
     /// The left button went down: what is it on?
@@ -307,7 +338,7 @@ impl View {
         touches: &mut Vec<Touch>,
     ) {
         let (of_forces, _) = hand::of_forces(shown, view);
-        if let Some((interval, arrow)) = hand::arrow(shown, scale, view)
+        if let Some((interval, arrow)) = self.arrow(shown, scale, view)
             && arrow.is_held_by(&of_forces, pixel, handle::REACH * scale)
         {
             self.hand = Hand::Tip { interval, held: handle::Held::new(&arrow, &of_forces, pixel), vector: None };
@@ -411,11 +442,14 @@ impl View {
             overlay.nail(&in_head, nail.middle(points, strands), nail.frame == shown.frame);
         }
         let (of_forces, _) = hand::of_forces(shown, view);
+        if shown.wind && !shown.playing {
+            sources::draw(overlay, &of_forces, &sources::sources(&shown.take.built.scene.field));
+        }
         let held = match &self.hand {
             Hand::Tip { interval, held, .. } => shown.force.get(*interval).map(|key| held.showing(key.vector)),
             _ => None,
         };
-        if let Some(arrow) = held.or_else(|| hand::arrow(shown, overlay.scale, view).map(|(_, arrow)| arrow)) {
+        if let Some(arrow) = held.or_else(|| self.arrow(shown, overlay.scale, view).map(|(_, arrow)| arrow)) {
             overlay.handle(&of_forces, &arrow, held.is_some());
         }
         match &self.hand {
@@ -439,6 +473,20 @@ impl View {
             _ => {}
         }
     }
+}
+
+/// Where the left button went down, or up, since the last picture (px of a view).
+fn button_at(ui: &egui::Ui, rect: egui::Rect, down: bool) -> Option<glam::Vec2> {
+    let at = ui.input(|input| {
+        input.events.iter().rev().find_map(|event| match event {
+            egui::Event::PointerButton { pos, button: egui::PointerButton::Primary, pressed, .. } => {
+                (*pressed == down).then_some(*pos)
+            }
+            _ => None,
+        })
+    });
+    let at = (at? - rect.min) * ui.pixels_per_point();
+    Some(glam::Vec2::new(at.x, at.y))
 }
 
 /// The node under the pointer.

@@ -19,6 +19,8 @@ mod blocks;
 mod hands;
 #[path = "window/sizes.rs"]
 mod sizes;
+#[path = "window/strangers.rs"]
+mod strangers;
 
 const TEXT: &str = "# A breeze.\n[hair]\nstrands = 60\nsegments = 18\n[motion]\nform = \"free\"\nframes = 40\n\n\
                     [[force]]\nthrough = 20     # then calm\nvector = [-100, 0, 0]\n\n[[force]]\nthrough = 40\nvector = [0, 0, 0]\n";
@@ -250,7 +252,7 @@ fn a_setting_of_the_style_grooms_hair_anew() {
 fn the_palette_finds_a_command_and_does_it() {
     let mut window = Window::open();
     window.press(Modifiers::COMMAND, Key::P);
-    window.harness.get_by_label("Command").type_text("linear");
+    window.harness.get_by_label("Command or setting").type_text("next ease");
     window.harness.step();
     window.harness.step();
     window.press(Modifiers::NONE, Key::Enter);

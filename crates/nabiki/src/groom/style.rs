@@ -295,27 +295,35 @@ impl Curl {
         range("frizz", self.frizz, 0.0, 0.6)
     }
 
-    /// Refuses segments (cm) that are too long to draw the tightest turn that chance may make.
-    ///
-    /// # Errors
-    /// Names `hair.segment_length` and the longest that will do.
-    pub fn check_segment_length(&self, segment_length: f32) -> Result<(), SettingError> {
+    /// Hair of the tightest turn that chance may make (cm); none without curls.
+    fn tightest_turn(&self) -> Option<f32> {
         if self.radius == 0.0 {
-            return Ok(());
+            return None;
         }
         let pitch = self.pitch * (1.0 - self.variation);
         let around = std::f32::consts::TAU * self.radius * (1.0 - self.variation) * (1.0 - self.frizz);
         // An ellipse is no shorter than the circle of its area, nor than there and back.
         let round = (1.0 - self.flatness).sqrt().max(std::f32::consts::FRAC_2_PI);
-        let turn = pitch.hypot(around * round);
-        let longest = turn / Self::SEGMENTS_A_TURN;
-        if segment_length <= longest {
+        Some(pitch.hypot(around * round))
+    }
+
+    /// The longest segments (cm, in whole thousandths) that draw its tightest turn; none where any will do.
+    pub fn longest_segment(&self) -> Option<f32> {
+        self.tightest_turn().map(|turn| (turn / Self::SEGMENTS_A_TURN * 1000.0).floor() / 1000.0)
+    }
+
+    /// Refuses segments (cm) that are too long to draw the tightest turn that chance may make.
+    ///
+    /// # Errors
+    /// Names `hair.segment_length` and the longest that will do.
+    pub fn check_segment_length(&self, segment_length: f32) -> Result<(), SettingError> {
+        let (Some(turn), Some(longest)) = (self.tightest_turn(), self.longest_segment()) else { return Ok(()) };
+        if segment_length <= turn / Self::SEGMENTS_A_TURN {
             return Ok(());
         }
         let remedy = format!(
-            "must be at most {:.3}: the tightest turn of hair.style.curl takes {turn:.3} cm of hair, and no fewer than {} \
+            "must be at most {longest:.3}: the tightest turn of hair.style.curl takes {turn:.3} cm of hair, and no fewer than {} \
              segments show its shape",
-            (longest * 1000.0).floor() / 1000.0,
             Self::SEGMENTS_A_TURN
         );
         Err(SettingError::new("hair.segment_length", segment_length, remedy))

@@ -30,7 +30,7 @@ use crate::settings::Sky;
 /// Nodes that are shaded together.
 const LANES: usize = 16;
 /// Of the light that a fibre lets through, the share that goes on by other ways than straight from the lamp. Fitted.
-const STRAYS: f32 = 0.25;
+pub const STRAYS: f32 = 0.25;
 /// Share of the sky's light that goes on as it came at each scattering in hair, and of what hair behind sends back: the rest strays to where less of
 /// the sky is seen. Fitted.
 pub const SKY_KEPT: f32 = 0.7;

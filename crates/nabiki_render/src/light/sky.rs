@@ -24,11 +24,12 @@ pub use self::arriving::{
     AT_ONCE, BEHIND_ABOVE, BEHIND_BARE, BEHIND_BELOW, BEHIND_GLOW, FRONT_ABOVE, FRONT_BARE, FRONT_BELOW, FRONT_GLOW,
     Places, TOWARD_LAMPS,
 };
+pub use self::directions::{Carry, Direction, LENGTHS};
 pub use self::on_skin::OnSkin;
 pub use self::skin_cells::SkinCell;
 
 use self::arriving::Numbers;
-use self::directions::{Carry, Direction, LENGTHS, halves};
+use self::directions::halves;
 use self::exchange::Exchange;
 use self::outside::Outside;
 use self::skin_cells::skin_cells;

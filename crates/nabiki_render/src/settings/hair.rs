@@ -49,8 +49,8 @@ pub enum HairColour {
 }
 
 impl HairColour {
-    /// Eumelanin and pheomelanin of the named colours.
-    pub(crate) fn melanin(self) -> Option<[f32; 2]> {
+    /// Eumelanin and pheomelanin of the named colours, and those given; none of a colour that is given as it looks.
+    pub fn melanin(self) -> Option<[f32; 2]> {
         match self {
             Self::Black => Some([8.0, 0.0]),
             Self::Brown => Some([1.1, 0.6]),

@@ -4,11 +4,13 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use eframe::egui::{self, Key, Ui};
 
+use super::hands::Hands;
 use super::number::Number;
 use super::{Commands, files, theme};
-use crate::actions::{ACTIONS, Entry, MENUS, matching};
+use crate::actions::{ACTIONS, MENUS};
 use crate::command::Command;
 use crate::dialog::{Chooser, Dialog, Import, Next, Purpose, Role, as_folder};
+use crate::finding::{Found, matching};
 use crate::gestures::{GESTURES, PLACES};
 use crate::preferences::{ALL, Preferences};
 use crate::recovery::Kept;
@@ -22,6 +24,7 @@ pub fn ui(ctx: &egui::Context, session: &Session, commands: &mut Commands) {
     let wide: f32 = match dialog {
         Dialog::Keys => 1080.0,
         Dialog::File(_) | Dialog::Recover(_) => 560.0,
+        Dialog::Palette { .. } => 640.0,
         _ => 460.0,
     };
     let frame = egui::Frame::window(&ctx.global_style()).inner_margin(egui::Margin::same(18));
@@ -48,11 +51,22 @@ pub fn ui(ctx: &egui::Context, session: &Session, commands: &mut Commands) {
             paragraph(ui, egui::RichText::new(wrong).color(theme::WRONG));
         }
     });
+    // A list that opens in it lies over it: both ask for the top, and the one that was there before would get it.
+    raise_popups(ctx, response.response.layer_id);
     // A question of what is lost is answered, not passed by.
     let must = matches!(dialog, Dialog::Conflict(..) | Dialog::Recover(_));
     if response.should_close() && !must {
         commands.push(Command::CloseDialog);
     }
+}
+
+/// Puts what has been opened within a dialog over it.
+fn raise_popups(ctx: &egui::Context, dialog: egui::LayerId) {
+    let open: Vec<egui::LayerId> = ctx.memory(|memory| {
+        let popups = memory.layer_ids().filter(|layer| layer.order == dialog.order && *layer != dialog);
+        popups.filter(|layer| memory.areas().is_visible(layer)).collect()
+    });
+    open.into_iter().for_each(|popup| ctx.set_sublayer(dialog, popup));
 }
 
 fn buttons(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
@@ -76,7 +90,7 @@ fn conflict(ui: &mut Ui, path: &std::path::Path, commands: &mut Commands) {
         if ui.button("Save under another name...").clicked() {
             commands.push(Command::Act(crate::actions::Action::SaveAs));
         }
-        if ui.button("Read theirs").on_hover_text("Yours can be had back with Undo.").clicked() {
+        if ui.button("Read theirs").hint("Yours can be had back with Undo.").clicked() {
             commands.extend([Command::CloseDialog, Command::Act(crate::actions::Action::Reload)]);
         }
         if ui.button("Save over it").clicked() {
@@ -142,12 +156,11 @@ fn recover(ui: &mut Ui, kept: &[Kept], commands: &mut Commands) {
                 1..120 => format!("{minutes} min ago"),
                 _ => format!("{} h ago", minutes / 60),
             };
-            ui.add(egui::Label::new(format!("{name}, {ago}")).truncate())
-                .on_hover_text(kept.path.display().to_string());
+            ui.add(egui::Label::new(format!("{name}, {ago}")).truncate()).hint(kept.path.display().to_string());
         });
     }
     buttons(ui, |ui| {
-        if ui.button("Later").on_hover_text("They are offered again at the next start.").clicked() {
+        if ui.button("Later").hint("They are offered again at the next start.").clicked() {
             commands.push(Command::CloseDialog);
         }
     });
@@ -155,9 +168,10 @@ fn recover(ui: &mut Ui, kept: &[Kept], commands: &mut Commands) {
 
 fn palette(ui: &mut Ui, query: &str, line: usize, commands: &mut Commands) {
     let mut text = query.to_owned();
-    let edit =
-        egui::TextEdit::singleline(&mut text).hint_text("a few letters of a command").desired_width(f32::INFINITY);
-    let response = ui.add(edit).accessible_name("Command");
+    let edit = egui::TextEdit::singleline(&mut text)
+        .hint_text("a few letters of a command or a setting")
+        .desired_width(f32::INFINITY);
+    let response = ui.add(edit).accessible_name("Command or setting");
     response.request_focus();
     let found = matching(query);
     let count = found.len();
@@ -174,26 +188,31 @@ fn palette(ui: &mut Ui, query: &str, line: usize, commands: &mut Commands) {
         let line = if response.changed() { 0 } else { moved };
         commands.push(Command::Show(Box::new(Dialog::Palette { query: text, line })));
     }
-    let mut done = |entry: &Entry| commands.extend([Command::CloseDialog, Command::Act(entry.action)]);
-    if enter && let Some(entry) = found.get(line) {
-        done(entry);
+    let mut done = |found: Found| {
+        commands.push(Command::CloseDialog);
+        commands.push(match found {
+            Found::Action(entry) => Command::Act(entry.action),
+            found => Command::Reveal(found.key()),
+        });
+    };
+    if enter && let Some(found) = found.get(line) {
+        done(*found);
     }
     ui.add_space(4.0);
     egui::ScrollArea::vertical().max_height(360.0).auto_shrink([false, true]).show(ui, |ui| {
-        for (n, entry) in found.iter().enumerate() {
-            let key = entry.key.map(|key| key.text()).unwrap_or_default();
-            let text = format!("{}  \u{203a}  {}", entry.menu, entry.name);
-            let button = egui::Button::selectable(n == line, text).right_text(theme::faint(key));
-            let response = ui.add(button.min_size(egui::vec2(ui.available_width(), 22.0))).on_hover_text(entry.help);
+        for (n, found) in found.iter().enumerate() {
+            let button = egui::Button::selectable(n == line, found.title()).right_text(theme::faint(found.key()));
+            let button = button.truncate().min_size(egui::vec2(ui.available_width(), 22.0));
+            let response = ui.add(button).hint(found.help());
             if n == line && moved != line {
                 response.scroll_to_me(None);
             }
             if response.clicked() {
-                done(entry);
+                done(*found);
             }
         }
         if count == 0 {
-            ui.label(theme::faint("No command has these letters."));
+            ui.label(theme::faint("No command and no setting has these letters."));
         }
     });
 }
@@ -241,7 +260,7 @@ fn key_rows(ui: &mut Ui, title: &str, wide: f32, rows: impl Iterator<Item = (Str
                 ui.set_min_width(wide);
                 ui.add(egui::Label::new(egui::RichText::new(key).size(theme::SMALL)).truncate());
             });
-            ui.add(egui::Label::new(what).wrap()).on_hover_text(help);
+            ui.add(egui::Label::new(what).wrap()).hint(help);
         });
     }
     ui.add_space(8.0);
@@ -389,11 +408,12 @@ fn import(ui: &mut Ui, session: &Session, import: &Import, commands: &mut Comman
     let says = "what the file says";
     let choose = |ui: &mut Ui, id: &str, now: &mut String, words: &[&str]| {
         let text = if now.is_empty() { says.to_owned() } else { now.clone() };
-        egui::ComboBox::from_id_salt(id).selected_text(text).width(140.0).show_ui(ui, |ui| {
+        let list = egui::ComboBox::from_id_salt(id).selected_text(text).width(140.0).show_ui(ui, |ui| {
             for word in std::iter::once("").chain(words.iter().copied()) {
                 ui.selectable_value(now, word.to_owned(), if word.is_empty() { says } else { word });
             }
         });
+        list.response.accessible_name(format!("{id} of the file"));
     };
     const AXES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
     super::fields::row(
@@ -402,14 +422,14 @@ fn import(ui: &mut Ui, session: &Session, import: &Import, commands: &mut Comman
         "Needed where the file does not say it: .bvh, .tof, .abc, and .hair, .tfx, .obj and .ply that are not in cm.",
         false,
         |ui| {
-            choose(ui, "unit", &mut changed.unit, &["mm", "cm", "dm", "m", "in", "ft"]);
+            choose(ui, "Unit", &mut changed.unit, &["mm", "cm", "dm", "m", "in", "ft"]);
         },
     );
     super::fields::row(ui, "Up", "Axis of the file that points up.", false, |ui| {
-        choose(ui, "up", &mut changed.up, &AXES)
+        choose(ui, "Up", &mut changed.up, &AXES)
     });
     super::fields::row(ui, "Facing", "Axis of the file along which the face looks.", false, |ui| {
-        choose(ui, "facing", &mut changed.facing, &AXES);
+        choose(ui, "Facing", &mut changed.facing, &AXES);
     });
     if changed.role == Role::Motion {
         super::fields::row(ui, "Joint", "Joint, bone or node that carries the head; not used for .csv.", false, |ui| {

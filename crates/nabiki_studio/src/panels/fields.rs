@@ -3,16 +3,20 @@
 mod values;
 
 use eframe::egui::{self, Response, Ui};
+use nabiki_render::colour;
+use nabiki_render::settings::HairLook;
+use nabiki_render::tone_mapping::srgb_from_linear;
 use toml::{Table, Value};
 
+use super::hands::Hands;
 use super::number::Number;
 use super::{Commands, theme};
 use crate::command::Command;
 use crate::dialog::{Chooser, Dialog, Purpose, as_folder};
 use crate::document::Phase;
-use crate::settings::{Kind, Setting};
+use crate::settings::{Kind, Setting, value_at};
 pub use values::number_of;
-use values::{finite, first_value, rgb_of, rgb_value, table};
+use values::{finite, rgb_of, rgb_value, table};
 
 /// Width of the names beside the fields (points).
 const NAMES: f32 = 96.0;
@@ -42,7 +46,7 @@ pub fn row_of<R>(
         let font = egui::TextStyle::Body.resolve(ui.style());
         let within = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         within.text(rect.left_center(), egui::Align2::LEFT_CENTER, label, font, ink);
-        response.on_hover_text(help);
+        response.hint(help);
         field(ui)
     })
     .inner
@@ -82,6 +86,8 @@ pub struct Field<'a> {
     pub group: &'a str,
     /// Whether it is to blame for an error.
     pub blamed: bool,
+    /// All settings of the scene.
+    pub settings: &'a Table,
     /// The folder of the scene, from which paths lead.
     pub folder: &'a std::path::Path,
 }
@@ -92,20 +98,41 @@ impl Field<'_> {
         let Setting { label, unit, kind, open, help, .. } = self.setting;
         let help = format!("{help}{}\n\n{}", range_text(*kind, unit), self.key);
         row(ui, label, &help, self.blamed, |ui| match (open, self.value) {
-            (Some(what), None) => {
-                let taken =
-                    ui.button(theme::faint(*what)).on_hover_text("Left open; click to give it a value of its own.");
-                if name(taken, self).clicked() {
-                    self.set(commands, Some(first_value(*kind)), Phase::Done);
-                }
-            }
+            (Some(what), None) => self.left_open(ui, *what, commands),
             (open, value) => {
                 self.field(ui, value, commands);
-                if open.is_some() && ui.small_button("x").on_hover_text("Leave it open again.").clicked() {
+                if open.is_some() && ui.small_button("x").hint("Leave it open again.").clicked() {
                     self.set(commands, None, Phase::Done);
                 }
             }
         });
+    }
+
+    /// A setting that is left open says what is taken instead. It has a value of its own once one is typed or chosen: a click alone
+    /// gives it none.
+    fn left_open(&self, ui: &mut Ui, what: &'static str, commands: &mut Commands) {
+        match self.setting.kind {
+            Kind::Choice(words) => choose(ui, self, what, words, commands, |word| Value::String(word.to_owned())),
+            Kind::Number { least, most, .. } => {
+                let field = Number { range: least..=most, ..Number::of(&self.key) };
+                self.typed(ui, what, commands, |text| field.typed(text).map(Value::Float));
+            }
+            Kind::Whole { least, most } => {
+                let field = Number { range: least as f64..=most as f64, decimals: 0, ..Number::of(&self.key) };
+                self.typed(ui, what, commands, |text| field.typed(text).map(|whole| Value::Integer(whole as i64)));
+            }
+            Kind::Numbers { names, .. } => {
+                let count = names.len();
+                self.typed(ui, what, commands, |text| {
+                    let words = text.split([',', ' ']).filter(|word| !word.is_empty());
+                    let numbers: Option<Vec<f64>> = words.map(finite).collect();
+                    let numbers = numbers.filter(|numbers| numbers.len() == count);
+                    let wanted = || format!("{count} {NUMBERS}");
+                    Ok(numbers.ok_or_else(wanted)?.into_iter().map(Value::Float).collect::<Vec<_>>().into())
+                });
+            }
+            _ => self.field(ui, None, commands),
+        }
     }
 
     fn set(&self, commands: &mut Commands, value: Option<Value>, phase: Phase) {
@@ -230,7 +257,7 @@ impl Field<'_> {
             for i in 0..names.len() {
                 let what = format!("{}, {}", self.key, names[i]);
                 let field = Number { what: &what, ..field.clone() };
-                let response = field.ui(ui, &mut numbers[i], commands).on_hover_text(names[i]);
+                let response = field.ui(ui, &mut numbers[i], commands).hint(names[i]);
                 let response = response.accessible_name(format!("{} {}: {}", self.group, self.setting.label, names[i]));
                 self.sent(&response, commands, numbers.iter().map(|number| wrap(*number)).collect::<Vec<_>>().into());
             }
@@ -275,9 +302,21 @@ impl Field<'_> {
             _ => "as it looks",
         };
         let words = [&NAMES[..], &["by pigment", "as it looks"]].concat();
+        // Said in other words it is still the same colour.
+        let look = || {
+            let look = value_at(self.settings, "picture.hair").cloned();
+            look.and_then(|look| look.try_into::<HairLook>().ok()).unwrap_or_default()
+        };
         choose(ui, self, now, &words, commands, |word| match word {
-            "by pigment" => table([("melanin", table([("eumelanin", 1.1.into()), ("pheomelanin", 0.6.into())]))]),
-            "as it looks" => table([("rgb", rgb_value([0.3, 0.16, 0.08]))]),
+            "by pigment" => {
+                let [eumelanin, pheomelanin] = look()
+                    .colour
+                    .melanin()
+                    .unwrap_or([1.1, 0.6])
+                    .map(|n| Value::Float((f64::from(n) * 1e4).round() / 1e4));
+                table([("melanin", table([("eumelanin", eumelanin), ("pheomelanin", pheomelanin)]))])
+            }
+            "as it looks" => table([("rgb", rgb_value(colour::of_mass(&look()).map(srgb_from_linear)))]),
             name => Value::String(name.to_owned()),
         });
         let Some(Value::Table(inner)) = value else { return };
@@ -286,7 +325,7 @@ impl Field<'_> {
                 let mut amount = melanin.get(pigment).and_then(number_of).unwrap_or_default();
                 let what = format!("{}, {pigment}", self.key);
                 let field = Number { range: 0.0..=100.0, step: 0.01, before: letter, ..Number::of(&what) };
-                let response = field.ui(ui, &mut amount, commands).on_hover_text(pigment);
+                let response = field.ui(ui, &mut amount, commands).hint(pigment);
                 let mut melanin = melanin.as_table().cloned().unwrap_or_default();
                 melanin.insert(pigment.to_owned(), amount.into());
                 self.sent(&response, commands, table([("melanin", melanin.into())]));
@@ -324,16 +363,16 @@ impl Field<'_> {
                 let step = step.max(numbers[i].abs() * 0.005);
                 let what = format!("{}, {place}", self.key);
                 let field = Number { range: 0.0..=most, step, ..Number::of(&what) };
-                let response = field.ui(ui, &mut numbers[i], commands).on_hover_text(place);
+                let response = field.ui(ui, &mut numbers[i], commands).hint(place);
                 let response = response.accessible_name(format!("{} {}: {place}", self.group, self.setting.label));
                 self.sent(&response, commands, wrap(&numbers));
             }
             unit.into_iter().for_each(|(unit, _)| drop(ui.label(unit)));
-            if numbers.len() < 6 && ui.small_button("+").on_hover_text("One number more, toward the tip.").clicked() {
+            if numbers.len() < 6 && ui.small_button("+").hint("One number more, toward the tip.").clicked() {
                 numbers.extend(numbers.last().copied());
                 self.set(commands, Some(wrap(&numbers)), Phase::Done);
             }
-            if numbers.len() > 1 && ui.small_button("-").on_hover_text("One number less.").clicked() {
+            if numbers.len() > 1 && ui.small_button("-").hint("One number less.").clicked() {
                 numbers.pop();
                 self.set(commands, Some(wrap(&numbers)), Phase::Done);
             }
@@ -368,7 +407,7 @@ impl Field<'_> {
 
     fn file(&self, ui: &mut Ui, value: Option<&Value>, endings: &'static [&'static str], commands: &mut Commands) {
         let now = value.and_then(Value::as_str).unwrap_or_default().to_owned();
-        let choose = ui.small_button("...").on_hover_text("Choose a file.");
+        let choose = ui.small_button("...").hint("Choose a file.");
         if choose.clicked() {
             let folder = std::path::absolute(self.folder.join(&now)).unwrap_or_default();
             let path = folder.parent().map(as_folder).unwrap_or_default();
@@ -386,15 +425,43 @@ impl Field<'_> {
         commands: &mut Commands,
         read: impl Fn(&str) -> Result<Value, &'static str>,
     ) {
+        let instead = self.setting.open.unwrap_or_default();
+        self.edited(ui, &now, instead, commands, |text| read(text).map_err(str::to_owned));
+    }
+
+    /// What is typed into an empty field, in which `instead` says what is taken without it.
+    fn typed(&self, ui: &mut Ui, instead: &str, commands: &mut Commands, read: impl Fn(&str) -> Result<Value, String>) {
+        self.edited(ui, "", instead, commands, read);
+    }
+
+    fn edited(
+        &self,
+        ui: &mut Ui,
+        now: &str,
+        instead: &str,
+        commands: &mut Commands,
+        read: impl Fn(&str) -> Result<Value, String>,
+    ) {
         let id = ui.scope_id().with((&self.key, now.len()));
-        let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| now.clone());
+        let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| now.to_owned());
         let wide = (ui.available_width() - 4.0).max(60.0);
-        let response =
-            name(ui.add(egui::TextEdit::singleline(&mut text).desired_width(wide)), self).on_hover_text(&now);
+        let edit = egui::TextEdit::singleline(&mut text).desired_width(wide).hint_text(theme::faint(instead));
+        let response = name(ui.add(edit), self);
+        let response = match (now, instead) {
+            ("", "") => response,
+            ("", _) => response.hint(format!("Left open: {instead}. Type to give it a value of its own.")),
+            _ => response.hint(now),
+        };
         if response.lost_focus() {
             ui.data_mut(|data| data.remove::<String>(id));
+            // As in a field for a number: Enter takes what was typed, Escape does not.
+            if ui.input(|input| input.key_pressed(egui::Key::Escape)) {
+                return;
+            }
             match read(&text) {
                 _ if text == now => commands.push(Command::Took(self.key.clone())),
+                // Emptied, it is left open again.
+                _ if text.trim().is_empty() && self.setting.open.is_some() => self.set(commands, None, Phase::Done),
                 Ok(value) => self.set(commands, Some(value), Phase::Done),
                 Err(wanted) => {
                     let why = format!("{}: \"{text}\" is not taken: it must be {wanted}", self.key);
@@ -432,7 +499,7 @@ impl Field<'_> {
                     let response = field.ui(ui, &mut frame, commands);
                     self.sent(&response, commands, changed(frame, factor));
                     let field = Number { step: 0.01, ..Number::of(&what[1]) };
-                    let response = field.ui(ui, &mut factor, commands).on_hover_text("Part of the strength.");
+                    let response = field.ui(ui, &mut factor, commands).hint("Part of the strength.");
                     self.sent(&response, commands, changed(frame, factor));
                     if ui.small_button("x").clicked() {
                         let mut keys = keys.clone();

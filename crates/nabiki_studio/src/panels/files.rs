@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui::{self, Ui};
 
+use super::hands::Hands;
 use super::{Commands, theme};
 use crate::command::Command;
 use crate::dialog::{Chooser, Dialog, Purpose, as_scene_file};
@@ -67,10 +68,10 @@ pub fn ui(ui: &mut Ui, session: &Session, chooser: &Chooser, commands: &mut Comm
         if !session.has_desktop() {
             let words = "This desktop has no dialog: type the path, or click.";
             let why = "On Linux it takes an XDG desktop portal with a file chooser, or zenity.";
-            ui.label(theme::faint(words)).on_hover_text(why);
+            ui.label(theme::faint(words)).hint(why);
         } else if session.asks_desktop() {
             ui.label(theme::faint("The dialog of your desktop is asked..."));
-        } else if ui.button("System dialog...").on_hover_text("The dialog of your desktop, if it has one.").clicked() {
+        } else if ui.button("System dialog...").hint("The dialog of your desktop, if it has one.").clicked() {
             commands.push(Command::AskDesktop);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {

@@ -2,6 +2,7 @@
 
 use eframe::egui::{self, TextBuffer, Ui};
 
+use super::hands::Hands;
 use super::{Commands, theme};
 use crate::command::Command;
 use crate::session::{Broken, Session};
@@ -12,12 +13,12 @@ pub fn ui(ui: &mut Ui, session: &Session, commands: &mut Commands) {
     let name = broken.path.file_name().unwrap_or_default().to_string_lossy();
     let row = egui::vec2(ui.available_width(), 24.0);
     ui.allocate_ui_with_layout(row, egui::Layout::right_to_left(egui::Align::Center), |ui| {
-        if ui.button("Leave it").on_hover_text("Back to the scene that was open.").clicked() {
+        if ui.button("Leave it").hint("Back to the scene that was open.").clicked() {
             commands.push(Command::LeaveBroken);
         }
         let mended = broken.error.is_none();
         let button = ui.add_enabled(mended, egui::Button::new("Open as mended"));
-        if button.on_hover_text("Opens the text below; the file stays as it is until you save.").clicked() {
+        if button.hint("Opens the text below; the file stays as it is until you save.").clicked() {
             commands.push(Command::UseMended);
         }
         ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {

@@ -2,6 +2,7 @@
 
 use eframe::egui::{self, Ui};
 
+use super::hands::Hands;
 use super::{Commands, theme};
 use crate::actions::{ACTIONS, Action, MENUS};
 use crate::command::Command;
@@ -27,9 +28,11 @@ pub fn ui(ui: &mut Ui, session: &Session, commands: &mut Commands) {
             let mark = if document.is_dirty() { "\u{2022} " } else { "" };
             let text = egui::RichText::new(format!("{mark}{}", document.name())).color(theme::TEXT);
             let path = document.path().unwrap_or(document.scene().file()).display().to_string();
-            ui.add(egui::Label::new(text).truncate().sense(egui::Sense::hover())).on_hover_text(
-                if document.is_dirty() { format!("{path}\nIt has changes that are not saved.") } else { path },
-            );
+            ui.add(egui::Label::new(text).truncate().sense(egui::Sense::hover())).hint(if document.is_dirty() {
+                format!("{path}\nIt has changes that are not saved.")
+            } else {
+                path
+            });
         });
     });
 }
@@ -56,7 +59,7 @@ fn item(ui: &mut Ui, session: &Session, action: Action, commands: &mut Commands)
     };
     let key = entry.key.map(|key| key.text()).unwrap_or_default();
     let button = egui::Button::new(name).right_text(theme::faint(key));
-    if ui.add_enabled(enabled, button).on_hover_text(entry.help).clicked() {
+    if ui.add_enabled(enabled, button).hint(entry.help).clicked() {
         commands.push(Command::Act(action));
         ui.close();
     }

@@ -9,6 +9,9 @@ use eframe::egui::{DragValue, Response, Ui, vec2};
 use super::Commands;
 use crate::command::Command;
 
+/// What stands for several numbers that differ.
+const MIXED: &str = "mixed";
+
 /// A field for a number.
 #[derive(Clone, Debug)]
 pub struct Number<'a> {
@@ -26,6 +29,8 @@ pub struct Number<'a> {
     pub unit: &'a str,
     /// The word for the end of its range; with none it is a number like the others.
     pub most: &'a str,
+    /// Whether it stands for several numbers that differ: it shows that, and is a number only once one is typed or dragged.
+    pub mixed: bool,
     /// Width; as wide as it must be if none is given.
     pub wide: Option<f32>,
 }
@@ -34,7 +39,7 @@ impl<'a> Number<'a> {
     /// Any number that a scene can hold.
     pub fn of(what: &'a str) -> Self {
         let range = f64::from(f32::MIN)..=f64::from(f32::MAX);
-        Self { what, range, step: 1.0, decimals: 6, before: "", unit: "", most: "", wide: None }
+        Self { what, range, step: 1.0, decimals: 6, before: "", unit: "", most: "", mixed: false, wide: None }
     }
 
     /// Draws it. It takes what was typed when it is finished.
@@ -49,6 +54,9 @@ impl<'a> Number<'a> {
         let mut field = DragValue::new(number).speed(self.step).max_decimals(self.decimals).range(self.range.clone());
         if !self.most.is_empty() && was >= *self.range.end() {
             field = field.custom_formatter(|_, _| self.most.to_owned());
+        }
+        if self.mixed {
+            field = field.custom_formatter(|_, _| MIXED.to_owned());
         }
         let field = field.prefix(self.before).suffix(suffix(self.unit)).custom_parser(read);
         // What is out of its range already stays so until a hand changes it.
@@ -66,6 +74,7 @@ impl<'a> Number<'a> {
             Some((text, false)) if !text.is_empty() => {
                 commands.push(Command::Refuse { why: self.refusal(&text), about });
             }
+            Some((text, true)) if self.mixed && text == MIXED => {}
             Some((_, true)) => commands.push(Command::Took(about)),
             _ if response.changed() => commands.push(Command::Took(about)),
             _ => {}
@@ -82,14 +91,25 @@ impl<'a> Number<'a> {
         if !self.most.is_empty() && bare == self.most {
             return Some(*self.range.end());
         }
+        if self.mixed && bare == MIXED {
+            return Some(was);
+        }
         let read = bare.replace('\u{2212}', "-").parse::<f64>().ok()?;
         // A number that was only looked at keeps the digits that are not shown.
         let shown =
             (0.500_001 * 10.0_f64.powi(-(self.decimals as i32))).max(16.0 * f64::from(f32::EPSILON) * was.abs());
-        if read == was || (self.decimals > 0 && (read - was).abs() <= shown) {
+        if read == was || (!self.mixed && self.decimals > 0 && (read - was).abs() <= shown) {
             return Some(was);
         }
         self.may_be(read).then_some(read)
+    }
+
+    /// The number that somebody typed, or what it must be.
+    ///
+    /// # Errors
+    /// What is wanted.
+    pub fn typed(&self, text: &str) -> Result<f64, String> {
+        self.read(text, f64::NAN).ok_or_else(|| self.wanted().trim_start_matches("it must be ").to_owned())
     }
 
     fn refusal(&self, text: &str) -> String {

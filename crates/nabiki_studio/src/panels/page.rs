@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use eframe::egui::{self, Ui};
-use nabiki_scene::scene::FormChoice;
 use toml::Value;
 
 use super::fields::Field;
+use super::hands::Hands;
 use super::{Commands, theme};
 use crate::command::Command;
 use crate::document::Phase;
@@ -24,14 +24,7 @@ pub fn ui(ui: &mut Ui, session: &Session, page: Page, commands: &mut Commands) {
         return;
     };
     let scene = document.scene();
-    let has_effect = |when: When| match when {
-        When::Always => true,
-        When::Paper => scene.form == FormChoice::Paper,
-        When::Free => scene.form == FormChoice::Free,
-        When::Grown => scene.hair.grown().is_some(),
-        When::Imported => scene.hair.imported().is_some(),
-        When::ImportedHead => scene.head.mesh() != nabiki_scene::scene::HeadSettings::BUILTIN,
-    };
+    let has_effect = |when: When| when.holds(scene);
     if let Some(broken) = session.broken() {
         let words = format!("{} is being mended. The scene behind it stays as it is.", broken.name());
         ui.add(egui::Label::new(theme::faint(words)).wrap());
@@ -114,7 +107,7 @@ impl Panel<'_> {
                         for i in 0..count {
                             self.entry(ui, page, group, i, commands);
                         }
-                        if ui.button("Add").on_hover_text(group.help).clicked() {
+                        if ui.button("Add").hint(group.help).clicked() {
                             let key = format!("{}[{count}]", group.table);
                             commands.push(Command::Set { key, value: group.fresh(), phase: Phase::Done });
                         }
@@ -164,6 +157,10 @@ impl Panel<'_> {
         });
         let id = ui.make_persistent_id((group.title, table));
         let mut state = egui::collapsing_header::CollapsingState::load_with_default_open(ui.ctx(), id, group.open);
+        let (found, goes) = self.found(group, table);
+        if found != Found::Nothing && goes {
+            state.set_open(true);
+        }
         let header = ui.horizontal(|ui| {
             ui.set_min_height(24.0);
             state.show_toggle_button(ui, egui::collapsing_header::paint_default_icon);
@@ -179,13 +176,13 @@ impl Panel<'_> {
                 ui.set_max_width(room);
                 ui.add(label)
             });
-            let response = response.inner.on_hover_text(group.help);
+            let response = response.inner.hint(group.help);
             if response.clicked() {
                 state.toggle(ui);
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 let Some((mut on, toggle)) = switch else { return };
-                let response = ui.checkbox(&mut on, "").on_hover_text(group.help);
+                let response = ui.checkbox(&mut on, "").hint(group.help);
                 if response.accessible_name(format!("{} on", group.title)).changed() {
                     if on {
                         state.set_open(true);
@@ -195,12 +192,27 @@ impl Panel<'_> {
             });
         });
         let rect = header.response.rect;
+        if found == Found::Title {
+            point_out(ui, rect, goes);
+        }
         state.show_body_unindented(ui, |ui| {
             egui::Frame::new()
                 .inner_margin(egui::Margin { left: 14, right: 0, top: 0, bottom: 6 })
                 .show(ui, |ui| body(ui, commands));
         });
         ui.painter().hline(rect.x_range(), rect.top() - 2.0, egui::Stroke::new(1.0, theme::LINE));
+    }
+
+    /// What is pointed out of a group with this table, and whether the page still goes there.
+    fn found(&self, group: &Group, table: &str) -> (Found, bool) {
+        let Some((key, goes)) = self.session.revealed() else { return (Found::Nothing, false) };
+        let is_of = || crate::settings::find(key).is_some_and(|(_, of, _)| std::ptr::eq(of, group));
+        let found = match key.strip_prefix(table) {
+            Some("") => Found::Title,
+            Some(rest) if rest.starts_with('[') || is_of() => Found::Below,
+            _ => Found::Nothing,
+        };
+        (found, goes)
     }
 
     fn fields(&self, ui: &mut Ui, group: &'static Group, table: &str, commands: &mut Commands) {
@@ -210,8 +222,40 @@ impl Panel<'_> {
             let value = value_at(self.session.settings(), &key);
             let blamed =
                 blamed.and_then(|blamed| blamed.strip_prefix(table)).is_some_and(|rest| blames(rest, setting.key));
-            Field { setting, key, value, group: group.title, blamed, folder: self.folder }.ui(ui, commands);
+            let (settings, folder) = (self.session.settings(), self.folder);
+            let found = self.session.revealed().filter(|(found, _)| *found == key);
+            let top = ui.cursor().min;
+            Field { setting, key, value, group: group.title, blamed, settings, folder }.ui(ui, commands);
+            if let Some((_, goes)) = found {
+                let rect = egui::Rect::from_min_max(top, egui::pos2(ui.max_rect().right(), ui.min_rect().bottom()));
+                point_out(ui, rect, goes);
+            }
         }
+    }
+}
+
+/// What is pointed out of a group.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Found {
+    Nothing,
+    /// Its title.
+    Title,
+    /// Something in it.
+    Below,
+}
+
+/// Points out what was looked for, and scrolls there.
+fn point_out(ui: &Ui, rect: egui::Rect, goes: bool) {
+    let rect = rect.expand2(egui::vec2(3.0, 1.0));
+    ui.painter().rect(
+        rect,
+        3.0,
+        theme::ACCENT.gamma_multiply(0.12),
+        egui::Stroke::new(1.0, theme::ACCENT),
+        egui::StrokeKind::Inside,
+    );
+    if goes {
+        ui.scroll_to_rect(rect, Some(egui::Align::Center));
     }
 }
 

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use eframe::egui::{self, Ui};
 
+use super::hands::Hands;
 use super::{Commands, theme};
 use crate::command::Command;
 use crate::dialog::Dialog;
@@ -62,7 +63,7 @@ fn bars(ui: &mut Ui, session: &Session, commands: &mut Commands) {
     }
     for (n, word) in session.words().iter().enumerate() {
         bar(ui, if word.wrong { theme::WRONG } else { theme::GOOD }, |ui| {
-            if ui.small_button("x").on_hover_text("Take it away.").clicked() {
+            if ui.small_button("x").hint("Take it away.").clicked() {
                 commands.push(Command::Heard(n));
             }
             ui.add(egui::Label::new(&word.text).wrap().selectable(true));
@@ -108,7 +109,7 @@ fn task(ui: &mut Ui, n: usize, task: &Task, commands: &mut Commands) {
             ui.add(egui::Label::new(theme::faint(place.to_string())).truncate());
         }
         Some(ended) => {
-            if ui.small_button("x").on_hover_text("Take it away.").clicked() {
+            if ui.small_button("x").hint("Take it away.").clicked() {
                 commands.push(Command::Dismiss(n));
             }
             let text = match ended {
@@ -139,9 +140,10 @@ pub fn line(ui: &mut Ui, session: &Session, fps: f32, commands: &mut Commands) {
         ui.separator();
         let took = session.took().as_secs_f64() * 1000.0;
         let text = format!("{} frames in {}", take.frames(), time_short(took));
-        ui.label(theme::faint(text)).on_hover_text("How long the last touch took, for the motion of all frames.");
+        ui.label(theme::faint(text)).hint("How long the last touch took, for the motion of all frames.");
         if session.is_moving() {
-            ui.add(egui::Spinner::new().size(12.0).color(theme::FAINT));
+            // Nothing that turns: it would have the window drawn all the while, by the cores that move the hair.
+            ui.label(theme::faint("moving..."));
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.add_space(8.0);
@@ -167,7 +169,7 @@ fn strands(ui: &mut Ui, session: &Session, take: &Take, commands: &mut Commands)
          they do among all others. At the right end: {}.",
         if most < whole { format!("{most}, as many as there is room for") } else { format!("all {whole}") }
     );
-    let response = ui.add(slider).on_hover_text(help).accessible_name("Strands shown");
+    let response = ui.add(slider).hint(help).accessible_name("Strands shown");
     if response.changed() {
         commands.push(Command::Strands(if strands == most { ALL } else { strands }));
     }

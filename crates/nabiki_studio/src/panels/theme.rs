@@ -69,6 +69,8 @@ pub fn apply(ctx: &egui::Context) {
         visuals.window_corner_radius = CornerRadius::same(6);
         visuals.menu_corner_radius = CornerRadius::same(4);
         visuals.slider_trailing_fill = true;
+        // A cursor that blinks has the whole window drawn twice a second.
+        visuals.text_cursor.blink = false;
         visuals.collapsing_header_frame = false;
         let widgets = &mut visuals.widgets;
         widgets.noninteractive.bg_stroke = Stroke::new(1.0, LINE);

@@ -5,7 +5,9 @@ mod scale;
 mod tracks;
 
 use eframe::egui::{self, Align2, Color32, Rect, Sense, Stroke, Ui, pos2, vec2};
+use nabiki::field::Ease;
 
+use super::hands::Hands;
 use super::number::Number;
 use super::{Commands, interval, theme};
 use crate::actions::Action;
@@ -49,7 +51,7 @@ pub fn ui(ui: &mut Ui, session: &Session, marks: &Marks, commands: &mut Commands
     let keys = &document.scene().field.force;
     let last = document.scene().motion.frames.max(1);
     let lane = Rect::from_min_max(pos2(area.left() + NAMES, area.top()), area.right_bottom());
-    let scale = Scale::of(ui, lane, last.max(keys.last().map_or(0, |key| key.through)));
+    let scale = Scale::of(ui, session.opened(), lane, last.max(keys.last().map_or(0, |key| key.through)));
     // What lies behind everything else takes the drags that nothing before it wants.
     let behind = Rect::from_min_max(pos2(lane.left(), lane.top() + RULER), lane.right_bottom());
     choose_by_box(ui, behind, &scale, session, commands);
@@ -58,7 +60,7 @@ pub fn ui(ui: &mut Ui, session: &Session, marks: &Marks, commands: &mut Commands
     let top = lane.top() + RULER + 4.0;
     let row = |top: f32, height: f32| Rect::from_min_size(pos2(area.left(), top), vec2(area.width(), height));
     let wind = row(top, BLOCKS);
-    track_name(ui, wind, "Wind", theme::TEXT);
+    wind_name(ui, wind, document.scene().field.wind.ease, commands);
     blocks::ui(ui, Rect::from_min_max(pos2(lane.left(), wind.top()), wind.right_bottom()), &scale, session, commands);
     scrolled(ui, Rect::from_min_max(pos2(area.left(), wind.bottom() + 4.0), area.max), |ui| {
         let mut y = ui.cursor().top();
@@ -131,7 +133,7 @@ fn transport(ui: &mut Ui, session: &Session, commands: &mut Commands) {
             };
             let key = entry.key.map(|key| format!(" ({})", key.text())).unwrap_or_default();
             let button = ui.add_enabled(enabled, egui::Button::new(entry.name));
-            if button.on_hover_text(format!("{}{key}", entry.help)).clicked() {
+            if button.hint(format!("{}{key}", entry.help)).clicked() {
                 commands.push(Command::Act(entry.action));
             }
         }
@@ -156,7 +158,7 @@ fn playing(ui: &mut Ui, session: &Session, commands: &mut Commands) {
     let mut wanted = f64::from(frame);
     let range = 0.0..=f64::from(session.play.last());
     let field = Number { range, step: 0.25, decimals: 0, wide: Some(46.0), ..Number::of("Frame") };
-    let response = field.ui(ui, &mut wanted, commands).on_hover_text("The frame shown.").accessible_name("Frame");
+    let response = field.ui(ui, &mut wanted, commands).hint("The frame shown.").accessible_name("Frame");
     if response.changed() {
         commands.push(Command::Go(wanted as u32));
     }
@@ -175,14 +177,14 @@ fn playing(ui: &mut Ui, session: &Session, commands: &mut Commands) {
             }
         }
     });
-    response.response.on_hover_text(format!("Of the scene's own {rate} frames a second.")).accessible_name("Speed");
+    response.response.hint(format!("Of the scene's own {rate} frames a second.")).accessible_name("Speed");
     ui.add_space(4.0);
     let ending = match session.play.ending {
         Ending::Loop => "Loop",
         Ending::Stop => "Stop",
         Ending::Swing => "Swing",
     };
-    if ui.button(ending).on_hover_text("What happens after the last frame (L).").clicked() {
+    if ui.button(ending).hint("What happens after the last frame (L).").clicked() {
         commands.push(Command::Act(Action::Ending));
     }
 }
@@ -202,7 +204,7 @@ fn sign_button(ui: &mut Ui, sign: Sign, action: Action) -> egui::Response {
     let entry = action.entry();
     let (rect, response) = ui.allocate_exact_size(vec2(26.0, 22.0), Sense::click());
     let key = entry.key.map(|key| format!(" ({})", key.text())).unwrap_or_default();
-    let response = response.on_hover_text(format!("{}{key}", entry.name));
+    let response = response.hint(format!("{}{key}", entry.name));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, entry.name));
     let visuals = ui.style().interact(&response);
     ui.painter().rect_filled(rect, 3.0, visuals.bg_fill);
@@ -235,9 +237,8 @@ fn ruler(ui: &mut Ui, rect: Rect, scale: &Scale, last: u32, commands: &mut Comma
     let response = ui.interact(rect, ui.scope_id().with("ruler"), Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, "Ruler"));
     let response = response.on_hover_cursor(egui::CursorIcon::ResizeHorizontal);
-    if (response.dragged() || response.clicked())
-        && let Some(pointer) = response.interact_pointer_pos()
-    {
+    let clicked = response.clicked().then(|| response.interact_pointer_pos()).flatten();
+    if let Some(pointer) = response.held_at().or(clicked) {
         commands.push(Command::Go(scale.frame(pointer.x)));
     }
     if response.double_clicked() {
@@ -273,9 +274,7 @@ fn choose_by_box(ui: &mut Ui, rect: Rect, scale: &Scale, session: &Session, comm
         commands.push(Command::Choose(Vec::new()));
     }
     let Some(document) = session.document() else { return };
-    if let (true, Some(start), Some(now)) =
-        (response.dragged(), ui.input(|input| input.pointer.press_origin()), response.interact_pointer_pos())
-    {
+    if let (Some(start), Some(now)) = (ui.input(|input| input.pointer.press_origin()), response.held_at()) {
         let (a, b) = (scale.frame(start.x.min(now.x)), scale.frame(start.x.max(now.x)));
         commands.push(Command::Choose(crate::timeline::within(&document.scene().field.force, a..=b)));
         let drawn = Rect::from_two_pos(start, now).intersect(rect);
@@ -288,6 +287,26 @@ fn choose_by_box(ui: &mut Ui, rect: Rect, scale: &Scale, session: &Session, comm
         );
     }
     scale.steer(ui, rect);
+}
+
+/// The name of the wind, and how its vectors lead to one another: that is of all intervals, and so beside their track.
+fn wind_name(ui: &mut Ui, row: Rect, ease: Ease, commands: &mut Commands) {
+    let name = Rect::from_min_size(row.min, vec2(NAMES, row.height()));
+    track_name(ui, Rect::from_min_size(name.min, vec2(NAMES, 18.0)), "Wind", theme::TEXT);
+    let below = Rect::from_min_max(name.min + vec2(2.0, 20.0), name.max - vec2(4.0, 0.0));
+    let mut below = ui.new_child(egui::UiBuilder::new().max_rect(below));
+    below.spacing_mut().item_spacing.y = 1.0;
+    below.label(theme::faint("All ease").size(10.5));
+    let word = match ease {
+        Ease::Stepped => "stepped",
+        Ease::Linear => "linear",
+        Ease::Smooth => "smooth",
+    };
+    let help = "How one vector leads to the next, in all intervals (E): stepped, linear, smooth.";
+    let button = below.small_button(word).hint(help);
+    if button.accessible_name("Ease of all intervals").clicked() {
+        commands.push(Command::Act(Action::Ease));
+    }
 }
 
 fn track_name(ui: &Ui, row: Rect, name: &str, ink: Color32) {

@@ -2,9 +2,9 @@
 
 use nabiki::field::{Ease, Keyframe};
 use nabiki_scene::Scene;
-use nabiki_scene::scene::{HairSource, Output};
+use nabiki_scene::scene::Output;
 
-use super::Session;
+use super::{Session, taken};
 use crate::actions::Action;
 use crate::command::Command;
 use crate::document::Phase;
@@ -25,17 +25,11 @@ pub(super) const CHANGES: [Action; 11] = [
     Action::Exchange,
 ];
 
-/// Most segments that the length of hair alone gives it.
-const MOST_SEGMENTS: f64 = 1000.0;
-
 /// What is refused while a text is being mended.
 pub(super) const BEHIND_TEXT: &str = "the scene behind a text";
 
 /// How it is said that the contact sheet has fewer frames.
 const SHEET_LOST: &str = "the contact sheet goes without frames ";
-
-/// How it is said that strands may have more segments.
-const SEGMENTS: &str = "hair.segments is ";
 
 impl Session {
     /// Whether a text is being mended, behind which the scene is left alone; says so.
@@ -87,11 +81,11 @@ impl Session {
                 let name = name_of(key);
                 let before = document.before_drag(&name);
                 let lost = (key == "motion.frames").then(|| shorten_sheet(&mut scene, before));
-                let more = key.starts_with("hair.style.length.").then(|| more_segments(&mut scene, before));
+                let taken = taken::by_hair(&mut scene, before, key);
                 document.edit(&name, scene, phase);
                 self.accept(key);
                 lost.into_iter().for_each(|lost| self.say_what_the_sheet_lost(lost));
-                more.into_iter().for_each(|segments| self.say_segments(segments));
+                self.say_taken(&taken);
             }
             Err(refused) => {
                 let text = refused.to_string();
@@ -110,10 +104,10 @@ impl Session {
         }
     }
 
-    fn say_segments(&mut self, segments: Option<usize>) {
-        self.words.retain(|word| !word.text.starts_with(SEGMENTS));
-        if let Some(segments) = segments {
-            self.say(format!("{SEGMENTS}{segments} now, as many as so long a strand takes"), false);
+    fn say_taken(&mut self, taken: &[String]) {
+        self.words.retain(|word| !word.text.starts_with(taken::TAKEN));
+        if !taken.is_empty() {
+            self.say(format!("{}{}", taken::TAKEN, taken.join("; ")), false);
         }
     }
 
@@ -223,24 +217,6 @@ fn shorten_sheet(scene: &mut Scene, before: &Scene) -> Shortened {
     let instead = (kept.is_empty() && !lost.is_empty()).then(|| Output::default().sheet_frames(frames));
     scene.output.sheet = Some(instead.clone().unwrap_or(kept));
     Shortened { lost, instead }
-}
-
-/// Gives longer hair the segments that it takes: who makes it longer thinks of no other setting, and with too few no scene is
-/// right. Shorter strands stay as they are, to the bit. Begins from the scene `before` the drag, so that a drag back takes them back.
-/// Returns how many there are now, where there are more.
-fn more_segments(scene: &mut Scene, before: &Scene) -> Option<usize> {
-    let length = scene.hair.segment_length;
-    let HairSource::Grown(grown) = &mut scene.hair.source else { return None };
-    let had = before.hair.grown().map_or(grown.segments, |before| before.segments);
-    let of = &grown.style.length;
-    let fringe = if grown.style.fringe.half_width > 0.0 { of.fringe } else { 0.0 };
-    let longest = of.top.max(of.sides).max(of.back).max(fringe);
-    // As exact as grooming is about it.
-    let takes = (f64::from(longest) / f64::from(length) * (1.0 - 1e-5)).ceil();
-    // What no strand can have is refused as it stands.
-    let takes = if takes <= MOST_SEGMENTS { takes as usize } else { had };
-    grown.segments = had.max(takes);
-    (takes > had).then_some(takes)
 }
 
 /// Puts intervals into a scene. Without any there is nothing to ease and nothing to make gusty.

@@ -49,9 +49,11 @@ impl Session {
         // Of the one before nothing is left to be lost, and this one's changes count from 0 as that one's did.
         self.keeper.iter_mut().for_each(Keeper::forget);
         (self.broken, self.trouble, self.said_changed) = (None, None, false);
-        self.forget_refusals();
+        self.forget_what_was_said();
         // The hair of another scene is not this one's, nor is what is still on its way.
         (self.take, self.swings, self.kept) = (None, None, None);
+        self.opened += 1;
+        self.play.set_playing(false);
         self.play.go(0);
         self.move_again(true);
         self.first_asked = self.asked;
@@ -185,7 +187,7 @@ impl Session {
         let wake = self.wake.clone();
         match Asked::desktop(chooser.clone(), move || wake.0()) {
             Ok(asked) => self.desktop = Some(asked),
-            Err(e) => self.say(format!("the desktop cannot be asked: {e}; type the path"), true),
+            Err(e) => self.say_of_window(format!("the desktop cannot be asked: {e}; type the path"), true),
         }
     }
 
@@ -274,6 +276,7 @@ impl Session {
         match document.reload() {
             Ok(()) => {
                 (self.broken, self.said_changed) = (None, false);
+                self.forget_what_was_said_of(&path);
                 self.move_again(fresh);
                 self.say(format!("Read {} again", path.display()), false);
             }
@@ -302,7 +305,11 @@ impl Session {
         }
         let Some(path) = document.path().map(Path::to_owned) else { return };
         match document.changed_on_disk() {
-            Some(false) => self.said_changed = false,
+            Some(false) => {
+                if std::mem::take(&mut self.said_changed) {
+                    self.forget_what_was_said_of(&path);
+                }
+            }
             _ if self.said_changed => {}
             Some(true) if !document.is_dirty() => {
                 self.said_changed = true;

@@ -196,8 +196,8 @@ impl Session {
         };
         if let Some((path, name)) = saved {
             // What was wrong with the file is so no longer.
-            let file = path.display().to_string();
-            self.words.retain(|word| !word.text.starts_with(&file) && !word.text.starts_with(NOT_SAVED));
+            self.forget_what_was_said_of(&path);
+            self.words.retain(|word| !word.text.starts_with(NOT_SAVED));
             self.say(format!("Saved {name}"), false);
         }
         if !text {
@@ -239,6 +239,21 @@ impl Session {
             Some(Dialog::File(Chooser { purpose: Purpose::SaveAs(next.map(Box::new)), path, endings: vec!["toml"] }));
     }
 
+    /// Whether nothing is to be kept that is not kept already.
+    pub(super) fn is_kept(&self) -> bool {
+        let scene = match (&self.keeper, &self.document) {
+            (Some(keeper), Some(document)) => keeper.has(document),
+            _ => true,
+        };
+        let text = self.broken.as_ref().filter(|broken| broken.is_changed()).map(|broken| broken.text.as_str());
+        let kept = self.text_keeper.as_ref().map(Keeper::text);
+        let has_text = match text {
+            None => kept.is_none(),
+            Some(text) => self.folder.is_none() || kept == Some(Some(text)),
+        };
+        scene && has_text
+    }
+
     /// Keeps what is not saved; whether it is kept.
     pub(super) fn keep(&mut self) -> bool {
         let scene = match (&mut self.keeper, &self.document) {
@@ -247,7 +262,8 @@ impl Session {
         };
         let kept = scene.and(self.keep_text());
         if let Err(e) = &kept {
-            self.say(format!("{e}: what is not saved cannot be kept in case this window is killed"), true);
+            let text = format!("{e}: what is not saved cannot be kept in case this window is killed");
+            self.say_of_window(text, true);
         }
         kept.is_ok() && self.keeper.is_some()
     }

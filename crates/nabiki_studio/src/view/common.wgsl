@@ -19,12 +19,12 @@ struct Globals {
     sky_above: vec4f,   // SKY_KEPT last
     sky_below: vec4f,   // ON_SKIN last
     zenith: vec4f,
-    skin: vec4f,        // softness last
+    skin: vec4f,        // colour of bare skin, softness
     hair: vec4f,        // colour of a mass of hair, sheen of skin
     decay: vec4f,       // how fast light that hair scatters grows less with each hair
     volume_low: vec4f,  // corner of the volume, 1 / cell
     volume_size: vec4f, // cells
-    spread: vec4f,      // variances of R, TT and TRT
+    spread: vec4f,      // variances of R, TT and TRT, STRAYS
     look: vec4f,        // tilt, spread of tilts, exponent of Kajiya and Kay's highlight, least half width (px)
     width: vec4f,       // half width at the root (cm), part of it at the tip, taper, half width of a lock (cm)
     centre: vec4f,      // of the head ellipsoid
@@ -33,8 +33,13 @@ struct Globals {
 
 @group(0) @binding(0) var<uniform> g: Globals;
 @group(0) @binding(1) var hair_depth: texture_3d<f32>;
-@group(0) @binding(2) var sky_open: texture_3d<f32>;
-@group(0) @binding(3) var between: sampler;
+// As volume/sky_light.rs has them.
+@group(0) @binding(2) var sky_seen: texture_3d<f32>;
+@group(0) @binding(3) var skin_seen: texture_3d<f32>;
+@group(0) @binding(4) var about_lamps: texture_3d<f32>;
+@group(0) @binding(5) var opposite_lamps: texture_3d<f32>;
+@group(0) @binding(6) var sky_open: texture_3d<f32>;
+@group(0) @binding(7) var between: sampler;
 
 const PI: f32 = 3.14159265;
 const NEAR: f32 = 1.0;

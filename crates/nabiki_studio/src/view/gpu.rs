@@ -185,7 +185,11 @@ impl Gpu {
 
         let mut globals =
             globals::globals(picture, view, &pose, &take.built.head.ellipsoid, &fibre.tables, share, locks);
-        let lamps: Vec<Vec3> = globals::lamps(picture, view, &pose).iter().map(|lamp| lamp.toward).collect();
+        let lit = globals::lamps(picture, view, &pose);
+        let lamps: Vec<Vec3> = lit.iter().map(|lamp| lamp.toward).collect();
+        let brightness: Vec<f32> = lit.iter().map(|lamp| colour::luminance(lamp.strength)).collect();
+        let in_head = view.in_head(&pose);
+        let sky = &picture.sky;
         let casting = Casting {
             points,
             strands,
@@ -193,7 +197,11 @@ impl Gpu {
             thickness: picture.hair.width * share,
             share,
             lamps: &lamps,
-            zenith: live::zenith(&picture.sky, &pose),
+            brightness: &brightness,
+            zenith: live::zenith(sky, &pose),
+            sky: [sky.above, sky.below].map(|light| sky.strength * colour::luminance(light)),
+            toward_eye: &|place| in_head.toward_eye(place),
+            ellipsoid: take.built.head.ellipsoid,
             shadows: picture.shadows,
             occlusion: picture.sky.occlusion && picture.sky.strength > 0.0,
         };
@@ -323,15 +331,14 @@ impl Gpu {
             volume.size,
             bytemuck::cast_slice(volume.depth.as_flattened()),
         );
-        let open = texture(
-            "open sky",
-            wgpu::TextureFormat::Rgba16Float,
-            volume.size / 2,
-            bytemuck::cast_slice(volume.open.as_flattened()),
-        );
+        let sky = volume.sky.0.each_ref().map(|numbers| {
+            let bytes = bytemuck::cast_slice(numbers.as_flattened());
+            texture("sky", wgpu::TextureFormat::Rgba16Float, volume.size / 2, bytes)
+        });
         let view = wgpu::BindingResource::TextureView;
         let between = wgpu::BindingResource::Sampler(&self.pipelines.between);
-        let resources = [self.globals.as_entire_binding(), view(&depth), view(&open), between];
+        let volumes = std::iter::once(&depth).chain(&sky).map(view);
+        let resources = std::iter::once(self.globals.as_entire_binding()).chain(volumes).chain([between]);
         let entries: Vec<_> =
             (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
         let layout = &self.pipelines.scene;

@@ -106,9 +106,9 @@ fn lobes_at(grade: u32, row: f32, column: f32) -> Azimuthal {
 }
 
 // Kajiya and Kay (1989), as the renderer has it.
-fn cylinder(p: vec3f, t: vec3f, eye: vec3f, depth: vec4f, open: vec2f) -> vec3f {
+fn cylinder(p: vec3f, t: vec3f, eye: vec3f, depth: vec4f, sky: vec4f) -> vec3f {
     let colour = g.hair.rgb;
-    var light = 0.5 * colour * (g.sky_above.rgb * open.x + g.sky_below.rgb * open.y);
+    var light = 0.5 * colour * (g.sky_above.rgb * (sky.x + sky.z) + g.sky_below.rgb * (sky.y + sky.w));
     for (var l = 0u; l < g.counts.x; l++) {
         let lamp = g.lamps[l];
         let sl = dot(t, lamp.toward);
@@ -129,23 +129,35 @@ fn crossed(lamp: Lamp, depth: vec4f) -> f32 {
     return depth[lamp.channel];
 }
 
-// What hair leaves of the sky's light, as a share: open is above, below, and of both without the hair.
-fn share(open: vec3f) -> f32 {
-    return clamp(0.5 * (open.x + open.y) / max(open.z, 1e-6), 1e-6, 1.0);
+// What hair leaves of the sky's light, as a share of what is open without it.
+fn share(open: f32, bare: f32) -> f32 {
+    return clamp(open / max(bare, 1e-6), 1e-6, 1.0);
 }
 
 // The same with what it scatters forward, since hair passes on a part a.
 fn passed_on(share: f32, a: vec3f) -> vec3f {
-    return pow(vec3f(share), 1.0 - g.sky_above.w * a);
+    return max(pow(vec3f(share), max(1.0 - g.sky_above.w * a, vec3f(0.0))), vec3f(share));
 }
 
-fn arrives(open: vec3f, a: vec3f) -> vec3f {
-    let part = share(open);
-    return 0.5 * (g.sky_above.rgb * open.x + g.sky_below.rgb * open.y) * passed_on(part, a) / part;
+// Light within a slab of hair: away from the lamp (the first) and back to it, as the renderer's light/streams.rs has it.
+fn slab(whole: vec3f, before: vec3f, behind: vec3f) -> array<vec3f, 2> {
+    let far = behind * behind;
+    let sent = whole * whole;
+    let part = before / max(1.0 - sent * before * before * far, vec3f(1e-6));
+    return array<vec3f, 2>((1.0 - sent * far) * part, whole * (1.0 - far) * part);
 }
 
-// The renderer's fibre and scattered light; see its light/shade.rs for the reasons. Behind every point there is hair without end here.
-fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec3f, behind: vec3f) -> vec3f {
+// What is known of a place: hairs before the lamps, the sky's light, skin's, and how open it is about the lamps and opposite.
+struct About {
+    depth: vec4f,
+    sky: vec4f,
+    skin: vec4f,
+    toward: vec4f,
+    opposite: vec4f,
+}
+
+// The renderer's fibre and scattered light; see its light/shade.rs for the reasons.
+fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, about: About) -> vec3f {
     let tilt = g.look.x + g.look.y * (of_strand(strand, 1u) + of_strand(strand, 2u) - 1.0);
     let grade = min(u32((of_strand(strand, 3u) + of_strand(strand, 4u)) * 0.5 * f32(GRADES)), GRADES - 1u);
     let se = clamp(dot(t, eye), -0.9995, 0.9995);
@@ -155,11 +167,20 @@ fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec3f,
     let b = row_at(grade, row, 1u);
     let rest = row_at(grade, row, 2u);
     let medium = mediums[grade];
-    let closed = 1.0 - behind.z * passed_on(share(behind), medium.forward);
+    let sky = about.sky;
+    let through_front = share(sky.x + sky.y, about.skin.z);
+    let front = (g.sky_above.rgb * sky.x + g.sky_below.rgb * sky.y) * passed_on(through_front, medium.forward) / through_front
+        + g.skin.rgb * about.skin.x;
+    let through_behind = share(sky.z + sky.w, about.skin.w);
+    let arriving = passed_on(through_behind, medium.forward);
+    let from_behind = (g.sky_above.rgb * sky.z + g.sky_below.rgb * sky.w) * arriving / through_behind
+        + g.skin.rgb * about.skin.y;
+    let closed = max(1.0 - arriving * about.skin.w, vec3f(0.0));
     let again = g.sky_above.w * max(medium.whole - medium.back, vec3f(0.0)) * closed;
-    let from_behind = arrives(behind, medium.forward);
-    var light = mix(arrives(open, medium.forward), from_behind, se * se) * (b + again) + from_behind * a;
-    let home = g.spread.z + g.spread.x * (medium.forward.g / medium.decay.g - 1.0);
+    var light = mix(front, from_behind, se * se) * (b + again) + from_behind * a;
+    let of_forward = 0.5 * (g.spread.x + g.spread.y);
+    let home = g.spread.z + of_forward * (medium.forward.g / medium.decay.g - 1.0);
+    let strays = g.spread.w * medium.forward;
     for (var l = 0u; l < g.counts.x; l++) {
         let lamp = g.lamps[l];
         let sl = clamp(dot(t, lamp.toward), -0.9995, 0.9995);
@@ -175,13 +196,21 @@ fn fibre(p: vec3f, t: vec3f, eye: vec3f, strand: u32, depth: vec4f, open: vec3f,
         let m_trt = along(g.spread.z, sl, cl, s.z, c.z);
         let same_side = 0.5 * (1.0 + azimuth) / PI;
         let far_side = 0.5 * (1.0 - azimuth) / PI;
-        let n = crossed(lamp, depth);
+        let n = crossed(lamp, about.depth);
+        // Where it is not known what is about, as much as straight on, and hair without end behind.
+        var aside = n;
+        var behind = 100.0;
+        if l < 4u && about.toward[l] <= 1.0 {
+            aside = -log(clamp(about.toward[l], 1e-6, 1.0));
+            behind = -log(clamp(about.opposite[l], 1e-6, 1.0));
+        }
         let straight = exp(-n);
         let once = m_r * seen.r + m_tt * seen.tt + m_trt * (seen.trt + rest);
-        let variance = g.spread.x * (2.0 + n * medium.forward.g);
-        let scattered = exp(-n * medium.decay);
-        let away = along(min(variance, 1.0), sl, cl, se, ce) * max(scattered - straight, vec3f(0.0));
-        let back = along(min(variance + home, 1.0), sl, cl, se, ce) * medium.whole * scattered;
+        let before = (1.0 - strays) * exp(-n * medium.decay) + strays * exp(-aside * medium.decay);
+        let streams = slab(medium.whole, before, exp(-behind * medium.decay));
+        let variance = 2.0 * g.spread.x + of_forward * n * medium.forward.g;
+        let away = along(min(variance, 1.0), sl, cl, se, ce) * max(streams[0] - straight, vec3f(0.0));
+        let back = along(min(variance + home, 1.0), sl, cl, se, ce) * streams[1];
         let part = straight * once + away * (b * same_side + a * far_side) + back * (a * same_side + b * far_side);
         light += PI * past_head(p, lamp.toward) * lamp.strength * part;
     }
@@ -197,18 +226,20 @@ fn shade(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
     let p = point(i);
     let t = tangent_at(i);
     let eye = toward_eye(p);
-    // Out of the cell that the hair itself fills: hair on the surface sees the lamp.
-    let at = in_volume(p + outward_of(p) * 0.6 / g.volume_low.w);
-    let depth = textureSampleLevel(hair_depth, between, at, 0.0);
-    let open = textureSampleLevel(sky_open, between, at, 0.0).xyz;
-    // What passes through a fibre comes from behind: as open as it is there, and that by the hair's own depth once more.
-    let within = textureSampleLevel(sky_open, between, in_volume(p - eye), 0.0).xyz;
-    let behind = within * within;
+    // Out of the cells over which the hair itself is spread: hair on the surface sees the lamp. Fitted.
+    let at = in_volume(p + outward_of(p) * 1.7 / g.volume_low.w);
+    let about = About(
+        textureSampleLevel(hair_depth, between, at, 0.0),
+        textureSampleLevel(sky_seen, between, at, 0.0),
+        textureSampleLevel(skin_seen, between, at, 0.0),
+        textureSampleLevel(about_lamps, between, at, 0.0),
+        textureSampleLevel(opposite_lamps, between, at, 0.0),
+    );
     var light: vec3f;
     if g.counts.w == 1u {
-        light = cylinder(p, t, eye, depth, open.xy);
+        light = cylinder(p, t, eye, about.depth, about.sky);
     } else {
-        light = fibre(p, t, eye, marks[i] >> 12u, depth, open, behind);
+        light = fibre(p, t, eye, marks[i] >> 12u, about);
     }
     lights[i] = vec4f(light, 0.0);
 }

@@ -158,6 +158,36 @@ fn in_words(lock: f32, nail: f32) -> Option<String> {
     (!words.is_empty()).then(|| words.join(", "))
 }
 
+/// The tip of an arrow that was let go: it stays where the hand has left it, though an arrow drawn anew may be longer or shorter for its
+/// force, until something else is seen.
+#[derive(Debug)]
+pub struct LeftTip {
+    scene: u64,
+    interval: usize,
+    held: handle::Held,
+    vector: Vec3,
+    view: View,
+    frame: u32,
+}
+
+impl LeftTip {
+    /// The arrow as it was left.
+    pub fn arrow(&self, shown: &Shown<'_>, world: &View) -> Option<(usize, Arrow)> {
+        let is_as_left = self.scene == shown.scene
+            && self.view == *world
+            && self.frame == shown.frame
+            && shown.selected_interval == Some(self.interval)
+            && shown.force.get(self.interval).is_some_and(|key| key.vector == self.vector);
+        let arrow = self.held.showing(self.vector);
+        let (view, _) = of_forces(shown, world);
+        let tip = view.project(arrow.tip);
+        let size = Vec2::new(view.size[0] as f32, view.size[1] as f32);
+        // Let go beyond the edge it could not be taken hold of again.
+        let is_seen = tip.z > 0.0 && tip.truncate().cmpge(Vec2::ZERO).all() && tip.truncate().cmple(size).all();
+        (is_as_left && is_seen && !shown.playing).then_some((self.interval, arrow))
+    }
+}
+
 impl Hand {
     /// Whether it holds something that changes the scene.
     pub fn is_busy(&self) -> bool {
@@ -179,6 +209,13 @@ impl Hand {
             Self::Tip { vector: Some(_), .. } | Self::Hair(Held { followed: Some(_), .. }) => Some(Touch::Undone),
             _ => None,
         }
+    }
+
+    /// The arrow whose tip has just been let go, as it is held.
+    pub fn tip_let_go(&self, shown: &Shown<'_>, view: &View) -> Option<LeftTip> {
+        let Self::Tip { interval, held, vector: Some(vector) } = self else { return None };
+        let (interval, held, vector) = (*interval, *held, *vector);
+        Some(LeftTip { scene: shown.scene, interval, held, vector, view: *view, frame: shown.frame })
     }
 
     /// The tip of an arrow follows the pointer.
@@ -204,10 +241,10 @@ pub fn of_forces(shown: &Shown<'_>, world: &View) -> (View, Pose) {
     }
 }
 
-/// The arrow of the selected interval, in the space of the forces and within reach on a display of so many pixels to a point.
+/// The arrow of the selected interval while nothing plays, in the space of the forces and within reach on a display of so many pixels to a point.
 pub fn arrow(shown: &Shown<'_>, scale: f32, world: &View) -> Option<(usize, Arrow)> {
     let (view, pose) = of_forces(shown, world);
-    let interval = shown.selected_interval?;
+    let interval = shown.selected_interval.filter(|_| !shown.playing)?;
     let key = shown.force.get(interval)?;
     Some((interval, Arrow::new(&shown.take.built.head.ellipsoid, &pose, key.vector).within(&view, scale)))
 }

@@ -30,9 +30,9 @@ fn light(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
     let eye = toward_eye(place);
     // Red light spreads farthest under skin.
     let soft = vec3f(1.25, 0.8, 0.6) * g.skin.w;
-    // Off the skin by most of a cell, or the hair on the far side of it would count.
-    let depth = textureSampleLevel(hair_depth, between, in_volume(place + 0.5 * normal), 0.0);
-    let open = textureSampleLevel(sky_open, between, in_volume(place + 0.9 * normal), 0.0).xy;
+    // Off the skin by more than the cells over which hair is spread, or that on the far side of it would count. Fitted.
+    let depth = textureSampleLevel(hair_depth, between, in_volume(place + 1.6 * normal), 0.0);
+    let open = textureSampleLevel(sky_open, between, in_volume(place + 2.2 * normal), 0.0).xy;
     var diffuse = vec3f(0.0);
     var sheen = vec3f(0.0);
     for (var l = 0u; l < g.counts.x; l++) {
@@ -50,6 +50,9 @@ fn light(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
         diffuse += arrives * wrapped;
         sheen += arrives * (gloss + 0.5 * rim);
     }
+    // What other skin sends: known in the cells that skin passes through.
+    let glow = textureSampleLevel(sky_open, between, in_volume(place), 0.0).zw;
+    diffuse += g.skin.rgb * glow.x / max(glow.y, 1e-3);
     let up = 0.5 + 0.5 * dot(normal, g.zenith.xyz);
     diffuse += g.sky_above.rgb * up * through(-log(max(open.x, 1e-6)));
     diffuse += g.sky_below.rgb * (1.0 - up) * through(-log(max(open.y, 1e-6)));

@@ -12,7 +12,7 @@ const ACCENT: Color32 = Color32::from_rgb(255, 176, 64);
 /// Of what a hand holds.
 const HELD: Color32 = Color32::from_rgb(255, 222, 150);
 /// About lines, so that they show on bright hair as on dark.
-const OUTLINE: Color32 = Color32::from_black_alpha(140);
+pub const OUTLINE: Color32 = Color32::from_black_alpha(140);
 
 /// Between words and the ring about the end of their line (points).
 const BESIDE: f32 = 12.0;

@@ -80,7 +80,7 @@ impl Screen {
             picture: shown.picture.clone(),
             view: *view,
             ghosts: shown.ghosts,
-            wind: shown.wind,
+            wind: shows_wind(shown),
         };
         let is_new = self.drawn.as_ref() != Some(&now);
         if is_new {
@@ -138,10 +138,15 @@ impl Screen {
 
 const WHOLE: Rect = Rect { min: pos2(0.0, 0.0), max: pos2(1.0, 1.0) };
 
+/// Whether the wind is drawn: arrows would only hide hair that moves.
+pub fn shows_wind(shown: &Shown<'_>) -> bool {
+    shown.wind && !shown.playing
+}
+
 /// Paths of tips and arrows of wind, in head space.
 fn lines(shown: &Shown<'_>, view: &Seen) -> Vec<Line> {
     let mut lines = if shown.ghosts { onion::paths(shown.take, shown.frame) } else { Vec::new() };
-    if shown.wind {
+    if shows_wind(shown) {
         let built = &shown.take.built;
         let pose = shown.take.pose(shown.frame);
         let (of_forces, head) = match built.dynamics.motion.force_space {

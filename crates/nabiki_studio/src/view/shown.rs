@@ -10,6 +10,8 @@ use crate::take::Take;
 /// All that is shown, and what is selected of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Shown<'a> {
+    /// The number of the scene: what a hand has left in the view goes with it.
+    pub scene: u64,
     /// The last good motion.
     pub take: &'a Take,
     /// The look as it is now: it may be newer than the one the take was built from.

@@ -100,6 +100,7 @@ fn moved(scene: Scene) -> Take {
 fn shown(take: &Take, frame: u32) -> Shown<'_> {
     let scene = &take.built.scene;
     Shown {
+        scene: 1,
         take,
         picture: &scene.picture,
         force: &scene.field.force,
@@ -357,4 +358,78 @@ fn a_nail_of_another_frame_stays_where_one_is_taken_out() {
         assert_eq!(window.view.nails.len(), nails, "frame {frame}");
     }
     assert_eq!(window.view.nails[0].frame, 15);
+}
+
+/// The tip of the arrow that is drawn.
+fn drawn_tip(window: &Window) -> Option<Pos2> {
+    let shown = Shown { selected_interval: window.selected, ..shown(&window.take, window.frame) };
+    let arrow = window.view.arrow(&shown, 1.0, &window.seen());
+    arrow.map(|(_, arrow)| window.on_screen(arrow.tip))
+}
+
+#[test]
+fn the_tip_of_an_arrow_stays_under_the_hand_that_lets_go_wherever_that_is() {
+    // As long as the view is wide, and short: drawn anew the one becomes longer, the other shorter.
+    for force in [-60.0, -700.0] {
+        let mut window = Window::new();
+        let mut scene = window.take.built.scene.clone();
+        scene.field.force[0].vector = Vec3::new(force, 0.0, 0.0);
+        window.take = moved(scene);
+        window.selected = Some(0);
+        window.run(&[]);
+        let tip = drawn_tip(&window).unwrap();
+        window.run(&[Event::PointerMoved(tip)]);
+        window.run(&press(tip, true));
+        window.run(&[Event::PointerMoved(tip + vec2(30.0, 20.0))]);
+        // Gone on and let go between two pictures, and gone on again.
+        let to = tip + vec2(150.0, 60.0);
+        let mut events = press(to, false);
+        events.push(Event::PointerMoved(to + vec2(50.0, 0.0)));
+        let touches = window.run(&events);
+        let Some(Touch::SetVector { vector, done: true, .. }) = touches.last() else { panic!("{touches:?}") };
+        let mut scene = window.take.built.scene.clone();
+        scene.field.force[0].vector = *vector;
+        window.take = moved(scene);
+        window.run(&[]);
+        let now = drawn_tip(&window).unwrap();
+        assert!(now.distance(to) < 1.0, "{force}: let go at {to}, the tip is at {now}");
+        // From another side it is drawn as any.
+        window.view.frame_hair();
+        window.run(&[]);
+        assert!(window.view.left_tip.as_ref().is_some_and(|left| {
+            let shown = Shown { selected_interval: window.selected, ..shown(&window.take, window.frame) };
+            left.arrow(&shown, &window.seen()).is_none()
+        }));
+    }
+}
+
+#[test]
+fn while_hair_plays_no_arrow_lies_over_it_or_is_taken_hold_of() {
+    let window = Window::new();
+    let playing = Shown { selected_interval: Some(0), playing: true, ..shown(&window.take, 15) };
+    assert!(window.view.arrow(&playing, 1.0, &window.seen()).is_none());
+    let still = Shown { playing: false, ..playing };
+    assert!(window.view.arrow(&still, 1.0, &window.seen()).is_some());
+    assert!(screen::shows_wind(&still) && !screen::shows_wind(&playing));
+}
+
+#[test]
+fn what_a_hand_has_left_in_the_view_goes_with_the_scene() {
+    let mut window = Window::new();
+    let at = window.some_hair();
+    window.run(&[key(Key::N, true)]);
+    window.run(&press(at, true));
+    window.run(&press(at, false));
+    assert_eq!(window.view.marks().nails, [15]);
+    let before = window.view.camera();
+    window.view.frame_hair();
+    window.run(&[]);
+    assert_ne!(window.view.camera(), before);
+    let context = window.context.clone();
+    let other = Shown { scene: 2, ..shown(&window.take, 15) };
+    let view = &mut window.view;
+    let _ = context.run_ui(RawInput::default(), |ui| drop(view.ui(ui, &other)));
+    assert!(view.marks().nails.is_empty());
+    assert_eq!(view.camera().azimuth, before.azimuth);
+    assert!(!view.is_free);
 }

@@ -3,12 +3,17 @@
 //! Space is cut into cells that know how much hair they hold. Its depth, counted in hairs crossed, is carried through them
 //! away from each lamp, slice by slice; shaders read it from a texture. The sky's cells are twice as wide.
 
+mod sky_light;
+
 use std::ops::Range;
 
 use glam::{IVec3, UVec3, Vec3};
 use half::f16;
-use nabiki::{Mesh, Strands};
+use nabiki::{Ellipsoid, Mesh, Strands};
 use rayon::prelude::*;
+
+pub use sky_light::{KINDS, SkyLight};
+use sky_light::{Seen, SkinIn};
 
 /// Lamps that throw shadows.
 pub const LAMPS: usize = 4;
@@ -24,9 +29,6 @@ const BORDER: f32 = 2.0;
 /// What skin takes of the sky's light in each full crossing of a cell, as the renderer has it.
 const SKIN: f32 = 4.0;
 
-/// A cell of the sky that nothing hides.
-const OPEN: [f16; 4] = [f16::ONE, f16::ONE, f16::ONE, f16::ZERO];
-
 /// What stands in the way of light.
 pub struct Casting<'a> {
     /// The points of the strands now (head space, cm).
@@ -39,8 +41,16 @@ pub struct Casting<'a> {
     pub share: f32,
     /// Unit vectors toward the lamps.
     pub lamps: &'a [Vec3],
+    /// How bright each is (luminance).
+    pub brightness: &'a [f32],
     /// Where the sky is above.
     pub zenith: Vec3,
+    /// How bright it is there, and below (luminance).
+    pub sky: [f32; 2],
+    /// Unit vector from a place toward the eye.
+    pub toward_eye: &'a (dyn Fn(Vec3) -> Vec3 + Sync),
+    /// What of the head is in the way of lamps.
+    pub ellipsoid: Ellipsoid,
     /// Whether anything throws a shadow at all.
     pub shadows: bool,
     /// Whether the sky is hidden by what lies before it.
@@ -58,23 +68,23 @@ pub struct Volume {
     pub size: UVec3,
     /// Hairs between each cell and each lamp, x fastest.
     pub depth: Vec<[f16; LAMPS]>,
-    /// Share of the sky above and of that below that arrives, in cells twice as wide, of all of it without the hair, and a 0.
-    pub open: Vec<[f16; 4]>,
+    /// What arrives otherwise, in cells twice as wide.
+    pub sky: SkyLight,
 }
 
 impl Volume {
     /// One of so many cells in which nothing stands in the way of light.
     pub fn empty(size: UVec3) -> Self {
         let cells = |size: UVec3| size.element_product() as usize;
-        let (depth, open) = (vec![[f16::ZERO; LAMPS]; cells(size)], vec![OPEN; cells(size / 2)]);
-        Self { low: Vec3::ZERO, cell: 1.0, size, depth, open }
+        let (depth, sky) = (vec![[f16::ZERO; LAMPS]; cells(size)], SkyLight::open(cells(size / 2)));
+        Self { low: Vec3::ZERO, cell: 1.0, size, depth, sky }
     }
 }
 
 /// Makes volumes; it remembers where the head's skin is.
 #[derive(Debug, Default)]
 pub struct VolumeMaker {
-    skin: Vec<(IVec3, f32)>,
+    skin: Vec<(IVec3, SkinIn)>,
     skin_of: Option<f32>,
 }
 
@@ -125,30 +135,62 @@ impl VolumeMaker {
                 depth.iter_mut().zip(of_lamp).for_each(|(depth, &n)| depth[l] = f16::from_f32(n));
             }
         }
-        let mut sky = hair.twice_as_wide();
-        let mut open = vec![OPEN; sky.taken.len()];
-        if casting.occlusion {
+        let wide_hair = hair.twice_as_wide();
+        let mut volume = Volume { low, cell, size, depth, sky: SkyLight::default() };
+        volume.sky = if casting.occlusion {
             if self.skin_of != Some(wide) {
                 self.skin = skin_cells(head, wide);
                 self.skin_of = Some(wide);
             }
-            let mut bare = Cells { size: half, taken: vec![0.0; sky.taken.len()] };
-            for &(at, taken) in &self.skin {
-                let c = at - first.as_ivec3();
-                if c.cmpge(IVec3::ZERO).all() && c.cmplt(half.as_ivec3()).all() {
-                    let i = sky.index(c.as_uvec3());
-                    sky.taken[i] += taken;
-                    bare.taken[i] += taken;
-                }
-            }
-            let (all, without_hair) = (sky.open(casting.zenith), bare.open(casting.zenith));
-            for (open, ([above, below], bare)) in open.iter_mut().zip(all.into_iter().zip(without_hair)) {
-                let bare = 0.5 * (bare[0] + bare[1]);
-                *open = [f16::from_f32(above), f16::from_f32(below), f16::from_f32(bare), f16::ZERO];
-            }
-        }
-        Volume { low, cell, size, depth, open }
+            let within = |(at, skin): &(IVec3, SkinIn)| {
+                let c = *at - first.as_ivec3();
+                let within = c.cmpge(IVec3::ZERO).all() && c.cmplt(half.as_ivec3()).all();
+                within.then(|| SkinIn { at: wide_hair.index(c.as_uvec3()), ..*skin })
+            };
+            let skin: Vec<SkinIn> = self.skin.iter().filter_map(within).collect();
+            let cells = sky_light::Cells { low, edge: wide, size: half, hair: &wide_hair.taken, skin: &skin };
+            let lit = |skin: &SkinIn, open: [f32; 2]| volume.falls_onto(casting, skin, open);
+            let Casting { zenith, lamps, toward_eye, .. } = *casting;
+            SkyLight::new(&cells, &Seen { zenith, lamps, toward_eye, lit: &lit })
+        } else {
+            SkyLight::open(wide_hair.taken.len())
+        };
+        volume
     }
+}
+
+impl Volume {
+    /// The light that falls onto skin, of lamps through hair and past the head, and of the sky of which these shares arrive (luminance).
+    fn falls_onto(&self, casting: &Casting, skin: &SkinIn, open: [f32; 2]) -> f32 {
+        let depth = self.depth_at(skin.place + 0.5 * skin.normal);
+        let of_lamp = |(l, (toward, brightness)): (usize, (&Vec3, &f32))| {
+            let facing = skin.normal.dot(*toward).max(0.0);
+            let hair = if l < LAMPS { (-depth[l].to_f32()).exp() } else { 1.0 };
+            let head = if casting.shadows {
+                past_head(&casting.ellipsoid, skin.place + 0.3 * skin.normal, *toward)
+            } else {
+                1.0
+            };
+            facing * brightness * hair * head
+        };
+        let up = 0.5 + 0.5 * skin.normal.dot(casting.zenith);
+        let lamps: f32 = casting.lamps.iter().zip(casting.brightness).enumerate().map(of_lamp).sum();
+        lamps + casting.sky[0] * up * open[0] + casting.sky[1] * (1.0 - up) * open[1]
+    }
+
+    /// Hairs between a place and each lamp, as the cell it lies in has them, or the nearest one.
+    fn depth_at(&self, place: Vec3) -> [f16; LAMPS] {
+        let c = ((place - self.low) / self.cell).clamp(Vec3::ZERO, self.size.as_vec3() - 1.0).as_uvec3();
+        self.depth[(c.x + self.size.x * (c.y + self.size.y * c.z)) as usize]
+    }
+}
+
+/// What the head leaves of a lamp at a place: common.wgsl's `past_head`.
+fn past_head(head: &Ellipsoid, place: Vec3, toward: Vec3) -> f32 {
+    let (q, d) = ((place - head.center) / head.half_axes, toward / head.half_axes);
+    let t = -q.dot(d) / d.dot(d);
+    let part = (((q + d * t).length() - 0.82) / 0.18).clamp(0.0, 1.0);
+    if t <= 0.0 { 1.0 } else { part * part * (3.0 - 2.0 * part) }
 }
 
 impl Cells {
@@ -270,38 +312,16 @@ impl Cells {
         }
         wide
     }
-
-    /// The share of the sky above and below that arrives in each cell, along fourteen lattice directions.
-    fn open(&self, zenith: Vec3) -> Vec<[f32; 2]> {
-        let directions: Vec<Vec3> = (0..27_i32)
-            .map(|i| IVec3::new(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1))
-            .filter(|d| matches!(d.length_squared(), 1 | 3))
-            .map(|d| d.as_vec3().normalize())
-            .collect();
-        let depths: Vec<_> = directions.par_iter().map(|&toward| self.depth(toward, 0.0)).collect();
-        // Halves of the sky that meet at the horizon.
-        let halves: Vec<[f32; 2]> =
-            directions.iter().map(|d| d.dot(zenith)).map(|h| [0.5 + 0.5 * h, 0.5 - 0.5 * h]).collect();
-        let all = halves.iter().fold([0.0, 0.0], |all, h| [all[0] + h[0], all[1] + h[1]]);
-        let of_cell = |i: usize| {
-            let mut sum = [0.0; 2];
-            for (depth, half) in depths.iter().zip(&halves) {
-                let passed = (-depth[i]).exp();
-                sum = [sum[0] + half[0] * passed, sum[1] + half[1] * passed];
-            }
-            [sum[0] / all[0], sum[1] / all[1]]
-        };
-        (0..self.taken.len()).into_par_iter().with_min_len(2048).map(of_cell).collect()
-    }
 }
 
 /// Cells of edge `cell` that the head's surface passes through, by their place on the lattice through the origin, each with
-/// what the skin in it takes.
-fn skin_cells(head: &Mesh, cell: f32) -> Vec<(IVec3, f32)> {
-    let mut shares: Vec<([i32; 3], f32)> = Vec::new();
+/// the skin in it.
+fn skin_cells(head: &Mesh, cell: f32) -> Vec<(IVec3, SkinIn)> {
+    let mut shares: Vec<([i32; 3], f32, Vec3, Vec3)> = Vec::new();
     for triangle in &head.triangles {
         let [a, b, c] = triangle.map(|v| head.positions[v as usize]);
-        let area = 0.5 * (b - a).cross(c - a).length();
+        let across = (b - a).cross(c - a);
+        let area = 0.5 * across.length();
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
         let steps = (2.0 * longest / cell).ceil().clamp(1.0, 64.0) as usize;
         let share = area / (steps * steps) as f32 / (cell * cell);
@@ -310,12 +330,19 @@ fn skin_cells(head: &Mesh, cell: f32) -> Vec<(IVec3, f32)> {
             if u + v > 1.0 {
                 (u, v) = (1.0 - u, 1.0 - v);
             }
-            shares.push((((a + (b - a) * u + (c - a) * v) / cell).floor().as_ivec3().to_array(), share));
+            let place = a + (b - a) * u + (c - a) * v;
+            let lattice = (place / cell).floor().as_ivec3().to_array();
+            shares.push((lattice, share, share * place, share * across.normalize_or_zero()));
         }
     }
     shares.sort_by_key(|share| share.0);
-    let cells = shares.chunk_by(|a, b| a.0 == b.0);
-    cells.map(|of| (IVec3::from(of[0].0), SKIN * of.iter().map(|s| s.1).sum::<f32>().min(1.5))).collect()
+    let skin = |of: &[([i32; 3], f32, Vec3, Vec3)]| {
+        let marked: f32 = of.iter().map(|share| share.1).sum();
+        let place = of.iter().map(|share| share.2).sum::<Vec3>() / marked.max(1e-12);
+        let normal = of.iter().map(|share| share.3).sum::<Vec3>().normalize_or_zero();
+        (IVec3::from(of[0].0), SkinIn { at: 0, taken: SKIN * marked.min(1.5), normal, place })
+    };
+    shares.chunk_by(|a, b| a.0 == b.0).map(skin).collect()
 }
 
 #[cfg(test)]
@@ -340,17 +367,20 @@ mod tests {
             thickness,
             share,
             lamps,
+            brightness: &[1.0; 2],
             zenith: Vec3::Y,
+            sky: [1.0; 2],
+            toward_eye: &|_| Vec3::Z,
+            ellipsoid: Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::splat(1e-3) },
             shadows: true,
             occlusion: true,
         };
         VolumeMaker::default().make(&casting, &Mesh::default())
     }
 
-    /// Hairs between a place and a lamp, as the cell it lies in has it, or the nearest one.
+    /// Hairs between a place and a lamp.
     fn depth_at(volume: &Volume, place: Vec3, lamp: usize) -> f32 {
-        let c = ((place - volume.low) / volume.cell).clamp(Vec3::ZERO, volume.size.as_vec3() - 1.0).as_uvec3();
-        volume.depth[(c.x + volume.size.x * (c.y + volume.size.y * c.z)) as usize][lamp].to_f32()
+        volume.depth_at(place)[lamp].to_f32()
     }
 
     #[test]
@@ -391,11 +421,11 @@ mod tests {
         let half = volume.size / 2;
         let at = |p: Vec3| {
             let c = ((p - volume.low) / (2.0 * volume.cell)).as_uvec3();
-            volume.open[(c.x + half.x * (c.y + half.y * c.z)) as usize][0].to_f32()
+            volume.sky.0[4][(c.x + half.x * (c.y + half.y * c.z)) as usize][0].to_f32()
         };
         let (within, top) = (at(Vec3::new(0.0, 0.1, 0.0)), at(Vec3::new(0.0, 6.2, 0.0)));
         assert!(within < 0.5 * top && top > 0.6, "{within} {top}");
         let none = cast(&Strands::default(), 0.06, 1.0, &[Vec3::Y]);
-        assert_eq!((depth_at(&none, Vec3::ZERO, 0), none.open[0][0]), (0.0, f16::ONE));
+        assert_eq!((depth_at(&none, Vec3::ZERO, 0), none.sky.0[4][0][0]), (0.0, f16::ONE));
     }
 }

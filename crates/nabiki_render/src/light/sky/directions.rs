@@ -12,9 +12,11 @@ pub const LENGTHS: [f32; 2] = [1.0, 1.732_050_8];
 
 /// A lattice direction in which light travels.
 pub struct Direction {
+    /// From cell to cell.
     pub step: [i32; 3],
     /// Unit vector to where the light comes from.
     pub from: Vec3,
+    /// How much of the mean over all directions is its.
     pub weight: f32,
     /// The parts of its light that count as from above and as from below.
     pub halves: [f32; 2],
@@ -49,11 +51,21 @@ impl Direction {
 /// cells, or is added to it; the border's cells stay as they are. Compiled for each width of vectors that machines have; one is chosen at
 /// run time.
 pub struct Carry<'a, const ADDED: bool> {
+    /// The way that the light goes.
     pub direction: &'a Direction,
+    /// Cells along each axis.
     pub size: UVec3,
     /// What a cell leaves of the light.
     pub through: &'a [f32],
+    /// The light in each cell, x fastest.
     pub light: &'a mut [f32],
+}
+
+impl<const ADDED: bool> Carry<'_, ADDED> {
+    /// Carries it.
+    pub fn carry(self) {
+        pulp::Arch::new().dispatch(self);
+    }
 }
 
 impl<const ADDED: bool> pulp::NullaryFnOnce for Carry<'_, ADDED> {

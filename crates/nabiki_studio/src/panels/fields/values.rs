@@ -2,22 +2,6 @@
 
 use toml::Value;
 
-use crate::settings::Kind;
-
-/// What a setting that was left open begins with.
-pub fn first_value(kind: Kind) -> Value {
-    match kind {
-        Kind::Number { least, most, .. } => Value::Float(50.0_f64.clamp(least, most)),
-        Kind::Whole { least, most } => Value::Integer(1000.clamp(least, most)),
-        Kind::Flag => Value::Boolean(true),
-        Kind::Choice(words) => Value::String(words.first().copied().unwrap_or_default().to_owned()),
-        Kind::Numbers { names, .. } => names.iter().map(|_| Value::Float(0.0)).collect::<Vec<_>>().into(),
-        Kind::List { .. } => Value::Array(vec![Value::Integer(0)]),
-        Kind::Unit => Value::String("cm".to_owned()),
-        _ => Value::String(String::new()),
-    }
-}
-
 /// The number that a word is, if it has an end.
 pub fn finite(word: &str) -> Option<f64> {
     word.parse().ok().filter(|number: &f64| number.is_finite())

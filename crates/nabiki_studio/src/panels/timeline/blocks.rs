@@ -7,6 +7,7 @@ use nabiki::field::Keyframe;
 use super::Scale;
 use crate::command::Command;
 use crate::document::Phase;
+use crate::panels::hands::Hands;
 use crate::panels::{Commands, theme};
 use crate::session::Session;
 use crate::timeline;
@@ -91,7 +92,7 @@ fn block(
         }
     }
     let [x, y, z] = vector.to_array();
-    response.on_hover_text(format!(
+    response.hint(format!(
         "Frames {} to {}\nForce {x}, {y}, {z}\n{}\n\nDrag to slide it, its borders to make it longer or shorter;\nwith Shift what comes after moves along.",
         frames.start(),
         frames.end(),
@@ -142,8 +143,7 @@ fn drag(
             commands.push(Command::Choose(vec![j]));
         }
     }
-    if response.dragged()
-        && let Some(pointer) = response.interact_pointer_pos()
+    if let Some(pointer) = response.held_at()
         && let Some(start) = ui.input(|input| input.pointer.press_origin())
         && let Some(from) = ui.data(|data| data.get_temp::<Vec<Keyframe>>(id))
     {
@@ -167,9 +167,7 @@ fn border(ui: &mut Ui, row: Rect, scale: &Scale, keys: &[Keyframe], j: usize, co
     let response = ui.interact(grip, ui.scope_id().with(("border", j)), Sense::drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, format!("Border {}", j + 1)));
     let response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
-    if response.dragged()
-        && let Some(pointer) = response.interact_pointer_pos()
-    {
+    if let Some(pointer) = response.held_at() {
         let frame = (scale.time(pointer.x) - 0.5).round().max(1.0) as u32;
         let ripple = ui.input(|input| input.modifiers.shift);
         let keys = timeline::move_border(keys, j, frame, ripple);

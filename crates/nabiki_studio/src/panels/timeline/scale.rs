@@ -13,9 +13,9 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// That of a lane for frames up to `last`.
-    pub fn of(ui: &Ui, lane: Rect, last: u32) -> Self {
-        let id = ui.scope_id().with("scale");
+    /// That of a lane for frames up to `last`, in the scene of this number.
+    pub fn of(ui: &Ui, scene: u64, lane: Rect, last: u32) -> Self {
+        let id = ui.scope_id().with(("scale", scene));
         // A little more than there is, so that the last border can be taken hold of.
         let whole = 1.02 * f64::from(last) + 1.5;
         let (from, to) = ui.data(|data| data.get_temp(id)).unwrap_or((-0.5, whole));

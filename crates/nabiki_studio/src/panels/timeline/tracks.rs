@@ -9,6 +9,7 @@ use super::{Scale, track_name};
 use crate::command::Command;
 use crate::document::Phase;
 use crate::panels::fields::number_of;
+use crate::panels::hands::Hands;
 use crate::panels::{Commands, theme};
 use crate::session::Session;
 use crate::settings::value_at;
@@ -108,7 +109,7 @@ pub fn ui(
 }
 
 fn hint(ui: &mut Ui, lane: Rect, text: &str) {
-    ui.interact(lane, ui.scope_id().with((lane.top() as i32, "hint")), Sense::hover()).on_hover_text(text);
+    ui.interact(lane, ui.scope_id().with((lane.top() as i32, "hint")), Sense::hover()).hint(text);
 }
 
 /// A curve through a value for each frame, from 0 to its largest; in `steps`, each holds through its frame.
@@ -191,7 +192,7 @@ fn envelope(ui: &mut Ui, lane: Rect, scale: &Scale, session: &Session, table: &s
         keys.sort_by_key(|key| key.0);
         commands.push(set(&keys, Phase::Done));
     }
-    behind.on_hover_text("Its strength over time. A double click makes a key, a drag moves it, a click with the right button removes it.");
+    behind.hint("Its strength over time. A double click makes a key, a drag moves it, a click with the right button removes it.");
     let (first, last) = (keys.first().map_or(1.0, |key| key.1), keys.last().map_or(1.0, |key| key.1));
     let ends = (pos2(lane.left(), y(first)), pos2(lane.right(), y(last)));
     let way = std::iter::once(ends.0)
@@ -206,9 +207,7 @@ fn envelope(ui: &mut Ui, lane: Rect, scale: &Scale, session: &Session, table: &s
             Sense::click_and_drag(),
         );
         let mut moved = keys.clone();
-        if response.dragged()
-            && let Some(pointer) = response.interact_pointer_pos()
-        {
+        if let Some(pointer) = response.held_at() {
             let low = i.checked_sub(1).map_or(0, |i| keys[i].0 + 1);
             // Keys of one frame, which a scene refuses, can be dragged apart.
             let high = keys.get(i + 1).map_or(i64::from(u32::MAX), |key| key.0 - 1).max(low);
@@ -227,7 +226,7 @@ fn envelope(ui: &mut Ui, lane: Rect, scale: &Scale, session: &Session, table: &s
         let painter = ui.painter().with_clip_rect(lane.intersect(ui.clip_rect()));
         let diamond = [vec2(0.0, -4.5), vec2(4.5, 0.0), vec2(0.0, 4.5), vec2(-4.5, 0.0)].map(|way| at + way);
         painter.add(egui::Shape::convex_polygon(diamond.to_vec(), ink, Stroke::NONE));
-        response.on_hover_text(format!("Frame {frame}: {part} of the strength"));
+        response.hint(format!("Frame {frame}: {part} of the strength"));
     }
     if keys.is_empty() {
         let at = lane.left_center() + vec2(6.0, 0.0);

@@ -67,7 +67,10 @@ impl Pipelines {
                 .collect();
             device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
         };
-        let scene = layout("scene", seen, &[uniform, volume, volume, sampler]);
+        let mut of_scene = vec![uniform, volume];
+        of_scene.extend([volume; super::super::volume::KINDS]);
+        of_scene.push(sampler);
+        let scene = layout("scene", seen, &of_scene);
         let read = storage(true);
         let written = storage(false);
         let compute = wgpu::ShaderStages::COMPUTE;
