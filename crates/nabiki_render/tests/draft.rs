@@ -89,9 +89,8 @@ fn few_strands_have_the_colour_of_the_many_that_they_stand_for() {
         (0..3).map(|c| (found[c] / whole[c] - 1.0).abs()).fold(0.0, f64::max)
     };
     let (drafted, plain) = (off(Some(Draft::new(16.0, 4.0))), off(None));
-    println!("{drafted} {plain}");
-    // A third of a stop, and nearer than without.
-    assert!(drafted < 0.26 && drafted < plain, "{drafted} {plain}");
+    // A fifth of a stop, and much nearer than without.
+    assert!(drafted < 0.15 && 3.0 * drafted < plain, "{drafted} {plain}");
 }
 
 #[test]
@@ -111,16 +110,14 @@ fn what_is_lit_once_is_what_each_frame_would_light_and_a_head_that_moves_is_lit_
     }
 }
 
-/// Skin that no hair hides from anything has, pixel by pixel, the final's light; hair's shadow falls on it in blocks of two by two pixels.
+/// Without hair nothing is shared that differs: skin is that of the final.
 #[test]
-fn bare_skin_is_that_of_the_final() {
+fn bald_skin_is_that_of_the_final_to_the_bit() {
     let mut picture = picture(0.1);
     picture.sky.occlusion = false;
-    let bald = hair(1, 0.0);
+    let bald = Strands::default();
     let wanted = draw(&mut renderer(&picture, None), &bald, Pose::STILL);
     let found = draw(&mut renderer(&picture, Some(Draft::new(64.0, 8.0))), &bald, Pose::STILL);
-    let differ = found.rgba.iter().zip(&wanted.rgba).filter(|(a, b)| a != b).count();
-    let shown = wanted.rgba.iter().filter(|p| p[3] > 0.5).count();
-    // One strand and its shadows.
-    assert!(shown > 2_000 && differ < shown / 8, "{differ} of {shown}");
+    assert!(wanted.rgba.iter().filter(|p| p[3] > 0.5).count() > 1_500);
+    assert!(found.rgba == wanted.rgba);
 }
