@@ -25,6 +25,7 @@ mod backdrop;
 pub mod camera;
 pub mod colour;
 mod curve;
+mod draft;
 mod error;
 pub mod frame;
 pub mod lens;
@@ -43,6 +44,7 @@ pub mod timing;
 pub mod tone_mapping;
 
 pub use camera::{Bounds, View};
+pub use draft::Draft;
 pub use error::RenderError;
 pub use frame::Frame;
 pub use moment::{DrawnBody, FrameToDraw, Moment};

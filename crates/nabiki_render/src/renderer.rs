@@ -16,6 +16,7 @@ use crate::backdrop::Backdrop;
 use crate::camera::View;
 use crate::colour::{self, luminance};
 use crate::curve::{CurveNode, Curves, bounds, drawable};
+use crate::draft::{Draft, Shared};
 use crate::frame::{Frame, Layer};
 use crate::lens::{Spread, Subject};
 use crate::light::approx::exp_of_negative;
@@ -27,12 +28,12 @@ use crate::light::shade::{HairLight, Model};
 use crate::light::shadow::{Crossings, Scene, SkinPlace, Sweep, sweep};
 use crate::light::sky::{OnSkin, SkyMap};
 use crate::moment::{DrawnBody, FrameToDraw};
-use crate::raster::Node;
 use crate::raster::bins::Bins;
+use crate::raster::{Node, TILE};
 use crate::scalp::{Scalp, roots};
 use crate::settings::{Antialiasing, Picture, Shading};
 use crate::shutter::{Exposure, Shot};
-use crate::skin::{FromLamp, SkinLight, SkinPixel, SkinView, Solids, placed};
+use crate::skin::{FromLamp, Reached, SkinLight, SkinPixel, SkinView, Solids, placed};
 use crate::timing::{Clock, Stage, Timing};
 use crate::tone_mapping::linear_from_srgb;
 
@@ -46,6 +47,7 @@ const MARGIN: f32 = 1.25;
 pub struct Renderer {
     picture: Picture,
     layers: bool,
+    draft: Option<Draft>,
     head: Mesh,
     face: bool,
     bodies: Vec<Mesh>,
@@ -63,6 +65,9 @@ pub struct Renderer {
     bins: Bins,
     sweeps: Vec<Sweep>,
     sky_map: SkyMap,
+    /// In a draft: half the thickness of the strands that each strand stands for, at each node (cm), and what reaches skin.
+    mass: Vec<f32>,
+    reached: Vec<Reached>,
     zenith: Vec3,
     still: Option<Still>,
     /// Through how many points of a lens to draw, if that was asked for.
@@ -81,6 +86,8 @@ struct Still {
     skin: SkinView,
     /// Where it is asked how much hair lies before skin: where that is seen, pixel by pixel, and then what lights hair.
     receivers: Vec<SkinPlace>,
+    /// In a draft: which places share what reaches them.
+    shared: Shared,
     from_lamps: Vec<FromLamp>,
     roots: Vec<Vec3>,
     stubble: Vec<f32>,
@@ -89,6 +96,11 @@ struct Still {
 }
 
 impl Still {
+    /// So many receivers are places that are seen: the first.
+    fn seen_receivers(&self) -> usize {
+        if self.shared.first.is_empty() { self.skin.pixels.len() } else { self.shared.first.len() }
+    }
+
     /// Tints the scalp about the roots of these strands.
     fn grow(&mut self, strands: &Strands, picture: &Picture) {
         let shade = picture.head.stubble * picture.hair.width;
@@ -116,6 +128,7 @@ impl Renderer {
         Ok(Self {
             picture: picture.clone(),
             layers: false,
+            draft: None,
             head: head.clone(),
             face: false,
             bodies: Vec::new(),
@@ -130,6 +143,8 @@ impl Renderer {
             bins: Bins::default(),
             sweeps: Vec::new(),
             sky_map: SkyMap::default(),
+            mass: Vec::new(),
+            reached: Vec::new(),
             zenith: Vec3::Y,
             still: None,
             lens_points: None,
@@ -176,6 +191,14 @@ impl Renderer {
     /// Fills the frames' layers of hair direction and motion as well (coverage only).
     pub fn with_layers(mut self) -> Self {
         self.layers = true;
+        self
+    }
+
+    /// Draws less finely, and faster: for previews.
+    pub fn drafted(mut self, draft: Draft) -> Self {
+        self.sky_map.coarsen(draft.sky_cell);
+        self.draft = Some(draft);
+        self.still = None;
         self
     }
 
@@ -238,6 +261,7 @@ impl Renderer {
         clock.lap(&mut self.timing, Stage::Projection);
         self.occlude(view);
         clock.lap(&mut self.timing, Stage::Occlusion);
+        self.reach_skin();
         self.shade(view);
         clock.lap(&mut self.timing, Stage::Shading);
         Ok(())
@@ -274,7 +298,18 @@ impl Renderer {
             Vec::new()
         };
         let skin = SkinView::new(&self.solids, shot).seen_from_beside(beside, shot.middle.size);
-        let receivers = skin.pixels.iter().map(|p| off_skin(p.position, p.normal)).collect();
+        let shared = match self.draft {
+            Some(_) => {
+                let [across, down] = shot.middle.size.map(|side| (side as usize).div_ceil(TILE));
+                Shared::of(&skin, across * down)
+            }
+            None => Shared::default(),
+        };
+        let receiver = |p: &SkinPixel| off_skin(p.position, p.normal);
+        let receivers = match self.draft {
+            Some(_) => shared.first.iter().map(|&i| receiver(&skin.pixels[i as usize])).collect(),
+            None => skin.pixels.iter().map(receiver).collect(),
+        };
         let from_lamps = SkinLight::from_lamps(&skin.pixels, &lamps, &solid_shadows, &self.picture.head, &shot.middle);
         let painted = if self.face {
             SkinLight::painted(&skin.pixels, self.skins[0], self.hair_colour(), &shot.middle)
@@ -283,8 +318,20 @@ impl Renderer {
         };
         let (roots, stubble) = (Vec::new(), Vec::new());
         let shot = shot.clone();
-        let mut still =
-            Still { shot, beside, lamps, solid_shadows, bodies, skin, receivers, from_lamps, roots, stubble, painted };
+        let mut still = Still {
+            shot,
+            beside,
+            lamps,
+            solid_shadows,
+            bodies,
+            skin,
+            receivers,
+            shared,
+            from_lamps,
+            roots,
+            stubble,
+            painted,
+        };
         still.grow(strands, &self.picture);
         self.still = Some(still);
     }
@@ -323,7 +370,8 @@ impl Renderer {
         let lamps: &[Lamp] = if self.picture.shadows { &still.lamps } else { &[] };
         let bounds = bounds(nodes);
         let (occluded, sky_map) = (self.picture.sky.is_occluded(), &mut self.sky_map);
-        still.receivers.truncate(still.skin.pixels.len());
+        let seen_receivers = still.seen_receivers();
+        still.receivers.truncate(seen_receivers);
         if occluded {
             let seen = still.skin.pixels.par_iter().map(|p| p.position);
             sky_map.lay_out(bounds, self.picture.hair.width, (&self.head, &still.bodies), self.zenith, seen);
@@ -331,15 +379,23 @@ impl Renderer {
         }
         let width = self.picture.hair.width;
         let least_facing = SkinLight::least_facing(&self.picture.head);
-        let (radius, skin) = (&self.radius, &still.receivers);
-        let scene = Scene { nodes, radius, asked: &self.lit, skin, least_facing, width, bounds };
+        let (radius, least_cell) = match self.draft {
+            Some(draft) => {
+                self.mass.clear();
+                self.mass.extend(self.radius.iter().map(|radius| draft.stands_for * radius));
+                (&self.mass, draft.lamp_cell)
+            }
+            None => (&self.radius, 0.0),
+        };
+        let skin = &still.receivers;
+        let scene = Scene { nodes, radius, asked: &self.lit, skin, least_facing, width, least_cell, bounds };
         // Some more tasks than threads, which take turns of unlike length.
         let strips = (2 * rayon::current_num_threads()).div_ceil(lamps.len().max(1));
         let sweeps = &mut self.sweeps;
         let cast = || sweep(sweeps, lamps, &still.solid_shadows, &scene, strips);
         let cover = || {
             if occluded {
-                sky_map.fill(nodes, &self.radius);
+                sky_map.fill(nodes, radius);
             }
         };
         // Parts of each run on one core only; side by side they fill each other's gaps.
@@ -349,7 +405,7 @@ impl Renderer {
             // The head's colour is that of all light from skin: a body counts as much more or less as it is lighter or darker.
             let as_head = |solid: u16| luminance(self.skins[usize::from(solid)]) / luminance(self.skins[0]).max(1e-3);
             let sky = &self.picture.sky;
-            let first = nodes.len() + still.skin.pixels.len();
+            let first = nodes.len() + seen_receivers;
             self.sky_map.gather((nodes, &self.lit), view, &still.lamps, |open, i, skin| {
                 let place = off_skin(skin.place, skin.normal).at;
                 let mut lit = 0.0;
@@ -370,6 +426,24 @@ impl Renderer {
                 (lit + sky) * as_head(skin.solid)
             });
         }
+    }
+
+    /// Finds what reaches the places on skin that share it, in a draft.
+    fn reach_skin(&mut self) {
+        if self.draft.is_none() {
+            return;
+        }
+        let mut reached = std::mem::take(&mut self.reached);
+        let still = self.still.as_ref().expect("stands");
+        let crossings = self.crossings();
+        let light = self.skin_light(&crossings);
+        (still.shared.first.par_iter().enumerate().with_min_len(256))
+            .map_init(
+                || self.occluded_sky().map(OnSkin::new),
+                |sky, (receiver, &i)| light.reach(receiver, &still.skin.pixels[i as usize], sky.as_mut()),
+            )
+            .collect_into_vec(&mut reached);
+        self.reached = reached;
     }
 
     /// Lights all nodes.
@@ -400,6 +474,8 @@ impl Renderer {
             lamps: still.lamps.len(),
             crossings,
             first_receiver: self.curves.nodes.len(),
+            shared: &still.shared.number,
+            reached: &self.reached,
             sky: &self.picture.sky,
             zenith: self.zenith,
             skins: &self.skins,

@@ -5,7 +5,7 @@ mod lit;
 mod solids;
 mod surface;
 
-pub use light::{FromLamp, ON_SKIN, SkinLight};
+pub use light::{FromLamp, ON_SKIN, Reached, SkinLight};
 pub use lit::LitSkin;
 pub use solids::{Solids, placed};
 pub use surface::{SkinPixel, SkinView};

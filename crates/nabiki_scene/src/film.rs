@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use glam::{Quat, Vec3};
 use nabiki::dynamics::ForceSpace;
 use nabiki::{SettingError, Strands};
-use nabiki_render::{Bounds, Frame, FrameToDraw, Moment, Picture, RenderError, Renderer, ToneMapping, View};
+use nabiki_render::{Bounds, Draft, Frame, FrameToDraw, Moment, Picture, RenderError, Renderer, ToneMapping, View};
 
 use crate::built::BuiltScene;
 use crate::error::{Error, Result};
@@ -87,6 +87,12 @@ impl<'a> Film<'a> {
     /// The same with what compositors want of the hair, whether or not the scene asks for files that hold it.
     pub fn with_layers(mut self) -> Self {
         self.renderer = self.renderer.with_layers();
+        self
+    }
+
+    /// The same, in the light of a draft.
+    pub fn drafted(mut self, draft: Draft) -> Self {
+        self.renderer = self.renderer.drafted(draft);
         self
     }
 

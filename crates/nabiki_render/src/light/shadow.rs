@@ -60,6 +60,8 @@ pub struct Scene<'a> {
     pub least_facing: f32,
     /// Thickness of the hair at its thickest (cm).
     pub width: f32,
+    /// What the side of a map's cell (cm) is at least, in a draft; 0 elsewhere.
+    pub least_cell: f32,
     /// Lowest and highest corner of the box about the nodes.
     pub bounds: [Vec3; 2],
 }
@@ -171,6 +173,7 @@ mod tests {
             skin: &skin,
             least_facing: 0.0,
             width: 0.1,
+            least_cell: 0.0,
             bounds: bounds(&nodes),
         };
         let counted = |strips: usize| -> Vec<u32> {
@@ -204,6 +207,7 @@ mod tests {
             skin: &[],
             least_facing: 0.0,
             width: 0.014,
+            least_cell: 0.0,
             bounds: bounds(&nodes),
         };
         for elevation in [15.0, 40.0, 75.0] {
@@ -247,6 +251,7 @@ mod tests {
                 skin: &skin,
                 least_facing: 0.0,
                 width: 2.0 * self.radius[0],
+                least_cell: 0.0,
                 bounds: bounds(&self.nodes),
             };
             let crossings = crossings(lamp, &scene, 1);

@@ -58,6 +58,8 @@ const MOST_STEPS: i32 = 8;
 /// The share of the sky that arrives in each cell about hair and head.
 #[derive(Default)]
 pub struct SkyMap {
+    /// What the side of a cell (cm) is at least, in a draft; 0 elsewhere.
+    least: f32,
     low: Vec3,
     cell: f32,
     size: UVec3,
@@ -108,7 +110,7 @@ impl SkyMap {
             (low, high) = (Vec3::ZERO, Vec3::ZERO);
         }
         let extent = high - low;
-        let finest = CELL.max((WIDTHS * width).min(COARSE));
+        let finest = CELL.max((WIDTHS * width).min(COARSE)).max(self.least);
         let least = (extent.x * extent.y * extent.z / MOST_CELLS).cbrt().max(extent.max_element() / 1000.0);
         self.cell = finest;
         while self.cell < least {
@@ -149,6 +151,11 @@ impl SkyMap {
         self.outside.senders().for_each(|i| needed[i as usize] = true);
         self.numbers = (0..all.len() as u32).filter(|&i| needed[i as usize]).collect();
         self.skin = self.numbers.iter().map(|&i| all[i as usize]).collect();
+    }
+
+    /// Cuts space into cells of at least this side (cm), for a draft.
+    pub fn coarsen(&mut self, least: f32) {
+        self.least = least;
     }
 
     /// Forgets which places on skin are seen.

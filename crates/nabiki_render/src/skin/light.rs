@@ -23,6 +23,10 @@ pub struct SkinLight<'a> {
     /// Fibres in front of each place, for each lamp; the first place is receiver `first_receiver`.
     pub crossings: &'a [&'a Crossings],
     pub first_receiver: usize,
+    /// Of each place, the receiver that it shares with others, in a draft; empty where each is one.
+    pub shared: &'a [u32],
+    /// What reaches those, of the first from all lamps first; empty without.
+    pub reached: &'a [Reached],
     pub sky: &'a Sky,
     /// Where the sky is above (head space, unit).
     pub zenith: Vec3,
@@ -43,6 +47,19 @@ pub struct SkinLight<'a> {
 pub struct FromLamp {
     fallen: [f32; 3],
     sheen: [f32; 3],
+}
+
+/// The light that other skin sends, and what arrives of each colour of the sky above and below, 0..1.
+type FromSky = (f32, [[f32; 3]; 2]);
+
+/// Most lamps that a picture has.
+const MOST_LAMPS: usize = 16;
+
+/// What reaches a receiver through hair: the part of each lamp, and the sky.
+#[derive(Clone, Copy)]
+pub struct Reached {
+    lamps: [[f32; 3]; MOST_LAMPS],
+    sky: FromSky,
 }
 
 /// The share of light scattered forward by hair that falls onto skin behind: it goes on to all sides.
@@ -137,6 +154,53 @@ impl SkinLight<'_> {
 
     /// Light toward the eye (linear) from place `i` on the skin, where something is in the way of the `sky`.
     pub fn at(&self, i: usize, p: &SkinPixel, sky: Option<&mut OnSkin>) -> [f32; 3] {
+        match self.shared.get(i).and_then(|&shared| self.reached.get(shared as usize)) {
+            Some(reached) => self.sent(i, p, |l| reached.lamps[l], reached.sky),
+            None => {
+                let sky = self.from_sky(p, sky);
+                self.sent(i, p, |l| self.from_lamp(l, i), sky)
+            }
+        }
+    }
+
+    /// What reaches the receiver of this number, the place `p`.
+    pub fn reach(&self, receiver: usize, p: &SkinPixel, sky: Option<&mut OnSkin>) -> Reached {
+        let mut lamps = [[1.0; 3]; MOST_LAMPS];
+        for (l, lamp) in lamps.iter_mut().enumerate().take(self.lamps) {
+            *lamp = self.from_lamp(l, receiver);
+        }
+        Reached { lamps, sky: self.from_sky(p, sky) }
+    }
+
+    /// What hair leaves of lamp `l` to a receiver.
+    #[inline(always)]
+    fn from_lamp(&self, l: usize, receiver: usize) -> [f32; 3] {
+        self.crossings.get(l).map_or([1.0; 3], |c| self.through(c.at(self.first_receiver + receiver)))
+    }
+
+    /// The light that other skin sends to a place, and what arrives of the sky above and below.
+    #[inline(always)]
+    fn from_sky(&self, p: &SkinPixel, sky: Option<&mut OnSkin>) -> FromSky {
+        let arriving = sky.map(|sky| sky.seen(p.position, p.normal));
+        arriving.map_or((0.0, [[1.0; 3]; 2]), |arriving| {
+            let open = |half: usize| {
+                let through = arriving.through[half];
+                let through = if through < 1.0 { self.through(-through.max(1e-6).ln()) } else { [1.0; 3] };
+                through.map(|through| arriving.open[half] * through)
+            };
+            (arriving.glow, [open(0), open(1)])
+        })
+    }
+
+    /// Light toward the eye, of what reaches a place.
+    #[inline(always)]
+    fn sent(
+        &self,
+        i: usize,
+        p: &SkinPixel,
+        through_hair: impl Fn(usize) -> [f32; 3],
+        (glow, [open_above, open_below]): FromSky,
+    ) -> [f32; 3] {
         let normal = p.normal;
         let mut diffuse = [0.0; 3];
         let mut sheen = [0.0; 3];
@@ -145,21 +209,12 @@ impl SkinLight<'_> {
             if from.fallen == [0.0; 3] {
                 continue;
             }
-            let hair = self.crossings.get(l).map_or([1.0; 3], |c| self.through(c.at(self.first_receiver + i)));
+            let hair = through_hair(l);
             for c in 0..3 {
                 diffuse[c] += hair[c] * from.fallen[c];
                 sheen[c] += hair[c] * from.sheen[c];
             }
         }
-        let arriving = sky.map(|sky| sky.seen(p.position, normal));
-        let (glow, [open_above, open_below]) = arriving.map_or((0.0, [[1.0; 3]; 2]), |arriving| {
-            let open = |half: usize| {
-                let through = arriving.through[half];
-                let through = if through < 1.0 { self.through(-through.max(1e-6).ln()) } else { [1.0; 3] };
-                through.map(|through| arriving.open[half] * through)
-            };
-            (arriving.glow, [open(0), open(1)])
-        });
         let up = 0.5 + 0.5 * normal.dot(self.zenith);
         for (c, diffuse) in diffuse.iter_mut().enumerate() {
             let sky = self.sky.above[c] * up * open_above[c] + self.sky.below[c] * (1.0 - up) * open_below[c];

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use nabiki::dynamics::check_field;
-use nabiki_render::Picture;
+use nabiki_render::{Draft, Picture};
 
 use crate::advice::Advice;
 use crate::built::{BuiltScene, Shown};
@@ -23,7 +23,7 @@ pub const PREVIEW_STRANDS: usize = 300;
 /// Longer side of a preview's frames (pixels).
 const LONGER_SIDE: u32 = 480;
 
-/// Draws some of a scene's strands, small, into `folder`; their motion goes into `cache`, too, if one is named.
+/// Draws some of a scene's strands, small and in the light of a [`Draft`], into `folder`; their motion goes into `cache`, too, if one is named.
 ///
 /// # Errors
 /// As [`run`](super::run()).
@@ -43,7 +43,8 @@ pub fn preview(scene: Scene, shown: Shown, folder: &Path, cache: Option<&Path>, 
     outputs.check_apart_from(cache.as_slice())?;
     super::introduce(&built, watch);
     super::advise(whole_is_refused(&built)?, watch);
-    let mut film = Film::new(&built, &picture, &mut simulated.again(), watch)?;
+    let draft = Draft::new(share, picture.hair.width / scene.picture.hair.width);
+    let mut film = Film::new(&built, &picture, &mut simulated.again(), watch)?.drafted(draft);
     let mut frames = simulated.again();
     let summary = film.shoot(&mut frames, &mut outputs, watch)?;
     watch.told(Told::Motion(summary));

@@ -92,8 +92,16 @@ mod tests {
         let radius = vec![0.01; nodes.len()];
         let asked = vec![true; nodes.len()];
         let (bounds, width) = (bounds(&nodes), 0.02);
-        let scene =
-            Scene { nodes: &nodes, radius: &radius, asked: &asked, skin: &[], least_facing: 0.0, width, bounds };
+        let scene = Scene {
+            nodes: &nodes,
+            radius: &radius,
+            asked: &asked,
+            skin: &[],
+            least_facing: 0.0,
+            width,
+            least_cell: 0.0,
+            bounds,
+        };
         for toward in [Vec3::Y, Vec3::Z, Vec3::new(0.6, 0.8, 0.0)] {
             let map = Map::new(&Lamp { toward, strength: [1.0; 3], spread: 0.0 }, &scene);
             let row = |node: &CurveNode| map.project(node.position).y;

@@ -32,6 +32,7 @@ pub struct Map {
     /// First cell, and number of cells right and down.
     low: [f32; 2],
     pub size: [usize; 2],
+    spread_behind: f32,
     near: f32,
     slabs_per_cm: f32,
     pub slabs: usize,
@@ -44,7 +45,7 @@ impl Map {
         let right = toward.any_orthonormal_vector();
         let up = toward.cross(right);
         // A wide lamp blurs what lies a centimetre behind the occluder by so much.
-        let cells_per_cm = 1.0 / CELL.max(1.25 * lamp.spread.tan()).max(scene.width);
+        let cells_per_cm = 1.0 / CELL.max(1.25 * lamp.spread.tan()).max(scene.width).max(scene.least_cell);
         // The box as the lamp sees it.
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
         let [x, y, z] = [cells_per_cm * right, cells_per_cm * up, -toward].map(|axis| {
@@ -64,6 +65,7 @@ impl Map {
             cells_per_cm,
             low: [middle.x - 0.5 * side.x, middle.y - 0.5 * side.y],
             size: [side.x as usize + 3, side.y as usize + 3],
+            spread_behind: SPREAD_BEHIND.max(2.0 * scene.least_cell),
             near,
             slabs_per_cm: slabs / (far - near).max(SLAB),
             slabs: slabs as usize,
@@ -99,7 +101,7 @@ impl Map {
         let (part, across) = (way * share, across * share);
         // Hair beside it is not in its shadow: it counts for what lies behind its far half, and behind half of a cell beyond.
         let deep = part.z.abs();
-        let behind = 0.25 * deep + (0.5 * deep / across.max(1e-6)).min(SPREAD_BEHIND);
+        let behind = 0.25 * deep + (0.5 * deep / across.max(1e-6)).min(self.spread_behind);
         let fibre = Fibre { extent: [part.x, part.y], fibres: thickness * self.cells_per_cm * across };
         for k in 0..count {
             let at = from + part * (f32::from(k) + 0.5);

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::SkyMap;
+use super::{CELL, SkyMap};
 use crate::camera::View;
 use crate::curve::CurveNode;
 use crate::light::approx::exp_of_negative;
@@ -72,20 +72,27 @@ impl SkyMap {
         at
     }
 
+    /// [`NEARER`] and [`OUTWARD`], in a draft as much larger as its cells are.
+    #[inline(always)]
+    fn offsets(&self) -> [f32; 2] {
+        let wider = if self.least > CELL { self.cell / CELL } else { 1.0 };
+        [NEARER, OUTWARD].map(|offset| wider * offset)
+    }
+
     /// Where a fibre reads at places: a little [`NEARER`] to the eye (unit vectors toward it), and a little outward.
     #[inline(always)]
     pub fn places_seen<const N: usize>(&self, places: &[[f32; N]; 3], eye: &[[f32; N]; 3]) -> Places<N> {
-        let mut seen = *places;
+        let (mut seen, [nearer, outward]) = (*places, self.offsets());
         for c in 0..3 {
             for n in 0..N {
-                seen[c][n] += NEARER * eye[c][n];
+                seen[c][n] += nearer * eye[c][n];
             }
         }
         let slope = self.slope(&self.places(&seen));
         for n in 0..N {
             let steepness = (slope[0][n] * slope[0][n] + slope[1][n] * slope[1][n] + slope[2][n] * slope[2][n]).sqrt();
             for c in 0..3 {
-                seen[c][n] += OUTWARD * slope[c][n] / (steepness + FLAT);
+                seen[c][n] += outward * slope[c][n] / (steepness + FLAT);
             }
         }
         self.places(&seen)
@@ -164,10 +171,10 @@ impl SkyMap {
         let (size, per_line) = (self.size.as_ivec3(), self.stretches());
         read.clear();
         read.resize_with((size.y * size.z) as usize * per_line, AtomicBool::default);
-        let this = &*self;
+        let (this, [nearer_by, outward]) = (&*self, self.offsets());
         nodes.par_iter().zip(asked).with_min_len(8192).filter(|(_, asked)| **asked).for_each(|(node, _)| {
-            let (place, nearer) = (node.position, node.position + NEARER * view.toward_eye(node.position));
-            let (low, high) = (place.min(nearer) - OUTWARD, place.max(nearer) + OUTWARD);
+            let (place, nearer) = (node.position, node.position + nearer_by * view.toward_eye(node.position));
+            let (low, high) = (place.min(nearer) - outward, place.max(nearer) + outward);
             let (base, _) = this.lattice(&[0, 1, 2].map(|axis| [low[axis], high[axis]]));
             for (z, y) in (base[2][0]..=base[2][1] + 1).flat_map(|z| (base[1][0]..=base[1][1] + 1).map(move |y| (z, y)))
             {
