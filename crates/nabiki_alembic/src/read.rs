@@ -270,7 +270,8 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
         let mut contents = Contents {
             curves: paths(curves),
             meshes: paths(meshes),
-            frame_rate: DEFAULT_RATE,
+            // One frame has no step from which it could be told.
+            frame_rate: self.tree.frame_rate.unwrap_or(DEFAULT_RATE),
             z_up: Some(false),
             ..Contents::default()
         };
