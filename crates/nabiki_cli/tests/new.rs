@@ -121,7 +121,7 @@ fn that_a_head_moves_in_its_file_is_said_and_how_hair_follows_it() {
     let bust = nabiki(folder.path(), &["new", "bust.toml"]);
     assert!(bust.status.success(), "{}", text(&bust.stderr));
     // The head of an exported stage, below a node that moves.
-    let out = ["simulate", "bust.toml", "--strands", "30", "--frames", "1", "-o", "hair.usda"];
+    let out = ["simulate", "bust.toml", "--strands", "30", "--frames", "1", "-o", "hair.usda", "--export-head"];
     assert!(nabiki(folder.path(), &out).status.success());
     let stage = std::fs::read_to_string(folder.path().join("hair.usda")).unwrap();
     let (header, prims) = stage.split_once("\ndef ").unwrap();

@@ -12,7 +12,7 @@ use nabiki_scene::{BuiltScene, Scene, Shown, Unwatched};
 /// Hair of the built-in bust, of every length, with a width for each point.
 fn grown(style: &str) -> Hair {
     let text = format!(
-        "[hair]\nstrands = 240\nsegments = 12\n[hair.style]\n{style}\n[[force]]\nthrough = 1\nvector = [0, -1, 0]\n"
+        "[hair]\nstrands = 240\nsegments = 12\nsegment_length = 1.5\n[hair.style]\n{style}\n[[force]]\nthrough = 1\nvector = [0, -1, 0]\n"
     );
     let mut hair = Scene::parse(&text, Path::new("bust.toml"), &[]).unwrap().build(Shown::All).unwrap().hair;
     hair.attributes.width = Some((0..hair.strands.points().len()).map(|p| 0.001 * (1.0 + p as f32)).collect());
@@ -47,7 +47,8 @@ fn scene(folder: &Path, name: &str, source: &Hair, more: &str) -> Scene {
     hair::write(&folder.join(name), source).unwrap();
     let text = format!(
         "[hair]\nfile = \"{name}\"\nunit = \"cm\"\nup = \"+y\"\nfacing = \"+x\"\njoin_within = 0\n{more}\n\
-         [motion]\nform = \"free\"\nframes = 3\n[[force]]\nthrough = 3\nvector = [-60, 0, 0]\n"
+         [motion]\nform = \"free\"\nframes = 3\ninertia_length_floor = 14.0\n\
+         [free]\nstiffness = 100.0\n[[force]]\nthrough = 3\nvector = [-60, 0, 0]\n"
     );
     Scene::parse(&text, &folder.join("scene.toml"), &[]).unwrap()
 }
