@@ -82,7 +82,7 @@ NAMES = [
     "!!int 7",
     "\ufeff\ufffe&*",
 ]
-CHANGES = ["picture.camera={to={azimuth=1}}", "hair.style.curl={radius=\t0.5,pitch=3.0}", 'head.mesh="{{x}}.obj"']
+CHANGES = ["picture.camera={to={azimuth=1}}", "picture.size=[320,\t180]", 'head.mesh="{{x}}.obj"']
 
 
 def names(openjd, nabiki):

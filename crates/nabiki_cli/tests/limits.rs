@@ -2,8 +2,6 @@
 
 #![cfg(target_os = "linux")]
 
-mod common;
-
 use std::process::{Command, Output};
 
 use tempfile::TempDir;

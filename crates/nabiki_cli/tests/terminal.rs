@@ -1,14 +1,10 @@
 //! What is said holds nothing that a terminal obeys, whatever files, keys and arguments hold; and commands that are said can be pasted.
 
-mod common;
-
 use std::fs;
 use std::process::{Command, Output};
 
 use nabiki_io::screen::is_unsafe;
 use tempfile::TempDir;
-
-use common::succeed;
 
 const GUST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/paper/gust.toml");
 
@@ -104,7 +100,7 @@ fn names_of_files_keys_and_arguments() {
 
 /// A shard whose command is another: any file may be a shard.
 fn with_command(folder: &TempDir, name: &str, command: &dyn Fn(usize) -> String) {
-    succeed(folder, &format!("simulate {GUST} --strands 6 --frames 1 --set output.sheet=[0] --shard 1/2 -o {name}"));
+    said(folder, &["simulate", GUST, "--strands", "6", "--frames", "1", "--shard", "1/2", "-o", name]);
     let path = folder.path().join(name);
     let mut bytes = fs::read(&path).unwrap();
     let begins = bytes.windows(16).position(|at| at == b"nabiki simulate ").unwrap();

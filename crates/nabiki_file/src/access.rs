@@ -5,9 +5,8 @@ use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
 use std::path::Path;
 
 /// What a file is made with; the umask is taken off. Of what replaces a private file nobody else sees the beginning.
-pub(super) fn at_first(target: &Path) -> Permissions {
-    // Temporary files are private by default; this one becomes an ordinary file.
-    Permissions::from_mode(replaced(target).map_or(0o666, |there| there.mode() & 0o666 | 0o600))
+pub(super) fn at_first(target: &Path) -> u32 {
+    replaced(target).map_or(0o666, |there| there.mode() & 0o666 | 0o600)
 }
 
 /// Gives `file` owner, group and permissions of the file that it will replace, as far as the system lets it.

@@ -217,14 +217,17 @@ fn remove_stale(folder: &Path, target: &Path) {
 
 /// A new, empty part file of `target`, listed among those that are open.
 fn new_part(folder: &Path, target: &Path) -> io::Result<(File, Part)> {
+    let mut options = File::options();
+    options.read(true).write(true).create_new(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, access::at_first(target));
     let mut builder = tempfile::Builder::new();
     let prefix = prefix_of(target);
     builder.prefix(&prefix);
-    #[cfg(unix)]
-    builder.permissions(access::at_first(target));
     // The list is held while the file is made, so that a signal in between finds it.
     let mut open = open_parts();
-    let (file, path) = builder.tempfile_in(folder).map_err(without_path)?.into_parts();
+    // Made by hand: the crate's own way keeps of an error neither its number nor its words.
+    let (file, path) = builder.make_in(folder, |path| options.open(path)).map_err(without_path)?.into_parts();
     open.push(path.to_path_buf());
     Ok((file, Part(Some(path))))
 }
@@ -254,8 +257,7 @@ fn is_at(file: &File, path: &Path) -> bool {
 
 /// The crate tempfile adds the name of the part file, which is gone by the time anyone reads this.
 fn without_path(error: io::Error) -> io::Error {
-    let inner = error.get_ref().and_then(|e| e.source()).and_then(|e| e.downcast_ref::<io::Error>());
-    match error.raw_os_error().or(inner.and_then(io::Error::raw_os_error)) {
+    match error.raw_os_error() {
         Some(code) => io::Error::from_raw_os_error(code),
         None => io::Error::new(error.kind(), error.kind().to_string()),
     }
