@@ -3,6 +3,7 @@
 use std::fs;
 use std::process::{Command, Output};
 
+use nabiki_io::cache::{Reader, Writer};
 use nabiki_io::screen::is_unsafe;
 use tempfile::TempDir;
 
@@ -89,7 +90,11 @@ fn names_of_files_keys_and_arguments() {
     said(&folder, &["info", &scene]);
     fs::write(folder.path().join("key.toml"), "[motion]\n\"a\\u001b[2J\\n\\u202e\" = 1\n").unwrap();
     refused(&folder, &["info", "key.toml"]);
-    fs::write(folder.path().join("text.toml"), "[head]\nmesh = \"a\\u001b[2J\\n\\u202e.obj\"\n").unwrap();
+    fs::write(
+        folder.path().join("text.toml"),
+        "[head]\nmesh = \"a\\u001b[2J\\n\\u202e.obj\"\n[[force]]\nthrough = 9\nvector = [0, -9, 0]\n",
+    )
+    .unwrap();
     said(&folder, &["info", "text.toml"]);
     refused(&folder, &["simulate", "text.toml", "-o", "m.nabiki"]);
     refused(&folder, &["run", GUST, "--set", "a\u{1b}[2J"]);
@@ -99,37 +104,39 @@ fn names_of_files_keys_and_arguments() {
 }
 
 /// A shard whose command is another: any file may be a shard.
-fn with_command(folder: &TempDir, name: &str, command: &dyn Fn(usize) -> String) {
+fn with_command(folder: &TempDir, name: &str, command: &str) {
     said(folder, &["simulate", GUST, "--strands", "6", "--frames", "1", "--shard", "1/2", "-o", name]);
     let path = folder.path().join(name);
-    let mut bytes = fs::read(&path).unwrap();
-    let begins = bytes.windows(16).position(|at| at == b"nabiki simulate ").unwrap();
-    let length = u32::from_le_bytes(std::array::from_fn(|i| bytes[begins - 4 + i])) as usize;
-    let other = command(length);
-    assert_eq!(other.len(), length, "as long as it was");
-    bytes[begins..begins + length].copy_from_slice(other.as_bytes());
-    fs::write(path, bytes).unwrap();
+    let mut reader = Reader::open(&path).unwrap();
+    let mut header = reader.header().clone();
+    header.piece.as_mut().unwrap().command = command.to_owned();
+    let mut strands = header.strands();
+    let other = folder.path().join("other.nabiki");
+    let mut writer = Writer::create(&other, &header, reader.frame_count()).unwrap();
+    for frame in 0..reader.frame_count() {
+        let pose = reader.read(frame, &mut strands).unwrap();
+        writer.push(&pose, strands.points()).unwrap();
+    }
+    writer.finish().unwrap();
+    fs::rename(other, path).unwrap();
 }
 
 #[test]
 fn a_command_out_of_a_file_does_nothing_but_what_it_seems_to() {
     let folder = TempDir::new().unwrap();
-    let padded = |begin: &str, length: usize| format!("{begin}{}", "x".repeat(length - begin.len()));
-    with_command(&folder, "ours.nabiki", &|length| padded("nabiki simulate ", length));
+    with_command(&folder, "ours.nabiki", "nabiki simulate 'a b.toml' --strands 6");
     let line = refused(&folder, &["join", "ours.nabiki", "-o", "whole.nabiki"]);
-    assert!(
-        line.contains("make it with nabiki simulate xxx") && line.contains("--shard 2/2 -o 2_of_2.nabiki"),
-        "{line}"
-    );
-    for begin in [
-        "rm -rf ~; nabiki simulate ",
-        "nabiki simulate $(rm x) ",
-        "nabiki simulate \u{1b}[2J ",
-        "nabiki simulate a\nrm ",
+    let said = "make it with nabiki simulate 'a b.toml' --strands 6 --shard 2/2 -o 2_of_2.nabiki";
+    assert!(line.contains(said), "{line}");
+    for command in [
+        "rm -rf ~; nabiki simulate a.toml",
+        "nabiki simulate $(rm x)",
+        "nabiki simulate \u{1b}[2J",
+        "nabiki simulate a\nrm x",
     ] {
-        with_command(&folder, "theirs.nabiki", &|length| padded(begin, length));
+        with_command(&folder, "theirs.nabiki", command);
         let line = refused(&folder, &["join", "theirs.nabiki", "-o", "whole.nabiki"]);
-        assert!(line.contains("make it with nabiki simulate SCENE --shard 2/2"), "{begin:?}: {line}");
+        assert!(line.contains("make it with nabiki simulate SCENE --shard 2/2"), "{command:?}: {line}");
         assert!(!line.contains("rm "), "{line}");
     }
 }
