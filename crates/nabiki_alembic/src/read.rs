@@ -144,6 +144,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
     /// Paths of what can move a head, transforms that move first.
     fn movers(&mut self) -> Result<Vec<String>, Problem> {
         const MOST_NAMED: usize = 40;
+        const MOST_LETTERS: usize = 4000;
         let (mut moving, mut still) = (Vec::new(), Vec::new());
         for i in 1..self.tree.objects.len() {
             let moves = self.moving(i)?.is_some();
@@ -152,6 +153,12 @@ impl<R: Read + Seek> ArchiveReader<R> {
         }
         moving.extend(still);
         moving.truncate(MOST_NAMED);
+        // A line that can be read, however long the paths are.
+        let mut letters = 0;
+        moving.retain(|path| {
+            letters += path.len();
+            letters <= MOST_LETTERS
+        });
         Ok(moving)
     }
 

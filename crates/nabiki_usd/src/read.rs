@@ -208,6 +208,7 @@ impl StageReader {
     /// Paths of what can move a head: prims that move themselves, then joints; where there are none, any prim.
     fn movers(&mut self) -> Result<Vec<String>, Problem> {
         const MOST_NAMED: usize = 40;
+        const MOST_LETTERS: usize = 4000;
         let moves = |i: &usize| {
             let attributes = &self.layer.prims[*i].attributes;
             attributes.iter().any(|(name, a)| name.starts_with("xformOp:") && a.samples.len() > 1)
@@ -223,6 +224,12 @@ impl StageReader {
             paths.extend(still.into_iter().map(|i| self.layer.path(i)));
         }
         paths.truncate(MOST_NAMED);
+        // A line that can be read, however long the paths are.
+        let mut letters = 0;
+        paths.retain(|path| {
+            letters += path.len();
+            letters <= MOST_LETTERS
+        });
         Ok(paths)
     }
 }

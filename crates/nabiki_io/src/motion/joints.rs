@@ -97,7 +97,8 @@ impl Tree<'_> {
     fn unknown(&self, node: &str) -> Error {
         const SHOWN: usize = 60;
         let kind = self.kind;
-        let names: Vec<&str> = self.names.iter().copied().flatten().take(SHOWN).collect();
+        let names: Vec<String> =
+            self.names.iter().copied().flatten().take(SHOWN).map(|name| format!("{name:.80}")).collect();
         if names.is_empty() {
             return Error::new(format!("no {kind} \"{node:.80}\": none has a name"));
         }

@@ -86,12 +86,11 @@ impl<R: Read + Seek> CrateReader<R> {
         let (spec_paths, spec_sets, spec_kinds) =
             (table.integers(count)?, table.integers(count)?, table.integers(count)?);
 
-        // Paths are numbered from 0 on; a spec of one that the layer does not list is of no prim.
-        let mut of_path = vec![None; nodes.len()];
+        // Not all numbers of paths stand in the tree: variants are named elsewhere.
+        reader.budget.take_list::<[u32; 6]>(spec_paths.len(), "SPECS")?;
+        let mut of_path: HashMap<u32, (u32, u32)> = HashMap::with_capacity(spec_paths.len());
         for ((&path, &set), &kind) in spec_paths.iter().zip(&spec_sets).zip(&spec_kinds) {
-            if let Some(spec) = of_path.get_mut(path as u32 as usize) {
-                *spec = Some((set as u32 as usize, kind as u32));
-            }
+            of_path.insert(path as u32, (set as u32, kind as u32));
         }
         let set_fields = |set: usize| {
             let numbers = sets.get(set..).unwrap_or_default();
@@ -104,7 +103,8 @@ impl<R: Read + Seek> CrateReader<R> {
         // Fields are listed once a spec, and sets may share them: more in all than this is a file that repeats itself.
         let mut budget = 16 * (fields.len() + nodes.len()) + 1024;
         for (i, node) in nodes.iter().enumerate() {
-            let Some(&Some((set, kind))) = of_path.get(node.path as usize) else { continue };
+            let Some(&(set, kind)) = of_path.get(&node.path) else { continue };
+            let set = set as usize;
             let named: Vec<(&str, u64)> = set_fields(set)
                 .take(budget)
                 .map(|(name, rep)| (reader.tokens.get(name).map_or("", Name::as_str), rep))
