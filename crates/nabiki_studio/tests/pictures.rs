@@ -19,6 +19,9 @@ use nabiki_studio::app::App;
 use nabiki_studio::command::Command;
 use nabiki_studio::view::gpu::Gpu;
 
+#[path = "pictures/patches.rs"]
+mod patches;
+
 /// A kept picture is as much smaller than the window.
 const SMALLER: u32 = 4;
 /// Largest mean difference to a kept picture, of 255: what fonts and gradients may differ by between drivers.
@@ -29,6 +32,17 @@ const OTHER: i32 = 40;
 const SHARE: f64 = 0.004;
 /// Largest mean difference between the view and the final picture that fades in over it, of 255.
 const JUMP: f64 = 6.0;
+
+/// Most stops by which nineteen of twenty patches of the view are brighter or darker than in the finished picture, and all in the mean.
+/// What is left is where few strands let skin through that all of them cover, or cover what shows.
+const STOPS: f32 = 1.5;
+const MEAN_STOPS: f32 = 0.4;
+
+/// At rest and in the wind.
+const PATCHES: [patches::Case; 2] = [
+    patches::Case { scene: "gust.toml", frame: 0, strands: 1000, azimuth: None },
+    patches::Case { scene: "gust.toml", frame: 45, strands: 1000, azimuth: None },
+];
 
 type Window = Harness<'static, App>;
 
@@ -142,7 +156,9 @@ fn main() {
     type Test = Box<dyn Fn() -> Result<(), String>>;
     let as_kept = CASES.iter().map(|case| (format!("looks_as_kept_{}", case.name), Box::new(|| as_kept(case)) as Test));
     let jump: (String, Test) = ("the_final_picture_fades_in_without_a_jump".to_owned(), Box::new(without_a_jump));
-    let tests: Vec<(String, Test)> = as_kept.chain([jump]).filter(|(name, _)| is_chosen(name)).collect();
+    let as_bright: (String, Test) =
+        ("every_patch_of_the_view_is_as_bright_as_in_the_finished_picture".to_owned(), Box::new(as_bright_everywhere));
+    let tests: Vec<(String, Test)> = as_kept.chain([jump, as_bright]).filter(|(name, _)| is_chosen(name)).collect();
     println!("\nrunning {} tests", tests.len());
     let is_there = has_adapter();
     let (mut passed, mut failed) = (0, 0);
@@ -292,6 +308,33 @@ fn without_a_jump() -> Result<(), String> {
     }
     let (view, last) = (beside(Path::new("view.png"), &before)?, beside(Path::new("final.png"), &after)?);
     Err(format!("the picture jumps by {mean:.2} of 255 in the mean; see {} and {}", view.display(), last.display()))
+}
+
+/// No part of the view is much brighter or darker than it will be.
+fn as_bright_everywhere() -> Result<(), String> {
+    let mut wrong = Vec::new();
+    for case in &PATCHES {
+        let found = patches::compare(case)?;
+        let Some(worst) = found.first() else { return Err(format!("{case:?}: nothing is seen")) };
+        let off = |share: f32| found[(share * found.len() as f32) as usize].stops.abs();
+        let mean = found.iter().map(|patch| patch.stops).sum::<f32>() / found.len() as f32;
+        println!(
+            "    {} {}, {} strands: {:+.2} stops at worst at {:?} (view {:?}, finished {:?}), {:.2} for 95 % of {} patches, {mean:+.2} in the mean",
+            case.scene,
+            case.frame,
+            case.strands,
+            worst.stops,
+            worst.at,
+            patches::shown(worst.view),
+            patches::shown(worst.last),
+            off(0.05),
+            found.len(),
+        );
+        if mean.abs() > MEAN_STOPS || off(0.05) > STOPS {
+            wrong.push(format!("{} {}: {worst:?}", case.scene, case.frame));
+        }
+    }
+    if wrong.is_empty() { Ok(()) } else { Err(wrong.join("; ")) }
 }
 
 fn cut(picture: &RgbaImage, rect: Rect) -> RgbaImage {

@@ -14,7 +14,8 @@ fn imported(hair_unit: &str) -> Place {
     let head = "[head]\nmesh = \"head.obj\"\nup = \"+y\"\nfacing = \"+x\"\norigin = [0, 0, 0]\n\
                 ellipsoid = { center = [0.0, 0.0, 0.0], half_axes = [9.0, 9.0, 9.0] }\n";
     let hair = format!("[hair]\nfile = \"lock.obj\"\n{hair_unit}");
-    let motion = "[motion]\nform = \"free\"\nframes = 2\n[[force]]\nthrough = 2\nvector = [1, 0, 0]\n";
+    let motion =
+        "[motion]\nform = \"free\"\nframes = 2\n[free]\nstiffness = 300\n[[force]]\nthrough = 2\nvector = [1, 0, 0]\n";
     std::fs::write(place.file(), format!("{head}{hair}{motion}")).unwrap();
     place
 }

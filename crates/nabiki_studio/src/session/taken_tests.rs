@@ -35,6 +35,8 @@ fn every_curl_is_taken_with_the_segments_that_draw_it_and_bends_as_before() {
             let mut session = place.session();
             let before = hair(&session);
             set(&mut session, "hair.style.curl.radius", radius, Phase::Done);
+            let said = session.words().iter().find(|word| word.text.starts_with(TAKEN));
+            assert!(said.is_some(), "{:?}", session.words());
             set(&mut session, "hair.style.curl.pitch", pitch, Phase::Done);
             if let Some((key, value)) = more {
                 set(&mut session, &format!("hair.style.curl.{key}"), value, Phase::Done);
@@ -47,8 +49,6 @@ fn every_curl_is_taken_with_the_segments_that_draw_it_and_bends_as_before() {
             if form == "free" {
                 assert!((curled.2 / before.2 - 1.0).abs() < 0.01, "{curled:?} {before:?}");
             }
-            let said = session.words().iter().find(|word| word.text.starts_with(TAKEN));
-            assert!(said.is_some(), "{:?}", session.words());
             let steps = 2 + usize::from(more.is_some());
             (0..steps).for_each(|_| session.apply(Command::Act(Action::Undo)));
             assert!(!session.document().unwrap().is_dirty(), "each is one step with what it takes");
