@@ -42,6 +42,7 @@ pub mod info;
 pub mod motion_summary;
 mod outputs;
 mod place;
+pub mod pull;
 pub mod scene;
 mod seat;
 pub mod shell;
