@@ -5,6 +5,7 @@
 //! and what is differentiated how, is in docs/solve.md.
 
 mod aims;
+mod cut;
 mod drag;
 mod linear;
 mod problem;
@@ -17,10 +18,11 @@ mod unknowns;
 mod wind;
 mod wish;
 
+pub use cut::{Cut, cut_for_pull, felt};
 pub use drag::Drag;
 pub use problem::{Prior, Problem};
 pub use report::{Report, Step, WishLeft};
-pub use solver::{Search, Solver};
+pub use solver::{Search, Solver, Stop};
 pub use unknowns::{Answer, Unknown};
 pub use wind::{OpenAir, Surroundings, Wind, with_interval};
 pub use wish::{Goal, Node, Wish, nodes_near, nodes_of};

@@ -43,6 +43,7 @@ mod memory;
 pub mod motion_summary;
 mod outputs;
 mod place;
+pub mod pull;
 mod root_ends;
 pub mod scene;
 mod seat;

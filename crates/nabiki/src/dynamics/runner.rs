@@ -83,6 +83,14 @@ impl Runner {
         }
     }
 
+    /// What the carriers left in the frame that this is at; none where hair feels no neighbours.
+    pub fn crowd(&self) -> Option<&free::Crowd> {
+        match &self.form {
+            OfForm::Paper(_) => None,
+            OfForm::Free(runner) => runner.crowd(),
+        }
+    }
+
     /// Stands where the same hair stands, be it under other settings; `false`, and no change, if `of` is other hair.
     pub fn set_state(&mut self, of: &Self, width: VectorWidth) -> bool {
         match (&mut self.form, &of.form) {

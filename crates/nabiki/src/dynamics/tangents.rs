@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::air::{Air, Breeze};
 use super::free::{self, Crowd, Springs};
 use super::paper::{self, PolarAxis};
+use super::standing::{self, Crowds, Standing, Standings};
 use super::{Dynamics, ForceSpace, Form, FrameInput};
 use crate::error::SettingError;
 use crate::field::{Field, ROW, VectorRow};
@@ -26,6 +27,17 @@ pub(crate) struct Moved<'a> {
     pub ids: &'a [u32],
     pub dynamics: &'a Dynamics,
     pub poses: &'a [Pose],
+    /// Where they stand at the last frame before any unknown is felt; none: at rest.
+    pub standing: Option<&'a Standing>,
+    /// What the carriers leave in the frame in which they stand and in all after it; none, and they are stepped by the specification, too.
+    pub crowds: Option<&'a Crowds>,
+}
+
+impl Moved<'_> {
+    /// The frame that they are moved on from.
+    pub(super) fn from(&self) -> u32 {
+        self.standing.map_or(0, |standing| standing.frame)
+    }
 }
 
 /// A point that is wanted in a frame.
@@ -59,7 +71,8 @@ pub(crate) struct Points {
     pub tangents: Vec<f64>,
 }
 
-/// Takes strands through the frames up to the last one that is asked for. `asked`: ascending, by strand and frame.
+/// Takes strands through the frames up to the last one that is asked for. `asked`: ascending, by strand and frame. What is asked for
+/// up to the frame in which they stand does not change with any unknown, and has no place.
 ///
 /// # Errors
 /// Strands that cannot be moved.
@@ -93,7 +106,9 @@ fn some<const N: usize>(
     points: &mut Points,
 ) -> Result<(), SettingError> {
     let last = asked.iter().map(|asked| asked.frame).max().unwrap_or(0);
-    let inputs: Vec<FrameInput> = (1..=last).map(|n| FrameInput::new(n, moved.poses, change.field)).collect();
+    // Input and all that is made of it: of the frames that are stepped to.
+    let inputs: Vec<FrameInput> =
+        (moved.from() + 1..=last).map(|n| FrameInput::new(n, moved.poses, change.field)).collect();
     let space = moved.dynamics.motion.force_space;
     let airs: Vec<Gale<N>> = inputs.iter().map(|input| Gale::new(input, space, change, &columns)).collect();
     let mut sinks = Sink::split(asked, points, columns.clone(), unknowns);
@@ -102,7 +117,7 @@ fn some<const N: usize>(
             let polar_from_head = PolarAxis::new(moved.dynamics.polar_axis).polar_from_head();
             let setting = paper::Setting { gamma: moved.dynamics.gamma(), polar_from_head };
             let walk = PaperWalk { moved, setting, airs: &airs };
-            sinks.par_iter_mut().try_for_each(|sink| alone(&walk, sink))
+            sinks.par_iter_mut().try_for_each(|sink| alone(&walk, moved.from(), sink))
         }
         Form::Free(free) => {
             let unknown = |column: Option<usize>| {
@@ -116,7 +131,7 @@ fn some<const N: usize>(
             let settings = inputs.iter().map(|input| free::Setting::new(moved.dynamics, free, input)).collect();
             let walk = FreeWalk { moved, free, springs, settings, airs: &airs };
             match &free.neighbours {
-                None => sinks.par_iter_mut().try_for_each(|sink| alone(&walk, sink)),
+                None => sinks.par_iter_mut().try_for_each(|sink| alone(&walk, moved.from(), sink)),
                 Some(neighbours) => together(&walk, neighbours, &inputs, &mut sinks),
             }
         }
@@ -153,6 +168,11 @@ impl<'a> Sink<'a> {
         self.asked[0].strand
     }
 
+    /// How many are asked for up to a frame.
+    fn until(&self, frame: u32) -> usize {
+        self.asked.partition_point(|asked| asked.frame <= frame)
+    }
+
     /// Takes what is asked for of a frame, the first of the sink's being number `from`; how many have been taken by then.
     fn take<const N: usize>(&mut self, mut from: usize, frame: u32, positions: &[Vector<Dual<N>>]) -> usize {
         while let Some(asked) = self.asked.get(from).filter(|asked| asked.frame == frame) {
@@ -173,9 +193,10 @@ impl<'a> Sink<'a> {
 trait Walk<const N: usize>: Sync {
     type Strand: Send;
 
-    fn at_rest(&self, s: usize) -> Result<Self::Strand, SettingError>;
+    /// The strand where it stands.
+    fn begin(&self, s: usize) -> Result<Self::Strand, SettingError>;
 
-    /// To frame `n + 1`.
+    /// By input `n`.
     fn step(&self, strand: &mut Self::Strand, s: usize, n: usize, crowd: Option<&Crowd>);
 
     fn positions(strand: &Self::Strand) -> &[Vector<Dual<N>>];
@@ -190,14 +211,18 @@ struct PaperWalk<'a, const N: usize> {
 impl<const N: usize> Walk<N> for PaperWalk<'_, N> {
     type Strand = paper::Strand<Dual<N>>;
 
-    fn at_rest(&self, s: usize) -> Result<Self::Strand, SettingError> {
+    fn begin(&self, s: usize) -> Result<Self::Strand, SettingError> {
+        if let Some(Standing { hair: Standings::Paper(hair), .. }) = self.moved.standing {
+            return Ok(paper::Strand::of_known(&hair[s]));
+        }
         paper::Strand::new(self.moved.dynamics, &self.setting, self.moved.strands.strand(s), s)
     }
 
     #[inline(always)]
     fn step(&self, strand: &mut Self::Strand, s: usize, n: usize, _: Option<&Crowd>) {
         let disturbance = self.moved.dynamics.disturbance.as_ref();
-        let part = disturbance.and_then(|disturbance| Some((disturbance, disturbance.part(n as u32 + 1)?)));
+        let frame = self.moved.from() + n as u32 + 1;
+        let part = disturbance.and_then(|disturbance| Some((disturbance, disturbance.part(frame)?)));
         let disturbed = part.map(|(disturbance, part)| disturbance.turn(self.moved.ids[s], &part).map(f64::from));
         strand.step(&self.setting, &self.airs[n], disturbed);
     }
@@ -211,7 +236,7 @@ struct FreeWalk<'a, const N: usize> {
     moved: &'a Moved<'a>,
     free: &'a FreeMotion,
     springs: Springs<Dual<N>>,
-    /// Of every frame from 1 on.
+    /// Of every input.
     settings: Vec<free::Setting<'a>>,
     airs: &'a [Gale<'a, N>],
 }
@@ -219,8 +244,11 @@ struct FreeWalk<'a, const N: usize> {
 impl<const N: usize> Walk<N> for FreeWalk<'_, N> {
     type Strand = free::Strand<Dual<N>>;
 
-    fn at_rest(&self, s: usize) -> Result<Self::Strand, SettingError> {
+    fn begin(&self, s: usize) -> Result<Self::Strand, SettingError> {
         let Self { moved, free, springs, .. } = self;
+        if let Some(Standing { hair: Standings::Free(hair), .. }) = moved.standing {
+            return Ok(free::Strand::of_known(&hair[s]));
+        }
         free::Strand::new(moved.dynamics, free, springs, moved.strands.strand(s), s)
     }
 
@@ -235,16 +263,17 @@ impl<const N: usize> Walk<N> for FreeWalk<'_, N> {
 }
 
 /// Takes a strand that feels no other through all its frames.
-fn alone<const N: usize, W: Walk<N>>(walk: &W, sink: &mut Sink) -> Result<(), SettingError> {
+fn alone<const N: usize, W: Walk<N>>(walk: &W, from: u32, sink: &mut Sink) -> Result<(), SettingError> {
     let s = sink.strand();
-    let mut strand = walk.at_rest(s)?;
-    let mut taken = sink.take(0, 0, W::positions(&strand));
+    let mut strand = walk.begin(s)?;
+    let mut taken = sink.until(from);
     let mut n = 0;
     while let Some(next) = sink.asked.get(taken) {
-        let frames = n..next.frame as usize;
+        let frames = n..(next.frame - from) as usize;
         n = frames.end;
+        let frame = next.frame;
         Stretch { walk, strand: &mut strand, s, frames, crowd: None }.run();
-        taken = sink.take(taken, n as u32, W::positions(&strand));
+        taken = sink.take(taken, frame, W::positions(&strand));
     }
     Ok(())
 }
@@ -256,44 +285,40 @@ fn together<const N: usize>(
     inputs: &[FrameInput],
     sinks: &mut [Sink],
 ) -> Result<(), SettingError> {
-    let FreeWalk { moved: Moved { dynamics, .. }, free, .. } = *walk;
-    let springs = Springs::default();
-    let new = |(s, strand)| free::Strand::<f64>::new(dynamics, free, &springs, strand, s);
-    let mut carriers = neighbours.carriers.iter().enumerate().map(new).collect::<Result<Vec<_>, _>>()?;
+    let FreeWalk { moved, .. } = *walk;
+    let Moved { dynamics, .. } = moved;
+    let from = moved.from();
+    let (mut carriers, mut crowd) = match moved.crowds {
+        Some(_) => (Vec::new(), None),
+        None => {
+            let (carriers, crowd) = standing::carriers_at_rest(dynamics, walk.free, neighbours)?;
+            (carriers, Some(crowd))
+        }
+    };
     let mut points = vec![Vec3::ZERO; neighbours.carriers.points().len()];
     let mut velocities = points.clone();
-    collect(&carriers, &mut points, &mut velocities);
-    let mut crowd = Crowd::new(neighbours, &points)?;
     let mut hair = Vec::with_capacity(sinks.len());
     for sink in sinks.iter_mut() {
-        let strand = walk.at_rest(sink.strand())?;
-        let taken = sink.take(0, 0, strand.positions());
-        hair.push((strand, taken));
+        hair.push((walk.begin(sink.strand())?, sink.until(from)));
     }
     for (n, input) in inputs.iter().enumerate() {
         let air = Breeze { input, space: dynamics.motion.force_space };
-        let of_frame = &crowd;
+        let of_frame = moved.crowds.and_then(|crowds| crowds.0.get(n)).or(crowd.as_ref());
         let step = |((strand, taken), sink): (&mut (free::Strand<Dual<N>>, usize), &mut Sink)| {
             let (s, frames) = (sink.strand(), n..n + 1);
-            Stretch { walk, strand, s, frames, crowd: Some(of_frame) }.run();
-            *taken = sink.take(*taken, n as u32 + 1, strand.positions());
+            Stretch { walk, strand, s, frames, crowd: of_frame }.run();
+            *taken = sink.take(*taken, from + n as u32 + 1, strand.positions());
         };
         rayon::join(
             || hair.par_iter_mut().zip(sinks.par_iter_mut()).for_each(step),
-            || carriers.par_iter_mut().for_each(|strand| strand.step(&walk.settings[n], &air, Some(of_frame))),
+            || carriers.par_iter_mut().for_each(|strand| strand.step(&walk.settings[n], &air, of_frame)),
         );
-        collect(&carriers, &mut points, &mut velocities);
-        crowd.fill(&points, &velocities);
+        if let Some(crowd) = &mut crowd {
+            standing::collect(&carriers, &mut points, &mut velocities);
+            crowd.fill(&points, &velocities);
+        }
     }
     Ok(())
-}
-
-/// Points and velocities of all carriers, one after another.
-fn collect(carriers: &[free::Strand<f64>], points: &mut [Vec3], velocities: &mut [Vec3]) {
-    let all = carriers.iter().flat_map(|strand| strand.positions().iter().zip(strand.velocities()));
-    for (((p, v), point), velocity) in all.zip(points).zip(velocities) {
-        (*point, *velocity) = (p.value().as_vec3(), v.as_vec3());
-    }
 }
 
 /// A strand through some frames, compiled for the widest vectors that the machine has.

@@ -13,7 +13,7 @@ use glam::Vec3;
 
 use super::runner::Runner;
 use super::sweep::Pages;
-use super::{Dynamics, FrameInput, VectorWidth};
+use super::{Dynamics, FrameInput, VectorWidth, free};
 use crate::error::SettingError;
 use crate::field::Field;
 use crate::pose::{self, Pose};
@@ -214,6 +214,31 @@ impl Timeline {
         self.runner.check_field(&self.hair, &*field)?;
         self.field = field;
         self.forget();
+        Ok(())
+    }
+
+    /// What the carriers left in this frame; none where hair feels no neighbours.
+    pub(super) fn crowd(&self) -> Option<&free::Crowd> {
+        self.runner.crowd()
+    }
+
+    /// Stands where another timeline of the same hair stands; `false`, and no change, if that is other hair. Its field stays.
+    pub(crate) fn stand_where(&mut self, of: &Self) -> bool {
+        let is_same = self.runner.set_state(&of.runner, self.width);
+        if is_same {
+            self.strands.points_mut().copy_from_slice(of.strands.points());
+            (self.frame, self.played) = (of.frame, false);
+        }
+        is_same
+    }
+
+    /// Puts another field in the place of this one, and leaves the hair where it stands: for who knows that both are the same up to there.
+    ///
+    /// # Errors
+    /// As [`set_field`](Self::set_field).
+    pub(crate) fn set_field_onward(&mut self, field: Arc<dyn Field>) -> Result<(), SettingError> {
+        self.runner.check_field(&self.hair, &*field)?;
+        (self.field, self.played) = (field, false);
         Ok(())
     }
 

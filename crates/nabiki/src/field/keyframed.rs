@@ -97,8 +97,24 @@ impl KeyframedField {
 
     /// The vector in a frame, `ease` being the part of the way at a part of the time.
     fn between(&self, frame: u32, ease: fn(f64) -> f64) -> Vec3 {
+        self.between_at(f64::from(frame), frame, ease)
+    }
+
+    /// The force in the middle of some frames, the first and the last of which are given: what an interval of them has for vector, so
+    /// that it changes an eased wind as little as may be.
+    pub(crate) fn middle_of(&self, first: u32, last: u32) -> Vec3 {
+        let time = 0.5 * (f64::from(first) + f64::from(last));
+        let frame = first + (last - first).div_ceil(2);
+        match self.ease {
+            Ease::Stepped => self.vector(frame),
+            Ease::Linear => self.between_at(time, frame, |t| t),
+            Ease::Smooth => self.between_at(time, frame, |t| t * t * (3.0 - 2.0 * t)),
+        }
+    }
+
+    /// At a time, `frame` being the first that does not lie before it.
+    fn between_at(&self, time: f64, frame: u32, ease: fn(f64) -> f64) -> Vec3 {
         let next = self.keyframes.partition_point(|key| key.through < frame).min(self.keyframes.len() - 1);
-        let time = f64::from(frame);
         // The frame lies in interval `next`: before its middle, or after.
         let next = if time > self.middle(next) { next + 1 } else { next };
         let Some(to) = self.keyframes.get(next) else { return self.keyframes[next - 1].vector };

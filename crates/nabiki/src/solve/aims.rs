@@ -87,6 +87,21 @@ impl Aims {
         self.aims[wish].set(goal);
     }
 
+    /// Where the mean of the nodes of a wish should be.
+    pub fn goal(&self, wish: usize) -> DVec3 {
+        match &self.aims[wish].to {
+            To::Mean(goal) => *goal,
+            To::Each(goals) => goals.iter().sum::<DVec3>() / goals.len() as f64,
+        }
+    }
+
+    /// No wish but one counts.
+    pub fn leave_only(&mut self, wish: usize) {
+        for (i, aim) in self.aims.iter_mut().enumerate() {
+            aim.share = if i == wish { 1.0 } else { 0.0 };
+        }
+    }
+
     /// The frames that are looked at, ascending.
     pub fn frames(&self) -> Vec<u32> {
         let mut frames: Vec<u32> = self.spots.iter().map(|spot| spot.frame).collect();

@@ -4,12 +4,12 @@ use glam::Vec3;
 
 use super::problem::Problem;
 use super::report::Step;
-use super::solver::Solver;
+use super::solver::{Search, Solver, Stop};
 use super::unknowns::Answer;
 use super::wish::Goal;
 use crate::error::SettingError;
 
-/// Follows a wish that moves: one or a few steps a call, from where the last call ended.
+/// Follows a wish that moves: one or a few steps a call, from where the last call ended; and searches on where it rests.
 #[derive(Debug)]
 pub struct Drag {
     solver: Solver,
@@ -33,6 +33,31 @@ impl Drag {
         Ok(self.solver.step())
     }
 
+    /// The whole search for a goal that rests, as [`Solver::pursue`].
+    ///
+    /// # Errors
+    /// As [`Solver::set_goal`].
+    pub fn search(
+        &mut self,
+        wish: usize,
+        goal: Goal,
+        search: &Search,
+        found: &mut dyn FnMut(&Solver),
+    ) -> Result<bool, SettingError> {
+        self.solver.set_goal(wish, goal)?;
+        Ok(self.solver.pursue(search, found))
+    }
+
+    /// Gives way to something more urgent between any two motions, while the answer to this is yes.
+    pub fn set_brake(&mut self, brake: impl Fn() -> bool + Send + Sync + 'static) {
+        self.solver.set_brake(brake);
+    }
+
+    /// What keeps a wish from being met, as [`Solver::stopped_by`].
+    pub fn stopped_by(&mut self, wish: usize, near_cm: f64) -> Option<Stop> {
+        self.solver.stopped_by(wish, near_cm)
+    }
+
     /// Where the nodes of a wish are now (head space, cm): the hair's end of the thread from the hand.
     pub fn places(&self, wish: usize) -> Vec<Vec3> {
         self.solver.places(wish)
@@ -41,6 +66,11 @@ impl Drag {
     /// The settings as they are now.
     pub fn answer(&self) -> Answer {
         self.solver.answer()
+    }
+
+    /// The search behind it.
+    pub fn solver(&self) -> &Solver {
+        &self.solver
     }
 
     /// The search behind it, to go on from here.

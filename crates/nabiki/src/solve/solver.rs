@@ -1,6 +1,7 @@
 //! The search: Levenberg's and Marquardt's method, with tangents of the specification, judged by the fast stepper.
 
 mod search;
+mod stop;
 
 use std::sync::Arc;
 
@@ -13,13 +14,14 @@ use super::report::Step;
 use super::unknowns::{Answer, Guess, Layout, Unknown};
 use super::wind::Gusts;
 use super::wish::Goal;
-use crate::dynamics::{Change, Dynamics, Form, Moved, Stability, Timeline, check_field, tangents};
+use crate::dynamics::{Change, Crowds, Dynamics, Form, Moved, Stability, Standing, Timeline, check_field, tangents};
 use crate::error::SettingError;
 use crate::field::{Field, Keyframe, KeyframedField};
 use crate::profile::Profile;
 use crate::strands::Strands;
 
 pub use search::Search;
+pub use stop::Stop;
 
 /// A problem, and the settings that it has come to.
 #[derive(Debug)]
@@ -33,7 +35,14 @@ pub struct Solver {
     /// The strands that wishes name, with their numbers.
     strands: Strands,
     ids: Vec<u32>,
-    timeline: Timeline,
+    /// They at the last frame before any unknown is felt: each motion begins there.
+    begin: Timeline,
+    /// The same hair, on its way.
+    run: Timeline,
+    /// The same of the specification, once it is asked for.
+    standing: Option<Standing>,
+    /// Where the spots are that are looked at until then.
+    early: Vec<DVec3>,
     /// What field all hair of the problem bears, as it answers now.
     steady: Stability,
     frames: Vec<u32>,
@@ -46,6 +55,10 @@ pub struct Solver {
     damping: Damping,
     /// Numbers that stay as they are.
     held: Vec<usize>,
+    /// Ends a search after the motion that is being computed.
+    brake: Option<Brake>,
+    /// Whether a step was refused since the search began because the hair cannot be stepped under so strong a force.
+    too_strong: bool,
     runs: usize,
     iterations: usize,
 }
@@ -58,6 +71,16 @@ struct Place {
     places: Vec<DVec3>,
     /// Mean square of what is left, and of what is preferred (cm^2).
     cost: f64,
+}
+
+/// Asked between two motions: is there something more urgent?
+#[derive(Clone)]
+struct Brake(Arc<dyn Fn() -> bool + Send + Sync>);
+
+impl std::fmt::Debug for Brake {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Brake")
+    }
 }
 
 /// How much each step is held back, and how fast that grows where steps fail.
@@ -107,7 +130,10 @@ impl Solver {
         if !steady.holds(&*field) {
             check_field(hair, dynamics, &*field)?;
         }
-        let timeline = Timeline::with_ids(&strands, &ids, dynamics, field, poses, last)?;
+        let mut begin = Timeline::with_ids(&strands, &ids, dynamics, field, poses, last)?;
+        let until = (layout.first_felt(wind)? - 1).min(last);
+        let early = looked_at(&aims, &frames, until, &mut begin);
+        begin.seek(until);
         let start = layout.start(wind);
         aims.set_now(&vec![DVec3::ZERO; aims.spots.len()], &problem.wishes);
         let large = layout.large();
@@ -119,7 +145,10 @@ impl Solver {
             of_wind,
             strands,
             ids,
-            timeline,
+            run: begin.clone(),
+            begin,
+            standing: None,
+            early,
             steady,
             frames,
             large,
@@ -129,11 +158,13 @@ impl Solver {
             left_before: Vec::new(),
             damping: Damping::default(),
             held: Vec::new(),
+            brake: None,
+            too_strong: false,
             runs: 0,
             iterations: 0,
             problem,
         };
-        let places = solver.looked_at();
+        let places = solver.gone_on(None)?;
         solver.aims.set_now(&places, &solver.problem.wishes);
         solver.at.places = places;
         solver.restart();
@@ -151,6 +182,11 @@ impl Solver {
     /// Root mean square over wishes by weight (cm) of the motion that it has come to.
     pub fn left_cm(&self) -> f64 {
         self.aims.mean_square(&self.at.places).sqrt()
+    }
+
+    /// What is left of one wish (cm, root mean square over its nodes, or of their mean) in that motion.
+    pub fn left_of_wish(&self, wish: usize) -> f64 {
+        self.aims.left(&self.at.places)[wish]
     }
 
     /// Where the nodes of a wish are in that motion (head space, cm).
@@ -184,6 +220,11 @@ impl Solver {
         self.layout.guess(wind, &self.at.x).rounded(wind, dynamics)
     }
 
+    /// Whether there is something more urgent than to go on.
+    fn is_braked(&self) -> bool {
+        self.brake.as_ref().is_some_and(|brake| (brake.0)())
+    }
+
     /// One step of the method; whether it led nearer.
     fn descend_once(&mut self) -> bool {
         self.iterations += 1;
@@ -191,6 +232,9 @@ impl Solver {
         // What hardly matters is damped as if it mattered a little, so that it stays where it is.
         let most = (0..normal.n).map(|i| normal.diagonal(i) * self.large[i].powi(2)).fold(0.0, f64::max);
         for _ in 0..TRIALS {
+            if self.is_braked() {
+                return false;
+            }
             let amount = self.damping.amount;
             let damping: Vec<f64> = (0..normal.n)
                 .map(|i| amount * (normal.diagonal(i) + 1e-3 * most / self.large[i].powi(2)).max(f64::MIN_POSITIVE))
@@ -259,39 +303,62 @@ impl Solver {
         let field = self.problem.surroundings.field(wind)?;
         if let Some(dynamics) = dynamics {
             // Under the old field the new settings might not be steppable, and the other way round.
-            self.timeline.set_field(Arc::new(crate::field::FieldSum::default()))?;
-            self.timeline.set_dynamics(&dynamics)?;
+            self.begin.set_field(Arc::new(crate::field::FieldSum::default()))?;
+            self.begin.set_dynamics(&dynamics)?;
+            self.run = self.begin.clone();
             self.steady = Stability::of(&self.problem.hair, &dynamics)?;
         }
         if !self.steady.holds(&*field) {
+            self.too_strong = true;
             let remedy = "too strong for some of the hair";
             return Err(SettingError::new("force", field.strongest(), remedy));
         }
-        self.timeline.set_field(field)?;
-        Ok(self.looked_at())
+        self.gone_on(Some(field))
     }
 
-    /// Where the spots are in the motion of the timeline.
-    fn looked_at(&mut self) -> Vec<DVec3> {
+    /// Where the spots are in the motion that goes on from where all begin, in this field or the one that is there.
+    fn gone_on(&mut self, field: Option<Arc<dyn Field>>) -> Result<Vec<DVec3>, SettingError> {
         self.runs += 1;
-        let mut places = vec![DVec3::ZERO; self.aims.spots.len()];
-        for &frame in &self.frames {
-            let strands = self.timeline.seek(frame);
-            for (spot, place) in self.aims.spots.iter().zip(&mut places).filter(|(spot, _)| spot.frame == frame) {
-                *place = strands.strand(spot.strand)[spot.node].as_dvec3();
+        self.run.stand_where(&self.begin);
+        if let Some(field) = field {
+            self.run.set_field_onward(field)?;
+        }
+        let begin = self.begin.frame();
+        let mut places = self.early.clone();
+        let later = looked_at(&self.aims, &self.frames, u32::MAX, &mut self.run);
+        for ((spot, place), later) in self.aims.spots.iter().zip(&mut places).zip(later) {
+            if spot.frame > begin {
+                *place = later;
             }
         }
-        places
+        Ok(places)
     }
 
     /// The normal equations about where it is.
     fn normal(&mut self) -> Result<Normal, SettingError> {
         let guess = self.layout.guess(&self.problem.wind, &self.at.x);
-        let dynamics = self.dynamics(&guess);
-        let dynamics = dynamics.as_ref().unwrap_or(&self.problem.dynamics);
+        let now = self.dynamics(&guess);
+        let dynamics = now.as_ref().unwrap_or(&self.problem.dynamics);
         let field = self.problem.surroundings.field(Arc::new(self.gusts.table(&guess)))?;
-        let Self { strands, ids, .. } = &*self;
-        let moved = Moved { strands, ids, dynamics, poses: &self.problem.poses };
+        let frame = self.begin.frame();
+        let at_rest = Moved {
+            strands: &self.strands,
+            ids: &self.ids,
+            dynamics,
+            poses: &self.problem.poses,
+            standing: None,
+            crowds: None,
+        };
+        if frame > 0 && self.standing.is_none() {
+            let mut timeline = self.begin.clone();
+            timeline.rewind();
+            self.standing = Some(Standing::at(frame, &at_rest, &*field, timeline)?);
+        }
+        // The carriers of the motion that it has come to: its field was set for the last motion that was tried, which may be another.
+        self.run.stand_where(&self.begin);
+        self.run.set_field_onward(field.clone())?;
+        let crowds = Crowds::of(&mut self.run, self.frames.last().copied().unwrap_or(frame));
+        let moved = Moved { standing: self.standing.as_ref(), crowds: crowds.as_ref(), ..at_rest };
         let unknown =
             |wanted: Unknown| self.layout.unknowns.iter().find(|(unknown, _)| *unknown == wanted).map(|&(_, at)| at);
         let change = Change {
@@ -351,4 +418,17 @@ impl Solver {
             }
         }
     }
+}
+
+/// Where the spots of frames from where a timeline stands up to `until` are in its motion; nowhere else than at the origin those of others.
+fn looked_at(aims: &Aims, frames: &[u32], until: u32, timeline: &mut Timeline) -> Vec<DVec3> {
+    let mut places = vec![DVec3::ZERO; aims.spots.len()];
+    let begin = timeline.frame();
+    for &frame in frames.iter().filter(|&&frame| frame > begin && frame <= until) {
+        let strands = timeline.seek(frame);
+        for (spot, place) in aims.spots.iter().zip(&mut places).filter(|(spot, _)| spot.frame == frame) {
+            *place = strands.strand(spot.strand)[spot.node].as_dvec3();
+        }
+    }
+    places
 }

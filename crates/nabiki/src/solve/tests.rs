@@ -9,7 +9,8 @@ use super::wind::{Gusts, Wind};
 use crate::body::{Body, Contact};
 use crate::disturbance::Disturbance;
 use crate::dynamics::{
-    Asked, Change, Dynamics, ForceSpace, Form, FrameInput, Motion, Moved, Reference, Stepper, tangents,
+    Asked, Change, Crowds, Dynamics, ForceSpace, Form, FrameInput, Motion, Moved, Reference, Standing, Stepper,
+    Timeline, tangents,
 };
 use crate::field::{
     Ease, Field, FieldSum, Flow, FlowField, Gust, Keyframe, KeyframedField, Turbulence, TurbulenceField,
@@ -145,13 +146,29 @@ impl Case<'_> {
             settle: unknown(Unknown::Settle),
         };
         let ids: Vec<u32> = (0..STRANDS as u32).collect();
-        let moved = Moved { strands: self.hair, ids: &ids, dynamics: &self.dynamics, poses: &self.poses };
+        let (poses, dynamics) = (&self.poses[..], &self.dynamics);
+        let moved = Moved { strands: self.hair, ids: &ids, dynamics, poses, standing: None, crowds: None };
         let nodes = |s: usize| (0..self.hair.strand(s).len()).map(move |node| Asked { strand: s, frame: FRAMES, node });
         let asked: Vec<Asked> = (0..STRANDS).flat_map(nodes).collect();
         let points = tangents(&moved, &change, &asked).unwrap();
         let now = self.run(&x);
         for (a, b) in now.iter().zip(&points.places) {
             assert!(a.distance(*b) < 1e-6, "the values are those of the specification: {a} {b}");
+        }
+        let until = layout.first_felt(&self.wind).unwrap() - 1;
+        if until > 0 {
+            let timeline = || Timeline::new(self.hair, dynamics, field.clone(), self.poses.clone(), FRAMES).unwrap();
+            let standing = Standing::at(until, &moved, &*field, timeline()).unwrap();
+            let mut there = timeline();
+            there.seek(until);
+            let crowds = Crowds::of(&mut there, FRAMES);
+            let moved = Moved { standing: Some(&standing), crowds: crowds.as_ref(), ..moved };
+            let on = tangents(&moved, &change, &asked).unwrap();
+            let off = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            // Carriers are those of the fast stepper, which is as near as that is.
+            let near = if crowds.is_some() { 1e-2 } else { 1e-9 };
+            assert!(off(&points.tangents, &on.tangents) < near, "tangents depend on where they are begun");
+            assert!(points.places.iter().zip(&on.places).all(|(a, b)| a.distance(*b) < near));
         }
         let untouched = self.without_bodies().run(&x);
         let large = layout.large();
@@ -244,6 +261,17 @@ fn tangents_are_what_differences_of_the_specification_say() {
         case("free, nodding", free(none_of(), None, &nods), nodding(), Ease::Linear, true, &all, &plain, &plain),
         case("free, swirls, flow", free(none_of(), None, &[]), none(), Ease::Stepped, true, &all, &among, &flow),
         case("paper, flow past", Form::Paper, nodding(), Ease::Stepped, true, &vectors, &among_past, &flow_past),
+        case("paper, later", Form::Paper, nodding(), Ease::Smooth, true, &[Unknown::Vector(2)], &plain, &plain),
+        case(
+            "free, later",
+            free(none_of(), None, &[]),
+            none(),
+            Ease::Stepped,
+            true,
+            &[Unknown::Vector(1)],
+            &plain,
+            &plain,
+        ),
         case("free, head", free(bodies(), None, &[]), none(), Ease::Stepped, false, &all, &plain, &plain),
         case("free, head nodding", free(bodies(), None, &nods), nodding(), Ease::Stepped, false, &all, &plain, &plain),
     ];

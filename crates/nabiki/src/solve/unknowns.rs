@@ -6,7 +6,7 @@ use super::track::Track;
 use super::wind::Wind;
 use crate::dynamics::{Dynamics, Form};
 use crate::error::SettingError;
-use crate::field::{Gust, Keyframe};
+use crate::field::{Gust, Keyframe, KeyframedField};
 use crate::free_form::FreeForm;
 use crate::profile::Profile;
 
@@ -172,6 +172,19 @@ impl Layout {
                 None => most = f64::from(wind.keyframes[j].through) - 1.0,
             }
         }
+    }
+
+    /// The first frame that feels any of them.
+    pub fn first_felt(&self, wind: &Wind) -> Result<u32, SettingError> {
+        let mut first = u32::MAX;
+        for &(unknown, _) in &self.unknowns {
+            first = first.min(match unknown {
+                Unknown::Vector(j) => KeyframedField::new(&wind.keyframes)?.eased(wind.ease).first_felt(j),
+                // Borders meet others on their way, and all else is felt from the first frame on.
+                _ => 1,
+            });
+        }
+        Ok(first)
     }
 
     /// What counts as a large change of each number.

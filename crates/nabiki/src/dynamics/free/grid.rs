@@ -109,6 +109,24 @@ impl Crowd {
         self.pull.copy_from_slice(&other.pull);
     }
 
+    /// What others may ask of it, and not what its next frame is made from: its forces, of which a copy takes little.
+    pub fn left(&self) -> Self {
+        let mut pull = vec![[0.0; 4]; self.pull.len()];
+        for row in rows(self.nodes, self.around()) {
+            pull[row.clone()].copy_from_slice(&self.pull[row]);
+        }
+        let forces = self.forces.clone();
+        let (masses, rest, excess, content) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { forces, masses, rest, excess, content, pull, ..*self }
+    }
+
+    /// Where there is hair, or was, and one node beyond: elsewhere are no forces. Hair does not reach the outermost nodes, so those have
+    /// no neighbours to ask.
+    fn around(&self) -> [UVec3; 2] {
+        let [[a, b], [c, d]] = self.filled;
+        [a.min(c).max(UVec3::splat(2)) - 1, (b.max(d) + 1).min(self.nodes - 2)]
+    }
+
     /// Spreads every point over the eight nodes about it, one after another: the sums do not depend on threads.
     fn splat(&mut self, points: &[Vec3], velocities: &[Vec3]) {
         for row in rows(self.nodes, self.filled[0]) {
@@ -134,9 +152,7 @@ impl Crowd {
 
     /// From density and momentum to forces, wherever there is hair, or was, and one node beyond: elsewhere both are 0.
     fn pull(&mut self) {
-        let [[a, b], [c, d]] = self.filled;
-        // Hair does not reach the outermost nodes, so those have no neighbours to ask.
-        let around = [a.min(c).max(UVec3::splat(2)) - 1, (b.max(d) + 1).min(self.nodes - 2)];
+        let around = self.around();
         let Self { forces, nodes, rest, unit, content, excess, pull, .. } = self;
         for row in rows(*nodes, around) {
             let (content, rest) = (&content[row.clone()], &rest[row.clone()]);

@@ -69,6 +69,11 @@ impl Runner {
         self.packed.dynamics()
     }
 
+    /// What the carriers left in the frame that this is at; none where hair feels no neighbours.
+    pub fn crowd(&self) -> Option<&Crowd> {
+        self.carriers.as_ref().map(|carriers| &carriers.crowd)
+    }
+
     /// The strongest force under which this hair and its carriers can be stepped.
     pub fn strongest_force(&self) -> f32 {
         let of_carriers = self.carriers.as_ref().map(|carriers| carriers.hair.packed.strongest_force());
@@ -208,7 +213,7 @@ impl Runner {
                     let Carriers { hair, crowd, next } = &mut *carriers;
                     hair.step(input, obstacles, width, crowd, next);
                     std::mem::swap(crowd, next);
-                    next.clone()
+                    next.left()
                 };
                 inputs.iter().zip(&obstacles).map(before).collect()
             }

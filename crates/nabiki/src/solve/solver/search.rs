@@ -1,8 +1,10 @@
 //! From one start to the answer: other starts, whole frames, few digits.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
-use super::{Damping, Place, Solver};
+use super::{Brake, Damping, Place, Solver};
 use crate::dynamics::Form;
 use crate::error::SettingError;
 use crate::random::{GOLDEN_GAMMA, mix, unit};
@@ -79,6 +81,57 @@ impl Solver {
         }
     }
 
+    /// Ends every search of this solver after the motion that is being computed, while the answer to this is yes.
+    pub fn set_brake(&mut self, brake: impl Fn() -> bool + Send + Sync + 'static) {
+        self.brake = Some(Brake(Arc::new(brake)));
+    }
+
+    /// Searches on from here for a goal that waits: steps until they gain nothing, then from other starts, about the nearest motion so far
+    /// and about the problem's own by turns, farther and farther away. `found` hears of every motion that is nearer than all before.
+    /// Borders stay as they are. Whether it came to its end, and was not [braked](Self::set_brake); it stands at the nearest either way.
+    pub fn pursue(&mut self, search: &Search, found: &mut dyn FnMut(&Self)) -> bool {
+        let near = search.near_cm.powi(2);
+        self.too_strong = false;
+        self.damping = Damping::default();
+        let mut best = self.at.clone();
+        self.descend_to(search.iterations, near, &mut best, found);
+        let mut counter = mix(search.seed);
+        for start in 1..search.starts {
+            if self.aims.mean_square(&best.places) <= near || self.is_braked() {
+                break;
+            }
+            let about = if start % 2 == 1 { best.x.clone() } else { self.start.clone() };
+            if let Some(place) = self.drawn_about(&about, 1.0 + start as f64, &mut counter) {
+                self.at = place;
+                self.damping = Damping::default();
+                self.descend_to(search.iterations, near, &mut best, found);
+            }
+        }
+        self.at = best;
+        self.damping = Damping::default();
+        !self.is_braked()
+    }
+
+    /// Steps until they lead hardly nearer, or the goal is reached; `best` is the nearest so far.
+    fn descend_to(&mut self, iterations: usize, near: f64, best: &mut Place, found: &mut dyn FnMut(&Self)) {
+        let mut slow = 0;
+        if self.at.cost < best.cost {
+            *best = self.at.clone();
+            found(self);
+        }
+        for _ in 0..iterations {
+            let before = self.at.cost;
+            if self.aims.mean_square(&self.at.places) <= 0.1 * near || !self.descend_once() || slow > 3 {
+                return;
+            }
+            slow = if self.at.cost > 0.98 * before { slow + 1 } else { 0 };
+            if self.at.cost < best.cost {
+                *best = self.at.clone();
+                found(self);
+            }
+        }
+    }
+
     /// Where the spots are in the motion of a scene that holds the answer. Rounded settings may be too strong for the step
     /// where these just were not: then a little less of the change is the answer.
     fn rounded(&mut self) -> Vec<DVec3> {
@@ -125,12 +178,20 @@ impl Solver {
 
     /// Another start: the nearest of a few drawn about the problem's own.
     fn drawn(&mut self, counter: &mut u64) -> Option<Place> {
+        self.drawn_about(&self.start.clone(), 1.0, counter)
+    }
+
+    /// The nearest of a few drawn about some numbers, so many times what counts as large away.
+    fn drawn_about(&mut self, about: &[f64], spread: f64, counter: &mut u64) -> Option<Place> {
         let mut best: Option<Place> = None;
         for _ in 0..DRAWN {
-            let mut x = self.start.clone();
+            if self.is_braked() {
+                break;
+            }
+            let mut x = about.to_vec();
             for (x, large) in x.iter_mut().zip(&self.large) {
                 *counter = counter.wrapping_add(GOLDEN_GAMMA);
-                *x += large * (2.0 * unit(mix(*counter)) - 1.0);
+                *x += spread * large * (2.0 * unit(mix(*counter)) - 1.0);
             }
             self.layout.keep_in_range(&self.problem.wind, &mut x);
             if let Some(place) = self.place(x)

@@ -127,6 +127,22 @@ impl<S: Scalar> Strand<S> {
         Ok(strand)
     }
 
+    /// A strand that stands where another does, of which all numbers are known: nothing changes them.
+    pub fn of_known(known: &Strand<f64>) -> Self {
+        let segment = |segment: &Segment<f64>| Segment {
+            moved_by: segment.moved_by,
+            stiffness: S::from(segment.stiffness),
+            decay: S::from(segment.decay),
+            direction: segment.direction.value().into(),
+            increment: segment.increment.value().into(),
+        };
+        Self {
+            segments: known.segments.iter().map(segment).collect(),
+            positions: known.positions.iter().map(|p| p.value().into()).collect(),
+            kept_from: known.kept_from.clone(),
+        }
+    }
+
     /// Root first (head space, cm).
     pub fn positions(&self) -> &[Vector<S>] {
         &self.positions

@@ -83,6 +83,21 @@ impl<S: Scalar> Strand<S> {
         Ok(strand)
     }
 
+    /// A strand that stands where another does, of which all numbers are known: nothing changes them.
+    pub fn of_known(known: &Strand<f64>) -> Self {
+        let segment = |segment: &Segment<f64>| Segment {
+            shape: segment.shape,
+            theta: S::from(segment.theta),
+            phi: S::from(segment.phi),
+            theta_increment: S::from(segment.theta_increment),
+            phi_increment: S::from(segment.phi_increment),
+        };
+        Self {
+            segments: known.segments.iter().map(segment).collect(),
+            positions: known.positions.iter().map(|p| p.value().into()).collect(),
+        }
+    }
+
     /// Root first (head space, cm).
     pub fn positions(&self) -> &[Vector<S>] {
         &self.positions

@@ -1,0 +1,159 @@
+//! What keeps a wish from being met.
+
+use glam::DVec3;
+
+use super::{Damping, Solver};
+use crate::body::Body;
+use crate::dynamics::Form;
+
+/// What keeps a wish from being met: the first of these that is true of it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stop {
+    /// Its goal is farther from the roots than the hair is long up to its nodes (cm, means over them). Roots are where hair begins to be free.
+    Length {
+        /// From the roots to the goal.
+        away_cm: f64,
+        /// The length of the hair.
+        reach_cm: f64,
+    },
+    /// A body is in the way: the goal lies in it, or the hair on it. By its name, which is `contact` for the head.
+    Body(String),
+    /// Another wish holds the hair, by its number: without it the goal would be reached, or half of what is left.
+    Nail(usize),
+    /// The step allows no stronger force (as the field's bound counts it) of this hair.
+    Force {
+        /// The strongest that it allows.
+        strongest: f32,
+    },
+    /// What may change does not bring it there: the wind of so many frames before the wish, the frame itself included.
+    Unknowns {
+        /// In which it is felt.
+        frames: u32,
+    },
+}
+
+/// A body, and how a point lies to it: its distance from it, how far the hair is kept from it (cm), and the way out (head space).
+struct Beside<'a> {
+    name: &'a str,
+    distance: f32,
+    margin: f32,
+    out: DVec3,
+}
+
+/// Of its length, what hair can be drawn out to by a wind.
+const TAUT: f64 = 0.98;
+/// Hair so near to a body lies on it (cm, besides its clearance).
+const TOUCHES_CM: f32 = 0.1;
+/// Steps that tell whether a nail is what holds.
+const STEPS: usize = 12;
+
+impl Solver {
+    /// What keeps a wish farther than this from where it should be (cm), about the motion that a search has come to; none where nothing does.
+    /// Looks for what the wish would come to without the others, which takes a few motions.
+    pub fn stopped_by(&mut self, wish: usize, near_cm: f64) -> Option<Stop> {
+        let left = self.aims.left(&self.at.places)[wish];
+        if left <= near_cm {
+            return None;
+        }
+        Some(
+            self.by_length(wish)
+                .or_else(|| self.by_goal_in_body(wish))
+                .or_else(|| self.by_nail(wish, left, near_cm))
+                .or_else(|| self.by_force())
+                .or_else(|| self.by_touch(wish))
+                .unwrap_or_else(|| self.by_unknowns(wish)),
+        )
+    }
+
+    fn by_length(&self, wish: usize) -> Option<Stop> {
+        let nodes = &self.problem.wishes[wish].nodes;
+        let (mut root, mut reach) = (DVec3::ZERO, 0.0);
+        for node in nodes {
+            let strand = self.problem.hair.strand(node.strand as usize);
+            let held = match &self.problem.dynamics.form {
+                Form::Paper => 0,
+                Form::Free(free) => free.form.tie.map_or(0, |tie| tie.held(strand)),
+            };
+            let held = held.min(node.node as usize);
+            root += strand[held].as_dvec3();
+            let free = strand[held..=node.node as usize].windows(2);
+            reach += free.map(|pair| f64::from(pair[0].distance(pair[1]))).sum::<f64>();
+        }
+        let count = nodes.len() as f64;
+        let (away_cm, reach_cm) = (self.aims.goal(wish).distance(root / count), reach / count);
+        (away_cm > TAUT * reach_cm).then_some(Stop::Length { away_cm, reach_cm })
+    }
+
+    /// The bodies, each with how far a point (head space, cm) is from it in the frame of a wish, and the way out.
+    fn bodies<'a>(&'a self, wish: usize, point: DVec3) -> Vec<Beside<'a>> {
+        let Form::Free(free) = &self.problem.dynamics.form else { return Vec::new() };
+        let frame = self.problem.wishes[wish].frame;
+        let head = self.problem.poses.get(frame as usize).copied().unwrap_or_default();
+        let of_body = |body: &'a Body| {
+            let head_from_body = body.head_from_body(frame, &head);
+            let there = head_from_body.inverse().transform_point3(point.as_vec3());
+            let out = head_from_body.transform_vector3(body.distance.gradient(there)).as_dvec3();
+            Beside { name: &body.name, distance: body.distance.at(there), margin: body.contact.margin, out }
+        };
+        free.bodies.iter().map(of_body).collect()
+    }
+
+    fn by_goal_in_body(&self, wish: usize) -> Option<Stop> {
+        let within = self.bodies(wish, self.aims.goal(wish)).into_iter().find(|body| body.distance < 0.0);
+        within.map(|body| Stop::Body(body.name.to_owned()))
+    }
+
+    /// Whether the hair lies on a body that is in its way to the goal.
+    fn by_touch(&self, wish: usize) -> Option<Stop> {
+        let places = self.aims.places(wish, &self.at.places);
+        let count = places.len() as f64;
+        let middle = places.iter().map(|p| p.as_dvec3()).sum::<DVec3>() / count;
+        let way = self.aims.goal(wish) - middle;
+        let mut touching: Vec<(&str, usize)> = Vec::new();
+        for place in &places {
+            for Beside { name, distance, margin, out } in self.bodies(wish, place.as_dvec3()) {
+                if distance < margin + TOUCHES_CM && out.dot(way) < 0.0 {
+                    match touching.iter_mut().find(|(known, _)| *known == name) {
+                        Some((_, times)) => *times += 1,
+                        None => touching.push((name, 1)),
+                    }
+                }
+            }
+        }
+        let most = touching.into_iter().max_by_key(|(_, times)| *times)?;
+        (2 * most.1 >= places.len()).then(|| Stop::Body(most.0.to_owned()))
+    }
+
+    /// Whether it comes nearer without the other wishes; of those the one that then gives way most.
+    fn by_nail(&mut self, wish: usize, left: f64, near_cm: f64) -> Option<Stop> {
+        if self.problem.wishes.len() < 2 {
+            return None;
+        }
+        let (at, damping, aims) = (self.at.clone(), self.damping, self.aims.clone());
+        self.aims.leave_only(wish);
+        self.at.cost = self.cost(&self.at.x, &self.at.places);
+        self.damping = Damping::default();
+        for _ in 0..STEPS {
+            if !self.descend_once() {
+                break;
+            }
+        }
+        let free = self.aims.left(&self.at.places)[wish];
+        let moved = aims.left(&self.at.places);
+        (self.at, self.damping, self.aims) = (at, damping, aims);
+        if free > near_cm.max(0.5 * left) {
+            return None;
+        }
+        let others = (0..moved.len()).filter(|&other| other != wish);
+        others.max_by(|&a, &b| moved[a].total_cmp(&moved[b])).map(Stop::Nail)
+    }
+
+    fn by_force(&self) -> Option<Stop> {
+        self.too_strong.then(|| Stop::Force { strongest: self.steady.strongest_force() })
+    }
+
+    fn by_unknowns(&self, wish: usize) -> Stop {
+        let frame = self.problem.wishes[wish].frame;
+        Stop::Unknowns { frames: frame.saturating_sub(self.begin.frame()) }
+    }
+}

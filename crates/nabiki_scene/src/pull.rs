@@ -1,0 +1,181 @@
+//! Pulling the hair: a lock in a hand, nails that hold others, and the wind that follows, found on a thread of its own.
+//!
+//! While the hand moves, the wind follows it by quick steps. Where it rests, or they gain nothing, the whole search goes on: more steps,
+//! other intervals, other starts; a hand that moves on stops it between two motions. What is found is the nearest motion so far.
+
+mod follow;
+mod lock;
+
+use std::ops::RangeInclusive;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use glam::Vec3;
+use nabiki::solve::{Answer, Stop};
+
+pub use follow::{Follower, Freedom};
+pub use lock::Lock;
+
+/// So long a hand has not moved that rests.
+const REST: Duration = Duration::from_millis(80);
+/// So many quick steps in a row that gain nothing, and the whole search begins.
+const PATIENCE: u32 = 2;
+
+/// Where a pull has come to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pulled {
+    /// The settings that pull the hair there.
+    pub answer: Answer,
+    /// The interval that the pull has for its own.
+    pub interval: usize,
+    /// The frames whose wind it may change.
+    pub felt: RangeInclusive<u32>,
+    /// What is left between hand and hair (cm).
+    pub left_cm: f64,
+    /// Whether the whole search has come to its end: nothing nearer comes until the hand moves on.
+    pub ended: bool,
+    /// What keeps the hair from the hand, once that is known.
+    pub stop: Option<Stop>,
+}
+
+/// A pull: the search on its thread. Let it go by dropping it.
+#[derive(Debug)]
+pub struct Pull {
+    shared: Arc<Shared>,
+}
+
+#[derive(Debug, Default)]
+struct Shared {
+    state: Mutex<State>,
+    changed: Condvar,
+    /// Whether a search is to give way.
+    urgent: AtomicBool,
+}
+
+#[derive(Debug, Default)]
+struct State {
+    /// Where the lock should be, if that is new.
+    goal: Option<Vec3>,
+    /// When it was said last.
+    moved: Option<Instant>,
+    /// Whether the hand will not move any more.
+    is_let_go: bool,
+    /// Nobody listens any more.
+    is_gone: bool,
+    news: Option<Result<Pulled, String>>,
+}
+
+impl Shared {
+    /// A thread that died while it held the state left it whole: nothing is done under the lock but to move values.
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Pull {
+    /// Takes hold; `wake` is called whenever the wind has followed.
+    pub fn new(follower: Follower, wake: impl Fn() + Send + 'static) -> Self {
+        let shared = Arc::new(Shared::default());
+        let theirs = shared.clone();
+        let spawned = std::thread::Builder::new().name("pull".to_owned()).spawn({
+            let theirs = theirs.clone();
+            move || {
+                if let Err(why) = work(follower, &theirs, &wake) {
+                    theirs.lock().news = Some(Err(why));
+                    wake();
+                }
+            }
+        });
+        if let Err(e) = spawned {
+            theirs.lock().news = Some(Err(format!("no wind can be looked for: {e}")));
+        }
+        Self { shared }
+    }
+
+    /// The lock should be here (head space, cm; the middle of its nodes).
+    pub fn to(&self, goal: Vec3) {
+        let mut state = self.shared.lock();
+        (state.goal, state.moved) = (Some(goal), Some(Instant::now()));
+        self.shared.urgent.store(true, Ordering::Relaxed);
+        self.shared.changed.notify_all();
+    }
+
+    /// The hand has let go: it will not move any more, and the search need not wait whether it rests.
+    pub fn let_go(&self) {
+        self.shared.lock().is_let_go = true;
+        self.shared.changed.notify_all();
+    }
+
+    /// What the wind has come to since the last call, or why it cannot follow.
+    pub fn take(&self) -> Option<Result<Pulled, String>> {
+        self.shared.lock().news.take()
+    }
+}
+
+impl Drop for Pull {
+    fn drop(&mut self) {
+        self.shared.lock().is_gone = true;
+        self.shared.urgent.store(true, Ordering::Relaxed);
+        self.shared.changed.notify_all();
+    }
+}
+
+/// What is to be done next.
+enum Next {
+    Step,
+    Search,
+    Go,
+}
+
+fn work(mut follower: Follower, shared: &Arc<Shared>, wake: &dyn Fn()) -> Result<(), String> {
+    let theirs = shared.clone();
+    follower.set_brake(move || theirs.urgent.load(Ordering::Relaxed));
+    let give = |pulled: Pulled| {
+        shared.lock().news = Some(Ok(pulled));
+        wake();
+    };
+    let (mut in_vain, mut ended) = (0, true);
+    let mut goal = Vec3::ZERO;
+    loop {
+        match next(shared, &mut goal, &mut in_vain, &mut ended) {
+            Next::Go => return Ok(()),
+            Next::Step => {
+                let (pulled, gained) = follower.step(goal).map_err(|error| error.to_string())?;
+                in_vain = if gained { 0 } else { in_vain + 1 };
+                give(pulled);
+            }
+            Next::Search => {
+                let done = follower.search(goal, &mut |pulled| give(pulled)).map_err(|error| error.to_string())?;
+                if let Some(pulled) = done {
+                    ended = true;
+                    give(pulled);
+                }
+            }
+        }
+    }
+}
+
+/// Waits for something to do. `goal` is the newest; `ended`: nothing nearer is to be found for it.
+fn next(shared: &Shared, goal: &mut Vec3, in_vain: &mut u32, ended: &mut bool) -> Next {
+    let mut state = shared.lock();
+    loop {
+        if state.is_gone {
+            return Next::Go;
+        }
+        if let Some(newest) = state.goal.take() {
+            shared.urgent.store(false, Ordering::Relaxed);
+            (*goal, *in_vain, *ended) = (newest, 0, false);
+            return Next::Step;
+        }
+        if *ended {
+            state = shared.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+            continue;
+        }
+        let rests = state.is_let_go || state.moved.is_none_or(|moved| moved.elapsed() >= REST);
+        return if rests || *in_vain >= PATIENCE { Next::Search } else { Next::Step };
+    }
+}
+
+#[cfg(test)]
+mod tests;
