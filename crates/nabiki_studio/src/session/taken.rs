@@ -2,7 +2,6 @@
 //! be right. All begin from the scene before the drag, so that a drag back takes them back.
 
 use nabiki::groom::Style;
-use nabiki::profile::Profile;
 use nabiki_scene::Scene;
 use nabiki_scene::scene::{FormChoice, HairSource};
 
@@ -10,14 +9,11 @@ use nabiki_scene::scene::{FormChoice, HairSource};
 const MOST_SEGMENTS: f64 = 1000.0;
 /// Shortest segment that hair is given (cm).
 const SHORTEST: f32 = 0.01;
-/// Largest stiffness that hair is given.
-const STIFFEST: f32 = 1e7;
 
 /// How it is said.
 pub(super) const TAKEN: &str = "Taken along: ";
 
-/// What hair takes with another style: the segments of its length, shorter ones for its curls, and the stiffness with which those bend
-/// as the ones before. Returns it in words, each with why; shorter and straighter hair stays as it is, to the bit.
+/// What hair takes with another style: the segments of its length, and shorter ones for its curls. Returns it in words, each with why; shorter and straighter hair stays as it is, to the bit.
 pub(super) fn by_hair(scene: &mut Scene, before: &Scene, key: &str) -> Vec<String> {
     let mut taken = Vec::new();
     let length_before = before.hair.segment_length;
@@ -43,18 +39,11 @@ pub(super) fn by_hair(scene: &mut Scene, before: &Scene, key: &str) -> Vec<Strin
         let longest = curl.longest_segment().filter(|longest| *longest >= SHORTEST);
         let length = longest.map_or(length_before, |longest| length_before.min(longest));
         scene.hair.segment_length = length;
-        let is_free = scene.form == FormChoice::Free;
-        // The bend of hair is as long as the root of its stiffness, counted in segments.
-        let stiffness = times(&before.free.stiffness, (length_before / length).powi(2));
         if length != length_before {
-            taken.push(format!("hair.segment_length is {length} cm (shorter ones draw the curls)"));
-        }
-        if is_free && length != length_before && stiffness.largest() <= STIFFEST {
-            let values: Vec<String> = stiffness.values().iter().map(f32::to_string).collect();
-            taken.push(format!("free.stiffness is {} (hair bends as before)", values.join(", ")));
-            scene.free.stiffness = stiffness;
-        } else if is_free {
-            scene.free.stiffness = before.free.stiffness.clone();
+            // Which stiffness a step stands is known only where hair is built: it is left to the hand.
+            let softer =
+                if scene.form == FormChoice::Free { "; free.stiffness counts in them, so hair is softer" } else { "" };
+            taken.push(format!("hair.segment_length is {length} cm (shorter ones draw the curls{softer})"));
         }
     }
     let had = grown_before.segments;
@@ -74,22 +63,6 @@ fn longest(style: &Style) -> f32 {
     let of = &style.length;
     let fringe = if style.fringe.half_width > 0.0 { of.fringe } else { 0.0 };
     of.top.max(of.sides).max(of.back).max(fringe)
-}
-
-fn times(profile: &Profile, factor: f32) -> Profile {
-    if factor == 1.0 {
-        return profile.clone();
-    }
-    // Three digits are finer than anybody sees.
-    let times = |value: &f32| {
-        let value = value * factor;
-        let digits = 10.0_f32.powf((value.abs().max(1e-6).log10().floor() - 2.0).max(0.0));
-        (value / digits).round() * digits
-    };
-    match profile {
-        Profile::Even(value) => Profile::Even(times(value)),
-        Profile::RootToTip(values) => Profile::RootToTip(values.iter().map(times).collect()),
-    }
 }
 
 #[cfg(test)]
