@@ -394,9 +394,7 @@ impl Panes<'_> {
             let phase = |done| if done { Phase::Done } else { Phase::Dragging };
             self.commands.push(match touch {
                 Touch::SetVector { interval, vector, done } => Command::Vector { interval, vector, phase: phase(done) },
-                Touch::SetForce { force, done } => {
-                    Command::Intervals { name: "Pull the hair", keys: force, chosen: None, phase: phase(done) }
-                }
+                Touch::Pulled { name, answer, interval, phase } => Command::Pulled { name, answer, interval, phase },
                 Touch::Undone => Command::GiveUpDrag,
                 Touch::CameraMoved => continue,
                 Touch::Refused(why) => Command::Refuse { about: HAND.to_owned(), why },

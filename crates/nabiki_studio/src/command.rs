@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use glam::Vec3;
 use nabiki::field::Keyframe;
+use nabiki::solve::Answer;
 use nabiki_scene::Scene;
 use toml::Value;
 
@@ -45,6 +46,17 @@ pub enum Command {
         interval: usize,
         /// The vector.
         vector: Vec3,
+        /// How the change goes on.
+        phase: Phase,
+    },
+    /// The settings that pull the hair where a hand wants it.
+    Pulled {
+        /// What is done.
+        name: &'static str,
+        /// The settings.
+        answer: Box<Answer>,
+        /// The interval that the pull has for its own: chosen once the hand has let go.
+        interval: usize,
         /// How the change goes on.
         phase: Phase,
     },

@@ -15,6 +15,8 @@ pub enum Phase {
     Dragging,
     /// A change by itself, or the last of a drag.
     Done,
+    /// What is found after a drag has ended belongs to its step, as long as that is the last one.
+    After,
 }
 
 /// A scene as it was before a step.
@@ -124,7 +126,8 @@ impl Document {
     /// Changes the scene; `name` says what that is. Changes of one name that follow one another in one drag are one step.
     /// Nothing is noted where nothing changes.
     pub fn edit(&mut self, name: &str, scene: Scene, phase: Phase) {
-        let goes_on = self.dragging && self.undo.last().is_some_and(|step| step.name == name);
+        let goes_on =
+            (self.dragging || phase == Phase::After) && self.undo.last().is_some_and(|step| step.name == name);
         if scene != self.scene {
             let before = std::mem::replace(&mut self.scene, scene);
             if !goes_on {
@@ -137,7 +140,7 @@ impl Document {
             self.redo.clear();
             self.version += 1;
         }
-        if phase == Phase::Done {
+        if phase != Phase::Dragging {
             self.end_drag();
         }
     }

@@ -247,3 +247,22 @@ fn of_more_steps_than_are_kept_the_oldest_are_forgotten() {
     let steps = std::iter::from_fn(|| document.undo().then_some(())).count();
     assert_eq!((steps, document.scene().field.force[0].through), (MOST_STEPS, 102));
 }
+
+#[test]
+fn what_is_found_after_a_drag_belongs_to_its_step_while_that_is_the_last() {
+    let mut document = Place::new().open();
+    let through = |document: &Document| document.scene().field.force[0].through;
+    let before = through(&document);
+    document.edit("Pull", ending(&document, 60), Phase::Dragging);
+    document.edit("Pull", ending(&document, 61), Phase::Done);
+    document.edit("Pull", ending(&document, 62), Phase::After);
+    document.edit("Pull", ending(&document, 63), Phase::After);
+    assert_eq!(through(&document), 63);
+    document.undo();
+    assert_eq!(through(&document), before, "it is one step");
+    // After another step it is one of its own.
+    document.edit("Cut", ending(&document, 70), Phase::Done);
+    document.edit("Pull", ending(&document, 71), Phase::After);
+    document.undo();
+    assert_eq!(through(&document), 70);
+}

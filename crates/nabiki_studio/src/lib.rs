@@ -8,7 +8,6 @@ pub mod command;
 pub mod desktop;
 pub mod dialog;
 pub mod document;
-pub mod drag;
 pub mod finding;
 pub mod gestures;
 pub mod icon;

@@ -8,6 +8,7 @@ pub mod gpu;
 mod hair;
 mod hand;
 pub mod handle;
+mod let_go;
 mod mesh;
 mod onion;
 mod overlay;
@@ -21,13 +22,15 @@ use eframe::egui;
 use eframe::egui_wgpu::RenderState;
 use nabiki_render::settings::Camera;
 use nabiki_render::{Bounds, View as Seen};
+use nabiki_scene::pull::{Follower, Freedom, Lock, Pull};
 
-use crate::drag::{self, Lock, Pull};
+use crate::document::Phase;
 use crate::take::Take;
 
 use camera::{Held as Buttons, Orbit};
 use final_picture::{FinalPicture, Rest, Wanted};
-use hand::{Hand, LetGo};
+use hand::Hand;
+use let_go::LetGo;
 use overlay::Overlay;
 use screen::Screen;
 pub use shown::{Marks, Shown, Touch};
@@ -63,6 +66,8 @@ pub struct View {
     left_tip: Option<hand::LeftTip>,
     /// The scene that is shown, by its number.
     scene: u64,
+    /// Where buttons lie over the picture.
+    buttons: Vec<egui::Rect>,
     rest: Rest,
     final_picture: Option<FinalPicture>,
     /// Why something could not be drawn, to be said.
@@ -89,6 +94,7 @@ impl View {
             let_go: None,
             left_tip: None,
             scene: 0,
+            buttons: Vec::new(),
             rest: Rest::default(),
             final_picture: None,
             failed: None,
@@ -116,11 +122,12 @@ impl View {
         let mut nails: Vec<u32> = self.nails.iter().map(|nail| nail.frame).collect();
         nails.sort_unstable();
         nails.dedup();
-        let pulled = match &self.hand {
-            Hand::Hair(held) => Some(held.lock.frame),
+        let held = match &self.hand {
+            Hand::Hair(held) => Some(held),
             _ => None,
         };
-        Marks { nails, pulled }
+        let felt = held.and_then(|held| held.followed.as_ref()).map(|pulled| pulled.felt.clone());
+        Marks { nails, pulled: held.map(|held| held.lock.frame), felt }
     }
 
     /// Whether a hand holds hair or an arrow.
@@ -172,6 +179,13 @@ impl View {
         }
         let before = touches.len();
         self.use_hand(ui, &response, shown, &view, rect, &mut touches);
+        if let Some(let_go) = &mut self.let_go {
+            touches.extend(let_go.settle(shown, now));
+            if let_go.is_looking() {
+                // It ends by itself, whatever comes.
+                ui.ctx().request_repaint_after_secs(0.2);
+            }
+        }
         if touches.len() > before || self.hand.is_busy() || shown.playing {
             self.rest.touch(now);
         }
@@ -191,7 +205,8 @@ impl View {
                 }
             }
         }
-        self.draw_over(&overlay, &response, shown, &view);
+        let words = self.draw_over(&overlay, &response, shown, &view);
+        self.offer(ui, rect, shown, words, now);
         self.refused |= touches.iter().any(|touch| matches!(touch, Touch::Refused(_)));
         touches
     }
@@ -295,7 +310,9 @@ impl View {
         }
         // Between two pictures a hand may have gone on: it has taken hold, and lets go, where the button says.
         let [pressed_at, released_at] = [true, false].map(|down| button_at(ui, rect, down).unwrap_or(pixel));
-        if pressed && response.contains_pointer() && matches!(self.hand, Hand::Idle) {
+        let on_button = ui.input(|input| input.pointer.latest_pos());
+        let on_button = on_button.is_some_and(|at| self.buttons.iter().any(|button| button.contains(at)));
+        if pressed && response.contains_pointer() && !on_button && matches!(self.hand, Hand::Idle) {
             touches.extend(std::mem::take(&mut self.refused).then_some(Touch::Heard));
             self.let_go = None;
             self.take_hold(ui.ctx(), shown, view, pressed_at, scale, nailing, touches);
@@ -305,10 +322,16 @@ impl View {
             let (of_forces, _) = hand::of_forces(shown, view);
             touches.extend(self.hand.drag_tip(&of_forces, released_at));
             self.left_tip = self.hand.tip_let_go(shown, view);
-            if let Hand::Hair(held) = &self.hand {
-                self.let_go = held.let_go();
+            match std::mem::take(&mut self.hand) {
+                Hand::Hair(mut held) => {
+                    // The newest that was found is what stays.
+                    touches.extend(held.follow().filter(|touch| matches!(touch, Touch::Refused(_))));
+                    let followed = held.followed.clone();
+                    touches.extend(followed.map(|pulled| hand::touched(pulled, Phase::Done)));
+                    self.let_go = held.let_go(shown, ui.input(|input| input.time));
+                }
+                mut other => touches.extend(other.release()),
             }
-            touches.extend(self.hand.release());
             return;
         }
         let (of_forces, _) = hand::of_forces(shown, view);
@@ -350,10 +373,8 @@ impl View {
             return;
         };
         let (points, strands) = (shown.take.points(shown.frame), shown.take.strands());
-        let lock = Lock {
-            frame: shown.frame,
-            nodes: pick::lock(points, strands, shown.take.at_hand(), &picked, hand::LOCK_CM),
-        };
+        let at = (picked.strand, picked.node);
+        let lock = Lock::about(shown.frame, points, strands, shown.take.at_hand(), at, hand::LOCK_CM);
         if shown.frame == 0 {
             touches.push(Touch::Refused("Frame 0 is the hair at rest: go to a later frame to pull it.".to_owned()));
         } else if nailing {
@@ -361,9 +382,9 @@ impl View {
         } else if shown.take.built.scene.field.force != shown.force {
             touches.push(Touch::Refused("The motion is not there yet: pull again in a moment.".to_owned()));
         } else {
-            let problem = drag::problem(&shown.take.built, &lock, &self.nails, shown.selected_interval);
+            let follower = Follower::new(&shown.take.built, &lock, &self.nails, Freedom::default());
             let context = context.clone();
-            let pull = Pull::new(problem, move || context.request_repaint());
+            let pull = Pull::new(follower, move || context.request_repaint());
             let in_head = view.in_head(&shown.take.pose(shown.frame));
             self.hand = Hand::Hair(hand::Held::new(lock, &picked, shown.take, &self.nails, &in_head, pixel, pull));
         }
@@ -434,8 +455,44 @@ impl View {
         }
     }
 
-    /// Handle, thread, nails.
-    fn draw_over(&self, overlay: &Overlay<'_>, response: &egui::Response, shown: &Shown<'_>, view: &Seen) {
+    /// Buttons below the words that say how far hair has fallen short: what would help.
+    fn offer(&mut self, ui: &mut egui::Ui, rect: egui::Rect, shown: &Shown<'_>, words: Option<egui::Rect>, now: f64) {
+        self.buttons.clear();
+        let (Some(words), Some(let_go)) = (words, &mut self.let_go) else { return };
+        let offers = let_go.offers(shown.take);
+        let font = egui::TextStyle::Button.resolve(ui.style());
+        let size = |name: &str| {
+            let text = ui.painter().layout_no_wrap(name.to_owned(), font.clone(), egui::Color32::WHITE).size();
+            text + 2.0 * ui.spacing().button_padding
+        };
+        let sizes: Vec<egui::Vec2> = offers.iter().map(|offer| size(offer.name)).collect();
+        let wide: f32 = sizes.iter().map(|size| size.x + 4.0).sum();
+        let below = words.bottom() + 4.0;
+        let y = if below + 30.0 < rect.bottom() { below } else { words.top() - 30.0 };
+        let mut x = words.left().min(rect.right() - wide).max(rect.left() + 4.0);
+        let mut clicked = None;
+        for (offer, size) in offers.into_iter().zip(sizes) {
+            let place = egui::Rect::from_min_size(egui::pos2(x, y), size);
+            x += size.x + 4.0;
+            self.buttons.push(place);
+            if ui.put(place, egui::Button::new(offer.name)).on_hover_text(offer.help).clicked() {
+                clicked = Some(offer);
+            }
+        }
+        if let Some(offer) = clicked {
+            let context = ui.ctx().clone();
+            let_go.look_again(offer, shown.take, now, move || context.request_repaint());
+        }
+    }
+
+    /// Handle, thread, nails. Returns where it says that hair has fallen short.
+    fn draw_over(
+        &self,
+        overlay: &Overlay<'_>,
+        response: &egui::Response,
+        shown: &Shown<'_>,
+        view: &Seen,
+    ) -> Option<egui::Rect> {
         let in_head = view.in_head(&shown.take.pose(shown.frame));
         let (points, strands) = (shown.take.points(shown.frame), shown.take.strands());
         for nail in self.nails.iter().filter(|nail| nail.fits(strands)) {
@@ -449,19 +506,26 @@ impl View {
             Hand::Tip { interval, held, .. } => shown.force.get(*interval).map(|key| held.showing(key.vector)),
             _ => None,
         };
-        if let Some(arrow) = held.or_else(|| self.arrow(shown, overlay.scale, view).map(|(_, arrow)| arrow)) {
+        // While hair is pulled intervals come and go, and the wind is the hand's.
+        let of_chosen = || match &self.hand {
+            Hand::Hair(_) => None,
+            _ => self.arrow(shown, overlay.scale, view).map(|(_, arrow)| arrow),
+        };
+        if let Some(arrow) = held.or_else(of_chosen) {
             overlay.handle(&of_forces, &arrow, held.is_some());
         }
         match &self.hand {
             Hand::Hair(held) if held.lock.fits(strands) => {
                 let (goal, hair) = (held.goal(), held.lock.middle(points, strands));
-                overlay.thread(&in_head, goal, hair, hand::to_go(goal.distance(hair)).as_deref());
+                let stop = held.followed.as_ref().and_then(|pulled| pulled.stop.as_ref());
+                overlay.thread(&in_head, goal, hair, hand::to_go(goal.distance(hair), stop).as_deref());
             }
             Hand::Idle
                 if let Some(words) = self.fell_short(shown)
                     && let Some(let_go) = &self.let_go =>
             {
-                overlay.thread(&in_head, let_go.goal, let_go.lock.middle(points, strands), Some(&words));
+                let hair = let_go.lock.middle(points, strands);
+                return overlay.thread(&in_head, let_go.goal, hair, Some(&words));
             }
             Hand::Idle if !shown.playing && shown.frame > 0 && !shown.hands_off => {
                 let pixel = response.hover_pos().map(|at| (at - overlay.rect.min) * overlay.scale);
@@ -472,6 +536,7 @@ impl View {
             }
             _ => {}
         }
+        None
     }
 }
 

@@ -94,6 +94,12 @@ fn scrolled(ui: &mut Ui, room: Rect, draw: impl FnOnce(&mut Ui) -> f32) {
 /// Where nails are, and where a lock is pulled.
 fn wishes(ui: &Ui, ruler: Rect, scale: &Scale, marks: &Marks) {
     let painter = ui.painter().with_clip_rect(ruler.intersect(ui.clip_rect()));
+    if let Some(felt) = &marks.felt {
+        let x = |frame: f64| scale.x(frame).clamp(ruler.left(), ruler.right());
+        let (left, right) = (x(f64::from(*felt.start()) - 0.5), x(f64::from(*felt.end()) + 0.5));
+        let bar = Rect::from_x_y_ranges(left..=right, ruler.bottom() - 3.0..=ruler.bottom());
+        painter.rect_filled(bar, 1.0, theme::ACCENT.gamma_multiply(0.6));
+    }
     for &frame in &marks.nails {
         let at = pos2(scale.x(f64::from(frame)), ruler.bottom() - 4.0);
         for d in [vec2(3.5, 3.5), vec2(3.5, -3.5)] {

@@ -46,6 +46,7 @@ impl Session {
             | Command::SetAll { .. }
             | Command::Intervals { .. }
             | Command::Vector { .. }
+            | Command::Pulled { .. }
             | Command::Scene { .. }
                 if self.is_behind_text() => {}
             Command::Set { key, value, phase } => self.set(&key, value, phase),
@@ -59,6 +60,12 @@ impl Session {
                 self.change(&name, phase, |scene| {
                     scene.field.force.get_mut(interval).into_iter().for_each(|key| key.vector = vector);
                 });
+            }
+            Command::Pulled { name, answer, interval, phase } => {
+                self.change(name, phase, |scene| scene.accept(&answer));
+                if phase != Phase::Dragging {
+                    self.chosen = vec![interval];
+                }
             }
             Command::Scene { name, scene, phase } => self.change(&name, phase, |now| *now = *scene),
             Command::EndDrag => self.document.iter_mut().for_each(|document| document.end_drag()),

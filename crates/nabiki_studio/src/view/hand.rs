@@ -3,25 +3,31 @@
 use glam::{Vec2, Vec3};
 use nabiki::Pose;
 use nabiki::dynamics::ForceSpace;
-use nabiki::field::Keyframe;
+use nabiki::solve::Stop;
 use nabiki_render::View;
+use nabiki_scene::pull::{Lock, Pull, Pulled};
 
 use super::camera::{Gesture, place_in_plane};
 use super::handle::{self, Arrow};
+use super::let_go::{LetGo, why};
 use super::pick::Picked;
 use super::{Shown, Touch};
-use crate::drag::{Lock, Pull};
+use crate::document::Phase;
 use crate::take::Take;
 
 /// About the node that is pulled: strands that come along have a node this near (cm).
 pub const LOCK_CM: f32 = 1.5;
 
 /// Ways shorter than this are not spoken of (cm).
-const SHORT: f32 = 0.05;
+pub const SHORT: f32 = 0.05;
 
-/// How far the hair has to go, where that is worth a word.
-pub fn to_go(left: f32) -> Option<String> {
-    (left > SHORT).then(|| format!("{left:.1} cm to go"))
+/// What a pull is called in the undo menu.
+pub const PULL: &str = "Pull the hair";
+
+/// How far the hair has to go, where that is worth a word, and what stops it, where that is known.
+pub fn to_go(left: f32, stop: Option<&Stop>) -> Option<String> {
+    let why = stop.map(|stop| format!(": {}", why(stop))).unwrap_or_default();
+    (left > SHORT).then(|| format!("{left:.1} cm to go{why}"))
 }
 
 /// What it is doing.
@@ -62,8 +68,8 @@ pub struct Held {
     pub way: Vec3,
     /// The solver.
     pull: Pull,
-    /// Whether the wind has followed at all: there is something to accept, or to undo.
-    followed: Option<Vec<Keyframe>>,
+    /// What it has come to, once the wind has followed: there is something to accept, or to undo.
+    pub followed: Option<Pulled>,
     /// Why it cannot follow; said once.
     failed: bool,
 }
@@ -90,7 +96,7 @@ impl Held {
         let way = place_in_plane(view, pixel + self.offset, self.from) - self.from;
         if way != self.way {
             self.way = way;
-            self.pull.to(way);
+            self.pull.to(self.goal());
         }
     }
 
@@ -99,18 +105,20 @@ impl Held {
         self.middle + self.way
     }
 
-    /// What there is to say of it once it is let go; nothing where the wind has not followed.
-    pub fn let_go(&self) -> Option<LetGo> {
-        let force = self.followed.clone()?;
-        Some(LetGo { lock: self.lock.clone(), goal: self.goal(), nails: self.nails.clone(), force })
+    /// What it is once it is let go, at this time; nothing where the hand has not moved.
+    pub fn let_go(self, shown: &Shown<'_>, now: f64) -> Option<LetGo> {
+        let goal = self.goal();
+        let Self { lock, nails, pull, followed, way, .. } = self;
+        (way != Vec3::ZERO).then(|| LetGo::new(lock, goal, nails, pull, followed.ok_or(shown.force), now))
     }
 
     /// What the wind has come to.
     pub fn follow(&mut self) -> Option<Touch> {
         match self.pull.take()? {
             Ok(pulled) => {
-                self.followed = Some(pulled.force.clone());
-                Some(Touch::SetForce { force: pulled.force, done: false })
+                let before = self.followed.replace(pulled.clone());
+                let is_new = before.is_none_or(|before| before.answer != pulled.answer);
+                is_new.then(|| touched(pulled, Phase::Dragging))
             }
             Err(why) if !self.failed => {
                 self.failed = true;
@@ -121,41 +129,9 @@ impl Held {
     }
 }
 
-/// A lock that was let go, and what was asked of the hair.
-#[derive(Debug)]
-pub struct LetGo {
-    /// What was held.
-    pub lock: Lock,
-    /// Where it should be (head space, cm).
-    pub goal: Vec3,
-    /// What should have stayed, and where.
-    nails: Vec<(Lock, Vec3)>,
-    /// The intervals that were found.
-    force: Vec<Keyframe>,
-}
-
-impl LetGo {
-    /// How far the hair falls short of it, in one line; nothing where it does not, and where another wind blows or another frame is
-    /// shown.
-    pub fn fell_short(&self, shown: &Shown<'_>) -> Option<String> {
-        let take = shown.take;
-        let is_as_found = shown.force == self.force && take.built.scene.field.force == self.force;
-        let is_there = |lock: &Lock| lock.fits(take.strands()) && lock.frame <= take.frames();
-        if !is_as_found || shown.frame != self.lock.frame || !is_there(&self.lock) {
-            return None;
-        }
-        let off = |lock: &Lock, place: Vec3| lock.middle(take.points(lock.frame), take.strands()).distance(place);
-        let of_nails = self.nails.iter().filter(|(nail, _)| is_there(nail)).map(|(nail, place)| off(nail, *place));
-        in_words(off(&self.lock, self.goal), of_nails.fold(0.0, f32::max))
-    }
-}
-
-/// How far a lock is from the hand and a nail from its place (cm), in one line.
-fn in_words(lock: f32, nail: f32) -> Option<String> {
-    let lock = (lock > SHORT).then(|| format!("the lock comes within {lock:.1} cm of the hand"));
-    let nail = (nail > SHORT).then(|| format!("a nail gives way by {nail:.1} cm"));
-    let words: Vec<String> = lock.into_iter().chain(nail).collect();
-    (!words.is_empty()).then(|| words.join(", "))
+/// What a pull has come to, to be made true.
+pub fn touched(Pulled { answer, interval, .. }: Pulled, phase: Phase) -> Touch {
+    Touch::Pulled { name: PULL, answer: Box::new(answer), interval, phase }
 }
 
 /// The tip of an arrow that was let go: it stays where the hand has left it, though an arrow drawn anew may be longer or shorter for its
@@ -198,7 +174,6 @@ impl Hand {
     pub fn release(&mut self) -> Option<Touch> {
         match std::mem::take(self) {
             Self::Tip { interval, vector: Some(vector), .. } => Some(Touch::SetVector { interval, vector, done: true }),
-            Self::Hair(Held { followed: Some(force), .. }) => Some(Touch::SetForce { force, done: true }),
             _ => None,
         }
     }
@@ -247,18 +222,4 @@ pub fn arrow(shown: &Shown<'_>, scale: f32, world: &View) -> Option<(usize, Arro
     let interval = shown.selected_interval.filter(|_| !shown.playing)?;
     let key = shown.force.get(interval)?;
     Some((interval, Arrow::new(&shown.take.built.head.ellipsoid, &pose, key.vector).within(&view, scale)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_where_it_should_be_is_not_spoken_of() {
-        assert_eq!(in_words(0.01, 0.02), None);
-        assert_eq!(in_words(1.34, 0.0).as_deref(), Some("the lock comes within 1.3 cm of the hand"));
-        assert_eq!(in_words(0.0, 0.4).as_deref(), Some("a nail gives way by 0.4 cm"));
-        let both = "the lock comes within 1.3 cm of the hand, a nail gives way by 0.4 cm";
-        assert_eq!(in_words(1.3, 0.4).as_deref(), Some(both));
-    }
 }

@@ -61,17 +61,15 @@ impl Overlay<'_> {
         self.words([foot, tip], &number, colour);
     }
 
-    /// The thread from where the hand holds to where the hair is, with words at the hand.
-    pub fn thread(&self, view: &View, hand: Vec3, hair: Vec3, words: Option<&str>) {
-        let (Some(from), Some(to)) = (self.at(view, hand), self.at(view, hair)) else { return };
+    /// The thread from where the hand holds to where the hair is, with words at the hand. Returns where those are.
+    pub fn thread(&self, view: &View, hand: Vec3, hair: Vec3, words: Option<&str>) -> Option<Rect> {
+        let (from, to) = (self.at(view, hand)?, self.at(view, hair)?);
         for (width, colour) in [(3.5, OUTLINE), (1.5, HELD)] {
             self.painter.line_segment([from, to], Stroke::new(width, colour));
         }
         self.painter.circle(to, 3.0, HELD, Stroke::new(1.0, OUTLINE));
         self.painter.circle_stroke(from, 8.0, Stroke::new(1.5, HELD));
-        if let Some(words) = words {
-            self.words([to, from], words, HELD);
-        }
+        words.map(|words| self.words([to, from], words, HELD))
     }
 
     /// A node that could be taken hold of.
@@ -94,11 +92,12 @@ impl Overlay<'_> {
     }
 
     /// Small words with a dark ground, at the second end of a line.
-    fn words(&self, line: [Pos2; 2], words: &str, colour: Color32) {
+    fn words(&self, line: [Pos2; 2], words: &str, colour: Color32) -> Rect {
         let galley = self.painter.layout_no_wrap(words.to_owned(), FontId::proportional(13.0), colour);
         let ground = beside(self.rect, line, galley.size() + vec2(8.0, 4.0));
         self.painter.rect_filled(ground, 3.0, Color32::from_black_alpha(150));
         self.painter.galley(ground.min + vec2(4.0, 2.0), galley, colour);
+        ground
     }
 
     /// Words where there is no picture.

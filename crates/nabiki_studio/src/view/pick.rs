@@ -149,27 +149,6 @@ pub fn nearest(
     best.map(|(_, picked)| picked)
 }
 
-/// A lock: of each of the first `among` strands that has a node within `radius` (cm) of a place, the node nearest to it, roots left out. The picked
-/// strand comes first, the others by their distance.
-pub fn lock(points: &[Vec3], strands: &Strands, among: usize, picked: &Picked, radius: f32) -> Vec<(usize, usize)> {
-    let mut near: Vec<(f32, usize, usize)> = (0..strands.len().min(among))
-        .filter_map(|strand| {
-            let of = points[strands.range(strand)].iter().enumerate().skip(1);
-            let nearest =
-                of.map(|(node, p)| (p.distance_squared(picked.place), node)).min_by(|a, b| a.0.total_cmp(&b.0));
-            let (squared, node) = nearest?;
-            let mine = strand == picked.strand;
-            (mine || squared <= radius * radius).then_some(if mine {
-                (-1.0, strand, picked.node)
-            } else {
-                (squared, strand, node)
-            })
-        })
-        .collect();
-    near.sort_by(|a, b| a.0.total_cmp(&b.0));
-    near.into_iter().map(|(_, strand, node)| (strand, node)).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use std::sync::LazyLock;
@@ -344,16 +323,5 @@ mod tests {
             }
         }
         assert!(looked_at > 300, "{looked_at}");
-    }
-
-    #[test]
-    fn a_lock_is_what_has_a_node_within_its_radius() {
-        let strands = hanging(&[[12.0, 0.0], [12.0, 1.0], [12.0, -2.5], [12.0, 6.0]]);
-        let picked = Picked { strand: 1, node: 5, place: strands.strand(1)[5], apart: 0.0 };
-        let found = lock(strands.points(), &strands, usize::MAX, &picked, 2.0);
-        assert_eq!(found, [(1, 5), (0, 5)]);
-        assert_eq!(lock(strands.points(), &strands, usize::MAX, &picked, 0.0), [(1, 5)]);
-        assert_eq!(lock(strands.points(), &strands, usize::MAX, &picked, 100.0).len(), 4);
-        assert_eq!(lock(strands.points(), &strands, 2, &picked, 100.0).len(), 2, "of those at hand");
     }
 }

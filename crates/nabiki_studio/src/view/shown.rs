@@ -1,10 +1,14 @@
 //! What is shown in the view, and what a hand does there.
 
+use std::ops::RangeInclusive;
+
 use glam::Vec3;
 use nabiki::field::Keyframe;
+use nabiki::solve::Answer;
 use nabiki_render::Picture;
 
 use super::Navigation;
+use crate::document::Phase;
 use crate::take::Take;
 
 /// All that is shown, and what is selected of it.
@@ -50,12 +54,16 @@ pub enum Touch {
         /// Whether the hand has let go.
         done: bool,
     },
-    /// All intervals, as they make the hair go where it is pulled; `done` when they are accepted.
-    SetForce {
-        /// The intervals.
-        force: Vec<Keyframe>,
-        /// Whether the hand has let go.
-        done: bool,
+    /// The hair is pulled: the settings that bring it there.
+    Pulled {
+        /// What is done, for the menu.
+        name: &'static str,
+        /// The settings.
+        answer: Box<Answer>,
+        /// The interval that the pull has for its own.
+        interval: usize,
+        /// Whether the hand still pulls, has let go, or something nearer was found after it had.
+        phase: Phase,
     },
     /// A drag was given up: all as it was before its first touch.
     Undone,
@@ -74,4 +82,6 @@ pub struct Marks {
     pub nails: Vec<u32>,
     /// That of the lock in the hand.
     pub pulled: Option<u32>,
+    /// The frames whose wind follows it.
+    pub felt: Option<RangeInclusive<u32>>,
 }

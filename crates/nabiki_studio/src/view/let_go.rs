@@ -1,0 +1,223 @@
+//! Hair that was let go: the search that goes on for a while, how far the hair falls short, why, and what would help.
+
+use glam::Vec3;
+use nabiki::dynamics::Form;
+use nabiki::field::Keyframe;
+use nabiki::solve::Stop;
+use nabiki_scene::pull::{Follower, Freedom, Lock, Pull, Pulled};
+
+use super::hand::{PULL, SHORT};
+use super::{Shown, Touch};
+use crate::document::Phase;
+use crate::take::Take;
+
+/// So long the search goes on after the hand has let go (s): nobody waits longer for hair to come.
+const SETTLES: f64 = 1.5;
+/// The same of what was asked for by a button, which takes more looking for (s).
+const LOOKS: f64 = 6.0;
+
+/// Something that may help where hair falls short.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Offer {
+    /// What the button says, and the undo menu.
+    pub name: &'static str,
+    /// What it does, in a sentence.
+    pub help: &'static str,
+    /// What may change then.
+    pub freedom: Freedom,
+}
+
+/// All of them.
+const OFFERS: [Offer; 2] = [
+    Offer {
+        name: "Add an interval here",
+        help: "Cuts one more interval before this frame, and looks for the vectors of both.",
+        freedom: Freedom { another: true, stiffness: false },
+    },
+    Offer {
+        name: "Let stiffness change too",
+        help: "Looks for the wind and for the stiffness of all hair.",
+        freedom: Freedom { another: false, stiffness: true },
+    },
+];
+
+/// A lock that was let go, and what was asked of the hair.
+#[derive(Debug)]
+pub struct LetGo {
+    /// What was held.
+    pub lock: Lock,
+    /// Where it should be (head space, cm).
+    pub goal: Vec3,
+    /// What should have stayed, and where.
+    nails: Vec<(Lock, Vec3)>,
+    /// What is done, for the menu.
+    name: &'static str,
+    /// The intervals that were found.
+    force: Vec<Keyframe>,
+    /// The search, while it goes on, and until when it may.
+    search: Option<(Pull, f64)>,
+    /// Whether it has found something that is not in the scene yet by a step of its own.
+    is_first: bool,
+    /// What keeps the hair from the hand.
+    stop: Option<Stop>,
+    /// When it was let go: until the next picture the scene is what it was before.
+    since: f64,
+}
+
+impl LetGo {
+    /// Of a pull that has come to this by now, or to nothing, so that these are still the intervals.
+    pub fn new(
+        lock: Lock,
+        goal: Vec3,
+        nails: Vec<(Lock, Vec3)>,
+        pull: Pull,
+        followed: Result<Pulled, &[Keyframe]>,
+        now: f64,
+    ) -> Self {
+        pull.let_go();
+        let ended = followed.as_ref().is_ok_and(|pulled| pulled.ended);
+        let search = (!ended).then_some((pull, now + SETTLES));
+        let is_first = followed.is_err();
+        let (force, stop) = match followed {
+            Ok(Pulled { answer, stop, .. }) => (answer.keyframes, stop),
+            Err(force) => (force.to_vec(), None),
+        };
+        Self { lock, goal, nails, name: PULL, force, search, is_first, stop, since: now }
+    }
+
+    /// Whether something nearer may still come.
+    pub fn is_looking(&self) -> bool {
+        self.search.is_some()
+    }
+
+    /// What has been found since. Whoever has changed the wind meanwhile wants it no more.
+    pub fn settle(&mut self, shown: &Shown<'_>, now: f64) -> Option<Touch> {
+        if now <= self.since {
+            return None;
+        }
+        let (pull, until) = self.search.as_ref()?;
+        let news = pull.take();
+        let late = now > *until;
+        if late || shown.force != self.force {
+            self.search = None;
+        }
+        if shown.force != self.force {
+            return None;
+        }
+        match news? {
+            Ok(pulled) => {
+                self.stop.clone_from(&pulled.stop);
+                if pulled.ended {
+                    self.search = None;
+                }
+                let is_new = self.is_first || pulled.answer.keyframes != self.force;
+                self.force.clone_from(&pulled.answer.keyframes);
+                let phase = if std::mem::take(&mut self.is_first) { Phase::Done } else { Phase::After };
+                let Pulled { answer, interval, .. } = pulled;
+                is_new.then(|| Touch::Pulled { name: self.name, answer: Box::new(answer), interval, phase })
+            }
+            Err(why) => {
+                self.search = None;
+                Some(Touch::Refused(why))
+            }
+        }
+    }
+
+    /// What would help. Nothing does where the hair is too short or a body is in the way.
+    pub fn offers(&self, take: &Take) -> Vec<Offer> {
+        if self.is_looking() || !matches!(self.stop, Some(Stop::Force { .. } | Stop::Unknowns { .. } | Stop::Nail(_))) {
+            return Vec::new();
+        }
+        let has_stiffness = match &take.built.dynamics.form {
+            Form::Paper => false,
+            Form::Free(free) => free.form.stiffness.largest() > 0.0,
+        };
+        let mut offers = OFFERS.to_vec();
+        offers.retain(|offer| !offer.freedom.stiffness || has_stiffness);
+        offers
+    }
+
+    /// Looks again, with more that may change.
+    pub fn look_again(&mut self, offer: Offer, take: &Take, now: f64, wake: impl Fn() + Send + 'static) {
+        let nails: Vec<Lock> = self.nails.iter().map(|(nail, _)| nail.clone()).collect();
+        let pull = Pull::new(Follower::new(&take.built, &self.lock, &nails, offer.freedom), wake);
+        pull.to(self.goal);
+        pull.let_go();
+        (self.search, self.name, self.is_first) = (Some((pull, now + LOOKS)), offer.name, true);
+    }
+
+    /// As if the hand had gone on by so much, and one wind did not bring the hair there.
+    #[cfg(test)]
+    pub fn falls_short(&mut self, by: Vec3) {
+        self.goal += by;
+        self.stop = Some(Stop::Unknowns { frames: 12 });
+    }
+
+    /// How far the hair falls short of it, in one line; nothing where it does not, and where another wind blows or another frame is
+    /// shown.
+    pub fn fell_short(&self, shown: &Shown<'_>) -> Option<String> {
+        let take = shown.take;
+        let is_as_found = shown.force == self.force && take.built.scene.field.force == self.force;
+        let is_there = |lock: &Lock| lock.fits(take.strands()) && lock.frame <= take.frames();
+        if !is_as_found || shown.frame != self.lock.frame || !is_there(&self.lock) {
+            return None;
+        }
+        let off = |lock: &Lock, place: Vec3| lock.middle(take.points(lock.frame), take.strands()).distance(place);
+        let of_nails = self.nails.iter().filter(|(nail, _)| is_there(nail)).map(|(nail, place)| off(nail, *place));
+        let words = in_words(off(&self.lock, self.goal), of_nails.fold(0.0, f32::max))?;
+        Some(match &self.stop {
+            _ if self.is_looking() => format!("{words}, and is looked for"),
+            Some(stop) => format!("{words}: {}", why(stop)),
+            None => words,
+        })
+    }
+}
+
+/// How far a lock is from the hand and a nail from its place (cm), in one line.
+fn in_words(lock: f32, nail: f32) -> Option<String> {
+    let lock = (lock > SHORT).then(|| format!("the lock comes within {lock:.1} cm of the hand"));
+    let nail = (nail > SHORT).then(|| format!("a nail gives way by {nail:.1} cm"));
+    let words: Vec<String> = lock.into_iter().chain(nail).collect();
+    (!words.is_empty()).then(|| words.join(", "))
+}
+
+/// What keeps the hair from the hand, in a few words.
+pub fn why(stop: &Stop) -> String {
+    match stop {
+        Stop::Length { away_cm, reach_cm } => {
+            format!("the hand is {away_cm:.1} cm from the roots, the hair {reach_cm:.1} cm long")
+        }
+        Stop::Body(name) if name == "contact" => "the head is in the way".to_owned(),
+        Stop::Body(name) => format!("{name} is in the way"),
+        Stop::Nail(_) => "a nail holds it".to_owned(),
+        Stop::Force { strongest } => {
+            format!("no stronger wind can be stepped: all forces together stay below {strongest:.0}")
+        }
+        Stop::Unknowns { frames: 1 } => "wind in 1 frame before it is not enough".to_owned(),
+        Stop::Unknowns { frames } => format!("one wind over {frames} frames does not bring it nearer"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_stops_a_pull_is_said_in_one_line() {
+        let length = Stop::Length { away_cm: 21.04, reach_cm: 18.0 };
+        assert_eq!(why(&length), "the hand is 21.0 cm from the roots, the hair 18.0 cm long");
+        assert_eq!(why(&Stop::Body("contact".to_owned())), "the head is in the way");
+        assert_eq!(why(&Stop::Body("body[1]".to_owned())), "body[1] is in the way");
+        let all = [length, Stop::Nail(2), Stop::Force { strongest: 812.6 }, Stop::Unknowns { frames: 12 }];
+        assert!(all.iter().all(|stop| why(stop).len() < 80 && !why(stop).contains('\n')));
+    }
+
+    #[test]
+    fn what_is_where_it_should_be_is_not_spoken_of() {
+        assert_eq!(in_words(0.01, 0.02), None);
+        assert_eq!(in_words(1.34, 0.0).as_deref(), Some("the lock comes within 1.3 cm of the hand"));
+        assert_eq!(in_words(0.0, 0.4).as_deref(), Some("a nail gives way by 0.4 cm"));
+        let both = "the lock comes within 1.3 cm of the hand, a nail gives way by 0.4 cm";
+        assert_eq!(in_words(1.3, 0.4).as_deref(), Some(both));
+    }
+}
