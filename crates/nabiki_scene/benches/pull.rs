@@ -53,7 +53,8 @@ fn main() {
     let mut all = Vec::new();
     for path in scenes(options.only.as_deref()) {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let mut random = Random(options.seed ^ name.bytes().fold(7, |h: u64, b| h.wrapping_mul(31).wrapping_add(b.into())));
+        let mut random =
+            Random(options.seed ^ name.bytes().fold(7, |h: u64, b| h.wrapping_mul(31).wrapping_add(b.into())));
         let built = match Scene::load(&path, &[]).map_err(|e| e.to_string()) {
             Ok(scene) => scene.build(Shown::First(STRANDS)).map_err(|e| e.to_string()),
             Err(e) => Err(e),

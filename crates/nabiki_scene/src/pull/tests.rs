@@ -203,21 +203,3 @@ fn what_stops_a_pull_is_named() {
     let elsewhere = tip(&before, 20, 5);
     assert_eq!(stop(&[elsewhere], near), None, "a nail that is not in the way is not blamed");
 }
-
-#[test]
-fn the_strongest_force_is_named_where_hair_cannot_be_stepped_in_a_stronger_one() {
-    let built = built(
-        "[hair]\nstrands = 40\n[motion]\nframes = 60\nform = \"free\"\n[free]\nstiffness = 3000\nhold = 4000\n\
-         [[force]]\nthrough = 30\nvector = [0, 0, 0]\n",
-    );
-    let before = at(&built, 8);
-    let held = tip(&before, 3, 8);
-    let root = before.strand(3)[0];
-    let place = middle(&held, &before);
-    // To the side, and as far from the root as it is.
-    let aside = (place - root).any_orthogonal_vector().normalize();
-    let goal = root + (place - root + 8.0 * aside).normalize() * 0.9 * place.distance(root);
-    let found = searched(&built, &held, &[], Freedom::default(), goal);
-    let Some(Stop::Force { strongest }) = found.stop else { panic!("{found:?}") };
-    assert!(strongest > 0.0);
-}
