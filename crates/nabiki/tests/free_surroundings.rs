@@ -277,7 +277,8 @@ fn strengths_too_great_for_the_step_are_refused_and_those_below_hold() {
 fn cohesion_is_refused_from_the_bound_on_and_calms_hair_below_it() {
     let strands = hair(24, 18);
     let with = |cohesion: f64| {
-        let mut dynamics = with_neighbours(free(FreeForm { hold: 0.0.into(), gravity: 0.0, ..Default::default() }));
+        let form = FreeForm { hold: 0.0.into(), gravity: 0.0, ..Default::default() };
+        let mut dynamics = common::with_neighbours(free(FreeMotion { form, ..Default::default() }));
         if let Form::Free(free) = &mut dynamics.form {
             free.form.stiffness = 0.0.into();
             let neighbours = free.neighbours.as_mut().unwrap();
