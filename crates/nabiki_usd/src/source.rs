@@ -127,7 +127,10 @@ impl PrimInfo {
 
     /// Its attributes that have a value at some time: one that is blocked is as if it were not there.
     pub fn authored(&self) -> impl Iterator<Item = (&Name, &AttributeInfo)> {
-        self.attributes.iter().filter(|(_, attribute)| attribute.is_authored()).map(|(name, attribute)| (name, &**attribute))
+        self.attributes
+            .iter()
+            .filter(|(_, attribute)| attribute.is_authored())
+            .map(|(name, attribute)| (name, &**attribute))
     }
 }
 
