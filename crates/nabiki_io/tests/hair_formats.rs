@@ -179,7 +179,7 @@ fn a_failed_write_leaves_nothing_and_an_old_file_as_it_was() {
 fn placement_and_cleaning_are_counted() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mixed.obj");
-    std::fs::write(&path, "v 0 0 0\nv 0 0 0\nv 0 0.5 0\nv 0 0.5 0.01\nl 1 2 3\nl 1 2\nl 3 4\n").unwrap();
+    std::fs::write(&path, "v 0 0 0\nv 0 0 0\nv 0 0.5 0\nv 1 0.5 0\nv 1 0.5 0.01\nl 1 2 3\nl 1 2\nl 4 5\n").unwrap();
     let metres = nabiki_io::Placement { unit: "m".parse().unwrap(), ..Default::default() };
     let cleaning = hair::Cleaning { join_within: 0.0, drop_shorter_than: 2.0 };
     let (hair, report) = hair::import(&path, &metres, &cleaning).unwrap();

@@ -157,8 +157,8 @@ impl SkinLight<'_> {
         match self.shared.get(i).and_then(|&shared| self.reached.get(shared as usize)) {
             Some(reached) => self.sent(i, p, |l| reached.lamps[l], reached.sky),
             None => {
-                let sky = self.from_sky(p, sky);
-                self.sent(i, p, |l| self.from_lamp(l, i), sky)
+                let sky = self.sky_reaching(p, sky);
+                self.sent(i, p, |l| self.lamp_reaching(l, i), sky)
             }
         }
     }
@@ -167,20 +167,20 @@ impl SkinLight<'_> {
     pub fn reach(&self, receiver: usize, p: &SkinPixel, sky: Option<&mut OnSkin>) -> Reached {
         let mut lamps = [[1.0; 3]; MOST_LAMPS];
         for (l, lamp) in lamps.iter_mut().enumerate().take(self.lamps) {
-            *lamp = self.from_lamp(l, receiver);
+            *lamp = self.lamp_reaching(l, receiver);
         }
-        Reached { lamps, sky: self.from_sky(p, sky) }
+        Reached { lamps, sky: self.sky_reaching(p, sky) }
     }
 
     /// What hair leaves of lamp `l` to a receiver.
     #[inline(always)]
-    fn from_lamp(&self, l: usize, receiver: usize) -> [f32; 3] {
+    fn lamp_reaching(&self, l: usize, receiver: usize) -> [f32; 3] {
         self.crossings.get(l).map_or([1.0; 3], |c| self.through(c.at(self.first_receiver + receiver)))
     }
 
     /// The light that other skin sends to a place, and what arrives of the sky above and below.
     #[inline(always)]
-    fn from_sky(&self, p: &SkinPixel, sky: Option<&mut OnSkin>) -> FromSky {
+    fn sky_reaching(&self, p: &SkinPixel, sky: Option<&mut OnSkin>) -> FromSky {
         let arriving = sky.map(|sky| sky.seen(p.position, p.normal));
         arriving.map_or((0.0, [[1.0; 3]; 2]), |arriving| {
             let open = |half: usize| {
