@@ -386,7 +386,8 @@ impl View {
             let context = context.clone();
             let pull = Pull::new(follower, move || context.request_repaint());
             let in_head = view.in_head(&shown.take.pose(shown.frame));
-            self.hand = Hand::Hair(hand::Held::new(lock, &picked, shown.take, &self.nails, &in_head, pixel, pull));
+            let held = hand::Held::new(lock, &picked, shown.take, &self.nails, &in_head, pixel, pull);
+            self.hand = Hand::Hair(Box::new(held));
         }
     }
 

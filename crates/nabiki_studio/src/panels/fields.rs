@@ -98,7 +98,7 @@ impl Field<'_> {
         let Setting { label, unit, kind, open, help, .. } = self.setting;
         let help = format!("{help}{}\n\n{}", range_text(*kind, unit), self.key);
         row(ui, label, &help, self.blamed, |ui| match (open, self.value) {
-            (Some(what), None) => self.left_open(ui, *what, commands),
+            (Some(what), None) => self.left_open(ui, what, commands),
             (open, value) => {
                 self.field(ui, value, commands);
                 if open.is_some() && ui.small_button("x").hint("Leave it open again.").clicked() {

@@ -48,7 +48,7 @@ pub enum Hand {
         vector: Option<Vec3>,
     },
     /// It holds a lock.
-    Hair(Held),
+    Hair(Box<Held>),
 }
 
 /// A lock in the hand.
@@ -181,7 +181,8 @@ impl Hand {
     /// It gives up: all is as it was before.
     pub fn give_up(&mut self) -> Option<Touch> {
         match std::mem::take(self) {
-            Self::Tip { vector: Some(_), .. } | Self::Hair(Held { followed: Some(_), .. }) => Some(Touch::Undone),
+            Self::Tip { vector: Some(_), .. } => Some(Touch::Undone),
+            Self::Hair(held) if held.followed.is_some() => Some(Touch::Undone),
             _ => None,
         }
     }
