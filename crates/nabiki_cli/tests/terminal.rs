@@ -49,12 +49,12 @@ fn bvh(joint: &str) -> String {
 fn names_out_of_files() {
     let folder = TempDir::new().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
-    write("joint.bvh", &bvh(&ODD.replace('\r', "").replace('\u{2028}', "")));
+    write("joint.bvh", &bvh(&ODD.replace(['\r', '\u{2028}'], "")));
     let info = said(&folder, &["info", "joint.bvh"]);
     assert!(info.contains(r"joints: a\x1b[2J\x1b]0;x\x07\x9b7m\x7f\u202e\u2066b"), "{info}");
     let json = said(&folder, &["info", "--json", "joint.bvh"]);
     let joints = &serde_json::from_str::<serde_json::Value>(&json).unwrap()["joints"];
-    assert_eq!(joints[0], ODD.replace('\r', "").replace('\u{2028}', ""), "a program has the name as it is");
+    assert_eq!(joints[0], ODD.replace(['\r', '\u{2028}'], ""), "a program has the name as it is");
     let force = "[[force]]\nthrough = 10\nvector = [-5, -40, 0]\n[motion]\nframes = 3\n[hair]\nstrands = 20\n";
     let motion = |file: &str| {
         format!("{force}[head.motion]\nfile = \"{file}\"\nnode = \"Head\"\nunit_cm = 1\nup = \"+y\"\nfacing = \"+z\"\n")

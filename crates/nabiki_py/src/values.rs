@@ -109,7 +109,7 @@ impl Walk {
     }
 
     /// What Python gave as a value of a setting. Arrays are lists, paths are text, entries without a value are left out.
-    pub fn to_toml(&mut self, key: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> {
+    pub fn value(&mut self, key: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> {
         if value.is_instance_of::<PyBool>() {
             return Ok(Value::Boolean(value.extract()?));
         }
@@ -127,7 +127,7 @@ impl Walk {
             return self.text(key, value);
         }
         if value.hasattr("to_dict")? {
-            return self.within(key, value, |walk| walk.to_toml(key, &value.call_method0("to_dict")?));
+            return self.within(key, value, |walk| walk.value(key, &value.call_method0("to_dict")?));
         }
         // Numbers and arrays of NumPy.
         if value.hasattr("tolist")? {
@@ -135,7 +135,7 @@ impl Walk {
             if size > self.left {
                 self.take(key, value, size)?;
             }
-            return self.within(key, value, |walk| walk.to_toml(key, &value.call_method0("tolist")?));
+            return self.within(key, value, |walk| walk.value(key, &value.call_method0("tolist")?));
         }
         if value.hasattr("__fspath__")? {
             return self.text(key, &value.call_method0("__fspath__")?);
@@ -147,7 +147,7 @@ impl Walk {
             return self.within(key, value, |walk| {
                 let items = sequence.try_iter()?.enumerate();
                 items
-                    .map(|(i, item)| walk.to_toml(&format!("{key}[{i}]"), &item?))
+                    .map(|(i, item)| walk.value(&format!("{key}[{i}]"), &item?))
                     .collect::<PyResult<_>>()
                     .map(Value::Array)
             });
@@ -162,7 +162,7 @@ impl Walk {
             for entry in mapping.items()?.iter() {
                 let (name, value): (String, Bound<'_, PyAny>) = entry.extract()?;
                 if !value.is_none() {
-                    let value = walk.to_toml(&below(key, &name), &value)?;
+                    let value = walk.value(&below(key, &name), &value)?;
                     table.insert(name, value);
                 }
             }

@@ -27,16 +27,16 @@ const STYLES: [&str; 2] = [
 
 /// The same as a file has it that stores those strands tip first.
 fn stored(hair: &Hair, tip_first: &[bool]) -> Hair {
-    hair.clone().from_tip_first(tip_first.to_vec()).as_source()
+    hair.clone().from_tip_first(tip_first.to_vec()).into_source()
 }
 
 /// What a file holds is nothing but points and what goes with them.
 trait Source {
-    fn as_source(self) -> Self;
+    fn into_source(self) -> Self;
 }
 
 impl Source for Hair {
-    fn as_source(mut self) -> Self {
+    fn into_source(mut self) -> Self {
         self.attributes.tip_first = None;
         self
     }

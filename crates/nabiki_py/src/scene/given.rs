@@ -53,7 +53,7 @@ impl Settings<'_> {
                 .map(|(i, body)| self.within(key, given, |settings| settings.read(&format!("body[{i}]"), &body)));
             return entries.collect::<PyResult<_>>().map(Value::Array);
         }
-        self.walk.to_toml(key, given)
+        self.walk.value(key, given)
     }
 
     /// Reads what is in a list or a table, as [`Walk::within`] does.
