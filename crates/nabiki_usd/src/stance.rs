@@ -40,12 +40,13 @@ impl StageReader {
                 return Ok(Stance::First);
             }
         }
+        // What is not bound itself may be carried by a joint that a scene names, from where the skeleton was bound.
+        if heads.is_empty() {
+            return Ok(Stance::Bound);
+        }
         if curves.is_empty() {
             let moves = heads.iter().any(|(_, skin)| skin.rig.is_animated());
             return Ok(if moves { Stance::Bound } else { Stance::First });
-        }
-        if heads.is_empty() {
-            return Ok(Stance::Bound);
         }
         let roots = self.roots(&curves)?;
         let [mut bound, mut first] = [vec![f32::INFINITY; roots.len()], vec![f32::INFINITY; roots.len()]];
