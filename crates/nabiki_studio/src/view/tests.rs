@@ -101,6 +101,9 @@ impl Window {
 
     /// Until the search is over that goes on after a hand has let go. However slow the machine is, its clock stands still.
     fn let_it_look(&mut self) {
+        // Only the picture after that in which the hand let go hears of more.
+        let touches = self.run(&[]);
+        self.make_true(touches);
         let clock = Instant::now();
         while self.view.let_go.as_ref().is_some_and(LetGo::is_looking) {
             assert!(clock.elapsed() < Duration::from_secs(120), "it never ends");
