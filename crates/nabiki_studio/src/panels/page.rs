@@ -206,7 +206,8 @@ impl Panel<'_> {
     /// What is pointed out of a group with this table, and whether the page still goes there.
     fn found(&self, group: &Group, table: &str) -> (Found, bool) {
         let Some((key, goes)) = self.session.revealed() else { return (Found::Nothing, false) };
-        let is_of = || crate::settings::find(key).is_some_and(|(_, of, _)| std::ptr::eq(of, group));
+        let is_of =
+            || crate::settings::find(key).is_some_and(|(_, of, _)| (of.title, of.table) == (group.title, group.table));
         let found = match key.strip_prefix(table) {
             Some("") => Found::Title,
             Some(rest) if rest.starts_with('[') || is_of() => Found::Below,

@@ -241,7 +241,6 @@ fn words_about_a_number_go_while_it_is_dragged() {
 }
 
 #[test]
-#[ignore = "fails: the palette closes, and the page of the setting does not come to the front"]
 fn the_palette_leads_to_a_setting() {
     for (query, page, label) in [
         ("curl radius", "Style", "Curl Radius"),
