@@ -209,9 +209,16 @@ fn remove_stale(folder: &Path, target: &Path) {
         if open_parts().contains(&path) || !entry.file_type().is_ok_and(|kind| kind.is_file()) {
             continue;
         }
-        if File::open(&path).is_ok_and(|file| file.try_lock().is_ok()) {
-            let _ = fs::remove_file(&path);
-        }
+        remove_unheld(&path);
+    }
+}
+
+/// Removes a part file unless a running program holds it.
+fn remove_unheld(path: &Path) {
+    let Ok(file) = File::open(path) else { return };
+    // The lock lasts until the file is gone: let go of before, its writer could take it, and would lose the file afterwards.
+    if file.try_lock().is_ok() {
+        let _ = fs::remove_file(path);
     }
 }
 

@@ -160,8 +160,8 @@ fn of_many_that_write_one_file_none_fails() {
 fn remove_stale_of_another_program(folder: &Path, target: &Path) {
     for entry in fs::read_dir(folder).unwrap().flatten() {
         let path = entry.path();
-        if path != *target && File::open(&path).is_ok_and(|file| file.try_lock().is_ok()) {
-            let _ = fs::remove_file(&path);
+        if path != *target {
+            remove_unheld(&path);
         }
     }
 }
