@@ -324,6 +324,7 @@ impl View {
             self.left_tip = self.hand.tip_let_go(shown, view);
             match std::mem::take(&mut self.hand) {
                 Hand::Hair(mut held) => {
+                    held.drag(&view.in_head(&shown.take.pose(shown.frame)), released_at);
                     // The newest that was found is what stays.
                     touches.extend(held.follow().filter(|touch| matches!(touch, Touch::Refused(_))));
                     let followed = held.followed.clone();

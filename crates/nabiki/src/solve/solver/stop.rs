@@ -20,7 +20,7 @@ pub enum Stop {
     Body(String),
     /// Another wish holds the hair, by its number: without it the goal would be reached, or half of what is left.
     Nail(usize),
-    /// The step allows no stronger force (as the field's bound counts it) of this hair.
+    /// A stronger force (as the field's bound counts it) is needed than the step allows of this hair.
     Force {
         /// The strongest that it allows.
         strongest: f32,
@@ -46,6 +46,8 @@ const TAUT: f64 = 0.98;
 const TOUCHES_CM: f32 = 0.1;
 /// Steps that tell whether a nail is what holds.
 const STEPS: usize = 12;
+/// A step that leaves more than this part of what was left (of its square) gains nothing.
+const WORTH: f64 = 0.96;
 
 impl Solver {
     /// What keeps a wish farther than this from where it should be (cm), about the motion that a search has come to; none where nothing does.
@@ -148,8 +150,15 @@ impl Solver {
         others.max_by(|&a, &b| moved[a].total_cmp(&moved[b])).map(Stop::Nail)
     }
 
-    fn by_force(&self) -> Option<Stop> {
-        self.too_strong.then(|| Stop::Force { strongest: self.steady.strongest_force() })
+    /// Whether the next step from the nearest motion is refused for its force, and no shorter one gains anything.
+    fn by_force(&mut self) -> Option<Stop> {
+        let (at, damping) = (self.at.clone(), self.damping);
+        self.too_strong = false;
+        self.damping = Damping::default();
+        self.descend_once();
+        let gained = self.at.cost < WORTH * at.cost;
+        (self.at, self.damping) = (at, damping);
+        (self.too_strong && !gained).then(|| Stop::Force { strongest: self.steady.strongest_force() })
     }
 
     fn by_unknowns(&self, wish: usize) -> Stop {
