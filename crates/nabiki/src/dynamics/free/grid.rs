@@ -103,10 +103,22 @@ impl Crowd {
 
     /// Takes what the same carriers left in another frame, into the room that is there.
     pub fn take(&mut self, other: &Self) {
+        // Nothing is anywhere else, in either: where hair is, was, or is thrown beyond the grid to its first cell.
+        for row in rows(self.nodes, self.filled[0]) {
+            self.content[row].fill(Vec4::ZERO);
+        }
+        for row in rows(self.nodes, self.around()) {
+            self.excess[row.clone()].fill(0.0);
+            self.pull[row].fill([0.0; 4]);
+        }
         self.filled = other.filled;
-        self.content.copy_from_slice(&other.content);
-        self.excess.copy_from_slice(&other.excess);
-        self.pull.copy_from_slice(&other.pull);
+        for row in rows(self.nodes, self.filled[0]) {
+            self.content[row.clone()].copy_from_slice(&other.content[row]);
+        }
+        for row in rows(self.nodes, self.around()) {
+            self.excess[row.clone()].copy_from_slice(&other.excess[row.clone()]);
+            self.pull[row.clone()].copy_from_slice(&other.pull[row]);
+        }
     }
 
     /// What others may ask of it, and not what its next frame is made from: its forces, of which a copy takes little.
@@ -193,21 +205,23 @@ impl Crowd {
             (places[0][lane], places[1][lane], places[2][lane]) = (t[0], t[1], t[2]);
         }
         for lane in 0..LANES {
-            pulls[lane] = self.between(firsts[lane] as usize, [places[0][lane], places[1][lane], places[2][lane]]);
+            pulls[lane] =
+                self.between::<true>(firsts[lane] as usize, [places[0][lane], places[1][lane], places[2][lane]]);
         }
     }
 
-    /// The force on a point of the cell of this first node, and its drag.
+    /// The force on a point of the cell of this first node, and its drag. `FUSED`: multiplied and added at once, as the fast step does; where
+    /// no vectors are made, that would be a call for every number.
     #[allow(clippy::needless_range_loop, reason = "one vector of four numbers")]
     #[inline(always)]
-    fn between(&self, first: usize, [x, y, z]: [f32; 3]) -> [f32; 4] {
+    fn between<const FUSED: bool>(&self, first: usize, [x, y, z]: [f32; 3]) -> [f32; 4] {
         let (row, slice) = self.strides();
         let (a, b) = (self.pair(first), self.pair(first + row));
         let (c, d) = (self.pair(first + slice), self.pair(first + slice + row));
-        let pair = lerp(lerp(a, b, y), lerp(c, d, y), z);
+        let pair = lerp::<FUSED>(lerp::<FUSED>(a, b, y), lerp::<FUSED>(c, d, y), z);
         let ([low, high], mut pull) = (pair, [0.0; 4]);
         for i in 0..4 {
-            pull[i] = (high[i] - low[i]).mul_add(x, low[i]);
+            pull[i] = toward::<FUSED>(low[i], high[i], x);
         }
         pull
     }
@@ -222,7 +236,7 @@ impl Crowd {
     /// The force on a point that goes along at `velocity` (cm a frame; head space).
     pub fn force(&self, p: DVec3, velocity: DVec3) -> DVec3 {
         let (first, t) = self.cell(p.as_vec3().to_array());
-        let [x, y, z, drag] = self.between(first as usize, t).map(f64::from);
+        let [x, y, z, drag] = self.between::<false>(first as usize, t).map(f64::from);
         DVec3::new(x, y, z) - drag * velocity
     }
 
@@ -247,14 +261,19 @@ impl Crowd {
 }
 
 #[inline(always)]
-fn lerp(a: [[f32; 4]; 2], b: [[f32; 4]; 2], t: f32) -> [[f32; 4]; 2] {
+fn lerp<const FUSED: bool>(a: [[f32; 4]; 2], b: [[f32; 4]; 2], t: f32) -> [[f32; 4]; 2] {
     let mut sum = [[0.0; 4]; 2];
     for i in 0..2 {
         for j in 0..4 {
-            sum[i][j] = (b[i][j] - a[i][j]).mul_add(t, a[i][j]);
+            sum[i][j] = toward::<FUSED>(a[i][j], b[i][j], t);
         }
     }
     sum
+}
+
+#[inline(always)]
+fn toward<const FUSED: bool>(a: f32, b: f32, t: f32) -> f32 {
+    if FUSED { (b - a).mul_add(t, a) } else { (b - a) * t + a }
 }
 
 /// The rows of a box of nodes, from the first to the last along each axis, among all of the grid.

@@ -86,3 +86,28 @@ fn cohesion_pulls_toward_the_mean_velocity() {
     let force = crowd.force(p, own);
     assert!((force - 0.5 * cohesion * (slow.as_dvec3() - own)).length() < ROUNDING, "{force}");
 }
+
+/// What is taken is what is there, wherever hair was in either before, be it beyond the grid.
+#[test]
+fn a_crowd_that_takes_another_is_as_it() {
+    let (at_rest, points) = lattice();
+    let still = vec![Vec3::new(0.1, -0.2, 0.3); points.len()];
+    let left = |axes: &[usize], far: bool| {
+        let mut crowd = at_rest.clone();
+        for &axis in axes {
+            let mut there = crowded(&points, axis);
+            if far {
+                there[7] = Vec3::splat(1e3);
+            }
+            crowd.fill(&there, &still);
+        }
+        crowd
+    };
+    for other in [left(&[], false), left(&[0], false), left(&[1, 2], true)] {
+        for mut crowd in [left(&[], false), left(&[2], true), left(&[0, 1, 0], false)] {
+            crowd.take(&other);
+            assert_eq!(crowd.content, other.content);
+            assert_eq!((crowd.excess, crowd.pull), (other.excess.clone(), other.pull.clone()));
+        }
+    }
+}
