@@ -22,7 +22,7 @@ pub use cut::{Cut, cut_for_pull, felt};
 pub use drag::Drag;
 pub use problem::{Prior, Problem};
 pub use report::{Report, Step, WishLeft};
-pub use solver::{Search, Solver, Stop};
+pub use solver::{Preroll, Search, Solver, Stop};
 pub use unknowns::{Answer, Unknown};
 pub use wind::{OpenAir, Surroundings, Wind, with_interval};
 pub use wish::{Goal, Node, Wish, nodes_near, nodes_of};

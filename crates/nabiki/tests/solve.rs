@@ -12,8 +12,8 @@ use nabiki::field::{Ease, Keyframe};
 use nabiki::groom::{Growth, Style, grow};
 use nabiki::roots::Hairline;
 use nabiki::solve::{
-    Answer, Drag, Goal, Node, OpenAir, Prior, Problem, Report, Search, Solver, Unknown, Wind, Wish, nodes_near,
-    nodes_of,
+    Answer, Drag, Goal, Node, OpenAir, Preroll, Prior, Problem, Report, Search, Solver, Unknown, Wind, Wish,
+    nodes_near, nodes_of,
 };
 use nabiki::{Head, Strands};
 
@@ -333,4 +333,50 @@ fn problems_about_nothing_are_refused_by_name() {
     assert_eq!(refused(&|p| p.unknowns.push(Unknown::Gust)), "unknowns.gust");
     assert_eq!(refused(&|p| p.unknowns.push(Unknown::Stiffness)), "unknowns.stiffness");
     assert_eq!(refused(&|p| p.prior.keep = f32::NAN), "prior.keep");
+}
+
+/// The second vector is free: what comes before is known, and nothing of it is felt.
+fn later(hair: &Strands, dynamics: &Dynamics) -> Problem {
+    let lock = |frame| Wish { frame, nodes: nodes(hair, 10, 0.6), goal: Goal::Stay, weight: 1.0 };
+    let unknowns = vec![Unknown::Vector(1)];
+    Problem { wishes: vec![lock(75), lock(20), lock(50)], unknowns, ..problem(hair, dynamics, table_1()) }
+}
+
+#[test]
+fn solvers_that_go_on_from_where_hair_is_known_to_be_have_the_same_motion_to_the_bit() {
+    let head = Head::builtin();
+    let hair = hair(&head, 20);
+    for form in [Form::Paper, Form::Free(free(&head))] {
+        let dynamics = dynamics(&head, form);
+        let problem = later(&hair, &dynamics);
+        let mut from_rest = Solver::new(problem.clone()).unwrap();
+        for known in [1, 30, 50, 60, 1000] {
+            let preroll = Preroll::new(&problem, known).unwrap();
+            let mut on = Solver::after(problem.clone(), Some(&preroll)).unwrap();
+            for numbers in [[-15.0, -150.0, 0.0], [40.0, 3.0, 77.0]] {
+                assert!(from_rest.set_numbers(&numbers) && on.set_numbers(&numbers));
+                for wish in 0..3 {
+                    assert_eq!(on.places(wish), from_rest.places(wish), "known to {known}, wish {wish}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn differences_of_motions_lead_where_the_specifications_tangents_lead() {
+    let head = Head::builtin();
+    let hair = hair(&head, 20);
+    for form in [Form::Paper, Form::Free(free(&head))] {
+        let dynamics = dynamics(&head, form);
+        let mut problem = later(&hair, &dynamics);
+        problem.wishes = vec![Wish { goal: Goal::MeanMoved(Vec3::new(-1.0, 1.0, 0.5)), ..problem.wishes[0].clone() }];
+        let search = Search { starts: 1, ..Search::default() };
+        let exact = Solver::new(problem.clone()).unwrap().solve(&search);
+        let near = Solver::new(problem).unwrap().by_differences().solve(&search);
+        assert!(exact.after_cm < 0.1 && near.after_cm < 0.1, "{exact:?} {near:?}");
+        // Three numbers for three coordinates: there is one answer nearby, but for what counts as near.
+        let [a, b] = [&exact, &near].map(|report| report.answer.keyframes[1].vector);
+        assert!(a.distance(b) < 5.0, "{a} {b}");
+    }
 }

@@ -87,14 +87,6 @@ impl Aims {
         self.aims[wish].set(goal);
     }
 
-    /// Where the mean of the nodes of a wish should be.
-    pub fn goal(&self, wish: usize) -> DVec3 {
-        match &self.aims[wish].to {
-            To::Mean(goal) => *goal,
-            To::Each(goals) => goals.iter().sum::<DVec3>() / goals.len() as f64,
-        }
-    }
-
     /// No wish but one counts.
     pub fn leave_only(&mut self, wish: usize) {
         for (i, aim) in self.aims.iter_mut().enumerate() {

@@ -4,12 +4,12 @@ use glam::Vec3;
 
 use super::problem::Problem;
 use super::report::Step;
-use super::solver::{Search, Solver, Stop};
+use super::solver::Solver;
 use super::unknowns::Answer;
 use super::wish::Goal;
 use crate::error::SettingError;
 
-/// Follows a wish that moves: one or a few steps a call, from where the last call ended; and searches on where it rests.
+/// Follows a wish that moves: one or a few steps a call, from where the last call ended.
 #[derive(Debug)]
 pub struct Drag {
     solver: Solver,
@@ -31,31 +31,6 @@ impl Drag {
     pub fn pull(&mut self, wish: usize, goal: Goal) -> Result<Step, SettingError> {
         self.solver.set_goal(wish, goal)?;
         Ok(self.solver.step())
-    }
-
-    /// The whole search for a goal that rests, as [`Solver::pursue`].
-    ///
-    /// # Errors
-    /// As [`Solver::set_goal`].
-    pub fn search(
-        &mut self,
-        wish: usize,
-        goal: Goal,
-        search: &Search,
-        found: &mut dyn FnMut(&Solver),
-    ) -> Result<bool, SettingError> {
-        self.solver.set_goal(wish, goal)?;
-        Ok(self.solver.pursue(search, found))
-    }
-
-    /// Gives way to something more urgent between any two motions, while the answer to this is yes.
-    pub fn set_brake(&mut self, brake: impl Fn() -> bool + Send + Sync + 'static) {
-        self.solver.set_brake(brake);
-    }
-
-    /// What keeps a wish from being met, as [`Solver::stopped_by`].
-    pub fn stopped_by(&mut self, wish: usize, near_cm: f64) -> Option<Stop> {
-        self.solver.stopped_by(wish, near_cm)
     }
 
     /// Where the nodes of a wish are now (head space, cm): the hair's end of the thread from the hand.

@@ -1,5 +1,6 @@
 //! The search: Levenberg's and Marquardt's method, with tangents of the specification, judged by the fast stepper.
 
+mod preroll;
 mod search;
 mod stop;
 
@@ -12,14 +13,15 @@ use super::linear::Normal;
 use super::problem::Problem;
 use super::report::Step;
 use super::unknowns::{Answer, Guess, Layout, Unknown};
-use super::wind::Gusts;
+use super::wind::{Gusts, WindTable};
 use super::wish::Goal;
-use crate::dynamics::{Change, Crowds, Dynamics, Form, Moved, Stability, Standing, Timeline, check_field, tangents};
+use crate::dynamics::{Change, Crowds, Dynamics, Form, Moved, Points, Stability, Standing, Timeline, tangents};
 use crate::error::SettingError;
-use crate::field::{Field, Keyframe, KeyframedField};
+use crate::field::{Field, FieldSum, Keyframe, KeyframedField};
 use crate::profile::Profile;
 use crate::strands::Strands;
 
+pub use preroll::Preroll;
 pub use search::Search;
 pub use stop::Stop;
 
@@ -53,6 +55,10 @@ pub struct Solver {
     before_cm: f64,
     left_before: Vec<f64>,
     damping: Damping,
+    /// How far a step goes at the most, in large changes: it grows where tangents are right so far.
+    reach: f64,
+    /// Whether tangents are differences of motions.
+    by_differences: bool,
     /// Numbers that stay as they are.
     held: Vec<usize>,
     /// Ends a search after the motion that is being computed.
@@ -99,6 +105,9 @@ impl Default for Damping {
 /// Trials of one step, each more damped than the one before: by 2, 4, 8, ... times, so that the last is next to nothing.
 const TRIALS: usize = 8;
 
+/// How many large changes a step goes at the most.
+const FARTHEST: f64 = 32.0;
+
 /// The least damping.
 const LEAST: f64 = 1e-6;
 
@@ -109,7 +118,16 @@ impl Solver {
     /// Wishes and unknowns that name what is not there, weights that are none, no wishes, no unknowns; and as
     /// [`Timeline::new`](crate::dynamics::Timeline::new).
     pub fn new(problem: Problem) -> Result<Self, SettingError> {
-        let Problem { hair, ids, dynamics, poses, wind, surroundings, .. } = &problem;
+        Self::after(problem, None)
+    }
+
+    /// As [`new`](Self::new), going on from where the same hair is known to be. `preroll`: of the same hair, dynamics and wishes, under a wind
+    /// that up to its frame is that of the problem.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn after(problem: Problem, preroll: Option<&Preroll>) -> Result<Self, SettingError> {
+        let Problem { hair, dynamics, wind, surroundings, .. } = &problem;
         let layout = Layout::new(&problem.unknowns, wind, dynamics)?;
         problem.prior.check()?;
         let mut aims = Aims::new(&problem)?;
@@ -122,18 +140,10 @@ impl Solver {
             surroundings.of_wind(Arc::new(KeyframedField::new(&keyframes)?))
         };
         let of_wind = [unit(Vec3::X)?, unit(Vec3::Y)?, unit(Vec3::Z)?];
-        let field = surroundings.field(wind.field(rate)?)?;
-        let strands = hair.select(&aims.strands);
-        let ids: Vec<u32> = aims.strands.iter().map(|&s| ids[s]).collect();
-        let poses = if poses.is_empty() { Vec::new() } else { poses[..poses.len().min(last as usize + 1)].to_vec() };
         let steady = Stability::of(hair, dynamics)?;
-        if !steady.holds(&*field) {
-            check_field(hair, dynamics, &*field)?;
-        }
-        let mut begin = Timeline::with_ids(&strands, &ids, dynamics, field, poses, last)?;
         let until = (layout.first_felt(wind)? - 1).min(last);
-        let early = looked_at(&aims, &frames, until, &mut begin);
-        begin.seek(until);
+        let Preroll { timeline: begin, early, strands, ids } =
+            Preroll::onward(&problem, &aims, &steady, preroll, until)?;
         let start = layout.start(wind);
         aims.set_now(&vec![DVec3::ZERO; aims.spots.len()], &problem.wishes);
         let large = layout.large();
@@ -157,6 +167,8 @@ impl Solver {
             before_cm: 0.0,
             left_before: Vec::new(),
             damping: Damping::default(),
+            reach: 1.0,
+            by_differences: false,
             held: Vec::new(),
             brake: None,
             too_strong: false,
@@ -169,6 +181,16 @@ impl Solver {
         solver.at.places = places;
         solver.restart();
         Ok(solver)
+    }
+
+    /// The same solver with tangents that are differences between motions of the fast stepper, instead of those of the specification: quicker
+    /// for a few numbers, and right among neighbours, too, where the others hold what carriers leave. Where stiffness or settling may change the
+    /// specification's are taken all the same: such motions all begin at rest.
+    #[must_use]
+    pub fn by_differences(mut self) -> Self {
+        let answers = [Unknown::Stiffness, Unknown::Settle];
+        self.by_differences = !answers.iter().any(|answer| self.problem.unknowns.contains(answer));
+        self
     }
 
     /// Counts from where it is.
@@ -214,6 +236,18 @@ impl Solver {
         Step { before_cm, after_cm: self.left_cm() }
     }
 
+    /// The unknowns as it has come to them, in the order of the problem.
+    pub fn numbers(&self) -> &[f64] {
+        &self.at.x
+    }
+
+    /// Goes to some numbers of another solver that has the same unknowns; `false`, and no change, where the hair cannot be stepped there.
+    pub fn set_numbers(&mut self, numbers: &[f64]) -> bool {
+        debug_assert_eq!(numbers.len(), self.layout.numbers);
+        let place = self.place(numbers.to_vec());
+        place.map(|place| self.at = place).is_some()
+    }
+
     /// The settings that it has come to.
     pub fn answer(&self) -> Answer {
         let Problem { wind, dynamics, .. } = &self.problem;
@@ -228,7 +262,13 @@ impl Solver {
     /// One step of the method; whether it led nearer.
     fn descend_once(&mut self) -> bool {
         self.iterations += 1;
-        let Ok(normal) = self.normal() else { return false };
+        // Where what is held misleads, among swirls, differences of all of it may lead on.
+        self.descend_with(true) || self.by_differences && !self.is_braked() && self.descend_with(false)
+    }
+
+    /// `held`: whether what is not linear in the wind is held while it is differentiated.
+    fn descend_with(&mut self, held: bool) -> bool {
+        let Ok(normal) = self.normal(held) else { return false };
         // What hardly matters is damped as if it mattered a little, so that it stays where it is.
         let most = (0..normal.n).map(|i| normal.diagonal(i) * self.large[i].powi(2)).fold(0.0, f64::max);
         for _ in 0..TRIALS {
@@ -241,19 +281,24 @@ impl Solver {
                 .collect();
             if let Some(mut step) = normal.solved(&damping) {
                 let length = step.iter().zip(&self.large).map(|(d, large)| (d / large).abs()).fold(0.0, f64::max);
-                let shorter = if length > 1.0 { 1.0 / length } else { 1.0 };
+                let shorter = (self.reach / length).min(1.0);
                 step.iter_mut().for_each(|d| *d *= shorter);
                 let expected = normal.expected(&step);
                 if let Some(next) = self.tried(&step) {
                     let gained = (self.at.cost - next.cost) / expected.max(f64::MIN_POSITIVE);
                     if next.cost < self.at.cost {
                         self.at = next;
+                        // As far as it went tangents have said the truth: the next may go farther.
+                        if shorter < 1.0 && gained > 0.5 {
+                            self.reach = (2.0 * self.reach).min(FARTHEST);
+                        }
                         let factor = (1.0 - (2.0 * gained.min(1.0) - 1.0).powi(3)).max(1.0 / 3.0);
                         self.damping = Damping { amount: (amount * factor).max(LEAST), growth: 2.0 };
                         return true;
                     }
                 }
             }
+            self.reach = (0.5 * self.reach).max(1.0);
             self.damping.amount = (amount * self.damping.growth).min(1e9);
             self.damping.growth *= 2.0;
         }
@@ -303,11 +348,16 @@ impl Solver {
         let field = self.problem.surroundings.field(wind)?;
         if let Some(dynamics) = dynamics {
             // Under the old field the new settings might not be steppable, and the other way round.
-            self.begin.set_field(Arc::new(crate::field::FieldSum::default()))?;
+            self.begin.set_field(Arc::new(FieldSum::default()))?;
             self.begin.set_dynamics(&dynamics)?;
             self.run = self.begin.clone();
             self.steady = Stability::of(&self.problem.hair, &dynamics)?;
         }
+        self.moved_in(field)
+    }
+
+    /// Where the spots are in this field.
+    fn moved_in(&mut self, field: Arc<dyn Field>) -> Result<Vec<DVec3>, SettingError> {
         if !self.steady.holds(&*field) {
             self.too_strong = true;
             let remedy = "too strong for some of the hair";
@@ -323,19 +373,57 @@ impl Solver {
         if let Some(field) = field {
             self.run.set_field_onward(field)?;
         }
-        let begin = self.begin.frame();
         let mut places = self.early.clone();
-        let later = looked_at(&self.aims, &self.frames, u32::MAX, &mut self.run);
-        for ((spot, place), later) in self.aims.spots.iter().zip(&mut places).zip(later) {
-            if spot.frame > begin {
-                *place = later;
-            }
-        }
+        preroll::look(&self.aims, u32::MAX, &mut self.run, &mut places);
         Ok(places)
     }
 
     /// The normal equations about where it is.
-    fn normal(&mut self) -> Result<Normal, SettingError> {
+    fn normal(&mut self, held: bool) -> Result<Normal, SettingError> {
+        let points = if self.by_differences { self.differences(held)? } else { self.tangents()? };
+        let mut normal = Normal::new(self.layout.numbers);
+        self.aims.add_to(&mut normal, &self.at.places, &points);
+        self.add_prior(&mut normal);
+        self.held.iter().for_each(|&i| normal.hold(i));
+        Ok(normal)
+    }
+
+    /// How the spots move with each number, by a motion in a wind with a little more of it, or less where hair cannot be stepped in more. `held`:
+    /// as in the specification's tangents, what depends on the wind and is not linear in it is held: swirls that drift with it would make them rough.
+    fn differences(&mut self, held: bool) -> Result<Points, SettingError> {
+        /// Of a large change: far above what rounding does to a motion of a few dozen frames.
+        const PART: f64 = 0.05;
+        let n = self.layout.numbers;
+        let guess = self.layout.guess(&self.problem.wind, &self.at.x);
+        let by_number = self.gusts.by_number(&guess, &self.layout);
+        let surroundings = self.problem.surroundings.clone();
+        let field = surroundings.field(Arc::new(self.gusts.table(&guess)))?;
+        let mut tangents = vec![0.0; 3 * n * self.aims.spots.len()];
+        for i in 0..n {
+            let by = PART * self.large[i];
+            let mut moved = |by: f64| {
+                if !held {
+                    let mut x = self.at.x.clone();
+                    x[i] += by;
+                    let wind = Arc::new(self.gusts.table(&self.layout.guess(&self.problem.wind, &x)));
+                    return Ok((self.simulated(wind, None)?, by));
+                }
+                let more = surroundings.of_wind(Arc::new(WindTable::of(by_number.iter().map(|of| by * of[i]))))?;
+                let field = Arc::new(FieldSum::new(vec![field.clone(), more]));
+                Ok::<_, SettingError>((self.moved_in(field)?, by))
+            };
+            let (places, by) = moved(by).or_else(|_| moved(-by))?;
+            for (spot, (place, was)) in places.iter().zip(&self.at.places).enumerate() {
+                for (axis, moved) in ((*place - *was) / by).to_array().into_iter().enumerate() {
+                    tangents[(3 * spot + axis) * n + i] = moved;
+                }
+            }
+        }
+        Ok(Points { places: self.at.places.clone(), tangents })
+    }
+
+    /// How the spots move with each number, by the specification.
+    fn tangents(&mut self) -> Result<Points, SettingError> {
         let guess = self.layout.guess(&self.problem.wind, &self.at.x);
         let now = self.dynamics(&guess);
         let dynamics = now.as_ref().unwrap_or(&self.problem.dynamics);
@@ -368,13 +456,8 @@ impl Solver {
             stiffness: unknown(Unknown::Stiffness),
             settle: unknown(Unknown::Settle),
         };
-        let points = tangents(&moved, &change, &self.aims.spots)?;
         self.runs += 1;
-        let mut normal = Normal::new(self.layout.numbers);
-        self.aims.add_to(&mut normal, &self.at.places, &points);
-        self.add_prior(&mut normal);
-        self.held.iter().for_each(|&i| normal.hold(i));
-        Ok(normal)
+        tangents(&moved, &change, &self.aims.spots)
     }
 
     /// What is left of the wishes and what is preferred (cm^2).
@@ -418,17 +501,4 @@ impl Solver {
             }
         }
     }
-}
-
-/// Where the spots of frames from where a timeline stands up to `until` are in its motion; nowhere else than at the origin those of others.
-fn looked_at(aims: &Aims, frames: &[u32], until: u32, timeline: &mut Timeline) -> Vec<DVec3> {
-    let mut places = vec![DVec3::ZERO; aims.spots.len()];
-    let begin = timeline.frame();
-    for &frame in frames.iter().filter(|&&frame| frame > begin && frame <= until) {
-        let strands = timeline.seek(frame);
-        for (spot, place) in aims.spots.iter().zip(&mut places).filter(|(spot, _)| spot.frame == frame) {
-            *place = strands.strand(spot.strand)[spot.node].as_dvec3();
-        }
-    }
-    places
 }

@@ -155,6 +155,13 @@ impl Gusts {
 }
 
 impl WindTable {
+    /// Of one vector a frame, from frame 1 on.
+    pub fn of(vectors: impl Iterator<Item = DVec3>) -> Self {
+        let vectors: Vec<Vec3> = vectors.map(|v| v.as_vec3()).collect();
+        let strongest = vectors.iter().map(|v| v.length()).fold(0.0, f32::max);
+        Self { vectors, strongest }
+    }
+
     fn vector(&self, frame: u32) -> Vec3 {
         let n = (frame.max(1) - 1) as usize;
         self.vectors.get(n).or(self.vectors.last()).copied().unwrap_or_default()

@@ -1,6 +1,6 @@
 //! What keeps a wish from being met.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::{Damping, Solver};
 use crate::body::Body;
@@ -50,24 +50,20 @@ const STEPS: usize = 12;
 const WORTH: f64 = 0.96;
 
 impl Solver {
-    /// What keeps a wish farther than this from where it should be (cm), about the motion that a search has come to; none where nothing does.
-    /// Looks for what the wish would come to without the others, which takes a few motions.
-    pub fn stopped_by(&mut self, wish: usize, near_cm: f64) -> Option<Stop> {
-        let left = self.aims.left(&self.at.places)[wish];
-        if left <= near_cm {
-            return None;
-        }
-        Some(
-            self.by_length(wish)
-                .or_else(|| self.by_goal_in_body(wish))
-                .or_else(|| self.by_nail(wish, left, near_cm))
-                .or_else(|| self.by_force())
-                .or_else(|| self.by_touch(wish))
-                .unwrap_or_else(|| self.by_unknowns(wish)),
-        )
+    /// What keeps a wish from being met, of which so much is left (cm), about the motion that a search has come to. Looks for what the wish would
+    /// come to without the others, which takes a few motions. `goal`: where the mean of its nodes should be (head space, cm), which is not where
+    /// this solver was sent if its hair stands for other hair.
+    pub fn stopped_by(&mut self, wish: usize, goal: Vec3, left_cm: f64) -> Stop {
+        let goal = goal.as_dvec3();
+        self.by_length(wish, goal)
+            .or_else(|| self.by_goal_in_body(wish, goal))
+            .or_else(|| self.by_nail(wish, left_cm))
+            .or_else(|| self.by_force())
+            .or_else(|| self.by_touch(wish, goal))
+            .unwrap_or_else(|| self.by_unknowns(wish))
     }
 
-    fn by_length(&self, wish: usize) -> Option<Stop> {
+    fn by_length(&self, wish: usize, goal: DVec3) -> Option<Stop> {
         let nodes = &self.problem.wishes[wish].nodes;
         let (mut root, mut reach) = (DVec3::ZERO, 0.0);
         for node in nodes {
@@ -82,7 +78,7 @@ impl Solver {
             reach += free.map(|pair| f64::from(pair[0].distance(pair[1]))).sum::<f64>();
         }
         let count = nodes.len() as f64;
-        let (away_cm, reach_cm) = (self.aims.goal(wish).distance(root / count), reach / count);
+        let (away_cm, reach_cm) = (goal.distance(root / count), reach / count);
         (away_cm > TAUT * reach_cm).then_some(Stop::Length { away_cm, reach_cm })
     }
 
@@ -100,17 +96,17 @@ impl Solver {
         free.bodies.iter().map(of_body).collect()
     }
 
-    fn by_goal_in_body(&self, wish: usize) -> Option<Stop> {
-        let within = self.bodies(wish, self.aims.goal(wish)).into_iter().find(|body| body.distance < 0.0);
+    fn by_goal_in_body(&self, wish: usize, goal: DVec3) -> Option<Stop> {
+        let within = self.bodies(wish, goal).into_iter().find(|body| body.distance < 0.0);
         within.map(|body| Stop::Body(body.name.to_owned()))
     }
 
     /// Whether the hair lies on a body that is in its way to the goal.
-    fn by_touch(&self, wish: usize) -> Option<Stop> {
+    fn by_touch(&self, wish: usize, goal: DVec3) -> Option<Stop> {
         let places = self.aims.places(wish, &self.at.places);
         let count = places.len() as f64;
         let middle = places.iter().map(|p| p.as_dvec3()).sum::<DVec3>() / count;
-        let way = self.aims.goal(wish) - middle;
+        let way = goal - middle;
         let mut touching: Vec<(&str, usize)> = Vec::new();
         for place in &places {
             for Beside { name, distance, margin, out } in self.bodies(wish, place.as_dvec3()) {
@@ -127,7 +123,7 @@ impl Solver {
     }
 
     /// Whether it comes nearer without the other wishes; of those the one that then gives way most.
-    fn by_nail(&mut self, wish: usize, left: f64, near_cm: f64) -> Option<Stop> {
+    fn by_nail(&mut self, wish: usize, left: f64) -> Option<Stop> {
         if self.problem.wishes.len() < 2 {
             return None;
         }
@@ -143,7 +139,7 @@ impl Solver {
         let free = self.aims.left(&self.at.places)[wish];
         let moved = aims.left(&self.at.places);
         (self.at, self.damping, self.aims) = (at, damping, aims);
-        if free > near_cm.max(0.5 * left) {
+        if free > 0.5 * left {
             return None;
         }
         let others = (0..moved.len()).filter(|&other| other != wish);

@@ -1,0 +1,80 @@
+//! Hair on its way to the frame in which something that may change is first felt.
+
+use glam::DVec3;
+
+use crate::dynamics::{Stability, Timeline, check_field};
+use crate::error::SettingError;
+use crate::solve::aims::Aims;
+use crate::solve::problem::Problem;
+use crate::strands::Strands;
+
+/// Where the hair of a problem is in a frame: solvers of other unknowns, felt later, go on from there.
+#[derive(Clone, Debug)]
+pub struct Preroll {
+    pub(super) timeline: Timeline,
+    /// Where the spots are that are looked at until then.
+    pub(super) early: Vec<DVec3>,
+    /// The strands that wishes name, with their numbers.
+    pub(super) strands: Strands,
+    pub(super) ids: Vec<u32>,
+}
+
+impl Preroll {
+    /// Goes to a frame in the wind as the problem has it, before anything is changed; not beyond the last that a wish is about.
+    ///
+    /// # Errors
+    /// As [`Solver::new`](super::Solver::new).
+    pub fn new(problem: &Problem, frame: u32) -> Result<Self, SettingError> {
+        let aims = Aims::new(problem)?;
+        let steady = Stability::of(&problem.hair, &problem.dynamics)?;
+        let frame = frame.min(aims.frames().last().copied().unwrap_or(1));
+        Self::onward(problem, &aims, &steady, None, frame)
+    }
+
+    /// To a frame in the wind of the problem, from where it is known to be if that is not later.
+    pub(super) fn onward(
+        problem: &Problem,
+        aims: &Aims,
+        steady: &Stability,
+        known: Option<&Self>,
+        until: u32,
+    ) -> Result<Self, SettingError> {
+        let Problem { hair, ids, dynamics, poses, wind, surroundings, .. } = problem;
+        let field = surroundings.field(wind.field(dynamics.motion.frame_rate)?)?;
+        if !steady.holds(&*field) {
+            check_field(hair, dynamics, &*field)?;
+        }
+        let known = known.filter(|known| known.timeline.frame() <= until);
+        let mut preroll = match known {
+            Some(known) => {
+                let mut known = known.clone();
+                known.timeline.set_field_onward(field)?;
+                known
+            }
+            None => {
+                let strands = hair.select(&aims.strands);
+                let ids: Vec<u32> = aims.strands.iter().map(|&s| ids[s]).collect();
+                let last = aims.frames().last().copied().unwrap_or(1);
+                let poses =
+                    if poses.is_empty() { Vec::new() } else { poses[..poses.len().min(last as usize + 1)].to_vec() };
+                let timeline = Timeline::with_ids(&strands, &ids, dynamics, field, poses, last)?;
+                let early = vec![DVec3::ZERO; aims.spots.len()];
+                Self { timeline, early, strands, ids }
+            }
+        };
+        look(aims, until, &mut preroll.timeline, &mut preroll.early);
+        preroll.timeline.seek(until);
+        Ok(preroll)
+    }
+}
+
+/// Takes a timeline to the last frame that is looked at, up to `until`, and takes the places of the spots of all frames on its way.
+pub(super) fn look(aims: &Aims, until: u32, timeline: &mut Timeline, places: &mut [DVec3]) {
+    let begin = timeline.frame();
+    for frame in aims.frames().into_iter().filter(|&frame| frame > begin && frame <= until) {
+        let strands = timeline.seek(frame);
+        for (spot, place) in aims.spots.iter().zip(&mut *places).filter(|(spot, _)| spot.frame == frame) {
+            *place = strands.strand(spot.strand)[spot.node].as_dvec3();
+        }
+    }
+}
