@@ -52,7 +52,7 @@ fn main() {
     println!("processor time of all threads, and in the end ({} s); medians of what is left (cm)", options.wait_s);
     let mut all = Vec::new();
     for path in scenes(options.only.as_deref()) {
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let name = name(&path);
         let mut random =
             Random(options.seed ^ name.bytes().fold(7, |h: u64, b| h.wrapping_mul(31).wrapping_add(b.into())));
         let built = match Scene::load(&path, &[]).map_err(|e| e.to_string()) {
@@ -90,16 +90,23 @@ fn options() -> Options {
 
 /// The scene files of the project.
 fn scenes(only: Option<&str>) -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    let mut paths: Vec<PathBuf> =
-        std::fs::read_dir(folder).expect("scenes").map(|entry| entry.expect("a file").path()).collect();
+    let folders = ["../../scenes", "../../scenes/paper"].map(|of| Path::new(env!("CARGO_MANIFEST_DIR")).join(of));
+    let within = |folder| std::fs::read_dir(folder).expect("scenes").map(|entry| entry.expect("a file").path());
+    let mut paths: Vec<PathBuf> = folders.into_iter().flat_map(within).collect();
     let named = |path: &PathBuf| {
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let name = name(path);
         path.extension().is_some_and(|end| end == "toml") && only.is_none_or(|only| name.contains(only))
     };
     paths.retain(named);
     paths.sort();
     paths
+}
+
+/// A scene's name, with the folder of the paper's.
+fn name(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let is_papers = path.parent().is_some_and(|folder| folder.ends_with("paper"));
+    if is_papers { format!("paper/{stem}") } else { stem.into_owned() }
 }
 
 struct Tried {
@@ -188,9 +195,9 @@ fn is_in_contact(built: &BuiltScene, points: &[Vec3], lock: &Lock, way: Vec3) ->
 
 /// What is left of a pull.
 fn pulled(built: &BuiltScene, lock: &Lock, from: Vec3, way: Vec3, wait_s: f64) -> [f64; 3] {
-    let pull = Pull::new(Follower::new(built, lock, &[], Freedom::default()), || {});
+    let pull = Pull::new(Follower::new(built, lock, from, &[], Freedom::default()), || {});
     for i in 1..=MOVES {
-        pull.to(from + way * (i as f32 / MOVES as f32));
+        pull.to(if i == MOVES { from + way } else { from + way * (i as f32 / MOVES as f32) });
         std::thread::sleep(Duration::from_secs_f64(WAY_S / f64::from(MOVES)));
     }
     let (clock, busy) = (Instant::now(), processor_s());
@@ -200,6 +207,10 @@ fn pulled(built: &BuiltScene, lock: &Lock, from: Vec3, way: Vec3, wait_s: f64) -
         let (wall, busy) = (clock.elapsed().as_secs_f64(), processor_s() - busy);
         if let Some(pulled) = pull.take() {
             let Ok(pulled) = pulled else { return left };
+            // What was found for where the hand was on its way says nothing.
+            if pulled.goal != from + way {
+                continue;
+            }
             let cm = pulled.left_cm;
             ended = pulled.ended;
             left[2] = cm;

@@ -3,6 +3,7 @@
 //! While the hand moves, the wind follows it by quick steps. Where it rests, or they gain nothing, the whole search goes on: more steps,
 //! other intervals, other starts; a hand that moves on stops it between two motions. What is found is the nearest motion so far.
 
+mod few;
 mod follow;
 mod lock;
 
@@ -31,7 +32,9 @@ pub struct Pulled {
     pub interval: usize,
     /// The frames whose wind it may change.
     pub felt: RangeInclusive<u32>,
-    /// What is left between hand and hair (cm).
+    /// Where the lock should be (head space, cm).
+    pub goal: Vec3,
+    /// What is left between there and the hair (cm).
     pub left_cm: f64,
     /// Whether the whole search has come to its end: nothing nearer comes until the hand moves on.
     pub ended: bool,

@@ -383,7 +383,8 @@ impl View {
         } else if shown.take.built.scene.field.force != shown.force {
             touches.push(Touch::Refused("The motion is not there yet: pull again in a moment.".to_owned()));
         } else {
-            let follower = Follower::new(&shown.take.built, &lock, &self.nails, Freedom::default());
+            let middle = lock.middle(points, strands);
+            let follower = Follower::new(&shown.take.built, &lock, middle, &self.nails, Freedom::default());
             let context = context.clone();
             let pull = Pull::new(follower, move || context.request_repaint());
             let in_head = view.in_head(&shown.take.pose(shown.frame));

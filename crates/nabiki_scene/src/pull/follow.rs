@@ -1,27 +1,45 @@
 //! The wind that follows a hand, without a clock: quick steps while it moves, the whole search where it rests.
+//!
+//! Steps are found for a few strands of the lock among the carriers about them, which take a fraction of the time, and judged by the
+//! whole lock among all. What the one does otherwise than the other is added to the goal, so that a few judgements lead the whole lock there.
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
+use std::thread::{Builder, JoinHandle};
 
 use glam::Vec3;
 use nabiki::SettingError;
 use nabiki::field::Keyframe;
-use nabiki::solve::{Cut, Drag, Goal, Problem, Search, Solver, Unknown, Wind, cut_for_pull, felt};
+use nabiki::solve::{Cut, Goal, Preroll, Problem, Search, Solver, Unknown, Wind, cut_for_pull, felt};
 
+use super::few::few;
 use super::{Lock, Pulled};
 use crate::BuiltScene;
 
 /// How much a nail counts beside the lock in the hand.
 const NAIL_WEIGHT: f32 = 2.0;
-/// A quick step that leaves more than this part of what was left gains nothing.
+/// A step that leaves more than this part of what was left gains nothing.
 const WORTH: f64 = 0.98;
 /// So near to the hand is there (cm).
 pub const THERE_CM: f64 = 0.1;
+/// What has come so near need not be looked for by other ways (cm).
+const NEAR_CM: f64 = 0.2;
 /// What is farther from the hand is told why (cm).
 const SHORT_CM: f64 = 0.3;
 /// About how many frames long the interval is that a pull has for its own: the first is what a hand that moves begins with, the others
 /// are tried where that does not arrive.
 const LENGTHS: [u32; 3] = [12, 20, 7];
+/// How often the whole lock judges what was found for a few of its strands, until it looks for itself.
+const TRUSTED: usize = 3;
+/// Judgements of a try at the most.
+const ROUNDS: usize = 12;
+/// Steps between two judgements, and of a search that goes its way to its end.
+const SHORT: usize = 5;
+const LONG: usize = 30;
+/// Few that have left less than this part of what they had left before are still on their way.
+const ON_ITS_WAY: f64 = 0.8;
+/// Starts of a search where none arrives from where it is.
+const STARTS: usize = 4;
 
 /// What may change for a pull.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -39,7 +57,24 @@ struct Try {
     unknowns: Vec<Unknown>,
     interval: usize,
     felt: RangeInclusive<u32>,
-    drag: Option<Drag>,
+    /// Once it has begun.
+    solvers: Option<Solvers>,
+}
+
+/// What finds a wind, and what judges it.
+#[derive(Debug)]
+struct Solvers {
+    few: Solver,
+    /// Once the whole hair is where a pull begins.
+    whole: Option<Solver>,
+    /// From the middle of the whole lock to that of the few strands of it, in the last motion of both (cm).
+    shift: Vec3,
+}
+
+/// Hair in the frame in which pulls begin, once it is worked out.
+enum Begin {
+    Awaited(JoinHandle<Result<Preroll, SettingError>>),
+    There(Box<Preroll>),
 }
 
 /// Asked between two motions: is there something more urgent?
@@ -49,6 +84,15 @@ type Brake = Arc<dyn Fn() -> bool + Send + Sync>;
 pub struct Follower {
     /// With the wind as it is.
     problem: Problem,
+    /// The same of a few strands.
+    of_few: Problem,
+    /// The middle of the lock as it is, and where it should be (head space, cm).
+    middle: Vec3,
+    goal: Vec3,
+    /// No try is felt before the frame after this one.
+    from: u32,
+    begin: Option<Begin>,
+    few_begin: Option<Preroll>,
     tries: Vec<Try>,
     /// The one that has led nearest.
     at: usize,
@@ -63,8 +107,9 @@ impl std::fmt::Debug for Follower {
 }
 
 impl Follower {
-    /// Takes hold of a lock, while nails stay where they are as well as they can.
-    pub fn new(built: &BuiltScene, held: &Lock, nails: &[Lock], freedom: Freedom) -> Self {
+    /// Takes hold of a lock, while nails stay where they are as well as they can. `middle`: of the lock, in the motion as the scene has it (head
+    /// space, cm).
+    pub fn new(built: &BuiltScene, held: &Lock, middle: Vec3, nails: &[Lock], freedom: Freedom) -> Self {
         let mut wishes = vec![held.wish(Goal::MeanMoved(Vec3::ZERO), 1.0)];
         wishes.extend(nails.iter().map(|nail| nail.wish(Goal::Stay, NAIL_WEIGHT)));
         let problem = built.problem(Vec::new(), wishes);
@@ -85,8 +130,14 @@ impl Follower {
                 None => add(one),
             }
         }
-        let limits = Search { iterations: 30, starts: 4, near_cm: THERE_CM, seed: 1 };
-        Self { problem, tries, at: 0, limits, brake: None }
+        let from = tries.iter().map(|of| *of.felt.start()).min().unwrap_or(1).saturating_sub(1);
+        let limits = Search { iterations: SHORT, starts: 1, near_cm: 0.5 * THERE_CM, seed: 1 };
+        let of_few = few(&problem);
+        // The way there is long among neighbours: the first steps are found for a few meanwhile.
+        let whole = Problem { unknowns: Vec::new(), ..problem.clone() };
+        let new = move || Preroll::new(&whole, from);
+        let begin = Builder::new().name("begin of a pull".to_owned()).spawn(new).ok().map(Begin::Awaited);
+        Self { problem, of_few, middle, goal: middle, from, begin, few_begin: None, tries, at: 0, limits, brake: None }
     }
 
     /// Gives way to something more urgent between any two motions, while the answer to this is yes.
@@ -99,8 +150,14 @@ impl Follower {
     /// # Errors
     /// Hair that cannot be moved, and places that are no numbers.
     pub fn step(&mut self, goal: Vec3) -> Result<(Pulled, bool), SettingError> {
-        let step = self.drag(self.at)?.0.pull(0, Goal::MeanAt(goal))?;
-        Ok((self.pulled(self.at)?, step.after_cm < WORTH * step.before_cm))
+        self.goal = goal;
+        let solvers = self.solvers(self.at, false)?;
+        solvers.aim(goal)?;
+        let before = solvers.judge().left_cm();
+        solvers.few.step();
+        solvers.compare();
+        let gained = solvers.judge().left_cm() < WORTH * before;
+        Ok((self.pulled(self.at), gained))
     }
 
     /// The whole search; `found` hears of every motion that is nearer than all before. What it has come to in the end, and what stops it
@@ -109,68 +166,203 @@ impl Follower {
     /// # Errors
     /// As [`step`](Self::step).
     pub fn search(&mut self, goal: Vec3, found: &mut dyn FnMut(Pulled)) -> Result<Option<Pulled>, SettingError> {
+        self.goal = goal;
         let first = self.at;
         let order = std::iter::once(first).chain((0..self.tries.len()).filter(|&i| i != first));
-        let mut best = f64::INFINITY;
-        for i in order.collect::<Vec<_>>() {
-            let limits = self.limits;
-            let (drag, interval, felt) = self.drag(i)?;
-            // A hand that is followed has this already.
-            let mut nearest = if i == first { drag.solver().left_of_wish(0) } else { best };
-            let mut tell = |solver: &Solver| {
-                let left_cm = solver.left_of_wish(0);
-                if left_cm < nearest {
-                    nearest = left_cm;
-                    let (answer, felt) = (solver.answer(), felt.clone());
-                    found(Pulled { answer, interval, felt, left_cm, ended: false, stop: None });
-                }
-            };
-            let whole = drag.search(0, Goal::MeanAt(goal), &limits, &mut tell)?;
-            let left = drag.solver().left_of_wish(0);
+        let mut turns: Vec<(usize, usize)> = order.flat_map(|i| [(1, i), (STARTS, i)]).collect();
+        // First each from where it is; other starts, which take long, only where none of them arrives.
+        turns.sort_by_key(|&(starts, _)| starts);
+        let (mut best, mut nearest) = (f64::INFINITY, f64::INFINITY);
+        for (turn, (starts, i)) in turns.into_iter().enumerate() {
+            let limits = Search { starts, iterations: if starts > 1 { LONG } else { SHORT }, ..self.limits };
+            let solvers = self.solvers(i, false)?;
+            solvers.aim(goal)?;
+            if turn == 0 {
+                // A hand that is followed has this already.
+                nearest = solvers.judge().left_of_wish(0);
+            }
+            let came = self.search_of(i, goal, &limits, &mut nearest, found)?;
+            let left = self.solvers(i, came)?.judge().left_cm();
             if left < best {
                 (best, self.at) = (left, i);
             }
-            if !whole {
+            if !came {
                 return Ok(None);
             }
-            if best <= SHORT_CM.min(2.0 * THERE_CM) {
+            if best <= NEAR_CM {
                 break;
             }
         }
-        let stop = self.drag(self.at)?.0.stopped_by(0, SHORT_CM);
-        Ok(Some(Pulled { ended: true, stop, ..self.pulled(self.at)? }))
+        let pulled = self.pulled(self.at);
+        let solvers = self.solvers(self.at, true)?;
+        let stop = (pulled.left_cm > SHORT_CM).then(|| solvers.few.stopped_by(0, goal, pulled.left_cm));
+        Ok(Some(Pulled { ended: true, stop, ..pulled }))
     }
 
-    fn pulled(&mut self, i: usize) -> Result<Pulled, SettingError> {
-        let (drag, interval, felt) = self.drag(i)?;
-        let (answer, left_cm) = (drag.answer(), drag.solver().left_of_wish(0));
-        Ok(Pulled { answer, interval, felt, left_cm, ended: false, stop: None })
-    }
-
-    /// The drag of a try, the interval that it has for its own, and the frames that feel it.
-    fn drag(&mut self, i: usize) -> Result<(&mut Drag, usize, RangeInclusive<u32>), SettingError> {
-        let Try { keyframes, unknowns, interval, felt, drag } = &mut self.tries[i];
-        let drag = match drag {
-            Some(drag) => drag,
-            None => {
-                let mut problem = self.problem.clone();
-                problem.wind.keyframes = keyframes.clone();
-                problem.unknowns = unknowns.clone();
-                let mut new = Drag::new(problem)?;
-                if let Some(brake) = self.brake.clone() {
-                    new.set_brake(move || brake());
-                }
-                drag.insert(new)
+    /// Searches by a try. Whether it came to its end, and was not braked; it has come to the nearest either way.
+    fn search_of(
+        &mut self,
+        i: usize,
+        goal: Vec3,
+        limits: &Search,
+        nearest: &mut f64,
+        found: &mut dyn FnMut(Pulled),
+    ) -> Result<bool, SettingError> {
+        let mut limits = *limits;
+        let mut tell = |pulled: Pulled| {
+            if pulled.left_cm < *nearest {
+                *nearest = pulled.left_cm;
+                found(pulled);
             }
         };
-        Ok((drag, *interval, felt.clone()))
+        let solvers = self.solvers(i, false)?;
+        let known = solvers.whole.as_ref().map_or(f64::INFINITY, Solver::left_cm);
+        let mut best = (solvers.few.numbers().to_vec(), known);
+        let mut judged = 0;
+        for _ in 0..ROUNDS {
+            if judged == TRUSTED {
+                break;
+            }
+            let solvers = self.solvers(i, false)?;
+            solvers.aim(goal)?;
+            let before = solvers.few.left_cm();
+            let came = solvers.few.pursue(&limits, &mut |_| {});
+            let (left, was) = (solvers.few.left_cm(), solvers.shift);
+            // Now all of it must be there, and judge; a hand that has moved on does not wait for it.
+            let solvers = self.solvers(i, came)?;
+            solvers.aim(goal)?;
+            solvers.compare();
+            let (left_of_all, shifted) = (solvers.judge().left_cm(), f64::from(solvers.shift.distance(was)));
+            if left_of_all < best.1 {
+                best = (solvers.few.numbers().to_vec(), left_of_all);
+            }
+            tell(self.pulled(i));
+            if !came || best.1 <= THERE_CM {
+                self.solvers(i, came)?.go(&best.0);
+                return Ok(came);
+            }
+            limits.starts = 1;
+            if left > THERE_CM && left < ON_ITS_WAY * before {
+                continue;
+            }
+            // Where the few do not arrive, and do as all do, going on gains nothing.
+            if left > THERE_CM && shifted < 0.2 * left || shifted < 0.1 * THERE_CM {
+                break;
+            }
+            judged += 1;
+        }
+        self.solvers(i, true)?.go(&best.0);
+        if judged < TRUSTED || best.1 <= NEAR_CM {
+            return Ok(true);
+        }
+        // What a few do says too little here: all of the lock looks for itself.
+        let limits = Search { iterations: LONG, ..limits };
+        let came = self.solvers(i, true)?.search_whole(&limits);
+        tell(self.pulled(i));
+        Ok(came)
     }
+
+    /// What a try has come to.
+    fn pulled(&self, i: usize) -> Pulled {
+        let Try { interval, felt, solvers, .. } = &self.tries[i];
+        let judge = solvers.as_ref().expect("a try that has begun").judge();
+        let (answer, left_cm) = (judge.answer(), judge.left_of_wish(0));
+        Pulled { answer, interval: *interval, felt: felt.clone(), goal: self.goal, left_cm, ended: false, stop: None }
+    }
+
+    /// The solvers of a try; that of the whole lock, too, if it can begin by now or is waited for.
+    fn solvers(&mut self, i: usize, wait: bool) -> Result<&mut Solvers, SettingError> {
+        let Self { problem, of_few, begin, few_begin, tries, brake, from, middle, .. } = self;
+        let Try { keyframes, unknowns, solvers, .. } = &mut tries[i];
+        let solver = |problem: &Problem, begin: &Preroll| {
+            let mut problem = problem.clone();
+            (problem.wind.keyframes, problem.unknowns) = (keyframes.clone(), unknowns.clone());
+            let mut solver = Solver::after(problem, Some(begin))?.by_differences();
+            if let Some(brake) = brake.clone() {
+                solver.set_brake(move || brake());
+            }
+            Ok::<_, SettingError>(solver)
+        };
+        let solvers = match solvers {
+            Some(solvers) => solvers,
+            None => {
+                let begin = match few_begin {
+                    Some(begin) => begin,
+                    None => few_begin.insert(Preroll::new(of_few, *from)?),
+                };
+                let few = solver(of_few, begin)?;
+                let shift = middle_of(&few) - *middle;
+                solvers.insert(Solvers { few, whole: None, shift })
+            }
+        };
+        let is_ready = !matches!(begin, Some(Begin::Awaited(thread)) if !thread.is_finished());
+        if solvers.whole.is_none() && (wait || is_ready) {
+            let there = match begin.take() {
+                Some(Begin::There(there)) => there,
+                Some(Begin::Awaited(thread)) => {
+                    Box::new(thread.join().unwrap_or_else(|_| Preroll::new(problem, *from))?)
+                }
+                None => Box::new(Preroll::new(problem, *from)?),
+            };
+            solvers.whole = Some(solver(problem, &there)?);
+            *begin = Some(Begin::There(there));
+            solvers.compare();
+        }
+        Ok(solvers)
+    }
+}
+
+impl Solvers {
+    /// Where the middle of the whole lock should be (head space, cm).
+    fn aim(&mut self, goal: Vec3) -> Result<(), SettingError> {
+        if let Some(whole) = &mut self.whole {
+            whole.set_goal(0, Goal::MeanAt(goal))?;
+        }
+        self.few.set_goal(0, Goal::MeanAt(goal + self.shift))
+    }
+
+    /// Who knows best how near the lock is.
+    fn judge(&self) -> &Solver {
+        self.whole.as_ref().unwrap_or(&self.few)
+    }
+
+    /// Takes the whole lock through the motion that was found for a few strands of it.
+    fn compare(&mut self) {
+        if let Some(whole) = &mut self.whole
+            && whole.set_numbers(self.few.numbers())
+        {
+            self.shift = middle_of(&self.few) - middle_of(whole);
+        }
+    }
+
+    /// The whole lock searches for itself, and the few follow. Whether it came to its end.
+    fn search_whole(&mut self, limits: &Search) -> bool {
+        let Some(whole) = &mut self.whole else { return true };
+        let came = whole.pursue(limits, &mut |_| {});
+        if self.few.set_numbers(whole.numbers()) {
+            self.shift = middle_of(&self.few) - middle_of(whole);
+        }
+        came
+    }
+
+    /// Goes to some numbers that one of both has come to before.
+    fn go(&mut self, numbers: &[f64]) {
+        if self.few.numbers() != numbers && self.few.set_numbers(numbers) {
+            self.compare();
+        }
+    }
+}
+
+/// The middle of the lock in the motion that a solver has come to (head space, cm).
+fn middle_of(solver: &Solver) -> Vec3 {
+    let places = solver.places(0);
+    places.iter().sum::<Vec3>() / places.len() as f32
 }
 
 /// A wind with an interval for the pull, whose vector is free.
 fn own_interval(wind: &Wind, frame: u32, length: u32, freedom: Freedom) -> Try {
     let Cut { keyframes, interval, felt } = cut_for_pull(&wind.keyframes, wind.ease, frame, length);
-    Try { keyframes, unknowns: unknowns(&[interval], freedom), interval, felt, drag: None }
+    Try { keyframes, unknowns: unknowns(&[interval], freedom), interval, felt, solvers: None }
 }
 
 /// The same with another interval before it, that is free, too; none where there is no frame for it.
@@ -183,7 +375,7 @@ fn two_intervals(wind: &Wind, frame: u32, length: u32, freedom: Freedom) -> Opti
         return None;
     }
     let felt = felt(&wind.keyframes, &keyframes, wind.ease, &[before, interval]);
-    Some(Try { keyframes, unknowns: unknowns(&[before, interval], freedom), interval, felt, drag: None })
+    Some(Try { keyframes, unknowns: unknowns(&[before, interval], freedom), interval, felt, solvers: None })
 }
 
 fn unknowns(intervals: &[usize], freedom: Freedom) -> Vec<Unknown> {

@@ -3,8 +3,9 @@
 use std::time::{Duration, Instant};
 
 use glam::Vec3;
-use nabiki::Strands;
+use nabiki::dynamics::Form;
 use nabiki::solve::{Answer, Stop};
+use nabiki::{Profile, Strands};
 
 use super::*;
 use crate::{BuiltScene, Scene, Shown};
@@ -44,7 +45,8 @@ fn middle(lock: &Lock, strands: &Strands) -> Vec3 {
 
 /// The whole search for a goal, from a hand that was there at once.
 fn searched(built: &BuiltScene, lock: &Lock, nails: &[Lock], freedom: Freedom, goal: Vec3) -> Pulled {
-    let mut follower = Follower::new(built, lock, nails, freedom);
+    let now = middle(lock, &at(built, lock.frame));
+    let mut follower = Follower::new(built, lock, now, nails, freedom);
     follower.step(goal).unwrap();
     follower.search(goal, &mut |_| {}).unwrap().expect("nothing brakes it")
 }
@@ -83,7 +85,7 @@ fn hair_follows_the_hand() {
     let built = gust(1);
     let before = at(&built, 30);
     let held = tip(&before, 3, 30);
-    let pull = Pull::new(Follower::new(&built, &held, &[], Freedom::default()), || {});
+    let pull = Pull::new(Follower::new(&built, &held, middle(&held, &before), &[], Freedom::default()), || {});
     let way = Vec3::new(2.0, 1.0, 1.0);
     pull.to(middle(&held, &before) + way / 2.0);
     pull.to(middle(&held, &before) + way);
@@ -108,7 +110,7 @@ fn what_is_found_is_nearer_and_nearer_and_the_nearest_is_what_stays() {
     let before = at(&built, 45);
     let held = tip(&before, 7, 45);
     let goal = middle(&held, &before) + Vec3::new(3.0, 3.0, 2.0);
-    let mut follower = Follower::new(&built, &held, &[], Freedom::default());
+    let mut follower = Follower::new(&built, &held, middle(&held, &before), &[], Freedom::default());
     let (first, _) = follower.step(goal).unwrap();
     let mut heard = vec![first.left_cm];
     let end = follower.search(goal, &mut |pulled| heard.push(pulled.left_cm)).unwrap().unwrap();
@@ -124,7 +126,7 @@ fn a_search_gives_way_at_once_and_goes_on_from_the_nearest() {
     let before = at(&built, 45);
     let held = tip(&before, 7, 45);
     let goal = middle(&held, &before) + Vec3::new(3.0, 3.0, 2.0);
-    let mut follower = Follower::new(&built, &held, &[], Freedom::default());
+    let mut follower = Follower::new(&built, &held, middle(&held, &before), &[], Freedom::default());
     let asked = Arc::new(AtomicUsize::new(0));
     let theirs = asked.clone();
     follower.set_brake(move || theirs.fetch_add(1, Ordering::Relaxed) >= 2);
@@ -202,4 +204,39 @@ fn what_stops_a_pull_is_named() {
     assert_eq!(stop(std::slice::from_ref(&held), near), Some(Stop::Nail(1)), "the same node");
     let elsewhere = tip(&before, 20, 5);
     assert_eq!(stop(&[elsewhere], near), None, "a nail that is not in the way is not blamed");
+}
+
+/// Of hair so stiff that it can hardly be stepped in a stronger wind than the scene's, and hardly moves in that.
+#[test]
+fn a_wind_that_hair_cannot_be_stepped_in_is_named() {
+    let mut built = gust(1);
+    let mut allows = |stiffness: u32| {
+        let Form::Free(free) = &mut built.dynamics.form else { unreachable!() };
+        free.form.stiffness = Profile::Even(stiffness as f32);
+        built.timeline().is_ok()
+    };
+    let (mut most, mut refused) = (1, 1 << 24);
+    while refused - most > 1 {
+        let middle = u32::midpoint(most, refused);
+        if allows(middle) { most = middle } else { refused = middle }
+    }
+    assert!(allows(most) && most > 1);
+    let before = at(&built, 30);
+    let held = tip(&before, 3, 30);
+    let root = before.strand(3)[0];
+    let goal = root + 0.9 * (middle(&held, &before) + Vec3::new(-2.0, 3.0, 2.0) - root);
+    let found = searched(&built, &held, &[], Freedom::default(), goal);
+    let Some(Stop::Force { strongest }) = found.stop else { panic!("{found:?}") };
+    let of_scene = 40.0;
+    assert!((strongest - of_scene).abs() < 0.2 * of_scene, "{strongest}");
+
+    // Where a stronger wind can be stepped, and does not bring it there, that is not to blame.
+    let soft = gust(1);
+    let before = at(&soft, 30);
+    let held = tip(&before, 3, 30);
+    let length: f32 = before.strand(3).windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+    let root = before.strand(3)[0];
+    let near_root = root + (middle(&held, &before) - root) * (0.3 / length);
+    let stop = searched(&soft, &held, &[], Freedom::default(), near_root).stop;
+    assert!(!matches!(stop, Some(Stop::Force { .. })), "{stop:?}");
 }

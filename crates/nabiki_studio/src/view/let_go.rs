@@ -140,7 +140,8 @@ impl LetGo {
     /// Looks again, with more that may change.
     pub fn look_again(&mut self, offer: Offer, take: &Take, now: f64, wake: impl Fn() + Send + 'static) {
         let nails: Vec<Lock> = self.nails.iter().map(|(nail, _)| nail.clone()).collect();
-        let pull = Pull::new(Follower::new(&take.built, &self.lock, &nails, offer.freedom), wake);
+        let middle = self.lock.middle(take.points(self.lock.frame), take.strands());
+        let pull = Pull::new(Follower::new(&take.built, &self.lock, middle, &nails, offer.freedom), wake);
         pull.to(self.goal);
         pull.let_go();
         (self.search, self.name, self.is_first) = (Some((pull, now + LOOKS)), offer.name, true);
