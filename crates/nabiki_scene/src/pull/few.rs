@@ -49,3 +49,46 @@ fn about(carriers: &Strands, hair: &Strands, strands: &[usize]) -> Vec<usize> {
     chosen.sort_unstable();
     chosen
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pull::Lock;
+    use crate::{Scene, Shown};
+    use nabiki::solve::Goal;
+
+    fn problem(text: &str, strands: usize) -> Problem {
+        let scene = Scene::parse(text, "a.toml".as_ref(), &[]).unwrap();
+        let built = scene.build(Shown::All).unwrap();
+        let nodes = (0..strands).map(|strand| (strand, 3)).collect();
+        let lock = Lock { frame: 5, nodes };
+        built.problem(Vec::new(), vec![lock.wish(Goal::Stay, 1.0)])
+    }
+
+    #[test]
+    fn a_lock_of_few_strands_stands_for_itself_and_a_larger_one_for_all_of_its_length() {
+        let text = "[hair]\nstrands = 60\n[motion]\nframes = 10\nform = \"free\"\n";
+        let small = problem(text, NODES);
+        let same = few(&small);
+        assert_eq!((same.wishes, same.dynamics), (small.wishes, small.dynamics));
+        let large = few(&problem(text, 50));
+        let strands: Vec<u32> = large.wishes[0].nodes.iter().map(|node| node.strand).collect();
+        assert_eq!(strands.len(), NODES);
+        assert!(strands.windows(2).all(|pair| (3..=4).contains(&(pair[1] - pair[0]))), "{strands:?}");
+    }
+
+    #[test]
+    fn the_carriers_about_a_lock_are_those_that_come_nearest_to_it() {
+        let mut carriers = Strands::default();
+        for x in 0..100 {
+            carriers.push((0..9).map(|k| Vec3::new(0.25 * x as f32, 0.5 * k as f32, 0.0)));
+        }
+        // Of one strand at 10 cm, all within 2 cm: 32 to 48 carriers, of which 40 lies in the middle.
+        let about_40 = about(&carriers, &carriers, &[40]);
+        assert_eq!(about_40, (32..=48).collect::<Vec<_>>());
+        let beside = about(&carriers, &carriers, &[0]);
+        assert_eq!(beside, (0..LEAST).collect::<Vec<_>>(), "as many as there are at the least");
+        let all_over = about(&carriers, &carriers, &(0..100).collect::<Vec<_>>());
+        assert_eq!(all_over.len(), MOST);
+    }
+}
