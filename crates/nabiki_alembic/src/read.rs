@@ -325,7 +325,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
                     let world_from_curves = DAffine3::from_mat4(self.world(i, time)?);
                     Prim {
                         path,
-                        kind: PrimKind::Curves { curves, points, course, world_from_curves },
+                        kind: PrimKind::Curves { curves, points, course, world_from_curves, bound: false },
                         samples: samples("P"),
                         relationships: Vec::new(),
                     }

@@ -332,12 +332,14 @@ impl GroomReader for StageReader {
                     let curves = self.count(i, "curveVertexCounts")?;
                     // Curves that USD does not know are refused when they are read.
                     let course = course(&mut self.layer, i).unwrap_or(Course::LINEAR);
-                    let world = match Skin::of(&mut self.layer, i)? {
+                    let skin = Skin::of(&mut self.layer, i)?;
+                    let bound = skin.is_some();
+                    let world = match skin {
                         Some(skin) => skin.world(&mut self.layer, time)?,
                         None => transform::world(&mut self.layer, i, time)?,
                     };
                     let world = DAffine3::from_mat4(world);
-                    PrimKind::Curves { curves, points: self.point_count(i)?, course, world_from_curves: world }
+                    PrimKind::Curves { curves, points: self.point_count(i)?, course, world_from_curves: world, bound }
                 }
                 "Mesh" => {
                     let faces = self.count(i, "faceVertexCounts")?;
