@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use glam::{DAffine3, DVec3};
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
-use nabiki_exchange::{Contents, Course, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem};
+use nabiki_exchange::{
+    Contents, Course, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem, Window,
+};
 use nabiki_usd::{Form, HairStage, StageReader};
 
 use crate::axis::Axis;
@@ -39,7 +41,7 @@ pub(crate) struct Opened {
 
 impl Opened {
     pub fn new(path: &Path) -> Result<Self> {
-        let file = input::open(path)?;
+        let file = Window::new(input::open(path)?).map_err(|e| Error::from(e).in_file(path))?;
         let reader: std::result::Result<Box<dyn GroomReader>, Problem> = if is_alembic(path) {
             ArchiveReader::new(file).map(|reader| Box::new(reader) as _)
         } else {
