@@ -224,6 +224,10 @@ def rigs(nabiki, python):
         layer = scene.with_suffix("")
         options = ["-o", folder / "rig.nabiki", "--export", folder / f"{layer.name}.out.usda", "--quiet"]
         run(nabiki, "simulate", scene, *options)
+        # Hair that is not bound stands elsewhere.
+        for ending in ["usda", "usdc"] if not layer.name.startswith("hair_") else []:
+            over = ["--export", folder / f"{layer.name}.layer.{ending}", "--export-layer", "/stage/char/hair"]
+            run(nabiki, "simulate", scene, "-o", folder / "rig.nabiki", *over, "--quiet")
     run(python, HERE / "rigs.py", "compare", folder)
 
 

@@ -1,7 +1,7 @@
 """Heads and hair on skeletons, moved here and by UsdSkel.
 
     python3 rigs.py write FOLDER      rigs of many kinds, each with a scene
-    python3 rigs.py compare FOLDER    holds what `nabiki simulate` exported of each against usd-core
+    python3 rigs.py compare FOLDER    holds what `nabiki simulate` exported of each, as a stage and as a layer over the groom, against usd-core
 """
 
 import math
@@ -274,6 +274,20 @@ def world_of(stage, path, time):
     return points @ matrix[:3, :3] + matrix[3, :3]
 
 
+def over(folder, name, layer):
+    """The stage with a layer over it, of whose hair UsdSkel keeps away."""
+    root = Sdf.Layer.CreateNew(str(folder / f"{name}.over.{layer}.usda"))
+    root.subLayerPaths = [f"./{name}.{layer}", f"./{name}"]
+    stage = Usd.Stage.Open(root)
+    char = UsdSkel.Root(stage.GetPrimAtPath("/stage/char"))
+    cache = UsdSkel.Cache()
+    cache.Populate(char, Usd.PrimDefaultPredicate)
+    bindings = cache.ComputeSkelBindings(char, Usd.PrimDefaultPredicate)
+    skinned = [str(query.GetPrim().GetPath()) for binding in bindings for query in binding.GetSkinningTargets()]
+    assert skinned == ["/stage/char/head"], f"{name}, {layer}: UsdSkel moves {skinned}"
+    return stage
+
+
 def compare(folder):
     for rig in RIGS:
         source = Usd.Stage.Open(str(folder / f"{rig.name}.usda"))
@@ -283,6 +297,7 @@ def compare(folder):
         for ending in ["usda", "binary.usdc"]:
             name = f"{rig.name}.usda" if ending == "usda" else f"{rig.name}_binary.usdc"
             found = Usd.Stage.Open(str(folder / f"{name}.out.usda"))
+            layers = [over(folder, name, layer) for layer in ["layer.usda", "layer.usdc"] if rig.hair == "bound"]
             worst = 0.0
             for frame in range(FIRST, LAST + 1):
                 hair = "/stage/char/hair" if rig.hair == "bound" else "/stage/hair"
@@ -295,11 +310,13 @@ def compare(folder):
                 strands = world_of(found, "/head/hair", frame)
                 skin, of_skin = world_of(baked, "/stage/char/head", frame), world_of(found, "/head/skin", frame)
                 off = np.abs(strands - expected).max()
+                for layer in layers:
+                    off = max(off, np.abs(world_of(layer, hair, frame) - expected).max())
                 corners = [np.abs(np.array([side(of_skin, 0) - side(skin, 0), side(of_skin, 1) - side(skin, 1)])).max()]
                 size = max(np.abs(expected).max(), 20 / rig.unit)
                 worst = max(worst, off / size, max(corners) / size)
             assert worst <= NEAR, f"{name}: {worst * size * rig.unit:.4f} cm off"
-    print(f"UsdSkel: {len(RIGS)} rigs, text and binary: hair and head where usd-core has them in every frame")
+    print(f"UsdSkel: {len(RIGS)} rigs, text and binary: hair and head where usd-core has them in every frame, layers over them too")
 
 
 def side(points, which):

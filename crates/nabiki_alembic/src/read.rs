@@ -7,7 +7,9 @@ use std::path::Path;
 
 use glam::{DAffine3, DMat4, DVec3, Vec3};
 use nabiki::Mesh;
-use nabiki_exchange::{Contents, Frames, Gathered, GroomReader, InPlace, Kept, MOST_FRAMES, Placed, Prim, PrimKind};
+use nabiki_exchange::{
+    Contents, Frames, Gathered, GroomReader, InPlace, Kept, MOST_FRAMES, Placed, Prim, PrimKind, Window,
+};
 
 use crate::Problem;
 use crate::curves::{NURBS_SURFACE, POINTS, READ};
@@ -24,7 +26,7 @@ const DEFAULT_RATE: f64 = 24.0;
 const A_TRANSFORM: u64 = 32;
 
 /// An archive to read hair, heads and motion from. Alembic names no unit, and y is up.
-pub struct ArchiveReader<R = File> {
+pub struct ArchiveReader<R = Window<File>> {
     pub(crate) tree: Tree<R>,
     pub(crate) kept: Kept,
     /// The frames, once they have been asked for (s).
@@ -33,13 +35,13 @@ pub struct ArchiveReader<R = File> {
     moving: HashMap<usize, Option<Header>>,
 }
 
-impl ArchiveReader<File> {
+impl ArchiveReader<Window<File>> {
     /// Opens the archive at `path`.
     ///
     /// # Errors
     /// What is wrong with it, without its name.
     pub fn open(path: &Path) -> Result<Self, Problem> {
-        Self::new(File::open(path)?)
+        Self::new(Window::new(File::open(path)?)?)
     }
 }
 
@@ -323,7 +325,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
                     let world_from_curves = DAffine3::from_mat4(self.world(i, time)?);
                     Prim {
                         path,
-                        kind: PrimKind::Curves { curves, points, course, world_from_curves },
+                        kind: PrimKind::Curves { curves, points, course, world_from_curves, bound: false },
                         samples: samples("P"),
                         relationships: Vec::new(),
                     }

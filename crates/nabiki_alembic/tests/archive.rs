@@ -101,6 +101,47 @@ fn the_skin_keeps_its_texture_coordinates_also_where_it_is_mirrored() {
 }
 
 #[test]
+fn texture_coordinates_that_are_none_cost_themselves_and_not_the_head() {
+    let (hair, sound) = (groom(), textured());
+    let with = |change: &dyn Fn(&mut Vec<[Vec2; 3]>)| {
+        let mut mesh = sound.clone();
+        change(mesh.corner_uvs.as_mut().unwrap());
+        let mut export = Export::new(&hair, 24.0);
+        export.head = Some(&mesh);
+        bytes(export, |_| DAffine3::IDENTITY)
+    };
+    // As they are, for something else than corners.
+    let of = |scope: &[u8; 3]| {
+        let mut file = with(&|_| ());
+        let key = b"geoScope=fvr";
+        let found: Vec<usize> =
+            file.windows(key.len()).enumerate().filter(|(_, w)| w == key).map(|(at, _)| at).collect();
+        assert!(!found.is_empty());
+        found.into_iter().for_each(|at| file[at + 9..at + 12].copy_from_slice(scope));
+        file
+    };
+    for (what, file) in [
+        ("none at all", with(&|uvs| uvs.clear())),
+        ("a face short", with(&|uvs| uvs.truncate(3))),
+        ("a face too many", with(&|uvs| uvs.push([Vec2::ZERO; 3]))),
+        ("no number", with(&|uvs| uvs[2][1].x = f32::NAN)),
+        ("without end", with(&|uvs| uvs[0][0].y = f32::INFINITY)),
+        ("of vertices", of(b"vtx")),
+        ("of faces", of(b"uni")),
+        ("of the whole", of(b"con")),
+        ("of nobody knows what", of(b"???")),
+    ] {
+        let mut archive = ArchiveReader::new(Cursor::new(&file)).unwrap();
+        let (skin, lost) = archive.meshes_with_losses(&|_| true).unwrap_or_else(|e| panic!("{what}: {e}"));
+        assert_eq!((skin.positions, skin.triangles.len()), (sound.positions.clone(), 4), "{what}");
+        assert_eq!(skin.corner_uvs, None, "{what}");
+        assert!(lost.len() == 1 && lost[0].starts_with("texture coordinates of /head/skin: "), "{what}: {lost:?}");
+    }
+    let (skin, lost) = ArchiveReader::new(Cursor::new(&with(&|_| ()))).unwrap().meshes_with_losses(&|_| true).unwrap();
+    assert!(skin.corner_uvs.is_some() && lost.is_empty());
+}
+
+#[test]
 fn every_frame_and_attribute_comes_back_to_the_bit() {
     let hair = groom();
     let file = bytes(Export::new(&hair, 24.0), |_| DAffine3::IDENTITY);

@@ -10,10 +10,7 @@ use nabiki_io::cache::Shard;
 use nabiki_scene::exports::ExportOptions;
 use nabiki_scene::farm::Engine;
 use nabiki_scene::tasks::{Pictures, Twin};
-use nabiki_scene::{Error, Result};
-
-/// Threads to work with at the most.
-const MOST_THREADS: u16 = 512;
+use nabiki_scene::{Result, threads};
 
 /// Hair in the wind: groom it, blow on it, draw it.
 #[derive(Parser)]
@@ -41,7 +38,7 @@ pub struct Cli {
     pub quiet: bool,
 
     /// Threads to work with, 512 at the most (default: all cores); the result is the same with any
-    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(MOST_THREADS)))]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(threads::MOST)))]
     pub threads: Option<u16>,
 }
 
@@ -163,27 +160,7 @@ impl Cli {
     /// Makes the threads that were asked for, or one a core. Made where they are first wanted, those that the system does not give would
     /// end the program.
     pub fn use_threads(&self) -> Result<()> {
-        const VARIABLE: &str = "RAYON_NUM_THREADS";
-        let in_environment = || std::env::var(VARIABLE).ok()?.parse::<u64>().ok().filter(|&count| count > 0);
-        if let Some(count) = in_environment().filter(|&count| self.threads.is_none() && count > u64::from(MOST_THREADS))
-        {
-            let line =
-                format!("{VARIABLE}={count}: {MOST_THREADS} threads are the most: set it lower, or leave it out");
-            return Err(Error::refused(line));
-        }
-        let builder = rayon::ThreadPoolBuilder::new();
-        let built = match self.threads {
-            Some(threads) => builder.num_threads(threads.into()),
-            None => builder,
-        };
-        built.build_global().map_err(|e| {
-            let wanted = match (self.threads, in_environment()) {
-                (Some(threads), _) => format!("--threads {threads}"),
-                (None, Some(count)) => format!("{VARIABLE}={count}"),
-                (None, None) => "a thread for each core".to_owned(),
-            };
-            Error::refused(format!("{wanted}: the system does not give so many ({e}); give fewer with --threads N"))
-        })
+        threads::made(self.threads, "give fewer with --threads N", rayon::ThreadPoolBuilder::build_global)
     }
 }
 

@@ -35,6 +35,8 @@ pub struct Export<'a> {
     /// How curves run whose control points are written, so that they are drawn through the points of the hair: straight but for
     /// samples over curves that another file has.
     pub course: Course,
+    /// Of samples over curves that another file has: whether a skeleton moves these.
+    pub bound: bool,
     /// Length of the file's unit (m): 0.01 while `file_from_head` keeps centimetres.
     pub meters_per_unit: f64,
     /// Whether +z rather than +y is up in the file. It names the axis; `file_from_head` does the turning.
@@ -55,6 +57,7 @@ impl<'a> Export<'a> {
             first_frame: 0,
             file_from_head: DAffine3::IDENTITY,
             course: Course::LINEAR,
+            bound: false,
             meters_per_unit: 0.01,
             z_up: false,
         }

@@ -35,6 +35,7 @@ mod polygons;
 mod problem;
 mod reader;
 mod shown;
+mod window;
 
 pub use budget::Budget;
 pub use control::Course;
@@ -48,3 +49,4 @@ pub use polygons::{Polygons, Uvs, add_polygons};
 pub use problem::Problem;
 pub use reader::{Contents, FIRST_SHAPE, GroomReader, Kept, Placed, Prim, PrimKind};
 pub use shown::{Candidate, Hidden, kept_holes, those_that_show};
+pub use window::Window;

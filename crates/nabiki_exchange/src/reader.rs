@@ -162,6 +162,8 @@ pub enum PrimKind {
         course: Course,
         /// Takes them to the file's world at the first frame.
         world_from_curves: DAffine3,
+        /// Whether a skeleton moves them.
+        bound: bool,
     },
     /// A mesh of polygons.
     Mesh {

@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use glam::{DAffine3, DVec3};
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
-use nabiki_exchange::{Contents, Course, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem};
+use nabiki_exchange::{
+    Contents, Course, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem, Window,
+};
 use nabiki_usd::{Form, HairStage, StageReader};
 
 use crate::axis::Axis;
@@ -39,7 +41,7 @@ pub(crate) struct Opened {
 
 impl Opened {
     pub fn new(path: &Path) -> Result<Self> {
-        let file = input::open(path)?;
+        let file = Window::new(input::open(path)?).map_err(|e| Error::from(e).in_file(path))?;
         let reader: std::result::Result<Box<dyn GroomReader>, Problem> = if is_alembic(path) {
             ArchiveReader::new(file).map(|reader| Box::new(reader) as _)
         } else {
@@ -294,16 +296,21 @@ pub fn export<'a>(hair: &'a Hair, frame_rate: f64, placement: Option<&Placement>
 }
 
 /// Samples for a layer over `groom`: in the space below the transforms above its curves, which these will place, and control points
-/// of curves that run as its own do.
+/// of curves that run as its own do. Curves that are bound to a skeleton are placed by the layer instead.
 ///
 /// The transforms are those of the first frame, in which the hair was read.
 pub fn under_groom(export: &mut Export<'_>, groom: &CurvePrim) {
-    export.file_from_head = groom.world_from_curves.inverse() * export.file_from_head;
+    export.bound = groom.bound;
+    if !groom.bound {
+        export.file_from_head = groom.world_from_curves.inverse() * export.file_from_head;
+    }
     export.course = groom.course.unwrap_or(Course::LINEAR);
 }
 
-/// What samples over a groom cannot hold, as phrases. `head_moves`: whether the head of the motion does.
-pub fn layer_losses(head_moves: bool) -> Vec<String> {
+/// What samples over a groom cannot hold, as phrases. `head_moves`: whether the head of the motion does. A groom that is bound to a
+/// skeleton is taken off it, and goes with the head all the same.
+pub fn layer_losses(groom: &CurvePrim, head_moves: bool) -> Vec<String> {
+    let head_moves = head_moves && !groom.bound;
     let moves =
         head_moves.then_some("the motion of the head: its stage must move the groom, or leave out --export-layer");
     moves.into_iter().map(str::to_owned).collect()

@@ -179,15 +179,61 @@ impl<'a> Buffers<'a> {
 
 /// A buffer in a file of its own, beside the .gltf.
 fn external(uri: &str, folder: Option<&Path>) -> Result<PathBuf> {
-    let plain = !uri.contains([':', '%', '\\']) && !uri.starts_with('/') && !uri.split('/').any(|part| part == "..");
-    match folder {
-        Some(folder) if plain => Ok(folder.join(uri)),
+    let plain = |name: &String| {
+        !name.contains([':', '\\', '\0']) && !name.starts_with('/') && !name.split('/').any(|part| part == "..")
+    };
+    match (folder, decoded(uri).filter(plain)) {
+        (Some(folder), Some(name)) => Ok(folder.join(name)),
         _ => Err(Error::new(format!("\"{uri}\" is not a file in the folder of the .gltf: save as .glb"))),
     }
 }
 
+/// A name as its address spells it: a blank is `%20` there. `None` where that is no text.
+fn decoded(uri: &str) -> Option<String> {
+    let mut name = Vec::with_capacity(uri.len());
+    let mut rest = uri.as_bytes();
+    while let Some((&byte, after)) = rest.split_first() {
+        let pair = after.first_chunk::<2>().filter(|pair| byte == b'%' && pair.iter().all(u8::is_ascii_hexdigit));
+        match pair {
+            Some(pair) => {
+                name.push(u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok()?);
+                rest = &after[2..];
+            }
+            None => {
+                name.push(byte);
+                rest = after;
+            }
+        }
+    }
+    String::from_utf8(name).ok()
+}
+
 #[cfg(test)]
 pub(crate) mod tests {
+    use super::*;
+
+    #[test]
+    fn a_buffer_is_in_the_folder_under_the_name_that_its_address_spells() {
+        let folder = Path::new("folder");
+        let of = |uri: &str| external(uri, Some(folder)).ok();
+        for (uri, name) in [
+            ("a.bin", "a.bin"),
+            ("my%20head.bin", "my head.bin"),
+            ("%E9%AB%AA/a.bin", "\u{9aea}/a.bin"),
+            ("50%.bin", "50%.bin"),
+            ("a%2Fb.bin", "a/b.bin"),
+            ("\u{9aea} 1.bin", "\u{9aea} 1.bin"),
+        ] {
+            assert_eq!(of(uri), Some(folder.join(name)), "{uri}");
+        }
+        for uri in
+            ["../a.bin", "%2E%2E/a.bin", "/a.bin", "%2Fa.bin", "http://a/b.bin", "a%5Cb.bin", "%FF.bin", "a%00b.bin"]
+        {
+            assert_eq!(of(uri), None, "{uri}");
+        }
+        assert!(external("a.bin", None).is_err());
+    }
+
     /// A .glb of a text and of the one buffer that this describes.
     pub(crate) fn glb(text: &str, binary: &[u8]) -> Vec<u8> {
         let mut json = text.as_bytes().to_vec();

@@ -42,6 +42,8 @@ pub struct CurvePrim {
     pub course: Option<Course>,
     /// Takes them to the file's world at the first frame.
     pub world_from_curves: DAffine3,
+    /// Whether a skeleton moves them.
+    pub bound: bool,
 }
 
 /// The file that a groom came from, and where its curves are in it.
@@ -178,10 +180,16 @@ impl GroomFile {
             Kind::Exchange(opened) => opened.ask(|r| r.prims())?,
         };
         let curves = prims.into_iter().filter_map(|prim| match prim.kind {
-            PrimKind::Curves { points, course, world_from_curves, .. }
+            PrimKind::Curves { points, course, world_from_curves, bound, .. }
                 if points > 0 && parts::is_kept(&self.groups, &prim.path) =>
             {
-                Some(CurvePrim { path: prim.path, points: points as u64, course: Some(course), world_from_curves })
+                Some(CurvePrim {
+                    path: prim.path,
+                    points: points as u64,
+                    course: Some(course),
+                    world_from_curves,
+                    bound,
+                })
             }
             _ => None,
         });

@@ -76,8 +76,9 @@ pub fn info(path: &Path) -> Result<Info> {
         }
         "nabiki" => Ok(Info::Cache(CacheInfo::of(crate::cache::Reader::open(path)?)?)),
         other => {
-            // A name without an ending may be a slip, or a folder.
-            if other.is_empty() {
+            // A name without an ending may be a slip, or a folder; a pointer of Git LFS is as short as this.
+            let may_be_pointer = std::fs::metadata(path).is_ok_and(|file| file.is_file() && file.len() < 1024);
+            if other.is_empty() || may_be_pointer {
                 input::open(path)?;
             }
             let known = ".hair, .tfx, .obj, .glb, .gltf, .ply, .tfxmesh, .usd, .usda, .usdc, .abc, .bvh, .csv, .amc, .asf, .tof, \

@@ -9,8 +9,8 @@ use crate::error::{Error, Result};
 /// Bytes that a text of numbers may have: meshes, motion, strands as lines.
 pub const MOST_TEXT_BYTES: u64 = 1 << 30;
 
-/// Bytes that a scene may have.
-pub const MOST_SCENE_BYTES: u64 = 4 << 20;
+/// Bytes that a scene may have: of a text of nothing but brackets and commas a hundred times as many are made.
+pub const MOST_SCENE_BYTES: u64 = 1 << 20;
 
 /// Bytes of a binary file that is read into memory whole; as much as a .glb can say that it has.
 pub const MOST_BINARY_BYTES: u64 = 1 << 32;
@@ -124,7 +124,7 @@ mod tests {
         // A file full of holes is longer than it takes on the disk, and is refused before any of it is read.
         std::fs::File::create(&path).unwrap().set_len(1 << 40).unwrap();
         assert!(refused(MOST_TEXT_BYTES).contains("is longer than 1 GiB"), "{}", refused(MOST_TEXT_BYTES));
-        assert!(refused(MOST_SCENE_BYTES).contains("is longer than 4 MiB"));
+        assert!(refused(MOST_SCENE_BYTES).contains("is longer than 1 MiB"));
     }
 
     #[cfg(unix)]

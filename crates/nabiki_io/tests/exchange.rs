@@ -219,7 +219,8 @@ fn a_layer_over_cubic_curves_draws_them_from_the_roots_to_the_tips() {
 
 #[test]
 fn a_layer_over_curves_of_a_cache_that_does_not_say_how_they_run_is_refused() {
-    let curve = CurvePrim { path: "/h".to_owned(), points: 5, course: None, world_from_curves: DAffine3::IDENTITY };
+    let world_from_curves = DAffine3::IDENTITY;
+    let curve = CurvePrim { path: "/h".to_owned(), points: 5, course: None, world_from_curves, bound: false };
     let groom = GroomCurves { file: "g.usdc".to_owned(), curves: vec![curve], placed: true };
     let refused = groom.under_layer("/h").unwrap_err().to_string();
     assert!(refused.contains("older than the note of how its groom's curves run; make it again"), "{refused}");
@@ -385,7 +386,8 @@ fn imported_hair_goes_back_into_its_file_and_under_the_transform_of_its_curves()
     let place = DVec3::new(100.0, 50.0, 200.0);
     assert!(export.file_from_head.transform_point3(place).distance(DVec3::new(1.0, -2.0, 2.0)) < 1e-12);
     let world_from_curves = DAffine3::from_translation(DVec3::X) * DAffine3::from_scale(DVec3::splat(0.5));
-    let groom = CurvePrim { path: "/hair".to_owned(), points: 5, course: Some(Course::LINEAR), world_from_curves };
+    let course = Some(Course::LINEAR);
+    let groom = CurvePrim { path: "/hair".to_owned(), points: 5, course, world_from_curves, bound: false };
     exchange::under_groom(&mut export, &groom);
     assert!(export.file_from_head.transform_point3(place).distance(DVec3::new(0.0, -4.0, 4.0)) < 1e-12);
     let own = exchange::export(&hair, 24.0, None);

@@ -61,6 +61,19 @@ fn a_pointer_is_named_for_every_format() {
 }
 
 #[test]
+fn a_pointer_of_what_is_not_read_is_named_too() {
+    let folder = tempfile::tempdir().unwrap();
+    for ending in ["png", "exr", "usdz", "fbx", "json", ""] {
+        let path = folder.path().join(format!("file.{ending}"));
+        std::fs::write(&path, POINTER).unwrap();
+        let said = info::info(&path).unwrap_err().to_string();
+        assert!(said.ends_with("is a Git LFS pointer: fetch the file with git lfs pull"), "{said}");
+        std::fs::write(&path, "something else").unwrap();
+        assert!(info::info(&path).unwrap_err().to_string().contains("is not one of .hair, "), "{ending}");
+    }
+}
+
+#[test]
 fn what_only_looks_like_a_pointer_is_read() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("notes.txt");

@@ -33,6 +33,16 @@ impl Drop for File {
 }
 
 impl Files {
+    /// How many they are.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// Whether a file is one of them.
     pub fn holds(&self, path: &Path) -> bool {
         self.0.iter().any(|file| &*file.path == path)

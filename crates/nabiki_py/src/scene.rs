@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
-use nabiki_scene::scene::OwnField;
+use nabiki_scene::scene::{HairSource, OwnField, RootEnd};
 use nabiki_scene::{BuiltScene, Shown};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PyTuple, PyType};
@@ -19,7 +19,7 @@ use crate::error;
 use crate::field::{Field, PythonField};
 use crate::hints::{Anything, ByName, Dictionary, Given, Hinted, SameClass};
 use crate::made::Files;
-use crate::scene::given::setting;
+use crate::scene::given::{HAIR_FILE, HAIR_ROOT, setting};
 use crate::values;
 use crate::watched::{Ears, watched};
 
@@ -103,7 +103,11 @@ impl Scene {
     fn put(&self, py: Python<'_>, key: &str, value: Option<Value>, files: Files) -> PyResult<()> {
         let put = || {
             let mut state = self.state();
-            let changed = state.scene.with_setting(key, value)?;
+            let root = (key == HAIR_FILE).then(|| root_of(&state, !files.is_empty())).flatten();
+            let mut changed = state.scene.with_setting(key, value)?;
+            if let Some(root) = root {
+                changed = changed.with_setting(HAIR_ROOT, root)?;
+            }
             match changed.check() {
                 Err(wrong) if concerns(&wrong.thing, key) => Err(changed.refusal(wrong)),
                 _ => {
@@ -121,6 +125,18 @@ impl Scene {
         let another = class.call0()?;
         *another.cast::<Self>()?.get().state() = state;
         Ok(another)
+    }
+}
+
+/// What [`HAIR_ROOT`] becomes where hair is given anew: arrays are root first, and the file that comes after them as files are. `None` leaves
+/// it as it is.
+fn root_of(state: &State, arrays: bool) -> Option<Option<Value>> {
+    let HairSource::Imported(before) = &state.scene.hair.source else { return arrays.then(given::root_first) };
+    let was_arrays = state.made.holds(&before.file);
+    match (was_arrays, arrays) {
+        (true, true) => None,
+        (true, false) => (before.root == RootEnd::First).then_some(None),
+        (false, arrays) => arrays.then(given::root_first),
     }
 }
 
@@ -155,14 +171,19 @@ impl Scene {
         settings: Option<Given<'py, ByName>>,
     ) -> PyResult<Hinted<'py, SameClass>> {
         let py = class.py();
-        let (mut made, mut given) = (Files::default(), Vec::new());
+        let (mut made, mut given, mut arrays) = (Files::default(), Vec::new(), false);
         if let Some(settings) = settings {
             for entry in settings.0.cast::<PyMapping>()?.items()?.iter() {
                 let (key, value): (String, Bound<'_, PyAny>) = entry.extract()?;
                 if !value.is_none() {
+                    let before = made.len();
                     given.push((key.clone(), setting(&key, &value, None, &mut made)?.to_string()));
+                    arrays |= key == HAIR_FILE && made.len() > before;
                 }
             }
+        }
+        if arrays && given.iter().all(|(key, _)| key != HAIR_ROOT) {
+            given.extend(given::root_first().map(|first| (HAIR_ROOT.to_owned(), first.to_string())));
         }
         let scene = nabiki_scene::Scene::load(&path, &given).map_err(|refused| Self::refused(py, refused))?;
         Self::another(class, State { scene, made, ..State::default() }).map(Hinted::new)

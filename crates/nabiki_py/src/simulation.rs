@@ -79,7 +79,7 @@ impl Force {
 
 impl Simulation {
     pub fn of(py: Python<'_>, built: Arc<BuiltScene>, fields: Vec<Arc<PythonField>>) -> PyResult<Self> {
-        let stepper = detached(py, || built.simulation()).map_err(|refused| error::raised(py, refused))?;
+        let stepper = detached(py, || built.simulation())?.map_err(|refused| error::raised(py, refused))?;
         let offsets = frame::offsets(py, &built);
         let place = Place { stepper, next: 0, way: Way::new(&built), shown: None, failed: false };
         Ok(Self { built, place: Mutex::new(place), fields, rooms: Arc::default(), offsets })
@@ -121,7 +121,7 @@ impl Simulation {
             stepper.step_frame_into(&input, &mut points);
         };
         match functions.is_empty() {
-            true => detached(py, step),
+            true => detached(py, step)?,
             // Only then may a step take long.
             false => {
                 let asking = watched(py, Ears::default(), functions, |_| {

@@ -28,7 +28,7 @@ pub struct Timeline {
 
 impl Timeline {
     pub fn of(py: Python<'_>, built: Arc<BuiltScene>, fields: Vec<Arc<PythonField>>) -> PyResult<Self> {
-        let timeline = detached(py, || built.timeline()).map_err(|refused| error::raised(py, refused))?;
+        let timeline = detached(py, || built.timeline())?.map_err(|refused| error::raised(py, refused))?;
         let offsets = frame::offsets(py, &built);
         Ok(Self { built, timeline: Mutex::new(timeline), fields, offsets })
     }
@@ -43,7 +43,7 @@ impl Timeline {
         let timeline = &mut *alone;
         let answer = watched(py, Ears::default(), &self.fields, |_| Ok(ask(timeline)));
         if answer.is_err() {
-            *timeline = detached(py, || self.built.timeline()).map_err(|refused| error::raised(py, refused))?;
+            *timeline = detached(py, || self.built.timeline())?.map_err(|refused| error::raised(py, refused))?;
         }
         answer
     }

@@ -6,6 +6,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use nabiki_scene::threads::none_given;
 use nabiki_scene::{Told, Watch};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::ffi::c_str;
@@ -96,10 +97,14 @@ pub fn watched<T: Send>(
     fields.iter().for_each(|field| field.begin());
     let (result, failure) = py.detach(move || {
         thread::scope(|scope| {
-            let worker = scope.spawn(move || {
+            let worker = thread::Builder::new().name("nabiki".to_owned()).spawn_scoped(scope, move || {
                 let mut remote = Remote { tell, stop, fields, done: 0, total: 0 };
-                shared(|| work(&mut remote))
+                shared(|| work(&mut remote)).flatten()
             });
+            let worker = match worker {
+                Ok(worker) => worker,
+                Err(none) => return (Ok(Err(nabiki_scene::Error::refused(none_given(&none)))), None),
+            };
             let failure = heard.listen(hear, || {
                 stop.store(true, Ordering::Relaxed);
                 fields.iter().for_each(|field| field.stop());

@@ -79,6 +79,43 @@ def test_units_and_axes_of_arrays_are_those_of_files():
     assert numpy.abs(found - points).max() <= 4 * numpy.finfo(numpy.float32).eps * numpy.abs(points).max()
 
 
+def ends_on_the_skin():
+    """Strands whose last points lie on the skin of a sphere and whose first stand off it: by the skin alone they are tip first."""
+    points, offsets = hair(10.0)
+    for start, end in zip(offsets, offsets[1:]):
+        points[start:end] = points[start:end][::-1].copy()
+    return points, offsets
+
+
+def test_arrays_are_root_first_wherever_they_lie(tmp_path):
+    points, offsets = ends_on_the_skin()
+    head = {"mesh": sphere(10.0), "up": "+y", "facing": "+x", "ellipsoid": {"center": [0, 0, 0], "half_axes": [10, 10, 10]}, "origin": (0, 0, 0)}
+
+    def groomed(scene):
+        return bits(scene.groom()[0])
+
+    for given in [(points, offsets), {"file": (points, offsets)}]:
+        scene = nabiki.Scene(head=head, hair=given)
+        assert scene.hair.root == "first" and numpy.array_equal(groomed(scene), bits(points))
+    # What is said beside them is obeyed, and afterwards, too.
+    asked = nabiki.Scene(head=head, hair={"file": (points, offsets), "root": "skin"})
+    assert asked.hair.root == "skin" and not numpy.array_equal(groomed(asked), bits(points))
+    scene.hair.root = "skin"
+    scene.hair.file = (points, offsets)
+    assert scene.hair.root == "skin"
+    # A file is as files are, before the arrays and after them.
+    nabiki.write_hair(tmp_path / "a.hair", points, offsets)
+    scene = nabiki.Scene(head=head, hair=tmp_path / "a.hair")
+    assert scene.hair.root == "skin" and not numpy.array_equal(groomed(scene), bits(points))
+    scene.hair.file = (points, offsets)
+    assert scene.hair.root == "first" and numpy.array_equal(groomed(scene), bits(points))
+    scene.hair.file = tmp_path / "a.hair"
+    assert scene.hair.root == "skin"
+    (tmp_path / "a.toml").write_text('[hair]\nfile = "a.hair"\n[[force]]\nthrough = 1\nvector = [0, 1, 0]\n')
+    scene = nabiki.Scene.open(tmp_path / "a.toml", {"hair.file": (points, offsets)})
+    assert scene.hair.root == "first"
+
+
 def test_arrays_go_with_the_last_scene_that_names_them():
     import os
 

@@ -174,3 +174,23 @@ def test_numbers_that_are_none_are_refused_by_name(wrong):
             put()
         assert (refused.value.thing or "").startswith(thing), refused.value
     assert scene.settings() == before
+
+
+def test_threads_that_are_not_made_are_refused_in_one_line():
+    import os
+    import subprocess
+    import sys
+
+    code = """
+import nabiki
+scene = nabiki.Scene(forces=[(1, (1, 0, 0))])
+for ask in [lambda: scene.timeline(strands=3), lambda: scene.simulate(strands=3), lambda: scene.groom(strands=3)]:
+    try:
+        ask()
+    except nabiki.Error as refused:
+        assert chr(10) not in str(refused) and "RAYON_NUM_THREADS=10000: 512 threads are the most" in str(refused), refused
+    else:
+        raise AssertionError("made")
+"""
+    ran = subprocess.run([sys.executable, "-c", code], env={**os.environ, "RAYON_NUM_THREADS": "10000"}, capture_output=True, text=True)
+    assert ran.returncode == 0 and not ran.stderr, ran.stderr

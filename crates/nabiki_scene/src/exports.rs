@@ -94,7 +94,7 @@ impl<'a> Exports<'a> {
                     // Curves of a single point are none that are read.
                     fits(Some(curves.points))?;
                     exchange::under_groom(&mut export, curves);
-                    super::tasks::lost(path, exchange::layer_losses(built.head_moves()), watch);
+                    super::tasks::lost(path, exchange::layer_losses(curves, built.head_moves()), watch);
                 }
             }
             let bytes = exchange::least_bytes(path, &export, u64::from(built.frames()) + 1, options.layer.is_some());

@@ -51,6 +51,7 @@ mod size;
 pub mod solve;
 pub mod tasks;
 pub mod template;
+pub mod threads;
 pub mod told;
 pub mod watch;
 

@@ -23,9 +23,6 @@ const AFLOAT: f32 = 0.15;
 /// 1.5 %, as its lowest layers meet a skin between whose vertices they were modelled.)
 const INSIDE: f32 = 0.05;
 
-/// Roots whose median lies nearer to the skin than this grow on it (share of the mean half axis).
-const FITS: f32 = 0.02;
-
 /// Strands of a file by which it is judged.
 const JUDGED: usize = 600;
 
@@ -255,11 +252,10 @@ impl Seat<'_> {
         let turned = || around.clone().map(|axis| Mended { facing: Some(axis), ..Mended::default() });
         // Hair is about as long to all sides: what is little better may be so by chance.
         let least = 0.5 * if now.on_skin { now.inside.min(as_it_faces.inside) } else { as_it_faces.inside };
-        // Hair that was but moved aside fits its head as it faces, whatever share of it lies inside.
-        let off = as_it_faces.off.max(FITS * mean_half_axis(&self.head.ellipsoid));
+        // Hair that was but moved aside fits its head as it faces, whatever share of it lies inside: turned it fits less well.
         let lies_well = |mended: &Mended| {
             let lie = self.lie_at(&self.placement(mended));
-            lie.is_good() && lie.inside < least && lie.off <= off
+            lie.is_good() && lie.inside < least && lie.off <= as_it_faces.off
         };
         turned().find(lies_well).or_else(|| turned().map(|mended| self.moved(mended)).find(lies_well))
     }

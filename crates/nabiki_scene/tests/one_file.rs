@@ -1,29 +1,49 @@
 //! Head and hair out of one file have one unit, one place and one facing, however the hair lies.
 
+use std::f32::consts::{PI, TAU};
 use std::path::Path;
 
 use glam::{DAffine3, Vec3};
-use nabiki::Hair;
+use nabiki::{Hair, Mesh, Strands};
 use nabiki_io::exchange;
 use nabiki_scene::template::template;
 use nabiki_scene::{BuiltScene, Scene, Shown};
 
-/// The built-in bust with hair of which so much is left about the middle of the head.
-fn bust(left: f32) -> (nabiki::Head, Hair) {
-    let text =
-        "[hair]\nstrands = 120\nsegments = 8\nsegment_length = 2.5\n[[force]]\nthrough = 1\nvector = [0, -1, 0]\n";
-    let built = Scene::parse(text, Path::new("bust.toml"), &[]).unwrap().build(Shown::All).unwrap();
-    let mut strands = built.hair.strands;
-    strands.points_mut().iter_mut().for_each(|p| *p *= left);
-    (built.head, Hair { strands, ..Hair::default() })
+/// An egg as large as a head, with the nose along +x, and hair about its upper half of which so much is left about its middle.
+fn egg(left: f32) -> (Mesh, Hair) {
+    const RINGS: u32 = 24;
+    const SIDES: u32 = 32;
+    let on = |ring: u32, side: u32| {
+        let (down, around) = (PI * ring as f32 / RINGS as f32, TAU * side as f32 / SIDES as f32);
+        let way = Vec3::new(down.sin() * around.cos(), down.cos(), down.sin() * around.sin());
+        let nose = if side == 0 && ring == RINGS * 6 / 10 { 2.0 } else { 0.0 };
+        way * Vec3::new(9.5, 11.0, 7.8) + Vec3::X * nose
+    };
+    let mut mesh = Mesh { positions: vec![on(0, 1), on(RINGS, 1)], ..Mesh::default() };
+    mesh.positions.extend((1..RINGS).flat_map(|ring| (0..SIDES).map(move |side| on(ring, side))));
+    let at = |ring: u32, side: u32| match ring {
+        0 => 0,
+        RINGS => 1,
+        ring => 2 + (ring - 1) * SIDES + side % SIDES,
+    };
+    for (ring, side) in (0..RINGS).flat_map(|ring| (0..SIDES).map(move |side| (ring, side))) {
+        let [a, b, c, d] = [at(ring, side), at(ring, side + 1), at(ring + 1, side + 1), at(ring + 1, side)];
+        mesh.triangles.extend([[a, b, c], [a, c, d]].into_iter().filter(|[x, y, z]| x != y && y != z && x != z));
+    }
+    let mut strands = Strands::default();
+    for (ring, side) in (1..RINGS / 2).flat_map(|ring| (0..SIDES / 2).map(move |side| (ring, 2 * side))) {
+        let root = on(ring, side);
+        strands.push((0..9).map(|n| root * left * (1.0 + 0.02 * n as f32) + Vec3::NEG_Y * (0.02 * (n * n) as f32)));
+    }
+    (mesh, Hair::from(strands))
 }
 
 /// Both in one archive or layer, the hair moved by `by`.
 fn one_file(file: &Path, left: f32, by: Vec3) {
-    let (head, mut hair) = bust(left);
+    let (head, mut hair) = egg(left);
     hair.strands.points_mut().iter_mut().for_each(|p| *p += by);
     let mut export = exchange::export(&hair, 24.0, None);
-    export.head = Some(&head.mesh);
+    export.head = Some(&head);
     let mut sink = exchange::sink(file, export, None).unwrap();
     sink.frame(&hair.strands, &DAffine3::IDENTITY).unwrap();
     sink.finish().unwrap();

@@ -11,7 +11,7 @@ use nabiki_io::DeclaredSpace;
 use nabiki_io::motion::Axis;
 use nabiki_io::placement::{Placement, Unit};
 use nabiki_scene::advice::Advice;
-use nabiki_scene::scene::{FormChoice, FreeSettings};
+use nabiki_scene::scene::{FormChoice, FreeSettings, HairSource};
 use nabiki_scene::template::template;
 use nabiki_scene::{BuiltScene, Scene, Shown};
 
@@ -374,4 +374,53 @@ fn more_strands_than_a_file_has_are_refused() {
     // There is nothing to grow more of.
     let shown = load(count, Shown::First(count + 1)).unwrap_err().to_string();
     assert!(shown.ends_with("ask for fewer"), "{shown}");
+}
+
+#[test]
+fn hair_that_was_moved_aside_keeps_its_facing_however_much_of_it_is_inside() {
+    let folder = tempfile::tempdir().unwrap();
+    let [scene, file] = ["new.toml", "hair.obj"].map(|name| folder.path().join(name));
+    let many = [("hair.strands".to_owned(), "700".to_owned())];
+    let bust = Scene::parse(FORCE, Path::new("bust.toml"), &many).unwrap().build(Shown::All).unwrap();
+    // Every nth strand is pressed into the head behind its root.
+    let pressed = |each: usize, deep: f32| {
+        let mut strands = bust.hair.strands.clone();
+        let starts = strands.starts().to_vec();
+        for strand in starts.windows(2).step_by(each) {
+            for p in &mut strands.points_mut()[strand[0] as usize + 1..strand[1] as usize] {
+                *p -= bust.head.outward(*p) * (bust.head.distance(*p) + deep);
+            }
+        }
+        Hair::from(strands)
+    };
+    let smaller = |by: f32| {
+        let place = DAffine3::from_scale(DVec3::splat(by.into()));
+        bust.hair.clone().transformed(&place)
+    };
+    let grooms = [
+        ("as it is", bust.hair.clone()),
+        ("a tenth inside", pressed(10, 0.3)),
+        ("a fifth inside", pressed(5, 0.5)),
+        ("a third inside", pressed(3, 0.3)),
+        ("two hundredths smaller", smaller(0.98)),
+        ("four hundredths smaller", smaller(0.96)),
+    ];
+    let moves = [[30.0, 5.0, -20.0], [-30.0, 5.0, 20.0], [0.0, 40.0, 0.0], [5.0, 160.0, 3.0]];
+    let front = Placement { facing: Axis::PlusZ, ..Placement::default() };
+    let mut wrong = Vec::new();
+    for (what, hair) in &grooms {
+        for aside in moves.map(Vec3::from) {
+            // The point of the file that is the middle of the head.
+            std::fs::write(&file, hair_text(hair, &Placement { origin: aside, ..front })).unwrap();
+            let new = template(&scene, None, &[], Some(&file)).unwrap();
+            let HairSource::Imported(read) = Scene::parse(&new.text, &scene, &[]).unwrap().hair.source else {
+                panic!()
+            };
+            let off = read.origin.unwrap_or_default().distance(aside);
+            if read.facing != Some(Axis::PlusZ) || off > 2.0 {
+                wrong.push(format!("{what}, moved by {aside}: {:?}, {:?}", read.facing, read.origin));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
 }

@@ -44,6 +44,12 @@ fn main() -> ExitCode {
             _ => scene = Some(PathBuf::from(argument)),
         }
     }
+    // Before anything is drawn: threads that the system does not give would end the window later.
+    let fewer = "set RAYON_NUM_THREADS to fewer";
+    if let Err(refused) = nabiki_scene::threads::made(None, fewer, rayon::ThreadPoolBuilder::build_global) {
+        eprintln!("nabiki-studio: {refused}");
+        return ExitCode::FAILURE;
+    }
     match run(scene) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

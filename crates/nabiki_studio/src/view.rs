@@ -432,8 +432,18 @@ impl View {
                 frame: shown.frame,
                 strands: shown.strands_in_final,
             };
-            let thread = self.final_picture.get_or_insert_with(|| FinalPicture::new(move || context.request_repaint()));
-            thread.ask(wanted);
+            if self.final_picture.is_none() {
+                match FinalPicture::new(move || context.request_repaint()) {
+                    Ok(thread) => self.final_picture = Some(thread),
+                    Err(none) => {
+                        let why = nabiki_scene::threads::none_given(&none);
+                        self.failed = Some(format!("The final picture cannot be drawn: {why}"));
+                    }
+                }
+            }
+            if let Some(thread) = &self.final_picture {
+                thread.ask(wanted);
+            }
         }
         if let Some(waits) = self.rest.waits(now) {
             // What is still being drawn is of before the touch.

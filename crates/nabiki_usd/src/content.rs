@@ -46,7 +46,7 @@ pub fn curves<S>(export: &Export<'_>, name: &str) -> Prim<S> {
     let names: HashSet<&str> = carried.iter().map(|c| &*c.name).collect();
     attributes.retain(|made| !names.contains(&*made.name));
     attributes.extend(carried);
-    Prim { name: name.to_owned(), type_name: "BasisCurves", attributes, children: Vec::new() }
+    Prim { name: name.to_owned(), type_name: "BasisCurves", schemas: &[], attributes, children: Vec::new() }
 }
 
 /// Colours and transparencies.
@@ -119,7 +119,7 @@ pub fn skin<S>(mesh: &Mesh, export: &Export<'_>) -> Prim<S> {
         let value = Value::Pairs(corners.map(|uv| uv.to_array()).collect());
         attributes.push(Attribute::primvar(primvar("st"), "texCoord2f[]", "faceVarying", value));
     }
-    Prim { name: "skin".to_owned(), type_name: "Mesh", attributes, children: Vec::new() }
+    Prim { name: "skin".to_owned(), type_name: "Mesh", schemas: &[], attributes, children: Vec::new() }
 }
 
 /// The lowest and highest corner of the points' box, widened by `margin` on all sides.

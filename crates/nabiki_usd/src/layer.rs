@@ -47,6 +47,8 @@ pub enum Value {
     Matrix([f64; 16]),
     /// No value, whatever weaker layers say
     Blocked,
+    /// Of a relationship: no target, whatever weaker layers say
+    NoTargets,
 }
 
 /// A property of a prim.
@@ -94,6 +96,11 @@ impl<S> Attribute<S> {
         Self { interpolation: Some(interpolation), ..Self::new(name, type_name, value) }
     }
 
+    /// A relationship that leads nowhere.
+    pub fn no_targets(name: &'static str) -> Self {
+        Self::new(name, "rel", Value::NoTargets)
+    }
+
     /// An attribute with samples only.
     pub fn sampled(name: impl Into<Cow<'static, str>>, type_name: &'static str, samples: Vec<S>) -> Self {
         Self { name: name.into(), type_name, uniform: false, value: None, samples, interpolation: None }
@@ -107,6 +114,8 @@ pub struct Prim<S> {
     pub name: String,
     /// Type, `BasisCurves`; empty for an `over`, which adds to a prim of another layer.
     pub type_name: &'static str,
+    /// Schemas that are applied to it beside those that weaker layers apply.
+    pub schemas: &'static [&'static str],
     /// Attributes.
     pub attributes: Vec<Attribute<S>>,
     /// Prims below it.

@@ -40,17 +40,20 @@ pub fn chosen(layer: &mut Layer, wanted: &dyn Fn(&str) -> bool, stance: Stance) 
 }
 
 /// What bends a mesh over time, which a head or body does not.
-fn bent(layer: &mut Layer, prim: usize, stance: Stance) -> Result<Option<String>, Problem> {
+fn bent(layer: &mut Layer, prim: usize, stance: Stance) -> Result<Vec<String>, Problem> {
     let path = layer.path(prim);
     if layer.prims[prim].attributes.get("points").is_some_and(|points| points.samples.len() > 1) {
-        return Ok(Some(format!("the motion of the points of {path}: {FIRST_SHAPE}")));
+        return Ok(vec![format!("the motion of the points of {path}: {FIRST_SHAPE}")]);
     }
     let Some(skin) = Skin::of(layer, prim)? else {
         let bound = layer.prims[prim].related().find(|name| name.starts_with("skel:"));
-        return Ok(bound.map(|name| format!("{name} of {path}: it keeps the shape that its own points have")));
+        let line = |name| format!("{name} of {path}: it keeps the shape that its own points have");
+        return Ok(bound.map(line).into_iter().collect());
     };
-    Ok(skin.bends().then(|| match stance {
-        Stance::First => format!("how joints bend {path}: {FIRST_SHAPE}"),
-        Stance::Bound => format!("how joints bend {path}: it keeps the shape in which it was bound"),
-    }))
+    let unblended = skin.unblended(&path).filter(|_| stance == Stance::First);
+    let kept = match stance {
+        Stance::First => FIRST_SHAPE,
+        Stance::Bound => "it keeps the shape in which it was bound",
+    };
+    Ok(skin.bends().then(|| format!("how joints bend {path}: {kept}")).into_iter().chain(unblended).collect())
 }

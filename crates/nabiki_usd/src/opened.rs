@@ -6,11 +6,12 @@ use std::io::SeekFrom;
 use std::rc::Rc;
 
 use glam::{DMat4, DQuat, Vec3};
-use nabiki_exchange::Budget;
+use nabiki_exchange::{Budget, Window};
 
 use crate::Problem;
 use crate::crate_file::MAGIC;
 use crate::crate_file::read::CrateReader;
+use crate::skeleton::Rigs;
 use crate::source::{BLOCKED, Handle, Name, PrimInfo, Source};
 use crate::standing::Standing;
 use crate::text::read as text;
@@ -29,6 +30,10 @@ pub struct Layer {
     pub invisible: HashMap<usize, Option<bool>>,
     /// Transforms of prims to the world at the time code asked for last.
     pub worlds: (f64, HashMap<usize, DMat4>),
+    /// What the order of each prim names and that is not there, once that was asked.
+    pub not_there: HashMap<usize, Rc<[String]>>,
+    /// The skeletons that were asked for: thousands of prims may hang on one.
+    pub rigs: Rigs,
     values: Values,
     /// Prims by what is above them and their names, when they are first looked up.
     by_name: Option<HashMap<(Option<usize>, Name), usize>>,
@@ -80,13 +85,23 @@ impl Layer {
         budget.next_question();
         budget.take(4 * paths, "paths of prims")?;
         let worlds = (f64::NAN, HashMap::new());
-        let invisible = HashMap::new();
-        Ok(Self { prims, metadata, budget, standing, invisible, worlds, values, by_name: None })
+        Ok(Self {
+            prims,
+            metadata,
+            budget,
+            standing,
+            invisible: HashMap::new(),
+            worlds,
+            not_there: HashMap::new(),
+            rigs: Rigs::default(),
+            values,
+            by_name: None,
+        })
     }
 
     /// Opens the layer in a file.
     pub fn file(path: &std::path::Path) -> Result<Self, Problem> {
-        Self::open(Box::new(File::open(path)?))
+        Self::open(Box::new(Window::new(File::open(path)?)?))
     }
 
     /// All numbers of a value, in a row; nothing for text.

@@ -71,7 +71,7 @@ impl StageReader {
     fn curves(
         &mut self,
         prim: usize,
-        InPose { points, is_bound, .. }: InPose,
+        InPose { points, is_bound, said, .. }: InPose,
         frame: usize,
         segments: Option<usize>,
         attributes: bool,
@@ -90,6 +90,7 @@ impl StageReader {
         let mut attributes = lines.attributes(&mut primvars)?;
         attributes.unread.extend(primvars.unread()?);
         attributes.unread.extend(transform::not_there(&mut self.layer, prim)?);
+        attributes.unread.extend(said);
         Ok(Hair { strands: lines.strands, attributes })
     }
 
@@ -241,6 +242,8 @@ struct InPose {
     world: DMat4,
     /// Whether they do.
     is_bound: bool,
+    /// What is said of how they do.
+    said: Option<String>,
 }
 
 /// Points of a prim, as its skeleton has them if it is bound to one.
@@ -252,10 +255,11 @@ fn in_place(
     time: f64,
 ) -> Result<InPose, Problem> {
     match Skin::of(layer, prim)?.filter(|skin| skin.fits(points.len())) {
-        None => Ok(InPose { points, world: transform::world(layer, prim, time)?, is_bound: false }),
+        None => Ok(InPose { points, world: transform::world(layer, prim, time)?, is_bound: false, said: None }),
         Some(skin) => {
             skin.place(layer, &mut points, stance, time)?;
-            Ok(InPose { points, world: skin.world(layer, time)?, is_bound: true })
+            let said = skin.unblended(&layer.path(prim));
+            Ok(InPose { points, world: skin.world(layer, time)?, is_bound: true, said })
         }
     }
 }
@@ -328,12 +332,14 @@ impl GroomReader for StageReader {
                     let curves = self.count(i, "curveVertexCounts")?;
                     // Curves that USD does not know are refused when they are read.
                     let course = course(&mut self.layer, i).unwrap_or(Course::LINEAR);
-                    let world = match Skin::of(&mut self.layer, i)? {
+                    let skin = Skin::of(&mut self.layer, i)?;
+                    let bound = skin.is_some();
+                    let world = match skin {
                         Some(skin) => skin.world(&mut self.layer, time)?,
                         None => transform::world(&mut self.layer, i, time)?,
                     };
                     let world = DAffine3::from_mat4(world);
-                    PrimKind::Curves { curves, points: self.point_count(i)?, course, world_from_curves: world }
+                    PrimKind::Curves { curves, points: self.point_count(i)?, course, world_from_curves: world, bound }
                 }
                 "Mesh" => {
                     let faces = self.count(i, "faceVertexCounts")?;

@@ -1,6 +1,7 @@
 //! Skeletons: where their joints are, out of the animation that moves them.
 
 use std::collections::HashMap;
+use std::rc::Rc;
 
 use glam::{DMat4, DQuat, DVec3};
 
@@ -19,6 +20,17 @@ pub struct Rig {
     parents: Vec<Option<usize>>,
     animation: Option<Animation>,
 }
+
+/// The rigs of a layer that were asked for, and where the joints of one of them were at a time code.
+#[derive(Default)]
+pub struct Rigs {
+    by_skeleton: HashMap<usize, Rc<Rig>>,
+    bound: HashMap<usize, Option<Rc<[DMat4]>>>,
+    posed: Option<(usize, f64, Rc<Poses>)>,
+}
+
+/// Where each joint is in the skeleton's space; none for joints that neither an animation nor a rest transform places.
+pub type Poses = [Option<DMat4>];
 
 #[derive(Clone)]
 struct Animation {
@@ -66,7 +78,7 @@ pub fn joint(layer: &mut Layer, node: &str) -> Result<Option<Joint>, Problem> {
     match &found[..] {
         [] => Ok(None),
         [(skeleton, index, ..)] => {
-            let mut rig = Rig::of(layer, *skeleton)?;
+            let mut rig = Rig::clone(&*Rig::of(layer, *skeleton)?);
             if rig.animation.is_none() {
                 let only = only_animation(layer, *skeleton, &rig.joints[*index])?;
                 rig.animation = only.map(|prim| Animation::of(layer, prim, &rig.joints)).transpose()?;
@@ -134,8 +146,20 @@ impl Animation {
 }
 
 impl Rig {
-    /// A skeleton with the animation that is bound to it, if any is.
-    pub fn of(layer: &mut Layer, skeleton: usize) -> Result<Self, Problem> {
+    /// A skeleton with the animation that is bound to it, if any is: read once, whatever hangs on it.
+    pub fn of(layer: &mut Layer, skeleton: usize) -> Result<Rc<Self>, Problem> {
+        if let Some(known) = layer.rigs.by_skeleton.get(&skeleton) {
+            return Ok(known.clone());
+        }
+        let rig = Rc::new(Self::read(layer, skeleton)?);
+        let letters: usize = rig.joints.iter().map(String::len).sum();
+        let numbers = rig.joints.len() * (size_of::<String>() + 2 * size_of::<Option<usize>>());
+        layer.budget.keep((letters + numbers) as u64, "joints")?;
+        layer.rigs.by_skeleton.insert(skeleton, rig.clone());
+        Ok(rig)
+    }
+
+    fn read(layer: &mut Layer, skeleton: usize) -> Result<Self, Problem> {
         let joints = joints(layer, skeleton)?;
         let place: HashMap<&str, usize> = joints.iter().enumerate().map(|(i, joint)| (joint.as_str(), i)).collect();
         let above = |joint: &String| joint.rmatch_indices('/').find_map(|(at, _)| place.get(&joint[..at]).copied());
@@ -163,6 +187,18 @@ impl Rig {
         times
     }
 
+    /// Where each joint is at a time code, as [`poses`](Self::poses), of the rig that the skeleton has by itself: worked out once.
+    pub fn poses_of_all(&self, layer: &mut Layer, time: f64) -> Result<Rc<Poses>, Problem> {
+        match &layer.rigs.posed {
+            Some((skeleton, at, poses)) if *skeleton == self.skeleton && *at == time => Ok(poses.clone()),
+            _ => {
+                let poses: Rc<Poses> = self.poses(layer, time)?.into();
+                layer.rigs.posed = Some((self.skeleton, time, poses.clone()));
+                Ok(poses)
+            }
+        }
+    }
+
     /// Where each joint is in the skeleton's space at a time code; none for joints that neither an animation nor a rest
     /// transform places.
     pub fn poses(&self, layer: &mut Layer, time: f64) -> Result<Vec<Option<DMat4>>, Problem> {
@@ -188,8 +224,15 @@ impl Rig {
     }
 
     /// Where each joint was when meshes were bound to it, if the skeleton says so of all.
-    pub fn bound(&self, layer: &mut Layer) -> Result<Option<Vec<DMat4>>, Problem> {
-        self.matrices(layer, "bindTransforms")
+    pub fn bound(&self, layer: &mut Layer) -> Result<Option<Rc<[DMat4]>>, Problem> {
+        if let Some(known) = layer.rigs.bound.get(&self.skeleton) {
+            return Ok(known.clone());
+        }
+        let bound = self.matrices(layer, "bindTransforms")?;
+        layer.budget.keep((bound.as_ref().map_or(0, Vec::len) * size_of::<DMat4>()) as u64, "bindTransforms")?;
+        let bound: Option<Rc<[DMat4]>> = bound.map(Into::into);
+        layer.rigs.bound.insert(self.skeleton, bound.clone());
+        Ok(bound)
     }
 
     /// One matrix for each joint.

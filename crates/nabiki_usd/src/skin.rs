@@ -1,6 +1,7 @@
 //! What is bound to a skeleton: UsdSkel places it by the joints, and not by the transforms of its own prim.
 
 use std::collections::HashMap;
+use std::rc::Rc;
 
 use glam::{DMat4, DVec3, Vec3};
 
@@ -12,15 +13,17 @@ use crate::transform;
 /// How the points of a prim hang on joints.
 pub struct Skin {
     /// The skeleton.
-    pub rig: Rig,
+    pub rig: Rc<Rig>,
     /// Takes the points to where they were bound, in the skeleton's space.
     geom_bind: DMat4,
-    /// The joint of the rig that each number among the influences means.
-    joints: Vec<Option<usize>>,
+    /// The joint of the rig that each number among the influences means, where that is not the rig's own.
+    joints: Option<Vec<Option<usize>>>,
     indices: Vec<i64>,
     weights: Vec<f64>,
     /// Whether all points have the same influences.
     is_constant: bool,
+    /// Whether joints are to be blended as dual quaternions, which is not done.
+    blends_otherwise: bool,
 }
 
 /// In which pose of their skeletons heads stand.
@@ -74,11 +77,11 @@ impl Skin {
         }
         let rig = Rig::of(layer, skeleton)?;
         let joints = match nearest(layer, "skel:joints").and_then(|i| layer.at(i, "skel:joints", f64::NEG_INFINITY)) {
-            None => (0..rig.joints.len()).map(Some).collect(),
+            None => None,
             Some(own) => {
                 let place: HashMap<&str, usize> =
                     rig.joints.iter().enumerate().map(|(i, name)| (name.as_str(), i)).collect();
-                layer.words(own)?.iter().map(|name| place.get(name.as_str()).copied()).collect()
+                Some(layer.words(own)?.iter().map(|name| place.get(name.as_str()).copied()).collect())
             }
         };
         let bind = "primvars:skel:geomBindTransform";
@@ -87,7 +90,10 @@ impl Skin {
             None => Vec::new(),
         };
         let geom_bind = geom_bind.first_chunk::<16>().map_or(DMat4::IDENTITY, DMat4::from_cols_array);
-        Ok(Some(Self { rig, geom_bind, joints, indices, weights, is_constant }))
+        let method = "primvars:skel:skinningMethod";
+        let method = nearest(layer, method).map(|i| layer.word(i, method)).transpose()?.flatten();
+        let blends_otherwise = method.is_some_and(|method| method == "dualQuaternion");
+        Ok(Some(Self { rig, geom_bind, joints, indices, weights, is_constant, blends_otherwise }))
     }
 
     /// Whether its influences can be those of so many points.
@@ -117,40 +123,63 @@ impl Skin {
             let at = point.as_dvec3();
             let influences = self.indices[from..from + each].iter().zip(&self.weights[from..from + each]);
             let placed = influences.filter(|&(_, &weight)| weight != 0.0);
-            let placed = placed.map(|(&joint, &weight)| moves[joint as usize].transform_point3(at) * weight);
+            let placed = placed.map(|(&joint, &weight)| moves[&joint].transform_point3(at) * weight);
             *point = placed.sum::<DVec3>().as_vec3();
         }
         Ok(())
     }
 
+    /// The joint of the rig that a number among the influences means; `None` where it means none at all.
+    fn joint(&self, number: i64) -> Option<Option<usize>> {
+        let number = usize::try_from(number).ok()?;
+        match &self.joints {
+            Some(joints) => joints.get(number).copied(),
+            None => (number < self.rig.joints.len()).then_some(Some(number)),
+        }
+    }
+
     /// What each number among the influences does to a point at a time code. `None` where UsdSkel moves nothing: the
     /// skeleton does not say where joints were bound, or an influence is no joint.
-    fn moves(&self, layer: &mut Layer, time: f64) -> Result<Option<Vec<DMat4>>, Problem> {
+    fn moves(&self, layer: &mut Layer, time: f64) -> Result<Option<HashMap<i64, DMat4>>, Problem> {
         let Some(bound) = self.rig.bound(layer)? else { return Ok(None) };
-        let counts = |&(_, &weight): &(&i64, &f64)| weight != 0.0;
-        let is_joint = |joint: i64| usize::try_from(joint).is_ok_and(|joint| joint < self.joints.len());
-        if !self.indices.iter().zip(&self.weights).filter(counts).all(|(&joint, _)| is_joint(joint)) {
-            return Ok(None);
-        }
-        let poses = self.rig.poses(layer, time)?;
+        let poses = self.rig.poses_of_all(layer, time)?;
         let takes = |joint: usize| poses[joint].map(|pose| pose * bound[joint].inverse());
-        let of = |joint: &Option<usize>| joint.and_then(takes).unwrap_or(DMat4::IDENTITY) * self.geom_bind;
-        Ok(Some(self.joints.iter().map(of).collect()))
+        // Of thousands of joints a prim may hang on one.
+        let mut moves = HashMap::new();
+        for (&number, _) in self.indices.iter().zip(&self.weights).filter(|&(_, &weight)| weight != 0.0) {
+            let Some(joint) = self.joint(number) else { return Ok(None) };
+            let of = || joint.and_then(takes).unwrap_or(DMat4::IDENTITY) * self.geom_bind;
+            moves.entry(number).or_insert_with(of);
+        }
+        Ok(Some(moves))
     }
 
     /// The sum of the weights of each joint of the rig.
     pub fn weight_of_joints(&self) -> Vec<f64> {
         let mut sums = vec![0.0; self.rig.joints.len()];
         for (&joint, &weight) in self.indices.iter().zip(&self.weights) {
-            if let Some(Some(joint)) = usize::try_from(joint).ok().and_then(|joint| self.joints.get(joint)) {
-                sums[*joint] += weight;
+            if let Some(Some(joint)) = self.joint(joint) {
+                sums[joint] += weight;
             }
         }
         sums
     }
 
+    /// What is said where it is not blended as it asks for. `path`: its prim's.
+    pub fn unblended(&self, path: &str) -> Option<String> {
+        let asked = self.blends_otherwise && self.bends();
+        asked
+            .then(|| format!("skel:skinningMethod of {path}: its joints are blended linearly, not as dual quaternions"))
+    }
+
     /// Whether more than one joint has a part in it, which then bends it.
     pub fn bends(&self) -> bool {
-        self.weight_of_joints().iter().filter(|&&weight| weight != 0.0).count() > 1
+        let mut sums: HashMap<usize, f64> = HashMap::new();
+        for (&number, &weight) in self.indices.iter().zip(&self.weights) {
+            if let Some(Some(joint)) = self.joint(number) {
+                *sums.entry(joint).or_default() += weight;
+            }
+        }
+        sums.values().filter(|&&weight| weight != 0.0).count() > 1
     }
 }

@@ -120,6 +120,12 @@ pub struct PrimInfo {
 }
 
 impl PrimInfo {
+    /// Whether it has transforms in USD: what is defined without a type, or as a scope, has none, whatever it says. What an `over` adds to
+    /// is not known here.
+    pub fn is_transformable(&self) -> bool {
+        self.is_over || !matches!(self.type_name.as_str(), "" | "Scope")
+    }
+
     /// The names of its relationships that have targets.
     pub fn related(&self) -> impl Iterator<Item = &Name> {
         self.relationships.iter().filter(|&&(_, targets)| targets != BLOCKED).map(|(name, _)| name)

@@ -31,7 +31,8 @@ impl Standing {
                 None => (Self { is_active: true, is_defined: true, ..Self::default() }, None),
             };
             let is_instancer = |&parent: &usize| prims[parent].type_name == "PointInstancer";
-            let operations = prim.attributes.iter().filter(|(name, _)| name.starts_with("xformOp:"));
+            let named = |name: &str| prim.is_transformable() && name.starts_with("xformOp:");
+            let operations = prim.attributes.iter().filter(|(name, _)| named(name));
             let moves: usize = operations.map(|(_, operation)| operation.samples.len()).sum();
             let is_active = above.is_active && !prim.is_off_stage;
             all.push(Self {

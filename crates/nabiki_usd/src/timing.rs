@@ -1,5 +1,7 @@
 //! When the frames of a layer are.
 
+use std::collections::HashSet;
+
 use nabiki_exchange::Frames;
 
 use crate::Problem;
@@ -68,8 +70,11 @@ impl StageReader {
         }
         let mut most: Vec<f64> = Vec::new();
         let mut carried: Option<usize> = None;
+        let mut asked = HashSet::new();
         for prim in curves {
             match Skin::of(&mut self.layer, prim)? {
+                // Many hang on one.
+                Some(skin) if !asked.insert(skin.rig.skeleton) => {}
                 Some(skin) => {
                     let moving = skin.rig.times(&self.layer);
                     if moving.len() > most.len() {

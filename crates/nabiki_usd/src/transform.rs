@@ -1,6 +1,7 @@
 //! Transforms of prims, from the operations that each lists.
 
 use std::collections::HashMap;
+use std::rc::Rc;
 
 use glam::{DMat4, DVec3};
 use nabiki::hair::Stored;
@@ -57,16 +58,38 @@ pub fn not_there(layer: &mut Layer, prim: usize) -> Result<Vec<String>, Problem>
     let mut lines = Vec::new();
     let upward: Vec<usize> = layer.upward(prim).collect();
     for i in upward {
-        let Some(order) = layer.at(i, "xformOpOrder", f64::NEG_INFINITY) else { continue };
-        for word in layer.words(order)? {
-            let name = word.strip_prefix("!invert!").unwrap_or(&word);
-            if name != RESET && !layer.prims[i].attributes.contains_key(name) {
-                lines.push(format!("{word:?} of {}: its xformOpOrder names it, and it is not there", layer.path(i)));
-            }
-        }
+        let own = not_there_itself(layer, i)?;
+        let letters: usize = own.iter().map(|line| size_of::<String>() + line.len()).sum();
+        layer.budget.take(letters as u64, "notes on transforms")?;
+        lines.extend_from_slice(&own);
     }
     lines.sort();
     lines.dedup();
+    Ok(lines)
+}
+
+/// The same of the prim's own order. Read once: thousands of prims may stand below it.
+fn not_there_itself(layer: &mut Layer, prim: usize) -> Result<Rc<[String]>, Problem> {
+    if let Some(known) = layer.not_there.get(&prim) {
+        return Ok(known.clone());
+    }
+    let order = layer.at(prim, "xformOpOrder", f64::NEG_INFINITY).filter(|_| layer.prims[prim].is_transformable());
+    let words = order.map(|order| layer.words(order)).transpose()?.unwrap_or_default();
+    let mut lines = Vec::new();
+    for word in words {
+        let name = word.strip_prefix("!invert!").unwrap_or(&word);
+        if name != RESET && !layer.prims[prim].attributes.contains_key(name) {
+            let line = format!("{word:?} of {}: its xformOpOrder names it, and it is not there", layer.path(prim));
+            layer.budget.keep(line.len() as u64, "notes on transforms")?;
+            lines.push(line);
+        }
+    }
+    if layer.prims[prim].attributes.contains_key("xformOpOrder") && !layer.prims[prim].is_transformable() {
+        let kind = if layer.prims[prim].type_name.is_empty() { "has no type" } else { "is a Scope" };
+        lines.push(format!("the transform of {}: it {kind}, and such prims have none in USD", layer.path(prim)));
+    }
+    let lines: Rc<[String]> = lines.into();
+    layer.not_there.insert(prim, lines.clone());
     Ok(lines)
 }
 
@@ -77,7 +100,8 @@ const RESET: &str = "!resetXformStack!";
 fn local(layer: &mut Layer, prim: usize, time: f64) -> Result<(DMat4, bool), Problem> {
     let mut local = DMat4::IDENTITY;
     let mut resets = false;
-    let Some(order) = layer.at(prim, "xformOpOrder", time) else { return Ok((local, resets)) };
+    let order = layer.at(prim, "xformOpOrder", time).filter(|_| layer.prims[prim].is_transformable());
+    let Some(order) = order else { return Ok((local, resets)) };
     let words = layer.words(order)?;
     if words.len() > MOST_OPERATIONS {
         let (path, found) = (layer.path(prim), words.len());

@@ -13,6 +13,7 @@ use crate::content::{curves, extent, skin};
 use crate::crate_file::Rep;
 use crate::crate_file::write::CrateWriter;
 use crate::layer::{Attribute, Metadata, Prim, Value};
+use crate::source::SKEL_BINDING;
 use crate::text::write::TextWriter;
 
 /// Which prims a layer has.
@@ -21,7 +22,8 @@ pub enum Form {
     /// A complete stage: a transform `/head`, below it the curves `hair` and, if there is one, the mesh `skin`.
     Stage,
     /// Samples of points and extent only, to be laid over the prim at this path (`/character/hair`), which must have
-    /// the same strands. `world_from_head` is not in it: a groom keeps its own place.
+    /// the same strands. `world_from_head` is not in it: a groom keeps its own place. Where [`Export::bound`] says so the layer takes
+    /// it off its skeleton, which would move these points once more, and has `world_from_head` instead of all transforms above it.
     Layer(String),
 }
 
@@ -89,18 +91,19 @@ impl<'a> HairStage<'a> {
             let hair = names.len() - 1;
             match &form {
                 Form::Stage => {
-                    to.open("head", "Xform", 0)?;
+                    to.open("head", "Xform", &[], 0)?;
                     if let Some(mesh) = export.head {
                         to.prim(&skin(mesh, &export), 1)?;
                     }
-                    to.open("hair", "BasisCurves", 1)?;
+                    to.open("hair", "BasisCurves", &[], 1)?;
                     for attribute in curves(&export, "hair").attributes {
                         to.attribute(&attribute, 2)?;
                     }
                 }
                 Form::Layer(_) => {
                     for (depth, name) in names.iter().enumerate() {
-                        to.open(name, "", depth)?;
+                        let schemas: &[&str] = if depth == hair && export.bound { &[SKEL_BINDING] } else { &[] };
+                        to.open(name, "", schemas, depth)?;
                     }
                 }
             }
@@ -166,6 +169,11 @@ struct Rest<'a> {
 }
 
 impl Rest<'_> {
+    /// Whether the curves are taken off their skeleton.
+    fn is_unbound(&self) -> bool {
+        !self.is_stage && self.export.bound
+    }
+
     fn text(
         &self,
         mut to: TextWriter<PartFile>,
@@ -187,9 +195,15 @@ impl Rest<'_> {
                 to.attribute(&attribute, depth)?;
             }
         }
+        let mut transforms = Some(transforms);
+        if let Some(transforms) = transforms.take_if(|_| self.is_unbound()) {
+            for attribute in unbound(transforms, |values| Ok(timed(values)))? {
+                to.attribute(&attribute, depth)?;
+            }
+        }
         to.close(depth - 1)?;
-        if self.is_stage {
-            for attribute in transform(transforms, |values| Ok(timed(values)))? {
+        if let Some(transforms) = transforms.filter(|_| self.is_stage) {
+            for attribute in transform(transforms, &[], |values| Ok(timed(values)))? {
                 to.attribute(&attribute, 1)?;
             }
         }
@@ -213,7 +227,7 @@ impl Rest<'_> {
         let mut hair = if self.is_stage {
             curves(self.export, name)
         } else {
-            Prim { name: name.clone(), type_name: "", attributes: Vec::new(), children: Vec::new() }
+            Prim { name: name.clone(), type_name: "", schemas: &[], attributes: Vec::new(), children: Vec::new() }
         };
         match hair.attributes.iter_mut().find(|a| a.name == "points") {
             Some(attribute) => attribute.samples = points,
@@ -226,16 +240,20 @@ impl Rest<'_> {
         if !self.is_stage {
             hair.attributes.extend(blocked());
         }
+        if self.is_unbound() {
+            hair.schemas = &[SKEL_BINDING];
+            hair.attributes.extend(unbound(transforms.to_vec(), |values| reps(&values))?);
+        }
         let mut prim = hair;
         for name in above.iter().rev() {
             let type_name = if self.is_stage { "Xform" } else { "" };
-            prim = Prim { name: name.clone(), type_name, attributes: Vec::new(), children: vec![prim] };
+            prim = Prim { name: name.clone(), type_name, schemas: &[], attributes: Vec::new(), children: vec![prim] };
         }
         if self.is_stage {
             if let Some(mesh) = self.export.head {
                 prim.children.insert(0, skin(mesh, self.export));
             }
-            prim.attributes = transform(transforms.to_vec(), |values| reps(&values))?;
+            prim.attributes = transform(transforms.to_vec(), &[], |values| reps(&values))?;
         }
         to.finish(metadata, &[prim], self.times)
     }
@@ -246,18 +264,30 @@ fn blocked<S>() -> impl Iterator<Item = Attribute<S>> {
     ["velocities", "accelerations"].into_iter().map(|name| Attribute::new(name, "vector3f[]", Value::Blocked))
 }
 
-/// The attributes of a transform that is a matrix: one where all are equal, otherwise the samples that `timed` makes.
-fn transform<S>(
+/// What takes curves off their skeleton, to where `matrices` have them in the world: UsdSkel heeds no transform of what is bound, so its
+/// own, and those above it, do not count.
+fn unbound<S>(
     matrices: Vec<Value>,
     timed: impl FnOnce(Vec<Value>) -> io::Result<Vec<S>>,
+) -> io::Result<impl Iterator<Item = Attribute<S>>> {
+    let placed = transform(matrices, &["!resetXformStack!"], timed)?;
+    Ok([Attribute::no_targets("skel:skeleton")].into_iter().chain(placed))
+}
+
+/// The attributes of a transform, after what stands `before` it in the order, that is a matrix: one where all are equal, otherwise the samples that `timed` makes.
+fn transform<S>(
+    matrices: Vec<Value>,
+    before: &[&str],
+    timed: impl FnOnce(Vec<Value>) -> io::Result<Vec<S>>,
 ) -> io::Result<Vec<Attribute<S>>> {
-    let mut transform = Attribute::sampled("xformOp:transform", "matrix4d", Vec::new());
+    let name = if before.is_empty() { "xformOp:transform" } else { "xformOp:transform:moved" };
+    let mut transform = Attribute::sampled(name, "matrix4d", Vec::new());
     if matrices.iter().all(|t| *t == matrices[0]) {
         transform.value = Some(matrices[0].clone());
     } else {
         transform.samples = timed(matrices)?;
     }
-    let order = Value::Tokens(vec!["xformOp:transform".to_owned()]);
+    let order = Value::Tokens(before.iter().chain([&name]).map(|&word| word.to_owned()).collect());
     Ok(vec![transform, Attribute::uniform("xformOpOrder", "token[]", order)])
 }
 

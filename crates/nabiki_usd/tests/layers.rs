@@ -216,6 +216,35 @@ fn a_layer_of_samples_holds_nothing_else() {
 }
 
 #[test]
+fn a_layer_over_a_groom_on_a_skeleton_takes_it_off_and_places_it() {
+    let hair = groom();
+    let export = Export { bound: true, ..Export::new(&hair, 24.0) };
+    let form = || Form::Layer("/character/hair".to_owned());
+    let text = String::from_utf8(bytes("layer.usda", export.clone(), form(), pose)).unwrap();
+    for line in [
+        "prepend apiSchemas = [\"SkelBindingAPI\"]",
+        "rel skel:skeleton = None",
+        "matrix4d xformOp:transform:moved.timeSamples = {",
+        "uniform token[] xformOpOrder = [\"!resetXformStack!\", \"xformOp:transform:moved\"]",
+    ] {
+        assert_eq!(text.matches(line).count(), 1, "{line}");
+    }
+    // Text and binary are read alike, as far as an over says anything by itself.
+    for name in NAMES {
+        let prims = reader(bytes(name, export.clone(), form(), pose)).prims().unwrap();
+        let hair = prims.last().unwrap();
+        assert_eq!(
+            (hair.path.as_str(), hair.samples, &hair.relationships),
+            ("/character/hair", FRAMES, &Vec::new()),
+            "{name}"
+        );
+    }
+    // A complete stage is on no skeleton.
+    let stage = String::from_utf8(bytes("stage.usda", export, Form::Stage, pose)).unwrap();
+    assert!(!stage.contains("skel:") && !stage.contains("apiSchemas"));
+}
+
+#[test]
 fn a_groom_goes_back_into_its_own_space() {
     // A file in metres with z up: what an importer would have applied, and its inverse for the way back.
     let head_from_file = DAffine3::from_scale(glam::DVec3::splat(100.0))

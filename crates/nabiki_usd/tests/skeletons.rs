@@ -307,3 +307,43 @@ fn the_joint_that_carries_a_head_is_named_head_or_else_holds_most_of_it() {
     let unbound = Rig { api: "", ..Rig::default() };
     assert_eq!(reader(&unbound.text(true)).joint_of_meshes(&|_| true).unwrap(), None);
 }
+
+#[test]
+fn joints_are_read_once_however_many_prims_hang_on_them() {
+    // A name for each prim would be nine million of them.
+    let (prims, joints) = (3000, 3000);
+    let names: Vec<String> = (0..joints).map(|i| format!("\"k{i}\"")).collect();
+    let places = vec![place(0.0, 0.0, 0.0); joints].join(", ");
+    let mut text = format!(
+        "def SkelRoot \"char\" {{ def Skeleton \"rig\" {{ uniform token[] joints = [{}]\n\
+         uniform matrix4d[] bindTransforms = [{places}]\n uniform matrix4d[] restTransforms = [{places}] }}\n",
+        names.join(", ")
+    );
+    for i in 0..prims {
+        let (index, kind) = (INDICES, if i % 2 == 0 { "BasisCurves" } else { "Mesh" });
+        let faces = "int[] faceVertexCounts = [3]\n int[] faceVertexIndices = [0, 1, 2]";
+        let curves = "uniform token type = \"linear\"\n int[] curveVertexCounts = [3]";
+        text += &format!(
+            "def {kind} \"p{i}\" {API} {{ point3f[] points = [(0, 155, 0), (0, 160, 0), (1, 155, 0)]\n {} {BOND}\n {index}\n {WEIGHTS} }}\n",
+            if i % 2 == 0 { curves } else { faces }
+        );
+    }
+    let mut stage = reader(&(text + "}\n"));
+    assert_eq!(stage.hair_in_place(0, None, true).unwrap().hair.strands.len(), prims / 2);
+    assert_eq!(stage.meshes_with_losses(&|_| true).unwrap().0.triangles.len(), prims / 2);
+    assert_eq!(stage.prims().unwrap().len(), prims + 2);
+}
+
+#[test]
+fn joints_that_are_to_be_blended_otherwise_are_said() {
+    let indices = "int[] primvars:skel:jointIndices = [0, 1] ( elementSize = 2 interpolation = \"constant\" )";
+    let weights = "float[] primvars:skel:jointWeights = [0.5, 0.5] ( elementSize = 2 interpolation = \"constant\" )";
+    for (method, expected) in [("dualQuaternion", 1), ("classicLinear", 0)] {
+        let method = format!("uniform token primvars:skel:skinningMethod = \"{method}\"");
+        let mut stage = reader(&Rig::saying(&[BOND, indices, weights, &method]).text(true));
+        let said = stage.hair(0, None).unwrap().attributes.unread;
+        let count =
+            |said: &[String]| said.iter().filter(|line| line.starts_with("skel:skinningMethod of /char/")).count();
+        assert_eq!((count(&said), count(&stage.mesh_unread().unwrap())), (expected, expected), "{method}: {said:?}");
+    }
+}

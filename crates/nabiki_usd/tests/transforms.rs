@@ -232,3 +232,33 @@ fn a_blocked_value_of_an_operation_moves_nothing() {
     let places: Vec<f64> = way.iter().map(|placed| placed.position.x).collect();
     assert_eq!(places, [1.0, 0.0, 3.0]);
 }
+
+#[test]
+fn an_order_is_read_once_however_many_prims_stand_below_it() {
+    // Words for each prim would be some three million of them, and each such note would be there for each.
+    let (deep, prims, named) = (40, 2000, 40);
+    let order: Vec<String> = (0..named).map(|i| format!("\"xformOp:translate:o{i}\"")).collect();
+    let above = |i| format!("def Xform \"d{i}\" {{ uniform token[] xformOpOrder = [{}]\n", order.join(", "));
+    let curves =
+        "uniform token type = \"linear\"\n int[] curveVertexCounts = [2]\n point3f[] points = [(0, 0, 0), (0, 1, 0)]";
+    let mut text: String = (0..deep).map(above).collect();
+    text.extend((0..prims).map(|i| format!("def BasisCurves \"c{i}\" {{ {curves} }}\n")));
+    text += &"}".repeat(deep);
+    let mut stage = StageReader::new(Cursor::new(format!("#usda 1.0\n{text}").into_bytes())).unwrap();
+    match stage.hair_in_place(0, None, true) {
+        Ok(read) => assert_eq!(read.hair.attributes.unread.len(), deep * named),
+        Err(refused) => assert!(refused.0.contains("notes on transforms"), "{refused}"),
+    }
+}
+
+#[test]
+fn what_has_no_type_and_a_scope_have_no_transform() {
+    let moved = "double3 xformOp:translate = (5, 0, 0)\n uniform token[] xformOpOrder = [\"xformOp:translate\"]\n";
+    for (kind, expected) in [("Xform ", 5.0), ("Scope ", 0.0), ("", 0.0)] {
+        let mut stage = reader(&format!("def {kind}\"a\" {{ {moved} {CURVE} }}\n"));
+        let hair = stage.hair(0, None).unwrap();
+        assert_eq!(hair.strands.strand(0)[0], Vec3::X * expected, "{kind}");
+        let said = hair.attributes.unread.iter().any(|line| line.starts_with("the transform of /a: "));
+        assert_eq!(said, expected == 0.0, "{kind}: {:?}", hair.attributes.unread);
+    }
+}

@@ -82,6 +82,8 @@ const DOUBLES: u32 = 2;
 /// What it says of cubic curves: their basis, one of [`BASES`] counted from 1, and whether they are pinned.
 const BASIS: u32 = 4;
 const PINNED: u32 = 16;
+/// What it says of curves that a skeleton moves.
+const BOUND: u32 = 32;
 const BASES: [Basis; 3] = [Basis::Bezier, Basis::Bspline, Basis::CatmullRom];
 
 /// The number of curves that run so.
@@ -118,8 +120,8 @@ pub(super) fn groom_bytes(groom: &GroomCurves) -> Result<Vec<u8>> {
         put(&mut out, &[whole(path.len())?])?;
         out.extend_from_slice(path.as_bytes());
     }
-    for CurvePrim { course, world_from_curves, .. } in &groom.curves {
-        put(&mut out, &[number_of(*course)])?;
+    for CurvePrim { course, world_from_curves, bound, .. } in &groom.curves {
+        put(&mut out, &[number_of(*course) + if *bound { BOUND } else { 0 }])?;
         put(&mut out, &world_from_curves.to_cols_array())?;
     }
     Ok(out)
@@ -145,13 +147,15 @@ pub(super) fn groom_from_bytes(bytes: &[u8]) -> Result<GroomCurves> {
         for _ in 0..count {
             let (points, length) = (u64::from_le_bytes(number(&mut rest)?), number(&mut rest)?);
             let path = text(&mut rest, length)?;
-            curves.push(CurvePrim { path, points, course: None, world_from_curves: DAffine3::IDENTITY });
+            let world_from_curves = DAffine3::IDENTITY;
+            curves.push(CurvePrim { path, points, course: None, world_from_curves, bound: false });
         }
         // Caches of before transforms were kept end here.
         let placed = curves.is_empty() || !rest.is_empty();
         for prim in curves.iter_mut().filter(|_| placed) {
             let kind = u32::from_le_bytes(number(&mut rest)?);
-            prim.course = course_of(kind).ok()?;
+            prim.bound = kind & BOUND != 0;
+            prim.course = course_of(kind & !BOUND).ok()?;
             let mut columns = [0.0; 12];
             for column in &mut columns {
                 *column = if kind & DOUBLES != 0 {
@@ -200,7 +204,7 @@ mod tests {
     fn the_curves_of_a_groom_come_back_and_a_damaged_list_is_refused() {
         let prim = |path: &str, points, course, world_from_curves| {
             let path = path.to_owned();
-            CurvePrim { path, points, course, world_from_curves }
+            CurvePrim { bound: points == 3, path, points, course, world_from_curves }
         };
         let far = DVec3::new(0.0, 150.0, -123_456.789);
         let turned = DAffine3::from_rotation_translation(DQuat::from_rotation_x(0.4), far);

@@ -30,6 +30,12 @@ pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String])
     if used("EXT_mesh_gpu_instancing") {
         unread.push("EXT_mesh_gpu_instancing: each mesh stands once, where its node has it".to_owned());
     }
+    if mesh.triangles.is_empty()
+        && let Some(mode) =
+            document.meshes().flat_map(|mesh| mesh.primitives()).find_map(|other| not_a_surface(other.mode()))
+    {
+        return Err(Error::new(format!("holds {mode} and no triangles of what is wanted: export triangles")));
+    }
     let mesh = check(mesh, &mut unread)?;
     unread.sort();
     unread.dedup();
@@ -66,6 +72,28 @@ pub(super) fn groups(bytes: &[u8]) -> Result<Vec<(String, usize)>> {
         Some((name, mesh.primitives().map(corners).sum::<usize>() / 3))
     };
     Ok(document.nodes().filter_map(group).collect())
+}
+
+/// What a primitive is that is not a surface, such as loose edges that were exported with one.
+fn not_a_surface(mode: Mode) -> Option<&'static str> {
+    match mode {
+        Mode::Points => Some("points"),
+        Mode::Lines | Mode::LineLoop | Mode::LineStrip => Some("lines"),
+        Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => None,
+    }
+}
+
+/// The triangles of the vertices that a primitive goes through.
+fn triangles(mode: Mode, corners: &[u32]) -> Vec<[u32; 3]> {
+    match mode {
+        // Every other one is wound the other way.
+        Mode::TriangleStrip => {
+            let turned = |(n, t): (usize, &[u32])| if n % 2 == 0 { [t[0], t[1], t[2]] } else { [t[1], t[0], t[2]] };
+            corners.windows(3).enumerate().map(turned).collect()
+        }
+        Mode::TriangleFan => corners.windows(2).skip(1).map(|t| [corners[0], t[0], t[1]]).collect(),
+        _ => corners.as_chunks::<3>().0.to_vec(),
+    }
 }
 
 /// A primitive of a mesh as one of its nodes has it.
@@ -145,11 +173,8 @@ impl<'a> Part<'a> {
         scene_from_node: DAffine3,
         skin: Option<&Skin>,
     ) -> Result<Self> {
-        if primitive.mode() != Mode::Triangles {
-            return Err(Error::new(format!(
-                "primitives of mode {:?} are not read: export triangles",
-                primitive.mode()
-            )));
+        if not_a_surface(primitive.mode()).is_some() {
+            return Ok(Self { node, mesh, primitive, positions: Vec::new(), carriers: None, mirrored: false });
         }
         // A mesh drawn by many nodes is copied for each.
         let vertices = primitive.get(&Semantic::Positions).map_or(0, |accessor| accessor.count());
@@ -167,6 +192,10 @@ impl<'a> Part<'a> {
 
     /// Adds its triangles, and to `unread` what of it is left out or not obeyed.
     fn append_to(&self, mesh: &mut Mesh, buffers: &Buffers<'_>, unread: &mut Vec<String>) -> Result<()> {
+        if let Some(others) = not_a_surface(self.primitive.mode()) {
+            unread.push(format!("the {others} of {}", self.name()));
+            return Ok(());
+        }
         let first = u32::try_from(mesh.positions.len()).map_err(|_| Error::new("more than 2^32 vertices"))?;
         let count = self.positions.len();
         let indices: Vec<u32> = match self.primitive.indices() {
@@ -176,13 +205,17 @@ impl<'a> Part<'a> {
         if let Some(&bad) = indices.iter().find(|&&v| v as usize >= count) {
             return Err(Error::new(format!("index {bad} names a vertex beyond the {count} there are")));
         }
-        buffers.budget.take(indices.len() as u64 / 3 * TRIANGLE_BYTES, "triangles")?;
+        let triangles = match self.primitive.mode() {
+            Mode::Triangles => indices.len() / 3,
+            _ => indices.len().saturating_sub(2),
+        };
+        buffers.budget.take(triangles as u64 * TRIANGLE_BYTES, "triangles")?;
         mesh.positions.extend(&self.positions);
         let uvs = texture_coordinates(&self.primitive, buffers, count).unwrap_or_else(|e| {
             unread.push(format!("the texture coordinates of {}: {}", self.name(), e.what));
             None
         });
-        for &[a, b, c] in indices.as_chunks::<3>().0 {
+        for [a, b, c] in self::triangles(self.primitive.mode(), &indices) {
             let corners = if self.mirrored { [a, c, b] } else { [a, b, c] };
             mesh.push(corners.map(|v| first + v), uvs.as_ref().map(|uvs| corners.map(|v| uvs[v as usize])));
         }

@@ -507,3 +507,12 @@ proptest! {
         read_whatever(&bytes);
     }
 }
+
+#[test]
+fn a_number_may_stand_right_behind_its_colon() {
+    let loose = "HIERARCHY ROOT Head { OFFSET 0 0 0 CHANNELS 3 Xposition Yposition Zposition End Site { OFFSET 0 1 0 } } \
+                 MOTION Frames: 2 Frame Time: 0.5 0 0 0 1 2 3";
+    let tight = loose.replace("Frames: ", "FRAMES:").replace("Time: ", "Time:");
+    let [loose, tight] = [loose, &tight].map(|text| bvh::track(text, "Head").unwrap());
+    assert_eq!((tight.times.clone(), tight.times), (loose.times, vec![0.0, 0.5]));
+}

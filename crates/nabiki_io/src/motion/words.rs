@@ -54,9 +54,16 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// Takes `wanted` itself; capitals do not count.
+    /// Takes `wanted` itself; capitals do not count, and a number may follow its colon at once.
     pub fn expect(&mut self, wanted: &str) -> Result<()> {
         match self.next(wanted)? {
+            found
+                if wanted.ends_with(':')
+                    && found.get(..wanted.len()).is_some_and(|w| w.eq_ignore_ascii_case(wanted)) =>
+            {
+                self.rest = self.last + wanted.len();
+                Ok(())
+            }
             found if found.eq_ignore_ascii_case(wanted) => Ok(()),
             found => Err(self.refusal(found, &format!("{wanted} should stand here"))),
         }

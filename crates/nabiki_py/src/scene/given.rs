@@ -15,6 +15,15 @@ pub fn setting(key: &str, given: &Bound<'_, PyAny>, rate: Option<f64>, files: &m
     Settings { rate, files, walk: Walk::default() }.read(key, given)
 }
 
+/// The setting by which hair is given as arrays, and that by which it is known that these are root first.
+pub const HAIR_FILE: &str = "hair.file";
+pub const HAIR_ROOT: &str = "hair.root";
+
+/// What [`HAIR_ROOT`] is of arrays, where they do not say otherwise: they are root first, wherever they lie on the skin.
+pub fn root_first() -> Option<Value> {
+    Some(Value::String("first".to_owned()))
+}
+
 struct Settings<'a> {
     rate: Option<f64>,
     files: &'a mut Files,
@@ -35,7 +44,7 @@ impl Settings<'_> {
         if let Ok(arrays) = pair {
             match name {
                 "mesh" => return self.files.mesh(key, &arrays).and_then(|path| text(key, given, &path)),
-                "file" if key == "hair.file" => {
+                "file" if key == HAIR_FILE => {
                     return self.files.hair(&arrays).and_then(|path| text(key, given, &path));
                 }
                 _ => {}
@@ -70,19 +79,23 @@ impl Settings<'_> {
     }
 
     fn table(&mut self, key: &str, table: &Bound<'_, PyMapping>, is_motion: bool) -> PyResult<Table> {
-        let (mut values, mut matrices) = (Table::new(), None);
+        let (mut values, mut matrices, mut is_root_first) = (Table::new(), None, false);
         self.within(key, table, |settings| {
             for entry in table.items()?.iter() {
                 let (name, value): (String, Bound<'_, PyAny>) = entry.extract()?;
                 if is_motion && name == "file" && is_array(&value)? {
                     matrices = Some(value);
                 } else if !value.is_none() {
+                    is_root_first |= below(key, &name) == HAIR_FILE && is_array(&value)?;
                     let value = settings.read(&below(key, &name), &value)?;
                     values.insert(name, value);
                 }
             }
             Ok(())
         })?;
+        if let Some(first) = root_first().filter(|_| is_root_first) {
+            values.entry("root").or_insert(first);
+        }
         let Some(matrices) = matrices else { return Ok(values) };
         let mut own_rate = None;
         // Of a table of poses it is known by its times.

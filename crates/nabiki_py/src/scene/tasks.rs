@@ -56,7 +56,7 @@ fn encoded<'py>(
         let bytes = encode()?;
         file.map_or(Ok(()), |file| output::write_bytes(file, &bytes)).map(|()| bytes)
     });
-    let bytes = written.map_err(|refused| error::raised(py, refused.into()))?;
+    let bytes = written?.map_err(|refused| error::raised(py, refused.into()))?;
     Ok(PyBytes::new(py, &bytes))
 }
 

@@ -388,8 +388,8 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
     sink.finish().map_err(failed)?;
     let mut losses: Vec<String> =
         exchange::losses(output, &hair).into_iter().chain(unsaid_space(options, space_of(&cache))).collect();
-    if layer.is_some() {
-        losses.extend(exchange::layer_losses(head_moves));
+    if let Some(curves) = &curves {
+        losses.extend(exchange::layer_losses(curves, head_moves));
     }
     finish(options, losses, format!("{frames} frames of {} strands", hair.strands.len()), watch);
     Ok(())

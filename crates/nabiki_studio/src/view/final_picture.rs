@@ -92,13 +92,17 @@ pub struct FinalPicture {
 
 impl FinalPicture {
     /// Starts the thread; `wake` is called whenever something is done.
-    pub fn new(wake: impl Fn() + Send + 'static) -> Self {
+    ///
+    /// # Errors
+    /// The system's, if it gives no thread.
+    pub fn new(wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
         let (wanted, orders) = channel();
         let (give, done) = channel();
         let newest = Arc::new(AtomicU64::new(0));
         let current = newest.clone();
-        std::thread::spawn(move || work(&orders, &give, &current, &wake));
-        Self { wanted, done, newest }
+        let draw = move || work(&orders, &give, &current, &wake);
+        std::thread::Builder::new().name("picture".to_owned()).spawn(draw)?;
+        Ok(Self { wanted, done, newest })
     }
 
     /// Asks for a picture; what was asked for before is given up.
@@ -313,7 +317,7 @@ mod tests {
 
     #[test]
     fn it_is_the_renderers_picture_of_all_strands_whatever_was_drawn_before() {
-        let thread = FinalPicture::new(|| {});
+        let thread = FinalPicture::new(|| {}).unwrap();
         let (calm, storm) = (Vec3::X, Vec3::new(-300.0, 50.0, 0.0));
         for (frame, vector) in [(4, calm), (5, calm), (2, calm), (5, storm)] {
             let wanted = wanted(frame, vector);
@@ -345,7 +349,7 @@ mod tests {
             format!("[[body]]\nmesh = \"box.obj\"\nunit = \"cm\"\nup = \"+y\"\nfacing = \"+x\"\norigin = [{x}, 0, 0]\n")
         };
         let hair = "[hair]\nfile = \"lock.obj\"\nunit = \"cm\"\nup = \"+y\"\nfacing = \"+x\"\n";
-        let thread = FinalPicture::new(|| {});
+        let thread = FinalPicture::new(|| {}).unwrap();
         let mut seen: Vec<Done> = Vec::new();
         for (x, half, bodies) in
             [(9, 3, String::new()), (9, 3, body(-14)), (9, 3, body(-18)), (12, 3, body(-18)), (12, 2, body(-18))]
@@ -358,7 +362,7 @@ mod tests {
             let wanted = Wanted { built, strands: 5, ..wanted(2, Vec3::X) };
             thread.ask(wanted.clone());
             let done = drawn(&thread);
-            let anew = FinalPicture::new(|| {});
+            let anew = FinalPicture::new(|| {}).unwrap();
             anew.ask(wanted);
             assert!(done == drawn(&anew), "hair at {x}, a box of {half}, {bodies}");
             assert!(!seen.contains(&done), "nothing of it is seen");
@@ -368,7 +372,7 @@ mod tests {
 
     #[test]
     fn what_was_given_up_never_comes() {
-        let thread = FinalPicture::new(|| {});
+        let thread = FinalPicture::new(|| {}).unwrap();
         thread.ask(wanted(6, Vec3::X));
         thread.cancel();
         let kept = wanted(1, Vec3::X);

@@ -7,6 +7,10 @@ use super::integers::{pack, pack_integers};
 use super::{END_OF_SET, HEADER, MAGIC, Rep, specs, types};
 use crate::layer::{Attribute, Metadata, Prim, Value};
 
+/// What a list begins with: whether it is set whole, or has items to prepend.
+const IS_SET: u8 = 1;
+const IS_PREPENDED: u8 = 32;
+
 /// A binary layer being written.
 pub struct CrateWriter<W> {
     to: W,
@@ -118,6 +122,10 @@ impl<W: Write + Seek> CrateWriter<W> {
             Value::Unsigned(values) => self.array(types::UINT, values),
             Value::UnsignedLongs(values) => self.array(types::UINT64, values),
             Value::Blocked => Ok(Rep::inlined(types::VALUE_BLOCK, 0)),
+            Value::NoTargets => {
+                let place = self.put(&[&[IS_SET]])?;
+                Ok(Rep::at(types::PATH_LIST, place))
+            }
             Value::One(list) => self.one(list),
             Value::Matrix(m) => {
                 let place = self.put(&[bytemuck::cast_slice(m)])?;
@@ -190,6 +198,12 @@ impl<W: Write + Seek> CrateWriter<W> {
         if !prim.type_name.is_empty() {
             fields.push(("typeName", Rep::inlined(types::TOKEN, self.token(prim.type_name))));
         }
+        if !prim.schemas.is_empty() {
+            let schemas: Vec<u32> = prim.schemas.iter().map(|schema| self.token(schema)).collect();
+            let count = (schemas.len() as u64).to_le_bytes();
+            let place = self.put(&[&[IS_PREPENDED], &count, bytemuck::cast_slice(&schemas)])?;
+            fields.push(("apiSchemas", Rep::at(types::TOKEN_LIST, place)));
+        }
         if !prim.attributes.is_empty() {
             fields.push(("properties", self.names(prim.attributes.iter().map(|a| &*a.name))?));
         }
@@ -221,6 +235,11 @@ impl<W: Write + Seek> CrateWriter<W> {
     }
 
     fn attribute(&mut self, attribute: &Attribute<Rep>, times: Rep) -> io::Result<()> {
+        if let Some(targets @ Value::NoTargets) = &attribute.value {
+            let fields = [("variability", Rep::inlined(types::VARIABILITY, 1)), ("targetPaths", self.value(targets)?)];
+            self.spec(specs::RELATIONSHIP, &fields);
+            return Ok(());
+        }
         let mut fields = vec![("typeName", Rep::inlined(types::TOKEN, self.token(attribute.type_name)))];
         if attribute.uniform {
             fields.push(("variability", Rep::inlined(types::VARIABILITY, 1)));

@@ -50,13 +50,14 @@ impl<W: Write + Seek> TextWriter<W> {
     }
 
     /// Begins a prim; [`close`](Self::close) ends it.
-    pub fn open(&mut self, name: &str, type_name: &str, depth: usize) -> io::Result<()> {
+    pub fn open(&mut self, name: &str, type_name: &str, schemas: &[&str], depth: usize) -> io::Result<()> {
         let pad = Pad(depth);
-        if type_name.is_empty() {
-            writeln!(self.to, "{pad}over \"{name}\"\n{pad}{{")
-        } else {
-            writeln!(self.to, "{pad}def {type_name} \"{name}\"\n{pad}{{")
+        let kind = if type_name.is_empty() { "over".to_owned() } else { format!("def {type_name}") };
+        write!(self.to, "{pad}{kind} \"{name}\"")?;
+        if !schemas.is_empty() {
+            write!(self.to, " (\n{pad}    prepend apiSchemas = [\"{}\"]\n{pad})", schemas.join("\", \""))?;
         }
+        writeln!(self.to, "\n{pad}{{")
     }
 
     /// Ends a prim.
@@ -66,7 +67,7 @@ impl<W: Write + Seek> TextWriter<W> {
 
     /// Writes a whole prim whose samples are time codes and values.
     pub fn prim(&mut self, prim: &Prim<(f64, Value)>, depth: usize) -> io::Result<()> {
-        self.open(&prim.name, prim.type_name, depth)?;
+        self.open(&prim.name, prim.type_name, prim.schemas, depth)?;
         for attribute in &prim.attributes {
             self.attribute(attribute, depth + 1)?;
         }
@@ -145,7 +146,7 @@ impl<W: Write + Seek> TextWriter<W> {
             Value::Bools(values) | Value::Bytes(values) => list(to, values, |line, &x| display(line, x)),
             Value::Unsigned(values) => list(to, values, |line, &x| display(line, x)),
             Value::UnsignedLongs(values) => list(to, values, |line, &x| display(line, x)),
-            Value::Blocked => write!(to, "None"),
+            Value::Blocked | Value::NoTargets => write!(to, "None"),
             Value::Token(word) => write!(to, "{}", Quoted(word)),
             Value::Tokens(words) | Value::Texts(words) => list(to, words, |line, word| display(line, Quoted(word))),
             Value::Double(x) => write!(to, "{}", Real(*x)),

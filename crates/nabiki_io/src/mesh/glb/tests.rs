@@ -317,3 +317,32 @@ fn what_a_file_requires_and_is_not_read_is_named_with_the_way_out() {
     // Looks are no part of a shape.
     assert_eq!(refused(r#""KHR_materials_unlit","KHR_texture_basisu""#), "holds no triangles");
 }
+
+#[test]
+fn strips_and_fans_are_triangles_and_loose_edges_beside_them_are_left_out() {
+    // Five places on a fan about the first.
+    let places = [[0.0f32, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0], [-2.0, 2.0, 0.0]];
+    let numbers: Vec<u8> = places.concat().iter().flat_map(|x| x.to_le_bytes()).collect();
+    let read = |modes: &[u8]| {
+        let primitives: Vec<String> =
+            modes.iter().map(|mode| format!(r#"{{"mode":{mode},"attributes":{{"POSITION":0}}}}"#)).collect();
+        let json = format!(
+            r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,"name":"head"}}],
+            "meshes":[{{"primitives":[{}]}}],"accessors":[{{"bufferView":0,"componentType":5126,"count":5,"type":"VEC3",
+            "min":[-2,0,0],"max":[2,2,0]}}],"bufferViews":[{{"buffer":0,"byteLength":60}}],"buffers":[{{"byteLength":60}}]}}"#,
+            primitives.join(",")
+        );
+        from_bytes(&crate::gltf_file::tests::glb(&json, &numbers), None, &[])
+    };
+    let (fan, said) = read(&[6]).unwrap();
+    assert_eq!((fan.triangles, said.len()), (vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]], 0));
+    let (strip, _) = read(&[5]).unwrap();
+    assert_eq!(strip.triangles, [[0, 1, 2], [2, 1, 3], [2, 3, 4]]);
+    for (mode, what) in [(0, "points"), (1, "lines"), (2, "lines"), (3, "lines")] {
+        let (beside, said) = read(&[mode, 6]).unwrap();
+        assert_eq!((beside.positions.len(), beside.triangles.len()), (5, 3), "{mode}");
+        assert_eq!(said, [format!("the {what} of head")]);
+        let refused = read(&[mode]).unwrap_err().to_string();
+        assert!(refused.contains(&format!("holds {what} and no triangles")), "{refused}");
+    }
+}
