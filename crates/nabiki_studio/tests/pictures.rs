@@ -39,9 +39,15 @@ const STOPS: f32 = 1.5;
 const MEAN_STOPS: f32 = 0.4;
 
 /// At rest and in the wind.
-const PATCHES: [patches::Case; 2] = [
+const PATCHES: [patches::Case; 8] = [
     patches::Case { scene: "gust.toml", frame: 0, strands: 1000, azimuth: None },
     patches::Case { scene: "gust.toml", frame: 45, strands: 1000, azimuth: None },
+    patches::Case { scene: "ponytail.toml", frame: 0, strands: 1000, azimuth: None },
+    patches::Case { scene: "ponytail.toml", frame: 30, strands: 1000, azimuth: None },
+    patches::Case { scene: "curls.toml", frame: 0, strands: 1000, azimuth: None },
+    patches::Case { scene: "curls.toml", frame: 40, strands: 1000, azimuth: None },
+    patches::Case { scene: "bob.toml", frame: 0, strands: 1000, azimuth: None },
+    patches::Case { scene: "bob.toml", frame: 24, strands: 1000, azimuth: None },
 ];
 
 type Window = Harness<'static, App>;
