@@ -91,3 +91,22 @@ fn each_ease_has_its_turn() {
         assert_eq!(session.document().unwrap().scene().field.wind.ease, ease);
     }
 }
+
+#[test]
+fn a_pull_has_its_own_interval_chosen_and_giving_it_up_what_was_chosen_before() {
+    let mut session = Place::new().session();
+    session.apply(Command::Choose(vec![1]));
+    let pull = |session: &mut Session, phase| {
+        let force = session.document().unwrap().scene().field.force.clone();
+        let answer = nabiki::solve::Answer { keyframes: force, gust: None, stiffness: None, settle: None };
+        session.apply(Command::Pulled { name: "Pull the hair", answer: Box::new(answer), interval: 0, phase });
+    };
+    pull(&mut session, crate::document::Phase::Dragging);
+    pull(&mut session, crate::document::Phase::Dragging);
+    assert_eq!(session.chosen(), [0]);
+    session.apply(Command::GiveUpDrag);
+    assert_eq!(session.chosen(), [1]);
+    pull(&mut session, crate::document::Phase::Done);
+    session.apply(Command::GiveUpDrag);
+    assert_eq!(session.chosen(), [0]);
+}
