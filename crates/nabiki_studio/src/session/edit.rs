@@ -61,6 +61,8 @@ impl Session {
                     scene.field.force.get_mut(interval).into_iter().for_each(|key| key.vector = vector);
                 });
             }
+            // It was undone, or something else was done, in the picture in which more was found: nobody wants that any more.
+            Command::Pulled { name, phase: Phase::After, .. } if !self.is_last_step(name) => {}
             Command::Pulled { name, answer, interval, phase } => {
                 self.change(name, phase, |scene| scene.accept(&answer));
                 let before = std::mem::replace(&mut self.chosen, vec![interval]);
@@ -77,6 +79,12 @@ impl Session {
             }
             command => self.apply_to_files(command),
         }
+    }
+
+    /// Whether the last thing done is a step of this name, which has not been undone.
+    fn is_last_step(&self, name: &str) -> bool {
+        let last = self.document.as_ref().filter(|document| document.redo_name().is_none());
+        last.and_then(|document| document.undo_name()) == Some(name)
     }
 
     fn change(&mut self, name: &str, phase: Phase, change: impl FnOnce(&mut Scene)) {
