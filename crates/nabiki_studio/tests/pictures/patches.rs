@@ -30,6 +30,8 @@ pub struct Case {
     pub strands: usize,
     /// From another side than the scene's camera (degrees).
     pub azimuth: Option<f32>,
+    /// Most stops by which nineteen of twenty patches are brighter or darker than in the finished picture.
+    pub most: f32,
 }
 
 /// A patch of both pictures (linear light).
