@@ -72,9 +72,11 @@ impl<'a> Number<'a> {
             None => ui.add(field),
         };
         let gives_up = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Escape));
-        ui.data_mut(|data| match gives_up {
-            true => data.insert_temp(escape, true),
-            false => data.remove::<bool>(escape),
+        ui.data_mut(|data| {
+            data.remove::<bool>(escape);
+            if gives_up {
+                data.insert_temp(escape, true);
+            }
         });
         // Other programs may set it without typing.
         if *number != was && !self.may_be(*number) {
