@@ -37,7 +37,7 @@ pub const GESTURES: &[Gesture] = &[
     gesture("Timeline", "Double click over time", "A new key."),
     gesture("Timeline", "Right click on a key", "Removes it."),
     gesture("Numbers", "Drag", "Less, more."),
-    gesture("Numbers", "Click", "Types another; Enter takes it, Escape does not."),
+    gesture("Numbers", "Click", "Types another; Enter takes it, Escape puts the old one back."),
 ];
 
 #[cfg(test)]

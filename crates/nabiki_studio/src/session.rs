@@ -92,6 +92,8 @@ pub struct Session {
     /// How many scenes have been opened: what belongs to one scene goes with it.
     opened: u64,
     chosen: Vec<usize>,
+    /// The same before a pull that goes on, which has its own interval chosen.
+    chosen_before: Option<Vec<usize>>,
     clip: Clip,
     /// The setting that is pointed out.
     revealed: Option<Revealed>,
@@ -158,6 +160,7 @@ impl Session {
             sizes: None,
             opened: 0,
             chosen: Vec::new(),
+            chosen_before: None,
             clip: Clip::default(),
             revealed: None,
             dialog: None,

@@ -60,8 +60,9 @@ pub struct View {
     frames_hair: bool,
     hand: Hand,
     nails: Vec<Lock>,
-    /// What was let go last.
+    /// What was let go last, and the frames that feel it.
     let_go: Option<LetGo>,
+    felt: Option<std::ops::RangeInclusive<u32>>,
     /// The arrow whose tip was let go last.
     left_tip: Option<hand::LeftTip>,
     /// The scene that is shown, by its number.
@@ -92,6 +93,7 @@ impl View {
             hand: Hand::Idle,
             nails: Vec::new(),
             let_go: None,
+            felt: None,
             left_tip: None,
             scene: 0,
             buttons: Vec::new(),
@@ -126,7 +128,10 @@ impl View {
             Hand::Hair(held) => Some(held),
             _ => None,
         };
-        let felt = held.and_then(|held| held.followed.as_ref()).map(|pulled| pulled.felt.clone());
+        let felt = match held {
+            Some(held) => held.followed.as_ref().map(|pulled| pulled.felt.clone()),
+            None => self.felt.clone(),
+        };
         Marks { nails, pulled: held.map(|held| held.lock.frame), felt }
     }
 
@@ -189,6 +194,11 @@ impl View {
         if touches.len() > before || self.hand.is_busy() || shown.playing {
             self.rest.touch(now);
         }
+
+        self.felt = self.let_go.as_ref().and_then(|let_go| let_go.felt(shown.force));
+        // Arrows would hide the hair that is looked at.
+        let pulls = matches!(self.hand, Hand::Hair(_)) || self.let_go.as_ref().is_some_and(LetGo::is_looking);
+        let shown = &Shown { wind: shown.wind && !pulls, ..*shown };
 
         let painter = ui.painter_at(rect);
         let overlay = Overlay { painter: &painter, rect, scale };
@@ -381,7 +391,7 @@ impl View {
         } else if nailing {
             self.nail(lock);
         } else if shown.take.built.scene.field.force != shown.force {
-            touches.push(Touch::Refused("The motion is not there yet: pull again in a moment.".to_owned()));
+            touches.push(Touch::Refused("The motion is still being computed: pull again in a moment.".to_owned()));
         } else {
             let middle = lock.middle(points, strands);
             let follower = Follower::new(&shown.take.built, &lock, middle, &self.nails, Freedom::default());
@@ -530,8 +540,7 @@ impl View {
         match &self.hand {
             Hand::Hair(held) if held.lock.fits(strands) => {
                 let (goal, hair) = (held.goal(), held.lock.middle(points, strands));
-                let stop = held.followed.as_ref().and_then(|pulled| pulled.stop.as_ref());
-                overlay.thread(&in_head, goal, hair, hand::to_go(goal.distance(hair), stop).as_deref());
+                overlay.thread(&in_head, goal, hair, held.says(hair).as_deref());
             }
             Hand::Idle
                 if let Some(words) = self.fell_short(shown)

@@ -4,7 +4,7 @@
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
 
-use eframe::egui::{DragValue, Response, Ui, vec2};
+use eframe::egui::{DragValue, Key, Response, Ui, vec2};
 
 use super::Commands;
 use crate::command::Command;
@@ -46,7 +46,13 @@ impl<'a> Number<'a> {
     pub fn ui(&self, ui: &mut Ui, number: &mut f64, commands: &mut Commands) -> Response {
         let was = *number;
         let typed = RefCell::new(None);
+        // What Escape gives up egui reads all the same one picture later, when the field still has just lost the focus.
+        let escape = ui.next_auto_id().with("given up");
+        let is_given_up = ui.data(|data| data.get_temp::<bool>(escape)).is_some();
         let read = |text: &str| {
+            if is_given_up {
+                return None;
+            }
             let read = self.read(text, was);
             *typed.borrow_mut() = Some((text.trim().to_owned(), read.is_some()));
             read
@@ -65,6 +71,13 @@ impl<'a> Number<'a> {
             Some(wide) => ui.add_sized(vec2(wide, ui.spacing().interact_size.y), field),
             None => ui.add(field),
         };
+        let gives_up = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Escape));
+        ui.data_mut(|data| {
+            data.remove::<bool>(escape);
+            if gives_up {
+                data.insert_temp(escape, true);
+            }
+        });
         // Other programs may set it without typing.
         if *number != was && !self.may_be(*number) {
             *number = was;

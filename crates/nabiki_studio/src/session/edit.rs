@@ -61,17 +61,30 @@ impl Session {
                     scene.field.force.get_mut(interval).into_iter().for_each(|key| key.vector = vector);
                 });
             }
+            // It was undone, or something else was done, in the picture in which more was found: nobody wants that any more.
+            Command::Pulled { name, phase: Phase::After, .. } if !self.is_last_step(name) => {}
             Command::Pulled { name, answer, interval, phase } => {
                 self.change(name, phase, |scene| scene.accept(&answer));
-                if phase != Phase::Dragging {
-                    self.chosen = vec![interval];
-                }
+                let before = std::mem::replace(&mut self.chosen, vec![interval]);
+                self.chosen_before = match phase {
+                    Phase::Dragging => Some(self.chosen_before.take().unwrap_or(before)),
+                    _ => None,
+                };
             }
             Command::Scene { name, scene, phase } => self.change(&name, phase, |now| *now = *scene),
             Command::EndDrag => self.document.iter_mut().for_each(|document| document.end_drag()),
-            Command::GiveUpDrag => self.document.iter_mut().for_each(|document| document.give_up_drag()),
+            Command::GiveUpDrag => {
+                self.document.iter_mut().for_each(|document| document.give_up_drag());
+                self.chosen = self.chosen_before.take().unwrap_or_else(|| std::mem::take(&mut self.chosen));
+            }
             command => self.apply_to_files(command),
         }
+    }
+
+    /// Whether the last thing done is a step of this name, which has not been undone.
+    fn is_last_step(&self, name: &str) -> bool {
+        let last = self.document.as_ref().filter(|document| document.redo_name().is_none());
+        last.and_then(|document| document.undo_name()) == Some(name)
     }
 
     fn change(&mut self, name: &str, phase: Phase, change: impl FnOnce(&mut Scene)) {
@@ -88,7 +101,8 @@ impl Session {
                 let name = name_of(key);
                 let before = document.before_drag(&name);
                 let lost = (key == "motion.frames").then(|| shorten_sheet(&mut scene, before));
-                let taken = taken::by_hair(&mut scene, before, key);
+                let mut taken = taken::by_hair(&mut scene, before, key);
+                taken.extend(taken::by_pair(&mut scene, before, key));
                 document.edit(&name, scene, phase);
                 self.accept(key);
                 lost.into_iter().for_each(|lost| self.say_what_the_sheet_lost(lost));

@@ -91,3 +91,45 @@ fn each_ease_has_its_turn() {
         assert_eq!(session.document().unwrap().scene().field.wind.ease, ease);
     }
 }
+
+#[test]
+fn a_pull_has_its_own_interval_chosen_and_giving_it_up_what_was_chosen_before() {
+    let mut session = Place::new().session();
+    session.apply(Command::Choose(vec![1]));
+    let pull = |session: &mut Session, phase| {
+        let force = session.document().unwrap().scene().field.force.clone();
+        let answer = nabiki::solve::Answer { keyframes: force, gust: None, stiffness: None, settle: None };
+        session.apply(Command::Pulled { name: "Pull the hair", answer: Box::new(answer), interval: 0, phase });
+    };
+    pull(&mut session, crate::document::Phase::Dragging);
+    pull(&mut session, crate::document::Phase::Dragging);
+    assert_eq!(session.chosen(), [0]);
+    session.apply(Command::GiveUpDrag);
+    assert_eq!(session.chosen(), [1]);
+    pull(&mut session, crate::document::Phase::Done);
+    session.apply(Command::GiveUpDrag);
+    assert_eq!(session.chosen(), [0]);
+}
+
+#[test]
+fn what_is_found_after_a_pull_was_undone_changes_nothing() {
+    use crate::document::Phase;
+
+    let mut session = Place::new().session();
+    let force = |session: &Session| session.document().unwrap().scene().field.force.clone();
+    let before = force(&session);
+    let pull = |session: &mut Session, x: f32, phase: Phase| {
+        let mut keyframes = force(session);
+        keyframes[0].vector = Vec3::new(x, 0.0, 0.0);
+        let answer = nabiki::solve::Answer { keyframes, gust: None, stiffness: None, settle: None };
+        session.apply(Command::Pulled { name: "Pull the hair", answer: Box::new(answer), interval: 0, phase });
+    };
+    pull(&mut session, -200.0, Phase::Done);
+    pull(&mut session, -300.0, Phase::After);
+    assert_eq!(force(&session)[0].vector.x, -300.0);
+    act(&mut session, Action::Undo);
+    pull(&mut session, -400.0, Phase::After);
+    assert_eq!(force(&session), before);
+    act(&mut session, Action::Redo);
+    assert_eq!(force(&session)[0].vector.x, -300.0, "and it is still there to be done again");
+}

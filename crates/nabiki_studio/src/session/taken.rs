@@ -10,6 +10,9 @@ const MOST_SEGMENTS: f64 = 1000.0;
 /// Shortest segment that hair is given (cm).
 const SHORTEST: f32 = 0.01;
 
+/// Height of a clump's wave to its length, at most.
+const STEEPEST: f32 = 0.16;
+
 /// How it is said.
 pub(super) const TAKEN: &str = "Taken along: ";
 
@@ -54,6 +57,51 @@ pub(super) fn by_hair(scene: &mut Scene, before: &Scene, key: &str) -> Vec<Strin
     grown.segments = had.max(takes);
     if takes > had {
         taken.push(format!("hair.segments is {takes} (as many as the longest strand takes)"));
+    }
+    taken
+}
+
+/// What one of two takes that must not be more than the other: waves of clumps no steeper than they may be, hair at rest held by no less than
+/// hair that slides. In words, each with why.
+pub(super) fn by_pair(scene: &mut Scene, before: &Scene, key: &str) -> Vec<String> {
+    let mut taken = Vec::new();
+    if let (HairSource::Grown(grown), Some(grown_before)) = (&mut scene.hair.source, before.hair.grown()) {
+        let (clumps, had) = (&mut grown.style.clumps, &grown_before.style.clumps);
+        if key == "hair.style.clumps.wave" && clumps.wave.is_finite() {
+            clumps.wave_length = had.wave_length;
+            if clumps.wave > STEEPEST * had.wave_length {
+                clumps.wave_length = (clumps.wave / STEEPEST * 1e3).ceil() / 1e3 + 1e-3;
+                let why = "a steeper wave would turn hair back";
+                taken.push(format!("hair.style.clumps.wave_length is {} ({why})", clumps.wave_length));
+            }
+        }
+        if key == "hair.style.clumps.wave_length" && clumps.wave_length > 0.0 {
+            let most = STEEPEST * clumps.wave_length;
+            clumps.wave = had.wave.min(most).min((most * 1e3).floor() / 1e3);
+            if clumps.wave != had.wave {
+                let why = "a steeper wave would turn hair back";
+                taken.push(format!("hair.style.clumps.wave is {} ({why})", clumps.wave));
+            }
+        }
+    }
+    let mut pair = |name: &str, sliding: &mut f32, at_rest: &mut f32, had: [f32; 2]| {
+        if key == format!("{name}.friction") {
+            *at_rest = had[1].max(*sliding);
+            if *at_rest != had[1] {
+                taken.push(format!("{name}.static_friction is {at_rest} (no less than of hair that slides)"));
+            }
+        } else if key == format!("{name}.static_friction") {
+            *sliding = had[0].min(*at_rest);
+            if *sliding != had[0] {
+                taken.push(format!("{name}.friction is {sliding} (no more than of hair that rests)"));
+            }
+        }
+    };
+    let (now, had) = (&mut scene.contact, before.contact);
+    pair("contact", &mut now.friction, &mut now.static_friction, [had.friction, had.static_friction]);
+    for (i, (now, had)) in scene.bodies.iter_mut().zip(&before.bodies).enumerate() {
+        let had = [had.friction, had.static_friction];
+        pair(&format!("body[{i}]"), &mut now.friction, &mut now.static_friction, had);
     }
     taken
 }

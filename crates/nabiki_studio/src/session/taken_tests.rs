@@ -77,3 +77,35 @@ fn shorter_segments_and_a_fringe_take_as_many_as_hair_is_long() {
         "a hand sets these"
     );
 }
+
+#[test]
+fn of_two_settings_the_one_that_a_hand_changes_takes_the_other_along() {
+    let mut session = Place::new().session();
+    let of = |session: &Session, key: &str| {
+        let scene = session.document().unwrap().scene();
+        let clumps = scene.hair.grown().unwrap().style.clumps;
+        match key {
+            "wave" => clumps.wave,
+            "wave_length" => clumps.wave_length,
+            "friction" => scene.contact.friction,
+            _ => scene.contact.static_friction,
+        }
+    };
+    set(&mut session, "hair.style.clumps.wave", 3.0, Phase::Done);
+    assert!((18.75..18.76).contains(&of(&session, "wave_length")));
+    set(&mut session, "hair.style.clumps.wave_length", 5.0, Phase::Done);
+    assert!((0.79..=0.8).contains(&of(&session, "wave")));
+    set(&mut session, "contact.friction", 0.6, Phase::Done);
+    assert_eq!(of(&session, "static_friction"), 0.6);
+    set(&mut session, "contact.static_friction", 0.05, Phase::Done);
+    assert_eq!(of(&session, "friction"), 0.05);
+    assert!(session.words().iter().any(|word| word.text.starts_with(TAKEN)), "{:?}", session.words());
+    (0..4).for_each(|_| session.apply(Command::Act(Action::Undo)));
+    assert!(!session.document().unwrap().is_dirty(), "each is one step with what it takes");
+    // A drag back takes it back.
+    for wave in [0.3, 2.0, 0.1] {
+        set(&mut session, "hair.style.clumps.wave", wave, Phase::Dragging);
+    }
+    session.apply(Command::EndDrag);
+    assert!(!session.document().unwrap().is_dirty());
+}

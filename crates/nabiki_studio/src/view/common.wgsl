@@ -28,7 +28,7 @@ struct Globals {
     look: vec4f,        // tilt, spread of tilts, exponent of Kajiya and Kay's highlight, least half width (px)
     width: vec4f,       // half width at the root (cm), part of it at the tip, taper, half width of a lock (cm)
     centre: vec4f,      // of the head ellipsoid
-    axes: vec4f,        // its half axes
+    axes: vec4f,        // its half axes, part of the whole hair's breadth that is drawn
 }
 
 @group(0) @binding(0) var<uniform> g: Globals;
@@ -40,6 +40,7 @@ struct Globals {
 @group(0) @binding(5) var opposite_lamps: texture_3d<f32>;
 @group(0) @binding(6) var sky_open: texture_3d<f32>;
 @group(0) @binding(7) var between: sampler;
+@group(0) @binding(8) var hair_held: texture_3d<f32>; // hairs met in a full crossing of a cell
 
 const PI: f32 = 3.14159265;
 const NEAR: f32 = 1.0;
@@ -77,6 +78,63 @@ fn outward_of(p: vec3f) -> vec3f {
 
 fn in_volume(p: vec3f) -> vec3f {
     return (p - g.volume_low.xyz) * g.volume_low.w / g.volume_size.xyz;
+}
+
+// How much hair is about a place.
+fn held(p: vec3f) -> f32 {
+    return textureSampleLevel(hair_held, between, in_volume(p), 0.0).x;
+}
+
+// Out of the hair about a place; away from the head where it is the same all about.
+fn out_of_hair(p: vec3f) -> vec3f {
+    let d = 1.5 / g.volume_low.w;
+    let less = vec3f(
+        held(p - vec3f(d, 0.0, 0.0)) - held(p + vec3f(d, 0.0, 0.0)),
+        held(p - vec3f(0.0, d, 0.0)) - held(p + vec3f(0.0, d, 0.0)),
+        held(p - vec3f(0.0, 0.0, d)) - held(p + vec3f(0.0, 0.0, d)),
+    );
+    return normalize(less / (held(p) + 0.01) + 0.3 * outward_of(p));
+}
+
+// Where a hair at a place is seen from without: in dense hair not deeper than SEEN hairs, though its cells say that it is.
+const SEEN: f32 = 0.45;
+const DEEPEST: f32 = 3.0; // cells
+
+fn seen_at(p: vec3f, out: vec3f) -> vec3f {
+    let cell = 1.0 / g.volume_low.w;
+    var met = 0.0;
+    var at = DEEPEST;
+    for (; at > 0.0; at -= 0.4) {
+        met += 0.4 * held(p + out * (at - 0.2) * cell);
+        if met > SEEN {
+            break;
+        }
+    }
+    return p + out * max(at, 0.0) * cell;
+}
+
+// Hairs between a place and each lamp. From beyond the cells it is asked where the way to the lamp enters them.
+fn depth_from(p: vec3f) -> vec4f {
+    let at = in_volume(p);
+    var depth = textureSampleLevel(hair_depth, between, at, 0.0);
+    if all(at >= vec3f(0.0)) && all(at <= vec3f(1.0)) {
+        return depth;
+    }
+    for (var l = 0u; l < min(g.counts.x, 4u); l++) {
+        let way = g.lamps[l].toward * g.volume_low.w / g.volume_size.xyz;
+        let safe = select(way, vec3f(1e-9), abs(way) < vec3f(1e-9));
+        let a = -at / safe;
+        let b = (1.0 - at) / safe;
+        let near = min(a, b);
+        let far = max(a, b);
+        let enters = max(max(near.x, near.y), max(near.z, 0.0));
+        let leaves = min(far.x, min(far.y, far.z));
+        depth[l] = 0.0;
+        if enters < leaves {
+            depth[l] = textureSampleLevel(hair_depth, between, at + safe * enters, 0.0)[l];
+        }
+    }
+    return depth;
 }
 
 // What the head leaves of a lamp: exact for its ellipsoid, whose rim is made as soft as a shadow on hair is.

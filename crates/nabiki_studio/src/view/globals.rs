@@ -75,6 +75,11 @@ impl Locks {
         Self { hairs, half_width: 0.5 * (scalp / strands.max(1) as f32).sqrt() }
     }
 
+    /// The part of the breadth of the whole hair that is drawn.
+    fn drawn(&self, share: f32) -> f32 {
+        (self.hairs as f32 * self.wider(share) / share.max(1.0)).min(1.0)
+    }
+
     /// How much thicker each hair of a lock is than one of the whole.
     fn wider(&self, share: f32) -> f32 {
         (share.max(1.0) / self.hairs as f32).sqrt().min(MOST_WIDENED)
@@ -136,7 +141,7 @@ pub fn globals(
         ],
         width: [0.5 * look.width * locks.wider(share), look.tip, look.taper, locks.half_width],
         centre: of(ellipsoid.center, 0.0),
-        axes: of(ellipsoid.half_axes, 0.0),
+        axes: of(ellipsoid.half_axes, locks.drawn(share)),
     }
 }
 

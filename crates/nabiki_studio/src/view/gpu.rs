@@ -196,6 +196,7 @@ impl Gpu {
             // As much hair throws shadows as the whole has, whichever of it is shown.
             thickness: picture.hair.width * share,
             share,
+            lock_half_width: locks.half_width,
             lamps: &lamps,
             brightness: &brightness,
             zenith: live::zenith(sky, &pose),
@@ -331,6 +332,7 @@ impl Gpu {
             volume.size,
             bytemuck::cast_slice(volume.depth.as_flattened()),
         );
+        let hair = texture("hair", wgpu::TextureFormat::R16Float, volume.size, bytemuck::cast_slice(&volume.hair));
         let sky = volume.sky.0.each_ref().map(|numbers| {
             let bytes = bytemuck::cast_slice(numbers.as_flattened());
             texture("sky", wgpu::TextureFormat::Rgba16Float, volume.size / 2, bytes)
@@ -338,7 +340,7 @@ impl Gpu {
         let view = wgpu::BindingResource::TextureView;
         let between = wgpu::BindingResource::Sampler(&self.pipelines.between);
         let volumes = std::iter::once(&depth).chain(&sky).map(view);
-        let resources = std::iter::once(self.globals.as_entire_binding()).chain(volumes).chain([between]);
+        let resources = std::iter::once(self.globals.as_entire_binding()).chain(volumes).chain([between, view(&hair)]);
         let entries: Vec<_> =
             (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
         let layout = &self.pipelines.scene;

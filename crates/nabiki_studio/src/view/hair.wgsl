@@ -226,14 +226,18 @@ fn shade(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
     let p = point(i);
     let t = tangent_at(i);
     let eye = toward_eye(p);
-    // Out of the cells over which the hair itself is spread: hair on the surface sees the lamp. Fitted.
-    let at = in_volume(p + outward_of(p) * 1.7 / g.volume_low.w);
+    // Out of the cells over which the hair itself is spread: hair on the surface sees the lamp.
+    let out = out_of_hair(p);
+    let seen = seen_at(p, out);
+    let at = in_volume(seen);
+    // The sky's cells are twice as wide.
+    let above = in_volume(seen + out * 0.8 / g.volume_low.w);
     let about = About(
         textureSampleLevel(hair_depth, between, at, 0.0),
-        textureSampleLevel(sky_seen, between, at, 0.0),
-        textureSampleLevel(skin_seen, between, at, 0.0),
-        textureSampleLevel(about_lamps, between, at, 0.0),
-        textureSampleLevel(opposite_lamps, between, at, 0.0),
+        textureSampleLevel(sky_seen, between, above, 0.0),
+        textureSampleLevel(skin_seen, between, above, 0.0),
+        textureSampleLevel(about_lamps, between, above, 0.0),
+        textureSampleLevel(opposite_lamps, between, above, 0.0),
     );
     var light: vec3f;
     if g.counts.w == 1u {

@@ -3,13 +3,12 @@
 use glam::{Vec2, Vec3};
 use nabiki::Pose;
 use nabiki::dynamics::ForceSpace;
-use nabiki::solve::Stop;
 use nabiki_render::View;
 use nabiki_scene::pull::{Lock, Pull, Pulled};
 
 use super::camera::{Gesture, place_in_plane};
 use super::handle::{self, Arrow};
-use super::let_go::{LetGo, why};
+use super::let_go::{LetGo, short};
 use super::pick::Picked;
 use super::{Shown, Touch};
 use crate::document::Phase;
@@ -18,17 +17,11 @@ use crate::take::Take;
 /// About the node that is pulled: strands that come along have a node this near (cm).
 pub const LOCK_CM: f32 = 1.5;
 
-/// Ways shorter than this are not spoken of (cm).
-pub const SHORT: f32 = 0.05;
+/// Hair this near to the hand has arrived: nothing is said (cm).
+pub const SHORT: f32 = 0.3;
 
 /// What a pull is called in the undo menu.
 pub const PULL: &str = "Pull the hair";
-
-/// How far the hair has to go, where that is worth a word, and what stops it, where that is known.
-pub fn to_go(left: f32, stop: Option<&Stop>) -> Option<String> {
-    let why = stop.map(|stop| format!(": {}", why(stop))).unwrap_or_default();
-    (left > SHORT).then(|| format!("{left:.1} cm to go{why}"))
-}
 
 /// What it is doing.
 #[derive(Debug, Default)]
@@ -75,6 +68,13 @@ pub struct Held {
 }
 
 impl Held {
+    /// How far the hair at this place (head space, cm) is from the hand, in one line, and what stops it once that is known.
+    pub fn says(&self, hair: Vec3) -> Option<String> {
+        let searching = self.followed.as_ref().is_none_or(|pulled| !pulled.ended);
+        let stop = self.followed.as_ref().and_then(|pulled| pulled.stop.as_ref());
+        short(self.goal().distance(hair), 0.0, searching, stop)
+    }
+
     /// Takes hold of a lock by a node at a pixel.
     pub fn new(lock: Lock, picked: &Picked, take: &Take, nails: &[Lock], view: &View, pixel: Vec2, pull: Pull) -> Self {
         let middle = |lock: &Lock| lock.middle(take.points(lock.frame), take.strands());

@@ -1,5 +1,7 @@
 //! Hair that was let go: the search that goes on for a while, how far the hair falls short, why, and what would help.
 
+use std::ops::RangeInclusive;
+
 use glam::Vec3;
 use nabiki::dynamics::Form;
 use nabiki::field::Keyframe;
@@ -31,12 +33,12 @@ pub struct Offer {
 const OFFERS: [Offer; 2] = [
     Offer {
         name: "Add an interval here",
-        help: "Cuts one more interval before this frame, and looks for the vectors of both.",
+        help: "Adds a second interval before this one and searches for both vectors.",
         freedom: Freedom { another: true, stiffness: false },
     },
     Offer {
         name: "Let stiffness change too",
-        help: "Looks for the wind and for the stiffness of all hair.",
+        help: "Searches for the wind and for the stiffness of all the hair.",
         freedom: Freedom { another: false, stiffness: true },
     },
 ];
@@ -60,6 +62,8 @@ pub struct LetGo {
     is_first: bool,
     /// What keeps the hair from the hand.
     stop: Option<Stop>,
+    /// The frames that feel it.
+    felt: Option<RangeInclusive<u32>>,
     /// When it was let go: until the next picture the scene is what it was before.
     since: f64,
 }
@@ -78,16 +82,21 @@ impl LetGo {
         let ended = followed.as_ref().is_ok_and(|pulled| pulled.ended);
         let search = (!ended).then_some((pull, now + SETTLES));
         let is_first = followed.is_err();
-        let (force, stop) = match followed {
-            Ok(Pulled { answer, stop, .. }) => (answer.keyframes, stop),
-            Err(force) => (force.to_vec(), None),
+        let (force, stop, felt) = match followed {
+            Ok(Pulled { answer, stop, felt, .. }) => (answer.keyframes, stop, Some(felt)),
+            Err(force) => (force.to_vec(), None, None),
         };
-        Self { lock, goal, nails, name: PULL, force, search, is_first, stop, since: now }
+        Self { lock, goal, nails, name: PULL, force, search, is_first, stop, felt, since: now }
     }
 
     /// Whether something nearer may still come.
     pub fn is_looking(&self) -> bool {
         self.search.is_some()
+    }
+
+    /// The frames that feel it, while the wind is as it was found.
+    pub fn felt(&self, force: &[Keyframe]) -> Option<RangeInclusive<u32>> {
+        self.felt.clone().filter(|_| force == self.force)
     }
 
     /// What has been found since. Whoever has changed the wind meanwhile wants it no more.
@@ -107,6 +116,7 @@ impl LetGo {
         match news? {
             Ok(pulled) => {
                 self.stop.clone_from(&pulled.stop);
+                self.felt = Some(pulled.felt.clone());
                 if pulled.ended {
                     self.search = None;
                 }
@@ -165,37 +175,40 @@ impl LetGo {
         }
         let off = |lock: &Lock, place: Vec3| lock.middle(take.points(lock.frame), take.strands()).distance(place);
         let of_nails = self.nails.iter().filter(|(nail, _)| is_there(nail)).map(|(nail, place)| off(nail, *place));
-        let words = in_words(off(&self.lock, self.goal), of_nails.fold(0.0, f32::max))?;
-        Some(match &self.stop {
-            _ if self.is_looking() => format!("{words}, and is looked for"),
-            Some(stop) => format!("{words}: {}", why(stop)),
-            None => words,
-        })
+        short(off(&self.lock, self.goal), of_nails.fold(0.0, f32::max), self.is_looking(), self.stop.as_ref())
     }
 }
 
-/// How far a lock is from the hand and a nail from its place (cm), in one line.
-fn in_words(lock: f32, nail: f32) -> Option<String> {
-    let lock = (lock > SHORT).then(|| format!("the lock comes within {lock:.1} cm of the hand"));
-    let nail = (nail > SHORT).then(|| format!("a nail gives way by {nail:.1} cm"));
+/// How far a lock is from the hand and a nail from its place (cm), in one line: whether the search goes on, or what stops it.
+pub fn short(lock: f32, nail: f32, searching: bool, stop: Option<&Stop>) -> Option<String> {
+    let lock = (lock > SHORT).then(|| format!("{lock:.1} cm short"));
+    let nail = (nail > SHORT).then(|| format!("a nail slips {nail:.1} cm"));
     let words: Vec<String> = lock.into_iter().chain(nail).collect();
-    (!words.is_empty()).then(|| words.join(", "))
+    if words.is_empty() {
+        return None;
+    }
+    let words = words.join(", ");
+    Some(match stop {
+        _ if searching => format!("{words}, searching..."),
+        Some(stop) => format!("{words}: {}", why(stop)),
+        None => words,
+    })
 }
 
 /// What keeps the hair from the hand, in a few words.
 pub fn why(stop: &Stop) -> String {
     match stop {
         Stop::Length { away_cm, reach_cm } => {
-            format!("the hand is {away_cm:.1} cm from the roots, the hair {reach_cm:.1} cm long")
+            format!("the hair is {reach_cm:.1} cm long and the hand is {away_cm:.1} cm from the root")
         }
         Stop::Body(name) if name == "contact" => "the head is in the way".to_owned(),
         Stop::Body(name) => format!("{name} is in the way"),
         Stop::Nail(_) => "a nail holds it".to_owned(),
         Stop::Force { strongest } => {
-            format!("no stronger wind can be stepped: all forces together stay below {strongest:.0}")
+            format!("it takes a total force above {strongest:.0}, the most that this hair can step")
         }
-        Stop::Unknowns { frames: 1 } => "wind in 1 frame before it is not enough".to_owned(),
-        Stop::Unknowns { frames } => format!("one wind over {frames} frames does not bring it nearer"),
+        Stop::Unknowns { frames: 1 } => "one frame of wind is too short".to_owned(),
+        Stop::Unknowns { frames } => format!("no single wind over {frames} frames gets it there"),
     }
 }
 
@@ -206,7 +219,7 @@ mod tests {
     #[test]
     fn what_stops_a_pull_is_said_in_one_line() {
         let length = Stop::Length { away_cm: 21.04, reach_cm: 18.0 };
-        assert_eq!(why(&length), "the hand is 21.0 cm from the roots, the hair 18.0 cm long");
+        assert_eq!(why(&length), "the hair is 18.0 cm long and the hand is 21.0 cm from the root");
         assert_eq!(why(&Stop::Body("contact".to_owned())), "the head is in the way");
         assert_eq!(why(&Stop::Body("body[1]".to_owned())), "body[1] is in the way");
         let all = [length, Stop::Nail(2), Stop::Force { strongest: 812.6 }, Stop::Unknowns { frames: 12 }];
@@ -215,10 +228,14 @@ mod tests {
 
     #[test]
     fn what_is_where_it_should_be_is_not_spoken_of() {
-        assert_eq!(in_words(0.01, 0.02), None);
-        assert_eq!(in_words(1.34, 0.0).as_deref(), Some("the lock comes within 1.3 cm of the hand"));
-        assert_eq!(in_words(0.0, 0.4).as_deref(), Some("a nail gives way by 0.4 cm"));
-        let both = "the lock comes within 1.3 cm of the hand, a nail gives way by 0.4 cm";
-        assert_eq!(in_words(1.3, 0.4).as_deref(), Some(both));
+        let says = |lock, nail, searching, stop: Option<&Stop>| short(lock, nail, searching, stop);
+        let nail = Stop::Nail(0);
+        assert_eq!(says(0.29, 0.02, true, Some(&nail)), None);
+        assert_eq!(says(1.34, 0.0, false, None).as_deref(), Some("1.3 cm short"));
+        assert_eq!(says(1.34, 0.0, true, None).as_deref(), Some("1.3 cm short, searching..."));
+        assert_eq!(says(1.34, 0.0, false, Some(&nail)).as_deref(), Some("1.3 cm short: a nail holds it"));
+        assert_eq!(says(0.0, 0.4, false, None).as_deref(), Some("a nail slips 0.4 cm"));
+        let both = "1.3 cm short, a nail slips 0.4 cm, searching...";
+        assert_eq!(says(1.3, 0.4, true, None).as_deref(), Some(both));
     }
 }

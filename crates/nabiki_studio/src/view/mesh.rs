@@ -100,7 +100,7 @@ struct Scalp {
 impl Scalp {
     /// Few roots that stand for many tint farther about them: as far as to their neighbours.
     fn new(roots: &[Vec3], share: f32) -> Self {
-        let reach = 0.8 * share.max(1.0).sqrt().min(4.0);
+        let reach = (0.16 * share.max(1.0).sqrt()).clamp(0.8, 3.2);
         let mut cells: HashMap<IVec3, Vec<Vec3>> = HashMap::new();
         for &root in roots {
             cells.entry((root / reach).floor().as_ivec3()).or_default().push(root);

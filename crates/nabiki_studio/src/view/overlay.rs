@@ -114,17 +114,11 @@ impl Overlay<'_> {
     }
 }
 
-/// The place of words of such a size within a view: on past the second end of a line, or beside it, or before its first end, so
-/// that they do not cover it.
+/// The place of words of such a size within a view: as near to the second end of a line as they can be without covering it, on past
+/// that end where there is a choice.
 fn beside(view: Rect, [from, to]: [Pos2; 2], size: Vec2) -> Rect {
     let way = to - from;
     let along = if way.length() > 1.0 { way.normalized() } else { vec2(1.0, -1.0).normalized() };
-    // Upward first.
-    let across = if along.x > 0.0 { vec2(along.y, -along.x) } else { vec2(-along.y, along.x) };
-    let at = |end: Pos2, d: Vec2| {
-        let half = 0.5 * (d.x.abs() * size.x + d.y.abs() * size.y);
-        Rect::from_center_size(end + d * (half + BESIDE), size)
-    };
     let room = view.shrink(3.0);
     let within = |place: Rect| {
         let spare = (room.size() - size).max(Vec2::ZERO);
@@ -135,8 +129,16 @@ fn beside(view: Rect, [from, to]: [Pos2; 2], size: Vec2) -> Rect {
         let about = place.expand(0.7 * BESIDE);
         (0..=points).all(|n| !about.contains(from + way * (n as f32 / points as f32)))
     };
-    let places = [at(to, along), at(to, across), at(to, -across), at(from, -along)].map(within);
-    places.into_iter().find(is_clear).unwrap_or(places[0])
+    // Beside it or above and below it, its ends or its middle at that of the line.
+    let half = 0.5 * size + Vec2::splat(BESIDE);
+    let ways = [-1.0, -0.5, 0.0, 0.5, 1.0];
+    let beside = ways.iter().flat_map(|&part| [-1.0, 1.0].map(|side| vec2(side * half.x, part * half.y)));
+    let above = ways.iter().flat_map(|&part| [-1.0, 1.0].map(|side| vec2(part * half.x, side * half.y)));
+    let places = beside.chain(above).map(|d| within(Rect::from_center_size(to + d, size)));
+    let far = |place: &Rect| place.distance_to_pos(to) - 4.0 * (place.center() - to).normalized().dot(along);
+    let nearest = |a: &Rect, b: &Rect| far(a).total_cmp(&far(b));
+    let before = within(Rect::from_center_size(from - along * (half.length() + BESIDE), size));
+    places.filter(is_clear).min_by(nearest).unwrap_or(before)
 }
 
 #[cfg(test)]

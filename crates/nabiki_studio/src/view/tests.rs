@@ -287,7 +287,9 @@ fn what_was_let_go_says_how_far_it_falls_short_while_nothing_else_is_done() {
     assert!(left > 1.0, "{left}");
     let said = window.view.fell_short(&shown(&window.take, 15));
     let words = said.clone().unwrap_or_default();
-    assert!(words.starts_with(&format!("the lock comes within {left:.1} cm of the hand")), "{words}");
+    assert!(words.starts_with(&format!("{left:.1} cm short")), "{words}");
+    let felt = window.view.marks().felt.expect("the timeline still shows the frames that feel it");
+    assert!(felt.contains(&15), "{felt:?}");
     assert_eq!(window.view.fell_short(&shown(&window.take, 15)), said);
     assert_eq!(window.view.fell_short(&shown(&window.take, 14)), None);
     assert_eq!(window.view.fell_short(&Shown { playing: true, ..shown(&window.take, 15) }), None);

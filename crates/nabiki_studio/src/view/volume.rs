@@ -10,6 +10,7 @@ use std::ops::Range;
 use glam::{IVec3, UVec3, Vec3};
 use half::f16;
 use nabiki::{Ellipsoid, Mesh, Strands};
+use nabiki_render::colour::of_strand;
 use rayon::prelude::*;
 
 pub use sky_light::{KINDS, SkyLight};
@@ -22,6 +23,8 @@ const CELL: f32 = 0.7;
 const MOST_CELLS: f32 = 220_000.0;
 /// Most strands that are laid into cells, the first, each for as many as there are: more would fill the same cells.
 const MOST_LAID: usize = 20_000;
+/// Most hairs that one that stands for many is laid as, over the place of those.
+const MOST_OF_LOCK: u32 = 8;
 /// Bundles that these are laid in.
 const BUNDLES: usize = 8;
 /// Empty cells around the hair.
@@ -37,8 +40,10 @@ pub struct Casting<'a> {
     pub strands: &'a Strands,
     /// Thickness of a strand (cm), times how many of the whole hair it stands for.
     pub thickness: f32,
-    /// How many strands of the whole hair each stands for: few strands are spread over more cells.
+    /// How many strands of the whole hair each stands for.
     pub share: f32,
+    /// Half of the room that the hairs of a lock take beside one another (cm).
+    pub lock_half_width: f32,
     /// Unit vectors toward the lamps.
     pub lamps: &'a [Vec3],
     /// How bright each is (luminance).
@@ -57,6 +62,34 @@ pub struct Casting<'a> {
     pub occlusion: bool,
 }
 
+impl Casting<'_> {
+    /// Hairs that each of so many strands is laid as.
+    fn hairs(&self, laid: usize) -> u32 {
+        let wanted = self.share.max(1.0).round().min(MOST_OF_LOCK as f32) as u32;
+        wanted.min((MOST_LAID / laid.max(1)) as u32).max(1)
+    }
+
+    /// To the side and outward, as far as the hairs of a lock lie from its middle: as hair.wgsl's `in_lock` has it.
+    fn across_lock(&self, at: Vec3, way: Vec3, part: f32) -> [Vec3; 2] {
+        if self.share <= 1.0 {
+            return [Vec3::ZERO; 2];
+        }
+        let squared = self.ellipsoid.half_axes * self.ellipsoid.half_axes;
+        let outward = ((at - self.ellipsoid.center) / squared).normalize_or(Vec3::Y);
+        let aside = way.cross(outward).normalize_or(Vec3::X);
+        let wide = self.lock_half_width * (1.0 - 0.45 * part);
+        [wide * aside, 0.3 * wide * outward]
+    }
+}
+
+/// Where a hair of a lock lies: to the side in -1..1, outward in 0..1.
+fn place_in_lock(strand: u32, hair: u32) -> [f32; 2] {
+    if hair == 0 {
+        return [0.0; 2];
+    }
+    [2.0 * of_strand(strand, 10 + 2 * hair) - 1.0, of_strand(strand, 11 + 2 * hair)]
+}
+
 /// Cells about the hair.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Volume {
@@ -68,6 +101,8 @@ pub struct Volume {
     pub size: UVec3,
     /// Hairs between each cell and each lamp, x fastest.
     pub depth: Vec<[f16; LAMPS]>,
+    /// Hairs met in a full crossing of each cell.
+    pub hair: Vec<f16>,
     /// What arrives otherwise, in cells twice as wide.
     pub sky: SkyLight,
 }
@@ -77,7 +112,8 @@ impl Volume {
     pub fn empty(size: UVec3) -> Self {
         let cells = |size: UVec3| size.element_product() as usize;
         let (depth, sky) = (vec![[f16::ZERO; LAMPS]; cells(size)], SkyLight::open(cells(size / 2)));
-        Self { low: Vec3::ZERO, cell: 1.0, size, depth, sky }
+        let hair = vec![f16::ZERO; cells(size)];
+        Self { low: Vec3::ZERO, cell: 1.0, size, depth, hair, sky }
     }
 }
 
@@ -124,8 +160,6 @@ impl VolumeMaker {
 
         let mut hair = Cells { size, taken: vec![0.0; size.element_product() as usize] };
         hair.lay(casting, low, cell);
-        let spread = if casting.share > 24.0 { 2 } else { usize::from(casting.share > 3.0) };
-        (0..spread).for_each(|_| hair.blur());
 
         let mut depth = vec![[f16::ZERO; LAMPS]; hair.taken.len()];
         if casting.shadows {
@@ -136,7 +170,8 @@ impl VolumeMaker {
             }
         }
         let wide_hair = hair.twice_as_wide();
-        let mut volume = Volume { low, cell, size, depth, sky: SkyLight::default() };
+        let held = hair.taken.par_iter().with_min_len(4096).map(|&taken| f16::from_f32(taken)).collect();
+        let mut volume = Volume { low, cell, size, depth, hair: held, sky: SkyLight::default() };
         volume.sky = if casting.occlusion {
             if self.skin_of != Some(wide) {
                 self.skin = skin_cells(head, wide);
@@ -216,43 +251,43 @@ impl Cells {
     }
 
     fn lay_strands(&mut self, casting: &Casting, strands: Range<usize>, low: Vec3, cell: f32, per_length: f32) {
-        let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
+        let hairs = casting.hairs(casting.strands.len().min(MOST_LAID));
         for s in strands {
-            for pair in casting.points[casting.strands.range(s)].windows(2) {
-                if !(pair[0].is_finite() && pair[1].is_finite()) {
+            let points = &casting.points[casting.strands.range(s)];
+            let last = points.len().max(2) - 1;
+            for (n, pair) in points.windows(2).enumerate() {
+                let way = pair[1] - pair[0];
+                if !way.is_finite() {
                     continue;
                 }
-                let way = pair[1] - pair[0];
                 let pieces = (way.length() / cell).ceil().clamp(1.0, 8.0) as usize;
-                let amount = per_length * way.length() / pieces as f32;
+                let amount = per_length * way.length() / (pieces as u32 * hairs) as f32;
                 for k in 0..pieces {
-                    let p = pair[0] + way * ((k as f32 + 0.5) / pieces as f32);
-                    let c = (p - low) / cell - 0.5;
-                    // Toward zero is down: the border keeps it above.
-                    let base = c.as_uvec3();
-                    let f = c - base.as_vec3();
-                    let at = self.index(base);
-                    for (z, wz) in [(0, 1.0 - f.z), (slice, f.z)] {
-                        for (y, wy) in [(0, 1.0 - f.y), (row, f.y)] {
-                            self.taken[at + z + y] += amount * wz * wy * (1.0 - f.x);
-                            self.taken[at + z + y + 1] += amount * wz * wy * f.x;
-                        }
+                    let u = (k as f32 + 0.5) / pieces as f32;
+                    let at = pair[0] + way * u;
+                    let part = (n as f32 + u) / last as f32;
+                    let [aside, outward] = casting.across_lock(at, way, part);
+                    for hair in 0..hairs {
+                        let [x, y] = place_in_lock(s as u32, hair);
+                        self.put(amount, ((at + x * aside + y * outward) - low) / cell - 0.5);
                     }
                 }
             }
         }
     }
 
-    /// Spreads what each cell takes over its neighbours: 1, 2, 1 along each axis.
-    fn blur(&mut self) {
-        let strides = [1, self.size.x as usize, (self.size.x * self.size.y) as usize];
-        for stride in strides {
-            let mut before = vec![0.0; stride];
-            for i in 0..self.taken.len() {
-                let here = self.taken[i];
-                let after = self.taken.get(i + stride).copied().unwrap_or(0.0);
-                self.taken[i] = 0.25 * before[i % stride] + 0.5 * here + 0.25 * after;
-                before[i % stride] = here;
+    /// An amount, shared by the eight cells about a place (in cells).
+    fn put(&mut self, amount: f32, place: Vec3) {
+        let (row, slice) = (self.size.x as usize, (self.size.x * self.size.y) as usize);
+        // Hair of a lock may lie beyond the border.
+        let place = place.clamp(Vec3::ZERO, self.size.as_vec3() - 1.01);
+        let base = place.as_uvec3();
+        let f = place - base.as_vec3();
+        let at = self.index(base);
+        for (z, wz) in [(0, 1.0 - f.z), (slice, f.z)] {
+            for (y, wy) in [(0, 1.0 - f.y), (row, f.y)] {
+                self.taken[at + z + y] += amount * wz * wy * (1.0 - f.x);
+                self.taken[at + z + y + 1] += amount * wz * wy * f.x;
             }
         }
     }
@@ -366,6 +401,7 @@ mod tests {
             strands,
             thickness,
             share,
+            lock_half_width: 0.5,
             lamps,
             brightness: &[1.0; 2],
             zenith: Vec3::Y,

@@ -30,6 +30,8 @@ pub struct Case {
     pub strands: usize,
     /// From another side than the scene's camera (degrees).
     pub azimuth: Option<f32>,
+    /// Most stops by which nineteen of twenty patches are brighter or darker than in the finished picture.
+    pub most: f32,
 }
 
 /// A patch of both pictures (linear light).
@@ -84,7 +86,7 @@ pub fn compare(case: &Case) -> Result<Vec<Patch>, String> {
         }
     }
     if std::env::var_os("NABIKI_PICTURES").is_some() {
-        write(case, &seen, &last);
+        write(case, &seen, &last, &patches);
     }
     patches.sort_by(|a, b| b.stops.abs().total_cmp(&a.stops.abs()));
     Ok(patches)
@@ -95,15 +97,26 @@ pub fn shown(light: [f32; 3]) -> [u8; 3] {
     light.map(|c| (255.0 * nabiki_render::tone_mapping::srgb_from_linear(c.clamp(0.0, 1.0))).round() as u8)
 }
 
-fn write(case: &Case, seen: &[[f32; 4]], last: &[[f32; 4]]) {
+/// Both pictures beside one another, and the third what is brighter (red) and darker (blue) in the view, whole at one stop; each patch
+/// in a line.
+fn write(case: &Case, seen: &[[f32; 4]], last: &[[f32; 4]], patches: &[Patch]) {
     let name = case.scene.replace(['/', '.'], "_");
     let file = std::env::temp_dir().join(format!("nabiki_patches_{name}_{}_{}.png", case.frame, case.strands));
     let [width, height] = SIZE;
-    let picture = image::RgbImage::from_fn(2 * width, height, |x, y| {
-        let of = if x < width { seen } else { last };
-        let [r, g, b, _] = of[(y * width + x % width) as usize];
+    let mut picture = image::RgbImage::from_fn(3 * width, height, |x, y| {
+        let of = [seen, last].get((x / width) as usize).copied();
+        let [r, g, b, _] = of.map_or([0.02; 4], |of| of[(y * width + x % width) as usize]);
         image::Rgb(shown([r, g, b]))
     });
+    for patch in patches {
+        let [x, y] = patch.at;
+        println!("    {} {}: {:+.2} at {x} {y}", case.scene, case.frame, patch.stops);
+        let off = |sign: f32| (0.5 + 0.5 * (sign * patch.stops).clamp(-1.0, 1.0)).powi(2);
+        let colour = image::Rgb(shown([off(1.0), 0.25, off(-1.0)]));
+        for n in 0..PATCH * PATCH {
+            picture.put_pixel(2 * width + x + n % PATCH, y + n / PATCH, colour);
+        }
+    }
     if picture.save(&file).is_ok() {
         println!("    see {}", file.display());
     }

@@ -89,6 +89,26 @@ fn what_is_typed_and_is_no_number_leaves_the_field_as_it_was() {
 }
 
 #[test]
+fn escape_puts_the_old_number_back_and_typing_begins_with_it() {
+    let mut window = Window::open();
+    window.click("Interval 1");
+    let before = vector(&window);
+    for _ in 0..2 {
+        window.click("Force x");
+        window.harness.event(Event::Text("-77".to_owned()));
+        window.harness.step();
+        escape(&mut window);
+        assert_eq!(vector(&window), before);
+        assert_eq!(window.session().document().unwrap().undo_name(), None);
+    }
+    window.click("Force x");
+    window.press(Modifiers::NONE, Key::Enter);
+    assert_eq!(vector(&window), before, "what was given up does not wait in the field");
+    window.type_into("Force x", "-77");
+    assert_eq!(vector(&window).x, -77.0);
+}
+
+#[test]
 fn a_value_out_of_the_range_of_its_field_stays_until_a_hand_changes_it() {
     let mut window = Window::of(&TEXT.replace("[-100, 0, 0]", "[-2000000, 0, 0]"), vec2(1280.0, 720.0));
     window.click("Interval 1");

@@ -69,7 +69,7 @@ impl Pipelines {
         };
         let mut of_scene = vec![uniform, volume];
         of_scene.extend([volume; super::super::volume::KINDS]);
-        of_scene.push(sampler);
+        of_scene.extend([sampler, volume]);
         let scene = layout("scene", seen, &of_scene);
         let read = storage(true);
         let written = storage(false);
