@@ -288,14 +288,14 @@ fn what_was_let_go_says_how_far_it_falls_short_while_nothing_else_is_done() {
     let said = window.view.fell_short(&shown(&window.take, 15));
     let words = said.clone().unwrap_or_default();
     assert!(words.starts_with(&format!("{left:.1} cm short")), "{words}");
-    let felt = window.view.marks().felt.expect("the timeline still shows the frames that feel it");
-    assert!(felt.contains(&15), "{felt:?}");
     assert_eq!(window.view.fell_short(&shown(&window.take, 15)), said);
     assert_eq!(window.view.fell_short(&shown(&window.take, 14)), None);
     assert_eq!(window.view.fell_short(&Shown { playing: true, ..shown(&window.take, 15) }), None);
     assert_eq!(window.view.fell_short(&shown(&still, 15)), None, "undone, nothing was asked");
     window.run(&[Event::PointerMoved(pos2(30.0, 30.0))]);
     assert_eq!(window.view.fell_short(&shown(&window.take, 15)), said);
+    let felt = window.view.marks().felt.expect("the timeline still shows the frames that feel it");
+    assert!(felt.contains(&15), "{felt:?}");
     window.run(&press(pos2(30.0, 30.0), true));
     assert_eq!(window.view.fell_short(&shown(&window.take, 15)), None);
 }
