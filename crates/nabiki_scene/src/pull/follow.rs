@@ -24,6 +24,9 @@ const WORTH: f64 = 0.98;
 pub const THERE_CM: f64 = 0.1;
 /// What has come so near need not be looked for by other ways (cm).
 const NEAR_CM: f64 = 0.2;
+/// A change of a vector by 100 counts as much as this distance, between ways that arrive (cm); one by so much is not looked behind.
+const ROUGH_CM: f64 = 0.03;
+const GENTLE: f64 = 400.0;
 /// What is farther from the hand is told why (cm).
 const SHORT_CM: f64 = 0.3;
 /// About how many frames long the interval is that a pull has for its own: the first is what a hand that moves begins with, the others
@@ -173,7 +176,11 @@ impl Follower {
         // First each from where it is; other starts, which take long, only where none of them arrives.
         turns.sort_by_key(|&(starts, _)| starts);
         let (mut best, mut nearest) = (f64::INFINITY, f64::INFINITY);
+        let mut arrived = false;
         for (turn, (starts, i)) in turns.into_iter().enumerate() {
+            if starts > 1 && arrived {
+                break;
+            }
             let limits = Search { starts, iterations: if starts > 1 { LONG } else { SHORT }, ..self.limits };
             let solvers = self.solvers(i, false)?;
             solvers.aim(goal)?;
@@ -183,13 +190,17 @@ impl Follower {
             }
             let came = self.search_of(i, goal, &limits, &mut nearest, found)?;
             let left = self.solvers(i, came)?.judge().left_cm();
-            if left < best {
-                (best, self.at) = (left, i);
+            let change = f64::from(self.change(i));
+            let score = left.max(NEAR_CM) + ROUGH_CM * change / 100.0;
+            if score < best {
+                (best, self.at) = (score, i);
             }
             if !came {
                 return Ok(None);
             }
-            if best <= NEAR_CM {
+            arrived |= left <= NEAR_CM;
+            // A wind that is far from what it was throws all hair about: another interval may do with less.
+            if left <= NEAR_CM && change <= GENTLE {
                 break;
             }
         }
@@ -260,6 +271,14 @@ impl Follower {
         let came = self.solvers(i, true)?.search_whole(&limits);
         tell(self.pulled(i));
         Ok(came)
+    }
+
+    /// How far a try has changed the vectors of the wind, at the most.
+    fn change(&self, i: usize) -> f32 {
+        let Try { keyframes, solvers, .. } = &self.tries[i];
+        let Some(solvers) = solvers else { return 0.0 };
+        let now = solvers.judge().answer().keyframes;
+        now.iter().zip(keyframes).map(|(now, was)| now.vector.distance(was.vector)).fold(0.0, f32::max)
     }
 
     /// What a try has come to.
