@@ -91,21 +91,23 @@ def test_arrays_are_root_first_wherever_they_lie(tmp_path):
     points, offsets = ends_on_the_skin()
     head = {"mesh": sphere(10.0), "up": "+y", "facing": "+x", "ellipsoid": {"center": [0, 0, 0], "half_axes": [10, 10, 10]}, "origin": (0, 0, 0)}
 
+    free = {"form": "free"}
+
     def groomed(scene):
         return bits(scene.groom()[0])
 
     for given in [(points, offsets), {"file": (points, offsets)}]:
-        scene = nabiki.Scene(head=head, hair=given)
+        scene = nabiki.Scene(head=head, motion=free, hair=given)
         assert scene.hair.root == "first" and numpy.array_equal(groomed(scene), bits(points))
     # What is said beside them is obeyed, and afterwards, too.
-    asked = nabiki.Scene(head=head, hair={"file": (points, offsets), "root": "skin"})
+    asked = nabiki.Scene(head=head, motion=free, hair={"file": (points, offsets), "root": "skin"})
     assert asked.hair.root == "skin" and not numpy.array_equal(groomed(asked), bits(points))
     scene.hair.root = "skin"
     scene.hair.file = (points, offsets)
     assert scene.hair.root == "skin"
     # A file is as files are, before the arrays and after them.
     nabiki.write_hair(tmp_path / "a.hair", points, offsets)
-    scene = nabiki.Scene(head=head, hair=tmp_path / "a.hair")
+    scene = nabiki.Scene(head=head, motion=free, hair=tmp_path / "a.hair")
     assert scene.hair.root == "skin" and not numpy.array_equal(groomed(scene), bits(points))
     scene.hair.file = (points, offsets)
     assert scene.hair.root == "first" and numpy.array_equal(groomed(scene), bits(points))
