@@ -20,6 +20,9 @@ pub const LOCK_CM: f32 = 1.5;
 /// Hair this near to the hand has arrived: nothing is said (cm).
 pub const SHORT: f32 = 0.3;
 
+/// A hand that has gone no farther has not moved (cm): a hundredth of a pixel, and far more than roundings.
+const STILL_CM: f32 = 5e-4;
+
 /// What a pull is called in the undo menu.
 pub const PULL: &str = "Pull the hair";
 
@@ -94,7 +97,8 @@ impl Held {
     /// The hand is at this pixel of the view (head space): the lock should come along in the plane that faces the camera.
     pub fn drag(&mut self, view: &View, pixel: Vec2) {
         let way = place_in_plane(view, pixel + self.offset, self.from) - self.from;
-        if way != self.way {
+        // There and back again is no way, but for roundings: hair that is only touched is not pulled.
+        if way.distance(self.way) > STILL_CM {
             self.way = way;
             self.pull.to(self.goal());
         }
