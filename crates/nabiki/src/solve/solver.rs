@@ -2,6 +2,7 @@
 
 mod preroll;
 mod search;
+mod slopes;
 mod stop;
 
 use std::sync::Arc;
@@ -13,9 +14,9 @@ use super::linear::Normal;
 use super::problem::Problem;
 use super::report::Step;
 use super::unknowns::{Answer, Guess, Layout, Unknown};
-use super::wind::{Gusts, WindTable};
+use super::wind::Gusts;
 use super::wish::Goal;
-use crate::dynamics::{Change, Crowds, Dynamics, Form, Moved, Points, Stability, Standing, Timeline, tangents};
+use crate::dynamics::{Dynamics, Form, Stability, Standing, Timeline};
 use crate::error::SettingError;
 use crate::field::{Field, FieldSum, Keyframe, KeyframedField};
 use crate::profile::Profile;
@@ -376,88 +377,6 @@ impl Solver {
         let mut places = self.early.clone();
         preroll::look(&self.aims, u32::MAX, &mut self.run, &mut places);
         Ok(places)
-    }
-
-    /// The normal equations about where it is.
-    fn normal(&mut self, held: bool) -> Result<Normal, SettingError> {
-        let points = if self.by_differences { self.differences(held)? } else { self.tangents()? };
-        let mut normal = Normal::new(self.layout.numbers);
-        self.aims.add_to(&mut normal, &self.at.places, &points);
-        self.add_prior(&mut normal);
-        self.held.iter().for_each(|&i| normal.hold(i));
-        Ok(normal)
-    }
-
-    /// How the spots move with each number, by a motion in a wind with a little more of it, or less where hair cannot be stepped in more. `held`:
-    /// as in the specification's tangents, what depends on the wind and is not linear in it is held: swirls that drift with it would make them rough.
-    fn differences(&mut self, held: bool) -> Result<Points, SettingError> {
-        /// Of a large change: far above what rounding does to a motion of a few dozen frames.
-        const PART: f64 = 0.05;
-        let n = self.layout.numbers;
-        let guess = self.layout.guess(&self.problem.wind, &self.at.x);
-        let by_number = self.gusts.by_number(&guess, &self.layout);
-        let surroundings = self.problem.surroundings.clone();
-        let field = surroundings.field(Arc::new(self.gusts.table(&guess)))?;
-        let mut tangents = vec![0.0; 3 * n * self.aims.spots.len()];
-        for i in 0..n {
-            let by = PART * self.large[i];
-            let mut moved = |by: f64| {
-                if !held {
-                    let mut x = self.at.x.clone();
-                    x[i] += by;
-                    let wind = Arc::new(self.gusts.table(&self.layout.guess(&self.problem.wind, &x)));
-                    return Ok((self.simulated(wind, None)?, by));
-                }
-                let more = surroundings.of_wind(Arc::new(WindTable::of(by_number.iter().map(|of| by * of[i]))))?;
-                let field = Arc::new(FieldSum::new(vec![field.clone(), more]));
-                Ok::<_, SettingError>((self.moved_in(field)?, by))
-            };
-            let (places, by) = moved(by).or_else(|_| moved(-by))?;
-            for (spot, (place, was)) in places.iter().zip(&self.at.places).enumerate() {
-                for (axis, moved) in ((*place - *was) / by).to_array().into_iter().enumerate() {
-                    tangents[(3 * spot + axis) * n + i] = moved;
-                }
-            }
-        }
-        Ok(Points { places: self.at.places.clone(), tangents })
-    }
-
-    /// How the spots move with each number, by the specification.
-    fn tangents(&mut self) -> Result<Points, SettingError> {
-        let guess = self.layout.guess(&self.problem.wind, &self.at.x);
-        let now = self.dynamics(&guess);
-        let dynamics = now.as_ref().unwrap_or(&self.problem.dynamics);
-        let field = self.problem.surroundings.field(Arc::new(self.gusts.table(&guess)))?;
-        let frame = self.begin.frame();
-        let at_rest = Moved {
-            strands: &self.strands,
-            ids: &self.ids,
-            dynamics,
-            poses: &self.problem.poses,
-            standing: None,
-            crowds: None,
-        };
-        if frame > 0 && self.standing.is_none() {
-            let mut timeline = self.begin.clone();
-            timeline.rewind();
-            self.standing = Some(Standing::at(frame, &at_rest, &*field, timeline)?);
-        }
-        // The carriers of the motion that it has come to: its field was set for the last motion that was tried, which may be another.
-        self.run.stand_where(&self.begin);
-        self.run.set_field_onward(field.clone())?;
-        let crowds = Crowds::of(&mut self.run, self.frames.last().copied().unwrap_or(frame));
-        let moved = Moved { standing: self.standing.as_ref(), crowds: crowds.as_ref(), ..at_rest };
-        let unknown =
-            |wanted: Unknown| self.layout.unknowns.iter().find(|(unknown, _)| *unknown == wanted).map(|&(_, at)| at);
-        let change = Change {
-            field: &*field,
-            of_wind: &self.of_wind,
-            wind: &self.gusts.by_number(&guess, &self.layout),
-            stiffness: unknown(Unknown::Stiffness),
-            settle: unknown(Unknown::Settle),
-        };
-        self.runs += 1;
-        tangents(&moved, &change, &self.aims.spots)
     }
 
     /// What is left of the wishes and what is preferred (cm^2).

@@ -21,7 +21,7 @@ const NAIL_WEIGHT: f32 = 2.0;
 /// A step that leaves more than this part of what was left gains nothing.
 const WORTH: f64 = 0.98;
 /// So near to the hand is there (cm).
-pub const THERE_CM: f64 = 0.1;
+const THERE_CM: f64 = 0.1;
 /// What has come so near need not be looked for by other ways (cm).
 const NEAR_CM: f64 = 0.2;
 /// A change of a vector by 100 counts as much as this distance, between ways that arrive (cm); one by so much is not looked behind.
