@@ -99,7 +99,6 @@ pub struct Follower {
     tries: Vec<Try>,
     /// The one that has led nearest.
     at: usize,
-    limits: Search,
     brake: Option<Brake>,
 }
 
@@ -134,13 +133,12 @@ impl Follower {
             }
         }
         let from = tries.iter().map(|of| *of.felt.start()).min().unwrap_or(1).saturating_sub(1);
-        let limits = Search { iterations: SHORT, starts: 1, near_cm: 0.5 * THERE_CM, seed: 1 };
         let of_few = few(&problem);
         // The way there is long among neighbours: the first steps are found for a few meanwhile.
         let whole = Problem { unknowns: Vec::new(), ..problem.clone() };
         let new = move || Preroll::new(&whole, from);
         let begin = Builder::new().name("begin of a pull".to_owned()).spawn(new).ok().map(Begin::Awaited);
-        Self { problem, of_few, middle, goal: middle, from, begin, few_begin: None, tries, at: 0, limits, brake: None }
+        Self { problem, of_few, middle, goal: middle, from, begin, few_begin: None, tries, at: 0, brake: None }
     }
 
     /// Gives way to something more urgent between any two motions, while the answer to this is yes.
@@ -181,7 +179,8 @@ impl Follower {
             if starts > 1 && arrived {
                 break;
             }
-            let limits = Search { starts, iterations: if starts > 1 { LONG } else { SHORT }, ..self.limits };
+            let iterations = if starts > 1 { LONG } else { SHORT };
+            let limits = Search { iterations, starts, near_cm: 0.5 * THERE_CM, seed: 1 };
             let solvers = self.solvers(i, false)?;
             solvers.aim(goal)?;
             if turn == 0 {
