@@ -96,21 +96,24 @@ fn out_of_hair(p: vec3f) -> vec3f {
     return normalize(less / (held(p) + 0.01) + 0.3 * outward_of(p));
 }
 
-// Where a hair at a place is seen from without: in dense hair not deeper than SEEN hairs, though its cells say that it is.
+// Where light is looked up for a hair at a place that is seen `along` a direction: what the eye sees of dense hair lies no deeper than
+// SEEN hairs, though the wide cells put it deeper. Steps are longer far out, where less depends on them.
 const SEEN: f32 = 0.45;
-const DEEPEST: f32 = 3.0; // cells
+const DEEPEST: f32 = 6.0; // cells
 
-fn seen_at(p: vec3f, out: vec3f) -> vec3f {
+fn seen_at(p: vec3f, along: vec3f) -> vec3f {
     let cell = 1.0 / g.volume_low.w;
     var met = 0.0;
     var at = DEEPEST;
-    for (; at > 0.0; at -= 0.4) {
-        met += 0.4 * held(p + out * (at - 0.2) * cell);
+    while at > 0.0 {
+        let step = max(0.4, 0.2 * at);
+        met += step * held(p + along * (at - 0.5 * step) * cell);
         if met > SEEN {
             break;
         }
+        at -= step;
     }
-    return p + out * max(at, 0.0) * cell;
+    return p + along * max(at, 0.0) * cell;
 }
 
 // Hairs between a place and each lamp. From beyond the cells it is asked where the way to the lamp enters them.

@@ -226,9 +226,9 @@ fn shade(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
     let p = point(i);
     let t = tangent_at(i);
     let eye = toward_eye(p);
-    // Out of the cells over which the hair itself is spread: hair on the surface sees the lamp.
+    // Hair that is seen lies on the surface, before the cells over which it is spread itself: it sees the lamp.
     let out = out_of_hair(p);
-    let seen = seen_at(p, out);
+    let seen = seen_at(p, eye);
     let at = in_volume(seen);
     // The sky's cells are twice as wide.
     let above = in_volume(seen + out * 0.8 / g.volume_low.w);
