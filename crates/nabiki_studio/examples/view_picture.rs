@@ -13,7 +13,7 @@ use nabiki_render::{Bounds, FrameToDraw, Moment, Renderer, ToneMapping};
 use nabiki_scene::{Scene, Shown};
 use nabiki_studio::take::Take;
 use nabiki_studio::view::camera::Orbit;
-use nabiki_studio::view::gpu::{Drawing, Gpu, MOST_HAIRS};
+use nabiki_view::Gpu;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -42,8 +42,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let view = orbit.view(size, take.pose(frame).position_cm);
 
     let mut gpu = Gpu::headless()?;
-    let drawing = |frame| Drawing { take: &take, picture, frame, view, lines: &[], most_hairs: MOST_HAIRS };
-    let bytes = gpu.picture(&drawing(frame))?;
+    let bytes = gpu.picture(&take.drawing(frame, &take.bodies(frame), picture, view))?;
     let rgb: Vec<u8> = bytes.chunks(4).flat_map(|p| &p[..3]).copied().collect();
     png::write_rgb8(Path::new(view_path), size, &rgb)?;
     let (clock, busy) = (Instant::now(), busy_ms());
@@ -51,7 +50,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let frames = 10;
     for n in 0..frames {
         let clock = Instant::now();
-        gpu.draw(&drawing(n.min(take.frames())));
+        let frame = n.min(take.frames());
+        gpu.draw(&take.drawing(frame, &take.bodies(frame), picture, view));
         sent += clock.elapsed().as_secs_f64() * 1e3;
         gpu.wait()?;
     }

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use nabiki::{Pose, Strands};
+use nabiki_render::{Picture, View};
 use nabiki_scene::BuiltScene;
+use nabiki_view::{Body, Drawing, MOST_HAIRS};
 
 /// Most strands that are moved with every touch; where more are shown, they follow once the hand rests.
 pub const TOUCHED: usize = 2000;
@@ -49,5 +51,31 @@ impl Take {
     /// Where the head is in a frame.
     pub fn pose(&self, frame: u32) -> Pose {
         self.built.pose(frame)
+    }
+
+    /// What is seen besides head and hair in a frame.
+    pub fn bodies(&self, frame: u32) -> Vec<Body<'_>> {
+        let colour = |i: usize| self.built.scene.bodies[i].colour;
+        self.built.shown_bodies(frame).map(|(i, mesh, pose)| Body { mesh, colour: colour(i), pose }).collect()
+    }
+
+    /// A frame with its `bodies` in a look, for the view to draw.
+    ///
+    /// # Panics
+    /// If there is no such frame.
+    pub fn drawing<'a>(&'a self, frame: u32, bodies: &'a [Body], picture: &'a Picture, view: View) -> Drawing<'a> {
+        let strands = self.strands();
+        Drawing {
+            strands,
+            points: self.points(frame),
+            share: self.built.strands_of_scene as f32 / strands.len().max(1) as f32,
+            head: &self.built.head,
+            pose: self.pose(frame),
+            bodies,
+            picture,
+            view,
+            lines: &[],
+            most_hairs: MOST_HAIRS,
+        }
     }
 }

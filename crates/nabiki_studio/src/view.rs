@@ -3,20 +3,15 @@
 mod arrows;
 pub mod camera;
 pub mod final_picture;
-mod globals;
-pub mod gpu;
-mod hair;
 mod hand;
 pub mod handle;
 mod let_go;
-mod mesh;
 mod onion;
 mod overlay;
 pub mod pick;
 mod screen;
 mod shown;
 mod sources;
-pub mod volume;
 
 use eframe::egui;
 use eframe::egui_wgpu::RenderState;

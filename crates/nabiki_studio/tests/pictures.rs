@@ -17,7 +17,7 @@ use image::RgbaImage;
 use image::imageops::{FilterType, resize};
 use nabiki_studio::app::App;
 use nabiki_studio::command::Command;
-use nabiki_studio::view::gpu::Gpu;
+use nabiki_view::Gpu;
 
 #[path = "pictures/patches.rs"]
 mod patches;

@@ -4,7 +4,7 @@ use glam::Vec3;
 use nabiki::field::Field;
 use nabiki::{Ellipsoid, Pose};
 
-use super::gpu::Line;
+use nabiki_view::Line;
 
 /// Between neighbouring arrows (cm), and how many there are on each side of the middle one.
 const SPACING_CM: f32 = 9.0;

@@ -9,7 +9,7 @@ use nabiki::dynamics::{Simulation, Stepper};
 use nabiki_render::{FrameToDraw, Moment, Picture, Renderer, ToneMapping, View};
 use nabiki_scene::{BuiltScene, Shown};
 
-use super::globals::widened;
+use nabiki_view::widened;
 
 /// Seconds without a touch before it is begun.
 pub const REST: f64 = 0.4;

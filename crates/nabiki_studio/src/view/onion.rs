@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 
-use super::gpu::Line;
+use nabiki_view::Line;
+
 use crate::take::Take;
 
 /// Frames before and after.

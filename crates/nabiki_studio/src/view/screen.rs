@@ -9,9 +9,9 @@ use glam::Affine3A;
 use nabiki::dynamics::ForceSpace;
 use nabiki_render::{Picture, View as Seen};
 use nabiki_scene::BuiltScene;
+use nabiki_view::{Drawing, Gpu, Line, MOST_HAIRS};
 
 use super::final_picture::Done;
-use super::gpu::{Drawing, Gpu, Line, MOST_HAIRS};
 use super::{Shown, arrows, onion};
 
 /// The card, and what it has drawn.
@@ -103,9 +103,10 @@ impl Screen {
     /// Draws the picture, each side `part` times smaller, and as many times fewer hairs in a lock.
     fn draw(&mut self, shown: &Shown<'_>, view: &Seen, part: u32) {
         let lines = lines(shown, view);
-        let (take, picture, frame) = (shown.take, shown.picture, shown.frame);
         let view = Seen { size: view.size.map(|side| (side / part).max(1)), scale: view.scale / part as f32, ..*view };
-        let drawing = Drawing { take, picture, frame, view, lines: &lines, most_hairs: MOST_HAIRS / part };
+        let bodies = shown.take.bodies(shown.frame);
+        let drawing = shown.take.drawing(shown.frame, &bodies, shown.picture, view);
+        let drawing = Drawing { lines: &lines, most_hairs: MOST_HAIRS / part, ..drawing };
         let Some((texture, is_other)) = self.gpu.draw(&drawing) else { return };
         let mut renderer = self.state.renderer.write();
         let filter = wgpu::FilterMode::Linear;

@@ -10,7 +10,7 @@ use nabiki_render::{Bounds, FrameToDraw, Moment, Picture, Renderer, View, colour
 use nabiki_scene::{BuiltScene, Scene, Shown};
 use nabiki_studio::take::Take;
 use nabiki_studio::view::camera::Orbit;
-use nabiki_studio::view::gpu::{Drawing, Gpu, MOST_HAIRS};
+use nabiki_view::Gpu;
 
 /// Width and height of the pictures (px), and of a patch.
 const SIZE: [u32; 2] = [640, 480];
@@ -133,7 +133,8 @@ fn take(built: BuiltScene, frame: u32) -> Result<Take, String> {
 
 fn of_view(take: &Take, picture: &Picture, frame: u32, view: View) -> Result<Vec<[f32; 4]>, String> {
     let mut gpu = Gpu::headless()?;
-    let bytes = gpu.picture(&Drawing { take, picture, frame, view, lines: &[], most_hairs: MOST_HAIRS })?;
+    let bodies = take.bodies(frame);
+    let bytes = gpu.picture(&take.drawing(frame, &bodies, picture, view))?;
     let light = |b: u8| linear_from_srgb(f32::from(b) / 255.0) / DARKER.exp2();
     Ok(bytes.chunks_exact(4).map(|p| [light(p[0]), light(p[1]), light(p[2]), 1.0]).collect())
 }

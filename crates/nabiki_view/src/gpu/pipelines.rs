@@ -1,7 +1,6 @@
 //! The shaders, and what they are given where.
 
-use super::super::mesh::Corner;
-use eframe::wgpu;
+use crate::mesh::Corner;
 
 /// Light is kept in half precision until it is shown.
 pub const LIGHT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -68,7 +67,7 @@ impl Pipelines {
             device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
         };
         let mut of_scene = vec![uniform, volume];
-        of_scene.extend([volume; super::super::volume::KINDS]);
+        of_scene.extend([volume; crate::volume::KINDS]);
         of_scene.extend([sampler, volume]);
         let scene = layout("scene", seen, &of_scene);
         let read = storage(true);

@@ -1,7 +1,5 @@
 //! One picture as commands to the card.
 
-use eframe::wgpu;
-
 use super::on_card::{LookOnCard, StrandsOnCard, SurfaceOnCard};
 use super::pipelines::Pipelines;
 use super::target::Target;

@@ -1,13 +1,12 @@
 //! What of a scene lies on the card from picture to picture.
 
-use eframe::wgpu;
 use nabiki::Strands;
 use nabiki_render::live::FibreTables;
 use nabiki_render::settings::HairLook;
 
 use super::pipelines::{RIBBON_BYTES, buffer};
-use crate::view::hair;
-use crate::view::mesh::Surface;
+use crate::hair;
+use crate::mesh::Surface;
 
 /// The tables of a look.
 pub struct LookOnCard {

@@ -1,31 +1,41 @@
 //! Pictures by whatever adapter there is. Without one they are skipped, and say so.
 
-use std::sync::Arc;
-
 use glam::{Vec2, Vec3};
 use nabiki_render::Bounds;
 use nabiki_render::settings::Camera;
-use nabiki_scene::{Scene, Shown};
+use nabiki_scene::{BuiltScene, Scene, Shown};
 
 use super::*;
-use crate::view::camera::Orbit;
 
 const SIZE: [u32; 2] = [320, 240];
 
-/// A head with some hair, which does not move.
-fn take(strands: usize) -> Take {
+/// A head with some hair.
+fn built(strands: usize) -> BuiltScene {
     let text = format!("[hair]\nstrands = {strands}\n[motion]\nframes = 1\nform = \"free\"\n");
     let scene = Scene::parse(&text, "a.toml".as_ref(), &[]).unwrap();
-    let built = Arc::new(scene.build(Shown::All).unwrap());
-    let rest = built.hair.strands.points();
-    let film: Vec<Vec3> = rest.iter().chain(rest).copied().collect();
-    Take { built, film: film.into(), number: 1 }
+    scene.build(Shown::All).unwrap()
+}
+
+fn drawing<'a>(built: &'a BuiltScene, picture: &'a Picture, lines: &'a [Line]) -> Drawing<'a> {
+    let strands = &built.hair.strands;
+    Drawing {
+        strands,
+        points: strands.points(),
+        share: 1.0,
+        head: &built.head,
+        pose: Pose::STILL,
+        bodies: &[],
+        picture,
+        view: view(),
+        lines,
+        most_hairs: MOST_HAIRS,
+    }
 }
 
 fn view() -> View {
     let camera =
         Camera { azimuth: 50.0, distance: Some(110.0), target: Some(Vec3::new(0.0, -2.0, 0.0)), ..Camera::default() };
-    Orbit::new(&camera, SIZE, &Bounds::default()).view(SIZE, Vec3::ZERO)
+    View::new(&camera, SIZE, &Bounds::default())
 }
 
 fn gpu() -> Option<Gpu> {
@@ -36,8 +46,8 @@ fn gpu() -> Option<Gpu> {
     gpu.ok()
 }
 
-fn drawn(gpu: &mut Gpu, take: &Take, picture: &Picture, lines: &[Line]) -> Vec<[u8; 4]> {
-    let bytes = gpu.picture(&Drawing { take, picture, frame: 0, view: view(), lines, most_hairs: MOST_HAIRS }).unwrap();
+fn drawn(gpu: &mut Gpu, built: &BuiltScene, picture: &Picture, lines: &[Line]) -> Vec<[u8; 4]> {
+    let bytes = gpu.picture(&drawing(built, picture, lines)).unwrap();
     bytes.chunks_exact(4).map(|p| [p[0], p[1], p[2], p[3]]).collect()
 }
 
@@ -55,15 +65,15 @@ fn bare(width: f32) -> Picture {
 #[test]
 fn hair_shows_where_strands_are_and_nothing_elsewhere() {
     let Some(mut gpu) = gpu() else { return };
-    let take = take(24);
+    let built = built(24);
     let picture = bare(0.25);
-    let pixels = drawn(&mut gpu, &take, &picture, &[]);
+    let pixels = drawn(&mut gpu, &built, &picture, &[]);
     let ground = pixels[0];
     assert_eq!(ground, [0, 0, 255, 255]);
     let view = view();
     let at = |p: Vec3| view.project(p).truncate();
     let lines: Vec<[Vec2; 2]> =
-        take.strands().iter().flat_map(|strand| strand.windows(2).map(|w| [at(w[0]), at(w[1])])).collect();
+        built.hair.strands.iter().flat_map(|strand| strand.windows(2).map(|w| [at(w[0]), at(w[1])])).collect();
     // Segments that end within the picture: their middles are covered, by a ribbon a pixel wide.
     let inside = |p: Vec2| p.x >= 1.0 && p.y >= 1.0 && p.x < SIZE[0] as f32 - 1.0 && p.y < SIZE[1] as f32 - 1.0;
     let (mut seen, mut of) = (0, 0);
@@ -92,7 +102,7 @@ fn hair_shows_where_strands_are_and_nothing_elsewhere() {
 #[test]
 fn the_same_input_gives_the_same_picture_whatever_was_drawn_before() {
     let Some(mut gpu) = gpu() else { return };
-    let (few, many) = (take(24), take(200));
+    let (few, many) = (built(24), built(200));
     let picture = Picture { size: SIZE, ..Picture::default() };
     let first = drawn(&mut gpu, &many, &picture, &[]);
     drawn(&mut gpu, &few, &bare(0.25), &[]);
@@ -103,17 +113,14 @@ fn the_same_input_gives_the_same_picture_whatever_was_drawn_before() {
 #[test]
 fn the_head_looks_as_in_the_renderers_picture() {
     let Some(mut gpu) = gpu() else { return };
-    let mut take = take(24);
-    let built = Arc::make_mut(&mut take.built);
+    let mut built = built(24);
     built.hair.strands = Strands::default();
-    take.film = Arc::from([]);
     let mut picture = Picture { size: SIZE, ..Picture::default() };
     // What the view leaves out: the head's own fine shadows, for which it has its ellipsoid.
     picture.shadows = false;
     picture.sky.occlusion = false;
-    let pixels = drawn(&mut gpu, &take, &picture, &[]);
-    let mut renderer =
-        nabiki_render::Renderer::new(&picture, &take.built.head.mesh).unwrap().with_face(&take.built.head);
+    let pixels = drawn(&mut gpu, &built, &picture, &[]);
+    let mut renderer = nabiki_render::Renderer::new(&picture, &built.head.mesh).unwrap().with_face(&built.head);
     let strands = Strands::default();
     let frame = renderer.draw(&nabiki_render::FrameToDraw::at_rest(&strands, view())).unwrap();
     let theirs = nabiki_render::ToneMapping::new(&picture).rgba8(&frame);
@@ -126,7 +133,7 @@ fn the_head_looks_as_in_the_renderers_picture() {
 #[test]
 fn lines_are_hidden_behind_the_head_and_seen_before_it() {
     let Some(mut gpu) = gpu() else { return };
-    let take = take(24);
+    let built = built(24);
     let picture = Picture { size: SIZE, ..Picture::default() };
     let view = view();
     let line = |depth: f32| {
@@ -135,9 +142,9 @@ fn lines_are_hidden_behind_the_head_and_seen_before_it() {
         let (a, b) = ((middle - 2.0 * view.right).to_array(), (middle + 2.0 * view.right).to_array());
         Line { a, width: 4.0, b, pad: 0.0, a_colour: colour, b_colour: colour }
     };
-    let without = drawn(&mut gpu, &take, &picture, &[]);
-    assert!(without == drawn(&mut gpu, &take, &picture, &[line(-30.0)]));
-    let before = drawn(&mut gpu, &take, &picture, &[line(30.0)]);
+    let without = drawn(&mut gpu, &built, &picture, &[]);
+    assert!(without == drawn(&mut gpu, &built, &picture, &[line(-30.0)]));
+    let before = drawn(&mut gpu, &built, &picture, &[line(30.0)]);
     let green = before.iter().zip(&without).filter(|(a, b)| a != b && a[1] > 200 && a[0] < 60).count();
     assert!(green > 50, "{green}");
 }
@@ -145,24 +152,22 @@ fn lines_are_hidden_behind_the_head_and_seen_before_it() {
 #[test]
 fn a_lost_device_is_said_in_words() {
     let Some(mut gpu) = gpu() else { return };
-    let take = take(24);
+    let built = built(24);
     let picture = bare(0.25);
-    drawn(&mut gpu, &take, &picture, &[]);
+    drawn(&mut gpu, &built, &picture, &[]);
     assert_eq!(gpu.failure(), None);
     gpu.device.destroy();
-    let drawing =
-        Drawing { take: &take, picture: &picture, frame: 0, view: view(), lines: &[], most_hairs: MOST_HAIRS };
-    assert!(gpu.picture(&drawing).is_err());
+    assert!(gpu.picture(&drawing(&built, &picture, &[])).is_err());
     assert!(gpu.failure().is_some());
 }
 
 #[test]
 fn hair_thinner_than_a_pixel_covers_its_share() {
     let Some(mut gpu) = gpu() else { return };
-    let take = take(60);
+    let built = built(60);
     // A centimetre is 4.7 pixels.
     let mut covered = |width: f32| {
-        let pixels = drawn(&mut gpu, &take, &bare(width), &[]);
+        let pixels = drawn(&mut gpu, &built, &bare(width), &[]);
         let linear = |blue: u8| nabiki_render::tone_mapping::linear_from_srgb(f32::from(blue) / 255.0);
         pixels.iter().map(|p| 1.0 - linear(p[2])).sum::<f32>()
     };

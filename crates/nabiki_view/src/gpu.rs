@@ -10,19 +10,16 @@ mod tests;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use eframe::wgpu;
 use glam::{Affine3A, UVec3, Vec3};
-use nabiki::{Mesh, Strands};
+use nabiki::{Head, Mesh, Pose, Strands};
 use nabiki_render::live;
 use nabiki_render::settings::HairLook;
 use nabiki_render::tone_mapping::linear_from_srgb;
 use nabiki_render::{Picture, View, colour};
 
-use crate::take::Take;
-
-use super::globals::{self, Globals, Locks, Show};
-use super::mesh::{Skin, Surface};
-use super::volume::{Casting, Volume, VolumeMaker};
+use crate::globals::{self, Globals, Locks, Show};
+use crate::mesh::{Skin, Surface};
+use crate::volume::{Casting, Volume, VolumeMaker};
 use on_card::{LookOnCard, StrandsOnCard, SurfaceOnCard};
 use passes::Passes;
 use pipelines::{Pipelines, buffer};
@@ -35,18 +32,37 @@ pub const MOST_HAIRS: u32 = 8;
 
 /// What one picture is drawn from.
 pub struct Drawing<'a> {
-    /// The motion.
-    pub take: &'a Take,
+    /// The hair at rest (head space, cm).
+    pub strands: &'a Strands,
+    /// The points of its strands now, in their order (head space, cm).
+    pub points: &'a [Vec3],
+    /// Strands of the whole hair that each of these stands for.
+    pub share: f32,
+    /// What it grows on.
+    pub head: &'a Head,
+    /// Where the head is now.
+    pub pose: Pose,
+    /// What is seen besides.
+    pub bodies: &'a [Body<'a>],
     /// The look.
     pub picture: &'a Picture,
-    /// The frame of the motion.
-    pub frame: u32,
     /// The camera (world).
     pub view: View,
     /// Lines among the hair (head space).
     pub lines: &'a [Line],
     /// Hairs of a lock at most, [`MOST_HAIRS`] or fewer.
     pub most_hairs: u32,
+}
+
+/// A body besides the head.
+#[derive(Clone, Copy, Debug)]
+pub struct Body<'a> {
+    /// Its surface (its own space, cm).
+    pub mesh: &'a Mesh,
+    /// Its colour (sRGB, 0..1).
+    pub colour: [f32; 3],
+    /// Where it is now.
+    pub pose: Pose,
 }
 
 /// A card, and what of the scene lies on it.
@@ -163,18 +179,15 @@ impl Gpu {
         if self.failure().is_some() {
             return None;
         }
-        let Drawing { take, picture, frame, view, lines, most_hairs } = drawing;
-        let (strands, pose) = (take.strands(), take.pose(*frame));
-        let points = take.points(*frame);
-        let share = take.built.strands_of_scene as f32 / strands.len().max(1) as f32;
+        let Drawing { strands, points, share, head, pose, picture, view, lines, most_hairs, .. } = *drawing;
         let is_new = self.target.as_ref().is_none_or(|target| target.size != view.size);
         if is_new {
             self.target = Some(Target::new(&self.device, view.size));
         }
         self.set_look(&picture.hair);
-        let locks = Locks::new(strands.len(), share, &take.built.head.ellipsoid, *most_hairs);
+        let locks = Locks::new(strands.len(), share, &head.ellipsoid, most_hairs);
         self.set_strands(strands, locks.hairs);
-        self.set_bodies(take, picture, *frame, share);
+        self.set_bodies(drawing);
         let lines_count = lines.len() as u32;
         let lines = buffer(&self.device, &self.queue, "lines", bytemuck::cast_slice(lines), wgpu::BufferUsages::VERTEX);
         let (Some(target), Some(fibre), Some(on_card), Some(bodies)) =
@@ -183,9 +196,8 @@ impl Gpu {
             return None;
         };
 
-        let mut globals =
-            globals::globals(picture, view, &pose, &take.built.head.ellipsoid, &fibre.tables, share, locks);
-        let lit = globals::lamps(picture, view, &pose);
+        let mut globals = globals::globals(picture, &view, &pose, &head.ellipsoid, &fibre.tables, share, locks);
+        let lit = globals::lamps(picture, &view, &pose);
         let lamps: Vec<Vec3> = lit.iter().map(|lamp| lamp.toward).collect();
         let brightness: Vec<f32> = lit.iter().map(|lamp| colour::luminance(lamp.strength)).collect();
         let in_head = view.in_head(&pose);
@@ -202,11 +214,11 @@ impl Gpu {
             zenith: live::zenith(sky, &pose),
             sky: [sky.above, sky.below].map(|light| sky.strength * colour::luminance(light)),
             toward_eye: &|place| in_head.toward_eye(place),
-            ellipsoid: take.built.head.ellipsoid,
+            ellipsoid: head.ellipsoid,
             shadows: picture.shadows,
             occlusion: picture.sky.occlusion && picture.sky.strength > 0.0,
         };
-        let volume = self.volumes.make(&casting, &take.built.head.mesh);
+        let volume = self.volumes.make(&casting, &head.mesh);
         globals.around(&volume);
         globals.count(points.len(), on_card.pieces, on_card.hairs);
         let queue = &self.queue;
@@ -245,19 +257,16 @@ impl Gpu {
         self.strands = Some(StrandsOnCard::new(&self.device, &self.queue, strands, hairs));
     }
 
-    fn set_bodies(&mut self, take: &Take, picture: &Picture, frame: u32, share: f32) {
-        let head = &take.built.head;
+    fn set_bodies(&mut self, drawing: &Drawing) {
+        let Drawing { strands, share, head, pose, bodies, picture, .. } = *drawing;
         let shade = picture.head.stubble * picture.hair.width;
         let skin = Skin {
             colour: picture.head.colour.map(linear_from_srgb),
             hair_of_face: (head.is_builtin && picture.head.face).then(|| colour::of_mass(&picture.hair)),
         };
-        let strands = take.strands();
         let roots: Vec<Vec3> = strands.iter().filter_map(|strand| strand.first().copied()).collect();
-        let bodies = take.built.drawn_bodies();
-        let head_from_world = take.pose(frame).world_from_head().inverse();
-        let poses = take.built.drawn_poses(frame);
-        let at: Vec<_> = poses.iter().map(|pose| head_from_world * pose.world_from_head()).collect();
+        let head_from_world = pose.world_from_head().inverse();
+        let at: Vec<_> = bodies.iter().map(|body| head_from_world * body.pose.world_from_head()).collect();
         let of_bodies: Vec<_> = bodies.iter().map(|body| (body.mesh.positions.len(), body.colour)).collect();
         let same = |on_card: &Bodies| {
             on_card.shade == shade
@@ -273,7 +282,7 @@ impl Gpu {
             self.bodies = before;
             return;
         }
-        let (head, others) = match before {
+        let (surface, others) = match before {
             Some(before) => (before.head, before.others),
             None => {
                 self.volumes.forget_head();
@@ -283,10 +292,10 @@ impl Gpu {
                     Surface::default()
                 };
                 let linear = |colour: [f32; 3]| colour.map(linear_from_srgb);
-                (seen, bodies.iter().map(|body| Surface::of(&body.mesh, linear(body.colour))).collect())
+                (seen, bodies.iter().map(|body| Surface::of(body.mesh, linear(body.colour))).collect())
             }
         };
-        let mut all = Surface { corners: head.corners.clone(), indices: head.indices.clone() };
+        let mut all = Surface { corners: surface.corners.clone(), indices: surface.indices.clone() };
         others.iter().zip(&at).for_each(|(other, at)| all.add(other, at));
         self.bodies = Some(Bodies {
             roots,
@@ -294,8 +303,8 @@ impl Gpu {
             skin,
             share,
             head_visible: picture.head.visible,
-            vertices: take.built.head.mesh.positions.len(),
-            head,
+            vertices: head.mesh.positions.len(),
+            head: surface,
             others,
             of_others: of_bodies,
             at,

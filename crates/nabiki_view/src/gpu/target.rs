@@ -1,7 +1,5 @@
 //! The textures of one size that a picture is drawn into.
 
-use eframe::wgpu;
-
 use super::pipelines::{DEPTH, LIGHT, SAMPLES, SHOWN};
 
 pub struct Target {

@@ -3,8 +3,6 @@
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
 
-use eframe::wgpu;
-
 use super::{Drawing, Gpu};
 
 impl Gpu {
