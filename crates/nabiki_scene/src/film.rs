@@ -191,9 +191,6 @@ impl<'a> Film<'a> {
         let before = previous.as_ref().filter(|_| n > 0).map(|previous| moment(n - 1, previous, &bodies_before));
         let drawn = self.renderer.draw(&FrameToDraw { now, before });
         let frame = drawn.map_err(|refused| self.in_frame(n, refused))?;
-        if self.picture.shutter > 0.0 {
-            self.previous = Some(strands.clone());
-        }
         let view = match self.built.dynamics.motion.force_space {
             ForceSpace::World => now.view,
             ForceSpace::Head => {
@@ -201,6 +198,9 @@ impl<'a> Film<'a> {
                 turned(View { eye, ..now.view }, now.pose.rotation.inverse())
             }
         };
+        if self.picture.shutter > 0.0 {
+            self.previous = Some(kept(previous, strands));
+        }
         Ok((frame, view))
     }
 
@@ -215,6 +215,17 @@ impl<'a> Film<'a> {
             RenderError::Setting(refused) => self.built.scene.refusal(refused).into(),
             other => other.into(),
         }
+    }
+}
+
+/// A copy of a frame for the blur of the next, in the room of the one before.
+fn kept(before: Option<Strands>, now: &Strands) -> Strands {
+    match before {
+        Some(mut room) if room.starts() == now.starts() => {
+            room.points_mut().copy_from_slice(now.points());
+            room
+        }
+        _ => now.clone(),
     }
 }
 
