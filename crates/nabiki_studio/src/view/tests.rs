@@ -9,6 +9,7 @@ use nabiki::dynamics::Form;
 use nabiki_scene::{Scene, Shown as Strands};
 
 use super::*;
+use crate::document::Phase;
 
 /// A window with the view alone.
 struct Window {
