@@ -18,7 +18,7 @@ mod unknowns;
 mod wind;
 mod wish;
 
-pub use cut::{Cut, cut_for_pull, felt};
+pub use cut::{Cut, change, cut_for_pull, felt};
 pub use drag::Drag;
 pub use problem::{Prior, Problem};
 pub use report::{Report, Step, WishLeft};

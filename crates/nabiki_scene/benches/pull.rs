@@ -19,6 +19,7 @@ use std::time::{Duration, Instant};
 use glam::Vec3;
 use nabiki::Strands;
 use nabiki::dynamics::Form;
+use nabiki::solve::change;
 use nabiki_scene::pull::{Follower, Freedom, Lock, Pull};
 use nabiki_scene::{BuiltScene, Scene, Shown};
 
@@ -49,7 +50,11 @@ fn main() {
     let options = options();
     println!("threads: {}", rayon::current_num_threads());
     println!("share of pulls that come within {THERE_CM} cm of the hand, {SOON_S} s after it rests: by the wall, by");
-    println!("processor time of all threads, and in the end ({} s); medians of what is left (cm)", options.wait_s);
+    println!(
+        "processor time of all threads, and in the end ({} s); medians of what is left (cm); by how much the wind",
+        options.wait_s
+    );
+    println!("of any frame was changed, median and nine in ten");
     let mut all = Vec::new();
     for path in scenes(options.only.as_deref()) {
         let name = name(&path);
@@ -114,6 +119,8 @@ struct Tried {
     contact: bool,
     /// Left by the clock on the wall, by that of the processors, in the end (cm).
     left: [f64; 3],
+    /// By how much the wind of any frame is another than before, at the most, in the end.
+    change: f32,
 }
 
 fn pulls(built: &BuiltScene, options: &Options, random: &mut Random) -> Vec<Tried> {
@@ -138,17 +145,17 @@ fn pulls(built: &BuiltScene, options: &Options, random: &mut Random) -> Vec<Trie
         for cm in PULLS_CM {
             let Some(way) = way(strands, points, &lock, cm, random) else { continue };
             let contact = is_in_contact(built, points, &lock, way);
-            let left = pulled(built, &lock, lock.middle(points, strands), way, options.wait_s);
+            let (left, change) = pulled(built, &lock, lock.middle(points, strands), way, options.wait_s);
             if options.each {
                 let ([x, y, z], [wall, busy, end]) = (way.to_array(), left);
                 let touch = if contact { "contact" } else { "free" };
                 println!(
-                    "  frame {:3}, {:2} strands, by [{x:5.1}, {y:5.1}, {z:5.1}], {touch:7}: left {wall:.2} {busy:.2} {end:.2}",
+                    "  frame {:3}, {:2} strands, by [{x:5.1}, {y:5.1}, {z:5.1}], {touch:7}: left {wall:.2} {busy:.2} {end:.2}, wind by {change:.0}",
                     lock.frame,
                     lock.nodes.len()
                 );
             }
-            tried.push(Tried { cm, contact, left });
+            tried.push(Tried { cm, contact, left, change });
         }
     }
     tried
@@ -193,8 +200,10 @@ fn is_in_contact(built: &BuiltScene, points: &[Vec3], lock: &Lock, way: Vec3) ->
     })
 }
 
-/// What is left of a pull.
-fn pulled(built: &BuiltScene, lock: &Lock, from: Vec3, way: Vec3, wait_s: f64) -> [f64; 3] {
+/// What is left of a pull, and by how much it has changed the wind.
+fn pulled(built: &BuiltScene, lock: &Lock, from: Vec3, way: Vec3, wait_s: f64) -> ([f64; 3], f32) {
+    let field = &built.scene.field;
+    let mut by = 0.0;
     let pull = Pull::new(Follower::new(built, lock, from, &[], Freedom::default()), || {});
     for i in 1..=MOVES {
         pull.to(if i == MOVES { from + way } else { from + way * (i as f32 / MOVES as f32) });
@@ -206,7 +215,7 @@ fn pulled(built: &BuiltScene, lock: &Lock, from: Vec3, way: Vec3, wait_s: f64) -
     loop {
         let (wall, busy) = (clock.elapsed().as_secs_f64(), processor_s() - busy);
         if let Some(pulled) = pull.take() {
-            let Ok(pulled) = pulled else { return left };
+            let Ok(pulled) = pulled else { return (left, by) };
             // What was found for where the hand was on its way says nothing.
             if pulled.goal != from + way {
                 continue;
@@ -214,6 +223,7 @@ fn pulled(built: &BuiltScene, lock: &Lock, from: Vec3, way: Vec3, wait_s: f64) -
             let cm = pulled.left_cm;
             ended = pulled.ended;
             left[2] = cm;
+            by = change(&field.force, &pulled.answer.keyframes, field.wind.ease, 1..=lock.frame);
             for (left, passed) in left.iter_mut().zip([wall, busy]) {
                 if passed <= SOON_S {
                     *left = cm;
@@ -221,7 +231,7 @@ fn pulled(built: &BuiltScene, lock: &Lock, from: Vec3, way: Vec3, wait_s: f64) -
             }
         }
         if wall > wait_s || ended {
-            return left;
+            return (left, by);
         }
         std::thread::sleep(Duration::from_millis(2));
     }
@@ -242,7 +252,11 @@ fn table(name: &str, tried: &[Tried]) {
                 format!("{:4.0} % ({:.2})", 100.0 * there as f64 / of.len() as f64, left[left.len() / 2])
             };
             let kind = if contact { "in contact" } else { "free" };
-            println!("  {cm} cm, {kind:10}: {:3} pulls, {}, {}, {}", of.len(), share(0), share(1), share(2));
+            let mut change: Vec<f32> = of.iter().map(|tried| tried.change).collect();
+            change.sort_by(f32::total_cmp);
+            let [half, most] = [change[change.len() / 2], change[change.len() * 9 / 10]];
+            let shares = [0, 1, 2].map(share).join(", ");
+            println!("  {cm} cm, {kind:10}: {:3} pulls, {shares}, wind by {half:.0}, {most:.0}", of.len());
         }
     }
 }

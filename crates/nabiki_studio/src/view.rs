@@ -416,7 +416,7 @@ impl View {
         match &self.hand {
             Hand::Hair(held) if held.lock.fits(strands) => {
                 let (goal, hair) = (held.goal(), held.lock.middle(points, strands));
-                overlay.thread(&in_head, goal, hair, held.says(hair).as_deref());
+                overlay.thread(&in_head, goal, hair, held.says(hair, shown.take).as_deref());
             }
             Hand::Idle
                 if let Some(words) = self.fell_short(shown)

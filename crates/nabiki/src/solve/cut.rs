@@ -41,7 +41,7 @@ pub fn cut_for_pull(keyframes: &[Keyframe], ease: Ease, frame: u32, length: u32)
     let through = ends.filter(|end| end - frame <= TAIL).unwrap_or(frame);
     let known = keyframes.iter().position(|key| key.through == through).filter(|&j| firsts[j] == from);
     let (keyframes, interval, before) = match known {
-        Some(interval) => (keyframes.to_vec(), interval, keyframes),
+        Some(interval) => (ended(keyframes, interval), interval, keyframes),
         None => {
             let (cut, interval) = with_interval(keyframes, from, through);
             (as_it_was(keyframes, ease, cut), interval, keyframes)
@@ -49,6 +49,14 @@ pub fn cut_for_pull(keyframes: &[Keyframe], ease: Ease, frame: u32, length: u32)
     };
     let felt = felt(before, &keyframes, ease, &[interval]);
     Cut { keyframes, interval, felt }
+}
+
+/// What held for good after the last interval goes on in one of its own, so that a pull ends with its frames.
+fn ended(keyframes: &[Keyframe], interval: usize) -> Vec<Keyframe> {
+    let Keyframe { through, vector } = keyframes[interval];
+    let goes_on =
+        (interval + 1 == keyframes.len() && through < u32::MAX).then_some(Keyframe { through: through + 1, vector });
+    keyframes.iter().copied().chain(goes_on).collect()
 }
 
 /// First frame of interval `j`.
@@ -89,6 +97,14 @@ pub fn felt(before: &[Keyframe], after: &[Keyframe], ease: Ease, intervals: &[us
     begin..=if end == last { u32::MAX } else { end }
 }
 
+/// By how much the wind of any of these frames is another than before, at the most.
+pub fn change(before: &[Keyframe], after: &[Keyframe], ease: Ease, frames: RangeInclusive<u32>) -> f32 {
+    let field = |keyframes: &[Keyframe]| KeyframedField::new(keyframes).ok().map(|field| field.eased(ease));
+    let (before, after) = (field(before), field(after));
+    let vector = |field: &Option<KeyframedField>, frame| field.as_ref().map_or(Vec3::ZERO, |field| field.vector(frame));
+    frames.map(|frame| vector(&before, frame).distance(vector(&after, frame))).fold(0.0, f32::max)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -122,11 +138,12 @@ mod tests {
     fn whatever_a_pull_makes_of_its_interval_the_wind_beside_is_what_it_was_to_the_bit() {
         for keys in &winds() {
             for ease in EASES {
-                for frame in [1, 2, 5, 20, 24, 36, 53, 58, 70, 100] {
+                for frame in [1, 2, 5, 20, 24, 36, 53, 58, 60, 70, 100] {
                     for length in [4, 10, 16, 200] {
                         let Cut { mut keyframes, interval, felt } = cut_for_pull(keys, ease, frame, length);
                         keyframes[interval].vector = Vec3::new(-500.0, 20.0, 333.0);
                         assert!(felt.contains(&frame), "{keys:?} {ease:?} {frame} {length}: {felt:?}");
+                        assert!(*felt.end() < u32::MAX, "{keys:?} {ease:?} {frame} {length} never ends");
                         for n in (1..130).filter(|n| !felt.contains(n)) {
                             let (was, is) = (vector(keys, ease, n), vector(&keyframes, ease, n));
                             assert_eq!(was, is, "{keys:?} {ease:?} {frame} {length}: frame {n} outside {felt:?}");

@@ -10,7 +10,9 @@ use std::thread::{Builder, JoinHandle};
 use glam::Vec3;
 use nabiki::SettingError;
 use nabiki::field::Keyframe;
-use nabiki::solve::{Cut, Goal, Preroll, Problem, Search, Solver, Unknown, Wind, cut_for_pull, felt};
+use nabiki::solve::{
+    Cut, Goal, Preroll, Prior, Problem, Search, Solver, Stop, Unknown, Wind, change, cut_for_pull, felt,
+};
 
 use super::few::few;
 use super::{Lock, Pulled};
@@ -24,9 +26,12 @@ const WORTH: f64 = 0.98;
 const THERE_CM: f64 = 0.1;
 /// What has come so near need not be looked for by other ways (cm).
 const NEAR_CM: f64 = 0.2;
-/// A change of a vector by 100 counts as much as this distance, between ways that arrive (cm); one by so much is not looked behind.
+/// A change of the wind by 100 counts as much as this distance (cm): a strong wind throws all hair about. With one by so much no gentler is
+/// looked for.
 const ROUGH_CM: f64 = 0.03;
-const GENTLE: f64 = 400.0;
+const GENTLE: f64 = 250.0;
+/// What the vector of an interval counts that is not the pull's own, if it changes, too (cm).
+const ANOTHER_CM: f64 = 0.05;
 /// What is farther from the hand is told why (cm).
 const SHORT_CM: f64 = 0.3;
 /// About how many frames long the interval is that a pull has for its own: the first is what a hand that moves begins with, the others
@@ -114,22 +119,21 @@ impl Follower {
     pub fn new(built: &BuiltScene, held: &Lock, middle: Vec3, nails: &[Lock], freedom: Freedom) -> Self {
         let mut wishes = vec![held.wish(Goal::MeanMoved(Vec3::ZERO), 1.0)];
         wishes.extend(nails.iter().map(|nail| nail.wish(Goal::Stay, NAIL_WEIGHT)));
-        let problem = built.problem(Vec::new(), wishes);
+        let mut problem = built.problem(Vec::new(), wishes);
+        problem.prior = Prior { keep: ROUGH_CM as f32, ..Prior::default() };
+        // Two intervals, one after the other, where one does not do; one where there is no frame for two.
+        let of_two = if freedom.another { &LENGTHS[..] } else { &LENGTHS[..1] };
+        let two = of_two.iter().filter_map(|&length| two_intervals(&problem.wind, held.frame, length, freedom));
+        let mut all: Vec<Try> = two.collect();
+        if all.is_empty() || !freedom.another {
+            let one = LENGTHS.map(|length| own_interval(&problem.wind, held.frame, length, freedom));
+            all.splice(0..0, one);
+        }
         let mut tries: Vec<Try> = Vec::new();
-        let mut add = |new: Try| {
+        for new in all {
             let known = |known: &Try| known.keyframes == new.keyframes && known.unknowns == new.unknowns;
             if !tries.iter().any(known) {
                 tries.push(new);
-            }
-        };
-        for (i, length) in LENGTHS.into_iter().enumerate() {
-            let one = own_interval(&problem.wind, held.frame, length, freedom);
-            // Two, one after the other, where one does not do; one where there is no frame for two.
-            let two = (i == 0 || freedom.another).then(|| two_intervals(&problem.wind, held.frame, length, freedom));
-            match two.flatten() {
-                Some(two) if freedom.another => add(two),
-                Some(two) => [one, two].into_iter().for_each(&mut add),
-                None => add(one),
             }
         }
         let from = tries.iter().map(|of| *of.felt.start()).min().unwrap_or(1).saturating_sub(1);
@@ -139,6 +143,13 @@ impl Follower {
         let new = move || Preroll::new(&whole, from);
         let begin = Builder::new().name("begin of a pull".to_owned()).spawn(new).ok().map(Begin::Awaited);
         Self { problem, of_few, middle, goal: middle, from, begin, few_begin: None, tries, at: 0, brake: None }
+    }
+
+    /// Whether there are frames for another interval before that of a pull at this one.
+    pub fn has_room_for_another(built: &BuiltScene, frame: u32) -> bool {
+        let field = &built.scene.field;
+        let wind = Wind { keyframes: field.force.clone(), ease: field.wind.ease, gust: None };
+        LENGTHS.into_iter().any(|length| two_intervals(&wind, frame, length, Freedom::default()).is_some())
     }
 
     /// Gives way to something more urgent between any two motions, while the answer to this is yes.
@@ -161,8 +172,8 @@ impl Follower {
         Ok((self.pulled(self.at), gained))
     }
 
-    /// The whole search; `found` hears of every motion that is nearer than all before. What it has come to in the end, and what stops it
-    /// there; none where the brake was pulled.
+    /// The whole search; `found` hears of every motion that is nearer than all before, a stronger wind counted as farther away. What it has
+    /// come to in the end, and what stops it there; none where the brake was pulled.
     ///
     /// # Errors
     /// As [`step`](Self::step).
@@ -171,42 +182,49 @@ impl Follower {
         let first = self.at;
         let order = std::iter::once(first).chain((0..self.tries.len()).filter(|&i| i != first));
         let mut turns: Vec<(usize, usize)> = order.flat_map(|i| [(1, i), (STARTS, i)]).collect();
-        // First each from where it is; other starts, which take long, only where none of them arrives.
+        // First each from where it is; other starts, which take long, only where none of them arrives by a gentle wind.
         turns.sort_by_key(|&(starts, _)| starts);
         let (mut best, mut nearest) = (f64::INFINITY, f64::INFINITY);
-        let mut arrived = false;
         for (turn, (starts, i)) in turns.into_iter().enumerate() {
-            if starts > 1 && arrived {
-                break;
-            }
             let iterations = if starts > 1 { LONG } else { SHORT };
             let limits = Search { iterations, starts, near_cm: 0.5 * THERE_CM, seed: 1 };
             let solvers = self.solvers(i, false)?;
             solvers.aim(goal)?;
             if turn == 0 {
                 // A hand that is followed has this already.
-                nearest = solvers.judge().left_of_wish(0);
+                nearest = self.score(i);
             }
             let came = self.search_of(i, goal, &limits, &mut nearest, found)?;
             let left = self.solvers(i, came)?.judge().left_cm();
-            let change = f64::from(self.change(i));
-            let score = left.max(NEAR_CM) + ROUGH_CM * change / 100.0;
+            let score = self.score(i);
             if score < best {
                 (best, self.at) = (score, i);
             }
             if !came {
                 return Ok(None);
             }
-            arrived |= left <= NEAR_CM;
-            // A wind that is far from what it was throws all hair about: another interval may do with less.
-            if left <= NEAR_CM && change <= GENTLE {
+            if left <= NEAR_CM && self.change(i) <= GENTLE {
                 break;
             }
         }
         let pulled = self.pulled(self.at);
-        let solvers = self.solvers(self.at, true)?;
-        let stop = (pulled.left_cm > SHORT_CM).then(|| solvers.few.stopped_by(0, goal, pulled.left_cm));
+        let stop = if pulled.left_cm > SHORT_CM { Some(self.stopped_by(goal, pulled.left_cm)?) } else { None };
         Ok(Some(Pulled { ended: true, stop, ..pulled }))
+    }
+
+    /// What keeps the hair so far from the hand: what the nearest try finds, or another where that finds its interval too short.
+    fn stopped_by(&mut self, goal: Vec3, left_cm: f64) -> Result<Stop, SettingError> {
+        let at = self.at;
+        let others = (0..self.tries.len()).filter(|&i| i != at);
+        let mut nearest = None;
+        for i in std::iter::once(at).chain(others) {
+            let stop = self.solvers(i, true)?.few.stopped_by(0, goal, left_cm);
+            if !matches!(stop, Stop::Unknowns { .. }) {
+                return Ok(stop);
+            }
+            nearest.get_or_insert(stop);
+        }
+        Ok(nearest.expect("a try is the nearest"))
     }
 
     /// Searches by a try. Whether it came to its end, and was not braked; it has come to the nearest either way.
@@ -219,12 +237,14 @@ impl Follower {
         found: &mut dyn FnMut(Pulled),
     ) -> Result<bool, SettingError> {
         let mut limits = *limits;
-        let mut tell = |pulled: Pulled| {
-            if pulled.left_cm < *nearest {
-                *nearest = pulled.left_cm;
-                found(pulled);
+        let mut tell = |of: &Self| {
+            let score = of.score(i);
+            if score < *nearest {
+                *nearest = score;
+                found(of.pulled(i));
             }
         };
+        let enough = limits.near_cm.hypot(ROUGH_CM * GENTLE / 100.0);
         let solvers = self.solvers(i, false)?;
         let known = solvers.whole.as_ref().map_or(f64::INFINITY, Solver::left_cm);
         let mut best = (solvers.few.numbers().to_vec(), known);
@@ -236,7 +256,7 @@ impl Follower {
             let solvers = self.solvers(i, false)?;
             solvers.aim(goal)?;
             let before = solvers.few.left_cm();
-            let came = solvers.few.pursue(&limits, &mut |_| {});
+            let came = solvers.few.pursue(&limits, enough);
             let (left, was) = (solvers.few.left_cm(), solvers.shift);
             // Now all of it must be there, and judge; a hand that has moved on does not wait for it.
             let solvers = self.solvers(i, came)?;
@@ -246,7 +266,7 @@ impl Follower {
             if left_of_all < best.1 {
                 best = (solvers.few.numbers().to_vec(), left_of_all);
             }
-            tell(self.pulled(i));
+            tell(self);
             if !came || best.1 <= THERE_CM {
                 self.solvers(i, came)?.go(&best.0);
                 return Ok(came);
@@ -267,25 +287,35 @@ impl Follower {
         }
         // What a few do says too little here: all of the lock looks for itself.
         let limits = Search { iterations: LONG, ..limits };
-        let came = self.solvers(i, true)?.search_whole(&limits);
-        tell(self.pulled(i));
+        let came = self.solvers(i, true)?.search_whole(&limits, enough);
+        tell(self);
         Ok(came)
     }
 
-    /// How far a try has changed the vectors of the wind, at the most.
-    fn change(&self, i: usize) -> f32 {
-        let Try { keyframes, solvers, .. } = &self.tries[i];
-        let Some(solvers) = solvers else { return 0.0 };
+    /// By how much a try has changed the wind, at the most.
+    fn change(&self, i: usize) -> f64 {
+        let Try { felt, solvers: Some(solvers), .. } = &self.tries[i] else { return 0.0 };
+        let (wind, frame) = (&self.problem.wind, self.problem.wishes[0].frame);
         let now = solvers.judge().answer().keyframes;
-        now.iter().zip(keyframes).map(|(now, was)| now.vector.distance(was.vector)).fold(0.0, f32::max)
+        change(&wind.keyframes, &now, wind.ease, *felt.start()..=frame).into()
+    }
+
+    /// How far a try has left the hair from the hand, where what it costs counts, too (cm).
+    fn score(&self, i: usize) -> f64 {
+        let Try { unknowns, solvers, .. } = &self.tries[i];
+        let left = solvers.as_ref().map_or(f64::INFINITY, |solvers| solvers.judge().left_cm());
+        let others = unknowns.iter().filter(|unknown| matches!(unknown, Unknown::Vector(_))).count() - 1;
+        left.max(NEAR_CM) + ROUGH_CM * self.change(i) / 100.0 + ANOTHER_CM * others as f64
     }
 
     /// What a try has come to.
     fn pulled(&self, i: usize) -> Pulled {
-        let Try { interval, felt, solvers, .. } = &self.tries[i];
+        let Try { interval, felt, solvers, unknowns, .. } = &self.tries[i];
         let judge = solvers.as_ref().expect("a try that has begun").judge();
         let (answer, left_cm) = (judge.answer(), judge.left_of_wish(0));
-        Pulled { answer, interval: *interval, felt: felt.clone(), goal: self.goal, left_cm, ended: false, stop: None }
+        // All frames feel another stiffness.
+        let felt = if unknowns.contains(&Unknown::Stiffness) { 1..=u32::MAX } else { felt.clone() };
+        Pulled { answer, interval: *interval, felt, goal: self.goal, left_cm, ended: false, stop: None }
     }
 
     /// The solvers of a try; that of the whole lock, too, if it can begin by now or is waited for.
@@ -354,9 +384,9 @@ impl Solvers {
     }
 
     /// The whole lock searches for itself, and the few follow. Whether it came to its end.
-    fn search_whole(&mut self, limits: &Search) -> bool {
+    fn search_whole(&mut self, limits: &Search, enough_cm: f64) -> bool {
         let Some(whole) = &mut self.whole else { return true };
-        let came = whole.pursue(limits, &mut |_| {});
+        let came = whole.pursue(limits, enough_cm);
         if self.few.set_numbers(whole.numbers()) {
             self.shift = middle_of(&self.few) - middle_of(whole);
         }

@@ -105,7 +105,7 @@ fn hair_follows_the_hand() {
 }
 
 #[test]
-fn what_is_found_is_nearer_and_nearer_and_the_nearest_is_what_stays() {
+fn what_is_found_is_nearer_and_nearer_and_stays_there_once_it_has_arrived() {
     let built = gust(2);
     let before = at(&built, 45);
     let held = tip(&before, 7, 45);
@@ -114,9 +114,10 @@ fn what_is_found_is_nearer_and_nearer_and_the_nearest_is_what_stays() {
     let (first, _) = follower.step(goal).unwrap();
     let mut heard = vec![first.left_cm];
     let end = follower.search(goal, &mut |pulled| heard.push(pulled.left_cm)).unwrap().unwrap();
-    assert!(heard.windows(2).all(|pair| pair[1] < pair[0]), "{heard:?}");
-    let nearest = heard.last().unwrap();
-    assert!(end.left_cm < nearest + 0.02, "{} after {nearest}", end.left_cm);
+    // Of what has arrived a gentler wind may be a little farther away.
+    let arrived = 0.2;
+    assert!(heard.windows(2).all(|pair| pair[1] < pair[0].max(arrived)), "{heard:?}");
+    assert!(end.left_cm < arrived, "{end:?} after {heard:?}");
 }
 
 #[test]

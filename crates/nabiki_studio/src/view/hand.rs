@@ -17,8 +17,8 @@ use crate::take::Take;
 /// About the node that is pulled: strands that come along have a node this near (cm).
 pub const LOCK_CM: f32 = 1.5;
 
-/// Hair this near to the hand has arrived: nothing is said (cm).
-pub const SHORT: f32 = 0.3;
+/// Hair this near to the hand has arrived: nothing is said (cm). What is farther reads as 0.4 cm or more.
+pub const SHORT: f32 = 0.35;
 
 /// A hand that has gone no farther has not moved (cm): a hundredth of a pixel, and far more than roundings.
 const STILL_CM: f32 = 5e-4;
@@ -71,9 +71,11 @@ pub struct Held {
 }
 
 impl Held {
-    /// How far the hair at this place (head space, cm) is from the hand, in one line, and what stops it once that is known.
-    pub fn says(&self, hair: Vec3) -> Option<String> {
-        let searching = self.followed.as_ref().is_none_or(|pulled| !pulled.ended);
+    /// How far the hair at this place (head space, cm) of a take is from the hand, in one line, and what stops it once that is known and
+    /// shown.
+    pub fn says(&self, hair: Vec3, take: &Take) -> Option<String> {
+        let is_shown = |pulled: &Pulled| take.built.scene.field.force == pulled.answer.keyframes;
+        let searching = self.followed.as_ref().is_none_or(|pulled| !pulled.ended || !is_shown(pulled));
         let stop = self.followed.as_ref().and_then(|pulled| pulled.stop.as_ref());
         short(self.goal().distance(hair), 0.0, searching, stop)
     }

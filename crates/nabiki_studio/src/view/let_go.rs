@@ -14,7 +14,7 @@ use crate::document::Phase;
 use crate::take::Take;
 
 /// So long the search goes on after the hand has let go (s): nobody waits longer for hair to come.
-const SETTLES: f64 = 1.5;
+const SETTLES: f64 = 2.0;
 /// The same of what was asked for by a button, which takes more looking for (s).
 const LOOKS: f64 = 6.0;
 
@@ -106,11 +106,10 @@ impl LetGo {
         }
         let (pull, until) = self.search.as_ref()?;
         let news = pull.take();
-        let late = now > *until;
+        // A picture that changes when nobody expects it any more is worse than hair that falls short.
+        let late = now > *until && !self.is_first;
         if late || shown.force != self.force {
             self.search = None;
-        }
-        if shown.force != self.force {
             return None;
         }
         match news? {
@@ -143,7 +142,8 @@ impl LetGo {
             Form::Free(free) => free.form.stiffness.largest() > 0.0,
         };
         let mut offers = OFFERS.to_vec();
-        offers.retain(|offer| !offer.freedom.stiffness || has_stiffness);
+        let has_room = Follower::has_room_for_another(&take.built, self.lock.frame);
+        offers.retain(|offer| if offer.freedom.another { has_room } else { has_stiffness });
         offers
     }
 
@@ -168,14 +168,15 @@ impl LetGo {
     /// shown.
     pub fn fell_short(&self, shown: &Shown<'_>) -> Option<String> {
         let take = shown.take;
-        let is_as_found = shown.force == self.force && take.built.scene.field.force == self.force;
         let is_there = |lock: &Lock| lock.fits(take.strands()) && lock.frame <= take.frames();
-        if !is_as_found || shown.frame != self.lock.frame || !is_there(&self.lock) {
+        if shown.force != self.force || shown.frame != self.lock.frame || !is_there(&self.lock) {
             return None;
         }
         let off = |lock: &Lock, place: Vec3| lock.middle(take.points(lock.frame), take.strands()).distance(place);
         let of_nails = self.nails.iter().filter(|(nail, _)| is_there(nail)).map(|(nail, place)| off(nail, *place));
-        short(off(&self.lock, self.goal), of_nails.fold(0.0, f32::max), self.is_looking(), self.stop.as_ref())
+        // What was found is not shown yet: the hair is on its way.
+        let searching = self.is_looking() || take.built.scene.field.force != self.force;
+        short(off(&self.lock, self.goal), of_nails.fold(0.0, f32::max), searching, self.stop.as_ref())
     }
 }
 
@@ -208,7 +209,7 @@ pub fn why(stop: &Stop) -> String {
             format!("it takes a total force above {strongest:.0}, the most that this hair can step")
         }
         Stop::Unknowns { frames: 1 } => "one frame of wind is too short".to_owned(),
-        Stop::Unknowns { frames } => format!("no single wind over {frames} frames gets it there"),
+        Stop::Unknowns { frames } => format!("no wind over these {frames} frames gets it there"),
     }
 }
 

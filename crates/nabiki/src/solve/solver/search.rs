@@ -87,24 +87,25 @@ impl Solver {
     }
 
     /// Searches on from here for a goal that waits: steps until they gain nothing, then from other starts, about the nearest motion so far
-    /// and about the problem's own by turns, farther and farther away. `found` hears of every motion that is nearer than all before.
-    /// Borders stay as they are. Whether it came to its end, and was not [braked](Self::set_brake); it stands at the nearest either way.
-    pub fn pursue(&mut self, search: &Search, found: &mut dyn FnMut(&Self)) -> bool {
-        let near = search.near_cm.powi(2);
+    /// and about the problem's own by turns, farther and farther away, until what is left and what the prior counts are no more than
+    /// `enough_cm` together (root of the sum of squares). Borders stay as they are. Whether it came to its end, and was not
+    /// [braked](Self::set_brake); it stands at the nearest either way.
+    pub fn pursue(&mut self, search: &Search, enough_cm: f64) -> bool {
+        let (near, enough) = (search.near_cm.powi(2), enough_cm.powi(2));
         self.too_strong = false;
         self.damping = Damping::default();
         let mut best = self.at.clone();
-        self.descend_to(search.iterations, near, &mut best, found);
+        self.descend_to(search.iterations, near, &mut best);
         let mut counter = mix(search.seed);
         for start in 1..search.starts {
-            if self.aims.mean_square(&best.places) <= near || self.is_braked() {
+            if best.cost <= enough || self.is_braked() {
                 break;
             }
             let about = if start % 2 == 1 { best.x.clone() } else { self.start.clone() };
             if let Some(place) = self.drawn_about(&about, 1.0 + start as f64, &mut counter) {
                 self.at = place;
                 self.damping = Damping::default();
-                self.descend_to(search.iterations, near, &mut best, found);
+                self.descend_to(search.iterations, near, &mut best);
             }
         }
         self.at = best;
@@ -112,23 +113,23 @@ impl Solver {
         !self.is_braked()
     }
 
-    /// Steps until they lead hardly nearer, or the goal is reached; `best` is the nearest so far.
-    fn descend_to(&mut self, iterations: usize, near: f64, best: &mut Place, found: &mut dyn FnMut(&Self)) {
+    /// Steps until they lead hardly nearer; where the goal is reached, until they make the way there hardly gentler. `best` is the
+    /// nearest so far.
+    fn descend_to(&mut self, iterations: usize, near: f64, best: &mut Place) {
         let mut slow = 0;
-        if self.at.cost < best.cost {
-            *best = self.at.clone();
-            found(self);
-        }
         for _ in 0..iterations {
-            let before = self.at.cost;
-            if self.aims.mean_square(&self.at.places) <= 0.1 * near || !self.descend_once() || slow > 3 {
-                return;
-            }
-            slow = if self.at.cost > 0.98 * before { slow + 1 } else { 0 };
             if self.at.cost < best.cost {
                 *best = self.at.clone();
-                found(self);
             }
+            let before = self.at.cost;
+            let patience = if self.aims.mean_square(&self.at.places) <= near { 0 } else { 3 };
+            if slow > patience || !self.descend_once() {
+                break;
+            }
+            slow = if self.at.cost > 0.98 * before { slow + 1 } else { 0 };
+        }
+        if self.at.cost < best.cost {
+            *best = self.at.clone();
         }
     }
 

@@ -6,7 +6,8 @@ use super::{Damping, Solver};
 use crate::body::Body;
 use crate::dynamics::Form;
 
-/// What keeps a wish from being met: the first of these that is true of it.
+/// What keeps a wish from being met: the first of these that is true of it. Length comes after a nail and a force where it is less than
+/// half of what is left.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stop {
     /// Its goal is farther from the roots than the hair is long up to its nodes (cm, means over them). Roots are where hair begins to be free.
@@ -55,10 +56,15 @@ impl Solver {
     /// this solver was sent if its hair stands for other hair.
     pub fn stopped_by(&mut self, wish: usize, goal: Vec3, left_cm: f64) -> Stop {
         let goal = goal.as_dvec3();
-        self.by_length(wish, goal)
+        let length = self.by_length(wish, goal);
+        let is_most = |stop: &Stop| matches!(stop, Stop::Length { away_cm, reach_cm } if 2.0 * (away_cm - TAUT * reach_cm) >= left_cm);
+        length
+            .clone()
+            .filter(is_most)
             .or_else(|| self.by_goal_in_body(wish, goal))
             .or_else(|| self.by_nail(wish, left_cm))
             .or_else(|| self.by_force())
+            .or(length)
             .or_else(|| self.by_touch(wish, goal))
             .unwrap_or_else(|| self.by_unknowns(wish))
     }
