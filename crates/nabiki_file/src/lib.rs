@@ -162,9 +162,12 @@ pub fn remove_unfinished() {
 /// Bytes that a file in `folder` may grow to before the disk is full.
 ///
 /// # Errors
-/// What the disk says.
+/// What the disk says; a system without disks.
 pub fn available_bytes(folder: &Path) -> io::Result<u64> {
-    fs4::available_space(folder)
+    #[cfg(any(unix, windows))]
+    return fs4::available_space(folder);
+    #[cfg(not(any(unix, windows)))]
+    return Err(io::Error::new(io::ErrorKind::Unsupported, folder.display().to_string()));
 }
 
 /// The folder that a file is in; `.` for a bare name.

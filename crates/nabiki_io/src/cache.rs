@@ -37,8 +37,6 @@ const BOUNDS_TAG: &[u8; 8] = b"bounds  ";
 const START_TAG: &[u8; 8] = b"start   ";
 /// The block of the sums of header and frames.
 const SUMS_TAG: &[u8; 8] = b"sums    ";
-/// What stands in the header of a cache that has them, so that it is not taken for one of before when they are lost.
-const SUMMED: u32 = 1;
 /// What is said of bytes that have another sum.
 const DAMAGED: &str = "the bytes are not those that were written: the file is damaged; copy it again, or make it again";
 
@@ -265,8 +263,7 @@ fn write_header(out: &mut dyn Write, header: &Header, frames: u64) -> Result<Pla
         attributes::block(&mut blocks, origin::TAG, Some(&origin.bytes()))?;
         let in_world = origin.in_world.then_some([1_u8]);
         attributes::block(&mut blocks, origin::WORLD_TAG, in_world.as_ref().map(|one| &one[..]))?;
-        let groom = origin.groom.as_ref().map(origin::groom_bytes).transpose()?;
-        attributes::block(&mut blocks, origin::GROOM_TAG, groom.as_deref())?;
+        attributes::block(&mut blocks, origin::GROOM_TAG, Some(&origin::groom_bytes(&origin.groom)?))?;
     }
     let piece = header.piece.as_ref().map(Piece::bytes).transpose()?;
     attributes::block(&mut blocks, piece::TAG, piece.as_deref())?;
@@ -280,7 +277,7 @@ fn write_header(out: &mut dyn Write, header: &Header, frames: u64) -> Result<Pla
     attributes::block(&mut blocks, SUMS_TAG, Some(&room))?;
     let sums = HEADER_BYTES + (blocks.len() - size_of_val(&room[..])) as u64;
     out.write_all(MAGIC)?;
-    put(out, &[VERSION, header.strand_count() as u32, header.point_count() as u32, SUMMED])?;
+    put(out, &[VERSION, header.strand_count() as u32, header.point_count() as u32, 0])?;
     put(out, &[frames, HEADER_BYTES + blocks.len() as u64])?;
     put(out, &[header.frame_rate])?;
     out.write_all(&header.scene.0.to_le_bytes())?;
@@ -293,9 +290,9 @@ pub struct Reader<R = File> {
     source: Bytes<R>,
     path: PathBuf,
     header: Header,
-    bounds: Option<[Vec3; 2]>,
+    bounds: [Vec3; 2],
     /// Those of the frames.
-    sums: Option<Vec<u64>>,
+    sums: Vec<u64>,
     frames: u64,
     first_frame_at: u64,
 }
@@ -332,14 +329,9 @@ impl<R: std::io::Read + Seek> Reader<R> {
     }
 
     /// The lowest and the highest corner of the box about the points of all frames, from the head's origin along the
-    /// world's axes (cm); `None` in a cache of before that was kept.
-    pub fn bounds(&self) -> Option<[Vec3; 2]> {
+    /// world's axes (cm).
+    pub fn bounds(&self) -> [Vec3; 2] {
         self.bounds
-    }
-
-    /// Whether it has sums of its bytes, by which damage is found; a cache of before that was kept has none.
-    pub fn is_summed(&self) -> bool {
-        self.sums.is_some()
     }
 
     /// Number of frames, numbered from 0; frame 0 is the hair at rest.
@@ -366,15 +358,12 @@ impl<R: std::io::Read + Seek> Reader<R> {
             return Err(Error::new(format!("frame {frame}: room for {given} points, the cache has {own}")));
         }
         self.source.seek(self.first_frame_at + frame * self.header.frame_bytes())?;
-        let noted = self.sums.as_ref().map(|sums| sums[frame as usize]);
-        if noted.is_some() {
-            self.source.begin_sum();
-        }
+        self.source.begin_sum();
         let position_cm: Vec3 = self.source.value("head position")?;
         let rotation = Quat::from_array(self.source.value("head rotation")?);
         let pose = Pose { position_cm, rotation };
         self.source.fill(strands.points_mut(), "points")?;
-        if self.source.end_sum() != noted {
+        if self.source.end_sum() != Some(self.sums[frame as usize]) {
             return Err(Error::new(format!("frame {frame}: {DAMAGED}")));
         }
         if !pose.is_valid() {
@@ -397,8 +386,8 @@ impl<R: std::io::Read + Seek> Reader<R> {
 /// What stands before the frames.
 struct Start {
     header: Header,
-    bounds: Option<[Vec3; 2]>,
-    sums: Option<Vec<u64>>,
+    bounds: [Vec3; 2],
+    sums: Vec<u64>,
     frames: u64,
     first_frame_at: u64,
 }
@@ -421,7 +410,7 @@ fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<Start> 
     if source.array::<u8>(8, "magic")? != MAGIC {
         return Err(Error::new("does not start with NABIKI: not a motion cache"));
     }
-    let [version, strand_count, point_count, summed]: [u32; 4] = source.value("counts")?;
+    let [version, strand_count, point_count, _]: [u32; 4] = source.value("counts")?;
     if version != VERSION {
         return Err(Error::new(format!("version is {version}: this program reads version {VERSION}")));
     }
@@ -454,7 +443,13 @@ fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<Start> 
     let counts = attributes::Counts { strands: strand_count as usize, points: point_count as usize, frames };
     let attributes::Blocks { attributes, origin, piece, bounds, first_frame, sums } =
         attributes::read(source, first_frame_at, counts)?;
-    let sums = check_header_sum(source, summed, sums)?;
+    let lost = |block: &str| Error::new(format!("has no block {block}: {DAMAGED}"));
+    let sums = sums.ok_or_else(|| lost("sums"))?;
+    source.seek(0)?;
+    if source.sum_of(sums.at, "header")? != sums.header {
+        return Err(Error::new(format!("header: {DAMAGED}")));
+    }
+    let bounds = bounds.ok_or_else(|| lost("bounds"))?;
     if let Some(piece) = &piece {
         let expected = piece.shard.range(usize::try_from(piece.strands).unwrap_or(usize::MAX)).len();
         if expected != strand_count as usize {
@@ -463,20 +458,5 @@ fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<Start> 
         }
     }
     let header = Header { scene, frame_rate, first_frame, starts, attributes, origin, piece };
-    Ok(Start { header, bounds, sums, frames, first_frame_at })
-}
-
-/// Holds what stands before the sums against its own, and returns those of the frames.
-fn check_header_sum<R: std::io::Read + Seek>(
-    source: &mut Bytes<R>,
-    summed: u32,
-    sums: Option<attributes::Sums>,
-) -> Result<Option<Vec<u64>>> {
-    let damaged = || Error::new(format!("header: {DAMAGED}"));
-    let Some(sums) = sums else { return if summed == SUMMED { Err(damaged()) } else { Ok(None) } };
-    source.seek(0)?;
-    if source.sum_of(sums.at, "header")? != sums.header {
-        return Err(damaged());
-    }
-    Ok(Some(sums.frames))
+    Ok(Start { header, bounds, sums: sums.frames, frames, first_frame_at })
 }

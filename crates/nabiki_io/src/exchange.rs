@@ -6,9 +6,7 @@ use std::path::{Path, PathBuf};
 use glam::{DAffine3, DVec3};
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
-use nabiki_exchange::{
-    Contents, Course, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem, Window,
-};
+use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem, Window};
 use nabiki_usd::{Form, HairStage, StageReader};
 
 use crate::axis::Axis;
@@ -304,7 +302,7 @@ pub fn under_groom(export: &mut Export<'_>, groom: &CurvePrim) {
     if !groom.bound {
         export.file_from_head = groom.world_from_curves.inverse() * export.file_from_head;
     }
-    export.course = groom.course.unwrap_or(Course::LINEAR);
+    export.course = groom.course;
 }
 
 /// What samples over a groom cannot hold, as phrases. `head_moves`: whether the head of the motion does. A groom that is bound to a

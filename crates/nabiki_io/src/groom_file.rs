@@ -38,8 +38,8 @@ pub struct CurvePrim {
     pub path: String,
     /// Their control points.
     pub points: u64,
-    /// How the curves run between these; `None` in a cache from before that was kept, of curves that are not straight.
-    pub course: Option<Course>,
+    /// How the curves run between these.
+    pub course: Course,
     /// Takes them to the file's world at the first frame.
     pub world_from_curves: DAffine3,
     /// Whether a skeleton moves them.
@@ -53,8 +53,6 @@ pub struct GroomCurves {
     pub file: String,
     /// Its curves, in their order; none in a file of hair alone.
     pub curves: Vec<CurvePrim>,
-    /// Whether it is known what stands above them: not of a cache from before that was kept.
-    pub placed: bool,
 }
 
 impl GroomFile {
@@ -183,17 +181,11 @@ impl GroomFile {
             PrimKind::Curves { points, course, world_from_curves, bound, .. }
                 if points > 0 && parts::is_kept(&self.groups, &prim.path) =>
             {
-                Some(CurvePrim {
-                    path: prim.path,
-                    points: points as u64,
-                    course: Some(course),
-                    world_from_curves,
-                    bound,
-                })
+                Some(CurvePrim { path: prim.path, points: points as u64, course, world_from_curves, bound })
             }
             _ => None,
         });
-        Ok(GroomCurves { file: file.display().to_string(), curves: curves.collect(), placed: true })
+        Ok(GroomCurves { file: file.display().to_string(), curves: curves.collect() })
     }
 
     /// Its frames, one after another. `segments`: as for [`hair`](Self::hair).
@@ -217,17 +209,9 @@ impl GroomCurves {
     pub fn under_layer(&self, path: &str) -> Result<&CurvePrim> {
         let refuse =
             |why: String| Err(Error::new(format!("--export-layer {path}: {why}")).in_file(Path::new(&self.file)));
-        let older = |what: &str| {
-            format!(
-                "this cache is older than the note of {what}; make it again with nabiki simulate, or leave out --export-layer for a \
-                 complete stage"
-            )
-        };
         let listed = self.curves.iter().take(8).map(|prim| format!("{} ({} points)", prim.path, prim.points));
         let list = listed.collect::<Vec<_>>().join(", ");
         match &self.curves[..] {
-            [only] if only.path == path && !self.placed => refuse(older("what stands above its groom's curves")),
-            [only] if only.path == path && only.course.is_none() => refuse(older("how its groom's curves run")),
             [only] if only.path == path => {
                 let inverse = only.world_from_curves.inverse();
                 if inverse.is_finite() { Ok(only) } else { refuse("a transform above it flattens space".to_owned()) }

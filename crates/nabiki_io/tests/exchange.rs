@@ -9,7 +9,7 @@ use nabiki_io::exchange::{self, DeclaredSpace, MovingHair};
 use nabiki_io::info::ExchangeInfo;
 use nabiki_io::motion::{self, Axis, MotionSource};
 use nabiki_io::placement::{Placement, Unit};
-use nabiki_io::{CurvePrim, GroomCurves, GroomFile};
+use nabiki_io::{CurvePrim, GroomFile};
 use nabiki_io::{hair, mesh};
 use nabiki_usd::StageReader;
 
@@ -169,9 +169,6 @@ fn a_layer_goes_over_the_prim_of_the_curves_and_over_no_other() {
         let line = format!("--export-layer {path}: its curves are at /head/hair (5 points)");
         assert!(refused.ends_with(&line), "{refused}");
     }
-    // Points under a transform that a cache has not kept would go where nobody wants them.
-    let refused = GroomCurves { placed: false, ..groom }.under_layer("/head/hair").unwrap_err().to_string();
-    assert!(refused.contains("this cache is older than") && refused.contains("nabiki simulate"), "{refused}");
 }
 
 /// Seven control points a curve, of two curves.
@@ -215,15 +212,6 @@ fn a_layer_over_cubic_curves_draws_them_from_the_roots_to_the_tips() {
             }
         }
     }
-}
-
-#[test]
-fn a_layer_over_curves_of_a_cache_that_does_not_say_how_they_run_is_refused() {
-    let world_from_curves = DAffine3::IDENTITY;
-    let curve = CurvePrim { path: "/h".to_owned(), points: 5, course: None, world_from_curves, bound: false };
-    let groom = GroomCurves { file: "g.usdc".to_owned(), curves: vec![curve], placed: true };
-    let refused = groom.under_layer("/h").unwrap_err().to_string();
-    assert!(refused.contains("older than the note of how its groom's curves run; make it again"), "{refused}");
 }
 
 #[test]
@@ -386,7 +374,7 @@ fn imported_hair_goes_back_into_its_file_and_under_the_transform_of_its_curves()
     let place = DVec3::new(100.0, 50.0, 200.0);
     assert!(export.file_from_head.transform_point3(place).distance(DVec3::new(1.0, -2.0, 2.0)) < 1e-12);
     let world_from_curves = DAffine3::from_translation(DVec3::X) * DAffine3::from_scale(DVec3::splat(0.5));
-    let course = Some(Course::LINEAR);
+    let course = Course::LINEAR;
     let groom = CurvePrim { path: "/hair".to_owned(), points: 5, course, world_from_curves, bound: false };
     exchange::under_groom(&mut export, &groom);
     assert!(export.file_from_head.transform_point3(place).distance(DVec3::new(0.0, -4.0, 4.0)) < 1e-12);

@@ -50,7 +50,6 @@ pub use frame::Frame;
 pub use moment::{DrawnBody, FrameToDraw, Moment};
 pub use output::canvas::Canvas;
 pub use output::sheet::{ContactSheet, ForceArrow};
-#[cfg(feature = "video")]
 pub use output::video::Movie;
 pub use renderer::Renderer;
 pub use settings::Picture;

@@ -346,9 +346,9 @@ impl BuiltScene {
 
     /// How imported hair lay in its file and goes back into it, for exports and for a motion cache to remember.
     pub fn hair_origin(&self) -> Option<Origin> {
-        let (placement, report) = (self.hair_placement?, self.import_report?);
+        let (placement, report, groom) = (self.hair_placement?, self.import_report?, self.groom.clone()?);
         let in_world = self.scene.head.motion.as_ref().is_some_and(|motion| !motion.start_at_origin);
-        Some(Origin { placement, points: report.points_in_file as u64, groom: self.groom.clone(), in_world })
+        Some(Origin { placement, points: report.points_in_file as u64, groom, in_world })
     }
 
     /// The hair at rest with its points in the order of its file, which may have strands tip first.

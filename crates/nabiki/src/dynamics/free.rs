@@ -8,12 +8,14 @@ mod head_frame;
 mod kernel;
 mod packed;
 mod passes;
+mod pulls;
 mod reference;
 mod runner;
 mod segment;
 
 use contact::{FAN, NEAR, PUSHES, ROUNDS, TOLERANCE_CM, TURN};
 pub(super) use grid::Crowd;
+pub(super) use pulls::pulls;
 pub(super) use reference::{Reference, Setting, Springs, Strand};
 pub(super) use runner::Runner;
-pub(super) use segment::{FreeSegment, free_segments};
+pub(super) use segment::held;

@@ -89,8 +89,8 @@ pub(super) struct Counts {
 /// Reads the blocks up to the offset `end`; tags of later versions are passed over.
 pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, end: u64, counts: Counts) -> Result<Blocks> {
     let Counts { strands, points, frames } = counts;
-    let Blocks { attributes: mut a, mut origin, mut piece, mut bounds, mut first_frame, mut sums } = Blocks::default();
-    let (mut groom, mut in_world) = (None, false);
+    let Blocks { attributes: mut a, mut piece, mut bounds, mut first_frame, mut sums, .. } = Blocks::default();
+    let (mut origin, mut groom, mut in_world) = (None, None, false);
     while source.at() < end {
         let tag: [u8; 8] = source.value("attribute tag")?;
         let length: u64 = source.value("attribute length")?;
@@ -121,14 +121,13 @@ pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, end: u64, counts: Coun
                 let text = std::str::from_utf8(text).map_err(|_| damaged())?;
                 a.group_names.insert(i32::from_le_bytes(*number), text.to_owned());
             }
-            origin::TAG => origin = Some(Origin::from_bytes(&block.values(origin::BYTES)?)?),
+            origin::TAG => origin = Some(origin::from_bytes(&block.values(origin::BYTES)?)?),
             origin::WORLD_TAG => in_world = block.values::<u8>(1)? == [1],
             origin::GROOM_TAG => groom = Some(origin::groom_from_bytes(&block.values(length as usize)?)?),
             piece::TAG => piece = Some(Piece::from_bytes(&block.values(length as usize)?)?),
-            // A box of no points, or with a corner that is nowhere, bounds nothing.
             BOUNDS_TAG => {
-                let corners: Vec<Vec3> = block.values(2)?;
-                bounds = <[Vec3; 2]>::try_from(corners).ok().filter(|[low, high]| low.is_finite() && high.is_finite());
+                let corners = finite::tuples(&name, block.values::<[f32; 3]>(2)?)?;
+                bounds = Some([corners[0].into(), corners[1].into()]);
             }
             START_TAG => first_frame = block.values(1)?[0],
             SUMS_TAG => {
@@ -143,7 +142,11 @@ pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, end: u64, counts: Coun
         }
         source.seek(next)?;
     }
-    let origin = origin.map(|origin| Origin { groom, in_world, ..origin });
+    let origin = match (origin, groom) {
+        (Some((placement, points)), Some(groom)) => Some(Origin { placement, points, groom, in_world }),
+        (Some(_), None) => return Err(Error::new("attribute origin: without the block groom: the file is damaged")),
+        (None, _) => None,
+    };
     Ok(Blocks { attributes: a, origin, piece, bounds, first_frame, sums })
 }
 

@@ -30,8 +30,8 @@ pub struct Origin {
     pub placement: Placement,
     /// Points in the file, of which the import may have left some out.
     pub points: u64,
-    /// The file and where its curves are in it; `None` in a cache of before that was kept.
-    pub groom: Option<GroomCurves>,
+    /// The file and where its curves are in it.
+    pub groom: GroomCurves,
     /// Whether a motion says where the head is in a world, which then is the file's; otherwise hair goes from its place in the file.
     pub in_world: bool,
 }
@@ -54,62 +54,47 @@ impl Origin {
         bytes.extend(self.points.to_le_bytes());
         bytes
     }
-
-    pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self> {
-        let damaged = |what: &str| Error::new(format!("attribute origin: {what}: the file is damaged"));
-        let (words, []) = bytes.as_chunks::<4>() else { return Err(damaged("not whole words")) };
-        let &[cm, up, facing, x, y, z, low, high] = words else { return Err(damaged("not eight words")) };
-        let axis = |word: [u8; 4]| {
-            let axis = AXES.get(u32::from_le_bytes(word) as usize);
-            axis.copied().ok_or_else(|| damaged("an axis beyond the sixth"))
-        };
-        let placement = Placement {
-            unit: Unit { cm: f32::from_le_bytes(cm) },
-            up: axis(up)?,
-            facing: axis(facing)?,
-            origin: Vec3::from_array([x, y, z].map(f32::from_le_bytes)),
-        };
-        placement.check("origin").map_err(|e| damaged(&e.to_string()))?;
-        let points = u64::from(u32::from_le_bytes(low)) | u64::from(u32::from_le_bytes(high)) << 32;
-        Ok(Self { placement, points, groom: None, in_world: false })
-    }
 }
 
-/// What the number of each curves says before their transform: that they are cubic, and that its columns are doubles, as all are
-/// that are written now.
-const CUBIC: u32 = 1;
-const DOUBLES: u32 = 2;
-/// What it says of cubic curves: their basis, one of [`BASES`] counted from 1, and whether they are pinned.
-const BASIS: u32 = 4;
+/// Placement and number of points, as [`Origin::bytes`] has them.
+pub(super) fn from_bytes(bytes: &[u8]) -> Result<(Placement, u64)> {
+    let damaged = |what: &str| Error::new(format!("attribute origin: {what}: the file is damaged"));
+    let (words, []) = bytes.as_chunks::<4>() else { return Err(damaged("not whole words")) };
+    let &[cm, up, facing, x, y, z, low, high] = words else { return Err(damaged("not eight words")) };
+    let axis = |word: [u8; 4]| {
+        let axis = AXES.get(u32::from_le_bytes(word) as usize);
+        axis.copied().ok_or_else(|| damaged("an axis beyond the sixth"))
+    };
+    let placement = Placement {
+        unit: Unit { cm: f32::from_le_bytes(cm) },
+        up: axis(up)?,
+        facing: axis(facing)?,
+        origin: Vec3::from_array([x, y, z].map(f32::from_le_bytes)),
+    };
+    placement.check("origin").map_err(|e| damaged(&e.to_string()))?;
+    Ok((placement, u64::from(u32::from_le_bytes(low)) | u64::from(u32::from_le_bytes(high)) << 32))
+}
+
+/// What the number of each curves says before their transform: their basis, whether they are pinned, and whether a skeleton moves
+/// them.
+const BASES: [Basis; 4] = [Basis::Linear, Basis::Bezier, Basis::Bspline, Basis::CatmullRom];
 const PINNED: u32 = 16;
-/// What it says of curves that a skeleton moves.
 const BOUND: u32 = 32;
-const BASES: [Basis; 3] = [Basis::Bezier, Basis::Bspline, Basis::CatmullRom];
 
 /// The number of curves that run so.
-fn number_of(course: Option<Course>) -> u32 {
-    let Some(Course { basis, pinned }) = course else { return DOUBLES + CUBIC };
-    let Some(basis) = BASES.iter().position(|&other| other == basis) else { return DOUBLES };
-    DOUBLES + CUBIC + BASIS * (basis as u32 + 1) + if pinned { PINNED } else { 0 }
+fn number_of(Course { basis, pinned }: Course) -> u32 {
+    let basis = BASES.iter().position(|&other| other == basis).unwrap_or_default() as u32;
+    basis + if pinned { PINNED } else { 0 }
 }
 
-/// How curves of a number run, `None` where it says cubic and no more; `Err` for a number that is none.
-fn course_of(number: u32) -> std::result::Result<Option<Course>, ()> {
-    if number & CUBIC == 0 {
-        return if number & !DOUBLES == 0 { Ok(Some(Course::LINEAR)) } else { Err(()) };
-    }
-    match (number & !(CUBIC + DOUBLES + PINNED)) / BASIS {
-        0 if number & PINNED == 0 => Ok(None),
-        0 => Err(()),
-        basis => {
-            let basis = *BASES.get(basis as usize - 1).ok_or(())?;
-            Ok(Some(Course { basis, pinned: number & PINNED != 0 }))
-        }
-    }
+/// How curves of a number run; `None` for a number that is none.
+fn course_of(number: u32) -> Option<Course> {
+    let course = Course { basis: *BASES.get((number & !PINNED) as usize)?, pinned: number & PINNED != 0 };
+    (course.basis != Basis::Linear || course == Course::LINEAR).then_some(course)
 }
 
 /// Two numbers, of the name's bytes and of the curves, the name, then of each curves' points, its path's bytes, and it. There follow
-/// for each a number, of [`CUBIC`] and those after it, and the columns of the transform above it.
+/// for each a number, of [`BASES`] and the two after it, and the columns of the transform above it.
 pub(super) fn groom_bytes(groom: &GroomCurves) -> Result<Vec<u8>> {
     let whole = |n: usize| u32::try_from(n).map_err(|_| Error::new("the groom's file: a name of 2^32 bytes or more"));
     let mut out = Vec::new();
@@ -148,25 +133,19 @@ pub(super) fn groom_from_bytes(bytes: &[u8]) -> Result<GroomCurves> {
             let (points, length) = (u64::from_le_bytes(number(&mut rest)?), number(&mut rest)?);
             let path = text(&mut rest, length)?;
             let world_from_curves = DAffine3::IDENTITY;
-            curves.push(CurvePrim { path, points, course: None, world_from_curves, bound: false });
+            curves.push(CurvePrim { path, points, course: Course::LINEAR, world_from_curves, bound: false });
         }
-        // Caches of before transforms were kept end here.
-        let placed = curves.is_empty() || !rest.is_empty();
-        for prim in curves.iter_mut().filter(|_| placed) {
+        for prim in &mut curves {
             let kind = u32::from_le_bytes(number(&mut rest)?);
             prim.bound = kind & BOUND != 0;
-            prim.course = course_of(kind & !BOUND).ok()?;
+            prim.course = course_of(kind & !BOUND)?;
             let mut columns = [0.0; 12];
             for column in &mut columns {
-                *column = if kind & DOUBLES != 0 {
-                    f64::from_le_bytes(number(&mut rest)?)
-                } else {
-                    f64::from(f32::from_le_bytes(number(&mut rest)?))
-                };
+                *column = f64::from_le_bytes(number(&mut rest)?);
             }
             prim.world_from_curves = DAffine3::from_cols_array(&columns);
         }
-        rest.is_empty().then_some(GroomCurves { file, curves, placed })
+        rest.is_empty().then_some(GroomCurves { file, curves })
     };
     read().ok_or_else(damaged)
 }
@@ -179,23 +158,27 @@ mod tests {
 
     #[test]
     fn an_origin_comes_back_and_a_damaged_one_is_refused() {
+        let of = |placement, points| {
+            let groom = GroomCurves { file: "g.hair".to_owned(), curves: Vec::new() };
+            Origin { placement, points, groom, in_world: false }
+        };
         for up in AXES {
             for facing in AXES.into_iter().filter(|a| a.vector().dot(up.vector()) == 0.0) {
                 let unit = Unit { cm: 2.54 };
                 let placement = Placement { unit, up, facing, origin: Vec3::new(1.0, -2.0, 3e-7) };
-                let origin = Origin { placement, points: (1 << 40) + 5, groom: None, in_world: false };
-                assert_eq!(origin.bytes().len(), BYTES);
-                assert_eq!(Origin::from_bytes(&origin.bytes()).unwrap(), origin);
+                let bytes = of(placement, (1 << 40) + 5).bytes();
+                assert_eq!(bytes.len(), BYTES);
+                assert_eq!(from_bytes(&bytes).unwrap(), (placement, (1 << 40) + 5));
             }
         }
-        let sound = Origin { placement: Placement::default(), points: 9, groom: None, in_world: false }.bytes();
+        let sound = of(Placement::default(), 9).bytes();
         for (at, byte) in [(3, 0xff), (4, 6), (4, 0), (8, 3), (15, 0x7f)] {
             let mut bytes = sound.clone();
             bytes[at] = byte;
             if at == 15 {
                 bytes[14] = 0xc0;
             }
-            let refused = Origin::from_bytes(&bytes).unwrap_err().to_string();
+            let refused = from_bytes(&bytes).unwrap_err().to_string();
             assert!(refused.starts_with("attribute origin: ") && refused.ends_with("damaged"), "{at}: {refused}");
         }
     }
@@ -208,35 +191,19 @@ mod tests {
         };
         let far = DVec3::new(0.0, 150.0, -123_456.789);
         let turned = DAffine3::from_rotation_translation(DQuat::from_rotation_x(0.4), far);
-        let courses = BASES.into_iter().flat_map(|basis| [false, true].map(|pinned| Some(Course { basis, pinned })));
-        for (course, world_from_curves) in
-            courses.chain([None, Some(Course::LINEAR)]).zip([turned, DAffine3::IDENTITY].repeat(4))
-        {
+        let cubic = BASES[1..].iter().flat_map(|&basis| [false, true].map(|pinned| Course { basis, pinned }));
+        for (course, world_from_curves) in cubic.chain([Course::LINEAR]).zip([turned, DAffine3::IDENTITY].repeat(4)) {
             let second = prim("/head/\u{30d2}\u{30b2}", 3, course, world_from_curves);
-            let curves = vec![prim("/head/hair", 1 << 40, Some(Course::LINEAR), DAffine3::IDENTITY), second];
-            let groom = GroomCurves { file: "grooms/a b.usdc".to_owned(), curves, placed: true };
+            let curves = vec![prim("/head/hair", 1 << 40, Course::LINEAR, DAffine3::IDENTITY), second];
+            let groom = GroomCurves { file: "grooms/a b.usdc".to_owned(), curves };
             let bytes = groom_bytes(&groom).unwrap();
             assert_eq!(groom_from_bytes(&bytes).unwrap(), groom);
-            // Older caches lack what places the curves, and those after them have it in singles.
-            let unplaced = bytes.len() - 2 * 100;
-            for length in (0..bytes.len()).filter(|&length| length != unplaced) {
+            for length in 0..bytes.len() {
                 assert!(groom_from_bytes(&bytes[..length]).is_err(), "{length} bytes");
             }
             assert!(groom_from_bytes(&[&bytes[..], &[0]].concat()).is_err());
-            let old = groom_from_bytes(&bytes[..unplaced]).unwrap();
-            assert!(!old.placed && old.curves.iter().all(|prim| prim.world_from_curves == DAffine3::IDENTITY));
-            let mut singles = bytes[..unplaced].to_vec();
-            for CurvePrim { course, world_from_curves, .. } in &groom.curves {
-                singles.extend(u32::from(*course != Some(Course::LINEAR)).to_le_bytes());
-                singles
-                    .extend(world_from_curves.to_cols_array().map(|x| x as f32).into_iter().flat_map(f32::to_le_bytes));
-            }
-            let read = groom_from_bytes(&singles).unwrap();
-            for (found, prim) in read.curves.iter().zip(&groom.curves) {
-                assert_eq!((read.placed, found.course), (true, prim.course.filter(|&course| course == Course::LINEAR)));
-                let singles = prim.world_from_curves.to_cols_array().map(|x| f64::from(x as f32));
-                assert_eq!(found.world_from_curves.to_cols_array(), singles);
-            }
         }
+        // Pinned straight lines, and a basis beyond the fourth.
+        assert_eq!([PINNED, 4, 64].map(course_of), [None; 3]);
     }
 }

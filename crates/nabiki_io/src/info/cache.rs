@@ -27,8 +27,6 @@ pub struct CacheInfo {
     pub farthest_move: f32,
     /// Whether the head is elsewhere in the last frame than in the first.
     pub head_moves: bool,
-    /// Whether every frame has a sum, by which damage to it is found.
-    pub summed: bool,
     /// The hair of frame 0 (cm).
     pub rest: HairInfo,
 }
@@ -53,7 +51,6 @@ impl CacheInfo {
                 .map(|Piece { shard, strands, .. }| format!("{shard} of {strands} strands")),
             farthest_move: moves.fold(0.0, f32::max),
             head_moves: first_pose != last_pose,
-            summed: cache.is_summed(),
             rest: HairInfo { guess: None, ..HairInfo::of(&rest) },
         })
     }
@@ -71,12 +68,6 @@ impl fmt::Display for CacheInfo {
             "from first to last frame a point moves {} cm at most; the head {head}",
             Short(self.farthest_move)
         )?;
-        if !self.summed {
-            writeln!(
-                f,
-                "no sums: an older cache, in which damage is not found; nabiki simulate makes it again with them"
-            )?;
-        }
         write!(f, "{}\nunit: cm; up: +y; facing: +x (head space)", self.rest)
     }
 }

@@ -5,6 +5,7 @@ use nabiki::Pose;
 use nabiki::hair::{Attributes, Other, Per, Role, Values};
 use nabiki::{Hair, Strands};
 use nabiki_io::{SceneId, cache, hair_file, tfx};
+use twox_hash::XxHash3_64;
 
 /// Strands of `counts` points with every attribute that any format holds.
 pub fn hair(counts: &[usize]) -> Hair {
@@ -113,11 +114,13 @@ pub fn cache_bytes() -> Vec<u8> {
     std::fs::read(path).unwrap()
 }
 
-/// The same as a program of before wrote it, which noted no sums: their block has a tag of which nothing is known.
-pub fn cache_bytes_without_sums() -> Vec<u8> {
-    let mut bytes = cache_bytes();
-    let at = bytes.windows(8).position(|tag| tag == b"sums    ").unwrap();
-    bytes[at..at + 8].copy_from_slice(b"nothing ");
-    bytes[20] = 0;
+/// A cache whose bytes have been changed, with the sums of what it holds now, as whoever means harm would write them.
+pub fn summed(mut bytes: Vec<u8>) -> Vec<u8> {
+    let at = bytes.windows(8).position(|tag| tag == b"sums    ").unwrap() + 16;
+    let number = |at: usize, size: usize| (0..size).map(|i| usize::from(bytes[at + i]) << (8 * i)).sum::<usize>();
+    let (points, frames_at) = (number(16, 4), number(32, 8));
+    let all = std::iter::once(&bytes[..at]).chain(bytes[frames_at..].chunks(28 + 12 * points));
+    let sums: Vec<u8> = all.flat_map(|part| XxHash3_64::oneshot(part).to_le_bytes()).collect();
+    bytes[at..at + sums.len()].copy_from_slice(&sums);
     bytes
 }

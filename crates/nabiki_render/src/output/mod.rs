@@ -5,11 +5,9 @@ pub mod canvas;
 pub mod exr;
 pub mod field_plot;
 mod font;
-#[cfg(feature = "video")]
 mod mp4;
 pub mod png;
 pub mod sheet;
-#[cfg(feature = "video")]
 pub mod video;
 
 use std::io::Write;

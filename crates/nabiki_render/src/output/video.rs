@@ -1,18 +1,19 @@
 //! Movies: H.264 in MP4, encoded in this process, streamed to disk.
 
+#[cfg(feature = "video")]
+mod codec;
+#[cfg(not(feature = "video"))]
+#[path = "video/no_codec.rs"]
+mod codec;
+
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
 use nabiki_file::PartFile;
-use openh264::OpenH264API;
-use openh264::encoder::{
-    Complexity, Encoder, EncoderConfig, FrameRate, IntraFramePeriod, QpRange, RateControlMode, SpsPpsStrategy,
-    UsageType, VuiConfig,
-};
-use openh264::formats::YUVSlices;
 use rayon::prelude::*;
 
+use self::codec::Codec;
 use super::mp4::Track;
 use super::png::Still;
 use super::{create_part, write_whole};
@@ -21,10 +22,6 @@ use crate::colour::luminance;
 use crate::frame::Frame;
 use crate::settings::Picture;
 use crate::tone_mapping::{ToneMapping, threshold};
-
-/// Longest run of frames that depend on one another: seeking lands at most this far away. Nearer is a pulse: a frame that is coded by
-/// itself differs from the one before by four times as much as calm hair does from frame to frame.
-const INTRA_PERIOD: u32 = 240;
 
 /// A movie being written. Nothing stands under its name until [`finish`](Self::finish).
 ///
@@ -50,9 +47,14 @@ impl Movie {
     /// Refuses what [`create`](Self::create) would refuse of the picture and the frame rate.
     ///
     /// # Errors
-    /// A size or frame rate that a movie cannot have.
+    /// A size or frame rate that a movie cannot have; any movie, in a build without the feature `video`.
     pub fn check(picture: &Picture, frame_rate: f64) -> Result<(), RenderError> {
         picture.check()?;
+        if !codec::IS_BUILT_IN {
+            let remedy =
+                "this program was built without the codec of movies: set it to false, and output.png_frames = true";
+            return Err(nabiki::SettingError::new("output.movie", true, remedy).into());
+        }
         if !(1.0..=240.0).contains(&frame_rate) {
             let remedy = "a movie has 1 to 240 frames a second: give picture.video.frame_rate, or set output.movie = false, and \
                  output.png_frames = true for frames as files";
@@ -87,27 +89,11 @@ impl Movie {
         let size = picture.size.map(|s| s as usize & !1);
         // The encoder takes 12 (near lossless) to 51. A range of one value leaves its rate control nothing to decide.
         let quantiser = (44.0 - 32.0 * picture.video.quality).round() as u8;
-        let config = EncoderConfig::new()
-            .usage_type(UsageType::CameraVideoRealTime)
-            .rate_control_mode(RateControlMode::Bufferbased)
-            .qp(QpRange::new(quantiser, quantiser))
-            .complexity(Complexity::Medium)
-            .skip_frames(false)
-            .scene_change_detect(false)
-            .adaptive_quantization(false)
-            .background_detection(false)
-            .sps_pps_strategy(SpsPpsStrategy::ConstantId)
-            .intra_frame_period(IntraFramePeriod::from_num_frames(INTRA_PERIOD))
-            .max_frame_rate(FrameRate::from_hz(frame_rate as f32))
-            // More threads would slice the picture differently, and so change the file's bits.
-            .num_threads(1)
-            .vui(VuiConfig::bt709());
-        let encoder = Encoder::with_api_config(OpenH264API::from_source(), config)
-            .map_err(|e| RenderError::write(path, e.to_string()))?;
+        let codec = Codec::new(quantiser, frame_rate).map_err(|e| RenderError::write(path, e))?;
         let coder = Coder {
             path: path.to_owned(),
             size,
-            encoder,
+            codec,
             track: Track::new(size.map(|s| s as u16), frame_rate),
             coded: create_part(path)?,
             scratch: Vec::new(),
@@ -197,7 +183,7 @@ impl Drop for Movie {
 struct Coder {
     path: PathBuf,
     size: [usize; 2],
-    encoder: Encoder,
+    codec: Codec,
     track: Track,
     coded: PartFile,
     scratch: Vec<u8>,
@@ -212,12 +198,9 @@ impl Coder {
     }
 
     fn code(&mut self, planes: &Planes) -> Result<(), RenderError> {
-        let [width, height] = self.size;
-        let source =
-            YUVSlices::new((&planes[0], &planes[1], &planes[2]), (width, height), (width, width / 2, width / 2));
-        let bits = self.encoder.encode(&source).map_err(|e| RenderError::write(&self.path, e.to_string()))?;
         self.scratch.clear();
-        bits.write_vec(&mut self.scratch);
+        let coded = self.codec.code(self.size, planes, &mut self.scratch);
+        coded.map_err(|e| RenderError::write(&self.path, e))?;
         self.track.append(&self.scratch, &mut self.coded).map_err(|e| RenderError::write(&self.path, e))
     }
 }

@@ -337,22 +337,14 @@ fn space_of(cache: &Reader) -> DeclaredSpace {
 fn under_layer<'c>(options: &ConvertOptions, prim: &str, cache: &'c Reader) -> Result<&'c CurvePrim> {
     let header = cache.header();
     let points = header.starts.last().map_or(0, |&n| n as usize);
-    let in_file = header.origin.as_ref().map(|origin| origin.points);
     let fits = |in_file| exchange::check_layer(in_file, points).map_err(|e| e.in_file(&options.output));
-    fits(in_file)?;
-    match header.origin.as_ref().and_then(|origin| origin.groom.as_ref()) {
-        Some(groom) => {
-            let curves = groom.under_layer(prim)?;
-            // Curves of a single point are none that are read.
-            fits(Some(curves.points))?;
-            Ok(curves)
-        }
-        None => Err(Error::refused(format!(
-            "{}: --export-layer {prim}: this cache is older than the note of where its groom's curves are; make it again \
-             with nabiki simulate, or leave out --export-layer for a complete stage",
-            options.input.display()
-        ))),
-    }
+    let origin = header.origin.as_ref();
+    fits(origin.map(|origin| origin.points))?;
+    let Some(origin) = origin else { return Err(Error::refused("hair that was grown has no groom")) };
+    let curves = origin.groom.under_layer(prim)?;
+    // Curves of a single point are none that are read.
+    fits(Some(curves.points))?;
+    Ok(curves)
 }
 
 /// Every frame of a cache below the moving head, in the space of the file that the hair came from; hair that was grown

@@ -5,6 +5,9 @@
 
 use glam::Vec3;
 
+use super::pulls::joints::moment_lane;
+use super::pulls::sum_of_shape;
+use super::pulls::weight::Weight;
 use super::segment::FreeSegment;
 use crate::dynamics::row::{LANES, PointRow, Row, beyond, lane as lane_of, set_lane};
 use crate::dynamics::trigonometry::sin_cos;
@@ -115,13 +118,6 @@ impl Forces for PointRow {
     }
 }
 
-/// The head's weight now and at rest, in the unit of the force.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Weight {
-    pub now: [f32; 3],
-    pub at_rest: [f32; 3],
-}
-
 /// What a step carries along a block from root to tip.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Walk {
@@ -148,7 +144,7 @@ impl Walk {
             walk.carried_rest = row.rest;
             for lane in 0..LANES {
                 let (rest, d) = (lane_of(&row.rest, lane), lane_of(&state.direction, lane));
-                set_lane(&mut walk.moment, lane, scale(row.stiffness.0[lane], cross(rest, subtract(d, rest))));
+                set_lane(&mut walk.moment, lane, moment_lane(row.stiffness.0[lane], rest, d));
             }
         }
         walk
@@ -199,9 +195,7 @@ pub(super) fn step_segment(
 
         let (u, s) = (lane_of(&walk.frame.vector, lane), walk.frame.scalar.0[lane]);
         let over_length = walk.frame.over_length.0[lane];
-        let heavy = subtract(weight.now, turned(u, s, over_length, weight.at_rest));
-        let held = scale(hold, subtract(rest, d));
-        let f = add(forces.lane(lane), add(heavy, held));
+        let f = add(forces.lane(lane), sum_of_shape(weight, (u, s, over_length), hold, rest, d));
 
         // The turn from where the segment before it would carry it to where it is, which carries the next one.
         let carried_rest = lane_of(&walk.carried_rest, lane);
@@ -214,8 +208,7 @@ pub(super) fn step_segment(
         walk.frame.scalar.0[lane] = s;
         walk.frame.over_length.0[lane] = over_length;
         let next_rest = turned(u, s, over_length, lane_of(next.rest, lane));
-        let next_bend = cross(next_rest, subtract(lane_of(next.direction, lane), next_rest));
-        let next_moment = scale(next.stiffness.0[lane], next_bend);
+        let next_moment = moment_lane(next.stiffness.0[lane], next_rest, lane_of(next.direction, lane));
         let moment = subtract(lane_of(&walk.moment, lane), next_moment);
         set_lane(&mut walk.carried_rest, lane, next_rest);
         set_lane(&mut walk.moment, lane, next_moment);
@@ -237,7 +230,7 @@ pub(super) fn step_segment(
 /// `v` turned by the quaternion (u, s), 2 / whose squared length is `over_length`. Without a turn, u = 0, it keeps its
 /// bits.
 #[inline(always)]
-fn turned(u: [f32; 3], s: f32, over_length: f32, v: [f32; 3]) -> [f32; 3] {
+pub(super) fn turned(u: [f32; 3], s: f32, over_length: f32, v: [f32; 3]) -> [f32; 3] {
     let once = cross(u, v);
     let twice = cross(u, once);
     scale_add(over_length, scale_add(s, once, twice), v)

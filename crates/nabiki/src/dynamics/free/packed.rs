@@ -6,16 +6,18 @@ use glam::Vec3;
 
 use super::contact::Obstacle;
 use super::grid::Crowd;
-use super::head_frame::{HeadFrame, weight};
-use super::kernel::{FreeRow, FreeState, StrengthRow, Walk, Weight, ends, lag_behind};
+use super::head_frame::HeadFrame;
+use super::kernel::{FreeRow, FreeState, StrengthRow, Walk, ends, lag_behind};
 use super::passes::{Among, Free, Place, Velocities};
+use super::pulls::acceleration::Felt;
+use super::pulls::weight::{Weight, weight};
 use super::segment::{FreeSegment, free_segments};
 use crate::body::{Body, BodyWay, Surface};
 use crate::distance::SkinDistance;
 use crate::dynamics::block::Block;
-use crate::dynamics::gain::Stability;
 use crate::dynamics::paper::Surroundings;
 use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
+use crate::dynamics::stability::Stability;
 use crate::dynamics::state::Identity;
 use crate::dynamics::sweep::Form;
 use crate::dynamics::wind::FieldFrame;
@@ -222,10 +224,7 @@ impl Packed {
         let field = FieldFrame::new(input, self.dynamics.motion.force_space);
         let turned_by = head.turn.map_or(0.0, |(_, angle)| angle.abs() as f32);
         let of_bodies = obstacles.iter().map(|o| o.farthest_moved(self.center, self.radius)).fold(0.0, f32::max);
-        let felt = head.felt.map(|felt| Felt {
-            columns: felt.matrix3.as_mat3().to_cols_array_2d(),
-            constant: felt.translation.as_vec3().to_array(),
-        });
+        let felt = head.felt.map(Felt::from);
         let uniform = field.uniform();
         let everywhere = uniform.filter(|_| felt.is_none() && crowd.is_none() && self.weakening.is_none());
         Plan::Step(Step {
@@ -279,13 +278,6 @@ pub(super) struct Step<'a> {
     /// How much closer nodes and bodies may have come but by the nodes' own motion (cm).
     pub closer: f32,
     pub crowd: Option<&'a Crowd>,
-}
-
-/// The force of the head's acceleration at a point: columns of a matrix, and what it has in the origin.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Felt {
-    pub columns: [[f32; 3]; 3],
-    pub constant: [f32; 3],
 }
 
 impl Form for Packed {

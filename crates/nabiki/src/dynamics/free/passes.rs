@@ -3,13 +3,15 @@
 use glam::Vec3;
 
 use super::contact::{Going, ROUNDS, Touch, gap};
-use super::kernel::{Forces, FreeRow, FreeState, Next, Walk, Weight, ends, step_segment, turned_about};
-use super::packed::{Felt, Packed, Step};
+use super::kernel::{Forces, FreeRow, FreeState, Next, Walk, ends, step_segment, turned_about};
+use super::packed::{Packed, Step};
+use super::pulls::neighbours;
+use super::pulls::weight::Weight;
 use crate::dynamics::block::{Block, Pass, RUN, RunPass};
 use crate::dynamics::paper::Force;
-use crate::dynamics::row::{LANES, PointRow, Row, beyond, lane as lane_of, rotate, set_lane};
+use crate::dynamics::row::{LANES, PointRow, Row, beyond, lane as lane_of, set_lane};
 use crate::prefetch::prefetch_ahead;
-use crate::vector::{add, dot, scale, scale_add, subtract};
+use crate::vector::{add, dot, scale, subtract};
 
 /// How many segments ahead memory is asked for: its answer takes as long as their steps.
 const AHEAD: usize = 10;
@@ -161,9 +163,7 @@ impl<'a, 's> Among<'a, 's> {
             for lane in 0..LANES {
                 let velocity = beyond(&self.velocity, lane, row.length.0[lane], lane_of(&state.increment, lane));
                 set_lane(&mut self.velocity, lane, velocity);
-                let [x, y, z, drag] = pulls[lane];
-                let felt = scale_add(-drag, velocity, [x, y, z]);
-                let sum = add(lane_of(force, lane), felt);
+                let sum = add(lane_of(force, lane), neighbours::force_lane(pulls[lane], velocity));
                 set_lane(force, lane, sum);
             }
         }
@@ -184,10 +184,9 @@ impl<'a, 's> Among<'a, 's> {
                 set_lane(&mut forces, lane, scale(eps, force));
             }
         }
-        if let Some(Felt { columns, constant }) = &self.step.felt {
+        if let Some(felt) = &self.step.felt {
             for lane in 0..LANES {
-                let felt = add(rotate(columns, lane_of(points, lane)), *constant);
-                let force = add(lane_of(&forces, lane), felt);
+                let force = add(lane_of(&forces, lane), felt.force_lane(lane_of(points, lane)));
                 set_lane(&mut forces, lane, force);
             }
         }

@@ -7,10 +7,11 @@ use glam::{DVec3, Vec3};
 
 use self::obstacle::Obstacle;
 use super::grid::Crowd;
-use super::head_frame::{HeadFrame, weight};
+use super::head_frame::HeadFrame;
+use super::pulls::weight::weight;
 use crate::dynamics::air::Breeze;
-use crate::dynamics::gain::check_field;
 use crate::dynamics::reference::publish;
+use crate::dynamics::stability::check_field;
 use crate::dynamics::{Dynamics, FrameInput, Stepper};
 use crate::error::SettingError;
 use crate::field::Field;

@@ -2,8 +2,9 @@
 
 use glam::{DVec3, Vec3};
 
+use super::pulls::joints::Stiffness;
 use crate::dynamics::Dynamics;
-use crate::dynamics::gain::{SegmentShape, held, segment_shapes};
+use crate::dynamics::gain::{SegmentShape, segment_shapes};
 use crate::error::SettingError;
 use crate::free_form::FreeForm;
 
@@ -23,6 +24,11 @@ pub(in crate::dynamics) struct FreeSegment {
     pub lag: f64,
 }
 
+/// How many segments of a strand are held where it is tied.
+pub(in crate::dynamics) fn held(form: &FreeForm, strand: &[Vec3]) -> usize {
+    form.tie.map_or(0, |tie| tie.held(strand))
+}
+
 /// Every segment of one strand, root first.
 ///
 /// # Errors
@@ -33,30 +39,15 @@ pub(in crate::dynamics) fn free_segments(
     strand: &[Vec3],
     s: usize,
 ) -> Result<Vec<FreeSegment>, SettingError> {
-    let shapes = segment_shapes(dynamics, strand, s)?;
-    // What is tied goes with the head, as its roots do.
-    let held = held(dynamics, strand);
-    let total: f64 = shapes[held..].iter().map(|shape| shape.length).sum();
-    let mut before = shapes[0].length;
-    let segments = shapes.into_iter().zip(strand.windows(2)).enumerate().map(|(i, (shape, w))| {
-        // Curvature is an angle for the length between two middles, and it is its change over such a length that pulls:
-        // finer cuts bend as coarse ones do.
-        // The first joint, at the root or at the band, has no segment before it that bends.
-        let between = if i == held { shape.length } else { 0.5 * (before + shape.length) };
-        before = shape.length;
-        let cut = (f64::from(dynamics.segment_length) / between).powi(2);
-        let (begin, middle) = match i < held {
-            true => (0.0, 0.0),
-            false => (shape.along - shape.length / total, shape.along - 0.5 * shape.length / total),
-        };
-        FreeSegment {
-            shape,
-            rest: (w[1].as_dvec3() - w[0].as_dvec3()).normalize(),
-            stiffness: cut * form.stiffness.at(begin),
-            hold: form.hold.at(middle),
-            decay: form.decay(middle),
-            lag: 1.0 - form.share_of_turn(middle),
-        }
+    let shapes = segment_shapes(dynamics, strand, s, held(form, strand))?;
+    let stiffness = Stiffness(&form.stiffness);
+    let segments = shapes.into_iter().zip(strand.windows(2)).map(|(shape, w)| FreeSegment {
+        rest: (w[1].as_dvec3() - w[0].as_dvec3()).normalize(),
+        stiffness: stiffness.of(&shape),
+        hold: form.hold.at(shape.middle),
+        decay: form.decay(shape.middle),
+        lag: 1.0 - form.share_of_turn(shape.middle),
+        shape,
     });
     Ok(segments.collect())
 }

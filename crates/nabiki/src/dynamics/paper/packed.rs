@@ -10,8 +10,9 @@ use super::polar::PolarAxis;
 use super::wind::{AnyWind, Surroundings, Wind};
 use crate::disturbance::Part;
 use crate::dynamics::block::{Block, Pass};
-use crate::dynamics::gain::{SegmentShape, Stability, segment_shapes};
+use crate::dynamics::gain::{SegmentShape, segment_shapes};
 use crate::dynamics::row::{LANES, PointRow, Row};
+use crate::dynamics::stability::Stability;
 use crate::dynamics::state::Identity;
 use crate::dynamics::sweep::Form;
 use crate::dynamics::{Dynamics, FrameInput};
@@ -60,7 +61,7 @@ impl Packed {
 
     fn pack(&mut self, strands: &Strands, range: Range<usize>, axis: &PolarAxis) -> Result<(), SettingError> {
         let shapes: Vec<Vec<SegmentShape>> =
-            range.clone().map(|s| segment_shapes(&self.dynamics, strands.strand(s), s)).collect::<Result<_, _>>()?;
+            range.clone().map(|s| segment_shapes(&self.dynamics, strands.strand(s), s, 0)).collect::<Result<_, _>>()?;
         let of_block = range.clone().zip(&shapes).map(|(s, shapes)| (strands.strand(s)[0], shapes.len()));
         let block = Block::new(range.start, self.shapes.len(), of_block);
         let rows = block.rows();

@@ -6,8 +6,8 @@ use glam::DVec3;
 
 use super::polar::PolarAxis;
 use crate::dynamics::air::Breeze;
-use crate::dynamics::gain::check_field;
 use crate::dynamics::reference::publish;
+use crate::dynamics::stability::check_field;
 use crate::dynamics::{Dynamics, FrameInput, Stepper};
 use crate::error::SettingError;
 use crate::field::Field;

@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use super::kernel::SegmentState;
 use super::packed::{Packed, Plan};
-use crate::dynamics::gain::{Named, unstable};
+use crate::dynamics::stability::{Named, unstable};
 use crate::dynamics::state::{Header, Reader, Writer};
 use crate::dynamics::sweep::{Pages, sweep};
 use crate::dynamics::{Dynamics, FrameInput, VectorWidth};

@@ -1,6 +1,6 @@
 //! One strand, and the step that moves it, in numbers of any kind.
 
-use glam::{DMat3, DQuat, DVec3, Vec3};
+use glam::{DQuat, DVec3, Vec3};
 
 use super::Setting;
 use super::obstacle::{Touch, kept_from};
@@ -9,6 +9,7 @@ use crate::dynamics::Dynamics;
 use crate::dynamics::air::Air;
 use crate::dynamics::free::ROUNDS;
 use crate::dynamics::free::grid::Crowd;
+use crate::dynamics::free::pulls::{self, At, joints};
 use crate::dynamics::free::segment::{FreeSegment, free_segments};
 use crate::error::SettingError;
 use crate::free_form::FreeMotion;
@@ -79,18 +80,15 @@ impl<S: Scalar> Segment<S> {
     /// direction, and that one back. `carried`: that direction, R_(i-1) r_i.
     #[inline(always)]
     fn moment(&self, carried: Vector<S>) -> Vector<S> {
-        carried.cross(self.direction) * self.stiffness
+        joints::moment(self.stiffness, carried, self.direction)
     }
 
-    /// w(n+1), before it turns d. `force`: all that does not come from the segment's shape; `moment`: of both of its
-    /// joints.
+    /// w(n+1), before it turns d. `f`: all forces; `moment`: of both of its joints.
     #[inline(always)]
-    fn drive(&mut self, force: Vector<S>, moment: Vector<S>) {
-        let FreeSegment { shape, rest, hold, .. } = self.moved_by;
+    fn drive(&mut self, f: Vector<S>, moment: Vector<S>) {
         let d = self.direction;
-        let f = force + (Vector::from(rest) - d).times(hold);
         let across = (f - d * f.dot(d)) + d.cross(moment);
-        self.increment = (self.increment + across.times(shape.gain)) * self.decay;
+        self.increment = (self.increment + across.times(self.moved_by.shape.gain)) * self.decay;
     }
 
     /// d + w, brought back to length 1, and w as it is carried along that way: its length stays. What rests keeps its bits.
@@ -179,16 +177,17 @@ impl<S: Scalar> Strand<S> {
             velocity += segment.increment.times(shape.length);
             let weakened = gamma.contains(end.value(), field.value().as_vec3());
             let eps = if weakened { shape.eps() } else { 1.0 };
-            // No closures: only what is inlined is compiled for the machine's vectors.
-            let felt = match &head.felt {
-                Some(felt) => end.taken_by(felt),
-                None => Vector::zero(),
+            let at = At {
+                segment: &segment.moved_by,
+                direction: segment.direction,
+                end,
+                velocity,
+                frame,
+                head,
+                rest_weight: *rest_weight,
+                crowd,
             };
-            let others = match crowd {
-                Some(crowd) => push(crowd, end, velocity),
-                None => Vector::zero(),
-            };
-            let weight = Vector::from(head.weight) - frame.of_known(*rest_weight);
+            let f = pulls::sum(field.times(eps), &at);
             frame = Turn::smallest(carried, segment.direction).after(frame);
             let next = match segments.get(i + 1) {
                 Some(next) => {
@@ -198,7 +197,7 @@ impl<S: Scalar> Strand<S> {
                 None => Vector::zero(),
             };
             let segment = &mut segments[i];
-            segment.drive(field.times(eps) + felt + others + weight, moment - next);
+            segment.drive(f, moment - next);
             moment = next;
             let was = segment.direction;
             let lagged = segment.lagged(head.turn);
@@ -239,25 +238,6 @@ impl<S: Scalar> Strand<S> {
             *position = p;
         }
     }
-}
-
-/// The force of its neighbours on a point that goes along at `velocity` (cm a frame; head space).
-#[inline(never)]
-fn push<S: Scalar>(crowd: &Crowd, p: Vector<S>, velocity: Vector<S>) -> Vector<S> {
-    /// In a grid of centimetres, read in f32.
-    const STEP_CM: f64 = 0.03;
-    let (at, along) = (p.value(), velocity.value());
-    let by_place = || {
-        let slope = |e: DVec3| (crowd.force(at + e, along) - crowd.force(at - e, along)) / (2.0 * STEP_CM);
-        DMat3::from_cols(slope(STEP_CM * DVec3::X), slope(STEP_CM * DVec3::Y), slope(STEP_CM * DVec3::Z))
-    };
-    // The drag is linear in the velocity.
-    let by_velocity = || {
-        let drag = |e: DVec3| crowd.force(at, e) - crowd.force(at, DVec3::ZERO);
-        DMat3::from_cols(drag(DVec3::X), drag(DVec3::Y), drag(DVec3::Z))
-    };
-    let push = S::known_vector(crowd.force(at, along), p, by_place);
-    push + S::known_vector(DVec3::ZERO, velocity, by_velocity)
 }
 
 #[cfg(test)]

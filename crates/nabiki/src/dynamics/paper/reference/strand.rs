@@ -72,7 +72,7 @@ impl<S: Scalar> Strand<S> {
     /// # Errors
     /// As [`segment_shapes`].
     pub fn new(dynamics: &Dynamics, setting: &Setting, strand: &[Vec3], s: usize) -> Result<Self, SettingError> {
-        let segments = segment_shapes(dynamics, strand, s)?.into_iter().zip(strand.windows(2)).map(|(shape, w)| {
+        let segments = segment_shapes(dynamics, strand, s, 0)?.into_iter().zip(strand.windows(2)).map(|(shape, w)| {
             let (theta, phi) = from_direction(setting.polar_from_head * (w[1].as_dvec3() - w[0].as_dvec3()));
             let (theta_increment, phi_increment) = (S::from(0.0), S::from(0.0));
             Segment { shape, theta: S::from(theta), phi: S::from(phi), theta_increment, phi_increment }

@@ -1,0 +1,73 @@
+//! What pulls on hair in the free form besides the field: a file for each force, with its text in f64 over any [`Scalar`], its
+//! fast text over lanes, and its part in the check of stability.
+//!
+//! A new force is such a file, its name in [`pulls`], and its term in the sums: [`sum`] here for f64; for the fast step
+//! [`sum_of_shape`] if it comes from the segment's own shape, or `Among::forces` in `passes.rs` if from its place.
+
+pub(super) mod acceleration;
+mod hold;
+pub(super) mod joints;
+pub(super) mod neighbours;
+pub(super) mod weight;
+
+use glam::DVec3;
+
+use self::hold::Hold;
+use self::joints::Stiffness;
+use self::neighbours::Cohesion;
+use self::weight::{Gravity, Weight};
+use super::grid::Crowd;
+use super::head_frame::HeadFrame;
+use super::segment::FreeSegment;
+use crate::dynamics::stability::Pull;
+use crate::free_form::{FreeForm, FreeMotion};
+use crate::scalar::{Scalar, Turn, Vector};
+use crate::vector::add;
+
+/// All that the check of stability asks.
+pub(in crate::dynamics) fn pulls(free: &FreeMotion) -> Vec<Box<dyn Pull + '_>> {
+    let FreeForm { stiffness, hold, gravity, .. } = &free.form;
+    let mut pulls: Vec<Box<dyn Pull + '_>> =
+        vec![Box::new(Stiffness(stiffness)), Box::new(Hold(hold)), Box::new(Gravity(*gravity))];
+    let neighbours = free.neighbours.as_ref().map(|neighbours| &neighbours.forces);
+    if let Some(forces) = neighbours.filter(|forces| forces.cohesion > 0.0) {
+        pulls.push(Box::new(Cohesion(forces.cohesion)));
+    }
+    pulls
+}
+
+/// Where a segment is, as forces on it ask.
+pub(super) struct At<'a, S> {
+    pub segment: &'a FreeSegment,
+    /// d.
+    pub direction: Vector<S>,
+    /// p_i (head space, cm), and what the increments move it by in a frame (cm).
+    pub end: Vector<S>,
+    pub velocity: Vector<S>,
+    /// R_(i-1).
+    pub frame: Turn<S>,
+    pub head: &'a HeadFrame,
+    /// The weight under which hair lies in balance at rest.
+    pub rest_weight: DVec3,
+    pub crowd: Option<&'a Crowd>,
+}
+
+/// f, all that pulls on a segment but the moments of its joints. `field`: the force of the field.
+#[inline(always)]
+pub(super) fn sum<S: Scalar>(field: Vector<S>, at: &At<S>) -> Vector<S> {
+    let of_place = field + acceleration::force(at) + neighbours::force(at);
+    of_place + weight::force(at) + hold::force(at)
+}
+
+/// What comes of a segment's own shape, for one lane of the fast step: `frame` turns as R_(i-1) does, see
+/// [`turned`](super::kernel::turned).
+#[inline(always)]
+pub(super) fn sum_of_shape(
+    weight: &Weight,
+    frame: ([f32; 3], f32, f32),
+    hold: f32,
+    rest: [f32; 3],
+    d: [f32; 3],
+) -> [f32; 3] {
+    add(weight.force_lane(frame), hold::force_lane(hold, rest, d))
+}

@@ -1,0 +1,328 @@
+//! Whether the step is stable: the check stands above both forms, and knows what pulls on hair by name only.
+//!
+//! The scheme (7) holds while c_i times the sum of all that pulls on segment i stays below 4: the field, and for each
+//! [`Pull`] of a form the steepest slope of its force, by Gershgorin's circles.
+
+use glam::Vec3;
+
+use super::gain::{SegmentShape, segment_shapes};
+use super::{Dynamics, Form, free};
+use crate::error::SettingError;
+use crate::field::Field;
+use crate::strands::Strands;
+
+/// A force on hair besides the field, as the check of stability sees it.
+pub(super) trait Pull {
+    /// What a refusal calls it.
+    fn name(&self) -> Name;
+
+    /// Its setting, or the largest number of that.
+    fn setting(&self) -> f32;
+
+    /// Whether that setting has other numbers, which go down with the largest.
+    fn has_others(&self) -> bool {
+        false
+    }
+
+    /// The steepest slope of its force on a segment, in the unit of F a radian. `next`: the segment after it.
+    fn strongest(&self, segment: &SegmentShape, next: Option<&SegmentShape>) -> f64;
+}
+
+/// What a refusal calls a pull.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Name {
+    /// Its setting in a scene.
+    pub setting: &'static str,
+    /// The same in words.
+    pub words: &'static str,
+    /// Its term in the sum that must stay below 4.
+    pub term: &'static str,
+}
+
+impl Form {
+    /// What pulls on hair besides the field.
+    fn pulls(&self) -> Vec<Box<dyn Pull + '_>> {
+        match self {
+            Self::Paper => Vec::new(),
+            Self::Free(free) => free::pulls(free),
+        }
+    }
+
+    /// Every segment of strand number `s`.
+    fn shapes(&self, dynamics: &Dynamics, strand: &[Vec3], s: usize) -> Result<Vec<SegmentShape>, SettingError> {
+        let held = match self {
+            Self::Paper => 0,
+            Self::Free(free) => free::held(&free.form, strand),
+        };
+        segment_shapes(dynamics, strand, s, held)
+    }
+}
+
+/// The largest gain c_i of all strands: a force is stable while it times |F| stays below 4.
+///
+/// # Errors
+/// As [`Simulation::new`](super::Simulation::new), but for the stability of the field.
+pub fn largest_gain(strands: &Strands, dynamics: &Dynamics) -> Result<f64, SettingError> {
+    Ok(Stability::of(strands, dynamics)?.gain)
+}
+
+/// Refuses a field that is too strong for the step (7) of this hair: c_i |F| must stay below 4.
+///
+/// # Errors
+/// As [`Simulation::new`](super::Simulation::new), but for settings out of range.
+pub fn check_field(strands: &Strands, dynamics: &Dynamics, field: &dyn Field) -> Result<(), SettingError> {
+    if Stability::of(strands, dynamics)?.holds(field) {
+        return Ok(());
+    }
+    Err(unstable(&[Named { name: "strand", strands, ids: &[] }], dynamics, field))
+}
+
+/// What decides whether a field is stable: the segment for which the least force is too much.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stability {
+    /// c_i.
+    gain: f64,
+    /// What pulls on it besides the field.
+    own: f64,
+}
+
+impl Stability {
+    /// Refuses no strands, and those that cannot be moved.
+    pub fn of(strands: &Strands, dynamics: &Dynamics) -> Result<Self, SettingError> {
+        if strands.is_empty() {
+            return Err(SettingError::new("hair", "0 strands", "there is nothing to move; give at least one strand"));
+        }
+        let (mut worst, mut least) = (Self { gain: 0.0, own: 0.0 }, f64::INFINITY);
+        let pulls = dynamics.form.pulls();
+        for (s, strand) in strands.iter().enumerate() {
+            let shapes = dynamics.form.shapes(dynamics, strand, s)?;
+            for (i, shape) in shapes.iter().enumerate() {
+                let own = pulls.iter().map(|pull| pull.strongest(shape, shapes.get(i + 1))).sum::<f64>();
+                let force = 4.0 / shape.gain - own;
+                if force < least {
+                    (worst, least) = (Self { gain: shape.gain, own }, force);
+                }
+            }
+        }
+        Ok(worst)
+    }
+
+    /// Whether the scheme is stable under a field.
+    pub fn holds(&self, field: &dyn Field) -> bool {
+        self.holds_force(field.strongest())
+    }
+
+    fn holds_force(&self, force: f32) -> bool {
+        self.gain * (f64::from(force) + self.own) < 4.0
+    }
+
+    /// The strongest force that [`holds`](Self::holds), of hair that is stable without one.
+    pub fn strongest_force(&self) -> f32 {
+        let mut force = ((4.0 / self.gain - self.own) as f32).min(f32::MAX);
+        while force > 0.0 && !self.holds_force(force) {
+            force = force.next_down();
+        }
+        force.max(0.0)
+    }
+}
+
+/// Some hair, and what one of its strands is called.
+pub(super) struct Named<'a> {
+    pub name: &'a str,
+    pub strands: &'a Strands,
+    /// Their numbers in the set that they are some of; none where they are all.
+    pub ids: &'a [u32],
+}
+
+impl Named<'_> {
+    /// What strand `s` is called, with the length that moves.
+    fn strand(&self, s: usize, shapes: &[SegmentShape]) -> String {
+        let number = self.ids.get(s).map_or(s, |&id| id as usize);
+        let moving: f64 = shapes.iter().filter(|shape| shape.gain > 0.0).map(|shape| shape.length).sum();
+        let behind = if shapes.iter().any(|shape| shape.gain == 0.0) { " behind its tie" } else { "" };
+        format!("{} {number} ({moving:.2} cm long{behind})", self.name)
+    }
+}
+
+/// Where hair is least stable, and how much room each part has.
+struct Worst {
+    /// c_i times all that pulls.
+    reached: f64,
+    /// The strand.
+    place: String,
+    /// All that pulls there, the field's force last.
+    parts: Vec<f64>,
+    /// All others being as they are, anywhere: by how many times each pull may be as large as it is, and how large the force.
+    rooms: Vec<f64>,
+}
+
+impl Worst {
+    fn of(hair: &[Named<'_>], dynamics: &Dynamics, pulls: &[Box<dyn Pull + '_>], force: f64) -> Self {
+        let last = pulls.len();
+        let (mut reached, mut place) = (0.0, String::new());
+        let (mut worst, mut rooms) = (vec![0.0; last + 1], vec![f64::INFINITY; last + 1]);
+        let mut parts = vec![force; last + 1];
+        for named in hair {
+            for (s, strand) in named.strands.iter().enumerate() {
+                let shapes = dynamics.form.shapes(dynamics, strand, s).unwrap_or_default();
+                for (i, shape) in shapes.iter().enumerate().filter(|(_, shape)| shape.gain > 0.0) {
+                    for (part, pull) in parts.iter_mut().zip(pulls) {
+                        *part = pull.strongest(shape, shapes.get(i + 1));
+                    }
+                    for part in (0..=last).filter(|&part| parts[part] > 0.0) {
+                        // Never from the sum of all, in which one that is too large swallows the others.
+                        let others: f64 = (0..=last).filter(|&other| other != part).map(|other| parts[other]).sum();
+                        let room = 4.0 / shape.gain - others;
+                        rooms[part] = rooms[part].min(if part == last { room } else { room / parts[part] });
+                    }
+                    let all = shape.gain * parts.iter().sum::<f64>();
+                    if all > reached {
+                        (reached, place) = (all, named.strand(s, &shapes));
+                        worst.copy_from_slice(&parts);
+                    }
+                }
+            }
+        }
+        Self { reached, place, parts: worst, rooms }
+    }
+}
+
+/// Why hair that can be moved is unstable under a field: what pulls most where it is least stable, and how much of that would
+/// hold beside all else.
+pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Field) -> SettingError {
+    let (pulls, strongest) = (dynamics.form.pulls(), f64::from(field.strongest()));
+    let Worst { reached, place, parts, rooms } = Worst::of(hair, dynamics, &pulls, strongest);
+    let terms: Vec<&str> = pulls.iter().map(|pull| pull.name().term).collect();
+    let sum = if terms.is_empty() { "|F|".to_owned() } else { format!("(|F| + {})", terms.join(" + ")) };
+    let ways = "make motion.time_step smaller, or set motion.inertia_length_floor so that short hair is held by its neighbours";
+    let refused = |thing: &str, value: String, keep: String| {
+        let reached = if reached < 1e6 { format!("{reached:.3}") } else { format!("{reached:.1e}") };
+        let metres = in_metres(hair, dynamics);
+        let remedy =
+            format!("unstable: c_i {sum} reaches {reached} at {place}, and must stay below 4; {keep}, {ways}{metres}");
+        SettingError::new(thing, value, remedy)
+    };
+    let mut largest_first: Vec<usize> = (0..parts.len()).collect();
+    largest_first.sort_by(|&a, &b| parts[b].total_cmp(&parts[a]));
+    // The force is the part after the last pull.
+    match largest_first.iter().find(|&&part| rooms[part] > 0.0 && rooms[part].is_finite()) {
+        Some(&part) if part == pulls.len() => {
+            let largest = rooms[part];
+            // A force of exactly the largest is one too strong.
+            let below = largest.next_down();
+            let (thing, value) =
+                field.first_above(below).unwrap_or_else(|| ("force".to_owned(), field.strongest().to_string()));
+            refused(&thing, value, format!("keep |F| below {largest:.4}"))
+        }
+        Some(&part) => {
+            let (pull, name) = (&pulls[part], pulls[part].name());
+            let holds = rounded_down(rooms[part] * f64::from(pull.setting()));
+            let others = if pull.has_others() { ", the others in proportion" } else { "" };
+            refused(name.setting, pull.setting().to_string(), format!("keep {} below {holds}{others}", name.words))
+        }
+        None => {
+            let most = largest_first.iter().find_map(|&part| pulls.get(part));
+            let (thing, value) =
+                most.map_or(("force", field.strongest()), |pull| (pull.name().setting, pull.setting()));
+            let others: Vec<&str> = (pulls.iter().zip(&parts))
+                .filter(|(_, part)| **part > 0.0)
+                .map(|(pull, _)| pull.name().setting)
+                .filter(|other| *other != thing)
+                .chain((strongest > 0.0).then_some("the forces"))
+                .collect();
+            let keep = format!("less of it alone does not mend it: lower {}, too", others.join(", "));
+            refused(thing, value.to_string(), keep)
+        }
+    }
+}
+
+/// Hair shorter than this (cm) at its longest, about a head whose mean half axis is below it: a person's in metres, not in cm.
+const METRES_CM: f32 = 1.0;
+
+/// What else may be wrong with hair that is unstable: its unit.
+fn in_metres(hair: &[Named<'_>], dynamics: &Dynamics) -> String {
+    let longest = hair.iter().flat_map(|named| named.strands.lengths()).fold(0.0, f32::max);
+    let head = dynamics.ellipsoid.half_axes.element_product().cbrt();
+    let things = [("the longest strand", longest), ("the head's mean half axis", head)];
+    let small = things.into_iter().filter(|&(_, cm)| cm < METRES_CM).map(|(what, cm)| format!("{what} is {cm:.2} cm"));
+    let small: Vec<String> = small.collect();
+    if small.is_empty() {
+        return String::new();
+    }
+    format!("; {}: if that is in metres, give it in cm, times 100", small.join(" and "))
+}
+
+/// With three digits, and not above the number.
+fn rounded_down(x: f64) -> f32 {
+    let unit = 10.0_f64.powf(x.log10().floor() - 2.0);
+    ((x / unit).floor() * unit) as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Ellipsoid;
+    use crate::dynamics::Motion;
+    use crate::field::{Keyframe, KeyframedField};
+    use crate::free_form::FreeMotion;
+    use crate::pseudo_force::PseudoForce;
+    use glam::Vec3;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn what_a_refusal_says_would_hold_holds(
+            // Of moderate numbers, and of such as swallow all others or overflow.
+            powers in prop::array::uniform4(prop_oneof![3 => 1.0_f32..8.0, 1 => 8.0_f32..38.5]),
+            cuts in prop::collection::vec((2_usize..12, 3.0_f32..20.0), 1..4),
+        ) {
+            let mut hair = Strands::default();
+            for (count, length) in cuts {
+                hair.push((0..=count).map(|i| Vec3::Y * length * (i as f32 / count as f32).powf(1.3)));
+            }
+            let mut free = FreeMotion::default();
+            let [stiffness, hold, gravity, mut force] = powers.map(|power| (10.0_f32.powf(power) - 10.0).min(f32::MAX));
+            free.form.stiffness = stiffness.into();
+            free.form.hold = hold.into();
+            free.form.gravity = gravity;
+            let refused = |free: &FreeMotion, force: f32| {
+                let dynamics = Dynamics {
+                    motion: Motion::default(),
+                    segment_length: 1.0,
+                    pseudo_force: PseudoForce::default(),
+                    ellipsoid: Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::splat(9.0) },
+                    shell: 1.25,
+                    polar_axis: Vec3::Y,
+                    disturbance: None,
+                    form: Form::Free(free.clone()),
+                };
+                let field = KeyframedField::new(&[Keyframe { through: 9, vector: Vec3::X * force }]).unwrap();
+                check_field(&hair, &dynamics, &field).err()
+            };
+            // What is too much beside all else is named first, so a few lines mend any scene.
+            for _ in 0..5 {
+                let Some(error) = refused(&free, force) else { return Ok(()) };
+                let Some((_, limit)) = error.remedy.split_once(" below ").and_then(|(_, after)| after.split_once(" below ")) else {
+                    // Nothing alone mends it: the largest goes.
+                    match error.thing.as_str() {
+                        "free.stiffness" => free.form.stiffness = 0.0.into(),
+                        "free.hold" => free.form.hold = 0.0.into(),
+                        _ => free.form.gravity = 0.0,
+                    }
+                    continue;
+                };
+                let limit: f32 = limit.split(',').next().unwrap().parse().unwrap();
+                // Forces are given to four places.
+                let within = 0.999 * limit;
+                match error.thing.as_str() {
+                    "free.stiffness" => free.form.stiffness = within.into(),
+                    "free.hold" => free.form.hold = within.into(),
+                    "free.gravity" => free.form.gravity = within,
+                    _ => force = within,
+                }
+                prop_assert_eq!(refused(&free, force).map(|e| e.to_string()), None);
+            }
+            prop_assert!(false, "five lines do not mend it");
+        }
+    }
+}
