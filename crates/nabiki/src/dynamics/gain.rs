@@ -86,7 +86,7 @@ pub(super) fn segment_shapes(
         let position = (end + length / 2.0) / d + 0.5;
         end += length;
         let gain = gain(dynamics, position, total / d);
-        let eps = f64::from(dynamics.pseudo_force.coefficient(position));
+        let eps = dynamics.weakening().map_or(1.0, |weakening| f64::from(weakening.coefficient(position)));
         SegmentShape { length, gain, gain_in_gamma: eps * gain, along: end / total }
     });
     Ok(shapes.collect())
@@ -181,7 +181,7 @@ const FORCE: usize = OWN;
 
 /// What these come from in a scene, what they are called, and what the largest of each is.
 fn owners(dynamics: &Dynamics) -> [(&'static str, &'static str, f32); OWN] {
-    let of_form = |form: &FreeForm| [form.stiffness.largest(), form.hold.largest(), form.gravity];
+    let of_form = |form: &FreeForm| [form.stiffness.largest(), form.hold.largest(), form.weight()];
     let [stiffness, hold, gravity] = match &dynamics.form {
         Form::Paper => [0.0; 3],
         Form::Free(free) => of_form(&free.form),
@@ -210,7 +210,7 @@ fn pulls(dynamics: &Dynamics, strand: &[glam::Vec3], s: usize) -> Result<Vec<Pul
     };
     let segments = free_segments(dynamics, &free.form, strand, s)?;
     let after = segments.iter().skip(1).map(|segment| segment.stiffness).chain([0.0]);
-    let weight = 2.0 * f64::from(free.form.gravity);
+    let weight = 2.0 * f64::from(free.form.weight());
     let cohesion = 2.0 * f64::from(cohesion(dynamics));
     let pull = |(segment, after): (&FreeSegment, f64)| Pull {
         gain: segment.shape.gain,
@@ -373,7 +373,7 @@ mod tests {
             let [stiffness, hold, gravity, mut force] = powers.map(|power| (10.0_f32.powf(power) - 10.0).min(f32::MAX));
             free.form.stiffness = stiffness.into();
             free.form.hold = hold.into();
-            free.form.gravity = gravity;
+            free.form.gravity = gravity.into();
             let refused = |free: &FreeMotion, force: f32| {
                 let dynamics = Dynamics {
                     motion: Motion::default(),
@@ -393,20 +393,20 @@ mod tests {
                 let Some(error) = refused(&free, force) else { return Ok(()) };
                 let Some((_, limit)) = error.remedy.split_once(" below ").and_then(|(_, after)| after.split_once(" below ")) else {
                     // Nothing alone mends it: the largest goes.
-                    match error.thing.as_str() {
+                    match error.thing.to_string().as_str() {
                         "free.stiffness" => free.form.stiffness = 0.0.into(),
                         "free.hold" => free.form.hold = 0.0.into(),
-                        _ => free.form.gravity = 0.0,
+                        _ => free.form.gravity = 0.0.into(),
                     }
                     continue;
                 };
                 let limit: f32 = limit.split(',').next().unwrap().parse().unwrap();
                 // Forces are given to four places.
                 let within = 0.999 * limit;
-                match error.thing.as_str() {
+                match error.thing.to_string().as_str() {
                     "free.stiffness" => free.form.stiffness = within.into(),
                     "free.hold" => free.form.hold = within.into(),
-                    "free.gravity" => free.form.gravity = within,
+                    "free.gravity" => free.form.gravity = within.into(),
                     _ => force = within,
                 }
                 prop_assert_eq!(refused(&free, force).map(|e| e.to_string()), None);
