@@ -93,7 +93,8 @@ pub struct Dynamics {
     /// The segment length d that the paper's k and i are counted in (cm), above 0: a strand of length L is k = L/d
     /// segments long, whatever number of segments it is stored in.
     pub segment_length: f32,
-    /// Where and by how much the force is weakened before the head.
+    /// Where and by how much the force is weakened before the head; in the free form only where that asks for it, see
+    /// [`weakening`](Self::weakening).
     pub pseudo_force: PseudoForce,
     /// The head ellipsoid E (head space, cm).
     pub ellipsoid: Ellipsoid,

@@ -172,7 +172,7 @@ fn the_pseudo_force_weakens_the_field_by_the_number_of_the_segment() {
     strands.push((0..=6).map(|i| 10.0 * Vec3::new((angle * i as f32).cos(), 0.0, (angle * i as f32).sin())));
     let force = DVec3::new(-30.0, 50.0, 20.0);
     let coefficients = vec![0.05, 0.2, 0.3, 0.5, 0.7, 1.0];
-    let mut dynamics = free(FreeForm::default(), Pose::STILL);
+    let mut dynamics = free(FreeForm { pseudo_force: true, ..FreeForm::default() }, Pose::STILL);
     dynamics.motion.inertia_length_floor = 18.0;
     dynamics.pseudo_force = PseudoForce { alpha: 1.0, coefficients: coefficients.clone() };
     let blows = field(&[(9, force.as_vec3().to_array())]);

@@ -112,7 +112,7 @@ impl fmt::Display for Key {
 
 impl PartialEq<str> for Key {
     fn eq(&self, other: &str) -> bool {
-        *self == Self::from(other)
+        self.0 == Self::from(other).0
     }
 }
 
