@@ -55,12 +55,12 @@ def main():
 
     WORK.mkdir(parents=True, exist_ok=True)
     python = environment()
-    run(python, CRATE / "generate.py", "--check")
     built = arguments.wheel or wheel(python)
     run(python, "-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps", built)
     if not arguments.nabiki:
         run("cargo", "build", "--quiet", "--release", "-p", "nabiki_cli")
     nabiki = (arguments.nabiki or ROOT / "target" / "release" / "nabiki").resolve()
+    run(python, CRATE / "generate.py", "--check", "--nabiki", nabiki)
 
     # Beside the sources Python would take these for the package.
     run(python, "-m", "mypy", "--strict", "-p", "nabiki", cwd=WORK)

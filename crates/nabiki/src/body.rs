@@ -4,44 +4,37 @@ use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use glam::{Affine3A, Vec3};
-use serde::{Deserialize, Serialize};
 
 use crate::distance::SkinDistance;
 use crate::error::SettingError;
 use crate::head::Head;
 use crate::mesh::Mesh;
 use crate::pose::{Pose, check_poses};
+use crate::setting::{Place, refused};
+use crate::settings;
 use crate::strands::bounds;
 
-/// How hair and a body touch.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Contact {
-    /// How far from the skin nodes are kept (cm), 0..=5 (default 0.1). A node that lies closer at rest is kept where it lies.
-    pub margin: f32,
-    /// The part of the push that sliding hair loses of its speed along the skin (Coulomb), 0..=10 (default 0.1).
-    pub friction: f32,
-    /// The same for hair that does not slide: it stays as long as what would move it is below this part of the push.
-    /// At least `friction` (default 0.15).
-    pub static_friction: f32,
-}
-
-impl Default for Contact {
-    fn default() -> Self {
-        Self { margin: 0.1, friction: 0.1, static_friction: 0.15 }
+settings! {
+    /// How hair and a body touch, in the free form.
+    #[derive(Copy)]
+    pub struct Contact where holds_what_lies_still {
+        /// How far from the skin nodes are kept. A node that lies closer at rest is kept where it lies.
+        pub margin: f32 = 0.1 => "Margin", unit "cm", least 0.0, most 5.0;
+        /// The part of a push that sliding hair loses of its speed along the skin (Coulomb).
+        pub friction: f32 = 0.1 => "Friction", least 0.0, most 10.0;
+        /// The same for hair that does not slide, at least `friction`: it stays as long as what would move it is below this part of the push.
+        pub static_friction: f32 = 0.15 => "Static friction", least 0.0, most 10.0;
     }
 }
 
 impl Contact {
-    /// Refuses numbers out of range; `name` is what the body is called.
-    pub fn check(&self, name: &str) -> Result<(), SettingError> {
-        crate::error::check_range(&format!("{name}.margin"), self.margin, 0.0, 5.0)?;
-        crate::error::check_range(&format!("{name}.friction"), self.friction, 0.0, 10.0)?;
-        if !(self.friction..=10.0).contains(&self.static_friction) {
-            let remedy = format!("must be at least the friction of sliding hair, {}, and at most 10", self.friction);
-            return Err(SettingError::new(format!("{name}.static_friction"), self.static_friction, remedy));
+    /// Refuses less friction for hair that lies still than for hair that slides.
+    pub fn holds_what_lies_still(&self, at: &Place) -> Result<(), SettingError> {
+        if self.static_friction >= self.friction {
+            return Ok(());
         }
-        Ok(())
+        let remedy = format!("must be at least the friction of sliding hair, {}, and at most 10", self.friction);
+        refused(&at.key("static_friction"), self.static_friction, remedy)
     }
 }
 
@@ -227,7 +220,7 @@ impl Body {
 
     /// Refuses contacts out of range, and a way that ends before `frames` or leads through places that are none.
     pub fn check(&self, frames: u32) -> Result<(), SettingError> {
-        self.contact.check(&self.name)?;
+        self.contact.check_at(&self.name)?;
         self.way.check(&self.name, frames)
     }
 
@@ -288,7 +281,7 @@ mod tests {
         }
         for (half, of) in [(400.0, "800 x 800 x 800 cm"), (1e30, "2.0e30 x 2.0e30 x 2.0e30 cm")] {
             let refused = skin_of(box_mesh(half), "body[0].mesh").unwrap_err();
-            assert_eq!((refused.thing.as_str(), refused.value.as_str()), ("body[0].mesh", of));
+            assert_eq!((refused.thing.to_string().as_str(), refused.value.as_str()), ("body[0].mesh", of));
             assert!(refused.remedy.contains("unit"), "{refused}");
         }
         assert!(skin_of(box_mesh(1e-6), "body[0].mesh").is_ok());

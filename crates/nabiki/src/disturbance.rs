@@ -1,34 +1,28 @@
 //! Small random disturbances of the hair every so many frames, section 4.4 (the running scene).
 
-use serde::{Deserialize, Serialize};
-
 use crate::error::SettingError;
 use crate::random::mix;
+use crate::setting::{Place, refused};
+use crate::settings;
 
-/// Turns every strand a little, at random, every so many frames.
-///
-/// The paper names neither its size nor its law. Here a strand is given one random turn of theta and one of phi,
-/// uniform within `amplitude` at the tip and falling to nothing at the root, so that it stays a smooth curve; the
-/// segments' speeds are left alone. The numbers depend on seed, strand and frame only.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Disturbance {
-    /// Frames from one disturbance to the next (at least 1). The paper: 10; every frame would be too much.
-    pub every: u32,
-    /// First frame that may be disturbed (frames). The paper disturbs the last 60 of 100.
-    pub from: u32,
-    /// Largest turn at the tip (rad, above 0 and at most pi).
-    pub amplitude: f32,
-    /// Frames in which a disturbance sets in, 1..=`every`. At 1, the paper's way, it is there at once, and seen as a
-    /// jump; over more frames it comes and stays smoothly, and is the same in the end.
-    pub over: u32,
-    /// Seed of the random numbers.
-    pub seed: u64,
-}
-
-impl Default for Disturbance {
-    fn default() -> Self {
-        Self { every: 10, from: 1, amplitude: 0.03, over: 1, seed: 1 }
+settings! {
+    /// Turns every strand a little, at random, every so many frames, in the paper's form.
+    ///
+    /// The paper names neither its size nor its law. Here a strand is given one random turn of theta and one of phi,
+    /// uniform within `amplitude` at the tip and falling to nothing at the root, so that it stays a smooth curve; the
+    /// segments' speeds are left alone. The numbers depend on seed, strand and frame only.
+    pub struct Disturbance in "disturbance" where does_not_overlap {
+        /// Frames from one disturbance to the next. The paper has 10; every frame would be too much.
+        pub every: u32 = 10 => "Every", unit "frames", least 1.0;
+        /// First frame that may be disturbed. The paper disturbs the last 60 of 100.
+        pub from: u32 = 1 => "From", unit "frame";
+        /// Largest turn at the tip.
+        pub amplitude: f32 = 0.03 => "Amplitude", unit "rad", above 0.0, most std::f64::consts::PI;
+        /// Frames in which a disturbance sets in, at most `every`. At 1, the paper's way, it is there at once, and seen as a
+        /// jump; over more frames it comes and stays smoothly, and is the same in the end.
+        pub over: u32 = 1 => "Over", unit "frames", least 1.0;
+        /// Seed of the random numbers: another number, other turns.
+        pub seed: u64 = 1 => "Seed";
     }
 }
 
@@ -42,21 +36,13 @@ pub struct Part {
 }
 
 impl Disturbance {
-    /// Refuses `every = 0`, amplitudes that are not above 0 and at most pi, and disturbances that take no frame or
-    /// go on when the next one begins.
-    pub fn check(&self) -> Result<(), SettingError> {
-        if self.every == 0 {
-            return Err(SettingError::new("disturbance.every", 0, "must be at least 1 frame"));
+    /// Refuses disturbances that go on when the next one begins.
+    fn does_not_overlap(&self, at: &Place) -> Result<(), SettingError> {
+        if self.over <= self.every {
+            return Ok(());
         }
-        if self.over == 0 || self.over > self.every {
-            let remedy = format!("must lie in 1..{}, the frames from one disturbance to the next", self.every);
-            return Err(SettingError::new("disturbance.over", self.over, remedy));
-        }
-        if !(self.amplitude > 0.0 && self.amplitude <= std::f32::consts::PI) {
-            let remedy = "must lie above 0 and be at most pi (rad)";
-            return Err(SettingError::new("disturbance.amplitude", self.amplitude, remedy));
-        }
-        Ok(())
+        let remedy = format!("must lie in 1..{}, the frames from one disturbance to the next", self.every);
+        refused(&at.key("over"), self.over, remedy)
     }
 
     /// Whether a disturbance sets in on arriving at this frame.

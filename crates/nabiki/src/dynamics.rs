@@ -25,17 +25,17 @@ mod trigonometry;
 mod wind;
 
 use glam::{Affine3A, Vec3};
-use serde::{Deserialize, Serialize};
 
 use crate::body::Body;
 use crate::disturbance::Disturbance;
 use crate::ellipsoid::Ellipsoid;
-use crate::error::{SettingError, check_positive, check_range};
+use crate::error::{SettingError, check_positive};
 use crate::field::Field;
 use crate::free_form::FreeMotion;
 use crate::pose::Pose;
 use crate::pseudo_force::{Gamma, PseudoForce};
 use crate::strands::Strands;
+use crate::{settings, words};
 
 pub use gain::{gain, period};
 pub use reference::Reference;
@@ -47,79 +47,44 @@ pub use straighten::straightened;
 pub(crate) use tangents::{Asked, Change, Moved, Points, tangents};
 pub use timeline::{Film, Timeline};
 
-/// The settings of the motion; the default is Table 1 of the paper.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Motion {
-    /// Frames after the rest frame 0 (N_f).
-    pub frames: u32,
-    /// Frames in a second, finite and above 0. Hair moves by frames, whatever this is: it says where a recorded head is in each
-    /// of them, how fast they are shown, and in the free form how strongly accelerations of the head are felt.
-    pub frame_rate: f64,
-    /// Delta t of equation (7), above 0 (its unit is the step's own: a frame is one step).
-    pub time_step: f32,
-    /// lambda of equation (6), above 0 (mass per cm, in the units of the force).
-    pub linear_density: f32,
-    /// Hair shorter than this (cm) has the inertia of hair this long: it is held by its longer neighbours.
-    /// 0, the paper's way, gives every strand the inertia of its own length, and short hair very fast swings.
-    pub inertia_length_floor: f32,
-    /// Segments that hang within this of the vertical at rest are made to hang exactly so (degrees, 0..45), and are
-    /// then free to swing in the plane of any force (section 4.2). A segment nearly vertical is not: it keeps the
-    /// plane of its small lean, and hair that leans this way and that is blown apart. 0, the paper's way, leaves
-    /// the hair as it is.
-    // It belongs to the making of the rest shape, see `straightened`: steppers take hair as it is.
-    pub straighten: f32,
-    /// Space of the forces; it matters where the head turns.
-    pub force_space: ForceSpace,
+settings! {
+    /// How long hair moves, how heavy it is, and how far a frame leads it. The default is Table 1 of the paper.
+    pub struct Motion in "motion" {
+        /// Frames after the rest frame 0 (N_f).
+        pub frames: u32 = 100 => "Frames", least 1.0, most Motion::MOST_FRAMES as f64;
+        /// Frames in a second: how fast they are shown, and where a recorded head is in each. Hair moves by frames, whatever this is, but in
+        /// the free form it says how strongly accelerations of the head are felt.
+        pub frame_rate: f64 = 24.0 => "Frame rate", unit "a second", above 0.0;
+        /// Delta t of equation (7), in a unit of the step's own: a frame is one step.
+        pub time_step: f32 = 0.1 => "Time step", above 0.0;
+        /// lambda of equation (6): the mass of a centimetre of hair, in the units of the force.
+        pub linear_density: f32 = 0.05 => "Density", unit "per cm", above 0.0;
+        /// Hair shorter than this has the inertia of hair this long: its longer neighbours hold it. 0, the paper's way, gives every strand
+        /// the inertia of its own length, and short hair very fast swings.
+        pub inertia_length_floor: f32 = 0.0 => "Shortest inertia", unit "cm", least 0.0;
+        /// Segments that hang within this of the vertical at rest are made to hang exactly so, and are then free to swing in the plane of
+        /// any force (section 4.2). A segment nearly vertical is not: it keeps the plane of its small lean, and hair that leans this way and
+        /// that is blown apart. 0, the paper's way, leaves the hair as it is.
+        // It belongs to the making of the rest shape, see `straightened`: steppers take hair as it is.
+        pub straighten: f32 = 0.0 => "Straighten", unit "degrees", least 0.0, most 45.0;
+        /// Space of the forces; it matters where the head turns.
+        pub force_space: ForceSpace = ForceSpace::World => "Forces";
+    }
 }
 
-/// The space that forces are given in.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ForceSpace {
-    /// They stay as they are while the head turns under them (the default).
-    #[default]
-    World,
-    /// They turn with the head.
-    Head,
-}
-
-impl Default for Motion {
-    fn default() -> Self {
-        Self {
-            frames: 100,
-            frame_rate: 24.0,
-            time_step: 0.1,
-            linear_density: 0.05,
-            inertia_length_floor: 0.0,
-            straighten: 0.0,
-            force_space: ForceSpace::default(),
-        }
+words! {
+    /// The space that forces are given in.
+    pub enum ForceSpace = World {
+        /// They stay as they are while the head turns under them.
+        World = "world",
+        /// They turn with the head.
+        Head = "head",
     }
 }
 
 impl Motion {
     /// The most frames: days of film, and more is a mistyped number.
     pub const MOST_FRAMES: u32 = 10_000_000;
-
-    /// Refuses no frames or more than [`MOST_FRAMES`](Self::MOST_FRAMES), and rates, steps and densities that are not above 0.
-    pub fn check(&self) -> Result<(), SettingError> {
-        if !(1..=Self::MOST_FRAMES).contains(&self.frames) {
-            let remedy = format!("must lie in 1..{}", Self::MOST_FRAMES);
-            return Err(SettingError::new("motion.frames", self.frames, remedy));
-        }
-        if !(self.frame_rate.is_finite() && self.frame_rate > 0.0) {
-            let remedy = "must be a finite number of frames a second, above 0";
-            return Err(SettingError::new("motion.frame_rate", self.frame_rate, remedy));
-        }
-        check_positive("motion.time_step", self.time_step)?;
-        check_positive("motion.linear_density", self.linear_density)?;
-        if !(self.inertia_length_floor >= 0.0 && self.inertia_length_floor.is_finite()) {
-            let remedy = "must be a finite length of at least 0 cm";
-            return Err(SettingError::new("motion.inertia_length_floor", self.inertia_length_floor, remedy));
-        }
-        check_range("motion.straighten", self.straighten, 0.0, 45.0)
-    }
 }
 
 /// All that decides how hair answers a force, checked when a stepper is built.
@@ -130,7 +95,8 @@ pub struct Dynamics {
     /// The segment length d that the paper's k and i are counted in (cm), above 0: a strand of length L is k = L/d
     /// segments long, whatever number of segments it is stored in.
     pub segment_length: f32,
-    /// Where and by how much the force is weakened before the head.
+    /// Where and by how much the force is weakened before the head; in the free form only where that asks for it, see
+    /// [`weakening`](Self::weakening).
     pub pseudo_force: PseudoForce,
     /// The head ellipsoid E (head space, cm).
     pub ellipsoid: Ellipsoid,
@@ -167,7 +133,7 @@ impl Dynamics {
             let remedy = "must be a finite number above 1: C encloses the head ellipsoid";
             return Err(SettingError::new("head.shell", self.shell, remedy));
         }
-        self.ellipsoid.check("head.ellipsoid")?;
+        self.ellipsoid.check_at("head.ellipsoid")?;
         if !(self.polar_axis.is_finite() && self.polar_axis.length() > 0.0) {
             let remedy = "the vertical of frame 0 in head space must be a direction";
             return Err(SettingError::new("head.motion", self.polar_axis, remedy));
@@ -219,6 +185,14 @@ impl Dynamics {
         }
         dynamics.check()?;
         Ok(dynamics)
+    }
+
+    /// What weakens the field before the head: nothing in the free form, unless it asks for it.
+    pub fn weakening(&self) -> Option<&PseudoForce> {
+        match &self.form {
+            Form::Free(free) if !free.form.pseudo_force => None,
+            _ => Some(&self.pseudo_force),
+        }
     }
 
     fn gamma(&self) -> Gamma {

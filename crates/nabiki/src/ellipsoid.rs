@@ -3,30 +3,21 @@
 use std::f32::consts::{PI, TAU};
 
 use glam::{Vec2, Vec3};
-use serde::{Deserialize, Serialize};
 
-use crate::error::{SettingError, check_positive};
+use crate::settings;
 
-/// An ellipsoid whose axes are those of head space: E(p) = |(p - center) / half_axes|^2 - 1.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Ellipsoid {
-    /// Centre (head space, cm).
-    pub center: Vec3,
-    /// Half axes along x, y and z (cm).
-    pub half_axes: Vec3,
+settings! {
+    /// An ellipsoid whose axes are those of head space: E(p) = |(p - center) / half_axes|^2 - 1.
+    #[derive(Copy)]
+    pub struct Ellipsoid {
+        /// Centre, in head space.
+        pub center: Vec3 = Vec3::ZERO => "Centre", must "[x, y, z]", unit "cm";
+        /// Half axes along x, y and z.
+        pub half_axes: Vec3 = Vec3::new(9.0, 11.0, 8.0) => "Half axes", must "[x, y, z]", unit "cm", above 0.0;
+    }
 }
 
 impl Ellipsoid {
-    /// Refuses a centre that is no point, and half axes that are not above 0. `name` is what the setting is called.
-    pub fn check(&self, name: &str) -> Result<(), SettingError> {
-        if !self.center.is_finite() {
-            return Err(SettingError::new(format!("{name}.center"), self.center, "must be finite numbers (cm)"));
-        }
-        let thing = format!("{name}.half_axes");
-        self.half_axes.to_array().into_iter().try_for_each(|half_axis| check_positive(&thing, half_axis))
-    }
-
     /// E(p): negative inside, 0 on the surface, positive outside.
     pub fn value(&self, p: Vec3) -> f32 {
         ((p - self.center) / self.half_axes).length_squared() - 1.0

@@ -2,13 +2,15 @@
 
 use std::fmt::{self, Display};
 
+use crate::setting::Key;
+
 /// A setting refused before anything is stepped: which one, what it was, and what it may be.
 ///
 /// Its text is one line, `motion.time_step = -0.1: must be a number above 0`, to which a front end adds the file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub struct SettingError {
     /// The setting's name as a scene file spells it, `motion.time_step`.
-    pub thing: String,
+    pub thing: Key,
     /// The value found.
     pub value: String,
     /// The range allowed, or the way out: a phrase that reads after a colon.
@@ -17,7 +19,7 @@ pub struct SettingError {
 
 impl SettingError {
     /// Names `thing`, the `value` it has, and what to do about it.
-    pub fn new(thing: impl Into<String>, value: impl Display, remedy: impl Into<String>) -> Self {
+    pub fn new(thing: impl Into<Key>, value: impl Display, remedy: impl Into<String>) -> Self {
         Self { thing: thing.into(), value: value.to_string(), remedy: remedy.into() }
     }
 }

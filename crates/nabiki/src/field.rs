@@ -20,8 +20,6 @@ use std::fmt::Debug;
 
 use glam::Vec3;
 
-use crate::error::SettingError;
-
 pub use body_wind::{BodyWind, BodyWindField};
 pub use falloff::{EnvelopeKey, Falloff, FalloffLaw, envelope};
 pub use fan::{Fan, FanField};
@@ -79,20 +77,6 @@ pub trait Field: Debug + Send + Sync {
             let force = self.at(Vec3::new(points[0][i], points[1][i], points[2][i]), frame);
             [forces[0][i], forces[1][i], forces[2][i]] = force.to_array();
         }
-    }
-}
-
-/// Refuses a strength that is not finite or below 0.
-fn check_strength(thing: &str, strength: f32) -> Result<(), SettingError> {
-    check_at_least_0(thing, strength, "strength")
-}
-
-/// Refuses a number that is not finite or below 0; `what` it is.
-fn check_at_least_0(thing: &str, value: f32, what: &str) -> Result<(), SettingError> {
-    if value.is_finite() && value >= 0.0 {
-        Ok(())
-    } else {
-        Err(SettingError::new(thing, value, format!("must be a finite {what} of at least 0")))
     }
 }
 

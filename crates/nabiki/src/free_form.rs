@@ -7,48 +7,111 @@ use serde::{Deserialize, Serialize};
 
 use crate::body::Body;
 use crate::dynamics::{Dynamics, gain};
-use crate::error::{SettingError, check_positive, check_range};
+use crate::error::SettingError;
 use crate::pose::{Pose, check_poses};
 use crate::profile::Profile;
+use crate::setting::{Datum, Kind, Place, Range, Value, Word};
+use crate::settings;
 use crate::strands::Strands;
 
 /// Acceleration of the earth's gravity (cm/s^2), which [`FreeForm::gravity`] stands for.
 pub const EARTH_CM_PER_S2: f64 = 981.0;
 
-/// What holds hair in shape and calms it. Strengths are in the unit of the force F, so a wind of 100 against a stiffness of
-/// 4000 is a matter of reckoning: it bends hair within d sqrt(K / F) = 6 segment lengths d.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct FreeForm {
-    /// K: the moment with which the joint of two segments of `hair.segment_length` turns them toward one another's rest
-    /// shape, each as much as the other, at least 0. Joints of finer cuts are stiffer by the square of that, and bend
-    /// alike.
-    pub stiffness: Profile,
-    /// H: what turns a segment toward its rest direction in the head's frame (hair spray), at least 0.
-    pub hold: Profile,
-    /// Frames in which a small swing dies to 1/e, at least 0; 0: never.
-    pub settle: Profile,
-    /// The weight of hair, at least 0. Hair at rest does not sag: only what has been moved feels it. It also gives
-    /// accelerations of the head their scale, for it stands for 981 cm/s^2.
-    pub gravity: f32,
-    /// The share of the head's turn that hair follows at once is (1 - m/L)^`lag` at the distance m from the root of
-    /// a strand of length L; the rest of the turn is felt as lag. 0..8; at 0 hair is carried rigidly.
-    pub lag: f32,
-    /// What ties the hair, if anything does.
-    pub tie: Option<Tie>,
+settings! {
+    /// What holds hair in shape and calms it, in the free form. Strengths are in the unit of the force F.
+    pub struct FreeForm in "free" {
+        /// How firmly hair keeps its shape. Where it is 36 times the wind, hair bends within 6 times `hair.segment_length`. One number, or a
+        /// list from root to tip. K of docs/motion-forms.md: the moment with which a joint turns its two segments toward their rest shape,
+        /// each as much as the other. Joints of finer cuts are stiffer by the square of that, and bend alike.
+        pub stiffness: Profile = Profile::RootToTip(vec![12_000.0, 1000.0]) => "Stiffness", least 0.0;
+        /// How firmly hair keeps its place on the head, as with hair spray. One number, or a list from root to tip. H: what turns a segment
+        /// toward its rest direction in the head's frame.
+        pub hold: Profile = Profile::Even(30.0) => "Hold", least 0.0;
+        /// Frames in which a swing dies down, to 1/e: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 never ends. One number, or a
+        /// list from root to tip, in which hair beside a 0 hardly swings.
+        pub settle: Profile = Profile::Even(20.0) => "Settle", unit "frames", least 0.0;
+        /// How heavy hair is that has been moved, and how much a jolt of the head is felt. A strength, or "earth" for that of the earth at
+        /// `motion.frame_rate`. Hair at rest does not sag. It stands for 981 cm/s^2, which gives accelerations of the head their scale.
+        pub gravity: Gravity = Gravity::Strength(100.0) => "Weight", least 0.0;
+        /// How far tips fall behind a head that turns; 0: not at all. The share of the turn that hair follows at once is (1 - m/L)^lag, at
+        /// the distance m from the root of a strand of length L.
+        pub lag: f32 = 1.0 => "Lag", least 0.0, most 8.0;
+        /// Whether `[pseudo_force]` weakens the field before the head, as in the paper's form.
+        pub pseudo_force: bool = false => "Pseudo-force";
+        /// A band that ties hair: what passes it at rest does not move before it.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub tie: Option<Tie> = None => "Tie", open "no band";
+    }
 }
 
-/// A band that ties hair: a strand that passes it at rest does not move before it, but goes with the head, and moves behind
-/// it as one that is rooted there. Its segments up to the node nearest to the band have no gain, as points of no inverse
-/// mass have, and lengths, gains and what varies along a strand count from there. A strand that passes between two nodes,
-/// neither of them near enough, is tied at the nearer one, and never at its root.
+/// The weight of hair.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Tie {
-    /// Its middle (head space, cm).
-    pub at: Vec3,
-    /// How near a strand passes that is tied (cm), above 0.
-    pub within: f32,
+#[serde(untagged, expecting = "must be a number of at least 0, or \"earth\"")]
+pub enum Gravity {
+    /// In the unit of the force.
+    Strength(f32),
+    /// That of the earth at the frame rate, for the mean length of all the hair; a stepper is told the strength, see [`earth_gravity`].
+    #[serde(with = "earth")]
+    Earth,
+}
+
+/// The word "earth".
+mod earth {
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+
+    pub fn serialize<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str("earth")
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
+        match String::deserialize(deserializer)?.as_str() {
+            "earth" => Ok(()),
+            other => Err(D::Error::custom(format!("found \"{other}\", must be \"earth\""))),
+        }
+    }
+}
+
+impl Value for Gravity {
+    const KIND: Kind = Kind::OneOf(&[
+        Kind::Number,
+        Kind::Words(&[Word { word: "earth", help: "That of the earth at the frame rate." }]),
+    ]);
+
+    fn check(&self, at: &Place, range: &Range) -> Result<(), SettingError> {
+        match self {
+            Self::Strength(strength) => strength.check(at, range),
+            Self::Earth => Ok(()),
+        }
+    }
+
+    fn datum(&self) -> Datum {
+        match self {
+            Self::Strength(strength) => strength.datum(),
+            Self::Earth => Datum::Text("earth".to_owned()),
+        }
+    }
+}
+
+impl From<f32> for Gravity {
+    fn from(strength: f32) -> Self {
+        Self::Strength(strength)
+    }
+}
+
+settings! {
+    /// A band that ties hair: a strand that passes it at rest does not move before it, but goes with the head, and moves behind
+    /// it as one that is rooted there.
+    ///
+    /// Its segments up to the node nearest to the band have no gain, as points of no inverse mass have, and lengths, gains and
+    /// what varies along a strand count from there. A strand that passes between two nodes, neither of them near enough, is tied
+    /// at the nearer one, and never at its root.
+    #[derive(Copy)]
+    pub struct Tie {
+        /// Its middle, in head space.
+        pub at: Vec3 = Vec3::new(-11.0, 2.0, 0.0) => "At", must "[x, y, z]", unit "cm";
+        /// How near a strand passes that is tied.
+        pub within: f32 = 1.5 => "Within", must "1.5", unit "cm", above 0.0;
+    }
 }
 
 impl Tie {
@@ -75,19 +138,6 @@ fn nearest_between(from: Vec3, to: Vec3, place: Vec3) -> Vec3 {
     from + part.clamp(0.0, 1.0) * way
 }
 
-impl Default for FreeForm {
-    fn default() -> Self {
-        Self {
-            stiffness: Profile::RootToTip(vec![12_000.0, 1000.0]),
-            hold: Profile::Even(30.0),
-            settle: Profile::Even(20.0),
-            gravity: 100.0,
-            lag: 1.0,
-            tie: None,
-        }
-    }
-}
-
 /// The gravity that lets a strand of this length (cm) fall as on the earth: where the force on its tip gives the
 /// acceleration of a thin rod, c F = (3 / 2L) 981 / rate^2. Table 1's hair of 18 cm takes about 110 for it at 120 frames a
 /// second and 2,800 at 24: the paper's hair moves in slow motion.
@@ -98,20 +148,13 @@ pub fn earth_gravity(dynamics: &Dynamics, length_cm: f64) -> f32 {
 }
 
 impl FreeForm {
-    /// Refuses lists of no or too many numbers, and numbers out of range.
-    pub fn check(&self) -> Result<(), SettingError> {
-        self.stiffness.check("free.stiffness")?;
-        self.hold.check("free.hold")?;
-        self.settle.check("free.settle")?;
-        if !(self.gravity.is_finite() && self.gravity >= 0.0) {
-            return Err(SettingError::new("free.gravity", self.gravity, "must be a finite number of at least 0"));
+    /// The strength of the weight, which a stepper is told.
+    pub fn weight(&self) -> f32 {
+        match self.gravity {
+            Gravity::Strength(strength) => strength,
+            // Refused before anything is stepped.
+            Gravity::Earth => 0.0,
         }
-        check_range("free.lag", self.lag, 0.0, 8.0)?;
-        let Some(Tie { at, within }) = self.tie else { return Ok(()) };
-        if !at.is_finite() {
-            return Err(SettingError::new("free.tie.at", at, "must have finite coordinates"));
-        }
-        check_positive("free.tie.within", within)
     }
 
     /// What is left of an increment after a frame. Friction that leaves lambda of a speed leaves the square root of
@@ -127,42 +170,22 @@ impl FreeForm {
     }
 }
 
-/// Hair against hair: forces from a grid that a few strands, the carriers, fill as they move.
-///
-/// Carriers move first and write density and mean velocity; every strand, carriers too, reads what they left in the frame
-/// before. So a strand depends on itself and on the carriers only, and any subset of the hair moves as within the whole.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct NeighbourForces {
-    /// How many strands are carriers: the first so many of the farthest-first order, 1..=4096.
-    pub carriers: u32,
-    /// Strength of what pushes hair out of places fuller than at rest, at least 0, in the unit of F where the density
-    /// falls by that of the hair at rest over one cell.
-    pub pressure: f32,
-    /// Strength of what pulls a node toward the mean velocity about it, at least 0, in the unit of F for each cm a frame.
-    pub cohesion: f32,
-    /// Edge of a cell of the grid (cm), 0.5..=20.
-    pub cell: f32,
-}
-
-impl Default for NeighbourForces {
-    fn default() -> Self {
-        Self { carriers: 256, pressure: 40.0, cohesion: 40.0, cell: 2.0 }
-    }
-}
-
-impl NeighbourForces {
-    /// Refuses numbers out of range.
-    pub fn check(&self) -> Result<(), SettingError> {
-        if !(1..=4096).contains(&self.carriers) {
-            return Err(SettingError::new("neighbours.carriers", self.carriers, "must lie in 1..4096"));
-        }
-        for (thing, value) in [("neighbours.pressure", self.pressure), ("neighbours.cohesion", self.cohesion)] {
-            if !(value.is_finite() && value >= 0.0) {
-                return Err(SettingError::new(thing, value, "must be a finite number of at least 0"));
-            }
-        }
-        check_range("neighbours.cell", self.cell, 0.5, 20.0)
+settings! {
+    /// Hair against hair: forces from a grid that a few strands, the carriers, fill as they move.
+    ///
+    /// Carriers move first and write density and mean velocity; every strand, carriers too, reads what they left in the frame
+    /// before. So a strand depends on itself and on the carriers only, and any subset of the hair moves as within the whole.
+    pub struct NeighbourForces in "neighbours" {
+        /// How many strands are carriers: the first so many of the farthest-first order.
+        pub carriers: u32 = 256 => "Carriers", unit "strands", least 1.0, most 4096.0;
+        /// How firmly hair keeps its volume. It pushes hair out of places fuller than at rest, in the unit of F where the density falls by
+        /// that of the hair at rest over one cell.
+        pub pressure: f32 = 40.0 => "Pressure", least 0.0;
+        /// How firmly strands take along those beside them. It pulls a node toward the mean velocity about it, in the unit of F for each cm
+        /// a frame.
+        pub cohesion: f32 = 40.0 => "Cohesion", least 0.0;
+        /// Edge of a cell of the grid in which hair feels hair.
+        pub cell: f32 = 2.0 => "Cell", unit "cm", least 0.5, most 20.0;
     }
 }
 
@@ -193,6 +216,10 @@ impl FreeMotion {
     /// Refuses settings out of range, and bodies without a pose in one of `frames` frames after the first.
     pub fn check(&self, frames: u32) -> Result<(), SettingError> {
         self.form.check()?;
+        if self.form.gravity == Gravity::Earth {
+            let remedy = "give its strength: that of the earth depends on all the hair, see earth_gravity";
+            return Err(SettingError::new("free.gravity", "earth", remedy));
+        }
         self.bodies.iter().try_for_each(|body| body.check(frames))?;
         check_poses("head.motion", &[self.rest_pose])?;
         match &self.neighbours {
@@ -223,7 +250,7 @@ mod tests {
         assert_eq!(refused(|f| f.stiffness = Profile::Even(-1.0)), "free.stiffness");
         assert_eq!(refused(|f| f.hold = Profile::RootToTip(vec![1.0, f32::INFINITY])), "free.hold[1]");
         assert_eq!(refused(|f| f.settle = Profile::RootToTip(Vec::new())), "free.settle");
-        assert_eq!(refused(|f| f.gravity = f32::NAN), "free.gravity");
+        assert_eq!(refused(|f| f.gravity = f32::NAN.into()), "free.gravity");
         assert_eq!(refused(|f| f.lag = -0.5), "free.lag");
         let refused = |forces: NeighbourForces| forces.check().unwrap_err().thing;
         assert_eq!(refused(NeighbourForces { carriers: 0, ..Default::default() }), "neighbours.carriers");

@@ -97,7 +97,7 @@ pub fn grow_run_while(
     let attributes = Attributes {
         id: Some(numbers.clone().map(|number| number as i64).collect()),
         root_uv: Some(roots.iter().map(|root| root.uv.to_array()).collect()),
-        group_names: grown.map(|&region| (region as i32, region.name().to_owned())).collect(),
+        group_names: grown.map(|&region| (region as i32, region.word().to_owned())).collect(),
         group: Some(groups),
         guide: Some(numbers.map(|number| number < GUIDES).collect()),
         ..Attributes::default()
@@ -140,12 +140,12 @@ fn groom_while(
         return Err(SettingError::new("hair.segments", segments, "must be at least 1"));
     }
     let longest = segments as f32 * segment_length;
-    for (region, length) in style.length.each() {
-        let grows = region != "fringe" || style.fringe.half_width > 0.0;
+    for (region, length) in Region::ALL.into_iter().zip(style.length.each()) {
+        let grows = region != Region::Fringe || style.fringe.half_width > 0.0;
         if grows && length > longest * (1.0 + 1e-5) {
             let remedy =
                 format!("must be at most hair.segments x hair.segment_length = {longest} cm: raise one of them");
-            return Err(SettingError::new(format!("hair.style.length.{region}"), length, remedy));
+            return Err(SettingError::new(format!("hair.style.length.{}", region.word()), length, remedy));
         }
     }
     let ears = style.volume.over_ears.then(|| EarHills::new(head));

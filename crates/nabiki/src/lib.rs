@@ -74,6 +74,7 @@ pub mod pseudo_force;
 mod random;
 pub mod roots;
 mod scalar;
+pub mod setting;
 pub mod smoothing;
 pub mod solve;
 pub mod strands;

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::SettingError;
+use crate::setting::{Datum, Kind, Place, Range, Value, refused};
 
 /// A setting along a strand: one number, or a few from root to tip, evenly spread over the strand's length and joined by
 /// straight lines.
@@ -16,6 +17,9 @@ pub enum Profile {
 }
 
 impl Profile {
+    /// The most numbers that a list may have.
+    pub const MOST: usize = 64;
+
     /// The value at a part of the strand's length, 0 at the root and 1 at the tip.
     pub fn at(&self, along: f64) -> f64 {
         let values = self.values();
@@ -48,17 +52,27 @@ impl Profile {
     pub fn largest(&self) -> f32 {
         self.values().iter().copied().fold(f32::NEG_INFINITY, f32::max)
     }
+}
 
-    /// Refuses no numbers, more than 64, and numbers that are negative or not finite. `thing`: what the setting is called.
-    pub fn check(&self, thing: &str) -> Result<(), SettingError> {
-        let values = self.values();
-        if !(1..=64).contains(&values.len()) {
-            let remedy = "give one number, or 2 to 64 from root to tip";
-            return Err(SettingError::new(thing, format!("a list of {}", values.len()), remedy));
+impl Value for Profile {
+    const KIND: Kind = Kind::OneOf(&[Kind::Number, Kind::List(&Kind::Number)]);
+
+    fn check(&self, at: &Place, range: &Range) -> Result<(), SettingError> {
+        match self {
+            Self::Even(value) => value.check(at, range),
+            Self::RootToTip(values) if (1..=Self::MOST).contains(&values.len()) => values.check(at, range),
+            Self::RootToTip(values) => {
+                let remedy = format!("give one number, or 2 to {} from root to tip", Self::MOST);
+                refused(at, format!("a list of {}", values.len()), remedy)
+            }
         }
-        let Some(i) = values.iter().position(|v| !(v.is_finite() && *v >= 0.0)) else { return Ok(()) };
-        let thing = if values.len() == 1 { thing.to_owned() } else { format!("{thing}[{i}]") };
-        Err(SettingError::new(thing, values[i], "must be a finite number of at least 0"))
+    }
+
+    fn datum(&self) -> Datum {
+        match self {
+            Self::Even(value) => value.datum(),
+            Self::RootToTip(values) => values.datum(),
+        }
     }
 }
 
@@ -71,6 +85,8 @@ impl From<f32> for Profile {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const LEAST_0: Range = Range { unit: "", above: None, least: Some(0.0), most: None };
 
     #[test]
     fn numbers_are_spread_from_root_to_tip() {
@@ -85,11 +101,11 @@ mod tests {
 
     #[test]
     fn lists_of_nothing_and_negative_strengths_are_refused_by_place() {
-        let refused = |profile: Profile| profile.check("free.hold").unwrap_err().thing;
+        let refused = |profile: Profile| profile.check(&Place::Table("free.hold"), &LEAST_0).unwrap_err().thing;
         assert_eq!(refused(Profile::RootToTip(Vec::new())), "free.hold");
         assert_eq!(refused(Profile::RootToTip(vec![1.0; 65])), "free.hold");
         assert_eq!(refused(Profile::RootToTip(vec![1.0, f32::NAN])), "free.hold[1]");
         assert_eq!(refused(Profile::Even(-1.0)), "free.hold");
-        assert!(Profile::RootToTip(vec![0.0, 1.0]).check("free.hold").is_ok());
+        assert!(Profile::RootToTip(vec![0.0, 1.0]).check(&Place::Table("free.hold"), &LEAST_0).is_ok());
     }
 }

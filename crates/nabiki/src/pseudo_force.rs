@@ -1,29 +1,26 @@
 //! Pseudo-force: wind that would press hair into the head is made weaker, section 3.2.2 and equation (4).
 
 use glam::{DVec3, Vec3};
-use serde::{Deserialize, Serialize};
 
 use crate::ellipsoid::Ellipsoid;
-use crate::error::{SettingError, check_range};
+use crate::error::SettingError;
+use crate::setting::{Place, refused};
+use crate::settings;
 
-/// The settings of the pseudo-force; the default is Table 1 of the paper.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct PseudoForce {
-    /// alpha of equation (4), the cosine that bounds Gamma, -1..1: at 1 all of the shell, at -1 only the line
-    /// against the wind.
-    pub alpha: f32,
-    /// eps_i for the segments i = 1, 2, ...; the last one goes on to the tip. Each above 0 and at most 1.
-    /// Where segments are not `hair.segment_length` long, i is the distance along the strand counted in it.
-    pub coefficients: Vec<f32>,
+settings! {
+    /// The pseudo-force: it weakens the wind before the head, the paper's stand-in for collisions. The default is Table 1 of the paper.
+    pub struct PseudoForce in "pseudo_force" where has_coefficients {
+        /// alpha of equation (4), the cosine that bounds Gamma: at 1 all of the shell, at -1 only the line against the wind.
+        pub alpha: f32 = -0.75 => "Alpha", least -1.0, most 1.0;
+        /// eps_i for the segments i = 1, 2, ... from the root on; the last one goes on to the tip. Where segments are not
+        /// `hair.segment_length` long, i is the distance along the strand counted in it.
+        pub coefficients: Vec<f32> = table_1() => "Coefficients", above 0.0, most 1.0;
+    }
 }
 
-impl Default for PseudoForce {
-    fn default() -> Self {
-        let table_1 = [(2, 0.01), (2, 0.1), (4, 0.2), (4, 0.4), (3, 0.8), (1, 1.0)];
-        let coefficients = table_1.iter().flat_map(|&(times, eps)| std::iter::repeat_n(eps, times)).collect();
-        Self { alpha: -0.75, coefficients }
-    }
+fn table_1() -> Vec<f32> {
+    let table_1 = [(2, 0.01), (2, 0.1), (4, 0.2), (4, 0.4), (3, 0.8), (1, 1.0)];
+    table_1.iter().flat_map(|&(times, eps)| std::iter::repeat_n(eps, times)).collect()
 }
 
 impl PseudoForce {
@@ -32,20 +29,11 @@ impl PseudoForce {
         Self { alpha: -1.0, coefficients: vec![1.0] }
     }
 
-    /// Refuses alpha outside -1..1, no coefficients, and coefficients outside 0 < eps_i <= 1.
-    pub fn check(&self) -> Result<(), SettingError> {
-        check_range("pseudo_force.alpha", self.alpha, -1.0, 1.0)?;
-        if self.coefficients.is_empty() {
-            let remedy = "give at least one eps_i (1.0 switches the pseudo-force off)";
-            return Err(SettingError::new("pseudo_force.coefficients", "[]", remedy));
+    fn has_coefficients(&self, at: &Place) -> Result<(), SettingError> {
+        if !self.coefficients.is_empty() {
+            return Ok(());
         }
-        for (i, &eps) in self.coefficients.iter().enumerate() {
-            if !(eps > 0.0 && eps <= 1.0) {
-                let thing = format!("pseudo_force.coefficients[{i}]");
-                return Err(SettingError::new(thing, eps, "must lie above 0 and not above 1"));
-            }
-        }
-        Ok(())
+        refused(&at.key("coefficients"), "[]", "give at least one eps_i (1.0 switches the pseudo-force off)")
     }
 
     /// eps_i for a `position` along the strand that is i itself for the paper's segments, and between their

@@ -32,8 +32,8 @@ pub struct Root {
 /// Candidates for each root asked for: with more the spacing gains little, with fewer it shows.
 const CANDIDATES: usize = 5;
 /// Roots that can be spread at most: their candidates are counted in 32 bits.
-pub const MOST_ROOTS: usize = 800_000_000;
-const _: () = assert!(MOST_ROOTS <= u32::MAX as usize / CANDIDATES);
+pub const MOST: usize = 800_000_000;
+const _: () = assert!(MOST <= u32::MAX as usize / CANDIDATES);
 /// Places drawn at most for each candidate kept; a hairline that keeps less leaves no scalp to speak of.
 const TRIES: u64 = 64;
 
@@ -50,10 +50,10 @@ const BELOW: f32 = 0.15;
 /// # Errors
 /// Names `hair.strands`.
 pub fn check_count(count: usize) -> Result<(), SettingError> {
-    if count <= MOST_ROOTS {
+    if count <= MOST {
         return Ok(());
     }
-    Err(SettingError::new("hair.strands", count, format!("must be at most {MOST_ROOTS}: grow less")))
+    Err(SettingError::new("hair.strands", count, format!("must be at most {MOST}: grow less")))
 }
 
 /// Bytes of memory that it takes at least to spread so many roots, however few of them are wanted.
@@ -67,7 +67,7 @@ pub fn least_bytes(count: usize) -> u64 {
 /// bit.
 ///
 /// # Errors
-/// If the hairline is out of range, or leaves nothing of the scalp; more than [`MOST_ROOTS`].
+/// If the hairline is out of range, or leaves nothing of the scalp; more than [`MOST`].
 pub fn spread(head: &Head, hairline: &Hairline, count: usize, seed: u64) -> Result<Vec<Root>, SettingError> {
     spread_first(head, hairline, count, count, seed)
 }

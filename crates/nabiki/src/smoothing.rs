@@ -1,19 +1,7 @@
 //! Values over frames, averaged by a bell.
 
-use std::ops::RangeInclusive;
-
-use crate::error::{SettingError, check_range};
-
-/// Deviations of the bell that are taken (frames).
-const DEVIATIONS: RangeInclusive<f32> = 0.0..=240.0;
-
-/// Refuses a deviation out of its range; `name` is what the setting is called.
-///
-/// # Errors
-/// Names the setting.
-pub fn check(name: &str, deviation: f32) -> Result<(), SettingError> {
-    check_range(name, deviation, *DEVIATIONS.start(), *DEVIATIONS.end())
-}
+/// The largest deviation of the bell that is taken (frames).
+pub const MOST: f32 = 240.0;
 
 /// Deviation (steps) from which on a bell is smooth enough to be widened by steps twice as long: what these would leave at a
 /// step's own wavelength it has weakened by exp(-8 pi^2).

@@ -63,7 +63,7 @@ fn hair_is_left_behind_by_its_part_of_the_head_s_turn() {
     let poses: Vec<Pose> = (0..=FRAMES).map(|n| Pose { position_cm: Vec3::ZERO, rotation: rotation(n) }).collect();
     let strands = hair(24, 18);
     for lag in [0.5, 1.0, 3.0] {
-        let form = FreeForm { stiffness: 0.0.into(), hold: 0.0.into(), gravity: 0.0, lag, ..Default::default() };
+        let form = FreeForm { stiffness: 0.0.into(), hold: 0.0.into(), gravity: 0.0.into(), lag, ..Default::default() };
         for mut stepper in both(&strands, &free(form, poses[0]), &calm()) {
             let moved = run_under(&mut *stepper, &calm(), &poses);
             for (strand, rest) in moved.iter().zip(strands.iter()) {
@@ -120,9 +120,12 @@ fn weight_and_acceleration_are_forces_of_the_world() {
     }
     let poses = way_of_a_head(FRAMES);
     let with = |gravity: f32| {
-        free(FreeForm { stiffness: 0.0.into(), hold: 10.0.into(), gravity, ..Default::default() }, poses[0])
+        free(
+            FreeForm { stiffness: 0.0.into(), hold: 10.0.into(), gravity: gravity.into(), ..Default::default() },
+            poses[0],
+        )
     };
-    let as_field = Inertia { poses: poses.clone(), gravity: 60.0, rate: with(0.0).motion.frame_rate };
+    let as_field = Inertia { poses: poses.clone(), gravity: 60.0.into(), rate: with(0.0).motion.frame_rate };
     let felt = run_under(&mut exact(&strands, &with(60.0), &calm()), &calm(), &poses);
     let pulled = run_under(&mut exact(&strands, &with(0.0), &as_field), &as_field, &poses);
     let farthest =
@@ -169,7 +172,7 @@ fn the_pseudo_force_weakens_the_field_by_the_number_of_the_segment() {
     strands.push((0..=6).map(|i| 10.0 * Vec3::new((angle * i as f32).cos(), 0.0, (angle * i as f32).sin())));
     let force = DVec3::new(-30.0, 50.0, 20.0);
     let coefficients = vec![0.05, 0.2, 0.3, 0.5, 0.7, 1.0];
-    let mut dynamics = free(FreeForm::default(), Pose::STILL);
+    let mut dynamics = free(FreeForm { pseudo_force: true, ..FreeForm::default() }, Pose::STILL);
     dynamics.motion.inertia_length_floor = 18.0;
     dynamics.pseudo_force = PseudoForce { alpha: 1.0, coefficients: coefficients.clone() };
     let blows = field(&[(9, force.as_vec3().to_array())]);
@@ -195,7 +198,7 @@ fn settled_hair_is_in_balance() {
         stiffness: stiffness.clone(),
         hold: hold.clone(),
         settle: 20.0.into(),
-        gravity: gravity as f32,
+        gravity: (gravity as f32).into(),
         ..Default::default()
     };
     let (dynamics, blows) = (free(form, Pose::STILL), field(&[(9, force.as_vec3().to_array())]));

@@ -91,6 +91,12 @@ pub enum Command {
     Convert(Convert),
     /// Say what is in a scene, hair file, motion cache, mesh or motion of a head
     Info(Info),
+    /// List every setting that a scene may have, with its unit, range, default and help
+    ///
+    /// With --json it prints a JSON Schema, by which editors complete and check scene files: `nabiki schema --json > scene.schema.json`,
+    /// and as the first line of a scene `#:schema scene.schema.json`. Units are in `x-unit`, what is taken where a setting is left out in
+    /// `x-open`.
+    Schema(Schema),
 }
 
 /// A scene, and changes to it for a quick try.
@@ -469,6 +475,13 @@ pub struct Info {
     pub file: PathBuf,
 
     /// Write JSON, for programs to read
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Args)]
+pub struct Schema {
+    /// Write a JSON Schema, for editors and programs to read
     #[arg(long)]
     pub json: bool,
 }

@@ -6,10 +6,12 @@ use nabiki_scene::tasks::{
     self, ConvertOptions, FarmOptions, MovieOptions, NewOptions, PREVIEW_STRANDS, Pictures, RenderOptions,
     ShardOptions, SimulateOptions, SolveOptions,
 };
-use nabiki_scene::{Error, Result, Shown};
+use nabiki_scene::{Error, Result, Shown, schema};
+use serde::Serialize;
 
 use crate::args::{
-    Convert, Farm, Frames, Groom, Info, Join, Movie, New, Preview, Render, Run, SceneArgs, Simulate, Solve, StepperName,
+    Convert, Farm, Frames, Groom, Info, Join, Movie, New, Preview, Render, Run, SceneArgs, Schema, Simulate, Solve,
+    StepperName,
 };
 use crate::say;
 use crate::terminal::Terminal;
@@ -144,9 +146,13 @@ pub fn info(args: &Info) -> Result<()> {
     say::answer(text)
 }
 
+pub fn schema(args: &Schema) -> Result<()> {
+    say::answer(if args.json { json(&schema::json())? } else { schema::text() })
+}
+
 /// Of what a terminal obeys JSON itself escapes only a part. All of it can stand in strings alone.
-fn json(info: &nabiki_scene::info::Info) -> Result<String> {
-    let text = serde_json::to_string_pretty(info).map_err(|e| Error::refused(e.to_string()))?;
+fn json(answer: &impl Serialize) -> Result<String> {
+    let text = serde_json::to_string_pretty(answer).map_err(|e| Error::refused(e.to_string()))?;
     let escaped = |c: char| match c {
         '\n' => "\n".to_owned(),
         c if is_unsafe(c) => format!("\\u{:04x}", u32::from(c)),

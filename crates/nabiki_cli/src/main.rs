@@ -42,5 +42,6 @@ fn run(cli: &Cli) -> Result<()> {
         Command::Solve(args) => commands::solve(args, &mut terminal),
         Command::Convert(args) => commands::convert(args, &mut terminal),
         Command::Info(args) => commands::info(args),
+        Command::Schema(args) => commands::schema(args),
     }
 }

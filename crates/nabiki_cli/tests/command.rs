@@ -439,3 +439,24 @@ fn what_a_motion_file_does_not_say_is_asked_for_one_by_one() {
         fs::remove_file(&cache).unwrap();
     }
 }
+
+#[test]
+fn the_schema_is_printed_for_people_and_as_json_schema() {
+    let text = succeed(&["schema"]);
+    assert!(text.contains("\nmotion.frame_rate (a second; above 0; default 24): Frames in a second"), "{text}");
+    assert!(text.contains("\nfan.position (cm; -1000000 to 1000000; must be given): "), "{text}");
+    let json: serde_json::Value = serde_json::from_str(&succeed(&["schema", "--json"])).unwrap();
+    let tables = json["properties"].as_object().unwrap();
+    assert!(["head", "motion", "force", "output"].iter().all(|table| tables.contains_key(*table)));
+    let cell = &json["$defs"]["NeighbourForces"]["properties"]["cell"];
+    assert_eq!(
+        (&cell["minimum"], &cell["maximum"], &cell["default"], &cell["x-unit"]),
+        (&0.5.into(), &20.0.into(), &2.0.into(), &"cm".into())
+    );
+    assert_eq!(json["$defs"]["Keyframe"]["required"], serde_json::json!(["through", "vector"]));
+    // Every definition that is named is there.
+    let text = json.to_string();
+    for name in text.split("#/$defs/").skip(1).filter_map(|rest| rest.split('"').next()) {
+        assert!(json["$defs"][name].is_object(), "{name}");
+    }
+}

@@ -3,29 +3,27 @@
 use std::fmt;
 
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
+use nabiki::words;
 
-/// One of the six axis directions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-pub enum Axis {
-    /// Along x.
-    #[serde(rename = "+x", alias = "x")]
-    PlusX,
-    /// Against x.
-    #[serde(rename = "-x")]
-    MinusX,
-    /// Along y.
-    #[serde(rename = "+y", alias = "y")]
-    PlusY,
-    /// Against y.
-    #[serde(rename = "-y")]
-    MinusY,
-    /// Along z.
-    #[serde(rename = "+z", alias = "z")]
-    PlusZ,
-    /// Against z.
-    #[serde(rename = "-z")]
-    MinusZ,
+words! {
+    /// One of the six axis directions.
+    pub enum Axis {
+        /// Along x.
+        #[serde(alias = "x")]
+        PlusX = "+x",
+        /// Against x.
+        MinusX = "-x",
+        /// Along y.
+        #[serde(alias = "y")]
+        PlusY = "+y",
+        /// Against y.
+        MinusY = "-y",
+        /// Along z.
+        #[serde(alias = "z")]
+        PlusZ = "+z",
+        /// Against z.
+        MinusZ = "-z",
+    }
 }
 
 impl Axis {
@@ -62,14 +60,7 @@ impl Axis {
 
 impl fmt::Display for Axis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::PlusX => "+x",
-            Self::MinusX => "-x",
-            Self::PlusY => "+y",
-            Self::MinusY => "-y",
-            Self::PlusZ => "+z",
-            Self::MinusZ => "-z",
-        })
+        f.write_str(self.word())
     }
 }
 

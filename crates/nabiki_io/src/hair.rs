@@ -5,7 +5,7 @@ use std::path::Path;
 use nabiki::{Hair, SettingError, error::check_range, hair::Degenerate, strands::not_finite};
 use nabiki_exchange::{InPlace, attributes::names};
 use nabiki_file::PartFile;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::{
     error::{Error, Result},
@@ -98,8 +98,7 @@ pub(crate) fn held_at_both_ends(hair: &Hair) -> usize {
 }
 
 /// What of imported hair is not worth moving.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cleaning {
     /// Neighbouring points of a strand this close are joined (cm, default 0.001; 0 joins those alone that lie in one place, between which a
     /// strand has no direction to move in).

@@ -2,6 +2,8 @@
 
 use std::{fmt, str::FromStr};
 
+use nabiki::SettingError;
+use nabiki::setting::{Datum, Kind, Place, Range, Value, Word};
 use serde::{Deserialize, Serialize};
 
 use crate::short::Short;
@@ -50,6 +52,28 @@ impl TryFrom<UnitText> for Unit {
             UnitText::Cm(cm) => Ok(Self { cm }),
             UnitText::Name(name) => name.parse(),
         }
+    }
+}
+
+impl Value for Unit {
+    const KIND: Kind = Kind::OneOf(&[
+        Kind::Words(&[
+            Word { word: "mm", help: "" },
+            Word { word: "cm", help: "" },
+            Word { word: "dm", help: "" },
+            Word { word: "m", help: "" },
+            Word { word: "in", help: "" },
+            Word { word: "ft", help: "" },
+        ]),
+        Kind::Number,
+    ]);
+
+    fn check(&self, at: &Place, range: &Range) -> Result<(), SettingError> {
+        self.cm.check(at, range)
+    }
+
+    fn datum(&self) -> Datum {
+        self.cm.datum()
     }
 }
 

@@ -66,7 +66,7 @@ pub fn line(py: Python<'_>, line: impl Into<String>) -> PyErr {
 }
 
 fn setting_parts(nabiki::SettingError { thing, value, remedy }: nabiki::SettingError) -> Parts {
-    Parts { thing: Some(thing), value: Some(value), way_out: Some(remedy), ..Parts::default() }
+    Parts { thing: Some(thing.to_string()), value: Some(value), way_out: Some(remedy), ..Parts::default() }
 }
 
 fn place_parts(file: &Path, what: String, system: ErrorKind) -> Parts {
@@ -79,7 +79,7 @@ fn scene_parts(refused: &SceneError) -> Parts {
         file: named(&refused.file),
         // Of a scene that no file holds, no line is anywhere.
         line: refused.line.filter(|_| !refused.file.as_os_str().is_empty()),
-        thing: Some(refused.key.clone()).filter(|key| !key.is_empty()),
+        thing: Some(refused.key.to_string()).filter(|key| !key.is_empty()),
         value: refused.value().map(str::to_owned),
         way_out: Some(refused.remedy()),
         system: match &*refused.problem {

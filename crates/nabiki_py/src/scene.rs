@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
+use nabiki::setting::Key;
 use nabiki_scene::scene::{HairSource, OwnField, RootEnd};
 use nabiki_scene::{BuiltScene, Shown};
 use pyo3::prelude::*;
@@ -147,11 +148,9 @@ fn anywhere(mut scene: nabiki_scene::Scene) -> nabiki_scene::Scene {
 }
 
 /// Whether one of two keys lies in the other.
-fn concerns(thing: &str, key: &str) -> bool {
-    let steps = |key: &str| key.replace('[', ".").replace(']', "");
-    let (thing, key) = (steps(thing), steps(key));
-    let within = |a: &str, b: &str| a.strip_prefix(b).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
-    within(&thing, &key) || within(&key, &thing)
+fn concerns(thing: &Key, key: &str) -> bool {
+    let key = Key::from(key);
+    thing.is_within(&key) || key.is_within(thing)
 }
 
 #[pymethods]

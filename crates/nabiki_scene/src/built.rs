@@ -152,7 +152,7 @@ impl Scene {
     pub(crate) fn hair_is_of_head(&self) -> bool {
         match (&self.head.source, &self.hair.source) {
             (HeadSource::Imported(head), HairSource::Imported(hair)) => {
-                seat::is_one_file(&self.resolve(&head.file), &self.resolve(&hair.file))
+                seat::is_one_file(&self.resolve(&head.mesh), &self.resolve(&hair.file))
             }
             _ => false,
         }

@@ -46,6 +46,7 @@ mod place;
 pub mod pull;
 mod root_ends;
 pub mod scene;
+pub mod schema;
 mod seat;
 mod size;
 pub mod solve;

@@ -5,11 +5,12 @@
 //! fields ([`FieldSettings`]), `[disturbance]`, `[picture]`, `[output]`. All may be left out, but for a field in the paper's
 //! form: the defaults are the paper's. Paths are relative to the scene file.
 
+mod body;
 mod edit;
 mod error;
 mod field;
 mod flat;
-mod free;
+mod form;
 mod hair;
 mod head;
 mod output;
@@ -25,8 +26,9 @@ use nabiki::body::Contact;
 use nabiki::disturbance::Disturbance;
 use nabiki::dynamics::Motion;
 use nabiki::field::{BodyWind, Fan, Flow, Gust, Keyframe, Point, Turbulence, Vortex, Wind};
-use nabiki::free_form::NeighbourForces;
+use nabiki::free_form::{FreeForm, NeighbourForces};
 use nabiki::pseudo_force::PseudoForce;
+use nabiki::setting::Key;
 use nabiki_file::PartFile;
 use nabiki_io::motion::MotionSource;
 use nabiki_io::{input, kind};
@@ -36,11 +38,15 @@ use serde::Deserialize;
 use toml::{Table, Value};
 use toml_edit::DocumentMut;
 
+pub use body::BodySettings;
 pub use error::{Problem, SceneError};
 pub use field::{FieldBound, FieldSettings, OwnField};
 pub(crate) use field::{FieldParts, FieldPlace};
-pub use free::{BodySettings, FormChoice, FreeSettings, Gravity};
+pub use form::FormChoice;
+pub(crate) use form::FormKey;
+pub(crate) use hair::AnyHair;
 pub use hair::{GrownHair, HairSettings, HairSource, ImportedHair, RootEnd};
+pub(crate) use head::{AnyHead, BuiltinHead};
 pub use head::{EllipsoidChoice, HeadSettings, HeadSource, ImportedHead};
 pub use output::{Output, check_first_frame};
 
@@ -71,7 +77,7 @@ pub struct Scene {
     /// `motion.form`: the equations that hair moves by.
     pub form: FormChoice,
     /// `[free]`: what holds hair in shape and calms it, in the free form.
-    pub free: FreeSettings,
+    pub free: FreeForm,
     /// `[contact]`: how hair and head touch, in the free form.
     pub contact: Contact,
     /// `[[body]]`: what else hair does not enter, in the free form.
@@ -121,7 +127,7 @@ struct Tables {
     head: Table,
     hair: Table,
     motion: Table,
-    free: FreeSettings,
+    free: FreeForm,
     contact: Contact,
     body: Vec<BodySettings>,
     neighbours: Option<NeighbourForces>,
@@ -191,7 +197,7 @@ impl Scene {
     /// What a tree of settings says; made in code, as far as anybody can see.
     fn of_tree(tree: Table) -> Result<Self, Refusal> {
         let tables = Tables::deserialize(Node(&Value::Table(tree)))?;
-        let (motion, form) = free::read_motion(&tables.motion).map_err(|e| e.below("motion"))?;
+        let (motion, form) = form::read_motion(&tables.motion).map_err(|e| e.below("motion"))?;
         Ok(Self {
             head: HeadSettings::read(&tables.head).map_err(|e| e.below("head"))?,
             hair: HairSettings::read(&tables.hair).map_err(|e| e.below("hair"))?,
@@ -231,8 +237,8 @@ impl Scene {
         self.hair.check()?;
         self.motion.check()?;
         self.free.check()?;
-        self.contact.check("contact")?;
-        self.bodies.iter().enumerate().try_for_each(|(i, body)| body.check(i))?;
+        self.contact.check_at("contact")?;
+        self.bodies.iter().enumerate().try_for_each(|(i, body)| body.check_at(&format!("body[{i}]")))?;
         self.neighbours.as_ref().map_or(Ok(()), NeighbourForces::check)?;
         self.pseudo_force.check()?;
         self.field.check(self.head.motion.is_some(), self.form == FormChoice::Free)?;
@@ -240,7 +246,8 @@ impl Scene {
             disturbance.check()?;
         }
         self.picture.check()?;
-        self.output.check(self.motion.frames)
+        self.output.check()?;
+        self.output.check_frames(self.motion.frames)
     }
 
     /// What overrides took out of the file without saying so: a line each.
@@ -251,7 +258,7 @@ impl Scene {
     /// A refused setting as an error that names the file and the line, or the override, that set it.
     pub fn refusal(&self, refused: SettingError) -> SceneError {
         let SceneError { key, problem, .. } = refused.into();
-        self.origins.error(&key, *problem)
+        self.origins.error(&key.to_string(), *problem)
     }
 
     /// Whether an override set the value of this key (dotted).
@@ -281,7 +288,7 @@ impl Scene {
             named.push(&hair.file);
         }
         if let HeadSource::Imported(head) = &self.head.source {
-            named.push(&head.file);
+            named.push(&head.mesh);
         }
         if let Some(motion) = &self.head.motion {
             named.push(&motion.file);
@@ -370,7 +377,7 @@ impl Scene {
         let mut tree = Table::new();
         tree.insert("head".to_owned(), self.head.table()?.into());
         tree.insert("hair".to_owned(), self.hair.table()?.into());
-        tree.insert("motion".to_owned(), free::motion_table(&self.motion, self.form)?.into());
+        tree.insert("motion".to_owned(), form::motion_table(&self.motion, self.form)?.into());
         tree.insert("free".to_owned(), table_of(&self.free)?.into());
         tree.insert("contact".to_owned(), table_of(&self.contact)?.into());
         let bodies = self.bodies.iter().map(|body| table_of(body).map(Value::Table)).collect::<Result<_, _>>()?;
@@ -430,7 +437,7 @@ pub(crate) fn file_error(path: &Path, refused: nabiki_io::Error) -> SceneError {
         file: path.to_owned(),
         line: None,
         set: None,
-        key: String::new(),
+        key: Key::default(),
         problem: Box::new(Problem::File { what: refused.what, system }),
     }
 }

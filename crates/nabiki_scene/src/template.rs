@@ -3,11 +3,13 @@
 use std::path::Path;
 
 use glam::Vec3;
-use nabiki::{Ellipsoid, Head, Mesh, Strands};
+use nabiki::setting::{Value as _, plain};
+use nabiki::{Ellipsoid, Head, Mesh, Profile, Strands};
 use nabiki_io::{Axis, DeclaredSpace, Error, GroomFile, Placement, Result, Unit, declared_space, info, mesh};
 
 use crate::built::holds_scenes;
 use crate::scene::ImportedHair;
+use crate::schema;
 use crate::seat::{self, LikelyRoots, Mended, Seat, centimetres};
 use crate::size::{HALF_AXIS, decimal, mean_half_axis, middle, named_unit, spread, vector};
 
@@ -46,11 +48,9 @@ pub fn template(scene: &Path, head: Option<&Path>, groups: &[String], hair: Opti
             let of_head = of_head.as_ref().zip(head).map(|(found, head)| (found, seat::is_one_file(head, file)));
             imported_hair(scene, file, strands, of_head, &mut guesses)?
         }
-        _ => GROWN.to_owned(),
+        _ => format!("[hair]\n{}\n{STYLE}", lines("hair", &["strands", "segments", "segment_length"])),
     };
-    let rest = REST.replace("{frames}", &shot.frames.to_string());
-    let rest = rest.replace("{half}", &(shot.frames / 2).to_string()).replace("{rate}", &shot.rate.to_string());
-    let text = format!("{INTRODUCTION}\n{head_text}\n{hair_text}{rest}");
+    let text = format!("{INTRODUCTION}\n{head_text}\n{hair_text}{}", rest(shot));
     Ok(Template { text, guesses })
 }
 
@@ -59,12 +59,7 @@ const INTRODUCTION: &str = "\
 # Every setting may be changed for one try: nabiki preview SCENE --set motion.time_step=0.05
 ";
 
-const GROWN: &str = "\
-[hair]
-strands = 19330
-segments = 18
-segment_length = 1.0       # cm
-
+const STYLE: &str = "\
 [hair.style]
 stiffness = { top = 2.2, sides = 2.0, back = 2.0 }
 length = { top = 18.0, sides = 18.0, back = 18.0 }
@@ -72,15 +67,35 @@ lift_degrees = { top = 18.0, sides = 15.0, back = 12.0 }
 comb = { away = 1.0, sweep = [-0.3, 0.0, 0.0], off_face = 2.8, decay = 3.5 }
 ";
 
-/// `free.stiffness` of a new scene, from root to tip.
-pub(crate) const STIFFNESS: [f32; 2] = [12_000.0, 1000.0];
-
-/// The line of a new scene that gives it.
-pub(crate) fn stiffness_line(stiffness: [f32; 2]) -> String {
-    format!("stiffness = {stiffness:?}   #")
+/// Settings of a table at their defaults, a line each with what it does.
+fn lines(table: &str, keys: &[&str]) -> String {
+    let line = |key: &&str| {
+        let found = schema::find(&format!("{table}.{key}").into());
+        let setting = found.first()?;
+        let given = format!("{key} = {}", schema::in_toml(&(setting.default)()));
+        let help = plain(setting.help);
+        let sentence = help.split_once(". ").map_or(help.as_str(), |(first, _)| first).trim_end_matches('.');
+        let unit = if setting.range.unit.is_empty() { String::new() } else { format!(" ({})", setting.range.unit) };
+        Some(format!("{given:<26} # {sentence}{unit}\n"))
+    };
+    keys.iter().filter_map(line).collect()
 }
 
-const REST: &str = "
+/// The line of a new scene that gives `free.stiffness`, up to its comment.
+pub(crate) fn stiffness_line(stiffness: &Profile) -> String {
+    let given = format!("stiffness = {}", schema::in_toml(&stiffness.datum()));
+    format!("{given:<26} #")
+}
+
+/// Motion, wind and camera of a new scene.
+fn rest(Shot { frames, rate }: Shot) -> String {
+    let free = lines("free", &["stiffness", "hold", "settle", "gravity", "lag"]);
+    let contact = lines("contact", &["margin", "friction", "static_friction"]);
+    let neighbours: String =
+        lines("neighbours", &["pressure", "cohesion"]).lines().map(|line| format!("# {line}\n")).collect();
+    let half = frames / 2;
+    format!(
+        "
 [motion]
 form = \"free\"              # \"paper\": the equations of 1993, in which hair neither stops at the head nor calms down
 frames = {frames}
@@ -90,23 +105,13 @@ inertia_length_floor = 14.0   # shorter hair is held by the longer hair beside i
 # What holds hair in shape and calms it, in the unit of the forces below: where the stiffness is 36 times the wind, hair
 # bends within 6 times hair.segment_length. The first three are numbers, or lists from root to tip.
 [free]
-stiffness = [12000.0, 1000.0]   # keeps each segment in line with those beside it, as at rest
-hold = 30.0                # keeps it where it is on the head, as hair spray does
-settle = 20.0              # frames in which a swing dies to 1/e; 0: never
-gravity = 100.0            # weight of hair that has been moved; \"earth\": as on the earth at this frame_rate
-lag = 1.0                  # how far the tips fall behind a head that turns; 0: not at all
-
+{free}
 # Hair stays out of the head, and of every [[body]] with a mesh and a motion, or one that goes with_head.
 [contact]
-margin = 0.1               # how far from the skin (cm)
-friction = 0.1             # share of a push that sliding hair loses of its speed
-static_friction = 0.15     # the same for hair that lies still
-
+{contact}
 # Hair against hair, felt where the table is there:
 # [neighbours]
-# pressure = 40.0            # keeps the volume that the hair has at rest
-# cohesion = 40.0            # hair takes the hair beside it along
-
+{neighbours}
 # Where the hair shall go: a direction with a strength, up to a frame.
 [[force]]
 through = {half}
@@ -118,8 +123,10 @@ vector = [-10, 0, 0]       # a breeze, in which hair comes back by itself
 
 # The camera frames all that moves; distance (cm) and target fix it.
 [picture]
-camera = { azimuth = 50.0, elevation = 4.0 }
-";
+camera = {{ azimuth = 50.0, elevation = 4.0 }}
+"
+    )
+}
 
 /// A head file, looked at.
 struct Looked {

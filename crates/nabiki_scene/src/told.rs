@@ -288,7 +288,7 @@ impl SwingTable {
         let count = f64::from(length) / f64::from(built.dynamics.segment_length);
         let held = |position: f64| match &built.dynamics.form {
             Form::Paper => 0.0,
-            Form::Free(free) => free.form.hold.at(position / count) + f64::from(free.form.gravity),
+            Form::Free(free) => free.form.hold.at(position / count) + f64::from(free.form.weight()),
         };
         let row = |frames: [u32; 2], force: f32| {
             let force = f64::from(force.max(0.0));

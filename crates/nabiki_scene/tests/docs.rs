@@ -58,7 +58,7 @@ fn bust() -> BuiltScene {
 /// does not (z up, in metres, as Blender has it).
 fn stand_ins(scene: &Scene, bust: &BuiltScene) {
     if let HeadSource::Imported(head) = &scene.head.source {
-        let is_usd = exchange::is_usd(&head.file);
+        let is_usd = exchange::is_usd(&head.mesh);
         let facing = head.facing.unwrap();
         let placement = Placement {
             unit: head.unit.unwrap_or(Unit { cm: if is_usd { 100.0 } else { 1.0 } }),
@@ -66,8 +66,8 @@ fn stand_ins(scene: &Scene, bust: &BuiltScene) {
             facing,
             origin: Vec3::ZERO,
         };
-        let moves = scene.head.motion.as_ref().is_some_and(|motion| motion.file == head.file);
-        let files = [Some(&head.file), scene.hair.imported().map(|hair| &hair.file)];
+        let moves = scene.head.motion.as_ref().is_some_and(|motion| motion.file == head.mesh);
+        let files = [Some(&head.mesh), scene.hair.imported().map(|hair| &hair.file)];
         for file in files.into_iter().flatten() {
             let mut export = exchange::export(&bust.hair, 24.0, Some(&placement));
             export.head = Some(&bust.head.mesh);

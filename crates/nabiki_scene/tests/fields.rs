@@ -134,7 +134,7 @@ fn settings_out_of_range_are_refused_with_their_line() {
     let change = |from: &str, to: &str| refused(&FIELDS.replacen(from, to, 1));
     assert_eq!(
         change("intensity = 0.2", "intensity = -1"),
-        "fields.toml:12: gust.intensity = -1: must be a finite part of the wind of at least 0"
+        "fields.toml:12: gust.intensity = -1: must be a finite number of at least 0"
     );
     assert_eq!(change("[flow]", "[flow]\nthickness = nan"), "fields.toml:14: flow.thickness = NaN: must lie in 0..100");
     assert_eq!(change("strength = 12", "octaves = 9"), "fields.toml:15: turbulence.octaves = 9: must lie in 1..8");
@@ -246,12 +246,12 @@ fn info_tells_every_field_and_what_it_can_reach() {
     for line in [
         "force: (-40, 0, 0) in frames 1 to 10",
         "wind: eased smoothly from one to the next",
-        "gust: 20 % of the wind",
-        "flow: round the head ellipsoid",
-        "turbulence: strength 12, swirls of 10 cm and 2 octaves, |F| at most ",
-        "point[0]: strength 50 at (20, 0, 0), |F| at most 50",
-        "vortex[0]: strength -20 at (0, 0, 0), |F| at most 20",
-        "fan[0]: strength 50 at (40, 0, 0), 60 degrees wide, |F| at most 50",
+        "gust: intensity 0.2, time scale ",
+        "flow: thickness ",
+        "turbulence: strength 12, swirl size 10 cm, ",
+        "point[0]: position (20, 0, 0) cm, strength 50, falloff ",
+        "vortex[0]: position (0, 0, 0) cm, axis (0, 1, 0), strength -20, ",
+        "fan[0]: position (40, 0, 0) cm, direction (-1, 0, 0), strength 50, spread 30 degrees, ",
         "all fields: |F| at most ",
     ] {
         assert!(said.lines().any(|told| told.starts_with(line)), "{line}\n{said}");

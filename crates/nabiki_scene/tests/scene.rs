@@ -125,14 +125,8 @@ fn an_unknown_key_is_refused_with_the_nearest_known_one() {
     let beginning =
         "scenes/gust.toml:6: motion.quality: unknown key; the keys here are form, frames, frame_rate, time_step";
     assert!(nothing_near.starts_with(beginning), "{nothing_near}");
-    let renamed = refused("time_step = ", "friction_length = ");
-    let now = "scenes/gust.toml:6: motion.friction_length: is now called motion.inertia_length_floor: rename it";
-    assert_eq!(renamed, now);
     let deep = refused("strands = 100", "style.comb.swep = [1, 0, 0]");
     assert_eq!(deep, "scenes/gust.toml:2: hair.style.comb.swep: unknown key; did you mean hair.style.comb.sweep?");
-    // Its name until it became the field's word, which is spelled quite differently.
-    let old = refused("strands = 100", "style.locks.size = 1.0");
-    assert_eq!(old, "scenes/gust.toml:2: hair.style.locks: is now called hair.style.clumps: rename it");
 }
 
 #[test]
@@ -156,20 +150,14 @@ fn where_no_hair_can_grow_the_ellipsoid_that_is_given_is_named() {
 }
 
 #[test]
-fn a_key_that_was_renamed_is_told_its_new_name() {
-    let video = refused("[motion]", "[picture.video]\nfps = 12\n[motion]");
-    assert_eq!(video, "scenes/gust.toml:5: picture.video.fps: is now called motion.frame_rate: rename it");
-}
-
-#[test]
 fn errors_are_values() {
     let error = |from: &str, to: &str| parse(&GUST.replacen(from, to, 1), &[]).unwrap_err();
     let range = error("time_step = 0.1", "time_step = -0.1");
     assert_eq!((range.file.as_path(), range.line), (Path::new("scenes/gust.toml"), Some(6)));
-    assert_eq!((range.key.as_str(), range.value()), ("motion.time_step", Some("-0.1")));
+    assert_eq!((range.key.to_string().as_str(), range.value()), ("motion.time_step", Some("-0.1")));
     assert_eq!(range.remedy(), "must be a finite number above 0");
     let kind = error("frames = 100", "frames = \"many\"");
-    assert_eq!((kind.key.as_str(), kind.value(), kind.line), ("motion.frames", Some("\"many\""), Some(5)));
+    assert_eq!((kind.key.to_string().as_str(), kind.value(), kind.line), ("motion.frames", Some("\"many\""), Some(5)));
     assert_eq!(kind.remedy(), "must be a whole number of at least 0");
     let unknown = error("time_step", "time_stpe");
     assert!(matches!(*unknown.problem, Problem::UnknownKey { near: Some(ref near), .. } if near == "motion.time_step"));
@@ -263,10 +251,13 @@ fn values_out_of_range_are_refused_by_their_owners_with_the_line() {
         refused("linear_density = 0.05", "linear_density = 0"),
         "scenes/gust.toml:7: motion.linear_density = 0: must be a finite number above 0"
     );
-    assert_eq!(refused("strands = 100", "strands = 0"), "scenes/gust.toml:2: hair.strands = 0: must be at least 1");
+    assert_eq!(
+        refused("strands = 100", "strands = 0"),
+        "scenes/gust.toml:2: hair.strands = 0: must lie in 1..800000000"
+    );
     assert_eq!(
         refused("strands = 100", "strands = 800000001"),
-        "scenes/gust.toml:2: hair.strands = 800000001: must be at most 800000000: grow less"
+        "scenes/gust.toml:2: hair.strands = 800000001: must lie in 1..800000000"
     );
     assert_eq!(
         refused("[motion]", "[pseudo_force]\nalpha = 1.5\n[motion]"),

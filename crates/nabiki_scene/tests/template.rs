@@ -5,13 +5,13 @@ use std::path::Path;
 
 use glam::{DAffine3, DVec3, Vec3};
 use nabiki::body::Contact;
-use nabiki::free_form::NeighbourForces;
+use nabiki::free_form::{FreeForm, NeighbourForces};
 use nabiki::{Hair, Head};
 use nabiki_io::DeclaredSpace;
 use nabiki_io::motion::Axis;
 use nabiki_io::placement::{Placement, Unit};
 use nabiki_scene::advice::Advice;
-use nabiki_scene::scene::{FormChoice, FreeSettings, HairSource};
+use nabiki_scene::scene::{FormChoice, HairSource};
 use nabiki_scene::template::template;
 use nabiki_scene::{BuiltScene, Scene, Shown};
 
@@ -118,7 +118,7 @@ fn a_new_scene_without_files_runs_in_the_free_form_with_its_defaults() {
     let stage = built(&new.text, path);
     assert_eq!((new.guesses.len(), advised(&stage)), (0, vec![]));
     let Scene { form, free, contact, neighbours, .. } = &stage.scene;
-    assert_eq!((form, free, contact), (&FormChoice::Free, &FreeSettings::default(), &Contact::default()));
+    assert_eq!((form, free, contact), (&FormChoice::Free, &FreeForm::default(), &Contact::default()));
     assert_eq!(neighbours, &None);
     // What it comments out is what it says.
     let more = ["[neighbours]", "pressure", "cohesion"];

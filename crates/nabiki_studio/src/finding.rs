@@ -50,7 +50,7 @@ impl Found {
     pub fn help(self) -> &'static str {
         match self {
             Self::Action(entry) => entry.help,
-            Self::Setting(_, _, setting) => setting.help,
+            Self::Setting(_, _, setting) => &setting.help,
             Self::Interval([.., help]) => help,
         }
     }
@@ -77,8 +77,8 @@ pub fn matching(query: &str) -> Vec<Found> {
     let words: Vec<&str> = query.split_whitespace().collect();
     let actions = ACTIONS.iter().map(Found::Action);
     let groups = Page::ALL.into_iter().flat_map(|page| page.groups().iter().map(move |group| (page, group)));
-    let of_groups =
-        groups.flat_map(|(page, group)| group.settings.iter().map(move |setting| Found::Setting(page, group, setting)));
+    let of_groups = groups
+        .flat_map(|(page, group)| group.settings().iter().map(move |setting| Found::Setting(page, group, setting)));
     let settings = OF_INTERVALS.into_iter().map(Found::Interval).chain(of_groups);
     let mut found: Vec<(usize, Found)> = actions
         .chain(settings.filter(|_| !words.is_empty()))
@@ -178,7 +178,7 @@ mod tests {
     fn every_setting_is_found_by_its_name_with_its_group_by_its_key_and_by_its_help() {
         for page in Page::ALL {
             for group in page.groups() {
-                for setting in group.settings {
+                for setting in group.settings() {
                     let key = format!("{}.{}", group.table, setting.key);
                     let help: Vec<&str> = setting.help.split_whitespace().take(4).collect();
                     for query in [format!("{} {}", group.title, setting.label), key.clone(), help.join(" ")] {

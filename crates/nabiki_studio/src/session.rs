@@ -369,7 +369,7 @@ impl Session {
             }
             Err(error) if number == self.asked => {
                 let key = match &error {
-                    nabiki_scene::Error::Scene(refused) => Some(refused.key.clone()).filter(|key| !key.is_empty()),
+                    nabiki_scene::Error::Scene(refused) => Some(refused.key.to_string()).filter(|key| !key.is_empty()),
                     _ => None,
                 };
                 self.trouble = Some(Trouble { text: error.to_string(), key });

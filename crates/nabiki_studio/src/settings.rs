@@ -1,12 +1,21 @@
-//! Every setting of a scene, once: its key, its name, unit, range and help. The panels are drawn from these tables.
+//! The pages of the panels: which settings stand together, in which order. What each may be, its name, unit and help are those of the
+//! scene's schema; a setting that no group names comes last in the last group of its table.
 
+mod declare;
 mod hair;
 mod head;
 mod motion;
 mod picture;
 mod wind;
 
+use std::collections::HashMap;
+use std::sync::OnceLock;
+
+use nabiki::setting as declared;
+use nabiki_scene::schema;
 use toml::{Table, Value};
+
+use declare::{is_table, setting};
 
 /// Where a group of settings is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Deserialize, serde::Serialize)]
@@ -65,8 +74,8 @@ pub struct Group {
     pub open: bool,
     /// When it has an effect.
     pub when: When,
-    /// What is in it.
-    pub settings: &'static [Setting],
+    /// The keys of what is in it, in order.
+    keys: &'static [&'static str],
 }
 
 /// How often a table stands in a scene.
@@ -110,8 +119,8 @@ pub struct Setting {
     pub kind: Kind,
     /// Whether it may be left open, and what is then taken.
     pub open: Option<&'static str>,
-    /// What it does, in a sentence or two.
-    pub help: &'static str,
+    /// What it does, in a paragraph.
+    pub help: String,
 }
 
 /// What a setting may be.
@@ -195,8 +204,6 @@ pub enum Kind {
     Envelope,
 }
 
-/// The six axes of files.
-const AXES: &[&str] = &["+x", "-x", "+y", "-y", "+z", "-z"];
 /// Files of hair.
 pub const HAIR_FILES: &[&str] = &["hair", "tfx", "obj", "usda", "usdc", "usd", "abc"];
 /// Files of surfaces.
@@ -204,76 +211,9 @@ pub const MESH_FILES: &[&str] = &["obj", "glb", "gltf", "ply", "tfxmesh", "usda"
 /// Files of motion.
 pub const MOTION_FILES: &[&str] = &["bvh", "amc", "tof", "glb", "gltf", "csv", "usda", "usdc", "usd", "abc"];
 
-impl Setting {
-    const fn new(key: &'static str, label: &'static str, unit: &'static str, kind: Kind, help: &'static str) -> Self {
-        Self { key, label, unit, kind, open: None, help }
-    }
-
-    /// The same, which may be left open; `what` is taken then.
-    const fn or(mut self, what: &'static str) -> Self {
-        self.open = Some(what);
-        self
-    }
-}
-
-const fn number(
-    key: &'static str,
-    label: &'static str,
-    unit: &'static str,
-    range: [f64; 2],
-    help: &'static str,
-) -> Setting {
-    let [least, most] = range;
-    // A drag across a panel goes through an ordinary range; those without an end have steps that suit small values.
-    let step = if most - least > 200.0 { 0.5 } else { (most - least) / 400.0 };
-    Setting::new(key, label, unit, Kind::Number { least, most, step }, help)
-}
-
-const fn fine(
-    key: &'static str,
-    label: &'static str,
-    unit: &'static str,
-    range: [f64; 2],
-    step: f64,
-    help: &'static str,
-) -> Setting {
-    let [least, most] = range;
-    Setting::new(key, label, unit, Kind::Number { least, most, step }, help)
-}
-
-const fn whole(
-    key: &'static str,
-    label: &'static str,
-    unit: &'static str,
-    range: [i64; 2],
-    help: &'static str,
-) -> Setting {
-    Setting::new(key, label, unit, Kind::Whole { least: range[0], most: range[1] }, help)
-}
-
-const fn flag(key: &'static str, label: &'static str, help: &'static str) -> Setting {
-    Setting::new(key, label, "", Kind::Flag, help)
-}
-
-const fn choice(key: &'static str, label: &'static str, words: &'static [&'static str], help: &'static str) -> Setting {
-    Setting::new(key, label, "", Kind::Choice(words), help)
-}
-
-const fn vector(key: &'static str, label: &'static str, unit: &'static str, step: f64, help: &'static str) -> Setting {
-    Setting::new(key, label, unit, Kind::Numbers { names: &["x", "y", "z"], step }, help)
-}
-
-const fn colour(key: &'static str, label: &'static str, linear: bool, help: &'static str) -> Setting {
-    Setting::new(key, label, "", Kind::Colour { linear }, help)
-}
-
-const fn file(key: &'static str, label: &'static str, endings: &'static [&'static str], help: &'static str) -> Setting {
-    Setting::new(key, label, "", Kind::File(endings), help)
-}
-
 impl Group {
-    const fn new(title: &'static str, table: &'static str, help: &'static str, settings: &'static [Setting]) -> Self {
-        Self { title, table, shape: Shape::Always, help, open: false, when: When::Always, settings }
+    const fn new(title: &'static str, table: &'static str, help: &'static str, keys: &'static [&'static str]) -> Self {
+        Self { title, table, shape: Shape::Always, help, open: false, when: When::Always, keys }
     }
 
     /// The same, open at first.
@@ -290,6 +230,44 @@ impl Group {
     const fn when(mut self, when: When) -> Self {
         self.when = when;
         self
+    }
+
+    /// What is in it.
+    pub fn settings(&self) -> &'static [Setting] {
+        static OF_GROUPS: OnceLock<HashMap<(&str, &str), Vec<Setting>>> = OnceLock::new();
+        let all = || Page::ALL.into_iter().flat_map(Page::groups);
+        let made = || all().map(|group| ((group.title, group.table), group.make(all()))).collect();
+        OF_GROUPS.get_or_init(made).get(&(self.title, self.table)).map_or(&[], Vec::as_slice)
+    }
+
+    /// Its settings out of the schema; `all` groups, since the last of a table takes what no other names.
+    fn make(&self, all: impl DoubleEndedIterator<Item = &'static Self> + Clone) -> Vec<Setting> {
+        let mut settings: Vec<Setting> = self.keys.iter().filter_map(|key| self.declared(key)).collect();
+        let last = all.clone().rev().find(|group| group.table == self.table);
+        if last.is_some_and(|last| last.title == self.title) {
+            let named = |key: &str| all.clone().any(|group| group.table == self.table && group.keys.contains(&key));
+            for left in self.declared_keys().filter(|key| !named(key)) {
+                settings.extend(self.declared(left).filter(|_| !settings.iter().any(|setting| setting.key == left)));
+            }
+        }
+        settings
+    }
+
+    /// Every key that the schema has of its table, but for tables, which are groups of their own.
+    fn declared_keys(&self) -> impl Iterator<Item = &'static str> {
+        let top = schema::TABLES.iter().filter(|table| table.key == self.table).flat_map(schema::SceneTable::settings);
+        let inner = schema::find(&self.table.into()).into_iter().flat_map(|setting| schema::tables(&setting.kind));
+        let settings = top.chain(inner.flat_map(|table| table.settings));
+        settings.filter(|setting| !is_table(&setting.kind)).map(|setting| setting.key)
+    }
+
+    /// The setting of a key as the schema has it.
+    fn declared(&self, key: &'static str) -> Option<Setting> {
+        let found = schema::find(&format!("{}.{key}", self.table).into());
+        // Of hair that is grown and hair from a file each has its own; a head's mesh may be a file.
+        let file = found.iter().find(|setting| matches!(setting.kind, declared::Kind::Path));
+        let of_kind = if self.when == When::Imported { found.last() } else { found.first() };
+        file.or(of_kind).map(|found| setting(self.table, key, found))
     }
 
     /// What a new table of an optional group or list is given.
@@ -332,7 +310,7 @@ pub fn find(key: &str) -> Option<(Page, &'static Group, &'static Setting)> {
     Page::ALL.into_iter().flat_map(|page| page.groups().iter().map(move |group| (page, group))).find_map(
         |(page, group)| {
             let rest = bare.strip_prefix(group.table)?.strip_prefix('.')?;
-            let setting = group.settings.iter().find(|setting| {
+            let setting = group.settings().iter().find(|setting| {
                 rest == setting.key || rest.strip_prefix(setting.key).is_some_and(|below| below.starts_with('.'))
             })?;
             Some((page, group, setting))

@@ -57,7 +57,7 @@ fn every_key_of_a_scene_has_a_field_with_help() {
     assert!(missing.is_empty(), "no field for {missing:?}");
     for page in Page::ALL {
         for group in page.groups() {
-            for setting in group.settings {
+            for setting in group.settings() {
                 assert!(setting.help.ends_with('.') && !setting.label.is_empty(), "{}.{}", group.table, setting.key);
                 let key = format!("{}.{}", group.table, setting.key);
                 let there = found.iter().any(|known| *known == key || known.starts_with(&format!("{key}.")));
@@ -84,7 +84,7 @@ fn both_ends_of_what_a_field_takes_are_in_the_range_of_the_scene() {
     let scenes = scenes();
     let mut tried = 0;
     for group in Page::ALL.iter().flat_map(|page| page.groups()) {
-        for setting in group.settings {
+        for setting in group.settings() {
             let ends = match setting.kind {
                 Kind::Number { least, most, .. } => [least, most].map(Value::Float),
                 Kind::Whole { least, most } => [least, most].map(Value::Integer),

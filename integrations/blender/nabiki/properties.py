@@ -13,11 +13,17 @@ from bpy.props import (
 )
 
 from . import playing
+from .declared import EASE, SETTINGS
 
 
 def changed(self, context):
     """A setting is another: what was computed from the one before is not shown any more."""
     playing.settings_changed(self.id_data)
+
+
+def declared(key, **ours):
+    """What a property of a setting is made with: as the scene declares it, but for what is said here."""
+    return {**SETTINGS[key], "update": changed, **ours}
 
 
 def is_mesh(self, thing):
@@ -49,13 +55,6 @@ FACING = [
     ("-x", "-X", "The face looks along -X of the world in the first frame"),
     ("+x", "X", "The face looks along X of the world in the first frame"),
 ]
-
-EASE = [
-    ("smooth", "Smooth", "Each wind is reached in the middle of its interval, as with bezier keyframes"),
-    ("linear", "Linear", "Each wind is reached in the middle of its interval, on straight lines"),
-    ("stepped", "Constant", "Each wind blows unchanged up to its last frame"),
-]
-
 
 class NabikiSettings(bpy.types.PropertyGroup):
     # What takes part.
@@ -90,7 +89,7 @@ class NabikiSettings(bpy.types.PropertyGroup):
     # Wind.
     intervals: CollectionProperty(type=NabikiInterval)
     active_interval: IntProperty(name="Interval", description="The interval that is shown", default=0)
-    ease: EnumProperty(name="Ease", description="How one wind follows another", items=EASE, default="smooth", update=changed)
+    ease: EnumProperty(name="Ease", description=SETTINGS["wind.ease"]["description"], items=EASE, default="smooth", update=changed)
     strength_scale: FloatProperty(
         name="Strength",
         description="What the strengths of Blender's force fields are multiplied by. 30 is a breeze for hair, 100 a strong wind",
@@ -100,106 +99,38 @@ class NabikiSettings(bpy.types.PropertyGroup):
         update=changed,
     )
     use_gust: BoolProperty(name="Gusts", description="Let the wind rise and fall at random", default=False, update=changed)
-    gust_intensity: FloatProperty(
-        name="Intensity",
-        description="How much the wind changes: 0.15 as in open country, 0.4 as in a town",
-        default=0.3,
-        min=0.0,
-        soft_max=0.6,
-        update=changed,
-    )
-    gust_time_scale: FloatProperty(
-        name="Time Scale", description="How long a gust takes, in seconds", default=2.0, min=0.01, soft_max=20.0, update=changed
-    )
-    gust_seed: IntProperty(name="Seed", description="Another number for other gusts", default=1, min=0, update=changed)
+    gust_intensity: FloatProperty(**declared("gust.intensity", soft_max=0.6))
+    gust_time_scale: FloatProperty(**declared("gust.time_scale", min=0.01, soft_max=20.0))
+    gust_seed: IntProperty(**declared("gust.seed"))
     use_flow: BoolProperty(name="Flow Round the Head", description="Lead the wind round the head", default=False, update=changed)
-    flow_thickness: FloatProperty(
-        name="Hair Thickness (cm)",
-        description="How far the hair on the head stands out, in centimetres: the wind goes round that, too",
-        default=1.5,
-        min=0.0,
-        soft_max=10.0,
-        update=changed,
-    )
+    flow_thickness: FloatProperty(**declared("flow.thickness", name="Hair Thickness (cm)", default=1.5, soft_max=10.0))
     use_body_wind: BoolProperty(name="Wind of the Motion", description="Let a head that moves make wind", default=False, update=changed)
-    body_wind_drag: FloatProperty(
-        name="Drag", description="The wind's strength for each centimetre a second", default=0.3, min=0.0, soft_max=2.0, update=changed
-    )
+    body_wind_drag: FloatProperty(**declared("body_wind.drag", soft_max=2.0))
     # How hair answers.
-    stiffness: FloatVectorProperty(
-        name="Stiffness",
-        description="How firmly hair keeps its shape, at the root and at the tip. Where it is 36 times the wind, hair bends within 6 cm",
-        size=2,
-        default=(12000.0, 1000.0),
-        min=0.0,
-        soft_max=40000.0,
-        step=10000,
-        precision=0,
-        update=changed,
-    )
+    stiffness: FloatVectorProperty(**declared("free.stiffness", size=2, soft_max=40000.0, step=10000, precision=0))
     adapt_stiffness: BoolProperty(
         name="Adapt to Hair",
         description="Lower the stiffness to what the shortest segments of this hair can be moved with",
         default=True,
         update=changed,
     )
-    hold: FloatProperty(
-        name="Hold",
-        description="How firmly hair keeps its place on the head, as with hair spray",
-        default=30.0,
-        min=0.0,
-        soft_max=300.0,
-        update=changed,
-    )
-    settle: FloatProperty(
-        name="Settle",
-        description="Frames in which a swing dies down: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 never ends",
-        default=20.0,
-        min=0.0,
-        soft_max=120.0,
-        update=changed,
-    )
-    gravity: FloatProperty(
-        name="Weight",
-        description="How heavy hair is that has been moved, and how much a jolt of the head is felt",
-        default=100.0,
-        min=0.0,
-        soft_max=500.0,
-        update=changed,
-    )
-    lag: FloatProperty(
-        name="Lag", description="How far tips fall behind a head that turns: 0 not at all", default=1.0, min=0.0, soft_max=4.0, update=changed
-    )
+    hold: FloatProperty(**declared("free.hold", soft_max=300.0))
+    settle: FloatProperty(**declared("free.settle", soft_max=120.0))
+    gravity: FloatProperty(**declared("free.gravity", soft_max=500.0))
+    lag: FloatProperty(**declared("free.lag", soft_max=4.0))
     speed: FloatProperty(
         name="Speed", description="How fast all of it goes: 1 is hair in slow motion", default=1.6, min=0.01, soft_max=4.0, update=changed
     )
-    short_hair_length: FloatProperty(
-        name="Short Hair (cm)",
-        description="Hair shorter than this, in centimetres, moves as hair of this length: it is held by the longer hair beside it",
-        default=14.0,
-        min=0.0,
-        soft_max=60.0,
-        update=changed,
-    )
+    short_hair_length: FloatProperty(**declared("motion.inertia_length_floor", name="Short Hair (cm)", default=14.0, soft_max=60.0))
     # Collisions.
-    margin: FloatProperty(
-        name="Margin (cm)", description="How far from skin and bodies hair is kept, in centimetres", default=0.1, min=0.0, max=5.0, update=changed
-    )
-    friction: FloatProperty(
-        name="Friction", description="How much hair is slowed that slides over skin and bodies", default=0.1, min=0.0, max=10.0, update=changed
-    )
-    static_friction: FloatProperty(
-        name="Static Friction", description="The same for hair that does not slide yet", default=0.15, min=0.0, max=10.0, update=changed
-    )
+    margin: FloatProperty(**declared("contact.margin"))
+    friction: FloatProperty(**declared("contact.friction"))
+    static_friction: FloatProperty(**declared("contact.static_friction"))
     use_neighbours: BoolProperty(
         name="Hair Against Hair", description="Let strands push away and take along those beside them", default=False, update=changed
     )
-    pressure: FloatProperty(
-        name="Pressure", description="How firmly the hair keeps its volume", default=40.0, min=0.0, soft_max=200.0, update=changed
-    )
-    cohesion: FloatProperty(
-        name="Cohesion", description="How firmly strands take along those beside them", default=40.0, min=0.0, soft_max=200.0, update=changed
-    )
+    pressure: FloatProperty(**declared("neighbours.pressure", soft_max=200.0))
+    cohesion: FloatProperty(**declared("neighbours.cohesion", soft_max=200.0))
     # What is shown and written.
     preview_strands: IntProperty(
         name="Strands",

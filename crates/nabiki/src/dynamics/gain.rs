@@ -93,7 +93,7 @@ pub(super) fn segment_shapes(
         let position = (end + length / 2.0) / d + 0.5;
         end += length;
         let gain = gain(dynamics, position, total / d);
-        let eps = f64::from(dynamics.pseudo_force.coefficient(position));
+        let eps = dynamics.weakening().map_or(1.0, |weakening| f64::from(weakening.coefficient(position)));
         let along = end / total;
         let (begin, middle) = (along - length / total, along - 0.5 * length / total);
         SegmentShape { length, gain, gain_in_gamma: eps * gain, along, begin, middle, cut }

@@ -284,7 +284,7 @@ mod tests {
             let [stiffness, hold, gravity, mut force] = powers.map(|power| (10.0_f32.powf(power) - 10.0).min(f32::MAX));
             free.form.stiffness = stiffness.into();
             free.form.hold = hold.into();
-            free.form.gravity = gravity;
+            free.form.gravity = gravity.into();
             let refused = |free: &FreeMotion, force: f32| {
                 let dynamics = Dynamics {
                     motion: Motion::default(),
@@ -304,20 +304,20 @@ mod tests {
                 let Some(error) = refused(&free, force) else { return Ok(()) };
                 let Some((_, limit)) = error.remedy.split_once(" below ").and_then(|(_, after)| after.split_once(" below ")) else {
                     // Nothing alone mends it: the largest goes.
-                    match error.thing.as_str() {
+                    match error.thing.to_string().as_str() {
                         "free.stiffness" => free.form.stiffness = 0.0.into(),
                         "free.hold" => free.form.hold = 0.0.into(),
-                        _ => free.form.gravity = 0.0,
+                        _ => free.form.gravity = 0.0.into(),
                     }
                     continue;
                 };
                 let limit: f32 = limit.split(',').next().unwrap().parse().unwrap();
                 // Forces are given to four places.
                 let within = 0.999 * limit;
-                match error.thing.as_str() {
+                match error.thing.to_string().as_str() {
                     "free.stiffness" => free.form.stiffness = within.into(),
                     "free.hold" => free.form.hold = within.into(),
-                    "free.gravity" => free.form.gravity = within,
+                    "free.gravity" => free.form.gravity = within.into(),
                     _ => force = within,
                 }
                 prop_assert_eq!(refused(&free, force).map(|e| e.to_string()), None);

@@ -1,46 +1,28 @@
 //! The wind that a body makes for itself by moving.
 
 use glam::{DVec3, Vec3};
-use serde::{Deserialize, Serialize};
 
-use super::{Field, check_at_least_0};
+use super::Field;
 use crate::dynamics::ForceSpace;
 use crate::error::SettingError;
 use crate::pose::{Pose, check_poses};
+use crate::settings;
 use crate::smoothing::{self, smoothed};
 
-/// The settings of the wind from the head's own motion, uniform in space.
-///
-/// With the head's velocity v (cm/s) and acceleration a (cm/s^2), from the poses and the frame rate:
-/// F = -drag v - footfall (0, a_y, 0).
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct BodyWind {
-    /// Force for each cm/s of the head, against its way, at least 0 (default 0.3).
-    pub drag: f32,
-    /// Force for each cm/s^2 by which the head is lifted, downward, at least 0 (default 0). Where gravity is G, hair that
-    /// is lifted with the head feels G / 981.
-    pub footfall: f32,
-    /// Deviation of the bell by which the head's places are averaged beforehand (frames), 0..240 (default 0: as they are).
-    /// Recorded places tremble, and accelerations many times more.
-    pub smoothing: f32,
-}
-
-impl Default for BodyWind {
-    fn default() -> Self {
-        Self { drag: 0.3, footfall: 0.0, smoothing: 0.0 }
-    }
-}
-
-impl BodyWind {
-    /// Refuses what is out of its range.
+settings! {
+    /// The wind from the head's own motion, uniform in space; it needs a motion of the head.
     ///
-    /// # Errors
-    /// Names the first such setting.
-    pub fn check(&self) -> Result<(), SettingError> {
-        check_at_least_0("body_wind.drag", self.drag, "force by velocity (per cm/s)")?;
-        check_at_least_0("body_wind.footfall", self.footfall, "force by acceleration (per cm/s^2)")?;
-        smoothing::check("body_wind.smoothing", self.smoothing)
+    /// With the head's velocity v (cm/s) and acceleration a (cm/s^2), from the poses and the frame rate:
+    /// F = -drag v - footfall (0, a_y, 0).
+    pub struct BodyWind in "body_wind" {
+        /// Force for each cm/s of the head, against its way.
+        pub drag: f32 = 0.3 => "Drag", unit "per cm/s", least 0.0;
+        /// Force for each cm/s^2 by which the head is lifted, downward. Where gravity is G, hair that is lifted with the head feels
+        /// G / 981.
+        pub footfall: f32 = 0.0 => "Footfall", unit "per cm/s2", least 0.0;
+        /// Deviation of the bell by which the head's places are averaged beforehand; 0: as they are. Recorded places tremble, and
+        /// accelerations many times more.
+        pub smoothing: f32 = 0.0 => "Smoothing", unit "frames", least 0.0, most smoothing::MOST as f64;
     }
 }
 

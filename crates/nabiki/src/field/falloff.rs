@@ -1,53 +1,39 @@
 //! How a local force weakens with distance, and how it comes and goes with time.
 
-use serde::{Deserialize, Serialize};
+use crate::error::SettingError;
+use crate::setting::{Place, refused};
+use crate::{settings, words};
 
-use crate::error::{SettingError, check_positive};
-
-/// How a force weakens with the distance from its place.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Falloff {
-    /// The law (default: smooth).
-    pub law: FalloffLaw,
-    /// R (cm), above 0 (default 30).
-    pub radius: f32,
+settings! {
+    /// How a local force weakens with the distance r.
+    #[derive(Copy)]
+    pub struct Falloff {
+        /// The law by which the force weakens.
+        pub law: FalloffLaw = FalloffLaw::Smooth => "Falloff";
+        /// R of the law. Within a twentieth of it the force is let go to 0.
+        pub radius: f32 = 30.0 => "Radius", unit "cm", above 0.0;
+    }
 }
 
-/// The part of the strength that is left at the distance r.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum FalloffLaw {
-    /// All, at any distance; R counts only for the core.
-    None,
-    /// 1 - r / R, and nothing beyond R.
-    Linear,
-    /// 1 - 3 (r / R)^2 + 2 (r / R)^3, and nothing beyond R (the default).
-    #[default]
-    Smooth,
-    /// 1 / (1 + r / R): half of it at R.
-    Inverse,
-    /// 1 / (1 + (r / R)^2): half of it at R.
-    InverseSquare,
-}
-
-impl Default for Falloff {
-    fn default() -> Self {
-        Self { law: FalloffLaw::default(), radius: 30.0 }
+words! {
+    /// How a local force weakens with the distance r, by the radius R.
+    pub enum FalloffLaw = Smooth {
+        /// All, at any distance; R counts only for the core.
+        None = "none",
+        /// 1 - r / R, and nothing beyond R.
+        Linear = "linear",
+        /// 1 - 3 (r / R)^2 + 2 (r / R)^3, and nothing beyond R.
+        Smooth = "smooth",
+        /// 1 / (1 + r / R): half of it at R.
+        Inverse = "inverse",
+        /// 1 / (1 + (r / R)^2): half of it at R.
+        InverseSquare = "inverse_square",
     }
 }
 
 impl Falloff {
     /// Part of the radius within which the direction of a force that has none at its centre is let go to 0.
     pub(super) const CORE: f32 = 0.05;
-
-    /// Refuses a radius that is not above 0. `name` is what the falloff is called.
-    ///
-    /// # Errors
-    /// Names the radius.
-    pub fn check(&self, name: &str) -> Result<(), SettingError> {
-        check_positive(&format!("{name}.radius"), self.radius)
-    }
 
     /// The part of the strength that is left at a distance (cm), 0..1.
     pub fn at(&self, distance: f32) -> f32 {
@@ -90,14 +76,15 @@ fn within(x: f32) -> f32 {
     (1.0 - x).max(0.0)
 }
 
-/// A part of the strength at one frame.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct EnvelopeKey {
-    /// The frame.
-    pub frame: u32,
-    /// Part of the strength, any finite number.
-    pub factor: f32,
+settings! {
+    /// A part of the strength at one frame.
+    #[derive(Copy)]
+    pub struct EnvelopeKey {
+        /// The frame.
+        pub frame: u32 = 0 => "Frame", must "1";
+        /// Part of the strength, any finite number.
+        pub factor: f32 = 1.0 => "Part", must "1.0";
+    }
 }
 
 /// The part of the strength in a frame: on straight lines from key to key, the first before them and the last after them;
@@ -120,22 +107,11 @@ pub(super) fn largest(keys: &[EnvelopeKey]) -> f32 {
     if keys.is_empty() { 1.0 } else { keys.iter().map(|key| key.factor.abs()).fold(0.0, f32::max) }
 }
 
-/// Refuses keys whose frames do not ascend and factors that are not finite.
-pub(super) fn check_envelope(name: &str, keys: &[EnvelopeKey]) -> Result<(), SettingError> {
-    for (i, key) in keys.iter().enumerate() {
-        if !key.factor.is_finite() {
-            return Err(SettingError::new(
-                format!("{name}.envelope[{i}].factor"),
-                key.factor,
-                "must be a finite number",
-            ));
-        }
-        if i > 0 && key.frame <= keys[i - 1].frame {
-            let remedy = format!("must come after frame {}, that of the key before it", keys[i - 1].frame);
-            return Err(SettingError::new(format!("{name}.envelope[{i}].frame"), key.frame, remedy));
-        }
-    }
-    Ok(())
+/// Refuses keys of the table `at` whose frames do not ascend.
+pub(super) fn check_order(at: &Place, keys: &[EnvelopeKey]) -> Result<(), SettingError> {
+    let Some(i) = keys.windows(2).position(|pair| pair[1].frame <= pair[0].frame) else { return Ok(()) };
+    let remedy = format!("must come after frame {}, that of the key before it", keys[i].frame);
+    refused(&at.key("envelope").entry(i + 1).key("frame"), keys[i + 1].frame, remedy)
 }
 
 #[cfg(test)]
@@ -185,6 +161,6 @@ mod tests {
         }
         assert_eq!((envelope(&[], 7), largest(&[]), largest(&keys)), (1.0, 1.0, 2.0));
         let twice = [keys[0], keys[0]];
-        assert_eq!(check_envelope("fan[0]", &twice).unwrap_err().thing, "fan[0].envelope[1].frame");
+        assert_eq!(check_order(&Place::Table("fan[0]"), &twice).unwrap_err().thing, "fan[0].envelope[1].frame");
     }
 }

@@ -1,52 +1,37 @@
 //! A fan: wind in a cone, such as that of a hair dryer or a wind machine.
 
 use glam::Vec3;
-use serde::{Deserialize, Serialize};
 
-use super::falloff::{EnvelopeKey, Falloff};
-use super::local::{self, LocalField, Shape, check_place, unit};
+use super::falloff::{self, EnvelopeKey, Falloff};
+use super::local::{FARTHEST, LocalField, Shape, unit};
 use super::sine::cos_turns;
-use crate::error::{SettingError, check_range};
+use crate::error::SettingError;
+use crate::setting::Place;
+use crate::settings;
 use crate::vector::dot;
 
-/// The settings of a fan: F = strength falloff(r) cone(angle) r^, away from it and only within its cone.
-///
-/// With c = (cos angle - cos spread) / (1 - cos spread), 1 on the axis and 0 at the edge, cone is 1 - (1 - c)^4 of it: nearly
-/// all of the strength over the inner half of the cone, and none beyond its edge.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Fan {
-    /// The tip of the cone (cm; the space of the forces).
-    pub position: Vec3,
-    /// Where it blows, of any length but 0.
-    pub direction: Vec3,
-    /// |F| on the axis beside the fan; negative draws in (default 50).
-    #[serde(default = "local::strength")]
-    pub strength: f32,
-    /// Angle between the axis and the edge of the cone (degrees), 1..90 (default 30).
-    #[serde(default = "spread")]
-    pub spread: f32,
-    /// How it weakens with the distance. Within a twentieth of its radius it is let go to 0.
-    #[serde(default)]
-    pub falloff: Falloff,
-    /// Parts of the strength over time (default: all of it always).
-    #[serde(default)]
-    pub envelope: Vec<EnvelopeKey>,
-}
-
-fn spread() -> f32 {
-    30.0
+settings! {
+    /// A wind in a cone.
+    pub struct Fan where blows_somewhere {
+        /// The tip of the cone, in the space of the forces.
+        pub position: Vec3 = Vec3::new(40.0, 0.0, 0.0) => "Position", must "[x, y, z]", unit "cm", least -FARTHEST, most FARTHEST;
+        /// Where it blows, of any length but 0.
+        pub direction: Vec3 = Vec3::NEG_X => "Direction", must "[x, y, z]";
+        /// |F| on the axis beside the fan; negative draws in.
+        pub strength: f32 = 50.0 => "Strength";
+        /// Angle between the axis and the edge of the cone.
+        pub spread: f32 = 30.0 => "Spread", unit "degrees", least 1.0, most 90.0;
+        /// How it weakens with the distance. Within a twentieth of its radius it is let go to 0.
+        pub falloff: Falloff = Falloff::default() => "Falloff";
+        /// Parts of the strength over frames, on straight lines from key to key; all of it always without keys.
+        pub envelope: Vec<EnvelopeKey> = Vec::new() => "Over time";
+    }
 }
 
 impl Fan {
-    /// Refuses what is out of its range. `name` is what the fan is called.
-    ///
-    /// # Errors
-    /// Names the first such setting.
-    pub fn check(&self, name: &str) -> Result<(), SettingError> {
-        check_place(name, self.position, self.strength, &self.falloff, &self.envelope)?;
-        unit(name, "direction", self.direction)?;
-        check_range(&format!("{name}.spread"), self.spread, 1.0, 90.0)
+    fn blows_somewhere(&self, at: &Place) -> Result<(), SettingError> {
+        unit(&at.key("direction"), self.direction)?;
+        falloff::check_order(at, &self.envelope)
     }
 }
 
@@ -67,12 +52,12 @@ impl FanField {
     /// The field of a fan that is called `name` in refusals.
     ///
     /// # Errors
-    /// As [`Fan::check`].
+    /// As [`Fan::check_at`].
     pub fn new(settings: &Fan, name: &str) -> Result<Self, SettingError> {
-        settings.check(name)?;
+        settings.check_at(name)?;
         let Fan { position, direction, strength, spread, falloff, envelope } = settings.clone();
         let cos_spread = cos_turns(f64::from(spread) / 360.0) as f32;
-        let direction = unit(name, "direction", direction)?.to_array();
+        let direction = unit(&Place::Table(name).key("direction"), direction)?.to_array();
         let shape = Cone { direction, cos_spread, sharpness: (1.0 - cos_spread).recip() };
         Ok(Self { name: name.to_owned(), position, strength, falloff, envelope, shape })
     }

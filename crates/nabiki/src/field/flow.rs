@@ -8,32 +8,22 @@ mod tests;
 use std::sync::Arc;
 
 use glam::{Mat3, Vec3};
-use serde::{Deserialize, Serialize};
 
 use super::head_track::{HeadTrack, Place};
 use super::lanes::{self, Lanes, by_part, get, set, times, transposed_times};
 use super::{Field, VectorRow};
 use crate::ellipsoid::Ellipsoid;
-use crate::error::{SettingError, check_range};
+use crate::error::SettingError;
 use crate::pose::Pose;
+use crate::settings;
 use crate::vector::{dot, scale, scale_add, subtract};
 use carlson::{alpha, expansion, mean_square};
 
-/// The settings of the flow round the head.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Flow {
-    /// What the wind goes round stands out so far from the head ellipsoid (cm, 0..100, default 0): as hair itself does.
-    pub thickness: f32,
-}
-
-impl Flow {
-    /// Refuses what is out of its range.
-    ///
-    /// # Errors
-    /// Names the setting.
-    pub fn check(&self) -> Result<(), SettingError> {
-        check_range("flow.thickness", self.thickness, 0.0, 100.0)
+settings! {
+    /// The way of the wind round the head, instead of through it.
+    pub struct Flow in "flow" {
+        /// How far the hair on the head stands out from the head ellipsoid: the wind goes round that, too.
+        pub thickness: f32 = 0.0 => "Thickness", unit "cm", least 0.0, most 100.0;
     }
 }
 

@@ -3,50 +3,29 @@
 use std::sync::Arc;
 
 use glam::Vec3;
-use serde::{Deserialize, Serialize};
 
 use super::sine::{cos_turns, cube_root};
-use super::{Field, VectorRow, check_at_least_0};
-use crate::error::{SettingError, check_positive};
+use super::{Field, VectorRow};
+use crate::error::SettingError;
 use crate::random;
+use crate::settings;
 
-/// The settings of gusts: a random factor about 1 on the wind, with the spectrum of the wind's own direction after T. von
-/// Karman ("Progress in the statistical theory of turbulence", PNAS 34, 1948) as engineers write it,
-///
-/// ```text
-/// S(f) = 4 T / (1 + 70.8 (f T)^2)^(5/6)
-/// ```
-///
-/// up to a highest frequency: what is faster is not felt by the whole head of hair at once, and is turbulence.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Gust {
-    /// Root mean square of the factor about 1, at least 0 (default 0.3). In open country 0.15, in a town 0.4; above 0.4 the
-    /// wind now and then turns round.
-    pub intensity: f32,
-    /// T (seconds), above 0: the length scale of the turbulence over the mean speed of the wind (default 2).
-    pub time_scale: f32,
-    /// Highest frequency (Hz), above 0 (default 1).
-    pub highest: f32,
-    /// Seed of the phases.
-    pub seed: u64,
-}
-
-impl Default for Gust {
-    fn default() -> Self {
-        Self { intensity: 0.3, time_scale: 2.0, highest: 1.0, seed: 1 }
-    }
-}
-
-impl Gust {
-    /// Refuses what is out of its range.
+settings! {
+    /// Gusts: a random factor about 1 on the wind of the intervals, which rises and falls as wind does.
     ///
-    /// # Errors
-    /// Names the first such setting.
-    pub fn check(&self) -> Result<(), SettingError> {
-        check_at_least_0("gust.intensity", self.intensity, "part of the wind")?;
-        check_positive("gust.time_scale", self.time_scale)?;
-        check_positive("gust.highest", self.highest)
+    /// It has the spectrum of the wind's own direction after T. von Karman ("Progress in the statistical theory of turbulence", PNAS 34,
+    /// 1948) as engineers write it, `S(f) = 4 T / (1 + 70.8 (f T)^2)^(5/6)`, up to a highest frequency: what is faster is not felt by
+    /// the whole head of hair at once, and is turbulence.
+    pub struct Gust in "gust" {
+        /// How much the wind changes: 0.15 as in open country, 0.4 as in a town. It is the root mean square of the factor about 1; above 0.4
+        /// the wind now and then turns round.
+        pub intensity: f32 = 0.3 => "Intensity", least 0.0;
+        /// How long a gust takes. T: the length scale of the turbulence over the mean speed of the wind.
+        pub time_scale: f32 = 2.0 => "Time scale", unit "s", above 0.0;
+        /// Highest frequency. What is faster is not felt by all of the hair at once.
+        pub highest: f32 = 1.0 => "Highest", unit "Hz", above 0.0;
+        /// Seed of the phases: another number, other gusts.
+        pub seed: u64 = 1 => "Seed";
     }
 }
 

@@ -28,7 +28,7 @@ impl HeadTrack {
     /// # Errors
     /// An ellipsoid or a pose that is none.
     pub fn new(ellipsoid: Ellipsoid, poses: &[Pose]) -> Result<Self, SettingError> {
-        ellipsoid.check("head.ellipsoid")?;
+        ellipsoid.check_at("head.ellipsoid")?;
         check_poses("pose of", poses)?;
         let still = [Pose::STILL];
         let poses = if poses.is_empty() { &still } else { poses };

@@ -1,46 +1,41 @@
 //! The force field of the paper: a few vectors over a few frames, equation (5), or the same eased from one to the next.
 
 use glam::Vec3;
-use serde::{Deserialize, Serialize};
 
 use super::Field;
 use crate::error::SettingError;
+use crate::{settings, words};
 
-/// One interval of the wind: `vector` drives every frame after the interval before it, up to `through`.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Keyframe {
-    /// Last frame that feels this vector (k_j of equation (5)).
-    pub through: u32,
-    /// Force F_j: a direction with a strength, without a unit (section 4.3: only c_i |F| moves hair).
-    pub vector: Vec3,
+settings! {
+    /// One interval of the wind: `vector` drives every frame after the interval before it, up to `through`.
+    #[derive(Copy)]
+    pub struct Keyframe {
+        /// Last frame that feels this vector (k_j of equation (5)).
+        pub through: u32 = 100 => "Through", must "50", unit "frame";
+        /// Force F_j: a direction with a strength, without a unit (section 4.3: only c_i |F| moves hair).
+        pub vector: Vec3 = Vec3::ZERO => "Vector", must "[-100, 0, 0]";
+    }
 }
 
-/// How the force goes from one vector to the next.
-///
-/// Eased, vector j is reached in the middle m_j of its interval, halfway between the first and the last frame that
-/// feel it in the stepped field: the force is F_1 up to m_1, F_j + e(t) (F_(j+1) - F_j) at the part t of the way from m_j
-/// to m_(j+1), and the last vector from its middle on. Where two intervals of the same length meet it is halfway between
-/// their vectors, so that nothing comes earlier or later than stepped, and a field with a keyframe for every frame is the
-/// same with any ease.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Ease {
-    /// Each vector holds through its interval: the paper's way (the default).
-    #[default]
-    Stepped,
-    /// e(t) = t.
-    Linear,
-    /// e(t) = 3 t^2 - 2 t^3: it sets out and arrives gently.
-    Smooth,
+words! {
+    /// How the wind goes from one vector to the next.
+    pub enum Ease = Stepped {
+        /// Each vector holds through its interval: the paper's way.
+        Stepped = "stepped",
+        /// Each is reached in the middle of its interval, on straight lines: e(t) = t.
+        Linear = "linear",
+        /// Each is reached in the middle of its interval, and set out for and arrived at gently: e(t) = 3 t^2 - 2 t^3.
+        Smooth = "smooth",
+    }
 }
 
-/// How the vectors of the intervals follow one another.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Wind {
-    /// From one vector to the next (default: stepped).
-    pub ease: Ease,
+settings! {
+    /// How the vectors of the intervals follow one another.
+    #[derive(Eq)]
+    pub struct Wind in "wind" {
+        /// How one vector follows another.
+        pub ease: Ease = Ease::Stepped => "Ease";
+    }
 }
 
 /// A force uniform in space, by keyframes.

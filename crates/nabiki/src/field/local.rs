@@ -8,53 +8,22 @@ use super::falloff::{self, EnvelopeKey, Falloff};
 use super::lanes::{self, Lanes, get, set};
 use super::{Field, VectorRow};
 use crate::error::SettingError;
+use crate::setting::{Key, Place};
 use crate::vector::{dot, scale, subtract};
 
 #[cfg(test)]
 mod tests;
 
-/// The default strength.
-pub(super) fn strength() -> f32 {
-    50.0
-}
-
-/// The default axis.
-pub(super) fn up() -> Vec3 {
-    Vec3::Y
-}
-
 /// How far along an axis a local field may lie (cm): squares of distances are numbers of f32 then.
-const FARTHEST: f32 = 1e6;
-
-/// Refuses what no local field has.
-pub(super) fn check_place(
-    name: &str,
-    position: Vec3,
-    strength: f32,
-    falloff: &Falloff,
-    envelope: &[EnvelopeKey],
-) -> Result<(), SettingError> {
-    if !(position.is_finite() && position.abs().max_element() <= FARTHEST) {
-        return Err(SettingError::new(
-            format!("{name}.position"),
-            position,
-            "must be three numbers within a million cm",
-        ));
-    }
-    if !strength.is_finite() {
-        return Err(SettingError::new(format!("{name}.strength"), strength, "must be a finite number"));
-    }
-    falloff.check(&format!("{name}.falloff"))?;
-    falloff::check_envelope(name, envelope)
-}
+pub(super) const FARTHEST: f64 = 1e6;
 
 /// A direction of length 1.
 ///
 /// # Errors
-/// Names `name.key`, where it has none.
-pub(super) fn unit(name: &str, key: &str, direction: Vec3) -> Result<Vec3, SettingError> {
+/// Names `at`, where it has none.
+pub(super) fn unit(at: &Place, direction: Vec3) -> Result<Vec3, SettingError> {
     let unit = direction.as_dvec3().try_normalize().map(DVec3::as_vec3);
-    unit.ok_or_else(|| SettingError::new(format!("{name}.{key}"), direction, "must be a direction, not (0, 0, 0)"))
+    unit.ok_or_else(|| SettingError::new(Key::from(at), direction, "must be a direction, not (0, 0, 0)"))
 }
 
 /// What tells one kind of local field from another.

@@ -1,37 +1,31 @@
 //! A point that blows hair away from itself, or draws it in.
 
 use glam::Vec3;
-use serde::{Deserialize, Serialize};
 
-use super::falloff::{EnvelopeKey, Falloff};
-use super::local::{self, LocalField, Shape, check_place};
+use super::falloff::{self, EnvelopeKey, Falloff};
+use super::local::{FARTHEST, LocalField, Shape};
 use crate::error::SettingError;
+use crate::setting::Place;
+use crate::settings;
 
-/// The settings of a point: F = strength falloff(r) r^, away from it.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Point {
-    /// Where it is (cm; the space of the forces).
-    pub position: Vec3,
-    /// |F| beside the point; negative draws in (default 50).
-    #[serde(default = "local::strength")]
-    pub strength: f32,
-    /// How it weakens with the distance. Within a twentieth of its radius the direction, which has no meaning at the
-    /// centre, is let go to 0.
-    #[serde(default)]
-    pub falloff: Falloff,
-    /// Parts of the strength over time (default: all of it always).
-    #[serde(default)]
-    pub envelope: Vec<EnvelopeKey>,
+settings! {
+    /// A point that blows or draws.
+    pub struct Point where comes_in_order {
+        /// Where it is, in the space of the forces.
+        pub position: Vec3 = Vec3::new(-30.0, 0.0, 0.0) => "Position", must "[x, y, z]", unit "cm", least -FARTHEST, most FARTHEST;
+        /// |F| beside the point; negative draws in.
+        pub strength: f32 = 50.0 => "Strength";
+        /// How it weakens with the distance. Within a twentieth of its radius the direction, which has no meaning at the
+        /// centre, is let go to 0.
+        pub falloff: Falloff = Falloff::default() => "Falloff";
+        /// Parts of the strength over frames, on straight lines from key to key; all of it always without keys.
+        pub envelope: Vec<EnvelopeKey> = Vec::new() => "Over time";
+    }
 }
 
 impl Point {
-    /// Refuses what is out of its range. `name` is what the point is called.
-    ///
-    /// # Errors
-    /// Names the first such setting.
-    pub fn check(&self, name: &str) -> Result<(), SettingError> {
-        check_place(name, self.position, self.strength, &self.falloff, &self.envelope)
+    fn comes_in_order(&self, at: &Place) -> Result<(), SettingError> {
+        falloff::check_order(at, &self.envelope)
     }
 }
 
@@ -46,9 +40,9 @@ impl PointField {
     /// The field of a point that is called `name` in refusals.
     ///
     /// # Errors
-    /// As [`Point::check`].
+    /// As [`Point::check_at`].
     pub fn new(settings: &Point, name: &str) -> Result<Self, SettingError> {
-        settings.check(name)?;
+        settings.check_at(name)?;
         let Point { position, strength, falloff, envelope } = settings.clone();
         Ok(Self { name: name.to_owned(), position, strength, falloff, envelope, shape: Away })
     }

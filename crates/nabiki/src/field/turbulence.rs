@@ -7,64 +7,49 @@ mod waves;
 use std::fmt;
 
 use glam::{DVec3, Vec3};
-use serde::{Deserialize, Serialize};
 
 use self::waves::{LOOP, Octave, Phases};
 use super::falloff::{self, EnvelopeKey};
 use super::head_track::{HeadTrack, Place};
 use super::lanes::{self, Lanes, by_part, get, set, times, transposed_times};
-use super::{Field, VectorRow, check_at_least_0, check_strength};
+use super::{Field, VectorRow};
 use crate::ellipsoid::Ellipsoid;
-use crate::error::{SettingError, check_range};
+use crate::error::SettingError;
 use crate::pose::Pose;
 use crate::random;
+use crate::setting::{self, refused};
+use crate::settings;
 use crate::vector::{cross, dot, scale, scale_add, subtract};
 
-/// The settings of turbulence: a random force without sources, which drifts with the wind and changes on its way.
-///
-/// It is the curl of a random vector potential, a sum of octaves each half as large as the one before. Near the head the
-/// potential is let go to 0 by Bridson's ramp, so that the force runs along the head.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Turbulence {
-    /// Root mean square of |F| over space, far from the head, at least 0 (default 30).
-    pub strength: f32,
-    /// Size of the largest swirls (cm), half of the wavelengths that they are made of, 0.01..1e6 (default 10). Those of the last
-    /// octave must be as large as 0.01, too.
-    pub swirl_size: f32,
-    /// Frames in which a swirl turns into its opposite and back, about; 0: swirls drift and never change (default 48).
-    /// Without drift the whole pattern comes again after 16 times as many.
-    pub pulse_length: f32,
-    /// Strength of each octave by that of the one before, 0..1 (default 0.5; 0.79 is Kolmogorov's).
-    pub roughness: f32,
-    /// Octaves, 1..8 (default 2). Time is spent on each.
-    pub octaves: u32,
-    /// Way that the swirls go in a frame for each unit of the wind (cm), at least 0 (default 0.02).
-    pub drift: f32,
-    /// Distance from the head ellipsoid within which the force is turned along it (cm, default 4): that which E's own
-    /// measure gives, (|q| - 1) times the mean half axis, where q is the point in half axes from the centre. 0: the force
-    /// knows nothing of the head. At most the mean half axis.
-    pub near_head: f32,
-    /// Seed of the random vectors.
-    pub seed: u64,
-    /// Parts of the strength over frames, on straight lines from key to key; all of it without keys (default).
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub envelope: Vec<EnvelopeKey>,
-}
-
-impl Default for Turbulence {
-    fn default() -> Self {
-        Self {
-            strength: 30.0,
-            swirl_size: 10.0,
-            pulse_length: 48.0,
-            roughness: 0.5,
-            octaves: 2,
-            drift: 0.02,
-            near_head: 4.0,
-            seed: 1,
-            envelope: Vec::new(),
-        }
+settings! {
+    /// Turbulence: a random force without sources, which drifts with the wind and changes on its way.
+    ///
+    /// It is the curl of a random vector potential, a sum of octaves each half as large as the one before. Near the head the
+    /// potential is let go to 0 by Bridson's ramp, so that the force runs along the head.
+    pub struct Turbulence in "turbulence" where its_swirls_are_large_enough {
+        /// Root mean square of |F| over space, far from the head.
+        pub strength: f32 = 30.0 => "Strength", least 0.0;
+        /// Size of the largest swirls, half of the wavelengths that they are made of. Those of the last octave must be at least 0.01 cm
+        /// large, too.
+        pub swirl_size: f32 = 10.0 => "Swirl size", unit "cm", least 0.01, most 1e6;
+        /// Frames in which a swirl turns into its opposite and back, about; 0: swirls drift and never change. Without drift the whole
+        /// pattern comes again after 16 times as many.
+        pub pulse_length: f32 = 48.0 => "Pulse", unit "frames", least 0.0;
+        /// Strength of each octave by that of the one before; 0.79 is Kolmogorov's.
+        pub roughness: f32 = 0.5 => "Roughness", least 0.0, most 1.0;
+        /// Octaves, each half as large as the one before. Time is spent on each.
+        pub octaves: u32 = 2 => "Octaves", least 1.0, most Turbulence::MOST_OCTAVES as f64;
+        /// Way that the swirls go in a frame for each unit of the wind.
+        pub drift: f32 = 0.02 => "Drift", unit "cm", least 0.0;
+        /// Distance from the head ellipsoid within which the force is turned along it; 0: it knows nothing of the head. It is what E's own
+        /// measure gives, (|q| - 1) times the mean half axis, where q is the point in half axes from the centre, and at most the mean half
+        /// axis.
+        pub near_head: f32 = 4.0 => "Near the head", unit "cm", least 0.0;
+        /// Seed of the random vectors: another number, other swirls.
+        pub seed: u64 = 1 => "Seed";
+        /// Parts of the strength over frames, on straight lines from key to key; all of it always without keys.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        pub envelope: Vec<EnvelopeKey> = Vec::new() => "Over time";
     }
 }
 
@@ -79,24 +64,14 @@ impl Turbulence {
     ///
     /// # Errors
     /// Names the first such setting.
-    pub fn check(&self) -> Result<(), SettingError> {
-        check_strength("turbulence.strength", self.strength)?;
-        check_range("turbulence.swirl_size", self.swirl_size, Self::FINEST_CM, 1e6)?;
-        check_at_least_0("turbulence.pulse_length", self.pulse_length, "number of frames")?;
-        check_range("turbulence.roughness", self.roughness, 0.0, 1.0)?;
-        if !(1..=Self::MOST_OCTAVES).contains(&self.octaves) {
-            let remedy = format!("must lie in 1..{}", Self::MOST_OCTAVES);
-            return Err(SettingError::new("turbulence.octaves", self.octaves, remedy));
-        }
+    fn its_swirls_are_large_enough(&self, at: &setting::Place) -> Result<(), SettingError> {
         let least = Self::FINEST_CM * (1_u32 << (self.octaves - 1)) as f32;
         if self.swirl_size < least {
             let remedy =
                 format!("must be at least {least} with {} octaves: take larger swirls or fewer octaves", self.octaves);
-            return Err(SettingError::new("turbulence.swirl_size", self.swirl_size, remedy));
+            return refused(&at.key("swirl_size"), self.swirl_size, remedy);
         }
-        check_at_least_0("turbulence.drift", self.drift, "length (cm a frame and unit of force)")?;
-        check_at_least_0("turbulence.near_head", self.near_head, "distance (cm)")?;
-        falloff::check_envelope("turbulence", &self.envelope)
+        falloff::check_order(at, &self.envelope)
     }
 }
 

@@ -1,41 +1,34 @@
 //! A whirl about an axis.
 
 use glam::Vec3;
-use serde::{Deserialize, Serialize};
 
-use super::falloff::{EnvelopeKey, Falloff};
-use super::local::{self, LocalField, Shape, check_place, unit};
+use super::falloff::{self, EnvelopeKey, Falloff};
+use super::local::{FARTHEST, LocalField, Shape, unit};
 use crate::error::SettingError;
+use crate::setting::Place;
+use crate::settings;
 use crate::vector::cross;
 
-/// The settings of a vortex: F = strength falloff(r) (axis x r^), where r leads from the axis to the point.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Vortex {
-    /// A point of the axis (cm; the space of the forces).
-    pub position: Vec3,
-    /// Along the axis, of any length but 0 (default y): hair goes round it counter-clockwise as seen from its tip.
-    #[serde(default = "local::up")]
-    pub axis: Vec3,
-    /// |F| beside the axis; negative goes round the other way (default 50).
-    #[serde(default = "local::strength")]
-    pub strength: f32,
-    /// How it weakens with the distance from the axis. Within a twentieth of its radius it is let go to 0.
-    #[serde(default)]
-    pub falloff: Falloff,
-    /// Parts of the strength over time (default: all of it always).
-    #[serde(default)]
-    pub envelope: Vec<EnvelopeKey>,
+settings! {
+    /// A whirl: a force round an axis.
+    pub struct Vortex where has_an_axis {
+        /// A point of the axis, in the space of the forces.
+        pub position: Vec3 = Vec3::new(-20.0, 0.0, 0.0) => "Position", must "[x, y, z]", unit "cm", least -FARTHEST, most FARTHEST;
+        /// Along the axis, of any length but 0: hair goes round it counter-clockwise as seen from its tip.
+        pub axis: Vec3 = Vec3::Y => "Axis";
+        /// |F| beside the axis; negative goes round the other way.
+        pub strength: f32 = 50.0 => "Strength";
+        /// How it weakens with the distance from the axis. Within a twentieth of its radius it is let go to 0.
+        pub falloff: Falloff = Falloff::default() => "Falloff";
+        /// Parts of the strength over frames, on straight lines from key to key; all of it always without keys.
+        pub envelope: Vec<EnvelopeKey> = Vec::new() => "Over time";
+    }
 }
 
 impl Vortex {
-    /// Refuses what is out of its range. `name` is what the vortex is called.
-    ///
-    /// # Errors
-    /// Names the first such setting.
-    pub fn check(&self, name: &str) -> Result<(), SettingError> {
-        check_place(name, self.position, self.strength, &self.falloff, &self.envelope)?;
-        unit(name, "axis", self.axis).map(drop)
+    fn has_an_axis(&self, at: &Place) -> Result<(), SettingError> {
+        unit(&at.key("axis"), self.axis)?;
+        falloff::check_order(at, &self.envelope)
     }
 }
 
@@ -52,11 +45,11 @@ impl VortexField {
     /// The field of a vortex that is called `name` in refusals.
     ///
     /// # Errors
-    /// As [`Vortex::check`].
+    /// As [`Vortex::check_at`].
     pub fn new(settings: &Vortex, name: &str) -> Result<Self, SettingError> {
-        settings.check(name)?;
+        settings.check_at(name)?;
         let Vortex { position, axis, strength, falloff, envelope } = settings.clone();
-        let shape = Round { axis: unit(name, "axis", axis)?.to_array() };
+        let shape = Round { axis: unit(&Place::Table(name).key("axis"), axis)?.to_array() };
         Ok(Self { name: name.to_owned(), position, strength, falloff, envelope, shape })
     }
 }

@@ -144,8 +144,8 @@ pub(super) fn region(head: &Head, style: &Style, root: &Root, seed: u64) -> Regi
     region_of(shares(&head.ellipsoid, style, root.position, Chance::at_point(seed, root.position)))
 }
 
-fn mean(values: [(&'static str, f32); 4], shares: [f32; 4]) -> f64 {
-    values.iter().zip(shares).map(|(&(_, value), share)| f64::from(value * share)).sum()
+fn mean(values: [f32; 4], shares: [f32; 4]) -> f64 {
+    values.iter().zip(shares).map(|(value, share)| f64::from(value * share)).sum()
 }
 
 /// Middle of the clump that a root belongs to, and the clump's own chance: the nearest of the points scattered one to a

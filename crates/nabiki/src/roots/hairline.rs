@@ -3,69 +3,36 @@
 use std::f32::consts::PI;
 
 use glam::Vec3;
-use serde::{Deserialize, Serialize};
 
-use crate::error::check_range;
-use crate::{Ellipsoid, SettingError};
+use crate::{Ellipsoid, settings};
 
-/// Where hair grows: how far the hairline runs below the crown, all about the head.
-///
-/// Depths are measured straight down from the highest point of the head ellipsoid E, in units of the mean of its two
-/// horizontal half axes (8.65 cm on the builtin bust), so that a hairline fits heads of any size. Scene key:
-/// `hair.hairline`.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Hairline {
-    /// Depth of the line over the middle of the forehead (default 0.50: 4.3 cm on the bust).
-    pub forehead: f32,
-    /// How much higher than that the line stands over the temples (default 0.05: 0.4 cm).
-    pub temple_recession: f32,
-    /// Depth of the lower end of the sideburns, in front of the ears (default 1.45: 12.5 cm).
-    pub sideburns: f32,
-    /// Depth of the line above the ears (default 0.98: 8.5 cm).
-    pub above_ears: f32,
-    /// How much farther forward the line comes down behind the ears: hair that is tied up shows where it runs (default 0; 0.25, the
-    /// most: 2.2 cm).
-    pub behind_ears: f32,
-    /// Depth of the line on the nape (default 2.10: 18 cm).
-    pub nape: f32,
-    /// Height over which hair thins out at the line (default 0.10: 0.9 cm).
-    pub fade: f32,
-    /// How far the line wanders up and down, in waves of one to three centimetres on the bust (default 0).
-    pub wander: f32,
-}
-
-impl Default for Hairline {
-    fn default() -> Self {
-        Self {
-            forehead: 0.5,
-            temple_recession: 0.05,
-            sideburns: 1.45,
-            above_ears: 0.98,
-            behind_ears: 0.0,
-            nape: 2.1,
-            fade: 0.1,
-            wander: 0.0,
-        }
+settings! {
+    /// Where hair grows: how far the hairline runs below the crown, all about the head.
+    ///
+    /// Depths are measured straight down from the highest point of the head ellipsoid E, in units of the mean of its two
+    /// horizontal half axes (8.65 cm on the built-in bust), so that a hairline fits heads of any size.
+    pub struct Hairline in "hair.hairline" {
+        /// Depth of the line over the middle of the forehead. 0.5 is 4.3 cm on the bust.
+        pub forehead: f32 = 0.5 => "Forehead", least 0.0, most 2.0;
+        /// How much higher than that the line stands over the temples. 0.05 is 0.4 cm on the bust.
+        pub temple_recession: f32 = 0.05 => "Temples", least -0.5, most 0.5;
+        /// Depth of the lower end of the sideburns, in front of the ears. 1.45 is 12.5 cm on the bust.
+        pub sideburns: f32 = 1.45 => "Sideburns", least 0.0, most 2.5;
+        /// Depth of the line above the ears. 0.98 is 8.5 cm on the bust.
+        pub above_ears: f32 = 0.98 => "Above the ears", least 0.0, most 2.5;
+        /// How much farther forward the line comes down behind the ears: hair that is tied up shows where it runs. 0.25 is 2.2 cm on the
+        /// bust.
+        pub behind_ears: f32 = 0.0 => "Behind the ears", least 0.0, most 0.25;
+        /// Depth of the line on the nape. 2.1 is 18 cm on the bust.
+        pub nape: f32 = 2.1 => "Nape", least 0.0, most 2.8;
+        /// Height over which hair thins out at the line. 0.1 is 0.9 cm on the bust.
+        pub fade: f32 = 0.1 => "Fade", least 0.0, most 1.0;
+        /// How far the line wanders up and down, in waves of one to three centimetres on the bust.
+        pub wander: f32 = 0.0 => "Wander", least 0.0, most 0.3;
     }
 }
 
 impl Hairline {
-    /// Refuses depths that are not finite or lie off the head.
-    ///
-    /// # Errors
-    /// Names the first such setting.
-    pub fn check(&self) -> Result<(), SettingError> {
-        check_range("hair.hairline.forehead", self.forehead, 0.0, 2.0)?;
-        check_range("hair.hairline.temple_recession", self.temple_recession, -0.5, 0.5)?;
-        check_range("hair.hairline.sideburns", self.sideburns, 0.0, 2.5)?;
-        check_range("hair.hairline.above_ears", self.above_ears, 0.0, 2.5)?;
-        check_range("hair.hairline.behind_ears", self.behind_ears, 0.0, 0.25)?;
-        check_range("hair.hairline.nape", self.nape, 0.0, 2.8)?;
-        check_range("hair.hairline.fade", self.fade, 0.0, 1.0)?;
-        check_range("hair.hairline.wander", self.wander, 0.0, 0.3)
-    }
-
     /// The line's depth at the angle `around` (rad) from the front: 0 there, pi at the back.
     pub fn depth(&self, around: f32) -> f32 {
         let temple = self.forehead - self.temple_recession;

@@ -3,7 +3,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::Vec3;
 
-use super::{Hairline, MOST_ROOTS, Root, spread, spread_first, spread_first_while};
+use super::{Hairline, MOST, Root, spread, spread_first, spread_first_while};
 use crate::Head;
 
 static BUST: LazyLock<Head> = LazyLock::new(Head::builtin);
@@ -45,7 +45,7 @@ fn roots_lie_on_the_skin_and_point_out_of_it() {
 
 #[test]
 fn more_roots_than_their_candidates_can_be_counted_are_refused_by_name() {
-    let refused = spread_first(&BUST, &Hairline::default(), MOST_ROOTS + 1, 1, 1).unwrap_err();
+    let refused = spread_first(&BUST, &Hairline::default(), MOST + 1, 1, 1).unwrap_err();
     assert_eq!(refused.to_string(), "hair.strands = 800000001: must be at most 800000000: grow less");
 }
 

@@ -1,89 +1,70 @@
 //! Settings of the camera: `[picture.camera]`.
 
 use glam::Vec3;
-use nabiki::SettingError;
-use nabiki::error::check_range;
-use serde::{Deserialize, Serialize};
+use nabiki::setting::{Place, refused};
+use nabiki::{SettingError, settings, words};
 
 use crate::camera::NEAR;
 
-/// How space becomes a picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Projection {
-    /// As an eye sees.
-    #[default]
-    Perspective,
-    /// All rays parallel, as in a drawing.
-    Orthographic,
+words! {
+    /// How space becomes a picture.
+    pub enum Projection = Perspective {
+        /// As an eye sees.
+        Perspective = "perspective",
+        /// All rays parallel, as in a drawing.
+        Orthographic = "orthographic",
+    }
 }
 
-/// `[picture.camera]`: a camera on an orbit about the hair, or moving between two places of it.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Camera {
-    /// `"perspective"` (default) or `"orthographic"`.
-    pub projection: Projection,
-    /// Direction of the camera about the world's vertical (degrees): of a head that has not turned 0 is before the face, 90 at
-    /// the character's right hand, 180 behind. Default 40.
-    pub azimuth: f32,
-    /// Direction of the camera above the horizon (degrees, -89..89). Default 5.
-    pub elevation: f32,
-    /// Vertical field of view (degrees, 1..150), for perspective. Default 26.
-    pub fov: f32,
-    /// From the target to the eye (cm, 1 to a million). Default: near enough to frame everything.
-    pub distance: Option<f32>,
-    /// Height of the picture in space (cm, a thousandth to a million), for orthographic views. Default: enough to frame everything.
-    pub height: Option<f32>,
-    /// The point looked at (cm), from the head's origin along the world's axes: the camera goes along with the head and does
-    /// not turn with it. Default: the middle of what is framed.
-    pub target: Option<Vec3>,
-    /// How far the lens is opened, for perspective: its focal length over its diameter, as photographers count it (0.1..128). Small numbers
-    /// blur much; skin blurred by more than 3 picture heights is refused. The focal length is that of a picture 24 mm high on the sensor
-    /// with this `fov`: 52 mm for 26 degrees. Default: a pinhole, all is sharp.
-    pub f_stop: Option<f32>,
-    /// From the eye to the plane that is sharp, along the axis of view (cm, 1 to a million). Default: the side of the head that the
-    /// camera sees.
-    pub focus_distance: Option<f32>,
-    /// Empty border around what is framed, as part of the picture's shorter side, 0..0.45. Default 0.06.
-    pub margin: f32,
-    /// Where the camera is at the last frame, `[picture.camera.to]`: it glides there from the values above.
-    pub to: Option<CameraKey>,
+settings! {
+    /// A camera on an orbit about the hair, or moving between two places of it.
+    #[derive(Copy)]
+    pub struct Camera where moves_from_somewhere {
+        /// How space becomes a picture.
+        pub projection: Projection = Projection::Perspective => "Projection";
+        /// Direction of the camera about the world's vertical: of a head that has not turned 0 is before the face, 90 at
+        /// the character's right hand, 180 behind.
+        pub azimuth: f32 = 40.0 => "Azimuth", unit "degrees", least -3600.0, most 3600.0;
+        /// Direction of the camera above the horizon.
+        pub elevation: f32 = 5.0 => "Elevation", unit "degrees", least -89.0, most 89.0;
+        /// Vertical field of view, for perspective.
+        pub fov: f32 = 26.0 => "Field of view", unit "degrees", least 1.0, most 150.0;
+        /// From the target to the eye.
+        pub distance: Option<f32> = None => "Distance", unit "cm", least NEAR as f64, most 1e6, open "frames everything";
+        /// Height of the picture in space, for orthographic views.
+        pub height: Option<f32> = None => "Height", unit "cm", least 1e-3, most 1e6, open "frames everything";
+        /// The point looked at, from the head's origin along the world's axes: the camera goes along with the head and does
+        /// not turn with it.
+        pub target: Option<Vec3> = None => "Target", unit "cm", least -1e6, most 1e6, open "the middle of what is framed";
+        /// How far the lens is opened, for perspective: its focal length over its diameter, as photographers count it. Small numbers
+        /// blur much; skin blurred by more than 3 picture heights is refused. The focal length is that of a picture 24 mm high on the
+        /// sensor with this `fov`: 52 mm for 26 degrees.
+        pub f_stop: Option<f32> = None => "f-stop", least 0.1, most 128.0, open "a pinhole, all is sharp";
+        /// From the eye to the plane that is sharp, along the axis of view.
+        pub focus_distance: Option<f32> = None => "Focus distance", unit "cm", least NEAR as f64, most 1e6, open "the side of the head that the camera sees";
+        /// Empty border around what is framed, as part of the picture's shorter side.
+        pub margin: f32 = 0.06 => "Margin", least 0.0, most 0.45;
+        /// Where the camera is at the last frame: it glides there from the values above.
+        pub to: Option<CameraKey> = None => "Camera at the last frame", open "it stays";
+    }
 }
 
-/// The second place of a moving camera; what is left out stays as it was.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct CameraKey {
-    /// Azimuth at the end (degrees).
-    pub azimuth: Option<f32>,
-    /// Elevation at the end (degrees).
-    pub elevation: Option<f32>,
-    /// Distance at the end (cm, 1 to a million); needs `distance` at the start.
-    pub distance: Option<f32>,
-    /// Field of view at the end (degrees).
-    pub fov: Option<f32>,
-    /// Target at the end (cm); needs `target` at the start.
-    pub target: Option<Vec3>,
-    /// Distance of what is sharp at the end (cm); needs `focus_distance` at the start.
-    pub focus_distance: Option<f32>,
-}
-
-impl Default for Camera {
-    fn default() -> Self {
-        Self {
-            projection: Projection::Perspective,
-            azimuth: 40.0,
-            elevation: 5.0,
-            fov: 26.0,
-            distance: None,
-            height: None,
-            target: None,
-            f_stop: None,
-            focus_distance: None,
-            margin: 0.06,
-            to: None,
-        }
+settings! {
+    /// The second place of a moving camera; what is left out stays as it was.
+    #[derive(Copy)]
+    pub struct CameraKey {
+        /// Azimuth at the end.
+        pub azimuth: Option<f32> = None => "Azimuth", unit "degrees", least -3600.0, most 3600.0, open "stays";
+        /// Elevation at the end.
+        pub elevation: Option<f32> = None => "Elevation", unit "degrees", least -89.0, most 89.0, open "stays";
+        /// Distance at the end; it needs `distance` at the start.
+        pub distance: Option<f32> = None => "Distance", unit "cm", least NEAR as f64, most 1e6, open "stays";
+        /// Field of view at the end.
+        pub fov: Option<f32> = None => "Field of view", unit "degrees", least 1.0, most 150.0, open "stays";
+        /// Target at the end; it needs `target` at the start.
+        pub target: Option<Vec3> = None => "Target", unit "cm", least -1e6, most 1e6, open "stays";
+        /// Distance of what is sharp at the end; it needs `focus_distance` at the start.
+        pub focus_distance: Option<f32> = None => "Focus distance", unit "cm", least NEAR as f64, most 1e6, open "stays";
     }
 }
 
@@ -117,80 +98,25 @@ impl Camera {
         self.target.is_none() || open
     }
 
-    pub(crate) fn check(&self) -> Result<(), SettingError> {
-        check_angles("picture.camera", Some(self.azimuth), Some(self.elevation), Some(self.fov))?;
-        if let Some(distance) = self.distance {
-            check_range("picture.camera.distance", distance, NEAR, 1e6)?;
+    /// Refuses a lens where rays are parallel, and an end of a way that has no beginning.
+    fn moves_from_somewhere(&self, at: &Place) -> Result<(), SettingError> {
+        if let (Some(f_stop), Projection::Orthographic) = (self.f_stop, self.projection) {
+            let way_out = "parallel rays have no lens: use projection = \"perspective\", or leave f_stop out";
+            return refused(&at.key("f_stop"), f_stop, way_out);
         }
-        if let Some(height) = self.height {
-            check_range("picture.camera.height", height, 1e-3, 1e6)?;
-        }
-        check_target("picture.camera.target", self.target)?;
-        if let Some(f_stop) = self.f_stop {
-            check_range("picture.camera.f_stop", f_stop, 0.1, 128.0)?;
-            if self.projection == Projection::Orthographic {
-                let way_out = "parallel rays have no lens: use projection = \"perspective\", or leave f_stop out";
-                return Err(SettingError::new("picture.camera.f_stop", f_stop, way_out));
-            }
-        }
-        if let Some(focus) = self.focus_distance {
-            check_focus("picture.camera.focus_distance", focus)?;
-        }
-        check_range("picture.camera.margin", self.margin, 0.0, 0.45)?;
         let Some(to) = self.to else { return Ok(()) };
-        check_angles("picture.camera.to", to.azimuth, to.elevation, to.fov)?;
-        check_target("picture.camera.to.target", to.target)?;
-        if let Some(distance) = to.distance {
-            check_range("picture.camera.to.distance", distance, NEAR, 1e6)?;
-            if self.distance.is_none() {
-                let way_out = "give picture.camera.distance as well, to start from";
-                return Err(SettingError::new("picture.camera.to.distance", distance, way_out));
+        let ends = [
+            ("distance", to.distance.map(|end| end.to_string()), self.distance.is_some()),
+            ("focus_distance", to.focus_distance.map(|end| end.to_string()), self.focus_distance.is_some()),
+            ("target", to.target.map(|end| end.to_string()), self.target.is_some()),
+        ];
+        for (key, end, begins) in ends {
+            if let (Some(end), false) = (end, begins) {
+                let way_out = format!("give picture.camera.{key} as well, to start from");
+                return refused(&at.key("to").key(key), end, way_out);
             }
         }
-        if let Some(focus) = to.focus_distance {
-            check_focus("picture.camera.to.focus_distance", focus)?;
-            if self.focus_distance.is_none() {
-                let way_out = "give picture.camera.focus_distance as well, to start from";
-                return Err(SettingError::new("picture.camera.to.focus_distance", focus, way_out));
-            }
-        }
-        match to.target {
-            Some(target) if self.target.is_none() => {
-                let way_out = "give picture.camera.target as well, to start from";
-                Err(SettingError::new("picture.camera.to.target", target, way_out))
-            }
-            _ => Ok(()),
-        }
-    }
-}
-
-fn check_angles(
-    table: &str,
-    azimuth: Option<f32>,
-    elevation: Option<f32>,
-    fov: Option<f32>,
-) -> Result<(), SettingError> {
-    for (name, value, low, high) in
-        [("azimuth", azimuth, -3600.0, 3600.0), ("elevation", elevation, -89.0, 89.0), ("fov", fov, 1.0, 150.0)]
-    {
-        if let Some(value) = value {
-            check_range(&format!("{table}.{name}"), value, low, high)?;
-        }
-    }
-    Ok(())
-}
-
-/// What lies nearer to the eye than [`NEAR`] is not drawn, so nothing there can be sharp.
-fn check_focus(thing: &str, focus: f32) -> Result<(), SettingError> {
-    check_range(thing, focus, NEAR, 1e6)
-}
-
-fn check_target(thing: &str, target: Option<Vec3>) -> Result<(), SettingError> {
-    match target {
-        Some(t) if !(t.is_finite() && t.abs().max_element() <= 1e6) => {
-            Err(SettingError::new(thing, t, "must be three numbers within a million cm"))
-        }
-        _ => Ok(()),
+        Ok(())
     }
 }
 

@@ -38,7 +38,7 @@ pub(super) fn carried_twice(built: &BuiltScene) -> impl Iterator<Item = Advice> 
         (HeadSource::Imported(head), Some(motion)) => Some(Moved {
             table: "head".to_owned(),
             key: Some("head.motion.bind_at_start"),
-            mesh: &head.file,
+            mesh: &head.mesh,
             groups: &head.groups,
             motion,
             placement: built.placement,

@@ -3,12 +3,13 @@
 use glam::Vec3;
 use nabiki::body::Contact;
 use nabiki::field::{EnvelopeKey, KeyframedField, Turbulence, envelope};
+use nabiki::free_form::FreeForm;
 use nabiki::groom::style::Variation;
 use nabiki::pseudo_force::PseudoForce;
 use nabiki_render::settings::{Antialiasing, Camera, HairLook, HeadLook, Picture, Projection, Shading};
 
 use super::{Advice, Setting};
-use crate::scene::{FieldSettings, FormChoice, FreeSettings, Scene};
+use crate::scene::{FieldSettings, FormChoice, Scene};
 
 /// What is given and changes nothing.
 pub(crate) fn unused(scene: &Scene) -> Vec<Advice> {
@@ -37,7 +38,7 @@ fn unfelt(scene: &Scene) -> Option<Advice> {
         return None;
     }
     let tables = [
-        (scene.free != FreeSettings::default(), "[free]"),
+        (scene.free != FreeForm::default(), "[free]"),
         (scene.contact != Contact::default(), "[contact]"),
         (scene.bodies.iter().any(|body| body.solid), "[[body]]"),
         (scene.neighbours.is_some(), "[neighbours]"),

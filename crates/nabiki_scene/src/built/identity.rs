@@ -4,6 +4,7 @@ use nabiki::Pose;
 use nabiki::body::BodyWay;
 use nabiki::dynamics::{Form, Motion};
 use nabiki::free_form::FreeMotion;
+use nabiki::pseudo_force::PseudoForce;
 use nabiki_io::cache::Piece;
 use nabiki_io::identity::{Digest, SceneId, StrandSum};
 
@@ -67,7 +68,7 @@ impl BuiltScene {
         digest.settings("motion", &motion)?;
         digest.settings("segment_length", &[self.dynamics.segment_length, self.dynamics.shell])?;
         digest.settings("ellipsoid", &self.dynamics.ellipsoid)?;
-        digest.settings("pseudo_force", &self.dynamics.pseudo_force)?;
+        digest.settings("pseudo_force", &self.dynamics.weakening().cloned().unwrap_or_else(PseudoForce::off))?;
         digest.settings("force", &self.scene.field.force)?;
         if !self.scene.field.is_the_papers() {
             digest.settings("fields", &self.scene.field)?;

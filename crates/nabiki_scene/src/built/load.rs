@@ -170,7 +170,7 @@ pub(crate) fn load_field(scene: &Scene) -> Result<FieldParts> {
 fn head_motion(scene: &Scene, placement: &Placement) -> Result<Option<HeadMotion>> {
     let Some(source) = &scene.head.motion else { return Ok(None) };
     let mesh = match &scene.head.source {
-        HeadSource::Imported(head) => Some(scene.resolve(&head.file)),
+        HeadSource::Imported(head) => Some(scene.resolve(&head.mesh)),
         HeadSource::Builtin => None,
     };
     let motion = read_motion(scene, source, "head.motion", (mesh.as_deref(), placement))?;
@@ -274,13 +274,13 @@ pub(super) fn load_head(scene: &Scene) -> Result<LoadedHead> {
         let (placement, declared) = (Placement::default(), DeclaredSpace::default());
         return Ok(LoadedHead { head, placement, report: None, declared });
     };
-    let file = there(scene, "head.mesh", &imported.file)?;
+    let file = there(scene, "head.mesh", &imported.mesh)?;
     let declared = declared_space(&file)?;
     let mut placement = imported.placement(declared.unit, declared.up);
     placement.check("head").map_err(|refused| scene.refusal(refused))?;
     let (mut mesh, report) = mesh::import(&file, &placement, &imported.groups)?;
     let refused = |refused: SettingError| {
-        let value = format!("{}, {}", imported.file.display(), refused.value);
+        let value = format!("{}, {}", imported.mesh.display(), refused.value);
         scene.refusal(if refused.thing == "head.mesh" { SettingError { value, ..refused } } else { refused })
     };
     let mut ellipsoid = given;

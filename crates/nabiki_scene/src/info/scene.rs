@@ -4,14 +4,14 @@ use std::fmt;
 use std::path::Path;
 
 use nabiki::field::{Ease, Keyframe};
-use nabiki::free_form::NeighbourForces;
+use nabiki::free_form::{Gravity, NeighbourForces};
+use nabiki::setting::{Datum, Kind, Setting, Settings, Table};
 use nabiki::{Ellipsoid, Profile};
 use serde::Serialize;
 
 use crate::advice::{Advice, unused};
-use crate::scene::{
-    BodySettings, FieldBound, FieldSettings, FormChoice, Gravity, GrownHair, HairSource, ImportedHair, Scene,
-};
+use crate::scene::{BodySettings, FieldBound, FieldSettings, FormChoice, GrownHair, HairSource, ImportedHair, Scene};
+use crate::schema;
 use nabiki_io::info::Short;
 use nabiki_io::motion::MotionSource;
 use nabiki_io::screen::OneLine;
@@ -247,48 +247,46 @@ fn body_in_words(scene: &Scene, body: &BodySettings) -> String {
     format!("{}, {way}, {felt}{seen}", named(scene, &body.mesh))
 }
 
-/// The fields beside `[[force]]`, each by its table.
+/// The fields beside `[[force]]`, each by its table, in the words of the schema.
 fn in_words(field: &FieldSettings) -> Vec<(String, String)> {
     let FieldSettings { force: _, wind: _, gust, body_wind, flow, turbulence, point, vortex, fan, own } = field;
-    let mut words = Vec::new();
-    let mut say = |name: String, text: String| words.push((name, text));
-    if let Some(gust) = gust {
-        let (part, time) = (Short(100.0 * gust.intensity), Short(gust.time_scale));
-        say("gust".to_owned(), format!("{part} % of the wind, time scale {time} s, up to {} Hz", Short(gust.highest)));
+    fn one<T: Settings>(name: &str, table: Option<&T>) -> Option<(String, String)> {
+        Some((name.to_owned(), said(&T::TABLE, &table?.datum())))
     }
-    if let Some(body_wind) = body_wind {
-        let (drag, footfall) = (Short(body_wind.drag), Short(body_wind.footfall));
-        say("body_wind".to_owned(), format!("{drag} per cm/s of the head, {footfall} per cm/s^2 upward"));
+    fn each<T: Settings>(name: &str, list: &[T]) -> impl Iterator<Item = (String, String)> {
+        list.iter().enumerate().map(move |(i, entry)| (format!("{name}[{i}]"), said(&T::TABLE, &entry.datum())))
     }
-    if let Some(flow) = flow {
-        say("flow".to_owned(), format!("round the head ellipsoid and {} cm of hair", Short(flow.thickness)));
-    }
-    if let Some(turbulence) = turbulence {
-        let (strength, size) = (Short(turbulence.strength), Short(turbulence.swirl_size));
-        let text = format!("strength {strength}, swirls of {size} cm and {} octaves", turbulence.octaves);
-        say("turbulence".to_owned(), text);
-    }
-    let place = |position: glam::Vec3| {
-        let [x, y, z] = position.to_array().map(Short);
-        format!("at ({x}, {y}, {z})")
+    let own = (0..own.len()).map(|i| (format!("own[{i}]"), "a field that a program gave".to_owned()));
+    let winds = [
+        one("gust", gust.as_ref()),
+        one("body_wind", body_wind.as_ref()),
+        one("flow", flow.as_ref()),
+        one("turbulence", turbulence.as_ref()),
+    ];
+    let local = each("point", point).chain(each("vortex", vortex)).chain(each("fan", fan));
+    winds.into_iter().flatten().chain(local).chain(own).collect()
+}
+
+/// The settings of a table by the names that panels give them: `strength 30, swirl size 10 cm`.
+fn said(table: &Table, values: &Datum) -> String {
+    let Datum::Table(values) = values else { return String::new() };
+    let one = |(setting, (_, value)): (&Setting, &(&str, Datum))| {
+        let number = |x: f64| Short(x as f32).to_string();
+        let value = match (value, &setting.kind) {
+            (Datum::Open, _) => return None,
+            (Datum::Table(_), Kind::Table(below)) => return Some(said(below, value)),
+            (Datum::List(keys), Kind::List(_)) if keys.is_empty() => return None,
+            (Datum::List(keys), Kind::List(_)) => format!("by {} keys", keys.len()),
+            (Datum::List(numbers), _) => {
+                let numbers = numbers.iter().map(|x| if let Datum::Number(x) = x { number(*x) } else { String::new() });
+                format!("({})", numbers.collect::<Vec<_>>().join(", "))
+            }
+            (Datum::Number(x), _) => number(*x),
+            (Datum::Text(word), _) => word.clone(),
+            (value, _) => schema::in_toml(value),
+        };
+        let unit = if setting.range.unit.is_empty() { String::new() } else { format!(" {}", setting.range.unit) };
+        Some(format!("{} {value}{unit}", setting.label.to_lowercase()))
     };
-    for (i, point) in point.iter().enumerate() {
-        say(format!("point[{i}]"), format!("strength {} {}", Short(point.strength), place(point.position)));
-    }
-    for (i, vortex) in vortex.iter().enumerate() {
-        say(format!("vortex[{i}]"), format!("strength {} {}", Short(vortex.strength), place(vortex.position)));
-    }
-    for (i, fan) in fan.iter().enumerate() {
-        let text = format!(
-            "strength {} {}, {} degrees wide",
-            Short(fan.strength),
-            place(fan.position),
-            Short(2.0 * fan.spread)
-        );
-        say(format!("fan[{i}]"), text);
-    }
-    for i in 0..own.len() {
-        say(format!("own[{i}]"), "a field that a program gave".to_owned());
-    }
-    words
+    table.settings.iter().zip(values).filter_map(one).collect::<Vec<_>>().join(", ")
 }

@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::PathBuf;
 
 use nabiki::SettingError;
+use nabiki::setting::Key;
 
 /// A scene that cannot be used. Its text is one line: file and line (or override), key, value, way out.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -15,7 +16,7 @@ pub struct SceneError {
     /// The override that set the value, `KEY=VALUE`, where it was not the file.
     pub set: Option<String>,
     /// The setting as a scene file spells it, `force[1].vector`; empty where the file as a whole is meant.
-    pub key: String,
+    pub key: Key,
     /// What is wrong.
     pub problem: Box<Problem>,
 }
@@ -38,11 +39,6 @@ pub enum Problem {
         near: Option<String>,
         /// The names that the table may hold.
         known: Vec<String>,
-    },
-    /// The setting has had another name since an earlier version.
-    Renamed {
-        /// What it is called now (whole).
-        now: String,
     },
     /// The setting must be given and is not.
     Missing,
@@ -95,11 +91,7 @@ impl SceneError {
             Problem::Range { remedy, .. } | Problem::NoFile { remedy, .. } => remedy.clone(),
             Problem::UnknownKey { near: Some(near), .. } => format!("did you mean {near}?"),
             Problem::UnknownKey { known, .. } => format!("the keys here are {}", known.join(", ")),
-            Problem::Renamed { now } => format!("is now called {now}: rename it"),
-            Problem::Missing => {
-                let name = self.key.rsplit('.').next().unwrap_or_default();
-                format!("write {name} = ...")
-            }
+            Problem::Missing => format!("write {} = ...", self.key.last_name()),
             Problem::File { what: text, .. }
             | Problem::NotToml(text)
             | Problem::Useless(text)
@@ -120,7 +112,7 @@ impl fmt::Display for SceneError {
         if let Some(set) = &self.set {
             write!(f, "--set {set}: ")?;
         }
-        f.write_str(&self.key)?;
+        write!(f, "{}", self.key)?;
         match &*self.problem {
             Problem::Range { value, .. } | Problem::NoFile { value, .. } => write!(f, " = {value}: ")?,
             _ if self.key.is_empty() => {}

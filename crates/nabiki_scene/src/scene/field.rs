@@ -118,7 +118,7 @@ impl FieldSettings {
         }
         if force.is_empty() && wind.ease != Ease::Stepped {
             let remedy = "there is no [[force]] to ease: give one, or remove it";
-            return Err(SettingError::new("wind.ease", format!("{:?}", wind.ease).to_lowercase(), remedy));
+            return Err(SettingError::new("wind.ease", wind.ease.word(), remedy));
         }
         if !force.is_empty() {
             KeyframedField::new(force)?;
@@ -146,9 +146,9 @@ impl FieldSettings {
         }
         turbulence.iter().try_for_each(Turbulence::check)?;
         let named = |kind: &str, i: usize| format!("{kind}[{i}]");
-        point.iter().enumerate().try_for_each(|(i, point)| point.check(&named("point", i)))?;
-        vortex.iter().enumerate().try_for_each(|(i, vortex)| vortex.check(&named("vortex", i)))?;
-        fan.iter().enumerate().try_for_each(|(i, fan)| fan.check(&named("fan", i)))
+        point.iter().enumerate().try_for_each(|(i, point)| point.check_at(&named("point", i)))?;
+        vortex.iter().enumerate().try_for_each(|(i, vortex)| vortex.check_at(&named("vortex", i)))?;
+        fan.iter().enumerate().try_for_each(|(i, fan)| fan.check_at(&named("fan", i)))
     }
 
     /// The fields, ready to be asked.

@@ -4,15 +4,15 @@ use std::path::PathBuf;
 
 use glam::Vec3;
 use nabiki::roots::{self, Hairline};
-use nabiki::{SettingError, error::check_positive, groom::Style};
+use nabiki::setting::{Key, Place};
+use nabiki::{SettingError, groom::Style, settings, words};
 use nabiki_io::Axis;
 use nabiki_io::Unit;
 use nabiki_io::hair::Cleaning;
-use serde::{Deserialize, Serialize};
 use toml::Table;
 
 use super::flat;
-use super::head::check_placement;
+use super::head::{check_named, check_placement};
 use super::read::Refusal;
 use super::tree::{Unwritable, table_of};
 
@@ -21,7 +21,7 @@ use super::tree::{Unwritable, table_of};
 pub struct HairSettings {
     /// Where the strands come from: those of a file where the table names a `file`.
     pub source: HairSource,
-    /// d, which k and i of the paper are counted in, and the length of the segments grown (cm, default 1).
+    /// d: the length of the segments that are grown (cm), in which stiffness and the paper's k and i are counted.
     pub segment_length: f32,
 }
 
@@ -34,100 +34,68 @@ pub enum HairSource {
     Imported(ImportedHair),
 }
 
-/// Hair grown from the scalp.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct GrownHair {
-    /// Number of strands, 1..800,000,000 (default 19,330: Table 1).
-    pub strands: usize,
-    /// Most segments of a strand (default 18: the paper's k).
-    pub segments: usize,
-    /// Seed of the roots and of the differences between strands (default 1).
-    pub seed: u64,
-    /// Where hair grows.
-    pub hairline: Hairline,
-    /// How it lies.
-    pub style: Style,
-}
-
-/// Hair read from a file.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct ImportedHair {
-    /// A .hair, .tfx, .obj (polylines), USD layer or Alembic archive.
-    pub file: PathBuf,
-    /// Curves of a USD layer or Alembic archive to keep, by the name or path of their prim or of what it stands below (default: all).
-    pub groups: Vec<String>,
-    /// An even choice of so many strands (default: all of the file's).
-    pub strands: Option<usize>,
-    /// Cuts every strand anew into so many equally long segments (default: as the file has them).
-    pub segments: Option<usize>,
-    /// Unit of the file (default: what the file says, or that of the head's file, or cm).
-    pub unit: Option<Unit>,
-    /// Axis of the file that points up (default: what the file says, or that of the head's file, or +y).
-    pub up: Option<Axis>,
-    /// Axis of the file along which the face looks (default: that of the head's file, or +x).
-    pub facing: Option<Axis>,
-    /// Point of the file that becomes the origin of head space (file units; default: the same place as the head's).
-    pub origin: Option<Vec3>,
-    /// Which end of a strand is its root: "skin", the one that lies on the head's skin where the other does not, and else the first (default);
-    /// "first"; or "last".
-    pub root: RootEnd,
-    /// Neighbouring points of a strand this close are joined (cm, default 0.001; 0 joins those alone that lie in one place, between which a
-    /// strand has no direction to move in).
-    pub join_within: f32,
-    /// Strands shorter than this are dropped (cm, default 0: only those without any extent).
-    pub drop_shorter_than: f32,
-}
-
-/// Which end of an imported strand is its root.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum RootEnd {
-    /// The one that lies on the head's skin, where the other does not; otherwise the first.
-    #[default]
-    Skin,
-    /// The first point of the file.
-    First,
-    /// The last point of the file.
-    Last,
-}
-
-/// The keys of any hair.
-#[derive(Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-struct AnyHair {
-    segment_length: f32,
-}
-
-impl Default for AnyHair {
-    fn default() -> Self {
-        Self { segment_length: 1.0 }
+settings! {
+    /// Hair grown from the scalp.
+    pub struct GrownHair in "hair" where is_not_too_much {
+        /// Number of strands of the whole scene. 19,330 is the paper's Table 1.
+        pub strands: usize = 19_330 => "Strands", least 1.0, most roots::MOST as f64;
+        /// Most segments of a strand. 18 is the paper's k.
+        pub segments: usize = 18 => "Segments", least 1.0, most HairSettings::MOST_SEGMENTS as f64;
+        /// Seed of the roots and of the differences between strands: another number, others of both.
+        pub seed: u64 = 1 => "Seed";
+        /// Where hair grows.
+        pub hairline: Hairline = Hairline::default() => "Hairline";
+        /// How it lies.
+        pub style: Style = Style::default() => "Style";
     }
 }
 
-impl Default for GrownHair {
-    fn default() -> Self {
-        Self { strands: 19_330, segments: 18, seed: 1, hairline: Hairline::default(), style: Style::default() }
+settings! {
+    /// Hair read from a file.
+    pub struct ImportedHair in "hair" where is_placed {
+        /// A .hair, .tfx, .obj (polylines), USD layer or Alembic archive.
+        pub file: PathBuf = PathBuf::new() => "File", must "\"hair.abc\"";
+        /// Curves of a USD layer or Alembic archive to keep, by the name or path of their prim or of what it stands below; all if empty.
+        pub groups: Vec<String> = Vec::new() => "Groups";
+        /// An even choice of so many strands.
+        pub strands: Option<usize> = None => "Strands", least 1.0, open "all of the file's";
+        /// Cuts every strand anew into so many equally long segments.
+        pub segments: Option<usize> = None => "Segments", least 1.0, most HairSettings::MOST_SEGMENTS as f64, open "as the file has them";
+        /// Unit of the file.
+        pub unit: Option<Unit> = None => "Unit", above 0.0, open "what the file says, or that of the head's file, or cm";
+        /// Axis of the file that points up.
+        pub up: Option<Axis> = None => "Up", open "what the file says, or that of the head's file, or +y";
+        /// Axis of the file along which the face looks.
+        pub facing: Option<Axis> = None => "Facing", open "that of the head's file, or +x";
+        /// Point of the file that becomes the origin of head space, in the file's unit.
+        pub origin: Option<Vec3> = None => "Origin", open "the same place as the head's";
+        /// Which end of a strand is its root.
+        pub root: RootEnd = RootEnd::Skin => "Root";
+        /// Neighbouring points of a strand this close are joined. 0 joins those alone that lie in one place, between which a strand has no
+        /// direction to move in.
+        pub join_within: f32 = Cleaning::default().join_within => "Join within", unit "cm", least 0.0;
+        /// Strands shorter than this are dropped; 0: only those without any extent.
+        pub drop_shorter_than: f32 = Cleaning::default().drop_shorter_than => "Drop shorter", unit "cm", least 0.0;
     }
 }
 
-impl Default for ImportedHair {
-    fn default() -> Self {
-        let Cleaning { join_within, drop_shorter_than } = Cleaning::default();
-        Self {
-            file: PathBuf::new(),
-            groups: Vec::new(),
-            strands: None,
-            segments: None,
-            unit: None,
-            up: None,
-            facing: None,
-            origin: None,
-            root: RootEnd::default(),
-            join_within,
-            drop_shorter_than,
-        }
+words! {
+    /// Which end of an imported strand is its root.
+    pub enum RootEnd = Skin {
+        /// The one that lies on the head's skin, where the other does not; otherwise the first.
+        Skin = "skin",
+        /// The first point of the file.
+        First = "first",
+        /// The last point of the file.
+        Last = "last",
+    }
+}
+
+settings! {
+    /// The keys of any hair.
+    pub(crate) struct AnyHair in "hair" {
+        /// Length of the segments that are grown (d), in which stiffness and the paper's k and i are counted.
+        segment_length: f32 = 1.0 => "Segment length", unit "cm", above 0.0;
     }
 }
 
@@ -217,20 +185,17 @@ impl HairSettings {
             HairSource::Grown(hair) => hair.check()?,
             HairSource::Imported(hair) => hair.check()?,
         }
-        check_positive("hair.segment_length", self.segment_length)
+        AnyHair { segment_length: self.segment_length }.check()
     }
 }
 
 impl GrownHair {
-    fn check(&self) -> Result<(), SettingError> {
-        check_counts(Some(self.strands), Some(self.segments))?;
-        roots::check_count(self.strands)?;
+    fn is_not_too_much(&self, _: &Place) -> Result<(), SettingError> {
         let points = self.strands.checked_mul(self.segments.saturating_add(1));
         if points.is_none_or(|points| points > u32::MAX as usize) {
             return Err(SettingError::new("hair.strands", self.strands, "more than 2^32 points in all: grow less"));
         }
-        self.hairline.check()?;
-        self.style.check()
+        Ok(())
     }
 }
 
@@ -240,16 +205,8 @@ impl ImportedHair {
         Cleaning { join_within: self.join_within, drop_shorter_than: self.drop_shorter_than }
     }
 
-    fn check(&self) -> Result<(), SettingError> {
-        check_counts(self.strands, self.segments)?;
-        check_placement("hair", self.unit, self.up, self.facing, self.origin)?;
-        self.cleaning().check()
+    fn is_placed(&self, at: &Place) -> Result<(), SettingError> {
+        check_named(&at.key("file"), &self.file)?;
+        check_placement(&Key::from(at).to_string(), self.unit, self.up, self.facing, self.origin)
     }
-}
-
-fn check_counts(strands: Option<usize>, segments: Option<usize>) -> Result<(), SettingError> {
-    if strands == Some(0) {
-        return Err(SettingError::new("hair.strands", 0, "must be at least 1"));
-    }
-    segments.map_or(Ok(()), |segments| HairSettings::check_segments("hair.segments", segments))
 }

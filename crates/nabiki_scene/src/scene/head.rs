@@ -1,9 +1,10 @@
 //! `[head]`: where the head comes from, the ellipsoids of the paper's section 3.1, what moves it.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use glam::Vec3;
-use nabiki::{Ellipsoid, SettingError};
+use nabiki::setting::{Datum, Key, Kind, Place, Range, Settings, Value as Setting, Word, refused};
+use nabiki::{Ellipsoid, SettingError, settings};
 use nabiki_io::motion::{Axis, MotionSource};
 use nabiki_io::{Placement, Unit};
 use serde::{Deserialize, Serialize};
@@ -16,13 +17,13 @@ use super::tree::{Unwritable, table_of};
 /// `[head]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeadSettings {
-    /// Where its mesh comes from (default: the built-in bust). Key: `mesh`, and those of [`ImportedHead`].
+    /// Where its mesh comes from. Key: `mesh`, and those of [`ImportedHead`].
     pub source: HeadSource,
-    /// E: fitted (default), or its centre and half axes (head space, cm).
+    /// E: fitted, or its centre and half axes (head space, cm).
     pub ellipsoid: EllipsoidChoice,
-    /// C is E scaled by this, above 1 (default 1.25).
+    /// C is E scaled by this, above 1.
     pub shell: f32,
-    /// A file that moves the head (default: it stands still).
+    /// A file that moves the head, if one does.
     pub motion: Option<MotionSource>,
 }
 
@@ -36,24 +37,22 @@ pub enum HeadSource {
     Imported(ImportedHead),
 }
 
-/// A head out of a file.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct ImportedHead {
-    /// A .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. Key: `mesh`.
-    #[serde(rename = "mesh")]
-    pub file: PathBuf,
-    /// Groups, objects or nodes of the file to keep (default: all).
-    pub groups: Vec<String>,
-    /// Unit of the file (default: what the file or its format says, or cm).
-    pub unit: Option<Unit>,
-    /// Axis of the file that points up (default: what the file or its format says, or +y).
-    pub up: Option<Axis>,
-    /// Axis of the file along which the face looks (default +x).
-    pub facing: Option<Axis>,
-    /// Point of the file that becomes the origin of head space (file units). Default: the centre of the fitted
-    /// ellipsoid; the file's own origin where the ellipsoid is given.
-    pub origin: Option<Vec3>,
+settings! {
+    /// A head out of a file.
+    pub struct ImportedHead in "head" where is_placed {
+        /// A .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive.
+        pub mesh: PathBuf = PathBuf::new() => "Mesh", must "\"head.obj\"";
+        /// Groups, objects or nodes of the file to keep; all if empty.
+        pub groups: Vec<String> = Vec::new() => "Groups";
+        /// Unit of the file.
+        pub unit: Option<Unit> = None => "Unit", above 0.0, open "what the file or its format says, or cm";
+        /// Axis of the file that points up.
+        pub up: Option<Axis> = None => "Up", open "what the file or its format says, or +y";
+        /// Axis of the file along which the face looks.
+        pub facing: Option<Axis> = None => "Facing", open "+x";
+        /// Point of the file that becomes the origin of head space, in the file's unit.
+        pub origin: Option<Vec3> = None => "Origin", open "the centre of the fitted ellipsoid; the file's own origin where the ellipsoid is given";
+    }
 }
 
 /// How the head ellipsoid E is found.
@@ -66,6 +65,30 @@ pub enum EllipsoidChoice {
     Fit,
     /// As given.
     Given(Ellipsoid),
+}
+
+impl Setting for EllipsoidChoice {
+    const KIND: Kind = Kind::OneOf(&[
+        Kind::Words(&[Word {
+            word: "fit",
+            help: "Fitted to the part of the mesh where hair grows; the built-in bust brings its own.",
+        }]),
+        Kind::Table(&Ellipsoid::TABLE),
+    ]);
+
+    fn check(&self, at: &Place, range: &Range) -> Result<(), SettingError> {
+        match self {
+            Self::Fit => Ok(()),
+            Self::Given(ellipsoid) => ellipsoid.check(at, range),
+        }
+    }
+
+    fn datum(&self) -> Datum {
+        match self {
+            Self::Fit => Datum::Text("fit".to_owned()),
+            Self::Given(ellipsoid) => ellipsoid.datum(),
+        }
+    }
 }
 
 /// The word "fit".
@@ -84,31 +107,23 @@ mod fit {
     }
 }
 
-/// The keys of any head.
-#[derive(Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-struct AnyHead {
-    ellipsoid: EllipsoidChoice,
-    shell: f32,
-    motion: Option<MotionSource>,
-}
-
-/// The keys of the built-in head.
-#[derive(Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-struct BuiltinHead {
-    mesh: String,
-}
-
-impl Default for AnyHead {
-    fn default() -> Self {
-        Self { ellipsoid: EllipsoidChoice::Fit, shell: 1.25, motion: None }
+settings! {
+    /// The keys of any head.
+    pub(crate) struct AnyHead in "head" {
+        /// E: fitted to the part of the head where hair grows, or given in head space.
+        ellipsoid: EllipsoidChoice = EllipsoidChoice::Fit => "Ellipsoid", unit "cm";
+        /// C, in which the pseudo-force may hold, is E scaled by this.
+        shell: f32 = 1.25 => "Shell", above 1.0;
+        /// A file that moves the head.
+        motion: Option<MotionSource> = None => "Motion of the head", open "it stands still";
     }
 }
 
-impl Default for BuiltinHead {
-    fn default() -> Self {
-        Self { mesh: HeadSettings::BUILTIN.to_owned() }
+settings! {
+    /// The project's own bust.
+    pub(crate) struct BuiltinHead {
+        /// The name of the built-in head, "builtin:bust".
+        mesh: String = HeadSettings::BUILTIN.to_owned() => "Mesh";
     }
 }
 
@@ -127,11 +142,16 @@ impl HeadSettings {
         Self { source, ellipsoid, shell, motion }
     }
 
+    fn any(&self) -> AnyHead {
+        let Self { ellipsoid, shell, motion, .. } = self.clone();
+        AnyHead { ellipsoid, shell, motion }
+    }
+
     /// The mesh as a scene names it: its file, or that of the built-in head.
     pub fn mesh(&self) -> String {
         match &self.source {
             HeadSource::Builtin => Self::BUILTIN.to_owned(),
-            HeadSource::Imported(head) => head.file.display().to_string(),
+            HeadSource::Imported(head) => head.mesh.display().to_string(),
         }
     }
 
@@ -160,8 +180,7 @@ impl HeadSettings {
             HeadSource::Builtin => table_of(&BuiltinHead::default())?,
             HeadSource::Imported(head) => table_of(head)?,
         };
-        let Self { ellipsoid, shell, motion, .. } = self.clone();
-        table.extend(table_of(&AnyHead { ellipsoid, shell, motion })?);
+        table.extend(table_of(&self.any())?);
         Ok(table)
     }
 
@@ -183,13 +202,7 @@ impl HeadSettings {
         if let HeadSource::Imported(head) = &self.source {
             head.check()?;
         }
-        if let EllipsoidChoice::Given(ellipsoid) = self.ellipsoid {
-            ellipsoid.check("head.ellipsoid")?;
-        }
-        if !(self.shell > 1.0 && self.shell.is_finite()) {
-            return Err(SettingError::new("head.shell", self.shell, "must be a finite number above 1"));
-        }
-        self.motion.as_ref().map_or(Ok(()), |motion| motion.check_numbers("head.motion"))
+        self.any().check()
     }
 }
 
@@ -206,9 +219,15 @@ impl ImportedHead {
     }
 
     /// Refuses what can be told without the file, which may say its unit and up axis itself.
-    fn check(&self) -> Result<(), SettingError> {
-        check_placement("head", self.unit, self.up, self.facing, self.origin)
+    fn is_placed(&self, at: &Place) -> Result<(), SettingError> {
+        check_named(&at.key("mesh"), &self.mesh)?;
+        check_placement(&Key::from(at).to_string(), self.unit, self.up, self.facing, self.origin)
     }
+}
+
+/// Refuses a file without a name, which a scene file would leave out.
+pub(super) fn check_named(at: &Place, file: &Path) -> Result<(), SettingError> {
+    if file.as_os_str().is_empty() { refused(at, "\"\"", "give the name of a file") } else { Ok(()) }
 }
 
 /// Refuses what the given parts of a placement cannot be, whatever a file says of the others.

@@ -1,31 +1,32 @@
 //! `[output]`: what a run writes.
 
-use nabiki::SettingError;
 use nabiki::dynamics::Motion;
-use serde::{Deserialize, Serialize};
+use nabiki::setting::{Place, refused};
+use nabiki::{SettingError, settings};
 
-/// `[output]`: what a run writes. Where it goes is the command line's affair.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Output {
-    /// Whether a movie is written (default true).
-    pub movie: bool,
-    /// Whether every frame is written as a PNG (default false).
-    pub png_frames: bool,
-    /// Bits of each channel of those PNGs, 8 (default) or 16.
-    pub png_bits: u32,
-    /// Whether every frame is written as an OpenEXR file with depth, hair direction and motion (default false).
-    pub exr_frames: bool,
-    /// Whether the force's projections on the yz and zx planes are drawn, as SVG and PNG (default false; the paper's
-    /// Figure 10).
-    pub field: bool,
-    /// Frames of the contact sheet (default: four, evenly from frame 0 on, as the paper's Figure 6 has them).
-    pub sheet: Option<Vec<u32>>,
-    /// Number of frame 0 on the time line of the shot: exports of moving hair (USD, Alembic) go on from it, pictures keep the numbers of the
-    /// scene. -10000000..10000000 (default: that of the head's motion, where it is from USD or Alembic and plays at its own speed, else that of
-    /// the hair's USD layer, `startTimeCode`, or Alembic archive, else 0).
-    pub first_frame: Option<i32>,
+settings! {
+    /// What a run writes. Where it goes is the command line's affair.
+    pub struct Output in "output" where has_bits {
+        /// Whether a movie is written.
+        pub movie: bool = true => "Movie";
+        /// Whether every frame is written as a PNG.
+        pub png_frames: bool = false => "PNG frames";
+        /// Bits of each channel of those PNGs, 8 or 16.
+        pub png_bits: u32 = 8 => "PNG bits", least 8.0, most 16.0;
+        /// Whether every frame is written as an OpenEXR file with depth, hair direction and motion.
+        pub exr_frames: bool = false => "OpenEXR frames";
+        /// Whether the force's projections on the yz and zx planes are drawn, as SVG and PNG: the paper's Figure 10.
+        pub field: bool = false => "Drawn field";
+        /// Frames of the contact sheet.
+        pub sheet: Option<Vec<u32>> = None => "Sheet", unit "frames", open "four, evenly from frame 0 on, as the paper's Figure 6 has them";
+        /// Number of frame 0 on the time line of the shot: exports of moving hair (USD, Alembic) go on from it, pictures keep the numbers of
+        /// the scene.
+        pub first_frame: Option<i32> = None => "First frame", least -FARTHEST, most FARTHEST,
+            open "that of the head's motion, where it is from USD or Alembic and plays at its own speed, else that of the hair's USD layer, `startTimeCode`, or Alembic archive, else 0";
+    }
 }
+
+const FARTHEST: f64 = Motion::MOST_FRAMES as f64;
 
 /// Refuses a number of frame 0 that is farther from 0 than a motion can be long.
 ///
@@ -39,29 +40,20 @@ pub fn check_first_frame(name: &str, first: i32) -> Result<(), SettingError> {
     Err(SettingError::new(name, first, format!("must lie in -{most}..{most}")))
 }
 
-impl Default for Output {
-    fn default() -> Self {
-        Self {
-            movie: true,
-            png_frames: false,
-            png_bits: 8,
-            exr_frames: false,
-            field: false,
-            sheet: None,
-            first_frame: None,
+impl Output {
+    fn has_bits(&self, at: &Place) -> Result<(), SettingError> {
+        if matches!(self.png_bits, 8 | 16) {
+            Ok(())
+        } else {
+            refused(&at.key("png_bits"), self.png_bits, "must be 8 or 16")
         }
     }
-}
 
-impl Output {
-    /// Refuses frames that the motion does not reach.
-    pub fn check(&self, frames: u32) -> Result<(), SettingError> {
-        if !matches!(self.png_bits, 8 | 16) {
-            return Err(SettingError::new("output.png_bits", self.png_bits, "must be 8 or 16"));
-        }
-        if let Some(first) = self.first_frame {
-            check_first_frame("output.first_frame", first)?;
-        }
+    /// Refuses frames of the sheet that the motion does not reach.
+    ///
+    /// # Errors
+    /// Names the first of them.
+    pub fn check_frames(&self, frames: u32) -> Result<(), SettingError> {
         match self.sheet.iter().flatten().enumerate().find(|&(_, &frame)| frame > frames) {
             Some((i, frame)) => {
                 let remedy = format!("the last frame is motion.frames = {frames}; take it out of the sheet");

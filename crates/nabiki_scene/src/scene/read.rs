@@ -93,13 +93,10 @@ impl Refusal {
     pub fn into_parts(self) -> (String, Problem) {
         let path = join(self.outward.iter().rev());
         let problem = match self.problem {
-            Problem::UnknownKey { known, near } => match RENAMED.iter().find(|(before, _)| *before == path) {
-                Some((_, now)) => Problem::Renamed { now: (*now).to_owned() },
-                None => {
-                    let whole = |near: &String| join(self.outward.iter().skip(1).rev().chain([near]));
-                    Problem::UnknownKey { near: near.as_ref().map(whole), known }
-                }
-            },
+            Problem::UnknownKey { known, near } => {
+                let whole = |near: &String| join(self.outward.iter().skip(1).rev().chain([near]));
+                Problem::UnknownKey { near: near.as_ref().map(whole), known }
+            }
             Problem::Kind { found, wanted } => {
                 let names = self.outward.iter().rev().filter(|step| !is_index(step));
                 Problem::Kind { found, wanted: wanted.replace("[...]", &format!("[{}]", join(names))) }
@@ -109,16 +106,6 @@ impl Refusal {
         (path, problem)
     }
 }
-
-/// What settings were called in earlier versions, and what they are called now.
-const RENAMED: [(&str, &str); 6] = [
-    ("hair.style.locks", "hair.style.clumps"),
-    ("motion.friction_length", "motion.inertia_length_floor"),
-    ("picture.video.fps", "motion.frame_rate"),
-    ("picture.hair.color", "picture.hair.colour"),
-    ("picture.head.color", "picture.head.colour"),
-    ("picture.tone", "picture.tone_mapping"),
-];
 
 fn join<'a>(steps: impl Iterator<Item = &'a String>) -> String {
     let mut path = String::new();

@@ -31,9 +31,7 @@ impl Scene {
         }
         // Any value will do to hear whether there is a setting of that name.
         match self.with_setting(key, Some(true.into())) {
-            Err(refused) if matches!(*refused.problem, Problem::UnknownKey { .. } | Problem::Renamed { .. }) => {
-                Err(refused)
-            }
+            Err(refused) if matches!(*refused.problem, Problem::UnknownKey { .. }) => Err(refused),
             _ => Ok(None),
         }
     }
@@ -78,7 +76,7 @@ impl Scene {
             mend(&mut hair.file);
         }
         if let HeadSource::Imported(head) = &mut self.head.source {
-            mend(&mut head.file);
+            mend(&mut head.mesh);
         }
         self.bodies.iter_mut().for_each(|body| mend(&mut body.mesh));
         let motions = self.bodies.iter_mut().filter_map(|body| body.motion.as_mut());

@@ -5,6 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use nabiki::setting::Key;
 use toml::{
     Table, Value,
     de::{DeTable, DeValue},
@@ -31,7 +32,7 @@ impl Origins {
     /// An error about the value at `path` (dotted, or with indices in brackets): its file and line, or its override.
     pub fn error(&self, path: &str, problem: Problem) -> SceneError {
         let problem = Box::new(problem);
-        let whole = SceneError { file: self.file.clone(), line: None, set: None, key: path.to_owned(), problem };
+        let whole = SceneError { file: self.file.clone(), line: None, set: None, key: Key::from(path), problem };
         let dotted = dotted(path).join(".");
         let mut at = dotted.as_str();
         loop {
@@ -123,7 +124,7 @@ pub(crate) fn parse(
             message = format!("duplicate key {key}: it is given above already, give it once");
         }
         let problem = Box::new(Problem::NotToml(message));
-        SceneError { file: file.to_owned(), line, set: None, key: String::new(), problem }
+        SceneError { file: file.to_owned(), line, set: None, key: Key::default(), problem }
     };
     let spanned = DeTable::parse(text).map_err(syntax)?;
     record_table(spanned.get_ref(), "", &line_at, &mut origins.lines);
@@ -136,7 +137,7 @@ pub(crate) fn parse(
             file: file.to_owned(),
             line: None,
             set: Some(short(&text)),
-            key: String::new(),
+            key: Key::default(),
             problem: Box::new(Problem::Other(what)),
         })?;
         origins.override_at(&steps, &text);

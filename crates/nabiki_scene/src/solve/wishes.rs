@@ -235,7 +235,7 @@ impl WishFile {
     /// A refused value as an error that names the file and the line.
     pub fn refusal(&self, refused: SettingError) -> SceneError {
         let SceneError { key, problem, .. } = refused.into();
-        self.origins.error(&key, *problem)
+        self.origins.error(&key.to_string(), *problem)
     }
 }
 

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 use nabiki::dynamics::{Form, check_field};
+use nabiki::free_form::FreeForm;
 use nabiki::{Hair, Profile};
 use nabiki_file::PartFile;
 use nabiki_io::motion::{self, ClipMover};
@@ -18,7 +19,7 @@ use crate::error::{Error, Result};
 use crate::place;
 use crate::scene::{HeadSource, ImportedHead, Scene};
 use crate::size::decimal;
-use crate::template::{STIFFNESS, stiffness_line, template};
+use crate::template::{stiffness_line, template};
 use crate::told::Told;
 use crate::watch::Watch;
 
@@ -66,10 +67,13 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     let built = Scene::parse(&template.text, path, &[])?.build(tried)?;
     let part = stable_part(&built);
     if part < 1.0 {
-        let softer = STIFFNESS.map(|stiffness| part * stiffness);
-        template.text = template.text.replacen(&stiffness_line(STIFFNESS), &stiffness_line(softer), 1);
+        let FreeForm { stiffness, .. } = FreeForm::default();
+        let softer = Profile::RootToTip(stiffness.values().iter().map(|stiffness| part * stiffness).collect());
+        template.text = template.text.replacen(&stiffness_line(&stiffness), &stiffness_line(&softer), 1);
         template.guesses.push(format!(
-            "free.stiffness = {softer:?}, of {STIFFNESS:?}, which the shortest segments of this hair are too quick for"
+            "free.stiffness = {:?}, of {:?}, which the shortest segments of this hair are too quick for",
+            softer.values(),
+            stiffness.values()
         ));
         Scene::parse(&template.text, path, &[])?.build(tried)?.simulation()?;
     } else {
@@ -108,16 +112,16 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
 /// A head that moves in its file: whether hair shall follow it is the scene's to say.
 fn unmoved(built: &BuiltScene) -> Result<Option<Advice>> {
     let HeadSource::Imported(head) = &built.scene.head.source else { return Ok(None) };
-    let file = built.scene.resolve(&head.file);
+    let file = built.scene.resolve(&head.mesh);
     if mesh::is_gltf(&file) {
         return unmoved_by_clip(built, head, &file);
     }
     let Some(node) = exchange::mover_of_mesh(&file, &head.groups)? else { return Ok(None) };
     let word = |text: &str| toml::Value::String(text.to_owned());
-    let named = head.file.display();
+    let named = head.mesh.display();
     let (file, of_node, facing) = (word(&named.to_string()), word(&node), built.placement.facing);
     // An archive does not say its unit.
-    let unit = if exchange::is_alembic(&head.file) {
+    let unit = if exchange::is_alembic(&head.mesh) {
         format!(", unit_cm = {}", built.placement.unit.cm)
     } else {
         String::new()
@@ -135,7 +139,7 @@ fn unmoved_by_clip(built: &BuiltScene, head: &ImportedHead, file: &Path) -> Resu
         return Ok(None);
     };
     let word = |text: &str| toml::Value::String(text.to_owned());
-    let named = head.file.display();
+    let named = head.mesh.display();
     let (file, of_node, facing) = (word(&named.to_string()), word(&node), built.placement.facing);
     let of_clip = if clip.is_empty() { String::new() } else { format!(", clip = {}", word(&clip)) };
     let value = format!("{{ file = {file}, node = {of_node}{of_clip}, facing = \"{facing}\", bind_at_start = true }}");

@@ -72,7 +72,7 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
     let mut answer = |built: &BuiltScene, list: Vec<Wish>, watch: &mut dyn Watch| -> Result<(Scene, Report)> {
         let begun = Instant::now();
         let problem = Problem { prior: wishes.prior.into(), ..built.problem(unknowns.clone(), list) };
-        let refused = |refused: SettingError| match refused.thing.starts_with("unknowns") {
+        let refused = |refused: SettingError| match refused.thing.is_within(&"unknowns".into()) {
             true => in_file(refused),
             false => built.refusal(refused),
         };

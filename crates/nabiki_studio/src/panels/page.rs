@@ -152,7 +152,7 @@ impl Panel<'_> {
     ) {
         let blamed = self.session.trouble().and_then(|trouble| trouble.key.as_deref()).is_some_and(|key| {
             key.strip_prefix(table).is_some_and(|rest| {
-                group.settings.iter().any(|setting| blames(rest, setting.key)) || rest.starts_with('[')
+                group.settings().iter().any(|setting| blames(rest, setting.key)) || rest.starts_with('[')
             })
         });
         let id = ui.make_persistent_id((group.title, table));
@@ -218,7 +218,7 @@ impl Panel<'_> {
 
     fn fields(&self, ui: &mut Ui, group: &'static Group, table: &str, commands: &mut Commands) {
         let blamed = self.session.trouble().and_then(|trouble| trouble.key.as_deref());
-        for setting in group.settings {
+        for setting in group.settings() {
             let key = format!("{table}.{}", setting.key);
             let value = value_at(self.session.settings(), &key);
             let blamed =

@@ -4,7 +4,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::pulls::weight::weight;
 use crate::dynamics::FrameInput;
-use crate::free_form::EARTH_CM_PER_S2;
+use crate::free_form::{EARTH_CM_PER_S2, FreeForm};
 use crate::pose::Pose;
 
 /// The head's motion in one frame, as head space sees it.
@@ -19,8 +19,9 @@ pub(super) struct HeadFrame {
 }
 
 impl HeadFrame {
-    /// `gravity`: the strength that stands for the earth's; `frame_rate`: frames a second.
-    pub fn new(input: &FrameInput, gravity: f64, frame_rate: f64) -> Self {
+    /// `frame_rate`: frames a second.
+    pub fn new(input: &FrameInput, form: &FreeForm, frame_rate: f64) -> Self {
+        let gravity = f64::from(form.weight());
         let [now, before, earlier] = [input.pose, input.before[0], input.before[1]].map(exact);
         Self {
             turn: if input.pose.rotation == input.before[0].rotation { None } else { turn(before.1, now.1) },

@@ -68,7 +68,8 @@ impl Packed {
         let stability = Stability::of(strands, dynamics)?;
         let [low, high] = bounds(strands.points());
         let longest = strands.lengths().fold(0.0, f32::max);
-        let weakens = dynamics.pseudo_force.coefficients.iter().any(|&eps| eps != 1.0);
+        let weakens =
+            dynamics.weakening().is_some_and(|weakening| weakening.coefficients.iter().any(|&eps| eps != 1.0));
         let mut packed = Self {
             weakening: weakens.then(|| (Surroundings::upright(dynamics), Vec::new())),
             dynamics: dynamics.clone(),
@@ -80,7 +81,7 @@ impl Packed {
             lags: Vec::new(),
             kept_from: Vec::new(),
             rest: Vec::new(),
-            weight_at_rest: weight(&free.rest_pose, f64::from(free.form.gravity)).as_vec3().to_array(),
+            weight_at_rest: weight(&free.rest_pose, f64::from(free.form.weight())).as_vec3().to_array(),
             center: 0.5 * (low + high),
             radius: 0.5 * low.distance(high) + 2.0 * longest,
             longest,
@@ -219,8 +220,7 @@ impl Packed {
 
     /// What a frame does to every block. `crowd`: what the carriers left in the frame before.
     pub fn plan<'a>(&self, input: &FrameInput<'a>, obstacles: &'a [Obstacle], crowd: Option<&'a Crowd>) -> Plan<'a> {
-        let gravity = f64::from(self.free.form.gravity);
-        let head = HeadFrame::new(input, gravity, self.dynamics.motion.frame_rate);
+        let head = HeadFrame::new(input, &self.free.form, self.dynamics.motion.frame_rate);
         let field = FieldFrame::new(input, self.dynamics.motion.force_space);
         let turned_by = head.turn.map_or(0.0, |(_, angle)| angle.abs() as f32);
         let of_bodies = obstacles.iter().map(|o| o.farthest_moved(self.center, self.radius)).fold(0.0, f32::max);

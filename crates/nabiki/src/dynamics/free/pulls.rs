@@ -26,9 +26,9 @@ use crate::vector::add;
 
 /// All that the check of stability asks.
 pub(in crate::dynamics) fn pulls(free: &FreeMotion) -> Vec<Box<dyn Pull + '_>> {
-    let FreeForm { stiffness, hold, gravity, .. } = &free.form;
+    let FreeForm { stiffness, hold, .. } = &free.form;
     let mut pulls: Vec<Box<dyn Pull + '_>> =
-        vec![Box::new(Stiffness(stiffness)), Box::new(Hold(hold)), Box::new(Gravity(*gravity))];
+        vec![Box::new(Stiffness(stiffness)), Box::new(Hold(hold)), Box::new(Gravity(free.form.weight()))];
     let neighbours = free.neighbours.as_ref().map(|neighbours| &neighbours.forces);
     if let Some(forces) = neighbours.filter(|forces| forces.cohesion > 0.0) {
         pulls.push(Box::new(Cohesion(forces.cohesion)));

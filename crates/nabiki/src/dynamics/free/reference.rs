@@ -52,10 +52,10 @@ struct Hair {
 impl<'a> Setting<'a> {
     /// That of the frame of `input`.
     pub fn new(dynamics: &Dynamics, free: &'a FreeMotion, input: &FrameInput) -> Self {
-        let gravity = f64::from(free.form.gravity);
+        let gravity = f64::from(free.form.weight());
         Self {
             gamma: dynamics.gamma(),
-            head: HeadFrame::new(input, gravity, dynamics.motion.frame_rate),
+            head: HeadFrame::new(input, &free.form, dynamics.motion.frame_rate),
             rest_weight: weight(&free.rest_pose, gravity),
             obstacles: free.bodies.iter().enumerate().map(|(b, body)| Obstacle::new(b, body, input)).collect(),
         }

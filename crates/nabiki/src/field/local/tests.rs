@@ -135,7 +135,7 @@ fn none_pushes_at_its_centre_however_small_its_radius() {
 #[test]
 fn settings_out_of_range_are_refused_by_name() {
     let plain = Point { position: POSITION, strength: 1.0, falloff: Falloff::default(), envelope: Vec::new() };
-    let thing = |settings: Point| settings.check("point[2]").unwrap_err().thing;
+    let thing = |settings: Point| settings.check_at("point[2]").unwrap_err().thing;
     assert_eq!(thing(Point { position: Vec3::NAN, ..plain.clone() }), "point[2].position");
     assert_eq!(thing(Point { position: Vec3::X * 1e7, ..plain.clone() }), "point[2].position");
     assert_eq!(thing(Point { strength: f32::INFINITY, ..plain.clone() }), "point[2].strength");
@@ -150,7 +150,7 @@ fn settings_out_of_range_are_refused_by_name() {
         falloff: Falloff::default(),
         envelope: Vec::new(),
     };
-    assert_eq!(vortex.check("vortex[0]").unwrap_err().thing, "vortex[0].axis");
+    assert_eq!(vortex.check_at("vortex[0]").unwrap_err().thing, "vortex[0].axis");
     let fan = Fan {
         position: POSITION,
         direction: Vec3::X,
@@ -159,9 +159,9 @@ fn settings_out_of_range_are_refused_by_name() {
         falloff: Falloff::default(),
         envelope: Vec::new(),
     };
-    assert_eq!(fan.check("fan[0]").unwrap_err().thing, "fan[0].spread");
+    assert_eq!(fan.check_at("fan[0]").unwrap_err().thing, "fan[0].spread");
     assert_eq!(
-        Fan { direction: Vec3::ZERO, spread: 30.0, ..fan }.check("fan[0]").unwrap_err().thing,
+        Fan { direction: Vec3::ZERO, spread: 30.0, ..fan }.check_at("fan[0]").unwrap_err().thing,
         "fan[0].direction"
     );
 }

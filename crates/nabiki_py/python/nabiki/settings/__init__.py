@@ -1,4 +1,4 @@
-"""Every setting of a scene as an attribute. Written by generate.py from the doc comments of the Rust structs."""
+"""Every setting of a scene as an attribute. Written by generate.py from the schema of scenes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .. import _nabiki
 from ._table import Table, Tables
 from .hair import Clumps, Comb, Curl, Cut, Fringe, HairSettings, Hairline, Length, Lift, Parting, Ponytail, Stiffness, Style, Variation, Volume
 from .head import BodySettings, HeadSettings, MotionSource
-from .motion import Contact, Disturbance, FreeSettings, Motion, NeighbourForces, PseudoForce, Tie
+from .motion import Contact, Disturbance, FreeForm, Motion, NeighbourForces, PseudoForce, Tie
 from .picture import Background, Camera, CameraKey, HairLook, HeadLook, Light, Output, Picture, Sky, Video
 from .wind import BodyWind, EnvelopeKey, Falloff, Fan, Flow, Gust, Keyframe, Point, Turbulence, Vortex, Wind
 
@@ -29,7 +29,7 @@ class SceneTables(TypedDict, total=False):
     vortex: Iterable[Vortex | Mapping[str, Any]] | None
     fan: Iterable[Fan | Mapping[str, Any]] | None
     motion: Motion | Mapping[str, Any] | None
-    free: FreeSettings | Mapping[str, Any] | None
+    free: FreeForm | Mapping[str, Any] | None
     contact: Contact | Mapping[str, Any] | None
     neighbours: NeighbourForces | Mapping[str, Any] | None
     pseudo_force: PseudoForce | Mapping[str, Any] | None
@@ -44,7 +44,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def hair(self) -> HairSettings:
-        """`[hair]`."""
+        """The hair at rest: grown from the scalp, or, where `file` is given, read from a file."""
         return HairSettings(self, 'hair')
 
     @hair.setter
@@ -53,7 +53,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def picture(self) -> Picture:
-        """The scene's `[picture]` table."""
+        """What is drawn, and how."""
         return Picture(self, 'picture')
 
     @picture.setter
@@ -71,7 +71,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def force(self) -> Tables[Keyframe]:
-        """Vectors uniform in space, each over some frames: equation (5)."""
+        """One interval of the wind: `vector` drives every frame after the interval before it, up to `through`."""
         return Tables(self, 'force', Keyframe)
 
     @force.setter
@@ -80,7 +80,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def wind(self) -> Wind:
-        """How they follow one another."""
+        """How the vectors of the intervals follow one another."""
         return Wind(self, 'wind')
 
     @wind.setter
@@ -89,7 +89,13 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def gust(self) -> Gust:
-        """A random factor on them. Not there unless it is given."""
+        """Gusts: a random factor about 1 on the wind of the intervals, which rises and falls as wind does.
+
+        It has the spectrum of the wind's own direction after T. von Karman ("Progress in the statistical theory of
+        turbulence", PNAS 34, 1948) as engineers write it, `S(f) = 4 T / (1 + 70.8 (f T)^2)^(5/6)`, up to a highest
+        frequency: what is faster is not felt by the whole head of hair at once, and is turbulence. Not there unless
+        it is given.
+        """
         return Gust(self, 'gust')
 
     @gust.setter
@@ -98,7 +104,11 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def body_wind(self) -> BodyWind:
-        """The wind that the head makes by moving. Not there unless it is given."""
+        """The wind from the head's own motion, uniform in space; it needs a motion of the head.
+
+        With the head's velocity v (cm/s) and acceleration a (cm/s^2), from the poses and the frame rate: F = -drag v
+        - footfall (0, a_y, 0). Not there unless it is given.
+        """
         return BodyWind(self, 'body_wind')
 
     @body_wind.setter
@@ -107,7 +117,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def flow(self) -> Flow:
-        """The way of the wind round the head. Not there unless it is given."""
+        """The way of the wind round the head, instead of through it. Not there unless it is given."""
         return Flow(self, 'flow')
 
     @flow.setter
@@ -116,7 +126,12 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def turbulence(self) -> Turbulence:
-        """Random swirls. Not there unless it is given."""
+        """Turbulence: a random force without sources, which drifts with the wind and changes on its way.
+
+        It is the curl of a random vector potential, a sum of octaves each half as large as the one before. Near the
+        head the potential is let go to 0 by Bridson's ramp, so that the force runs along the head. Not there unless
+        it is given.
+        """
         return Turbulence(self, 'turbulence')
 
     @turbulence.setter
@@ -125,7 +140,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def point(self) -> Tables[Point]:
-        """Points that blow or draw."""
+        """A point that blows or draws."""
         return Tables(self, 'point', Point)
 
     @point.setter
@@ -134,7 +149,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def vortex(self) -> Tables[Vortex]:
-        """Whirls."""
+        """A whirl: a force round an axis."""
         return Tables(self, 'vortex', Vortex)
 
     @vortex.setter
@@ -143,7 +158,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def fan(self) -> Tables[Fan]:
-        """Winds in a cone."""
+        """A wind in a cone."""
         return Tables(self, 'fan', Fan)
 
     @fan.setter
@@ -152,7 +167,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def motion(self) -> Motion:
-        """The settings of the motion; the default is Table 1 of the paper."""
+        """How long hair moves, how heavy it is, and how far a frame leads it. The default is Table 1 of the paper."""
         return Motion(self, 'motion')
 
     @motion.setter
@@ -160,17 +175,17 @@ class SceneSettings(_nabiki.Scene):
         self['motion'] = value
 
     @property
-    def free(self) -> FreeSettings:
-        """What holds hair in shape and calms it, in the free form."""
-        return FreeSettings(self, 'free')
+    def free(self) -> FreeForm:
+        """What holds hair in shape and calms it, in the free form. Strengths are in the unit of the force F."""
+        return FreeForm(self, 'free')
 
     @free.setter
-    def free(self, value: FreeSettings | Mapping[str, Any] | None) -> None:
+    def free(self, value: FreeForm | Mapping[str, Any] | None) -> None:
         self['free'] = value
 
     @property
     def contact(self) -> Contact:
-        """How hair and head touch, in the free form."""
+        """How hair and a body touch, in the free form."""
         return Contact(self, 'contact')
 
     @contact.setter
@@ -179,7 +194,12 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def neighbours(self) -> NeighbourForces:
-        """Hair against hair, in the free form. Not there unless it is given."""
+        """Hair against hair: forces from a grid that a few strands, the carriers, fill as they move.
+
+        Carriers move first and write density and mean velocity; every strand, carriers too, reads what they left in
+        the frame before. So a strand depends on itself and on the carriers only, and any subset of the hair moves as
+        within the whole. Not there unless it is given.
+        """
         return NeighbourForces(self, 'neighbours')
 
     @neighbours.setter
@@ -188,7 +208,9 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def pseudo_force(self) -> PseudoForce:
-        """The settings of the pseudo-force; the default is Table 1 of the paper."""
+        """The pseudo-force: it weakens the wind before the head, the paper's stand-in for collisions. The default is
+        Table 1 of the paper.
+        """
         return PseudoForce(self, 'pseudo_force')
 
     @pseudo_force.setter
@@ -197,7 +219,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def disturbance(self) -> Disturbance:
-        """Turns every strand a little, at random, every so many frames.
+        """Turns every strand a little, at random, every so many frames, in the paper's form.
 
         The paper names neither its size nor its law. Here a strand is given one random turn of theta and one of phi,
         uniform within `amplitude` at the tip and falling to nothing at the root, so that it stays a smooth curve; the
@@ -212,7 +234,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def head(self) -> HeadSettings:
-        """`[head]`."""
+        """The head that hair grows on: the built-in bust, or one out of a file."""
         return HeadSettings(self, 'head')
 
     @head.setter
@@ -221,7 +243,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def body(self) -> Tables[BodySettings]:
-        """What else hair does not enter, in the free form."""
+        """Something besides the head that hair does not enter, in the free form."""
         return Tables(self, 'body', BodySettings)
 
     @body.setter

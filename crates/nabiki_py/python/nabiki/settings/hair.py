@@ -1,4 +1,4 @@
-"""How hair lies at rest: `scene.hair`. Written by generate.py from the doc comments of the Rust structs."""
+"""How hair lies at rest: `scene.hair`. Written by generate.py from the schema of scenes."""
 
 from __future__ import annotations
 
@@ -27,13 +27,15 @@ __all__ = [
 
 
 class HairSettings(Table):
-    """`[hair]`."""
+    """The hair at rest: grown from the scalp, or, where `file` is given, read from a file."""
 
     __slots__ = ()
 
     @property
     def segment_length(self) -> float:
-        """d, which k and i of the paper are counted in, and the length of the segments grown (cm, default 1)."""
+        """Length of the segments that are grown (d), in which stiffness and the paper's k and i are counted. Number
+        above 0 (cm); default: 1.
+        """
         value: float = self._get('segment_length')
         return value
 
@@ -43,7 +45,9 @@ class HairSettings(Table):
 
     @property
     def strands(self) -> int:
-        """Number of strands, 1..800,000,000 (default 19,330: Table 1)."""
+        """Number of strands of the whole scene. 19,330 is the paper's Table 1. Whole number, 1 to 800000000; default:
+        19330.
+        """
         value: int = self._get('strands')
         return value
 
@@ -53,7 +57,7 @@ class HairSettings(Table):
 
     @property
     def segments(self) -> int:
-        """Most segments of a strand (default 18: the paper's k)."""
+        """Most segments of a strand. 18 is the paper's k. Whole number, 1 to 65535; default: 18."""
         value: int = self._get('segments')
         return value
 
@@ -63,7 +67,9 @@ class HairSettings(Table):
 
     @property
     def seed(self) -> int:
-        """Seed of the roots and of the differences between strands (default 1)."""
+        """Seed of the roots and of the differences between strands: another number, others of both. Whole number;
+        default: 1.
+        """
         value: int = self._get('seed')
         return value
 
@@ -91,7 +97,7 @@ class HairSettings(Table):
 
     @property
     def file(self) -> str:
-        """A .hair, .tfx, .obj (polylines), USD layer or Alembic archive."""
+        """A .hair, .tfx, .obj (polylines), USD layer or Alembic archive. Path; must be given."""
         value: str = self._get('file')
         return value
 
@@ -101,8 +107,8 @@ class HairSettings(Table):
 
     @property
     def groups(self) -> tuple[str, ...]:
-        """Curves of a USD layer or Alembic archive to keep, by the name or path of their prim or of what it stands below
-        (default: all).
+        """Curves of a USD layer or Alembic archive to keep, by the name or path of their prim or of what it stands
+        below; all if empty. List of texts; default: none.
         """
         value: tuple[str, ...] = self._get('groups')
         return value
@@ -113,7 +119,9 @@ class HairSettings(Table):
 
     @property
     def unit(self) -> str | float | None:
-        """Unit of the file (default: what the file says, or that of the head's file, or cm)."""
+        """Unit of the file. "mm", "cm", "dm", "m", "in" or "ft" or number above 0; default: what the file says, or that
+        of the head's file, or cm.
+        """
         value: str | float | None = self._get('unit')
         return value
 
@@ -123,7 +131,9 @@ class HairSettings(Table):
 
     @property
     def up(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
-        """Axis of the file that points up (default: what the file says, or that of the head's file, or +y)."""
+        """Axis of the file that points up. "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the file says, or that of
+        the head's file, or +y.
+        """
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('up')
         return value
 
@@ -133,7 +143,9 @@ class HairSettings(Table):
 
     @property
     def facing(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
-        """Axis of the file along which the face looks (default: that of the head's file, or +x)."""
+        """Axis of the file along which the face looks. "+x", "-x", "+y", "-y", "+z" or "-z"; default: that of the head's
+        file, or +x.
+        """
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('facing')
         return value
 
@@ -143,7 +155,9 @@ class HairSettings(Table):
 
     @property
     def origin(self) -> tuple[float, float, float] | None:
-        """Point of the file that becomes the origin of head space (file units; default: the same place as the head's)."""
+        """Point of the file that becomes the origin of head space, in the file's unit. 3 numbers; default: the same
+        place as the head's.
+        """
         value: tuple[float, float, float] | None = self._get('origin')
         return value
 
@@ -153,9 +167,7 @@ class HairSettings(Table):
 
     @property
     def root(self) -> Literal["skin", "first", "last"]:
-        """Which end of a strand is its root: "skin", the one that lies on the head's skin where the other does not, and
-        else the first (default); "first"; or "last".
-        """
+        """Which end of a strand is its root. "skin", "first" or "last"; default: "skin"."""
         value: Literal["skin", "first", "last"] = self._get('root')
         return value
 
@@ -165,8 +177,8 @@ class HairSettings(Table):
 
     @property
     def join_within(self) -> float:
-        """Neighbouring points of a strand this close are joined (cm, default 0.001; 0 joins those alone that lie in one
-        place, between which a strand has no direction to move in).
+        """Neighbouring points of a strand this close are joined. 0 joins those alone that lie in one place, between
+        which a strand has no direction to move in. Number of at least 0 (cm); default: 0.001.
         """
         value: float = self._get('join_within')
         return value
@@ -177,7 +189,9 @@ class HairSettings(Table):
 
     @property
     def drop_shorter_than(self) -> float:
-        """Strands shorter than this are dropped (cm, default 0: only those without any extent)."""
+        """Strands shorter than this are dropped; 0: only those without any extent. Number of at least 0 (cm); default:
+        0.
+        """
         value: float = self._get('drop_shorter_than')
         return value
 
@@ -190,15 +204,14 @@ class Hairline(Table):
     """Where hair grows: how far the hairline runs below the crown, all about the head.
 
     Depths are measured straight down from the highest point of the head ellipsoid E, in units of the mean of its two
-    horizontal half axes (8.65 cm on the builtin bust), so that a hairline fits heads of any size. Scene key:
-    `hair.hairline`.
+    horizontal half axes (8.65 cm on the built-in bust), so that a hairline fits heads of any size.
     """
 
     __slots__ = ()
 
     @property
     def forehead(self) -> float:
-        """Depth of the line over the middle of the forehead (default 0.50: 4.3 cm on the bust)."""
+        """Depth of the line over the middle of the forehead. 0.5 is 4.3 cm on the bust. Number, 0 to 2; default: 0.5."""
         value: float = self._get('forehead')
         return value
 
@@ -208,7 +221,9 @@ class Hairline(Table):
 
     @property
     def temple_recession(self) -> float:
-        """How much higher than that the line stands over the temples (default 0.05: 0.4 cm)."""
+        """How much higher than that the line stands over the temples. 0.05 is 0.4 cm on the bust. Number, -0.5 to 0.5;
+        default: 0.05.
+        """
         value: float = self._get('temple_recession')
         return value
 
@@ -218,7 +233,9 @@ class Hairline(Table):
 
     @property
     def sideburns(self) -> float:
-        """Depth of the lower end of the sideburns, in front of the ears (default 1.45: 12.5 cm)."""
+        """Depth of the lower end of the sideburns, in front of the ears. 1.45 is 12.5 cm on the bust. Number, 0 to 2.5;
+        default: 1.45.
+        """
         value: float = self._get('sideburns')
         return value
 
@@ -228,7 +245,7 @@ class Hairline(Table):
 
     @property
     def above_ears(self) -> float:
-        """Depth of the line above the ears (default 0.98: 8.5 cm)."""
+        """Depth of the line above the ears. 0.98 is 8.5 cm on the bust. Number, 0 to 2.5; default: 0.98."""
         value: float = self._get('above_ears')
         return value
 
@@ -238,8 +255,8 @@ class Hairline(Table):
 
     @property
     def behind_ears(self) -> float:
-        """How much farther forward the line comes down behind the ears: hair that is tied up shows where it runs
-        (default 0; 0.25, the most: 2.2 cm).
+        """How much farther forward the line comes down behind the ears: hair that is tied up shows where it runs. 0.25
+        is 2.2 cm on the bust. Number, 0 to 0.25; default: 0.
         """
         value: float = self._get('behind_ears')
         return value
@@ -250,7 +267,7 @@ class Hairline(Table):
 
     @property
     def nape(self) -> float:
-        """Depth of the line on the nape (default 2.10: 18 cm)."""
+        """Depth of the line on the nape. 2.1 is 18 cm on the bust. Number, 0 to 2.8; default: 2.1."""
         value: float = self._get('nape')
         return value
 
@@ -260,7 +277,7 @@ class Hairline(Table):
 
     @property
     def fade(self) -> float:
-        """Height over which hair thins out at the line (default 0.10: 0.9 cm)."""
+        """Height over which hair thins out at the line. 0.1 is 0.9 cm on the bust. Number, 0 to 1; default: 0.1."""
         value: float = self._get('fade')
         return value
 
@@ -270,7 +287,9 @@ class Hairline(Table):
 
     @property
     def wander(self) -> float:
-        """How far the line wanders up and down, in waves of one to three centimetres on the bust (default 0)."""
+        """How far the line wanders up and down, in waves of one to three centimetres on the bust. Number, 0 to 0.3;
+        default: 0.
+        """
         value: float = self._get('wander')
         return value
 
@@ -282,15 +301,15 @@ class Hairline(Table):
 class Style(Table):
     """A hairstyle: how hair leaves the scalp, how stiff and how long it is, where it is combed and cut.
 
-    Scene key: `hair.style`. Lengths in cm, directions in head space (+x where the face looks, +y up, +z to the
-    character's right), loads in units of the hair's own weight.
+    Lengths are in cm, directions in head space (+x where the face looks, +y up, +z to the character's right), loads
+    in units of the hair's own weight.
     """
 
     __slots__ = ()
 
     @property
     def stiffness(self) -> Stiffness:
-        """(E I / w)^(1/3): over about this length hair bends under its own weight (cm, default 2)."""
+        """(E I / w)^(1/3): over about this length hair bends under its own weight."""
         return Stiffness(self._scene, self._key_of('stiffness'))
 
     @stiffness.setter
@@ -299,7 +318,7 @@ class Style(Table):
 
     @property
     def length(self) -> Length:
-        """Length before any cut (cm, default 18); at most `hair.segments` x `hair.segment_length`."""
+        """Length before any cut, at most `hair.segments` x `hair.segment_length`."""
         return Length(self._scene, self._key_of('length'))
 
     @length.setter
@@ -308,7 +327,7 @@ class Style(Table):
 
     @property
     def lift_degrees(self) -> Lift:
-        """Angle between a root and the scalp (degrees, default 20): 90 is along the normal, as in the paper."""
+        """Angle between a root and the scalp: 90 is along the normal, as in the paper."""
         return Lift(self._scene, self._key_of('lift_degrees'))
 
     @lift_degrees.setter
@@ -380,7 +399,7 @@ class Style(Table):
 
     @property
     def ponytail(self) -> Ponytail:
-        """A tail that all hair but the fringe is tied to; none by default."""
+        """A tail that all hair but the fringe is tied to."""
         return Ponytail(self._scene, self._key_of('ponytail'))
 
     @ponytail.setter
@@ -398,7 +417,7 @@ class Style(Table):
 
     @property
     def lever_arms(self) -> Literal["straight", "deformed"]:
-        """Which lever arms bend a strand that hangs free (default "deformed")."""
+        """Which lever arms bend a strand that hangs free. "straight" or "deformed"; default: "deformed"."""
         value: Literal["straight", "deformed"] = self._get('lever_arms')
         return value
 
@@ -408,13 +427,13 @@ class Style(Table):
 
 
 class Stiffness(Table):
-    """(E I / w)^(1/3) by region (cm, default 2). Real hair: about 4.5; combed and lying on other hair, less."""
+    """(E I / w)^(1/3) by region. Real hair: about 4.5; combed and lying on other hair, less."""
 
     __slots__ = ()
 
     @property
     def top(self) -> float:
-        """On the upper third of the head; passes smoothly into `sides` and `back`."""
+        """On the upper third of the head; passes smoothly into `sides` and `back`. Number, 0.1 to 100 (cm); default: 2."""
         value: float = self._get('top')
         return value
 
@@ -424,7 +443,7 @@ class Stiffness(Table):
 
     @property
     def sides(self) -> float:
-        """Below, in front of the middle of the ears; passes smoothly into `back`."""
+        """Below, in front of the middle of the ears; passes smoothly into `back`. Number, 0.1 to 100 (cm); default: 2."""
         value: float = self._get('sides')
         return value
 
@@ -434,7 +453,7 @@ class Stiffness(Table):
 
     @property
     def back(self) -> float:
-        """Below, behind."""
+        """Below, behind. Number, 0.1 to 100 (cm); default: 2."""
         value: float = self._get('back')
         return value
 
@@ -444,7 +463,7 @@ class Stiffness(Table):
 
     @property
     def fringe(self) -> float:
-        """Of the fringe, if the style has one."""
+        """Of the fringe, if the style has one. Number, 0.1 to 100 (cm); default: 2."""
         value: float = self._get('fringe')
         return value
 
@@ -454,13 +473,13 @@ class Stiffness(Table):
 
 
 class Length(Table):
-    """Length by region before any cut (cm, default 18)."""
+    """Length by region before any cut."""
 
     __slots__ = ()
 
     @property
     def top(self) -> float:
-        """On the upper third of the head; passes smoothly into `sides` and `back`."""
+        """On the upper third of the head; passes smoothly into `sides` and `back`. Number above 0 (cm); default: 18."""
         value: float = self._get('top')
         return value
 
@@ -470,7 +489,7 @@ class Length(Table):
 
     @property
     def sides(self) -> float:
-        """Below, in front of the middle of the ears; passes smoothly into `back`."""
+        """Below, in front of the middle of the ears; passes smoothly into `back`. Number above 0 (cm); default: 18."""
         value: float = self._get('sides')
         return value
 
@@ -480,7 +499,7 @@ class Length(Table):
 
     @property
     def back(self) -> float:
-        """Below, behind."""
+        """Below, behind. Number above 0 (cm); default: 18."""
         value: float = self._get('back')
         return value
 
@@ -490,7 +509,7 @@ class Length(Table):
 
     @property
     def fringe(self) -> float:
-        """Of the fringe, if the style has one."""
+        """Of the fringe, if the style has one. Number above 0 (cm); default: 18."""
         value: float = self._get('fringe')
         return value
 
@@ -500,13 +519,15 @@ class Length(Table):
 
 
 class Lift(Table):
-    """Angle of the roots above the scalp by region (degrees, default 20)."""
+    """Angle of the roots above the scalp by region."""
 
     __slots__ = ()
 
     @property
     def top(self) -> float:
-        """On the upper third of the head; passes smoothly into `sides` and `back`."""
+        """On the upper third of the head; passes smoothly into `sides` and `back`. Number, 0 to 90 (degrees); default:
+        20.
+        """
         value: float = self._get('top')
         return value
 
@@ -516,7 +537,9 @@ class Lift(Table):
 
     @property
     def sides(self) -> float:
-        """Below, in front of the middle of the ears; passes smoothly into `back`."""
+        """Below, in front of the middle of the ears; passes smoothly into `back`. Number, 0 to 90 (degrees); default:
+        20.
+        """
         value: float = self._get('sides')
         return value
 
@@ -526,7 +549,7 @@ class Lift(Table):
 
     @property
     def back(self) -> float:
-        """Below, behind."""
+        """Below, behind. Number, 0 to 90 (degrees); default: 20."""
         value: float = self._get('back')
         return value
 
@@ -536,7 +559,7 @@ class Lift(Table):
 
     @property
     def fringe(self) -> float:
-        """Of the fringe, if the style has one."""
+        """Of the fringe, if the style has one. Number, 0 to 90 (degrees); default: 20."""
         value: float = self._get('fringe')
         return value
 
@@ -556,7 +579,9 @@ class Parting(Table):
 
     @property
     def front(self) -> tuple[float, float]:
-        """Its front end as seen from above, (x, z); it may stop short of the hairline (cm, default (10, 0): through it)."""
+        """Its front end as seen from above, (x, z); it may stop short of the hairline. 2 numbers, each -100 to 100 (cm);
+        default: [10, 0].
+        """
         value: tuple[float, float] = self._get('front')
         return value
 
@@ -566,7 +591,7 @@ class Parting(Table):
 
     @property
     def crown(self) -> tuple[float, float]:
-        """Its end at the crown, (x, z) (cm, default (-4, 0))."""
+        """Its end at the crown, (x, z). 2 numbers, each -100 to 100 (cm); default: [-4, 0]."""
         value: tuple[float, float] = self._get('crown')
         return value
 
@@ -577,7 +602,7 @@ class Parting(Table):
     @property
     def wobble(self) -> float:
         """How far it strays from the straight line, clumps and single strands alike: what grows nearer falls to either
-        side, which keeps the line from being bare (cm, default 0.3).
+        side, which keeps the line from being bare. Number, 0 to 5 (cm); default: 0.3.
         """
         value: float = self._get('wobble')
         return value
@@ -594,7 +619,7 @@ class Comb(Table):
 
     @property
     def away(self) -> float:
-        """Away from the parting, level (times the hair's weight, default 1)."""
+        """Away from the parting, level. Number, 0 to 1000 (weights); default: 1."""
         value: float = self._get('away')
         return value
 
@@ -604,7 +629,9 @@ class Comb(Table):
 
     @property
     def sweep(self) -> tuple[float, float, float]:
-        """In one direction for all hair but the fringe, (-1, 0, 0) for backward (times the weight, default none)."""
+        """In one direction for all hair but the fringe: (-1, 0, 0) is backward. 3 numbers, each -1000 to 1000 (weights);
+        default: [0, 0, 0].
+        """
         value: tuple[float, float, float] = self._get('sweep')
         return value
 
@@ -614,8 +641,8 @@ class Comb(Table):
 
     @property
     def off_face(self) -> float:
-        """Backward for hair rooted in front, growing toward the forehead, which keeps the face free (times the weight,
-        default 0).
+        """Backward for hair rooted in front, growing toward the forehead, which keeps the face free. Number, 0 to 1000
+        (weights); default: 0.
         """
         value: float = self._get('off_face')
         return value
@@ -626,7 +653,7 @@ class Comb(Table):
 
     @property
     def decay(self) -> float:
-        """Length over which they fall to 1/e (cm, default 6)."""
+        """Length over which they fall to 1/e. Number above 0 (cm); default: 6."""
         value: float = self._get('decay')
         return value
 
@@ -642,7 +669,7 @@ class Fringe(Table):
 
     @property
     def half_width(self) -> float:
-        """Half the width of the strip, about the middle of the head (cm, default 0: no fringe)."""
+        """Half the width of the strip, about the middle of the head; 0: no fringe. Number, 0 to 100 (cm); default: 0."""
         value: float = self._get('half_width')
         return value
 
@@ -652,7 +679,7 @@ class Fringe(Table):
 
     @property
     def from_(self) -> float:
-        """Where it ends behind (x, cm, default 5)."""
+        """Where it ends behind, along x. Number, -100 to 100 (cm); default: 5."""
         value: float = self._get('from')
         return value
 
@@ -662,7 +689,7 @@ class Fringe(Table):
 
     @property
     def forward(self) -> float:
-        """Load forward near the root (times the hair's weight, default 1.5)."""
+        """Load forward near the root. Number, 0 to 1000 (weights); default: 1.5."""
         value: float = self._get('forward')
         return value
 
@@ -672,7 +699,7 @@ class Fringe(Table):
 
     @property
     def aside(self) -> float:
-        """Load along z, for a fringe swept to one side (times the weight, default 0)."""
+        """Load along z, for a fringe swept to one side. Number, -1000 to 1000 (weights); default: 0."""
         value: float = self._get('aside')
         return value
 
@@ -688,7 +715,7 @@ class Volume(Table):
 
     @property
     def thickness(self) -> float:
-        """Distance to the skin that hair from far above keeps (cm, default 0.8)."""
+        """Distance to the skin that hair from far above keeps. Number, 0 to 20 (cm); default: 0.8."""
         value: float = self._get('thickness')
         return value
 
@@ -698,7 +725,7 @@ class Volume(Table):
 
     @property
     def reach(self) -> float:
-        """Length of hair on the head over which most of it is reached (cm, default 6)."""
+        """Length of hair on the head over which most of it is reached. Number above 0 (cm); default: 6."""
         value: float = self._get('reach')
         return value
 
@@ -708,7 +735,7 @@ class Volume(Table):
 
     @property
     def gap(self) -> float:
-        """Distance that any hair keeps (cm, default 0.04)."""
+        """Distance that any hair keeps. Number, 0 to 5 (cm); default: 0.04."""
         value: float = self._get('gap')
         return value
 
@@ -718,7 +745,7 @@ class Volume(Table):
 
     @property
     def over_ears(self) -> bool:
-        """Whether hair from above passes over the ears (default true) or parts about them."""
+        """Whether hair from above passes over the ears or parts about them. True or false; default: true."""
         value: bool = self._get('over_ears')
         return value
 
@@ -734,7 +761,7 @@ class Variation(Table):
 
     @property
     def length(self) -> float:
-        """Largest share by which a strand falls short of its length (default 0.06)."""
+        """Largest share by which a strand falls short of its length. Number, 0 to 0.9; default: 0.06."""
         value: float = self._get('length')
         return value
 
@@ -744,7 +771,7 @@ class Variation(Table):
 
     @property
     def stiffness(self) -> float:
-        """Relative deviation of the stiffness (default 0.15)."""
+        """Relative deviation of the stiffness. Number, 0 to 0.3; default: 0.15."""
         value: float = self._get('stiffness')
         return value
 
@@ -754,7 +781,7 @@ class Variation(Table):
 
     @property
     def direction_degrees(self) -> float:
-        """Deviation of the direction, at the root and of the load (degrees, default 3)."""
+        """Deviation of the direction, at the root and of the load. Number, 0 to 45 (degrees); default: 3."""
         value: float = self._get('direction_degrees')
         return value
 
@@ -764,7 +791,7 @@ class Variation(Table):
 
     @property
     def strays(self) -> float:
-        """Share of stray hairs, whose direction deviates four times as much (default 0.02)."""
+        """Share of stray hairs, whose direction deviates four times as much. Number, 0 to 1; default: 0.02."""
         value: float = self._get('strays')
         return value
 
@@ -774,7 +801,7 @@ class Variation(Table):
 
     @property
     def cut(self) -> float:
-        """Deviation of the cut from its plane (cm, default 0.15)."""
+        """Deviation of the cut from its plane. Number, 0 to 10 (cm); default: 0.15."""
         value: float = self._get('cut')
         return value
 
@@ -784,8 +811,8 @@ class Variation(Table):
 
     @property
     def baby_hair(self) -> float:
-        """Baby hair: the largest share by which a strand on the hairline falls short, and strays the more; it is as long
-        as others from 0.2 of the hairline's unit on (1.7 cm on the bust) (default 0).
+        """Baby hair: the largest share by which a strand on the hairline falls short, and strays the more. It is as long
+        as others from 0.2 of the hairline's unit on (1.7 cm on the bust). Number, 0 to 0.95; default: 0.
         """
         value: float = self._get('baby_hair')
         return value
@@ -802,7 +829,7 @@ class Clumps(Table):
 
     @property
     def size(self) -> float:
-        """Width of a clump at the scalp (cm, default 1.2)."""
+        """Width of a clump at the scalp. Number above 0 (cm); default: 1.2."""
         value: float = self._get('size')
         return value
 
@@ -812,7 +839,7 @@ class Clumps(Table):
 
     @property
     def gather(self) -> float:
-        """How far its tips draw together: 0 not at all, 1 to a point (default 0.4)."""
+        """How far its tips draw together: 0 not at all, 1 to a point. Number, 0 to 1; default: 0.4."""
         value: float = self._get('gather')
         return value
 
@@ -822,7 +849,7 @@ class Clumps(Table):
 
     @property
     def direction_degrees(self) -> float:
-        """Deviation of a clump's direction as a whole (degrees, default 2)."""
+        """Deviation of a clump's direction as a whole. Number, 0 to 45 (degrees); default: 2."""
         value: float = self._get('direction_degrees')
         return value
 
@@ -832,7 +859,7 @@ class Clumps(Table):
 
     @property
     def wave(self) -> float:
-        """Height of its waves (cm, default 0.1)."""
+        """Height of its waves, at most 0.16 of their length. Number of at least 0 (cm); default: 0.1."""
         value: float = self._get('wave')
         return value
 
@@ -842,7 +869,7 @@ class Clumps(Table):
 
     @property
     def wave_length(self) -> float:
-        """Length of its waves (cm, default 8)."""
+        """Length of its waves. Number above 0 (cm); default: 8."""
         value: float = self._get('wave_length')
         return value
 
@@ -863,7 +890,7 @@ class Curl(Table):
 
     @property
     def radius(self) -> float:
-        """Distance between a strand and its line (cm, default 0: no curls), at most `pitch`."""
+        """Distance between a strand and its line, at most `pitch`; 0: no curls. Number of at least 0 (cm); default: 0."""
         value: float = self._get('radius')
         return value
 
@@ -873,7 +900,7 @@ class Curl(Table):
 
     @property
     def pitch(self) -> float:
-        """Length of the line in one turn (cm, default 2.5)."""
+        """Length of the line in one turn. Number above 0 (cm); default: 2.5."""
         value: float = self._get('pitch')
         return value
 
@@ -884,7 +911,7 @@ class Curl(Table):
     @property
     def from_(self) -> float:
         """Distance from the root at which curls are whole, as a share of the strand's length: from there on they have
-        their radius, before they grow to it (default 0.25).
+        their radius, before they grow to it. Number, 0.01 to 1; default: 0.25.
         """
         value: float = self._get('from')
         return value
@@ -895,7 +922,7 @@ class Curl(Table):
 
     @property
     def flatness(self) -> float:
-        """0 winds to a helix, 1 waves in a plane; between them the helix is flat (default 0)."""
+        """0 winds to a helix, 1 waves in a plane; between them the helix is flat. Number, 0 to 1; default: 0."""
         value: float = self._get('flatness')
         return value
 
@@ -905,7 +932,9 @@ class Curl(Table):
 
     @property
     def gather(self) -> float:
-        """How far the hair of a clump closes to one lock by `from`: 0 not at all, 1 onto one line (default 0.7)."""
+        """How far the hair of a clump closes to one lock by `from`: 0 not at all, 1 onto one line. Number, 0 to 1;
+        default: 0.7.
+        """
         value: float = self._get('gather')
         return value
 
@@ -915,7 +944,7 @@ class Curl(Table):
 
     @property
     def variation(self) -> float:
-        """Largest share by which radius and pitch differ from clump to clump (default 0.2)."""
+        """Largest share by which radius and pitch differ from clump to clump. Number, 0 to 0.6; default: 0.2."""
         value: float = self._get('variation')
         return value
 
@@ -926,7 +955,7 @@ class Curl(Table):
     @property
     def frizz(self) -> float:
         """The same for the radius of single strands within a clump, and for the half turn by which they may be ahead or
-        behind (default 0.15).
+        behind. Number, 0 to 0.6; default: 0.15.
         """
         value: float = self._get('frizz')
         return value
@@ -946,7 +975,7 @@ class Ponytail(Table):
 
     @property
     def at(self) -> tuple[float, float, float]:
-        """The middle of the band (head space, cm), at least `radius` away from the skin."""
+        """The middle of the band, in head space, at least `radius` away from the skin. 3 numbers (cm); must be given."""
         value: tuple[float, float, float] = self._get('at')
         return value
 
@@ -956,7 +985,7 @@ class Ponytail(Table):
 
     @property
     def radius(self) -> float:
-        """Radius of the hair within the band (cm, default 0.9)."""
+        """Radius of the hair within the band. Number, 0.01 to 5 (cm); default: 0.9."""
         value: float = self._get('radius')
         return value
 
@@ -966,7 +995,7 @@ class Ponytail(Table):
 
     @property
     def direction(self) -> tuple[float, float, float]:
-        """The way that hair takes through the band, of any length (default (-1, 0.2, 0): backward)."""
+        """The way that hair takes through the band, of any length but 0. 3 numbers; default: [-1, 0.2, 0]."""
         value: tuple[float, float, float] = self._get('direction')
         return value
 
@@ -982,7 +1011,7 @@ class Cut(Table):
 
     @property
     def point(self) -> tuple[float, float, float]:
-        """A point of the plane (head space, cm)."""
+        """A point of the plane, in head space. 3 numbers (cm); must be given."""
         value: tuple[float, float, float] = self._get('point')
         return value
 
@@ -992,7 +1021,7 @@ class Cut(Table):
 
     @property
     def normal(self) -> tuple[float, float, float]:
-        """Toward the hair taken off, of any length: (0, -1, 0) cuts level."""
+        """Toward the hair taken off, of any length but 0: (0, -1, 0) cuts level. 3 numbers; must be given."""
         value: tuple[float, float, float] = self._get('normal')
         return value
 
@@ -1002,7 +1031,7 @@ class Cut(Table):
 
     @property
     def region(self) -> Literal["top", "sides", "back", "fringe"] | None:
-        """The region whose hair it cuts; all regions if left out."""
+        """The region whose hair it cuts. "top", "sides", "back" or "fringe"; default: all."""
         value: Literal["top", "sides", "back", "fringe"] | None = self._get('region')
         return value
 
@@ -1012,8 +1041,9 @@ class Cut(Table):
 
     @property
     def shortest(self) -> float:
-        """No strand is made shorter than this (cm, default 2.5): in the paper's equations (6) to (8) a strand of length
-        L feels c_k |F| = (3 dt^2 / 2 lambda) |F| / (k L^2), and a stubble would be too quick for the time step.
+        """No strand is made shorter than this: in the paper's equations (6) to (8) a strand of length L feels c_k |F| =
+        (3 dt^2 / 2 lambda) |F| / (k L^2), and a stubble would be too quick for the time step. Number above 0 (cm);
+        default: 2.5.
         """
         value: float = self._get('shortest')
         return value

@@ -1,4 +1,4 @@
-"""The head and other bodies: `scene.head`, `scene.body`. Written by generate.py from the doc comments of the Rust structs."""
+"""The head and other bodies: `scene.head`, `scene.body`. Written by generate.py from the schema of scenes."""
 
 from __future__ import annotations
 
@@ -11,13 +11,15 @@ __all__ = ["BodySettings", "HeadSettings", "MotionSource"]
 
 
 class HeadSettings(Table):
-    """`[head]`."""
+    """The head that hair grows on: the built-in bust, or one out of a file."""
 
     __slots__ = ()
 
     @property
     def ellipsoid(self) -> str | dict[str, Any]:
-        """E: fitted (default), or its centre and half axes (head space, cm)."""
+        """E: fitted to the part of the head where hair grows, or given in head space. "fit" or a table of Ellipsoid
+        (cm); default: "fit".
+        """
         value: str | dict[str, Any] = self._get('ellipsoid')
         return value
 
@@ -27,7 +29,7 @@ class HeadSettings(Table):
 
     @property
     def shell(self) -> float:
-        """C is E scaled by this, above 1 (default 1.25)."""
+        """C, in which the pseudo-force may hold, is E scaled by this. Number above 1; default: 1.25."""
         value: float = self._get('shell')
         return value
 
@@ -37,7 +39,7 @@ class HeadSettings(Table):
 
     @property
     def motion(self) -> MotionSource:
-        """A file that moves the head (default: it stands still)."""
+        """A file that moves the head."""
         return MotionSource(self._scene, self._key_of('motion'))
 
     @motion.setter
@@ -46,7 +48,7 @@ class HeadSettings(Table):
 
     @property
     def mesh(self) -> str:
-        """A .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. Key: `mesh`."""
+        """A .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. Path; must be given."""
         value: str = self._get('mesh')
         return value
 
@@ -56,7 +58,7 @@ class HeadSettings(Table):
 
     @property
     def groups(self) -> tuple[str, ...]:
-        """Groups, objects or nodes of the file to keep (default: all)."""
+        """Groups, objects or nodes of the file to keep; all if empty. List of texts; default: none."""
         value: tuple[str, ...] = self._get('groups')
         return value
 
@@ -66,7 +68,9 @@ class HeadSettings(Table):
 
     @property
     def unit(self) -> str | float | None:
-        """Unit of the file (default: what the file or its format says, or cm)."""
+        """Unit of the file. "mm", "cm", "dm", "m", "in" or "ft" or number above 0; default: what the file or its format
+        says, or cm.
+        """
         value: str | float | None = self._get('unit')
         return value
 
@@ -76,7 +80,9 @@ class HeadSettings(Table):
 
     @property
     def up(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
-        """Axis of the file that points up (default: what the file or its format says, or +y)."""
+        """Axis of the file that points up. "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the file or its format
+        says, or +y.
+        """
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('up')
         return value
 
@@ -86,7 +92,7 @@ class HeadSettings(Table):
 
     @property
     def facing(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
-        """Axis of the file along which the face looks (default +x)."""
+        """Axis of the file along which the face looks. "+x", "-x", "+y", "-y", "+z" or "-z"; default: +x."""
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('facing')
         return value
 
@@ -96,8 +102,8 @@ class HeadSettings(Table):
 
     @property
     def origin(self) -> tuple[float, float, float] | None:
-        """Point of the file that becomes the origin of head space (file units). Default: the centre of the fitted
-        ellipsoid; the file's own origin where the ellipsoid is given.
+        """Point of the file that becomes the origin of head space, in the file's unit. 3 numbers; default: the centre of
+        the fitted ellipsoid; the file's own origin where the ellipsoid is given.
         """
         value: tuple[float, float, float] | None = self._get('origin')
         return value
@@ -108,14 +114,14 @@ class HeadSettings(Table):
 
 
 class MotionSource(Table):
-    """Which file moves the head, and what that file cannot say itself: `[head.motion]` of a scene."""
+    """Which file moves the head, and what that file cannot say itself."""
 
     __slots__ = ()
 
     @property
     def file(self) -> str:
         """A .bvh, .amc, .tof, .glb, .gltf, .abc, .usd, .usda or .usdc file, or a .csv with the columns t_s, px_m, py_m,
-        pz_m (or _cm, _mm), qx, qy, qz, qw.
+        pz_m (or _cm, _mm), qx, qy, qz, qw. Path; default: none.
         """
         value: str = self._get('file')
         return value
@@ -127,7 +133,7 @@ class MotionSource(Table):
     @property
     def skeleton(self) -> str | None:
         """File of the skeleton that the motion moves: the .asf of an .amc, the .tof with the skeleton of a .tof
-        animation. Others have none.
+        animation. Others have none. Path; default: none.
         """
         value: str | None = self._get('skeleton')
         return value
@@ -138,7 +144,7 @@ class MotionSource(Table):
 
     @property
     def node(self) -> str:
-        """Joint, bone or node that carries the head (default "Head"; capitals do not count). Not used for .csv."""
+        """Joint, bone or node that carries the head; capitals do not count. Not used for .csv. Text; default: "Head"."""
         value: str = self._get('node')
         return value
 
@@ -148,7 +154,7 @@ class MotionSource(Table):
 
     @property
     def clip(self) -> str:
-        """Animation of a .glb or .gltf by name; may stay empty where there is one only."""
+        """Animation of a .glb or .gltf by name; may stay empty where there is one only. Text; default: none."""
         value: str = self._get('clip')
         return value
 
@@ -158,8 +164,9 @@ class MotionSource(Table):
 
     @property
     def unit_cm(self) -> float | None:
-        """Length of the file's unit (cm). Needed for .bvh, .tof and .abc; .glb and .gltf are in metres unless said here,
-        .amc in inches times the `length` of its .asf; .csv and USD name their own.
+        """Length of the file's unit. Needed for .bvh, .tof and .abc; .glb and .gltf are in metres unless said here, .amc
+        in inches times the `length` of its .asf; .csv and USD name their own. Number above 0 (cm); default: what the
+        file says.
         """
         value: float | None = self._get('unit_cm')
         return value
@@ -171,7 +178,7 @@ class MotionSource(Table):
     @property
     def up(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
         """Up axis of the file's world. Needed for .bvh, .amc, .tof and .csv; +y in .glb, .gltf and .abc; USD names its
-        own.
+        own. "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the file says.
         """
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('up')
         return value
@@ -185,7 +192,8 @@ class MotionSource(Table):
         """Axis of the file's world that the character faces while the joint is unturned. Needed but for .glb and .gltf:
         +z in those, whose node is unturned as the file's still pose has it; and but for a USD layer or Alembic
         archive that the mesh is from, too, which face as the mesh does. A bone of an .amc is unturned as the .asf has
-        it, a joint of a .tof where its axes are the world's.
+        it, a joint of a .tof where its axes are the world's. "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the
+        file says.
         """
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('facing')
         return value
@@ -196,7 +204,9 @@ class MotionSource(Table):
 
     @property
     def frames_per_second(self) -> float | None:
-        """Samples a second. Needed for an .amc, which seldom says; all others say it themselves."""
+        """Samples a second. Needed for an .amc, which seldom says; all others say it themselves. Number above 0 (a
+        second); default: what the file says.
+        """
         value: float | None = self._get('frames_per_second')
         return value
 
@@ -206,7 +216,7 @@ class MotionSource(Table):
 
     @property
     def skip(self) -> int:
-        """Samples dropped at the start (a T-pose, say; default 0). Not for .glb and .gltf."""
+        """Samples dropped at the start, as of a T-pose. Not for .glb and .gltf. Whole number (samples); default: 0."""
         value: int = self._get('skip')
         return value
 
@@ -216,8 +226,8 @@ class MotionSource(Table):
 
     @property
     def positions(self) -> Literal["linear", "cubic"]:
-        """How positions between two samples are found (default cubic). Rotations turn at a constant rate (slerp). Not
-        for .glb and .gltf, whose channels say it themselves.
+        """How positions between two samples are found. Rotations turn at a constant rate (slerp). Not for .glb and
+        .gltf, whose channels say it themselves. "linear" or "cubic"; default: "cubic".
         """
         value: Literal["linear", "cubic"] = self._get('positions')
         return value
@@ -228,7 +238,7 @@ class MotionSource(Table):
 
     @property
     def speed(self) -> float:
-        """How fast the motion is played, 0.01..100: 0.25 takes four times as long (default 1)."""
+        """How fast the motion is played: 0.25 takes four times as long. Number, 0.01 to 100; default: 1."""
         value: float = self._get('speed')
         return value
 
@@ -238,8 +248,8 @@ class MotionSource(Table):
 
     @property
     def smoothing(self) -> float:
-        """Deviation of the bell that places and turns are averaged by (frames of the scene), 0..240 (default 0: as they
-        are). Recordings tremble, and hair feels accelerations.
+        """Deviation of the bell that places and turns are averaged by, in frames of the scene; 0: as they are.
+        Recordings tremble, and hair feels accelerations. Number, 0 to 240 (frames); default: 0.
         """
         value: float = self._get('smoothing')
         return value
@@ -250,7 +260,9 @@ class MotionSource(Table):
 
     @property
     def start_at_origin(self) -> bool:
-        """Whether the first frame is moved to the world's origin and turned about y to face +x (default false)."""
+        """Whether the first frame is moved to the world's origin and turned about y to face +x. True or false; default:
+        false.
+        """
         value: bool = self._get('start_at_origin')
         return value
 
@@ -261,8 +273,9 @@ class MotionSource(Table):
     @property
     def bind_at_start(self) -> bool:
         """Whether the mesh stands in its file as the first frame has it, wherever that is and however it is turned
-        there, as one out of the same scene does: it is then carried on from there (default false). Beside a joint of
-        the same USD layer it stands as the skeleton binds it. Hair that grows on a head stands there as well.
+        there, as one out of the same scene does: it is then carried on from there. Beside a joint of the same USD
+        layer it stands as the skeleton binds it. Hair that grows on a head stands there as well. True or false;
+        default: false.
         """
         value: bool = self._get('bind_at_start')
         return value
@@ -273,13 +286,13 @@ class MotionSource(Table):
 
 
 class BodySettings(Table):
-    """`[[body]]`: something besides the head that hair does not enter."""
+    """Something besides the head that hair does not enter, in the free form."""
 
     __slots__ = ()
 
     @property
     def mesh(self) -> str:
-        """A .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive."""
+        """A .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. It must be given. Path; default: none."""
         value: str = self._get('mesh')
         return value
 
@@ -289,7 +302,7 @@ class BodySettings(Table):
 
     @property
     def groups(self) -> tuple[str, ...]:
-        """Groups, objects or nodes of the file to keep (default: all)."""
+        """Groups, objects or nodes of the file to keep; all if empty. List of texts; default: none."""
         value: tuple[str, ...] = self._get('groups')
         return value
 
@@ -299,7 +312,7 @@ class BodySettings(Table):
 
     @property
     def unit(self) -> str | float | None:
-        """Unit of the file (default: what the file says, or cm)."""
+        """Unit of the file. "mm", "cm", "dm", "m", "in" or "ft" or number above 0; default: what the file says, or cm."""
         value: str | float | None = self._get('unit')
         return value
 
@@ -309,7 +322,7 @@ class BodySettings(Table):
 
     @property
     def up(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
-        """Axis of the file that points up (default: what the file says, or +y)."""
+        """Axis of the file that points up. "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the file says, or +y."""
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('up')
         return value
 
@@ -319,7 +332,7 @@ class BodySettings(Table):
 
     @property
     def facing(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
-        """Axis of the file that lies along +x of the scene (default +x)."""
+        """Axis of the file that lies along +x of the scene. "+x", "-x", "+y", "-y", "+z" or "-z"; default: +x."""
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('facing')
         return value
 
@@ -329,7 +342,9 @@ class BodySettings(Table):
 
     @property
     def origin(self) -> tuple[float, float, float] | None:
-        """Point of the file that the body's motion carries (file units; default: the file's own origin)."""
+        """Point of the file that the body's motion carries, in the file's unit. 3 numbers; default: the file's own
+        origin.
+        """
         value: tuple[float, float, float] | None = self._get('origin')
         return value
 
@@ -339,7 +354,7 @@ class BodySettings(Table):
 
     @property
     def motion(self) -> MotionSource:
-        """A file that moves the body through the world, as `head.motion` moves the head (default: it stands still)."""
+        """A file that moves the body through the world, as `head.motion` moves the head."""
         return MotionSource(self._scene, self._key_of('motion'))
 
     @motion.setter
@@ -348,7 +363,7 @@ class BodySettings(Table):
 
     @property
     def with_head(self) -> bool:
-        """Whether it is worn: it stands in head space and goes with the head (default false)."""
+        """Whether it is worn: it stands in head space and goes with the head. True or false; default: false."""
         value: bool = self._get('with_head')
         return value
 
@@ -358,7 +373,9 @@ class BodySettings(Table):
 
     @property
     def solid(self) -> bool:
-        """Whether hair keeps out of it (default true); otherwise it is drawn and no more, and may be open."""
+        """Whether hair keeps out of it; otherwise it is drawn and no more, and may be open. True or false; default:
+        true.
+        """
         value: bool = self._get('solid')
         return value
 
@@ -368,7 +385,7 @@ class BodySettings(Table):
 
     @property
     def margin(self) -> float:
-        """How far from its skin nodes are kept (cm; default 0.1)."""
+        """How far from its skin nodes are kept. Number, 0 to 5 (cm); default: 0.1."""
         value: float = self._get('margin')
         return value
 
@@ -378,7 +395,7 @@ class BodySettings(Table):
 
     @property
     def friction(self) -> float:
-        """The part of a push that sliding hair loses of its speed (default 0.1)."""
+        """The part of a push that sliding hair loses of its speed. Number, 0 to 10; default: 0.1."""
         value: float = self._get('friction')
         return value
 
@@ -388,7 +405,7 @@ class BodySettings(Table):
 
     @property
     def static_friction(self) -> float:
-        """The same for hair that does not slide, at least `friction` (default 0.15)."""
+        """The same for hair that does not slide, at least `friction`. Number, 0 to 10; default: 0.15."""
         value: float = self._get('static_friction')
         return value
 
@@ -398,7 +415,7 @@ class BodySettings(Table):
 
     @property
     def shown(self) -> bool:
-        """Whether it is drawn (default true)."""
+        """Whether it is drawn. What is not shown hides nothing and throws no shadow. True or false; default: true."""
         value: bool = self._get('shown')
         return value
 
@@ -408,7 +425,7 @@ class BodySettings(Table):
 
     @property
     def colour(self) -> tuple[float, float, float]:
-        """Its colour in pictures (sRGB, 0..1; default `[0.42, 0.46, 0.5]`, a grey)."""
+        """Its colour in pictures. The default is a grey. 3 numbers, each 0 to 1 (sRGB); default: [0.42, 0.46, 0.5]."""
         value: tuple[float, float, float] = self._get('colour')
         return value
 

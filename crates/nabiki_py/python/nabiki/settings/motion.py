@@ -1,4 +1,4 @@
-"""How hair answers: `scene.motion`, `scene.free`, ... Written by generate.py from the doc comments of the Rust structs."""
+"""How hair answers: `scene.motion`, `scene.free`, ... Written by generate.py from the schema of scenes."""
 
 from __future__ import annotations
 
@@ -7,17 +7,27 @@ from typing import Any, Literal
 
 from ._table import Arrays, File, Matrices, Numbers, Table, Tables
 
-__all__ = ["Contact", "Disturbance", "FreeSettings", "Motion", "NeighbourForces", "PseudoForce", "Tie"]
+__all__ = ["Contact", "Disturbance", "FreeForm", "Motion", "NeighbourForces", "PseudoForce", "Tie"]
 
 
 class Motion(Table):
-    """The settings of the motion; the default is Table 1 of the paper."""
+    """How long hair moves, how heavy it is, and how far a frame leads it. The default is Table 1 of the paper."""
 
     __slots__ = ()
 
     @property
+    def form(self) -> Literal["paper", "free"]:
+        """The equations that hair moves by. "paper" or "free"; default: "paper"."""
+        value: Literal["paper", "free"] = self._get('form')
+        return value
+
+    @form.setter
+    def form(self, value: Literal["paper", "free"] | None) -> None:
+        self._set('form', value)
+
+    @property
     def frames(self) -> int:
-        """Frames after the rest frame 0 (N_f)."""
+        """Frames after the rest frame 0 (N_f). Whole number, 1 to 10000000; default: 100."""
         value: int = self._get('frames')
         return value
 
@@ -27,9 +37,9 @@ class Motion(Table):
 
     @property
     def frame_rate(self) -> float:
-        """Frames in a second, finite and above 0. Hair moves by frames, whatever this is: it says where a recorded head
-        is in each of them, how fast they are shown, and in the free form how strongly accelerations of the head are
-        felt.
+        """Frames in a second: how fast they are shown, and where a recorded head is in each. Hair moves by frames,
+        whatever this is, but in the free form it says how strongly accelerations of the head are felt. Number above 0
+        (a second); default: 24.
         """
         value: float = self._get('frame_rate')
         return value
@@ -40,7 +50,7 @@ class Motion(Table):
 
     @property
     def time_step(self) -> float:
-        """Delta t of equation (7), above 0 (its unit is the step's own: a frame is one step)."""
+        """Delta t of equation (7), in a unit of the step's own: a frame is one step. Number above 0; default: 0.1."""
         value: float = self._get('time_step')
         return value
 
@@ -50,7 +60,9 @@ class Motion(Table):
 
     @property
     def linear_density(self) -> float:
-        """lambda of equation (6), above 0 (mass per cm, in the units of the force)."""
+        """lambda of equation (6): the mass of a centimetre of hair, in the units of the force. Number above 0 (per cm);
+        default: 0.05.
+        """
         value: float = self._get('linear_density')
         return value
 
@@ -60,8 +72,9 @@ class Motion(Table):
 
     @property
     def inertia_length_floor(self) -> float:
-        """Hair shorter than this (cm) has the inertia of hair this long: it is held by its longer neighbours. 0, the
-        paper's way, gives every strand the inertia of its own length, and short hair very fast swings.
+        """Hair shorter than this has the inertia of hair this long: its longer neighbours hold it. 0, the paper's way,
+        gives every strand the inertia of its own length, and short hair very fast swings. Number of at least 0 (cm);
+        default: 0.
         """
         value: float = self._get('inertia_length_floor')
         return value
@@ -72,10 +85,10 @@ class Motion(Table):
 
     @property
     def straighten(self) -> float:
-        """Segments that hang within this of the vertical at rest are made to hang exactly so (degrees, 0..45), and are
-        then free to swing in the plane of any force (section 4.2). A segment nearly vertical is not: it keeps the
-        plane of its small lean, and hair that leans this way and that is blown apart. 0, the paper's way, leaves the
-        hair as it is.
+        """Segments that hang within this of the vertical at rest are made to hang exactly so, and are then free to swing
+        in the plane of any force (section 4.2). A segment nearly vertical is not: it keeps the plane of its small
+        lean, and hair that leans this way and that is blown apart. 0, the paper's way, leaves the hair as it is.
+        Number, 0 to 45 (degrees); default: 0.
         """
         value: float = self._get('straighten')
         return value
@@ -86,7 +99,7 @@ class Motion(Table):
 
     @property
     def force_space(self) -> Literal["world", "head"]:
-        """Space of the forces; it matters where the head turns."""
+        """Space of the forces; it matters where the head turns. "world" or "head"; default: "world"."""
         value: Literal["world", "head"] = self._get('force_space')
         return value
 
@@ -94,26 +107,18 @@ class Motion(Table):
     def force_space(self, value: Literal["world", "head"] | None) -> None:
         self._set('force_space', value)
 
-    @property
-    def form(self) -> Literal["paper", "free"]:
-        """`motion.form`: the equations that hair moves by."""
-        value: Literal["paper", "free"] = self._get('form')
-        return value
 
-    @form.setter
-    def form(self, value: Literal["paper", "free"] | None) -> None:
-        self._set('form', value)
-
-
-class FreeSettings(Table):
-    """`[free]`: what holds hair in shape and calms it. Without effect on the paper's form."""
+class FreeForm(Table):
+    """What holds hair in shape and calms it, in the free form. Strengths are in the unit of the force F."""
 
     __slots__ = ()
 
     @property
     def stiffness(self) -> float | tuple[float, ...]:
-        """K: the moment with which a joint turns its two segments toward one another's rest shape; one number, or a list
-        from root to tip (default [12000, 1000]).
+        """K: the moment with which a joint turns its two segments toward their rest shape, each as much as the other.
+        Where it is 36 times the wind, hair bends within 6 times `hair.segment_length`. One number, or a list from
+        root to tip. Joints of finer cuts are stiffer by the square of that, and bend alike. Number of at least 0,
+        list of numbers or each of at least 0; default: [12000, 1000].
         """
         value: float | tuple[float, ...] = self._get('stiffness')
         return value
@@ -124,7 +129,9 @@ class FreeSettings(Table):
 
     @property
     def hold(self) -> float | tuple[float, ...]:
-        """H: what turns a segment toward its rest direction in the head's frame; one number, or a list (default 30)."""
+        """H: what turns a segment toward its rest direction in the head's frame, as hair spray does. One number, or a
+        list from root to tip. Number of at least 0, list of numbers or each of at least 0; default: 30.
+        """
         value: float | tuple[float, ...] = self._get('hold')
         return value
 
@@ -134,8 +141,8 @@ class FreeSettings(Table):
 
     @property
     def settle(self) -> float | tuple[float, ...]:
-        """Frames in which a swing dies to 1/e, 0: never; one number, or a list, in which hair beside a 0 hardly swings
-        (default 20).
+        """Frames in which a small swing dies to 1/e; 0: never. One number, or a list from root to tip, in which hair
+        beside a 0 hardly swings. Number of at least 0, list of numbers or each of at least 0 (frames); default: 20.
         """
         value: float | tuple[float, ...] = self._get('settle')
         return value
@@ -146,8 +153,9 @@ class FreeSettings(Table):
 
     @property
     def gravity(self) -> float | str:
-        """The weight of hair that has been moved: a strength, or "earth" for that of the earth at `motion.frame_rate`
-        (default 100).
+        """The weight of hair that has been moved: a strength, or "earth" for that of the earth at `motion.frame_rate`.
+        Hair at rest does not sag. It also gives accelerations of the head their scale, for it stands for 981 cm/s^2.
+        Number of at least 0 or "earth"; default: 100.
         """
         value: float | str = self._get('gravity')
         return value
@@ -158,7 +166,9 @@ class FreeSettings(Table):
 
     @property
     def lag(self) -> float:
-        """The share of the head's turn that hair follows at once is (1 - m/L)^lag (default 1)."""
+        """How far tips stay behind a head that turns; 0: not at all. The share of the turn that hair follows at once is
+        (1 - m/L)^lag, at the distance m from the root of a strand of length L. Number, 0 to 8; default: 1.
+        """
         value: float = self._get('lag')
         return value
 
@@ -168,7 +178,9 @@ class FreeSettings(Table):
 
     @property
     def pseudo_force(self) -> bool:
-        """Whether `[pseudo_force]` weakens the field before the head, as in the paper's form (default false)."""
+        """Whether `[pseudo_force]` weakens the field before the head, as in the paper's form. True or false; default:
+        false.
+        """
         value: bool = self._get('pseudo_force')
         return value
 
@@ -178,9 +190,7 @@ class FreeSettings(Table):
 
     @property
     def tie(self) -> Tie:
-        """Hair that passes `at` (head space, cm) at rest as near as `within` (cm) is tied there, and does not move
-        before it; none if left out.
-        """
+        """A band that ties hair: what passes it at rest does not move before it."""
         return Tie(self._scene, self._key_of('tie'))
 
     @tie.setter
@@ -190,16 +200,18 @@ class FreeSettings(Table):
 
 class Tie(Table):
     """A band that ties hair: a strand that passes it at rest does not move before it, but goes with the head, and moves
-    behind it as one that is rooted there. Its segments up to the node nearest to the band have no gain, as points of
-    no inverse mass have, and lengths, gains and what varies along a strand count from there. A strand that passes
-    between two nodes, neither of them near enough, is tied at the nearer one, and never at its root.
+    behind it as one that is rooted there.
+
+    Its segments up to the node nearest to the band have no gain, as points of no inverse mass have, and lengths,
+    gains and what varies along a strand count from there. A strand that passes between two nodes, neither of them
+    near enough, is tied at the nearer one, and never at its root.
     """
 
     __slots__ = ()
 
     @property
     def at(self) -> tuple[float, float, float]:
-        """Its middle (head space, cm)."""
+        """Its middle, in head space. 3 numbers (cm); must be given."""
         value: tuple[float, float, float] = self._get('at')
         return value
 
@@ -209,7 +221,7 @@ class Tie(Table):
 
     @property
     def within(self) -> float:
-        """How near a strand passes that is tied (cm), above 0."""
+        """How near a strand passes that is tied. Number above 0 (cm); must be given."""
         value: float = self._get('within')
         return value
 
@@ -219,14 +231,14 @@ class Tie(Table):
 
 
 class Contact(Table):
-    """How hair and a body touch."""
+    """How hair and a body touch, in the free form."""
 
     __slots__ = ()
 
     @property
     def margin(self) -> float:
-        """How far from the skin nodes are kept (cm), 0..=5 (default 0.1). A node that lies closer at rest is kept where
-        it lies.
+        """How far from the skin nodes are kept. A node that lies closer at rest is kept where it lies. Number, 0 to 5
+        (cm); default: 0.1.
         """
         value: float = self._get('margin')
         return value
@@ -237,7 +249,9 @@ class Contact(Table):
 
     @property
     def friction(self) -> float:
-        """The part of the push that sliding hair loses of its speed along the skin (Coulomb), 0..=10 (default 0.1)."""
+        """The part of a push that sliding hair loses of its speed along the skin (Coulomb). Number, 0 to 10; default:
+        0.1.
+        """
         value: float = self._get('friction')
         return value
 
@@ -247,8 +261,8 @@ class Contact(Table):
 
     @property
     def static_friction(self) -> float:
-        """The same for hair that does not slide: it stays as long as what would move it is below this part of the push.
-        At least `friction` (default 0.15).
+        """The same for hair that does not slide, at least `friction`: it stays as long as what would move it is below
+        this part of the push. Number, 0 to 10; default: 0.15.
         """
         value: float = self._get('static_friction')
         return value
@@ -270,7 +284,9 @@ class NeighbourForces(Table):
 
     @property
     def carriers(self) -> int:
-        """How many strands are carriers: the first so many of the farthest-first order, 1..=4096."""
+        """How many strands are carriers: the first so many of the farthest-first order. Whole number, 1 to 4096
+        (strands); default: 256.
+        """
         value: int = self._get('carriers')
         return value
 
@@ -280,8 +296,8 @@ class NeighbourForces(Table):
 
     @property
     def pressure(self) -> float:
-        """Strength of what pushes hair out of places fuller than at rest, at least 0, in the unit of F where the density
-        falls by that of the hair at rest over one cell.
+        """What pushes hair out of places fuller than at rest. In the unit of F where the density falls by that of the
+        hair at rest over one cell. Number of at least 0; default: 40.
         """
         value: float = self._get('pressure')
         return value
@@ -292,8 +308,8 @@ class NeighbourForces(Table):
 
     @property
     def cohesion(self) -> float:
-        """Strength of what pulls a node toward the mean velocity about it, at least 0, in the unit of F for each cm a
-        frame.
+        """What pulls a node toward the mean velocity about it, so that hair takes the hair beside it along. In the unit
+        of F for each cm a frame. Number of at least 0; default: 40.
         """
         value: float = self._get('cohesion')
         return value
@@ -304,7 +320,7 @@ class NeighbourForces(Table):
 
     @property
     def cell(self) -> float:
-        """Edge of a cell of the grid (cm), 0.5..=20."""
+        """Edge of a cell of the grid in which hair feels hair. Number, 0.5 to 20 (cm); default: 2."""
         value: float = self._get('cell')
         return value
 
@@ -314,14 +330,16 @@ class NeighbourForces(Table):
 
 
 class PseudoForce(Table):
-    """The settings of the pseudo-force; the default is Table 1 of the paper."""
+    """The pseudo-force: it weakens the wind before the head, the paper's stand-in for collisions. The default is Table 1
+    of the paper.
+    """
 
     __slots__ = ()
 
     @property
     def alpha(self) -> float:
-        """alpha of equation (4), the cosine that bounds Gamma, -1..1: at 1 all of the shell, at -1 only the line against
-        the wind.
+        """alpha of equation (4), the cosine that bounds Gamma: at 1 all of the shell, at -1 only the line against the
+        wind. Number, -1 to 1; default: -0.75.
         """
         value: float = self._get('alpha')
         return value
@@ -332,19 +350,20 @@ class PseudoForce(Table):
 
     @property
     def coefficients(self) -> tuple[float, ...]:
-        """eps_i for the segments i = 1, 2, ...; the last one goes on to the tip. Each above 0 and at most 1. Where
-        segments are not `hair.segment_length` long, i is the distance along the strand counted in it.
+        """eps_i for the segments i = 1, 2, ... from the root on; the last one goes on to the tip. Where segments are not
+        `hair.segment_length` long, i is the distance along the strand counted in it. List of numbers, each above 0,
+        at most 1; default: [0.01, 0.01, 0.1, 0.1, 0.2, 0.2, 0.2, 0.2, 0.4, 0.4, 0.4, 0.4, 0.8, 0.8, 0.8, 1].
         """
         value: tuple[float, ...] = self._get('coefficients')
         return value
 
     @coefficients.setter
-    def coefficients(self, value: Sequence[float] | None) -> None:
+    def coefficients(self, value: Numbers | None) -> None:
         self._set('coefficients', value)
 
 
 class Disturbance(Table):
-    """Turns every strand a little, at random, every so many frames.
+    """Turns every strand a little, at random, every so many frames, in the paper's form.
 
     The paper names neither its size nor its law. Here a strand is given one random turn of theta and one of phi,
     uniform within `amplitude` at the tip and falling to nothing at the root, so that it stays a smooth curve; the
@@ -355,7 +374,9 @@ class Disturbance(Table):
 
     @property
     def every(self) -> int:
-        """Frames from one disturbance to the next (at least 1). The paper: 10; every frame would be too much."""
+        """Frames from one disturbance to the next. The paper has 10; every frame would be too much. Whole number of at
+        least 1 (frames); default: 10.
+        """
         value: int = self._get('every')
         return value
 
@@ -365,7 +386,7 @@ class Disturbance(Table):
 
     @property
     def from_(self) -> int:
-        """First frame that may be disturbed (frames). The paper disturbs the last 60 of 100."""
+        """First frame that may be disturbed. The paper disturbs the last 60 of 100. Whole number (frame); default: 1."""
         value: int = self._get('from')
         return value
 
@@ -375,7 +396,7 @@ class Disturbance(Table):
 
     @property
     def amplitude(self) -> float:
-        """Largest turn at the tip (rad, above 0 and at most pi)."""
+        """Largest turn at the tip. Number above 0, at most 3.141592653589793 (rad); default: 0.03."""
         value: float = self._get('amplitude')
         return value
 
@@ -385,8 +406,9 @@ class Disturbance(Table):
 
     @property
     def over(self) -> int:
-        """Frames in which a disturbance sets in, 1..=`every`. At 1, the paper's way, it is there at once, and seen as a
-        jump; over more frames it comes and stays smoothly, and is the same in the end.
+        """Frames in which a disturbance sets in, at most `every`. At 1, the paper's way, it is there at once, and seen
+        as a jump; over more frames it comes and stays smoothly, and is the same in the end. Whole number of at least
+        1 (frames); default: 1.
         """
         value: int = self._get('over')
         return value
@@ -397,7 +419,7 @@ class Disturbance(Table):
 
     @property
     def seed(self) -> int:
-        """Seed of the random numbers."""
+        """Seed of the random numbers: another number, other turns. Whole number; default: 1."""
         value: int = self._get('seed')
         return value
 

@@ -1,4 +1,4 @@
-"""What is drawn: `scene.picture`, `scene.output`. Written by generate.py from the doc comments of the Rust structs."""
+"""What is drawn: `scene.picture`, `scene.output`. Written by generate.py from the schema of scenes."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ __all__ = [
 
 
 class Picture(Table):
-    """The scene's `[picture]` table."""
+    """What is drawn, and how."""
 
     __slots__ = ()
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height (pixels). Default 960 x 540."""
+        """Width and height. 2 whole numbers, each 1 to 16384 (pixels); default: [960, 540]."""
         value: tuple[int, int] = self._get('size')
         return value
 
@@ -38,7 +38,7 @@ class Picture(Table):
 
     @property
     def antialiasing(self) -> Literal["coverage", "oversample"]:
-        """`"coverage"` (default) or `"oversample"`."""
+        """Exact shares of a pixel, or points of it, the paper's way. "coverage" or "oversample"; default: "coverage"."""
         value: Literal["coverage", "oversample"] = self._get('antialiasing')
         return value
 
@@ -48,7 +48,7 @@ class Picture(Table):
 
     @property
     def samples(self) -> int:
-        """Points along each side of a pixel when oversampling, 1..32. Default 4."""
+        """Points along each side of a pixel when oversampling. Whole number, 1 to 32; default: 4."""
         value: int = self._get('samples')
         return value
 
@@ -76,7 +76,7 @@ class Picture(Table):
 
     @property
     def lights(self) -> Tables[Light]:
-        """The lamps: an array of tables, `[[picture.lights]]`. Default: key, fill and two kickers."""
+        """The lamps, at most 16: a warm key, a weak fill and two kickers by default."""
         return Tables(self._scene, self._key_of('lights'), Light)
 
     @lights.setter
@@ -94,7 +94,7 @@ class Picture(Table):
 
     @property
     def shadows(self) -> bool:
-        """Whether hair, head and bodies cast shadows. Default true."""
+        """Whether hair, head and bodies cast shadows. True or false; default: true."""
         value: bool = self._get('shadows')
         return value
 
@@ -104,7 +104,7 @@ class Picture(Table):
 
     @property
     def head(self) -> HeadLook:
-        """Colour of the head, or none."""
+        """How the head is drawn."""
         return HeadLook(self._scene, self._key_of('head'))
 
     @head.setter
@@ -122,7 +122,7 @@ class Picture(Table):
 
     @property
     def exposure(self) -> float:
-        """Brightness in photographic stops: each is a factor of 2. Default 0."""
+        """Brightness in photographic stops: each is a factor of 2. Number, -20 to 20 (stops); default: 0."""
         value: float = self._get('exposure')
         return value
 
@@ -132,7 +132,9 @@ class Picture(Table):
 
     @property
     def tone_mapping(self) -> Literal["linear", "filmic"]:
-        """How scene light becomes display light in 8 and 16 bit pictures and in video. Default `"filmic"`."""
+        """How scene light becomes display light in 8 and 16 bit pictures and in video. "linear" or "filmic"; default:
+        "filmic".
+        """
         value: Literal["linear", "filmic"] = self._get('tone_mapping')
         return value
 
@@ -142,8 +144,8 @@ class Picture(Table):
 
     @property
     def shutter(self) -> float:
-        """Part of the frame interval during which the shutter is open, 0..1: 0 (default) is a sharp picture, 0.5 a film
-        camera's 180 degrees.
+        """Part of the frame interval during which the shutter is open: 0 is a sharp picture, 0.5 a film camera's 180
+        degrees. Number, 0 to 1; default: 0.
         """
         value: float = self._get('shutter')
         return value
@@ -163,13 +165,13 @@ class Picture(Table):
 
 
 class Camera(Table):
-    """`[picture.camera]`: a camera on an orbit about the hair, or moving between two places of it."""
+    """A camera on an orbit about the hair, or moving between two places of it."""
 
     __slots__ = ()
 
     @property
     def projection(self) -> Literal["perspective", "orthographic"]:
-        """`"perspective"` (default) or `"orthographic"`."""
+        """How space becomes a picture. "perspective" or "orthographic"; default: "perspective"."""
         value: Literal["perspective", "orthographic"] = self._get('projection')
         return value
 
@@ -179,8 +181,8 @@ class Camera(Table):
 
     @property
     def azimuth(self) -> float:
-        """Direction of the camera about the world's vertical (degrees): of a head that has not turned 0 is before the
-        face, 90 at the character's right hand, 180 behind. Default 40.
+        """Direction of the camera about the world's vertical: of a head that has not turned 0 is before the face, 90 at
+        the character's right hand, 180 behind. Number, -3600 to 3600 (degrees); default: 40.
         """
         value: float = self._get('azimuth')
         return value
@@ -191,7 +193,7 @@ class Camera(Table):
 
     @property
     def elevation(self) -> float:
-        """Direction of the camera above the horizon (degrees, -89..89). Default 5."""
+        """Direction of the camera above the horizon. Number, -89 to 89 (degrees); default: 5."""
         value: float = self._get('elevation')
         return value
 
@@ -201,7 +203,7 @@ class Camera(Table):
 
     @property
     def fov(self) -> float:
-        """Vertical field of view (degrees, 1..150), for perspective. Default 26."""
+        """Vertical field of view, for perspective. Number, 1 to 150 (degrees); default: 26."""
         value: float = self._get('fov')
         return value
 
@@ -211,7 +213,7 @@ class Camera(Table):
 
     @property
     def distance(self) -> float | None:
-        """From the target to the eye (cm, 1 to a million). Default: near enough to frame everything."""
+        """From the target to the eye. Number, 1 to 1000000 (cm); default: frames everything."""
         value: float | None = self._get('distance')
         return value
 
@@ -221,8 +223,8 @@ class Camera(Table):
 
     @property
     def height(self) -> float | None:
-        """Height of the picture in space (cm, a thousandth to a million), for orthographic views. Default: enough to
-        frame everything.
+        """Height of the picture in space, for orthographic views. Number, 0.001 to 1000000 (cm); default: frames
+        everything.
         """
         value: float | None = self._get('height')
         return value
@@ -233,8 +235,8 @@ class Camera(Table):
 
     @property
     def target(self) -> tuple[float, float, float] | None:
-        """The point looked at (cm), from the head's origin along the world's axes: the camera goes along with the head
-        and does not turn with it. Default: the middle of what is framed.
+        """The point looked at, from the head's origin along the world's axes: the camera goes along with the head and
+        does not turn with it. 3 numbers, each -1000000 to 1000000 (cm); default: the middle of what is framed.
         """
         value: tuple[float, float, float] | None = self._get('target')
         return value
@@ -245,10 +247,10 @@ class Camera(Table):
 
     @property
     def f_stop(self) -> float | None:
-        """How far the lens is opened, for perspective: its focal length over its diameter, as photographers count it
-        (0.1..128). Small numbers blur much; skin blurred by more than 3 picture heights is refused. The focal length
-        is that of a picture 24 mm high on the sensor with this `fov`: 52 mm for 26 degrees. Default: a pinhole, all
-        is sharp.
+        """How far the lens is opened, for perspective: its focal length over its diameter, as photographers count it.
+        Small numbers blur much; skin blurred by more than 3 picture heights is refused. The focal length is that of a
+        picture 24 mm high on the sensor with this `fov`: 52 mm for 26 degrees. Number, 0.1 to 128; default: a
+        pinhole, all is sharp.
         """
         value: float | None = self._get('f_stop')
         return value
@@ -259,8 +261,8 @@ class Camera(Table):
 
     @property
     def focus_distance(self) -> float | None:
-        """From the eye to the plane that is sharp, along the axis of view (cm, 1 to a million). Default: the side of the
-        head that the camera sees.
+        """From the eye to the plane that is sharp, along the axis of view. Number, 1 to 1000000 (cm); default: the side
+        of the head that the camera sees.
         """
         value: float | None = self._get('focus_distance')
         return value
@@ -271,7 +273,7 @@ class Camera(Table):
 
     @property
     def margin(self) -> float:
-        """Empty border around what is framed, as part of the picture's shorter side, 0..0.45. Default 0.06."""
+        """Empty border around what is framed, as part of the picture's shorter side. Number, 0 to 0.45; default: 0.06."""
         value: float = self._get('margin')
         return value
 
@@ -281,7 +283,7 @@ class Camera(Table):
 
     @property
     def to(self) -> CameraKey:
-        """Where the camera is at the last frame, `[picture.camera.to]`: it glides there from the values above."""
+        """Where the camera is at the last frame: it glides there from the values above."""
         return CameraKey(self._scene, self._key_of('to'))
 
     @to.setter
@@ -296,7 +298,7 @@ class CameraKey(Table):
 
     @property
     def azimuth(self) -> float | None:
-        """Azimuth at the end (degrees)."""
+        """Azimuth at the end. Number, -3600 to 3600 (degrees); default: stays."""
         value: float | None = self._get('azimuth')
         return value
 
@@ -306,7 +308,7 @@ class CameraKey(Table):
 
     @property
     def elevation(self) -> float | None:
-        """Elevation at the end (degrees)."""
+        """Elevation at the end. Number, -89 to 89 (degrees); default: stays."""
         value: float | None = self._get('elevation')
         return value
 
@@ -316,7 +318,7 @@ class CameraKey(Table):
 
     @property
     def distance(self) -> float | None:
-        """Distance at the end (cm, 1 to a million); needs `distance` at the start."""
+        """Distance at the end; it needs `distance` at the start. Number, 1 to 1000000 (cm); default: stays."""
         value: float | None = self._get('distance')
         return value
 
@@ -326,7 +328,7 @@ class CameraKey(Table):
 
     @property
     def fov(self) -> float | None:
-        """Field of view at the end (degrees)."""
+        """Field of view at the end. Number, 1 to 150 (degrees); default: stays."""
         value: float | None = self._get('fov')
         return value
 
@@ -336,7 +338,7 @@ class CameraKey(Table):
 
     @property
     def target(self) -> tuple[float, float, float] | None:
-        """Target at the end (cm); needs `target` at the start."""
+        """Target at the end; it needs `target` at the start. 3 numbers, each -1000000 to 1000000 (cm); default: stays."""
         value: tuple[float, float, float] | None = self._get('target')
         return value
 
@@ -346,7 +348,9 @@ class CameraKey(Table):
 
     @property
     def focus_distance(self) -> float | None:
-        """Distance of what is sharp at the end (cm); needs `focus_distance` at the start."""
+        """Distance of what is sharp at the end; it needs `focus_distance` at the start. Number, 1 to 1000000 (cm);
+        default: stays.
+        """
         value: float | None = self._get('focus_distance')
         return value
 
@@ -356,14 +360,14 @@ class CameraKey(Table):
 
 
 class HairLook(Table):
-    """`[picture.hair]`."""
+    """Width, colour and shading of the hair."""
 
     __slots__ = ()
 
     @property
     def width(self) -> float:
-        """Thickness of a hair at its root (diameter, cm), 1e-5..5. Default 0.014: a real hair of 0.007 cm made thicker
-        because twenty thousand stand for a hundred thousand.
+        """Thickness of a hair at its root: its diameter. A real hair of 0.007 cm is made thicker because twenty thousand
+        stand for a hundred thousand. Number, 1e-05 to 5 (cm); default: 0.014.
         """
         value: float = self._get('width')
         return value
@@ -374,7 +378,7 @@ class HairLook(Table):
 
     @property
     def tip(self) -> float:
-        """Thickness at the tip as a part of that at the root, 0..1. Default 0.3."""
+        """Thickness at the tip as a part of that at the root. Number, 0 to 1; default: 0.3."""
         value: float = self._get('tip')
         return value
 
@@ -384,7 +388,7 @@ class HairLook(Table):
 
     @property
     def taper(self) -> float:
-        """Part of the length over which the hair thins to its tip, 0..1. Default 0.4."""
+        """Part of the length over which the hair thins to its tip. Number, 0 to 1; default: 0.4."""
         value: float = self._get('taper')
         return value
 
@@ -394,7 +398,9 @@ class HairLook(Table):
 
     @property
     def colour(self) -> str | dict[str, Any]:
-        """A name (`"black"`, `"brown"`, `"blond"`, `"red"`, `"grey"`), `{ melanin = .. }` or `{ rgb = .. }`."""
+        """A name, amounts of pigment, or the colour that a thick mass shows in even light. "black", "brown", "blond",
+        "red" or "grey", a table of MelaninColour or a table of RgbColour; default: "brown".
+        """
         value: str | dict[str, Any] = self._get('colour')
         return value
 
@@ -404,7 +410,7 @@ class HairLook(Table):
 
     @property
     def variation(self) -> float:
-        """How much hairs differ in pigment and tilt of their scales, 0..1. Default 0.25."""
+        """How much hairs differ in pigment and tilt of their scales. Number, 0 to 1; default: 0.25."""
         value: float = self._get('variation')
         return value
 
@@ -414,7 +420,7 @@ class HairLook(Table):
 
     @property
     def shading(self) -> Literal["fibre", "kajiya-kay"]:
-        """`"fibre"` (default) or `"kajiya-kay"`."""
+        """A fibre with pigment inside, or the model of 1989, as in the paper. "fibre" or "kajiya-kay"; default: "fibre"."""
         value: Literal["fibre", "kajiya-kay"] = self._get('shading')
         return value
 
@@ -424,7 +430,7 @@ class HairLook(Table):
 
     @property
     def roughness(self) -> float:
-        """Roughness along the hair: the width of the highlight's band (degrees, 2..40). Default 5."""
+        """Roughness along the hair: the width of the highlight's band. Number, 2 to 40 (degrees); default: 5."""
         value: float = self._get('roughness')
         return value
 
@@ -434,7 +440,7 @@ class HairLook(Table):
 
     @property
     def azimuthal_roughness(self) -> float:
-        """Roughness around the hair, 0.05..1: small sharpens the light through the fibre. Default 0.35."""
+        """Roughness around the hair: small sharpens the light through the fibre. Number, 0.05 to 1; default: 0.35."""
         value: float = self._get('azimuthal_roughness')
         return value
 
@@ -444,8 +450,8 @@ class HairLook(Table):
 
     @property
     def scale_tilt(self) -> float:
-        """Tilt of the scales of the cuticle (degrees, -10..10): shifts the white highlight toward the root and the
-        coloured one toward the tip. Default 2.5.
+        """Tilt of the scales of the cuticle: shifts the white highlight toward the root and the coloured one toward the
+        tip. Number, -10 to 10 (degrees); default: 2.5.
         """
         value: float = self._get('scale_tilt')
         return value
@@ -456,7 +462,7 @@ class HairLook(Table):
 
     @property
     def refraction(self) -> float:
-        """Refractive index of the fibre, 1.1..2.5. Default 1.55."""
+        """Refractive index of the fibre. Number, 1.1 to 2.5; default: 1.55."""
         value: float = self._get('refraction')
         return value
 
@@ -466,7 +472,7 @@ class HairLook(Table):
 
     @property
     def smooth(self) -> bool:
-        """Whether a curve is drawn through the nodes rather than straight segments. Default true."""
+        """Whether a curve is drawn through the nodes rather than straight segments. True or false; default: true."""
         value: bool = self._get('smooth')
         return value
 
@@ -476,13 +482,15 @@ class HairLook(Table):
 
 
 class Light(Table):
-    """One lamp, far away: an element of `[[picture.lights]]`."""
+    """A lamp, far away."""
 
     __slots__ = ()
 
     @property
     def azimuth(self) -> float:
-        """Where the light comes from, about the vertical (degrees), counted as the camera's azimuth. Default 0."""
+        """Where the light comes from, about the vertical, counted as the camera's azimuth. Number, -3600 to 3600
+        (degrees); default: 0.
+        """
         value: float = self._get('azimuth')
         return value
 
@@ -492,7 +500,7 @@ class Light(Table):
 
     @property
     def elevation(self) -> float:
-        """Where it comes from, above the horizon (degrees, -90..90). Default 40."""
+        """Where it comes from, above the horizon. Number, -90 to 90 (degrees); default: 40."""
         value: float = self._get('elevation')
         return value
 
@@ -502,7 +510,7 @@ class Light(Table):
 
     @property
     def strength(self) -> float:
-        """Its strength: a white surface facing it is as bright as this. 0..1000, default 1."""
+        """Its strength: a white surface facing it is as bright as this. Number, 0 to 1000; default: 1."""
         value: float = self._get('strength')
         return value
 
@@ -512,7 +520,7 @@ class Light(Table):
 
     @property
     def colour(self) -> tuple[float, float, float]:
-        """Its colour (linear red, green, blue; 0..1). Default white."""
+        """Its colour: amounts of light. 3 numbers, each 0 to 1 (linear); default: [1, 1, 1]."""
         value: tuple[float, float, float] = self._get('colour')
         return value
 
@@ -522,7 +530,9 @@ class Light(Table):
 
     @property
     def spread(self) -> float:
-        """How far the lamp spreads as seen from the hair (degrees, 0..45): wide lamps throw soft shadows. Default 4."""
+        """How far the lamp spreads as seen from the hair: wide lamps throw soft shadows. Number, 0 to 45 (degrees);
+        default: 4.
+        """
         value: float = self._get('spread')
         return value
 
@@ -532,7 +542,7 @@ class Light(Table):
 
     @property
     def space(self) -> Literal["camera", "world", "head"]:
-        """`"camera"` (default), `"world"` or `"head"`."""
+        """What its direction is relative to. "camera", "world" or "head"; default: "camera"."""
         value: Literal["camera", "world", "head"] = self._get('space')
         return value
 
@@ -542,13 +552,13 @@ class Light(Table):
 
 
 class Sky(Table):
-    """`[picture.sky]`: light from all around, dimmed where hair or head hide it."""
+    """The light that comes from all around, dimmed where hair or head hide it."""
 
     __slots__ = ()
 
     @property
     def strength(self) -> float:
-        """Strength: an unhidden white surface is as bright as this, 0..1000. Default 0.24."""
+        """Its strength: an unhidden white surface is as bright as this. Number, 0 to 1000; default: 0.24."""
         value: float = self._get('strength')
         return value
 
@@ -558,7 +568,7 @@ class Sky(Table):
 
     @property
     def above(self) -> tuple[float, float, float]:
-        """Colour of the light from straight above (linear, 0..1). Default `[0.93, 0.97, 1]`."""
+        """Colour of the light from straight above. 3 numbers, each 0 to 1 (linear); default: [0.93, 0.97, 1]."""
         value: tuple[float, float, float] = self._get('above')
         return value
 
@@ -568,7 +578,7 @@ class Sky(Table):
 
     @property
     def below(self) -> tuple[float, float, float]:
-        """Colour of the light from straight below (linear, 0..1). Default `[0.55, 0.5, 0.47]`."""
+        """Colour of the light from straight below. 3 numbers, each 0 to 1 (linear); default: [0.55, 0.5, 0.47]."""
         value: tuple[float, float, float] = self._get('below')
         return value
 
@@ -578,7 +588,7 @@ class Sky(Table):
 
     @property
     def occlusion(self) -> bool:
-        """Whether hair and head hide the sky from what lies within. Default true."""
+        """Whether hair and head hide the sky from what lies within. True or false; default: true."""
         value: bool = self._get('occlusion')
         return value
 
@@ -588,7 +598,7 @@ class Sky(Table):
 
     @property
     def space(self) -> Literal["world", "head"]:
-        """`"world"` (default) or `"head"`."""
+        """Whether it stays above when the head turns, or turns with it. "world" or "head"; default: "world"."""
         value: Literal["world", "head"] = self._get('space')
         return value
 
@@ -598,13 +608,15 @@ class Sky(Table):
 
 
 class HeadLook(Table):
-    """`[picture.head]`."""
+    """How the head is drawn."""
 
     __slots__ = ()
 
     @property
     def visible(self) -> bool:
-        """Whether the head is drawn; it hides hair behind it and throws shadows all the same. Default true."""
+        """Whether the head is drawn; it hides hair behind it and throws shadows all the same. True or false; default:
+        true.
+        """
         value: bool = self._get('visible')
         return value
 
@@ -614,8 +626,8 @@ class HeadLook(Table):
 
     @property
     def colour(self) -> tuple[float, float, float]:
-        """Its colour (sRGB, 0..1). Default `[0.56, 0.44, 0.37]`, a neutral skin, dull enough to leave the eye to the
-        hair.
+        """Its colour. The default is a neutral skin, dull enough to leave the eye to the hair. 3 numbers, each 0 to 1
+        (sRGB); default: [0.56, 0.44, 0.37].
         """
         value: tuple[float, float, float] = self._get('colour')
         return value
@@ -626,7 +638,7 @@ class HeadLook(Table):
 
     @property
     def softness(self) -> float:
-        """How far light creeps past the terminator, as in skin, 0..1. Default 0.2."""
+        """How far light creeps past the terminator, as in skin. Number, 0 to 1; default: 0.2."""
         value: float = self._get('softness')
         return value
 
@@ -636,7 +648,7 @@ class HeadLook(Table):
 
     @property
     def sheen(self) -> float:
-        """Strength of its sheen, 0..1. Default 0.25."""
+        """Strength of its sheen. Number, 0 to 1; default: 0.25."""
         value: float = self._get('sheen')
         return value
 
@@ -646,8 +658,8 @@ class HeadLook(Table):
 
     @property
     def stubble(self) -> float:
-        """Hair too short to be drawn: its length for each root (cm, as thick as the hair), 0..100. It tints the scalp as
-        dense as the roots stand, so that partings do not gleam. Default 2; 0 shows bare skin.
+        """Hair too short to be drawn: its length for each root, as thick as the hair. It tints the scalp as dense as the
+        roots stand, so that partings do not gleam; 0 shows bare skin. Number, 0 to 100 (cm); default: 2.
         """
         value: float = self._get('stubble')
         return value
@@ -659,7 +671,7 @@ class HeadLook(Table):
     @property
     def face(self) -> bool:
         """Whether the built-in head has brows, lashes and lips of their colours; other heads have what their mesh has,
-        one colour. Default true.
+        one colour. True or false; default: true.
         """
         value: bool = self._get('face')
         return value
@@ -670,13 +682,13 @@ class HeadLook(Table):
 
 
 class Background(Table):
-    """`[picture.background]`: a vertical gradient, or nothing."""
+    """What is behind it all: a vertical gradient, or nothing."""
 
     __slots__ = ()
 
     @property
     def top(self) -> tuple[float, float, float]:
-        """Colour at the top edge (sRGB as displayed, 0..1). Default `[0.36, 0.38, 0.41]`."""
+        """Colour at the top edge, as displayed. 3 numbers, each 0 to 1 (sRGB); default: [0.36, 0.38, 0.41]."""
         value: tuple[float, float, float] = self._get('top')
         return value
 
@@ -686,7 +698,7 @@ class Background(Table):
 
     @property
     def bottom(self) -> tuple[float, float, float]:
-        """Colour at the bottom edge (sRGB as displayed, 0..1). Default `[0.2, 0.21, 0.23]`."""
+        """Colour at the bottom edge, as displayed. 3 numbers, each 0 to 1 (sRGB); default: [0.2, 0.21, 0.23]."""
         value: tuple[float, float, float] = self._get('bottom')
         return value
 
@@ -696,7 +708,7 @@ class Background(Table):
 
     @property
     def transparent(self) -> bool:
-        """Leave it out: alpha 0 where there is neither hair nor head. Default false."""
+        """Whether it is left out: alpha 0 where there is neither hair nor head. True or false; default: false."""
         value: bool = self._get('transparent')
         return value
 
@@ -706,13 +718,13 @@ class Background(Table):
 
 
 class Video(Table):
-    """`[picture.video]`"""
+    """The movie's file."""
 
     __slots__ = ()
 
     @property
     def quality(self) -> float:
-        """0 (small file) .. 1 (large, near lossless). Default 0.75."""
+        """0 is a small file, 1 a large one, near lossless. Number, 0 to 1; default: 0.75."""
         value: float = self._get('quality')
         return value
 
@@ -722,8 +734,8 @@ class Video(Table):
 
     @property
     def frame_rate(self) -> float | None:
-        """Frames a second that the movie is played with, 1..240: fewer than `motion.frame_rate` is slow motion. Default
-        that rate.
+        """Frames a second that the movie is played with: fewer than `motion.frame_rate` is slow motion. Number, 1 to 240
+        (a second); default: motion.frame_rate.
         """
         value: float | None = self._get('frame_rate')
         return value
@@ -734,13 +746,13 @@ class Video(Table):
 
 
 class Output(Table):
-    """`[output]`: what a run writes. Where it goes is the command line's affair."""
+    """What a run writes. Where it goes is the command line's affair."""
 
     __slots__ = ()
 
     @property
     def movie(self) -> bool:
-        """Whether a movie is written (default true)."""
+        """Whether a movie is written. True or false; default: true."""
         value: bool = self._get('movie')
         return value
 
@@ -750,7 +762,7 @@ class Output(Table):
 
     @property
     def png_frames(self) -> bool:
-        """Whether every frame is written as a PNG (default false)."""
+        """Whether every frame is written as a PNG. True or false; default: false."""
         value: bool = self._get('png_frames')
         return value
 
@@ -760,7 +772,7 @@ class Output(Table):
 
     @property
     def png_bits(self) -> int:
-        """Bits of each channel of those PNGs, 8 (default) or 16."""
+        """Bits of each channel of those PNGs, 8 or 16. Whole number, 8 to 16; default: 8."""
         value: int = self._get('png_bits')
         return value
 
@@ -770,7 +782,9 @@ class Output(Table):
 
     @property
     def exr_frames(self) -> bool:
-        """Whether every frame is written as an OpenEXR file with depth, hair direction and motion (default false)."""
+        """Whether every frame is written as an OpenEXR file with depth, hair direction and motion. True or false;
+        default: false.
+        """
         value: bool = self._get('exr_frames')
         return value
 
@@ -780,8 +794,8 @@ class Output(Table):
 
     @property
     def field(self) -> bool:
-        """Whether the force's projections on the yz and zx planes are drawn, as SVG and PNG (default false; the paper's
-        Figure 10).
+        """Whether the force's projections on the yz and zx planes are drawn, as SVG and PNG: the paper's Figure 10. True
+        or false; default: false.
         """
         value: bool = self._get('field')
         return value
@@ -792,7 +806,9 @@ class Output(Table):
 
     @property
     def sheet(self) -> tuple[int, ...] | None:
-        """Frames of the contact sheet (default: four, evenly from frame 0 on, as the paper's Figure 6 has them)."""
+        """Frames of the contact sheet. List of whole numbers (frames); default: four, evenly from frame 0 on, as the
+        paper's Figure 6 has them.
+        """
         value: tuple[int, ...] | None = self._get('sheet')
         return value
 
@@ -803,9 +819,9 @@ class Output(Table):
     @property
     def first_frame(self) -> int | None:
         """Number of frame 0 on the time line of the shot: exports of moving hair (USD, Alembic) go on from it, pictures
-        keep the numbers of the scene. -10000000..10000000 (default: that of the head's motion, where it is from USD
-        or Alembic and plays at its own speed, else that of the hair's USD layer, `startTimeCode`, or Alembic archive,
-        else 0).
+        keep the numbers of the scene. Whole number, -10000000 to 10000000; default: that of the head's motion, where
+        it is from USD or Alembic and plays at its own speed, else that of the hair's USD layer, startTimeCode, or
+        Alembic archive, else 0.
         """
         value: int | None = self._get('first_frame')
         return value

@@ -1,4 +1,4 @@
-"""What pushes the hair: `scene.wind`, `scene.gust`, `scene.fan`, ... Written by generate.py from the doc comments of the Rust structs."""
+"""What pushes the hair: `scene.wind`, `scene.gust`, `scene.fan`, ... Written by generate.py from the schema of scenes."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Keyframe(Table):
 
     @property
     def through(self) -> int:
-        """Last frame that feels this vector (k_j of equation (5))."""
+        """Last frame that feels this vector (k_j of equation (5)). Whole number (frame); must be given."""
         value: int = self._get('through')
         return value
 
@@ -39,7 +39,9 @@ class Keyframe(Table):
 
     @property
     def vector(self) -> tuple[float, float, float]:
-        """Force F_j: a direction with a strength, without a unit (section 4.3: only c_i |F| moves hair)."""
+        """Force F_j: a direction with a strength, without a unit (section 4.3: only c_i |F| moves hair). 3 numbers; must
+        be given.
+        """
         value: tuple[float, float, float] = self._get('vector')
         return value
 
@@ -55,7 +57,7 @@ class Wind(Table):
 
     @property
     def ease(self) -> Literal["stepped", "linear", "smooth"]:
-        """From one vector to the next (default: stepped)."""
+        """From one vector to the next. "stepped", "linear" or "smooth"; default: "stepped"."""
         value: Literal["stepped", "linear", "smooth"] = self._get('ease')
         return value
 
@@ -65,20 +67,19 @@ class Wind(Table):
 
 
 class Gust(Table):
-    """The settings of gusts: a random factor about 1 on the wind, with the spectrum of the wind's own direction after T.
-    von Karman ("Progress in the statistical theory of turbulence", PNAS 34, 1948) as engineers write it,
+    """Gusts: a random factor about 1 on the wind of the intervals, which rises and falls as wind does.
 
-    ```text S(f) = 4 T / (1 + 70.8 (f T)^2)^(5/6) ```
-
-    up to a highest frequency: what is faster is not felt by the whole head of hair at once, and is turbulence.
+    It has the spectrum of the wind's own direction after T. von Karman ("Progress in the statistical theory of
+    turbulence", PNAS 34, 1948) as engineers write it, `S(f) = 4 T / (1 + 70.8 (f T)^2)^(5/6)`, up to a highest
+    frequency: what is faster is not felt by the whole head of hair at once, and is turbulence.
     """
 
     __slots__ = ()
 
     @property
     def intensity(self) -> float:
-        """Root mean square of the factor about 1, at least 0 (default 0.3). In open country 0.15, in a town 0.4; above
-        0.4 the wind now and then turns round.
+        """Root mean square of the factor about 1. In open country 0.15, in a town 0.4; above 0.4 the wind now and then
+        turns round. Number of at least 0; default: 0.3.
         """
         value: float = self._get('intensity')
         return value
@@ -89,7 +90,7 @@ class Gust(Table):
 
     @property
     def time_scale(self) -> float:
-        """T (seconds), above 0: the length scale of the turbulence over the mean speed of the wind (default 2)."""
+        """T: the length scale of the turbulence over the mean speed of the wind. Number above 0 (s); default: 2."""
         value: float = self._get('time_scale')
         return value
 
@@ -99,7 +100,7 @@ class Gust(Table):
 
     @property
     def highest(self) -> float:
-        """Highest frequency (Hz), above 0 (default 1)."""
+        """Highest frequency. What is faster is not felt by all of the hair at once. Number above 0 (Hz); default: 1."""
         value: float = self._get('highest')
         return value
 
@@ -109,7 +110,7 @@ class Gust(Table):
 
     @property
     def seed(self) -> int:
-        """Seed of the phases."""
+        """Seed of the phases: another number, other gusts. Whole number; default: 1."""
         value: int = self._get('seed')
         return value
 
@@ -119,7 +120,7 @@ class Gust(Table):
 
 
 class BodyWind(Table):
-    """The settings of the wind from the head's own motion, uniform in space.
+    """The wind from the head's own motion, uniform in space; it needs a motion of the head.
 
     With the head's velocity v (cm/s) and acceleration a (cm/s^2), from the poses and the frame rate: F = -drag v -
     footfall (0, a_y, 0).
@@ -129,7 +130,7 @@ class BodyWind(Table):
 
     @property
     def drag(self) -> float:
-        """Force for each cm/s of the head, against its way, at least 0 (default 0.3)."""
+        """Force for each cm/s of the head, against its way. Number of at least 0 (per cm/s); default: 0.3."""
         value: float = self._get('drag')
         return value
 
@@ -139,8 +140,8 @@ class BodyWind(Table):
 
     @property
     def footfall(self) -> float:
-        """Force for each cm/s^2 by which the head is lifted, downward, at least 0 (default 0). Where gravity is G, hair
-        that is lifted with the head feels G / 981.
+        """Force for each cm/s^2 by which the head is lifted, downward. Where gravity is G, hair that is lifted with the
+        head feels G / 981. Number of at least 0 (per cm/s2); default: 0.
         """
         value: float = self._get('footfall')
         return value
@@ -151,8 +152,8 @@ class BodyWind(Table):
 
     @property
     def smoothing(self) -> float:
-        """Deviation of the bell by which the head's places are averaged beforehand (frames), 0..240 (default 0: as they
-        are). Recorded places tremble, and accelerations many times more.
+        """Deviation of the bell by which the head's places are averaged beforehand; 0: as they are. Recorded places
+        tremble, and accelerations many times more. Number, 0 to 240 (frames); default: 0.
         """
         value: float = self._get('smoothing')
         return value
@@ -163,14 +164,14 @@ class BodyWind(Table):
 
 
 class Flow(Table):
-    """The settings of the flow round the head."""
+    """The way of the wind round the head, instead of through it."""
 
     __slots__ = ()
 
     @property
     def thickness(self) -> float:
-        """What the wind goes round stands out so far from the head ellipsoid (cm, 0..100, default 0): as hair itself
-        does.
+        """How far what the wind goes round stands out from the head ellipsoid, as hair itself does. Number, 0 to 100
+        (cm); default: 0.
         """
         value: float = self._get('thickness')
         return value
@@ -181,7 +182,7 @@ class Flow(Table):
 
 
 class Turbulence(Table):
-    """The settings of turbulence: a random force without sources, which drifts with the wind and changes on its way.
+    """Turbulence: a random force without sources, which drifts with the wind and changes on its way.
 
     It is the curl of a random vector potential, a sum of octaves each half as large as the one before. Near the head
     the potential is let go to 0 by Bridson's ramp, so that the force runs along the head.
@@ -191,7 +192,7 @@ class Turbulence(Table):
 
     @property
     def strength(self) -> float:
-        """Root mean square of |F| over space, far from the head, at least 0 (default 30)."""
+        """Root mean square of |F| over space, far from the head. Number of at least 0; default: 30."""
         value: float = self._get('strength')
         return value
 
@@ -201,8 +202,8 @@ class Turbulence(Table):
 
     @property
     def swirl_size(self) -> float:
-        """Size of the largest swirls (cm), half of the wavelengths that they are made of, 0.01..1e6 (default 10). Those
-        of the last octave must be as large as 0.01, too.
+        """Size of the largest swirls, half of the wavelengths that they are made of. Those of the last octave must be at
+        least 0.01 cm large, too. Number, 0.01 to 1000000 (cm); default: 10.
         """
         value: float = self._get('swirl_size')
         return value
@@ -213,8 +214,8 @@ class Turbulence(Table):
 
     @property
     def pulse_length(self) -> float:
-        """Frames in which a swirl turns into its opposite and back, about; 0: swirls drift and never change (default
-        48). Without drift the whole pattern comes again after 16 times as many.
+        """Frames in which a swirl turns into its opposite and back, about; 0: swirls drift and never change. Without
+        drift the whole pattern comes again after 16 times as many. Number of at least 0 (frames); default: 48.
         """
         value: float = self._get('pulse_length')
         return value
@@ -225,7 +226,7 @@ class Turbulence(Table):
 
     @property
     def roughness(self) -> float:
-        """Strength of each octave by that of the one before, 0..1 (default 0.5; 0.79 is Kolmogorov's)."""
+        """Strength of each octave by that of the one before; 0.79 is Kolmogorov's. Number, 0 to 1; default: 0.5."""
         value: float = self._get('roughness')
         return value
 
@@ -235,7 +236,7 @@ class Turbulence(Table):
 
     @property
     def octaves(self) -> int:
-        """Octaves, 1..8 (default 2). Time is spent on each."""
+        """Octaves, each half as large as the one before. Time is spent on each. Whole number, 1 to 8; default: 2."""
         value: int = self._get('octaves')
         return value
 
@@ -245,7 +246,7 @@ class Turbulence(Table):
 
     @property
     def drift(self) -> float:
-        """Way that the swirls go in a frame for each unit of the wind (cm), at least 0 (default 0.02)."""
+        """Way that the swirls go in a frame for each unit of the wind. Number of at least 0 (cm); default: 0.02."""
         value: float = self._get('drift')
         return value
 
@@ -255,9 +256,9 @@ class Turbulence(Table):
 
     @property
     def near_head(self) -> float:
-        """Distance from the head ellipsoid within which the force is turned along it (cm, default 4): that which E's own
-        measure gives, (|q| - 1) times the mean half axis, where q is the point in half axes from the centre. 0: the
-        force knows nothing of the head. At most the mean half axis.
+        """Distance from the head ellipsoid within which the force is turned along it; 0: it knows nothing of the head.
+        It is what E's own measure gives, (|q| - 1) times the mean half axis, where q is the point in half axes from
+        the centre, and at most the mean half axis. Number of at least 0 (cm); default: 4.
         """
         value: float = self._get('near_head')
         return value
@@ -268,7 +269,7 @@ class Turbulence(Table):
 
     @property
     def seed(self) -> int:
-        """Seed of the random vectors."""
+        """Seed of the random vectors: another number, other swirls. Whole number; default: 1."""
         value: int = self._get('seed')
         return value
 
@@ -278,7 +279,7 @@ class Turbulence(Table):
 
     @property
     def envelope(self) -> Tables[EnvelopeKey]:
-        """Parts of the strength over frames, on straight lines from key to key; all of it without keys (default)."""
+        """Parts of the strength over frames, on straight lines from key to key; all of it always without keys."""
         return Tables(self._scene, self._key_of('envelope'), EnvelopeKey)
 
     @envelope.setter
@@ -293,7 +294,7 @@ class EnvelopeKey(Table):
 
     @property
     def frame(self) -> int:
-        """The frame."""
+        """The frame. Whole number; must be given."""
         value: int = self._get('frame')
         return value
 
@@ -303,7 +304,7 @@ class EnvelopeKey(Table):
 
     @property
     def factor(self) -> float:
-        """Part of the strength, any finite number."""
+        """Part of the strength, any finite number. Number; must be given."""
         value: float = self._get('factor')
         return value
 
@@ -313,13 +314,13 @@ class EnvelopeKey(Table):
 
 
 class Point(Table):
-    """The settings of a point: F = strength falloff(r) r^, away from it."""
+    """A point that blows or draws."""
 
     __slots__ = ()
 
     @property
     def position(self) -> tuple[float, float, float]:
-        """Where it is (cm; the space of the forces)."""
+        """Where it is, in the space of the forces. 3 numbers, each -1000000 to 1000000 (cm); must be given."""
         value: tuple[float, float, float] = self._get('position')
         return value
 
@@ -329,7 +330,7 @@ class Point(Table):
 
     @property
     def strength(self) -> float:
-        """|F| beside the point; negative draws in (default 50)."""
+        """|F| beside the point; negative draws in. Number; default: 50."""
         value: float = self._get('strength')
         return value
 
@@ -350,7 +351,7 @@ class Point(Table):
 
     @property
     def envelope(self) -> Tables[EnvelopeKey]:
-        """Parts of the strength over time (default: all of it always)."""
+        """Parts of the strength over frames, on straight lines from key to key; all of it always without keys."""
         return Tables(self._scene, self._key_of('envelope'), EnvelopeKey)
 
     @envelope.setter
@@ -359,13 +360,15 @@ class Point(Table):
 
 
 class Falloff(Table):
-    """How a force weakens with the distance from its place."""
+    """How a local force weakens with the distance r."""
 
     __slots__ = ()
 
     @property
     def law(self) -> Literal["none", "linear", "smooth", "inverse", "inverse_square"]:
-        """The law (default: smooth)."""
+        """The law by which the force weakens. "none", "linear", "smooth", "inverse" or "inverse_square"; default:
+        "smooth".
+        """
         value: Literal["none", "linear", "smooth", "inverse", "inverse_square"] = self._get('law')
         return value
 
@@ -375,7 +378,7 @@ class Falloff(Table):
 
     @property
     def radius(self) -> float:
-        """R (cm), above 0 (default 30)."""
+        """R of the law. Within a twentieth of it the force is let go to 0. Number above 0 (cm); default: 30."""
         value: float = self._get('radius')
         return value
 
@@ -385,13 +388,13 @@ class Falloff(Table):
 
 
 class Vortex(Table):
-    """The settings of a vortex: F = strength falloff(r) (axis x r^), where r leads from the axis to the point."""
+    """A whirl: a force round an axis."""
 
     __slots__ = ()
 
     @property
     def position(self) -> tuple[float, float, float]:
-        """A point of the axis (cm; the space of the forces)."""
+        """A point of the axis, in the space of the forces. 3 numbers, each -1000000 to 1000000 (cm); must be given."""
         value: tuple[float, float, float] = self._get('position')
         return value
 
@@ -401,7 +404,9 @@ class Vortex(Table):
 
     @property
     def axis(self) -> tuple[float, float, float]:
-        """Along the axis, of any length but 0 (default y): hair goes round it counter-clockwise as seen from its tip."""
+        """Along the axis, of any length but 0: hair goes round it counter-clockwise as seen from its tip. 3 numbers;
+        default: [0, 1, 0].
+        """
         value: tuple[float, float, float] = self._get('axis')
         return value
 
@@ -411,7 +416,7 @@ class Vortex(Table):
 
     @property
     def strength(self) -> float:
-        """|F| beside the axis; negative goes round the other way (default 50)."""
+        """|F| beside the axis; negative goes round the other way. Number; default: 50."""
         value: float = self._get('strength')
         return value
 
@@ -430,7 +435,7 @@ class Vortex(Table):
 
     @property
     def envelope(self) -> Tables[EnvelopeKey]:
-        """Parts of the strength over time (default: all of it always)."""
+        """Parts of the strength over frames, on straight lines from key to key; all of it always without keys."""
         return Tables(self._scene, self._key_of('envelope'), EnvelopeKey)
 
     @envelope.setter
@@ -439,17 +444,13 @@ class Vortex(Table):
 
 
 class Fan(Table):
-    """The settings of a fan: F = strength falloff(r) cone(angle) r^, away from it and only within its cone.
-
-    With c = (cos angle - cos spread) / (1 - cos spread), 1 on the axis and 0 at the edge, cone is 1 - (1 - c)^4 of
-    it: nearly all of the strength over the inner half of the cone, and none beyond its edge.
-    """
+    """A wind in a cone."""
 
     __slots__ = ()
 
     @property
     def position(self) -> tuple[float, float, float]:
-        """The tip of the cone (cm; the space of the forces)."""
+        """The tip of the cone, in the space of the forces. 3 numbers, each -1000000 to 1000000 (cm); must be given."""
         value: tuple[float, float, float] = self._get('position')
         return value
 
@@ -459,7 +460,7 @@ class Fan(Table):
 
     @property
     def direction(self) -> tuple[float, float, float]:
-        """Where it blows, of any length but 0."""
+        """Where it blows, of any length but 0. 3 numbers; must be given."""
         value: tuple[float, float, float] = self._get('direction')
         return value
 
@@ -469,7 +470,7 @@ class Fan(Table):
 
     @property
     def strength(self) -> float:
-        """|F| on the axis beside the fan; negative draws in (default 50)."""
+        """|F| on the axis beside the fan; negative draws in. Number; default: 50."""
         value: float = self._get('strength')
         return value
 
@@ -479,7 +480,7 @@ class Fan(Table):
 
     @property
     def spread(self) -> float:
-        """Angle between the axis and the edge of the cone (degrees), 1..90 (default 30)."""
+        """Angle between the axis and the edge of the cone. Number, 1 to 90 (degrees); default: 30."""
         value: float = self._get('spread')
         return value
 
@@ -498,7 +499,7 @@ class Fan(Table):
 
     @property
     def envelope(self) -> Tables[EnvelopeKey]:
-        """Parts of the strength over time (default: all of it always)."""
+        """Parts of the strength over frames, on straight lines from key to key; all of it always without keys."""
         return Tables(self._scene, self._key_of('envelope'), EnvelopeKey)
 
     @envelope.setter

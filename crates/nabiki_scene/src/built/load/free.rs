@@ -5,15 +5,14 @@ use std::sync::Arc;
 use nabiki::body::{Body, BodyWay, skin_of};
 use nabiki::distance::SkinDistance;
 use nabiki::dynamics::{Dynamics, Form};
-use nabiki::free_form::{FreeMotion, Neighbours, earth_gravity};
-use nabiki::pseudo_force::PseudoForce;
+use nabiki::free_form::{FreeForm, FreeMotion, Gravity, Neighbours, earth_gravity};
 use nabiki::{Head, Pose, Strands};
 use nabiki_io::{declared_space, mesh};
 
 use super::{GoesOn, read_motion, still_wanted, there};
 use crate::built::{BuiltBody, BuiltScene};
 use crate::error::Result;
-use crate::scene::{BodySettings, FormChoice, Gravity, Scene};
+use crate::scene::{BodySettings, FormChoice, Scene};
 
 /// Strands that stand for the whole where one number is wanted of it.
 const FEW: usize = 256;
@@ -89,10 +88,8 @@ pub(super) fn set(
         let carriers = (forces.carriers as usize).min(first.len());
         Neighbours { forces: forces.clone(), carriers: Arc::new(first.select(&(0..carriers).collect::<Vec<_>>())) }
     });
-    if !scene.free.pseudo_force {
-        dynamics.pseudo_force = PseudoForce::off();
-    }
-    dynamics.form = Form::Free(FreeMotion { form: scene.free.form(gravity), bodies, neighbours, rest_pose });
+    let form = FreeForm { gravity: Gravity::Strength(gravity), ..scene.free.clone() };
+    dynamics.form = Form::Free(FreeMotion { form, bodies, neighbours, rest_pose });
     dynamics.check().map_err(|refused| scene.refusal(refused))?;
     Ok(drawn)
 }

@@ -1,0 +1,83 @@
+//! `[[body]]`: what hair does not enter besides the head.
+
+use std::path::PathBuf;
+
+use glam::Vec3;
+use nabiki::body::Contact;
+use nabiki::setting::{Key, Place, refused};
+use nabiki::{SettingError, settings};
+use nabiki_io::motion::{Axis, MotionSource};
+use nabiki_io::{Placement, Unit};
+use nabiki_render::settings::BodyLook;
+
+use super::head::check_placement;
+
+settings! {
+    /// Something besides the head that hair does not enter, in the free form.
+    pub struct BodySettings where can_be_loaded {
+        /// A .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. It must be given.
+        pub mesh: PathBuf = PathBuf::new() => "Mesh";
+        /// Groups, objects or nodes of the file to keep; all if empty.
+        pub groups: Vec<String> = Vec::new() => "Groups";
+        /// Unit of the file.
+        pub unit: Option<Unit> = None => "Unit", above 0.0, open "what the file says, or cm";
+        /// Axis of the file that points up.
+        pub up: Option<Axis> = None => "Up", open "what the file says, or +y";
+        /// Axis of the file that lies along +x of the scene.
+        pub facing: Option<Axis> = None => "Facing", open "+x";
+        /// Point of the file that the body's motion carries, in the file's unit.
+        pub origin: Option<Vec3> = None => "Origin", open "the file's own origin";
+        /// A file that moves the body through the world, as `head.motion` moves the head.
+        pub motion: Option<MotionSource> = None => "Motion of a body", open "it stands still";
+        /// Whether it is worn: it stands in head space and goes with the head.
+        pub with_head: bool = false => "With the head";
+        /// Whether hair keeps out of it; otherwise it is drawn and no more, and may be open.
+        pub solid: bool = true => "Solid";
+        /// How far from its skin nodes are kept.
+        pub margin: f32 = Contact::default().margin => "Margin", unit "cm", least 0.0, most 5.0;
+        /// The part of a push that sliding hair loses of its speed.
+        pub friction: f32 = Contact::default().friction => "Friction", least 0.0, most 10.0;
+        /// The same for hair that does not slide, at least `friction`.
+        pub static_friction: f32 = Contact::default().static_friction => "Static friction", least 0.0, most 10.0;
+        /// Whether it is drawn. What is not shown hides nothing and throws no shadow.
+        pub shown: bool = BodyLook::default().shown => "Shown";
+        /// Its colour in pictures. The default is a grey.
+        pub colour: [f32; 3] = BodyLook::default().colour => "Colour", unit "sRGB", least 0.0, most 1.0;
+    }
+}
+
+impl BodySettings {
+    /// How it is touched.
+    pub fn contact(&self) -> Contact {
+        Contact { margin: self.margin, friction: self.friction, static_friction: self.static_friction }
+    }
+
+    /// How it is drawn.
+    pub fn look(&self) -> BodyLook {
+        BodyLook { shown: self.shown, colour: self.colour }
+    }
+
+    /// How the file lies in the body's space. `up` and `unit`: what the file itself says.
+    pub fn placement(&self, unit: Option<Unit>, up: Option<Axis>) -> Placement {
+        let default = Placement::default();
+        Placement {
+            unit: self.unit.or(unit).unwrap_or(default.unit),
+            up: self.up.or(up).unwrap_or(default.up),
+            facing: self.facing.unwrap_or(default.facing),
+            origin: self.origin.unwrap_or(Vec3::ZERO),
+        }
+    }
+
+    /// Refuses what no body can be loaded from.
+    fn can_be_loaded(&self, at: &Place) -> Result<(), SettingError> {
+        if self.mesh.as_os_str().is_empty() {
+            return refused(&at.key("mesh"), "nothing", "give the file of its mesh");
+        }
+        if self.with_head && self.motion.is_some() {
+            let remedy = "a body that goes with the head has no motion of its own: remove one of the two";
+            return refused(&at.key("with_head"), true, remedy);
+        }
+        check_placement(&Key::from(at).to_string(), self.unit, self.up, self.facing, self.origin)?;
+        self.contact().holds_what_lies_still(at)
+    }
+}

@@ -1,0 +1,40 @@
+//! `motion.form`: which equations hair moves by.
+
+use nabiki::dynamics::Motion;
+use nabiki::{settings, words};
+use toml::Table;
+
+use super::flat;
+use super::read::Refusal;
+use super::tree::{Unwritable, table_of};
+
+words! {
+    /// The equations that hair moves by.
+    pub enum FormChoice = Paper {
+        /// Those of 1993: two angles a segment.
+        Paper = "paper",
+        /// The free form: hair comes back to rest, stays out of bodies and rides on a head that turns.
+        Free = "free",
+    }
+}
+
+settings! {
+    /// The key of `[motion]` that is not the method's.
+    pub(crate) struct FormKey {
+        /// The equations that hair moves by.
+        form: FormChoice = FormChoice::Paper => "Form";
+    }
+}
+
+/// The table `[motion]`, read.
+pub(super) fn read_motion(table: &Table) -> Result<(Motion, FormChoice), Refusal> {
+    let (motion, FormKey { form }) = flat::read(table, &[], "")?;
+    Ok((motion, form))
+}
+
+/// The table `[motion]`, to be written.
+pub(super) fn motion_table(motion: &Motion, form: FormChoice) -> Result<Table, Unwritable> {
+    let mut table = table_of(motion)?;
+    table.extend(table_of(&FormKey { form })?);
+    Ok(table)
+}
