@@ -120,7 +120,7 @@ class HairSettings(Table):
     @property
     def unit(self) -> str | float | None:
         """Unit of the file. Left out, it is what the file says, or that of the head's file, or cm. "mm", "cm", "dm",
-        "m", "in" or "ft" or number above 0; default: what files say.
+        "m", "in" or "ft", or number above 0; default: what files say.
         """
         value: str | float | None = self._get('unit')
         return value

@@ -68,7 +68,7 @@ class HeadSettings(Table):
 
     @property
     def unit(self) -> str | float | None:
-        """Unit of the file. "mm", "cm", "dm", "m", "in" or "ft" or number above 0; default: what the file says, or cm."""
+        """Unit of the file. "mm", "cm", "dm", "m", "in" or "ft", or number above 0; default: what the file says, or cm."""
         value: str | float | None = self._get('unit')
         return value
 
@@ -309,7 +309,7 @@ class BodySettings(Table):
 
     @property
     def unit(self) -> str | float | None:
-        """Unit of the file. "mm", "cm", "dm", "m", "in" or "ft" or number above 0; default: what the file says, or cm."""
+        """Unit of the file. "mm", "cm", "dm", "m", "in" or "ft", or number above 0; default: what the file says, or cm."""
         value: str | float | None = self._get('unit')
         return value
 

@@ -118,7 +118,7 @@ class FreeForm(Table):
         """How firmly hair keeps its shape. Where it is 36 times the wind, hair bends within 6 times
         `hair.segment_length`. One number, or a list from root to tip. K of docs/motion-forms.md: the moment with
         which a joint turns its two segments toward their rest shape, each as much as the other. Joints of finer cuts
-        are stiffer by the square of that, and bend alike. Number of at least 0, list of numbers or each of at least
+        are stiffer by the square of that, and bend alike. Number of at least 0, or list of numbers, each of at least
         0; default: [12000, 1000].
         """
         value: float | tuple[float, ...] = self._get('stiffness')
@@ -131,7 +131,7 @@ class FreeForm(Table):
     @property
     def hold(self) -> float | tuple[float, ...]:
         """How firmly hair keeps its place on the head, as with hair spray. One number, or a list from root to tip. H:
-        what turns a segment toward its rest direction in the head's frame. Number of at least 0, list of numbers or
+        what turns a segment toward its rest direction in the head's frame. Number of at least 0, or list of numbers,
         each of at least 0; default: 30.
         """
         value: float | tuple[float, ...] = self._get('hold')
@@ -144,8 +144,8 @@ class FreeForm(Table):
     @property
     def settle(self) -> float | tuple[float, ...]:
         """Frames in which a swing dies down, to 1/e: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 never
-        ends. One number, or a list from root to tip, in which hair beside a 0 hardly swings. Number of at least 0,
-        list of numbers or each of at least 0 (frames); default: 20.
+        ends. One number, or a list from root to tip, in which hair beside a 0 hardly swings. Number of at least 0, or
+        list of numbers, each of at least 0 (frames); default: 20.
         """
         value: float | tuple[float, ...] = self._get('settle')
         return value

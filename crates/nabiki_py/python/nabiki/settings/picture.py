@@ -399,7 +399,7 @@ class HairLook(Table):
     @property
     def colour(self) -> str | dict[str, Any]:
         """A name, amounts of pigment, or the colour that a thick mass shows in even light. "black", "brown", "blond",
-        "red" or "grey", a table of MelaninColour or a table of RgbColour; default: "brown".
+        "red" or "grey", a table of MelaninColour, or a table of RgbColour; default: "brown".
         """
         value: str | dict[str, Any] = self._get('colour')
         return value
