@@ -168,6 +168,20 @@ class FreeForm(Table):
         self._set('gravity', value)
 
     @property
+    def jolt(self) -> float:
+        """How strongly a jolt of the head is felt, as a multiple of what `gravity` makes of it. Hair that falls in slow
+        motion feels jolts as weakly: on 18 cm of hair at 24 frames a second, a weight of 100 is a 28th of the
+        earth's, and 28 lets a nod throw it as far as it does in life, while it still sinks slowly. Number, 0 to 1000;
+        default: 1.
+        """
+        value: float = self._get('jolt')
+        return value
+
+    @jolt.setter
+    def jolt(self, value: float | None) -> None:
+        self._set('jolt', value)
+
+    @property
     def lag(self) -> float:
         """How far tips fall behind a head that turns; 0: not at all. The share of the turn that hair follows at once is
         (1 - m/L)^lag, at the distance m from the root of a strand of length L. Number, 0 to 8; default: 1.
