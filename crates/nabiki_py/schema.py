@@ -87,8 +87,10 @@ def in_toml(value):
     return "{ " + ", ".join(f"{key} = {in_toml(of)}" for key, of in value.items()) + " }"
 
 
-def choice(words, last="or"):
-    return f" {last} ".join(", ".join(words).rsplit(", ", 1)) if len(words) > 1 else "".join(words)
+def choice(words):
+    if len(words) < 2:
+        return "".join(words)
+    return ", ".join(words[:-1]) + (", or " if any("," in word for word in words) else " or ") + words[-1]
 
 
 def bounds(schema):

@@ -33,6 +33,10 @@ settings! {
         /// How heavy hair is that has been moved, and how much a jolt of the head is felt. A strength, or "earth" for that of the earth at
         /// `motion.frame_rate`. Hair at rest does not sag. It stands for 981 cm/s^2, which gives accelerations of the head their scale.
         pub gravity: Gravity = Gravity::Strength(100.0) => "Weight", least 0.0;
+        /// How strongly a jolt of the head is felt, as a multiple of what `gravity` makes of it. Hair that falls in slow motion feels jolts as
+        /// weakly: on 18 cm of hair at 24 frames a second, a weight of 100 is a 28th of the earth's, and 28 lets a nod throw it as far as it
+        /// does in life, while it still sinks slowly.
+        pub jolt: f32 = 1.0 => "Jolts", least 0.0, most 1000.0;
         /// How far tips fall behind a head that turns; 0: not at all. The share of the turn that hair follows at once is (1 - m/L)^lag, at
         /// the distance m from the root of a strand of length L.
         pub lag: f32 = 1.0 => "Lag", least 0.0, most 8.0;

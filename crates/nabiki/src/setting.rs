@@ -114,14 +114,12 @@ impl Range {
         }
     }
 
-    /// The same of a whole number, whose type holds at most `most`.
-    fn whole_remedy(&self, most: i64) -> String {
-        match (self.least, self.most) {
-            (least, Some(most)) => format!("must lie in {}..{most}", least.unwrap_or(0.0)),
-            (least, None) if most == i64::MAX || most == i64::from(u32::MAX) => {
-                format!("must be at least {}", least.unwrap_or(0.0))
-            }
-            (least, None) => format!("must lie in {}..{most}", least.unwrap_or(0.0)),
+    /// The same of a whole number, which is finite anyway.
+    fn whole_remedy(&self) -> String {
+        let least = self.least.unwrap_or(0.0);
+        match self.most {
+            Some(most) => format!("must lie in {least}..{most}"),
+            None => format!("must be at least {least}"),
         }
     }
 }

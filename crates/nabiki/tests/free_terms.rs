@@ -85,6 +85,7 @@ fn hair_is_left_behind_by_its_part_of_the_head_s_turn() {
 struct Inertia {
     poses: Vec<Pose>,
     gravity: f64,
+    jolt: f64,
     rate: f64,
 }
 
@@ -102,11 +103,11 @@ impl Field for Inertia {
         let weight = DVec3::new(0.0, -self.gravity, 0.0);
         // In balance at rest: the head takes along what holds that up.
         let held = exact(n).1 * (exact(0).1.inverse() * weight);
-        (weight - held - acceleration * self.gravity / 981.0).as_vec3()
+        (weight - held - acceleration * self.gravity * self.jolt / 981.0).as_vec3()
     }
 
     fn strongest(&self) -> f32 {
-        5.0 * self.gravity as f32
+        (5.0 * self.gravity * self.jolt.max(1.0)) as f32
     }
 }
 
@@ -119,21 +120,23 @@ fn weight_and_acceleration_are_forces_of_the_world() {
         strands.push(strand[..2].iter().copied());
     }
     let poses = way_of_a_head(FRAMES);
-    let with = |gravity: f32| {
-        free(
-            FreeForm { stiffness: 0.0.into(), hold: 10.0.into(), gravity: gravity.into(), ..Default::default() },
-            poses[0],
-        )
+    let with = |gravity: f32, jolt: f32| {
+        let form =
+            FreeForm { stiffness: 0.0.into(), hold: 10.0.into(), gravity: gravity.into(), jolt, ..Default::default() };
+        free(form, poses[0])
     };
-    let as_field = Inertia { poses: poses.clone(), gravity: 60.0.into(), rate: with(0.0).motion.frame_rate };
-    let felt = run_under(&mut exact(&strands, &with(60.0), &calm()), &calm(), &poses);
-    let pulled = run_under(&mut exact(&strands, &with(0.0), &as_field), &as_field, &poses);
     let farthest =
         |a: &Strands, b: &Strands| a.points().iter().zip(b.points()).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
-    let unmoved = run_under(&mut exact(&strands, &with(0.0), &calm()), &calm(), &poses);
-    assert!(farthest(&felt, &unmoved) > 1.0);
-    // A force in f32 is off by 6e-8 of itself, points of 30 cm by 2e-6.
-    assert!(farthest(&felt, &pulled) < 2e-5, "{}", farthest(&felt, &pulled));
+    let unmoved = run_under(&mut exact(&strands, &with(0.0, 1.0), &calm()), &calm(), &poses);
+    for jolt in [0.0, 1.0, 2.5] {
+        let rate = with(0.0, jolt).motion.frame_rate;
+        let as_field = Inertia { poses: poses.clone(), gravity: 60.0, jolt: jolt.into(), rate };
+        let felt = run_under(&mut exact(&strands, &with(60.0, jolt), &calm()), &calm(), &poses);
+        let pulled = run_under(&mut exact(&strands, &with(0.0, jolt), &as_field), &as_field, &poses);
+        assert!(jolt == 0.0 || farthest(&felt, &unmoved) > 1.0);
+        // A force in f32 is off by 6e-8 of itself, points of 30 cm by 2e-6.
+        assert!(farthest(&felt, &pulled) < 2e-5, "jolt {jolt}: {}", farthest(&felt, &pulled));
+    }
 }
 
 /// From rest nothing pulls but the field, so after a frame the tangent of each turn is exp(-2 / settle) c_i |F across r_i|.

@@ -221,9 +221,10 @@ fn the_schema_has_every_key_of_a_scene_and_no_other() {
 
 #[test]
 fn a_file_without_a_name_is_refused_and_not_left_out() {
-    for key in ["head.mesh", "hair.file"] {
-        let refused = wind().with_setting(key, Some("".into())).unwrap().check().unwrap_err();
-        assert_eq!(refused.to_string(), format!("{key} = \"\": give the name of a file"));
+    for (table, key) in [("head", "mesh"), ("hair", "file")] {
+        let unnamed = toml::Table::from_iter([(key.to_owned(), Value::String(String::new()))]);
+        let refused = wind().with_setting(table, Some(unnamed.into())).unwrap().check().unwrap_err();
+        assert_eq!(refused.to_string(), format!("{table}.{key} = \"\": give the name of a file"));
     }
 }
 

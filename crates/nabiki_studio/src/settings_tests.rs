@@ -20,7 +20,7 @@ fn scenes() -> Vec<Scene> {
          [[body]]\nmesh = \"b.obj\"\n{lie}motion = {motion}\n\
          [picture.camera]\ndistance = 1.0\nheight = 1.0\ntarget = [0, 0, 0]\nf_stop = 2.0\nfocus_distance = 1.0\n\
          [picture.camera.to]\nazimuth = 1.0\nelevation = 1.0\ndistance = 1.0\nfov = 1.0\ntarget = [0, 0, 0]\nfocus_distance = 1.0\n\
-         [output]\nsheet = [0]\n[picture.video]\nframe_rate = 24.0\n"
+         [output]\nsheet = [0]\nfirst_frame = 0\n[picture.video]\nframe_rate = 24.0\n"
     );
     let imported = format!(
         "{wind}[head]\nmesh = \"h.obj\"\n{lie}[hair]\nfile = \"h.hair\"\nstrands = 5\nsegments = 5\n{lie}[picture.hair.colour.melanin]\neumelanin = 1.0\n"
@@ -68,7 +68,9 @@ fn every_key_of_a_scene_has_a_field_with_help() {
 }
 
 /// Settings whose range depends on another one.
-const BOUND_BY_ANOTHER: [&str; 8] = [
+const BOUND_BY_ANOTHER: [&str; 10] = [
+    "hair.strands",
+    "turbulence.swirl_size",
     "disturbance.over",
     "contact.friction",
     "contact.static_friction",

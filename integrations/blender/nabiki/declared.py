@@ -3,13 +3,13 @@
 SETTINGS = {
     "gust.intensity": {
         "name": 'Intensity',
-        "description": 'Root mean square of the factor about 1',
+        "description": 'How much the wind changes: 0.15 as in open country, 0.4 as in a town',
         "default": 0.3,
         "min": 0.0,
     },
     "gust.time_scale": {
         "name": 'Time Scale',
-        "description": 'T: the length scale of the turbulence over the mean speed of the wind',
+        "description": 'How long a gust takes',
         "default": 2.0,
         "min": 0.0,
     },
@@ -21,7 +21,7 @@ SETTINGS = {
     },
     "flow.thickness": {
         "name": 'Thickness (cm)',
-        "description": 'How far what the wind goes round stands out from the head ellipsoid, as hair itself does',
+        "description": 'How far the hair on the head stands out from the head ellipsoid: the wind goes round that, too',
         "default": 0.0,
         "min": 0.0,
         "max": 100.0,
@@ -34,36 +34,36 @@ SETTINGS = {
     },
     "wind.ease": {
         "name": 'Ease',
-        "description": 'From one vector to the next',
+        "description": 'How one vector follows another',
         "default": 'stepped',
     },
     "free.stiffness": {
         "name": 'Stiffness',
-        "description": 'K: the moment with which a joint turns its two segments toward their rest shape, each as much as the other',
+        "description": 'How firmly hair keeps its shape',
         "default": [12000.0, 1000.0],
         "min": 0.0,
     },
     "free.hold": {
         "name": 'Hold',
-        "description": "H: what turns a segment toward its rest direction in the head's frame, as hair spray does",
+        "description": 'How firmly hair keeps its place on the head, as with hair spray',
         "default": 30.0,
         "min": 0.0,
     },
     "free.settle": {
         "name": 'Settle',
-        "description": 'Frames in which a small swing dies to 1/e; 0: never',
+        "description": 'Frames in which a swing dies down, to 1/e: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 never ends',
         "default": 20.0,
         "min": 0.0,
     },
     "free.gravity": {
         "name": 'Weight',
-        "description": 'The weight of hair that has been moved: a strength, or "earth" for that of the earth at `motion.frame_rate`',
+        "description": 'How heavy hair is that has been moved, and how much a jolt of the head is felt',
         "default": 100.0,
         "min": 0.0,
     },
     "free.lag": {
         "name": 'Lag',
-        "description": 'How far tips stay behind a head that turns; 0: not at all',
+        "description": 'How far tips fall behind a head that turns; 0: not at all',
         "default": 1.0,
         "min": 0.0,
         "max": 8.0,
@@ -97,13 +97,13 @@ SETTINGS = {
     },
     "neighbours.pressure": {
         "name": 'Pressure',
-        "description": 'What pushes hair out of places fuller than at rest',
+        "description": 'How firmly hair keeps its volume',
         "default": 40.0,
         "min": 0.0,
     },
     "neighbours.cohesion": {
         "name": 'Cohesion',
-        "description": 'What pulls a node toward the mean velocity about it, so that hair takes the hair beside it along',
+        "description": 'How firmly strands take along those beside them',
         "default": 40.0,
         "min": 0.0,
     },
@@ -111,6 +111,6 @@ SETTINGS = {
 
 EASE = [
     ('stepped', 'Stepped', "Each vector holds through its interval: the paper's way"),
-    ('linear', 'Linear', 'e(t) = t: each is reached in the middle of its interval, on straight lines'),
-    ('smooth', 'Smooth', 'e(t) = 3 t^2 - 2 t^3: it sets out and arrives gently'),
+    ('linear', 'Linear', 'Each is reached in the middle of its interval, on straight lines: e(t) = t'),
+    ('smooth', 'Smooth', 'Each is reached in the middle of its interval, and set out for and arrived at gently: e(t) = 3 t^2 - 2 t^3'),
 ]

@@ -88,11 +88,10 @@ macro_rules! wholes {
             };
 
             fn check(&self, at: &Place, range: &Range) -> Result<(), SettingError> {
-                let Kind::Whole { most, .. } = Self::KIND else { return Ok(()) };
                 let value = *self as i128;
                 let low = range.least.is_some_and(|least| value < least as i128);
-                let high = range.most.is_some_and(|most| value > most as i128) || value > most as i128;
-                if low || high { refused(at, self, range.whole_remedy(most)) } else { Ok(()) }
+                let high = range.most.is_some_and(|most| value > most as i128);
+                if low || high { refused(at, self, range.whole_remedy()) } else { Ok(()) }
             }
 
             fn datum(&self) -> Datum {

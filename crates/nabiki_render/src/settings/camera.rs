@@ -35,17 +35,17 @@ settings! {
         pub height: Option<f32> = None => "Height", unit "cm", least 1e-3, most 1e6, open "frames everything";
         /// The point looked at, from the head's origin along the world's axes: the camera goes along with the head and does
         /// not turn with it.
-        pub target: Option<Vec3> = None => "Target", unit "cm", least -1e6, most 1e6, open "the middle of what is framed";
+        pub target: Option<Vec3> = None => "Target", unit "cm", least -1e6, most 1e6, open "the middle";
         /// How far the lens is opened, for perspective: its focal length over its diameter, as photographers count it. Small numbers
         /// blur much; skin blurred by more than 3 picture heights is refused. The focal length is that of a picture 24 mm high on the
         /// sensor with this `fov`: 52 mm for 26 degrees.
-        pub f_stop: Option<f32> = None => "f-stop", least 0.1, most 128.0, open "a pinhole, all is sharp";
-        /// From the eye to the plane that is sharp, along the axis of view.
-        pub focus_distance: Option<f32> = None => "Focus distance", unit "cm", least NEAR as f64, most 1e6, open "the side of the head that the camera sees";
+        pub f_stop: Option<f32> = None => "f-stop", least 0.1, most 128.0, open "all sharp";
+        /// From the eye to the plane that is sharp, along the axis of view. Left out, that is the side of the head that the camera sees.
+        pub focus_distance: Option<f32> = None => "Focus distance", unit "cm", least NEAR as f64, most 1e6, open "the head";
         /// Empty border around what is framed, as part of the picture's shorter side.
         pub margin: f32 = 0.06 => "Margin", least 0.0, most 0.45;
         /// Where the camera is at the last frame: it glides there from the values above.
-        pub to: Option<CameraKey> = None => "Camera at the last frame", open "it stays";
+        pub to: Option<CameraKey> = None => "Camera at the last frame", open "stays";
     }
 }
 

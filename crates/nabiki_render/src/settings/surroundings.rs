@@ -62,7 +62,7 @@ settings! {
     pub struct Video {
         /// 0 is a small file, 1 a large one, near lossless.
         pub quality: f32 = 0.75 => "Quality", least 0.0, most 1.0;
-        /// Frames a second that the movie is played with: fewer than `motion.frame_rate` is slow motion.
-        pub frame_rate: Option<f64> = None => "Frame rate", unit "a second", least 1.0, most 240.0, open "`motion.frame_rate`";
+        /// Frames a second that the movie is played with: fewer than `motion.frame_rate`, which is taken otherwise, is slow motion.
+        pub frame_rate: Option<f64> = None => "Frame rate", unit "a second", least 1.0, most 240.0, open "the motion's";
     }
 }

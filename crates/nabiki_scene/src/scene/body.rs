@@ -26,7 +26,7 @@ settings! {
         /// Axis of the file that lies along +x of the scene.
         pub facing: Option<Axis> = None => "Facing", open "+x";
         /// Point of the file that the body's motion carries, in the file's unit.
-        pub origin: Option<Vec3> = None => "Origin", open "the file's own origin";
+        pub origin: Option<Vec3> = None => "Origin", open "the file's";
         /// A file that moves the body through the world, as `head.motion` moves the head.
         pub motion: Option<MotionSource> = None => "Motion of a body", open "it stands still";
         /// Whether it is worn: it stands in head space and goes with the head.

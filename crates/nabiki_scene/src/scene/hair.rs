@@ -58,17 +58,17 @@ settings! {
         /// Curves of a USD layer or Alembic archive to keep, by the name or path of their prim or of what it stands below; all if empty.
         pub groups: Vec<String> = Vec::new() => "Groups";
         /// An even choice of so many strands.
-        pub strands: Option<usize> = None => "Strands", least 1.0, open "all of the file's";
+        pub strands: Option<usize> = None => "Strands", least 1.0, open "all";
         /// Cuts every strand anew into so many equally long segments.
-        pub segments: Option<usize> = None => "Segments", least 1.0, most HairSettings::MOST_SEGMENTS as f64, open "as the file has them";
-        /// Unit of the file.
-        pub unit: Option<Unit> = None => "Unit", above 0.0, open "what the file says, or that of the head's file, or cm";
-        /// Axis of the file that points up.
-        pub up: Option<Axis> = None => "Up", open "what the file says, or that of the head's file, or +y";
-        /// Axis of the file along which the face looks.
-        pub facing: Option<Axis> = None => "Facing", open "that of the head's file, or +x";
+        pub segments: Option<usize> = None => "Segments", least 1.0, most HairSettings::MOST_SEGMENTS as f64, open "as in the file";
+        /// Unit of the file. Left out, it is what the file says, or that of the head's file, or cm.
+        pub unit: Option<Unit> = None => "Unit", above 0.0, open "what files say";
+        /// Axis of the file that points up. Left out, it is what the file says, or that of the head's file, or +y.
+        pub up: Option<Axis> = None => "Up", open "what files say";
+        /// Axis of the file along which the face looks. Left out, it is that of the head's file, or +x.
+        pub facing: Option<Axis> = None => "Facing", open "the head's";
         /// Point of the file that becomes the origin of head space, in the file's unit.
-        pub origin: Option<Vec3> = None => "Origin", open "the same place as the head's";
+        pub origin: Option<Vec3> = None => "Origin", open "the head's";
         /// Which end of a strand is its root.
         pub root: RootEnd = RootEnd::Skin => "Root";
         /// Neighbouring points of a strand this close are joined. 0 joins those alone that lie in one place, between which a strand has no

@@ -45,13 +45,14 @@ settings! {
         /// Groups, objects or nodes of the file to keep; all if empty.
         pub groups: Vec<String> = Vec::new() => "Groups";
         /// Unit of the file.
-        pub unit: Option<Unit> = None => "Unit", above 0.0, open "what the file or its format says, or cm";
+        pub unit: Option<Unit> = None => "Unit", above 0.0, open "what the file says, or cm";
         /// Axis of the file that points up.
-        pub up: Option<Axis> = None => "Up", open "what the file or its format says, or +y";
+        pub up: Option<Axis> = None => "Up", open "what the file says, or +y";
         /// Axis of the file along which the face looks.
         pub facing: Option<Axis> = None => "Facing", open "+x";
-        /// Point of the file that becomes the origin of head space, in the file's unit.
-        pub origin: Option<Vec3> = None => "Origin", open "the centre of the fitted ellipsoid; the file's own origin where the ellipsoid is given";
+        /// Point of the file that becomes the origin of head space, in the file's unit. Left out, it is the centre of the fitted ellipsoid, or
+        /// the file's own origin where the ellipsoid is given.
+        pub origin: Option<Vec3> = None => "Origin", open "the ellipsoid's centre";
     }
 }
 

@@ -17,12 +17,13 @@ settings! {
         pub exr_frames: bool = false => "OpenEXR frames";
         /// Whether the force's projections on the yz and zx planes are drawn, as SVG and PNG: the paper's Figure 10.
         pub field: bool = false => "Drawn field";
-        /// Frames of the contact sheet.
-        pub sheet: Option<Vec<u32>> = None => "Sheet", unit "frames", open "four, evenly from frame 0 on, as the paper's Figure 6 has them";
+        /// Frames of the contact sheet. Left out, there are four, evenly from frame 0 on, as the paper's Figure 6 has them.
+        pub sheet: Option<Vec<u32>> = None => "Sheet", unit "frames", open "four, evenly";
         /// Number of frame 0 on the time line of the shot: exports of moving hair (USD, Alembic) go on from it, pictures keep the numbers of
-        /// the scene.
+        /// the scene. Left out, it is that of the head's motion, where that is from USD or Alembic and plays at its own speed, else that of the
+        /// hair's USD layer (`startTimeCode`) or Alembic archive, else 0.
         pub first_frame: Option<i32> = None => "First frame", least -FARTHEST, most FARTHEST,
-            open "that of the head's motion, where it is from USD or Alembic and plays at its own speed, else that of the hair's USD layer, `startTimeCode`, or Alembic archive, else 0";
+            open "as in the files";
     }
 }
 

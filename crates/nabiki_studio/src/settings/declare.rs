@@ -9,7 +9,7 @@ const ENDLESS: f64 = f32::MAX as f64;
 
 /// The setting of `key` in `table` as a field.
 pub(super) fn setting(table: &str, key: &'static str, found: &declared::Setting) -> Setting {
-    let help = plain(found.help).split("\n\n").next().unwrap_or_default().to_owned();
+    let help = plain(found.help).split("\n\n").next().unwrap_or_default().replace('`', "");
     let unit = if matches!(found.range.unit, "sRGB" | "linear") { "" } else { found.range.unit };
     Setting { key, label: found.label, unit, kind: kind(table, key, found), open: found.open, help }
 }

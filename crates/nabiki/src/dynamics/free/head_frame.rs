@@ -22,14 +22,15 @@ impl HeadFrame {
     /// `frame_rate`: frames a second.
     pub fn new(input: &FrameInput, form: &FreeForm, frame_rate: f64) -> Self {
         let gravity = f64::from(form.weight());
+        let jolted = gravity * f64::from(form.jolt);
         let [now, before, earlier] = [input.pose, input.before[0], input.before[1]].map(exact);
         Self {
             turn: if input.pose.rotation == input.before[0].rotation { None } else { turn(before.1, now.1) },
             weight: weight(&input.pose, gravity),
-            felt: if input.before == [input.pose; 2] || gravity == 0.0 {
+            felt: if input.before == [input.pose; 2] || jolted == 0.0 {
                 None
             } else {
-                Some(felt(now, before, earlier, gravity, frame_rate))
+                Some(felt(now, before, earlier, jolted, frame_rate))
             },
         }
     }
@@ -47,9 +48,9 @@ fn turn(before: DQuat, now: DQuat) -> Option<(DVec3, f64)> {
     (sine > 0.0).then(|| (turn.xyz() / sine, 2.0 * sine.atan2(turn.w)))
 }
 
-/// -gravity a / 981 for the acceleration a (cm/s^2) of a point that the head carries, by second differences of its way.
-fn felt(now: (DVec3, DQuat), before: (DVec3, DQuat), earlier: (DVec3, DQuat), gravity: f64, rate: f64) -> DAffine3 {
-    let scale = -gravity / EARTH_CM_PER_S2 * rate * rate;
+/// -jolted a / 981 for the acceleration a (cm/s^2) of a point that the head carries, by second differences of its way.
+fn felt(now: (DVec3, DQuat), before: (DVec3, DQuat), earlier: (DVec3, DQuat), jolted: f64, rate: f64) -> DAffine3 {
+    let scale = -jolted / EARTH_CM_PER_S2 * rate * rate;
     let second = |a: DMat3, b: DMat3, c: DMat3| (a - b) - (b - c);
     let matrix = second(DMat3::from_quat(now.1), DMat3::from_quat(before.1), DMat3::from_quat(earlier.1));
     let translation = (now.0 - before.0) - (before.0 - earlier.0);

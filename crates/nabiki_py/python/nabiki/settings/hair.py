@@ -119,8 +119,8 @@ class HairSettings(Table):
 
     @property
     def unit(self) -> str | float | None:
-        """Unit of the file. "mm", "cm", "dm", "m", "in" or "ft" or number above 0; default: what the file says, or that
-        of the head's file, or cm.
+        """Unit of the file. Left out, it is what the file says, or that of the head's file, or cm. "mm", "cm", "dm",
+        "m", "in" or "ft", or number above 0; default: what files say.
         """
         value: str | float | None = self._get('unit')
         return value
@@ -131,8 +131,8 @@ class HairSettings(Table):
 
     @property
     def up(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
-        """Axis of the file that points up. "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the file says, or that of
-        the head's file, or +y.
+        """Axis of the file that points up. Left out, it is what the file says, or that of the head's file, or +y. "+x",
+        "-x", "+y", "-y", "+z" or "-z"; default: what files say.
         """
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('up')
         return value
@@ -143,8 +143,8 @@ class HairSettings(Table):
 
     @property
     def facing(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
-        """Axis of the file along which the face looks. "+x", "-x", "+y", "-y", "+z" or "-z"; default: that of the head's
-        file, or +x.
+        """Axis of the file along which the face looks. Left out, it is that of the head's file, or +x. "+x", "-x", "+y",
+        "-y", "+z" or "-z"; default: the head's.
         """
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('facing')
         return value
@@ -155,9 +155,7 @@ class HairSettings(Table):
 
     @property
     def origin(self) -> tuple[float, float, float] | None:
-        """Point of the file that becomes the origin of head space, in the file's unit. 3 numbers; default: the same
-        place as the head's.
-        """
+        """Point of the file that becomes the origin of head space, in the file's unit. 3 numbers; default: the head's."""
         value: tuple[float, float, float] | None = self._get('origin')
         return value
 

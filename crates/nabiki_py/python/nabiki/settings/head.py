@@ -68,9 +68,7 @@ class HeadSettings(Table):
 
     @property
     def unit(self) -> str | float | None:
-        """Unit of the file. "mm", "cm", "dm", "m", "in" or "ft" or number above 0; default: what the file or its format
-        says, or cm.
-        """
+        """Unit of the file. "mm", "cm", "dm", "m", "in" or "ft", or number above 0; default: what the file says, or cm."""
         value: str | float | None = self._get('unit')
         return value
 
@@ -80,9 +78,7 @@ class HeadSettings(Table):
 
     @property
     def up(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
-        """Axis of the file that points up. "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the file or its format
-        says, or +y.
-        """
+        """Axis of the file that points up. "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the file says, or +y."""
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('up')
         return value
 
@@ -102,8 +98,9 @@ class HeadSettings(Table):
 
     @property
     def origin(self) -> tuple[float, float, float] | None:
-        """Point of the file that becomes the origin of head space, in the file's unit. 3 numbers; default: the centre of
-        the fitted ellipsoid; the file's own origin where the ellipsoid is given.
+        """Point of the file that becomes the origin of head space, in the file's unit. Left out, it is the centre of the
+        fitted ellipsoid, or the file's own origin where the ellipsoid is given. 3 numbers; default: the ellipsoid's
+        centre.
         """
         value: tuple[float, float, float] | None = self._get('origin')
         return value
@@ -312,7 +309,7 @@ class BodySettings(Table):
 
     @property
     def unit(self) -> str | float | None:
-        """Unit of the file. "mm", "cm", "dm", "m", "in" or "ft" or number above 0; default: what the file says, or cm."""
+        """Unit of the file. "mm", "cm", "dm", "m", "in" or "ft", or number above 0; default: what the file says, or cm."""
         value: str | float | None = self._get('unit')
         return value
 
@@ -342,9 +339,7 @@ class BodySettings(Table):
 
     @property
     def origin(self) -> tuple[float, float, float] | None:
-        """Point of the file that the body's motion carries, in the file's unit. 3 numbers; default: the file's own
-        origin.
-        """
+        """Point of the file that the body's motion carries, in the file's unit. 3 numbers; default: the file's."""
         value: tuple[float, float, float] | None = self._get('origin')
         return value
 

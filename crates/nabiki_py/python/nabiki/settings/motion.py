@@ -115,10 +115,11 @@ class FreeForm(Table):
 
     @property
     def stiffness(self) -> float | tuple[float, ...]:
-        """K: the moment with which a joint turns its two segments toward their rest shape, each as much as the other.
-        Where it is 36 times the wind, hair bends within 6 times `hair.segment_length`. One number, or a list from
-        root to tip. Joints of finer cuts are stiffer by the square of that, and bend alike. Number of at least 0,
-        list of numbers or each of at least 0; default: [12000, 1000].
+        """How firmly hair keeps its shape. Where it is 36 times the wind, hair bends within 6 times
+        `hair.segment_length`. One number, or a list from root to tip. K of docs/motion-forms.md: the moment with
+        which a joint turns its two segments toward their rest shape, each as much as the other. Joints of finer cuts
+        are stiffer by the square of that, and bend alike. Number of at least 0, or list of numbers, each of at least
+        0; default: [12000, 1000].
         """
         value: float | tuple[float, ...] = self._get('stiffness')
         return value
@@ -129,8 +130,9 @@ class FreeForm(Table):
 
     @property
     def hold(self) -> float | tuple[float, ...]:
-        """H: what turns a segment toward its rest direction in the head's frame, as hair spray does. One number, or a
-        list from root to tip. Number of at least 0, list of numbers or each of at least 0; default: 30.
+        """How firmly hair keeps its place on the head, as with hair spray. One number, or a list from root to tip. H:
+        what turns a segment toward its rest direction in the head's frame. Number of at least 0, or list of numbers,
+        each of at least 0; default: 30.
         """
         value: float | tuple[float, ...] = self._get('hold')
         return value
@@ -141,8 +143,9 @@ class FreeForm(Table):
 
     @property
     def settle(self) -> float | tuple[float, ...]:
-        """Frames in which a small swing dies to 1/e; 0: never. One number, or a list from root to tip, in which hair
-        beside a 0 hardly swings. Number of at least 0, list of numbers or each of at least 0 (frames); default: 20.
+        """Frames in which a swing dies down, to 1/e: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 never
+        ends. One number, or a list from root to tip, in which hair beside a 0 hardly swings. Number of at least 0, or
+        list of numbers, each of at least 0 (frames); default: 20.
         """
         value: float | tuple[float, ...] = self._get('settle')
         return value
@@ -153,9 +156,9 @@ class FreeForm(Table):
 
     @property
     def gravity(self) -> float | str:
-        """The weight of hair that has been moved: a strength, or "earth" for that of the earth at `motion.frame_rate`.
-        Hair at rest does not sag. It also gives accelerations of the head their scale, for it stands for 981 cm/s^2.
-        Number of at least 0 or "earth"; default: 100.
+        """How heavy hair is that has been moved, and how much a jolt of the head is felt. A strength, or "earth" for
+        that of the earth at `motion.frame_rate`. Hair at rest does not sag. It stands for 981 cm/s^2, which gives
+        accelerations of the head their scale. Number of at least 0 or "earth"; default: 100.
         """
         value: float | str = self._get('gravity')
         return value
@@ -165,8 +168,22 @@ class FreeForm(Table):
         self._set('gravity', value)
 
     @property
+    def jolt(self) -> float:
+        """How strongly a jolt of the head is felt, as a multiple of what `gravity` makes of it. Hair that falls in slow
+        motion feels jolts as weakly: on 18 cm of hair at 24 frames a second, a weight of 100 is a 28th of the
+        earth's, and 28 lets a nod throw it as far as it does in life, while it still sinks slowly. Number, 0 to 1000;
+        default: 1.
+        """
+        value: float = self._get('jolt')
+        return value
+
+    @jolt.setter
+    def jolt(self, value: float | None) -> None:
+        self._set('jolt', value)
+
+    @property
     def lag(self) -> float:
-        """How far tips stay behind a head that turns; 0: not at all. The share of the turn that hair follows at once is
+        """How far tips fall behind a head that turns; 0: not at all. The share of the turn that hair follows at once is
         (1 - m/L)^lag, at the distance m from the root of a strand of length L. Number, 0 to 8; default: 1.
         """
         value: float = self._get('lag')
@@ -296,8 +313,8 @@ class NeighbourForces(Table):
 
     @property
     def pressure(self) -> float:
-        """What pushes hair out of places fuller than at rest. In the unit of F where the density falls by that of the
-        hair at rest over one cell. Number of at least 0; default: 40.
+        """How firmly hair keeps its volume. It pushes hair out of places fuller than at rest, in the unit of F where the
+        density falls by that of the hair at rest over one cell. Number of at least 0; default: 40.
         """
         value: float = self._get('pressure')
         return value
@@ -308,8 +325,8 @@ class NeighbourForces(Table):
 
     @property
     def cohesion(self) -> float:
-        """What pulls a node toward the mean velocity about it, so that hair takes the hair beside it along. In the unit
-        of F for each cm a frame. Number of at least 0; default: 40.
+        """How firmly strands take along those beside them. It pulls a node toward the mean velocity about it, in the
+        unit of F for each cm a frame. Number of at least 0; default: 40.
         """
         value: float = self._get('cohesion')
         return value

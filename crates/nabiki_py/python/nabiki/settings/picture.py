@@ -236,7 +236,7 @@ class Camera(Table):
     @property
     def target(self) -> tuple[float, float, float] | None:
         """The point looked at, from the head's origin along the world's axes: the camera goes along with the head and
-        does not turn with it. 3 numbers, each -1000000 to 1000000 (cm); default: the middle of what is framed.
+        does not turn with it. 3 numbers, each -1000000 to 1000000 (cm); default: the middle.
         """
         value: tuple[float, float, float] | None = self._get('target')
         return value
@@ -249,8 +249,8 @@ class Camera(Table):
     def f_stop(self) -> float | None:
         """How far the lens is opened, for perspective: its focal length over its diameter, as photographers count it.
         Small numbers blur much; skin blurred by more than 3 picture heights is refused. The focal length is that of a
-        picture 24 mm high on the sensor with this `fov`: 52 mm for 26 degrees. Number, 0.1 to 128; default: a
-        pinhole, all is sharp.
+        picture 24 mm high on the sensor with this `fov`: 52 mm for 26 degrees. Number, 0.1 to 128; default: all
+        sharp.
         """
         value: float | None = self._get('f_stop')
         return value
@@ -261,8 +261,8 @@ class Camera(Table):
 
     @property
     def focus_distance(self) -> float | None:
-        """From the eye to the plane that is sharp, along the axis of view. Number, 1 to 1000000 (cm); default: the side
-        of the head that the camera sees.
+        """From the eye to the plane that is sharp, along the axis of view. Left out, that is the side of the head that
+        the camera sees. Number, 1 to 1000000 (cm); default: the head.
         """
         value: float | None = self._get('focus_distance')
         return value
@@ -399,7 +399,7 @@ class HairLook(Table):
     @property
     def colour(self) -> str | dict[str, Any]:
         """A name, amounts of pigment, or the colour that a thick mass shows in even light. "black", "brown", "blond",
-        "red" or "grey", a table of MelaninColour or a table of RgbColour; default: "brown".
+        "red" or "grey", a table of MelaninColour, or a table of RgbColour; default: "brown".
         """
         value: str | dict[str, Any] = self._get('colour')
         return value
@@ -734,8 +734,8 @@ class Video(Table):
 
     @property
     def frame_rate(self) -> float | None:
-        """Frames a second that the movie is played with: fewer than `motion.frame_rate` is slow motion. Number, 1 to 240
-        (a second); default: motion.frame_rate.
+        """Frames a second that the movie is played with: fewer than `motion.frame_rate`, which is taken otherwise, is
+        slow motion. Number, 1 to 240 (a second); default: the motion's.
         """
         value: float | None = self._get('frame_rate')
         return value
@@ -806,8 +806,8 @@ class Output(Table):
 
     @property
     def sheet(self) -> tuple[int, ...] | None:
-        """Frames of the contact sheet. List of whole numbers (frames); default: four, evenly from frame 0 on, as the
-        paper's Figure 6 has them.
+        """Frames of the contact sheet. Left out, there are four, evenly from frame 0 on, as the paper's Figure 6 has
+        them. List of whole numbers (frames); default: four, evenly.
         """
         value: tuple[int, ...] | None = self._get('sheet')
         return value
@@ -819,9 +819,9 @@ class Output(Table):
     @property
     def first_frame(self) -> int | None:
         """Number of frame 0 on the time line of the shot: exports of moving hair (USD, Alembic) go on from it, pictures
-        keep the numbers of the scene. Whole number, -10000000 to 10000000; default: that of the head's motion, where
-        it is from USD or Alembic and plays at its own speed, else that of the hair's USD layer, startTimeCode, or
-        Alembic archive, else 0.
+        keep the numbers of the scene. Left out, it is that of the head's motion, where that is from USD or Alembic
+        and plays at its own speed, else that of the hair's USD layer (`startTimeCode`) or Alembic archive, else 0.
+        Whole number, -10000000 to 10000000; default: as in the files.
         """
         value: int | None = self._get('first_frame')
         return value

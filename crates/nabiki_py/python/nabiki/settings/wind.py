@@ -57,7 +57,7 @@ class Wind(Table):
 
     @property
     def ease(self) -> Literal["stepped", "linear", "smooth"]:
-        """From one vector to the next. "stepped", "linear" or "smooth"; default: "stepped"."""
+        """How one vector follows another. "stepped", "linear" or "smooth"; default: "stepped"."""
         value: Literal["stepped", "linear", "smooth"] = self._get('ease')
         return value
 
@@ -78,8 +78,8 @@ class Gust(Table):
 
     @property
     def intensity(self) -> float:
-        """Root mean square of the factor about 1. In open country 0.15, in a town 0.4; above 0.4 the wind now and then
-        turns round. Number of at least 0; default: 0.3.
+        """How much the wind changes: 0.15 as in open country, 0.4 as in a town. It is the root mean square of the factor
+        about 1; above 0.4 the wind now and then turns round. Number of at least 0; default: 0.3.
         """
         value: float = self._get('intensity')
         return value
@@ -90,7 +90,9 @@ class Gust(Table):
 
     @property
     def time_scale(self) -> float:
-        """T: the length scale of the turbulence over the mean speed of the wind. Number above 0 (s); default: 2."""
+        """How long a gust takes. T: the length scale of the turbulence over the mean speed of the wind. Number above 0
+        (s); default: 2.
+        """
         value: float = self._get('time_scale')
         return value
 
@@ -170,8 +172,8 @@ class Flow(Table):
 
     @property
     def thickness(self) -> float:
-        """How far what the wind goes round stands out from the head ellipsoid, as hair itself does. Number, 0 to 100
-        (cm); default: 0.
+        """How far the hair on the head stands out from the head ellipsoid: the wind goes round that, too. Number, 0 to
+        100 (cm); default: 0.
         """
         value: float = self._get('thickness')
         return value
