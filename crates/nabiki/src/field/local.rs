@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
 use super::falloff::{self, EnvelopeKey, Falloff};
 use super::lanes::{self, Lanes, get, set};
@@ -53,7 +53,7 @@ pub(super) fn check_place(
 /// # Errors
 /// Names `name.key`, where it has none.
 pub(super) fn unit(name: &str, key: &str, direction: Vec3) -> Result<Vec3, SettingError> {
-    let unit = direction.as_dvec3().try_normalize().map(DVec3::as_vec3);
+    let unit = direction.as_dvec3().try_normalize().map(|unit| unit.as_vec3());
     unit.ok_or_else(|| SettingError::new(format!("{name}.{key}"), direction, "must be a direction, not (0, 0, 0)"))
 }
 

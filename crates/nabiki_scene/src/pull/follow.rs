@@ -10,7 +10,7 @@ use std::thread::{Builder, JoinHandle};
 use glam::Vec3;
 use nabiki::SettingError;
 use nabiki::field::Keyframe;
-use nabiki::solve::{Cut, Goal, Preroll, Problem, Search, Solver, Unknown, Wind, cut_for_pull, felt};
+use nabiki::solve::{Cut, Goal, KeyedWind, Preroll, Problem, Search, Solver, Unknown, cut_for_pull, felt};
 
 use super::few::few;
 use super::{Lock, Pulled};
@@ -378,13 +378,13 @@ fn middle_of(solver: &Solver) -> Vec3 {
 }
 
 /// A wind with an interval for the pull, whose vector is free.
-fn own_interval(wind: &Wind, frame: u32, length: u32, freedom: Freedom) -> Try {
+fn own_interval(wind: &KeyedWind, frame: u32, length: u32, freedom: Freedom) -> Try {
     let Cut { keyframes, interval, felt } = cut_for_pull(&wind.keyframes, wind.ease, frame, length);
     Try { keyframes, unknowns: unknowns(&[interval], freedom), interval, felt, solvers: None }
 }
 
 /// The same with another interval before it, that is free, too; none where there is no frame for it.
-fn two_intervals(wind: &Wind, frame: u32, length: u32, freedom: Freedom) -> Option<Try> {
+fn two_intervals(wind: &KeyedWind, frame: u32, length: u32, freedom: Freedom) -> Option<Try> {
     let own = cut_for_pull(&wind.keyframes, wind.ease, frame, length);
     let last = own.interval.checked_sub(1).map(|before| own.keyframes[before].through)?;
     let Cut { keyframes, interval: before, .. } = cut_for_pull(&own.keyframes, wind.ease, last, length);
