@@ -34,7 +34,7 @@ fn main() {
     let growth = Growth { hairline: &hairline, style: &style, strands, segments: 20, segment_length: 0.9, seed: 1 };
     let hair = grow(&head, &growth, strands).expect("settings in range").strands;
     let carriers = Arc::new(hair.select(&(0..256).collect::<Vec<_>>()));
-    let neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers });
+    let neighbours = Some(Neighbours::new(NeighbourForces::default(), carriers));
     let with_head = free(&head);
     let with_all = FreeMotion { neighbours, ..with_head.clone() };
     let wind = || {

@@ -17,7 +17,7 @@ use nabiki::dynamics::{Dynamics, Form};
 use nabiki::field::{Ease, Keyframe};
 use nabiki::groom::{Growth, Style, grow};
 use nabiki::roots::Hairline;
-use nabiki::solve::{Drag, Goal, OpenAir, Prior, Problem, Search, Solver, Unknown, Wind, Wish, nodes_of};
+use nabiki::solve::{Drag, Goal, KeyedWind, OpenAir, Prior, Problem, Search, Solver, Unknown, Wish, nodes_of};
 use nabiki::{Head, Strands};
 
 fn main() {
@@ -44,7 +44,7 @@ fn problem(hair: &Strands, dynamics: &Dynamics, keyframes: Vec<Keyframe>, unknow
         ids: (0..hair.len() as u32).collect(),
         dynamics: dynamics.clone(),
         poses: Vec::new(),
-        wind: Wind { keyframes, ease: Ease::Stepped, gust: None },
+        wind: KeyedWind { keyframes, ease: Ease::Stepped, gust: None },
         surroundings: Arc::new(OpenAir),
         unknowns,
         wishes: Vec::new(),

@@ -9,9 +9,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use glam::Vec3;
-use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Simulation, Stepper, Timeline};
+use nabiki::dynamics::{Dynamics, FrameInput, Simulation, Stepper, Timeline};
 use nabiki::field::{Keyframe, KeyframedField};
-use nabiki::pseudo_force::PseudoForce;
 use nabiki::{Ellipsoid, Strands};
 
 const STRANDS: usize = 300;
@@ -74,16 +73,7 @@ fn wind() -> KeyframedField {
 
 /// Table 1 of the paper.
 fn gust() -> Dynamics {
-    Dynamics {
-        motion: Motion::default(),
-        segment_length: 1.0,
-        pseudo_force: PseudoForce::default(),
-        ellipsoid: Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::new(9.5, 11.0, 8.0) },
-        shell: 1.25,
-        polar_axis: Vec3::Y,
-        disturbance: None,
-        form: Form::Paper,
-    }
+    Dynamics { ..Dynamics::new(Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::new(9.5, 11.0, 8.0) }) }
 }
 
 /// Arcs from an ellipsoid over a spiral of roots.

@@ -7,7 +7,7 @@
 //! two part is the doing of the motion alone.
 
 use glam::{DVec3, Vec3};
-use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Reference, Simulation, Stepper};
+use nabiki::dynamics::{Dynamics, FrameInput, Motion, Reference, Simulation, Stepper};
 use nabiki::field::{Keyframe, KeyframedField};
 use nabiki::groom::{Style, groom};
 use nabiki::pseudo_force::PseudoForce;
@@ -31,13 +31,8 @@ fn main() {
     for (name, pseudo_force) in [("off", PseudoForce::off()), ("Table 1", PseudoForce::default())] {
         let dynamics = Dynamics {
             motion: Motion { inertia_length_floor: 18.0, ..Motion::default() },
-            segment_length: 1.0,
             pseudo_force,
-            ellipsoid: head.ellipsoid,
-            shell: 1.25,
-            polar_axis: Vec3::Y,
-            disturbance: None,
-            form: Form::Paper,
+            ..Dynamics::new(head.ellipsoid)
         };
         let mut reference = Reference::new(&hair, &dynamics, &field).expect("a stable field");
         let mut other = Reference::new(&nudged(&hair), &dynamics, &field).expect("a stable field");

@@ -69,7 +69,8 @@ impl Wig {
                 let bodies = &[None, Some([hand, hand_before])];
                 let before = [before, earlier];
                 self.earlier.copy_from_slice(self.simulation.strands().points());
-                self.simulation.step_frame(&FrameInput { frame, pose, before, field: &self.wind, bodies });
+                let input = FrameInput::live(frame, pose, before, &self.wind).with_bodies(bodies);
+                self.simulation.step_frame(&input);
             }
         }
         (self.steps, self.head.drawn, self.hand.drawn) = (to, head, hand);
@@ -92,23 +93,14 @@ fn main() -> Result<(), SettingError> {
         Growth { hairline: &hairline, style: &style, strands: 999, segments: 18, segment_length: 1.0, seed: 1 };
     let hair = grow(&head, &growth, growth.strands)?.strands;
     let aside = Pose { position_cm: Vec3::new(-60.0, 0.0, 12.0), ..Pose::STILL };
-    let hand = Body {
-        name: "hand".to_owned(),
-        distance: Arc::new(skin_of(palm(), "hand")?),
-        filled: None,
-        way: BodyWay::InWorld([aside].into()),
-        contact: Contact::default(),
-    };
+    let palm = Arc::new(skin_of(palm(), "hand")?);
+    let hand = Body::new("hand", palm, BodyWay::InWorld([aside].into()), Contact::default());
     let bodies = vec![Body::head(&head, Contact::default()), hand];
     let dynamics = Dynamics {
         motion: Motion { frame_rate: RATE, inertia_length_floor: 18.0, ..Motion::default() },
-        segment_length: 1.0,
         pseudo_force: PseudoForce::off(),
-        ellipsoid: head.ellipsoid,
-        shell: 1.25,
-        polar_axis: Vec3::Y,
-        disturbance: None,
         form: Form::Free(FreeMotion { bodies, ..FreeMotion::default() }),
+        ..Dynamics::new(head.ellipsoid)
     };
     let simulation = Simulation::new(&hair, &dynamics, &UniformField::default())?;
     let mut saved = simulation.clone();
@@ -116,7 +108,7 @@ fn main() -> Result<(), SettingError> {
     let mut wig = Wig { simulation, wind: UniformField::default(), steps: 0.0, earlier: vertices.clone(), head, hand };
     // Pictures of 30, 60 and 144 Hz, and a hitch.
     for (pictures, rate) in [(30, 30.0), (60, 60.0), (144, 144.0), (1, 2.0)] {
-        saved.set_state(&wig.simulation);
+        saved.set_state(&wig.simulation)?;
         for time in (0..pictures).map(|n| f64::from(n) / rate) {
             let head = Pose { rotation: Quat::from_rotation_y((3.0 * time).sin() as f32), ..Pose::STILL };
             // Through the hair behind the head, to the side and back.
@@ -125,6 +117,6 @@ fn main() -> Result<(), SettingError> {
         }
         println!("frame {}: a tip is at {}", wig.simulation.frame(), vertices[hair.range(0).end - 1]);
     }
-    wig.simulation.set_state(&saved);
+    wig.simulation.set_state(&saved)?;
     Ok(())
 }

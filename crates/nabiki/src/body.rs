@@ -9,6 +9,7 @@ use crate::distance::SkinDistance;
 use crate::error::SettingError;
 use crate::head::Head;
 use crate::mesh::Mesh;
+use crate::obstacle::Obstacle;
 use crate::pose::{Pose, check_poses};
 use crate::setting::{Place, refused};
 use crate::settings;
@@ -35,6 +36,38 @@ impl Contact {
         }
         let remedy = format!("must be at least the friction of sliding hair, {}, and at most 10", self.friction);
         refused(&at.key("static_friction"), self.static_friction, remedy)
+    }
+}
+
+/// The shape of a body.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// A rigid mesh, whose distance is sampled. Contact is compiled for it.
+    Mesh(Arc<SkinDistance>),
+    /// Any other, asked through its table of functions.
+    Other(Arc<dyn Obstacle>),
+}
+
+impl From<Arc<SkinDistance>> for Shape {
+    fn from(skin: Arc<SkinDistance>) -> Self {
+        Self::Mesh(skin)
+    }
+}
+
+impl Shape {
+    /// What can be asked of it.
+    pub fn obstacle(&self) -> &dyn Obstacle {
+        match self {
+            Self::Mesh(skin) => &**skin,
+            Self::Other(shape) => &**shape,
+        }
+    }
+}
+
+impl PartialEq for Shape {
+    /// Whether they are the very same.
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::addr_eq(self.obstacle(), other.obstacle())
     }
 }
 
@@ -113,12 +146,13 @@ impl BodyWay {
 
 /// Something that hair does not enter.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Body {
     /// What a scene calls the table of its contact: `contact` for the head, `body[0]`.
     pub name: String,
-    /// The distance to its skin, in its own space (cm).
-    pub distance: Arc<SkinDistance>,
-    /// The same with its folds filled, for a body that hair lies on: nodes that rest outside of it keep outside of it, and
+    /// Its shape, in its own space (cm).
+    pub shape: Shape,
+    /// Its skin with the folds filled, for a body that hair lies on: nodes that rest outside of it keep outside of it, and
     /// are not caught behind an ear.
     pub filled: Option<Arc<SkinDistance>>,
     /// Where it is.
@@ -185,36 +219,36 @@ pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError
 }
 
 impl Body {
+    /// A body without folds to be filled.
+    pub fn new(name: impl Into<String>, shape: impl Into<Shape>, way: BodyWay, contact: Contact) -> Self {
+        Self { name: name.into(), shape: shape.into(), filled: None, way, contact }
+    }
+
     /// The head itself, its folds filled if it is of a person's size.
     pub fn head(head: &Head, contact: Contact) -> Self {
         let size = head.ellipsoid.half_axes.element_product().cbrt();
         let [low, high] = head.skin().sampled_box();
         let samples = ((high - low) / FILLED_CM).element_product();
         let is_filled = FILLED_HEADS_CM.contains(&size) && samples <= MOST_FILLED;
-        Self {
-            name: "contact".to_owned(),
-            distance: head.skin().clone(),
-            filled: is_filled.then(|| Arc::new(head.skin().filled(FOLD_CM, FILLED_CM))),
-            way: BodyWay::WithHead,
-            contact,
-        }
+        let filled = is_filled.then(|| Arc::new(head.skin().filled(FOLD_CM, FILLED_CM)));
+        Self { filled, ..Self::new("contact", head.skin().clone(), BodyWay::WithHead, contact) }
     }
 
     /// The surface that a point which rests here (the body's space, cm) keeps out of, and how far from it: the margin, or
     /// as far as it lies at rest where that is less.
     pub fn kept_from(&self, at_rest: Vec3) -> (Surface, f32) {
-        let distance = |skin: &SkinDistance| skin.sample(at_rest).map_or(self.contact.margin, |(distance, _)| distance);
-        match self.filled.as_deref().map(distance) {
+        let distance = |shape: &dyn Obstacle| shape.read(at_rest, 0).map_or(self.contact.margin, |at| at.distance);
+        match self.filled.as_deref().map(|filled| distance(filled)) {
             Some(distance) if distance >= 0.0 => (Surface::Filled, distance.min(self.contact.margin)),
-            _ => (Surface::Skin, distance(&self.distance).min(self.contact.margin)),
+            _ => (Surface::Skin, distance(self.shape.obstacle()).min(self.contact.margin)),
         }
     }
 
-    /// The distance to one of its surfaces.
-    pub fn surface(&self, surface: Surface) -> &SkinDistance {
+    /// One of its surfaces.
+    pub fn surface(&self, surface: Surface) -> &dyn Obstacle {
         match (surface, &self.filled) {
-            (Surface::Filled, Some(filled)) => filled,
-            _ => &self.distance,
+            (Surface::Filled, Some(filled)) => &**filled,
+            _ => self.shape.obstacle(),
         }
     }
 
@@ -234,10 +268,10 @@ impl Body {
 }
 
 impl PartialEq for Body {
-    /// Whether they are the very same: distances are compared by identity.
+    /// Whether they are the very same: shapes are compared by identity.
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name
-            && Arc::ptr_eq(&self.distance, &other.distance)
+            && self.shape == other.shape
             && self.filled.as_ref().map(Arc::as_ptr) == other.filled.as_ref().map(Arc::as_ptr)
             && self.way == other.way
             && self.contact == other.contact

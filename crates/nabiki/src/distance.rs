@@ -16,7 +16,7 @@ use std::sync::OnceLock;
 use glam::{UVec3, Vec3};
 use rayon::prelude::*;
 
-pub(crate) use self::sample::{Places, Reading, whole};
+pub(crate) use self::sample::{Places, whole};
 use crate::Mesh;
 use tree::Tree;
 

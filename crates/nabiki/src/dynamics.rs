@@ -6,9 +6,11 @@
 
 mod air;
 mod block;
+mod field_frame;
 mod free;
 mod gain;
 mod paper;
+mod pull;
 mod reference;
 mod row;
 mod runner;
@@ -22,7 +24,6 @@ mod tangents;
 mod timeline;
 mod transpose;
 mod trigonometry;
-mod wind;
 
 use glam::{Affine3A, Vec3};
 
@@ -45,7 +46,7 @@ pub use stability::{check_field, largest_gain};
 pub(crate) use standing::{Crowds, Standing};
 pub use straighten::straightened;
 pub(crate) use tangents::{Asked, Change, Moved, Points, tangents};
-pub use timeline::{Film, Timeline};
+pub use timeline::{Played, Timeline};
 
 settings! {
     /// How long hair moves, how heavy it is, and how far a frame leads it. The default is Table 1 of the paper.
@@ -123,6 +124,21 @@ pub enum Form {
 }
 
 impl Dynamics {
+    /// The paper's settings for hair about a head with this ellipsoid (head space, cm): segments of 1 cm, C a quarter larger than E,
+    /// a head that starts upright. More settings will come: change what differs, or end a literal with `..Dynamics::new(ellipsoid)`.
+    pub fn new(ellipsoid: Ellipsoid) -> Self {
+        Self {
+            motion: Motion::default(),
+            segment_length: 1.0,
+            pseudo_force: PseudoForce::default(),
+            ellipsoid,
+            shell: 1.25,
+            polar_axis: Vec3::Y,
+            disturbance: None,
+            form: Form::default(),
+        }
+    }
+
     /// Refuses settings out of range; whether they are stable depends on the strands too, see
     /// [`Simulation::new`].
     pub fn check(&self) -> Result<(), SettingError> {
@@ -202,14 +218,13 @@ impl Dynamics {
 
 /// What a step needs to know of the frame that it arrives at.
 ///
-/// Where the head's way is known beforehand, [`new`](Self::new) takes it from there. An engine, which knows only where the head is
-/// now, fills in the fields: `before` is then `[pose of the last step, of the step before that]`. A head that jumps has
-/// `before: [pose; 2]`: hair goes along as it is, and feels nothing of the jump; see [`Simulation::jumped`] for bodies. What else the
-/// engine moves is told in [`bodies`](Self::bodies).
+/// Where the head's way is known beforehand, [`new`](Self::new) takes it from there. An engine knows only where the head is now:
+/// [`live`](Self::live), and what else it moves [`with_bodies`](Self::with_bodies).
 ///
 /// A step takes all of it as it is: poses are to be [valid](Pose::is_valid), forces finite and within the bound of the field that
 /// the stepper was built with. A NaN stays in the hair until it is put back to rest.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct FrameInput<'a> {
     /// Number n + 1 of the frame to arrive at; 1 is the first after rest. Fields, bodies on their way and disturbances go by it; it
     /// need not follow the last one, and may lie beyond [`Motion::frames`].
@@ -241,6 +256,18 @@ impl<'a> FrameInput<'a> {
             None => pose(0).continued_back_from(&pose(1)),
         };
         Self { frame, pose: pose(frame), before: [pose(before), earlier], field, bodies: &[] }
+    }
+
+    /// A frame of a head whose pose is known from step to step. `before`: those of the last step, and of the step before that. A head
+    /// that jumps has `[pose; 2]`: hair goes along as it is, and feels nothing of the jump; see [`Simulation::jumped`] for bodies.
+    pub fn live(frame: u32, pose: Pose, before: [Pose; 2], field: &'a dyn Field) -> Self {
+        Self { frame, pose, before, field, bodies: &[] }
+    }
+
+    /// The same with [`bodies`](Self::bodies) that are told where they are.
+    #[must_use]
+    pub fn with_bodies(self, bodies: &'a [Option<[Pose; 2]>]) -> Self {
+        Self { bodies, ..self }
     }
 
     /// Takes points of the space of body number `b` into head space: in this frame, and in the one before.

@@ -195,12 +195,20 @@ settings! {
 
 /// Hair against hair, with the hair that carries it.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Neighbours {
     /// Strengths.
     pub forces: NeighbourForces,
     /// The carriers at rest (head space, cm), whichever strands are stepped: of hair of one's own
     /// `hair.select(&evenly(&roots, 256))`, see [`evenly`](crate::subset::evenly).
     pub carriers: Arc<Strands>,
+}
+
+impl Neighbours {
+    /// Of such strengths, between hair and these carriers at rest (head space, cm).
+    pub fn new(forces: NeighbourForces, carriers: Arc<Strands>) -> Self {
+        Self { forces, carriers }
+    }
 }
 
 /// The free form with all that surrounds the hair.

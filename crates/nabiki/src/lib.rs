@@ -19,11 +19,10 @@
 //! ```
 //! use std::sync::Arc;
 //!
-//! use glam::Vec3;
-//! use nabiki::dynamics::{Dynamics, Form, Motion, Timeline};
+//! use nabiki::dynamics::{Dynamics, Timeline};
 //! use nabiki::field::{Keyframe, KeyframedField};
+//! use nabiki::glam::Vec3;
 //! use nabiki::groom::{Growth, Style, grow};
-//! use nabiki::pseudo_force::PseudoForce;
 //! use nabiki::roots::Hairline;
 //! use nabiki::{Head, SettingError};
 //!
@@ -34,16 +33,8 @@
 //!         Growth { hairline: &hairline, style: &style, strands: 2_000, segments: 18, segment_length: 1.0, seed: 1 };
 //!     // The first 20 of the 2,000, which move as they do among all.
 //!     let hair = grow(&head, &growth, 20)?;
-//!     let dynamics = Dynamics {
-//!         motion: Motion { inertia_length_floor: 18.0, ..Motion::default() },
-//!         segment_length: 1.0,
-//!         pseudo_force: PseudoForce::default(),
-//!         ellipsoid: head.ellipsoid,
-//!         shell: 1.25,
-//!         polar_axis: Vec3::Y,
-//!         disturbance: None,
-//!         form: Form::Paper,
-//!     };
+//!     let mut dynamics = Dynamics::new(head.ellipsoid);
+//!     dynamics.motion.inertia_length_floor = 18.0;
 //!     let gust = KeyframedField::new(&[Keyframe { through: 50, vector: Vec3::new(-100.0, 0.0, 0.0) }])?;
 //!     let mut timeline = Timeline::new(&hair.strands, &dynamics, Arc::new(gust), Vec::new(), 50)?;
 //!     let film = timeline.play();
@@ -67,6 +58,7 @@ pub mod groom;
 pub mod hair;
 pub mod head;
 pub mod mesh;
+pub mod obstacle;
 pub mod pose;
 mod prefetch;
 pub mod profile;
@@ -83,6 +75,8 @@ mod vector;
 
 pub use ellipsoid::Ellipsoid;
 pub use error::SettingError;
+/// The vectors of this crate's interface: of whichever of the versions that it allows the program has.
+pub use glam;
 pub use hair::Hair;
 pub use head::Head;
 pub use mesh::Mesh;

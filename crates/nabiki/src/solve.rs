@@ -7,6 +7,7 @@
 mod aims;
 mod cut;
 mod drag;
+mod keyed_wind;
 mod linear;
 mod problem;
 mod report;
@@ -15,14 +16,13 @@ mod solver;
 mod tests;
 mod track;
 mod unknowns;
-mod wind;
 mod wish;
 
 pub use cut::{Cut, change, cut_for_pull, felt};
 pub use drag::Drag;
+pub use keyed_wind::{KeyedWind, OpenAir, Surroundings, with_interval};
 pub use problem::{Prior, Problem};
 pub use report::{Report, Step, WishLeft};
 pub use solver::{Preroll, Search, Solver, Stop};
 pub use unknowns::{Answer, Unknown};
-pub use wind::{OpenAir, Surroundings, Wind, with_interval};
 pub use wish::{Goal, Node, Wish, nodes_near, nodes_of};

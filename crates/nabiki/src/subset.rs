@@ -71,7 +71,7 @@ impl Cells {
         let across = if measurable { ((high - low) / size).floor().as_ivec3() + 1 } else { IVec3::ONE };
         let mut cells = Self { low, size, across, starts: vec![], index: vec![], place: vec![], gap: vec![] };
         let cell_of: Vec<usize> = points.iter().map(|&p| cells.linear(cells.cell_of(p))).collect();
-        let mut starts = vec![0_u32; across.as_usizevec3().element_product() + 1];
+        let mut starts = vec![0_u32; across.to_array().into_iter().map(|n| n as usize).product::<usize>() + 1];
         for &c in &cell_of {
             starts[c + 1] += 1;
         }

@@ -24,8 +24,7 @@ fn board(half: Vec3) -> Mesh {
 }
 
 fn body(mesh: Mesh, way: BodyWay, contact: Contact) -> Body {
-    let name = "body[0]".to_owned();
-    Body { distance: Arc::new(skin_of(mesh, "body[0].mesh").unwrap()), name, filled: None, way, contact }
+    Body::new("body[0]", Arc::new(skin_of(mesh, "body[0].mesh").unwrap()), way, contact)
 }
 
 fn at(place: Vec3) -> BodyWay {

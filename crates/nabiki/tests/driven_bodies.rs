@@ -32,17 +32,14 @@ fn way_of_the_ball() -> Vec<Pose> {
 fn among(way: Vec<Pose>) -> Dynamics {
     let skin = Arc::new(skin_of(ball(4.0), "ball").unwrap());
     let contact = Contact { margin: 0.2, friction: 0.4, static_friction: 0.6 };
-    let body = |name: &str, way: Vec<Pose>| {
-        let (distance, way) = (skin.clone(), BodyWay::InWorld(way.into()));
-        Body { name: name.into(), distance, filled: None, way, contact }
-    };
+    let body = |name: &str, way: Vec<Pose>| Body::new(name, skin.clone(), BodyWay::InWorld(way.into()), contact);
     let still = way_of_a_head(FRAMES)[20].position_cm + Vec3::new(-12.0, 0.0, 0.0);
     let bodies = vec![
         Body::head(&Head::builtin(), Contact::default()),
         body("body[0]", vec![Pose { position_cm: still, ..Pose::STILL }]),
         body("body[1]", way),
     ];
-    let neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers: Arc::new(hair(24, 18)) });
+    let neighbours = Some(Neighbours::new(NeighbourForces::default(), Arc::new(hair(24, 18))));
     let free = FreeMotion { bodies, neighbours, rest_pose: way_of_a_head(0)[0], ..Default::default() };
     let motion = Motion { frames: FRAMES, ..Motion::default() };
     Dynamics { motion, pseudo_force: PseudoForce::off(), form: Form::Free(free), ..gust() }
@@ -54,7 +51,7 @@ fn run(stepper: &mut dyn Stepper, told: impl Fn(usize) -> [Option<[Pose; 2]>; 3]
     (1..=FRAMES)
         .map(|frame| {
             let bodies = &told(frame as usize);
-            stepper.step_frame(&FrameInput { bodies, ..FrameInput::new(frame, &poses, &wind()) });
+            stepper.step_frame(&FrameInput::new(frame, &poses, &wind()).with_bodies(bodies));
             bits(stepper.strands())
         })
         .collect()
@@ -90,7 +87,7 @@ fn a_step_that_is_told_of_bodies_allocates_nothing() {
         let before = allocations();
         for frame in 1..FRAMES as usize {
             let bodies = &[None, None, Some([way[frame], way[frame - 1]])];
-            simulation.step_frame(&FrameInput { bodies, ..FrameInput::new(frame as u32, &poses, &wind) });
+            simulation.step_frame(&FrameInput::new(frame as u32, &poses, &wind).with_bodies(bodies));
         }
         assert_eq!(allocations(), before);
     });
@@ -111,7 +108,7 @@ fn a_body_that_is_put_elsewhere_is_met_there_once_it_is_said_to_have_jumped() {
     let inside = |points: &[Vec3]| points.iter().filter(|p| p.distance(there.position_cm) < 4.0).count();
     assert!(inside(hair.points()) > 5);
     simulation.jumped();
-    simulation.step_frame(&FrameInput { bodies: &[Some([there; 2])], ..FrameInput::new(1, &[], &calm) });
+    simulation.step_frame(&FrameInput::new(1, &[], &calm).with_bodies(&[Some([there; 2])]));
     assert_eq!(inside(simulation.strands().points()), 0);
 }
 
@@ -153,8 +150,9 @@ fn poses_that_are_no_numbers_do_not_stop_a_step_and_are_gone_after_a_rewind() {
                 (2, [None, None, Some([pose, way[1]])], poses[2]),
                 (3, [None; 3], pose),
             ] {
-                let input = FrameInput::new(frame, &poses, &field);
-                stepper.step_frame(&FrameInput { bodies: &bodies, pose: head, ..input });
+                let mut input = FrameInput::new(frame, &poses, &field).with_bodies(&bodies);
+                input.pose = head;
+                stepper.step_frame(&input);
             }
         }
         simulation.rewind();

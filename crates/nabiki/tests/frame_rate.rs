@@ -58,7 +58,8 @@ fn another_rate_scales_what_is_counted_in_frames_and_nothing_else() {
     let head = Body::head(&Head::builtin(), Contact::default());
     let mut dynamics = with_neighbours(free(FreeForm { settle: 8.0.into(), ..FreeForm::default() }));
     if let Form::Free(free) = &mut dynamics.form {
-        let goes = Body { way: BodyWay::InWorld(way.into()), ..head.clone() };
+        let mut goes = head.clone();
+        goes.way = BodyWay::InWorld(way.into());
         free.bodies = vec![head, goes];
     }
     assert_eq!(dynamics.at_frame_rate(24.0).unwrap().motion, dynamics.motion);

@@ -62,7 +62,7 @@ fn hair_at_rest_keeps_its_bits() {
         if let Form::Free(free) = &mut dynamics.form {
             free.form.stiffness = Profile::RootToTip(vec![900.0, 100.0, 200.0]);
             free.bodies = vec![head_body(0.3)];
-            free.neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers: carriers.clone() });
+            free.neighbours = Some(Neighbours::new(NeighbourForces::default(), carriers.clone()));
         }
         for (twin, mut stepper) in both(&strands, &dynamics, &calm()).into_iter().enumerate() {
             let rest = stepper.strands().clone();
@@ -371,13 +371,9 @@ fn passing_ball() -> Body {
     let poses: Vec<_> = (0..=100)
         .map(|n| nabiki::Pose { position_cm: way(n), rotation: Quat::from_rotation_x(0.01 * n as f32) })
         .collect();
-    Body {
-        name: "body[0]".to_owned(),
-        distance: Arc::new(nabiki::body::skin_of(ball(4.0), "body[0].mesh").unwrap()),
-        filled: None,
-        way: BodyWay::InWorld(poses.into()),
-        contact: Contact { margin: 0.2, friction: 0.3, static_friction: 0.5 },
-    }
+    let skin = Arc::new(nabiki::body::skin_of(ball(4.0), "body[0].mesh").unwrap());
+    let contact = Contact { margin: 0.2, friction: 0.3, static_friction: 0.5 };
+    Body::new("body[0]", skin, BodyWay::InWorld(poses.into()), contact)
 }
 
 /// Grown hair, which lies on the head, and the head and a ball as bodies.
@@ -409,8 +405,9 @@ fn no_node_enters_a_body_in_any_frame() {
         let inside = |strands: &Strands, frame: u32| {
             let deepest = |body: &Body| {
                 let body_from_head = body.head_from_body(frame, &nabiki::Pose::STILL).inverse();
+                let shape = body.shape.obstacle();
                 let depth =
-                    |p: &Vec3| -body.distance.sample(body_from_head.transform_point3(*p)).map_or(1.0, |(d, _)| d);
+                    |p: &Vec3| -shape.read(body_from_head.transform_point3(*p), frame).map_or(1.0, |at| at.distance);
                 strands.iter().flat_map(|strand| &strand[1..]).map(depth).fold(0.0, f32::max)
             };
             free.bodies.iter().map(deepest).fold(0.0, f32::max)
@@ -468,7 +465,7 @@ fn any_subset_moves_as_within_the_whole_with_its_carriers() {
     let (hair, mut dynamics) = among_bodies(20.0);
     if let Form::Free(free) = &mut dynamics.form {
         let carriers = Arc::new(hair.select(&(0..64).collect::<Vec<_>>()));
-        free.neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers });
+        free.neighbours = Some(Neighbours::new(NeighbourForces::default(), carriers));
     }
     let blows = field(&[(30, [-150.0, 30.0, 60.0])]);
     let all = run(&mut fast(&hair, &dynamics, &blows), &blows, 30);

@@ -26,10 +26,10 @@ fn crowded() -> Dynamics {
     let beside: Vec<Pose> = (way_of_a_head(FRAMES).into_iter())
         .map(|pose| Pose { position_cm: pose.position_cm + Vec3::new(-25.0, -3.0, 4.0), ..Pose::default() })
         .collect();
-    let another = Body { way: BodyWay::InWorld(beside.into()), filled: None, name: "body[0]".into(), ..head.clone() };
+    let another = Body::new("body[0]", Head::builtin().skin().clone(), BodyWay::InWorld(beside.into()), head.contact);
     let mut free = FreeMotion { bodies: vec![head, another], rest_pose: way_of_a_head(0)[0], ..Default::default() };
     free.form.stiffness = Profile::RootToTip(vec![150.0, 40.0, 60.0]);
-    free.neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers: Arc::new(hair(24, 18)) });
+    free.neighbours = Some(Neighbours::new(NeighbourForces::default(), Arc::new(hair(24, 18))));
     let motion = Motion { frames: FRAMES, ..Motion::default() };
     Dynamics { motion, pseudo_force: PseudoForce::off(), form: Form::Free(free), ..gust() }
 }

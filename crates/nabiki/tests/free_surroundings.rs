@@ -34,7 +34,7 @@ fn everything(carriers: Strands, rest_pose: Pose) -> Dynamics {
     free(FreeMotion {
         form,
         bodies: vec![Body::head(&Head::builtin(), Contact::default())],
-        neighbours: Some(Neighbours { forces: NeighbourForces::default(), carriers: Arc::new(carriers) }),
+        neighbours: Some(Neighbours::new(NeighbourForces::default(), Arc::new(carriers))),
         rest_pose,
     })
 }
@@ -157,8 +157,8 @@ fn hair_stays_out_of_the_head_without_kinks_and_comes_back_to_rest() {
         step(&mut stepper, &blows);
         let now = stepper.strands();
         for (p, (surface, clearance)) in now.points().iter().zip(&kept) {
-            if let Some((distance, _)) = body.surface(*surface).sample(*p) {
-                deepest = deepest.max(clearance - distance);
+            if let Some(at) = body.surface(*surface).read(*p, 0) {
+                deepest = deepest.max(clearance - at.distance);
             }
         }
         for strand in now.iter() {
@@ -396,13 +396,8 @@ fn a_segment_that_points_steeply_into_a_body_is_not_thrown_out() {
     for [a, b, c, d] in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]] {
         cube.triangles.extend([[a, b, c], [a, c, d]]);
     }
-    let table = Body {
-        name: "body[0]".to_owned(),
-        distance: Arc::new(nabiki::body::skin_of(cube, "body[0].mesh").unwrap()),
-        filled: None,
-        way: nabiki::body::BodyWay::WithHead,
-        contact: Contact::default(),
-    };
+    let cube = Arc::new(nabiki::body::skin_of(cube, "body[0].mesh").unwrap());
+    let table = Body::new("body[0]", cube, nabiki::body::BodyWay::WithHead, Contact::default());
     let mut dynamics = free(FreeMotion::default());
     let blows = field(&[(40, [-20.0, 0.0, 0.0]), (1000, [0.0; 3])]);
     let way =

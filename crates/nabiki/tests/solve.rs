@@ -12,7 +12,7 @@ use nabiki::field::{Ease, Keyframe};
 use nabiki::groom::{Growth, Style, grow};
 use nabiki::roots::Hairline;
 use nabiki::solve::{
-    Answer, Drag, Goal, Node, OpenAir, Preroll, Prior, Problem, Report, Search, Solver, Unknown, Wind, Wish,
+    Answer, Drag, Goal, KeyedWind, Node, OpenAir, Preroll, Prior, Problem, Report, Search, Solver, Unknown, Wish,
     nodes_near, nodes_of,
 };
 use nabiki::{Head, Strands};
@@ -43,7 +43,7 @@ fn problem(hair: &Strands, dynamics: &Dynamics, keyframes: Vec<Keyframe>) -> Pro
         dynamics: dynamics.clone(),
         poses: Vec::new(),
         unknowns: (0..keyframes.len()).map(Unknown::Vector).collect(),
-        wind: Wind { keyframes, ease: Ease::Stepped, gust: None },
+        wind: KeyedWind { keyframes, ease: Ease::Stepped, gust: None },
         surroundings: Arc::new(OpenAir),
         wishes: Vec::new(),
         prior: Prior::default(),
@@ -96,7 +96,7 @@ fn left(problem: &Problem, answer: &Answer) -> f64 {
         free.form.stiffness = answer.stiffness.clone().unwrap();
         free.form.settle = answer.settle.clone().unwrap();
     }
-    let wind = Wind { keyframes: answer.keyframes.clone(), gust: answer.gust.clone(), ease: problem.wind.ease };
+    let wind = KeyedWind { keyframes: answer.keyframes.clone(), gust: answer.gust.clone(), ease: problem.wind.ease };
     let field = wind.field(dynamics.motion.frame_rate).unwrap();
     let frames = problem.wishes.iter().map(|wish| wish.frame).max().unwrap();
     let mut timeline = Timeline::new(&problem.hair, &dynamics, field, Vec::new(), frames).unwrap();

@@ -18,7 +18,7 @@ use nabiki::{Head, METHOD_VERSION, Pose, Strands};
 
 /// Among a head and neighbours.
 fn crowded() -> Dynamics {
-    let neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers: Arc::new(hair(24, 18)) });
+    let neighbours = Some(Neighbours::new(NeighbourForces::default(), Arc::new(hair(24, 18))));
     let bodies = vec![Body::head(&Head::builtin(), Contact::default())];
     free_motion(FreeMotion { neighbours, bodies, rest_pose: way_of_a_head(0)[0], ..Default::default() })
 }
@@ -72,7 +72,7 @@ fn a_state_read_back_moves_on_to_the_same_bits() {
         let mut saved = build();
         let mut clone = saved.clone();
         saved.set_state_bytes(&bytes).unwrap();
-        clone.set_state(&saved);
+        clone.set_state(&saved).unwrap();
         assert!(clone.state_bytes() == bytes);
     }
 }
@@ -175,14 +175,14 @@ fn hair_read_among_other_bodies_looks_for_contact() {
     let (hair, calm) = (hair(80, 18), FieldSum::default());
     let among = |place: Vec3| {
         let way = BodyWay::InWorld([Pose { position_cm: place, ..Pose::STILL }].into());
-        let distance = Arc::new(skin_of(ball(4.0), "ball").unwrap());
-        let body = Body { name: "body[0]".into(), distance, filled: None, way, contact: Contact::default() };
+        let skin = Arc::new(skin_of(ball(4.0), "ball").unwrap());
+        let body = Body::new("body[0]", skin, way, Contact::default());
         fast(&hair, &free_motion(FreeMotion { bodies: vec![body], ..Default::default() }), &calm)
     };
     let there = Vec3::new(14.0, 2.0, 0.0);
     let inside_after_a_step = |simulation: &mut Simulation| {
         let bodies = &[Some([Pose { position_cm: there, ..Pose::STILL }; 2])];
-        simulation.step_frame(&FrameInput { bodies, ..FrameInput::new(1, &[], &calm) });
+        simulation.step_frame(&FrameInput::new(1, &[], &calm).with_bodies(bodies));
         simulation.strands().points().iter().filter(|p| p.distance(there) < 4.0).count()
     };
     // Nobody said that it jumped there.

@@ -10,7 +10,7 @@ use nabiki_exchange::{Budget, Uvs};
 
 use crate::Problem;
 use crate::layout::{Kind, Pod, stored};
-use crate::tree::{Form, Header, Tree};
+use crate::tree::{Header, PropertyKind, Tree};
 use crate::values::{doubles, integers, singles, words};
 
 /// The parameters of one object's curves in one sample.
@@ -52,7 +52,7 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
     /// Those of curves whose schema has the properties `inside`, in sample `frame`.
     pub fn of(tree: &'a mut Tree<R>, mut inside: Vec<Header>, frame: usize) -> Result<Self, Problem> {
         let of_schema = inside.len();
-        let more = inside.iter().find(|h| &*h.name == ".arbGeomParams" && h.form == Form::Compound);
+        let more = inside.iter().find(|h| &*h.name == ".arbGeomParams" && h.form == PropertyKind::Compound);
         if let Some(place) = more.map(|h| h.place) {
             inside.extend(tree.properties(place)?);
         }
@@ -81,7 +81,8 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
         let moving = carried.filter(|h| h.different_samples() > 1);
         let sample = self.frame;
         unread.extend(moving.map(|h| format!("motion of {}: its value in sample {sample} is kept", h.name)));
-        let own = schema.iter().find(|h| &*h.name == ".userProperties" && h.form == Form::Compound).map(|h| h.place);
+        let own =
+            schema.iter().find(|h| &*h.name == ".userProperties" && h.form == PropertyKind::Compound).map(|h| h.place);
         if let Some(place) = own {
             let properties = self.tree.properties(place)?;
             let letters: usize = properties.iter().map(|h| 48 + h.name.len()).sum();
@@ -110,13 +111,13 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
         let Some(header) = self.header(name).cloned() else { return Ok(None) };
         let header = &header;
         let (role, per) = (role(header), per(header));
-        if header.form != Form::Compound {
+        if header.form != PropertyKind::Compound {
             let bytes = self.tree.sample(header, self.frame)?;
             return Ok(Some(Sample { kind: header.kind, role, per, bytes, indices: None }));
         }
         let inside = self.tree.properties(header.place)?;
         let part = |part: &str| {
-            let found = inside.iter().find(|h| &*h.name == part && h.form != Form::Compound);
+            let found = inside.iter().find(|h| &*h.name == part && h.form != PropertyKind::Compound);
             found.ok_or_else(|| Problem(format!("attribute {name}: has no {part}")))
         };
         let (values, indices) = (part(".vals")?, part(".indices")?);
@@ -168,7 +169,7 @@ impl<R: Read + Seek> NamedValues for Parameters<'_, R> {
     }
 
     fn misindexed(&mut self, name: &str) -> Result<Option<&'static str>, Problem> {
-        let compound = self.header(name).is_some_and(|h| h.form == Form::Compound);
+        let compound = self.header(name).is_some_and(|h| h.form == PropertyKind::Compound);
         let Some(sample) = (if compound { self.stored(name)? } else { None }) else { return Ok(None) };
         let size = sample.kind.pod.size() * usize::from(sample.kind.extent);
         let count = if sample.is_text() { words(sample.kind, &sample.bytes).len() } else { sample.bytes.len() / size };

@@ -12,7 +12,7 @@ use crate::Problem;
 use crate::attributes::Parameters;
 use crate::read::{ArchiveReader, go_toward, required};
 use crate::shown::hidden;
-use crate::tree::{Form, Header};
+use crate::tree::{Header, PropertyKind};
 use crate::values::{doubles, integers};
 
 /// The first byte of `curveBasisAndType`: how curves run.
@@ -56,7 +56,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
             inside.retain(|h| !matches!(&*h.name, ".knots" | ".orders"));
         }
         // Weights that are alike, or none, pull nowhere.
-        if let Some(weights) = inside.iter().find(|h| &*h.name == "w" && h.form != Form::Compound) {
+        if let Some(weights) = inside.iter().find(|h| &*h.name == "w" && h.form != PropertyKind::Compound) {
             let weights = doubles(weights.kind, &self.tree.sample(weights, frame)?)?;
             if weights.windows(2).all(|pair| pair[0] == pair[1]) {
                 inside.retain(|h| &*h.name != "w");
@@ -80,10 +80,11 @@ impl<R: Read + Seek> ArchiveReader<R> {
 
     /// How curves of so many control points run in a sample, and their knots where they go by any.
     fn basis(&mut self, inside: &[Header], counts: &[usize], frame: usize) -> Result<(Basis, Vec<Knots>), Problem> {
-        let mut numbers = |name: &str| match inside.iter().find(|h| &*h.name == name && h.form != Form::Compound) {
-            Some(header) => doubles(header.kind, &self.tree.sample(header, frame)?),
-            None => Ok(Vec::new()),
-        };
+        let mut numbers =
+            |name: &str| match inside.iter().find(|h| &*h.name == name && h.form != PropertyKind::Compound) {
+                Some(header) => doubles(header.kind, &self.tree.sample(header, frame)?),
+                None => Ok(Vec::new()),
+            };
         let said: Vec<u8> = numbers("curveBasisAndType")?.into_iter().map(|byte| byte as u8).collect();
         let &[kind, _, basis, ..] = &said[..] else {
             return Err(Problem::new("do not say whether they are straight or cubic"));

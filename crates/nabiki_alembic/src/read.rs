@@ -14,7 +14,7 @@ use nabiki_exchange::{
 use crate::Problem;
 use crate::curves::{NURBS_SURFACE, POINTS, READ};
 use crate::meshes::is_mesh;
-use crate::tree::{Form, Header, SAME_TIME, Timing, Tree};
+use crate::tree::{Header, PropertyKind, SAME_TIME, Timing, Tree};
 use crate::values::doubles;
 
 /// Steps of samples that differ by less than this, as a share of a frame, from a frame are frames: files round their times.
@@ -57,7 +57,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
     /// The properties of an object's schema.
     pub(crate) fn schema(&mut self, object: usize) -> Result<Vec<Header>, Problem> {
         let properties = self.tree.properties_of(object)?;
-        match properties.iter().find(|h| h.form == Form::Compound && matches!(&*h.name, ".geom" | ".xform")) {
+        match properties.iter().find(|h| h.form == PropertyKind::Compound && matches!(&*h.name, ".geom" | ".xform")) {
             Some(header) => self.tree.properties(header.place),
             None => Err(Problem(format!("object {}: its schema is empty", self.tree.path(object)))),
         }
@@ -308,7 +308,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
                 continue;
             };
             let inside = self.schema(i)?;
-            let named = |name: &str| inside.iter().find(|h| &*h.name == name && h.form != Form::Compound);
+            let named = |name: &str| inside.iter().find(|h| &*h.name == name && h.form != PropertyKind::Compound);
             let samples = |name: &str| named(name).map_or(0, Header::different_samples);
             prims.push(match schema {
                 "AbcGeom_Xform" => {
@@ -446,7 +446,7 @@ impl Motion {
 }
 
 pub(crate) fn required<'a>(headers: &'a [Header], name: &str, path: &str) -> Result<&'a Header, Problem> {
-    let found = headers.iter().find(|h| &*h.name == name && h.form != Form::Compound);
+    let found = headers.iter().find(|h| &*h.name == name && h.form != PropertyKind::Compound);
     found.ok_or_else(|| Problem(format!("{path} has no property {name}")))
 }
 

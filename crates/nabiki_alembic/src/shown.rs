@@ -6,7 +6,7 @@ use nabiki_exchange::Hidden;
 
 use crate::Problem;
 use crate::layout::Pod;
-use crate::tree::{Form, Tree};
+use crate::tree::{PropertyKind, Tree};
 use crate::values::integers;
 
 /// What an object's `visible` says at a time: 0 hides it, above 0 it shows, and below it is as those above have it.
@@ -46,7 +46,8 @@ fn visible<R: Read + Seek>(tree: &mut Tree<R>, object: usize) -> Result<Vec<i64>
 fn read_visible<R: Read + Seek>(tree: &mut Tree<R>, object: usize) -> Result<Vec<i64>, Problem> {
     let properties = tree.properties_of(object)?;
     let is_number = |pod: Pod| !matches!(pod, Pod::Text | Pod::WideText);
-    let found = properties.iter().find(|h| &*h.name == "visible" && h.form == Form::Scalar && is_number(h.kind.pod));
+    let found =
+        properties.iter().find(|h| &*h.name == "visible" && h.form == PropertyKind::Scalar && is_number(h.kind.pod));
     let Some(header) = found else { return Ok(Vec::new()) };
     let mut said = Vec::new();
     for sample in 0..header.different_samples() {

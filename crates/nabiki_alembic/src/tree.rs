@@ -85,7 +85,7 @@ impl Object {
 
 /// What a property is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum PropertyKind {
     /// Properties below one name.
     Compound,
     /// One value a sample.
@@ -100,7 +100,7 @@ pub struct Header {
     /// Name.
     pub name: Rc<str>,
     /// What it is.
-    pub form: Form,
+    pub form: PropertyKind,
     /// Type of its values (meaningless for compounds).
     pub kind: Kind,
     /// What else is said of it: `geoScope=vtx;interpretation=rgb`.
@@ -284,13 +284,13 @@ impl<R: Read + Seek> Tree<R> {
             _ => return Err(Problem::new("has a property header of unknown width")),
         };
         let form = match info & flags::TYPE {
-            0 => Form::Compound,
-            1 => Form::Scalar,
-            _ => Form::Array,
+            0 => PropertyKind::Compound,
+            1 => PropertyKind::Scalar,
+            _ => PropertyKind::Array,
         };
         let mut kind = Kind { pod: Pod::U8, extent: 1 };
         let (mut samples, mut first_change, mut last_change, mut timing) = (0, 0, 0, 0);
-        if form != Form::Compound {
+        if form != PropertyKind::Compound {
             let code = info >> flags::POD_SHIFT & 0xf;
             let pod = Pod::from_code(code).ok_or_else(|| Problem(format!("has values of unknown type {code}")))?;
             kind = Kind { pod, extent: (info >> flags::EXTENT_SHIFT & 0xff) as u8 };
@@ -354,10 +354,10 @@ impl<R: Read + Seek> Tree<R> {
 
     /// Where the data of sample `i` is.
     fn place(&mut self, header: &Header, i: usize) -> Result<Option<u64>, Problem> {
-        if header.samples == 0 || header.form == Form::Compound {
+        if header.samples == 0 || header.form == PropertyKind::Compound {
             return Ok(None);
         }
-        let each = if header.form == Form::Array { 2 } else { 1 };
+        let each = if header.form == PropertyKind::Array { 2 } else { 1 };
         let stored = header.stored(i.min(header.samples - 1));
         let data = self.from.child_of(header.place, each * stored)?;
         data.map(Some).ok_or_else(|| Problem(format!("property {}: sample {i} is missing", header.name)))

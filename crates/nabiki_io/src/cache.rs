@@ -329,9 +329,9 @@ impl<R: std::io::Read + Seek> Reader<R> {
     }
 
     /// The lowest and the highest corner of the box about the points of all frames, from the head's origin along the
-    /// world's axes (cm).
-    pub fn bounds(&self) -> [Vec3; 2] {
-        self.bounds
+    /// world's axes (cm). None where a corner is nowhere, as of points that nearly are.
+    pub fn bounds(&self) -> Option<[Vec3; 2]> {
+        Some(self.bounds).filter(|[low, high]| low.is_finite() && high.is_finite())
     }
 
     /// Number of frames, numbered from 0; frame 0 is the hair at rest.

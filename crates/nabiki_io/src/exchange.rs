@@ -7,11 +7,11 @@ use glam::{DAffine3, DVec3};
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
 use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem, Window};
-use nabiki_usd::{Form, HairStage, StageReader};
+use nabiki_usd::{HairStage, LayerKind, StageReader};
 
 use crate::axis::Axis;
 use crate::error::{Error, Result};
-use crate::groom_file::CurvePrim;
+use crate::groom_curves::CurvePrim;
 use crate::input;
 use crate::kind::extension;
 use crate::mesh::parts;
@@ -81,15 +81,18 @@ fn named(path: &Path, problem: Problem) -> Error {
     Error::new(problem.to_string()).in_file(path)
 }
 
-/// What the file says. Only USD layers name a unit; Alembic is y up by agreement.
+/// What the file says, or its format for it: glTF is in metres, +y up; a USD layer names both; Alembic is +y up by
+/// agreement and names no unit; other formats say nothing.
 ///
 /// # Errors
 /// A layer that cannot be read; a unit or an axis that is none.
 pub fn declared_space(path: &Path) -> Result<DeclaredSpace> {
-    if is_alembic(path) {
-        return Ok(DeclaredSpace { unit: None, up: Some(Axis::PlusY) });
+    match extension(path).as_str() {
+        "glb" | "gltf" => Ok(DeclaredSpace::GLTF),
+        _ if is_alembic(path) => Ok(DeclaredSpace { unit: None, up: Some(Axis::PlusY) }),
+        _ if is_usd(path) => Opened::new(path)?.declared_space(),
+        _ => Ok(DeclaredSpace::default()),
     }
-    if is_usd(path) { Opened::new(path)?.declared_space() } else { Ok(DeclaredSpace::default()) }
 }
 
 /// Reads the hair of frame `frame` (the last one after those there are), in the file's own unit and axes.
@@ -351,9 +354,9 @@ pub fn least_bytes(path: &Path, export: &Export<'_>, frames: u64, layer: bool) -
 pub fn sink<'a>(path: &Path, export: Export<'a>, layer: Option<&str>) -> Result<Box<dyn FrameSink + 'a>> {
     let named = |e: std::io::Error| Error::from(e).in_file(path);
     match (is_usd(path), is_alembic(path), layer) {
-        (true, _, None) => Ok(Box::new(HairStage::create(path, export, Form::Stage).map_err(named)?)),
+        (true, _, None) => Ok(Box::new(HairStage::create(path, export, LayerKind::Stage).map_err(named)?)),
         (true, _, Some(prim)) => {
-            Ok(Box::new(HairStage::create(path, export, Form::Layer(prim.to_owned())).map_err(named)?))
+            Ok(Box::new(HairStage::create(path, export, LayerKind::Layer(prim.to_owned())).map_err(named)?))
         }
         (_, true, None) => Ok(Box::new(HairArchive::create(path, export).map_err(named)?)),
         (_, true, Some(_)) => Err(Error::new("Alembic has no layers: write .usd, .usda or .usdc").in_file(path)),

@@ -14,7 +14,7 @@ use crate::{
     bytes::{Bytes, product, put},
     error::{Error, Result},
     finite,
-    hair::passed_on,
+    hair_format::passed_on,
 };
 
 const SEGMENTS: u32 = 1;

@@ -23,6 +23,7 @@ use crate::{
 
 /// What a mesh import gave, before and after cleaning.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct MeshReport {
     /// Vertices of the chosen groups as the file has them.
     pub vertices_in_file: usize,

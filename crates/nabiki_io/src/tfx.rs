@@ -19,7 +19,7 @@ use crate::{
     bytes::{Bytes, product, put},
     error::{Error, Result},
     finite,
-    hair::passed_on,
+    hair_format::passed_on,
 };
 
 const HEADER_BYTES: u32 = 160;

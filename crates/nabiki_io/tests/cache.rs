@@ -151,7 +151,7 @@ fn frames_in_parts_are_frames_and_all_lie_in_the_bounds() {
         assert_eq!(writer.finish().unwrap(), 3);
         assert!(std::fs::read(&parts).unwrap() == std::fs::read(&whole).unwrap(), "{size}");
     }
-    let [low, high] = Reader::open(&whole).unwrap().bounds();
+    let [low, high] = Reader::open(&whole).unwrap().bounds().unwrap();
     let turned = (0..3).flat_map(|frame| {
         let points = samples::frame_points(&hair, frame);
         points.into_iter().map(move |p| samples::pose(frame).rotation * p).collect::<Vec<_>>()

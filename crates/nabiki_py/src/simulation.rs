@@ -117,7 +117,7 @@ impl Simulation {
         };
         let mut step = || {
             let way::Poses { head: pose, before, bodies } = &poses;
-            let input = FrameInput { frame: *next, pose: *pose, before: *before, field, bodies };
+            let input = FrameInput::live(*next, *pose, *before, field).with_bodies(bodies);
             stepper.step_frame_into(&input, &mut points);
         };
         match functions.is_empty() {

@@ -191,7 +191,10 @@ fn is_in_contact(built: &BuiltScene, points: &[Vec3], lock: &Lock, way: Vec3) ->
         let (root, place) = (of[0], of[node]);
         bodies.iter().any(|body| {
             let to_body = body.head_from_body(lock.frame, &pose).inverse();
-            let distance = |p: Vec3| body.distance.at(to_body.transform_point3(p));
+            let distance = |p: Vec3| {
+                let reading = body.shape.obstacle().read(to_body.transform_point3(p), lock.frame);
+                reading.map_or(f32::INFINITY, |reading| reading.distance)
+            };
             let on_way = (0..=4).any(|i| distance(place + way * (i as f32 / 4.0)) < TOUCHES_CM);
             // Drawn straight from its root it would go through.
             let through = (2..8).any(|i| distance(root.lerp(place + way, i as f32 / 8.0)) < -0.5);

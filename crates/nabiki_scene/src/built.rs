@@ -20,13 +20,13 @@ use nabiki_io::placement::Placement;
 use nabiki_io::{DeclaredSpace, GroomCurves};
 use nabiki_render::DrawnBody;
 
-use crate::advice::{Advice, advice};
+use crate::advice::Advice;
 use crate::error::{Error, Result};
 use crate::memory;
 use crate::scene::{FieldBound, FieldParts, HairSource, HeadSource, Scene};
 use crate::seat::{self, LikelyRoots, Seat};
 
-pub(crate) use load::{hair_placement, holds_scenes};
+pub(crate) use load::holds_scenes;
 
 /// All that a scene names, loaded and in head space, ready to be stepped.
 #[derive(Clone, Debug)]
@@ -308,11 +308,6 @@ impl BuiltScene {
     /// The force at a point (cm) in a frame, both in the space that the scene gives its forces in.
     pub fn force_at(&self, point: Vec3, frame: u32) -> Vec3 {
         self.field.at(point, frame)
-    }
-
-    /// What looks wrong about the size and place of head and hair.
-    pub fn advice(&self) -> Vec<Advice> {
-        advice(self)
     }
 
     /// Where imported hair sits.

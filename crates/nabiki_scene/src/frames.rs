@@ -141,6 +141,6 @@ impl FrameSource for Cached {
     }
 
     fn bounds(&self, last: u32) -> Option<[Vec3; 2]> {
-        (self.reader.frame_count() == u64::from(last) + 1).then(|| self.reader.bounds())
+        self.reader.bounds().filter(|_| self.reader.frame_count() == u64::from(last) + 1)
     }
 }

@@ -39,6 +39,7 @@ mod field_picture;
 mod film;
 pub mod frames;
 pub mod info;
+mod looks_wrong;
 mod memory;
 pub mod motion_summary;
 mod outputs;

@@ -3,14 +3,21 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::told::size;
-
 /// Why so many bytes cannot be had, as a phrase; none where they may be, or where the system does not say how much there is.
 ///
 /// What is asked for is what is certain to be needed, not all of it: what fits is never refused.
 pub(crate) fn short_of(bytes: u64) -> Option<String> {
     let left = available().filter(|&left| bytes > left)?;
     Some(format!("needs {} of memory at least, and {} are to be had", size(bytes), size(left)))
+}
+
+/// A number of bytes for a person.
+pub(crate) fn size(bytes: u64) -> String {
+    let steps = [(1u64 << 40, "TiB"), (1 << 30, "GiB"), (1 << 20, "MiB"), (1 << 10, "KiB")];
+    match steps.into_iter().find(|&(unit, _)| bytes >= unit) {
+        Some((unit, name)) => format!("{:.1} {name}", bytes as f64 / unit as f64),
+        None => format!("{bytes} bytes"),
+    }
 }
 
 /// Bytes that this program may still take: what the machine has free, and what limits on its group of processes and on itself

@@ -19,6 +19,7 @@ const HOP: f32 = 1.5;
 
 /// What one frame is like.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct FrameSummary {
     /// The frame.
     pub frame: u32,
@@ -42,7 +43,7 @@ impl FrameSummary {
         let strand = |s: usize| {
             let points = strands.strand(s);
             let [before, earlier] = before.map(|points| points.get(strands.range(s)).unwrap_or(&[]));
-            let depths = points[1..].iter().map(|&p| depth(built, &others, p)).filter(|&depth| depth > 0.0);
+            let depths = points[1..].iter().map(|&p| depth(built, &others, frame, p)).filter(|&depth| depth > 0.0);
             let (inside, depth) = depths.fold((0_u64, 0.0_f32), |(count, deepest), d| (count + 1, deepest.max(d)));
             let jump = points.iter().zip(before).map(|(a, b)| a.distance_squared(*b)).fold(0.0, f32::max);
             let hops =
@@ -73,9 +74,10 @@ fn others(built: &BuiltScene, frame: u32) -> Vec<(&Body, Affine3A)> {
     free.bodies.iter().skip(1).map(|body| (body, body.head_from_body(frame, &head).inverse())).collect()
 }
 
-fn depth(built: &BuiltScene, others: &[(&Body, Affine3A)], p: Vec3) -> f32 {
+fn depth(built: &BuiltScene, others: &[(&Body, Affine3A)], frame: u32, p: Vec3) -> f32 {
     let in_body = |(body, body_from_head): &(&Body, Affine3A)| {
-        body.distance.sample(body_from_head.transform_point3(p)).map_or(0.0, |(distance, _)| -distance)
+        let reading = body.shape.obstacle().read(body_from_head.transform_point3(p), frame);
+        reading.map_or(0.0, |reading| -reading.distance)
     };
     others.iter().map(in_body).fold(built.head.depth(p), f32::max)
 }
@@ -98,6 +100,7 @@ fn kinks(points: &[Vec3]) -> u64 {
 
 /// A whole motion.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct MotionSummary {
     /// Frame 0.
     pub rest: FrameSummary,

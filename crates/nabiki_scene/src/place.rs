@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use nabiki_file::{behind_links, folder_of};
 
 use crate::error::{Error, Result};
-use crate::told::{Told, size};
+use crate::memory::size;
+use crate::told::Told;
 use crate::watch::Watch;
 
 /// Folders made for results. Those that are still empty in the end, because something was refused, are taken away again.

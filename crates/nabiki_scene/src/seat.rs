@@ -11,7 +11,6 @@ use nabiki::{Ellipsoid, Hair, Head, Strands};
 use nabiki_exchange::InPlace;
 use nabiki_io::{Axis, DeclaredSpace, Placement, Unit};
 
-use crate::built::hair_placement;
 use crate::root_ends;
 use crate::scene::{ImportedHair, RootEnd};
 use crate::size::{decimal, mean_half_axis, middle, spread, unit_for};
@@ -38,6 +37,25 @@ const SPREADS: std::ops::RangeInclusive<f32> = 0.5..=2.0;
 /// A unit that a file states is wrong only if it is off by more than this: programs name another's, and hair that lies a little deep is to
 /// keep its own.
 const MISNAMED: f32 = 2.0;
+
+/// How the hair's file lies in head space: as the head's file does, but for what the scene or the file itself says. Of two files with
+/// other up axes each is taken for the other, tipped up.
+pub(crate) fn hair_placement(settings: &ImportedHair, head: &Placement, declared: DeclaredSpace) -> Placement {
+    let up = settings.up.or(declared.up).unwrap_or(head.up);
+    let unmoved = Placement {
+        unit: settings.unit.or(declared.unit).unwrap_or(head.unit),
+        up,
+        facing: settings.facing.unwrap_or_else(|| head.facing.tipped(head.up, up)),
+        origin: Vec3::ZERO,
+    };
+    if unmoved == (Placement { origin: Vec3::ZERO, ..*head }) {
+        return Placement { origin: settings.origin.unwrap_or(head.origin), ..unmoved };
+    }
+    // The head's origin is a place in the world that both files share.
+    let shared = Placement { origin: Vec3::ZERO, ..*head }.head_from_file().transform_point3(head.origin);
+    let origin = settings.origin.unwrap_or_else(|| unmoved.file_from_head().transform_point3(shared));
+    Placement { origin, ..unmoved }
+}
 
 /// How hair lies on a head.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use nabiki::dynamics::ForceSpace;
 use nabiki::field::{Field, FlowField};
-use nabiki::solve::{Answer, Prior, Problem, Surroundings, Unknown, Wind, Wish};
+use nabiki::solve::{Answer, KeyedWind, Prior, Problem, Surroundings, Unknown, Wish};
 use nabiki::{Ellipsoid, Pose, SettingError};
 
 use crate::built::BuiltScene;
@@ -30,7 +30,7 @@ impl BuiltScene {
             hair: self.hair.strands.clone(),
             ids: self.ids().to_vec(),
             dynamics: self.dynamics.clone(),
-            wind: Wind { keyframes: field.force.clone(), ease: field.wind.ease, gust: field.gust.clone() },
+            wind: KeyedWind { keyframes: field.force.clone(), ease: field.wind.ease, gust: field.gust.clone() },
             surroundings: Arc::new(SceneSurroundings {
                 field: field.clone(),
                 ellipsoid: self.head.ellipsoid,

@@ -10,6 +10,7 @@ use nabiki_io::screen::OneLine;
 
 use crate::advice::Advice;
 use crate::built::{BuiltScene, ShardOf};
+use crate::memory::size;
 use crate::motion_summary::MotionSummary;
 use crate::solve::Solved;
 
@@ -109,17 +110,9 @@ impl Told {
     }
 }
 
-/// A number of bytes for a person.
-pub(crate) fn size(bytes: u64) -> String {
-    let steps = [(1u64 << 40, "TiB"), (1 << 30, "GiB"), (1 << 20, "MiB"), (1 << 10, "KiB")];
-    match steps.into_iter().find(|&(unit, _)| bytes >= unit) {
-        Some((unit, name)) => format!("{:.1} {name}", bytes as f64 / unit as f64),
-        None => format!("{bytes} bytes"),
-    }
-}
-
 /// What a scene holds, and what was dropped of imported files.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SceneSummary {
     /// The scene file.
     pub file: PathBuf,
@@ -246,6 +239,7 @@ impl fmt::Display for SceneSummary {
 /// How long a swing takes at the root, the middle and the tip of a strand under each force: what c_i and F give before
 /// any step (section 4.3 of the paper).
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SwingTable {
     /// Length of the strand, the median of the hair's (cm); of what is tied, behind its tie.
     pub length: f32,
@@ -259,6 +253,7 @@ pub struct SwingTable {
 
 /// The swings of one interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SwingRow {
     /// First and last frame of the interval.
     pub frames: [u32; 2],

@@ -12,7 +12,7 @@ use nabiki::hair::Attributes;
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::HairArchive;
 use nabiki_exchange::{Export, FrameSink, GroomReader, Placed};
-use nabiki_usd::{Form, HairStage, StageReader};
+use nabiki_usd::{HairStage, LayerKind, StageReader};
 
 const FRAMES: usize = 10;
 const STRANDS: usize = 50;
@@ -72,18 +72,18 @@ fn write(folder: &Path) -> std::io::Result<()> {
     with_head.head = Some(&mesh);
     (with_head.rest, with_head.velocities) = (true, true);
     for name in ["still.usda", "still.usdc"] {
-        fill(Box::new(HairStage::create(&folder.join(name), still.clone(), Form::Stage)?), false)?;
+        fill(Box::new(HairStage::create(&folder.join(name), still.clone(), LayerKind::Stage)?), false)?;
     }
     fill(Box::new(HairArchive::create(&folder.join("still.abc"), still.clone())?), false)?;
     for name in ["moving.usda", "moving.usdc"] {
-        fill(Box::new(HairStage::create(&folder.join(name), with_head.clone(), Form::Stage)?), true)?;
+        fill(Box::new(HairStage::create(&folder.join(name), with_head.clone(), LayerKind::Stage)?), true)?;
     }
     fill(Box::new(HairArchive::create(&folder.join("moving.abc"), with_head)?), true)?;
     for name in ["layer.usda", "layer.usdc"] {
-        let form = Form::Layer("/head/hair".to_owned());
+        let form = LayerKind::Layer("/head/hair".to_owned());
         fill(Box::new(HairStage::create(&folder.join(name), still.clone(), form)?), false)?;
     }
-    let mut rest = Box::new(HairStage::create(&folder.join("rest.usda"), still, Form::Stage)?);
+    let mut rest = Box::new(HairStage::create(&folder.join("rest.usda"), still, LayerKind::Stage)?);
     rest.frame(&hair.strands, &DAffine3::IDENTITY)?;
     rest.finish()?;
     // Strands of one number of points, which every format holds.
@@ -92,7 +92,7 @@ fn write(folder: &Path) -> std::io::Result<()> {
         even.push((0..5).map(|p| Vec3::new((s as f32).sin(), 0.1 * p as f32, (s as f32).cos()) * 9.7));
     }
     let even = Hair::from(even);
-    let mut sink = Box::new(HairStage::create(&folder.join("even.usda"), Export::new(&even, 24.0), Form::Stage)?);
+    let mut sink = Box::new(HairStage::create(&folder.join("even.usda"), Export::new(&even, 24.0), LayerKind::Stage)?);
     sink.frame(&even.strands, &DAffine3::IDENTITY)?;
     sink.finish()?;
 

@@ -9,14 +9,14 @@
 //! use glam::{DAffine3, Vec3};
 //! use nabiki::{Hair, Strands};
 //! use nabiki_exchange::{Export, FrameSink, GroomReader, Problem};
-//! use nabiki_usd::{Form, HairStage, StageReader};
+//! use nabiki_usd::{LayerKind, HairStage, StageReader};
 //!
 //! fn main() -> Result<(), Problem> {
 //!     let mut strands = Strands::default();
 //!     strands.push([Vec3::ZERO, Vec3::Y, 2.0 * Vec3::Y]);
 //!     let hair = Hair::from(strands);
 //!     let path = std::env::temp_dir().join(format!("nabiki_usd_{}.usdc", std::process::id()));
-//!     let mut file = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), Form::Stage)?);
+//!     let mut file = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), LayerKind::Stage)?);
 //!     file.frame(&hair.strands, &DAffine3::IDENTITY)?;
 //!     file.finish()?;
 //!     let read = StageReader::open(&path)?.hair(0, None)?;
@@ -53,4 +53,4 @@ pub use nabiki_exchange::{Contents, Problem};
 pub use read::StageReader;
 pub use source::Source;
 pub use text::write::text_bytes;
-pub use write::{Form, HairStage};
+pub use write::{HairStage, LayerKind};

@@ -18,7 +18,7 @@ use crate::text::write::TextWriter;
 
 /// Which prims a layer has.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum LayerKind {
     /// A complete stage: a transform `/head`, below it the curves `hair` and, if there is one, the mesh `skin`.
     Stage,
     /// Samples of points and extent only, to be laid over the prim at this path (`/character/hair`), which must have
@@ -31,7 +31,7 @@ pub enum Form {
 pub struct HairStage<'a> {
     export: Export<'a>,
     names: Vec<String>,
-    form: Form,
+    form: LayerKind,
     to: Encoding,
     metadata: Metadata,
     margin: f32,
@@ -61,11 +61,11 @@ impl<'a> HairStage<'a> {
     ///
     /// # Errors
     /// Another ending, a prim path that is none, settings that [`Export::check`] refuses, what the disk says.
-    pub fn create(path: &Path, export: Export<'a>, form: Form) -> io::Result<Self> {
+    pub fn create(path: &Path, export: Export<'a>, form: LayerKind) -> io::Result<Self> {
         export.check()?;
         let names = match &form {
-            Form::Stage => vec!["head".to_owned(), "hair".to_owned()],
-            Form::Layer(prim) => prim_names(prim)?,
+            LayerKind::Stage => vec!["head".to_owned(), "hair".to_owned()],
+            LayerKind::Layer(prim) => prim_names(prim)?,
         };
         let ending = path.extension().map(|e| e.to_ascii_lowercase());
         let binary = match ending.as_ref().and_then(|e| e.to_str()) {
@@ -90,7 +90,7 @@ impl<'a> HairStage<'a> {
             let mut to = TextWriter::new(file, &metadata)?;
             let hair = names.len() - 1;
             match &form {
-                Form::Stage => {
+                LayerKind::Stage => {
                     to.open("head", "Xform", &[], 0)?;
                     if let Some(mesh) = export.head {
                         to.prim(&skin(mesh, &export), 1)?;
@@ -100,7 +100,7 @@ impl<'a> HairStage<'a> {
                         to.attribute(&attribute, 2)?;
                     }
                 }
-                Form::Layer(_) => {
+                LayerKind::Layer(_) => {
                     for (depth, name) in names.iter().enumerate() {
                         let schemas: &[&str] = if depth == hair && export.bound { &[SKEL_BINDING] } else { &[] };
                         to.open(name, "", schemas, depth)?;
@@ -112,7 +112,7 @@ impl<'a> HairStage<'a> {
             Encoding::Text { to, velocities: TextWriter::part(waiting) }
         };
         // Over a groom lie its points alone.
-        let velocities = (export.velocities && form == Form::Stage).then(Velocities::default);
+        let velocities = (export.velocities && form == LayerKind::Stage).then(Velocities::default);
         Ok(Self {
             export,
             names,
@@ -136,7 +136,7 @@ impl<'a> HairStage<'a> {
             self.to.velocities(end, last, self.names.len())?;
         }
         let Self { export, names, form, to, metadata, times, extents, transforms, .. } = self;
-        let rest = Rest { export: &export, names: &names, is_stage: form == Form::Stage, times: &times };
+        let rest = Rest { export: &export, names: &names, is_stage: form == LayerKind::Stage, times: &times };
         let file = match to {
             Encoding::Text { to, velocities } => rest.text(to, velocities, extents, transforms)?,
             Encoding::Binary { to, points, velocities } => {
@@ -369,7 +369,7 @@ mod tests {
             let mut export = Export::new(&hair, 8.0);
             (export.velocities, export.first_frame, export.rest) = (true, 1001, true);
             (export.default_colour, export.head) = (Some([0.25, 0.5, 1.0]), Some(&skin));
-            let mut sink = Box::new(HairStage::create(&path, export, Form::Stage).unwrap());
+            let mut sink = Box::new(HairStage::create(&path, export, LayerKind::Stage).unwrap());
             for frame in 0..3 {
                 let mut moved = strands.clone();
                 moved.points_mut()[1].x += (frame * frame) as f32;
@@ -419,7 +419,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         for name in ["over.usda", "over.usdc"] {
             let path = folder.path().join(name);
-            let form = Form::Layer("/character/hair".to_owned());
+            let form = LayerKind::Layer("/character/hair".to_owned());
             let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), form).unwrap());
             sink.frame(&strands, &DAffine3::IDENTITY).unwrap();
             sink.finish().unwrap();

@@ -7,7 +7,7 @@ use glam::{DAffine3, DQuat, DVec3, Vec3};
 use nabiki::Mesh;
 use nabiki::hair::{Other, Per, Role, Stored, Values};
 use nabiki_exchange::{Export, FrameSink, GroomReader, PrimKind};
-use nabiki_usd::{Form, HairStage, StageReader};
+use nabiki_usd::{HairStage, LayerKind, StageReader};
 
 fn reader(text: impl Into<String>) -> StageReader {
     StageReader::new(Cursor::new(text.into().into_bytes())).unwrap()
@@ -215,7 +215,7 @@ fn what_a_groom_carries_goes_through_and_what_does_not_is_named() {
     let folder = tempfile::tempdir().unwrap();
     for name in ["again.usda", "again.usdc"] {
         let path = folder.path().join(name);
-        let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), Form::Stage).unwrap());
+        let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), LayerKind::Stage).unwrap());
         sink.frame(&hair.strands, &DAffine3::IDENTITY).unwrap();
         sink.finish().unwrap();
         let again = StageReader::open(&path).unwrap().hair(0, None).unwrap();
@@ -242,7 +242,7 @@ fn types_of_what_is_passed_on_stay() {
     let hair = reader(CARRIED).hair(0, None).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("again.usda");
-    let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), Form::Stage).unwrap());
+    let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), LayerKind::Stage).unwrap());
     sink.frame(&hair.strands, &DAffine3::IDENTITY).unwrap();
     sink.finish().unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
@@ -337,7 +337,7 @@ fn texture_coordinates_of_points_stay_by_point() {
     assert_eq!(hair.attributes.unread, Vec::<String>::new());
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("back.usda");
-    let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), Form::Stage).unwrap());
+    let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), LayerKind::Stage).unwrap());
     sink.frame(&hair.strands, &DAffine3::IDENTITY).unwrap();
     sink.finish().unwrap();
     let written = std::fs::read_to_string(path).unwrap();
@@ -399,7 +399,7 @@ fn velocities_take_the_points_of_a_frame_to_those_of_the_next() {
         let path = folder.path().join(name);
         let mut export = Export::new(&hair, 8.0);
         (export.velocities, export.rest, export.default_colour) = (true, true, Some([0.25, 0.5, 1.0]));
-        let mut sink = Box::new(HairStage::create(&path, export, Form::Stage).unwrap());
+        let mut sink = Box::new(HairStage::create(&path, export, LayerKind::Stage).unwrap());
         for frame in 0..3 {
             let mut strands = hair.strands.clone();
             strands.points_mut().iter_mut().for_each(|p| *p += Vec3::Y * (frame * frame) as f32);

@@ -8,7 +8,7 @@ use glam::{DAffine3, Quat, Vec2, Vec3};
 use nabiki::hair::Attributes;
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_exchange::{Export, FrameSink, GroomReader, Placed};
-use nabiki_usd::{Form, HairStage, StageReader};
+use nabiki_usd::{HairStage, LayerKind, StageReader};
 use proptest::prelude::*;
 
 const FRAMES: usize = 9;
@@ -48,7 +48,7 @@ fn pose(frame: usize) -> DAffine3 {
     DAffine3::from_rotation_translation(turn.as_dquat(), Vec3::new(frame as f32, 150.0, 0.0).as_dvec3())
 }
 
-fn bytes(name: &str, export: Export<'_>, form: Form, poses: impl Fn(usize) -> DAffine3) -> Vec<u8> {
+fn bytes(name: &str, export: Export<'_>, form: LayerKind, poses: impl Fn(usize) -> DAffine3) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     let mut sink = Box::new(HairStage::create(&path, export, form).unwrap());
@@ -96,7 +96,7 @@ fn the_skin_keeps_its_texture_coordinates_also_where_it_is_mirrored() {
     for (name, scale) in NAMES.into_iter().flat_map(|name| [Vec3::ONE, Vec3::new(-1.0, 1.0, 1.0)].map(|s| (name, s))) {
         let mut export = Export::new(&hair, 24.0);
         (export.head, export.file_from_head) = (Some(&mesh), DAffine3::from_scale(scale.as_dvec3()));
-        let skin = reader(bytes(name, export, Form::Stage, |_| DAffine3::IDENTITY)).mesh().unwrap();
+        let skin = reader(bytes(name, export, LayerKind::Stage, |_| DAffine3::IDENTITY)).mesh().unwrap();
         assert_eq!(corners(&skin), corners(&mesh), "{name}, {scale}");
     }
 }
@@ -107,7 +107,7 @@ fn every_frame_and_attribute_comes_back_to_the_bit() {
     for name in NAMES {
         let mut export = Export::new(&hair, 30.0);
         export.first_frame = -3;
-        let mut stage = reader(bytes(name, export, Form::Stage, |_| DAffine3::IDENTITY));
+        let mut stage = reader(bytes(name, export, LayerKind::Stage, |_| DAffine3::IDENTITY));
         let contents = stage.contents().unwrap();
         assert_eq!(contents.curves, ["/head/hair"]);
         assert_eq!((contents.meters_per_unit, contents.z_up, contents.frame_rate), (Some(0.01), Some(false), 30.0));
@@ -130,7 +130,7 @@ fn text_is_the_same_wherever_it_is_cut_into_parts() {
     long[1..].chunks(1000).for_each(|strand| hair.strands.push(strand.iter().copied()));
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("long.usda");
-    let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), Form::Stage).unwrap());
+    let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), LayerKind::Stage).unwrap());
     sink.frame(&hair.strands, &DAffine3::IDENTITY).unwrap();
     sink.finish().unwrap();
     let text = std::fs::read_to_string(path).unwrap();
@@ -175,7 +175,7 @@ fn the_moving_head_carries_hair_and_skin() {
     for name in NAMES {
         let mut export = Export::new(&hair, 24.0);
         export.head = Some(&mesh);
-        let mut stage = reader(bytes(name, export, Form::Stage, pose));
+        let mut stage = reader(bytes(name, export, LayerKind::Stage, pose));
         for frame in 0..FRAMES {
             let read = stage.hair(frame, None).unwrap();
             for (&p, &q) in read.strands.points().iter().zip(strands(frame).points()) {
@@ -198,7 +198,7 @@ fn the_moving_head_carries_hair_and_skin() {
 #[test]
 fn a_layer_of_samples_holds_nothing_else() {
     let hair = groom();
-    let form = || Form::Layer("/character/grp_1/hair".to_owned());
+    let form = || LayerKind::Layer("/character/grp_1/hair".to_owned());
     let text = bytes("layer.usda", Export::new(&hair, 24.0), form(), pose);
     let text = String::from_utf8(text).unwrap();
     for line in ["over \"character\"", "over \"grp_1\"", "over \"hair\"", "point3f[] points.timeSamples = {"] {
@@ -210,7 +210,7 @@ fn a_layer_of_samples_holds_nothing_else() {
     let binary = bytes("layer.usdc", Export::new(&hair, 24.0), form(), pose);
     assert!(binary.len() < FRAMES * (hair.strands.points().len() * 12 + 200) + 1500, "{}", binary.len());
     for path in ["", "hair", "/a//b", "/1a", "/a b", "/"] {
-        let form = Form::Layer(path.to_owned());
+        let form = LayerKind::Layer(path.to_owned());
         assert!(HairStage::create(Path::new("x.usda"), Export::new(&hair, 24.0), form).is_err(), "{path}");
     }
 }
@@ -219,7 +219,7 @@ fn a_layer_of_samples_holds_nothing_else() {
 fn a_layer_over_a_groom_on_a_skeleton_takes_it_off_and_places_it() {
     let hair = groom();
     let export = Export { bound: true, ..Export::new(&hair, 24.0) };
-    let form = || Form::Layer("/character/hair".to_owned());
+    let form = || LayerKind::Layer("/character/hair".to_owned());
     let text = String::from_utf8(bytes("layer.usda", export.clone(), form(), pose)).unwrap();
     for line in [
         "prepend apiSchemas = [\"SkelBindingAPI\"]",
@@ -240,7 +240,7 @@ fn a_layer_over_a_groom_on_a_skeleton_takes_it_off_and_places_it() {
         );
     }
     // A complete stage is on no skeleton.
-    let stage = String::from_utf8(bytes("stage.usda", export, Form::Stage, pose)).unwrap();
+    let stage = String::from_utf8(bytes("stage.usda", export, LayerKind::Stage, pose)).unwrap();
     assert!(!stage.contains("skel:") && !stage.contains("apiSchemas"));
 }
 
@@ -256,7 +256,7 @@ fn a_groom_goes_back_into_its_own_space() {
     export.meters_per_unit = 1.0;
     export.z_up = true;
     for name in NAMES {
-        let mut stage = reader(bytes(name, export.clone(), Form::Stage, pose));
+        let mut stage = reader(bytes(name, export.clone(), LayerKind::Stage, pose));
         assert_eq!(stage.contents().unwrap().z_up, Some(true));
         let read = stage.hair(4, None).unwrap();
         for (&p, &q) in read.strands.points().iter().zip(strands(4).points()) {
@@ -275,7 +275,7 @@ fn widths_and_points_at_rest_are_in_the_files_unit_too() {
     for name in NAMES {
         let mut export = Export::new(&hair, 24.0);
         (export.file_from_head, export.rest) = (DAffine3::from_scale(glam::DVec3::splat(0.5)), true);
-        let read = reader(bytes(name, export, Form::Stage, |_| DAffine3::IDENTITY)).hair(0, None).unwrap();
+        let read = reader(bytes(name, export, LayerKind::Stage, |_| DAffine3::IDENTITY)).hair(0, None).unwrap();
         assert_eq!(read.attributes.width, Some((0..points).map(|p| 0.125 + 0.5 * p as f32).collect()), "{name}");
         let rest = read.attributes.other.iter().find(|other| other.name == "rest").unwrap();
         let halved = read.strands.points().iter().flat_map(|p| p.to_array()).collect();
@@ -377,7 +377,7 @@ fn what_is_not_said_is_bezier_and_what_is_closed_is_refused() {
 fn truncated_and_lying_layers_are_errors() {
     let hair = groom();
     for name in NAMES {
-        let file = bytes(name, Export::new(&hair, 24.0), Form::Stage, pose);
+        let file = bytes(name, Export::new(&hair, 24.0), LayerKind::Stage, pose);
         for length in (0..file.len() - 4).step_by(61) {
             let cut = StageReader::new(Cursor::new(file[..length].to_vec())).and_then(|mut s| s.hair(FRAMES - 1, None));
             assert!(cut.is_err(), "{name}: {length} of {} bytes", file.len());
@@ -409,7 +409,7 @@ fn truncated_and_lying_layers_are_errors() {
 #[test]
 fn tables_that_claim_more_than_the_file_are_refused() {
     let hair = groom();
-    let sound = bytes("hair.usdc", Export::new(&hair, 24.0), Form::Stage, pose);
+    let sound = bytes("hair.usdc", Export::new(&hair, 24.0), LayerKind::Stage, pose);
     let list = u64::from_le_bytes(sound[16..24].try_into().unwrap()) as usize;
     for entry in 0..6 {
         let start = list + 8 + 32 * entry;
@@ -447,7 +447,7 @@ proptest! {
             let (hair, mesh) = (groom(), tetrahedron());
             let mut export = Export::new(&hair, 24.0);
             export.head = Some(&mesh);
-            let [text, binary] = NAMES.map(|name| bytes(name, export.clone(), Form::Stage, pose));
+            let [text, binary] = NAMES.map(|name| bytes(name, export.clone(), LayerKind::Stage, pose));
             [text, binary, CUBIC.as_bytes().to_vec()]
         });
         let mut file = FILES.with(|files| files[kind].clone());

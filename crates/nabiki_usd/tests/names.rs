@@ -6,7 +6,7 @@ use glam::DAffine3;
 use nabiki::Hair;
 use nabiki::hair::{Attributes, Values};
 use nabiki_exchange::{Export, FrameSink, GroomReader};
-use nabiki_usd::{Form, HairStage, StageReader};
+use nabiki_usd::{HairStage, LayerKind, StageReader};
 
 /// What is read of two curves of two points that carry this, and of what is written of them.
 fn read(declared: &str) -> Attributes {
@@ -18,7 +18,7 @@ fn read(declared: &str) -> Attributes {
     let folder = tempfile::tempdir().unwrap();
     for name in ["again.usda", "again.usdc"] {
         let path = folder.path().join(name);
-        let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), Form::Stage).unwrap());
+        let mut sink = Box::new(HairStage::create(&path, Export::new(&hair, 24.0), LayerKind::Stage).unwrap());
         sink.frame(&hair.strands, &DAffine3::IDENTITY).unwrap();
         sink.finish().unwrap();
         let again = StageReader::open(&path).unwrap().hair(0, None).unwrap();

@@ -1,6 +1,5 @@
 //! How hair of the default style answers a force.
 
-use glam::Vec3;
 use nabiki::Head;
 use nabiki::body::{Body, Contact};
 use nabiki::dynamics::{Dynamics, Form, Motion};
@@ -11,13 +10,9 @@ use nabiki::pseudo_force::PseudoForce;
 pub fn dynamics(head: &Head, form: Form) -> Dynamics {
     Dynamics {
         motion: Motion { inertia_length_floor: 18.0, ..Motion::default() },
-        segment_length: 1.0,
         pseudo_force: if form == Form::Paper { PseudoForce::default() } else { PseudoForce::off() },
-        ellipsoid: head.ellipsoid,
-        shell: 1.25,
-        polar_axis: Vec3::Y,
-        disturbance: None,
         form,
+        ..Dynamics::new(head.ellipsoid)
     }
 }
 

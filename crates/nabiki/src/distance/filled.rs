@@ -154,6 +154,7 @@ fn upwind(mut around: [f32; 3], step: f32) -> f32 {
 mod tests {
     use super::*;
     use crate::Head;
+    use crate::obstacle::{Obstacle, Reading};
 
     #[test]
     fn a_filled_head_encloses_the_head_and_is_the_head_where_that_is_convex() {
@@ -162,7 +163,7 @@ mod tests {
         let filled = head.skin().filled(radius, spacing);
         let (mut deepest, mut farthest) = (0.0_f32, 0.0_f32);
         for vertex in head.mesh.positions.iter().step_by(7) {
-            let Some((distance, _)) = filled.sample(*vertex) else { continue };
+            let Some(Reading { distance, .. }) = filled.read(*vertex, 0) else { continue };
             deepest = deepest.max(distance);
             if vertex.y > 6.0 {
                 farthest = farthest.max(-distance);

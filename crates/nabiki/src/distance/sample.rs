@@ -3,24 +3,12 @@
 use glam::{Mat3, Vec3};
 
 use super::{COARSE, EDGE, FINE, Samples, SkinDistance};
+use crate::obstacle::{Obstacle, Reading};
 
 /// 1.5 times 2^23: what is added to it is rounded to a whole number, which the lowest bits of the sum then hold.
 const ROUNDS: f32 = 12_582_912.0;
 
 impl SkinDistance {
-    /// Signed distance at `p` and its gradient there, that of the interpolation itself (of unit length but for the
-    /// sampling; it jumps by that much from cell to cell). `None` beyond the sampled box.
-    pub fn sample(&self, p: Vec3) -> Option<(f32, Vec3)> {
-        let reading = self.read(p)?;
-        Some((reading.distance(), reading.gradient()))
-    }
-
-    /// What [`sample`](Self::sample) makes its answer of, for whoever may need but a part of it.
-    #[inline(always)]
-    pub(crate) fn read(&self, p: Vec3) -> Option<Reading> {
-        self.samples.read(p)
-    }
-
     /// Where some points lie among the fine samples.
     #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernels")]
     #[inline(always)]
@@ -43,7 +31,7 @@ impl SkinDistance {
         places
     }
 
-    /// The distance at one of them, to the bit as [`read`](Self::read) has it; `None` where it was not sampled finely.
+    /// The distance at one of them, to the bit as [`read`](Obstacle::read) has it; `None` where it was not sampled finely.
     #[inline(always)]
     pub(crate) fn fine_distance<const N: usize>(&self, places: &Places<N>, n: usize) -> Option<f32> {
         let block = *self.samples.block_of.get(places.cells[n] as usize)?;
@@ -51,23 +39,29 @@ impl SkinDistance {
         Some(interpolated(corners, Vec3::new(places.t[0][n], places.t[1][n], places.t[2][n])))
     }
 
-    /// How far `p` lies beyond the sampled box (cm); 0 within. Where what was sampled lies `inset` within its box, the
-    /// surface is at least that much farther away.
-    pub fn beyond_box(&self, p: Vec3) -> f32 {
-        let [low, high] = self.sampled_box();
-        (low - p).max(p - high).max(Vec3::ZERO).length()
-    }
-
-    /// What was sampled coarsely, through the whole box: as good as the name of a surface.
-    pub fn samples(&self) -> &[f32] {
-        &self.samples.coarse
-    }
-
     /// The corners of the box that was sampled.
     pub fn sampled_box(&self) -> [Vec3; 2] {
         let Samples { low, cell, nodes, mirrored, .. } = &self.samples;
         let high = *low + *cell * (*nodes - 1).as_vec3();
         [if *mirrored { low.with_z(-high.z) } else { *low }, high]
+    }
+}
+
+impl Obstacle for SkinDistance {
+    fn reach(&self) -> [Vec3; 2] {
+        self.sampled_box()
+    }
+
+    /// Its gradient is that of the interpolation itself: of unit length but for the sampling, and it jumps by that much from cell to
+    /// cell.
+    #[inline(always)]
+    fn read(&self, p: Vec3, _: u32) -> Option<Reading> {
+        let cell = self.samples.cell(p)?;
+        Some(Reading { distance: cell.distance(), gradient: cell.gradient(), hessian: cell.hessian() })
+    }
+
+    fn identify(&self, hand_on: &mut dyn FnMut(&[f32])) {
+        hand_on(&self.samples.coarse);
     }
 }
 
@@ -80,7 +74,7 @@ pub(crate) struct Places<const N: usize> {
 }
 
 /// The samples about a point.
-pub(crate) struct Reading {
+struct Cell {
     /// Those at the corners, x fastest.
     corners: [f32; 8],
     /// Where in the cell the point lies, 0..=1.
@@ -93,7 +87,7 @@ pub(crate) struct Reading {
 
 impl Samples {
     #[inline(always)]
-    fn read(&self, p: Vec3) -> Option<Reading> {
+    fn cell(&self, p: Vec3) -> Option<Cell> {
         let Self { low, cell, nodes, mirrored, coarse, block_of, fine } = self;
         let flipped = *mirrored && p.z < 0.0;
         let p = if *mirrored { p.with_z(p.z.abs()) } else { p };
@@ -113,10 +107,10 @@ impl Samples {
             let at = ck as usize * slice + cj as usize * row + ci as usize;
             let ([a, b, c, d], [e, f, g, h]) = (square(coarse, at, row), square(coarse, at + slice, row));
             let t = (Vec3::new(i as f32, j as f32, k as f32) + t) / FINE as f32;
-            return Some(Reading { corners: [a, b, c, d, e, f, g, h], t, edge: *cell, flipped });
+            return Some(Cell { corners: [a, b, c, d, e, f, g, h], t, edge: *cell, flipped });
         }
         let at = ((k as usize * EDGE) + j as usize) * EDGE + i as usize;
-        Some(Reading { corners: block_corners(&fine[block as usize], at)?, t, edge: *cell / FINE as f32, flipped })
+        Some(Cell { corners: block_corners(&fine[block as usize], at)?, t, edge: *cell / FINE as f32, flipped })
     }
 }
 
@@ -145,14 +139,14 @@ pub(crate) fn whole(x: f32) -> (u32, f32) {
     (shifted.to_bits() & 0x3f_ffff, x - (shifted - ROUNDS))
 }
 
-impl Reading {
+impl Cell {
     #[inline(always)]
-    pub fn distance(&self) -> f32 {
+    fn distance(&self) -> f32 {
         interpolated(self.corners, self.t)
     }
 
     #[inline(always)]
-    pub fn gradient(&self) -> Vec3 {
+    fn gradient(&self) -> Vec3 {
         let Self { corners: [a, b, c, d, e, f, g, h], t, edge, flipped } = *self;
         let along_x = between(between(b - a, d - c, t.y), between(f - e, h - g, t.y), t.z);
         let (low, high) = (between(a, b, t.x), between(c, d, t.x));
@@ -164,7 +158,8 @@ impl Reading {
 
     /// How the gradient changes within the cell: the second derivatives of the interpolation, of which those along one axis
     /// twice are 0.
-    pub fn hessian(&self) -> Mat3 {
+    #[inline(always)]
+    fn hessian(&self) -> Mat3 {
         let Self { corners: [a, b, c, d, e, f, g, h], t, edge, flipped } = *self;
         let (low, high) = ((d - c) - (b - a), (h - g) - (f - e));
         let xy = between(low, high, t.z);

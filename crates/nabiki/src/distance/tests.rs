@@ -2,6 +2,7 @@ use glam::{Vec3, vec3};
 
 use super::SkinDistance;
 use crate::Mesh;
+use crate::obstacle::{Obstacle, beyond};
 
 /// A box from -`half` to `half`, each side two triangles.
 fn cuboid(half: Vec3) -> Mesh {
@@ -132,13 +133,14 @@ fn what_is_read_of_either_side_of_a_head_is_as_steep_and_as_curved_as_it_changes
     let skin = head.skin();
     let h = 0.02;
     let (mut compared, mut all) = (0, 0);
-    for p in scattered(12.0).filter(|&p| skin.sample(p).is_some_and(|(distance, _)| distance.abs() < 4.0)) {
-        let ((distance, gradient), mirrored) = (skin.sample(p).unwrap(), p.with_z(-p.z));
-        assert_eq!(skin.sample(mirrored), Some((distance, gradient.with_z(-gradient.z))), "{p}");
-        assert_eq!(skin.beyond_box(mirrored), 0.0);
-        let hessian = skin.read(p).unwrap().hessian();
+    let sample = |p| skin.read(p, 0).map(|at| (at.distance, at.gradient));
+    for p in scattered(12.0).filter(|&p| sample(p).is_some_and(|(distance, _)| distance.abs() < 4.0)) {
+        let ((distance, gradient), mirrored) = (sample(p).unwrap(), p.with_z(-p.z));
+        assert_eq!(sample(mirrored), Some((distance, gradient.with_z(-gradient.z))), "{p}");
+        assert_eq!(beyond(skin.reach(), mirrored), 0.0);
+        let hessian = skin.read(p, 0).unwrap().hessian;
         for (axis, e) in [Vec3::X, Vec3::Y, Vec3::Z].into_iter().enumerate() {
-            let Some(((after, to), (before, from))) = skin.sample(p + h * e).zip(skin.sample(p - h * e)) else {
+            let Some(((after, to), (before, from))) = sample(p + h * e).zip(sample(p - h * e)) else {
                 continue;
             };
             all += 1;

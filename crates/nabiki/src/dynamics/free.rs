@@ -3,6 +3,7 @@
 //! The equations, with the functions that hold them, are in docs/motion-forms.md.
 
 mod contact;
+mod frame;
 mod grid;
 mod head_frame;
 mod kernel;
@@ -10,12 +11,13 @@ mod packed;
 mod passes;
 mod pulls;
 mod reference;
+mod rotate;
 mod runner;
 mod segment;
 
 use contact::{FAN, NEAR, PUSHES, ROUNDS, TOLERANCE_CM, TURN};
 pub(super) use grid::Crowd;
 pub(super) use pulls::pulls;
-pub(super) use reference::{Reference, Setting, Springs, Strand};
+pub(super) use reference::{Common, Reference, Springs, Strand};
 pub(super) use runner::Runner;
 pub(super) use segment::held;

@@ -91,13 +91,31 @@ impl Runner {
         }
     }
 
-    /// Stands where the same hair stands, be it under other settings; `false`, and no change, if `of` is other hair.
-    pub fn set_state(&mut self, of: &Self, width: VectorWidth) -> bool {
+    /// Stands where the same hair stands, be it under other settings, and shows its points, `shown`; no change if it is refused.
+    pub fn set_state(
+        &mut self,
+        of: &Self,
+        width: VectorWidth,
+        points: &mut [Vec3],
+        shown: &[Vec3],
+    ) -> Result<(), SettingError> {
+        let are_clones = match (&self.form, &of.form) {
+            (OfForm::Paper(runner), OfForm::Paper(of)) => runner.is_clone_of(of),
+            (OfForm::Free(runner), OfForm::Free(of)) => runner.is_clone_of(of),
+            _ => false,
+        };
+        let headers = (!are_clones).then(|| (self.header(points), of.header(shown)));
+        if let Some((own, other)) = &headers {
+            other.check(own)?;
+        }
         match (&mut self.form, &of.form) {
             (OfForm::Paper(runner), OfForm::Paper(of)) => runner.set_state(of),
-            (OfForm::Free(runner), OfForm::Free(of)) => runner.set_state(of, width),
-            _ => false,
+            (OfForm::Free(runner), OfForm::Free(of)) => runner.set_state(of, headers.as_ref(), width),
+            // Refused by now.
+            _ => {}
         }
+        points.copy_from_slice(shown);
+        Ok(())
     }
 
     /// Where it stands, as bytes, with the frame and the points that are shown.

@@ -125,12 +125,13 @@ impl Simulation {
     /// What is tied here lies as at rest from the next step on, and carriers that `of` has not begin at rest. That hair is the same
     /// takes some milliseconds to see, where neither is a clone of the other, or of the same simulation.
     ///
-    /// # Panics
-    /// If it is other hair at rest, or hair of the other form of the motion.
-    pub fn set_state(&mut self, of: &Self) {
-        assert!(self.runner.set_state(&of.runner, self.width), "a state is that of the same hair in the same form");
-        self.strands.points_mut().copy_from_slice(of.strands.points());
+    /// # Errors
+    /// Other hair at rest, or hair of the other form of the motion, as [`set_state_bytes`](Self::set_state_bytes) refuses it. Nothing is
+    /// changed then.
+    pub fn set_state(&mut self, of: &Self) -> Result<(), SettingError> {
+        self.runner.set_state(&of.runner, self.width, self.strands.points_mut(), of.strands.points())?;
         self.frame = of.frame;
+        Ok(())
     }
 
     /// Where it stands, as bytes: for a saved game, another machine, the report of a crash. Of 3,000 strands of 18 segments 2.4 MB

@@ -6,38 +6,11 @@
 use glam::Vec3;
 
 use super::gain::{SegmentShape, segment_shapes};
+use super::pull::Pull;
 use super::{Dynamics, Form, free};
 use crate::error::SettingError;
 use crate::field::Field;
 use crate::strands::Strands;
-
-/// A force on hair besides the field, as the check of stability sees it.
-pub(super) trait Pull {
-    /// What a refusal calls it.
-    fn name(&self) -> Name;
-
-    /// Its setting, or the largest number of that.
-    fn setting(&self) -> f32;
-
-    /// Whether that setting has other numbers, which go down with the largest.
-    fn has_others(&self) -> bool {
-        false
-    }
-
-    /// The steepest slope of its force on a segment, in the unit of F a radian. `next`: the segment after it.
-    fn strongest(&self, segment: &SegmentShape, next: Option<&SegmentShape>) -> f64;
-}
-
-/// What a refusal calls a pull.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Name {
-    /// Its setting in a scene.
-    pub setting: &'static str,
-    /// The same in words.
-    pub words: &'static str,
-    /// Its term in the sum that must stay below 4.
-    pub term: &'static str,
-}
 
 impl Form {
     /// What pulls on hair besides the field.
@@ -262,10 +235,8 @@ fn rounded_down(x: f64) -> f32 {
 mod tests {
     use super::*;
     use crate::Ellipsoid;
-    use crate::dynamics::Motion;
     use crate::field::{Keyframe, KeyframedField};
     use crate::free_form::FreeMotion;
-    use crate::pseudo_force::PseudoForce;
     use glam::Vec3;
     use proptest::prelude::*;
 
@@ -287,14 +258,8 @@ mod tests {
             free.form.gravity = gravity.into();
             let refused = |free: &FreeMotion, force: f32| {
                 let dynamics = Dynamics {
-                    motion: Motion::default(),
-                    segment_length: 1.0,
-                    pseudo_force: PseudoForce::default(),
-                    ellipsoid: Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::splat(9.0) },
-                    shell: 1.25,
-                    polar_axis: Vec3::Y,
-                    disturbance: None,
                     form: Form::Free(free.clone()),
+                    ..Dynamics::new(Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::splat(9.0) })
                 };
                 let field = KeyframedField::new(&[Keyframe { through: 9, vector: Vec3::X * force }]).unwrap();
                 check_field(&hair, &dynamics, &field).err()

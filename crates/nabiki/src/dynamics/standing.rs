@@ -56,14 +56,14 @@ impl Standing {
         let hair = match &dynamics.form {
             Form::Paper => {
                 let polar_from_head = PolarAxis::new(dynamics.polar_axis).polar_from_head();
-                let setting = paper::Setting { gamma: dynamics.gamma(), polar_from_head };
-                let new = |(s, strand)| paper::Strand::new(dynamics, &setting, strand, s);
+                let common = paper::Common { gamma: dynamics.gamma(), polar_from_head };
+                let new = |(s, strand)| paper::Strand::new(dynamics, &common, strand, s);
                 let mut hair = each.map(new).collect::<Result<Vec<_>, _>>()?;
                 hair.par_iter_mut().zip(ids).for_each(|(strand, &id)| {
                     for input in &inputs {
                         let disturbance = dynamics.disturbance.as_ref();
                         let part = disturbance.and_then(|of| Some((of, of.part(input.frame)?)));
-                        strand.step(&setting, &air(input), part.map(|(of, part)| of.turn(id, &part).map(f64::from)));
+                        strand.step(&common, &air(input), part.map(|(of, part)| of.turn(id, &part).map(f64::from)));
                     }
                 });
                 Standings::Paper(hair)
@@ -74,16 +74,16 @@ impl Standing {
                 let mut hair = each.map(new).collect::<Result<Vec<_>, _>>()?;
                 if free.neighbours.is_none() {
                     let settings: Vec<_> =
-                        inputs.iter().map(|input| free::Setting::new(dynamics, free, input)).collect();
+                        inputs.iter().map(|input| free::Common::new(dynamics, free, input)).collect();
                     hair.par_iter_mut().for_each(|strand| {
-                        for (input, setting) in inputs.iter().zip(&settings) {
-                            strand.step(setting, &air(input), None);
+                        for (input, common) in inputs.iter().zip(&settings) {
+                            strand.step(common, &air(input), None);
                         }
                     });
                 } else {
                     for input in &inputs {
-                        let (setting, left) = (free::Setting::new(dynamics, free, input), timeline.crowd());
-                        hair.par_iter_mut().for_each(|strand| strand.step(&setting, &air(input), left));
+                        let (common, left) = (free::Common::new(dynamics, free, input), timeline.crowd());
+                        hair.par_iter_mut().for_each(|strand| strand.step(&common, &air(input), left));
                         timeline.advance();
                     }
                 }

@@ -42,7 +42,7 @@ impl Header {
     }
 
     /// Refuses the state of what this is not.
-    fn check(&self, own: &Self) -> Result<(), SettingError> {
+    pub fn check(&self, own: &Self) -> Result<(), SettingError> {
         let form = |header: &Self| if header.is_free { "the free form" } else { "the paper's form" };
         if self.is_free != own.is_free {
             let remedy = format!("this hair moves by {}: give it that motion.form, or begin from rest", form(own));

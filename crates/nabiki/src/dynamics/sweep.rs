@@ -13,7 +13,7 @@ use super::block::Block;
 const GRAIN: usize = 8;
 
 /// A form of the motion: all that no frame changes of some hair, packed in blocks, and how it is moved.
-pub(super) trait Form: Sync {
+pub(super) trait Swept: Sync {
     /// What moves, of one segment of sixteen strands.
     type State: Copy + Send + Sync;
     /// What becomes of the hair in one frame.
@@ -26,7 +26,7 @@ pub(super) trait Form: Sync {
 }
 
 /// Takes every block through all `plans`, one block after another, so that its states stay in the nearest cache.
-pub(super) fn sweep<F: Form>(
+pub(super) fn sweep<F: Swept>(
     form: &F,
     plans: &[F::Plan<'_>],
     width: VectorWidth,
@@ -72,22 +72,22 @@ impl<'a> Pages<'a> {
 }
 
 /// One pass over all blocks, halved between cores until a piece is small.
-struct Sweep<'a, 'p, F: Form> {
+struct Sweep<'a, 'p, F: Swept> {
     form: &'a F,
     plans: &'a [F::Plan<'p>],
     width: VectorWidth,
     grain: usize,
 }
 
-impl<F: Form> Clone for Sweep<'_, '_, F> {
+impl<F: Swept> Clone for Sweep<'_, '_, F> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<F: Form> Copy for Sweep<'_, '_, F> {}
+impl<F: Swept> Copy for Sweep<'_, '_, F> {}
 
-impl<F: Form> Sweep<'_, '_, F> {
+impl<F: Swept> Sweep<'_, '_, F> {
     fn split(self, blocks: &[Block], states: &mut [F::State], pages: Pages) {
         if blocks.len() <= self.grain {
             return self.run(Piece { sweep: self, blocks, states, pages });
@@ -104,14 +104,14 @@ impl<F: Form> Sweep<'_, '_, F> {
 }
 
 /// Some blocks with their states and points, for one core.
-struct Piece<'a, 'p, 's, F: Form> {
+struct Piece<'a, 'p, 's, F: Swept> {
     sweep: Sweep<'a, 'p, F>,
     blocks: &'a [Block],
     states: &'s mut [F::State],
     pages: Pages<'s>,
 }
 
-impl<F: Form> NullaryFnOnce for Piece<'_, '_, '_, F> {
+impl<F: Swept> NullaryFnOnce for Piece<'_, '_, '_, F> {
     type Output = ();
 
     #[inline(always)]

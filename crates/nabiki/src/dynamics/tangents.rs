@@ -115,8 +115,8 @@ fn some<const N: usize>(
     match &moved.dynamics.form {
         Form::Paper => {
             let polar_from_head = PolarAxis::new(moved.dynamics.polar_axis).polar_from_head();
-            let setting = paper::Setting { gamma: moved.dynamics.gamma(), polar_from_head };
-            let walk = PaperWalk { moved, setting, airs: &airs };
+            let common = paper::Common { gamma: moved.dynamics.gamma(), polar_from_head };
+            let walk = PaperWalk { moved, common, airs: &airs };
             sinks.par_iter_mut().try_for_each(|sink| alone(&walk, moved.from(), sink))
         }
         Form::Free(free) => {
@@ -128,7 +128,7 @@ fn some<const N: usize>(
                 factor
             };
             let springs = Springs { stiffness: unknown(change.stiffness), settle: unknown(change.settle) };
-            let settings = inputs.iter().map(|input| free::Setting::new(moved.dynamics, free, input)).collect();
+            let settings = inputs.iter().map(|input| free::Common::new(moved.dynamics, free, input)).collect();
             let walk = FreeWalk { moved, free, springs, settings, airs: &airs };
             match &free.neighbours {
                 None => sinks.par_iter_mut().try_for_each(|sink| alone(&walk, moved.from(), sink)),
@@ -204,7 +204,7 @@ trait Walk<const N: usize>: Sync {
 
 struct PaperWalk<'a, const N: usize> {
     moved: &'a Moved<'a>,
-    setting: paper::Setting,
+    common: paper::Common,
     airs: &'a [Gale<'a, N>],
 }
 
@@ -215,7 +215,7 @@ impl<const N: usize> Walk<N> for PaperWalk<'_, N> {
         if let Some(Standing { hair: Standings::Paper(hair), .. }) = self.moved.standing {
             return Ok(paper::Strand::of_known(&hair[s]));
         }
-        paper::Strand::new(self.moved.dynamics, &self.setting, self.moved.strands.strand(s), s)
+        paper::Strand::new(self.moved.dynamics, &self.common, self.moved.strands.strand(s), s)
     }
 
     #[inline(always)]
@@ -224,7 +224,7 @@ impl<const N: usize> Walk<N> for PaperWalk<'_, N> {
         let frame = self.moved.from() + n as u32 + 1;
         let part = disturbance.and_then(|disturbance| Some((disturbance, disturbance.part(frame)?)));
         let disturbed = part.map(|(disturbance, part)| disturbance.turn(self.moved.ids[s], &part).map(f64::from));
-        strand.step(&self.setting, &self.airs[n], disturbed);
+        strand.step(&self.common, &self.airs[n], disturbed);
     }
 
     fn positions(strand: &Self::Strand) -> &[Vector<Dual<N>>] {
@@ -237,7 +237,7 @@ struct FreeWalk<'a, const N: usize> {
     free: &'a FreeMotion,
     springs: Springs<Dual<N>>,
     /// Of every input.
-    settings: Vec<free::Setting<'a>>,
+    settings: Vec<free::Common<'a>>,
     airs: &'a [Gale<'a, N>],
 }
 

@@ -157,7 +157,7 @@ impl Timeline {
 
     /// Computes all frames, and stands at the last one. What it computed before is returned at once as long as nothing
     /// was set since.
-    pub fn play(&mut self) -> Film<'_> {
+    pub fn play(&mut self) -> Played<'_> {
         if !self.played {
             let points = self.strands.points().len();
             self.film.resize((self.frames as usize + 1) * points, Vec3::ZERO);
@@ -170,7 +170,7 @@ impl Timeline {
             // The states are still those of another frame. Nothing goes on from the last: what lies behind begins at rest.
             self.frame = self.frames;
         }
-        Film { points: &self.film, hair: &self.hair }
+        Played { points: &self.film, hair: &self.hair }
     }
 
     /// Computes all frames into storage of the caller's, and stands at the last one: the points of frame 0, then those of
@@ -224,9 +224,9 @@ impl Timeline {
 
     /// Stands where another timeline of the same hair stands; `false`, and no change, if that is other hair. Its field stays.
     pub(crate) fn stand_where(&mut self, of: &Self) -> bool {
-        let is_same = self.runner.set_state(&of.runner, self.width);
+        let (own, shown) = (self.strands.points_mut(), of.strands.points());
+        let is_same = self.runner.set_state(&of.runner, self.width, own, shown).is_ok();
         if is_same {
-            self.strands.points_mut().copy_from_slice(of.strands.points());
             (self.frame, self.played) = (of.frame, false);
         }
         is_same
@@ -288,12 +288,12 @@ impl Timeline {
 
 /// All frames of a motion, as [`Timeline::play`] keeps them.
 #[derive(Clone, Copy, Debug)]
-pub struct Film<'a> {
+pub struct Played<'a> {
     points: &'a [Vec3],
     hair: &'a Strands,
 }
 
-impl<'a> Film<'a> {
+impl<'a> Played<'a> {
     /// The last frame's number.
     pub fn frames(&self) -> u32 {
         (self.points.len() / self.hair.points().len()) as u32 - 1

@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
 use super::falloff::{self, EnvelopeKey, Falloff};
 use super::lanes::{self, Lanes, get, set};
@@ -22,7 +22,7 @@ pub(super) const FARTHEST: f64 = 1e6;
 /// # Errors
 /// Names `at`, where it has none.
 pub(super) fn unit(at: &Place, direction: Vec3) -> Result<Vec3, SettingError> {
-    let unit = direction.as_dvec3().try_normalize().map(DVec3::as_vec3);
+    let unit = direction.as_dvec3().try_normalize().map(|unit| unit.as_vec3());
     unit.ok_or_else(|| SettingError::new(Key::from(at), direction, "must be a direction, not (0, 0, 0)"))
 }
 

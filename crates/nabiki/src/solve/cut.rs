@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 
 use glam::Vec3;
 
-use super::wind::with_interval;
+use super::keyed_wind::with_interval;
 use crate::field::{Ease, Keyframe, KeyframedField};
 
 /// So many frames after the pulled one an interval may end that a pull has for its own, lest it leave a rest of a frame or two.

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use super::keyed_wind::{KeyedWind, Surroundings};
 use super::unknowns::Unknown;
-use super::wind::{Surroundings, Wind};
 use super::wish::Wish;
 use crate::dynamics::Dynamics;
 use crate::error::SettingError;
@@ -23,7 +23,7 @@ pub struct Problem {
     /// Of the head in the world from frame 0 on; none for a head that stands still.
     pub poses: Vec<Pose>,
     /// The wind as it is now.
-    pub wind: Wind,
+    pub wind: KeyedWind,
     /// What makes a field of it.
     pub surroundings: Arc<dyn Surroundings>,
     /// What may change.

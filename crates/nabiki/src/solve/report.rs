@@ -22,6 +22,7 @@ pub struct WishLeft {
 
 /// What a search found.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Report {
     /// The settings, rounded as a scene file holds them. All distances here are of the motion that they make.
     pub answer: Answer,

@@ -10,11 +10,11 @@ use std::sync::Arc;
 use glam::{DVec3, Vec3};
 
 use super::aims::{Aims, check_goal};
+use super::keyed_wind::Gusts;
 use super::linear::Normal;
 use super::problem::Problem;
 use super::report::Step;
 use super::unknowns::{Answer, Guess, Layout, Unknown};
-use super::wind::Gusts;
 use super::wish::Goal;
 use crate::dynamics::{Dynamics, Form, Stability, Standing, Timeline};
 use crate::error::SettingError;

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::{DVec3, EulerRot, Quat, Vec3};
 
+use super::keyed_wind::{Gusts, KeyedWind};
 use super::unknowns::{Layout, Unknown};
-use super::wind::{Gusts, Wind};
 use crate::body::{Body, Contact};
 use crate::disturbance::Disturbance;
 use crate::dynamics::{
@@ -34,19 +34,15 @@ fn hair(head: &Head) -> Strands {
 fn dynamics(head: &Head, form: Form) -> Dynamics {
     Dynamics {
         motion: Motion { inertia_length_floor: 18.0, ..Motion::default() },
-        segment_length: 1.0,
         pseudo_force: PseudoForce::off(),
-        ellipsoid: head.ellipsoid,
-        shell: 1.25,
-        polar_axis: Vec3::Y,
-        disturbance: None,
         form,
+        ..Dynamics::new(head.ellipsoid)
     }
 }
 
-fn wind(ease: Ease) -> Wind {
+fn wind(ease: Ease) -> KeyedWind {
     let key = |through, x, y, z| Keyframe { through, vector: Vec3::new(x, y, z) };
-    Wind {
+    KeyedWind {
         keyframes: vec![key(24, -60.0, 5.0, -30.0), key(46, -10.0, -70.0, 20.0), key(100, 0.0, 0.0, 12.0)],
         ease,
         gust: Some(Gust { intensity: 0.25, ..Gust::default() }),
@@ -81,7 +77,7 @@ struct Case<'a> {
     hair: &'a Strands,
     dynamics: Dynamics,
     poses: Vec<Pose>,
-    wind: Wind,
+    wind: KeyedWind,
     unknowns: Vec<Unknown>,
     field: Made<'a>,
     of_wind: Made<'a>,

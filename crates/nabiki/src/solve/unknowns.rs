@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
+use super::keyed_wind::KeyedWind;
 use super::track::Track;
-use super::wind::Wind;
 use crate::dynamics::{Dynamics, Form};
 use crate::error::SettingError;
 use crate::field::{Gust, Keyframe, KeyframedField};
@@ -82,7 +82,7 @@ pub(super) struct Guess {
 
 impl Layout {
     /// Refuses unknowns that there are not, none, and the same one twice.
-    pub fn new(unknowns: &[Unknown], wind: &Wind, dynamics: &Dynamics) -> Result<Self, SettingError> {
+    pub fn new(unknowns: &[Unknown], wind: &KeyedWind, dynamics: &Dynamics) -> Result<Self, SettingError> {
         if unknowns.is_empty() {
             let remedy = "nothing may change: free a vector, a border, the gusts, stiffness or settle";
             return Err(SettingError::new("unknowns", "none", remedy));
@@ -101,7 +101,7 @@ impl Layout {
     }
 
     /// The numbers that the problem has.
-    pub fn start(&self, wind: &Wind) -> Vec<f64> {
+    pub fn start(&self, wind: &KeyedWind) -> Vec<f64> {
         let mut x = Vec::with_capacity(self.numbers);
         for &(unknown, _) in &self.unknowns {
             match unknown {
@@ -115,7 +115,7 @@ impl Layout {
     }
 
     /// What some numbers mean.
-    pub fn guess(&self, wind: &Wind, x: &[f64]) -> Guess {
+    pub fn guess(&self, wind: &KeyedWind, x: &[f64]) -> Guess {
         let mut guess = Guess {
             track: Track {
                 vectors: wind.keyframes.iter().map(|key| key.vector.as_dvec3()).collect(),
@@ -140,7 +140,7 @@ impl Layout {
 
     /// Brings numbers back to where they mean something: borders a frame apart at least, gusts of no negative strength,
     /// factors of a size. `wind`: where borders are that are not free.
-    pub fn keep_in_range(&self, wind: &Wind, x: &mut [f64]) {
+    pub fn keep_in_range(&self, wind: &KeyedWind, x: &mut [f64]) {
         for &(unknown, at) in &self.unknowns {
             match unknown {
                 Unknown::Gust => x[at] = x[at].max(0.0),
@@ -175,7 +175,7 @@ impl Layout {
     }
 
     /// The first frame that feels any of them.
-    pub fn first_felt(&self, wind: &Wind) -> Result<u32, SettingError> {
+    pub fn first_felt(&self, wind: &KeyedWind) -> Result<u32, SettingError> {
         let mut first = u32::MAX;
         for &(unknown, _) in &self.unknowns {
             first = first.min(match unknown {
@@ -201,7 +201,7 @@ impl Layout {
 
 impl Guess {
     /// As a scene file would hold it: frames whole, other numbers with few digits.
-    pub fn rounded(&self, wind: &Wind, dynamics: &Dynamics) -> Answer {
+    pub fn rounded(&self, wind: &KeyedWind, dynamics: &Dynamics) -> Answer {
         let thousandth = |x: f64| ((x * 1000.0).round() / 1000.0) as f32;
         let as_it_was = |now: f32, x: f64| if f64::from(now) == x { now } else { thousandth(x) };
         let keyframes = wind.keyframes.iter().enumerate().map(|(j, key)| {
@@ -243,7 +243,7 @@ fn times(profile: &Profile, factor: f64) -> Profile {
     }
 }
 
-fn check(unknown: Unknown, intervals: usize, wind: &Wind, dynamics: &Dynamics) -> Result<(), SettingError> {
+fn check(unknown: Unknown, intervals: usize, wind: &KeyedWind, dynamics: &Dynamics) -> Result<(), SettingError> {
     let there = || match intervals {
         0 => "there is no [[force]]: ask for a new interval".to_owned(),
         1 => "there is one [[force]], number 0; or ask for a new interval".to_owned(),
@@ -283,9 +283,9 @@ mod tests {
 
     use super::*;
 
-    fn wind(frames: &[u32]) -> Wind {
+    fn wind(frames: &[u32]) -> KeyedWind {
         let keyframes = frames.iter().map(|&through| Keyframe { through, vector: Vec3::X }).collect();
-        Wind { keyframes, ..Wind::default() }
+        KeyedWind { keyframes, ..KeyedWind::default() }
     }
 
     fn layout(unknowns: &[Unknown]) -> Layout {

@@ -5,7 +5,7 @@ use std::f32::consts::{PI, TAU};
 use std::sync::Arc;
 
 use glam::{EulerRot, Quat, Vec3, Vec3Swizzles};
-use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Reference, Simulation, Stepper};
+use nabiki::dynamics::{Dynamics, Form, FrameInput, Reference, Simulation, Stepper};
 use nabiki::field::{Field, Keyframe, KeyframedField};
 use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours};
 use nabiki::pseudo_force::PseudoForce;
@@ -32,7 +32,7 @@ pub fn free(form: FreeForm) -> Dynamics {
 /// The same among other hair.
 pub fn with_neighbours(mut dynamics: Dynamics) -> Dynamics {
     if let Form::Free(free) = &mut dynamics.form {
-        free.neighbours = Some(Neighbours { forces: NeighbourForces::default(), carriers: Arc::new(hair(24, 18)) });
+        free.neighbours = Some(Neighbours::new(NeighbourForces::default(), Arc::new(hair(24, 18))));
     }
     dynamics
 }
@@ -44,16 +44,7 @@ pub fn wind() -> KeyframedField {
 
 /// Table 1 of the paper, but for the force.
 pub fn gust() -> Dynamics {
-    Dynamics {
-        motion: Motion::default(),
-        segment_length: 1.0,
-        pseudo_force: PseudoForce::default(),
-        ellipsoid: HEAD,
-        shell: 1.25,
-        polar_axis: Vec3::Y,
-        disturbance: None,
-        form: Form::Paper,
-    }
+    Dynamics::new(HEAD)
 }
 
 /// Strands that leave the head along its normal and bend down, as many of them as wanted; `segments` of 18 cm in all.

@@ -126,8 +126,8 @@ pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, end: u64, counts: Coun
             origin::GROOM_TAG => groom = Some(origin::groom_from_bytes(&block.values(length as usize)?)?),
             piece::TAG => piece = Some(Piece::from_bytes(&block.values(length as usize)?)?),
             BOUNDS_TAG => {
-                let corners = finite::tuples(&name, block.values::<[f32; 3]>(2)?)?;
-                bounds = Some([corners[0].into(), corners[1].into()]);
+                let corners: Vec<Vec3> = block.values(2)?;
+                bounds = Some([corners[0], corners[1]]);
             }
             START_TAG => first_frame = block.values(1)?[0],
             SUMS_TAG => {

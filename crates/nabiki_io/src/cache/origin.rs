@@ -9,7 +9,7 @@ use crate::{
     axis::Axis,
     bytes::put,
     error::{Error, Result},
-    groom_file::{CurvePrim, GroomCurves},
+    groom_curves::{CurvePrim, GroomCurves},
     placement::Placement,
     unit::Unit,
 };

@@ -14,6 +14,7 @@ use crate::{
 
 /// Frames, and the hair of the first.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CacheInfo {
     /// Number of frames, the rest frame 0 among them.
     pub frames: u64,

@@ -16,6 +16,7 @@ use crate::unit::Unit;
 
 /// What is in a layer or archive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ExchangeInfo {
     /// What stands in the file.
     pub prims: Vec<PrimSummary>,
@@ -41,6 +42,7 @@ pub struct ExchangeInfo {
 
 /// One object of a layer or archive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct PrimSummary {
     /// Where it stands.
     pub path: String,

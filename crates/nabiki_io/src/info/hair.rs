@@ -14,6 +14,7 @@ use crate::screen::OneLine;
 
 /// Strands and what is known of them, in the file's own unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct HairInfo {
     /// Number of strands.
     pub strands: usize,
@@ -76,6 +77,7 @@ impl HairInfo {
 
 /// An attribute that is only passed on, as the file has it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct Carried {
     /// Its name there.
     pub name: String,

@@ -20,6 +20,7 @@ use crate::{
 
 /// Triangles and what is known of them, in the file's own unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct MeshInfo {
     /// Vertices as the file has them.
     pub vertices: usize,
@@ -53,6 +54,7 @@ pub struct MeshInfo {
 
 /// An animation of a .glb.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ClipInfo {
     /// Its name, empty where it has none.
     pub name: String,

@@ -13,6 +13,8 @@ import math
 import pathlib
 import struct
 
+import xxhash
+
 HERE = pathlib.Path(__file__).parent
 
 # Metres, y up, face along +z; every number is exact in binary.
@@ -267,13 +269,24 @@ def cache():
     starts = pack("I", [0, 4, 8, 12])
     tag = b"id      " + struct.pack("<Q", 24) + pack("q", [7, 8, 9])
     origin = b"origin  " + struct.pack("<Q", 32) + struct.pack("<fII3fQ", 100, 2, 4, 0, 1.5, 0, len(POINTS))
-    blocks = starts + tag + origin
-    frames = []
+    name = b"groom.hair"
+    groom = pack("I", [len(name), 0]) + name
+    groom = b"groom   " + struct.pack("<Q", len(groom)) + groom + bytes(-len(groom) % 8)
+    frames, places = [], []
     for _, (x, y, z), angle in SAMPLES:
-        pose = pack("f", [100 * z, 100 * (y + NECK), -100 * x, *turn(angle)])
-        frames.append(pose + pack("f", flat(in_head)))
-    header = b"NABIKI\r\n" + pack("I", [1, 3, 12, 0]) + struct.pack("<QQd", len(frames), 64 + len(blocks), RATE)
-    binary("motion.nabiki", header, bytes(range(16)), blocks, *frames)
+        head = (100 * z, 100 * (y + NECK), -100 * x)
+        frames.append(pack("f", [*head, *turn(angle)]) + pack("f", flat(in_head)))
+        sine, cosine = math.sin(math.radians(angle)), math.cos(math.radians(angle))
+        places += [(cosine * px + sine * pz, py, cosine * pz - sine * px) for px, py, pz in in_head]
+    box = [pick(axis) for pick in (min, max) for axis in zip(*places)]
+    bounds = b"bounds  " + struct.pack("<Q6f", 24, *box)
+    blocks = starts + tag + origin + groom + bounds
+    sums = b"sums    " + struct.pack("<Q", 8 * (len(frames) + 1))
+    begin = 64 + len(blocks) + len(sums) + 8 * (len(frames) + 1)
+    header = b"NABIKI\r\n" + pack("I", [1, 3, 12, 0]) + struct.pack("<QQd", len(frames), begin, RATE)
+    header += bytes(range(16)) + blocks + sums
+    sums_of = [xxhash.xxh3_64_intdigest(part) for part in (header, *frames)]
+    binary("motion.nabiki", header, pack("Q", sums_of), *frames)
 
 
 hair()

@@ -94,7 +94,7 @@ impl BuiltScene {
         digest.settings("frame_rate", &[self.dynamics.motion.frame_rate])?;
         for body in &free.bodies {
             digest.settings("contact", &body.contact)?;
-            add_numbers(digest, "distance", body.distance.samples());
+            body.shape.obstacle().identify(&mut |numbers| add_numbers(digest, "distance", numbers));
             if let BodyWay::InWorld(poses) = &body.way {
                 poses.iter().for_each(|pose| add_pose(digest, pose));
             }

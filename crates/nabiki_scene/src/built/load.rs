@@ -6,8 +6,7 @@ mod hair;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use glam::Vec3;
-use nabiki::dynamics::{Dynamics, Form, straightened};
+use nabiki::dynamics::{Dynamics, straightened};
 use nabiki::{Head, Pose, SettingError};
 use nabiki_io::{
     DeclaredSpace,
@@ -20,13 +19,12 @@ use nabiki_io::{
 
 use nabiki_render::colour;
 
-pub(crate) use hair::hair_placement;
 use hair::{LoadedHair, Wanted, load_hair};
 
 use super::{BuiltScene, Shown};
-use crate::advice::of_head_size;
 use crate::error::{Error, Result};
 use crate::scene::{EllipsoidChoice, FieldParts, FieldPlace, FormChoice, HeadSource, Problem, Scene};
+use crate::size::of_head_size;
 
 /// Asked again and again, by any thread, whether to go on; told how much is done, 0..1.
 pub(super) type GoesOn<'a> = &'a (dyn Fn(f32) -> bool + Sync);
@@ -303,11 +301,9 @@ fn dynamics(scene: &Scene, head: &Head) -> Result<Dynamics> {
             motion: scene.motion.clone(),
             segment_length: scene.hair.segment_length,
             pseudo_force: scene.pseudo_force.clone(),
-            ellipsoid: head.ellipsoid,
             shell: scene.head.shell,
-            polar_axis: Vec3::Y,
             disturbance: scene.disturbance.clone(),
-            form: Form::Paper,
+            ..Dynamics::new(head.ellipsoid)
         };
         dynamics.check()?;
         Ok(dynamics)

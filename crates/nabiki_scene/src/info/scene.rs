@@ -9,7 +9,8 @@ use nabiki::setting::{Datum, Kind, Setting, Settings, Table};
 use nabiki::{Ellipsoid, Profile};
 use serde::Serialize;
 
-use crate::advice::{Advice, unused};
+use crate::advice::Advice;
+use crate::looks_wrong::unused;
 use crate::scene::{BodySettings, FieldBound, FieldSettings, FormChoice, GrownHair, HairSource, ImportedHair, Scene};
 use crate::schema;
 use nabiki_io::info::Short;
@@ -19,6 +20,7 @@ use nabiki_io::screen::OneLine;
 /// The outline of a scene; of what it names the head and its motion alone are loaded. Other files that are not there are said to
 /// be missing beside their names.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SceneInfo {
     /// The head's mesh, as the scene names it.
     pub head: String,
@@ -64,6 +66,7 @@ pub struct SceneInfo {
 
 /// `[free]`, `[contact]` and `[neighbours]` of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct FreeInfo {
     /// K, from root to tip.
     pub stiffness: Vec<f32>,

@@ -11,7 +11,7 @@ use glam::Vec3;
 use nabiki::SettingError;
 use nabiki::field::Keyframe;
 use nabiki::solve::{
-    Cut, Goal, Preroll, Prior, Problem, Search, Solver, Stop, Unknown, Wind, change, cut_for_pull, felt,
+    Cut, Goal, KeyedWind, Preroll, Prior, Problem, Search, Solver, Stop, Unknown, change, cut_for_pull, felt,
 };
 
 use super::few::few;
@@ -148,7 +148,7 @@ impl Follower {
     /// Whether there are frames for another interval before that of a pull at this one.
     pub fn has_room_for_another(built: &BuiltScene, frame: u32) -> bool {
         let field = &built.scene.field;
-        let wind = Wind { keyframes: field.force.clone(), ease: field.wind.ease, gust: None };
+        let wind = KeyedWind { keyframes: field.force.clone(), ease: field.wind.ease, gust: None };
         LENGTHS.into_iter().any(|length| two_intervals(&wind, frame, length, Freedom::default()).is_some())
     }
 
@@ -408,13 +408,13 @@ fn middle_of(solver: &Solver) -> Vec3 {
 }
 
 /// A wind with an interval for the pull, whose vector is free.
-fn own_interval(wind: &Wind, frame: u32, length: u32, freedom: Freedom) -> Try {
+fn own_interval(wind: &KeyedWind, frame: u32, length: u32, freedom: Freedom) -> Try {
     let Cut { keyframes, interval, felt } = cut_for_pull(&wind.keyframes, wind.ease, frame, length);
     Try { keyframes, unknowns: unknowns(&[interval], freedom), interval, felt, solvers: None }
 }
 
 /// The same with another interval before it, that is free, too; none where there is no frame for it.
-fn two_intervals(wind: &Wind, frame: u32, length: u32, freedom: Freedom) -> Option<Try> {
+fn two_intervals(wind: &KeyedWind, frame: u32, length: u32, freedom: Freedom) -> Option<Try> {
     let own = cut_for_pull(&wind.keyframes, wind.ease, frame, length);
     let last = own.interval.checked_sub(1).map(|before| own.keyframes[before].through)?;
     let Cut { keyframes, interval: before, .. } = cut_for_pull(&own.keyframes, wind.ease, last, length);

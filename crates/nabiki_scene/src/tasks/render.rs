@@ -6,11 +6,12 @@ use nabiki_file::Hold;
 use nabiki_render::output::{exr, png};
 use nabiki_render::{Frame, Movie, ToneMapping};
 
-use crate::advice::{Advice, of_pictures, within_the_head};
+use crate::advice::Advice;
 use crate::built::{BuiltScene, Shown};
 use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::frames::{Cached, FrameSource, Simulated};
+use crate::looks_wrong::{of_pictures, within_the_head};
 use crate::outputs::{self, PictureOutputs, Stills};
 use crate::place::{self, Folders};
 use crate::scene::Scene;

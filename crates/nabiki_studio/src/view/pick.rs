@@ -3,8 +3,8 @@
 mod surfaces;
 
 use glam::{Affine3A, Vec2, Vec3};
-use nabiki::distance::SkinDistance;
 use nabiki::dynamics::Form;
+use nabiki::obstacle::Obstacle;
 use nabiki::{Mesh, Strands};
 use nabiki_render::View;
 use nabiki_render::camera::NEAR;
@@ -37,8 +37,9 @@ pub struct Picked {
 pub struct Skins<'a> {
     /// The middle of the head (head space, cm).
     middle: Vec3,
-    /// The distance to each, and the way from head space into its own.
-    each: Vec<(&'a SkinDistance, Affine3A)>,
+    frame: u32,
+    /// Each, and the way from head space into its own.
+    each: Vec<(&'a dyn Obstacle, Affine3A)>,
     /// The surface of each body that hair may enter, to which there is no distance, and the way from its own space into head space.
     entered: Vec<(&'a Mesh, Affine3A)>,
 }
@@ -51,16 +52,16 @@ impl<'a> Skins<'a> {
             Form::Free(free) => free.bodies.as_slice(),
             Form::Paper => &[],
         };
-        let mut each = vec![(&**built.head.skin(), Affine3A::IDENTITY)];
+        let mut each: Vec<(&dyn Obstacle, Affine3A)> = vec![(&**built.head.skin(), Affine3A::IDENTITY)];
         let mut entered = Vec::new();
         for (i, mesh, in_world) in built.shown_bodies(frame) {
             let name = format!("body[{i}]");
             match bodies.iter().find(|body| body.name == name) {
-                Some(body) => each.push((&*body.distance, body.head_from_body(frame, &pose).inverse())),
+                Some(body) => each.push((body.shape.obstacle(), body.head_from_body(frame, &pose).inverse())),
                 None => entered.push((mesh, pose.world_from_head().inverse() * in_world.world_from_head())),
             }
         }
-        Self { middle: built.head.ellipsoid.center, each, entered }
+        Self { middle: built.head.ellipsoid.center, frame, each, entered }
     }
 
     /// The triangles without a distance that may hide what is seen within so many pixels of one.
@@ -77,15 +78,15 @@ impl<'a> Skins<'a> {
         let toward = view.toward_eye(place);
         let to_eye = view.project(place).z / -toward.dot(view.forward);
         self.each.iter().any(|(skin, from_head)| {
-            hides(skin, from_head.transform_point3(place), from_head.transform_vector3(toward), to_eye)
+            hides(*skin, self.frame, from_head.transform_point3(place), from_head.transform_vector3(toward), to_eye)
         }) || before.hide(place, toward, to_eye, GRAZES_CM)
     }
 }
 
 /// Whether the way from a place in a unit direction, so many cm long, goes through a skin. All are in the skin's space.
-fn hides(skin: &SkinDistance, place: Vec3, toward: Vec3, length: f32) -> bool {
-    // Beyond the box distances are dear, and skin is far from hair. Rounding stays within, too.
-    let [low, high] = skin.sampled_box();
+fn hides(skin: &dyn Obstacle, frame: u32, place: Vec3, toward: Vec3, length: f32) -> bool {
+    // Beyond its reach skin is far from hair. Rounding stays within, too.
+    let [low, high] = skin.reach();
     let (a, b) = ((low + 1e-3 - place) / toward, (high - 1e-3 - place) / toward);
     let mut at = a.min(b).max_element().max(0.0);
     let end = a.max(b).min_element().min(length);
@@ -93,9 +94,10 @@ fn hides(skin: &SkinDistance, place: Vec3, toward: Vec3, length: f32) -> bool {
         return false;
     }
     // Hair that does not fit its head lies in it: what counts is how much deeper the way goes.
-    let least = skin.at(place + toward * at).min(0.0) - GRAZES_CM;
+    let read = |at: f32| skin.read(place + toward * at, frame).map_or(f32::INFINITY, |reading| reading.distance);
+    let least = read(at).min(0.0) - GRAZES_CM;
     while at < end {
-        let left = skin.at(place + toward * at) - least;
+        let left = read(at) - least;
         if left <= 0.0 {
             return true;
         }
@@ -163,7 +165,12 @@ mod tests {
     static BUST: LazyLock<Head> = LazyLock::new(Head::builtin);
 
     fn skins() -> Skins<'static> {
-        Skins { middle: BUST.ellipsoid.center, each: vec![(&**BUST.skin(), Affine3A::IDENTITY)], entered: Vec::new() }
+        Skins {
+            middle: BUST.ellipsoid.center,
+            frame: 0,
+            each: vec![(&**BUST.skin(), Affine3A::IDENTITY)],
+            entered: Vec::new(),
+        }
     }
 
     /// Strands that hang straight down at these places of the horizontal plane.

@@ -1,11 +1,12 @@
 //! Bodies in one frame, as the fast step meets them: one node at a time, and only those that may touch.
 
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, Vec3, Vec3A};
 
-use crate::body::Body;
-use crate::distance::{Places, Reading, SkinDistance};
+use crate::body::{Body, Shape, Surface};
+use crate::distance::{Places, SkinDistance};
 use crate::dynamics::FrameInput;
 use crate::dynamics::row::{LANES, PointRow};
+use crate::obstacle::{Obstacle, Reading, beyond};
 
 /// Times that a segment is turned along the gradient before another way is tried.
 pub(in crate::dynamics) const PUSHES: usize = 7;
@@ -25,13 +26,14 @@ pub(in crate::dynamics) const TOLERANCE_CM: f32 = 1e-4;
 /// Cosine of the largest turn that a push may make of a segment in a frame, where it can do with less (half a radian).
 pub(in crate::dynamics) const NEAR: f32 = 0.877_582_6;
 
-/// Distances may come out too large by a twentieth, see [`SkinDistance::at`], and between the coarse samples of a filled
+/// Distances may come out too large by a twentieth, see [`Obstacle::read`], and between the coarse samples of a filled
 /// surface, 2 cm apart from 4 cm on, by h^2 / 8 times the sum of its curvatures, 2 / 4 cm at most: a sixteenth of 4 cm.
 const SURE: f32 = 0.95 * 0.9;
 
-/// A body in one frame.
+/// A body where it is in one frame.
 #[derive(Clone, Debug)]
-pub(super) struct Obstacle {
+pub(super) struct PlacedBody {
+    frame: u32,
     static_friction: f32,
     friction: f32,
     margin: f32,
@@ -41,6 +43,8 @@ pub(super) struct Obstacle {
     /// Takes points of the body from where they are to where they were in the frame before, in head space.
     before_from_now: Affine3A,
     moves: bool,
+    /// The farthest that any of it has come in its own space (cm).
+    bends: f32,
 }
 
 /// The end of a segment that turns about its beginning (head space, cm).
@@ -79,11 +83,27 @@ pub(super) fn gap(distance: f32, clearance: f32) -> f32 {
     if inward < 0.0 { inward } else { sure.max(0.0) }
 }
 
-impl Obstacle {
+/// A surface of a body, as contact is compiled for it.
+enum Skin<'a> {
+    Mesh(&'a SkinDistance),
+    Other(&'a dyn Obstacle),
+}
+
+#[inline(always)]
+fn skin(body: &Body, surface: Surface) -> Skin<'_> {
+    match (surface, &body.filled, &body.shape) {
+        (Surface::Filled, Some(filled), _) => Skin::Mesh(filled),
+        (_, _, Shape::Mesh(skin)) => Skin::Mesh(skin),
+        (_, _, Shape::Other(shape)) => Skin::Other(&**shape),
+    }
+}
+
+impl PlacedBody {
     /// Body number `b`.
     pub fn new(b: usize, body: &Body, input: &FrameInput) -> Self {
         let [now, before] = input.head_from_body(b, body);
         Self {
+            frame: input.frame,
             static_friction: body.contact.static_friction,
             friction: body.contact.friction,
             margin: body.contact.margin,
@@ -91,18 +111,19 @@ impl Obstacle {
             with_head: now == Affine3A::IDENTITY,
             before_from_now: before * now.inverse(),
             moves: now != before,
+            bends: body.shape.obstacle().farthest_moved(input.frame),
         }
     }
 
     /// The farthest that a point of the body within `radius` of `center` (head space, cm) has moved in the frame.
     pub fn farthest_moved(&self, center: Vec3, radius: f32) -> f32 {
         if !self.moves {
-            return 0.0;
+            return self.bends;
         }
         // |(B - 1) (p - c)| is at most the Frobenius norm of B - 1 times the radius.
         let turn = self.before_from_now.matrix3 - glam::Mat3A::IDENTITY;
         let norm = (turn.x_axis.length_squared() + turn.y_axis.length_squared() + turn.z_axis.length_squared()).sqrt();
-        (self.before_from_now.transform_point3(center) - center).length() + norm * radius
+        (self.before_from_now.transform_point3(center) - center).length() + norm * radius + self.bends
     }
 
     /// Where sixteen points of head space lie among the samples of a body that goes with the head.
@@ -112,26 +133,54 @@ impl Obstacle {
     }
 
     /// How far at least the end of a segment (head space, cm) is from touching the body; below 0 where it does.
-    pub fn gap(&self, skin: &SkinDistance, end: Vec3, clearance: f32) -> f32 {
-        let in_body = self.in_body(end);
-        match skin.read(in_body) {
-            Some(reading) => gap(reading.distance(), clearance),
-            None => skin.beyond_box(in_body) - self.margin,
+    pub fn gap(&self, body: &Body, surface: Surface, end: Vec3, clearance: f32) -> f32 {
+        match skin(body, surface) {
+            Skin::Mesh(skin) => self.gap_to(skin, end, clearance),
+            Skin::Other(shape) => self.gap_to(shape, end, clearance),
         }
     }
 
     /// Keeps a segment out of the body; `None` where it touches nothing.
     #[inline(always)]
-    pub fn stop(&self, skin: &SkinDistance, going: Going, touch: &Touch) -> Option<Going> {
+    pub fn stop(&self, body: &Body, surface: Surface, going: Going, touch: &Touch) -> Option<Going> {
+        match skin(body, surface) {
+            Skin::Mesh(skin) => self.stop_at(skin, going, touch),
+            Skin::Other(shape) => self.stop_at(shape, going, touch),
+        }
+    }
+
+    /// Turns a segment out of the body that another body has turned into it; `None` where none has.
+    pub fn part(&self, body: &Body, surface: Surface, going: Going, touch: &Touch) -> Option<Going> {
+        match skin(body, surface) {
+            Skin::Mesh(skin) => self.part_from(skin, going, touch),
+            Skin::Other(shape) => self.part_from(shape, going, touch),
+        }
+    }
+
+    fn gap_to(&self, skin: &(impl Obstacle + ?Sized), end: Vec3, clearance: f32) -> f32 {
+        let in_body = self.in_body(end);
+        match skin.read(in_body, self.frame) {
+            Some(reading) => gap(reading.distance, clearance),
+            None => beyond(skin.reach(), in_body) - self.margin,
+        }
+    }
+
+    #[inline(always)]
+    fn stop_at(&self, skin: &(impl Obstacle + ?Sized), going: Going, touch: &Touch) -> Option<Going> {
         let &Touch { from, length, clearance, lagged, .. } = touch;
         let end = from + length * going.direction;
-        let reading = skin.read(self.in_body(end))?;
-        let depth = clearance - reading.distance();
+        let in_body = self.in_body(end);
+        let reading = skin.read(in_body, self.frame)?;
+        let depth = clearance - reading.distance;
         if depth <= 0.0 {
             return None;
         }
         let normal = self.normal(&reading);
-        let of_body = if self.moves { end - self.before_from_now.transform_point3(end) } else { Vec3::ZERO };
+        let mut of_body = if self.moves { end - self.before_from_now.transform_point3(end) } else { Vec3::ZERO };
+        if self.bends > 0.0 {
+            let head_from_body = self.body_from_head.matrix3.transpose();
+            of_body += Vec3::from(head_from_body * Vec3A::from(skin.moved(in_body, self.frame)));
+        }
         let moved = length * (going.increment + lagged) - of_body;
         // A motion outward loses nothing: of 0 all that follows is 0.
         let inward = (-moved.dot(normal)).max(0.0);
@@ -143,10 +192,9 @@ impl Obstacle {
         Some(Going::new(self.pushed_out(skin, direction, touch), increment))
     }
 
-    /// Turns a segment out of the body that another body has turned into it; `None` where none has.
-    pub fn part(&self, skin: &SkinDistance, going: Going, touch: &Touch) -> Option<Going> {
-        let reading = skin.read(self.in_body(touch.from + touch.length * going.direction))?;
-        if touch.clearance - reading.distance() <= TOLERANCE_CM {
+    fn part_from(&self, skin: &(impl Obstacle + ?Sized), going: Going, touch: &Touch) -> Option<Going> {
+        let reading = skin.read(self.in_body(touch.from + touch.length * going.direction), self.frame)?;
+        if touch.clearance - reading.distance <= TOLERANCE_CM {
             return None;
         }
         let (direction, _) = self.pushed_from(skin, going.direction, touch);
@@ -165,7 +213,7 @@ impl Obstacle {
 
     /// The direction nearest to where a segment would go in which its end keeps its clearance. In a fold of the skin, behind
     /// an ear, that may be far off or not be found: then the one nearest to where the segment was, for it was free there.
-    fn pushed_out(&self, skin: &SkinDistance, direction: Vec3, touch: &Touch) -> Vec3 {
+    fn pushed_out(&self, skin: &(impl Obstacle + ?Sized), direction: Vec3, touch: &Touch) -> Vec3 {
         let (pushed, depth) = self.pushed_from(skin, direction, touch);
         if depth <= TOLERANCE_CM && pushed.dot(touch.was) > NEAR {
             return pushed;
@@ -176,7 +224,7 @@ impl Obstacle {
         }
         let (mut best, mut least) = if depth_there < depth { (stayed, depth_there) } else { (pushed, depth) };
         // Where no turn is found so, a fan of directions from there outward.
-        let reading = skin.read(self.in_body(touch.from + touch.length * best));
+        let reading = skin.read(self.in_body(touch.from + touch.length * best), self.frame);
         let normal = reading.map_or(best, |reading| self.normal(&reading));
         for step in 1..=FAN {
             if least <= TOLERANCE_CM {
@@ -193,13 +241,13 @@ impl Obstacle {
 
     /// Turns a segment out along the gradient until its end keeps its clearance, and says how deep it then is.
     #[inline]
-    fn pushed_from(&self, skin: &SkinDistance, mut direction: Vec3, touch: &Touch) -> (Vec3, f32) {
+    fn pushed_from(&self, skin: &(impl Obstacle + ?Sized), mut direction: Vec3, touch: &Touch) -> (Vec3, f32) {
         let &Touch { from, length, clearance, .. } = touch;
         let mut pushes = 0;
         loop {
             let end = from + length * direction;
-            let Some(reading) = skin.read(self.in_body(end)) else { return (direction, 0.0) };
-            let depth = clearance - reading.distance();
+            let Some(reading) = skin.read(self.in_body(end), self.frame) else { return (direction, 0.0) };
+            let depth = clearance - reading.distance;
             if depth <= TOLERANCE_CM || pushes == PUSHES {
                 return (direction, depth);
             }
@@ -217,12 +265,12 @@ impl Obstacle {
     /// Outward, of length 1, in head space.
     #[inline(always)]
     fn normal(&self, reading: &Reading) -> Vec3 {
-        let normal = reading.gradient().normalize_or(Vec3::Y);
+        let normal = reading.gradient.normalize_or(Vec3::Y);
         if self.with_head {
             return normal;
         }
         // The transpose turns back.
-        Vec3::from(self.body_from_head.matrix3.transpose() * glam::Vec3A::from(normal))
+        Vec3::from(self.body_from_head.matrix3.transpose() * Vec3A::from(normal))
     }
 }
 

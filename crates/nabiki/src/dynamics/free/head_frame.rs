@@ -2,7 +2,6 @@
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-use super::pulls::weight::weight;
 use crate::dynamics::FrameInput;
 use crate::free_form::{EARTH_CM_PER_S2, FreeForm};
 use crate::pose::Pose;
@@ -34,6 +33,11 @@ impl HeadFrame {
             },
         }
     }
+}
+
+/// The force of the weight under a head of this pose (head space). `gravity`: its strength.
+pub(super) fn weight(pose: &Pose, gravity: f64) -> DVec3 {
+    pose.rotation.as_dquat().inverse() * DVec3::new(0.0, -gravity, 0.0)
 }
 
 fn exact(pose: Pose) -> (DVec3, DQuat) {

@@ -3,11 +3,10 @@
 //! As in the paper's kernel every lane does the same operations whatever the machine's vectors hold, and multiplies and
 //! adds are fused by name: the bits do not depend on the vector width, nor on the other lanes.
 
-use glam::Vec3;
-
 use super::pulls::joints::moment_lane;
 use super::pulls::sum_of_shape;
 use super::pulls::weight::Weight;
+use super::rotate::turned;
 use super::segment::FreeSegment;
 use crate::dynamics::row::{LANES, PointRow, Row, beyond, lane as lane_of, set_lane};
 use crate::dynamics::trigonometry::sin_cos;
@@ -227,15 +226,6 @@ pub(super) fn step_segment(
     }
 }
 
-/// `v` turned by the quaternion (u, s), 2 / whose squared length is `over_length`. Without a turn, u = 0, it keeps its
-/// bits.
-#[inline(always)]
-pub(super) fn turned(u: [f32; 3], s: f32, over_length: f32, v: [f32; 3]) -> [f32; 3] {
-    let once = cross(u, v);
-    let twice = cross(u, once);
-    scale_add(over_length, scale_add(s, once, twice), v)
-}
-
 /// The turn (v, t) from one direction to another, of which t is 1 + their cosine, brought near to length 1, not to it:
 /// whoever turns by it divides by its length.
 #[inline(always)]
@@ -260,14 +250,6 @@ pub(super) fn ends(state: &FreeState, row: &FreeRow, from: &PointRow) -> PointRo
         set_lane(&mut to, lane, beyond(from, lane, row.length.0[lane], lane_of(&state.direction, lane)));
     }
     to
-}
-
-/// A vector turned about an axis of length 1 (rad).
-#[inline(always)]
-pub(super) fn turned_about(axis: [f32; 3], angle: f32, v: Vec3) -> Vec3 {
-    let (sin, cos) = sin_cos(0.5 * angle);
-    let u = scale(sin, axis);
-    Vec3::from(turned(u, cos, 2.0 / cos.mul_add(cos, dot(u, u)), v.to_array()))
 }
 
 /// Turns a segment of every strand back by the part of the head's turn that it lags behind: `axis` of length 1, `angle`

@@ -1,31 +1,27 @@
-//! Hair packed into blocks for the free form, and what a frame does to a block.
+//! Hair packed into blocks for the free form, and what a frame does to all of it.
 
 use std::ops::Range;
 
 use glam::Vec3;
 
-use super::contact::Obstacle;
+use super::contact::PlacedBody;
 use super::grid::Crowd;
-use super::head_frame::HeadFrame;
-use super::kernel::{FreeRow, FreeState, StrengthRow, Walk, ends, lag_behind};
-use super::passes::{Among, Free, Place, Velocities};
+use super::head_frame::{HeadFrame, weight};
+use super::kernel::{FreeRow, FreeState, StrengthRow, ends};
 use super::pulls::acceleration::Felt;
-use super::pulls::weight::{Weight, weight};
+use super::pulls::weight::Weight;
 use super::segment::{FreeSegment, free_segments};
 use crate::body::{Body, BodyWay, Surface};
-use crate::distance::SkinDistance;
 use crate::dynamics::block::Block;
+use crate::dynamics::field_frame::FieldFrame;
 use crate::dynamics::paper::Surroundings;
-use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
+use crate::dynamics::row::{LANES, Row, lane as lane_of, set_lane};
 use crate::dynamics::stability::Stability;
 use crate::dynamics::state::Identity;
-use crate::dynamics::sweep::Form;
-use crate::dynamics::wind::FieldFrame;
 use crate::dynamics::{Dynamics, FrameInput};
 use crate::error::SettingError;
 use crate::field::Field;
 use crate::free_form::FreeMotion;
-use crate::prefetch::prefetch;
 use crate::strands::{Strands, bounds};
 
 /// Everything about hair that no frame changes.
@@ -34,8 +30,8 @@ pub(super) struct Packed {
     dynamics: Dynamics,
     pub free: FreeMotion,
     stability: Stability,
-    blocks: Vec<Block>,
-    rows: Vec<FreeRow>,
+    pub blocks: Vec<Block>,
+    pub rows: Vec<FreeRow>,
     /// Of every row, or a single one where they are all alike.
     strengths: Vec<StrengthRow>,
     /// The part of the head's turn that segments lag behind.
@@ -44,7 +40,7 @@ pub(super) struct Packed {
     pub weakening: Option<(Surroundings, Vec<Row>)>,
     /// For each body, what the ends of the segments are kept out of.
     pub kept_from: Vec<KeptFrom>,
-    rest: Vec<FreeState>,
+    pub rest: Vec<FreeState>,
     weight_at_rest: [f32; 3],
     /// A ball that hair does not leave (head space, cm), and the length of the longest strand.
     center: Vec3,
@@ -169,7 +165,7 @@ impl Packed {
         }
         let mut identity = Identity::new();
         for (body, kept) in self.free.bodies.iter().zip(&self.kept_from) {
-            body.distance.sampled_box().iter().for_each(|corner| identity.numbers(&corner.to_array()));
+            body.shape.obstacle().reach().iter().for_each(|corner| identity.numbers(&corner.to_array()));
             identity.numbers(&[body.contact.margin]);
             if let BodyWay::InWorld(poses) = &body.way {
                 poses.iter().for_each(|pose| {
@@ -213,17 +209,17 @@ impl Packed {
     }
 
     /// The bodies in a frame.
-    pub fn obstacles(&self, input: &FrameInput, obstacles: &mut Vec<Obstacle>) {
-        obstacles.clear();
-        obstacles.extend(self.free.bodies.iter().enumerate().map(|(b, body)| Obstacle::new(b, body, input)));
+    pub fn bodies(&self, input: &FrameInput, bodies: &mut Vec<PlacedBody>) {
+        bodies.clear();
+        bodies.extend(self.free.bodies.iter().enumerate().map(|(b, body)| PlacedBody::new(b, body, input)));
     }
 
     /// What a frame does to every block. `crowd`: what the carriers left in the frame before.
-    pub fn plan<'a>(&self, input: &FrameInput<'a>, obstacles: &'a [Obstacle], crowd: Option<&'a Crowd>) -> Plan<'a> {
+    pub fn plan<'a>(&self, input: &FrameInput<'a>, bodies: &'a [PlacedBody], crowd: Option<&'a Crowd>) -> Plan<'a> {
         let head = HeadFrame::new(input, &self.free.form, self.dynamics.motion.frame_rate);
         let field = FieldFrame::new(input, self.dynamics.motion.force_space);
         let turned_by = head.turn.map_or(0.0, |(_, angle)| angle.abs() as f32);
-        let of_bodies = obstacles.iter().map(|o| o.farthest_moved(self.center, self.radius)).fold(0.0, f32::max);
+        let of_bodies = bodies.iter().map(|o| o.farthest_moved(self.center, self.radius)).fold(0.0, f32::max);
         let felt = head.felt.map(Felt::from);
         let uniform = field.uniform();
         let everywhere = uniform.filter(|_| felt.is_none() && crowd.is_none() && self.weakening.is_none());
@@ -234,7 +230,7 @@ impl Packed {
             turn: head.turn.map(|(axis, angle)| (axis.as_vec3().to_array(), angle as f32)),
             weight: Weight { now: head.weight.as_vec3().to_array(), at_rest: self.weight_at_rest },
             felt,
-            obstacles,
+            bodies,
             closer: of_bodies + turned_by * self.longest,
             crowd,
         })
@@ -274,60 +270,19 @@ pub(super) struct Step<'a> {
     pub turn: Option<([f32; 3], f32)>,
     pub weight: Weight,
     pub felt: Option<Felt>,
-    pub obstacles: &'a [Obstacle],
+    pub bodies: &'a [PlacedBody],
     /// How much closer nodes and bodies may have come but by the nodes' own motion (cm).
     pub closer: f32,
     pub crowd: Option<&'a Crowd>,
 }
 
-impl Form for Packed {
-    type State = FreeState;
-    type Plan<'a> = Plan<'a>;
-
-    fn blocks(&self) -> &[Block] {
-        &self.blocks
-    }
-
-    #[inline(always)]
-    fn frame(&self, block: &Block, plan: &Plan<'_>, states: &mut [FreeState], page: Option<&mut [Vec3]>) {
-        let rows = &self.rows[block.rows()];
-        match plan {
-            Plan::Rest => {
-                states.copy_from_slice(&self.rest[block.rows()]);
-                block.walk(&block.roots, states, rows, page, Place);
-            }
-            Plan::Velocities => block.walk(&PointRow::default(), states, rows, page, Velocities),
-            Plan::Step(step) => {
-                if let Some((axis, angle)) = step.turn {
-                    for (state, lag) in states.iter_mut().zip(&self.lags[block.rows()]) {
-                        lag_behind(state, axis, angle, lag);
-                    }
-                }
-                prefetch(page.as_deref().unwrap_or_default());
-                let walk = Walk::new(&block.roots, states.first().zip(rows.first()));
-                match step.everywhere {
-                    Some(force) if step.obstacles.is_empty() => {
-                        let (weight, at) = (step.weight, block.rows().start);
-                        let pass = Free { packed: self, force, weight, walk, at };
-                        block.walk(&block.roots, states, rows, page, pass);
-                    }
-                    _ => {
-                        let pass = Among::new(self, step, block, walk);
-                        block.walk(&block.roots, states, rows, page, pass);
-                    }
-                }
-            }
-        }
-    }
-}
-
 impl Packed {
-    /// What body `b` keeps the end of a segment of row `at` out of, and how far from it (cm).
+    /// What of body `b` the end of a segment of row `at` keeps out of, and how far from it (cm).
     #[inline(always)]
-    pub fn kept_out_of(&self, b: usize, at: usize, lane: usize) -> (&SkinDistance, f32) {
+    pub fn kept_out_of(&self, b: usize, at: usize, lane: usize) -> (Surface, f32) {
         let kept = &self.kept_from[b];
         let surface = if kept.filled[at] >> lane & 1 == 1 { Surface::Filled } else { Surface::Skin };
-        (self.free.bodies[b].surface(surface), kept.clearances[at].0[lane])
+        (surface, kept.clearances[at].0[lane])
     }
 
     #[inline(always)]

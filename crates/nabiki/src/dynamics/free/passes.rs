@@ -3,10 +3,12 @@
 use glam::Vec3;
 
 use super::contact::{Going, ROUNDS, Touch, gap};
-use super::kernel::{Forces, FreeRow, FreeState, Next, Walk, ends, step_segment, turned_about};
+use super::kernel::{Forces, FreeRow, FreeState, Next, Walk, ends, step_segment};
 use super::packed::{Packed, Step};
 use super::pulls::neighbours;
 use super::pulls::weight::Weight;
+use super::rotate::turned_about;
+use crate::body::Shape;
 use crate::dynamics::block::{Block, Pass, RUN, RunPass};
 use crate::dynamics::paper::Force;
 use crate::dynamics::row::{LANES, PointRow, Row, beyond, lane as lane_of, set_lane};
@@ -130,7 +132,7 @@ impl<'a, 's> Among<'a, 's> {
             let (from, to) = (&from[i], &mut to[0]);
             let (force, strength) = (forces.row(i), packed.strength(self.at));
             step_segment(state, &rows[i], strength, force, weight, &next, &mut self.walk, from, to);
-            if !self.step.obstacles.is_empty() {
+            if !self.step.bodies.is_empty() {
                 for kept in &packed.kept_from {
                     prefetch_ahead(&kept.clearances[self.at], AHEAD);
                 }
@@ -202,7 +204,7 @@ impl<'a, 's> Among<'a, 's> {
             return;
         }
         let mut gaps = [f32::INFINITY; LANES];
-        for b in 0..self.step.obstacles.len() {
+        for b in 0..self.step.bodies.len() {
             self.read_gaps(b, near, to, &mut gaps);
         }
         // Number by number: vectors would wait for what has just been written so.
@@ -235,26 +237,27 @@ impl<'a, 's> Among<'a, 's> {
     /// How far at least the ends of some segments are from touching body `b`, where that is less than `gaps`.
     #[inline(always)]
     fn read_gaps(&self, b: usize, mut near: u32, to: &PointRow, gaps: &mut [f32; LANES]) {
-        let (packed, obstacle) = (self.packed, &self.step.obstacles[b]);
+        let (packed, placed) = (self.packed, &self.step.bodies[b]);
         let (body, kept) = (&packed.free.bodies[b], &packed.kept_from[b]);
         // Nearly all that lies on a body with filled folds keeps out of those.
-        let (usual, unusual) = match body.filled.as_deref() {
-            Some(filled) => (filled, !kept.filled[self.at]),
-            None => (&*body.distance, 0),
+        let (usual, unusual) = match (&body.filled, &body.shape) {
+            (Some(filled), _) => (Some(filled), !kept.filled[self.at]),
+            (None, Shape::Mesh(skin)) => (Some(skin), 0),
+            (None, Shape::Other(_)) => (None, 0),
         };
-        let places = obstacle.places(usual, to);
+        let places = usual.and_then(|usual| Some((&**usual, placed.places(usual, to)?)));
         while near != 0 {
             let lane = next_lane(&mut near);
             let clearance = kept.clearances[self.at].0[lane];
             let distance = match &places {
-                Some(places) if unusual >> lane & 1 == 0 => usual.fine_distance(places, lane),
+                Some((usual, places)) if unusual >> lane & 1 == 0 => usual.fine_distance(places, lane),
                 _ => None,
             };
             let found = match distance {
                 Some(distance) => gap(distance, clearance),
                 None => {
-                    let (skin, clearance) = packed.kept_out_of(b, self.at, lane);
-                    obstacle.gap(skin, Vec3::from(lane_of(to, lane)), clearance)
+                    let (surface, clearance) = packed.kept_out_of(b, self.at, lane);
+                    placed.gap(body, surface, Vec3::from(lane_of(to, lane)), clearance)
                 }
             };
             gaps[lane] = gaps[lane].min(found);
@@ -287,12 +290,12 @@ impl<'a, 's> Among<'a, 's> {
         let lagged = self.lagged(was, lane);
         let mut stopped = false;
         let touched = |b: usize| {
-            let (skin, clearance) = self.packed.kept_out_of(b, self.at, lane);
-            (skin, Touch { from, length, clearance, was, lagged })
+            let (surface, clearance) = self.packed.kept_out_of(b, self.at, lane);
+            (&self.packed.free.bodies[b], surface, Touch { from, length, clearance, was, lagged })
         };
-        for (b, obstacle) in self.step.obstacles.iter().enumerate() {
-            let (skin, touch) = touched(b);
-            if let Some(there) = obstacle.stop(skin, going, &touch) {
+        for (b, placed) in self.step.bodies.iter().enumerate() {
+            let (body, surface, touch) = touched(b);
+            if let Some(there) = placed.stop(body, surface, going, &touch) {
                 (going, stopped) = (there, true);
             }
         }
@@ -301,12 +304,12 @@ impl<'a, 's> Among<'a, 's> {
             return;
         }
         // What one body has turned may be in another: a corner is left by turns.
-        let mut rounds = if self.step.obstacles.len() > 1 { ROUNDS } else { 0 };
+        let mut rounds = if self.step.bodies.len() > 1 { ROUNDS } else { 0 };
         while stopped && rounds > 0 {
             stopped = false;
-            for (b, obstacle) in self.step.obstacles.iter().enumerate() {
-                let (skin, touch) = touched(b);
-                if let Some(there) = obstacle.part(skin, going, &touch) {
+            for (b, placed) in self.step.bodies.iter().enumerate() {
+                let (body, surface, touch) = touched(b);
+                if let Some(there) = placed.part(body, surface, going, &touch) {
                     (going, stopped) = (there, true);
                 }
             }

@@ -5,23 +5,20 @@
 //! [`sum_of_shape`] if it comes from the segment's own shape, or `Among::forces` in `passes.rs` if from its place.
 
 pub(super) mod acceleration;
+mod at;
 mod hold;
 pub(super) mod joints;
 pub(super) mod neighbours;
 pub(super) mod weight;
 
-use glam::DVec3;
-
+pub(super) use self::at::At;
 use self::hold::Hold;
 use self::joints::Stiffness;
 use self::neighbours::Cohesion;
 use self::weight::{Gravity, Weight};
-use super::grid::Crowd;
-use super::head_frame::HeadFrame;
-use super::segment::FreeSegment;
-use crate::dynamics::stability::Pull;
+use crate::dynamics::pull::Pull;
 use crate::free_form::{FreeForm, FreeMotion};
-use crate::scalar::{Scalar, Turn, Vector};
+use crate::scalar::{Scalar, Vector};
 use crate::vector::add;
 
 /// All that the check of stability asks.
@@ -36,22 +33,6 @@ pub(in crate::dynamics) fn pulls(free: &FreeMotion) -> Vec<Box<dyn Pull + '_>> {
     pulls
 }
 
-/// Where a segment is, as forces on it ask.
-pub(super) struct At<'a, S> {
-    pub segment: &'a FreeSegment,
-    /// d.
-    pub direction: Vector<S>,
-    /// p_i (head space, cm), and what the increments move it by in a frame (cm).
-    pub end: Vector<S>,
-    pub velocity: Vector<S>,
-    /// R_(i-1).
-    pub frame: Turn<S>,
-    pub head: &'a HeadFrame,
-    /// The weight under which hair lies in balance at rest.
-    pub rest_weight: DVec3,
-    pub crowd: Option<&'a Crowd>,
-}
-
 /// f, all that pulls on a segment but the moments of its joints. `field`: the force of the field.
 #[inline(always)]
 pub(super) fn sum<S: Scalar>(field: Vector<S>, at: &At<S>) -> Vector<S> {
@@ -60,7 +41,7 @@ pub(super) fn sum<S: Scalar>(field: Vector<S>, at: &At<S>) -> Vector<S> {
 }
 
 /// What comes of a segment's own shape, for one lane of the fast step: `frame` turns as R_(i-1) does, see
-/// [`turned`](super::kernel::turned).
+/// [`turned`](super::rotate::turned).
 #[inline(always)]
 pub(super) fn sum_of_shape(
     weight: &Weight,

@@ -1,14 +1,12 @@
 //! The specification of the free form: one segment at a time, in f64, as docs/motion-forms.md writes it.
 
-mod obstacle;
+mod common;
+mod contact;
 mod strand;
 
 use glam::{DVec3, Vec3};
 
-use self::obstacle::Obstacle;
 use super::grid::Crowd;
-use super::head_frame::HeadFrame;
-use super::pulls::weight::weight;
 use crate::dynamics::air::Breeze;
 use crate::dynamics::reference::publish;
 use crate::dynamics::stability::check_field;
@@ -16,9 +14,9 @@ use crate::dynamics::{Dynamics, FrameInput, Stepper};
 use crate::error::SettingError;
 use crate::field::Field;
 use crate::free_form::FreeMotion;
-use crate::pseudo_force::Gamma;
 use crate::strands::Strands;
 
+pub(in crate::dynamics) use common::Common;
 pub(in crate::dynamics) use strand::{Springs, Strand};
 
 /// The free form of [`Reference`](crate::dynamics::Reference).
@@ -30,15 +28,6 @@ pub(in crate::dynamics) struct Reference {
     frame: u32,
 }
 
-/// All that surrounds a strand in one frame, but for the air and its neighbours.
-pub(in crate::dynamics) struct Setting<'a> {
-    gamma: Gamma,
-    head: HeadFrame,
-    /// The weight under which hair lies in balance at rest.
-    rest_weight: DVec3,
-    obstacles: Vec<Obstacle<'a>>,
-}
-
 /// Some strands, and what moves them.
 #[derive(Clone, Debug)]
 struct Hair {
@@ -47,19 +36,6 @@ struct Hair {
     hair: Vec<Strand<f64>>,
     positions: Vec<DVec3>,
     strands: Strands,
-}
-
-impl<'a> Setting<'a> {
-    /// That of the frame of `input`.
-    pub fn new(dynamics: &Dynamics, free: &'a FreeMotion, input: &FrameInput) -> Self {
-        let gravity = f64::from(free.form.weight());
-        Self {
-            gamma: dynamics.gamma(),
-            head: HeadFrame::new(input, &free.form, dynamics.motion.frame_rate),
-            rest_weight: weight(&free.rest_pose, gravity),
-            obstacles: free.bodies.iter().enumerate().map(|(b, body)| Obstacle::new(b, body, input)).collect(),
-        }
-    }
 }
 
 impl Reference {
@@ -130,9 +106,9 @@ impl Hair {
 
     fn step(&mut self, input: &FrameInput, crowd: Option<&Crowd>) {
         let air = Breeze { input, space: self.dynamics.motion.force_space };
-        let setting = Setting::new(&self.dynamics, &self.free, input);
+        let common = Common::new(&self.dynamics, &self.free, input);
         for strand in &mut self.hair {
-            strand.step(&setting, &air, crowd);
+            strand.step(&common, &air, crowd);
         }
         self.publish();
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use super::contact::Obstacle;
+use super::contact::PlacedBody;
 use super::grid::Crowd;
 use super::kernel::FreeState;
 use super::packed::{Packed, Plan};
@@ -26,7 +26,7 @@ pub(in crate::dynamics) struct Runner {
     states: Vec<FreeState>,
     carriers: Option<Carriers>,
     /// Room for the bodies in one frame.
-    obstacles: Vec<Obstacle>,
+    bodies: Vec<PlacedBody>,
 }
 
 impl Runner {
@@ -49,8 +49,8 @@ impl Runner {
                 Some(Carriers::new(Packed::new(&neighbours.carriers, dynamics, free, known)?, neighbours)?)
             }
         };
-        let obstacles = Vec::with_capacity(free.bodies.len());
-        Ok(Self { states: packed.states(), packed, carriers, obstacles })
+        let bodies = Vec::with_capacity(free.bodies.len());
+        Ok(Self { states: packed.states(), packed, carriers, bodies })
     }
 
     /// Refuses a field under which this hair, or its carriers, cannot be stepped; `strands` are those that it was made of, `ids`
@@ -80,31 +80,26 @@ impl Runner {
         self.packed.strongest_force().min(of_carriers.unwrap_or(f32::MAX))
     }
 
-    /// Stands where the same hair stands, be it among other bodies or carriers; `false`, and no change, if `of` is other hair.
-    pub fn set_state(&mut self, of: &Self, width: VectorWidth) -> bool {
-        let is_clone = Arc::ptr_eq(&self.packed, &of.packed);
-        if is_clone {
-            self.states.copy_from_slice(&of.states);
-            if let (Some(carriers), Some(of)) = (&mut self.carriers, &of.carriers) {
-                carriers.hair.states.copy_from_slice(&of.hair.states);
-                carriers.hair.points.copy_from_slice(&of.hair.points);
+    /// Whether both share all that no frame changes.
+    pub fn is_clone_of(&self, of: &Self) -> bool {
+        Arc::ptr_eq(&self.packed, &of.packed)
+    }
+
+    /// Stands where the same hair stands, be it among other bodies or carriers: `headers` are its own and that of `of`, none for clones.
+    pub fn set_state(&mut self, of: &Self, headers: Option<&(Header, Header)>, width: VectorWidth) {
+        self.states.copy_from_slice(&of.states);
+        if let (Some(carriers), Some(of)) = (&mut self.carriers, &of.carriers)
+            && headers.is_none_or(|(own, other)| own.has_carriers_of(other))
+        {
+            carriers.hair.points.copy_from_slice(&of.hair.points);
+            carriers.hair.states.copy_from_slice(&of.hair.states);
+            if headers.is_none() {
                 carriers.crowd.take(&of.crowd);
             }
-            return true;
         }
-        let (own, header) = (self.header(), of.header());
-        let is_same = (own.hair, own.numbers) == (header.hair, header.numbers);
-        if is_same {
-            self.states.copy_from_slice(&of.states);
-            if let (Some(carriers), Some(of)) = (&mut self.carriers, &of.carriers)
-                && own.has_carriers_of(&header)
-            {
-                carriers.hair.points.copy_from_slice(&of.hair.points);
-                carriers.hair.states.copy_from_slice(&of.hair.states);
-            }
-            self.settle_in(&own, &header, width);
+        if let Some((own, other)) = headers {
+            self.settle_in(own, other, width);
         }
-        is_same
     }
 
     /// After states and points of other settings, which had the header `of`, have taken the place of its own.
@@ -177,17 +172,17 @@ impl Runner {
 
     /// Moves the hair by one frame; beside it the carriers.
     pub fn step(&mut self, input: &FrameInput, width: VectorWidth, page: &mut [Vec3]) {
-        let Self { packed, states, carriers, obstacles } = self;
-        packed.obstacles(input, obstacles);
+        let Self { packed, states, carriers, bodies } = self;
+        packed.bodies(input, bodies);
         let Some(carriers) = carriers else {
-            let plan = packed.plan(input, obstacles, None);
+            let plan = packed.plan(input, bodies, None);
             return sweep(&**packed, &[plan], width, states, Pages::Last(page));
         };
         let Carriers { hair, crowd, next } = carriers;
-        let plan = packed.plan(input, obstacles, Some(crowd));
+        let plan = packed.plan(input, bodies, Some(crowd));
         // What the carriers leave is one thread's work: it begins first.
         rayon::join(
-            || hair.step(input, obstacles, width, crowd, next),
+            || hair.step(input, bodies, width, crowd, next),
             || sweep(&**packed, &[plan], width, states, Pages::Last(page)),
         );
         std::mem::swap(crowd, next);
@@ -196,10 +191,10 @@ impl Runner {
     /// Moves the hair through many frames, the first of them rest itself if `from_rest`.
     pub fn run(&mut self, from_rest: bool, inputs: &[FrameInput], width: VectorWidth, pages: Pages) {
         let Self { packed, states, carriers, .. } = self;
-        let obstacles: Vec<Vec<Obstacle>> = (inputs.iter())
+        let bodies: Vec<Vec<PlacedBody>> = (inputs.iter())
             .map(|input| {
                 let mut of_frame = Vec::new();
-                packed.obstacles(input, &mut of_frame);
+                packed.bodies(input, &mut of_frame);
                 of_frame
             })
             .collect();
@@ -209,17 +204,17 @@ impl Runner {
                 if from_rest {
                     carriers.rewind(width);
                 }
-                let before = |(input, obstacles): (&FrameInput, &Vec<Obstacle>)| {
+                let before = |(input, bodies): (&FrameInput, &Vec<PlacedBody>)| {
                     let Carriers { hair, crowd, next } = &mut *carriers;
-                    hair.step(input, obstacles, width, crowd, next);
+                    hair.step(input, bodies, width, crowd, next);
                     std::mem::swap(crowd, next);
                     next.left()
                 };
-                inputs.iter().zip(&obstacles).map(before).collect()
+                inputs.iter().zip(&bodies).map(before).collect()
             }
         };
-        let steps = inputs.iter().zip(&obstacles).enumerate();
-        let steps = steps.map(|(n, (input, obstacles))| packed.plan(input, obstacles, crowds.get(n)));
+        let steps = inputs.iter().zip(&bodies).enumerate();
+        let steps = steps.map(|(n, (input, bodies))| packed.plan(input, bodies, crowds.get(n)));
         let plans: Vec<Plan> = from_rest.then_some(Plan::Rest).into_iter().chain(steps).collect();
         sweep(&**packed, &plans, width, states, pages);
     }
@@ -276,15 +271,8 @@ impl Carriers {
 
 impl CarrierHair {
     /// Moves by one frame under what they left in the frame before, and leaves in `next` what they are then.
-    fn step(
-        &mut self,
-        input: &FrameInput,
-        obstacles: &[Obstacle],
-        width: VectorWidth,
-        crowd: &Crowd,
-        next: &mut Crowd,
-    ) {
-        let plan = self.packed.plan(input, obstacles, Some(crowd));
+    fn step(&mut self, input: &FrameInput, bodies: &[PlacedBody], width: VectorWidth, crowd: &Crowd, next: &mut Crowd) {
+        let plan = self.packed.plan(input, bodies, Some(crowd));
         sweep(&*self.packed, &[plan], width, &mut self.states, Pages::Last(&mut self.points));
         sweep(&*self.packed, &[Plan::Velocities], width, &mut self.states, Pages::Last(&mut self.velocities));
         next.fill(&self.points, &self.velocities);

@@ -4,83 +4,11 @@
 //! name, never at the compiler's choice: so the bits do not depend on the vector width, nor on the other lanes.
 
 use super::angles;
+use super::force_source::{ForceSource, Forces};
+use super::rows::{SegmentState, ShapeRow, extend};
+use super::surroundings::{Force, Surroundings};
 use super::turn::{Turn, is_far, turn_far, turn_little};
-use super::wind::{Force, Forces, Surroundings, Wind};
-use crate::dynamics::gain::SegmentShape;
 use crate::dynamics::row::{LANES, PointRow, Row, beyond};
-
-/// Sine and cosine of one angle of every strand of a block.
-#[derive(Clone, Copy, Debug)]
-#[repr(C)]
-pub(super) struct TurnRow {
-    sin: Row,
-    cos: Row,
-}
-
-impl TurnRow {
-    #[inline(always)]
-    pub fn lane(&self, lane: usize) -> Turn {
-        [self.sin.0[lane], self.cos.0[lane]]
-    }
-
-    #[inline(always)]
-    pub fn set(&mut self, lane: usize, [sin, cos]: Turn) {
-        (self.sin.0[lane], self.cos.0[lane]) = (sin, cos);
-    }
-}
-
-/// Angles and increments (rad per frame) of one segment of every strand of a block.
-#[derive(Clone, Copy, Debug)]
-#[repr(C)]
-pub(super) struct SegmentState {
-    pub theta: TurnRow,
-    pub phi: TurnRow,
-    pub theta_increment: Row,
-    pub phi_increment: Row,
-}
-
-impl SegmentState {
-    /// Of all its rows.
-    pub const NUMBERS: usize = 6 * LANES;
-
-    pub fn rows(&self) -> [&Row; 6] {
-        let Self { theta, phi, theta_increment, phi_increment } = self;
-        [&theta.sin, &theta.cos, &phi.sin, &phi.cos, theta_increment, phi_increment]
-    }
-
-    pub fn rows_mut(&mut self) -> [&mut Row; 6] {
-        let Self { theta, phi, theta_increment, phi_increment } = self;
-        [&mut theta.sin, &mut theta.cos, &mut phi.sin, &mut phi.cos, theta_increment, phi_increment]
-    }
-}
-
-impl Default for SegmentState {
-    fn default() -> Self {
-        let zero = TurnRow { sin: Row::default(), cos: Row([1.0; LANES]) };
-        Self { theta: zero, phi: zero, theta_increment: Row::default(), phi_increment: Row::default() }
-    }
-}
-
-/// What moves one segment of every strand of a block. All 0 where a strand has no such segment.
-#[derive(Clone, Copy, Debug, Default)]
-#[repr(C)]
-pub(super) struct ShapeRow {
-    /// cm.
-    pub length: Row,
-    /// c_i.
-    pub gain: Row,
-    /// eps_i.
-    pub eps: Row,
-}
-
-impl ShapeRow {
-    /// Sets what moves the segment of one strand.
-    pub fn set(&mut self, lane: usize, shape: &SegmentShape) {
-        self.length.0[lane] = shape.length as f32;
-        self.gain.0[lane] = shape.gain as f32;
-        self.eps.0[lane] = shape.eps() as f32;
-    }
-}
 
 /// Moves segment i of every strand of a block from frame n to n + 1. `before` holds the points p_(i-1) of frame n on
 /// entry, and p_i on return; `from` and `to` are those of frame n + 1. `TILTED`: whether the polar axis is not y.
@@ -89,12 +17,12 @@ pub(super) fn step_segment<const TILTED: bool>(
     state: &mut SegmentState,
     shape: &ShapeRow,
     surroundings: &Surroundings,
-    wind: &impl Wind,
+    source: &impl ForceSource,
     before: &mut PointRow,
     from: &PointRow,
     to: &mut PointRow,
 ) {
-    let forces = wind.at::<TILTED>(before, state, shape, surroundings);
+    let forces = source.at::<TILTED>(before, state, shape, surroundings);
     let (was, mut far) = (*state, 0);
     // One loop, and no other between it and the points of the segment before: rows that one loop writes by halves
     // and the next one reads whole hold the machine up for longer than a step takes.
@@ -154,21 +82,5 @@ pub(super) fn disturb_segment(state: &mut SegmentState, theta: &Row, phi: &Row, 
     for lane in 0..LANES {
         state.theta.set(lane, turn_far(state.theta.lane(lane), theta.0[lane] * along.0[lane]));
         state.phi.set(lane, turn_far(state.phi.lane(lane), phi.0[lane] * along.0[lane]));
-    }
-}
-
-/// Puts segment i of every strand of a block on its p_(i-1), which gives p_i.
-#[inline(always)]
-pub(super) fn extend<const TILTED: bool>(
-    from: &PointRow,
-    to: &mut PointRow,
-    state: &SegmentState,
-    shape: &ShapeRow,
-    surroundings: &Surroundings,
-) {
-    for lane in 0..LANES {
-        let direction = surroundings.direction::<TILTED>(state.theta.lane(lane), state.phi.lane(lane));
-        let p = beyond(from, lane, shape.length.0[lane], direction);
-        [to[0].0[lane], to[1].0[lane], to[2].0[lane]] = p;
     }
 }

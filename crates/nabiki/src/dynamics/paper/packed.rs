@@ -5,16 +5,18 @@ use std::ops::Range;
 use glam::Vec3;
 
 use super::angles::direction_turns;
-use super::kernel::{SegmentState, ShapeRow, disturb_segment, extend, step_segment};
+use super::force_source::{AnySource, ForceSource};
+use super::kernel::{disturb_segment, step_segment};
 use super::polar::PolarAxis;
-use super::wind::{AnyWind, Surroundings, Wind};
+use super::rows::{SegmentState, ShapeRow, extend};
+use super::surroundings::Surroundings;
 use crate::disturbance::Part;
 use crate::dynamics::block::{Block, Pass};
 use crate::dynamics::gain::{SegmentShape, segment_shapes};
 use crate::dynamics::row::{LANES, PointRow, Row};
 use crate::dynamics::stability::Stability;
 use crate::dynamics::state::Identity;
-use crate::dynamics::sweep::Form;
+use crate::dynamics::sweep::Swept;
 use crate::dynamics::{Dynamics, FrameInput};
 use crate::error::SettingError;
 use crate::field::Field;
@@ -112,9 +114,9 @@ impl Packed {
 
     /// What a frame does to every block.
     pub fn plan<'a>(&self, input: &FrameInput<'a>) -> Plan<'a> {
-        let wind = AnyWind::new(input, self.dynamics.motion.force_space, &self.surroundings);
+        let source = AnySource::new(input, self.dynamics.motion.force_space, &self.surroundings);
         let disturbance = self.dynamics.disturbance.as_ref().and_then(|d| d.part(input.frame));
-        Plan::Step { wind, disturbance }
+        Plan::Step { source, disturbance }
     }
 }
 
@@ -124,10 +126,10 @@ pub(super) enum Plan<'a> {
     /// It is put back to rest.
     Rest,
     /// It moves.
-    Step { wind: AnyWind<'a>, disturbance: Option<Part> },
+    Step { source: AnySource<'a>, disturbance: Option<Part> },
 }
 
-impl Form for Packed {
+impl Swept for Packed {
     type State = SegmentState;
     type Plan<'a> = Plan<'a>;
 
@@ -162,11 +164,11 @@ impl Packed {
                     self.place::<TILTED>(block, states, page);
                 }
             }
-            Plan::Step { wind, disturbance } => {
+            Plan::Step { source, disturbance } => {
                 let undisturbed = page.as_deref_mut().filter(|_| disturbance.is_none());
-                match wind {
-                    AnyWind::Uniform(wind) => self.step::<TILTED>(block, wind, states, undisturbed),
-                    AnyWind::Local(wind) => self.step::<TILTED>(block, wind, states, undisturbed),
+                match source {
+                    AnySource::Uniform(source) => self.step::<TILTED>(block, source, states, undisturbed),
+                    AnySource::Local(source) => self.step::<TILTED>(block, source, states, undisturbed),
                 }
                 if let Some(part) = disturbance {
                     self.disturb(block, part, states);
@@ -183,18 +185,18 @@ impl Packed {
     fn step<const TILTED: bool>(
         &self,
         block: &Block,
-        wind: &impl Wind,
+        source: &impl ForceSource,
         states: &mut [SegmentState],
         page: Option<&mut [Vec3]>,
     ) {
         // Copies, which nothing that is written can change: they need not be read again at every segment.
-        let (surroundings, wind, before) = (self.surroundings, *wind, block.roots);
+        let (surroundings, source, before) = (self.surroundings, *source, block.roots);
         block.walk(
             &block.roots,
             states,
             &self.shapes[block.rows()],
             page,
-            Step::<TILTED, _> { surroundings, wind, before },
+            Step::<TILTED, _> { surroundings, source, before },
         );
     }
 
@@ -221,11 +223,11 @@ impl Packed {
 
 struct Step<const TILTED: bool, W> {
     surroundings: Surroundings,
-    wind: W,
+    source: W,
     before: PointRow,
 }
 
-impl<const TILTED: bool, W: Wind> Pass<SegmentState, ShapeRow> for Step<TILTED, W> {
+impl<const TILTED: bool, W: ForceSource> Pass<SegmentState, ShapeRow> for Step<TILTED, W> {
     #[inline(always)]
     fn segment(
         &mut self,
@@ -235,7 +237,7 @@ impl<const TILTED: bool, W: Wind> Pass<SegmentState, ShapeRow> for Step<TILTED, 
         from: &PointRow,
         to: &mut PointRow,
     ) {
-        step_segment::<TILTED>(state, shape, &self.surroundings, &self.wind, &mut self.before, from, to);
+        step_segment::<TILTED>(state, shape, &self.surroundings, &self.source, &mut self.before, from, to);
     }
 }
 

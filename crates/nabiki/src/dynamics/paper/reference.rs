@@ -13,13 +13,13 @@ use crate::error::SettingError;
 use crate::field::Field;
 use crate::strands::Strands;
 
-pub(in crate::dynamics) use strand::{Setting, Strand};
+pub(in crate::dynamics) use strand::{Common, Strand};
 
 /// The paper's form of [`Reference`](crate::dynamics::Reference).
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Reference {
     dynamics: Dynamics,
-    setting: Setting,
+    common: Common,
     hair: Vec<Strand<f64>>,
     ids: Vec<u32>,
     frame: u32,
@@ -30,13 +30,13 @@ pub(in crate::dynamics) struct Reference {
 impl Reference {
     pub fn new(strands: &Strands, ids: &[u32], dynamics: &Dynamics, field: &dyn Field) -> Result<Self, SettingError> {
         check_field(strands, dynamics, field)?;
-        let setting =
-            Setting { gamma: dynamics.gamma(), polar_from_head: PolarAxis::new(dynamics.polar_axis).polar_from_head() };
-        let hair = strands.iter().enumerate().map(|(s, strand)| Strand::new(dynamics, &setting, strand, s));
+        let common =
+            Common { gamma: dynamics.gamma(), polar_from_head: PolarAxis::new(dynamics.polar_axis).polar_from_head() };
+        let hair = strands.iter().enumerate().map(|(s, strand)| Strand::new(dynamics, &common, strand, s));
         let mut reference = Self {
             dynamics: dynamics.clone(),
             hair: hair.collect::<Result<_, _>>()?,
-            setting,
+            common,
             ids: ids.to_vec(),
             frame: 0,
             positions: vec![DVec3::ZERO; strands.points().len()],
@@ -62,7 +62,7 @@ impl Stepper for Reference {
         let part = disturbance.and_then(|disturbance| Some((disturbance, disturbance.part(input.frame)?)));
         for (strand, &id) in self.hair.iter_mut().zip(&self.ids) {
             let disturbed = part.as_ref().map(|(disturbance, part)| disturbance.turn(id, part).map(f64::from));
-            strand.step(&self.setting, &air, disturbed);
+            strand.step(&self.common, &air, disturbed);
         }
         self.frame = input.frame;
         self.publish();

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use super::kernel::SegmentState;
 use super::packed::{Packed, Plan};
+use super::rows::SegmentState;
 use crate::dynamics::stability::{Named, unstable};
 use crate::dynamics::state::{Header, Reader, Writer};
 use crate::dynamics::sweep::{Pages, sweep};
@@ -50,13 +50,14 @@ impl Runner {
         self.packed.strongest_force()
     }
 
-    /// Stands where the same hair stands; `false`, and no change, if `of` is other hair.
-    pub fn set_state(&mut self, of: &Self) -> bool {
-        let is_same = Arc::ptr_eq(&self.packed, &of.packed) || self.header() == of.header();
-        if is_same {
-            self.states.copy_from_slice(&of.states);
-        }
-        is_same
+    /// Whether both share all that no frame changes.
+    pub fn is_clone_of(&self, of: &Self) -> bool {
+        Arc::ptr_eq(&self.packed, &of.packed)
+    }
+
+    /// Stands where the same hair stands.
+    pub fn set_state(&mut self, of: &Self) {
+        self.states.copy_from_slice(&of.states);
     }
 
     /// What it is that it holds the state of.

@@ -8,9 +8,9 @@ use super::{Brake, Damping, Place, Solver};
 use crate::dynamics::Form;
 use crate::error::SettingError;
 use crate::random::{GOLDEN_GAMMA, mix, unit};
+use crate::solve::keyed_wind::KeyedWind;
 use crate::solve::report::{Report, WishLeft};
 use crate::solve::unknowns::Answer;
-use crate::solve::wind::Wind;
 
 /// How long and how widely is searched.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -164,7 +164,7 @@ impl Solver {
     /// Where the spots are in the motion of a scene that holds an answer.
     fn left_of(&mut self, answer: &Answer) -> Result<Vec<DVec3>, SettingError> {
         let Answer { keyframes, gust, stiffness, settle } = answer.clone();
-        let wind = Wind { keyframes, gust, ease: self.problem.wind.ease };
+        let wind = KeyedWind { keyframes, gust, ease: self.problem.wind.ease };
         let mut dynamics = self.problem.dynamics.clone();
         // The trial before may have left others, so these are given even where they are the problem's own.
         let dynamics = match (&mut dynamics.form, stiffness, settle) {

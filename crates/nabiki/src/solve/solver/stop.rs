@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3};
 use super::{Damping, Solver};
 use crate::body::Body;
 use crate::dynamics::Form;
+use crate::obstacle::Reading;
 
 /// What keeps a wish from being met: the first of these that is true of it. Length comes after a nail and a force where it is less than
 /// half of what is left.
@@ -88,7 +89,7 @@ impl Solver {
         (away_cm > TAUT * reach_cm).then_some(Stop::Length { away_cm, reach_cm })
     }
 
-    /// The bodies, each with how far a point (head space, cm) is from it in the frame of a wish, and the way out.
+    /// The bodies near a point, each with how far that (head space, cm) is from it in the frame of a wish, and the way out.
     fn bodies<'a>(&'a self, wish: usize, point: DVec3) -> Vec<Beside<'a>> {
         let Form::Free(free) = &self.problem.dynamics.form else { return Vec::new() };
         let frame = self.problem.wishes[wish].frame;
@@ -96,10 +97,11 @@ impl Solver {
         let of_body = |body: &'a Body| {
             let head_from_body = body.head_from_body(frame, &head);
             let there = head_from_body.inverse().transform_point3(point.as_vec3());
-            let out = head_from_body.transform_vector3(body.distance.gradient(there)).as_dvec3();
-            Beside { name: &body.name, distance: body.distance.at(there), margin: body.contact.margin, out }
+            let Reading { distance, gradient, .. } = body.shape.obstacle().read(there, frame)?;
+            let out = head_from_body.transform_vector3(gradient).as_dvec3();
+            Some(Beside { name: &body.name, distance, margin: body.contact.margin, out })
         };
-        free.bodies.iter().map(of_body).collect()
+        free.bodies.iter().filter_map(of_body).collect()
     }
 
     fn by_goal_in_body(&self, wish: usize, goal: DVec3) -> Option<Stop> {

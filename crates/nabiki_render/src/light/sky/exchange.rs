@@ -115,10 +115,10 @@ impl Exchange {
         let high = of_head().reduce(IVec3::max).unwrap_or_default() + BESIDE;
         self.size = (high - self.low + 1).as_uvec3();
         self.at.clear();
-        self.at.resize(self.size.as_usizevec3().element_product(), NOBODY);
+        self.at.resize(count(self.size), NOBODY);
         self.blocks = self.size / BLOCK + 1;
         self.near.clear();
-        self.near.resize(self.blocks.as_usizevec3().element_product(), Near::default());
+        self.near.resize(count(self.blocks), Near::default());
         for (i, skin) in cells.iter().enumerate() {
             if skin.cell.cmplt(self.low).any() || skin.cell.cmpgt(high).any() {
                 continue;
@@ -368,6 +368,11 @@ impl Exchange {
 
 fn add(sum: &mut [f32; 2], parts: [f32; 2], times: f32) {
     sum.iter_mut().zip(parts).for_each(|(sum, part)| *sum += times * part);
+}
+
+/// Cells in a box of them.
+fn count(size: UVec3) -> usize {
+    size.to_array().into_iter().map(|n| n as usize).product()
 }
 
 fn index(cell: UVec3, size: UVec3) -> usize {

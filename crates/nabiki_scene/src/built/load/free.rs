@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use nabiki::body::{Body, BodyWay, skin_of};
-use nabiki::distance::SkinDistance;
+use nabiki::body::{Body, BodyWay, Shape, skin_of};
 use nabiki::dynamics::{Dynamics, Form};
 use nabiki::free_form::{FreeForm, FreeMotion, Gravity, Neighbours, earth_gravity};
 use nabiki::{Head, Pose, Strands};
@@ -55,7 +54,11 @@ pub(super) fn set(
     };
     let of_head = known.same_head.and_then(solid_bodies).and_then(|bodies| bodies.first());
     let mut bodies = vec![match of_head {
-        Some(known) => Body { contact: scene.contact, ..known.clone() },
+        Some(known) => {
+            let mut head = known.clone();
+            head.contact = scene.contact;
+            head
+        }
         None => Body::head(head, scene.contact),
     }];
     let mut drawn = Vec::new();
@@ -64,8 +67,8 @@ pub(super) fn set(
         // All hair is grown by now.
         still_wanted(goes_on, 1.0)?;
         let known = known.same_rate.and_then(|known| known_body(known, settings, i));
-        let (body, distance) = match known {
-            Some((body, distance)) => (body, distance),
+        let (body, shape) = match known {
+            Some(known) => known,
             None => (load(scene, settings, &name)?, None),
         };
         let BuiltBody { mesh, way, .. } = &body;
@@ -73,20 +76,20 @@ pub(super) fn set(
         let long_enough = if settings.motion.is_some() { way.check_length(&name, frames) } else { Ok(()) };
         long_enough.and_then(|()| way.check(&name, frames)).map_err(|refused| scene.refusal(refused))?;
         if settings.solid {
-            let distance = match distance {
-                Some(distance) => distance,
+            let shape = match shape {
+                Some(shape) => shape,
                 None => {
                     let skin = skin_of(mesh.clone(), &format!("{name}.mesh"));
-                    Arc::new(skin.map_err(|refused| scene.refusal(refused))?)
+                    Arc::new(skin.map_err(|refused| scene.refusal(refused))?).into()
                 }
             };
-            bodies.push(Body { name, distance, filled: None, way: way.clone(), contact: settings.contact() });
+            bodies.push(Body::new(name, shape, way.clone(), settings.contact()));
         }
         drawn.push(body);
     }
     let neighbours = scene.neighbours.as_ref().map(|forces| {
         let carriers = (forces.carriers as usize).min(first.len());
-        Neighbours { forces: forces.clone(), carriers: Arc::new(first.select(&(0..carriers).collect::<Vec<_>>())) }
+        Neighbours::new(forces.clone(), Arc::new(first.select(&(0..carriers).collect::<Vec<_>>())))
     });
     let form = FreeForm { gravity: Gravity::Strength(gravity), ..scene.free.clone() };
     dynamics.form = Form::Free(FreeMotion { form, bodies, neighbours, rest_pose });
@@ -102,8 +105,8 @@ fn solid_bodies(built: &BuiltScene) -> Option<&[Body]> {
     }
 }
 
-/// Body `i` of a scene that is built, with the distance to it if it is solid there; none if its file or its motion is another.
-fn known_body(known: &BuiltScene, settings: &BodySettings, i: usize) -> Option<(BuiltBody, Option<Arc<SkinDistance>>)> {
+/// Body `i` of a scene that is built, with its shape if it is solid there; none if its file or its motion is another.
+fn known_body(known: &BuiltScene, settings: &BodySettings, i: usize) -> Option<(BuiltBody, Option<Shape>)> {
     let was = known.scene.bodies.get(i)?;
     let BodySettings { mesh, groups, unit, up, facing, origin, motion, with_head, .. } = settings;
     let same = *mesh == was.mesh
@@ -117,7 +120,7 @@ fn known_body(known: &BuiltScene, settings: &BodySettings, i: usize) -> Option<(
     let body = known.bodies.get(i).filter(|_| same)?.clone();
     let name = format!("body[{i}]");
     let solid = solid_bodies(known)?.iter().find(|body| body.name == name);
-    Some((body, solid.map(|body| body.distance.clone())))
+    Some((body, solid.map(|body| body.shape.clone())))
 }
 
 fn load(scene: &Scene, settings: &BodySettings, name: &str) -> Result<BuiltBody> {

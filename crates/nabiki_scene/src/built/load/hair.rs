@@ -165,7 +165,7 @@ fn import(
     let file = there(scene, "hair.file", &settings.file)?;
     let mut groom = GroomFile::open(&file)?.keep(&settings.groups).map_err(|e| e.below("hair"))?;
     let declared = groom.declared_space()?;
-    let placement = hair_placement(settings, head_placement, seat::heeded(declared, scene.hair_is_of_head()));
+    let placement = seat::hair_placement(settings, head_placement, seat::heeded(declared, scene.hair_is_of_head()));
     placement.check("hair").map_err(|refused| scene.refusal(refused))?;
     let in_file = groom.hair_in_place(0, None)?;
     still_wanted(goes_on, 0.0)?;
@@ -250,25 +250,6 @@ fn evenly(hair: &Hair, count: usize, goes_on: GoesOn<'_>) -> Result<Vec<usize>> 
     let mut chosen = farthest_first(hair, count, goes_on)?;
     chosen.sort_unstable();
     Ok(chosen)
-}
-
-/// How the hair's file lies in head space: as the head's file does, but for what the scene or the file itself says. Of two files with
-/// other up axes each is taken for the other, tipped up.
-pub(crate) fn hair_placement(settings: &ImportedHair, head: &Placement, declared: DeclaredSpace) -> Placement {
-    let up = settings.up.or(declared.up).unwrap_or(head.up);
-    let unmoved = Placement {
-        unit: settings.unit.or(declared.unit).unwrap_or(head.unit),
-        up,
-        facing: settings.facing.unwrap_or_else(|| head.facing.tipped(head.up, up)),
-        origin: Vec3::ZERO,
-    };
-    if unmoved == (Placement { origin: Vec3::ZERO, ..*head }) {
-        return Placement { origin: settings.origin.unwrap_or(head.origin), ..unmoved };
-    }
-    // The head's origin is a place in the world that both files share.
-    let shared = Placement { origin: Vec3::ZERO, ..*head }.head_from_file().transform_point3(head.origin);
-    let origin = settings.origin.unwrap_or_else(|| unmoved.file_from_head().transform_point3(shared));
-    Placement { origin, ..unmoved }
 }
 
 /// The roots of a scene that is built, if they are those of this hair.

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, Vec3};
 
-use super::At;
+use super::at::At;
 use crate::dynamics::row::rotate;
 use crate::scalar::{Scalar, Vector};
 use crate::vector::add;

@@ -1,8 +1,8 @@
 //! Hold: H (r - d), which turns a segment toward its groomed direction in head space.
 
-use super::At;
+use super::at::At;
 use crate::dynamics::gain::SegmentShape;
-use crate::dynamics::stability::{Name, Pull};
+use crate::dynamics::pull::{Name, Pull};
 use crate::profile::Profile;
 use crate::scalar::{Scalar, Vector};
 use crate::vector::{scale, subtract};

@@ -1,7 +1,7 @@
 //! Joints: the moment K (R r) x d, which turns two segments toward their rest shape, each as much as the other.
 
 use crate::dynamics::gain::SegmentShape;
-use crate::dynamics::stability::{Name, Pull};
+use crate::dynamics::pull::{Name, Pull};
 use crate::profile::Profile;
 use crate::scalar::{Scalar, Vector};
 use crate::vector::{cross, scale, subtract};

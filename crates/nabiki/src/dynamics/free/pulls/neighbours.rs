@@ -2,10 +2,10 @@
 
 use glam::{DMat3, DVec3};
 
-use super::At;
+use super::at::At;
 use crate::dynamics::free::grid::Crowd;
 use crate::dynamics::gain::SegmentShape;
-use crate::dynamics::stability::{Name, Pull};
+use crate::dynamics::pull::{Name, Pull};
 use crate::scalar::{Scalar, Vector};
 use crate::vector::scale_add;
 

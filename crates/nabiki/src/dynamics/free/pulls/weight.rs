@@ -1,12 +1,9 @@
 //! Weight: g - R g', that of now without the one under which hair lies in balance at rest.
 
-use glam::DVec3;
-
-use super::At;
-use crate::dynamics::free::kernel::turned;
+use super::at::At;
+use crate::dynamics::free::rotate::turned;
 use crate::dynamics::gain::SegmentShape;
-use crate::dynamics::stability::{Name, Pull};
-use crate::pose::Pose;
+use crate::dynamics::pull::{Name, Pull};
 use crate::scalar::{Scalar, Vector};
 use crate::vector::subtract;
 
@@ -26,11 +23,6 @@ impl Pull for Gravity {
     fn strongest(&self, _: &SegmentShape, _: Option<&SegmentShape>) -> f64 {
         2.0 * f64::from(self.0)
     }
-}
-
-/// The force of the weight under a head of this pose (head space). `gravity`: its strength.
-pub fn weight(pose: &Pose, gravity: f64) -> DVec3 {
-    pose.rotation.as_dquat().inverse() * DVec3::new(0.0, -gravity, 0.0)
 }
 
 #[inline(always)]

@@ -2,8 +2,8 @@
 
 use glam::{DQuat, DVec3, Vec3};
 
-use super::Setting;
-use super::obstacle::{Touch, kept_from};
+use super::common::Common;
+use super::contact::{Touch, kept_from};
 use crate::body::Surface;
 use crate::dynamics::Dynamics;
 use crate::dynamics::air::Air;
@@ -93,7 +93,7 @@ impl<S: Scalar> Segment<S> {
 
     /// d + w, brought back to length 1, and w as it is carried along that way: its length stays. What rests keeps its bits.
     #[inline(always)]
-    fn turned(&self) -> (Vector<S>, Vector<S>) {
+    fn moved(&self) -> (Vector<S>, Vector<S>) {
         let (d, w) = (self.direction, self.increment);
         if w == Vector::zero() {
             return (d, w);
@@ -157,8 +157,8 @@ impl<S: Scalar> Strand<S> {
 
     /// Moves it by one frame, from its root to its tip. `crowd`: what its neighbours left in the frame before.
     #[inline(always)]
-    pub fn step(&mut self, setting: &Setting, air: &impl Air<S>, crowd: Option<&Crowd>) {
-        let Setting { gamma, head, rest_weight, obstacles } = setting;
+    pub fn step(&mut self, common: &Common, air: &impl Air<S>, crowd: Option<&Crowd>) {
+        let Common { gamma, head, rest_weight, bodies } = common;
         if let Some((axis, angle)) = head.turn {
             self.segments.iter_mut().for_each(|segment| segment.lag_behind(axis, angle));
             self.place();
@@ -201,25 +201,25 @@ impl<S: Scalar> Strand<S> {
             moment = next;
             let was = segment.direction;
             let lagged = segment.lagged(head.turn);
-            let (mut direction, mut increment) = segment.turned();
+            let (mut direction, mut increment) = segment.moved();
             // What is held goes with the head, whatever passes.
-            let obstacles = if shape.gain == 0.0 { &[][..] } else { obstacles };
+            let bodies = if shape.gain == 0.0 { &[][..] } else { bodies };
             let touched = |b: usize| {
                 let (surface, clearance) = kept_from[b][i + 1];
                 Touch { from, length: shape.length, clearance, was, lagged, surface }
             };
             let mut stopped = false;
-            for (b, obstacle) in obstacles.iter().enumerate() {
-                if let Some(there) = obstacle.stop(direction, increment, &touched(b)) {
+            for (b, body) in bodies.iter().enumerate() {
+                if let Some(there) = body.stop(direction, increment, &touched(b)) {
                     ((direction, increment), stopped) = (there, true);
                 }
             }
             // What one body has turned may be in another: a corner is left by turns.
-            let mut rounds = if obstacles.len() > 1 { ROUNDS } else { 0 };
+            let mut rounds = if bodies.len() > 1 { ROUNDS } else { 0 };
             while stopped && rounds > 0 {
                 stopped = false;
-                for (b, obstacle) in obstacles.iter().enumerate() {
-                    if let Some(there) = obstacle.part(direction, increment, &touched(b)) {
+                for (b, body) in bodies.iter().enumerate() {
+                    if let Some(there) = body.part(direction, increment, &touched(b)) {
                         ((direction, increment), stopped) = (there, true);
                     }
                 }

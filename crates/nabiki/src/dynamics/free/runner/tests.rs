@@ -13,9 +13,9 @@ use glam::{DVec3, Quat};
 use super::*;
 use crate::body::{Body, BodyWay, Contact, skin_of};
 use crate::dynamics::air::Breeze;
-use crate::dynamics::free::{Setting, Springs, Strand, TOLERANCE_CM};
+use crate::dynamics::free::{Common, Springs, Strand, TOLERANCE_CM};
 use crate::dynamics::row::lane as lane_of;
-use crate::dynamics::sweep::Form as _;
+use crate::dynamics::sweep::Swept as _;
 use crate::dynamics::{ForceSpace, Form, Motion};
 use crate::field::{Keyframe, KeyframedField};
 use crate::free_form::FreeForm;
@@ -66,13 +66,8 @@ fn the_twins_agree_in_each_frame_among_bodies_that_hair_slides_along() {
             Pose { position_cm, rotation: Quat::from_rotation_z(0.05 * n as f32) }
         })
         .collect();
-    let passing = Body {
-        name: "body[0]".to_owned(),
-        distance: Arc::new(skin_of(ball(3.5), "body[0].mesh").unwrap()),
-        filled: None,
-        way: BodyWay::InWorld(ball_poses.into()),
-        contact: Contact { margin: 0.1, friction: 0.4, static_friction: 0.6 },
-    };
+    let (skin, way) = (Arc::new(skin_of(ball(3.5), "body[0].mesh").unwrap()), BodyWay::InWorld(ball_poses.into()));
+    let passing = Body::new("body[0]", skin, way, Contact { margin: 0.1, friction: 0.4, static_friction: 0.6 });
     let bodies = vec![Body::head(&head, Contact::default()), passing];
     let form = FreeForm { stiffness: 2000.0.into(), hold: 10.0.into(), gravity: 60.0.into(), ..Default::default() };
     let free = FreeMotion { form, bodies, rest_pose: poses[0], ..Default::default() };
@@ -81,13 +76,9 @@ fn the_twins_agree_in_each_frame_among_bodies_that_hair_slides_along() {
         Motion { force_space: ForceSpace::World, inertia_length_floor: 18.0, frames: FRAMES, ..Motion::default() };
     let dynamics = Dynamics {
         motion,
-        segment_length: 1.0,
         pseudo_force: PseudoForce::off(),
-        ellipsoid: head.ellipsoid,
-        shell: 1.25,
-        polar_axis: Vec3::Y,
-        disturbance: None,
         form: Form::Free(free.clone()),
+        ..Dynamics::new(head.ellipsoid)
     };
     let keys = [(30, [-60.0, -60.0, 20.0]), (60, [80.0, -40.0, -90.0]), (FRAMES, [0.0, -120.0, 60.0])];
     let keys = keys.map(|(through, vector)| Keyframe { through, vector: vector.into() });
@@ -105,7 +96,7 @@ fn the_twins_agree_in_each_frame_among_bodies_that_hair_slides_along() {
         let states = fast.states.clone();
         fast.step(&input, VectorWidth::default(), &mut page);
         let air = Breeze { input: &input, space: ForceSpace::World };
-        let [among, without] = [&free, &alone].map(|free| Setting::new(&dynamics, free, &input));
+        let [among, without] = [&free, &alone].map(|free| Common::new(&dynamics, free, &input));
         for (s, strand) in exact.iter_mut().enumerate() {
             let block = &fast.packed.blocks()[s / LANES];
             let as_it_was = states[block.rows()].iter().map(|state| {

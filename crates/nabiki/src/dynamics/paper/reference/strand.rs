@@ -12,7 +12,7 @@ use crate::scalar::{Scalar, Vector};
 
 /// What all strands have in common.
 #[derive(Clone, Debug)]
-pub(in crate::dynamics) struct Setting {
+pub(in crate::dynamics) struct Common {
     pub gamma: Gamma,
     /// From head space to the space whose y is the polar axis, in which angles are counted.
     pub polar_from_head: DMat3,
@@ -71,15 +71,15 @@ impl<S: Scalar> Strand<S> {
     ///
     /// # Errors
     /// As [`segment_shapes`].
-    pub fn new(dynamics: &Dynamics, setting: &Setting, strand: &[Vec3], s: usize) -> Result<Self, SettingError> {
+    pub fn new(dynamics: &Dynamics, common: &Common, strand: &[Vec3], s: usize) -> Result<Self, SettingError> {
         let segments = segment_shapes(dynamics, strand, s, 0)?.into_iter().zip(strand.windows(2)).map(|(shape, w)| {
-            let (theta, phi) = from_direction(setting.polar_from_head * (w[1].as_dvec3() - w[0].as_dvec3()));
+            let (theta, phi) = from_direction(common.polar_from_head * (w[1].as_dvec3() - w[0].as_dvec3()));
             let (theta_increment, phi_increment) = (S::from(0.0), S::from(0.0));
             Segment { shape, theta: S::from(theta), phi: S::from(phi), theta_increment, phi_increment }
         });
         let positions = strand.iter().map(|p| p.as_dvec3().into()).collect();
         let mut strand = Self { segments: segments.collect(), positions };
-        strand.place(setting);
+        strand.place(common);
         Ok(strand)
     }
 
@@ -106,12 +106,12 @@ impl<S: Scalar> Strand<S> {
     /// Solves i = 1 .. k; p_i at frame n decides what the force is and whether eps_i holds. `disturbed`: what turns theta
     /// and phi of the tip besides.
     #[inline(always)]
-    pub fn step(&mut self, setting: &Setting, air: &impl Air<S>, disturbed: Option<[f64; 2]>) {
+    pub fn step(&mut self, common: &Common, air: &impl Air<S>, disturbed: Option<[f64; 2]>) {
         for (segment, &end) in self.segments.iter_mut().zip(&self.positions[1..]) {
             let force = air.force(end);
-            let weakened = setting.gamma.contains(end.value(), force.value().as_vec3());
+            let weakened = common.gamma.contains(end.value(), force.value().as_vec3());
             let gain = if weakened { segment.shape.gain_in_gamma } else { segment.shape.gain };
-            segment.advance(gain, force.by(&setting.polar_from_head));
+            segment.advance(gain, force.by(&common.polar_from_head));
         }
         if let Some([theta, phi]) = disturbed {
             for segment in &mut self.segments {
@@ -119,13 +119,13 @@ impl<S: Scalar> Strand<S> {
                 segment.phi += S::from(phi * segment.shape.along);
             }
         }
-        self.place(setting);
+        self.place(common);
     }
 
     /// Puts the strand together from its root outward.
     #[inline(always)]
-    fn place(&mut self, setting: &Setting) {
-        let head_from_polar = setting.polar_from_head.transpose();
+    fn place(&mut self, common: &Common) {
+        let head_from_polar = common.polar_from_head.transpose();
         let mut p = self.positions[0];
         for (segment, position) in self.segments.iter().zip(&mut self.positions[1..]) {
             p += segment.vector().by(&head_from_polar);

@@ -11,7 +11,7 @@ use crate::field::{Ease, Field, FieldSum, Gust, GustField, Keyframe, KeyframedFi
 
 /// The wind whose vectors, borders and gusts may be unknown: keyframes, eased or not, and the gusts on them.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Wind {
+pub struct KeyedWind {
     /// The intervals. None: no wind yet; see [`with_interval`].
     pub keyframes: Vec<Keyframe>,
     /// From one vector to the next.
@@ -20,7 +20,7 @@ pub struct Wind {
     pub gust: Option<Gust>,
 }
 
-impl Wind {
+impl KeyedWind {
     /// The field of it, as a scene has it. `frame_rate`: frames a second.
     ///
     /// # Errors
@@ -215,7 +215,7 @@ mod tests {
     fn gusts_of_a_guess_are_those_of_a_scene() {
         let keyframes = vec![key(10, 50.0), key(40, -80.0)];
         let gust = Gust { intensity: 0.37, ..Gust::default() };
-        let wind = Wind { keyframes, ease: Ease::Smooth, gust: Some(gust) };
+        let wind = KeyedWind { keyframes, ease: Ease::Smooth, gust: Some(gust) };
         let scene = wind.field(24.0).unwrap();
         let layout = Layout { unknowns: Vec::new(), numbers: 0 };
         let table = Gusts::new(wind.gust.as_ref(), 24.0, 60).unwrap().table(&layout.guess(&wind, &[]));

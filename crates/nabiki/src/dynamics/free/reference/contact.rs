@@ -1,11 +1,11 @@
-//! A body in one frame, as the f64 stepper meets it.
+//! Contact in f64: bodies where they are in one frame, and how a segment is kept out of them.
 
 use glam::{DAffine3, DMat3, DVec3};
 
 use crate::body::{Body, Contact, Surface};
-use crate::distance::Reading;
 use crate::dynamics::FrameInput;
 use crate::dynamics::free::{FAN, NEAR, PUSHES, TOLERANCE_CM, TURN};
+use crate::obstacle::Reading;
 use crate::pose::Pose;
 use crate::scalar::{Scalar, Vector};
 
@@ -19,9 +19,10 @@ pub fn kept_from(body: &Body, rest_pose: &Pose, positions: &[DVec3]) -> Vec<(Sur
     positions.iter().map(kept).collect()
 }
 
-/// A body in one frame.
-pub struct Obstacle<'a> {
+/// A body where it is in one frame.
+pub struct PlacedBody<'a> {
     body: &'a Body,
+    frame: u32,
     contact: Contact,
     body_from_head: DAffine3,
     /// Takes points of the body from where they are to where they were in the frame before, in head space.
@@ -43,11 +44,17 @@ pub struct Touch<S> {
     pub surface: Surface,
 }
 
-impl<'a> Obstacle<'a> {
+impl<'a> PlacedBody<'a> {
     /// Body number `b`.
     pub fn new(b: usize, body: &'a Body, input: &FrameInput) -> Self {
         let [now, before] = input.head_from_body(b, body).map(exact);
-        Self { body, contact: body.contact, body_from_head: now.inverse(), before_from_now: before * now.inverse() }
+        Self {
+            body,
+            frame: input.frame,
+            contact: body.contact,
+            body_from_head: now.inverse(),
+            before_from_now: before * now.inverse(),
+        }
     }
 
     /// Keeps a segment that would go along `direction`, with this `increment`, out of the body; `None` where it touches nothing.
@@ -79,7 +86,7 @@ impl<'a> Obstacle<'a> {
     #[inline(always)]
     fn depth<S: Scalar>(&self, direction: Vector<S>, touch: &Touch<S>) -> Option<f64> {
         let end = touch.from + direction.times(touch.length);
-        Some(touch.clearance - f64::from(self.reading(end.value(), touch.surface)?.distance()))
+        Some(touch.clearance - f64::from(self.reading(end.value(), touch.surface)?.distance))
     }
 
     /// The same where the segment touches.
@@ -93,7 +100,10 @@ impl<'a> Obstacle<'a> {
         let &Touch { from, length, clearance, surface, lagged, .. } = touch;
         let end = from + direction.times(length);
         let Some((distance, normal)) = self.read(end, surface) else { return (direction, increment) };
-        let of_body = end - end.taken_by(&self.before_from_now);
+        let mut of_body = end - end.taken_by(&self.before_from_now);
+        if let Some(bent) = self.bent(end.value()) {
+            of_body += bent.into();
+        }
         let moved = (increment + lagged).times(length) - of_body;
         let (depth, inward) = (S::from(clearance) - distance, -moved.dot(normal));
         if inward.value() > 0.0 {
@@ -162,23 +172,31 @@ impl<'a> Obstacle<'a> {
     /// Distance and outward normal at a point of head space; `None` far away.
     fn read<S: Scalar>(&self, p: Vector<S>, surface: Surface) -> Option<(S, Vector<S>)> {
         let reading = self.reading(p.value(), surface)?;
-        let (gradient, head_from_body) = (reading.gradient(), self.body_from_head.matrix3.transpose());
-        let gradient = gradient.as_dvec3();
+        let (gradient, head_from_body) = (reading.gradient.as_dvec3(), self.body_from_head.matrix3.transpose());
         let in_body = gradient.normalize_or(DVec3::Y);
         let curved = || {
             // The normal turns as far as the gradient changes across it.
             let across =
                 DMat3::IDENTITY - DMat3::from_cols(in_body * in_body.x, in_body * in_body.y, in_body * in_body.z);
-            let curvature = reading.hessian().as_dmat3() * gradient.length().recip();
+            let curvature = reading.hessian.as_dmat3() * gradient.length().recip();
             head_from_body * across * curvature * self.body_from_head.matrix3
         };
-        let distance = S::known(f64::from(reading.distance()), p, || head_from_body * gradient);
+        let distance = S::known(f64::from(reading.distance), p, || head_from_body * gradient);
         Some((distance, S::known_vector(head_from_body * in_body, p, curved)))
     }
 
     /// What is sampled at a point of head space; `None` far away.
     fn reading(&self, p: DVec3, surface: Surface) -> Option<Reading> {
-        self.body.surface(surface).read(self.body_from_head.transform_point3(p).as_vec3())
+        self.body.surface(surface).read(self.body_from_head.transform_point3(p).as_vec3(), self.frame)
+    }
+
+    /// What a body that bends has moved its point at `p` by, besides the way of its own space; its derivatives are not followed.
+    fn bent(&self, p: DVec3) -> Option<DVec3> {
+        let obstacle = self.body.shape.obstacle();
+        (obstacle.farthest_moved(self.frame) > 0.0).then(|| {
+            let moved = obstacle.moved(self.body_from_head.transform_point3(p).as_vec3(), self.frame);
+            self.body_from_head.matrix3.transpose() * moved.as_dvec3()
+        })
     }
 }
 

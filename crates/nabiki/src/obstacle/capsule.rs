@@ -1,0 +1,106 @@
+//! A ball that is drawn along a segment: an arm, a finger, a stick.
+
+use glam::{Mat3, Vec3};
+
+use super::{Obstacle, Reading};
+use crate::error::{SettingError, check_positive};
+
+/// How far about it distances are read (cm): contact keeps hair up to 5 cm away.
+const AROUND_CM: f32 = 6.0;
+
+/// All points within `radius` of a segment, exact everywhere, without samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Capsule {
+    ends: [Vec3; 2],
+    radius: f32,
+}
+
+impl Capsule {
+    /// About the segment between `ends` (its own space, cm), which may be one point. `thing`: what it is called.
+    ///
+    /// # Errors
+    /// Ends that are no points, a radius that is not above 0.
+    pub fn new(ends: [Vec3; 2], radius: f32, thing: &str) -> Result<Self, SettingError> {
+        if let Some(end) = ends.iter().find(|end| !end.is_finite()) {
+            return Err(SettingError::new(thing, end, "must have finite coordinates"));
+        }
+        check_positive(&format!("{thing}.radius"), radius)?;
+        Ok(Self { ends, radius })
+    }
+}
+
+impl Obstacle for Capsule {
+    fn reach(&self) -> [Vec3; 2] {
+        let [a, b] = self.ends;
+        let around = self.radius + AROUND_CM;
+        [a.min(b) - around, a.max(b) + around]
+    }
+
+    fn read(&self, p: Vec3, _: u32) -> Option<Reading> {
+        let ([low, high], [a, b]) = (self.reach(), self.ends);
+        if !(p.cmpge(low) & p.cmple(high)).all() {
+            return None;
+        }
+        let axis = b - a;
+        let along = ((p - a).dot(axis) / axis.length_squared().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let out = p - (a + along * axis);
+        let (away, normal) = (out.length(), out.normalize_or(axis.any_orthogonal_vector().normalize_or(Vec3::Y)));
+        let outer = |v: Vec3| Mat3::from_cols(v * v.x, v * v.y, v * v.z);
+        // About an end it is a ball, between them a cylinder, which is straight along its axis.
+        let straight = if along > 0.0 && along < 1.0 { outer(axis.normalize_or_zero()) } else { Mat3::ZERO };
+        let hessian = (Mat3::IDENTITY - outer(normal) - straight) * (1.0 / away.max(1e-3 * self.radius));
+        Some(Reading { distance: away - self.radius, gradient: normal, hessian })
+    }
+
+    fn identify(&self, hand_on: &mut dyn FnMut(&[f32])) {
+        self.ends.iter().for_each(|end| hand_on(&end.to_array()));
+        hand_on(&[self.radius]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn capsule() -> Capsule {
+        Capsule::new([Vec3::new(-2.0, 1.0, 0.5), Vec3::new(3.0, -1.0, 2.0)], 1.5, "body[0]").unwrap()
+    }
+
+    #[test]
+    fn gradient_and_hessian_are_those_of_the_distance() {
+        let (capsule, step) = (capsule(), 0.02);
+        for i in 0..300_u32 {
+            let part = |k: u32| 12.0 * (((i * k) % 97) as f32 / 97.0) - 6.0;
+            let p = Vec3::new(part(13), part(29), part(71));
+            let at = |p: Vec3| capsule.read(p, 0).unwrap();
+            let Reading { distance, gradient, hessian } = at(p);
+            // Near the axis distances bend by more than a step sees.
+            if distance < -1.0 {
+                continue;
+            }
+            for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+                let (ahead, behind) = (at(p + step * axis), at(p - step * axis));
+                let slope = (ahead.distance - behind.distance) / (2.0 * step);
+                assert!((slope - gradient.dot(axis)).abs() < 2e-3, "{p}: {slope}, {gradient}");
+                let turned = (ahead.gradient - behind.gradient) / (2.0 * step);
+                // Where ball and cylinder meet it jumps.
+                let jumps = (at(p + step * axis).hessian - at(p - step * axis).hessian).mul_vec3(axis).length() > 0.05;
+                assert!(jumps || turned.distance(hessian * axis) < 5e-3, "{p}: {turned}, {}", hessian * axis);
+            }
+        }
+    }
+
+    #[test]
+    fn it_reaches_as_far_as_contact_and_no_number_is_refused_by_name() {
+        let capsule = capsule();
+        let [low, high] = capsule.reach();
+        assert!(capsule.read(low, 0).is_some() && capsule.read(high, 0).is_some());
+        assert!(capsule.read(high + 1e-3, 0).is_none() && capsule.read(low - 1e-3, 7).is_none());
+        assert_eq!(capsule.read(Vec3::new(-2.0, 1.0, 0.5), 0).unwrap().distance, -1.5);
+        let refused = |ends, radius| Capsule::new(ends, radius, "body[1]").unwrap_err().thing;
+        assert_eq!(refused([Vec3::ZERO, Vec3::NAN], 1.0), "body[1]");
+        assert_eq!(refused([Vec3::ZERO; 2], 0.0), "body[1].radius");
+        let ball = Capsule::new([Vec3::X; 2], 2.0, "body[1]").unwrap();
+        assert_eq!(ball.read(Vec3::X * 4.0, 0).map(|at| (at.distance, at.gradient)), Some((1.0, Vec3::X)));
+    }
+}

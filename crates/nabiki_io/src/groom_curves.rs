@@ -1,0 +1,58 @@
+//! Where a groom's curves are in its file, for layers to be laid over them.
+
+use std::path::Path;
+
+use glam::DAffine3;
+use nabiki_exchange::Course;
+
+use crate::error::{Error, Result};
+
+/// Curves of a layer or archive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurvePrim {
+    /// Where they stand in it.
+    pub path: String,
+    /// Their control points.
+    pub points: u64,
+    /// How the curves run between these.
+    pub course: Course,
+    /// Takes them to the file's world at the first frame.
+    pub world_from_curves: DAffine3,
+    /// Whether a skeleton moves them.
+    pub bound: bool,
+}
+
+/// The file that a groom came from, and where its curves are in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroomCurves {
+    /// The file, as it was named.
+    pub file: String,
+    /// Its curves, in their order; none in a file of hair alone.
+    pub curves: Vec<CurvePrim>,
+}
+
+impl GroomCurves {
+    /// The curves that a layer over the prim `path` is about.
+    ///
+    /// # Errors
+    /// The prim is not the one that holds the groom's curves: one line with the paths that do; a transform above it that
+    /// flattens space.
+    pub fn under_layer(&self, path: &str) -> Result<&CurvePrim> {
+        let refuse =
+            |why: String| Err(Error::new(format!("--export-layer {path}: {why}")).in_file(Path::new(&self.file)));
+        let listed = self.curves.iter().take(8).map(|prim| format!("{} ({} points)", prim.path, prim.points));
+        let list = listed.collect::<Vec<_>>().join(", ");
+        match &self.curves[..] {
+            [only] if only.path == path => {
+                let inverse = only.world_from_curves.inverse();
+                if inverse.is_finite() { Ok(only) } else { refuse("a transform above it flattens space".to_owned()) }
+            }
+            [] => refuse("it has no curves over which a layer could lie".to_owned()),
+            [_] => refuse(format!("its curves are at {list}")),
+            several => {
+                let n = several.len();
+                refuse(format!("its curves are in {n} prims ({list}), and a layer lies over one"))
+            }
+        }
+    }
+}

@@ -1,0 +1,214 @@
+//! What looks wrong before anything is drawn: about the size and place of a head and its hair, a unit forgotten, hair beside
+//! the head or within it, a skull with a hole, a head that leaps; and settings that change nothing beside the others.
+
+mod twice;
+mod unused;
+
+use glam::Vec3;
+use nabiki::dynamics::Form;
+use nabiki::groom::style::Cut;
+use nabiki::head::Opening;
+use nabiki::{Head, Pose};
+use nabiki_io::info::Short;
+use nabiki_render::settings::Projection;
+use nabiki_render::{Bounds, View};
+
+use crate::advice::{Advice, Setting};
+use crate::built::BuiltScene;
+use crate::seat::{Lie, Mended, Seat};
+use crate::size::{mean_half_axis, of_head_size, vector};
+
+pub(crate) use unused::{of_pictures, unused};
+
+/// A skull of which less than this is missing is as good as whole (share of the mean half axis).
+const MISSING: f32 = 0.03;
+
+impl BuiltScene {
+    /// What looks wrong about the size and place of head and hair.
+    pub fn advice(&self) -> Vec<Advice> {
+        advice(self)
+    }
+}
+
+fn advice(built: &BuiltScene) -> Vec<Advice> {
+    let mut advice: Vec<Advice> = built.head.openings.iter().filter_map(|hole| open_skull(&built.head, hole)).collect();
+    let of_head = head_size(built);
+    // Hair that goes by the unit of a wrong head cannot be judged.
+    let of_hair = if of_head.is_none() { built.seat().and_then(|seat| of_seat(&seat)) } else { None };
+    advice.extend(of_head.into_iter().chain(of_hair).chain(untied(built)).chain(unbound(built)));
+    advice.extend(cropped(built));
+    advice.extend(open_bodies(built));
+    advice.extend(within_the_head(built));
+    advice.extend(leap(built));
+    advice.extend(twice::carried_twice(built));
+    advice.extend(unused(&built.scene));
+    advice
+}
+
+/// Bodies with openings, which count as closed: what is behind them, as within a cap, is inside.
+fn open_bodies(built: &BuiltScene) -> impl Iterator<Item = Advice> {
+    built.open_bodies().map(|(i, edges)| {
+        let seen = format!(
+            "body[{i}] is open along {edges} edges; an opening counts as closed straight across: close it in the file if that is \
+             not meant"
+        );
+        Advice { seen, settings: Vec::new() }
+    })
+}
+
+/// A camera that sees the head from within, which is next to nothing.
+pub(crate) fn within_the_head(built: &BuiltScene) -> Option<Advice> {
+    let (picture, head) = (&built.scene.picture, &built.head);
+    // An automatic one stands outside, and so does an orthographic one.
+    picture.camera.distance.filter(|_| picture.camera.projection == Projection::Perspective)?;
+    let turn = built.pose(0).rotation;
+    let mut framed = Bounds::default();
+    framed.include_head(&head.mesh, &head.ellipsoid);
+    built.hair.strands.points().iter().for_each(|&p| framed.include(turn * p));
+    let eye = View::new(&picture.camera.at(0.0), picture.size, &framed).eye;
+    if head.ellipsoid.value(turn.inverse() * eye) >= 0.0 {
+        return None;
+    }
+    let [x, y, z] = eye.to_array().map(Short);
+    let seen = format!(
+        "picture.camera stands in the head, at ({x}, {y}, {z}), and sees next to nothing: give a larger picture.camera.distance, \
+         or another target"
+    );
+    Some(Advice { seen, settings: Vec::new() })
+}
+
+/// A head that goes or turns on more suddenly than any blow makes it: a cut of the shot, or samples that are missing.
+fn leap(built: &BuiltScene) -> Option<Advice> {
+    // A hundred times the weight of things (cm/s^2), and a change of the turn from one frame to the next (rad).
+    const SUDDEN: f32 = 1e5;
+    const TURNED: f32 = 1.0;
+    let poses = built.given_poses();
+    let rate = built.scene.frame_rate() as f32;
+    let is_sudden = |[a, b, c]: [&Pose; 3]| {
+        let change = (c.position_cm - b.position_cm) - (b.position_cm - a.position_cm);
+        let turns = [b.rotation * a.rotation.inverse(), c.rotation * b.rotation.inverse()];
+        change.length() * rate * rate > SUDDEN || turns[0].angle_between(turns[1]) > TURNED
+    };
+    let before = poses.windows(3).position(|at| is_sudden([&at[0], &at[1], &at[2]]))? + 1;
+    let (from, to) = (poses[before], poses[before + 1]);
+    let (way, turn) =
+        (from.position_cm.distance(to.position_cm), from.rotation.angle_between(to.rotation).to_degrees());
+    let seen = format!(
+        "the head goes {way:.0} cm and turns {turn:.0} degrees from frame {before} to frame {}, and hair feels that: if the shot cuts \
+         there, make a scene of each part",
+        before + 1
+    );
+    matches!(built.dynamics.form, Form::Free(_)).then_some(Advice { seen, settings: Vec::new() })
+}
+
+/// A tie that holds no hair.
+fn untied(built: &BuiltScene) -> Option<Advice> {
+    let Form::Free(free) = &built.dynamics.form else { return None };
+    let tie = free.form.tie?;
+    let strands = &built.hair.strands;
+    if strands.iter().any(|strand| tie.held(strand) > 0) {
+        return None;
+    }
+    let [x, y, z] = tie.at.to_array().map(Short);
+    let seen = format!(
+        "free.tie ties nothing: none of these {} strands comes within {} cm of ({x}, {y}, {z}) at rest",
+        strands.len(),
+        Short(tie.within)
+    );
+    Some(Advice { seen, settings: Vec::new() })
+}
+
+/// A ponytail whose band no hair comes to.
+fn unbound(built: &BuiltScene) -> Option<Advice> {
+    let style = &built.scene.hair.grown()?.style;
+    let tail = style.ponytail?;
+    // Nodes lie a segment apart at the most, and a curl winds its radius and what chance adds about the line that is tied.
+    let near = tail.radius + built.scene.hair.segment_length + 3.0 * style.curl.radius;
+    let strands = &built.hair.strands;
+    if strands.points().iter().any(|p| p.distance(tail.at) <= near) {
+        return None;
+    }
+    let [x, y, z] = tail.at.to_array().map(Short);
+    let seen = format!(
+        "hair.style.ponytail ties nothing: none of these {} strands reaches its band at ({x}, {y}, {z}); give longer hair, or \
+         another hair.style.ponytail.at",
+        strands.len()
+    );
+    Some(Advice { seen, settings: Vec::new() })
+}
+
+/// Cuts that take off all that they may: the plane has the roots of all hair on its wrong side.
+fn cropped(built: &BuiltScene) -> impl Iterator<Item = Advice> {
+    let cuts = built.scene.hair.grown().map_or(&[][..], |hair| &hair.style.cuts);
+    let strands = &built.hair.strands;
+    let beyond = |cut: &Cut| strands.iter().all(|strand| (strand[0] - cut.point).dot(cut.normal) > 0.0);
+    let all = move |cut: &Cut| cut.region.is_none() && beyond(cut);
+    cuts.iter().enumerate().filter(move |(_, cut)| all(cut)).map(|(i, cut)| {
+        let seen = format!(
+            "hair.style.cuts[{i}] cuts all hair to {} cm: every root lies where its normal points; if that is not meant, \
+             turn it, normal = {}",
+            Short(cut.shortest),
+            vector(Vec3::ZERO - cut.normal)
+        );
+        Advice { seen, settings: Vec::new() }
+    })
+}
+
+fn open_skull(head: &Head, hole: &Opening) -> Option<Advice> {
+    let missing = hole.missing.filter(|&missing| missing > MISSING * mean_half_axis(&head.ellipsoid))?;
+    let [x, y, z] = hole.middle.to_array().map(Short);
+    let seen = format!(
+        "the skull has a hole {:.1} cm wide about ({x}, {y}, {z}) cm, which counts as closed straight across, up to \
+         {missing:.1} cm below where its skin would be: close it in the file, or keep more of that with head.groups",
+        2.0 * hole.radius,
+    );
+    Some(Advice { seen, settings: Vec::new() })
+}
+
+fn head_size(built: &BuiltScene) -> Option<Advice> {
+    of_head_size(&built.scene.head, &built.head.ellipsoid, built.head_declared, &built.placement)
+}
+
+fn of_seat(seat: &Seat<'_>) -> Option<Advice> {
+    let astray = seat.astray();
+    if !astray.is_empty() {
+        let (keys, file) = (astray.join(" and "), seat.settings.file.display());
+        let seen = format!("{keys}: the hair is moved away from the head, which is from {file}, too; leave that out");
+        return Some(Advice { seen, settings: Vec::new() });
+    }
+    let now = seat.lie();
+    if now.is_good() {
+        return None;
+    }
+    let seen = wrong(&now);
+    if seat.of_head {
+        let seen = format!("{seen}: so it lies in its file, which the head is from, too");
+        return Some(Advice { seen, settings: Vec::new() });
+    }
+    let Some((Mended { facing, unit, origin }, then)) = seat.mended() else {
+        // Beside an origin that is given no other facing is sought.
+        let sought = if seat.has_origin() { "hair.unit" } else { "hair.facing, hair.unit" };
+        let seen = format!("{seen}: it was made for another head, and no other {sought} or hair.origin mends that");
+        return Some(Advice { seen, settings: Vec::new() });
+    };
+    let seen = if then.is_good() {
+        seen
+    } else {
+        format!("{seen}. It was made for another head; at the best place found {}", wrong(&then))
+    };
+    let facing = facing.map(|axis| Setting { key: "hair.facing", value: format!("\"{axis}\"") });
+    let unit = unit.map(|value| Setting { key: "hair.unit", value });
+    let origin = origin.map(|p| Setting { key: "hair.origin", value: vector(p) });
+    Some(Advice { seen, settings: facing.into_iter().chain(unit).chain(origin).collect() })
+}
+
+/// What is wrong with hair that lies so.
+fn wrong(lie: &Lie) -> String {
+    let Lie { off, inside, depth, on_skin } = lie;
+    if *on_skin {
+        let percent = 100.0 * inside;
+        format!("{percent:.1} % of the hair's points are inside the head at rest, up to {} cm deep", Short(*depth))
+    } else {
+        format!("half of the hair's roots lie more than {} cm from the skin", Short(*off))
+    }
+}
