@@ -224,7 +224,7 @@ fn a_file_without_a_name_is_refused_and_not_left_out() {
     for (table, key) in [("head", "mesh"), ("hair", "file")] {
         let unnamed = toml::Table::from_iter([(key.to_owned(), Value::String(String::new()))]);
         let refused = wind().with_setting(table, Some(unnamed.into())).unwrap().check().unwrap_err();
-        assert_eq!(refused.to_string(), format!("{table}.{key} = \"\": give the name of a file"));
+        assert_eq!(refused.to_string(), format!("{table}.{key} = \"\": name a file"));
     }
 }
 

@@ -228,7 +228,7 @@ impl ImportedHead {
 
 /// Refuses a file without a name, which a scene file would leave out.
 pub(super) fn check_named(at: &Place, file: &Path) -> Result<(), SettingError> {
-    if file.as_os_str().is_empty() { refused(at, "\"\"", "give the name of a file") } else { Ok(()) }
+    if file.as_os_str().is_empty() { refused(at, "\"\"", "name a file") } else { Ok(()) }
 }
 
 /// Refuses what the given parts of a placement cannot be, whatever a file says of the others.
