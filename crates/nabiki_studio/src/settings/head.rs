@@ -2,6 +2,24 @@
 
 use super::{Group, Shape, When};
 
+/// A file's motion, of the head or of a body.
+const MOTION: &[&str] = &[
+    "file",
+    "skeleton",
+    "node",
+    "clip",
+    "unit_cm",
+    "up",
+    "facing",
+    "frames_per_second",
+    "skip",
+    "positions",
+    "speed",
+    "smoothing",
+    "start_at_origin",
+    "bind_at_start",
+];
+
 pub(super) const GROUPS: &[Group] = &[
     Group::new("Head", "head", "Where the head comes from.", &["mesh", "ellipsoid", "shell"]).open(),
     Group::new(
@@ -12,28 +30,8 @@ pub(super) const GROUPS: &[Group] = &[
     )
     .open()
     .when(When::ImportedHead),
-    Group::new(
-        "Motion of the head",
-        "head.motion",
-        "A file that moves the head; without one it stands still.",
-        &[
-            "file",
-            "skeleton",
-            "node",
-            "clip",
-            "unit_cm",
-            "up",
-            "facing",
-            "frames_per_second",
-            "skip",
-            "positions",
-            "speed",
-            "smoothing",
-            "start_at_origin",
-            "bind_at_start",
-        ],
-    )
-    .shaped(Shape::Optional("")),
+    Group::new("Motion of the head", "head.motion", "A file that moves the head; without one it stands still.", MOTION)
+        .shaped(Shape::Optional("")),
     Group::new(
         "Bodies",
         "body",
@@ -56,27 +54,7 @@ pub(super) const GROUPS: &[Group] = &[
     )
     .shaped(Shape::List(""))
     .when(When::Free),
-    Group::new(
-        "Motion of a body",
-        "body.motion",
-        "A file that moves the body; without one it stands still.",
-        &[
-            "file",
-            "skeleton",
-            "node",
-            "clip",
-            "unit_cm",
-            "up",
-            "facing",
-            "frames_per_second",
-            "skip",
-            "positions",
-            "speed",
-            "smoothing",
-            "start_at_origin",
-            "bind_at_start",
-        ],
-    )
-    .shaped(Shape::Optional(""))
-    .when(When::Free),
+    Group::new("Motion of a body", "body.motion", "A file that moves the body; without one it stands still.", MOTION)
+        .shaped(Shape::Optional(""))
+        .when(When::Free),
 ];
