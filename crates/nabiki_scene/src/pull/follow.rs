@@ -28,7 +28,7 @@ const THERE_CM: f64 = 0.1;
 const NEAR_CM: f64 = 0.2;
 /// A change of the wind by 100 counts as much as this distance (cm): a strong wind throws all hair about. With one by so much no gentler is
 /// looked for.
-const ROUGH_CM: f64 = 0.03;
+const ROUGH_CM: f64 = 0.015;
 const GENTLE: f64 = 250.0;
 /// What the vector of an interval counts that is not the pull's own, if it changes, too (cm).
 const ANOTHER_CM: f64 = 0.05;
