@@ -2,6 +2,7 @@
 
     python3 tests/python/check.py                  wheel, stubs, types, tests, the notebook
     python3 tests/python/check.py --wheel FILE     the same with a wheel that is built already
+    python3 tests/python/check.py --profile dev    the same with a wheel of what the tests have compiled, optimised, too
     python3 tests/python/check.py --speed          besides, 20,000 strands x 20 beside the command
 
 maturin, numpy, pytest, mypy and nbclient come from PyPI into target/python.
@@ -37,10 +38,10 @@ def environment():
     return python
 
 
-def wheel(python):
-    """The wheel, with its stubs."""
+def wheel(python, profile):
+    """The wheel, with its stubs, in a profile of Cargo's."""
     shutil.rmtree(WORK / "wheels", ignore_errors=True)
-    build = ["build", "--release", "--generate-stubs", "--out", WORK / "wheels"]
+    build = ["build", "--profile", profile, "--generate-stubs", "--out", WORK / "wheels"]
     run(python, "-m", "maturin", *build, cwd=CRATE)
     (built,) = (WORK / "wheels").glob("*.whl")
     return built
@@ -50,12 +51,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--wheel", type=Path, help="a wheel that is built already")
     parser.add_argument("--nabiki", type=Path, help="a command that is built already")
+    parser.add_argument("--profile", default="release", help="Cargo's profile of the wheel, release if it is not said")
     parser.add_argument("--speed", action="store_true", help="measure, too")
     arguments = parser.parse_args()
 
     WORK.mkdir(parents=True, exist_ok=True)
     python = environment()
-    built = arguments.wheel or wheel(python)
+    built = arguments.wheel or wheel(python, arguments.profile)
     run(python, "-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps", built)
     if not arguments.nabiki:
         run("cargo", "build", "--quiet", "--release", "-p", "nabiki_cli")

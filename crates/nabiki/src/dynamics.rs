@@ -38,14 +38,14 @@ use crate::pseudo_force::{Gamma, PseudoForce};
 use crate::strands::Strands;
 use crate::{settings, words};
 
-pub use gain::{gain, period};
+pub use gain::{earth_gravity, gain, period};
 pub use reference::Reference;
 pub use simulation::{Simulation, VectorWidth};
 pub(crate) use stability::Stability;
 pub use stability::{check_field, largest_gain};
-pub(crate) use standing::{Crowds, Standing};
+pub(crate) use standing::{Crowds, Moved, Standing};
 pub use straighten::straightened;
-pub(crate) use tangents::{Asked, Change, Moved, Points, tangents};
+pub(crate) use tangents::{Asked, Change, Points, tangents};
 pub use timeline::{Played, Timeline};
 
 settings! {

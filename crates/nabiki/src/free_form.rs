@@ -6,7 +6,6 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use crate::body::Body;
-use crate::dynamics::{Dynamics, gain};
 use crate::error::SettingError;
 use crate::pose::{Pose, check_poses};
 use crate::profile::Profile;
@@ -54,7 +53,8 @@ settings! {
 pub enum Gravity {
     /// In the unit of the force.
     Strength(f32),
-    /// That of the earth at the frame rate, for the mean length of all the hair; a stepper is told the strength, see [`earth_gravity`].
+    /// That of the earth at the frame rate, for the mean length of all the hair; a stepper is told the strength, see
+    /// [`earth_gravity`](crate::dynamics::earth_gravity).
     #[serde(with = "earth")]
     Earth,
 }
@@ -140,15 +140,6 @@ fn nearest_between(from: Vec3, to: Vec3, place: Vec3) -> Vec3 {
     let way = to - from;
     let part = (place - from).dot(way) / way.length_squared().max(f32::MIN_POSITIVE);
     from + part.clamp(0.0, 1.0) * way
-}
-
-/// The gravity that lets a strand of this length (cm) fall as on the earth: where the force on its tip gives the
-/// acceleration of a thin rod, c F = (3 / 2L) 981 / rate^2. Table 1's hair of 18 cm takes about 110 for it at 120 frames a
-/// second and 2,800 at 24: the paper's hair moves in slow motion.
-pub fn earth_gravity(dynamics: &Dynamics, length_cm: f64) -> f32 {
-    let count = length_cm / f64::from(dynamics.segment_length);
-    let rate = dynamics.motion.frame_rate;
-    (1.5 / length_cm * EARTH_CM_PER_S2 / (rate * rate) / gain(dynamics, count, count)) as f32
 }
 
 impl FreeForm {

@@ -7,6 +7,7 @@
 mod aims;
 mod cut;
 mod drag;
+mod gusts;
 mod keyed_wind;
 mod linear;
 mod problem;

@@ -11,6 +11,7 @@ use nabiki_exchange::{Closed, Course, Hidden, Knots, LeftOut};
 use crate::Problem;
 use crate::attributes::Parameters;
 use crate::read::{ArchiveReader, go_toward, required};
+use crate::schemas::NURBS_SURFACE;
 use crate::shown::hidden;
 use crate::tree::{Header, PropertyKind};
 use crate::values::{doubles, integers};
@@ -164,9 +165,3 @@ impl<R: Read + Seek> ArchiveReader<R> {
         LeftOut { kind, paths: paths.filter(|path| wanted(path)).collect() }
     }
 }
-
-/// Schemas of shapes that are not read.
-pub const NURBS_SURFACE: &str = "AbcGeom_NuPatch";
-pub const POINTS: &str = "AbcGeom_Points";
-/// What is read of shapes.
-pub const READ: &str = "curves and meshes of polygons";

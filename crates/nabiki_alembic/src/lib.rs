@@ -37,6 +37,7 @@ mod meshes;
 mod ogawa;
 mod property;
 mod read;
+mod schemas;
 mod shown;
 mod tree;
 mod values;

@@ -8,16 +8,11 @@ use nabiki_exchange::{Candidate, FIRST_SHAPE, Polygons, add_polygons, kept_holes
 
 use crate::Problem;
 use crate::attributes::Parameters;
-use crate::curves::{NURBS_SURFACE, READ};
 use crate::read::{ArchiveReader, go_toward, required};
+use crate::schemas::{NURBS_SURFACE, READ, is_mesh};
 use crate::shown::hidden;
-use crate::tree::{Header, Object};
+use crate::tree::Header;
 use crate::values::integers;
-
-/// Whether an object is a mesh of polygons or a subdivision surface, which is taken as the cage that it is made from.
-pub fn is_mesh(object: &Object) -> bool {
-    ["AbcGeom_PolyMesh", "AbcGeom_SubD"].into_iter().any(|schema| object.is(schema))
-}
 
 /// The meshes that make a head.
 pub struct Chosen {

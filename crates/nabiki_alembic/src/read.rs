@@ -12,8 +12,7 @@ use nabiki_exchange::{
 };
 
 use crate::Problem;
-use crate::curves::{NURBS_SURFACE, POINTS, READ};
-use crate::meshes::is_mesh;
+use crate::schemas::{NURBS_SURFACE, POINTS, READ, is_mesh};
 use crate::tree::{Header, PropertyKind, SAME_TIME, Timing, Tree};
 use crate::values::doubles;
 

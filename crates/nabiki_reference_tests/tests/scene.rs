@@ -81,7 +81,7 @@ fn a_new_scene_is_advised_no_further_and_hair_of_another_head_is_said() {
             let advice = scene.clone().build(Shown::All).unwrap().advice();
             let few = scene.build(Shown::AtMost(30)).unwrap().advice();
             assert_eq!(few, advice, "{head:?} {hair}: depends on what is shown");
-            assert!(advice.iter().all(|advice| advice.settings.is_empty()), "{head:?} {hair}: {guesses:?} {advice:?}");
+            assert!(advice.iter().all(|advice| advice.fixes.is_empty()), "{head:?} {hair}: {guesses:?} {advice:?}");
             let own = head == Some("heads/sintel_bust.obj") && hair == hairs[0];
             assert!(!own || advice.is_empty(), "Sintel's own hair: {advice:?}");
             if head.is_none() && hair == hairs[0] {

@@ -8,19 +8,24 @@ pub struct Advice {
     /// What was seen.
     pub seen: String,
     /// Settings that would make it right, or better, all together; none where no setting can.
-    pub settings: Vec<Setting>,
+    pub fixes: Vec<Fix>,
 }
 
 impl Advice {
+    /// What no one setting mends.
+    pub(crate) fn new(seen: impl Into<String>) -> Self {
+        Self { seen: seen.into(), fixes: Vec::new() }
+    }
+
     /// Whether a file's unit is to be mended.
     pub(crate) fn is_of_unit(&self) -> bool {
-        self.settings.iter().any(|setting| setting.key.ends_with(".unit"))
+        self.fixes.iter().any(|fix| fix.key.ends_with(".unit"))
     }
 }
 
-/// A setting and its value.
+/// A setting, and the value that it should have.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Setting {
+pub struct Fix {
     /// The setting, `head.unit`.
     pub key: &'static str,
     /// The value, in TOML.
@@ -30,7 +35,7 @@ pub struct Setting {
 impl fmt::Display for Advice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.seen)?;
-        for (i, Setting { key, value }) in self.settings.iter().enumerate() {
+        for (i, Fix { key, value }) in self.fixes.iter().enumerate() {
             write!(f, "{} {key} = {value}", if i == 0 { ": give" } else { " and" })?;
         }
         Ok(())

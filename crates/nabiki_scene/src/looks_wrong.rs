@@ -13,7 +13,7 @@ use nabiki_io::info::Short;
 use nabiki_render::settings::Projection;
 use nabiki_render::{Bounds, View};
 
-use crate::advice::{Advice, Setting};
+use crate::advice::{Advice, Fix};
 use crate::built::BuiltScene;
 use crate::seat::{Lie, Mended, Seat};
 use crate::size::{mean_half_axis, of_head_size, vector};
@@ -52,7 +52,7 @@ fn open_bodies(built: &BuiltScene) -> impl Iterator<Item = Advice> {
             "body[{i}] is open along {edges} edges; an opening counts as closed straight across: close it in the file if that is \
              not meant"
         );
-        Advice { seen, settings: Vec::new() }
+        Advice::new(seen)
     })
 }
 
@@ -74,7 +74,7 @@ pub(crate) fn within_the_head(built: &BuiltScene) -> Option<Advice> {
         "picture.camera stands in the head, at ({x}, {y}, {z}), and sees next to nothing: give a larger picture.camera.distance, \
          or another target"
     );
-    Some(Advice { seen, settings: Vec::new() })
+    Some(Advice::new(seen))
 }
 
 /// A head that goes or turns on more suddenly than any blow makes it: a cut of the shot, or samples that are missing.
@@ -98,7 +98,7 @@ fn leap(built: &BuiltScene) -> Option<Advice> {
          there, make a scene of each part",
         before + 1
     );
-    matches!(built.dynamics.form, Form::Free(_)).then_some(Advice { seen, settings: Vec::new() })
+    matches!(built.dynamics.form, Form::Free(_)).then_some(Advice::new(seen))
 }
 
 /// A tie that holds no hair.
@@ -115,7 +115,7 @@ fn untied(built: &BuiltScene) -> Option<Advice> {
         strands.len(),
         Short(tie.within)
     );
-    Some(Advice { seen, settings: Vec::new() })
+    Some(Advice::new(seen))
 }
 
 /// A ponytail whose band no hair comes to.
@@ -134,7 +134,7 @@ fn unbound(built: &BuiltScene) -> Option<Advice> {
          another hair.style.ponytail.at",
         strands.len()
     );
-    Some(Advice { seen, settings: Vec::new() })
+    Some(Advice::new(seen))
 }
 
 /// Cuts that take off all that they may: the plane has the roots of all hair on its wrong side.
@@ -150,7 +150,7 @@ fn cropped(built: &BuiltScene) -> impl Iterator<Item = Advice> {
             Short(cut.shortest),
             vector(Vec3::ZERO - cut.normal)
         );
-        Advice { seen, settings: Vec::new() }
+        Advice::new(seen)
     })
 }
 
@@ -162,7 +162,7 @@ fn open_skull(head: &Head, hole: &Opening) -> Option<Advice> {
          {missing:.1} cm below where its skin would be: close it in the file, or keep more of that with head.groups",
         2.0 * hole.radius,
     );
-    Some(Advice { seen, settings: Vec::new() })
+    Some(Advice::new(seen))
 }
 
 fn head_size(built: &BuiltScene) -> Option<Advice> {
@@ -174,7 +174,7 @@ fn of_seat(seat: &Seat<'_>) -> Option<Advice> {
     if !astray.is_empty() {
         let (keys, file) = (astray.join(" and "), seat.settings.file.display());
         let seen = format!("{keys}: the hair is moved away from the head, which is from {file}, too; leave that out");
-        return Some(Advice { seen, settings: Vec::new() });
+        return Some(Advice::new(seen));
     }
     let now = seat.lie();
     if now.is_good() {
@@ -183,23 +183,23 @@ fn of_seat(seat: &Seat<'_>) -> Option<Advice> {
     let seen = wrong(&now);
     if seat.of_head {
         let seen = format!("{seen}: so it lies in its file, which the head is from, too");
-        return Some(Advice { seen, settings: Vec::new() });
+        return Some(Advice::new(seen));
     }
     let Some((Mended { facing, unit, origin }, then)) = seat.mended() else {
         // Beside an origin that is given no other facing is sought.
         let sought = if seat.has_origin() { "hair.unit" } else { "hair.facing, hair.unit" };
         let seen = format!("{seen}: it was made for another head, and no other {sought} or hair.origin mends that");
-        return Some(Advice { seen, settings: Vec::new() });
+        return Some(Advice::new(seen));
     };
     let seen = if then.is_good() {
         seen
     } else {
         format!("{seen}. It was made for another head; at the best place found {}", wrong(&then))
     };
-    let facing = facing.map(|axis| Setting { key: "hair.facing", value: format!("\"{axis}\"") });
-    let unit = unit.map(|value| Setting { key: "hair.unit", value });
-    let origin = origin.map(|p| Setting { key: "hair.origin", value: vector(p) });
-    Some(Advice { seen, settings: facing.into_iter().chain(unit).chain(origin).collect() })
+    let facing = facing.map(|axis| Fix { key: "hair.facing", value: format!("\"{axis}\"") });
+    let unit = unit.map(|value| Fix { key: "hair.unit", value });
+    let origin = origin.map(|p| Fix { key: "hair.origin", value: vector(p) });
+    Some(Advice { seen, fixes: facing.into_iter().chain(unit).chain(origin).collect() })
 }
 
 /// What is wrong with hair that lies so.

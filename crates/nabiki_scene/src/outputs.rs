@@ -91,7 +91,7 @@ impl Stills {
                 others.len(),
                 first.file_name().unwrap_or_default().display()
             );
-            watch.told(Told::Advice(Advice { seen, settings: Vec::new() }));
+            watch.told(Told::Advice(Advice::new(seen)));
         }
         Ok(())
     }

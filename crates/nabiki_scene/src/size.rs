@@ -5,7 +5,7 @@ use nabiki::Ellipsoid;
 use nabiki_io::info::Short;
 use nabiki_io::{DeclaredSpace, Placement};
 
-use crate::advice::{Advice, Setting};
+use crate::advice::{Advice, Fix};
 use crate::scene::{EllipsoidChoice, HeadSettings, HeadSource};
 
 /// Mean half axis of a person's head ellipsoid (cm): that of the built-in bust, 9.5 x 11 x 7.8.
@@ -38,7 +38,7 @@ pub(crate) fn of_head_size(
     let seen =
         format!("the head's half axes are {x} x {y} x {z} cm; if it is a person's, about 9.5 x 11 x 7.8 are right");
     let HeadSource::Imported(head) = &settings.source else {
-        return Some(Advice { seen: format!("{seen}: mend head.ellipsoid"), settings: Vec::new() });
+        return Some(Advice::new(format!("{seen}: mend head.ellipsoid")));
     };
     let seen = match declared.unit.filter(|_| head.unit.is_none()) {
         Some(unit) => format!("{seen}; its file is in {unit}"),
@@ -46,10 +46,10 @@ pub(crate) fn of_head_size(
     };
     if matches!(settings.ellipsoid, EllipsoidChoice::Given(_)) {
         let seen = format!("{seen}: mend head.unit or head.ellipsoid");
-        return Some(Advice { seen, settings: Vec::new() });
+        return Some(Advice::new(seen));
     }
     let value = unit_for(size / placement.unit.cm, HALF_AXIS);
-    Some(Advice { seen, settings: vec![Setting { key: "head.unit", value }] })
+    Some(Advice { seen, fixes: vec![Fix { key: "head.unit", value }] })
 }
 
 pub(crate) fn middle(points: &[Vec3]) -> Vec3 {

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use glam::Vec3;
 use nabiki::Profile;
-use nabiki::dynamics::Form;
-use nabiki::free_form::{Gravity, earth_gravity};
+use nabiki::dynamics::{Form, earth_gravity};
+use nabiki::free_form::Gravity;
 use nabiki_scene::scene::FormChoice;
 use nabiki_scene::{Scene, Shown};
 

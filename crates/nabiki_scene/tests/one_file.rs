@@ -69,7 +69,7 @@ fn a_new_scene_leaves_hair_where_the_file_of_its_head_has_it() {
             }
             let built = built(&new.text, folder.path());
             assert_eq!(built.hair_placement, Some(built.placement), "{name}, {left}, {by}");
-            let mended = built.advice().into_iter().flat_map(|advice| advice.settings);
+            let mended = built.advice().into_iter().flat_map(|advice| advice.fixes);
             assert!(mended.into_iter().all(|setting| !setting.key.starts_with("hair.")), "{name}, {left}, {by}");
         }
     }

@@ -36,8 +36,8 @@ fn advised(stage: &BuiltScene) -> Vec<Advice> {
 
 /// The settings that it gives, a line of a table each.
 fn settings(advice: &[Advice], table: &str) -> Vec<String> {
-    let all = advice.iter().flat_map(|advice| &advice.settings);
-    let line = |setting: &nabiki_scene::advice::Setting| {
+    let all = advice.iter().flat_map(|advice| &advice.fixes);
+    let line = |setting: &nabiki_scene::advice::Fix| {
         let key = setting.key.strip_prefix(table).unwrap_or_else(|| panic!("{} of {table}", setting.key));
         format!("{} = {}", &key[1..], setting.value)
     };
@@ -315,7 +315,7 @@ fn a_hole_in_the_skull_is_said_and_one_at_the_neck_is_not() {
     // A hole of 12 cm on the crown, about a third of a ball of 9 cm: 9 - sqrt(81 - 36) = 2.3 cm are missing.
     let said = without(&|p| p.y > 0.0 && p.with_y(0.0).length() < 6.0);
     assert!(
-        said.len() == 1 && said[0].seen.starts_with("the skull has a hole") && said[0].settings.is_empty(),
+        said.len() == 1 && said[0].seen.starts_with("the skull has a hole") && said[0].fixes.is_empty(),
         "{said:?}"
     );
 }

@@ -5,7 +5,7 @@ use nabiki_scene::scene::{FormChoice, HeadSettings};
 use toml::{Table, Value};
 
 use crate::actions::{ACTIONS, Entry};
-use crate::settings::{Group, Page, Setting, Shape, When, value_at};
+use crate::settings::{Group, Page, Row, Shape, When, value_at};
 
 /// Something found.
 #[derive(Clone, Copy, Debug)]
@@ -13,7 +13,7 @@ pub enum Found {
     /// A command.
     Action(&'static Entry),
     /// A setting, on a page.
-    Setting(Page, &'static Group, &'static Setting),
+    Setting(Page, &'static Group, &'static Row),
     /// What an interval of the wind has, in the timeline: its name, its key and what it is.
     Interval([&'static str; 3]),
 }
@@ -132,7 +132,7 @@ impl When {
 
 /// The key under which a page shows a setting of a scene: that of the first entry of a list; of a table that the scene leaves out, and
 /// of a list without entries, the table alone.
-pub fn shown_key(settings: &Table, page: Page, group: &Group, setting: &Setting) -> String {
+pub fn shown_key(settings: &Table, page: Page, group: &Group, setting: &Row) -> String {
     let lists = page.groups().iter().filter(|of| matches!(of.shape, Shape::List(_)));
     let list = lists
         .into_iter()

@@ -106,9 +106,9 @@ pub enum When {
     ImportedHead,
 }
 
-/// One setting.
+/// A setting as a page shows it.
 #[derive(Debug)]
-pub struct Setting {
+pub struct Row {
     /// Its key within the table, as `stiffness.top`.
     pub key: &'static str,
     /// Its name.
@@ -233,16 +233,16 @@ impl Group {
     }
 
     /// What is in it.
-    pub fn settings(&self) -> &'static [Setting] {
-        static OF_GROUPS: OnceLock<HashMap<(&str, &str), Vec<Setting>>> = OnceLock::new();
+    pub fn settings(&self) -> &'static [Row] {
+        static OF_GROUPS: OnceLock<HashMap<(&str, &str), Vec<Row>>> = OnceLock::new();
         let all = || Page::ALL.into_iter().flat_map(Page::groups);
         let made = || all().map(|group| ((group.title, group.table), group.make(all()))).collect();
         OF_GROUPS.get_or_init(made).get(&(self.title, self.table)).map_or(&[], Vec::as_slice)
     }
 
     /// Its settings out of the schema; `all` groups, since the last of a table takes what no other names.
-    fn make(&self, all: impl DoubleEndedIterator<Item = &'static Self> + Clone) -> Vec<Setting> {
-        let mut settings: Vec<Setting> = self.keys.iter().filter_map(|key| self.declared(key)).collect();
+    fn make(&self, all: impl DoubleEndedIterator<Item = &'static Self> + Clone) -> Vec<Row> {
+        let mut settings: Vec<Row> = self.keys.iter().filter_map(|key| self.declared(key)).collect();
         let last = all.clone().rev().find(|group| group.table == self.table);
         if last.is_some_and(|last| last.title == self.title) {
             let named = |key: &str| all.clone().any(|group| group.table == self.table && group.keys.contains(&key));
@@ -262,7 +262,7 @@ impl Group {
     }
 
     /// The setting of a key as the schema has it.
-    fn declared(&self, key: &'static str) -> Option<Setting> {
+    fn declared(&self, key: &'static str) -> Option<Row> {
         let found = schema::find(&format!("{}.{key}", self.table).into());
         // Of hair that is grown and hair from a file each has its own; a head's mesh may be a file.
         let file = found.iter().find(|setting| matches!(setting.kind, declared::Kind::Path));
@@ -295,7 +295,7 @@ pub fn value_at<'a>(settings: &'a Table, key: &str) -> Option<&'a Value> {
 }
 
 /// The setting of a key, as an error names it, with its group: `fan[1].strength` is the strength of a fan.
-pub fn find(key: &str) -> Option<(Page, &'static Group, &'static Setting)> {
+pub fn find(key: &str) -> Option<(Page, &'static Group, &'static Row)> {
     let bare: String = {
         let mut depth = 0;
         key.chars()

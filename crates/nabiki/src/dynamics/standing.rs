@@ -7,11 +7,32 @@ use rayon::prelude::*;
 use super::air::Breeze;
 use super::free::{self, Crowd, Springs};
 use super::paper::{self, PolarAxis};
-use super::tangents::Moved;
 use super::{Dynamics, Form, FrameInput, Timeline};
 use crate::error::SettingError;
 use crate::field::Field;
 use crate::free_form::{FreeMotion, Neighbours};
+use crate::pose::Pose;
+use crate::strands::Strands;
+
+/// Some strands, and how they move.
+pub(crate) struct Moved<'a> {
+    pub strands: &'a Strands,
+    /// Their numbers in the set they are some of.
+    pub ids: &'a [u32],
+    pub dynamics: &'a Dynamics,
+    pub poses: &'a [Pose],
+    /// Where they stand at the last frame before any unknown is felt; none: at rest.
+    pub standing: Option<&'a Standing>,
+    /// What the carriers leave in the frame in which they stand and in all after it; none, and they are stepped by the specification, too.
+    pub crowds: Option<&'a Crowds>,
+}
+
+impl Moved<'_> {
+    /// The frame that they are moved on from.
+    pub(super) fn from(&self) -> u32 {
+        self.standing.map_or(0, |standing| standing.frame)
+    }
+}
 
 /// Strands at a frame.
 #[derive(Clone, Debug)]

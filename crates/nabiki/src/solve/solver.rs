@@ -10,7 +10,7 @@ use std::sync::Arc;
 use glam::{DVec3, Vec3};
 
 use super::aims::{Aims, check_goal};
-use super::keyed_wind::Gusts;
+use super::gusts::Gusts;
 use super::linear::Normal;
 use super::problem::Problem;
 use super::report::Step;

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use glam::{DVec3, EulerRot, Quat, Vec3};
 
-use super::keyed_wind::{Gusts, KeyedWind};
+use super::gusts::Gusts;
+use super::keyed_wind::KeyedWind;
 use super::unknowns::{Layout, Unknown};
 use crate::body::{Body, Contact};
 use crate::disturbance::Disturbance;

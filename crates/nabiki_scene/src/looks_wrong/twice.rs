@@ -10,7 +10,7 @@ use nabiki_io::exchange::carries_mesh;
 use nabiki_io::motion::{MotionSource, clip_carries};
 use nabiki_io::{Placement, declared_space, mesh};
 
-use super::{Advice, Setting};
+use super::{Advice, Fix};
 use crate::built::{BuiltScene, holds_scenes};
 use crate::scene::HeadSource;
 
@@ -78,7 +78,7 @@ fn askew(built: &BuiltScene, moved: &Moved<'_>) -> Option<Advice> {
         "{table}.motion.facing = \"{facing}\" and {table}.facing = \"{faces}\", both of {file}: it goes and turns another way than it does \
          there; give both the same, or leave out {table}.motion.facing"
     );
-    Some(Advice { seen, settings: Vec::new() })
+    Some(Advice::new(seen))
 }
 
 fn twice(built: &BuiltScene, moved: &Moved<'_>) -> Option<Advice> {
@@ -103,9 +103,7 @@ fn twice(built: &BuiltScene, moved: &Moved<'_>) -> Option<Advice> {
         "{table}.mesh stands in {file} where {node} has it in the first frame, from which {table}.motion carries it again"
     );
     match *key {
-        Some(key) => Some(Advice { seen, settings: vec![Setting { key, value: "true".to_owned() }] }),
-        None => {
-            Some(Advice { seen: format!("{seen}: give {table}.motion.bind_at_start = true"), settings: Vec::new() })
-        }
+        Some(key) => Some(Advice { seen, fixes: vec![Fix { key, value: "true".to_owned() }] }),
+        None => Some(Advice::new(format!("{seen}: give {table}.motion.bind_at_start = true"))),
     }
 }

@@ -8,13 +8,13 @@ use nabiki::groom::style::Variation;
 use nabiki::pseudo_force::PseudoForce;
 use nabiki_render::settings::{Antialiasing, Camera, HairLook, HeadLook, Picture, Projection, Shading};
 
-use super::{Advice, Setting};
+use super::{Advice, Fix};
 use crate::scene::{FieldSettings, FormChoice, Scene};
 
 /// What is given and changes nothing.
 pub(crate) fn unused(scene: &Scene) -> Vec<Advice> {
     let said = scene.replaced().chain([uncut(scene), too_late(scene)].into_iter().flatten()).chain(silent(scene));
-    let said = said.map(|seen| Advice { seen, settings: Vec::new() });
+    let said = said.map(Advice::new);
     let moving = unfelt(scene).into_iter().chain(idle(scene)).chain(true_of(field(&scene.field))).chain(said);
     moving.chain(of_pictures(scene)).collect()
 }
@@ -26,9 +26,7 @@ pub(crate) fn of_pictures(scene: &Scene) -> impl Iterator<Item = Advice> {
 
 /// The lines that are true.
 fn true_of(lines: Vec<(bool, &'static str)>) -> impl Iterator<Item = Advice> {
-    let of_line = |(changes_nothing, line): (bool, &str)| {
-        changes_nothing.then(|| Advice { seen: line.to_owned(), settings: Vec::new() })
-    };
+    let of_line = |(changes_nothing, line): (bool, &str)| changes_nothing.then(|| Advice::new(line));
     lines.into_iter().filter_map(of_line)
 }
 
@@ -48,7 +46,7 @@ fn unfelt(scene: &Scene) -> Option<Advice> {
         return None;
     }
     let seen = format!("hair does not feel {} in the paper's form", given.join(", "));
-    Some(Advice { seen, settings: vec![Setting { key: "motion.form", value: "\"free\"".to_owned() }] })
+    Some(Advice { seen, fixes: vec![Fix { key: "motion.form", value: "\"free\"".to_owned() }] })
 }
 
 /// What hair of the free form does not feel, and bodies that are neither felt nor seen.
@@ -56,15 +54,12 @@ fn idle(scene: &Scene) -> Vec<Advice> {
     let mut seen = Vec::new();
     let given = scene.pseudo_force != PseudoForce::default();
     if scene.form == FormChoice::Free && given && !scene.free.pseudo_force {
-        let setting = Setting { key: "free.pseudo_force", value: "true".to_owned() };
-        seen.push(Advice {
-            seen: "hair does not feel [pseudo_force] in the free form".to_owned(),
-            settings: vec![setting],
-        });
+        let fix = Fix { key: "free.pseudo_force", value: "true".to_owned() };
+        seen.push(Advice { seen: "hair does not feel [pseudo_force] in the free form".to_owned(), fixes: vec![fix] });
     }
     for i in (0..scene.bodies.len()).filter(|&i| !scene.bodies[i].solid && !scene.bodies[i].shown) {
         let line = format!("body[{i}] changes nothing: it is neither solid nor shown");
-        seen.push(Advice { seen: line, settings: Vec::new() });
+        seen.push(Advice::new(line));
     }
     seen
 }

@@ -123,7 +123,7 @@ fn advise_space(options: &ConvertOptions, watch: &mut dyn Watch) {
     let line = |option: &str| {
         format!("{option} changes nothing: {output} names neither unit nor axes, and no number is converted")
     };
-    super::advise(given_space(options).map(|option| Advice { seen: line(option), settings: Vec::new() }), watch);
+    super::advise(given_space(options).map(|option| Advice::new(line(option))), watch);
 }
 
 fn is_cache(path: &Path) -> bool {

@@ -13,7 +13,7 @@ use nabiki_io::motion::{self, ClipMover};
 use nabiki_io::{exchange, mesh};
 use nabiki_render::settings::{HairLook, Picture};
 
-use crate::advice::{Advice, Setting};
+use crate::advice::{Advice, Fix};
 use crate::built::{BuiltScene, Shown};
 use crate::error::{Error, Result};
 use crate::place;
@@ -128,7 +128,7 @@ fn unmoved(built: &BuiltScene) -> Result<Option<Advice>> {
     };
     let value = format!("{{ file = {file}, node = {of_node}{unit}, facing = \"{facing}\", bind_at_start = true }}");
     let seen = format!("{node} moves the head in {named}, which stands still here");
-    Ok(Some(Advice { seen, settings: vec![Setting { key: "head.motion", value }] }))
+    Ok(Some(Advice { seen, fixes: vec![Fix { key: "head.motion", value }] }))
 }
 
 /// The same of a head in a glTF: what carries its skull may be a joint of its skin.
@@ -150,7 +150,7 @@ fn unmoved_by_clip(built: &BuiltScene, head: &ImportedHead, file: &Path) -> Resu
         count => format!(" in {count} clips ({named_clips}{more})"),
     };
     let seen = format!("{node} moves the head in {named}{others}, which stands still here");
-    Ok(Some(Advice { seen, settings: vec![Setting { key: "head.motion", value }] }))
+    Ok(Some(Advice { seen, fixes: vec![Fix { key: "head.motion", value }] }))
 }
 
 /// How thick the hair of a file is at most of its roots (cm), and its tips in parts of that; none where it does not say so, or as no

@@ -67,7 +67,7 @@ fn whole_is_refused(built: &BuiltScene) -> Result<Option<Advice>> {
     let whole = built.changed_to(built.scene.clone(), Shown::All)?;
     let Err(refused) = check_field(&whole.hair.strands, &whole.dynamics, &*whole.field) else { return Ok(None) };
     let seen = format!("{shown} strands of {all} are moved; all of them would be refused: {}", whole.refusal(refused));
-    Ok(Some(Advice { seen, settings: Vec::new() }))
+    Ok(Some(Advice::new(seen)))
 }
 
 /// A smaller picture of thicker hair: each strand stands for `share` of them, but is not drawn as thick as rope.

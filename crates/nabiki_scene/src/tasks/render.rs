@@ -157,7 +157,7 @@ fn turntable(
     }
     if picture.camera.to.is_some() {
         let seen = "picture.camera.to changes nothing: a turntable goes round from picture.camera.azimuth".to_owned();
-        watch.told(Told::Advice(Advice { seen, settings: Vec::new() }));
+        watch.told(Told::Advice(Advice::new(seen)));
     }
     let file = output.movie.then(|| folder.join(format!("{name}.mp4")));
     let mut inputs = scene.inputs();

@@ -65,7 +65,7 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
     let (unknowns, held) = free.within_reach(force, wind.ease, &unknowns, last).map_err(in_file)?;
     // Nobody has asked for those that are free because nothing is said.
     let said = held.into_iter().filter(|_| wishes.unknowns.is_some());
-    super::advise(said.map(|seen| Advice { seen, settings: Vec::new() }), watch);
+    super::advise(said.map(Advice::new), watch);
     let strands: BTreeSet<u32> = list.iter().flat_map(|wish| wish.nodes.iter().map(|node| node.strand)).collect();
     let search: Search = wishes.search.into();
     let mut seconds = 0.0;

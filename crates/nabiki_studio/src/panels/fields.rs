@@ -14,7 +14,7 @@ use super::{Commands, theme};
 use crate::command::Command;
 use crate::dialog::{Chooser, Dialog, Purpose, as_folder};
 use crate::document::Phase;
-use crate::settings::{Kind, Setting, value_at};
+use crate::settings::{Kind, Row, value_at};
 pub use values::number_of;
 use values::{finite, rgb_of, rgb_value, table};
 
@@ -77,7 +77,7 @@ pub fn send(response: &Response, commands: &mut Commands, make: impl FnOnce(Phas
 /// The field of one setting, with its name.
 pub struct Field<'a> {
     /// The setting.
-    pub setting: &'a Setting,
+    pub setting: &'a Row,
     /// Its whole key.
     pub key: String,
     /// Its value.
@@ -95,7 +95,7 @@ pub struct Field<'a> {
 impl Field<'_> {
     /// Draws it.
     pub fn ui(&self, ui: &mut Ui, commands: &mut Commands) {
-        let Setting { label, unit, kind, open, help, .. } = self.setting;
+        let Row { label, unit, kind, open, help, .. } = self.setting;
         let help = format!("{help}{}\n\n{}", range_text(*kind, unit), self.key);
         row(ui, label, &help, self.blamed, |ui| match (open, self.value) {
             (Some(what), None) => self.left_open(ui, what, commands),

@@ -2,16 +2,16 @@
 
 use nabiki::setting::{self as declared, Datum, Range, plain};
 
-use super::{HAIR_FILES, Kind, MESH_FILES, MOTION_FILES, Setting};
+use super::{HAIR_FILES, Kind, MESH_FILES, MOTION_FILES, Row};
 
 /// What a field takes where the schema has no end: what the scene itself can hold.
 const ENDLESS: f64 = f32::MAX as f64;
 
 /// The setting of `key` in `table` as a field.
-pub(super) fn setting(table: &str, key: &'static str, found: &declared::Setting) -> Setting {
+pub(super) fn setting(table: &str, key: &'static str, found: &declared::Setting) -> Row {
     let help = plain(found.help).split("\n\n").next().unwrap_or_default().replace('`', "");
     let unit = if matches!(found.range.unit, "sRGB" | "linear") { "" } else { found.range.unit };
-    Setting { key, label: found.label, unit, kind: kind(table, key, found), open: found.open, help }
+    Row { key, label: found.label, unit, kind: kind(table, key, found), open: found.open, help }
 }
 
 fn kind(table: &str, key: &str, found: &declared::Setting) -> Kind {

@@ -6,7 +6,7 @@ use super::Solver;
 use crate::dynamics::{Change, Crowds, Moved, Points, Standing, tangents};
 use crate::error::SettingError;
 use crate::field::FieldSum;
-use crate::solve::keyed_wind::WindTable;
+use crate::solve::gusts::WindTable;
 use crate::solve::linear::Normal;
 use crate::solve::unknowns::Unknown;
 

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use nabiki::body::{Body, BodyWay, Shape, skin_of};
-use nabiki::dynamics::{Dynamics, Form};
-use nabiki::free_form::{FreeForm, FreeMotion, Gravity, Neighbours, earth_gravity};
+use nabiki::dynamics::{Dynamics, Form, earth_gravity};
+use nabiki::free_form::{FreeForm, FreeMotion, Gravity, Neighbours};
 use nabiki::{Head, Pose, Strands};
 use nabiki_io::{declared_space, mesh};
 
