@@ -10,8 +10,8 @@ use pyo3::intern;
 use pyo3::prelude::*;
 
 use crate::error;
+use crate::given_arrays;
 use crate::hints::{Forces, Given};
-use crate::made;
 use crate::numbers::Strongest;
 use crate::values::shown;
 
@@ -160,7 +160,7 @@ impl PythonField {
 fn asked_of_numpy<'py>(answer: &Bound<'py, PyAny>, rows: usize) -> PyResult<PyReadonlyArray2<'py, f32>> {
     let py = answer.py();
     let numpy = py.import(intern!(py, "numpy"))?;
-    made::check_depth("a field's forces", answer, 0)?;
+    given_arrays::check_depth("a field's forces", answer, 0)?;
     let array = numpy.call_method1(intern!(py, "asarray"), (answer, intern!(py, "float32")))?;
     let shape: Vec<usize> = array.getattr(intern!(py, "shape"))?.extract()?;
     if shape == [3] {

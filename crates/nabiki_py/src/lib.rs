@@ -10,6 +10,7 @@ mod error;
 mod field;
 mod files;
 mod frame;
+mod given_arrays;
 mod hints;
 mod made;
 mod numbers;

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 
 use crate::error;
-use crate::made::{numbers, shape};
+use crate::given_arrays::{numbers, shape};
 
 /// How far from a turn a matrix may be, and from 1 the length of a quaternion: as far as a pose may.
 const NEAR: f64 = 1e-3;

@@ -6,8 +6,7 @@ use nabiki::{Ellipsoid, Mesh, Pose, Strands};
 use crate::lens::Lens;
 use crate::settings::{Camera, Projection};
 
-/// Nearest depth drawn (cm): what is nearer to the eye than this, or behind it, is left out.
-pub const NEAR: f32 = 1.0;
+pub use crate::settings::NEAR;
 
 /// The box about everything that should be in the picture (head space, cm).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -27,6 +27,7 @@ pub mod colour;
 mod curve;
 mod draft;
 mod error;
+mod focus;
 pub mod frame;
 pub mod lens;
 mod light;

@@ -127,7 +127,8 @@ impl Table {
             fill(row, entries, sin_eye, absorption, refraction, scale);
         }
         let mut table = Self { lobes, rows, medium: Medium::default() };
-        table.medium = Medium::of(&table.row(MIDDLING * (ROWS - 1) as f32));
+        let Row { forward, back, .. } = table.row(MIDDLING * (ROWS - 1) as f32);
+        table.medium = Medium::of(forward, back);
         table
     }
 

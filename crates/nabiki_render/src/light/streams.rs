@@ -2,8 +2,6 @@
 
 use std::f32::consts::PI;
 
-use super::fibre::Row;
-
 /// Sine of the inclination to the hair at which even light meets it in the mean: int sin cos^2 / int cos^2.
 ///
 /// What light loses on its way through hair goes by how it crosses that hair, not by how the hair that shows it is seen: hair that
@@ -23,8 +21,7 @@ pub struct Medium {
 
 impl Medium {
     /// Of fibres with these parts at middling inclination.
-    pub fn of(row: &Row) -> Self {
-        let Row { forward, back, .. } = *row;
+    pub fn of(forward: [f32; 3], back: [f32; 3]) -> Self {
         let of_each = |of: fn(f32, f32) -> f32| std::array::from_fn(|c| of(forward[c], back[c]));
         Self { forward, back, whole: of_each(sent_back), decay: of_each(decay) }
     }

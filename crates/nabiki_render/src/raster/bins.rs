@@ -10,7 +10,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::{Node, Piece, TILE};
-use crate::lens::Spread;
+use crate::focus::Spread;
 use crate::prefetch::prefetch;
 
 /// Nodes whose pieces one task brings to their rows.

@@ -1,7 +1,7 @@
 //! A straight piece of hair between two nodes, with all that every part of it is drawn by.
 
 use super::{Node, SIDE};
-use crate::lens::Spread;
+use crate::focus::Spread;
 
 /// Movement across (pixels, both ends together) below which hair is as deep as halfway through it.
 const MOVES: f32 = 0.05;

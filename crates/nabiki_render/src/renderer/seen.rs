@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use crate::camera::NEAR;
 use crate::curve::Curves;
-use crate::lens::Spread;
+use crate::focus::Spread;
 use crate::raster::{Node, TILE};
 use crate::shutter::Shot;
 use crate::skin::SkinView;

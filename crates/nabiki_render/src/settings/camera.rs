@@ -4,7 +4,8 @@ use glam::Vec3;
 use nabiki::setting::{Place, refused};
 use nabiki::{SettingError, settings, words};
 
-use crate::camera::NEAR;
+/// Nearest depth drawn (cm): what is nearer to the eye than this, or behind it, is left out.
+pub const NEAR: f32 = 1.0;
 
 words! {
     /// How space becomes a picture.

@@ -5,7 +5,7 @@ mod hair;
 mod light;
 mod surroundings;
 
-pub use camera::{Camera, CameraKey, Projection};
+pub use camera::{Camera, CameraKey, NEAR, Projection};
 pub use hair::{HairColour, HairLook, Shading};
 pub use light::{Light, LightSpace, Sky, SkySpace};
 pub use surroundings::{Background, BodyLook, HeadLook, ToneCurve, Video};

@@ -30,6 +30,15 @@ impl Seen {
             Self::FromAbove => Vec3::new(flat.x, vector.y, flat.y),
         }
     }
+
+    /// A vector whose arrow, or one of several, is dragged to `way`: alone it ends there, among others it turns there.
+    pub fn turned(self, vector: Vec3, way: Vec2, of: &[usize]) -> Vec3 {
+        if of.len() == 1 {
+            return self.with(vector, way);
+        }
+        let long = self.flat(vector).length();
+        if way.length() > 0.0 { self.with(vector, way.normalized() * long) } else { vector }
+    }
 }
 
 /// How large a circle is, and for which vectors: it stays so after a drag, or the tip would leap from the hand.
@@ -67,8 +76,7 @@ pub fn dial(
         commands.push(Command::EndDrag);
     }
     // What is dragged here is what comes next.
-    let comes =
-        |vector: &Vec3| dragged.map_or(*vector, |way| super::rounded(super::many::turned(seen, *vector, way, of)));
+    let comes = |vector: &Vec3| dragged.map_or(*vector, |way| super::rounded(seen.turned(*vector, way, of)));
     let vectors_to_come: Vec<Vec3> = vectors.iter().map(comes).collect();
     ui.data_mut(|data| data.insert_temp(id, Reach { of: of.to_vec(), vectors: vectors_to_come, reach }));
     paint(ui, &response, (centre, radius), vectors.iter().map(|vector| seen.flat(*vector) * scale));

@@ -120,22 +120,13 @@ fn changed(keys: &[Keyframe], chosen: &[usize], change: impl Fn(Vec3) -> Vec3) -
     keys
 }
 
-/// A vector whose arrow, or one of several, is dragged to `way`: alone it ends there, among others it turns there.
-pub fn turned(seen: Seen, vector: Vec3, way: Vec2, of: &[usize]) -> Vec3 {
-    if of.len() == 1 {
-        return seen.with(vector, way);
-    }
-    let long = seen.flat(vector).length();
-    if way.length() > 0.0 { seen.with(vector, way.normalized() * long) } else { vector }
-}
-
 /// What a drag in a circle makes of the intervals chosen.
 pub fn pointed(keys: &[Keyframe], chosen: &[usize], seen: Seen, way: Vec2) -> Command {
     let phase = Phase::Dragging;
     match chosen {
-        [j] => Command::Vector { interval: *j, vector: rounded(turned(seen, keys[*j].vector, way, chosen)), phase },
+        [j] => Command::Vector { interval: *j, vector: rounded(seen.turned(keys[*j].vector, way, chosen)), phase },
         _ => {
-            let keys = changed(keys, chosen, |vector| rounded(turned(seen, vector, way, chosen)));
+            let keys = changed(keys, chosen, |vector| rounded(seen.turned(vector, way, chosen)));
             Command::Intervals { name: "Direction of intervals", keys, chosen: None, phase }
         }
     }
