@@ -101,7 +101,8 @@ fn swings(gamma: f64) -> Result<[f64; 2], SettingError> {
     let tip: Vec<DVec3> = (2..=FRAMES).map(|n| film.strand(n, 0)[SEGMENTS].as_dvec3()).collect();
     let middle = tip.iter().sum::<DVec3>() / tip.len() as f64;
     let window = |n: usize| (PI * (n as f64 + 0.5) / tip.len() as f64).sin().powi(2);
-    let tip: Vec<DVec3> = tip.iter().enumerate().map(|(n, p)| window(n) * (*p - middle)).collect();
+    // Sideways alone: a tip rises twice in a swing.
+    let tip: Vec<DVec3> = tip.iter().enumerate().map(|(n, p)| DVec3::X * window(n) * (p.x - middle.x)).collect();
     let powers: Vec<f64> = (0..2500).map(|i| power(&tip, 2e-4 * f64::from(i))).collect();
     let peaks = || (50..powers.len() - 1).filter(|&i| powers[i] > powers[i - 1] && powers[i] >= powers[i + 1]);
     let highest = peaks().map(|i| powers[i]).fold(0.0, f64::max);

@@ -89,7 +89,7 @@ impl Chain {
         let mut moments = vec![DVec3::ZERO; n + 1];
         for i in 0..n {
             let carried = frame * self.rest[i];
-            let apart = if i == 0 { self.lengths[0] } else { 0.5 * (self.lengths[i - 1] + self.lengths[i]) };
+            let apart = if i == 0 { 0.5 * self.lengths[0] } else { 0.5 * (self.lengths[i - 1] + self.lengths[i]) };
             moments[i] = frame * self.moments[i] + self.of.bending[i] / apart * directions[i].cross(carried);
             frame = DQuat::from_rotation_arc(carried, directions[i]) * frame;
         }
