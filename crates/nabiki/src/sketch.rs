@@ -37,8 +37,7 @@ pub(crate) fn head() -> Head {
         mesh.positions.extend(part.positions);
         mesh.triangles.extend(part.triangles.iter().map(|t| t.map(|v| v + first)));
     }
-    let low = vec3(-18.0, -40.0, 0.0);
-    let right = SkinDistance::new(&mesh, low, -low.with_z(-26.0), 0.33);
+    let right = SkinDistance::new(&mesh, vec3(-18.0, -40.0, 0.0), vec3(18.0, 40.0, 26.0), 0.33);
     let samples = Samples { mirrored: true, ..right.samples().clone() };
     Head::from_samples(mesh, skull, samples).expect("a head")
 }
@@ -47,7 +46,7 @@ pub(crate) fn head() -> Head {
 pub(crate) fn hair(head: &Head, strands: usize, segments: usize, length: f32) -> Strands {
     let mut hair = Strands::default();
     for s in 0..strands {
-        let y = 1.0 - 1.1 * (s as f32 + 0.5) / strands as f32;
+        let y = 1.0 - 1.2 * (s as f32 + 0.5) / strands as f32;
         let (sin, cos) = (s as f32 * 2.399_963).sin_cos();
         let out = vec3((1.0 - y * y).sqrt() * cos, y, (1.0 - y * y).sqrt() * sin);
         let mut p = head.ellipsoid.center + head.ellipsoid.half_axes * out;
@@ -55,10 +54,10 @@ pub(crate) fn hair(head: &Head, strands: usize, segments: usize, length: f32) ->
         let (normal, away) = (head.outward(p), vec3(out.x, -0.5, out.z));
         let along = (away - normal * away.dot(normal)).normalize();
         let (mut direction, mut points) = ((along + 0.35 * normal).normalize(), vec![p]);
-        let gap = 0.03 + 0.3 * (s as f32 * 0.618_034).fract();
+        let gap = 0.1 + 0.6 * (s as f32 * 0.618_034).fract();
         for _ in 0..segments {
             // It bends down, and where that would lead into the skin, along it.
-            direction = (direction + 0.5 * Vec3::NEG_Y).normalize();
+            direction = (direction + 0.4 * Vec3::NEG_Y).normalize();
             for _ in 0..4 {
                 let end = p + length * direction;
                 let lifted = end + (gap - head.distance(end)).max(0.0) * head.outward(end);
