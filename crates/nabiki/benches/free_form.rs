@@ -17,19 +17,17 @@ use std::time::Instant;
 use bytes::Bytes;
 use dynamics::{dynamics, free};
 use glam::Vec3;
-use nabiki::Head;
 use nabiki::dynamics::{Form, FrameInput, Simulation, Stepper};
 use nabiki::field::{Field, FieldSum, Keyframe, KeyframedField, Turbulence, TurbulenceField};
 use nabiki::free_form::{FreeMotion, NeighbourForces, Neighbours};
-use nabiki::groom::{Growth, Style, grow};
-use nabiki::roots::Hairline;
+use nabiki_groom::{Growth, Hairline, Style, bust, grow};
 
 const ROUNDS: usize = 15;
 const FRAMES: u32 = 60;
 
 fn main() {
     println!("threads: {}", rayon::current_num_threads());
-    let (head, strands) = (Head::builtin(), 20_000);
+    let (head, strands) = (bust(), 20_000);
     let (hairline, style) = (Hairline::default(), Style::default());
     let growth = Growth { hairline: &hairline, style: &style, strands, segments: 20, segment_length: 0.9, seed: 1 };
     let hair = grow(&head, &growth, strands).expect("settings in range").strands;

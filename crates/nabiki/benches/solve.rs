@@ -13,16 +13,15 @@ use std::time::Instant;
 
 use dynamics::{dynamics, free};
 use glam::Vec3;
+use nabiki::Strands;
 use nabiki::dynamics::{Dynamics, Form};
 use nabiki::field::{Ease, Keyframe};
-use nabiki::groom::{Growth, Style, grow};
-use nabiki::roots::Hairline;
 use nabiki::solve::{Drag, Goal, KeyedWind, OpenAir, Prior, Problem, Search, Solver, Unknown, Wish, nodes_of};
-use nabiki::{Head, Strands};
+use nabiki_groom::{Growth, Hairline, Style, bust, grow};
 
 fn main() {
     println!("threads: {}", rayon::current_num_threads());
-    let head = Head::builtin();
+    let head = bust();
     let (hairline, style) = (Hairline::default(), Style::default());
     let growth =
         Growth { hairline: &hairline, style: &style, strands: 2000, segments: 18, segment_length: 1.0, seed: 1 };

@@ -7,18 +7,18 @@
 //! two part is the doing of the motion alone.
 
 use glam::{DVec3, Vec3};
+use nabiki::Strands;
 use nabiki::dynamics::{Dynamics, FrameInput, Motion, Reference, Simulation, Stepper};
 use nabiki::field::{Keyframe, KeyframedField};
-use nabiki::groom::{Style, groom};
 use nabiki::pseudo_force::PseudoForce;
-use nabiki::roots::{Hairline, spread};
-use nabiki::{Head, Strands};
+use nabiki_groom::roots::spread;
+use nabiki_groom::{Hairline, Style, bust, groom};
 
 const HORIZONS: [u32; 3] = [100, 400, 800];
 
 fn main() {
     let strands = std::env::args().filter_map(|arg| arg.parse().ok()).next().unwrap_or(19_330);
-    let head = Head::builtin();
+    let head = bust();
     let roots = spread(&head, &Hairline::default(), strands, 1).expect("a hairline in range");
     let hair = groom(&head, &roots, &Style::default(), 18, 1.0, 1).expect("a style in range");
     let key = |through, vector| Keyframe { through, vector };

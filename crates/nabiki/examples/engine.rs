@@ -9,10 +9,9 @@ use nabiki::body::{Body, BodyWay, Contact, skin_of};
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Simulation, Stepper};
 use nabiki::field::UniformField;
 use nabiki::free_form::FreeMotion;
-use nabiki::groom::{Growth, Style, grow};
 use nabiki::pseudo_force::PseudoForce;
-use nabiki::roots::Hairline;
-use nabiki::{Head, Mesh, Pose, SettingError};
+use nabiki::{Mesh, Pose, SettingError};
+use nabiki_groom::{Growth, Hairline, Style, bust, grow};
 
 /// Steps a second, however many pictures are drawn; hair is shown up to one step late.
 const RATE: f64 = 60.0;
@@ -88,7 +87,7 @@ fn palm() -> Mesh {
 
 fn main() -> Result<(), SettingError> {
     // Of your own: `Head::from_mesh`, and `Strands::push` for each strand (head space, cm).
-    let (head, hairline, style) = (Head::builtin(), Hairline::default(), Style::default());
+    let (head, hairline, style) = (bust(), Hairline::default(), Style::default());
     let growth =
         Growth { hairline: &hairline, style: &style, strands: 999, segments: 18, segment_length: 1.0, seed: 1 };
     let hair = grow(&head, &growth, growth.strands)?.strands;

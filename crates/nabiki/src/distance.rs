@@ -9,6 +9,7 @@
 mod filled;
 pub(crate) mod rims;
 mod sample;
+mod stored;
 mod tree;
 
 use std::sync::OnceLock;
@@ -17,17 +18,18 @@ use glam::{UVec3, Vec3};
 use rayon::prelude::*;
 
 pub(crate) use self::sample::{Places, whole};
+pub use self::stored::Samples;
 use crate::Mesh;
 use tree::Tree;
 
 /// Fine steps along one coarse cell.
 const FINE: usize = 4;
-/// Fine samples along one edge of a block, both ends included.
-pub(crate) const EDGE: usize = FINE + 1;
+/// Fine samples along one edge of a block, both ends included: a coarse cell is four fine steps long.
+pub const EDGE: usize = FINE + 1;
 /// Share by which a distance far from the skin may come out too large.
 const SLACK: f32 = 0.05;
-/// Marks a coarse cell without a fine block.
-pub(crate) const COARSE: u32 = u32::MAX;
+/// Marks a coarse cell without a block of fine samples.
+pub const COARSE: u32 = u32::MAX;
 
 /// Signed distance to a surface, negative inside, in the mesh's unit.
 #[derive(Clone, Debug)]
@@ -37,25 +39,6 @@ pub struct SkinDistance {
     /// What it is made of then.
     mesh: Mesh,
     samples: Samples,
-}
-
-/// Signed distance at the nodes of two grids, one four times finer near the skin.
-#[derive(Clone, Debug)]
-pub(crate) struct Samples {
-    /// The first node.
-    pub low: Vec3,
-    /// Edge of a coarse cell.
-    pub cell: f32,
-    /// Coarse nodes along each axis.
-    pub nodes: UVec3,
-    /// Whether they stand for their mirror images at z < 0, too.
-    pub mirrored: bool,
-    /// Distance at the coarse nodes, x fastest.
-    pub coarse: Vec<f32>,
-    /// For each coarse cell its block in `fine`, or [`COARSE`].
-    pub block_of: Vec<u32>,
-    /// The blocks, x fastest.
-    pub fine: Vec<[f32; EDGE * EDGE * EDGE]>,
 }
 
 impl SkinDistance {
@@ -165,11 +148,6 @@ impl SkinDistance {
         // A cell has a block where its middle is nearer than half a diagonal and two steps.
         let layers = 2.0 * (0.5 * 3.0_f64.sqrt() + 2.0 / FINE as f64);
         coarse + layers * areas.sum::<f64>() / (cell * cell) * (EDGE * EDGE * EDGE) as f64
-    }
-
-    /// The distance to `mesh`, where it was sampled before.
-    pub(crate) fn from_samples(mesh: &Mesh, samples: Samples) -> Self {
-        Self { tree: OnceLock::new(), mesh: mesh.clone(), samples }
     }
 
     /// Signed distance at `p`, without sampling: about a hundred times dearer than [`at`](Self::at).

@@ -1,7 +1,5 @@
 //! The head: its mesh, the head ellipsoid E, and how far a point is from the skin (the paper, section 3.1).
 
-mod bust;
-pub mod face;
 mod fit;
 mod openings;
 
@@ -12,7 +10,7 @@ use glam::{Vec2, Vec3};
 
 pub use openings::Opening;
 
-use crate::distance::SkinDistance;
+use crate::distance::{Samples, SkinDistance};
 use crate::mesh::Orientation;
 use crate::strands::bounds;
 use crate::{Ellipsoid, Mesh, SettingError};
@@ -35,7 +33,7 @@ pub struct Head {
     pub orientation: Orientation,
     /// Where its surface is open.
     pub openings: Vec<Opening>,
-    /// Whether it is the built-in bust, whose [`face`] is known.
+    /// Whether it is the bust of `nabiki_groom`, whose face is known where it is drawn. Whoever makes a head says so.
     pub is_builtin: bool,
     /// Lowest and highest corner of the mesh: beyond it nothing is inside.
     bounds: [Vec3; 2],
@@ -43,15 +41,6 @@ pub struct Head {
 }
 
 impl Head {
-    /// The project's own bust: head, neck and shoulders of a calm adult, eyes closed, no hair. The same on every
-    /// machine, and on both sides of z = 0, to the bit.
-    pub fn builtin() -> Self {
-        let (mesh, skin) = bust::read(bust::BAKED);
-        let orientation = Orientation { doubled: 0, turned: 0, open_edges: 0, has_inside: true };
-        let (bounds, skin) = (bounds(&mesh.positions), Arc::new(skin));
-        Self { bounds, mesh, ellipsoid: bust::ELLIPSOID, orientation, openings: Vec::new(), is_builtin: true, skin }
-    }
-
     /// The same head with another ellipsoid.
     ///
     /// # Errors
@@ -80,20 +69,30 @@ impl Head {
             None => fit::scalp(&mesh)?,
         };
         check_ellipsoid(&ellipsoid)?;
-        let size = ellipsoid.half_axes.as_dvec3().element_product().cbrt() as f32;
-        if !(HALF_AXES[0]..=HALF_AXES[1]).contains(&size) {
-            let remedy = format!(
-                "its ellipsoid's half axes must lie in {} cm to {} cm, a person's are about 9: mend head.unit",
-                HALF_AXES[0], HALF_AXES[1]
-            );
-            return Err(refused_mesh(&mesh, format!("a head of {size:.3e} cm"), &remedy));
-        }
+        check_size(&mesh, &ellipsoid)?;
         if !orientation.has_inside {
             let remedy = "encloses no space, so nothing can be told to be inside it: give a head that is closed, or \
                           open only where it is cut off";
             return Err(refused_mesh(&mesh, "a sheet", remedy));
         }
         Ok(Self::assemble(mesh, ellipsoid, orientation))
+    }
+
+    /// A head that [`from_mesh`](Self::from_mesh) has made before, at once: of its mesh, whose triangles face outward, its E and the
+    /// [samples](SkinDistance::samples) of its [`skin`](Self::skin), all in head space, cm. That they belong together is left to the
+    /// caller. The mesh counts as closed: of one that is not, give [`orientation`](Self::orientation) and [`openings`](Self::openings),
+    /// too.
+    ///
+    /// # Errors
+    /// If mesh or E is one that [`from_mesh`](Self::from_mesh) refuses as such, or the samples [cannot be read](Samples::check).
+    pub fn from_samples(mesh: Mesh, ellipsoid: Ellipsoid, samples: Samples) -> Result<Self, SettingError> {
+        check_mesh(&mesh)?;
+        check_ellipsoid(&ellipsoid)?;
+        check_size(&mesh, &ellipsoid)?;
+        let skin = Arc::new(SkinDistance::from_samples(&mesh, samples)?);
+        let orientation = Orientation { has_inside: true, ..Orientation::default() };
+        let (bounds, openings) = (bounds(&mesh.positions), Vec::new());
+        Ok(Self { mesh, ellipsoid, orientation, openings, is_builtin: false, bounds, skin })
     }
 
     /// The ellipsoid E that [`from_mesh`](Self::from_mesh) would fit to this mesh.
@@ -155,12 +154,6 @@ impl Head {
     }
 }
 
-/// Mesh and distance of a bust as `nabiki_bust` writes it; anything else may panic.
-#[doc(hidden)]
-pub fn read_bust(baked: &[u8]) -> (Mesh, SkinDistance) {
-    bust::read(baked)
-}
-
 /// `what` is wrong with a mesh: its size tells a wrong unit, its extent along each axis a wrong axis up.
 fn refused_mesh(mesh: &Mesh, what: impl Display, remedy: &str) -> SettingError {
     let [low, high] = bounds(&mesh.positions);
@@ -219,6 +212,19 @@ fn check_ellipsoid(ellipsoid: &Ellipsoid) -> Result<(), SettingError> {
         return Err(SettingError::new("head.ellipsoid.half_axes", h, "must lie within a factor 4 of each other"));
     }
     Ok(())
+}
+
+/// Refuses a head of a size that cannot be worked with.
+fn check_size(mesh: &Mesh, ellipsoid: &Ellipsoid) -> Result<(), SettingError> {
+    let size = ellipsoid.half_axes.as_dvec3().element_product().cbrt() as f32;
+    if (HALF_AXES[0]..=HALF_AXES[1]).contains(&size) {
+        return Ok(());
+    }
+    let remedy = format!(
+        "its ellipsoid's half axes must lie in {} cm to {} cm, a person's are about 9: mend head.unit",
+        HALF_AXES[0], HALF_AXES[1]
+    );
+    Err(refused_mesh(mesh, format!("a head of {size:.3e} cm"), &remedy))
 }
 
 #[cfg(test)]

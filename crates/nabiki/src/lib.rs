@@ -10,7 +10,7 @@
 //!
 //! # Where to begin
 //!
-//! [`Head::from_mesh`] and [`Strands::push`] take a head and hair of one's own, [`groom::grow`] grows some;
+//! [`Head::from_mesh`] and [`Strands::push`] take a head and hair of one's own, the crate `nabiki_groom` grows some;
 //! [`Simulation`](dynamics::Simulation) moves it frame by frame, as an engine does (`crates/nabiki/examples/engine.rs`), and
 //! [`Timeline`](dynamics::Timeline) has all frames at hand, as an editor does.
 //!
@@ -22,23 +22,20 @@
 //! use nabiki::dynamics::{Dynamics, Timeline};
 //! use nabiki::field::{Keyframe, KeyframedField};
 //! use nabiki::glam::Vec3;
-//! use nabiki::groom::{Growth, Style, grow};
-//! use nabiki::roots::Hairline;
-//! use nabiki::{Head, SettingError};
+//! use nabiki::{Ellipsoid, SettingError, Strands};
 //!
 //! fn main() -> Result<(), SettingError> {
-//!     let head = Head::builtin();
-//!     let (hairline, style) = (Hairline::default(), Style::default());
-//!     let growth =
-//!         Growth { hairline: &hairline, style: &style, strands: 2_000, segments: 18, segment_length: 1.0, seed: 1 };
-//!     // The first 20 of the 2,000, which move as they do among all.
-//!     let hair = grow(&head, &growth, 20)?;
-//!     let mut dynamics = Dynamics::new(head.ellipsoid);
-//!     dynamics.motion.inertia_length_floor = 18.0;
+//!     let head = Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::new(9.5, 11.0, 7.8) };
+//!     // All about it, from the root on 18 segments of a centimetre.
+//!     let mut hair = Strands::default();
+//!     for around in [0.0_f32, 1.5, 3.0, 4.5] {
+//!         let out = Vec3::new(around.cos(), 0.0, around.sin());
+//!         hair.push((0..=18).map(|i| head.half_axes * out + i as f32 * (0.3 * out - Vec3::Y).normalize()));
+//!     }
 //!     let gust = KeyframedField::new(&[Keyframe { through: 50, vector: Vec3::new(-100.0, 0.0, 0.0) }])?;
-//!     let mut timeline = Timeline::new(&hair.strands, &dynamics, Arc::new(gust), Vec::new(), 50)?;
+//!     let mut timeline = Timeline::new(&hair, &Dynamics::new(head), Arc::new(gust), Vec::new(), 50)?;
 //!     let film = timeline.play();
-//!     let tip = |frame: u32| film.strand(frame, 0)[film.strand(frame, 0).len() - 1];
+//!     let tip = |frame: u32| film.strand(frame, 0)[18];
 //!     assert!(tip(50).x < tip(0).x, "hair goes where the wind blows");
 //!     Ok(())
 //! }
@@ -54,7 +51,6 @@ pub mod ellipsoid;
 pub mod error;
 pub mod field;
 pub mod free_form;
-pub mod groom;
 pub mod hair;
 pub mod head;
 pub mod mesh;
@@ -63,10 +59,11 @@ pub mod pose;
 mod prefetch;
 pub mod profile;
 pub mod pseudo_force;
-mod random;
-pub mod roots;
+pub mod random;
 mod scalar;
 pub mod setting;
+#[cfg(test)]
+mod sketch;
 pub mod smoothing;
 pub mod solve;
 pub mod strands;

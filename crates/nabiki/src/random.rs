@@ -2,22 +2,22 @@
 //! pseudorandom number generators", 2014).
 
 /// 2^64 over the golden ratio, odd: the step between the counters of one stream.
-pub(crate) const GOLDEN_GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
+pub const GOLDEN_GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// The random number of a counter: one step of a SplitMix64 whose state is `counter`.
-pub(crate) fn mix(counter: u64) -> u64 {
+pub fn mix(counter: u64) -> u64 {
     finalise(counter.wrapping_add(GOLDEN_GAMMA))
 }
 
 /// The finaliser alone: a bijection in which every bit of the answer depends on every bit of `z`; it keeps 0.
-pub(crate) fn finalise(z: u64) -> u64 {
+pub fn finalise(z: u64) -> u64 {
     let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     z ^ (z >> 31)
 }
 
 /// The upper bits of a random number as one in [0, 1).
-pub(crate) fn unit(random: u64) -> f64 {
+pub fn unit(random: u64) -> f64 {
     (random >> 11) as f64 / (1_u64 << 53) as f64
 }
 

@@ -21,6 +21,9 @@ pub fn evenly(roots: &[Vec3], count: usize) -> Vec<usize> {
 /// The same for whoever may want it no more: again and again `goes_on` is asked whether to go on. None where it was not to.
 pub fn evenly_while(roots: &[Vec3], count: usize, goes_on: &dyn Fn() -> bool) -> Option<Vec<usize>> {
     let count = count.min(roots.len());
+    if roots.iter().all(|root| root.is_finite()) {
+        return farthest_first(roots, count, goes_on);
+    }
     let finite: Vec<u32> = (0..roots.len() as u32).filter(|&i| roots[i as usize].is_finite()).collect();
     let places: Vec<Vec3> = finite.iter().map(|&i| roots[i as usize]).collect();
     let chosen = farthest_first(&places, count.min(places.len()), goes_on)?;
@@ -33,7 +36,7 @@ pub fn evenly_while(roots: &[Vec3], count: usize, goes_on: &dyn Fn() -> bool) ->
 const LOOKED_AT: usize = 1 << 20;
 
 /// Bytes that putting points in order takes for each, at least: its cell, its number there, its place and its gap.
-pub(crate) const BYTES_A_POINT: usize = size_of::<usize>() + size_of::<u32>() + size_of::<Vec3>() + size_of::<f32>();
+pub const BYTES_A_POINT: usize = size_of::<usize>() + size_of::<u32>() + size_of::<Vec3>() + size_of::<f32>();
 
 /// The cells of a grid over points on a surface, with how far each point is from the nearest chosen one.
 struct Cells {
@@ -140,7 +143,7 @@ impl Cells {
 }
 
 /// The order described at [`evenly`], of finite points; none where `goes_on` says no.
-pub(crate) fn farthest_first(points: &[Vec3], count: usize, goes_on: &dyn Fn() -> bool) -> Option<Vec<usize>> {
+fn farthest_first(points: &[Vec3], count: usize, goes_on: &dyn Fn() -> bool) -> Option<Vec<usize>> {
     if count == 0 {
         return Some(Vec::new());
     }

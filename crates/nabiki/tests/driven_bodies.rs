@@ -9,11 +9,12 @@ use std::sync::Arc;
 use allocations::allocations;
 use common::{ball, bits, exact, fast, gust, hair, way_of_a_head, wind};
 use glam::{Quat, Vec3};
+use nabiki::Pose;
 use nabiki::body::{Body, BodyWay, Contact, skin_of};
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Stepper};
 use nabiki::free_form::{FreeMotion, NeighbourForces, Neighbours};
 use nabiki::pseudo_force::PseudoForce;
-use nabiki::{Head, Pose};
+use nabiki_groom::bust;
 
 const FRAMES: u32 = 40;
 
@@ -35,7 +36,7 @@ fn among(way: Vec<Pose>) -> Dynamics {
     let body = |name: &str, way: Vec<Pose>| Body::new(name, skin.clone(), BodyWay::InWorld(way.into()), contact);
     let still = way_of_a_head(FRAMES)[20].position_cm + Vec3::new(-12.0, 0.0, 0.0);
     let bodies = vec![
-        Body::head(&Head::builtin(), Contact::default()),
+        Body::head(&bust(), Contact::default()),
         body("body[0]", vec![Pose { position_cm: still, ..Pose::STILL }]),
         body("body[1]", way),
     ];

@@ -8,7 +8,8 @@ use nabiki::body::{Body, BodyWay, Contact};
 use nabiki::disturbance::Disturbance;
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Stepper};
 use nabiki::free_form::{FreeForm, NeighbourForces};
-use nabiki::{Head, Pose, Strands};
+use nabiki::{Pose, Strands};
+use nabiki_groom::bust;
 
 fn mean(a: &Strands, b: &Strands) -> f32 {
     a.points().iter().zip(b.points()).map(|(a, b)| a.distance(*b)).sum::<f32>() / a.points().len() as f32
@@ -55,7 +56,7 @@ fn settings_at_another_rate_give_the_same_motion_in_seconds() {
 #[test]
 fn another_rate_scales_what_is_counted_in_frames_and_nothing_else() {
     let way: Vec<Pose> = (0..=100).map(|n| Pose { position_cm: Vec3::X * (n * n) as f32, ..Pose::STILL }).collect();
-    let head = Body::head(&Head::builtin(), Contact::default());
+    let head = Body::head(&bust(), Contact::default());
     let mut dynamics = with_neighbours(free(FreeForm { settle: 8.0.into(), ..FreeForm::default() }));
     if let Form::Free(free) = &mut dynamics.form {
         let mut goes = head.clone();

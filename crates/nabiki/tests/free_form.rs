@@ -13,7 +13,8 @@ use nabiki::body::{Body, BodyWay, Contact};
 use nabiki::dynamics::{Dynamics, Form, Stepper, gain};
 use nabiki::field::Field;
 use nabiki::free_form::{FreeForm, NeighbourForces, Neighbours, Tie};
-use nabiki::{Head, Profile, Strands};
+use nabiki::{Profile, Strands};
+use nabiki_groom::{Growth, Hairline, Style, bust, grow};
 use proptest::prelude::*;
 
 /// No field at all.
@@ -147,7 +148,7 @@ fn a_band_out_of_range_is_refused_by_name() {
 }
 
 fn head_body(margin: f32) -> Body {
-    Body::head(&Head::builtin(), Contact { margin, ..Contact::default() })
+    Body::head(&bust(), Contact { margin, ..Contact::default() })
 }
 
 proptest! {
@@ -378,16 +379,11 @@ fn passing_ball() -> Body {
 
 /// Grown hair, which lies on the head, and the head and a ball as bodies.
 fn among_bodies(settle: f32) -> (Strands, Dynamics) {
-    let head = Head::builtin();
-    let growth = nabiki::groom::Growth {
-        hairline: &nabiki::roots::Hairline::default(),
-        style: &nabiki::groom::Style::default(),
-        strands: 300,
-        segments: 18,
-        segment_length: 1.0,
-        seed: 1,
-    };
-    let hair = nabiki::groom::grow(&head, &growth, 300).unwrap().strands;
+    let head = bust();
+    let (hairline, style) = (Hairline::default(), Style::default());
+    let growth =
+        Growth { hairline: &hairline, style: &style, strands: 300, segments: 18, segment_length: 1.0, seed: 1 };
+    let hair = grow(&head, &growth, 300).unwrap().strands;
     let mut dynamics = free(FreeForm { settle: settle.into(), ..FreeForm::default() });
     dynamics.motion.inertia_length_floor = 18.0;
     if let Form::Free(free) = &mut dynamics.form {

@@ -15,18 +15,19 @@ use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Simulation, Stepper, 
 use nabiki::field::Field;
 use nabiki::free_form::{FreeMotion, NeighbourForces, Neighbours};
 use nabiki::pseudo_force::PseudoForce;
-use nabiki::{Head, Pose, Profile, Strands};
+use nabiki::{Pose, Profile, Strands};
+use nabiki_groom::bust;
 
 /// Frames of the head's way.
 const FRAMES: u32 = 40;
 
 /// All that a step may depend on: the head, another one that goes beside it in the world, carriers, profiles.
 fn crowded() -> Dynamics {
-    let head = Body::head(&Head::builtin(), Contact { margin: 0.3, ..Contact::default() });
+    let head = Body::head(&bust(), Contact { margin: 0.3, ..Contact::default() });
     let beside: Vec<Pose> = (way_of_a_head(FRAMES).into_iter())
         .map(|pose| Pose { position_cm: pose.position_cm + Vec3::new(-25.0, -3.0, 4.0), ..Pose::default() })
         .collect();
-    let another = Body::new("body[0]", Head::builtin().skin().clone(), BodyWay::InWorld(beside.into()), head.contact);
+    let another = Body::new("body[0]", bust().skin().clone(), BodyWay::InWorld(beside.into()), head.contact);
     let mut free = FreeMotion { bodies: vec![head, another], rest_pose: way_of_a_head(0)[0], ..Default::default() };
     free.form.stiffness = Profile::RootToTip(vec![150.0, 40.0, 60.0]);
     free.neighbours = Some(Neighbours::new(NeighbourForces::default(), Arc::new(hair(24, 18))));

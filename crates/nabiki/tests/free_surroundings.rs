@@ -12,7 +12,14 @@ use nabiki::field::Field;
 use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours};
 use nabiki::groom::{Growth, Style, grow};
 use nabiki::roots::Hairline;
+||||||| 8d1f379
+use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours, earth_gravity};
+use nabiki::groom::{Growth, Style, grow};
+use nabiki::roots::Hairline;
+=======
+use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours, earth_gravity};
 use nabiki::{Head, Pose, Profile, Strands};
+use nabiki_groom::{Growth, Hairline, Style, bust, grow};
 
 const FRAMES: u32 = 30;
 
@@ -33,7 +40,7 @@ fn everything(carriers: Strands, rest_pose: Pose) -> Dynamics {
         FreeForm { stiffness: Profile::RootToTip(vec![900.0, 100.0]), gravity: 60.0.into(), ..Default::default() };
     free(FreeMotion {
         form,
-        bodies: vec![Body::head(&Head::builtin(), Contact::default())],
+        bodies: vec![Body::head(&bust(), Contact::default())],
         neighbours: Some(Neighbours::new(NeighbourForces::default(), Arc::new(carriers))),
         rest_pose,
     })
@@ -135,7 +142,7 @@ fn grown(head: &Head, strands: usize) -> Strands {
 
 #[test]
 fn hair_stays_out_of_the_head_without_kinks_and_comes_back_to_rest() {
-    let head = Head::builtin();
+    let head = bust();
     let strands = grown(&head, 400);
     let body = Body::head(&head, Contact::default());
     let form = FreeForm {

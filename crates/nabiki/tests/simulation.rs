@@ -16,12 +16,13 @@ use nabiki::field::{Field, FieldSum, UniformField};
 use nabiki::free_form::{FreeMotion, NeighbourForces, Neighbours};
 use nabiki::pseudo_force::PseudoForce;
 use nabiki::{Head, Pose, Profile, Strands};
+use nabiki_groom::bust;
 
 /// The free form among a head and neighbours.
 fn crowded() -> Dynamics {
     let neighbours = Neighbours::new(NeighbourForces::default(), Arc::new(hair(24, 18)));
     let mut free = FreeMotion { neighbours: Some(neighbours), rest_pose: way_of_a_head(0)[0], ..Default::default() };
-    free.bodies = vec![Body::head(&Head::builtin(), Contact::default())];
+    free.bodies = vec![Body::head(&bust(), Contact::default())];
     Dynamics { pseudo_force: PseudoForce::off(), form: Form::Free(free), ..gust() }
 }
 

@@ -9,13 +9,12 @@ use dynamics::{dynamics, free};
 use glam::Vec3;
 use nabiki::dynamics::{Dynamics, Form, Timeline};
 use nabiki::field::{Ease, Keyframe};
-use nabiki::groom::{Growth, Style, grow};
-use nabiki::roots::Hairline;
 use nabiki::solve::{
     Answer, Drag, Goal, KeyedWind, Node, OpenAir, Preroll, Prior, Problem, Report, Search, Solver, Unknown, Wish,
     nodes_near, nodes_of,
 };
 use nabiki::{Head, Strands};
+use nabiki_groom::{Growth, Hairline, Style, bust, grow};
 
 const SEGMENTS: usize = 18;
 
@@ -118,7 +117,7 @@ const FOUND: f32 = 2.0;
 
 #[test]
 fn the_vectors_of_table_1_are_found_again() {
-    let head = Head::builtin();
+    let head = bust();
     let hair = hair(&head, 40);
     for (name, form) in [("paper", Form::Paper), ("free", Form::Free(free(&head)))] {
         let dynamics = dynamics(&head, form);
@@ -149,7 +148,7 @@ fn the_vectors_of_table_1_are_found_again() {
 
 #[test]
 fn a_noise_of_half_a_centimetre_moves_the_answer_by_little() {
-    let head = Head::builtin();
+    let head = bust();
     let hair = hair(&head, 40);
     for (name, form) in [("paper", Form::Paper), ("free", Form::Free(free(&head)))] {
         let dynamics = dynamics(&head, form);
@@ -174,7 +173,7 @@ fn a_noise_of_half_a_centimetre_moves_the_answer_by_little() {
 
 #[test]
 fn borders_stiffness_and_settling_are_found_again() {
-    let head = Head::builtin();
+    let head = bust();
     let hair = hair(&head, 24);
     let dynamics = dynamics(&head, Form::Free(free(&head)));
     let truth = vec![key(43, [-100.0, 20.0, 30.0]), key(100, [0.0, -60.0, 0.0])];
@@ -213,7 +212,7 @@ fn vec_times(profile: &nabiki::Profile, factor: f32) -> nabiki::Profile {
 
 #[test]
 fn a_wish_beyond_reach_ends_near_and_says_how_far_is_left() {
-    let head = Head::builtin();
+    let head = bust();
     let hair = hair(&head, 8);
     for form in [Form::Paper, Form::Free(free(&head))] {
         let dynamics = dynamics(&head, form);
@@ -239,7 +238,7 @@ fn a_wish_beyond_reach_ends_near_and_says_how_far_is_left() {
 
 #[test]
 fn a_drag_follows_the_hand_and_nails_hold() {
-    let head = Head::builtin();
+    let head = bust();
     let hair = hair(&head, 20);
     let dynamics = dynamics(&head, Form::Free(free(&head)));
     let lock = Wish { frame: 90, nodes: nodes(&hair, 10, 0.6), goal: Goal::Stay, weight: 1.0 };
@@ -265,7 +264,7 @@ fn a_drag_follows_the_hand_and_nails_hold() {
 /// way between the two as the weights do, but for what the prior takes.
 #[test]
 fn wishes_count_by_their_weights() {
-    let head = Head::builtin();
+    let head = bust();
     let hair = hair(&head, 4);
     let dynamics = dynamics(&head, Form::Paper);
     let tip = Node { strand: 1, node: hair.strand(1).len() as u32 - 1 };
@@ -301,7 +300,7 @@ fn nodes_near_a_point_are_those_within_the_radius_but_for_roots() {
 
 #[test]
 fn problems_about_nothing_are_refused_by_name() {
-    let head = Head::builtin();
+    let head = bust();
     let hair = hair(&head, 3);
     let dynamics = dynamics(&head, Form::Paper);
     let sound = || {
@@ -344,7 +343,7 @@ fn later(hair: &Strands, dynamics: &Dynamics) -> Problem {
 
 #[test]
 fn solvers_that_go_on_from_where_hair_is_known_to_be_have_the_same_motion_to_the_bit() {
-    let head = Head::builtin();
+    let head = bust();
     let hair = hair(&head, 20);
     for form in [Form::Paper, Form::Free(free(&head))] {
         let dynamics = dynamics(&head, form);
@@ -365,7 +364,7 @@ fn solvers_that_go_on_from_where_hair_is_known_to_be_have_the_same_motion_to_the
 
 #[test]
 fn differences_of_motions_lead_where_the_specifications_tangents_lead() {
-    let head = Head::builtin();
+    let head = bust();
     let hair = hair(&head, 20);
     for form in [Form::Paper, Form::Free(free(&head))] {
         let dynamics = dynamics(&head, form);

@@ -14,12 +14,13 @@ use nabiki::disturbance::Disturbance;
 use nabiki::dynamics::{Dynamics, FrameInput, Simulation, Stepper};
 use nabiki::field::FieldSum;
 use nabiki::free_form::{FreeMotion, NeighbourForces, Neighbours};
-use nabiki::{Head, METHOD_VERSION, Pose, Strands};
+use nabiki::{METHOD_VERSION, Pose, Strands};
+use nabiki_groom::bust;
 
 /// Among a head and neighbours.
 fn crowded() -> Dynamics {
     let neighbours = Some(Neighbours::new(NeighbourForces::default(), Arc::new(hair(24, 18))));
-    let bodies = vec![Body::head(&Head::builtin(), Contact::default())];
+    let bodies = vec![Body::head(&bust(), Contact::default())];
     free_motion(FreeMotion { neighbours, bodies, rest_pose: way_of_a_head(0)[0], ..Default::default() })
 }
 

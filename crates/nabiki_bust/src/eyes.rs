@@ -1,7 +1,7 @@
 //! Brows, sockets and closed eyes.
 
 use glam::{Quat, Vec3};
-use nabiki::head::face;
+use nabiki_groom::face;
 
 use crate::shapes::{chain, join, ridge, swell, turned_ellipsoid};
 

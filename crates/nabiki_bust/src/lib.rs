@@ -11,16 +11,18 @@ mod eyes;
 mod face;
 mod grid;
 // How the numbers follow each other is known to the reader, too, and written down there.
-#[path = "../../nabiki/src/head/bust/layout.rs"]
+#[path = "../../nabiki_groom/src/bust/layout.rs"]
 #[allow(dead_code, reason = "a part concerns the reader alone")]
 mod layout;
 mod measure;
 mod mouth;
 mod neck;
 mod nose;
-#[path = "../../nabiki/src/head/bust/numbers.rs"]
+#[path = "../../nabiki_groom/src/bust/numbers.rs"]
 #[allow(dead_code, reason = "a part concerns the reader alone")]
 mod numbers;
+#[path = "../../nabiki_groom/src/bust/read.rs"]
+mod read;
 mod shapes;
 mod skull;
 mod torso;
@@ -32,7 +34,7 @@ use glam::Vec3;
 pub fn bake() -> Vec<u8> {
     let mut bust = grid::cut(&field);
     // The distance is that of the mesh as it will be read.
-    let mesh = nabiki::head::read_bust(&write::all(&mut bust)).0;
+    let mesh = read::mesh(&read::numbers(&write::all(&mut bust)));
     measure::distance(&mut bust, mesh);
     write::all(&mut bust)
 }

@@ -1,7 +1,7 @@
 //! The lips.
 
 use glam::Vec3;
-use nabiki::head::face;
+use nabiki_groom::face;
 
 use crate::shapes::{chain, join, ridge, swell};
 

@@ -1,7 +1,7 @@
 //! The nose.
 
 use glam::Vec3;
-use nabiki::head::face;
+use nabiki_groom::face;
 
 use crate::shapes::{capsule, carve, ellipsoid, join, swell};
 

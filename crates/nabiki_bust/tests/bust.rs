@@ -6,7 +6,7 @@ use glam::{Vec3, vec3};
 use nabiki::Head;
 use nabiki_bust::{bake, field};
 
-static BUST: LazyLock<Head> = LazyLock::new(Head::builtin);
+static BUST: LazyLock<Head> = LazyLock::new(nabiki_groom::bust);
 
 fn scattered(count: usize) -> impl Iterator<Item = Vec3> {
     (0..count).map(|i| {
@@ -17,7 +17,7 @@ fn scattered(count: usize) -> impl Iterator<Item = Vec3> {
 
 #[test]
 fn the_file_that_the_head_reads_is_what_is_written_today() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../nabiki/src/head/bust.bin");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../nabiki_groom/src/bust/bust.bin");
     let file = std::fs::read(path).unwrap();
     assert!(file == bake(), "run `cargo run --release -p nabiki_bust` to write the bust anew");
 }

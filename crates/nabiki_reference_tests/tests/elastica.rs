@@ -16,7 +16,7 @@
 //! |        300 | 1.2e-2 | 4.5e-3 | 1.4e-3 | 4.4e-4 |
 
 use glam::DVec3;
-use nabiki::groom::cantilever::{Beam, Hold, MOST_PASSES, Workspace};
+use nabiki_groom::cantilever::{Beam, Hold, MOST_PASSES, Workspace};
 use nabiki_reference_tests::shared;
 
 const DOWN: DVec3 = DVec3::NEG_Y;

@@ -230,7 +230,7 @@ fn roots_keep_off_the_faces_and_ears_of_real_heads() {
     ] {
         let mesh = read(path, group, cm);
         let head = Head::from_mesh(mesh, None).expect("a head");
-        let roots = nabiki::roots::spread(&head, &Default::default(), 2000, 1).expect("a scalp");
+        let roots = nabiki_groom::roots::spread(&head, &Default::default(), 2000, 1).expect("a scalp");
         for root in roots {
             let q = (root.position - head.ellipsoid.center) / head.ellipsoid.half_axes;
             assert!(q.length() < 1.35 && q.length() > 0.75, "{path}: {q}");

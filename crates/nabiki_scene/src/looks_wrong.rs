@@ -6,9 +6,9 @@ mod unused;
 
 use glam::Vec3;
 use nabiki::dynamics::Form;
-use nabiki::groom::style::Cut;
 use nabiki::head::Opening;
 use nabiki::{Head, Pose};
+use nabiki_groom::style::Cut;
 use nabiki_io::info::Short;
 use nabiki_render::settings::Projection;
 use nabiki_render::{Bounds, View};

@@ -5,6 +5,7 @@ use std::path::Path;
 use glam::Vec3;
 use nabiki::setting::{Value as _, plain};
 use nabiki::{Ellipsoid, Head, Mesh, Profile, Strands};
+use nabiki_groom::bust;
 use nabiki_io::{Axis, DeclaredSpace, Error, GroomFile, Placement, Result, Unit, declared_space, info, mesh};
 
 use crate::built::holds_scenes;
@@ -435,7 +436,7 @@ fn imported_hair(
     let (skin, head_placement) = match head {
         Some((looked, _)) => (&looked.head, looked.placement),
         None => {
-            built_in = Head::builtin();
+            built_in = bust();
             (&built_in, Placement::default())
         }
     };

@@ -95,7 +95,7 @@ fn a_scene_may_say_which_end_is_the_root() {
 #[test]
 fn hair_that_lies_on_the_skin_from_end_to_end_stays_as_it_is() {
     let folder = tempfile::tempdir().unwrap();
-    let head = nabiki::Head::builtin();
+    let head = nabiki_groom::bust();
     let on_skin = |mut p: Vec3| {
         (0..8).for_each(|_| p -= head.distance(p) * head.outward(p));
         p

@@ -3,13 +3,13 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use nabiki::Head;
+use nabiki_groom::bust;
 use nabiki_scene::scene::SceneError;
 use nabiki_scene::{Error, Scene, Shown};
 
 /// The built-in bust as a mesh in units of so many cm, each of which is taken for a centimetre.
 fn head_in(cm: f32, folder: &Path) {
-    let mesh = Head::builtin().mesh;
+    let mesh = bust().mesh;
     let mut text = String::new();
     for p in &mesh.positions {
         let [x, y, z] = (*p / cm).to_array();

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use bytemuck::{Pod, Zeroable};
 use glam::{Affine3A, IVec3, Vec3};
 use nabiki::Mesh;
-use nabiki::head::face::Paint;
+use nabiki_groom::face::Paint;
 
 /// A corner of a triangle (head space, cm).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]

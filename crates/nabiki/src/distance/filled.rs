@@ -149,32 +149,3 @@ fn upwind(mut around: [f32; 3], step: f32) -> f32 {
     let (sum, squares) = (a + b + c, a * a + b * b + c * c);
     (sum + (sum * sum - 3.0 * (squares - step * step)).max(0.0).sqrt()) / 3.0
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::Head;
-    use crate::obstacle::{Obstacle, Reading};
-
-    #[test]
-    fn a_filled_head_encloses_the_head_and_is_the_head_where_that_is_convex() {
-        let head = Head::builtin();
-        let (spacing, radius) = (0.5, 3.0);
-        let filled = head.skin().filled(radius, spacing);
-        let (mut deepest, mut farthest) = (0.0_f32, 0.0_f32);
-        for vertex in head.mesh.positions.iter().step_by(7) {
-            let Some(Reading { distance, .. }) = filled.read(*vertex, 0) else { continue };
-            deepest = deepest.max(distance);
-            if vertex.y > 6.0 {
-                farthest = farthest.max(-distance);
-            }
-        }
-        // Between the places that are looked at, an edge may still be cut by the height of a corner of 90 degrees over a
-        // quarter of a step.
-        assert!(deepest < 0.25 * spacing * 0.5, "{deepest}");
-        assert!(farthest < 0.4 * spacing, "the crown is convex, and yet filled by {farthest} cm");
-        let behind_the_ear = Vec3::new(-3.2, -0.5, 7.4);
-        assert!(head.distance(behind_the_ear) > 0.0, "a place of the fold, not of the head");
-        assert!(filled.at(behind_the_ear) < head.distance(behind_the_ear) - 0.3);
-    }
-}

@@ -1,104 +1,11 @@
-use std::f32::consts::PI;
-use std::sync::LazyLock;
-
 use glam::{Vec3, vec3};
 
 use super::Head;
+use crate::sketch::{self, egg};
 use crate::{Ellipsoid, Mesh};
-
-static BUST: LazyLock<Head> = LazyLock::new(Head::builtin);
-
-/// A ball of `rings` by twice as many corners, stretched to `ellipsoid`.
-fn egg(ellipsoid: Ellipsoid, rings: u32) -> Mesh {
-    let mut mesh = Mesh::default();
-    for i in 0..=rings {
-        for j in 0..2 * rings {
-            let ((st, ct), (sp, cp)) =
-                ((PI * i as f32 / rings as f32).sin_cos(), (PI * j as f32 / rings as f32).sin_cos());
-            mesh.positions.push(ellipsoid.center + ellipsoid.half_axes * vec3(st * sp, ct, st * cp));
-            let (next, below) = (i * 2 * rings + (j + 1) % (2 * rings), 2 * rings);
-            if i < rings {
-                let here = i * 2 * rings + j;
-                mesh.triangles.push([here, here + below, next + below]);
-                mesh.triangles.push([here, next + below, next]);
-            }
-        }
-    }
-    mesh
-}
 
 fn refused(mesh: Mesh, ellipsoid: Option<Ellipsoid>) -> String {
     Head::from_mesh(mesh, ellipsoid).expect_err("refused").to_string()
-}
-
-#[test]
-fn the_bust_is_the_same_on_both_sides_to_the_bit() {
-    let (head, mirror) = (&*BUST, Vec3::new(1.0, 1.0, -1.0));
-    // Adding 0 turns -0 into +0.
-    let place = |p: Vec3| (p + 0.0).to_array().map(f32::to_bits);
-    let places: std::collections::HashSet<_> = head.mesh.positions.iter().map(|&p| place(p)).collect();
-    assert_eq!(places.len(), head.mesh.positions.len());
-    assert!(head.mesh.positions.iter().all(|&p| places.contains(&place(mirror * p))));
-    // A mirrored triangle runs the other way round.
-    let named = |t: [u32; 3], sign: Vec3| {
-        let mut corners = t.map(|v| place(sign * head.mesh.positions[v as usize]));
-        if sign.z < 0.0 {
-            corners.reverse();
-        }
-        let first = (0..3).min_by_key(|&i| corners[i]).unwrap();
-        corners.rotate_left(first);
-        corners
-    };
-    let triangles: std::collections::HashSet<_> = head.mesh.triangles.iter().map(|&t| named(t, Vec3::ONE)).collect();
-    assert_eq!(triangles.len(), head.mesh.triangles.len());
-    assert!(head.mesh.triangles.iter().all(|&t| triangles.contains(&named(t, mirror))));
-    for i in 0..20_000 {
-        let [a, b, c] = [0.618_034, 0.754_878, 0.569_84].map(|g: f32| (i as f32 * g).fract() - 0.5);
-        let p = vec3(50.0 * a, 70.0 * b - 10.0, 60.0 * c);
-        assert_eq!(head.distance(p).to_bits(), head.distance(mirror * p).to_bits(), "{p}");
-        assert_eq!(head.outward(p), mirror * head.outward(mirror * p), "{p}");
-    }
-}
-
-#[test]
-fn the_bust_has_an_adult_heads_measures() {
-    let head = &*BUST;
-    let reach = |from: Vec3, toward: Vec3| {
-        let mut t = 0.0;
-        while t < 80.0 && head.distance(from + t * toward) > 0.005 {
-            t += 0.9 * head.distance(from + t * toward);
-        }
-        from + t * toward
-    };
-    let crown = reach(vec3(0.0, 60.0, 0.0), Vec3::NEG_Y).y;
-    let chin = head.mesh.positions.iter().filter(|p| p.x > 5.0 && p.z.abs() < 2.0).fold(0.0_f32, |y, p| y.min(p.y));
-    let breadth = 2.0 * reach(vec3(-2.0, 4.0, 60.0), Vec3::NEG_Z).z;
-    let depth = reach(vec3(60.0, 1.5, 0.0), Vec3::NEG_X).x - reach(vec3(-60.0, 1.5, 0.0), Vec3::X).x;
-    let shoulders = 2.0 * head.mesh.positions.iter().fold(0.0_f32, |z, p| z.max(p.z));
-    // Within the spread of adults (cm): menton to vertex, head breadth above the ears, head length, bideltoid breadth.
-    assert!((21.0..24.5).contains(&(crown - chin)), "height {}", crown - chin);
-    assert!((13.8..16.5).contains(&breadth), "breadth {breadth}");
-    assert!((17.5..20.5).contains(&depth), "depth {depth}");
-    assert!((36.0..46.0).contains(&shoulders), "shoulders {shoulders}");
-    let nose = reach(vec3(60.0, -4.5, 0.0), Vec3::NEG_X).x;
-    let beside = reach(vec3(60.0, -4.5, 2.5), Vec3::NEG_X).x;
-    assert!((1.5..4.5).contains(&(nose - beside)), "nose {}", nose - beside);
-}
-
-#[test]
-fn the_bust_is_closed_and_faces_outward() {
-    let mut mesh = BUST.mesh.clone();
-    assert_eq!(mesh.turn_outward(), BUST.orientation);
-    assert_eq!(mesh, BUST.mesh);
-}
-
-#[test]
-fn the_ellipsoid_of_the_bust_is_the_one_that_fits_it() {
-    let head = &*BUST;
-    let fitted = Head::from_mesh(head.mesh.clone(), None).unwrap().ellipsoid;
-    let off = (fitted.half_axes - head.ellipsoid.half_axes).abs().max((fitted.center - head.ellipsoid.center).abs());
-    // The skull is no ellipsoid: 0.4 cm is the rms that the fit leaves on real heads.
-    assert!(off.max_element() < 0.8, "{fitted:?}");
 }
 
 #[test]
@@ -223,16 +130,6 @@ proptest::proptest! {
     }
 }
 
-#[test]
-fn depth_is_the_distance_within_and_nothing_without() {
-    let head = Head::builtin();
-    for i in 0..4000 {
-        let share = [0.618_034, 0.754_878, 0.569_84].map(|g: f32| 2.0 * (i as f32 * g).fract() - 1.0);
-        let p = Vec3::from_array(share) * vec3(30.0, 40.0, 40.0);
-        assert_eq!(head.depth(p), (-head.distance(p)).max(0.0), "{p}");
-    }
-}
-
 /// A ball with its cap cut off along a circle of 40 degrees: the sagitta of the cap is what is missing.
 #[test]
 fn a_hole_where_hair_grows_is_told_from_one_below() {
@@ -276,4 +173,26 @@ fn a_head_beyond_any_size_is_refused() {
         let line = refused(egg(ball, 12), Some(ball));
         assert!(line.starts_with("head.mesh = ") && line.contains(said) && line.ends_with("mend head.unit"), "{line}");
     }
+}
+
+#[test]
+fn a_head_of_stored_samples_is_the_head_and_what_is_none_is_refused() {
+    let head = sketch::head();
+    let samples = || head.skin().samples().clone();
+    let again = Head::from_samples(head.mesh.clone(), head.ellipsoid, samples()).unwrap();
+    for i in 0..2000 {
+        let share = [0.618_034, 0.754_878, 0.569_84].map(|g: f32| 2.0 * (i as f32 * g).fract() - 1.0);
+        let p = Vec3::from_array(share) * vec3(30.0, 40.0, 40.0);
+        assert_eq!(again.distance(p).to_bits(), head.distance(p).to_bits(), "{p}");
+        assert_eq!((again.depth(p), again.outward(p)), (head.depth(p), head.outward(p)), "{p}");
+    }
+    let refused = |mesh: Mesh, half_axes: Vec3, cell: f32| {
+        let samples = crate::distance::Samples { cell, ..samples() };
+        Head::from_samples(mesh, Ellipsoid { half_axes, ..head.ellipsoid }, samples).unwrap_err().thing
+    };
+    let half_axes = head.ellipsoid.half_axes;
+    assert_eq!(refused(Mesh::default(), half_axes, 1.0), "head.mesh");
+    assert_eq!(refused(head.mesh.clone(), Vec3::ZERO, 1.0), "head.ellipsoid.half_axes");
+    assert_eq!(refused(head.mesh.clone(), 1e6 * half_axes, 1.0), "head.mesh");
+    assert_eq!(refused(head.mesh.clone(), half_axes, -1.0), "samples.cell");
 }

@@ -1,6 +1,5 @@
 use super::*;
 use crate::free_form::FreeForm;
-use crate::groom::Style;
 
 #[test]
 fn keys_are_written_as_they_are_read() {
@@ -17,7 +16,6 @@ fn keys_are_written_as_they_are_read() {
 #[test]
 fn a_default_is_in_its_range_and_the_table_says_it() {
     assert_eq!(FreeForm::default().check(), Ok(()));
-    assert_eq!(Style::default().check(), Ok(()));
     let Datum::Table(values) = FreeForm::default().datum() else { panic!() };
     for (setting, (key, value)) in FreeForm::TABLE.settings.iter().zip(values) {
         assert_eq!((setting.key, (setting.default)()), (key, value));

@@ -17,20 +17,11 @@ use crate::field::{
     Ease, Field, FieldSum, Flow, FlowField, Gust, Keyframe, KeyframedField, Turbulence, TurbulenceField,
 };
 use crate::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours};
-use crate::groom::{Growth, Style, grow};
 use crate::pseudo_force::PseudoForce;
-use crate::roots::Hairline;
-use crate::{Head, Pose, Profile, Strands};
+use crate::{Head, Pose, Profile, Strands, sketch};
 
 const STRANDS: usize = 24;
 const FRAMES: u32 = 60;
-
-fn hair(head: &Head) -> Strands {
-    let (hairline, style) = (Hairline::default(), Style::default());
-    let growth =
-        Growth { hairline: &hairline, style: &style, strands: 400, segments: 12, segment_length: 1.5, seed: 1 };
-    grow(head, &growth, STRANDS).unwrap().strands
-}
 
 fn dynamics(head: &Head, form: Form) -> Dynamics {
     Dynamics {
@@ -221,8 +212,8 @@ const OF_WIND: [Unknown; 6] =
 
 #[test]
 fn tangents_are_what_differences_of_the_specification_say() {
-    let head = Head::builtin();
-    let hair = hair(&head);
+    let head = sketch::head();
+    let hair = sketch::hair(&head, STRANDS, 12, 1.5);
     let free = |bodies: Vec<Body>, neighbours, poses: &[Pose]| {
         let rest_pose = poses.first().copied().unwrap_or_default();
         Form::Free(FreeMotion { form: FreeForm::default(), bodies, neighbours, rest_pose })

@@ -1,7 +1,7 @@
 //! How skin is lit.
 
 use glam::Vec3;
-use nabiki::head::face::Paint;
+use nabiki_groom::face::Paint;
 use rayon::prelude::*;
 
 use super::SkinPixel;

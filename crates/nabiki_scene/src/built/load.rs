@@ -17,6 +17,7 @@ use nabiki_io::{
     placement::Placement,
 };
 
+use nabiki_groom::bust;
 use nabiki_render::colour;
 
 use hair::{LoadedHair, Wanted, load_hair};
@@ -266,8 +267,8 @@ pub(super) fn load_head(scene: &Scene) -> Result<LoadedHead> {
     };
     let HeadSource::Imported(imported) = &settings.source else {
         let head = match given {
-            None => Head::builtin(),
-            Some(given) => Head::builtin().with_ellipsoid(given).map_err(|refused| scene.refusal(refused))?,
+            None => bust(),
+            Some(given) => bust().with_ellipsoid(given).map_err(|refused| scene.refusal(refused))?,
         };
         let (placement, declared) = (Placement::default(), DeclaredSpace::default());
         return Ok(LoadedHead { head, placement, report: None, declared });

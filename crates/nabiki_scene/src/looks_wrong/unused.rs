@@ -4,8 +4,8 @@ use glam::Vec3;
 use nabiki::body::Contact;
 use nabiki::field::{EnvelopeKey, KeyframedField, Turbulence, envelope};
 use nabiki::free_form::FreeForm;
-use nabiki::groom::style::Variation;
 use nabiki::pseudo_force::PseudoForce;
+use nabiki_groom::style::Variation;
 use nabiki_render::settings::{Antialiasing, Camera, HairLook, HeadLook, Picture, Projection, Shading};
 
 use super::{Advice, Fix};

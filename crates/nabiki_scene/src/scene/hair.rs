@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use glam::Vec3;
-use nabiki::roots::{self, Hairline};
 use nabiki::setting::{Key, Place};
-use nabiki::{SettingError, groom::Style, settings, words};
+use nabiki::{SettingError, settings, words};
+use nabiki_groom::{Hairline, Style, roots};
 use nabiki_io::Axis;
 use nabiki_io::Unit;
 use nabiki_io::hair::Cleaning;

@@ -1,7 +1,7 @@
 //! What a setting takes along, in its own step of undo: settings that nobody thinks of who changes it, and without which no scene would
 //! be right. All begin from the scene before the drag, so that a drag back takes them back.
 
-use nabiki::groom::Style;
+use nabiki_groom::Style;
 use nabiki_scene::Scene;
 use nabiki_scene::scene::{FormChoice, HairSource};
 

@@ -156,13 +156,14 @@ mod tests {
     use std::sync::LazyLock;
 
     use nabiki::Head;
+    use nabiki_groom::bust;
     use nabiki_render::Bounds;
     use nabiki_render::settings::Camera;
 
     use super::*;
     use crate::view::camera::Orbit;
 
-    static BUST: LazyLock<Head> = LazyLock::new(Head::builtin);
+    static BUST: LazyLock<Head> = LazyLock::new(bust);
 
     fn skins() -> Skins<'static> {
         Skins {

@@ -5,10 +5,10 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use glam::Vec3;
-use nabiki::groom::{Growth, grow_run_while};
-use nabiki::roots::{self, Root};
 use nabiki::strands::check_points;
 use nabiki::{Hair, Head, SettingError, Strands, subset};
+use nabiki_groom::roots::{self, Root};
+use nabiki_groom::{Growth, grow_run_while};
 use nabiki_io::cache::Shard;
 use nabiki_io::hair::{self, ImportReport};
 use nabiki_io::identity::StrandSum;

@@ -19,10 +19,8 @@ use crate::dynamics::sweep::Swept as _;
 use crate::dynamics::{ForceSpace, Form, Motion};
 use crate::field::{Keyframe, KeyframedField};
 use crate::free_form::FreeForm;
-use crate::groom::{Growth, Style, grow};
 use crate::pseudo_force::PseudoForce;
-use crate::roots::Hairline;
-use crate::{Head, Mesh, Pose};
+use crate::{Mesh, Pose, sketch};
 
 const FRAMES: u32 = 90;
 const SEGMENTS: usize = 18;
@@ -49,11 +47,8 @@ fn ball(radius: f32) -> Mesh {
 
 #[test]
 fn the_twins_agree_in_each_frame_among_bodies_that_hair_slides_along() {
-    let head = Head::builtin();
-    let (hairline, style) = (Hairline::default(), Style::default());
-    let growth =
-        Growth { hairline: &hairline, style: &style, strands: 64, segments: SEGMENTS, segment_length: 1.0, seed: 3 };
-    let hair = grow(&head, &growth, 64).unwrap().strands;
+    let head = sketch::head();
+    let hair = sketch::hair(&head, 64, SEGMENTS, 1.0);
     let turned = |n: u32| Quat::from_rotation_y(0.3 * (0.1 * n as f32).sin());
     let poses: Vec<Pose> = (0..=FRAMES)
         .map(|n| Pose { position_cm: Vec3::new(0.1 * n as f32, 150.0, 0.0), rotation: turned(n) })

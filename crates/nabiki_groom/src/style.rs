@@ -1,9 +1,8 @@
 //! Settings of a hairstyle: the table `[hair.style]` of a scene.
 
-use glam::{Vec2, Vec3};
-
-use crate::setting::{Place, refused};
-use crate::{Head, SettingError, settings, words};
+use nabiki::glam::{Vec2, Vec3};
+use nabiki::setting::{Place, refused};
+use nabiki::{Head, SettingError, settings, words};
 
 settings! {
     /// A hairstyle: how hair leaves the scalp, how stiff and how long it is, where it is combed and cut.
@@ -79,7 +78,7 @@ macro_rules! by_region {
 
         impl $name {
             /// The values in the order of [`Region::ALL`].
-            pub(super) fn each(&self) -> [f32; 4] {
+            pub(crate) fn each(&self) -> [f32; 4] {
                 [self.top, self.sides, self.back, self.fringe]
             }
         }
@@ -354,5 +353,17 @@ words! {
         Straight = "straight",
         /// Those of the bent strand, the heavy elastica.
         Deformed = "deformed",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Style;
+    use crate::Hairline;
+
+    #[test]
+    fn a_default_is_in_its_range() {
+        assert_eq!(Style::default().check(), Ok(()));
+        assert_eq!(Hairline::default().check(), Ok(()));
     }
 }

@@ -2,9 +2,8 @@
 
 use std::f32::consts::PI;
 
-use glam::Vec3;
-
-use crate::{Ellipsoid, settings};
+use nabiki::glam::Vec3;
+use nabiki::{Ellipsoid, settings};
 
 settings! {
     /// Where hair grows: how far the hairline runs below the crown, all about the head.

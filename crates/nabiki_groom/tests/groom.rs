@@ -3,13 +3,13 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{LazyLock, Mutex};
 
-use glam::{DVec2, DVec3, Vec2, Vec3};
-use nabiki::groom::cantilever::{Beam, Hold, Workspace};
-use nabiki::groom::style::{Cut, Length, LeverArms, Lift, Region, Stiffness};
-use nabiki::groom::{GUIDES, Growth, Style, groom, grow, grow_run_while};
+use nabiki::glam::{DVec2, DVec3, Vec2, Vec3};
 use nabiki::hair::Attributes;
-use nabiki::roots::{Hairline, Root, spread};
 use nabiki::{Head, Strands};
+use nabiki_groom::cantilever::{Beam, Hold, Workspace};
+use nabiki_groom::roots::{Root, spread};
+use nabiki_groom::style::{Cut, Length, LeverArms, Lift, Region, Stiffness};
+use nabiki_groom::{GUIDES, Growth, Hairline, Style, bust, groom, grow, grow_run_while};
 use proptest::prelude::*;
 use serde::Deserialize;
 
@@ -43,7 +43,7 @@ struct Styled {
     strands: Strands,
 }
 
-static HEAD: LazyLock<Head> = LazyLock::new(Head::builtin);
+static HEAD: LazyLock<Head> = LazyLock::new(bust);
 
 static STYLES: LazyLock<Vec<Styled>> = LazyLock::new(|| {
     let styled = |(name, text)| {

@@ -3,14 +3,14 @@
 use std::f32::consts::TAU;
 use std::sync::LazyLock;
 
-use glam::{Vec2, Vec3, Vec3Swizzles};
-use nabiki::groom::style::{Curl, Length, Lift};
-use nabiki::groom::{Style, groom};
-use nabiki::roots::{Hairline, Root, spread};
+use nabiki::glam::{Vec2, Vec3, Vec3Swizzles};
 use nabiki::{Head, Strands};
+use nabiki_groom::roots::{Root, spread};
+use nabiki_groom::style::{Curl, Length, Lift};
+use nabiki_groom::{Hairline, Style, bust, groom};
 use proptest::prelude::*;
 
-static HEAD: LazyLock<Head> = LazyLock::new(Head::builtin);
+static HEAD: LazyLock<Head> = LazyLock::new(bust);
 
 /// A curl of chance only in hand and phase, which begins early.
 const EVEN: Curl = Curl { radius: 0.6, pitch: 2.5, from: 0.1, flatness: 0.0, gather: 0.0, variation: 0.0, frizz: 0.0 };

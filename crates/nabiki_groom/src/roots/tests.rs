@@ -1,12 +1,13 @@
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use glam::Vec3;
+use nabiki::Head;
+use nabiki::glam::{Vec2, Vec3};
 
 use super::{Hairline, MOST, Root, spread, spread_first, spread_first_while};
-use crate::Head;
+use crate::bust;
 
-static BUST: LazyLock<Head> = LazyLock::new(Head::builtin);
+static BUST: LazyLock<Head> = LazyLock::new(bust);
 
 fn roots(count: usize, seed: u64) -> Vec<Root> {
     spread(&BUST, &Hairline::default(), count, seed).unwrap()
@@ -225,8 +226,8 @@ fn texture_coordinates_are_those_of_the_mesh_where_it_has_them() {
     }
     // Linear over each triangle, a linear function of the place is met but for rounding and for the step onto the
     // sampled skin.
-    let linear = |p: Vec3| glam::Vec2::new(0.02 * p.x + 0.5, 0.01 * p.y - 0.015 * p.z);
-    let mut head = Head::builtin();
+    let linear = |p: Vec3| Vec2::new(0.02 * p.x + 0.5, 0.01 * p.y - 0.015 * p.z);
+    let mut head = bust();
     let at_corners = |t: &[u32; 3]| t.map(|v| linear(head.mesh.positions[v as usize]));
     head.mesh.corner_uvs = Some(head.mesh.triangles.iter().map(at_corners).collect());
     for root in spread(&head, &Hairline::default(), 500, 6).unwrap() {
@@ -237,15 +238,15 @@ fn texture_coordinates_are_those_of_the_mesh_where_it_has_them() {
 // Every edge is a seam here: each triangle lies at a place of the texture of its own, named by its number.
 #[test]
 fn a_root_beside_a_seam_has_the_texture_coordinates_of_its_own_side() {
-    let mut head = Head::builtin();
+    let mut head = bust();
     head.mesh.corner_uvs =
-        Some((0..head.mesh.triangles.len()).map(|t| [glam::Vec2::new(t as f32, -(t as f32)); 3]).collect());
+        Some((0..head.mesh.triangles.len()).map(|t| [Vec2::new(t as f32, -(t as f32)); 3]).collect());
     for root in spread(&head, &Hairline::default(), 500, 6).unwrap() {
         let t = root.uv.x as usize;
         assert_eq!(root.uv.to_array(), [t as f32, -(t as f32)]);
         let corners = head.mesh.triangles[t].map(|v| head.mesh.positions[v as usize]);
         // The step onto the sampled skin takes some hundredths of a millimetre.
-        let [low, high] = crate::strands::bounds(&corners);
+        let [low, high] = nabiki::strands::bounds(&corners);
         let (low, high) = (low - 0.01, high + 0.01);
         assert!(root.position.cmpge(low).all() && root.position.cmple(high).all(), "{root:?} in {corners:?}");
     }

@@ -1,15 +1,15 @@
 //! What a style asks of one strand: from its root to the direction, length, stiffness and loads it starts with.
 
-use glam::{DVec2, DVec3, IVec3, Vec3};
+use nabiki::glam::{DVec2, DVec3, IVec3, Vec3};
+use nabiki::{Ellipsoid, Head};
 
-use super::chance::Chance;
-use super::curl::{Clump, StrandCurl};
-use super::style::{Ponytail, Region, Style};
+use crate::chance::Chance;
+use crate::curl::{Clump, StrandCurl};
 use crate::roots::Root;
-use crate::{Ellipsoid, Head};
+use crate::style::{Ponytail, Region, Style};
 
 /// Channels of chance, one use each.
-pub(super) mod channel {
+pub(crate) mod channel {
     pub const LENGTH: u64 = 0;
     pub const STRAY: u64 = 1;
     pub const DEPTH: u64 = 2;
@@ -31,7 +31,7 @@ pub(super) mod channel {
 
 /// One strand's share of the style (head space, cm; loads in units of its own weight).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct StrandStyle {
+pub(crate) struct StrandStyle {
     /// The root.
     pub root: DVec3,
     /// Direction of the hair at the root (unit vector).
@@ -64,7 +64,7 @@ pub(super) struct StrandStyle {
 
 /// Where a strand passes the band of a ponytail (head space, cm), and its direction behind that (unit vector).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Tie {
+pub(crate) struct Tie {
     pub at: DVec3,
     pub behind: DVec3,
 }
@@ -90,18 +90,18 @@ const FLARE: f64 = 0.25;
 
 impl StrandStyle {
     /// How far it reaches from its line at the distance `s` along that (cm).
-    pub(super) fn curl_reach(&self, s: f64) -> f64 {
+    pub(crate) fn curl_reach(&self, s: f64) -> f64 {
         self.curl.map_or(0.0, |curl| curl.reach(s))
     }
 
     /// Length of the line about which the whole strand winds, in segments no longer than `longest` (cm): its own length,
     /// if it does not curl.
-    pub(super) fn line_length(&self, longest: f64) -> f64 {
+    pub(crate) fn line_length(&self, longest: f64) -> f64 {
         self.curl.map_or(self.length, |curl| curl.line_length(self.length, longest))
     }
 
     /// The load per unit length at arc length `s` (cm).
-    pub(super) fn load(&self, s: f64) -> DVec3 {
+    pub(crate) fn load(&self, s: f64) -> DVec3 {
         self.weight + self.comb * (-s / self.comb_decay).exp()
     }
 }
@@ -140,7 +140,7 @@ fn region_of([top, sides, back, fringe]: [f32; 4]) -> Region {
 }
 
 /// The region that the style counts a root to.
-pub(super) fn region(head: &Head, style: &Style, root: &Root, seed: u64) -> Region {
+pub(crate) fn region(head: &Head, style: &Style, root: &Root, seed: u64) -> Region {
     region_of(shares(&head.ellipsoid, style, root.position, Chance::at_point(seed, root.position)))
 }
 
@@ -188,7 +188,7 @@ fn away_from_parting(style: &Style, root: DVec3, strand: Chance, clump: Chance) 
 }
 
 /// What the style asks of the strand at `root`.
-pub(super) fn strand_style(
+pub(crate) fn strand_style(
     head: &Head,
     style: &Style,
     &Root { position, normal, above_hairline, .. }: &Root,

@@ -3,30 +3,18 @@
 //! Every strand is styled alone, from its root, the style and the seed: any subset of roots, in any order, gives the
 //! same strands to the bit, as does any number of threads.
 
-pub(crate) mod chance;
-mod curl;
-mod cut;
-mod drape;
-mod ears;
-mod strand_style;
-
-pub mod cantilever;
-pub mod style;
-
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use nabiki::error::check_positive;
+use nabiki::hair::Attributes;
+use nabiki::{Hair, Head, SettingError, Strands};
 use rayon::prelude::*;
 
-pub use style::Style;
-
-use crate::error::check_positive;
-use crate::hair::Attributes;
-use crate::roots::Root;
-use crate::roots::{self, Hairline};
-use crate::{Hair, Head, SettingError, Strands};
-use drape::{Draping, Ground};
-use ears::EarHills;
-use style::Region;
+use crate::drape::{Draping, Ground};
+use crate::ears::EarHills;
+use crate::roots::{self, Hairline, Root};
+use crate::style::{Region, Style};
+use crate::{cut, strand_style};
 
 /// Strands styled by one task.
 const STRANDS_A_TASK: usize = 64;

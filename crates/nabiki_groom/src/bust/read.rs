@@ -1,31 +1,16 @@
-//! The built-in bust, read from `bust.bin`: its mesh and its sampled distance.
-//!
-//! `nabiki_bust` (in the same repository) sculpts it and writes that file. Rounded to multiples of a power of two, it
-//! is the same on every machine, and its halves are mirror images to the bit.
+//! What the sculptor wrote, read again: its numbers, and the mesh that they make.
 
-mod layout;
-mod numbers;
+use nabiki::Mesh;
+use nabiki::glam::Vec3;
 
-use glam::{UVec3, Vec3};
+use super::layout::{self, POSITION, Quantised};
+use super::numbers::{Coder, KINDS, Kind, LONGEST_QUOTIENT, Usual, unfold};
 
-use crate::distance::{COARSE, EDGE, Samples, SkinDistance};
-use crate::{Ellipsoid, Mesh};
-use layout::{CELL, COARSE_DISTANCE, DISTANCE, FINE, POSITION, Quantised};
-use numbers::{Coder, KINDS, Kind, LONGEST_QUOTIENT, Usual, unfold};
-
-/// E of the built-in bust: the half axes that make the paper's unit of length a centimetre.
-pub(super) const ELLIPSOID: Ellipsoid = Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::new(9.5, 11.0, 7.8) };
-
-/// What `nabiki_bust` wrote.
-pub(super) const BAKED: &[u8] = include_bytes!("bust.bin");
-
-/// The mesh and the distance to it.
-pub(super) fn read(baked: &[u8]) -> (Mesh, SkinDistance) {
+/// The numbers in what was written.
+pub fn numbers(baked: &[u8]) -> Quantised {
     let mut bust = Quantised::default();
     layout::code(&mut bust, &mut Reader::new(baked));
-    let mesh = mesh(&bust);
-    let distance = SkinDistance::from_samples(&mesh, samples(&bust));
-    (mesh, distance)
+    bust
 }
 
 /// Reads numbers bit by bit, the highest bit of a byte first; past the end it reads noughts.
@@ -82,7 +67,7 @@ impl Coder for Reader<'_> {
 }
 
 /// Both halves of the mesh: the vertices of the right one and of the middle come first.
-fn mesh(bust: &Quantised) -> Mesh {
+pub fn mesh(bust: &Quantised) -> Mesh {
     let counts = [0, 1, 2].map(|axis| bust.planes[axis].len());
     let [nx, ny, _] = counts;
     let cells = layout::skin_cells(counts, &bust.inside);
@@ -140,29 +125,4 @@ fn halves(vertices: &[[i32; 3]], [a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
         (0..3).map(|i| i64::from(v[i] - w[i]).pow(2)).sum::<i64>()
     };
     if squared(a, c) <= squared(b, d) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
-}
-
-/// The sampled distance, whose right half stands for both.
-fn samples(bust: &Quantised) -> Samples {
-    let cells = bust.cells.map(|cells| cells as usize);
-    let [nx, ny, nz] = cells.map(|cells| cells + 1);
-    let [fx, fy] = [cells[0] * FINE + 1, cells[1] * FINE + 1];
-    let (mut block_of, mut fine) = (Vec::with_capacity(bust.near.len()), Vec::new());
-    for (cell, &near) in bust.near.iter().enumerate() {
-        if !near {
-            block_of.push(COARSE);
-            continue;
-        }
-        block_of.push(fine.len() as u32);
-        let corner = layout::place(cell, cells);
-        fine.push(std::array::from_fn(|at| {
-            let inner = layout::place(at, [EDGE; 3]);
-            let [x, y, z] = [0, 1, 2].map(|axis| corner[axis] * FINE + inner[axis]);
-            DISTANCE * bust.fine[(z * fy + y) * fx + x] as f32
-        }));
-    }
-    let coarse = bust.coarse.iter().map(|&distance| COARSE_DISTANCE * distance as f32).collect();
-    let low = CELL * Vec3::new(bust.low[0] as f32, bust.low[1] as f32, 0.0);
-    let nodes = UVec3::new(nx as u32, ny as u32, nz as u32);
-    Samples { low, cell: CELL, nodes, mirrored: true, coarse, block_of, fine }
 }

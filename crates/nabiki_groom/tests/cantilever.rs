@@ -1,7 +1,7 @@
 //! Laws of the cantilever beam (method section 4).
 
-use glam::{DMat3, DVec3};
-use nabiki::groom::cantilever::{Beam, Hold, MOST_PASSES, Workspace};
+use nabiki::glam::{DMat3, DVec3};
+use nabiki_groom::cantilever::{Beam, Hold, MOST_PASSES, Workspace};
 use proptest::prelude::*;
 
 const DOWN: DVec3 = DVec3::NEG_Y;

@@ -6,14 +6,14 @@
 
 use std::ops::Range;
 
-use glam::DVec3;
+use nabiki::Head;
+use nabiki::glam::DVec3;
 
-use super::cantilever::{Beam, Hold, Workspace};
-use super::curl::StrandCurl;
-use super::ears::EarHills;
-use super::strand_style::{StrandStyle, Tie};
-use super::style::{LeverArms, Volume};
-use crate::Head;
+use crate::cantilever::{Beam, Hold, Workspace};
+use crate::curl::StrandCurl;
+use crate::ears::EarHills;
+use crate::strand_style::{StrandStyle, Tie};
+use crate::style::{LeverArms, Volume};
 
 /// A free piece is settled to this (rad): a hundredth of a millimetre on 18 cm.
 const SETTLED: f64 = 5e-5;
@@ -52,7 +52,7 @@ struct Keep {
 
 /// Nodes of one strand, and what is needed to find them; kept from strand to strand.
 #[derive(Debug, Default)]
-pub(super) struct Draping {
+pub(crate) struct Draping {
     /// The nodes, root first (head space, cm).
     pub nodes: Vec<DVec3>,
     directions: Vec<DVec3>,
@@ -63,7 +63,7 @@ pub(super) struct Draping {
 
 /// What strands have in common.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ground<'a> {
+pub(crate) struct Ground<'a> {
     pub head: &'a Head,
     /// What hair from above passes over, if the style wants it to.
     pub ears: Option<&'a EarHills>,
@@ -163,7 +163,7 @@ impl Ground<'_> {
     }
 
     /// Lays out a strand of `length` (cm) in equal segments: its nodes end up in `draping.nodes`.
-    pub(super) fn drape(&self, styled: &StrandStyle, length: f64, draping: &mut Draping) {
+    pub(crate) fn drape(&self, styled: &StrandStyle, length: f64, draping: &mut Draping) {
         let Draping { nodes, directions, loads, free, beam: workspace } = draping;
         let k = segments(length, self.segment);
         let d = length / k as f64;
@@ -259,7 +259,7 @@ impl Ground<'_> {
 
     /// Winds a strand of `length` (cm) about the line that it has been draped in; what would lie in the skin is turned out
     /// of it.
-    pub(super) fn wind(&self, styled: &StrandStyle, curl: &StrandCurl, length: f64, draping: &mut Draping) {
+    pub(crate) fn wind(&self, styled: &StrandStyle, curl: &StrandCurl, length: f64, draping: &mut Draping) {
         let Draping { nodes, directions, .. } = draping;
         let between = nodes[0].distance(nodes[1]);
         let d = length / segments(length, self.segment) as f64;
@@ -321,7 +321,7 @@ fn bend_at(tied: usize, d: f64, directions: &mut [DVec3]) {
 }
 
 /// Number of equal segments of a strand: as few as are not longer than `longest`.
-pub(super) fn segments(length: f64, longest: f64) -> usize {
+pub(crate) fn segments(length: f64, longest: f64) -> usize {
     // A ratio that only rounding carries beyond a whole number is that number.
     ((length / longest - 1e-5).ceil() as usize).max(1)
 }

@@ -14,7 +14,7 @@
 //! their ratio counts. Everything is in f64, without a transcendental function that could differ between platforms
 //! save one logarithm in the choice of a step's length.
 
-use glam::DVec3;
+use nabiki::glam::DVec3;
 
 /// Passes after which [`Beam::settle`] gives up; under 40 are needed for any strand of the tests.
 pub const MOST_PASSES: usize = 400;
@@ -249,7 +249,7 @@ impl Workspace {
 }
 
 /// `u`, normal to `from`, after the smallest turn that takes `from` to `to` (unit vectors, not opposite).
-pub(super) fn carried(u: DVec3, from: DVec3, to: DVec3) -> DVec3 {
+pub(crate) fn carried(u: DVec3, from: DVec3, to: DVec3) -> DVec3 {
     let u = u - (from + to) * (u.dot(to) / (1.0 + from.dot(to)));
     (u - to * u.dot(to)).normalize()
 }

@@ -3,9 +3,8 @@
 //! Seen from the middle of the head ellipsoid E, with E scaled to a sphere, the hill is the upper envelope of
 //! paraboloids that stand on the points of the head's sides: an ear's rim is its crest.
 
-use glam::{DVec3, Vec3};
-
-use crate::Head;
+use nabiki::Head;
+use nabiki::glam::{DVec3, Vec3};
 
 /// Steps of the samples in azimuth and in height, over the whole sphere and over its middle.
 const AROUND: usize = 96;
@@ -20,7 +19,7 @@ const ASIDE: f32 = 0.7;
 
 /// Height of the hills over E, in radii of E.
 #[derive(Clone, Debug)]
-pub(super) struct EarHills {
+pub(crate) struct EarHills {
     center: DVec3,
     half_axes: DVec3,
     /// Rows of azimuth, one a height.
@@ -29,7 +28,7 @@ pub(super) struct EarHills {
 
 impl EarHills {
     /// Finds them on any head.
-    pub(super) fn new(head: &Head) -> Self {
+    pub(crate) fn new(head: &Head) -> Self {
         let (center, half_axes) = (head.ellipsoid.center, head.ellipsoid.half_axes);
         let crests: Vec<(Vec3, f32)> = head
             .mesh
@@ -56,7 +55,7 @@ impl EarHills {
     }
 
     /// About how far `p` is above the hills (cm), negative under one; large where there is none.
-    pub(super) fn above(&self, p: DVec3) -> f64 {
+    pub(crate) fn above(&self, p: DVec3) -> f64 {
         let offset = p - self.center;
         let q = offset / self.half_axes;
         let r = q.length();
@@ -81,7 +80,7 @@ mod tests {
 
     #[test]
     fn both_ears_are_under_a_hill_and_the_face_is_not() {
-        let head = Head::builtin();
+        let head = crate::bust();
         let hills = EarHills::new(&head);
         let ears: Vec<DVec3> =
             head.mesh.positions.iter().filter(|p| p.z.abs() > 8.3 && p.y.abs() < 4.0).map(|p| p.as_dvec3()).collect();

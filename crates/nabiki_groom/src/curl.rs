@@ -6,13 +6,13 @@
 //! node has its radius. What is across is given to the segment's direction, not to the node, so that segments keep their
 //! lengths where the line bends.
 
-use glam::{DVec2, DVec3, Vec3};
+use nabiki::glam::{DVec2, DVec3, Vec3};
 
-use super::cantilever::carried;
-use super::chance::Chance;
-use super::drape::segments;
-use super::strand_style::channel;
-use super::style::Curl;
+use crate::cantilever::carried;
+use crate::chance::Chance;
+use crate::drape::segments;
+use crate::strand_style::channel;
+use crate::style::Curl;
 
 /// h is settled to about this part of a segment, and found within so many rounds.
 const SETTLED: f64 = 1e-9;
@@ -20,7 +20,7 @@ const MOST_ROUNDS: usize = 60;
 
 /// How one strand curls (cm, rad).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct StrandCurl {
+pub(crate) struct StrandCurl {
     /// Distance from the line.
     radius: f64,
     /// Radians a cm of the line, negative for a left hand.
@@ -45,7 +45,7 @@ fn smooth(t: f64) -> f64 {
 
 /// A clump: its middle, its chance, and the way out of the head there (unit vector).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Clump {
+pub(crate) struct Clump {
     pub middle: Vec3,
     pub chance: Chance,
     pub outward: DVec3,

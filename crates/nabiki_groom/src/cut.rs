@@ -1,10 +1,10 @@
 //! Cutting: the length at which a strand ends on a plane.
 
-use glam::DVec3;
+use nabiki::glam::DVec3;
 
-use super::drape::{Draping, Ground};
-use super::strand_style::StrandStyle;
-use super::style::Cut;
+use crate::drape::{Draping, Ground};
+use crate::strand_style::StrandStyle;
+use crate::style::Cut;
 
 /// A strand is cut anew this many times at most, since what is left, being lighter, hangs differently.
 const TRIMS: usize = 6;
@@ -34,7 +34,7 @@ fn crossing(cut: &Cut, styled: &StrandStyle, nodes: &[DVec3]) -> Option<f64> {
 }
 
 /// Drapes a strand, cutting it wherever a plane that concerns it says so, and winds it, if it curls.
-pub(super) fn drape_and_cut(ground: &Ground<'_>, cuts: &[Cut], styled: &StrandStyle, draping: &mut Draping) {
+pub(crate) fn drape_and_cut(ground: &Ground<'_>, cuts: &[Cut], styled: &StrandStyle, draping: &mut Draping) {
     let whole = styled.line_length(ground.segment);
     let line = line_cut(ground, cuts, styled, whole, draping);
     let Some(curl) = &styled.curl else { return };

@@ -7,12 +7,11 @@
 
 mod hairline;
 
-use glam::{Vec2, Vec3};
+use nabiki::glam::{Vec2, Vec3};
+use nabiki::random::{GOLDEN_GAMMA, finalise, unit};
+use nabiki::subset::{self, evenly_while};
+use nabiki::{Head, SettingError};
 use rayon::prelude::*;
-
-use crate::random::{GOLDEN_GAMMA, finalise, unit};
-use crate::subset::{self, farthest_first};
-use crate::{Head, SettingError};
 
 pub use hairline::Hairline;
 
@@ -23,7 +22,7 @@ pub struct Root {
     pub position: Vec3,
     /// Outward normal of the skin there, of unit length.
     pub normal: Vec3,
-    /// Texture coordinates of the skin there, v upward: the mesh's own, else [`Ellipsoid::uv`](crate::Ellipsoid::uv) of E.
+    /// Texture coordinates of the skin there, v upward: the mesh's own, else [`Ellipsoid::uv`](nabiki::Ellipsoid::uv) of E.
     pub uv: Vec2,
     /// How far above the hairline it is, in the unit of that ([`Hairline`]).
     pub above_hairline: f32,
@@ -126,7 +125,7 @@ pub fn spread_first_while(
         drawn += batch;
     }
     let places: Vec<Vec3> = candidates.iter().map(|root| root.position).collect();
-    let Some(chosen) = farthest_first(&places, count.min(shown), &|| goes_on()) else { return Ok(None) };
+    let Some(chosen) = evenly_while(&places, count.min(shown), &|| goes_on()) else { return Ok(None) };
     Ok(Some(chosen.into_par_iter().map(|i| onto_sampled_skin(head, candidates[i])).collect()))
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Both halves are alike: z stands for |z| throughout, t for how far along a feature (each line says of which). Head space, cm.
 
-use glam::Vec3;
+use nabiki::glam::Vec3;
 
 /// Where the brow runs: `t` 0 beside the nose, 1 at its end.
 pub fn brow_line(t: f32) -> f32 {
@@ -168,11 +168,10 @@ fn grain(x: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Head;
 
     #[test]
     fn paint_is_alike_on_both_sides_and_lies_on_the_face_alone() {
-        let head = Head::builtin();
+        let head = crate::bust();
         let mut seen = Paint::default();
         for &p in &head.mesh.positions {
             let paint = Paint::at(p);

@@ -1,8 +1,7 @@
 //! Chance that does not depend on order: every draw is a hash of the seed, of a place and of a channel.
 
-use glam::{DVec3, IVec3, Vec3};
-
-use crate::random::{GOLDEN_GAMMA, finalise, unit};
+use nabiki::glam::{DVec3, IVec3, Vec3};
+use nabiki::random::{GOLDEN_GAMMA, finalise, unit};
 
 /// The chance of one place, usually a root: the same numbers whatever other strands there are.
 #[derive(Clone, Copy, Debug)]
@@ -15,29 +14,29 @@ fn hash(seed: u64, words: [u32; 3]) -> u64 {
 
 impl Chance {
     /// That of a point, by the bits of its coordinates.
-    pub(super) fn at_point(seed: u64, p: Vec3) -> Self {
+    pub(crate) fn at_point(seed: u64, p: Vec3) -> Self {
         // Adding 0 makes one zero of the two.
         Self(hash(seed, (p + 0.0).to_array().map(f32::to_bits)))
     }
 
     /// That of a cell of a grid.
-    pub(super) fn at_cell(seed: u64, cell: IVec3) -> Self {
+    pub(crate) fn at_cell(seed: u64, cell: IVec3) -> Self {
         Self(hash(seed.wrapping_add(1), cell.to_array().map(|i| i as u32)))
     }
 
     /// Uniform in 0..1, one number a channel.
-    pub(super) fn unit(self, channel: u64) -> f64 {
+    pub(crate) fn unit(self, channel: u64) -> f64 {
         unit(finalise(self.0.wrapping_add(channel.wrapping_mul(0xD134_2543_DE82_EF95))))
     }
 
     /// Bell-shaped (the sum of three uniform draws), mean 0, standard deviation 1, within -3..3.
-    pub(super) fn bell(self, channel: u64) -> f64 {
+    pub(crate) fn bell(self, channel: u64) -> f64 {
         let draw = |i| self.unit(3 * channel + 1_000 + i);
         2.0 * (draw(0) + draw(1) + draw(2)) - 3.0
     }
 
     /// A vector of three bell-shaped components.
-    pub(super) fn vector(self, channel: u64) -> DVec3 {
+    pub(crate) fn vector(self, channel: u64) -> DVec3 {
         DVec3::new(self.bell(3 * channel + 500), self.bell(3 * channel + 501), self.bell(3 * channel + 502))
     }
 }

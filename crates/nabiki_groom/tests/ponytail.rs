@@ -2,13 +2,13 @@
 
 use std::sync::LazyLock;
 
-use glam::Vec3;
-use nabiki::groom::style::{Length, Ponytail};
-use nabiki::groom::{Style, groom};
-use nabiki::roots::{Hairline, Root, spread};
+use nabiki::glam::Vec3;
 use nabiki::{Head, Strands};
+use nabiki_groom::roots::{Root, spread};
+use nabiki_groom::style::{Length, Ponytail};
+use nabiki_groom::{Hairline, Style, bust, groom};
 
-static HEAD: LazyLock<Head> = LazyLock::new(Head::builtin);
+static HEAD: LazyLock<Head> = LazyLock::new(bust);
 static ROOTS: LazyLock<Vec<Root>> = LazyLock::new(|| spread(&HEAD, &Hairline::default(), 800, 5).unwrap());
 
 const TAIL: Ponytail = Ponytail { at: Vec3::new(-12.5, 6.0, 0.0), radius: 0.9, direction: Vec3::new(-1.0, 0.4, 0.0) };
