@@ -10,14 +10,6 @@ use nabiki::body::{Body, Contact, Surface};
 use nabiki::dynamics::{Dynamics, Form, Simulation, Stepper, earth_gravity, gain};
 use nabiki::field::Field;
 use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours};
-use nabiki::groom::{Growth, Style, grow};
-use nabiki::roots::Hairline;
-||||||| 8d1f379
-use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours, earth_gravity};
-use nabiki::groom::{Growth, Style, grow};
-use nabiki::roots::Hairline;
-=======
-use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours, earth_gravity};
 use nabiki::{Head, Pose, Profile, Strands};
 use nabiki_groom::{Growth, Hairline, Style, bust, grow};
 

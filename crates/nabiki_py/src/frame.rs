@@ -67,14 +67,14 @@ impl Frame {
     }
 
     fn __repr__(&self) -> String {
-        let (strands, points) = (self.built.hair.strands.len(), self.points.get().points().len());
+        let (strands, points) = (self.built.strands().len(), self.points.get().points().len());
         format!("<nabiki.Frame {}: {strands} strands, {points} points (cm, head space)>", self.number)
     }
 }
 
 /// The offsets of the strands of a scene, to be shared by its frames.
 pub fn offsets(py: Python<'_>, built: &BuiltScene) -> Py<PyArray1<u32>> {
-    let array = PyArray1::from_slice(py, built.hair.strands.starts());
+    let array = PyArray1::from_slice(py, built.strands().starts());
     array.readwrite().make_nonwriteable();
     array.unbind()
 }

@@ -111,7 +111,7 @@ impl Simulation {
         let poses = way.step(built, *next, told);
         let mut points = rooms.take(stepper.strands().points().len());
         let (field, functions): (&dyn field::Field, &[Arc<PythonField>]) = match &force {
-            Force::Own => (&*built.field, fields),
+            Force::Own => (&*built.forces.field, fields),
             Force::Everywhere(wind) => (wind, &[]),
             Force::Function(function) => (&**function, std::slice::from_ref(function)),
         };
@@ -285,6 +285,6 @@ impl Simulation {
     /// The number of each strand in the whole hair of the scene: (S,) uint32.
     #[getter]
     fn ids<'py>(&self, py: Python<'py>) -> Hinted<'py, UInt32> {
-        Hinted::new(PyArray1::from_slice(py, self.built.ids()))
+        Hinted::new(PyArray1::from_slice(py, &self.built.groom.ids))
     }
 }

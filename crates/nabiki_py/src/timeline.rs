@@ -55,7 +55,7 @@ impl Timeline {
     fn play<'py>(&self, py: Python<'py>) -> PyResult<Hinted<'py, Float32>> {
         let frames = self.built.frames() as usize + 1;
         let film = self.asked(py, |timeline| {
-            let mut film = vec![Vec3::ZERO; frames * self.built.hair.strands.points().len()];
+            let mut film = vec![Vec3::ZERO; frames * self.built.strands().points().len()];
             timeline.play_into(&mut film);
             film
         })?;
@@ -88,7 +88,7 @@ impl Timeline {
     /// The number of each strand in the whole hair of the scene: (S,) uint32.
     #[getter]
     fn ids<'py>(&self, py: Python<'py>) -> Hinted<'py, UInt32> {
-        Hinted::new(PyArray1::from_slice(py, self.built.ids()))
+        Hinted::new(PyArray1::from_slice(py, &self.built.groom.ids))
     }
 
     fn __repr__(&self) -> String {

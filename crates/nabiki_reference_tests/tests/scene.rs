@@ -17,19 +17,19 @@ fn sintels_hair_lands_on_her_head() {
         shared("hair/sintel_hair_16pts.tfx").display()
     );
     let stage = Scene::parse(&text, Path::new("sintel.toml"), &[]).unwrap().build(Shown::All).unwrap();
-    assert_eq!(stage.hair.strands.len(), 500);
-    let report = stage.import_report.unwrap();
+    assert_eq!(stage.strands().len(), 500);
+    let report = stage.groom.imported.as_ref().unwrap().report;
     assert_eq!((report.strands_in_file, report.degenerate.dropped_strands), (11_400, 0));
-    assert!(stage.head.ellipsoid.center.length() < 1e-3, "the origin is the centre of the fitted ellipsoid");
+    assert!(stage.model.head.ellipsoid.center.length() < 1e-3, "the origin is the centre of the fitted ellipsoid");
     // The README: root to surface 0.36 mm in the median, 6.1 mm at worst.
-    let mut off: Vec<f32> = stage.hair.strands.iter().map(|s| stage.head.distance(s[0]).abs()).collect();
+    let mut off: Vec<f32> = stage.strands().iter().map(|s| stage.model.head.distance(s[0]).abs()).collect();
     off.sort_by(f32::total_cmp);
     assert!(off[250] < 0.1 && off[499] < 0.9, "median {} cm, worst {} cm", off[250], off[499]);
     // The back of the head carries more hair than the face.
-    let behind = stage.hair.strands.iter().filter(|s| s[0].x < 0.0).count();
+    let behind = stage.strands().iter().filter(|s| s[0].x < 0.0).count();
     assert!(behind > 300, "{behind} of 500 roots behind the centre");
-    let placement = stage.hair_placement.unwrap();
-    assert_eq!(placement, stage.placement, "the hair's file lies as the head's");
+    let placement = stage.groom.imported.as_ref().unwrap().placement;
+    assert_eq!(placement, stage.model.placement, "the hair's file lies as the head's");
 }
 
 /// A new scene about a shared head and hair, and its guesses.
@@ -64,10 +64,10 @@ fn a_new_scene_takes_what_is_stated_and_guesses_the_rest() {
             None => assert_eq!(said, None, "{head}"),
         }
         let built = scene.build(Shown::AtMost(20)).unwrap();
-        assert_eq!(built.placement.unit.cm, cm, "{head}");
-        assert_eq!(built.placement.up, nabiki_io::Axis::PlusY, "{head}");
+        assert_eq!(built.model.placement.unit.cm, cm, "{head}");
+        assert_eq!(built.model.placement.up, nabiki_io::Axis::PlusY, "{head}");
         // None of them is open where hair grows.
-        assert!(built.head.openings.iter().all(|opening| opening.missing.is_none()), "{head}");
+        assert!(built.model.head.openings.iter().all(|opening| opening.missing.is_none()), "{head}");
     }
 }
 

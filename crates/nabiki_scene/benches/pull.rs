@@ -126,7 +126,7 @@ struct Tried {
 fn pulls(built: &BuiltScene, options: &Options, random: &mut Random) -> Vec<Tried> {
     let mut timeline = built.timeline().expect("a scene that moves");
     let film = timeline.play();
-    let strands = &built.hair.strands;
+    let strands = built.strands();
     let mut tried = Vec::new();
     for _ in 0..options.frames {
         let mut drawn = || {
@@ -164,7 +164,7 @@ fn pulls(built: &BuiltScene, options: &Options, random: &mut Random) -> Vec<Trie
 /// Whether a lock is hair that a wind moves: not all of it lies before the band.
 fn moves(built: &BuiltScene, lock: &Lock) -> bool {
     let Form::Free(free) = &built.dynamics.form else { return true };
-    let tied = |strand: usize| free.form.tie.map_or(0, |tie| tie.held(built.hair.strands.strand(strand)));
+    let tied = |strand: usize| free.form.tie.map_or(0, |tie| tie.held(built.strands().strand(strand)));
     lock.nodes.iter().all(|&(strand, node)| node > tied(strand) + 1)
 }
 
@@ -181,7 +181,7 @@ fn way(strands: &Strands, points: &[Vec3], lock: &Lock, cm: f32, random: &mut Ra
 
 fn is_in_contact(built: &BuiltScene, points: &[Vec3], lock: &Lock, way: Vec3) -> bool {
     let pose = built.pose(lock.frame);
-    let strands = &built.hair.strands;
+    let strands = built.strands();
     let bodies = match &built.dynamics.form {
         Form::Free(free) => &free.bodies[..],
         Form::Paper => return false,

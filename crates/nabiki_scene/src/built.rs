@@ -1,108 +1,61 @@
 //! A scene with everything in its place: the head, the hair, what moves them.
 
+mod bodies;
+mod build;
+mod dynamics;
+mod forces;
+mod groom;
 mod identity;
-mod load;
+mod model;
+mod stage;
+#[cfg(test)]
+mod tests;
+mod way;
 
 use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::Vec3;
-use nabiki::body::BodyWay;
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Reference, Simulation, Timeline};
-use nabiki::field::Field;
 use nabiki::{Hair, Head, Mesh, Pose, SettingError, Strands};
-use nabiki_groom::roots::Root;
 use nabiki_io::cache::{Origin, Shard};
-use nabiki_io::hair::ImportReport;
-use nabiki_io::identity::StrandSum;
-use nabiki_io::mesh::MeshReport;
-use nabiki_io::placement::Placement;
-use nabiki_io::{DeclaredSpace, GroomCurves};
 use nabiki_render::DrawnBody;
 
 use crate::advice::Advice;
 use crate::error::{Error, Result};
 use crate::memory;
-use crate::scene::{FieldBound, FieldParts, HairSource, HeadSource, Scene};
+use crate::scene::{FieldBound, Scene};
 use crate::seat::{self, LikelyRoots, Seat};
 
-pub(crate) use load::holds_scenes;
+pub use forces::Forces;
+pub use groom::{Groom, Imported, ShardOf};
+pub use model::Model;
+pub use way::Way;
 
-/// All that a scene names, loaded and in head space, ready to be stepped.
+pub(crate) use way::holds_scenes;
+
+use bodies::BuiltBody;
+use model::ModelInputs;
+use stage::{At, Stage};
+
+/// All that a scene names, loaded and in head space, ready to be stepped. Scenes that have parts of it alike share them
+/// ([`changed_to`](Self::changed_to)).
 #[derive(Clone, Debug)]
 pub struct BuiltScene {
     /// The scene it was built from.
     pub scene: Scene,
     /// The head.
-    pub head: Head,
-    /// How the head's file lies in head space; the identity for the built-in head.
-    pub placement: Placement,
-    /// What the head's file held; `None` for the built-in head.
-    pub mesh_report: Option<MeshReport>,
-    /// The hair at rest: all of the scene's, or the strands asked for.
-    pub hair: Hair,
-    /// Strands of the whole scene, of which `hair` may be some.
-    pub strands_of_scene: usize,
-    /// Where `hair` is one shard of the strands asked for: which, of what.
-    pub shard: Option<ShardOf>,
-    /// Where hair grows, as many of its roots as strands were grown; none for hair of a file.
-    roots: Arc<[Root]>,
-    /// The first strands of the farthest-first order of the whole, whichever are shown: those that the free form asks of.
-    first: Strands,
-    /// How the hair's file lies in head space; `None` for hair grown here.
-    pub hair_placement: Option<Placement>,
-    /// The hair's file and where its curves are in it; `None` for hair grown here.
-    pub groom: Option<GroomCurves>,
-    /// What the hair's file held; `None` for hair grown here.
-    pub import_report: Option<ImportReport>,
-    /// Frames of the hair's file, of which the first is taken; 1 for hair that stands still.
-    pub frames_in_file: usize,
+    pub model: Arc<Model>,
+    /// Where the head is in each frame.
+    pub way: Arc<Way>,
+    /// The hair at rest.
+    pub groom: Arc<Groom>,
+    /// What pushes the hair.
+    pub forces: Arc<Forces>,
     /// How the hair answers a force.
     pub dynamics: Dynamics,
-    /// What pushes the hair: all fields of the scene together.
-    pub field: Arc<dyn Field>,
-    /// The wind before it meets the head, which is the same everywhere; none where the scene has neither `[[force]]` nor
-    /// `[body_wind]`.
-    pub wind: Arc<dyn Field>,
-    /// What the head's file says of its own space.
-    pub(crate) head_declared: DeclaredSpace,
-    /// What the hair's file says of its own space.
-    hair_declared: DeclaredSpace,
-    /// Strands by which imported hair is judged, as they are in the file.
-    judged: Strands,
-    /// How the head's motion was read and converted, in one line.
-    pub motion_report: Option<String>,
-    /// Number of the first frame of the head's motion on the time line of its file, where that has one.
-    motion_begins: Option<i32>,
-    /// When the shot begins that the hair's file is of (s), where it says so.
-    hair_begins: Option<f64>,
     /// The scene's bodies, in their order; none in the paper's form.
-    bodies: Vec<BuiltBody>,
-    /// Number of each strand in the whole hair.
-    ids: Vec<u32>,
-    /// World poses of the head from frame 0 on; none for a head that stands still.
-    poses: Vec<Pose>,
-}
-
-/// A shard and the whole that it is of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ShardOf {
-    /// Which.
-    pub shard: Shard,
-    /// Strands that were asked for, of which these are some.
-    pub strands: usize,
-    /// All strands of an imported groom; nothing of one that is grown.
-    groom: StrandSum,
-}
-
-/// A body as it is drawn.
-#[derive(Clone, Debug)]
-struct BuiltBody {
-    /// Its own space (cm).
-    mesh: Mesh,
-    /// What of the meshes of its file is left out or not obeyed, a phrase each.
-    unread: Vec<String>,
-    way: BodyWay,
+    pub(crate) bodies: Vec<Arc<BuiltBody>>,
 }
 
 impl Scene {
@@ -111,11 +64,11 @@ impl Scene {
     /// # Errors
     /// One line: file, thing, value and the way out.
     pub fn build(self, shown: Shown) -> Result<BuiltScene> {
-        load::build(self, shown, None, None, &|_| true)
+        build::build(self, shown, None, &[], &|_| true)
     }
 
-    /// The same, or what [`BuiltScene::changed_to`] gives of a scene that is `known`, for whoever may want it no more: between the
-    /// files that are read, while roots are chosen and while hair grows, `goes_on` is told again and again, by any thread, how much is
+    /// The same, or what [`BuiltScene::changed_to`] gives of scenes that are `known`, the first of those that have a part alike, for
+    /// whoever may want it no more: between the files that are read, while roots are chosen and while hair grows, `goes_on` is told again and again, by any thread, how much is
     /// grown, 0..1, and asked whether to go on.
     ///
     /// # Errors
@@ -123,10 +76,10 @@ impl Scene {
     pub fn build_while(
         self,
         shown: Shown,
-        known: Option<&BuiltScene>,
+        known: &[&BuiltScene],
         goes_on: &(dyn Fn(f32) -> bool + Sync),
     ) -> Result<BuiltScene> {
-        load::build(self, shown, None, known, goes_on)
+        build::build(self, shown, None, known, goes_on)
     }
 
     /// The same, of which one shard of the strands alone is kept, and, where hair is grown, grown: each moves, to the bit,
@@ -135,7 +88,7 @@ impl Scene {
     /// # Errors
     /// As [`build`](Self::build); more shards than strands.
     pub fn build_shard(self, shown: Shown, shard: Shard) -> Result<BuiltScene> {
-        load::build(self, shown, Some(shard), None, &|_| true)
+        build::build(self, shown, Some(shard), &[], &|_| true)
     }
 
     /// What each of the scene's fields can reach, and last `all` of them together; head and motion are loaded for it.
@@ -143,19 +96,7 @@ impl Scene {
     /// # Errors
     /// As [`build`](Self::build).
     pub fn field_bounds(&self) -> Result<Vec<FieldBound>> {
-        let FieldParts { field, mut bounds, .. } = load::load_field(self)?;
-        bounds.push(FieldBound { name: "all".to_owned(), at_most: field.strongest() });
-        Ok(bounds)
-    }
-
-    /// Whether the hair comes out of the file that the head comes from.
-    pub(crate) fn hair_is_of_head(&self) -> bool {
-        match (&self.head.source, &self.hair.source) {
-            (HeadSource::Imported(head), HairSource::Imported(hair)) => {
-                seat::is_one_file(&self.resolve(&head.mesh), &self.resolve(&hair.file))
-            }
-            _ => false,
-        }
+        build::field_bounds(self)
     }
 
     /// Loads the head alone.
@@ -163,7 +104,7 @@ impl Scene {
     /// # Errors
     /// As [`build`](Self::build).
     pub fn load_head(&self) -> Result<Head> {
-        load::load_head(self).map(|loaded| loaded.head)
+        Model::make(ModelInputs::of(self), At::new(self, &|_| true)).map(|model| model.head)
     }
 }
 
@@ -204,23 +145,13 @@ impl BuiltScene {
         edges.filter(|(_, edges)| *edges > 0 && matches!(self.dynamics.form, Form::Free(_)))
     }
 
-    /// How the bodies go, in their order.
-    pub(crate) fn ways_of_bodies(&self) -> impl Iterator<Item = &BodyWay> {
-        self.bodies.iter().map(|body| &body.way)
-    }
-
-    /// What of the meshes of the bodies' files is left out or not obeyed, a phrase each with the number of its body.
-    pub(crate) fn unread_of_bodies(&self) -> impl Iterator<Item = (usize, &String)> {
-        self.bodies.iter().enumerate().flat_map(|(i, body)| body.unread.iter().map(move |unread| (i, unread)))
-    }
-
     /// What [`Scene::build`] gives, for an editor in which a scene changes a little at a time: what the two scenes have
     /// alike is not read, grown or sampled again, so that files count as they were when this one was built.
     ///
     /// # Errors
     /// As there.
     pub fn changed_to(&self, scene: Scene, shown: Shown) -> Result<Self> {
-        load::build(scene, shown, None, Some(self), &|_| true)
+        build::build(scene, shown, None, &[self], &|_| true)
     }
 
     /// The fast stepper, at rest.
@@ -229,13 +160,13 @@ impl BuiltScene {
     /// A field too strong for the hair; strands that cannot be moved.
     pub fn simulation(&self) -> Result<Simulation> {
         self.check_memory(1)?;
-        let built = Simulation::with_ids(&self.hair.strands, &self.ids, &self.dynamics, &*self.field);
+        let built = Simulation::with_ids(self.strands(), &self.groom.ids, &self.dynamics, &*self.forces.field);
         built.map_err(|refused| self.refusal(refused))
     }
 
     /// Refuses hair whose motion takes more memory than there is, `times` what the fast stepper takes.
     fn check_memory(&self, times: u64) -> Result<()> {
-        let strands = &self.hair.strands;
+        let strands = self.strands();
         let Some(short) = memory::short_of(times * Simulation::least_bytes(strands, &self.dynamics)) else {
             return Ok(());
         };
@@ -252,7 +183,7 @@ impl BuiltScene {
     pub fn reference(&self) -> Result<Reference> {
         // Its numbers are twice as long.
         self.check_memory(2)?;
-        let built = Reference::with_ids(&self.hair.strands, &self.ids, &self.dynamics, &*self.field);
+        let built = Reference::with_ids(self.strands(), &self.groom.ids, &self.dynamics, &*self.forces.field);
         built.map_err(|refused| self.refusal(refused))
     }
 
@@ -262,14 +193,19 @@ impl BuiltScene {
     /// As [`simulation`](Self::simulation).
     pub fn timeline(&self) -> Result<Timeline> {
         self.check_memory(1)?;
-        let (field, poses) = (self.field.clone(), self.given_poses());
-        let built = Timeline::with_ids(&self.hair.strands, &self.ids, &self.dynamics, field, poses, self.frames());
+        let (field, poses) = (self.forces.field.clone(), self.given_poses());
+        let built = Timeline::with_ids(self.strands(), &self.groom.ids, &self.dynamics, field, poses, self.frames());
         built.map_err(|refused| self.refusal(refused))
     }
 
     /// The poses that a timeline is given: those of all frames, or none for a head that stands still.
     pub fn given_poses(&self) -> Vec<Pose> {
-        if self.head_moves() { self.poses[..=self.frames() as usize].to_vec() } else { Vec::new() }
+        if self.head_moves() { self.way.poses[..=self.frames() as usize].to_vec() } else { Vec::new() }
+    }
+
+    /// The strands at rest: all of the scene's, or those asked for.
+    pub fn strands(&self) -> &Strands {
+        &self.groom.hair.strands
     }
 
     /// Frames after the rest frame 0.
@@ -279,7 +215,7 @@ impl BuiltScene {
 
     /// Where the head is in a frame.
     pub fn pose(&self, frame: u32) -> Pose {
-        self.poses.get(frame as usize).copied().unwrap_or_default()
+        self.way.poses.get(frame as usize).copied().unwrap_or_default()
     }
 
     /// The bodies that are shown: the number of each, its surface (its own space, cm) and where it is in the world in a frame.
@@ -302,55 +238,46 @@ impl BuiltScene {
 
     /// What a step to a frame needs to know of it.
     pub fn input(&self, frame: u32) -> FrameInput<'_> {
-        FrameInput::new(frame, &self.poses, &*self.field)
+        FrameInput::new(frame, &self.way.poses, &*self.forces.field)
     }
 
     /// The force at a point (cm) in a frame, both in the space that the scene gives its forces in.
     pub fn force_at(&self, point: Vec3, frame: u32) -> Vec3 {
-        self.field.at(point, frame)
+        self.forces.field.at(point, frame)
     }
 
     /// Where imported hair sits.
     pub(crate) fn seat(&self) -> Option<Seat<'_>> {
-        let of_head = self.scene.hair_is_of_head();
-        self.scene.hair.imported().map(|settings| Seat {
-            head: &self.head,
-            strands: &self.judged,
+        let imported = self.groom.imported.as_ref().zip(self.scene.hair.imported());
+        imported.map(|(Imported { declared, of_head, judged, .. }, settings)| Seat {
+            head: &self.model.head,
+            strands: judged,
             settings,
-            head_placement: &self.placement,
-            declared: seat::heeded(self.hair_declared, of_head),
-            of_head,
+            head_placement: &self.model.placement,
+            declared: seat::heeded(*declared, *of_head),
+            of_head: *of_head,
             ends: LikelyRoots::default(),
         })
     }
 
-    /// World poses of the head from frame 0 on; none for a head that stands still.
-    pub fn poses(&self) -> &[Pose] {
-        &self.poses
-    }
-
-    /// Number of each strand of [`hair`](Self::hair) in the whole.
-    pub fn ids(&self) -> &[u32] {
-        &self.ids
-    }
-
     /// Whether the head moves.
     pub fn head_moves(&self) -> bool {
-        !self.poses.is_empty()
+        !self.way.poses.is_empty()
     }
 
     /// How imported hair lay in its file and goes back into it, for exports and for a motion cache to remember.
     pub fn hair_origin(&self) -> Option<Origin> {
-        let (placement, report, groom) = (self.hair_placement?, self.import_report?, self.groom.clone()?);
+        let Imported { placement, report, curves, .. } = self.groom.imported.as_ref()?;
         let in_world = self.scene.head.motion.as_ref().is_some_and(|motion| !motion.start_at_origin);
+        let (placement, groom) = (*placement, curves.clone());
         Some(Origin { placement, points: report.points_in_file as u64, groom, in_world })
     }
 
     /// The hair at rest with its points in the order of its file, which may have strands tip first.
     pub(crate) fn hair_in_source(&self) -> Cow<'_, Hair> {
-        match self.hair.attributes.tip_first {
-            Some(_) => Cow::Owned(self.hair.clone().as_in_source()),
-            None => Cow::Borrowed(&self.hair),
+        match self.groom.hair.attributes.tip_first {
+            Some(_) => Cow::Owned(self.groom.hair.clone().as_in_source()),
+            None => Cow::Borrowed(&self.groom.hair),
         }
     }
 
@@ -358,11 +285,11 @@ impl BuiltScene {
     /// else the hair's file begins; 0 where neither is of a shot.
     pub fn first_frame(&self) -> i32 {
         let of_hair = || {
-            let first = (self.hair_begins? * self.scene.frame_rate()).round() as i32;
+            let first = (self.groom.imported.as_ref()?.begins? * self.scene.frame_rate()).round() as i32;
             // A number that no shot has is a program's way of saying none.
             (first.unsigned_abs() <= Motion::MOST_FRAMES).then_some(first)
         };
-        self.scene.output.first_frame.or(self.motion_begins).or_else(of_hair).unwrap_or(0)
+        self.scene.output.first_frame.or(self.way.begins).or_else(of_hair).unwrap_or(0)
     }
 
     /// A refused setting as an error that names the scene's file and line, and the unit to mend where hair or head have the

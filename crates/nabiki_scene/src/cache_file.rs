@@ -19,11 +19,11 @@ pub(crate) struct SceneCache<'a> {
 impl<'a> SceneCache<'a> {
     /// Begins the file. `piece`: what it says of the whole, where the scene is built in part.
     pub fn begin(built: &'a BuiltScene, path: &Path, piece: Option<Piece>, watch: &mut dyn Watch) -> Result<Self> {
-        let points = built.hair.strands.points().len() as u64;
+        let points = built.strands().points().len() as u64;
         // A pose of seven numbers and the points, all of four bytes.
         let frames = u64::from(built.frames()) + 1;
         place::room(path, frames * (28 + 12 * points), watch)?;
-        let mut header = Header::new(built.identity()?, built.scene.frame_rate(), &built.hair);
+        let mut header = Header::new(built.identity()?, built.scene.frame_rate(), &built.groom.hair);
         header.first_frame = built.first_frame();
         header.origin = built.hair_origin();
         if let Some(piece) = piece {

@@ -78,19 +78,20 @@ impl<'a> Exports<'a> {
         let mut sinks = Vec::new();
         for path in &options.files {
             let frame_rate = built.scene.frame_rate();
-            let mut export = exchange::export(hair, frame_rate, built.hair_placement.as_ref());
+            let imported = built.groom.imported.as_ref();
+            let mut export = exchange::export(hair, frame_rate, imported.map(|imported| &imported.placement));
             export.first_frame = built.first_frame();
             export.default_width = Some(built.scene.picture.hair.width);
             export.default_colour = Some(colour::of_mass(&built.scene.picture.hair));
             let own = built.scene.head.source != HeadSource::Builtin;
-            export.head = (options.head || own && !exchange::is_alembic(path)).then_some(&built.head.mesh);
+            export.head = (options.head || own && !exchange::is_alembic(path)).then_some(&built.model.head.mesh);
             if let Some(prim) = &options.layer {
-                let in_file = built.import_report.map(|report| report.points_in_file as u64);
+                let in_file = imported.map(|imported| imported.report.points_in_file as u64);
                 let used = hair.strands.points().len();
                 let fits = |in_file| exchange::check_layer(in_file, used).map_err(|e| e.in_file(path));
                 fits(in_file)?;
-                if let Some(groom) = &built.groom {
-                    let curves = groom.under_layer(prim)?;
+                if let Some(imported) = imported {
+                    let curves = imported.curves.under_layer(prim)?;
                     // Curves of a single point are none that are read.
                     fits(Some(curves.points))?;
                     exchange::under_groom(&mut export, curves);
@@ -104,8 +105,8 @@ impl<'a> Exports<'a> {
             }
             sinks.push((path.clone(), exchange::sink(path, export, options.layer.as_deref())?));
         }
-        let turned = built.hair.attributes.tip_first.as_deref().filter(|_| !sinks.is_empty());
-        let turned = turned.map(|turned| (turned, built.hair.strands.clone()));
+        let turned = built.groom.hair.attributes.tip_first.as_deref().filter(|_| !sinks.is_empty());
+        let turned = turned.map(|turned| (turned, built.strands().clone()));
         Ok(Self { sinks, origin: built.hair_origin(), turned, next: 0 })
     }
 

@@ -22,7 +22,7 @@ const CORNERS: u32 = 1000;
 
 /// Where the head is in the space of the forces in a frame: its centre, and what turns its axes into that space.
 fn head(built: &BuiltScene, frame: u32) -> (Vec3, Quat) {
-    let center = built.head.ellipsoid.center;
+    let center = built.model.head.ellipsoid.center;
     match built.dynamics.motion.force_space {
         ForceSpace::World => {
             let pose = built.pose(frame);
@@ -35,7 +35,7 @@ fn head(built: &BuiltScene, frame: u32) -> (Vec3, Quat) {
 /// Forces in the plane across the view through the centre of the head, outside of it.
 pub(crate) fn arrows(built: &BuiltScene, frame: u32, view: &View) -> Vec<ForceArrow> {
     let (center, turn) = head(built, frame);
-    let ellipsoid = &built.head.ellipsoid;
+    let ellipsoid = &built.model.head.ellipsoid;
     let step = 0.75 * ellipsoid.half_axes.element_sum() / 3.0;
     let half = ARROWS.map(|count| count / 2);
     let places = (-half[0]..=half[0]).flat_map(|i| (-half[1]..=half[1]).map(move |j| [i as f32, j as f32]));
@@ -57,7 +57,7 @@ pub(crate) fn plot(built: &BuiltScene) -> FieldPlot {
         Vec::new()
     } else {
         let step = built.frames().div_ceil(CORNERS) as usize;
-        (1..=built.frames()).step_by(step).map(|n| built.wind.uniform(n).unwrap_or_default()).collect()
+        (1..=built.frames()).step_by(step).map(|n| built.forces.wind.uniform(n).unwrap_or_default()).collect()
     };
     FieldPlot { intervals, path, slices: slices(built) }
 }
@@ -67,7 +67,7 @@ fn slices(built: &BuiltScene) -> Option<Slices> {
     let last = built.frames();
     let looked_at =
         (1..=LOOKED_AT.min(last)).map(|i| (u64::from(last) * u64::from(i) / u64::from(LOOKED_AT.min(last))) as u32);
-    let uneven = looked_at.filter(|&n| built.field.uniform(n).is_none());
+    let uneven = looked_at.filter(|&n| built.forces.field.uniform(n).is_none());
     let largest =
         |slices: &Slices| slices.yz.iter().chain(&slices.zx).map(|[_, force]| force.length()).fold(0.0, f32::max);
     uneven.map(|n| slices_of(built, n)).max_by(|a, b| largest(a).total_cmp(&largest(b)))
@@ -75,7 +75,7 @@ fn slices(built: &BuiltScene) -> Option<Slices> {
 
 fn slices_of(built: &BuiltScene, frame: u32) -> Slices {
     let (center, turn) = head(built, frame);
-    let ellipsoid = built.head.ellipsoid;
+    let ellipsoid = built.model.head.ellipsoid;
     let reach = 2.2 * ellipsoid.half_axes.max_element();
     let half = ALONG / 2;
     let along = move |i: i32| 0.9 * reach * i as f32 / half as f32;

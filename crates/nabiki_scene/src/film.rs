@@ -61,7 +61,7 @@ impl<'a> Film<'a> {
 
     /// Shows the scene, moved by `frames`, as `picture` says, framed so that it holds the head.
     fn of_head(built: &'a BuiltScene, picture: &Picture, frames: &dyn FrameSource) -> Result<Self> {
-        let (head, strands) = (&built.head, built.hair.strands.len());
+        let (head, strands) = (&built.model.head, built.strands().len());
         if let Some(short) = memory::short_of(Renderer::least_bytes(picture, strands, built.scene.output.exr_frames)) {
             let [width, height] = picture.size;
             let remedy = format!("a picture of {strands} strands {short}: give a smaller one, or fewer strands");

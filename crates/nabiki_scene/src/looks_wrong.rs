@@ -31,7 +31,8 @@ impl BuiltScene {
 }
 
 fn advice(built: &BuiltScene) -> Vec<Advice> {
-    let mut advice: Vec<Advice> = built.head.openings.iter().filter_map(|hole| open_skull(&built.head, hole)).collect();
+    let mut advice: Vec<Advice> =
+        built.model.head.openings.iter().filter_map(|hole| open_skull(&built.model.head, hole)).collect();
     let of_head = head_size(built);
     // Hair that goes by the unit of a wrong head cannot be judged.
     let of_hair = if of_head.is_none() { built.seat().and_then(|seat| of_seat(&seat)) } else { None };
@@ -58,13 +59,13 @@ fn open_bodies(built: &BuiltScene) -> impl Iterator<Item = Advice> {
 
 /// A camera that sees the head from within, which is next to nothing.
 pub(crate) fn within_the_head(built: &BuiltScene) -> Option<Advice> {
-    let (picture, head) = (&built.scene.picture, &built.head);
+    let (picture, head) = (&built.scene.picture, &built.model.head);
     // An automatic one stands outside, and so does an orthographic one.
     picture.camera.distance.filter(|_| picture.camera.projection == Projection::Perspective)?;
     let turn = built.pose(0).rotation;
     let mut framed = Bounds::default();
     framed.include_head(&head.mesh, &head.ellipsoid);
-    built.hair.strands.points().iter().for_each(|&p| framed.include(turn * p));
+    built.strands().points().iter().for_each(|&p| framed.include(turn * p));
     let eye = View::new(&picture.camera.at(0.0), picture.size, &framed).eye;
     if head.ellipsoid.value(turn.inverse() * eye) >= 0.0 {
         return None;
@@ -105,7 +106,7 @@ fn leap(built: &BuiltScene) -> Option<Advice> {
 fn untied(built: &BuiltScene) -> Option<Advice> {
     let Form::Free(free) = &built.dynamics.form else { return None };
     let tie = free.form.tie?;
-    let strands = &built.hair.strands;
+    let strands = built.strands();
     if strands.iter().any(|strand| tie.held(strand) > 0) {
         return None;
     }
@@ -124,7 +125,7 @@ fn unbound(built: &BuiltScene) -> Option<Advice> {
     let tail = style.ponytail?;
     // Nodes lie a segment apart at the most, and a curl winds its radius and what chance adds about the line that is tied.
     let near = tail.radius + built.scene.hair.segment_length + 3.0 * style.curl.radius;
-    let strands = &built.hair.strands;
+    let strands = built.strands();
     if strands.points().iter().any(|p| p.distance(tail.at) <= near) {
         return None;
     }
@@ -140,7 +141,7 @@ fn unbound(built: &BuiltScene) -> Option<Advice> {
 /// Cuts that take off all that they may: the plane has the roots of all hair on its wrong side.
 fn cropped(built: &BuiltScene) -> impl Iterator<Item = Advice> {
     let cuts = built.scene.hair.grown().map_or(&[][..], |hair| &hair.style.cuts);
-    let strands = &built.hair.strands;
+    let strands = built.strands();
     let beyond = |cut: &Cut| strands.iter().all(|strand| (strand[0] - cut.point).dot(cut.normal) > 0.0);
     let all = move |cut: &Cut| cut.region.is_none() && beyond(cut);
     cuts.iter().enumerate().filter(move |(_, cut)| all(cut)).map(|(i, cut)| {
@@ -166,7 +167,7 @@ fn open_skull(head: &Head, hole: &Opening) -> Option<Advice> {
 }
 
 fn head_size(built: &BuiltScene) -> Option<Advice> {
-    of_head_size(&built.scene.head, &built.head.ellipsoid, built.head_declared, &built.placement)
+    of_head_size(&built.model)
 }
 
 fn of_seat(seat: &Seat<'_>) -> Option<Advice> {

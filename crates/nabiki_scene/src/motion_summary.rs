@@ -79,7 +79,7 @@ fn depth(built: &BuiltScene, others: &[(&Body, Affine3A)], frame: u32, p: Vec3) 
         let reading = body.shape.obstacle().read(body_from_head.transform_point3(p), frame);
         reading.map_or(0.0, |reading| -reading.distance)
     };
-    others.iter().map(in_body).fold(built.head.depth(p), f32::max)
+    others.iter().map(in_body).fold(built.model.head.depth(p), f32::max)
 }
 
 /// How far a point goes the way back that it has come.

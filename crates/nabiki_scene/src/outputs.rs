@@ -203,7 +203,7 @@ impl<'a> PictureOutputs<'a> {
             stills.write(n, frame, &self.tone_mapping)?;
         }
         if self.on_sheet.contains(&n) {
-            match self.built.field.uniform(n.max(1)) {
+            match self.built.forces.field.uniform(n.max(1)) {
                 Some(force) => self.sheet.add(frame, &self.tone_mapping, n, Some(force), view),
                 None => {
                     let arrows = field_picture::arrows(self.built, n.max(1), view);

@@ -308,7 +308,7 @@ impl Scene {
 
     /// A path in the scene, relative to the scene file.
     pub fn resolve(&self, path: &Path) -> PathBuf {
-        self.file().parent().unwrap_or(Path::new("")).join(path)
+        resolved(self.file(), path)
     }
 
     /// The scene as TOML: the text it was read from with what has changed since in its place, comments and layout as they
@@ -409,6 +409,11 @@ impl Scene {
         self.picture.camera = Camera { to: Some(CameraKey::default()), ..self.picture.camera };
         self
     }
+}
+
+/// A path in the scene that the file `scene` is, relative to that.
+pub(crate) fn resolved(scene: &Path, path: &Path) -> PathBuf {
+    scene.parent().unwrap_or(Path::new("")).join(path)
 }
 
 /// Writes the text of a scene to `path`, as it is; the file appears when whole.

@@ -3,10 +3,10 @@
 use glam::Vec3;
 use nabiki::Ellipsoid;
 use nabiki_io::info::Short;
-use nabiki_io::{DeclaredSpace, Placement};
 
 use crate::advice::{Advice, Fix};
-use crate::scene::{EllipsoidChoice, HeadSettings, HeadSource};
+use crate::built::Model;
+use crate::scene::{EllipsoidChoice, HeadSource};
 
 /// Mean half axis of a person's head ellipsoid (cm): that of the built-in bust, 9.5 x 11 x 7.8.
 pub(crate) const HALF_AXIS: f32 = 9.3;
@@ -22,13 +22,10 @@ pub(crate) fn mean_half_axis(ellipsoid: &Ellipsoid) -> f32 {
     ellipsoid.half_axes.as_dvec3().element_product().cbrt() as f32
 }
 
-/// A head that is no person's by its size. `declared`: what its file says of its space; `placement`: how it was taken.
-pub(crate) fn of_head_size(
-    settings: &HeadSettings,
-    ellipsoid: &Ellipsoid,
-    declared: DeclaredSpace,
-    placement: &Placement,
-) -> Option<Advice> {
+/// A head that is no person's by its size.
+pub(crate) fn of_head_size(model: &Model) -> Option<Advice> {
+    let Model { inputs, placement, declared, .. } = model;
+    let ellipsoid = &model.head.ellipsoid;
     let size = mean_half_axis(ellipsoid);
     if (HALF_AXES[0]..=HALF_AXES[1]).contains(&size) {
         return None;
@@ -37,14 +34,14 @@ pub(crate) fn of_head_size(
     // A creature's head may have any size.
     let seen =
         format!("the head's half axes are {x} x {y} x {z} cm; if it is a person's, about 9.5 x 11 x 7.8 are right");
-    let HeadSource::Imported(head) = &settings.source else {
+    let HeadSource::Imported(head) = &inputs.source else {
         return Some(Advice::new(format!("{seen}: mend head.ellipsoid")));
     };
     let seen = match declared.unit.filter(|_| head.unit.is_none()) {
         Some(unit) => format!("{seen}; its file is in {unit}"),
         None => seen,
     };
-    if matches!(settings.ellipsoid, EllipsoidChoice::Given(_)) {
+    if matches!(inputs.ellipsoid, EllipsoidChoice::Given(_)) {
         let seen = format!("{seen}: mend head.unit or head.ellipsoid");
         return Some(Advice::new(seen));
     }

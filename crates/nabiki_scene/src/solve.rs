@@ -6,10 +6,10 @@ mod wishes;
 
 use std::sync::Arc;
 
+use nabiki::SettingError;
 use nabiki::dynamics::ForceSpace;
 use nabiki::field::{Field, FlowField};
 use nabiki::solve::{Answer, KeyedWind, Prior, Problem, Surroundings, Unknown, Wish};
-use nabiki::{Ellipsoid, Pose, SettingError};
 
 use crate::built::BuiltScene;
 use crate::scene::{FieldPlace, FieldSettings, FormChoice, Scene};
@@ -22,24 +22,18 @@ pub use wishes::{
 
 impl BuiltScene {
     /// What would have to be solved for these wishes about its hair, were this to change. Nodes are those of
-    /// [`hair`](Self::hair), places are in head space.
+    /// [`groom`](Self::groom), places are in head space.
     pub fn problem(&self, unknowns: Vec<Unknown>, wishes: Vec<Wish>) -> Problem {
         let field = &self.scene.field;
-        let poses = if self.head_moves() { self.poses()[..=self.frames() as usize].to_vec() } else { Vec::new() };
+        let poses = self.given_poses();
+        // The solver has no further frames.
+        let place = FieldPlace { poses: poses.clone().into(), ..self.forces.inputs.place.clone() };
         Problem {
-            hair: self.hair.strands.clone(),
-            ids: self.ids().to_vec(),
+            hair: self.strands().clone(),
+            ids: self.groom.ids.clone(),
             dynamics: self.dynamics.clone(),
             wind: KeyedWind { keyframes: field.force.clone(), ease: field.wind.ease, gust: field.gust.clone() },
-            surroundings: Arc::new(SceneSurroundings {
-                field: field.clone(),
-                ellipsoid: self.head.ellipsoid,
-                poses: poses.clone(),
-                frame_rate: self.scene.frame_rate(),
-                frames: self.frames(),
-                space: self.dynamics.motion.force_space,
-                may_be_none: self.scene.form == FormChoice::Free,
-            }),
+            surroundings: Arc::new(SceneSurroundings { field: field.clone(), place }),
             poses,
             unknowns,
             wishes,
@@ -65,38 +59,20 @@ impl Scene {
 #[derive(Debug)]
 struct SceneSurroundings {
     field: FieldSettings,
-    ellipsoid: Ellipsoid,
-    poses: Vec<Pose>,
-    frame_rate: f64,
-    frames: u32,
-    space: ForceSpace,
-    may_be_none: bool,
-}
-
-impl SceneSurroundings {
-    fn place(&self) -> FieldPlace<'_> {
-        FieldPlace {
-            ellipsoid: self.ellipsoid,
-            poses: &self.poses,
-            frame_rate: self.frame_rate,
-            frames: self.frames,
-            space: self.space,
-            may_be_none: self.may_be_none,
-        }
-    }
+    place: FieldPlace,
 }
 
 impl Surroundings for SceneSurroundings {
     fn field(&self, wind: Arc<dyn Field>) -> Result<Arc<dyn Field>, SettingError> {
-        Ok(self.field.build_about(&self.place(), Some(wind))?.field)
+        Ok(self.field.build_about(&self.place, Some(wind))?.field)
     }
 
     fn of_wind(&self, wind: Arc<dyn Field>) -> Result<Arc<dyn Field>, SettingError> {
         let Some(flow) = &self.field.flow else { return Ok(wind) };
-        let poses = match self.space {
-            ForceSpace::World => &self.poses[..],
+        let poses = match self.place.space {
+            ForceSpace::World => &self.place.poses[..],
             ForceSpace::Head => &[],
         };
-        Ok(Arc::new(FlowField::new(flow, wind, self.ellipsoid, poses)?))
+        Ok(Arc::new(FlowField::new(flow, wind, self.place.ellipsoid, poses)?))
     }
 }

@@ -55,7 +55,7 @@ fn build_shard(scene: Scene, shown: Shown, shard: Shard, watch: &mut dyn Watch) 
 
 fn unread_hair(built: &BuiltScene, watch: &mut dyn Watch) {
     if let HairSource::Imported(hair) = &built.scene.hair.source {
-        unread(&built.scene.resolve(&hair.file), &built.hair.attributes.unread, watch);
+        unread(&built.scene.resolve(&hair.file), &built.groom.hair.attributes.unread, watch);
     }
 }
 

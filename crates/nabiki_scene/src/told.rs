@@ -153,25 +153,28 @@ pub struct SceneSummary {
 impl SceneSummary {
     /// Of a built scene.
     pub fn of(built: &BuiltScene) -> Self {
-        let strands = &built.hair.strands;
+        let strands = built.strands();
+        let (imported, bodies) = (built.groom.imported.as_ref(), built.bodies.iter().enumerate());
         Self {
             file: built.scene.file().to_owned(),
             head: built.scene.head.mesh(),
-            half_axes: built.head.ellipsoid.half_axes.to_array(),
-            doubled_triangles: built.head.orientation.doubled,
-            turned_triangles: built.head.orientation.turned,
-            open_edges: built.head.orientation.open_edges,
-            skull_is_open: built.head.openings.iter().any(|opening| opening.missing.is_some()),
-            unread: built.mesh_report.as_ref().map_or_else(Vec::new, |report| report.unread.clone()),
-            unread_of_bodies: built.unread_of_bodies().map(|(i, unread)| (i, unread.clone())).collect(),
-            frames_in_file: built.frames_in_file,
-            motion: built.motion_report.clone(),
+            half_axes: built.model.head.ellipsoid.half_axes.to_array(),
+            doubled_triangles: built.model.head.orientation.doubled,
+            turned_triangles: built.model.head.orientation.turned,
+            open_edges: built.model.head.orientation.open_edges,
+            skull_is_open: built.model.head.openings.iter().any(|opening| opening.missing.is_some()),
+            unread: built.model.report.as_ref().map_or_else(Vec::new, |report| report.unread.clone()),
+            unread_of_bodies: bodies
+                .flat_map(|(i, body)| body.unread.iter().map(move |unread| (i, unread.clone())))
+                .collect(),
+            frames_in_file: imported.map_or(1, |imported| imported.frames),
+            motion: built.way.report.clone(),
             strands: strands.len(),
-            strands_of_scene: built.strands_of_scene,
-            shard: built.shard,
+            strands_of_scene: built.groom.of_scene,
+            shard: built.groom.shard,
             segments: strands.segment_count(),
             longest: strands.lengths().fold(0.0, f32::max),
-            import: built.import_report,
+            import: imported.map(|imported| imported.report),
         }
     }
 }
@@ -276,7 +279,7 @@ impl SwingTable {
             let held = tie.map_or(0, |tie| tie.held(strand));
             (strand[held..].windows(2).map(|w| w[0].distance(w[1])).sum::<f32>(), held > 0)
         };
-        let (mut lengths, tied): (Vec<f32>, Vec<bool>) = built.hair.strands.iter().map(swinging).unzip();
+        let (mut lengths, tied): (Vec<f32>, Vec<bool>) = built.strands().iter().map(swinging).unzip();
         lengths.sort_by(f32::total_cmp);
         let length = lengths[lengths.len() / 2];
         let tied = 2 * tied.iter().filter(|&&tied| tied).count() >= lengths.len();
@@ -303,7 +306,7 @@ impl SwingTable {
             row
         });
         let rows = rows.collect();
-        let at_most = (!field.is_the_papers()).then(|| row([1, last], built.field.strongest()));
+        let at_most = (!field.is_the_papers()).then(|| row([1, last], built.forces.field.strongest()));
         Self { length, tied, rows, at_most }
     }
 }

@@ -119,7 +119,7 @@ fn a_scale_that_changes_and_a_shear_are_said_to_be_left_out() {
     ] {
         let scaled = layer.replace("uniform token[]", &format!("{operation}\n uniform token[]"));
         std::fs::write(&tail, scaled.replace("\"xformOp:rotateZ\"", order)).unwrap();
-        let report = Scene::load(&scene, &[]).unwrap().build(Shown::All).unwrap().motion_report.unwrap();
+        let report = Scene::load(&scene, &[]).unwrap().build(Shown::All).unwrap().way.report.clone().unwrap();
         assert_eq!(report.split("; ").nth(2), said, "{report}");
     }
 }

@@ -69,12 +69,12 @@ fn stand_ins(scene: &Scene, bust: &BuiltScene) {
         let moves = scene.head.motion.as_ref().is_some_and(|motion| motion.file == head.mesh);
         let files = [Some(&head.mesh), scene.hair.imported().map(|hair| &hair.file)];
         for file in files.into_iter().flatten() {
-            let mut export = exchange::export(&bust.hair, 24.0, Some(&placement));
-            export.head = Some(&bust.head.mesh);
+            let mut export = exchange::export(&bust.groom.hair, 24.0, Some(&placement));
+            export.head = Some(&bust.model.head.mesh);
             let mut sink = exchange::sink(&scene.resolve(file), export, None).unwrap();
             for frame in 0..if moves { 60 } else { 1 } {
                 let to_the_side = DAffine3::from_translation(0.01 * f64::from(frame) * DVec3::X);
-                sink.frame(&bust.hair.strands, &to_the_side).unwrap();
+                sink.frame(bust.strands(), &to_the_side).unwrap();
             }
             sink.finish().unwrap();
         }

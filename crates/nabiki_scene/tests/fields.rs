@@ -87,7 +87,7 @@ fn any_field_alone_moves_the_hair_and_all_add_up() {
     ] {
         let built = built(&with(tables), &[]);
         let force = built.force_at(p, 5);
-        assert!(force != Vec3::ZERO && force.length() <= built.field.strongest(), "{tables}");
+        assert!(force != Vec3::ZERO && force.length() <= built.forces.field.strongest(), "{tables}");
         built.simulation().unwrap();
         sum += force;
     }
@@ -97,7 +97,7 @@ fn any_field_alone_moves_the_hair_and_all_add_up() {
     let alone = built(&with("[turbulence]\nstrength = 12\ndrift = 0\n"), &[]);
     assert!((calm.force_at(p, 5) - sum).length() < 1e-4);
     assert_ne!(all.force_at(p, 5), calm.force_at(p, 5));
-    assert!(alone.force_at(p, 5).length() <= alone.field.strongest());
+    assert!(alone.force_at(p, 5).length() <= alone.forces.field.strongest());
     assert_eq!(built(FIELDS, &[("turbulence.strength", "0")]).force_at(p, 5), calm.force_at(p, 5));
 }
 
@@ -105,7 +105,7 @@ fn any_field_alone_moves_the_hair_and_all_add_up() {
 fn the_papers_field_is_the_papers() {
     let built = built("[hair]\nstrands = 20\n[[force]]\nthrough = 5\nvector = [-1, 2, 3]\n", &[]);
     assert!(built.scene.field.is_the_papers());
-    assert_eq!(built.field.uniform(3), Some(Vec3::new(-1.0, 2.0, 3.0)));
+    assert_eq!(built.forces.field.uniform(3), Some(Vec3::new(-1.0, 2.0, 3.0)));
 }
 
 #[test]
@@ -365,7 +365,7 @@ fn a_field_of_a_programs_own_is_added_and_cannot_be_written() {
     for frame in 1..=7 {
         assert_eq!(with.force_at(place, frame), without.force_at(place, frame) + vector + vector);
     }
-    assert!(with.field.strongest() >= without.field.strongest() + 2.0 * vector.length());
+    assert!(with.forces.field.strongest() >= without.forces.field.strongest() + 2.0 * vector.length());
     let written = scene.to_toml().unwrap_err().to_string();
     assert!(written.contains("cannot hold a field that a program gave"), "{written}");
     let marked = with.identity().unwrap_err().to_string();

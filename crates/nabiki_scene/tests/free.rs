@@ -392,7 +392,7 @@ fn up_is_that_of_the_head_s_first_pose_and_gravity_that_of_the_earth_on_hair_of_
     }
     let built = build("free");
     let Form::Free(free) = &built.dynamics.form else { panic!("the free form") };
-    let strands = &built.hair.strands;
+    let strands = built.strands();
     let mean = strands.lengths().map(f64::from).sum::<f64>() / strands.len() as f64;
     let wanted = earth_gravity(&built.dynamics, mean);
     // It is told by the first 256 of 300 strands, whose lengths differ by a few parts in a hundred.

@@ -29,7 +29,7 @@ fn built(scene: &Scene, times: usize) -> (Result<BuiltScene, Error>, usize) {
         assert!((0.0..=1.0).contains(&part), "{part}");
         asked.fetch_add(1, Ordering::Relaxed) < times
     };
-    (scene.clone().build_while(Shown::AtMost(40), None, &goes_on), asked.into_inner())
+    (scene.clone().build_while(Shown::AtMost(40), &[], &goes_on), asked.into_inner())
 }
 
 #[test]
@@ -49,14 +49,14 @@ fn a_scene_is_given_up_wherever_it_is_asked_whether_it_is_wanted() {
         alone.install(|| {
             let (whole, times) = built(&scene, usize::MAX);
             assert!(times >= least, "it is asked {times} times: {text}");
-            let whole = whole.unwrap().hair;
-            assert_eq!(whole, scene.clone().build(Shown::AtMost(40)).unwrap().hair);
+            let whole = whole.unwrap().groom.hair.clone();
+            assert_eq!(whole, scene.clone().build(Shown::AtMost(40)).unwrap().groom.hair);
             for goes_on in 0..times {
                 let (given_up, asked) = built(&scene, goes_on);
                 assert!(matches!(given_up, Err(Error::Cancelled)), "{goes_on} of {times}: {text}");
                 assert_eq!(asked, goes_on + 1, "{text}");
             }
-            assert_eq!(built(&scene, times).0.unwrap().hair, whole);
+            assert_eq!(built(&scene, times).0.unwrap().groom.hair, whole);
         });
     }
 }

@@ -20,11 +20,11 @@ fn a_scene_of_the_free_form_tells_what_moves_its_hair() {
     let (free, paper) = (of("hand.toml"), of("paper/gust.toml"));
     let said = free.to_string();
     for line in [
-        "motion: free form, time step ",
-        "free: stiffness 12000 to 1000, hold 30, settles in 16 frames, gravity 100",
-        "contact: 0.1 cm from the skin",
+        "motion: free form, time step 0.13, density 0.05 per cm",
+        "free: stiffness 12000 to 1000, hold 30, settle 16 frames, weight 100",
+        "contact: margin 0.1 cm",
         "neighbours: cohesion 40, pressure 40",
-        "body[0]: motion/hand.obj, moved by motion/sweep.csv, 0.2 cm from its skin",
+        "body[0]: motion/hand.obj, moved by motion/sweep.csv, margin 0.2 cm",
         "all fields: |F| at most 0",
     ] {
         assert!(said.lines().any(|said| said.starts_with(line)), "{line}: {said}");

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::{DAffine3, Vec3};
 use nabiki::{Hair, Mesh, Strands};
-use nabiki_io::exchange;
+use nabiki_io::{Placement, exchange};
 use nabiki_scene::template::template;
 use nabiki_scene::{BuiltScene, Scene, Shown};
 
@@ -53,6 +53,11 @@ fn built(text: &str, folder: &Path) -> BuiltScene {
     Scene::parse(text, &folder.join("scene.toml"), &[]).unwrap().build(Shown::All).unwrap()
 }
 
+/// How the file of the hair is placed.
+fn of_hair(built: &BuiltScene) -> Placement {
+    built.groom.imported.as_ref().unwrap().placement
+}
+
 #[test]
 fn a_new_scene_leaves_hair_where_the_file_of_its_head_has_it() {
     let folder = tempfile::tempdir().unwrap();
@@ -62,13 +67,13 @@ fn a_new_scene_leaves_hair_where_the_file_of_its_head_has_it() {
         for (left, by) in [(0.8, Vec3::ZERO), (1.0, Vec3::new(0.0, 3.0, 40.0))] {
             one_file(&file, left, by);
             let new = template(&folder.path().join("scene.toml"), Some(&file), &[], Some(&file)).unwrap();
-            let of_hair = &new.text[new.text.find("[hair]").unwrap()..new.text.find("[motion]").unwrap()];
+            let hair = &new.text[new.text.find("[hair]").unwrap()..new.text.find("[motion]").unwrap()];
             for key in ["unit", "up", "facing", "origin"] {
-                let given = of_hair.lines().any(|line| line.starts_with(&format!("{key} =")));
-                assert!(!given, "{name}, {left}, {by}: {of_hair}");
+                let given = hair.lines().any(|line| line.starts_with(&format!("{key} =")));
+                assert!(!given, "{name}, {left}, {by}: {hair}");
             }
             let built = built(&new.text, folder.path());
-            assert_eq!(built.hair_placement, Some(built.placement), "{name}, {left}, {by}");
+            assert_eq!(of_hair(&built), built.model.placement, "{name}, {left}, {by}");
             let mended = built.advice().into_iter().flat_map(|advice| advice.fixes);
             assert!(mended.into_iter().all(|setting| !setting.key.starts_with("hair.")), "{name}, {left}, {by}");
         }
@@ -87,9 +92,9 @@ fn hair_has_what_the_scene_says_of_its_head_s_file_and_another_place_is_said() {
     };
     // The layer says centimetres, and the scene inches.
     let whole = built(&scene(""), folder.path());
-    assert_eq!(whole.hair_placement, Some(whole.placement));
+    assert_eq!(of_hair(&whole), whole.model.placement);
     let apart = built(&scene("unit = 2.7\norigin = [1, 2, 3]"), folder.path());
-    assert_ne!(apart.hair_placement, Some(apart.placement), "what is given is obeyed");
+    assert_ne!(of_hair(&apart), apart.model.placement, "what is given is obeyed");
     // What is wrong with the head is said first, so as a person's head has it.
     let cm = scene("unit = 1.06\norigin = [0, 1, 0]").replace("\"in\"", "\"cm\"").replace("\"+z\"", "\"+x\"");
     let said: Vec<String> = built(&cm, folder.path()).advice().iter().map(ToString::to_string).collect();

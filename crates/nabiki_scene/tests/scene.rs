@@ -1,8 +1,10 @@
 //! Scene files: what is read, and the exact line for everything that is refused.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::Vec3;
+use nabiki::Hair;
 use nabiki::dynamics::Form;
 use nabiki_scene::told::SwingTable;
 use nabiki_scene::{
@@ -136,9 +138,9 @@ fn fewer_strands_than_the_scene_has_are_the_first_of_them() {
     let first: Vec<usize> = (0..30).collect();
     for shown in [Shown::First(30), Shown::AtMost(30)] {
         let some = build(shown).unwrap();
-        assert_eq!((some.strands_of_scene, some.hair), (100, whole.hair.select(&first)));
+        assert_eq!((some.groom.of_scene, some.groom.hair.clone()), (100, whole.groom.hair.select(&first)));
     }
-    assert_eq!(build(Shown::AtMost(200)).unwrap().hair, whole.hair);
+    assert_eq!(build(Shown::AtMost(200)).unwrap().groom.hair, whole.groom.hair);
     assert!(build(Shown::First(200)).unwrap_err().to_string().contains("the scene has 100"));
 }
 
@@ -385,8 +387,11 @@ fn the_identity_is_that_of_the_motion_and_not_of_the_spelling() {
     other("shell", &|stage| stage.dynamics.shell = 1.3);
     other("ellipsoid", &|stage| stage.dynamics.ellipsoid.half_axes.x += 0.1);
     other("disturbance", &|stage| stage.dynamics.disturbance = Some(Default::default()));
-    other("a point", &|stage| stage.hair.strands.points_mut()[7].x += 1e-5);
-    other("fewer strands", &|stage| stage.hair = stage.hair.select(&[0, 1, 2]));
+    fn hair(stage: &mut BuiltScene) -> &mut Hair {
+        &mut Arc::make_mut(&mut stage.groom).hair
+    }
+    other("a point", &|stage| hair(stage).strands.points_mut()[7].x += 1e-5);
+    other("fewer strands", &|stage| *hair(stage) = stage.groom.hair.select(&[0, 1, 2]));
 }
 
 #[test]
@@ -434,8 +439,8 @@ fn imported_hair_is_cut_into_the_segments_asked_for() {
         );
         Scene::parse(&text, std::path::Path::new("two.toml"), &[])?.build(Shown::All)
     };
-    let as_in_file = built("").unwrap().hair.strands;
-    let cut = built("segments = 6").unwrap().hair.strands;
+    let as_in_file = built("").unwrap().strands().clone();
+    let cut = built("segments = 6").unwrap().strands().clone();
     assert_eq!(as_in_file.iter().map(<[_]>::len).collect::<Vec<_>>(), [3, 2]);
     for (cut, whole) in cut.iter().zip(as_in_file.iter()) {
         assert_eq!((cut.len(), cut[0], cut[6]), (7, whole[0], whole[whole.len() - 1]));
@@ -466,6 +471,7 @@ fn what_is_tied_swings_as_hair_of_the_length_behind_its_tie() {
     let Form::Free(free) = &built.dynamics.form else { panic!("the ponytail is of the free form") };
     let tie = free.form.tie.expect("it is tied");
     let mut behind: Vec<f32> = built
+        .groom
         .hair
         .strands
         .iter()

@@ -155,7 +155,7 @@ mean_moved = [-4, 4, 0]
     let options = SolveOptions { strands: 3, ..place.options() };
     let (shown, whole) = (Shown::AtMost(3), Shown::All);
     let bears = |built: &nabiki_scene::BuiltScene| {
-        4.0 / nabiki::dynamics::largest_gain(&built.hair.strands, &built.dynamics).unwrap()
+        4.0 / nabiki::dynamics::largest_gain(built.strands(), &built.dynamics).unwrap()
     };
     let load = |name: &str| Scene::load(&place.path(name), &[]).unwrap();
     let [some, all] = [shown, whole].map(|shown| bears(&load("scene.toml").build(shown).unwrap()));
@@ -432,12 +432,12 @@ fn the_wishes_that_come_with_the_scenes_are_about_their_hair() {
         // A lock near a point is of the strands that have a node there besides their root, and of no other.
         if let Some(near) = file.wishes.wish[0].near.filter(|near| near.frame == Some(0)) {
             let is_there = |p: &Vec3| p.as_dvec3().distance(near.point.as_dvec3()) <= f64::from(near.radius);
-            let strands = (0..).zip(built.hair.strands.iter());
+            let strands = (0..).zip(built.strands().iter());
             let there: Vec<u32> = strands.filter(|(_, s)| s[1..].iter().any(is_there)).map(|(s, _)| s).collect();
             let mut found: Vec<u32> = named[0].wish.nodes.iter().map(|node| node.strand).collect();
             found.dedup();
             assert_eq!(found, there, "{}", wishes.display());
-            assert!(!there.is_empty() && there.len() < built.hair.strands.len());
+            assert!(!there.is_empty() && there.len() < built.strands().len());
         }
     }
     assert!(count >= 3, "{count}");

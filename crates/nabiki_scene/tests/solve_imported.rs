@@ -83,11 +83,11 @@ fn what_hair_that_is_not_shown_can_bear_is_found_for_the_strands_that_were_meant
     let wishes = WishFile::parse(wishes, &place.path("wish.toml")).unwrap();
     let shown = Shown::AtMost(SHOWN);
     let before = place.scene("").build(shown).unwrap();
-    assert!(before.ids().iter().zip(0..).any(|(&id, s)| id != s), "they are not the first of the file");
+    assert!(before.groom.ids.iter().zip(0..).any(|(&id, s)| id != s), "they are not the first of the file");
     // What hair has within 13 cm of the point, but for its roots.
     let is_near = |p: Vec3| p.as_dvec3().distance(DVec3::new(0.0, 12.0, 18.0)) <= 13.0;
     let mut nodes = Vec::new();
-    for (strand, points) in (0..).zip(before.hair.strands.iter()) {
+    for (strand, points) in (0..).zip(before.strands().iter()) {
         nodes.extend((1..).zip(&points[1..]).filter(|(_, p)| is_near(**p)).map(|(node, _)| Node { strand, node }));
     }
     assert!(!nodes.is_empty());
@@ -95,7 +95,7 @@ fn what_hair_that_is_not_shown_can_bear_is_found_for_the_strands_that_were_meant
 
     let (without, _) = find(place.scene("drop_shorter_than = 5"), &wishes, SHOWN, &mut Unwatched).unwrap();
     let whole = place.scene("").build(Shown::All).unwrap();
-    let bears = 4.0 / largest_gain(&whole.hair.strands, &whole.dynamics).unwrap();
+    let bears = 4.0 / largest_gain(whole.strands(), &whole.dynamics).unwrap();
     let strength = without.field.force[0].vector.length();
     assert!(f64::from(strength) > bears, "short hair does not bear the first answer: {strength} of {bears}");
 

@@ -90,12 +90,12 @@ fn a_new_scene_finds_unit_and_axes_of_a_head_and_its_hair() {
     let [scene, head, hair] = ["new.toml", "head.obj", "hair.obj"].map(|name| folder.path().join(name));
     let bust = bust();
     // Fitted as an imported head's is.
-    let half_axes = Head::fit(&bust.head.mesh).unwrap().half_axes;
+    let half_axes = Head::fit(&bust.model.head.mesh).unwrap().half_axes;
     let (y, z) = ((Axis::PlusY, Axis::PlusZ), (Axis::PlusZ, Axis::MinusY));
     for (unit, cm, (up, facing)) in [("m", 100.0, y), ("in", 2.54, z)] {
         let placement = standing(cm, up, facing);
-        std::fs::write(&head, mesh_text(&bust.head, &placement)).unwrap();
-        std::fs::write(&hair, hair_text(&bust.hair, &placement)).unwrap();
+        std::fs::write(&head, mesh_text(&bust.model.head, &placement)).unwrap();
+        std::fs::write(&hair, hair_text(&bust.groom.hair, &placement)).unwrap();
         let new = template(&scene, Some(&head), &[], Some(&hair)).unwrap();
         for guess in
             [format!("head.unit = \"{unit}\""), format!("head.up = \"{up}\""), format!("head.facing = \"{facing}\"")]
@@ -106,7 +106,7 @@ fn a_new_scene_finds_unit_and_axes_of_a_head_and_its_hair() {
         let stage = built(&new.text, &scene);
         assert_eq!(advised(&stage), [], "{}", new.text);
         // The file's digits, and a fit that settles to 1e-4 of the size.
-        let off = (stage.head.ellipsoid.half_axes - half_axes).abs().max_element();
+        let off = (stage.model.head.ellipsoid.half_axes - half_axes).abs().max_element();
         assert!(off < 1e-2, "half axes off by {off} cm in {unit}");
     }
 }
@@ -130,7 +130,7 @@ fn a_new_scene_without_files_runs_in_the_free_form_with_its_defaults() {
 fn a_head_of_no_person_s_size_is_said_with_the_unit_that_mends_it() {
     let folder = tempfile::tempdir().unwrap();
     let (scene, head) = (folder.path().join("scene.toml"), folder.path().join("head.obj"));
-    std::fs::write(&head, mesh_text(&bust().head, &standing(1.0, Axis::PlusY, Axis::PlusZ))).unwrap();
+    std::fs::write(&head, mesh_text(&bust().model.head, &standing(1.0, Axis::PlusY, Axis::PlusZ))).unwrap();
     let with = |unit: &str| {
         let text = format!(
             "[head]\nmesh = \"head.obj\"\nunit = {unit}\nfacing = \"+z\"\n[hair]\nfile = \"hair.obj\"\n{FORCE}"
@@ -169,7 +169,7 @@ fn advice_that_is_followed_is_the_last_of_its_kind_whatever_is_shown() {
         ("of a smaller head", Placement { unit: Unit { cm: 1.12 }, ..Placement::default() }),
         ("of a larger head", Placement { unit: Unit { cm: 0.8 }, ..Placement::default() }),
     ];
-    for (part, hair) in parts_of(&bust.hair) {
+    for (part, hair) in parts_of(&bust.groom.hair) {
         for (how, placement) in placements.iter().filter(|(how, _)| part == "all" || how.contains("aside")) {
             let what = format!("{part} {how}, {} strands", hair.strands.len());
             std::fs::write(folder.path().join("hair.obj"), hair_text(&hair, placement)).unwrap();
@@ -192,7 +192,7 @@ fn hair_beside_the_head_is_said_with_what_mends_it() {
     let scene = folder.path().join("scene.toml");
     let bust = bust();
     let with = |placement: &Placement, more: &str| {
-        std::fs::write(folder.path().join("hair.obj"), hair_text(&bust.hair, placement)).unwrap();
+        std::fs::write(folder.path().join("hair.obj"), hair_text(&bust.groom.hair, placement)).unwrap();
         advised(&built(&format!("[hair]\nfile = \"hair.obj\"\n{more}\n{FORCE}"), &scene))
     };
     assert_eq!(with(&Placement::default(), ""), []);
@@ -212,7 +212,7 @@ fn hair_within_the_head_is_said_with_what_mends_it() {
     let bust = bust();
     // A tenth smaller than the head: roots within a centimetre of the skin, and most of the hair below it.
     let smaller = Placement { unit: Unit { cm: 1.1 }, ..Placement::default() };
-    std::fs::write(folder.path().join("hair.obj"), hair_text(&bust.hair, &smaller)).unwrap();
+    std::fs::write(folder.path().join("hair.obj"), hair_text(&bust.groom.hair, &smaller)).unwrap();
     let with = |more: &str| advised(&built(&format!("[hair]\nfile = \"hair.obj\"\n{more}\n{FORCE}"), &scene));
     let said = with("");
     assert!(said.len() == 1 && said[0].seen.contains("% of the hair's points are inside the head at rest"), "{said:?}");
@@ -231,7 +231,7 @@ fn what_a_format_states_is_not_guessed() {
         let new = template(&scene, Some(&files.join(name)), &[], None).unwrap();
         assert!(!new.guesses.iter().any(|said| said.contains("head.unit") || said.contains("head.up")), "{new:?}");
         assert!(!new.text.contains("\nunit =") && !new.text.contains("\nup ="), "{}", new.text);
-        let placement = built(&new.text, &scene).placement;
+        let placement = built(&new.text, &scene).model.placement;
         assert_eq!((placement.unit, placement.up), (Unit { cm: 100.0 }, Axis::PlusY), "{name}");
     }
 }
@@ -243,15 +243,15 @@ fn a_unit_that_a_file_states_is_kept_and_its_up_axis_may_be_another_than_the_hea
     let bust = bust();
     let (y, z) = ((Axis::PlusY, Axis::PlusZ), (Axis::PlusZ, Axis::MinusY));
     for (of_head, of_hair) in [(y, z), (z, y)] {
-        std::fs::write(&head, mesh_text(&bust.head, &standing(100.0, of_head.0, of_head.1))).unwrap();
+        std::fs::write(&head, mesh_text(&bust.model.head, &standing(100.0, of_head.0, of_head.1))).unwrap();
         // A little too small for the head: some of it lies inside.
         let place = standing(100.0, of_hair.0, of_hair.1).file_from_head_in_doubles();
         let place = place * DAffine3::from_scale(DVec3::splat(0.93));
         let declared = DeclaredSpace { unit: Some(Unit { cm: 100.0 }), up: Some(of_hair.0) };
-        nabiki_io::exchange::write(&hair, &bust.hair.clone().transformed(&place), declared).unwrap();
+        nabiki_io::exchange::write(&hair, &bust.groom.hair.clone().transformed(&place), declared).unwrap();
         let new = template(&scene, Some(&head), &[], Some(&hair)).unwrap();
         assert!(!new.guesses.iter().any(|said| said.starts_with("hair.")), "{:?}", new.guesses);
-        let placement = built(&new.text, &scene).hair_placement.unwrap();
+        let placement = built(&new.text, &scene).groom.imported.as_ref().unwrap().placement;
         assert_eq!((placement.unit.cm, placement.up, placement.facing), (100.0, of_hair.0, of_hair.1));
     }
 }
@@ -271,7 +271,7 @@ fn a_mesh_of_no_size_of_a_person_s_is_guessed_by_its_height_or_asked_for() {
     assert!(guess(&head).contains("give the file's own"), "{}", guess(&head));
     for scale in ["1e-9", "1e20"] {
         let unit = Unit { cm: scale.parse::<f32>().unwrap().recip() };
-        std::fs::write(&head, mesh_text(&bust().head, &Placement { unit, ..Placement::default() })).unwrap();
+        std::fs::write(&head, mesh_text(&bust().model.head, &Placement { unit, ..Placement::default() })).unwrap();
         let refused = template(&scene, Some(&head), &[], None).unwrap_err().to_string();
         assert!(refused.contains("head.obj: ") && refused.contains("scale it in the file"), "{refused}");
     }
@@ -284,7 +284,7 @@ fn of_a_body_among_other_things_the_part_with_a_skull_is_taken() {
     // A plate high above the head, so that there is no skull at the top.
     let plate =
         "v -90 90 -90\nv 90 90 -90\nv 0 90 90\nv 0 91 0\ng helper\nf -4 -3 -2\nf -4 -3 -1\nf -3 -2 -1\nf -2 -4 -1\n";
-    let text = mesh_text(&bust().head, &standing(1.0, Axis::PlusY, Axis::PlusZ));
+    let text = mesh_text(&bust().model.head, &standing(1.0, Axis::PlusY, Axis::PlusZ));
     let body = text.replacen("\nf ", "\ng body\nf ", 1);
     std::fs::write(&head, format!("{body}{}", plate.replace("90", "290").replace("91", "291"))).unwrap();
     let new = template(&scene, Some(&head), &[], None).unwrap();
@@ -301,7 +301,7 @@ fn of_a_body_among_other_things_the_part_with_a_skull_is_taken() {
 fn a_hole_in_the_skull_is_said_and_one_at_the_neck_is_not() {
     let folder = tempfile::tempdir().unwrap();
     let [scene, head] = ["scene.toml", "head.obj"].map(|name| folder.path().join(name));
-    let bust = bust().head;
+    let bust = bust().model.head.clone();
     let without = |gone: &dyn Fn(Vec3) -> bool| {
         let mut open = bust.clone();
         open.mesh.triangles.retain(|t| !t.iter().any(|&v| gone(bust.mesh.positions[v as usize])));
@@ -361,13 +361,13 @@ fn more_strands_than_a_file_has_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("scene.toml");
     let bust = bust();
-    std::fs::write(folder.path().join("hair.obj"), hair_text(&bust.hair, &Placement::default())).unwrap();
-    let count = bust.hair.strands.len();
+    std::fs::write(folder.path().join("hair.obj"), hair_text(&bust.groom.hair, &Placement::default())).unwrap();
+    let count = bust.strands().len();
     let load = |strands: usize, shown: Shown| {
         let text = format!("[hair]\nfile = \"hair.obj\"\nstrands = {strands}\n{FORCE}");
         Scene::parse(&text, &scene, &[]).unwrap().build(shown)
     };
-    assert_eq!(load(count, Shown::All).unwrap().hair.strands.len(), count);
+    assert_eq!(load(count, Shown::All).unwrap().strands().len(), count);
     let refused = load(count + 1, Shown::All).unwrap_err().to_string();
     let end = format!(
         "hair.strands = {}: hair.obj has {count} strands: ask for fewer, or for all by leaving it out",
@@ -387,21 +387,21 @@ fn hair_that_was_moved_aside_keeps_its_facing_however_much_of_it_is_inside() {
     let bust = Scene::parse(FORCE, Path::new("bust.toml"), &many).unwrap().build(Shown::All).unwrap();
     // Every nth strand is pressed into the head behind its root.
     let pressed = |each: usize, deep: f32| {
-        let mut strands = bust.hair.strands.clone();
+        let mut strands = bust.strands().clone();
         let starts = strands.starts().to_vec();
         for strand in starts.windows(2).step_by(each) {
             for p in &mut strands.points_mut()[strand[0] as usize + 1..strand[1] as usize] {
-                *p -= bust.head.outward(*p) * (bust.head.distance(*p) + deep);
+                *p -= bust.model.head.outward(*p) * (bust.model.head.distance(*p) + deep);
             }
         }
         Hair::from(strands)
     };
     let smaller = |by: f32| {
         let place = DAffine3::from_scale(DVec3::splat(by.into()));
-        bust.hair.clone().transformed(&place)
+        bust.groom.hair.clone().transformed(&place)
     };
     let grooms = [
-        ("as it is", bust.hair.clone()),
+        ("as it is", bust.groom.hair.clone()),
         ("a tenth inside", pressed(10, 0.3)),
         ("a fifth inside", pressed(5, 0.5)),
         ("a third inside", pressed(3, 0.3)),

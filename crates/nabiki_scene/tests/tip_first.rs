@@ -14,7 +14,8 @@ fn grown(style: &str) -> Hair {
     let text = format!(
         "[hair]\nstrands = 240\nsegments = 12\nsegment_length = 1.5\n[hair.style]\n{style}\n[[force]]\nthrough = 1\nvector = [0, -1, 0]\n"
     );
-    let mut hair = Scene::parse(&text, Path::new("bust.toml"), &[]).unwrap().build(Shown::All).unwrap().hair;
+    let mut hair =
+        Scene::parse(&text, Path::new("bust.toml"), &[]).unwrap().build(Shown::All).unwrap().groom.hair.clone();
     hair.attributes.width = Some((0..hair.strands.points().len()).map(|p| 0.001 * (1.0 + p as f32)).collect());
     hair
 }
@@ -58,7 +59,7 @@ fn built(folder: &Path, source: &Hair, more: &str) -> BuiltScene {
 }
 
 fn turned(built: &BuiltScene) -> usize {
-    built.import_report.unwrap().tip_first
+    built.groom.imported.as_ref().unwrap().report.tip_first
 }
 
 #[test]
@@ -71,11 +72,11 @@ fn strands_are_turned_one_by_one_with_what_they_carry() {
             let tip_first: Vec<bool> = (0..count).map(|s| s % nth == 0).collect();
             let built = built(folder.path(), &stored(&hair, &tip_first), "");
             assert_eq!(turned(&built), count.div_ceil(nth), "one in {nth}, {style}");
-            assert_eq!(built.hair.strands, hair.strands, "one in {nth}, {style}");
-            assert_eq!(built.hair.attributes.width, hair.attributes.width, "one in {nth}");
+            assert_eq!(*built.strands(), hair.strands, "one in {nth}, {style}");
+            assert_eq!(built.groom.hair.attributes.width, hair.attributes.width, "one in {nth}");
         }
         assert_eq!(turned(&built(folder.path(), &hair, "")), 0, "{style}");
-        assert_eq!(built(folder.path(), &hair, "").hair.strands, hair.strands);
+        assert_eq!(built(folder.path(), &hair, "").groom.hair.strands, hair.strands);
     }
 }
 
@@ -85,9 +86,9 @@ fn a_scene_may_say_which_end_is_the_root() {
     let hair = grown(STYLES[0]);
     let all = vec![true; hair.strands.len()];
     let backward = stored(&hair, &all);
-    assert_eq!(built(folder.path(), &backward, "root = \"first\"").hair.strands, backward.strands);
-    assert_eq!(built(folder.path(), &backward, "root = \"last\"").hair.strands, hair.strands);
-    assert_eq!(built(folder.path(), &hair, "root = \"last\"").hair.strands, backward.strands);
+    assert_eq!(built(folder.path(), &backward, "root = \"first\"").groom.hair.strands, backward.strands);
+    assert_eq!(built(folder.path(), &backward, "root = \"last\"").groom.hair.strands, hair.strands);
+    assert_eq!(built(folder.path(), &hair, "root = \"last\"").groom.hair.strands, backward.strands);
     let refused = Scene::parse("[hair]\nfile = \"a.hair\"\nroot = \"tip\"\n", Path::new("a.toml"), &[]);
     assert!(refused.unwrap_err().to_string().contains("hair.root"));
 }
@@ -113,7 +114,7 @@ fn hair_that_lies_on_the_skin_from_end_to_end_stays_as_it_is() {
     }
     let brows = Hair::from(strands);
     let built = built(folder.path(), &brows, "");
-    assert_eq!((turned(&built), &built.hair.strands), (0, &brows.strands));
+    assert_eq!((turned(&built), built.strands()), (0, &brows.strands));
 }
 
 #[test]

@@ -66,13 +66,13 @@ fn each_frame_jumps_from_the_one_before_it() {
     let folder = tempfile::tempdir().unwrap();
     let built = beside_a_cube(folder.path());
     let mut summary = MotionSummary::default();
-    let mut hair = built.hair.strands.clone();
+    let mut hair = built.strands().clone();
     // One point goes 0.5, 2 and 1 cm.
     let mut x = 0.0;
     for (frame, by) in [(0, 0.0), (1, 0.5), (2, 2.0), (3, 1.0)] {
         x += by;
         let mut moved = hair.clone();
-        moved.strand_mut(3)[2] = built.hair.strands.strand(3)[2] + Vec3::X * x;
+        moved.strand_mut(3)[2] = built.strands().strand(3)[2] + Vec3::X * x;
         hair = moved;
         summary.add(&built, frame, &hair);
         assert!((summary.last.jump - by).abs() < 1e-5, "frame {frame}: {} cm", summary.last.jump);

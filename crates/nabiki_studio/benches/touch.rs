@@ -65,7 +65,7 @@ fn touch_it(scene: &Scene) {
 fn alone(scene: &Scene, strands: usize) -> Duration {
     let built = scene.clone().build(Shown::AtMost(strands)).unwrap_or_else(|e| panic!("{e}"));
     let mut timeline = built.timeline().unwrap_or_else(|e| panic!("{e}"));
-    let mut film = vec![glam::Vec3::ZERO; built.hair.strands.points().len() * (built.frames() as usize + 1)];
+    let mut film = vec![glam::Vec3::ZERO; built.strands().points().len() * (built.frames() as usize + 1)];
     let mut times: Vec<Duration> = (0..TOUCHES)
         .map(|_| {
             let start = Instant::now();

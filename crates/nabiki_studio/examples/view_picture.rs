@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let take = Take { built, film: film.into(), number: 1 };
     let mut bounds = Bounds::default();
-    bounds.include_head(&take.built.head.mesh, &take.built.head.ellipsoid);
+    bounds.include_head(&take.built.model.head.mesh, &take.built.model.head.ellipsoid);
     take.film.iter().for_each(|&p| bounds.include(p));
     let picture = &take.built.scene.picture;
     let orbit = Orbit::new(&picture.camera.at(frame as f32 / take.frames() as f32), size, &bounds);
@@ -68,8 +68,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut timeline = whole.timeline()?;
     let strands = timeline.seek(frame);
     let clock = Instant::now();
-    let mut renderer =
-        Renderer::new(picture, &whole.head.mesh)?.with_face(&whole.head).with_bodies(whole.drawn_bodies())?;
+    let mut renderer = Renderer::new(picture, &whole.model.head.mesh)?
+        .with_face(&whole.model.head)
+        .with_bodies(whole.drawn_bodies())?;
     let bodies = whole.drawn_poses(frame);
     let now = Moment { strands, pose: take.pose(frame), view, bodies: &bodies };
     let drawn = renderer.draw(&FrameToDraw { now, before: None })?;

@@ -283,7 +283,7 @@ impl Player {
         scene.check().map_err(|refused| scene.refusal(refused))?;
         let shown = Shown::AtMost(strands);
         let known = self.built.clone().filter(|_| !fresh);
-        let built = scene.build_while(shown, known.as_deref(), &|part| goes_on(Stage::Building, part))?;
+        let built = scene.build_while(shown, known.as_deref().as_slice(), &|part| goes_on(Stage::Building, part))?;
         check_size(&built)?;
         if !goes_on(Stage::Moving, 0.0) {
             self.built = Some(Arc::new(built));
@@ -298,8 +298,8 @@ impl Player {
             Some(timeline) => timeline,
             None => built.timeline().inspect_err(|_| self.built = None)?,
         };
-        let points = built.hair.strands.points().len() * (built.frames() as usize + 1);
-        let stretch = (STRETCH / built.hair.strands.points().len().max(1)).max(1) as u32;
+        let points = built.strands().points().len() * (built.frames() as usize + 1);
+        let stretch = (STRETCH / built.strands().points().len().max(1)).max(1) as u32;
         let (mut whole, mut frame) = (false, 0);
         let mut next = || {
             frame += stretch;
@@ -332,13 +332,10 @@ impl Player {
 
 /// The timeline of a scene that was `known`, as that of another; none where the hair is another.
 fn reused(mut timeline: Timeline, known: &BuiltScene, built: &BuiltScene) -> Option<Timeline> {
-    if known.hair.strands != built.hair.strands {
+    if known.strands() != built.strands() {
         return None;
     }
-    let same_poses = known.frames() == built.frames()
-        && known.head_moves() == built.head_moves()
-        && (!built.head_moves() || (0..=built.frames()).all(|n| known.pose(n) == built.pose(n)));
-    if !same_poses {
+    if known.frames() != built.frames() || known.way.poses != built.way.poses {
         timeline.set_poses(built.given_poses(), built.frames()).ok()?;
     }
     if known.dynamics != built.dynamics {
@@ -346,15 +343,15 @@ fn reused(mut timeline: Timeline, known: &BuiltScene, built: &BuiltScene) -> Opt
         timeline.set_field(Arc::new(FieldSum::default())).ok()?;
         timeline.set_dynamics(&built.dynamics).ok()?;
     }
-    timeline.set_field(built.field.clone()).ok()?;
+    timeline.set_field(built.forces.field.clone()).ok()?;
     Some(timeline)
 }
 
 /// Refuses more points than there is room for.
 fn check_size(built: &BuiltScene) -> Result<(), Error> {
-    let points = built.hair.strands.points().len();
+    let points = built.strands().points().len();
     let bytes = points * (built.frames() as usize + 1) * size_of::<Vec3>();
-    let strands = built.hair.strands.len();
+    let strands = built.strands().len();
     if bytes > MOST_BYTES {
         return Err(Error::refused(format!(
             "{strands} strands in {} frames take {:.1} GiB: show fewer strands, or give motion.frames less",
@@ -377,7 +374,7 @@ pub fn most_strands(take: &Take) -> usize {
     let points_in_all = MOST_POINTS.min(MOST_BYTES / (frames * size_of::<Vec3>()));
     // A hundredth is left for hair that is not of one length.
     let fit = (points_in_all as f64 * 0.99 * strands as f64 / points as f64) as usize;
-    take.built.strands_of_scene.min(fit)
+    take.built.groom.of_scene.min(fit)
 }
 
 #[cfg(test)]
@@ -438,9 +435,7 @@ mod tests {
             true
         };
         let take = player.play(grown(16.0, 2000), &note).unwrap().unwrap().0;
-        assert!(
-            *take.built.hair.strands.points() == *grown(16.0, 0).scene.build(Shown::All).unwrap().hair.strands.points()
-        );
+        assert!(*take.built.strands().points() == *grown(16.0, 0).scene.build(Shown::All).unwrap().strands().points());
         let parts = parts.into_inner().unwrap();
         assert!(parts.iter().any(|&(moves, part)| !moves && part > 0.5), "nothing is said of how far it is");
         assert!(parts.iter().all(|(_, part)| (0.0..=1.0).contains(part)), "{parts:?}");

@@ -30,7 +30,7 @@ impl Take {
 
     /// The shown strands at rest.
     pub fn strands(&self) -> &Strands {
-        &self.built.hair.strands
+        self.built.strands()
     }
 
     /// How many of the strands are at hand: the first, which every touch moves, however many are shown. What is taken hold of
@@ -68,8 +68,8 @@ impl Take {
         Drawing {
             strands,
             points: self.points(frame),
-            share: self.built.strands_of_scene as f32 / strands.len().max(1) as f32,
-            head: &self.built.head,
+            share: self.built.groom.of_scene as f32 / strands.len().max(1) as f32,
+            head: &self.built.model.head,
             pose: self.pose(frame),
             bodies,
             picture,

@@ -144,7 +144,7 @@ impl View {
         let (take, pose) = (shown.take, shown.take.pose(shown.frame));
         let pixels = [size.x, size.y].map(|side| side.max(1.0) as u32);
         let view = orbit.view(pixels, pose.position_cm).in_head(&pose);
-        let head = &take.built.head.ellipsoid;
+        let head = &take.built.model.head.ellipsoid;
         let of_head = [-1.0, 1.0].map(|side| head.center + view.right * head.half_axes.max_element() * side);
         let tips =
             (0..take.at_hand()).filter_map(|strand| take.points(shown.frame)[take.strands().range(strand)].last());
@@ -441,7 +441,7 @@ impl View {
 /// Head and hair of some frames, from the head's origin along the world's axes.
 fn bounds(take: &Take, frames: std::ops::RangeInclusive<u32>) -> Bounds {
     let mut bounds = Bounds::default();
-    let (head, turns) = (&take.built.head, take.built.head_moves());
+    let (head, turns) = (&take.built.model.head, take.built.head_moves());
     bounds.include_head(&head.mesh, &head.ellipsoid);
     let points = take.at_hand().checked_sub(1).map_or(0, |last| take.strands().range(last).end);
     for frame in frames {

@@ -20,7 +20,7 @@ pub fn scene(scene: &nabiki_scene::Scene) -> String {
 
 /// `of scenes/gust.toml: 111 frames of 300 strands, 5700 points (cm)`.
 pub fn motion(built: &BuiltScene) -> String {
-    let (strands, points) = (built.hair.strands.len(), built.hair.strands.points().len());
+    let (strands, points) = (built.strands().len(), built.strands().points().len());
     let (frames, strands) = (counted(built.frames() as usize + 1, "frame"), counted(strands, "strand"));
     format!("of {}: {frames} of {strands}, {points} points (cm)", name(&built.scene))
 }

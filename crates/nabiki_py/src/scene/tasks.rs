@@ -96,7 +96,7 @@ impl Scene {
             watched(py, ears, &[], |watch| tasks::groom(scene, shown(strands), &file, watch))?;
         }
         let built = self.built(py, shown(strands), ears)?;
-        let points = Bound::new(py, Points::new(built.hair.strands.points().to_vec(), None))?;
+        let points = Bound::new(py, Points::new(built.strands().points().to_vec(), None))?;
         Ok((Hinted::new(arrays::flat(&points)), Hinted::new(crate::frame::offsets(py, &built).into_bound(py))))
     }
 

@@ -21,7 +21,7 @@ pub fn measure(scene: Scene, strands: usize) -> Result<(), Box<dyn std::error::E
     let built = scene.clone().build(Shown::AtMost(strands))?;
     let mut timeline = built.timeline()?;
     let film = timeline.play();
-    let rest = &built.hair.strands;
+    let rest = &built.groom.hair.strands;
     println!("{} strands, {} frames at {} a second", rest.len(), film.frames(), built.dynamics.motion.frame_rate);
 
     if let Some((from, through)) = first_wind(&scene) {
@@ -51,7 +51,7 @@ fn first_wind(scene: &Scene) -> Option<(u32, u32)> {
 /// Half-rise and the way of the tip, beside chains where hair touches nothing and nothing else pulls.
 fn rises(built: &BuiltScene, film: &Played, from: u32, through: u32) {
     let through = through.min(film.frames());
-    let all: Vec<[f64; 3]> = (0..built.hair.strands.len())
+    let all: Vec<[f64; 3]> = (0..built.groom.hair.strands.len())
         .map(|s| {
             let frames: Vec<Vec<DVec3>> = (0..=through).map(|n| wide(film.strand(n, s))).collect();
             ALONG.map(|along| half_rise(&frames, along))
@@ -65,10 +65,10 @@ fn rises(built: &BuiltScene, film: &Played, from: u32, through: u32) {
     let touches = |s: usize| {
         (0..=through).any(|n| {
             let points = film.strand(n, s);
-            points[points.len() / 3..].iter().any(|&p| built.head.distance(p) < FREE_CM)
+            points[points.len() / 3..].iter().any(|&p| built.model.head.distance(p) < FREE_CM)
         })
     };
-    let clear: Vec<usize> = (0..built.hair.strands.len()).filter(|&s| !touches(s)).take(CHAINS).collect();
+    let clear: Vec<usize> = (0..built.groom.hair.strands.len()).filter(|&s| !touches(s)).take(CHAINS).collect();
     if clear.is_empty() || free.form.tie.is_some() {
         return;
     }
@@ -76,7 +76,7 @@ fn rises(built: &BuiltScene, film: &Played, from: u32, through: u32) {
     for &s in &clear {
         let frames: Vec<Vec<DVec3>> = (0..=through).map(|n| wide(film.strand(n, s))).collect();
         let chain = Chain::new(&frames[0], properties(&built.dynamics, &frames[0]));
-        let truth = chain.run(through, |p, n| built.field.at(p.as_vec3(), n).as_dvec3(), |_| DVec3::ZERO);
+        let truth = chain.run(through, |p, n| built.forces.field.at(p.as_vec3(), n).as_dvec3(), |_| DVec3::ZERO);
         ours.push(ALONG.map(|along| half_rise(&frames, along)));
         chains.push(ALONG.map(|along| half_rise(&truth, along)));
         let tips = frames.iter().zip(&truth).map(|(a, b)| a[a.len() - 1].distance(b[b.len() - 1]));
@@ -157,10 +157,10 @@ fn alike(rest: &Strands, tips: &[Vec<DVec3>]) {
 
 /// Nodes in the head, sharp bends and lengths.
 fn shapes(built: &BuiltScene, film: &Played) {
-    let rest = &built.hair.strands;
+    let rest = &built.groom.hair.strands;
     let (mut inside, mut kinks, mut joints, mut off) = (0, 0, 0, 0.0_f64);
     for n in 0..=film.frames() {
-        inside += film.points(n).iter().filter(|&&p| built.head.depth(p) > 0.05).count();
+        inside += film.points(n).iter().filter(|&&p| built.model.head.depth(p) > 0.05).count();
         for s in 0..rest.len() {
             let ways: Vec<Vec3> = film.strand(n, s).windows(2).map(|w| w[1] - w[0]).collect();
             for (way, was) in ways.iter().zip(rest.strand(s).windows(2)) {
@@ -190,7 +190,7 @@ fn rest_and_return(built: &BuiltScene, mut scene: Scene, strands: usize) -> Resu
     let built = scene.build(Shown::AtMost(strands))?;
     let mut timeline = built.timeline()?;
     let film = timeline.play();
-    let (last, rest) = (film.frames(), &built.hair.strands);
+    let (last, rest) = (film.frames(), &built.groom.hair.strands);
     let far = (0..rest.len()).map(|s| {
         let tip = |n| *film.strand(n, s).last().expect("a strand has points");
         f64::from(tip(last).distance(tip(0)))

@@ -28,16 +28,16 @@ impl BuiltScene {
     /// # Errors
     /// As [`identity`](Self::identity).
     pub(crate) fn piece(&self, reference: bool, command: &str) -> Result<Option<Piece>> {
-        let Some(ShardOf { shard, strands, .. }) = self.shard else { return Ok(None) };
+        let Some(ShardOf { shard, strands, .. }) = self.groom.shard else { return Ok(None) };
         let (settings, groom) = (self.settings_identity()?, self.groom_identity()?);
         let (strands, command) = (strands as u64, command.to_owned());
         Ok(Some(Piece { shard, strands, settings, groom, sum: self.strand_sum(), reference, command }))
     }
 
     fn strand_sum(&self) -> StrandSum {
-        let from = self.shard.map_or(0, |ShardOf { shard, strands, .. }| shard.range(strands).start);
-        let places = from..from + self.hair.strands.len();
-        StrandSum::of(&self.hair.strands, places, self.dynamics.disturbance.as_ref().map(|_| self.ids.as_slice()))
+        let from = self.groom.shard.map_or(0, |ShardOf { shard, strands, .. }| shard.range(strands).start);
+        let places = from..from + self.groom.hair.strands.len();
+        StrandSum::of(self.strands(), places, self.dynamics.disturbance.as_ref().map(|_| self.groom.ids.as_slice()))
     }
 
     /// What the strands grow from, or the strands by which the whole of an imported groom is known.
@@ -48,8 +48,8 @@ impl BuiltScene {
             HairSource::Imported(hair) => digest.settings("imported", hair)?,
         }
         digest.settings("segment_length", &[self.scene.hair.segment_length])?;
-        add_numbers(&mut digest, "head", bytemuck::cast_slice(&self.head.mesh.positions));
-        let groom = self.shard.map_or(StrandSum::default(), |shard| shard.groom);
+        add_numbers(&mut digest, "head", bytemuck::cast_slice(&self.model.head.mesh.positions));
+        let groom = self.groom.shard.map_or(StrandSum::default(), |shard| shard.groom);
         digest.bytes("groom", &groom.0.to_le_bytes());
         Ok(digest.finish())
     }
@@ -81,8 +81,8 @@ impl BuiltScene {
         if let Form::Free(free) = &self.dynamics.form {
             self.add_free(&mut digest, free)?;
         }
-        for frame in 0..self.poses.len() {
-            add_pose(&mut digest, &self.poses[frame]);
+        for frame in 0..self.way.poses.len() {
+            add_pose(&mut digest, &self.way.poses[frame]);
         }
         Ok(digest.finish())
     }

@@ -79,7 +79,7 @@ fn automatic_framing_holds_every_point_of_every_frame_and_no_more_than_it_must()
         for (azimuth, elevation) in [(0.0, 0.0), (40.0, 5.0), (90.0, 0.0), (205.0, -20.0), (300.0, 60.0)] {
             let film = film(&built, Camera { projection, azimuth, elevation, ..Camera::default() });
             // The head is framed as well, and may be what comes nearest.
-            let head = &built.head;
+            let head = &built.model.head;
             let near_head = head.ellipsoid.scaled(1.5);
             let (view, margin) = (film.view(0), film.picture.camera.margin * SIZE[1] as f32);
             let of_head = head.mesh.positions.iter().filter(|&&p| near_head.value(p) <= 0.0);
@@ -120,7 +120,7 @@ fn a_camera_goes_along_with_a_head_that_walks() {
     let built = gust(&[("head.motion", &motion)]);
     let mut film = film(&built, Camera { azimuth: 40.0, distance: Some(64.0), ..Camera::default() });
     // The same hair, which does not feel the head's way; of whole cm, which f32 keeps.
-    let mut drawn = |n: u32| film.draw(n, &built.hair.strands).unwrap().0;
+    let mut drawn = |n: u32| film.draw(n, built.strands()).unwrap().0;
     let (at_first, later) = (drawn(0), drawn(10));
     let apart =
         at_first.rgba.iter().zip(&later.rgba).filter(|(a, b)| (0..4).any(|c| (a[c] - b[c]).abs() > 0.02)).count();
@@ -154,7 +154,7 @@ fn a_body_is_drawn_where_it_is_and_changes_no_pixel_when_it_is_not_shown() {
         let built = gust(&[("motion.form", "\"free\""), ("body", bodies)]);
         let mut film = film(&built, Camera { azimuth: 0.0, distance: Some(90.0), ..Camera::default() });
         // The same hair, whatever the body does to it.
-        film.draw(n, &built.hair.strands).unwrap().0
+        film.draw(n, built.strands()).unwrap().0
     };
     let bare = drawn("[]", 8);
     assert!(drawn(&body(",shown=false"), 8) == bare);
@@ -174,8 +174,8 @@ fn a_body_is_drawn_where_it_is_and_changes_no_pixel_when_it_is_not_shown() {
     let open = |bodies: &str| {
         let built = gust(&[("motion.form", "\"free\""), ("body", bodies), ("picture.shutter", "0.9")]);
         let mut film = film(&built, Camera { azimuth: 0.0, distance: Some(90.0), ..Camera::default() });
-        film.previous = Some(built.hair.strands.clone());
-        film.draw(8, &built.hair.strands).unwrap().0
+        film.previous = Some(built.strands().clone());
+        film.draw(8, built.strands()).unwrap().0
     };
     assert!(apart(&open(&body("")), &open(&staying)) > 30, "it rises by 0.9 cm");
 }
@@ -183,7 +183,7 @@ fn a_body_is_drawn_where_it_is_and_changes_no_pixel_when_it_is_not_shown() {
 #[test]
 fn what_cannot_be_drawn_is_said_with_its_frame_and_where_it_comes_from() {
     let built = gust(&[]);
-    let mut strands = built.hair.strands.clone();
+    let mut strands = built.strands().clone();
     strands.points_mut()[3].x = 1e30;
     let refused = film(&built, Camera::default()).draw(5, &strands).err().unwrap().to_string();
     assert!(refused.contains("gust.toml: frame 5: strand 0, point 3 lies at "), "{refused}");
@@ -244,8 +244,8 @@ fn hair_that_turns_with_its_head_is_blurred() {
     let drawn = |shutter: &str| {
         let built = walking(folder.path(), Vec3::Y, &[("picture.shutter", shutter)]);
         let mut film = film(&built, Camera { distance: Some(80.0), ..Camera::default() });
-        film.previous = Some(built.hair.strands.clone());
-        film.draw(5, &built.hair.strands).unwrap().0
+        film.previous = Some(built.strands().clone());
+        film.draw(5, built.strands()).unwrap().0
     };
     let (sharp, open) = (drawn("0"), drawn("0.9"));
     let apart = sharp.rgba.iter().zip(&open.rgba).filter(|(a, b)| (0..3).any(|c| (a[c] - b[c]).abs() > 0.02)).count();
@@ -266,7 +266,7 @@ fn a_turntable_goes_along_with_its_head_and_holds_all_of_it() {
     ];
     let turned = |built: &BuiltScene, n: u32| {
         let mut pictures = Vec::new();
-        let mut frames = Still(built.hair.strands.clone());
+        let mut frames = Still(built.strands().clone());
         let push = |_, frame: &Frame| {
             pictures.push(frame.clone());
             Ok(())
@@ -299,11 +299,11 @@ fn a_picture_of_a_turntable_is_that_of_a_camera_so_far_round() {
     let n = 5;
     let there = built.scene.picture.camera.at(n as f32 / FRAMES as f32);
     assert!(there.azimuth > 55.0 && there.elevation > 7.0);
-    let mut frames = Still(built.hair.strands.clone());
+    let mut frames = Still(built.strands().clone());
     let push = |k: u32, frame: &Frame| {
         let camera = Camera { azimuth: there.azimuth + 90.0 * k as f32, ..there };
         // The first that a film draws is not blurred.
-        let (wanted, _) = film(&built, camera).draw(n, &built.hair.strands).unwrap();
+        let (wanted, _) = film(&built, camera).draw(n, built.strands()).unwrap();
         let apart = frame.rgba.iter().zip(&wanted.rgba).filter(|(a, b)| (0..4).any(|c| (a[c] - b[c]).abs() > 0.02));
         // A place rounded across the edge of a cell.
         let apart = apart.count();
@@ -320,7 +320,7 @@ fn forces_are_shown_where_they_push_in_the_space_that_they_are_given_in() {
         let built = walking(folder.path(), Vec3::new(0.6, 0.8, 0.0), &[("motion.force_space", space)]);
         let mut film = film(&built, Camera::default());
         let n = 7;
-        let (_, view) = film.draw(n, &built.hair.strands).unwrap();
+        let (_, view) = film.draw(n, built.strands()).unwrap();
         let pose = built.pose(n);
         for p in [Vec3::ZERO, Vec3::new(10.0, 4.0, -3.0), Vec3::new(-5.0, 9.0, 8.0)] {
             let in_world = pose.world_from_head().transform_point3(p);
@@ -345,7 +345,7 @@ fn a_contact_sheet_shows_the_forces_of_each_of_its_frames() {
                 .unwrap();
         let (mut wanted, tone_mapping) = (ContactSheet::new(2), ToneMapping::new(picture));
         for n in 0..=FRAMES {
-            let (frame, view) = film.draw(n, &built.hair.strands).unwrap();
+            let (frame, view) = film.draw(n, built.strands()).unwrap();
             outputs.push(n, &frame, &view).unwrap();
             match n {
                 // Before the first step there is that which is to come.
@@ -378,16 +378,19 @@ fn a_field_that_differs_from_place_to_place_is_shown_about_the_head_of_each_fram
         let arrows = field_picture::arrows(&built, n, &film.view_in_world(n));
         let middle = arrows.iter().map(|arrow| arrow.point).sum::<Vec3>() / arrows.len() as f32;
         let world_from_head = built.pose(n).world_from_head();
-        let centre = world_from_head.transform_point3(built.head.ellipsoid.center);
+        let centre = world_from_head.transform_point3(built.model.head.ellipsoid.center);
         // On both sides of the head alike; of some 20 points 200 cm from the origin, rounded.
         assert!(arrows.len() > 10 && middle.distance(centre) < 1e-3, "frame {n}: {middle}, not {centre}");
         let in_head = |arrow: &ForceArrow| world_from_head.inverse().transform_point3(arrow.point);
-        assert!(arrows.iter().all(|arrow| built.head.ellipsoid.value(in_head(arrow)) > -1e-4), "frame {n}: within");
+        assert!(
+            arrows.iter().all(|arrow| built.model.head.ellipsoid.value(in_head(arrow)) > -1e-4),
+            "frame {n}: within"
+        );
     }
     let slices = field_picture::plot(&built).slices.unwrap();
     let pose = built.pose(slices.frame);
     for [place, force] in slices.yz.iter().chain(&slices.zx) {
-        let there = pose.world_from_head().transform_point3(built.head.ellipsoid.center + *place);
+        let there = pose.world_from_head().transform_point3(built.model.head.ellipsoid.center + *place);
         let in_world = built.force_at(there, slices.frame);
         assert!((pose.rotation * *force).distance(in_world) < 1e-4 * in_world.length().max(1.0), "{place}: {force}");
     }

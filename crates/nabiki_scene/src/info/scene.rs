@@ -3,9 +3,13 @@
 use std::fmt;
 use std::path::Path;
 
+use nabiki::body::Contact;
+use nabiki::disturbance::Disturbance;
+use nabiki::dynamics::Motion;
 use nabiki::field::{Ease, Keyframe};
-use nabiki::free_form::{Gravity, NeighbourForces};
-use nabiki::setting::{Datum, Kind, Setting, Settings, Table};
+use nabiki::free_form::{FreeForm, Gravity, NeighbourForces};
+use nabiki::pseudo_force::PseudoForce;
+use nabiki::setting::{Datum, Kind, Setting, Settings, Table, Value};
 use nabiki::{Ellipsoid, Profile};
 use serde::Serialize;
 
@@ -158,14 +162,15 @@ impl fmt::Display for SceneInfo {
             writeln!(f, "ellipsoid: unknown, {}", OneLine(problem))?;
         }
         writeln!(f, "hair: {}", OneLine(&self.hair))?;
-        let (step, density) = (Short(self.time_step), Short(self.linear_density));
+        let [step, density] = [("time_step", self.time_step), ("linear_density", self.linear_density)]
+            .map(|(key, value)| labelled::<Motion>(key, value));
         let form = if self.free.is_some() { "free form, " } else { "" };
-        write!(f, "motion: {form}time step {step}, linear density {density}")?;
+        write!(f, "motion: {form}{step}, {density}")?;
         if let Some(alpha) = self.alpha {
-            write!(f, ", alpha {}", Short(alpha))?;
+            write!(f, ", {}", labelled::<PseudoForce>("alpha", alpha))?;
         }
         if let Some(every) = self.disturbed_every {
-            write!(f, ", disturbed every {every} frames")?;
+            write!(f, ", disturbed {}", labelled::<Disturbance>("every", every))?;
         }
         if let Some(free) = &self.free {
             write!(f, "\n{free}")?;
@@ -206,17 +211,21 @@ impl fmt::Display for SceneInfo {
 impl fmt::Display for FreeInfo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { stiffness, hold, settle, gravity, margin, neighbours } = self;
-        let list =
-            |values: &[f32]| values.iter().map(|&value| Short(value).to_string()).collect::<Vec<_>>().join(" to ");
-        let (stiffness, hold, settle) = (list(stiffness), list(hold), list(settle));
-        write!(f, "free: stiffness {stiffness}, hold {hold}, settles in {settle} frames, gravity ")?;
-        match gravity {
-            Gravity::Strength(strength) => write!(f, "{}", Short(*strength))?,
-            Gravity::Earth => f.write_str("of the earth")?,
-        }
-        write!(f, "\ncontact: {} cm from the skin", Short(*margin))?;
+        let profile = |key: &str, values: &Vec<f32>| labelled::<FreeForm>(key, values.clone());
+        let (stiffness, hold, settle) =
+            (profile("stiffness", stiffness), profile("hold", hold), profile("settle", settle));
+        let weight = match gravity {
+            Gravity::Strength(strength) => labelled::<FreeForm>("gravity", *strength),
+            Gravity::Earth => "weight as on earth".to_owned(),
+        };
+        write!(
+            f,
+            "free: {stiffness}, {hold}, {settle}, {weight}\ncontact: {}",
+            labelled::<Contact>("margin", *margin)
+        )?;
         if let Some(NeighbourForces { cohesion, pressure, .. }) = neighbours {
-            write!(f, "\nneighbours: cohesion {}, pressure {}", Short(*cohesion), Short(*pressure))?;
+            let of = |key: &str, strength: f32| labelled::<NeighbourForces>(key, strength);
+            write!(f, "\nneighbours: {}, {}", of("cohesion", *cohesion), of("pressure", *pressure))?;
         }
         Ok(())
     }
@@ -244,7 +253,7 @@ fn body_in_words(scene: &Scene, body: &BodySettings) -> String {
     let felt = match scene.form {
         _ if !body.solid => "not felt".to_owned(),
         FormChoice::Paper => "not felt in the paper's form".to_owned(),
-        FormChoice::Free => format!("{} cm from its skin", Short(body.margin)),
+        FormChoice::Free => labelled::<Contact>("margin", body.margin),
     };
     let seen = if body.shown { "" } else { ", not shown" };
     format!("{}, {way}, {felt}{seen}", named(scene, &body.mesh))
@@ -273,23 +282,30 @@ fn in_words(field: &FieldSettings) -> Vec<(String, String)> {
 /// The settings of a table by the names that panels give them: `strength 30, swirl size 10 cm`.
 fn said(table: &Table, values: &Datum) -> String {
     let Datum::Table(values) = values else { return String::new() };
-    let one = |(setting, (_, value)): (&Setting, &(&str, Datum))| {
-        let number = |x: f64| Short(x as f32).to_string();
-        let value = match (value, &setting.kind) {
-            (Datum::Open, _) => return None,
-            (Datum::Table(_), Kind::Table(below)) => return Some(said(below, value)),
-            (Datum::List(keys), Kind::List(_)) if keys.is_empty() => return None,
-            (Datum::List(keys), Kind::List(_)) => format!("by {} keys", keys.len()),
-            (Datum::List(numbers), _) => {
-                let numbers = numbers.iter().map(|x| if let Datum::Number(x) = x { number(*x) } else { String::new() });
-                format!("({})", numbers.collect::<Vec<_>>().join(", "))
-            }
-            (Datum::Number(x), _) => number(*x),
-            (Datum::Text(word), _) => word.clone(),
-            (value, _) => schema::in_toml(value),
-        };
-        let unit = if setting.range.unit.is_empty() { String::new() } else { format!(" {}", setting.range.unit) };
-        Some(format!("{} {value}{unit}", setting.label.to_lowercase()))
+    let all = table.settings.iter().zip(values).filter_map(|(setting, (_, value))| one_said(setting, value));
+    all.collect::<Vec<_>>().join(", ")
+}
+
+/// A setting of a table of the schema by its name there, with its unit.
+fn labelled<T: Settings>(key: &str, value: impl Value) -> String {
+    let setting = T::TABLE.settings.iter().find(|setting| setting.key == key);
+    setting.and_then(|setting| one_said(setting, &value.datum())).unwrap_or_default()
+}
+
+fn one_said(setting: &Setting, value: &Datum) -> Option<String> {
+    let number = |x: &Datum| if let Datum::Number(x) = x { Short(*x as f32).to_string() } else { String::new() };
+    let value = match (value, &setting.kind) {
+        (Datum::Open, _) => return None,
+        (Datum::Table(_), Kind::Table(below)) => return Some(said(below, value)),
+        (Datum::List(keys), Kind::List(_)) if keys.is_empty() => return None,
+        (Datum::List(keys), Kind::List(_)) => format!("by {} keys", keys.len()),
+        // From root to tip.
+        (Datum::List(numbers), Kind::OneOf(_)) => numbers.iter().map(number).collect::<Vec<_>>().join(" to "),
+        (Datum::List(numbers), _) => format!("({})", numbers.iter().map(number).collect::<Vec<_>>().join(", ")),
+        (Datum::Number(_), _) => number(value),
+        (Datum::Text(word), _) => word.clone(),
+        (value, _) => schema::in_toml(value),
     };
-    table.settings.iter().zip(values).filter_map(one).collect::<Vec<_>>().join(", ")
+    let unit = if setting.range.unit.is_empty() { String::new() } else { format!(" {}", setting.range.unit) };
+    Some(format!("{} {value}{unit}", setting.label.to_lowercase()))
 }

@@ -8,7 +8,7 @@ use nabiki::Pose;
 use nabiki::body::BodyWay;
 use nabiki_io::exchange::carries_mesh;
 use nabiki_io::motion::{MotionSource, clip_carries};
-use nabiki_io::{Placement, declared_space, mesh};
+use nabiki_io::{Placement, mesh};
 
 use super::{Advice, Fix};
 use crate::built::{BuiltScene, holds_scenes};
@@ -41,25 +41,20 @@ pub(super) fn carried_twice(built: &BuiltScene) -> impl Iterator<Item = Advice> 
             mesh: &head.mesh,
             groups: &head.groups,
             motion,
-            placement: built.placement,
+            placement: built.model.placement,
             first: built.pose(0),
         }),
         _ => None,
     };
-    let bodies = built.ways_of_bodies().zip(&scene.bodies).enumerate().filter_map(|(i, (way, settings))| {
-        let (BodyWay::InWorld(poses), Some(motion)) = (way, &settings.motion) else { return None };
-        // Before its file is opened for what it says of its space.
-        if scene.resolve(&settings.mesh) != scene.resolve(&motion.file) {
-            return None;
-        }
-        let declared = declared_space(&scene.resolve(&settings.mesh)).unwrap_or_default();
+    let bodies = built.bodies.iter().zip(&scene.bodies).enumerate().filter_map(|(i, (body, settings))| {
+        let (BodyWay::InWorld(poses), Some(motion)) = (&body.way, &settings.motion) else { return None };
         Some(Moved {
             table: format!("body[{i}]"),
             key: None,
             mesh: &settings.mesh,
             groups: &settings.groups,
             motion,
-            placement: settings.placement(declared.unit, declared.up),
+            placement: body.placement,
             first: *poses.first()?,
         })
     });

@@ -54,12 +54,12 @@ impl PartialEq for OwnField {
 }
 
 /// What fields are about.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct FieldPlace<'a> {
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct FieldPlace {
     /// E.
     pub ellipsoid: Ellipsoid,
     /// Where the head is in the world from frame 0 on; none for a head that stands still.
-    pub poses: &'a [Pose],
+    pub poses: Arc<[Pose]>,
     /// Frames a second.
     pub frame_rate: f64,
     /// Frames after the rest frame.
@@ -185,14 +185,14 @@ impl FieldSettings {
             winds.push(Arc::new(gusty));
         }
         if let Some(body_wind) = &self.body_wind {
-            let body_wind = BodyWindField::new(body_wind, place.poses, place.frame_rate, place.space)?;
+            let body_wind = BodyWindField::new(body_wind, &place.poses, place.frame_rate, place.space)?;
             bound("body_wind".to_owned(), body_wind.strongest());
             winds.push(Arc::new(body_wind));
         }
         let wind = sum(winds);
         // In head space the head stands still.
         let poses = match place.space {
-            ForceSpace::World => place.poses,
+            ForceSpace::World => &place.poses[..],
             ForceSpace::Head => &[],
         };
         let mut parts = vec![wind.clone()];

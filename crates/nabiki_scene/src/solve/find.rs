@@ -28,7 +28,7 @@ impl WishFile {
     /// Strands and frames that are not there, places where there is no hair; a scene that cannot be moved.
     pub fn about(&self, built: &BuiltScene) -> Result<Vec<Named>> {
         let Wishes { space, wish, nail, .. } = &self.wishes;
-        let places = built.ids().iter().enumerate().map(|(s, &id)| (id, s)).collect();
+        let places = built.groom.ids.iter().enumerate().map(|(s, &id)| (id, s)).collect();
         let mut finder = Finder { file: self, built, space: *space, timeline: None, places };
         let mut found = Vec::new();
         for (i, entry) in wish.iter().enumerate() {
@@ -85,16 +85,23 @@ impl Finder<'_> {
 
     /// The nodes of a lock, strand by strand. `name`: what the wish is called; `frame`: what it is about.
     fn nodes(&mut self, name: &str, lock: &Lock, frame: u32) -> Result<Vec<Node>> {
-        let strands = &self.built.hair.strands;
+        let strands = self.built.strands();
         let part = |s: usize, [from, to]: [f32; 2]| nodes_of(s as u32, strands.strand(s).len(), from..=to);
         let Some(near) = lock.near else {
             let along = lock.along.unwrap_or([0.0, 1.0]);
             let mut nodes = Vec::new();
             for (k, id) in lock.strands.iter().enumerate() {
                 let Some(&s) = self.places.get(id) else {
-                    let kept = self.built.strands_of_scene;
+                    let kept = self.built.groom.of_scene;
                     let mut remedy = format!("the scene's strands are 0 to {}", kept - 1);
-                    if let Some(report) = self.built.import_report.filter(|report| report.strands_in_file > kept) {
+                    if let Some(report) = self
+                        .built
+                        .groom
+                        .imported
+                        .as_ref()
+                        .map(|imported| imported.report)
+                        .filter(|report| report.strands_in_file > kept)
+                    {
                         let of_file = report.strands_in_file;
                         remedy += &format!(", those of its file's {of_file} that it keeps: count these alone");
                     }

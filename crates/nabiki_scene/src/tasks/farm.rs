@@ -109,7 +109,7 @@ fn plan(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Result<Pl
     built.simulation()?;
     let strands = Shown::of(
         options.strands.map_or(Shown::All, Shown::First),
-        built.strands_of_scene,
+        built.groom.of_scene,
         built.scene.hair.grown().is_some(),
     )?;
     let shards = options.shards.unwrap_or(strands.div_ceil(STRANDS_A_SHARD) as u32);

@@ -25,14 +25,14 @@ pub fn groom(scene: Scene, shown: Shown, output: &Path, watch: &mut dyn Watch) -
     let built = super::build(scene, shown, watch)?;
     super::present(&built, watch);
     let losses = if exchange::is_usd(output) || exchange::is_alembic(output) {
-        let mut export = exchange::still(&built.hair, DeclaredSpace::default());
+        let mut export = exchange::still(&built.groom.hair, DeclaredSpace::default());
         export.rest = true;
         place::room(output, exchange::least_bytes(output, &export, 1, false), watch)?;
         exchange::write_still(output, export, &DAffine3::IDENTITY)?;
-        exchange::losses(output, &built.hair)
+        exchange::losses(output, &built.groom.hair)
     } else {
-        place::room(output, hair::least_bytes(output, &built.hair)?, watch)?;
-        hair::write(output, &built.hair)?
+        place::room(output, hair::least_bytes(output, &built.groom.hair)?, watch)?;
+        hair::write(output, &built.groom.hair)?
     };
     super::lost(output, losses, watch);
     super::wrote(vec![output.to_owned()], watch);

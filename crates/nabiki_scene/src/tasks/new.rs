@@ -79,7 +79,7 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     } else {
         built.simulation()?;
     }
-    if let Some([root, tip]) = options.hair.as_ref().and_then(|_| thickness(&built.hair)) {
+    if let Some([root, tip]) = options.hair.as_ref().and_then(|_| thickness(&built.groom.hair)) {
         // As thick to the tip, or thinner all the way.
         let thins =
             if tip < 0.95 { format!(", tip = {}, taper = 1.0", decimal(tip, 2)) } else { ", tip = 1.0".to_owned() };
@@ -94,14 +94,14 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     };
     write().map_err(|e| nabiki_io::Error::from(e).in_file(path))?;
     if let Some(file) = &options.hair {
-        super::unread(file, &built.hair.attributes.unread, watch);
+        super::unread(file, &built.groom.hair.attributes.unread, watch);
     }
-    if let (Some(file), Some(report)) = (&options.head, &built.mesh_report) {
-        let of_hair = options.hair.as_ref().map(|_| &built.hair.attributes.unread[..]).unwrap_or_default();
+    if let (Some(file), Some(report)) = (&options.head, &built.model.report) {
+        let of_hair = options.hair.as_ref().map(|_| &built.groom.hair.attributes.unread[..]).unwrap_or_default();
         let unread: Vec<String> = report.unread.iter().filter(|line| !of_hair.contains(line)).cloned().collect();
         super::unread(file, &unread, watch);
     }
-    let turned = built.import_report.and_then(|report| report.turned());
+    let turned = built.groom.imported.as_ref().and_then(|imported| imported.report.turned());
     template.guesses.extend(turned.map(|line| format!("hair.root, by the skin: {line}")));
     template.guesses.into_iter().for_each(|guess| watch.told(Told::Guessed(guess)));
     built.advice().into_iter().chain(unmoved(&built)?).for_each(|advice| watch.told(Told::Advice(advice)));
@@ -119,10 +119,10 @@ fn unmoved(built: &BuiltScene) -> Result<Option<Advice>> {
     let Some(node) = exchange::mover_of_mesh(&file, &head.groups)? else { return Ok(None) };
     let word = |text: &str| toml::Value::String(text.to_owned());
     let named = head.mesh.display();
-    let (file, of_node, facing) = (word(&named.to_string()), word(&node), built.placement.facing);
+    let (file, of_node, facing) = (word(&named.to_string()), word(&node), built.model.placement.facing);
     // An archive does not say its unit.
     let unit = if exchange::is_alembic(&head.mesh) {
-        format!(", unit_cm = {}", built.placement.unit.cm)
+        format!(", unit_cm = {}", built.model.placement.unit.cm)
     } else {
         String::new()
     };
@@ -133,14 +133,14 @@ fn unmoved(built: &BuiltScene) -> Result<Option<Advice>> {
 
 /// The same of a head in a glTF: what carries its skull may be a joint of its skin.
 fn unmoved_by_clip(built: &BuiltScene, head: &ImportedHead, file: &Path) -> Result<Option<Advice>> {
-    let place = built.placement.head_from_file();
-    let is_skull = |p: Vec3| built.head.ellipsoid.value(place.transform_point3(p)) <= SKULL;
+    let place = built.model.placement.head_from_file();
+    let is_skull = |p: Vec3| built.model.head.ellipsoid.value(place.transform_point3(p)) <= SKULL;
     let Some(ClipMover { node, clip, clips }) = motion::clip_mover(file, &head.groups, &is_skull)? else {
         return Ok(None);
     };
     let word = |text: &str| toml::Value::String(text.to_owned());
     let named = head.mesh.display();
-    let (file, of_node, facing) = (word(&named.to_string()), word(&node), built.placement.facing);
+    let (file, of_node, facing) = (word(&named.to_string()), word(&node), built.model.placement.facing);
     let of_clip = if clip.is_empty() { String::new() } else { format!(", clip = {}", word(&clip)) };
     let value = format!("{{ file = {file}, node = {of_node}{of_clip}, facing = \"{facing}\", bind_at_start = true }}");
     let more = if clips.len() > MOST_NAMED { ", .." } else { "" };
@@ -181,7 +181,7 @@ fn stable_part(built: &BuiltScene) -> f32 {
         let mut softer = free.clone();
         softer.form.stiffness = Profile::RootToTip(free.form.stiffness.values().iter().map(|k| part * k).collect());
         let dynamics = nabiki::dynamics::Dynamics { form: Form::Free(softer), ..built.dynamics.clone() };
-        check_field(&built.hair.strands, &dynamics, &*built.field).is_ok()
+        check_field(built.strands(), &dynamics, &*built.forces.field).is_ok()
     };
     (0..HALVINGS).map(|n| 0.5_f32.powi(n)).find(|&part| holds(part)).unwrap_or(0.0)
 }

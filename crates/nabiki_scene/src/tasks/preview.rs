@@ -35,7 +35,7 @@ pub fn preview(scene: Scene, shown: Shown, folder: &Path, cache: Option<&Path>, 
     let built = super::build(scene, shown, watch)?;
     let simulated = Simulated::new(&built)?;
     let scene = &built.scene;
-    let share = built.strands_of_scene as f32 / built.hair.strands.len() as f32;
+    let share = built.groom.of_scene as f32 / built.strands().len() as f32;
     let picture = small(&scene.picture, share);
     let mut folders = Folders::default();
     let name = format!("{}_preview", scene.name());
@@ -60,12 +60,12 @@ pub fn preview(scene: Scene, shown: Shown, folder: &Path, cache: Option<&Path>, 
 /// That all strands of a hair file would be refused where those shown are not: one that is shorter than these may be among them.
 /// Grown hair would have to be grown whole to know.
 fn whole_is_refused(built: &BuiltScene) -> Result<Option<Advice>> {
-    let (shown, all) = (built.hair.strands.len(), built.strands_of_scene);
+    let (shown, all) = (built.strands().len(), built.groom.of_scene);
     if built.scene.hair.imported().is_none() || shown == all {
         return Ok(None);
     }
     let whole = built.changed_to(built.scene.clone(), Shown::All)?;
-    let Err(refused) = check_field(&whole.hair.strands, &whole.dynamics, &*whole.field) else { return Ok(None) };
+    let Err(refused) = check_field(whole.strands(), &whole.dynamics, &*whole.forces.field) else { return Ok(None) };
     let seen = format!("{shown} strands of {all} are moved; all of them would be refused: {}", whole.refusal(refused));
     Ok(Some(Advice::new(seen)))
 }

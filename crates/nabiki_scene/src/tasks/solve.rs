@@ -84,7 +84,7 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
     };
     let (mut scene, mut report) = answer(&built, list.clone(), watch)?;
     // Hair that is not shown may bear less.
-    if built.ids().len() < built.strands_of_scene {
+    if built.groom.ids.len() < built.groom.of_scene {
         let whole = built.changed_to(scene.clone(), Shown::All)?;
         if whole.simulation().is_err() {
             let whole = whole.changed_to(built.scene.clone(), Shown::All)?;
@@ -96,9 +96,9 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
 
 /// Wishes about `some` of the strands of `whole`, as wishes about `whole`: the same hair has another place there.
 fn among(whole: &BuiltScene, some: &BuiltScene, mut wishes: Vec<Wish>) -> Vec<Wish> {
-    let places: HashMap<u32, u32> = whole.ids().iter().copied().zip(0..).collect();
+    let places: HashMap<u32, u32> = whole.groom.ids.iter().copied().zip(0..).collect();
     for node in wishes.iter_mut().flat_map(|wish| &mut wish.nodes) {
-        node.strand = places[&some.ids()[node.strand as usize]];
+        node.strand = places[&some.groom.ids[node.strand as usize]];
     }
     wishes
 }

@@ -158,7 +158,7 @@ pub fn line(ui: &mut Ui, session: &Session, fps: f32, commands: &mut Commands) {
 
 /// How many strands are shown: a few to all.
 fn strands(ui: &mut Ui, session: &Session, take: &Take, commands: &mut Commands) {
-    let whole = take.built.strands_of_scene;
+    let whole = take.built.groom.of_scene;
     let most = most_strands(take).max(FEWEST);
     let mut strands = session.preferences().strands.min(most);
     ui.label(theme::faint("Strands"));
@@ -180,7 +180,9 @@ fn strands(ui: &mut Ui, session: &Session, take: &Take, commands: &mut Commands)
             let wanted = session.preferences().strands.min(most);
             let percent = 100.0 * part;
             match stage {
-                Stage::Building if take.built.groom.is_some() => format!("{shown} of {wanted}, the others are read"),
+                Stage::Building if take.built.groom.imported.is_some() => {
+                    format!("{shown} of {wanted}, the others are read")
+                }
                 Stage::Building => format!("{shown} of {wanted}, the others grow: {percent:.0} %"),
                 Stage::Moving => format!("{shown} of {wanted}, the others are moved: {percent:.0} %"),
             }

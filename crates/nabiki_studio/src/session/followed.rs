@@ -21,7 +21,7 @@ pub(super) struct Sizes {
 
 impl Sizes {
     fn of(take: &Take) -> Self {
-        Self { head: height(&take.built.head.mesh), hair: longest(take) }
+        Self { head: height(&take.built.model.head.mesh), hair: longest(take) }
     }
 
     /// What has become of both since, in one line; nothing where the head is as large as it was.

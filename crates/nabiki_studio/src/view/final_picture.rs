@@ -160,10 +160,9 @@ fn work(
     }
 }
 
-/// All strands, where they were asked for last. What is the same of the next scene is not built again.
+/// All strands, where they were asked for last. What is the same of the next scene is not built again, nor moved.
 struct Whole {
     built: BuiltScene,
-    asked: usize,
     simulation: Simulation,
     /// The frame before, where the shutter is open.
     before: Option<Strands>,
@@ -177,52 +176,24 @@ impl Whole {
         outdated: &dyn Fn() -> bool,
     ) -> Result<Option<&'a mut Self>, String> {
         let says = |error: nabiki_scene::Error| error.to_string();
-        let scene = &wanted.built.scene;
-        let same_poses =
-            |whole: &Self| (0..=wanted.built.frames()).all(|n| whole.built.pose(n) == wanted.built.pose(n));
-        let same_hair = |whole: &Self| {
-            let of = &whole.built.scene;
-            whole.asked == wanted.strands
-                && of.hair == scene.hair
-                && of.head == scene.head
-                && of.bodies == scene.bodies
-                && of.motion.frames == scene.motion.frames
-                && of.form == scene.form
-                && same_poses(whole)
+        // Of the motion that is shown first: its files may hold something else than when they were read for what is kept.
+        let known = [Some(&*wanted.built), kept.as_ref().map(|whole| &whole.built)];
+        let known: Vec<&BuiltScene> = known.into_iter().flatten().collect();
+        let built = wanted.built.scene.clone().build_while(Shown::AtMost(wanted.strands), &known, &|_| true);
+        let built = built.map_err(says)?;
+        let same_way = |whole: &Self| {
+            let was = &whole.built;
+            Arc::ptr_eq(&was.way, &built.way)
+                && Arc::ptr_eq(&was.forces, &built.forces)
+                && was.dynamics == built.dynamics
+                && was.strands() == built.strands()
+                && was.groom.ids == built.groom.ids
+                && whole.simulation.frame() <= wanted.frame
         };
-        // Files may hold something else than when they were read for what is known.
-        let of_same_files = |whole: &Self| {
-            let (of, built) = (&whole.built.scene, &whole.built);
-            let (all, shown) = (built.hair.strands.points(), wanted.built.hair.strands.points());
-            let hair = of.hair != scene.hair || all.starts_with(shown) || shown.starts_with(all);
-            let head = of.head != scene.head || built.head.mesh == wanted.built.head.mesh;
-            let bodies = of.bodies != scene.bodies
-                || (built.drawn_bodies() == wanted.built.drawn_bodies()
-                    && (0..=built.frames().min(wanted.built.frames()))
-                        .all(|n| built.drawn_poses(n) == wanted.built.drawn_poses(n)));
-            hair && head && bodies && ((&of.head, &of.motion) != (&scene.head, &scene.motion) || same_poses(whole))
+        let mut whole = match kept.take().filter(same_way) {
+            Some(whole) => Self { built, ..whole },
+            None => Self { simulation: built.simulation().map_err(says)?, built, before: None },
         };
-        let known = kept.take().filter(of_same_files);
-        let mut whole = match known {
-            Some(whole) if same_hair(&whole) => whole,
-            known => {
-                let known = known.map(|whole| whole.built);
-                let built = scene.clone().build_while(Shown::AtMost(wanted.strands), known.as_ref(), &|_| true);
-                let built = built.map_err(says)?;
-                let simulation = built.simulation().map_err(says)?;
-                Self { built, asked: wanted.strands, simulation, before: None }
-            }
-        };
-        let same_way = Arc::ptr_eq(&whole.built.field, &wanted.built.field)
-            && whole.built.dynamics == wanted.built.dynamics
-            && whole.simulation.frame() <= wanted.frame;
-        if !same_way {
-            whole.built.scene = scene.clone();
-            whole.built.field = wanted.built.field.clone();
-            whole.built.dynamics = wanted.built.dynamics.clone();
-            whole.simulation = whole.built.simulation().map_err(says)?;
-            whole.before = None;
-        }
         while whole.simulation.frame() < wanted.frame {
             if outdated() {
                 *kept = Some(whole);
@@ -243,7 +214,7 @@ impl Whole {
         let mut picture = wanted.picture.clone();
         let size = wanted.view.size.map(|side| (side / part).max(1));
         picture.size = size;
-        picture.hair.width *= widened(self.built.strands_of_scene as f32 / strands.len().max(1) as f32);
+        picture.hair.width *= widened(self.built.groom.of_scene as f32 / strands.len().max(1) as f32);
         let view = View { size, scale: wanted.view.scale / part as f32, ..wanted.view };
         let before_it = wanted.frame.saturating_sub(1);
         let [bodies, bodies_before] = [wanted.frame, before_it].map(|frame| self.built.drawn_poses(frame));
@@ -251,7 +222,7 @@ impl Whole {
         let now = moment(wanted.frame, strands, bodies.as_slice());
         let before = self.before.as_ref().filter(|before| before.len() == strands.len());
         let before = before.map(|strands| moment(before_it, strands, &bodies_before));
-        let head = &self.built.head;
+        let head = &self.built.model.head;
         let renderer = Renderer::new(&picture, &head.mesh).map_err(says)?.with_face(head);
         let mut renderer = renderer.with_bodies(self.built.drawn_bodies()).map_err(says)?;
         let frame = renderer.draw(&FrameToDraw { now, before }).map_err(says)?;
@@ -327,9 +298,9 @@ mod tests {
             let mut timeline = whole.timeline().unwrap();
             let picture = Picture { size: [64, 48], ..wanted.picture };
             let now = Moment { strands: timeline.seek(frame), pose: whole.pose(frame), view: wanted.view, bodies: &[] };
-            let frame = Renderer::new(&picture, &whole.head.mesh)
+            let frame = Renderer::new(&picture, &whole.model.head.mesh)
                 .unwrap()
-                .with_face(&whole.head)
+                .with_face(&whole.model.head)
                 .draw(&FrameToDraw { now, before: None });
             assert!(done.rgba == ToneMapping::new(&picture).rgba8(&frame.unwrap()));
         }

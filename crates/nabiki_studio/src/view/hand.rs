@@ -228,5 +228,5 @@ pub fn arrow(shown: &Shown<'_>, scale: f32, world: &View) -> Option<(usize, Arro
     let (view, pose) = of_forces(shown, world);
     let interval = shown.selected_interval.filter(|_| !shown.playing)?;
     let key = shown.force.get(interval)?;
-    Some((interval, Arrow::new(&shown.take.built.head.ellipsoid, &pose, key.vector).within(&view, scale)))
+    Some((interval, Arrow::new(&shown.take.built.model.head.ellipsoid, &pose, key.vector).within(&view, scale)))
 }

@@ -52,7 +52,7 @@ impl<'a> Skins<'a> {
             Form::Free(free) => free.bodies.as_slice(),
             Form::Paper => &[],
         };
-        let mut each: Vec<(&dyn Obstacle, Affine3A)> = vec![(&**built.head.skin(), Affine3A::IDENTITY)];
+        let mut each: Vec<(&dyn Obstacle, Affine3A)> = vec![(&**built.model.head.skin(), Affine3A::IDENTITY)];
         let mut entered = Vec::new();
         for (i, mesh, in_world) in built.shown_bodies(frame) {
             let name = format!("body[{i}]");
@@ -61,7 +61,7 @@ impl<'a> Skins<'a> {
                 None => entered.push((mesh, pose.world_from_head().inverse() * in_world.world_from_head())),
             }
         }
-        Self { middle: built.head.ellipsoid.center, frame, each, entered }
+        Self { middle: built.model.head.ellipsoid.center, frame, each, entered }
     }
 
     /// The triangles without a distance that may hide what is seen within so many pixels of one.
@@ -259,7 +259,7 @@ mod tests {
             let text = format!("{text}shown = {shown}\nsolid = {solid}\n");
             let scene = nabiki_scene::Scene::parse(&text, &folder.path().join("a.toml"), &[]).unwrap();
             let built = std::sync::Arc::new(scene.build(nabiki_scene::Shown::All).unwrap());
-            let points = built.hair.strands.points().to_vec();
+            let points = built.strands().points().to_vec();
             let take = Take { built, film: [points.clone(), points].concat().into(), number: 1 };
             let skins = Skins::of(&take, 1);
             let hides = |x: f32, y: f32| {

@@ -155,7 +155,7 @@ fn lines(shown: &Shown<'_>, view: &Seen) -> Vec<Line> {
             ForceSpace::Head => (nabiki::Pose::STILL, Affine3A::IDENTITY),
         };
         let forward = view.in_head(&pose).forward;
-        for arrow in arrows::arrows(&*built.field, shown.frame, &built.head.ellipsoid, &of_forces) {
+        for arrow in arrows::arrows(&*built.forces.field, shown.frame, &built.model.head.ellipsoid, &of_forces) {
             lines.extend(arrows::lines(arrow.map(|p| head.transform_point3(p)), forward));
         }
     }

@@ -160,7 +160,7 @@ fn key(key: Key, pressed: bool) -> Event {
 fn a_tip_that_is_dragged_sets_the_vector_and_the_tip_is_under_the_pointer() {
     let mut window = Window::new();
     window.selected = Some(0);
-    let head = window.take.built.head.ellipsoid;
+    let head = window.take.built.model.head.ellipsoid;
     let vector = Vec3::new(-60.0, 0.0, 0.0);
     let tip = window.on_screen(handle::Arrow::new(&head, &nabiki::Pose::STILL, vector).tip);
     window.run(&[Event::PointerMoved(tip)]);
@@ -180,7 +180,7 @@ fn a_tip_that_is_dragged_sets_the_vector_and_the_tip_is_under_the_pointer() {
 fn escape_gives_a_drag_up_and_a_press_without_a_drag_sets_nothing() {
     let mut window = Window::new();
     window.selected = Some(0);
-    let head = window.take.built.head.ellipsoid;
+    let head = window.take.built.model.head.ellipsoid;
     let tip = window.on_screen(handle::Arrow::new(&head, &nabiki::Pose::STILL, Vec3::new(-60.0, 0.0, 0.0)).tip);
     window.run(&press(tip, true));
     window.run(&[Event::PointerMoved(tip + vec2(30.0, 0.0))]);

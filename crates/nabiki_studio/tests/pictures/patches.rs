@@ -57,10 +57,9 @@ pub fn compare(case: &Case) -> Result<Vec<Patch>, String> {
     picture.background = Background { top: [0.0; 3], bottom: [0.0; 3], transparent: false };
     let picture = scene.picture.clone();
     let whole = scene.clone().build(Shown::All).map_err(says)?;
-    let take =
-        take(scene.build_while(Shown::AtMost(case.strands), Some(&whole), &|_| true).map_err(says)?, case.frame)?;
+    let take = take(scene.build_while(Shown::AtMost(case.strands), &[&whole], &|_| true).map_err(says)?, case.frame)?;
     let mut bounds = Bounds::default();
-    bounds.include_head(&take.built.head.mesh, &take.built.head.ellipsoid);
+    bounds.include_head(&take.built.model.head.mesh, &take.built.model.head.ellipsoid);
     take.points(case.frame).iter().for_each(|&p| bounds.include(p));
     let orbit = Orbit::new(&picture.camera.at(case.frame as f32 / take.frames() as f32), SIZE, &bounds);
     let view = orbit.view(SIZE, take.pose(case.frame).position_cm);
@@ -146,7 +145,7 @@ fn finished(whole: &BuiltScene, picture: &Picture, frame: u32, view: View) -> Re
     let mut timeline = whole.timeline().map_err(|e| e.to_string())?;
     let bodies = whole.drawn_poses(frame);
     let now = Moment { strands: timeline.seek(frame), pose: whole.pose(frame), view, bodies: &bodies };
-    let renderer = Renderer::new(&picture, &whole.head.mesh).map_err(says)?.with_face(&whole.head);
+    let renderer = Renderer::new(&picture, &whole.model.head.mesh).map_err(says)?.with_face(&whole.model.head);
     let mut renderer = renderer.with_bodies(whole.drawn_bodies()).map_err(says)?;
     Ok(renderer.draw(&FrameToDraw { now, before: None }).map_err(says)?.rgba)
 }

@@ -1,5 +1,7 @@
 //! Pictures by whatever adapter there is. Without one they are skipped, and say so.
 
+use std::sync::Arc;
+
 use glam::{Vec2, Vec3};
 use nabiki_render::Bounds;
 use nabiki_render::settings::Camera;
@@ -17,12 +19,12 @@ fn built(strands: usize) -> BuiltScene {
 }
 
 fn drawing<'a>(built: &'a BuiltScene, picture: &'a Picture, lines: &'a [Line]) -> Drawing<'a> {
-    let strands = &built.hair.strands;
+    let strands = built.strands();
     Drawing {
         strands,
         points: strands.points(),
         share: 1.0,
-        head: &built.head,
+        head: &built.model.head,
         pose: Pose::STILL,
         bodies: &[],
         picture,
@@ -73,7 +75,7 @@ fn hair_shows_where_strands_are_and_nothing_elsewhere() {
     let view = view();
     let at = |p: Vec3| view.project(p).truncate();
     let lines: Vec<[Vec2; 2]> =
-        built.hair.strands.iter().flat_map(|strand| strand.windows(2).map(|w| [at(w[0]), at(w[1])])).collect();
+        built.strands().iter().flat_map(|strand| strand.windows(2).map(|w| [at(w[0]), at(w[1])])).collect();
     // Segments that end within the picture: their middles are covered, by a ribbon a pixel wide.
     let inside = |p: Vec2| p.x >= 1.0 && p.y >= 1.0 && p.x < SIZE[0] as f32 - 1.0 && p.y < SIZE[1] as f32 - 1.0;
     let (mut seen, mut of) = (0, 0);
@@ -114,13 +116,14 @@ fn the_same_input_gives_the_same_picture_whatever_was_drawn_before() {
 fn the_head_looks_as_in_the_renderers_picture() {
     let Some(mut gpu) = gpu() else { return };
     let mut built = built(24);
-    built.hair.strands = Strands::default();
+    Arc::make_mut(&mut built.groom).hair.strands = Strands::default();
     let mut picture = Picture { size: SIZE, ..Picture::default() };
     // What the view leaves out: the head's own fine shadows, for which it has its ellipsoid.
     picture.shadows = false;
     picture.sky.occlusion = false;
     let pixels = drawn(&mut gpu, &built, &picture, &[]);
-    let mut renderer = nabiki_render::Renderer::new(&picture, &built.head.mesh).unwrap().with_face(&built.head);
+    let mut renderer =
+        nabiki_render::Renderer::new(&picture, &built.model.head.mesh).unwrap().with_face(&built.model.head);
     let strands = Strands::default();
     let frame = renderer.draw(&nabiki_render::FrameToDraw::at_rest(&strands, view())).unwrap();
     let theirs = nabiki_render::ToneMapping::new(&picture).rgba8(&frame);

@@ -32,8 +32,9 @@ pub fn ui(
         let (row, lane) = next(HEIGHT);
         let name = if field.gust.is_some() { "Gusts" } else { "Strength" };
         track_name(ui, row, name, theme::FAINT);
-        let felt: Vec<f32> =
-            (0..=take.frames()).map(|n| take.built.wind.uniform(n.max(1)).unwrap_or(Vec3::ZERO).length()).collect();
+        let felt: Vec<f32> = (0..=take.frames())
+            .map(|n| take.built.forces.wind.uniform(n.max(1)).unwrap_or(Vec3::ZERO).length())
+            .collect();
         let steps = field.wind.ease == Ease::Stepped && field.gust.is_none();
         curve(ui, lane, scale, &felt, theme::ACCENT, steps);
         hint(

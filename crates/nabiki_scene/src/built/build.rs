@@ -1,0 +1,81 @@
+//! The way from a scene to all that it names, stage by stage.
+
+use std::sync::Arc;
+
+use nabiki_io::cache::Shard;
+use nabiki_render::colour;
+
+use super::dynamics::{dynamics, set_free};
+use super::forces::ForcesInputs;
+use super::groom::{Groom, GroomInputs, Wanted};
+use super::model::{Model, ModelInputs};
+use super::stage::{At, GoesOn, Stage};
+use super::way::{Way, WayInputs};
+use super::{BuiltScene, Forces, Shown};
+use crate::error::Result;
+use crate::scene::{FieldBound, FormChoice, Scene};
+use crate::size::of_head_size;
+
+/// Builds a scene, or one `shard` of it. Stages of scenes that are `known` are kept where they would come out the same, so that
+/// files are not read again. `goes_on`, told how much of the hair is grown, is asked whether it is still wanted: between any two
+/// files, and while roots are chosen and hair grows.
+pub(super) fn build(
+    scene: Scene,
+    shown: Shown,
+    shard: Option<Shard>,
+    known: &[&BuiltScene],
+    goes_on: GoesOn<'_>,
+) -> Result<BuiltScene> {
+    let at = At::new(&scene, goes_on);
+    let model = Model::of(ModelInputs::of(&scene), known.iter().map(|known| &known.model), at)?;
+    at.still_wanted(0.0)?;
+    let size = of_head_size(&model);
+    build_about(model, scene, Wanted { shown, shard }, known, goes_on).map_err(|refused| refused.blamed_on(size))
+}
+
+/// The same about a head that is loaded.
+fn build_about(
+    model: Arc<Model>,
+    scene: Scene,
+    wanted: Wanted,
+    known: &[&BuiltScene],
+    goes_on: GoesOn<'_>,
+) -> Result<BuiltScene> {
+    let at = At::new(&scene, goes_on);
+    let way = Way::of(WayInputs::of(&scene, &model), known.iter().map(|known| &known.way), at)?;
+    way.check_length(&scene)?;
+    let rest_pose = way.poses.first().copied().unwrap_or_default();
+    let mut dynamics = dynamics(&scene, &model, rest_pose, at)?;
+    let forces = Forces::of(ForcesInputs::of(&scene, &model, &way), known.iter().map(|known| &known.forces), at)?;
+    let known_grooms = || known.iter().map(|known| &known.groom);
+    let inputs = GroomInputs::of(&scene, &model, dynamics.polar_axis, wanted, known_grooms(), at)?;
+    let mut groom = Groom::of(inputs, known_grooms(), at)?;
+    if groom.imported.is_none() {
+        // As it is drawn, so that it goes out as it looks.
+        let look = &scene.picture.hair;
+        let look = (Some(look.width), Some(colour::of_mass(look)));
+        let worn = &groom.hair.attributes.constant;
+        if (worn.width, worn.colour) != look {
+            let worn = &mut Arc::make_mut(&mut groom).hair.attributes.constant;
+            (worn.width, worn.colour) = look;
+        }
+    }
+    let mut bodies = Vec::new();
+    if scene.form == FormChoice::Free {
+        let known = known.iter().flat_map(|known| &known.bodies);
+        bodies = set_free(&mut dynamics, &scene, &model, &groom.first, rest_pose, known, at)?;
+    }
+    Ok(BuiltScene { scene, model, way, groom, forces, dynamics, bodies })
+}
+
+/// What each of the scene's fields can reach, and last `all` of them together.
+pub(super) fn field_bounds(scene: &Scene) -> Result<Vec<FieldBound>> {
+    let at = At::new(scene, &|_| true);
+    let model = Model::make(ModelInputs::of(scene), at)?;
+    let way = Way::make(WayInputs::of(scene, &model), at)?;
+    way.check_length(scene)?;
+    let forces = Forces::make(ForcesInputs::of(scene, &model, &way), at);
+    let Forces { field, mut bounds, .. } = forces.map_err(|refused| refused.blamed_on(of_head_size(&model)))?;
+    bounds.push(FieldBound { name: "all".to_owned(), at_most: field.strongest() });
+    Ok(bounds)
+}

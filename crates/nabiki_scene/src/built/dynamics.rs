@@ -1,0 +1,75 @@
+//! How the hair of a scene answers a force; in the free form, among what.
+
+use std::sync::Arc;
+
+use nabiki::dynamics::{Dynamics, Form, earth_gravity};
+use nabiki::free_form::{FreeForm, FreeMotion, Gravity, Neighbours};
+use nabiki::{Pose, Strands};
+
+use super::bodies::{BodyInputs, BuiltBody};
+use super::model::Model;
+use super::stage::{At, Stage};
+use crate::error::Result;
+use crate::scene::{FormChoice, Scene};
+
+/// Strands that stand for the whole where one number is wanted of it.
+const FEW: usize = 256;
+
+/// How many of the first strands of the whole are needed, whichever are shown.
+pub(super) fn first_wanted(scene: &Scene) -> usize {
+    match scene.form {
+        FormChoice::Paper => 0,
+        FormChoice::Free => scene.neighbours.as_ref().map_or(FEW, |n| FEW.max(n.carriers as usize)),
+    }
+}
+
+/// The paper's form, about a head that has this pose at rest.
+pub(super) fn dynamics(scene: &Scene, model: &Model, rest_pose: Pose, at: At<'_>) -> Result<Dynamics> {
+    let dynamics = Dynamics {
+        motion: scene.motion.clone(),
+        segment_length: scene.hair.segment_length,
+        pseudo_force: scene.pseudo_force.clone(),
+        shell: scene.head.shell,
+        disturbance: scene.disturbance.clone(),
+        ..Dynamics::new(model.head.ellipsoid)
+    };
+    dynamics.check().map_err(|refused| at.refusal(refused))?;
+    Ok(Dynamics { polar_axis: rest_pose.up_in_head(), ..dynamics })
+}
+
+/// Gives `dynamics` the scene's free form. `first`: strands of the whole, as many as are wanted or as there are. Returns the
+/// scene's bodies, of which those that are `known` are kept.
+pub(super) fn set_free<'a>(
+    dynamics: &mut Dynamics,
+    scene: &Scene,
+    model: &Model,
+    first: &Strands,
+    rest_pose: Pose,
+    known: impl Iterator<Item = &'a Arc<BuiltBody>> + Clone,
+    at: At<'_>,
+) -> Result<Vec<Arc<BuiltBody>>> {
+    let gravity = match scene.free.gravity {
+        Gravity::Strength(strength) => strength,
+        Gravity::Earth => {
+            let few = first.lengths().take(FEW);
+            let mean = few.map(f64::from).sum::<f64>() / first.len().clamp(1, FEW) as f64;
+            earth_gravity(dynamics, mean)
+        }
+    };
+    let (mut felt, mut bodies) = (vec![model.body(scene.contact)], Vec::new());
+    for (i, settings) in scene.bodies.iter().enumerate() {
+        // All hair is grown by now.
+        at.still_wanted(1.0)?;
+        let body = BuiltBody::of(BodyInputs::of(scene, i), known.clone(), at)?;
+        felt.extend(body.felt(settings, scene.motion.frames, at)?);
+        bodies.push(body);
+    }
+    let neighbours = scene.neighbours.as_ref().map(|forces| {
+        let carriers = (forces.carriers as usize).min(first.len());
+        Neighbours::new(forces.clone(), Arc::new(first.select(&(0..carriers).collect::<Vec<_>>())))
+    });
+    let form = FreeForm { gravity: Gravity::Strength(gravity), ..scene.free.clone() };
+    dynamics.form = Form::Free(FreeMotion { form, bodies: felt, neighbours, rest_pose });
+    dynamics.check().map_err(|refused| at.refusal(refused))?;
+    Ok(bodies)
+}

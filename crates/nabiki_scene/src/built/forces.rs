@@ -1,0 +1,60 @@
+//! What pushes the hair of a scene.
+
+use std::sync::Arc;
+
+use nabiki::field::Field;
+
+use super::model::Model;
+use super::stage::{At, Stage};
+use super::way::Way;
+use crate::error::Result;
+use crate::scene::{FieldBound, FieldParts, FieldPlace, FieldSettings, FormChoice, Scene};
+
+/// The fields of a scene, ready to be asked.
+#[derive(Debug)]
+pub struct Forces {
+    pub(crate) inputs: ForcesInputs,
+    /// All of them together.
+    pub field: Arc<dyn Field>,
+    /// The wind before it meets the head, which is the same everywhere; none where the scene has neither `[[force]]` nor
+    /// `[body_wind]`.
+    pub wind: Arc<dyn Field>,
+    /// What each can reach.
+    pub bounds: Vec<FieldBound>,
+}
+
+/// What fields are made from.
+#[derive(Debug, PartialEq)]
+pub(crate) struct ForcesInputs {
+    settings: FieldSettings,
+    pub place: FieldPlace,
+}
+
+impl ForcesInputs {
+    /// Those about a head on its way.
+    pub fn of(scene: &Scene, model: &Model, way: &Way) -> Self {
+        let place = FieldPlace {
+            ellipsoid: model.head.ellipsoid,
+            poses: way.poses.clone(),
+            frame_rate: scene.frame_rate(),
+            frames: scene.motion.frames,
+            space: scene.motion.force_space,
+            may_be_none: scene.form == FormChoice::Free,
+        };
+        Self { settings: scene.field.clone(), place }
+    }
+}
+
+impl Stage for Forces {
+    type Inputs = ForcesInputs;
+
+    fn is_of(&self, inputs: &ForcesInputs) -> bool {
+        self.inputs == *inputs
+    }
+
+    fn make(inputs: ForcesInputs, at: At<'_>) -> Result<Self> {
+        let built = inputs.settings.build(&inputs.place);
+        let FieldParts { field, wind, bounds } = built.map_err(|refused| at.refusal(refused))?;
+        Ok(Self { inputs, field, wind, bounds })
+    }
+}

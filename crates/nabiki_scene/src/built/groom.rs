@@ -1,0 +1,165 @@
+//! The hair of a scene at rest.
+
+mod grown;
+mod imported;
+
+use std::fmt::Display;
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::Vec3;
+use nabiki::dynamics::{Motion, straightened};
+use nabiki::{Hair, SettingError, Strands};
+use nabiki_io::cache::Shard;
+use nabiki_io::identity::StrandSum;
+
+use super::Shown;
+use super::dynamics::first_wanted;
+use super::model::Model;
+use super::stage::{At, Stage};
+use crate::error::{Error, Result};
+use crate::memory;
+use crate::scene::{GrownHair, HairSource, ImportedHair, Scene};
+
+pub use imported::Imported;
+
+use grown::{Roots, RootsInputs};
+
+/// Hair at rest: all of a scene's, or the strands asked for.
+#[derive(Clone, Debug)]
+pub struct Groom {
+    inputs: GroomInputs,
+    /// The hair.
+    pub hair: Hair,
+    /// Strands of the whole scene, of which [`hair`](Self::hair) may be some.
+    pub of_scene: usize,
+    /// Where the hair is one shard of the strands asked for: which, of what.
+    pub shard: Option<ShardOf>,
+    /// What its file was; `None` for hair grown here.
+    pub imported: Option<Imported>,
+    /// Number of each strand in the whole.
+    pub ids: Vec<u32>,
+    /// The first strands of the farthest-first order of the whole, whichever are shown: those that the free form asks of.
+    pub(super) first: Strands,
+}
+
+/// A shard and the whole that it is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ShardOf {
+    /// Which.
+    pub shard: Shard,
+    /// Strands that were asked for, of which these are some.
+    pub strands: usize,
+    /// All strands of an imported groom; nothing of one that is grown.
+    pub(super) groom: StrandSum,
+}
+
+/// What hair at rest is made from.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct GroomInputs {
+    model: Arc<Model>,
+    source: Source,
+    /// Segments within so many degrees of an axis (head space) are laid on it; `None` where none is.
+    straight: Option<(f32, Vec3)>,
+    /// How many of the first strands are wanted.
+    first: usize,
+    wanted: Wanted,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Source {
+    Grown { settings: Box<GrownHair>, segment_length: f32, roots: Arc<Roots> },
+    Imported(ImportedHair),
+}
+
+/// Which strands are wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Wanted {
+    pub shown: Shown,
+    /// One run of these alone.
+    pub shard: Option<Shard>,
+}
+
+impl Wanted {
+    /// How many strands of `of_scene` are shown, and which run of these is wanted.
+    fn of(self, of_scene: usize, grown: bool) -> Result<(usize, Range<usize>)> {
+        let count = self.shown.of(of_scene, grown)?;
+        let Some(shard) = self.shard else { return Ok((count, 0..count)) };
+        if shard.of() as usize > count {
+            let line = format!("shard {shard}: more shards than there are strands; part them into {count} at the most");
+            return Err(Error::refused(line));
+        }
+        Ok((count, shard.range(count)))
+    }
+}
+
+impl GroomInputs {
+    /// Those of a scene about its head, whose polar axis is given. Roots are those that are `known`, where they are the same.
+    pub fn of<'a>(
+        scene: &Scene,
+        model: &Arc<Model>,
+        polar_axis: Vec3,
+        wanted: Wanted,
+        known: impl Iterator<Item = &'a Arc<Groom>>,
+        at: At<'_>,
+    ) -> Result<Self> {
+        let first = first_wanted(scene);
+        let source = match &scene.hair.source {
+            HairSource::Imported(settings) => Source::Imported(settings.clone()),
+            HairSource::Grown(settings) => {
+                let (_, run) = wanted.of(settings.strands, true)?;
+                let count = run.end.max(first.min(settings.strands));
+                let known = known.filter_map(|known| known.roots());
+                let roots = Roots::of(RootsInputs::of(model.clone(), settings, count), known, at)?;
+                Source::Grown { settings: Box::new(settings.clone()), segment_length: scene.hair.segment_length, roots }
+            }
+        };
+        let straighten = scene.motion.straighten;
+        let straight = (straighten != 0.0).then_some((straighten, polar_axis));
+        Ok(Self { model: model.clone(), source, straight, first, wanted })
+    }
+}
+
+impl Stage for Groom {
+    type Inputs = GroomInputs;
+
+    fn is_of(&self, inputs: &GroomInputs) -> bool {
+        // How many are shown may be said in several ways, and of how many is known by now where a file has them.
+        let shown = |of: &GroomInputs| of.wanted.shown.of(self.of_scene, true).ok();
+        let wanted = Wanted { shown: self.inputs.wanted.shown, ..inputs.wanted };
+        shown(inputs) == shown(&self.inputs) && GroomInputs { wanted, ..inputs.clone() } == self.inputs
+    }
+
+    fn make(inputs: GroomInputs, at: At<'_>) -> Result<Self> {
+        let mut groom = match &inputs.source {
+            Source::Imported(settings) => imported::import(&inputs, settings, at)?,
+            Source::Grown { settings, segment_length, roots } => {
+                grown::grow(&inputs, settings, *segment_length, roots, at)?
+            }
+        };
+        if let Some((straighten, axis)) = inputs.straight {
+            let motion = Motion { straighten, ..Motion::default() };
+            groom.hair.strands = straightened(&groom.hair.strands, &motion, axis);
+            groom.first = straightened(&groom.first, &motion, axis);
+        }
+        Ok(groom)
+    }
+}
+
+impl Groom {
+    /// Where it grows; `None` for hair of a file.
+    pub(super) fn roots(&self) -> Option<&Arc<Roots>> {
+        match &self.inputs.source {
+            Source::Grown { roots, .. } => Some(roots),
+            Source::Imported(_) => None,
+        }
+    }
+}
+
+/// Refuses what takes more memory than there is.
+fn check_memory(at: At<'_>, key: &str, value: impl Display, needed: u64, what_for: &str, way_out: &str) -> Result<()> {
+    match memory::short_of(needed) {
+        None => Ok(()),
+        Some(short) => Err(at.refusal(SettingError::new(key, value, format!("{what_for} {short}: {way_out}")))),
+    }
+}

@@ -1,0 +1,105 @@
+//! Files that move a head or a body.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use nabiki::Pose;
+use nabiki_io::motion::{self, HeadMotion, MotionSource};
+use nabiki_io::{Placement, exchange, mesh};
+
+use super::model::Model;
+use super::stage::{At, Stage};
+use crate::error::Result;
+use crate::scene::Scene;
+
+/// Where the head is in each frame.
+#[derive(Debug)]
+pub struct Way {
+    inputs: Option<WayInputs>,
+    /// World poses of the head from frame 0 on; none for a head that stands still.
+    pub poses: Arc<[Pose]>,
+    /// How its motion was read and converted, in one line.
+    pub report: Option<String>,
+    /// Number of the first frame on the time line of its file, where that has one.
+    pub(super) begins: Option<i32>,
+}
+
+/// What a way is read from.
+#[derive(Debug, PartialEq)]
+pub(super) struct WayInputs {
+    /// That of the scene, to whose folder paths are relative.
+    pub file: PathBuf,
+    pub source: MotionSource,
+    /// The file of the mesh that is moved, and how it lies in the mesh's space.
+    pub mesh: Option<PathBuf>,
+    pub placement: Placement,
+    /// Frames a second.
+    pub frame_rate: f64,
+}
+
+impl WayInputs {
+    /// Those of the head's way; `None` for one that stands still.
+    pub fn of(scene: &Scene, model: &Model) -> Option<Self> {
+        scene.head.motion.as_ref().map(|source| Self {
+            file: scene.file().to_owned(),
+            source: source.clone(),
+            mesh: model.file(),
+            placement: model.placement,
+            frame_rate: scene.frame_rate(),
+        })
+    }
+
+    /// The motion that the scene names under `key`. Out of the mesh's own file it faces and is measured as the mesh is, and
+    /// what binds it there is where its mesh stands.
+    pub fn read(&self, key: &str, at: At<'_>) -> Result<HeadMotion> {
+        let there = |part: &str, file: &Path| at.there(&self.file, &format!("{key}.{part}"), file);
+        let source = MotionSource {
+            file: there("file", &self.source.file)?,
+            skeleton: self.source.skeleton.as_ref().map(|file| there("skeleton", file)).transpose()?,
+            ..self.source.clone()
+        };
+        let of_mesh = self.mesh.as_ref() == Some(&source.file) && holds_scenes(&source.file);
+        let facing = source.facing.or(of_mesh.then_some(self.placement.facing));
+        let unit_cm = source.unit_cm.or(of_mesh.then_some(100.0 * self.placement.unit.metres()));
+        let source = MotionSource { facing, unit_cm, ..source };
+        let mut motion = motion::read(&source, self.frame_rate).map_err(|e| e.below(key))?;
+        motion.bound = motion.bound.filter(|_| of_mesh);
+        let origin = self.placement.origin_in_world().as_vec3();
+        Ok(if source.bind_at_start { motion.bound_at(origin) } else { motion })
+    }
+}
+
+/// Whether files of this kind hold meshes and what moves them in one space.
+pub(crate) fn holds_scenes(file: &Path) -> bool {
+    exchange::is_usd(file) || exchange::is_alembic(file) || mesh::is_gltf(file)
+}
+
+impl Stage for Way {
+    type Inputs = Option<WayInputs>;
+
+    fn is_of(&self, inputs: &Option<WayInputs>) -> bool {
+        self.inputs == *inputs
+    }
+
+    fn make(inputs: Option<WayInputs>, at: At<'_>) -> Result<Self> {
+        let read = inputs.as_ref().map(|inputs| inputs.read("head.motion", at)).transpose()?;
+        let (poses, report, begins) =
+            read.map_or_else(Default::default, |read| (read.poses.into(), Some(read.report), read.first_frame));
+        Ok(Self { inputs, poses, report, begins })
+    }
+}
+
+impl Way {
+    /// Refuses a motion that ends before the scene does.
+    pub(super) fn check_length(&self, scene: &Scene) -> Result<()> {
+        let (frames, given) = (scene.motion.frames as usize, self.poses.len());
+        if self.inputs.is_none() || given > frames {
+            return Ok(());
+        }
+        let remedy = format!(
+            "head.motion ends at frame {} and motion.frames = {frames}: make motion.frames smaller, or the file longer",
+            given.saturating_sub(1)
+        );
+        Err(nabiki_io::Error::new(remedy).in_file(scene.file()).into())
+    }
+}
