@@ -271,3 +271,9 @@ fn factorise(directions: &[DVec3], pull: &[DVec3], joint: &[f64], pivot: &mut Ve
     }
     true
 }
+
+/// Number of equal segments of a strand: as few as are not longer than `longest`.
+pub(crate) fn segments(length: f64, longest: f64) -> usize {
+    // A ratio that only rounding carries beyond a whole number is that number.
+    ((length / longest - 1e-5).ceil() as usize).max(1)
+}

@@ -8,10 +8,8 @@
 
 use nabiki::glam::{DVec2, DVec3, Vec3};
 
-use crate::cantilever::carried;
-use crate::chance::Chance;
-use crate::drape::segments;
-use crate::strand_style::channel;
+use crate::cantilever::{carried, segments};
+use crate::chance::{Chance, channel};
 use crate::style::Curl;
 
 /// h is settled to about this part of a segment, and found within so many rounds.

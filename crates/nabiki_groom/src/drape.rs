@@ -9,7 +9,7 @@ use std::ops::Range;
 use nabiki::Head;
 use nabiki::glam::DVec3;
 
-use crate::cantilever::{Beam, Hold, Workspace};
+use crate::cantilever::{Beam, Hold, Workspace, segments};
 use crate::curl::StrandCurl;
 use crate::ears::EarHills;
 use crate::strand_style::{StrandStyle, Tie};
@@ -318,12 +318,6 @@ fn bend_at(tied: usize, d: f64, directions: &mut [DVec3]) {
     for _ in 0..roundings {
         round(directions, bent.clone());
     }
-}
-
-/// Number of equal segments of a strand: as few as are not longer than `longest`.
-pub(crate) fn segments(length: f64, longest: f64) -> usize {
-    // A ratio that only rounding carries beyond a whole number is that number.
-    ((length / longest - 1e-5).ceil() as usize).max(1)
 }
 
 fn wave_at(styled: &StrandStyle, wave_length: f64, s: f64) -> DVec3 {

@@ -16,7 +16,7 @@ use nabiki_render::{Bounds, View};
 use crate::advice::{Advice, Fix};
 use crate::built::BuiltScene;
 use crate::seat::{Lie, Mended, Seat};
-use crate::size::{mean_half_axis, of_head_size, vector};
+use crate::size::{mean_half_axis, vector};
 
 pub(crate) use unused::{of_pictures, unused};
 
@@ -167,7 +167,7 @@ fn open_skull(head: &Head, hole: &Opening) -> Option<Advice> {
 }
 
 fn head_size(built: &BuiltScene) -> Option<Advice> {
-    of_head_size(&built.model)
+    built.model.of_size()
 }
 
 fn of_seat(seat: &Seat<'_>) -> Option<Advice> {

@@ -2,17 +2,12 @@
 
 use glam::Vec3;
 use nabiki::Ellipsoid;
-use nabiki_io::info::Short;
-
-use crate::advice::{Advice, Fix};
-use crate::built::Model;
-use crate::scene::{EllipsoidChoice, HeadSource};
 
 /// Mean half axis of a person's head ellipsoid (cm): that of the built-in bust, 9.5 x 11 x 7.8.
 pub(crate) const HALF_AXIS: f32 = 9.3;
 
 /// Heads from a newborn's to half again an adult's are taken as they are: the mean half axis (cm).
-const HALF_AXES: [f32; 2] = [5.0, 14.0];
+pub(crate) const HALF_AXES: [f32; 2] = [5.0, 14.0];
 
 /// The units that a file may be in, by their names in a scene, with their centimetres.
 const UNITS: [(&str, f32); 6] = [("mm", 0.1), ("cm", 1.0), ("in", 2.54), ("dm", 10.0), ("ft", 30.48), ("m", 100.0)];
@@ -20,33 +15,6 @@ const UNITS: [(&str, f32); 6] = [("mm", 0.1), ("cm", 1.0), ("in", 2.54), ("dm", 
 pub(crate) fn mean_half_axis(ellipsoid: &Ellipsoid) -> f32 {
     // The product of three lengths leaves f32 long before they do.
     ellipsoid.half_axes.as_dvec3().element_product().cbrt() as f32
-}
-
-/// A head that is no person's by its size.
-pub(crate) fn of_head_size(model: &Model) -> Option<Advice> {
-    let Model { inputs, placement, declared, .. } = model;
-    let ellipsoid = &model.head.ellipsoid;
-    let size = mean_half_axis(ellipsoid);
-    if (HALF_AXES[0]..=HALF_AXES[1]).contains(&size) {
-        return None;
-    }
-    let [x, y, z] = ellipsoid.half_axes.to_array().map(Short);
-    // A creature's head may have any size.
-    let seen =
-        format!("the head's half axes are {x} x {y} x {z} cm; if it is a person's, about 9.5 x 11 x 7.8 are right");
-    let HeadSource::Imported(head) = &inputs.source else {
-        return Some(Advice::new(format!("{seen}: mend head.ellipsoid")));
-    };
-    let seen = match declared.unit.filter(|_| head.unit.is_none()) {
-        Some(unit) => format!("{seen}; its file is in {unit}"),
-        None => seen,
-    };
-    if matches!(inputs.ellipsoid, EllipsoidChoice::Given(_)) {
-        let seen = format!("{seen}: mend head.unit or head.ellipsoid");
-        return Some(Advice::new(seen));
-    }
-    let value = unit_for(size / placement.unit.cm, HALF_AXIS);
-    Some(Advice { seen, fixes: vec![Fix { key: "head.unit", value }] })
 }
 
 pub(crate) fn middle(points: &[Vec3]) -> Vec3 {

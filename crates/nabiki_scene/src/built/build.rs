@@ -14,7 +14,6 @@ use super::way::{Way, WayInputs};
 use super::{BuiltScene, Forces, Shown};
 use crate::error::Result;
 use crate::scene::{FieldBound, FormChoice, Scene};
-use crate::size::of_head_size;
 
 /// Builds a scene, or one `shard` of it. Stages of scenes that are `known` are kept where they would come out the same, so that
 /// files are not read again. `goes_on`, told how much of the hair is grown, is asked whether it is still wanted: between any two
@@ -29,7 +28,7 @@ pub(super) fn build(
     let at = At::new(&scene, goes_on);
     let model = Model::of(ModelInputs::of(&scene), known.iter().map(|known| &known.model), at)?;
     at.still_wanted(0.0)?;
-    let size = of_head_size(&model);
+    let size = model.of_size();
     build_about(model, scene, Wanted { shown, shard }, known, goes_on).map_err(|refused| refused.blamed_on(size))
 }
 
@@ -75,7 +74,7 @@ pub(super) fn field_bounds(scene: &Scene) -> Result<Vec<FieldBound>> {
     let way = Way::make(WayInputs::of(scene, &model), at)?;
     way.check_length(scene)?;
     let forces = Forces::make(ForcesInputs::of(scene, &model, &way), at);
-    let Forces { field, mut bounds, .. } = forces.map_err(|refused| refused.blamed_on(of_head_size(&model)))?;
+    let Forces { field, mut bounds, .. } = forces.map_err(|refused| refused.blamed_on(model.of_size()))?;
     bounds.push(FieldBound { name: "all".to_owned(), at_most: field.strongest() });
     Ok(bounds)
 }

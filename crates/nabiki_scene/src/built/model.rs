@@ -7,12 +7,15 @@ use glam::Vec3;
 use nabiki::body::{Body, Contact};
 use nabiki::{Head, SettingError};
 use nabiki_groom::bust;
+use nabiki_io::info::Short;
 use nabiki_io::mesh::{self, MeshReport};
 use nabiki_io::{DeclaredSpace, Placement, declared_space};
 
 use super::stage::{At, Stage};
+use crate::advice::{Advice, Fix};
 use crate::error::Result;
 use crate::scene::{EllipsoidChoice, HeadSettings, HeadSource, Scene, resolved};
+use crate::size::{HALF_AXES, HALF_AXIS, mean_half_axis, unit_for};
 
 /// A head, and what its file said of it. It is equal to itself and to no other.
 #[derive(Debug)]
@@ -59,6 +62,33 @@ impl Model {
             HeadSource::Imported(head) => Some(resolved(&self.inputs.file, &head.mesh)),
             HeadSource::Builtin => None,
         }
+    }
+
+    /// Whether it is no person's head by its size.
+    pub(crate) fn of_size(&self) -> Option<Advice> {
+        let Self { inputs, placement, declared, .. } = self;
+        let ellipsoid = &self.head.ellipsoid;
+        let size = mean_half_axis(ellipsoid);
+        if (HALF_AXES[0]..=HALF_AXES[1]).contains(&size) {
+            return None;
+        }
+        let [x, y, z] = ellipsoid.half_axes.to_array().map(Short);
+        // A creature's head may have any size.
+        let seen =
+            format!("the head's half axes are {x} x {y} x {z} cm; if it is a person's, about 9.5 x 11 x 7.8 are right");
+        let HeadSource::Imported(head) = &inputs.source else {
+            return Some(Advice::new(format!("{seen}: mend head.ellipsoid")));
+        };
+        let seen = match declared.unit.filter(|_| head.unit.is_none()) {
+            Some(unit) => format!("{seen}; its file is in {unit}"),
+            None => seen,
+        };
+        if matches!(inputs.ellipsoid, EllipsoidChoice::Given(_)) {
+            let seen = format!("{seen}: mend head.unit or head.ellipsoid");
+            return Some(Advice::new(seen));
+        }
+        let value = unit_for(size / placement.unit.cm, HALF_AXIS);
+        Some(Advice { seen, fixes: vec![Fix { key: "head.unit", value }] })
     }
 
     /// It as what hair does not enter.

@@ -8,7 +8,7 @@ use nabiki_scene::pull::{Lock, Pull, Pulled};
 
 use super::camera::{Gesture, place_in_plane};
 use super::handle::{self, Arrow};
-use super::let_go::{LetGo, short};
+use super::let_go::{LetGo, PULL, short};
 use super::pick::Picked;
 use super::{Shown, Touch};
 use crate::document::Phase;
@@ -17,14 +17,8 @@ use crate::take::Take;
 /// About the node that is pulled: strands that come along have a node this near (cm).
 pub const LOCK_CM: f32 = 1.5;
 
-/// Hair this near to the hand has arrived: nothing is said (cm). What is farther reads as 0.4 cm or more.
-pub const SHORT: f32 = 0.35;
-
 /// A hand that has gone no farther has not moved (cm): a hundredth of a pixel, and far more than roundings.
 const STILL_CM: f32 = 5e-4;
-
-/// What a pull is called in the undo menu.
-pub const PULL: &str = "Pull the hair";
 
 /// What it is doing.
 #[derive(Debug, Default)]

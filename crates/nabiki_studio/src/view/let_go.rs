@@ -8,10 +8,15 @@ use nabiki::field::Keyframe;
 use nabiki::solve::Stop;
 use nabiki_scene::pull::{Follower, Freedom, Lock, Pull, Pulled};
 
-use super::hand::{PULL, SHORT};
 use super::{Shown, Touch};
 use crate::document::Phase;
 use crate::take::Take;
+
+/// Hair this near to the hand has arrived: nothing is said (cm). What is farther reads as 0.4 cm or more.
+pub const SHORT: f32 = 0.35;
+
+/// What a pull is called in the undo menu.
+pub const PULL: &str = "Pull the hair";
 
 /// So long the search goes on after the hand has let go (s): nobody waits longer for hair to come.
 const SETTLES: f64 = 2.0;

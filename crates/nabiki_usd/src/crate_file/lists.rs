@@ -2,7 +2,8 @@
 
 use std::io::{Read, Seek};
 
-use super::read::{CrateReader, number};
+use super::read::CrateReader;
+use super::tables::number;
 use super::{Rep, types};
 use crate::Problem;
 

@@ -10,7 +10,7 @@ use nabiki_exchange::Budget;
 
 use super::integers::{most_integers, unpack_integers, unpack_integers_as};
 use super::numbers::{Scalar, inlined, shape};
-use super::tables::{Table, paths, tokens};
+use super::tables::{Table, number, paths, tokens};
 use super::{END_OF_SET, HEADER, MAGIC, Rep, specs, types};
 use crate::Problem;
 use crate::arcs;
@@ -419,10 +419,6 @@ const ARRAYS: &str = "arrays";
 /// What names a value, or says that there is none.
 fn value(rep: u64) -> Handle {
     if Rep(rep).kind() == types::VALUE_BLOCK { BLOCKED } else { (rep, 0) }
-}
-
-pub fn number(bytes: &[u8]) -> u64 {
-    u64::from_le_bytes(bytes[..8].try_into().expect("eight bytes"))
 }
 
 #[cfg(test)]

@@ -5,7 +5,6 @@ use std::rc::Rc;
 use nabiki_exchange::Budget;
 
 use super::integers::{unpack, unpack_integers_as};
-use super::read::number;
 use crate::Problem;
 use crate::source::Name;
 
@@ -119,4 +118,9 @@ pub fn paths(table: &mut Table) -> Result<Vec<Node>, Problem> {
         }
     }
     Ok(nodes)
+}
+
+/// The number of eight bytes.
+pub fn number(bytes: &[u8]) -> u64 {
+    u64::from_le_bytes(bytes[..8].try_into().expect("eight bytes"))
 }
