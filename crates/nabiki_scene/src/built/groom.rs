@@ -68,7 +68,7 @@ pub(super) struct GroomInputs {
 
 #[derive(Clone, Debug, PartialEq)]
 enum Source {
-    Grown { settings: GrownHair, segment_length: f32, roots: Arc<Roots> },
+    Grown { settings: Box<GrownHair>, segment_length: f32, roots: Arc<Roots> },
     Imported(ImportedHair),
 }
 
@@ -111,7 +111,7 @@ impl GroomInputs {
                 let count = run.end.max(first.min(settings.strands));
                 let known = known.filter_map(|known| known.roots());
                 let roots = Roots::of(RootsInputs::of(model.clone(), settings, count), known, at)?;
-                Source::Grown { settings: settings.clone(), segment_length: scene.hair.segment_length, roots }
+                Source::Grown { settings: Box::new(settings.clone()), segment_length: scene.hair.segment_length, roots }
             }
         };
         let straighten = scene.motion.straighten;
