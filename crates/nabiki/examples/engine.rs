@@ -9,7 +9,6 @@ use nabiki::body::{Body, BodyWay, Contact, skin_of};
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Simulation, Stepper};
 use nabiki::field::UniformField;
 use nabiki::free_form::FreeMotion;
-use nabiki::pseudo_force::PseudoForce;
 use nabiki::{Mesh, Pose, SettingError};
 use nabiki_groom::{Growth, Hairline, Style, bust, grow};
 
@@ -97,7 +96,6 @@ fn main() -> Result<(), SettingError> {
     let bodies = vec![Body::head(&head, Contact::default()), hand];
     let dynamics = Dynamics {
         motion: Motion { frame_rate: RATE, inertia_length_floor: 18.0, ..Motion::default() },
-        pseudo_force: PseudoForce::off(),
         form: Form::Free(FreeMotion { bodies, ..FreeMotion::default() }),
         ..Dynamics::new(head.ellipsoid)
     };

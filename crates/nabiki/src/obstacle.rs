@@ -8,13 +8,13 @@ use glam::{Mat3, Vec3};
 
 pub use capsule::Capsule;
 
-/// A closed shape in its own space (cm): a rigid mesh ([`SkinDistance`](crate::distance::SkinDistance)), a [`Capsule`], or any other,
+/// A shape in its own space (cm), closed or without end, as a half space: a rigid mesh ([`SkinDistance`](crate::distance::SkinDistance)), a [`Capsule`], or any other,
 /// which may bend from frame to frame. Where that space is, a [`BodyWay`](crate::body::BodyWay) says.
 ///
 /// Contact asks in every frame for many points at once, from many threads: answers depend on the point and the frame alone.
 pub trait Obstacle: Debug + Send + Sync {
     /// The corners of the box that [`read`](Self::read) knows, in all frames: from the shape to the margin of contact at least, which is
-    /// up to 5 cm.
+    /// up to 5 cm. They may be infinite.
     fn reach(&self) -> [Vec3; 2];
 
     /// Signed distance at a point in a frame, and how that changes; `None` beyond [`reach`](Self::reach), and only there. A distance
@@ -31,7 +31,7 @@ pub trait Obstacle: Debug + Send + Sync {
         0.0
     }
 
-    /// Hands on numbers that tell it from other shapes: a motion cache is of a scene with these.
+    /// Hands on numbers that tell it from other shapes: caches and saved states know it by them.
     fn identify(&self, hand_on: &mut dyn FnMut(&[f32]));
 }
 

@@ -9,11 +9,12 @@ use std::sync::Arc;
 use allocations::allocations;
 use common::{ball, bits, fast, free_motion, gust, hair, way_of_a_head, wind};
 use glam::Vec3;
-use nabiki::body::{Body, BodyWay, Contact, skin_of};
+use nabiki::body::{Body, BodyWay, Contact, Shape, skin_of};
 use nabiki::disturbance::Disturbance;
 use nabiki::dynamics::{Dynamics, FrameInput, Simulation, Stepper};
 use nabiki::field::FieldSum;
 use nabiki::free_form::{FreeMotion, NeighbourForces, Neighbours};
+use nabiki::obstacle::{Capsule, Obstacle};
 use nabiki::{METHOD_VERSION, Pose, Strands};
 use nabiki_groom::bust;
 
@@ -196,4 +197,26 @@ fn hair_read_among_other_bodies_looks_for_contact() {
     let mut other = among(Vec3::splat(301.0));
     other.set_state_bytes(&bytes).unwrap();
     assert_eq!(inside_after_a_step(&mut other), 0);
+}
+
+/// Gaps to another shape are none either, though it lies in the same box.
+#[test]
+fn hair_read_among_a_body_of_the_same_box_looks_for_contact() {
+    let hair = hair(80, 18);
+    let among = |y: f32| {
+        let ends = [Vec3::new(-20.0, -y, -14.0), Vec3::new(-20.0, y, 14.0)];
+        let stick = Shape::Other(Arc::new(Capsule::new(ends, 1.0, "stick").unwrap()));
+        let body = Body::new("body[0]", stick, BodyWay::WithHead, Contact::default());
+        fast(&hair, &free_motion(FreeMotion { bodies: vec![body], ..Default::default() }), &wind())
+    };
+    let reach = |y: f32| Capsule::new([Vec3::new(0.0, -y, 0.0), Vec3::new(0.0, y, 0.0)], 1.0, "").unwrap().reach();
+    assert_eq!(reach(9.0), reach(-9.0));
+    let mut falling = among(9.0);
+    run(&mut falling, 1..=20);
+    let (mut read, mut told) = (among(-9.0), among(-9.0));
+    read.set_state(&falling).unwrap();
+    told.set_state(&falling).unwrap();
+    told.jumped();
+    let gaps = |simulation: &Simulation| simulation.state_bytes();
+    assert!(gaps(&read) == gaps(&told));
 }

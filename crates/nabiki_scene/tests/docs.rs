@@ -174,3 +174,13 @@ fn the_program_of_the_readme_is_the_one_that_is_tested() {
         .collect();
     assert_eq!(program, tested);
 }
+
+/// That of the page for engines is an example, which is compiled.
+#[test]
+fn the_program_for_engines_is_an_example() {
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
+    let page = std::fs::read_to_string(root.join("docs/engine.md")).unwrap();
+    let program = page.split("```rust\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let example = std::fs::read_to_string(root.join("crates/nabiki/examples/ball.rs")).unwrap();
+    assert!(example.ends_with(program), "{example}");
+}

@@ -24,6 +24,15 @@ use crate::field::Field;
 use crate::free_form::FreeMotion;
 use crate::strands::{Strands, bounds};
 
+/// A mesh hands on many numbers, and states are told apart often: they are gone through once.
+fn shapes(bodies: &[Body]) -> u64 {
+    let mut identity = Identity::new();
+    for body in bodies {
+        body.shape.obstacle().identify(&mut |numbers| identity.numbers(numbers));
+    }
+    identity.get()
+}
+
 /// Everything about hair that no frame changes.
 #[derive(Clone, Debug)]
 pub(super) struct Packed {
@@ -40,6 +49,8 @@ pub(super) struct Packed {
     pub weakening: Option<(Surroundings, Vec<Row>)>,
     /// For each body, what the ends of the segments are kept out of.
     pub kept_from: Vec<KeptFrom>,
+    /// What tells the shapes of the bodies from others.
+    shapes: u64,
     pub rest: Vec<FreeState>,
     weight_at_rest: [f32; 3],
     /// A ball that hair does not leave (head space, cm), and the length of the longest strand.
@@ -76,6 +87,7 @@ impl Packed {
             strengths: Vec::new(),
             lags: Vec::new(),
             kept_from: Vec::new(),
+            shapes: 0,
             rest: Vec::new(),
             weight_at_rest: weight(&free.rest_pose, f64::from(free.form.weight())).as_vec3().to_array(),
             center: 0.5 * (low + high),
@@ -88,12 +100,15 @@ impl Packed {
         if packed.strengths.iter().all(|strength| *strength == packed.strengths[0]) {
             packed.strengths.truncate(1);
         }
-        packed.kept_from = match known {
+        match known {
             Some(known) if known.free.bodies == free.bodies && known.free.rest_pose == free.rest_pose => {
-                known.kept_from.clone()
+                (packed.kept_from, packed.shapes) = (known.kept_from.clone(), known.shapes);
             }
-            _ => free.bodies.iter().map(|body| packed.kept_from(body)).collect(),
-        };
+            _ => {
+                packed.kept_from = free.bodies.iter().map(|body| packed.kept_from(body)).collect();
+                packed.shapes = shapes(&free.bodies);
+            }
+        }
         Ok(packed)
     }
 
@@ -164,8 +179,8 @@ impl Packed {
             return 0;
         }
         let mut identity = Identity::new();
+        [self.shapes as u32, (self.shapes >> 32) as u32].into_iter().for_each(|word| identity.word(word));
         for (body, kept) in self.free.bodies.iter().zip(&self.kept_from) {
-            body.shape.obstacle().reach().iter().for_each(|corner| identity.numbers(&corner.to_array()));
             identity.numbers(&[body.contact.margin]);
             if let BodyWay::InWorld(poses) = &body.way {
                 poses.iter().for_each(|pose| {

@@ -2,7 +2,8 @@
 //! fast text over lanes, and its part in the check of stability.
 //!
 //! A new force is such a file, its name in [`pulls`], and its term in the sums: [`sum`] here for f64; for the fast step
-//! [`sum_of_shape`] if it comes from the segment's own shape, or `Among::forces` in `passes.rs` if from its place.
+//! [`sum_of_shape`] if it comes from the segment's own shape, or `Among::outer_forces` in `passes.rs` if from its place, which
+//! `Packed::plan` must then let be asked.
 
 pub(super) mod acceleration;
 mod at;
