@@ -171,7 +171,9 @@ def test_an_exception_of_the_callback_stops_the_work_and_leaves_nothing(gust, tm
 
 # Carriers make it slow and not large, since what a disk cannot hold is refused.
 STOPPED = """
-import sys, nabiki
+import signal, sys, nabiki
+# What is started in the background of a shell ignores it, and so does all that it starts.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 scene = nabiki.Scene.open(sys.argv[1], {"motion.frames": 20000, "neighbours.carriers": 4096, "output.sheet": [0]})
 if sys.argv[3] == "field":
     scene.fields = [nabiki.Field(lambda points, frame: (1, 0, 0), strongest=1)]
