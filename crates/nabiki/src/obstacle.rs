@@ -9,7 +9,8 @@ use glam::{Mat3, Vec3};
 pub use capsule::Capsule;
 
 /// A shape in its own space (cm), closed or without end, as a half space is: a rigid mesh
-/// ([`SkinDistance`](crate::distance::SkinDistance)), a [`Capsule`], or any other, which may bend from frame to frame. Where that space is, a [`BodyWay`](crate::body::BodyWay) says.
+/// ([`SkinDistance`](crate::distance::SkinDistance)), a [`Capsule`], or any other, which may bend from frame to frame. Where that space
+/// is, a [`BodyWay`](crate::body::BodyWay) says.
 ///
 /// Contact asks in every frame for many points at once, from many threads: answers depend on the point and the frame alone.
 pub trait Obstacle: Debug + Send + Sync {
