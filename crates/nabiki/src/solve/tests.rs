@@ -18,10 +18,21 @@ use crate::field::{
 };
 use crate::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours};
 use crate::pseudo_force::PseudoForce;
-use crate::{Head, Pose, Profile, Strands, sketch};
+use crate::{Head, Pose, Profile, Strands, bust};
 
 const STRANDS: usize = 24;
 const FRAMES: u32 = 60;
+
+/// The first strands of 400 that `nabiki_groom` grows on the bust: 12 segments of 1.5 cm, seed 1, its default style and hairline. Points
+/// (cm), root first, a blank line between strands.
+fn hair() -> Strands {
+    let point = |line: &str| Vec3::from_slice(&line.split(' ').map(|x| x.parse().unwrap()).collect::<Vec<f32>>());
+    let mut hair = Strands::default();
+    for strand in include_str!("tests/grown.txt").split("\n\n") {
+        hair.push(strand.lines().map(point));
+    }
+    hair
+}
 
 fn dynamics(head: &Head, form: Form) -> Dynamics {
     Dynamics {
@@ -212,8 +223,8 @@ const OF_WIND: [Unknown; 6] =
 
 #[test]
 fn tangents_are_what_differences_of_the_specification_say() {
-    let head = sketch::head();
-    let hair = sketch::hair(&head, STRANDS, 12, 1.5);
+    let head = bust::bust();
+    let hair = hair();
     let free = |bodies: Vec<Body>, neighbours, poses: &[Pose]| {
         let rest_pose = poses.first().copied().unwrap_or_default();
         Form::Free(FreeMotion { form: FreeForm::default(), bodies, neighbours, rest_pose })
