@@ -3,16 +3,6 @@
 use crate::Problem;
 use crate::opened::Layer;
 
-/// The arcs of prims, each by the word of text layers and by that of binary ones. Of value clips samples come.
-pub const OF_PRIMS: [(&str, &str); 6] = [
-    ("references", "references"),
-    ("payload", "payload"),
-    ("inherits", "inheritPaths"),
-    ("specializes", "specializes"),
-    ("variantSets", "variantSetNames"),
-    ("clips", "clips"),
-];
-
 /// How to have them followed.
 const FLATTEN: &str = "flatten it first (usdcat --flatten IN -o OUT)";
 

@@ -4,8 +4,7 @@ use half::f16;
 use nabiki::hair::{Other, Per, Role, Stored, Values};
 use nabiki_exchange::attributes::{renamed, type_change, unique_names};
 
-use crate::content::primvar;
-use crate::layer::{Attribute, Value};
+use crate::layer::{Attribute, Value, primvar};
 use crate::primvars::{Kind, kind};
 
 /// Types of numbers with a fraction: what they stand for, how many make a value, in half, single and double precision.

@@ -10,7 +10,7 @@ use nabiki_exchange::Export;
 use nabiki_exchange::attributes::names;
 
 use crate::carried::carried;
-use crate::layer::{Attribute, Prim, Value};
+use crate::layer::{Attribute, Prim, Value, primvar};
 
 /// The moving curves without their samples: topology, and everything that does not move.
 pub fn curves<S>(export: &Export<'_>, name: &str) -> Prim<S> {
@@ -96,11 +96,6 @@ fn roots<S>(at: &Attributes, attributes: &mut Vec<Attribute<S>>) {
     if let Some(guides) = &at.guide {
         by_strand("groom_guide", "int[]", Value::Ints(guides.iter().map(|&g| i32::from(g)).collect()));
     }
-}
-
-/// The property that holds a primvar.
-pub fn primvar(name: &str) -> String {
-    format!("primvars:{name}")
 }
 
 /// The head.

@@ -107,6 +107,11 @@ impl<S> Attribute<S> {
     }
 }
 
+/// The property that holds a primvar.
+pub fn primvar(name: &str) -> String {
+    format!("primvars:{name}")
+}
+
 /// A prim.
 #[derive(Clone, Debug)]
 pub struct Prim<S> {

@@ -37,6 +37,7 @@ mod meshes;
 mod opened;
 mod primvars;
 mod read;
+mod rig;
 mod shown;
 mod skeleton;
 mod skin;

@@ -11,7 +11,7 @@ use nabiki_exchange::{Budget, Window};
 use crate::Problem;
 use crate::crate_file::MAGIC;
 use crate::crate_file::read::CrateReader;
-use crate::skeleton::Rigs;
+use crate::rig::Rigs;
 use crate::source::{BLOCKED, Handle, Name, PrimInfo, Source};
 use crate::standing::Standing;
 use crate::text::read as text;

@@ -7,39 +7,8 @@ use glam::{DMat4, DQuat, DVec3};
 
 use crate::Problem;
 use crate::opened::Layer;
+use crate::rig::{Animation, Poses, Rig};
 use crate::transform;
-
-/// A skeleton and what moves it.
-#[derive(Clone)]
-pub struct Rig {
-    /// The prim.
-    pub skeleton: usize,
-    /// The joints, each by its path in the skeleton: `hips/neck/head`.
-    pub joints: Vec<String>,
-    /// The joint above each.
-    parents: Vec<Option<usize>>,
-    animation: Option<Animation>,
-}
-
-/// The rigs of a layer that were asked for, and where the joints of one of them were at a time code.
-#[derive(Default)]
-pub struct Rigs {
-    by_skeleton: HashMap<usize, Rc<Rig>>,
-    bound: HashMap<usize, Option<Rc<[DMat4]>>>,
-    posed: Option<(usize, f64, Rc<Poses>)>,
-}
-
-/// Where each joint is in the skeleton's space; none for joints that neither an animation nor a rest transform places.
-pub type Poses = [Option<DMat4>];
-
-#[derive(Clone)]
-struct Animation {
-    prim: usize,
-    /// Number of its joints.
-    count: usize,
-    /// The number that each joint of the skeleton has in it.
-    numbers: Vec<Option<usize>>,
-}
 
 /// A joint of a rig.
 pub struct Joint {

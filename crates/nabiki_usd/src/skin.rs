@@ -7,7 +7,7 @@ use glam::{DMat4, DVec3, Vec3};
 
 use crate::Problem;
 use crate::opened::Layer;
-use crate::skeleton::Rig;
+use crate::rig::Rig;
 use crate::transform;
 
 /// How the points of a prim hang on joints.

@@ -94,6 +94,16 @@ pub const BLOCKED: Handle = (0, 0);
 /// The schema by which a prim says how it is bound to a skeleton.
 pub const SKEL_BINDING: &str = "SkelBindingAPI";
 
+/// The arcs of prims, each by the word of text layers and by that of binary ones. Of value clips samples come.
+pub const ARCS: [(&str, &str); 6] = [
+    ("references", "references"),
+    ("payload", "payload"),
+    ("inherits", "inheritPaths"),
+    ("specializes", "specializes"),
+    ("variantSets", "variantSetNames"),
+    ("clips", "clips"),
+];
+
 /// A prim of the layer.
 #[derive(Clone, Debug, Default)]
 pub struct PrimInfo {

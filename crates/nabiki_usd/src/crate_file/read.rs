@@ -13,8 +13,9 @@ use super::numbers::{Scalar, inlined, shape};
 use super::tables::{Table, number, paths, tokens};
 use super::{END_OF_SET, HEADER, MAGIC, Rep, specs, types};
 use crate::Problem;
-use crate::arcs;
-use crate::source::{AttributeInfo, BLOCKED, DEEPEST, Handle, Name, PrimInfo, SKEL_BINDING, keep_prim, keep_property};
+use crate::source::{
+    ARCS, AttributeInfo, BLOCKED, DEEPEST, Handle, Name, PrimInfo, SKEL_BINDING, keep_prim, keep_property,
+};
 
 /// Arrays shorter than this are not packed even where they say so.
 const SHORTEST_PACKED: usize = 16;
@@ -143,7 +144,7 @@ impl<R: Read + Seek> CrateReader<R> {
                     let is_off_stage = is("specifier", CLASS) || is("active", 0);
                     let (is_over, is_instance) = (is("specifier", OVER), is("instanceable", 1));
                     let schemas = field("apiSchemas");
-                    let named_arcs = arcs::OF_PRIMS.map(|(arc, name)| (arc, field(name)));
+                    let named_arcs = ARCS.map(|(arc, name)| (arc, field(name)));
                     let mut arcs = Vec::new();
                     for (arc, rep) in named_arcs {
                         if let Some(rep) = rep

@@ -9,8 +9,7 @@ use nabiki_exchange::Budget;
 use super::numbers::{Number, Numbers, is_part};
 use super::scan::{Scanner, WINDOW};
 use crate::Problem;
-use crate::arcs;
-use crate::source::{BLOCKED, DEEPEST, Handle, Name, PrimInfo, SKEL_BINDING, Source, keep_prim, keep_property};
+use crate::source::{ARCS, BLOCKED, DEEPEST, Handle, Name, PrimInfo, SKEL_BINDING, Source, keep_prim, keep_property};
 
 type Parsed = (Vec<PrimInfo>, HashMap<Name, Handle>);
 
@@ -108,7 +107,7 @@ fn note_details(text: &mut Scanner<'_>, prim: &mut PrimInfo) -> Result<(), Probl
                     "instanceable" => prim.is_instance |= matches!(word.as_str(), "true" | "1"),
                     _ => {}
                 }
-                let arc = arcs::OF_PRIMS.into_iter().map(|(arc, _)| arc).find(|&arc| arc == word);
+                let arc = ARCS.into_iter().map(|(arc, _)| arc).find(|&arc| arc == word);
                 if let Some(arc) = arc.filter(|_| !takes_away)
                     && text.peek()? == Some(b'=')
                 {
