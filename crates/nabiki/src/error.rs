@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display};
 
-use crate::setting::Key;
+use crate::key::Key;
 
 /// A setting refused before anything is stepped: which one, what it was, and what it may be.
 ///

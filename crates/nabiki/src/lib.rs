@@ -59,6 +59,7 @@ pub mod field;
 pub mod free_form;
 pub mod hair;
 pub mod head;
+mod key;
 pub mod mesh;
 pub mod obstacle;
 pub mod pose;

@@ -5,12 +5,11 @@
 //! is `nabiki_scene::schema`.
 
 mod declare;
-mod key;
 mod value;
 
 use std::fmt;
 
-pub use key::{Key, Place, Step};
+pub use crate::key::{Key, Place, Step};
 pub use value::Value;
 
 use crate::error::SettingError;
