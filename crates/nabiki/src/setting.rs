@@ -25,6 +25,32 @@ pub struct Table {
     pub settings: &'static [Setting],
 }
 
+impl Table {
+    /// The setting of this key, which it must have: a constant that asks for another does not compile.
+    #[doc(hidden)]
+    pub const fn setting(&self, key: &str) -> &'static Setting {
+        let mut rest = self.settings;
+        while let [setting, after @ ..] = rest {
+            if is_same(setting.key.as_bytes(), key.as_bytes()) {
+                return setting;
+            }
+            rest = after;
+        }
+        panic!("no such setting")
+    }
+}
+
+/// Whether two texts are the same, as constants can ask.
+const fn is_same(mut a: &[u8], mut b: &[u8]) -> bool {
+    while let ([of_a, after_a @ ..], [of_b, after_b @ ..]) = (a, b) {
+        if *of_a != *of_b {
+            return false;
+        }
+        (a, b) = (after_a, after_b);
+    }
+    a.is_empty() && b.is_empty()
+}
+
 /// One setting, as it is declared.
 #[derive(Debug)]
 pub struct Setting {

@@ -3,9 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use nabiki::body::Contact;
-use nabiki::setting::{Datum, Key, Kind, Range, Setting, Settings, Table};
-use nabiki_render::settings::BodyLook;
+use nabiki::setting::{Datum, Key, Kind, Range, Setting, Table};
 use nabiki_scene::Scene;
 use nabiki_scene::scene::Problem;
 use nabiki_scene::schema::{self, Occurs, SceneTable, TABLES};
@@ -268,15 +266,4 @@ fn a_number_out_of_what_the_schema_says_is_refused_by_the_name_of_its_setting() 
         }
     }
     assert!(tried > 200, "{tried}");
-}
-
-/// A body has its contact and its look in its own table.
-#[test]
-fn what_a_body_says_of_contact_and_look_is_what_they_declare() {
-    let body = TABLES.iter().find(|table| table.key == "body").unwrap();
-    for declared in Contact::TABLE.settings.iter().chain(BodyLook::TABLE.settings) {
-        let own = body.settings().find(|own| own.key == declared.key).unwrap();
-        let said = |of: &Setting| format!("{} {:?} {:?} {:?}", of.label, of.kind, of.range, (of.default)());
-        assert_eq!(said(own), said(declared), "{}", own.key);
-    }
 }

@@ -5,8 +5,10 @@
 /// Each setting has its doc comment, whose first sentence is the help that a panel shows, its key, type and default, and after the arrow
 /// its label, then what there is to say of these, in this order: `must "EXAMPLE"`, where a file cannot do without it (the default is
 /// then what a new table starts with); `unit "cm"`; `above`, `least` and `most`, which bound each of its numbers; `open "WHAT"`, what is
-/// taken where it is left open. `in "TABLE"` names the table that the struct always is, and gives `check()`. `where RULE` names a
-/// function of the struct that refuses what no range can say: `fn RULE(&self, at: &Place) -> Result<(), SettingError>`.
+/// taken where it is left open. `pub KEY: TYPE => of STRUCT;` is a setting that another struct declares under the same key: default,
+/// label, unit and range are that one's, the help is its own. `in "TABLE"` names the table that the struct always is, and gives
+/// `check()`. `where RULE` names a function of the struct that refuses what no range can say:
+/// `fn RULE(&self, at: &Place) -> Result<(), SettingError>`.
 ///
 /// ```
 /// use nabiki::setting::{Settings, plain};
@@ -31,7 +33,7 @@ macro_rules! settings {
             $(
                 $(#[doc = $help:expr])*
                 $(#[serde($($serde:tt)*)])?
-                $field_vis:vis $key:ident: $type:ty = $default:expr => $label:literal
+                $field_vis:vis $key:ident: $type:ty $(= $default:expr)? => $($label:literal)? $(of $of:ident)?
                     $(, must $must:literal)? $(, unit $unit:literal)?
                     $(, above $above:expr)? $(, least $least:expr)? $(, most $most:expr)? $(, open $open:literal)?;
             )*
@@ -45,7 +47,7 @@ macro_rules! settings {
 
         impl ::std::default::Default for $name {
             fn default() -> Self {
-                Self { $($key: $default),* }
+                Self { $($key: $crate::settings!(@default $key [$($default)?] [$($of)?])),* }
             }
         }
 
@@ -60,7 +62,7 @@ macro_rules! settings {
                 Ok(Self {
                     $($key: match given.$key {
                         Some(value) => value,
-                        None => $crate::settings!(@absent $key, $default $(, $must)?),
+                        None => $crate::settings!(@absent $key [$($default)?] [$($of)?] $(, $must)?),
                     },)*
                 })
             }
@@ -78,7 +80,7 @@ macro_rules! settings {
                 $($crate::setting::Value::check(
                     &self.$key,
                     &at.key(stringify!($key)),
-                    &$crate::settings!(@range [$($unit)?] [$($above)?] [$($least)?] [$($most)?]),
+                    &$crate::settings!(@range $key [$($of)?] [$($unit)?] [$($above)?] [$($least)?] [$($most)?]),
                 )?;)*
                 $(self.$rule(at)?;)?
                 Ok(())
@@ -95,12 +97,12 @@ macro_rules! settings {
                 help: concat!($($doc, "\n"),*),
                 settings: &[$($crate::setting::Setting {
                     key: stringify!($key),
-                    label: $label,
+                    label: $crate::settings!(@label $key [$($label)?] [$($of)?]),
                     help: concat!($($help, "\n"),*),
                     kind: <$type as $crate::setting::Value>::KIND,
-                    range: $crate::settings!(@range [$($unit)?] [$($above)?] [$($least)?] [$($most)?]),
+                    range: $crate::settings!(@range $key [$($of)?] [$($unit)?] [$($above)?] [$($least)?] [$($most)?]),
                     default: || {
-                        let default: $type = $default;
+                        let default: $type = $crate::settings!(@default $key [$($default)?] [$($of)?]);
                         $crate::setting::Value::datum(&default)
                     },
                     must: $crate::settings!(@maybe $($must)?),
@@ -112,13 +114,21 @@ macro_rules! settings {
         $crate::settings!(@check $name $($place)?);
     };
 
-    (@absent $key:ident, $default:expr) => { $default };
-    (@absent $key:ident, $default:expr, $must:literal) => {
+    (@default $key:ident [$default:expr] []) => { $default };
+    (@default $key:ident [] [$of:ident]) => { <$of as ::std::default::Default>::default().$key };
+    (@absent $key:ident $default:tt $of:tt) => { $crate::settings!(@default $key $default $of) };
+    (@absent $key:ident $default:tt $of:tt, $must:literal) => {
         return Err(::serde::de::Error::missing_field(stringify!($key)))
     };
     (@maybe) => { ::std::option::Option::None };
     (@maybe $given:expr) => { ::std::option::Option::Some($given) };
-    (@range [$($unit:literal)?] [$($above:expr)?] [$($least:expr)?] [$($most:expr)?]) => {
+    (@label $key:ident [$label:literal] []) => { $label };
+    (@label $key:ident [] [$of:ident]) => { $crate::settings!(@declared $key $of).label };
+    (@declared $key:ident $of:ident) => {
+        const { <$of as $crate::setting::Settings>::TABLE.setting(stringify!($key)) }
+    };
+    (@range $key:ident [$of:ident] [] [] [] []) => { $crate::settings!(@declared $key $of).range };
+    (@range $key:ident [] [$($unit:literal)?] [$($above:expr)?] [$($least:expr)?] [$($most:expr)?]) => {
         $crate::setting::Range {
             unit: concat!($($unit)?),
             above: $crate::settings!(@maybe $($above)?),

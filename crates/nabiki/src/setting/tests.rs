@@ -1,5 +1,30 @@
 use super::*;
 use crate::free_form::FreeForm;
+use crate::profile::Profile;
+use crate::settings;
+
+settings! {
+    /// One setting of its own, and one of another struct.
+    struct Sharing {
+        /// Its own.
+        own: f32 = 1.0 => "Own", unit "cm", most 2.0;
+        /// How firmly this one is held.
+        hold: Profile => of FreeForm;
+    }
+}
+
+#[test]
+fn a_setting_of_another_struct_is_as_that_one_declares_it_but_for_its_help() {
+    let [_, shared] = Sharing::TABLE.settings else { panic!() };
+    let declared = FreeForm::TABLE.settings.iter().find(|declared| declared.key == "hold").unwrap();
+    let said = |of: &Setting| format!("{} {:?} {:?} {:?}", of.label, of.kind, of.range, (of.default)());
+    assert_eq!(said(shared), said(declared));
+    assert_eq!(plain(shared.help), "How firmly this one is held.");
+    assert_eq!(Sharing::default().hold, FreeForm::default().hold);
+    let hold = Profile::Even(-1.0);
+    let declared = FreeForm { hold: hold.clone(), ..FreeForm::default() }.check().unwrap_err();
+    assert_eq!(Sharing { hold, ..Sharing::default() }.check_at("free").unwrap_err(), declared);
+}
 
 #[test]
 fn keys_are_written_as_they_are_read() {

@@ -34,15 +34,15 @@ settings! {
         /// Whether hair keeps out of it; otherwise it is drawn and no more, and may be open.
         pub solid: bool = true => "Solid";
         /// How far from its skin nodes are kept.
-        pub margin: f32 = Contact::default().margin => "Margin", unit "cm", least 0.0, most 5.0;
+        pub margin: f32 => of Contact;
         /// The part of a push that sliding hair loses of its speed.
-        pub friction: f32 = Contact::default().friction => "Friction", least 0.0, most 10.0;
+        pub friction: f32 => of Contact;
         /// The same for hair that does not slide, at least `friction`.
-        pub static_friction: f32 = Contact::default().static_friction => "Static friction", least 0.0, most 10.0;
+        pub static_friction: f32 => of Contact;
         /// Whether it is drawn. What is not shown hides nothing and throws no shadow.
-        pub shown: bool = BodyLook::default().shown => "Shown";
+        pub shown: bool => of BodyLook;
         /// Its colour in pictures. The default is a grey.
-        pub colour: [f32; 3] = BodyLook::default().colour => "Colour", unit "sRGB", least 0.0, most 1.0;
+        pub colour: [f32; 3] => of BodyLook;
     }
 }
 
