@@ -188,8 +188,10 @@ impl LetGo {
 /// How far a lock is from the hand and a nail from its place (cm), in one line: whether the search goes on, or what stops it.
 pub fn short(lock: f32, nail: f32, searching: bool, stop: Option<&Stop>) -> Option<String> {
     let lock = (lock > SHORT).then(|| format!("{lock:.1} cm short"));
-    let nail = (nail > SHORT).then(|| format!("a nail slips {nail:.1} cm"));
-    let words: Vec<String> = lock.into_iter().chain(nail).collect();
+    let slips = (nail > SHORT).then(|| format!("a nail slips {nail:.1} cm"));
+    // That a nail slips says already that it holds the hair.
+    let stop = stop.filter(|stop| slips.is_none() || !matches!(stop, Stop::Nail(_)));
+    let words: Vec<String> = lock.into_iter().chain(slips).collect();
     if words.is_empty() {
         return None;
     }
@@ -241,6 +243,7 @@ mod tests {
         assert_eq!(says(1.34, 0.0, true, None).as_deref(), Some("1.3 cm short, searching..."));
         assert_eq!(says(1.34, 0.0, false, Some(&nail)).as_deref(), Some("1.3 cm short: a nail holds it"));
         assert_eq!(says(0.0, 0.4, false, None).as_deref(), Some("a nail slips 0.4 cm"));
+        assert_eq!(says(0.0, 1.5, false, Some(&nail)).as_deref(), Some("a nail slips 1.5 cm"));
         let both = "1.3 cm short, a nail slips 0.4 cm, searching...";
         assert_eq!(says(1.3, 0.4, true, None).as_deref(), Some(both));
     }
