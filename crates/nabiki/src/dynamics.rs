@@ -25,7 +25,7 @@ mod timeline;
 mod transpose;
 mod trigonometry;
 
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, Quat, Vec3};
 
 use crate::body::Body;
 use crate::disturbance::Disturbance;
@@ -38,7 +38,8 @@ use crate::pseudo_force::{Gamma, PseudoForce};
 use crate::strands::Strands;
 use crate::{settings, words};
 
-pub use gain::{earth_gravity, gain, period};
+pub use free::substeps;
+pub use gain::{earth_gravity, gain, period, push};
 pub use reference::Reference;
 pub use simulation::{Simulation, VectorWidth};
 pub(crate) use stability::Stability;
@@ -49,15 +50,17 @@ pub(crate) use tangents::{Asked, Change, Points, tangents};
 pub use timeline::{Played, Timeline};
 
 settings! {
-    /// How long hair moves, how heavy it is, and how far a frame leads it. The default is Table 1 of the paper.
+    /// Length and pace of the motion, and the mass of hair. The defaults are Table 1 of the paper.
     pub struct Motion in "motion" {
         /// Frames after the rest frame 0 (N_f).
         pub frames: u32 = 100 => "Frames", least 1.0, most Motion::MOST_FRAMES as f64;
-        /// Frames in a second: how fast they are shown, and where a recorded head is in each. Hair moves by frames, whatever this is, but in
-        /// the free form it says how strongly accelerations of the head are felt.
+        /// Frames in a second: how fast they are shown, and where a recorded head is in each. Hair moves by frames: of its settings only
+        /// `gravity = "earth"` depends on this.
         pub frame_rate: f64 = 24.0 => "Frame rate", unit "a second", above 0.0;
         /// Delta t of equation (7), in a unit of the step's own: a frame is one step.
         pub time_step: f32 = 0.1 => "Time step", above 0.0;
+        /// Slow motion of the hair: 4 is hair filmed at four times the frame rate. The head and the fields keep their pace.
+        pub slow: f32 = 1.0 => "Slow motion", unit "times", least 0.1, most 100.0;
         /// lambda of equation (6): the mass of a centimetre of hair, in the units of the force.
         pub linear_density: f32 = 0.05 => "Density", unit "per cm", above 0.0;
         /// Hair shorter than this has the inertia of hair this long: its longer neighbours hold it. 0, the paper's way, gives every strand
@@ -86,6 +89,11 @@ words! {
 impl Motion {
     /// The most frames: days of film, and more is a mistyped number.
     pub const MOST_FRAMES: u32 = 10_000_000;
+
+    /// Delta t in slow motion.
+    fn slowed_time_step(&self) -> f64 {
+        f64::from(self.time_step) / f64::from(self.slow)
+    }
 }
 
 /// All that decides how hair answers a force, checked when a stepper is built.
@@ -114,12 +122,13 @@ pub struct Dynamics {
 }
 
 /// The equations that hair moves by.
+#[allow(clippy::large_enum_variant, reason = "a stepper has one")]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Form {
     /// The paper's: two angles a segment, equation (7).
     #[default]
     Paper,
-    /// The free form: a direction and an increment a segment, see docs/motion-forms.md.
+    /// The free form: a chain of segments with tension, bending and torsion. See docs/motion-forms.md.
     Free(FreeMotion),
 }
 
@@ -168,10 +177,10 @@ impl Dynamics {
 
     /// The same motion in seconds, to first order, at another rate of steps (frames a second): R times as many steps are a time step of
     /// 1 / R, settling and disturbances over R times as many frames, a cohesion R times as strong for each cm a frame, and
-    /// [`Motion::frames`] R times as many. Ways of bodies have poses between theirs. Forces, stiffness, hold, gravity, pressure, lag and
+    /// [`Motion::frames`] R times as many. Ways of bodies have poses between theirs. Forces, stiffness, hold, gravity, pressure, drag and
     /// contact stay as they are. What a field counts in frames is the field's, and is to be given anew; disturbances are other ones.
     ///
-    /// A lower rate may be too low for the stiffness, which a stepper then refuses.
+    /// A lower rate may be too low for the forces, which a stepper then refuses.
     ///
     /// # Errors
     /// A rate that is none, or gives more frames than may be; settings out of range.
@@ -270,15 +279,26 @@ impl<'a> FrameInput<'a> {
         Self { bodies, ..self }
     }
 
-    /// Takes points of the space of body number `b` into head space: in this frame, and in the one before.
-    fn head_from_body(&self, b: usize, body: &Body) -> [Affine3A; 2] {
+    /// Takes points of the space of body number `b` into head space: at the end of this step of the frame, and at its beginning.
+    fn head_from_body(&self, b: usize, body: &Body, [step, steps]: [u32; 2]) -> [Affine3A; 2] {
         let (frames, heads) = ([self.frame, self.frame.saturating_sub(1)], [self.pose, self.before[0]]);
         let told = self.bodies.get(b).copied().flatten();
-        [0, 1].map(|i| match &told {
+        let [now, before] = [0, 1].map(|i| match &told {
             Some(poses) => heads[i].world_from_head().inverse() * poses[i].world_from_head(),
             None => body.head_from_body(frames[i], &heads[i]),
+        });
+        [step, step - 1].map(|step| match step {
+            0 => before,
+            _ if step == steps || now == before => now,
+            _ => between(before, now, step as f32 / steps as f32),
         })
     }
+}
+
+/// The part `t` of the way from one place of a rigid body to another.
+fn between(from: Affine3A, to: Affine3A, t: f32) -> Affine3A {
+    let [a, b] = [from, to].map(|place| Quat::from_mat3a(&place.matrix3));
+    Affine3A::from_rotation_translation(a.slerp(b, t), from.translation.lerp(to.translation, t).into())
 }
 
 /// Hair that moves a frame at a time: the two twins, behind one interface.

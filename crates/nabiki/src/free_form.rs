@@ -1,4 +1,4 @@
-//! The free form of the motion: what it takes beyond the paper's settings. Its equations are in docs/motion-forms.md.
+//! Settings of the free form of the motion. Its equations are in docs/motion-forms.md.
 
 use std::sync::Arc;
 
@@ -13,37 +13,34 @@ use crate::setting::{Datum, Kind, Place, Range, Value, Word};
 use crate::settings;
 use crate::strands::Strands;
 
-/// Acceleration of the earth's gravity (cm/s^2), which [`FreeForm::gravity`] stands for.
+/// Acceleration of the earth's gravity (cm/s^2).
 pub const EARTH_CM_PER_S2: f64 = 981.0;
 
 settings! {
-    /// What holds hair in shape and calms it, in the free form. Strengths are in the unit of the force F.
+    /// How hair keeps its shape and settles, in the free form. Strengths are in the unit of the force F.
     pub struct FreeForm in "free" {
-        /// How firmly hair keeps its shape. Where it is 36 times the wind, hair bends within 6 times `hair.segment_length`. One number, or a
-        /// list from root to tip. K of docs/motion-forms.md: the moment with which a joint turns its two segments toward their rest shape,
-        /// each as much as the other. Joints of finer cuts are stiffer by the square of that, and bend alike.
-        pub stiffness: Profile = Profile::RootToTip(vec![12_000.0, 1000.0]) => "Stiffness", least 0.0;
-        /// How firmly hair keeps its place on the head, as with hair spray. One number, or a list from root to tip. H: what turns a segment
-        /// toward its rest direction in the head's frame.
-        pub hold: Profile = Profile::Even(30.0) => "Hold", least 0.0;
-        /// Frames in which a swing dies down, to 1/e: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 never ends. One number, or a
-        /// list from root to tip, in which hair beside a 0 hardly swings.
+        /// How firmly hair keeps its shape: at 36 times the wind, hair of 18 cm bends within about 6 cm. One number, or a list from root to
+        /// tip. K of docs/motion-forms.md: EI = 3/8 A L K d^2, with d `hair.segment_length`. Hair bends alike however finely it is cut.
+        pub stiffness: Profile = Profile::RootToTip(vec![12_000.0, 1000.0]) => "Stiffness", least 0.0, most 1e9;
+        /// How firmly hair keeps its place on the head, as with hair spray. One number, or a list from root to tip. H: turns segments
+        /// toward their rest direction on the head. Against a force F, limp hair settles along F + H r.
+        pub hold: Profile = Profile::Even(30.0) => "Hold", least 0.0, most 1e9;
+        /// Frames in which a swing falls to 1/e: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 has no air. One number, or a list
+        /// from root to tip, interpolated in frames: next to a 0 hair hardly swings.
         pub settle: Profile = Profile::Even(20.0) => "Settle", unit "frames", least 0.0;
-        /// How heavy hair is that has been moved, and how much a jolt of the head is felt. A strength, or "earth" for that of the earth at
-        /// `motion.frame_rate`. Hair at rest does not sag. It stands for 981 cm/s^2, which gives accelerations of the head their scale.
-        pub gravity: Gravity = Gravity::Strength(100.0) => "Weight", least 0.0;
-        /// How strongly a jolt of the head is felt, as a multiple of what `gravity` makes of it. Hair that falls in slow motion feels jolts as
-        /// weakly: on 18 cm of hair at 24 frames a second, a weight of 100 is a 28th of the earth's, and 28 lets a nod throw it as far as it
-        /// does in life, while it still sinks slowly.
-        pub jolt: f32 = 1.0 => "Jolts", least 0.0, most 1000.0;
-        /// How far tips fall behind a head that turns; 0: not at all. The share of the turn that hair follows at once is (1 - m/L)^lag, at
-        /// the distance m from the root of a strand of length L.
-        pub lag: f32 = 1.0 => "Lag", least 0.0, most 8.0;
+        /// How fast moved hair falls. A strength, or "earth" for 981 cm/s^2 at `motion.frame_rate`. Hair at rest does not sag.
+        pub gravity: Gravity = Gravity::Strength(100.0) => "Weight", least 0.0, most 1e9;
+        /// How far a head that moves leaves hair behind: 0 rides along, 1 is as in life, more exaggerates. One number, or a list from root to
+        /// tip. It weighs the head's turn, its acceleration and the pull of the still air.
+        pub drag: Profile = Profile::Even(1.0) => "Drag", least 0.0, most 10.0;
         /// Whether `[pseudo_force]` weakens the field before the head, as in the paper's form.
         pub pseudo_force: bool = false => "Pseudo-force";
-        /// A band that ties hair: what passes it at rest does not move before it.
+        /// A band that ties hair: strands that pass it at rest are held from the root to the band.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub tie: Option<Tie> = None => "Tie", open "no band";
+        /// Steps that a frame is divided into. Left open, a scene takes as many as weight and stiffness need, and at least 2.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub substeps: Option<u32> = None => "Substeps", least 1.0, most 32.0, open "by weight and stiffness";
     }
 }
 
@@ -53,7 +50,7 @@ settings! {
 pub enum Gravity {
     /// In the unit of the force.
     Strength(f32),
-    /// That of the earth at the frame rate, for the mean length of all the hair; a stepper is told the strength, see
+    /// That of the earth at the frame rate, for the mean length of all the hair. Steppers take a [`Strength`](Self::Strength) only: see
     /// [`earth_gravity`](crate::dynamics::earth_gravity).
     #[serde(with = "earth")]
     Earth,
@@ -103,24 +100,22 @@ impl From<f32> for Gravity {
 }
 
 settings! {
-    /// A band that ties hair: a strand that passes it at rest does not move before it, but goes with the head, and moves behind
-    /// it as one that is rooted there.
+    /// A band that ties hair. A strand that passes it at rest goes with the head up to the band, and moves beyond it as if it were rooted there.
     ///
-    /// Its segments up to the node nearest to the band have no gain, as points of no inverse mass have, and lengths, gains and
-    /// what varies along a strand count from there. A strand that passes between two nodes, neither of them near enough, is tied
-    /// at the nearer one, and never at its root.
+    /// Segments up to the node nearest to the band are held: their inverse mass is 0. Lengths and lists from root to tip count from there. A
+    /// strand that passes between two nodes, neither near enough, is tied at the nearer one, but never at its root.
     #[derive(Copy)]
     pub struct Tie {
-        /// Its middle, in head space.
+        /// Middle of the band, in head space.
         pub at: Vec3 = Vec3::new(-11.0, 2.0, 0.0) => "At", must "[x, y, z]", unit "cm";
-        /// How near a strand passes that is tied.
+        /// Strands that pass this near are tied.
         pub within: f32 = 1.5 => "Within", must "1.5", unit "cm", above 0.0;
     }
 }
 
 impl Tie {
-    /// How many segments of a strand are held: those before its node nearest to the band, if that is near enough; or else
-    /// those before the nearer node of the segment that is, at least one.
+    /// Number of segments that the band holds: up to the strand's node nearest to it, if that is near enough; else up to the nearer node of a
+    /// segment that passes near enough, at least one; else 0.
     pub fn held(&self, strand: &[Vec3]) -> usize {
         let far = |p: &Vec3| p.distance_squared(self.at);
         let near_enough = |far: f32| far <= self.within * self.within;
@@ -135,7 +130,7 @@ impl Tie {
     }
 }
 
-/// The point of a segment that is nearest to a place.
+/// The point of a segment nearest to a place.
 fn nearest_between(from: Vec3, to: Vec3, place: Vec3) -> Vec3 {
     let way = to - from;
     let part = (place - from).dot(way) / way.length_squared().max(f32::MIN_POSITIVE);
@@ -143,7 +138,7 @@ fn nearest_between(from: Vec3, to: Vec3, place: Vec3) -> Vec3 {
 }
 
 impl FreeForm {
-    /// The strength of the weight, which a stepper is told.
+    /// Strength of gravity, for a stepper.
     pub fn weight(&self) -> f32 {
         match self.gravity {
             Gravity::Strength(strength) => strength,
@@ -152,34 +147,33 @@ impl FreeForm {
         }
     }
 
-    /// What is left of an increment after a frame. Friction that leaves lambda of a speed leaves the square root of
-    /// lambda of a swing's amplitude, so that after `settle` frames 1/e is left of that.
-    pub fn decay(&self, along: f64) -> f64 {
+    /// alpha: how fast the air slows a node (1 a frame). A swing's amplitude falls half as fast, to 1/e in `settle` frames.
+    pub fn air(&self, along: f64) -> f64 {
         let settle = self.settle.at(along);
-        if settle > 0.0 { (-2.0 / settle).exp() } else { 1.0 }
+        if settle > 0.0 { 2.0 / settle } else { 0.0 }
     }
 
-    /// The share of the head's turn that a segment follows at once, by the place of its middle.
-    pub fn share_of_turn(&self, along: f64) -> f64 {
-        (1.0 - along).max(0.0).powf(f64::from(self.lag))
+    /// Steps in a frame, for a stepper: 2 where none are given, see [`substeps`](crate::dynamics::substeps).
+    pub fn steps(&self) -> u32 {
+        self.substeps.unwrap_or(2)
     }
 }
 
 settings! {
-    /// Hair against hair: forces from a grid that a few strands, the carriers, fill as they move.
+    /// Hair against hair, through a grid that a few strands, the carriers, fill as they move.
     ///
-    /// Carriers move first and write density and mean velocity; every strand, carriers too, reads what they left in the frame
-    /// before. So a strand depends on itself and on the carriers only, and any subset of the hair moves as within the whole.
+    /// Carriers write density and mean velocity; in the next frame every strand, carriers too, reads them. So a strand depends on itself and
+    /// the carriers only, and any subset of the hair moves as within the whole.
     pub struct NeighbourForces in "neighbours" {
-        /// How many strands are carriers: the first so many of the farthest-first order.
+        /// Number of carriers: the first strands of the farthest-first order.
         pub carriers: u32 = 256 => "Carriers", unit "strands", least 1.0, most 4096.0;
-        /// How firmly hair keeps its volume. It pushes hair out of places fuller than at rest, in the unit of F where the density falls by
-        /// that of the hair at rest over one cell.
+        /// How firmly hair keeps its volume: pushes it out of places fuller than at rest. In the unit of F where the density falls by that of
+        /// the hair at rest over one cell.
         pub pressure: f32 = 40.0 => "Pressure", least 0.0;
-        /// How firmly strands take along those beside them. It pulls a node toward the mean velocity about it, in the unit of F for each cm
-        /// a frame.
+        /// How firmly strands drag their neighbours along: pulls a node toward the mean velocity about it, in the unit of F for each cm a
+        /// frame.
         pub cohesion: f32 = 40.0 => "Cohesion", least 0.0;
-        /// Edge of a cell of the grid in which hair feels hair.
+        /// Edge of a cell of the grid.
         pub cell: f32 = 2.0 => "Cell", unit "cm", least 0.5, most 20.0;
     }
 }
@@ -205,18 +199,18 @@ impl Neighbours {
 /// The free form with all that surrounds the hair.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FreeMotion {
-    /// What holds hair in shape and calms it.
+    /// How hair keeps its shape and settles.
     pub form: FreeForm,
     /// What hair does not enter.
     pub bodies: Vec<Body>,
-    /// Hair against hair, if it is felt.
+    /// Hair against hair, if any.
     pub neighbours: Option<Neighbours>,
-    /// Where the head is at rest, in frame 0: the weight of hair that lies in that pose is in balance.
+    /// The head's pose in frame 0, under which hair at rest carries its weight.
     pub rest_pose: Pose,
 }
 
 impl FreeMotion {
-    /// Refuses settings out of range, and bodies without a pose in one of `frames` frames after the first.
+    /// Refuses settings out of range, and bodies that lack a pose in any of the `frames` frames after frame 0.
     pub fn check(&self, frames: u32) -> Result<(), SettingError> {
         self.form.check()?;
         if self.form.gravity == Gravity::Earth {
@@ -254,7 +248,7 @@ mod tests {
         assert_eq!(refused(|f| f.hold = Profile::RootToTip(vec![1.0, f32::INFINITY])), "free.hold[1]");
         assert_eq!(refused(|f| f.settle = Profile::RootToTip(Vec::new())), "free.settle");
         assert_eq!(refused(|f| f.gravity = f32::NAN.into()), "free.gravity");
-        assert_eq!(refused(|f| f.lag = -0.5), "free.lag");
+        assert_eq!(refused(|f| f.drag = Profile::Even(-0.5)), "free.drag");
         let refused = |forces: NeighbourForces| forces.check().unwrap_err().thing;
         assert_eq!(refused(NeighbourForces { carriers: 0, ..Default::default() }), "neighbours.carriers");
         assert_eq!(refused(NeighbourForces { pressure: -1.0, ..Default::default() }), "neighbours.pressure");
@@ -274,14 +268,5 @@ mod tests {
         assert_eq!([held(1.5, 0.4, 0.3), held(-0.3, 0.1, 0.3), held(4.4, 0.0, 0.3)], [0; 3]);
         let doubled = [strand[1]; 3];
         assert_eq!(Tie { at: Vec3::ZERO, within: 0.5 }.held(&doubled), 0);
-    }
-
-    #[test]
-    fn a_swing_that_never_settles_keeps_its_speed_and_hair_without_lag_takes_the_whole_turn() {
-        let form = FreeForm { settle: Profile::Even(0.0), lag: 0.0, ..Default::default() };
-        assert_eq!(form.decay(0.5), 1.0);
-        assert_eq!(form.share_of_turn(1.0), 1.0);
-        assert_eq!(FreeForm::default().share_of_turn(1.0), 0.0);
-        assert_eq!(FreeForm::default().share_of_turn(0.0), 1.0);
     }
 }

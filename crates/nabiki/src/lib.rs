@@ -90,4 +90,4 @@ pub use strands::Strands;
 
 /// What the method computes, by number. It is raised when the same scene moves otherwise than before, be it by a bit:
 /// motion that was computed by another version is then known as such.
-pub const METHOD_VERSION: u32 = 1;
+pub const METHOD_VERSION: u32 = 2;

@@ -34,9 +34,6 @@ pub(crate) trait Scalar:
 
     fn sqrt(self) -> Self;
 
-    /// e to this power.
-    fn exp(self) -> Self;
-
     fn sin_cos(self) -> (Self, Self);
 
     /// This number, and how it changes with three others by its gradient along them, which is asked for only where changes
@@ -61,11 +58,6 @@ impl Scalar for f64 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         f64::sqrt(self)
-    }
-
-    #[inline(always)]
-    fn exp(self) -> Self {
-        f64::exp(self)
     }
 
     #[inline(always)]

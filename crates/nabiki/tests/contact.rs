@@ -96,7 +96,7 @@ fn hair_keeps_its_bits_beside_a_longer_strand() {
     assert!(moved > 10, "{moved} of 30 balls are touched");
 }
 
-/// Hair that is pressed to a body and held by friction goes where that goes, however far it would lag behind the head's turn.
+/// Hair that is pressed to a body and held by friction goes where that goes, however far it would stay behind the head's turn.
 #[test]
 fn friction_holds_hair_on_a_body_while_the_head_turns() {
     const FRAMES: u32 = 40;
@@ -113,13 +113,13 @@ fn friction_holds_hair_on_a_body_while_the_head_turns() {
         worn
     };
     for (way, mesh, goes) in [(at(place), &mesh, 0.0), (BodyWay::WithHead, &worn, turn * FRAMES as f32)] {
-        for lag in [0.0, 1.0, 8.0] {
+        for drag in [0.0, 0.6, 1.0, 3.0] {
             let form = FreeForm {
                 stiffness: 0.0.into(),
                 hold: 0.0.into(),
                 settle: 2.0.into(),
                 gravity: 0.0.into(),
-                lag,
+                drag: drag.into(),
                 ..Default::default()
             };
             let dynamics = free(form, body(mesh.clone(), way.clone(), contact), FRAMES);
@@ -128,7 +128,7 @@ fn friction_holds_hair_on_a_body_while_the_head_turns() {
                 let in_world = poses[FRAMES as usize].rotation * tip;
                 let azimuth = (-in_world.z).atan2(in_world.x);
                 // In the first frame nothing has pressed it yet, and it goes as far as the head and it may turn in one.
-                assert!((azimuth - goes).abs() <= 1.5 * turn, "lag {lag}: {} degrees", azimuth.to_degrees());
+                assert!((azimuth - goes).abs() <= 1.5 * turn, "drag {drag}: {} degrees", azimuth.to_degrees());
             }
         }
     }
@@ -174,14 +174,15 @@ fn what_rests_on_a_body_slides_by_what_friction_leaves() {
     let contact = Contact { margin: 0.05, friction: 0.5, static_friction: 0.8 };
     let board = body(board(Vec3::new(12.0, 1.0, 12.0)), at(Vec3::new(10.0, 12.95, 0.0)), contact);
     let dynamics = free(limp(), board, 1);
-    let c = nabiki::dynamics::gain(&dynamics, 5.0 + 0.5, 10.0) as f32;
+    // Both steps of a frame speed it up as much, and go on with six tenths of the new speed and four of the old one.
+    let moves = 0.55 * nabiki::dynamics::push(&dynamics, 10.0) as f32;
     let inward = 20.0;
     for (along, left) in [(10.0, 0.0), (15.0, 0.0), (17.0, 7.0), (40.0, 30.0)] {
         let pushes = field(&[(1, [0.0, -inward, along])]);
         for mut stepper in twins(&hair, &dynamics, &pushes) {
             let tip = run_under(&mut *stepper, &pushes, &[Pose::STILL; 2]).strand(0)[1];
             // Of turns of up to 4 thousandths the sine differs by 1e-8, on 10 cm, and roundings are of 1e-6 cm.
-            assert!((tip.z - 10.0 * c * left).abs() < 2e-6, "{along}: {} cm, not {}", tip.z, 10.0 * c * left);
+            assert!((tip.z - moves * left).abs() < 2e-6, "{along}: {} cm, not {}", tip.z, moves * left);
             assert!((tip.y - 14.0).abs() < 1e-4, "{along}: {} cm inward", 14.0 - tip.y);
         }
     }
@@ -191,10 +192,10 @@ fn what_rests_on_a_body_slides_by_what_friction_leaves() {
 /// nor goes through.
 #[test]
 fn what_falls_on_a_body_goes_on_until_it_touches() {
-    const FRAMES: u32 = 30;
+    const FRAMES: u32 = 20;
     let (length, margin) = (10.0, 0.1);
     let mut hair = Strands::default();
-    for i in 0..64 {
+    for i in 0..32 {
         let height = 1.0 + 0.03 * i as f32;
         hair.push([Vec3::new(0.0, height, 0.0), Vec3::new(length, height, 0.0)]);
     }
@@ -205,6 +206,8 @@ fn what_falls_on_a_body_goes_on_until_it_touches() {
     if let Form::Free(free) = &mut alone.form {
         free.bodies.clear();
     }
+    let push = nabiki::dynamics::push(&beside, length.into()) as f32;
+    let slowed_cm = 0.4 * 0.25 * 40.0 * push;
     for (mut falls, mut flies) in twins(&hair, &beside, &down).into_iter().zip(twins(&hair, &alone, &down)) {
         let mut fastest = 0.0_f32;
         for frame in 1..=FRAMES {
@@ -215,15 +218,20 @@ fn what_falls_on_a_body_goes_on_until_it_touches() {
             for s in 0..hair.len() {
                 let [tip, free, was] = [falls.strands(), flies.strands(), &before].map(|hair| hair.strand(s)[1].y);
                 if free >= margin {
+                    // What its speed at the end of a step would carry in is slowed in that step, of which it goes on with six tenths.
                     assert!(
-                        (tip - free).abs() < 1e-5,
+                        (tip - free).abs() < 1e-5 + slowed_cm,
                         "strand {s}, frame {frame}: {tip}, {free} with nothing in the way"
                     );
                     continue;
                 }
                 fastest = fastest.max(was - free);
-                // On a circle the end goes aside as well, by the square of a frame's way over the length; the plane is sampled.
-                let off = (was - free).powi(2) / length + 1e-3;
+                // On a circle the end goes aside as well, by the square of a frame's way over the length; the plane is sampled. And of a push
+                // along the normal a segment that points down by an angle a goes with cos^2 a of it: of a step's way sin^2 a is left, which
+                // the body holds for a press, and answers three times.
+                let down = (hair.strand(s)[0].y - margin) / length;
+                let in_a_step = 0.5 * (was - free + 40.0 * push);
+                let off = (was - free).powi(2) / length + 3.0 * in_a_step * down * down + 1e-3;
                 assert!((tip - margin).abs() < off, "strand {s}, frame {frame}: {tip} cm, and {} a frame", was - free);
             }
         }
@@ -239,7 +247,8 @@ fn a_segment_is_turned_out_no_farther_than_it_must() {
     hair.push([Vec3::new(0.28, 0.0, 0.0), Vec3::new(0.28, 3.0, 0.0), Vec3::new(margin, 3.087_178, 0.0)]);
     let contact = Contact { margin, friction: 0.0, static_friction: 0.0 };
     let wall = body(board(Vec3::new(8.0, 40.0, 40.0)), at(Vec3::new(-8.0, 0.0, 0.0)), contact);
-    let mut dynamics = free(limp(), wall, 1);
+    // In one step: a second one would lift the tip by what the first left it pressed.
+    let mut dynamics = free(FreeForm { substeps: Some(1), ..limp() }, wall, 1);
     dynamics.motion.inertia_length_floor = 25.0;
     dynamics.motion.time_step = 0.2;
     let mut farthest = 0.0_f32;
@@ -248,8 +257,8 @@ fn a_segment_is_turned_out_no_farther_than_it_must() {
         for mut stepper in twins(&hair, &dynamics, &pushes) {
             let moved = run_under(&mut *stepper, &pushes, &[Pose::STILL; 2]);
             let [_, joint, tip] = moved.strand(0) else { panic!("three points") };
-            // The plane is sampled.
-            assert!((tip.x - margin).abs() < 1e-3, "{push}: {} cm before the wall", tip.x);
+            // The plane is sampled; what its speed would carry in is slowed before it is there, by some of a step.
+            assert!((-1e-3..0.03).contains(&(tip.x - margin)), "{push}: {} cm before the wall", tip.x);
             farthest = farthest.max((*tip - *joint).angle_between(hair.strand(0)[2] - hair.strand(0)[1]));
         }
     }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use common::{exact, fast, field, free_motion, hair, mixed_hair, run, run_under, step, way_of_a_head};
 use glam::Vec3;
 use nabiki::body::{Body, Contact, Surface};
-use nabiki::dynamics::{Dynamics, Form, Simulation, Stepper, earth_gravity, gain};
+use nabiki::dynamics::{Dynamics, Form, Simulation, Stepper, earth_gravity, push};
 use nabiki::field::Field;
 use nabiki::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours};
 use nabiki::{Head, Pose, Profile, Strands};
@@ -91,25 +91,38 @@ fn finer_cuts_bend_alike() {
     }
 }
 
+/// Straight strands of 18 cm, all ways out.
+fn straight(strands: usize) -> Strands {
+    let mut straight = Strands::default();
+    for strand in hair(strands, 18).iter() {
+        let out = (strand[1] - strand[0]).normalize();
+        straight.push((0..=18).map(|i| strand[0] + i as f32 * out));
+    }
+    straight
+}
+
 #[test]
 fn a_head_that_speeds_up_is_felt_as_a_force_the_other_way() {
-    let strands = hair(40, 18);
-    // 2 cm, times the square of the rate: in f32 to the bit.
-    let (rate, gravity) = (24.0_f64, 100.0);
-    let poses: Vec<Pose> =
-        (0..=FRAMES).map(|n| Pose { position_cm: Vec3::new((n * n) as f32, 0.0, 0.0), ..Pose::STILL }).collect();
-    let form = FreeForm { gravity: gravity.into(), ..Default::default() };
-    let dynamics = free(FreeMotion { form, ..Default::default() });
-    let felt = -f64::from(gravity) * 2.0 * rate * rate / 981.0;
-    // Before frame 0 the head goes as it goes from there on, evenly: it is felt from frame 2 on.
-    let pulls = field(&[(1, [0.0; 3]), (1000, [felt as f32, 0.0, 0.0])]);
-    let under_force = run(&mut exact(&strands, &dynamics, &pulls), &pulls, FRAMES);
-    let carried = run_under(&mut exact(&strands, &dynamics, &calm()), &calm(), &poses);
-    let farthest =
-        |a: &Strands, b: &Strands| a.points().iter().zip(b.points()).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
-    assert!(farthest(&carried, &strands) > 1.0);
-    // The force in f32 is off by 3e-8 of itself, points of 30 cm by 2e-6.
-    assert!(farthest(&carried, &under_force) < 2e-5, "{}", farthest(&carried, &under_force));
+    let strands = straight(40);
+    // By 0.25 cm a frame in every frame: in f32 to the bit.
+    let poses: Vec<Pose> = (0..=FRAMES)
+        .map(|n| Pose { position_cm: Vec3::new(0.125 * (n * n) as f32, 0.0, 0.0), ..Pose::STILL })
+        .collect();
+    for drag in [0.5, 1.0, 2.0] {
+        let form = FreeForm { settle: 0.0.into(), drag: drag.into(), ..Default::default() };
+        let dynamics = free(FreeMotion { form, ..Default::default() });
+        let felt = -0.25 * f64::from(drag) / push(&dynamics, 18.0);
+        // Before frame 0 the head goes as it goes from there on, evenly: it is felt from frame 2 on.
+        let pulls = field(&[(1, [0.0; 3]), (1000, [felt as f32, 0.0, 0.0])]);
+        let under_force = run(&mut exact(&strands, &dynamics, &pulls), &pulls, FRAMES);
+        let carried = run_under(&mut exact(&strands, &dynamics, &calm()), &calm(), &poses);
+        let farthest = |a: &Strands, b: &Strands| {
+            a.points().iter().zip(b.points()).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max)
+        };
+        assert!(farthest(&carried, &strands) > 1.0);
+        // The force in f32 is off by 3e-8 of itself, lengths by 1e-7, points of 30 cm by 2e-6.
+        assert!(farthest(&carried, &under_force) < 1e-4, "{}", farthest(&carried, &under_force));
+    }
 }
 
 #[test]
@@ -180,18 +193,19 @@ fn hair_stays_out_of_the_head_without_kinks_and_comes_back_to_rest() {
     assert!(left < 1e-3 && moved < 1e-4, "{left} cm from rest, {moved} cm a frame");
 }
 
-/// The tip (part of the length) of a clamped, straight, level elastica of length 1 under a load P at its tip that points down:
-/// EI theta'' = P cos theta with theta the angle below the level, theta(0) = 0, theta'(1) = 0; `load`: P L^2 / EI.
-fn elastica_under_a_tip_load(load: f64) -> (f64, f64) {
+/// The tip (part of the length) of a clamped, straight, level elastica of length 1 under a load w that points down, even along it:
+/// EI theta'' = -w (1 - s) cos theta with theta the angle below the level, theta(0) = 0, theta'(1) = 0; `load`: w L^3 / EI.
+fn elastica_under_an_even_load(load: f64) -> (f64, f64) {
     let steps = 4000;
     let h = 1.0 / f64::from(steps);
     // From the tip back to the clamp, for the slope there; midpoint rule.
     let shoot = |tip: f64| {
         let (mut theta, mut curvature, mut x, mut y) = (tip, 0.0, 0.0, 0.0);
-        for _ in 0..steps {
-            let (t, c) = (theta - 0.5 * h * curvature, curvature + 0.5 * h * load * theta.cos());
+        for i in 0..steps {
+            let beyond = h * (f64::from(i) + 0.25);
+            let (t, c) = (theta - 0.5 * h * curvature, curvature + 0.5 * h * load * beyond * theta.cos());
             (x, y) = (x + h * t.cos(), y + h * t.sin());
-            (theta, curvature) = (theta - h * c, curvature + h * load * t.cos());
+            (theta, curvature) = (theta - h * c, curvature + h * load * h * (f64::from(i) + 0.5) * t.cos());
         }
         (theta, x, y)
     };
@@ -205,15 +219,16 @@ fn elastica_under_a_tip_load(load: f64) -> (f64, f64) {
 }
 
 #[test]
-fn under_an_even_force_a_strand_bends_as_an_elastica_with_a_load_at_its_tip() {
-    for load in [0.5, 2.0, 5.0] {
-        let (x, y) = elastica_under_a_tip_load(load);
+fn under_an_even_force_a_strand_bends_as_an_elastica_under_its_own_weight() {
+    for load in [1.0, 5.0, 15.0] {
+        let (x, y) = elastica_under_an_even_load(load);
         let errors = [9, 18, 36].map(|segments: usize| {
             let length = 18.0;
             let mut strand = Strands::default();
             strand.push((0..=segments).map(|i| Vec3::new(length * i as f32 / segments as f32, 0.0, 0.0)));
+            // EI = 3/8 A L K, and the load A F.
             let force = 6.0_f32;
-            let stiffness = force * length * length / load as f32;
+            let stiffness = force * length * length / (0.375 * load as f32);
             let form = FreeForm {
                 stiffness: stiffness.into(),
                 hold: 0.0.into(),
@@ -229,103 +244,71 @@ fn under_an_even_force_a_strand_bends_as_an_elastica_with_a_load_at_its_tip() {
             (tip - glam::DVec3::new(x, -y, 0.0)).length()
         });
         println!("load {load}: ({x}, {y}), errors {errors:?}");
-        // The root's joint acts half a segment before the middle of the first: the error is of first order.
-        assert!(errors[2] < 0.02, "{errors:?}");
+        // A joint bends for the half segments beside it: the error is of second order.
+        assert!(errors[2] < 1e-3, "{errors:?}");
         for w in errors.windows(2) {
-            assert!((1.7..2.6).contains(&(w[0] / w[1])), "{errors:?}");
+            assert!((3.0..5.0).contains(&(w[0] / w[1])), "{errors:?}");
         }
     }
 }
 
+/// Joints and hold are stepped implicitly: the stiffest hair is as calm as any, and keeps still after a push.
 #[test]
-fn strengths_too_great_for_the_step_are_refused_and_those_below_hold() {
-    // Straight: a curved strand without friction gathers speed from the turning of its frames.
-    let mut strands = Strands::default();
-    for strand in hair(20, 18).iter() {
-        let out = (strand[1] - strand[0]).normalize();
-        strands.push((0..=18).map(|i| strand[0] + i as f32 * out));
+fn any_stiffness_and_any_hold_can_be_stepped() {
+    let strands = hair(20, 18);
+    let push = field(&[(3, [0.0, 0.0, 10.0]), (1000, [0.0; 3])]);
+    for (stiffness, hold) in [(0.0, 1e9), (1e5, 0.0), (1e7, 100.0), (1e9, 0.0), (1e9, 1e9)] {
+        let form = FreeForm { stiffness: stiffness.into(), hold: hold.into(), ..Default::default() };
+        let dynamics = free(FreeMotion { form, ..Default::default() });
+        let mut stepper = fast(&strands, &dynamics, &push);
+        let mut farthest = 0.0_f32;
+        for _ in 0..400 {
+            step(&mut stepper, &push);
+            let moved = stepper.strands().points().iter().zip(strands.points());
+            farthest = moved.map(|(a, b)| a.distance(*b)).fold(farthest, f32::max);
+        }
+        println!("{stiffness} {hold}: {farthest}");
+        // So little moves soft hair by centimetres.
+        assert!(farthest < 0.2, "{farthest} cm with stiffness {stiffness}, hold {hold}");
     }
-    let with = |stiffness: f64| {
-        let form = FreeForm {
-            stiffness: (stiffness as f32).into(),
-            hold: 0.0.into(),
-            settle: 0.0.into(),
-            gravity: 0.0.into(),
-            ..Default::default()
-        };
-        free(FreeMotion { form, ..Default::default() })
-    };
-    // The last segment has one joint, c_i 2 K < 4, the one before it two, c_i 4 K < 4.
-    let largest = |i: f64| 4.0 / gain(&with(0.0), i, 18.0);
-    let strongest = (largest(18.0) / 2.0).min(largest(17.0) / 4.0);
-    let refused = Simulation::new(&strands, &with(1.001 * strongest), &calm()).unwrap_err();
-    assert_eq!(refused.thing, "free.stiffness");
-    let push = field(&[(3, [0.0, 0.0, 1.0]), (2000, [0.0; 3])]);
-    let mut stepper = fast(&strands, &with(0.999 * strongest - 1.0), &push);
-    let mut farthest = 0.0_f32;
-    for _ in 0..2000 {
-        step(&mut stepper, &push);
-        let moved = stepper.strands().points().iter().zip(strands.points());
-        farthest = moved.map(|(a, b)| a.distance(*b)).fold(farthest, f32::max);
-    }
-    // The push gives the tip 3 c_i d a frame, which the slowest swing keeps for some ten frames.
-    assert!((1e-3..0.1).contains(&farthest), "{farthest}");
 }
 
-/// What cohesion takes of an increment is that increment times c_i l_i cohesion: more than twice of it would turn it about.
+/// So is cohesion.
 #[test]
-fn cohesion_is_refused_from_the_bound_on_and_calms_hair_below_it() {
+fn any_cohesion_calms_hair() {
     let strands = hair(24, 18);
-    let with = |cohesion: f64| {
-        let form = FreeForm { hold: 0.0.into(), gravity: 0.0.into(), ..Default::default() };
+    let push = field(&[(3, [0.0, 0.0, 100.0]), (400, [0.0; 3])]);
+    for cohesion in [10.0, 1e3, 1e5, 1e7] {
+        let form = FreeForm { stiffness: 0.0.into(), hold: 0.0.into(), gravity: 0.0.into(), ..Default::default() };
         let mut dynamics = common::with_neighbours(free(FreeMotion { form, ..Default::default() }));
         if let Form::Free(free) = &mut dynamics.form {
-            free.form.stiffness = 0.0.into();
             let neighbours = free.neighbours.as_mut().unwrap();
-            (neighbours.forces.cohesion, neighbours.forces.pressure) = (cohesion as f32, 0.0);
+            (neighbours.forces.cohesion, neighbours.forces.pressure) = (cohesion, 0.0);
         }
-        dynamics
-    };
-    // The shortest strand moves most; chords are a little shorter than 1 cm, as below.
-    let length = strands.lengths().map(f64::from).fold(f64::INFINITY, f64::min);
-    let strongest = 4.0 / gain(&with(0.0), length, length) / (2.0 * length / 18.0);
-    let refused = Simulation::new(&strands, &with(1.01 * strongest), &calm()).unwrap_err();
-    assert_eq!(refused.thing, "neighbours.cohesion");
-    assert!(refused.remedy.contains("keep cohesion below ") && refused.remedy.contains("2 l cohesion"), "{refused}");
-    assert!(Simulation::new(&strands, &with(0.99 * strongest), &calm()).is_ok());
-    let push = field(&[(3, [0.0, 0.0, 10.0]), (400, [0.0; 3])]);
-    let mut stepper = fast(&strands, &with(0.6 * strongest), &push);
-    let mut last = 0.0_f32;
-    for _ in 0..400 {
-        let before = stepper.strands().points().to_vec();
-        step(&mut stepper, &push);
-        let moved = stepper.strands().points().iter().zip(&before);
-        last = moved.map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+        let mut stepper = fast(&strands, &dynamics, &push);
+        let mut last = 0.0_f32;
+        for _ in 0..400 {
+            let before = stepper.strands().points().to_vec();
+            step(&mut stepper, &push);
+            let moved = stepper.strands().points().iter().zip(&before);
+            last = moved.map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+        }
+        assert!(last < 0.01, "hair goes {last} cm a frame with a cohesion of {cohesion}");
     }
-    assert!(last < 0.01, "hair goes {last} cm a frame");
 }
 
-/// By c_i (|F| + 4 K + H + 2 gravity) < 4 on the segment that moves most, the tip's, where nothing else pulls.
+/// By A (|F| + gravity) / L < 4: a force that takes hair farther in a frame than it is long by several times.
 #[test]
-fn hold_and_gravity_are_refused_from_the_bound_on() {
-    let strands = hair(3, 18);
-    let with = |hold: f64, gravity: f64| {
-        let form = FreeForm {
-            stiffness: 0.0.into(),
-            hold: (hold as f32).into(),
-            gravity: (gravity as f32).into(),
-            ..Default::default()
-        };
+fn gravity_is_refused_from_the_bound_on() {
+    let strands = straight(3);
+    let with = |gravity: f64| {
+        let form = FreeForm { gravity: (gravity as f32).into(), ..Default::default() };
         free(FreeMotion { form, ..Default::default() })
     };
-    let length = f64::from(strands.lengths().next().unwrap());
-    // Chords are a little shorter than 1 cm: a tenth of a percent in the length makes less than one in the gain.
-    let most = 4.0 / gain(&with(0.0, 0.0), length, length);
-    for (hold, gravity, thing) in [(most, 0.0, "free.hold"), (0.0, most / 2.0, "free.gravity")] {
-        assert!(Simulation::new(&strands, &with(0.99 * hold, 0.99 * gravity), &calm()).is_ok(), "{thing}");
-        let refused = Simulation::new(&strands, &with(1.01 * hold, 1.01 * gravity), &calm()).err();
-        assert_eq!(refused.map(|refused| refused.thing.to_string()).as_deref(), Some(thing));
-    }
+    let most = 4.0 * 18.0 / push(&with(0.0), 18.0);
+    assert!(Simulation::new(&strands, &with(0.99 * most), &calm()).is_ok());
+    let refused = Simulation::new(&strands, &with(1.01 * most), &calm()).unwrap_err();
+    assert_eq!(refused.thing, "free.gravity");
 }
 
 /// What the carriers leave is read alike by both, and what it drags is each hair's own motion.
@@ -353,8 +336,9 @@ fn the_twins_agree_among_other_hair() {
     let ((among, apart), (alone, _)) = (farthest(true), farthest(false));
     let felt = among.points().iter().zip(alone.points()).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
     assert!(felt > 0.1, "{felt} cm by the neighbours");
-    // A direction is rounded to 6e-8 in each frame, and 18 segments of 1 cm may all be off the same way.
-    assert!(apart < 18.0 * 30.0 * 6e-8, "{apart:e} cm");
+    println!("{apart:e}");
+    // As of hair alone.
+    assert!(apart < 1e-3, "{apart:e} cm");
 }
 
 /// Curved hair gathers speed from the turning of its frames, which settling has to outdo.

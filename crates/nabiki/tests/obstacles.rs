@@ -111,13 +111,14 @@ fn a_shape_that_grows_takes_hair_before_it_in_both_twins() {
     let dynamics = among(Shape::Other(Arc::new(swelling)), BodyWay::WithHead);
     let steppers: [Box<dyn Stepper>; 2] =
         [Box::new(exact(&hair, &dynamics, &calm)), Box::new(fast(&hair, &dynamics, &calm))];
-    let [a, b] = steppers.map(|mut stepper| run(&mut *stepper, &calm, 60));
+    // Later on a strand that the ball meets with its root behind it swerves, and roundings decide to which side.
+    let [a, b] = steppers.map(|mut stepper| run(&mut *stepper, &calm, 45));
     // The margin is 0.2 cm, and what lay nearer at rest is kept as near.
     for strands in [&a, &b] {
         let nodes = || strands.iter().zip(hair.iter()).flat_map(|(now, rest)| now[1..].iter().zip(&rest[1..]));
-        let met = nodes().filter(|(now, rest)| rest.distance(center) > 1.2 && now.distance(center) < 7.2 - 1e-3);
+        let met = nodes().filter(|(now, rest)| rest.distance(center) > 1.2 && now.distance(center) < 5.7 - 1e-3);
         assert_eq!(met.count(), 0);
-        assert!(nodes().filter(|(_, rest)| rest.distance(center) < 7.0).count() > 20, "nothing touches");
+        assert!(nodes().filter(|(_, rest)| rest.distance(center) < 5.5).count() > 10, "nothing touches");
     }
     assert!(farthest(&a, &b) < 1e-2, "{}", farthest(&a, &b));
 }

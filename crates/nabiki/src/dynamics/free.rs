@@ -1,4 +1,4 @@
-//! The free form of the motion: a direction and an increment a segment, in head space.
+//! The free form of the motion: a chain of directions and increments, in head space.
 //!
 //! The equations, with the functions that hold them, are in docs/motion-forms.md.
 
@@ -14,10 +14,12 @@ mod reference;
 mod rotate;
 mod runner;
 mod segment;
+mod work;
 
-use contact::{FAN, NEAR, PUSHES, ROUNDS, TOLERANCE_CM, TURN};
+use contact::{ANSWER, FAN, NEAR, PUSHES, ROUNDS, TOLERANCE_CM, TURN};
 pub(super) use grid::Crowd;
 pub(super) use pulls::pulls;
 pub(super) use reference::{Common, Reference, Springs, Strand};
 pub(super) use runner::Runner;
-pub(super) use segment::held;
+pub(super) use segment::shapes;
+pub use segment::substeps;

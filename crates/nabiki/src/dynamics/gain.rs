@@ -14,19 +14,25 @@ use crate::free_form::EARTH_CM_PER_S2;
 /// c_i of equation (8) (rad per unit of force and frame), for the segment at `position` = i of a strand `count` = k
 /// reference segments long. Both may be fractions, see the top of this file.
 pub fn gain(dynamics: &Dynamics, position: f64, count: f64) -> f64 {
-    let (dt, lambda) = (f64::from(dynamics.motion.time_step), f64::from(dynamics.motion.linear_density));
+    let (dt, lambda) = (dynamics.motion.slowed_time_step(), f64::from(dynamics.motion.linear_density));
     let d = f64::from(dynamics.segment_length);
     let k = count.max(f64::from(dynamics.motion.inertia_length_floor) / d);
     3.0 * position * d * dt.powi(2) / (2.0 * lambda * k.powi(4) * d.powi(3))
 }
 
-/// The gravity that lets a strand of this length (cm) fall as on the earth: where the force on its tip gives the
-/// acceleration of a thin rod, c F = (3 / 2L) 981 / rate^2. Table 1's hair of 18 cm takes about 110 for it at 120 frames a
-/// second and 2,800 at 24: the paper's hair moves in slow motion.
+/// A: by how much a force of 1 accelerates hair of this length (cm a frame^2), where a strand is a chain. A rod that is held at its end
+/// turns by 3 A / 2 L for it, which is the gain of its last segment.
+pub fn push(dynamics: &Dynamics, length_cm: f64) -> f64 {
+    let (dt, lambda) = (dynamics.motion.slowed_time_step(), f64::from(dynamics.motion.linear_density));
+    let length = length_cm.max(f64::from(dynamics.motion.inertia_length_floor));
+    f64::from(dynamics.segment_length) * dt.powi(2) / (lambda * length.powi(2))
+}
+
+/// The gravity that lets hair of this length (cm) fall as on the earth, 981 cm/s^2 at the frame rate, if nothing is slowed. Table 1's hair
+/// of 18 cm takes about 110 for it at 120 frames a second and 2,800 at 24: the paper's hair moves in slow motion.
 pub fn earth_gravity(dynamics: &Dynamics, length_cm: f64) -> f32 {
-    let count = length_cm / f64::from(dynamics.segment_length);
-    let rate = dynamics.motion.frame_rate;
-    (1.5 / length_cm * EARTH_CM_PER_S2 / (rate * rate) / gain(dynamics, count, count)) as f32
+    let rate = dynamics.motion.frame_rate * f64::from(dynamics.motion.slow);
+    (EARTH_CM_PER_S2 / (rate * rate) / push(dynamics, length_cm)) as f32
 }
 
 /// Frames of one small swing about a constant force, cos(2 pi / T) = 1 - c |F| / 2: exact for the scheme (7).
@@ -54,10 +60,6 @@ pub(super) struct SegmentShape {
     /// The same of its beginning and of its middle.
     pub begin: f64,
     pub middle: f64,
-    /// How many times stiffer the joint at its beginning is than one between two segments of `hair.segment_length`. Curvature is an
-    /// angle for the length between two middles, and it is its change over such a length that pulls: finer cuts bend as coarse
-    /// ones do.
-    pub cut: f64,
 }
 
 impl SegmentShape {
@@ -91,14 +93,10 @@ pub(super) fn segment_shapes(
     }
     let d = f64::from(dynamics.segment_length);
     let total: f64 = lengths[held..].iter().sum();
-    let (mut end, mut before) = (0.0, lengths[0]);
+    let mut end = 0.0;
     let shapes = lengths.iter().enumerate().map(|(i, &length)| {
-        // The first joint, at the root or where the strand is held, has no segment before it that bends.
-        let between = if i == held { length } else { 0.5 * (before + length) };
-        before = length;
-        let cut = (d / between).powi(2);
         if i < held {
-            return SegmentShape { length, gain: 0.0, gain_in_gamma: 0.0, along: 0.0, begin: 0.0, middle: 0.0, cut };
+            return SegmentShape { length, gain: 0.0, gain_in_gamma: 0.0, along: 0.0, begin: 0.0, middle: 0.0 };
         }
         let position = (end + length / 2.0) / d + 0.5;
         end += length;
@@ -106,7 +104,7 @@ pub(super) fn segment_shapes(
         let eps = dynamics.weakening().map_or(1.0, |weakening| f64::from(weakening.coefficient(position)));
         let along = end / total;
         let (begin, middle) = (along - length / total, along - 0.5 * length / total);
-        SegmentShape { length, gain, gain_in_gamma: eps * gain, along, begin, middle, cut }
+        SegmentShape { length, gain, gain_in_gamma: eps * gain, along, begin, middle }
     });
     Ok(shapes.collect())
 }

@@ -127,7 +127,7 @@ pub(super) fn carriers_at_rest(
     let mut points = vec![Vec3::ZERO; neighbours.carriers.points().len()];
     let mut velocities = points.clone();
     collect(&carriers, &mut points, &mut velocities);
-    let crowd = Crowd::new(neighbours, &points)?;
+    let crowd = Crowd::new(neighbours, dynamics.motion.slow, &points)?;
     Ok((carriers, crowd))
 }
 

@@ -177,6 +177,14 @@ impl<S: Scalar> Turn<S> {
         Self { along: cross * inverse, w: cosine * inverse }
     }
 
+    /// A turn about a direction, by twice the angle whose tangent is half of this (rad): nearly by as much.
+    #[inline(always)]
+    pub fn about(direction: Vector<S>, angle: S) -> Self {
+        let half = angle.times(0.5);
+        let inverse = S::from(1.0) / (S::from(1.0) + half * half).sqrt();
+        Self { along: direction * (half * inverse), w: inverse }
+    }
+
     /// A vector turned.
     #[inline(always)]
     pub fn of(self, v: Vector<S>) -> Vector<S> {

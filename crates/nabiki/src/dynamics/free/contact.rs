@@ -26,11 +26,15 @@ pub(in crate::dynamics) const TOLERANCE_CM: f32 = 1e-4;
 /// Cosine of the largest turn that a push may make of a segment in a frame, where it can do with less (half a radian).
 pub(in crate::dynamics) const NEAR: f32 = 0.877_582_6;
 
+/// By how many times what a pressed node still goes in by a body pushes it more in the next step. A node gives way by less than a push would
+/// move it if it were alone: stiff joints hold it.
+pub(in crate::dynamics) const ANSWER: f32 = 3.0;
+
 /// Distances may come out too large by a twentieth, see [`Obstacle::read`], and between the coarse samples of a filled
 /// surface, 2 cm apart from 4 cm on, by h^2 / 8 times the sum of its curvatures, 2 / 4 cm at most: a sixteenth of 4 cm.
 const SURE: f32 = 0.95 * 0.9;
 
-/// A body where it is in one frame.
+/// A body where it is at the end of a step.
 #[derive(Clone, Debug)]
 pub(super) struct PlacedBody {
     frame: u32,
@@ -40,11 +44,16 @@ pub(super) struct PlacedBody {
     body_from_head: Affine3A,
     /// Whether that changes nothing.
     with_head: bool,
-    /// Takes points of the body from where they are to where they were in the frame before, in head space.
+    /// Takes points of the body from where they are at the end of the step to where they were at its beginning, in head space; and back.
     before_from_now: Affine3A,
+    now_from_before: Affine3A,
     moves: bool,
-    /// The farthest that any of it has come in its own space (cm).
+    /// The farthest that any of it comes in its own space in the step (cm).
     bends: f32,
+    /// Of the frame.
+    part: f32,
+    /// How far any of it comes that hair may meet (cm).
+    pub closer: f32,
 }
 
 /// The end of a segment that turns about its beginning (head space, cm).
@@ -55,13 +64,33 @@ pub(super) struct Touch {
     pub length: f32,
     /// How far p_i is kept from the skin.
     pub clearance: f32,
-    /// d at frame n, turned back by the head's turn as far as it lags behind that.
+    /// d at the beginning of the step, turned back as far as it is left behind by the head's turn.
     pub was: Vec3,
-    /// What that has moved d by.
-    pub lagged: Vec3,
+    /// What p_i is moved by in the step besides: by the segments before this one, and by what the head's turn leaves behind.
+    pub carried: Vec3,
 }
 
-/// Direction and increment of a segment.
+/// A node at the beginning of a step (head space, cm and frames).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moving {
+    pub at: Vec3,
+    /// By how much the head's turn has left it behind in this step.
+    pub shifted: Vec3,
+    pub velocity: Vec3,
+    pub acceleration: Vec3,
+    /// By how much a body pushed it outward in the step before, and by what it still went in.
+    pub pressed: f32,
+}
+
+/// What a body does to a node (cm and frames): how it accelerates it, by how much of that outward, and how far the node is from touching it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Push {
+    pub force: Vec3,
+    pub outward: f32,
+    pub clear: f32,
+}
+
+/// Direction of a segment, and what it turns by in a step (rad).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Going {
     pub direction: Vec3,
@@ -99,10 +128,18 @@ fn skin(body: &Body, surface: Surface) -> Skin<'_> {
 }
 
 impl PlacedBody {
-    /// Body number `b`.
-    pub fn new(b: usize, body: &Body, input: &FrameInput) -> Self {
-        let [now, before] = input.head_from_body(b, body);
-        Self {
+    /// Body number `b` at the end of a step of a frame: its number, from 1 on, and how many there are. `hair`: a ball that hair does not
+    /// leave (head space, cm).
+    pub fn new(
+        b: usize,
+        body: &Body,
+        input: &FrameInput,
+        [step, steps]: [u32; 2],
+        (center, radius): (Vec3, f32),
+    ) -> Self {
+        let [now, before] = input.head_from_body(b, body, [step, steps]);
+        let part = 1.0 / steps as f32;
+        let mut placed = Self {
             frame: input.frame,
             static_friction: body.contact.static_friction,
             friction: body.contact.friction,
@@ -110,13 +147,18 @@ impl PlacedBody {
             body_from_head: now.inverse(),
             with_head: now == Affine3A::IDENTITY,
             before_from_now: before * now.inverse(),
+            now_from_before: now * before.inverse(),
             moves: now != before,
-            bends: body.shape.obstacle().farthest_moved(input.frame),
-        }
+            bends: body.shape.obstacle().farthest_moved(input.frame) * part,
+            part,
+            closer: 0.0,
+        };
+        placed.closer = placed.farthest_moved(center, radius);
+        placed
     }
 
-    /// The farthest that a point of the body within `radius` of `center` (head space, cm) has moved in the frame.
-    pub fn farthest_moved(&self, center: Vec3, radius: f32) -> f32 {
+    /// The farthest that a point of the body within `radius` of `center` (head space, cm) moves in the step.
+    fn farthest_moved(&self, center: Vec3, radius: f32) -> f32 {
         if !self.moves {
             return self.bends;
         }
@@ -140,9 +182,9 @@ impl PlacedBody {
         }
     }
 
-    /// Keeps a segment out of the body; `None` where it touches nothing.
+    /// Keeps a segment out of the body, and tells by how much its end went inward in the step (cm); `None` where it touches nothing.
     #[inline(always)]
-    pub fn stop(&self, body: &Body, surface: Surface, going: Going, touch: &Touch) -> Option<Going> {
+    pub fn stop(&self, body: &Body, surface: Surface, going: Going, touch: &Touch) -> Option<(Going, f32)> {
         match skin(body, surface) {
             Skin::Mesh(skin) => self.stop_at(skin, going, touch),
             Skin::Other(shape) => self.stop_at(shape, going, touch),
@@ -157,6 +199,63 @@ impl PlacedBody {
         }
     }
 
+    /// How far a node is from touching the body at the end of the step if it goes along with it; `None` far away.
+    pub fn clear(&self, body: &Body, surface: Surface, clearance: f32, node: &Moving) -> Option<f32> {
+        let in_body = self.in_body(self.taken_along(node.at));
+        let reading = match skin(body, surface) {
+            Skin::Mesh(skin) => skin.read(in_body, self.frame),
+            Skin::Other(shape) => shape.read(in_body, self.frame),
+        };
+        Some(reading?.distance - clearance)
+    }
+
+    /// How the body pushes a node, by how much outward (cm a frame^2), and how far the node is from it (cm): against all that carries it in within the step, against what pressed
+    /// it in the step before, and against what goes along by friction.
+    pub fn against(&self, body: &Body, surface: Surface, clearance: f32, node: &Moving) -> Option<Push> {
+        match skin(body, surface) {
+            Skin::Mesh(skin) => self.against_at(skin, clearance, node),
+            Skin::Other(shape) => self.against_at(shape, clearance, node),
+        }
+    }
+
+    fn against_at(&self, skin: &(impl Obstacle + ?Sized), clearance: f32, node: &Moving) -> Option<Push> {
+        let h = self.part;
+        let carried = self.taken_along(node.at);
+        let in_body = self.in_body(carried);
+        let reading = skin.read(in_body, self.frame)?;
+        let mut of_body = carried - node.at;
+        if self.bends > 0.0 {
+            of_body += self.bent(skin, in_body);
+        }
+        let normal = self.normal(&reading);
+        // What is too deep already is turned out, and not thrown.
+        let gap = (reading.distance - clearance).max(0.0);
+        let leaves = (h * node.velocity - of_body).dot(normal) + gap;
+        let pressed = node.pressed * (h * h) - leaves.max(0.0);
+        let moved = h * node.velocity + h * h * node.acceleration - of_body;
+        let inward = (-(moved.dot(normal) + gap)).max(pressed);
+        if inward <= 0.0 {
+            return Some(Push { clear: gap, ..Push::default() });
+        }
+        let along = moved + node.shifted;
+        let over = 1.0 / (h * h);
+        let force = over * self.slowed(along, normal, along.dot(normal), inward);
+        // A speed is stopped once; what presses goes on to.
+        let presses = (inward - (-leaves).max(0.0)).max(0.0);
+        Some(Push { force, outward: over * presses, clear: gap })
+    }
+
+    /// Where the body takes a point in the step that goes along with it.
+    fn taken_along(&self, p: Vec3) -> Vec3 {
+        if self.moves { self.now_from_before.transform_point3(p) } else { p }
+    }
+
+    /// What a body that bends moves its point by in the step, besides the way of its own space.
+    fn bent(&self, skin: &(impl Obstacle + ?Sized), in_body: Vec3) -> Vec3 {
+        let head_from_body = self.body_from_head.matrix3.transpose();
+        Vec3::from(head_from_body * Vec3A::from(skin.moved(in_body, self.frame))) * self.part
+    }
+
     fn gap_to(&self, skin: &(impl Obstacle + ?Sized), end: Vec3, clearance: f32) -> f32 {
         let in_body = self.in_body(end);
         match skin.read(in_body, self.frame) {
@@ -166,8 +265,8 @@ impl PlacedBody {
     }
 
     #[inline(always)]
-    fn stop_at(&self, skin: &(impl Obstacle + ?Sized), going: Going, touch: &Touch) -> Option<Going> {
-        let &Touch { from, length, clearance, lagged, .. } = touch;
+    fn stop_at(&self, skin: &(impl Obstacle + ?Sized), going: Going, touch: &Touch) -> Option<(Going, f32)> {
+        let &Touch { from, length, clearance, carried, .. } = touch;
         let end = from + length * going.direction;
         let in_body = self.in_body(end);
         let reading = skin.read(in_body, self.frame)?;
@@ -178,18 +277,17 @@ impl PlacedBody {
         let normal = self.normal(&reading);
         let mut of_body = if self.moves { end - self.before_from_now.transform_point3(end) } else { Vec3::ZERO };
         if self.bends > 0.0 {
-            let head_from_body = self.body_from_head.matrix3.transpose();
-            of_body += Vec3::from(head_from_body * Vec3A::from(skin.moved(in_body, self.frame)));
+            of_body += self.bent(skin, in_body);
         }
-        let moved = length * (going.increment + lagged) - of_body;
+        let moved = length * going.increment + carried - of_body;
         // A motion outward loses nothing: of 0 all that follows is 0.
         let inward = (-moved.dot(normal)).max(0.0);
-        let change = self.slowed(moved, normal, inward);
+        let change = self.slowed(moved, normal, -inward, inward);
         // Until it touched it went on as it was.
         let touching = if inward > depth { depth / inward } else { 1.0 };
         let direction = (length * going.direction + touching * change).normalize_or(normal);
         let increment = going.increment + change / length;
-        Some(Going::new(self.pushed_out(skin, direction, touch), increment))
+        Some((Going::new(self.pushed_out(skin, direction, touch), increment), inward))
     }
 
     fn part_from(&self, skin: &(impl Obstacle + ?Sized), going: Going, touch: &Touch) -> Option<Going> {
@@ -201,10 +299,11 @@ impl PlacedBody {
         Some(Going::new(direction, going.increment))
     }
 
-    /// What contact takes of a motion against the body: the part of it that goes inward, and of the rest what friction takes.
+    /// What contact makes of a motion against the body: so much `inward` is turned back, and of what goes along it friction takes its part.
+    /// `outward`: all of the motion along the normal.
     #[inline(always)]
-    fn slowed(&self, moved: Vec3, normal: Vec3, inward: f32) -> Vec3 {
-        let along = moved + inward * normal;
+    fn slowed(&self, moved: Vec3, normal: Vec3, outward: f32, inward: f32) -> Vec3 {
+        let along = moved - outward * normal;
         let speed = along.length();
         let held = speed <= self.static_friction * inward;
         let lost = if held { 1.0 } else { self.friction * inward / speed };

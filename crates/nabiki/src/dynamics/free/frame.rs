@@ -2,13 +2,15 @@
 
 use glam::Vec3;
 
-use super::kernel::{FreeState, Walk, lag_behind};
-use super::packed::{Packed, Plan};
-use super::passes::{Among, Free, Place, Velocities};
+use super::kernel::{FreeState, bend, carry, drive, ends, pull_taut, slacken, solve, stay_behind, untwist, unwind};
+use super::packed::{Packed, Plan, Step};
+use super::passes::{Blown, Go, Place, Stepped, Velocities};
+use super::work::{self, Work};
 use crate::dynamics::block::Block;
-use crate::dynamics::row::PointRow;
+use crate::dynamics::row::{LANES, PointRow, lane as lane_of, set_lane};
 use crate::dynamics::sweep::Swept;
 use crate::prefetch::prefetch;
+use crate::vector::{scale, subtract};
 
 impl Swept for Packed {
     type State = FreeState;
@@ -27,26 +29,105 @@ impl Swept for Packed {
                 block.walk(&block.roots, states, rows, page, Place);
             }
             Plan::Velocities => block.walk(&PointRow::default(), states, rows, page, Velocities),
+            Plan::Residual => {
+                let mut room = work::room(rows.len());
+                let work = &mut room[..rows.len()];
+                self.drive_at_rest(block, states, work);
+                work::keep(room);
+            }
             Plan::Step(step) => {
-                if let Some((axis, angle)) = step.turn {
-                    for (state, lag) in states.iter_mut().zip(&self.lags[block.rows()]) {
-                        lag_behind(state, axis, angle, lag);
-                    }
-                }
                 prefetch(page.as_deref().unwrap_or_default());
-                let walk = Walk::new(&block.roots, states.first().zip(rows.first()));
-                match step.everywhere {
-                    Some(force) if step.bodies.is_empty() => {
-                        let (weight, at) = (step.weight, block.rows().start);
-                        let pass = Free { packed: self, force, weight, walk, at };
-                        block.walk(&block.roots, states, rows, page, pass);
-                    }
-                    _ => {
-                        let pass = Among::new(self, step, block, walk);
-                        block.walk(&block.roots, states, rows, page, pass);
-                    }
+                let mut room = work::room(rows.len());
+                self.step(block, step, states, page, &mut room[..rows.len()]);
+                work::keep(room);
+            }
+        }
+    }
+}
+
+impl Packed {
+    /// Takes a block through all steps of a frame.
+    #[inline(always)]
+    fn step(
+        &self,
+        block: &Block,
+        step: &Step<'_>,
+        states: &mut [FreeState],
+        mut page: Option<&mut [Vec3]>,
+        work: &mut [Work],
+    ) {
+        let rows = &self.rows[block.rows()];
+        let of = Blown { packed: self, step, block, number: block.first_strand as usize / LANES };
+        of.blow(states, work);
+        let h = 1.0 / step.steps as f32;
+        let bodies = step.bodies.len() / step.steps as usize;
+        let carried = (bodies > 0).then_some(self.weight_at_rest);
+        for n in 1..=step.steps as usize {
+            if let Some((axis, angle)) = step.turn {
+                self.stay_behind(block, states, axis, h * angle, bodies > 0, work);
+            }
+            carry(states, rows, &block.roots, carried, work);
+            untwist(work);
+            bend(states, rows, work);
+            let bodies = &step.bodies[(n - 1) * bodies..n * bodies];
+            let closer = bodies.iter().map(|body| body.closer).fold(0.0, f32::max);
+            let stepped = Stepped { of, bodies, h, closer };
+            stepped.push(states, work);
+            pull_taut(states, rows, work);
+            slacken(work);
+            drive(states, rows, work);
+            solve(states, rows, h, work);
+            unwind(work);
+            let page = if n == step.steps as usize { page.take() } else { None };
+            block.walk(&block.roots, states, rows, page, Go::new(stepped, work));
+        }
+    }
+
+    /// Leaves hair behind by its part of the head's turn in a step.
+    #[inline(always)]
+    fn stay_behind(
+        &self,
+        block: &Block,
+        states: &mut [FreeState],
+        axis: [f32; 3],
+        angle: f32,
+        meets_bodies: bool,
+        work: &mut [Work],
+    ) {
+        let (rows, first) = (&self.rows[block.rows()], block.rows().start);
+        let (mut before, mut end) = (block.roots, block.roots);
+        let way = angle.abs() * self.longest * self.most_drag;
+        for (i, ((state, row), work)) in states.iter_mut().zip(rows).zip(work).enumerate() {
+            before = ends(state, row, &before);
+            stay_behind(state, row, axis, angle, &self.air(first + i).drag);
+            if meets_bodies {
+                end = ends(state, row, &end);
+                for lane in 0..LANES {
+                    set_lane(&mut work.shifted, lane, subtract(lane_of(&end, lane), lane_of(&before, lane)));
+                    state.gap.0[lane] -= way;
                 }
             }
+        }
+    }
+
+    /// Leaves in the increments of hair at rest what drives them there: roundings.
+    #[inline(always)]
+    fn drive_at_rest(&self, block: &Block, states: &mut [FreeState], work: &mut [Work]) {
+        let (rows, first) = (&self.rows[block.rows()], block.rows().start);
+        carry(states, rows, &block.roots, None, work);
+        untwist(work);
+        bend(states, rows, work);
+        for (i, (row, work)) in rows.iter().zip(&mut *work).enumerate() {
+            work.drag = self.air(first + i).air;
+            for lane in 0..LANES {
+                set_lane(&mut work.pushed, lane, scale(row.push.0[lane], self.weight_at_rest));
+            }
+        }
+        pull_taut(states, rows, work);
+        slacken(work);
+        drive(states, rows, work);
+        for (state, work) in states.iter_mut().zip(work) {
+            state.increment = work.driven;
         }
     }
 }

@@ -41,11 +41,12 @@ pub(in crate::dynamics) struct Crowd {
 }
 
 impl Crowd {
-    /// What carriers at rest leave: no force. `points`: theirs at rest, as the stepper puts them together.
+    /// What carriers at rest leave: no force. `points`: theirs at rest, as the stepper puts them together. `slow`: in slow motion hair goes fewer
+    /// cm a frame, and is dragged as firmly.
     ///
     /// # Errors
     /// Cells so small beside the hair's reach that the grid would not fit.
-    pub fn new(neighbours: &Neighbours, points: &[Vec3]) -> Result<Self, SettingError> {
+    pub fn new(neighbours: &Neighbours, slow: f32, points: &[Vec3]) -> Result<Self, SettingError> {
         let Neighbours { forces, carriers } = neighbours;
         let [low, high] = bounds(points);
         // From any root to the length of any carrier, however it swings, and a cell about it.
@@ -66,7 +67,7 @@ impl Crowd {
         let nodes = nodes.as_uvec3();
         let count = nodes.element_product() as usize;
         let mut crowd = Self {
-            forces: forces.clone(),
+            forces: NeighbourForces { cohesion: slow * forces.cohesion, ..forces.clone() },
             cells_per_cm: 1.0 / forces.cell,
             low,
             nodes,
@@ -233,11 +234,11 @@ impl Crowd {
         [pull[0], pull[1]]
     }
 
-    /// The force on a point that goes along at `velocity` (cm a frame; head space).
-    pub fn force(&self, p: DVec3, velocity: DVec3) -> DVec3 {
+    /// The force on a point that stands still (head space), and what is held against its velocity.
+    pub fn at(&self, p: DVec3) -> (DVec3, f64) {
         let (first, t) = self.cell(p.as_vec3().to_array());
         let [x, y, z, drag] = self.between::<false>(first as usize, t).map(f64::from);
-        DVec3::new(x, y, z) - drag * velocity
+        (DVec3::new(x, y, z), drag)
     }
 
     #[inline(always)]

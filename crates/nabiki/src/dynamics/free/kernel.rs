@@ -2,12 +2,15 @@
 //!
 //! As in the paper's kernel every lane does the same operations whatever the machine's vectors hold, and multiplies and
 //! adds are fused by name: the bits do not depend on the vector width, nor on the other lanes.
+//!
+//! A step goes along the strands to and fro: [`carry`], [`untwist`] and [`bend`] for the joints, [`pull_taut`], [`slacken`] and [`drive`] for the
+//! tensions, [`solve`] and [`unwind`] for the increments, and [`advance`], on which segments are turned.
 
-use super::pulls::joints::moment_lane;
-use super::pulls::sum_of_shape;
-use super::pulls::weight::Weight;
+use super::pulls::{hold, joints};
+use super::reference::{BENT, THETA};
 use super::rotate::turned;
 use super::segment::FreeSegment;
+use super::work::Work;
 use crate::dynamics::row::{LANES, PointRow, Row, beyond, lane as lane_of, set_lane};
 use crate::dynamics::trigonometry::sin_cos;
 use crate::free_form::FreeForm;
@@ -19,67 +22,83 @@ use crate::vector::{add, cross, dot, scale, scale_add, subtract};
 pub(super) struct FreeState {
     pub direction: PointRow,
     pub increment: PointRow,
+    /// By how much the joint at its beginning is twisted (rad).
+    pub twist: Row,
+    /// By how much a body pushes the node at its end outward (cm a frame^2).
+    pub pressed: Row,
     /// How far at least the segment's end is from touching a body (cm). Unused where there is none.
     pub gap: Row,
 }
 
 impl FreeState {
     /// Of all its rows.
-    pub const NUMBERS: usize = 7 * LANES;
+    pub const NUMBERS: usize = 9 * LANES;
 
-    pub fn rows(&self) -> [&Row; 7] {
-        let Self { direction: [x, y, z], increment: [u, v, w], gap } = self;
-        [x, y, z, u, v, w, gap]
+    pub fn rows(&self) -> [&Row; 9] {
+        let Self { direction: [x, y, z], increment: [u, v, w], twist, pressed, gap } = self;
+        [x, y, z, u, v, w, twist, pressed, gap]
     }
 
-    pub fn rows_mut(&mut self) -> [&mut Row; 7] {
-        let Self { direction: [x, y, z], increment: [u, v, w], gap } = self;
-        [x, y, z, u, v, w, gap]
+    pub fn rows_mut(&mut self) -> [&mut Row; 9] {
+        let Self { direction: [x, y, z], increment: [u, v, w], twist, pressed, gap } = self;
+        [x, y, z, u, v, w, twist, pressed, gap]
     }
 }
 
-/// One segment of every strand of a block. All 0 where a strand has no such segment.
+/// One segment of every strand of a block, see [`FreeSegment`]. All 0 where a strand has no such segment.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
 pub(super) struct FreeRow {
-    /// cm.
+    /// cm, and 1 / cm.
     pub length: Row,
-    /// c_i.
-    pub gain: Row,
-    /// K of the joint at its beginning.
-    pub stiffness: Row,
+    pub over_length: Row,
     /// r_i.
     pub rest: PointRow,
+    /// A.
+    pub push: Row,
+    /// 1/m_i; 0 where the segment is held.
+    pub lightness: Row,
+    /// B_i and N_i of the joint at its beginning.
+    pub bending: Row,
+    pub carries: PointRow,
+    /// C_i.
+    pub hold: Row,
+    /// What the solve leaves of roundings at rest.
+    pub residual: PointRow,
 }
 
-/// Strengths of one segment of every strand of a block.
+/// What the air does to one segment of every strand of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
-pub(super) struct StrengthRow {
-    /// H.
-    pub hold: Row,
-    /// What is left of an increment after a frame.
-    pub decay: Row,
+pub(super) struct AirRow {
+    /// alpha_i.
+    pub air: Row,
+    /// The part of the head's motion that it is left behind by.
+    pub drag: Row,
 }
 
 impl FreeRow {
     pub fn set(&mut self, lane: usize, segment: &FreeSegment) {
         self.length.0[lane] = segment.shape.length as f32;
-        self.gain.0[lane] = segment.shape.gain as f32;
-        self.stiffness.0[lane] = segment.stiffness as f32;
+        self.over_length.0[lane] = (1.0 / segment.shape.length) as f32;
         set_lane(&mut self.rest, lane, segment.rest.as_vec3().to_array());
+        self.push.0[lane] = segment.push as f32;
+        self.lightness.0[lane] = segment.lightness as f32;
+        self.bending.0[lane] = segment.bending as f32;
+        set_lane(&mut self.carries, lane, segment.carries.as_vec3().to_array());
+        self.hold.0[lane] = segment.hold as f32;
     }
 }
 
-impl StrengthRow {
+impl AirRow {
     /// That of lanes without a segment: as all others, where all others are alike.
-    pub fn of(form: &FreeForm) -> Self {
-        Self { hold: Row([form.hold.at(0.0) as f32; LANES]), decay: Row([form.decay(0.0) as f32; LANES]) }
+    pub fn of(form: &FreeForm, slow: f64) -> Self {
+        Self { air: Row([(form.air(0.0) / slow) as f32; LANES]), drag: Row([form.drag.at(0.0) as f32; LANES]) }
     }
 
     pub fn set(&mut self, lane: usize, segment: &FreeSegment) {
-        self.hold.0[lane] = segment.hold as f32;
-        self.decay.0[lane] = segment.decay as f32;
+        self.air.0[lane] = segment.air as f32;
+        self.drag.0[lane] = segment.drag as f32;
     }
 }
 
@@ -98,131 +117,356 @@ impl FrameRow {
         Self { vector: [Row([0.0; LANES]); 3], scalar: Row([1.0; LANES]), over_length: Row([2.0; LANES]) };
 }
 
-/// Forces on a segment of every strand of a block, but for those that come from its shape.
-pub(super) trait Forces: Copy {
-    fn lane(&self, lane: usize) -> [f32; 3];
+static BEYOND: (FreeState, FreeRow, Work) = (
+    FreeState { direction: ZERO, increment: ZERO, twist: NONE, pressed: NONE, gap: NONE },
+    FreeRow {
+        length: NONE,
+        over_length: NONE,
+        rest: ZERO,
+        push: NONE,
+        lightness: NONE,
+        bending: NONE,
+        carries: ZERO,
+        hold: NONE,
+        residual: ZERO,
+    },
+    Work::NONE,
+);
+
+const NONE: Row = Row([0.0; LANES]);
+const ZERO: PointRow = [NONE; 3];
+
+/// What follows a segment; all 0 beyond the last one.
+#[inline(always)]
+fn next<'a, T>(of: &'a [T], i: usize, beyond: &'a T) -> &'a T {
+    of.get(i + 1).unwrap_or(beyond)
 }
 
-impl Forces for [f32; 3] {
-    #[inline(always)]
-    fn lane(&self, _: usize) -> [f32; 3] {
-        *self
-    }
-}
-
-impl Forces for PointRow {
-    #[inline(always)]
-    fn lane(&self, lane: usize) -> [f32; 3] {
-        lane_of(self, lane)
-    }
-}
-
-/// What a step carries along a block from root to tip.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Walk {
-    /// p_(i-1) at frame n.
-    pub before: PointRow,
-    frame: FrameRow,
-    /// Where R_(i-1) carries r_i to.
-    carried_rest: PointRow,
-    /// The moment of the joint between segment i - 1 and i.
-    moment: PointRow,
-}
-
-impl Walk {
-    /// At the root: the first joint holds the first segment to the head.
-    #[inline(always)]
-    pub fn new(roots: &PointRow, first: Option<(&FreeState, &FreeRow)>) -> Self {
-        let mut walk = Self {
-            before: *roots,
-            frame: FrameRow::AT_REST,
-            carried_rest: PointRow::default(),
-            moment: PointRow::default(),
-        };
-        if let Some((state, row)) = first {
-            walk.carried_rest = row.rest;
+/// Goes to the tips, and finds where the nodes are, how they go, where the frames carry the shape at rest, and half of the way to how the
+/// segments turn about themselves: a tridiagonal system. `weight`: that at rest, if it is asked for where the frames carry it.
+#[inline(always)]
+pub(super) fn carry(
+    states: &[FreeState],
+    rows: &[FreeRow],
+    roots: &PointRow,
+    weight: Option<[f32; 3]>,
+    work: &mut [Work],
+) {
+    let (mut end, mut velocity, mut frame) = (*roots, ZERO, FrameRow::AT_REST);
+    let (mut carried, mut loaded) = (rows[0].rest, rows[0].carries);
+    let mut load = ZERO;
+    let (mut handed, mut above, mut turned_by) = (NONE, NONE, NONE);
+    let torsion = joints::TORSION as f32;
+    for (i, ((state, row), work)) in states.iter().zip(rows).zip(work).enumerate() {
+        let (next_state, next_row) = (next(states, i, &BEYOND.0), next(rows, i, &BEYOND.1));
+        (work.carried, work.handed) = (carried, handed);
+        if let Some(weight) = weight {
             for lane in 0..LANES {
-                let (rest, d) = (lane_of(&row.rest, lane), lane_of(&state.direction, lane));
-                set_lane(&mut walk.moment, lane, moment_lane(row.stiffness.0[lane], rest, d));
+                let (u, s, over) = (lane_of(&frame.vector, lane), frame.scalar.0[lane], frame.over_length.0[lane]);
+                set_lane(&mut work.weight, lane, turned(u, s, over, weight));
             }
         }
-        walk
+        for lane in 0..LANES {
+            let (d, w) = (lane_of(&state.direction, lane), lane_of(&state.increment, lane));
+            let length = row.length.0[lane];
+            let there = beyond(&end, lane, length, d);
+            set_lane(&mut end, lane, there);
+            let goes = beyond(&velocity, lane, length, w);
+            set_lane(&mut velocity, lane, goes);
+
+            // The turn from where the segment before it would carry it to where it is, and that of its joint's twist about it.
+            let (u, s) = (lane_of(&frame.vector, lane), frame.scalar.0[lane]);
+            let carried_rest = lane_of(&carried, lane);
+            let bend = cross(carried_rest, subtract(d, carried_rest));
+            let (v, t) = shortened(bend, (1.0 + dot(carried_rest, d)).max(1e-12));
+            let (u, s) = after(u, s, v, t);
+            let half = 0.5 * state.twist.0[lane];
+            let (u, s) = after(u, s, scale(half, d), 1.0);
+            // The length of a product is that of its factors; finite even where many kinks have left nothing of it.
+            let longer = t.mul_add(t, dot(v, v)) * half.mul_add(half, 1.0);
+            let over = (frame.over_length.0[lane] / longer).min(2e30);
+            set_lane(&mut frame.vector, lane, u);
+            frame.scalar.0[lane] = s;
+            frame.over_length.0[lane] = over;
+            let next_rest = turned(u, s, over, lane_of(&next_row.rest, lane));
+            // Half-way between the two segments, so that it gives no energy.
+            let here = turned(u, s, over, lane_of(&row.carries, lane));
+            set_lane(&mut load, lane, scale(0.5, add(lane_of(&loaded, lane), here)));
+            let next_load = turned(u, s, over, lane_of(&next_row.carries, lane));
+
+            let (next_d, bending) = (lane_of(&next_state.direction, lane), next_row.bending.0[lane]);
+            let stiff = torsion * row.bending.0[lane];
+            let next_stiff = torsion * bending;
+            let hands = dot(d, add(next_d, next_rest)) / (1.0 + dot(next_d, next_rest)).max(1e-12);
+            let across = cross(d, next_rest);
+            let middle = next_stiff.mul_add(hands * hands, bending.mul_add(dot(across, across), stiff));
+            let moment = dot(joints::moment_lane(bending, next_rest, next_d), d);
+            let right = (next_stiff * hands).mul_add(next_state.twist.0[lane], -moment);
+            let right = (-stiff).mul_add(state.twist.0[lane], right);
+            let lower = -stiff * handed.0[lane];
+            let middle = (-lower).mul_add(above.0[lane], middle);
+            // What is held does not turn.
+            let over = if (row.lightness.0[lane] > 0.0) & (middle > 0.0) { 1.0 / middle } else { 0.0 };
+            above.0[lane] = -next_stiff * hands * over;
+            turned_by.0[lane] = (-lower).mul_add(turned_by.0[lane], right) * over;
+            handed.0[lane] = hands;
+            set_lane(&mut carried, lane, next_rest);
+            set_lane(&mut loaded, lane, next_load);
+        }
+        (work.end, work.velocity, work.moment) = (end, velocity, load);
+        (work.above, work.tension) = (above, turned_by);
     }
 }
 
-/// The segment after the one that is stepped, as it is at frame n. All 0 beyond the last one.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Next<'a> {
-    pub direction: &'a PointRow,
-    pub rest: &'a PointRow,
-    /// K of the joint between the two.
-    pub stiffness: &'a Row,
+/// Comes back from the tips with the turns of the segments about themselves.
+#[inline(always)]
+pub(super) fn untwist(work: &mut [Work]) {
+    slacken(work);
 }
 
-impl<'a> Next<'a> {
-    #[inline(always)]
-    pub fn of(next: Option<(&'a FreeState, &'a FreeRow)>) -> Self {
-        static BEYOND: (PointRow, Row) = ([Row([0.0; LANES]); 3], Row([0.0; LANES]));
-        match next {
-            Some((state, row)) => Self { direction: &state.direction, rest: &row.rest, stiffness: &row.stiffness },
-            None => Self { direction: &BEYOND.0, rest: &BEYOND.0, stiffness: &BEYOND.1 },
+/// Goes to the tips with the joints as they are twisted then: s_i, the shear of their moments.
+#[inline(always)]
+pub(super) fn bend(states: &mut [FreeState], rows: &[FreeRow], work: &mut [Work]) {
+    let torsion = joints::TORSION as f32;
+    let (mut before, mut turned_before) = (ZERO, NONE);
+    for (i, (state, row)) in states.iter_mut().zip(rows).enumerate() {
+        let (done, work) = work.split_at_mut(i);
+        let work = &mut work[0];
+        for lane in 0..LANES {
+            let (d, bending) = (lane_of(&state.direction, lane), row.bending.0[lane]);
+            let by = turned_before.0[lane];
+            let twist = state.twist.0[lane] + (-work.handed.0[lane]).mul_add(by, work.tension.0[lane]);
+            state.twist.0[lane] = twist;
+            let half = 0.5 * by;
+            let (u, over) = (scale(half, lane_of(&before, lane)), 2.0 / half.mul_add(half, 1.0));
+            let carried = turned(u, 1.0, over, lane_of(&work.carried, lane));
+            let moment = add(lane_of(&work.moment, lane), joints::moment_lane(bending, carried, d));
+            let along = torsion * bending * twist / (1.0 + dot(d, carried)).max(1e-12);
+            set_lane(&mut work.moment, lane, scale_add(-along, add(d, carried), moment));
+        }
+        turned_before = work.tension;
+        before = state.direction;
+        if let Some(done) = done.last_mut() {
+            shear(&work.moment, done);
+        }
+        for lane in 0..LANES {
+            let d = lane_of(&state.direction, lane);
+            // Until the moment of the next joint is known.
+            let held = hold::moment_lane(row.hold.0[lane], lane_of(&row.rest, lane), d);
+            set_lane(&mut work.shear, lane, held);
+            set_lane(&mut work.end_way, lane, scale(row.over_length.0[lane], d));
+        }
+    }
+    if let Some(last) = work.last_mut() {
+        shear(&ZERO, last);
+    }
+}
+
+/// From the moments at both of its ends and hold to the shear of a segment.
+#[inline(always)]
+fn shear(next: &PointRow, work: &mut Work) {
+    for lane in 0..LANES {
+        let moment = subtract(lane_of(&work.moment, lane), lane_of(next, lane));
+        let all = add(moment, lane_of(&work.shear, lane));
+        set_lane(&mut work.shear, lane, cross(all, lane_of(&work.end_way, lane)));
+    }
+}
+
+/// Goes to the tips with the tridiagonal system of the tensions: what drives the increments without them, and half of the way to them.
+#[inline(always)]
+pub(super) fn pull_taut(states: &[FreeState], rows: &[FreeRow], work: &mut [Work]) {
+    let (mut node_before, mut velocity, mut drag, mut lightness) = (ZERO, ZERO, NONE, NONE);
+    let (mut direction, mut above, mut tension, mut bent) = (ZERO, NONE, NONE, NONE);
+    for (i, (state, row)) in states.iter().zip(rows).enumerate() {
+        let shear = next(work, i, &BEYOND.2).shear;
+        let next_state = next(states, i, &BEYOND.0);
+        let work = &mut work[i];
+        for lane in 0..LANES {
+            let (d, w) = (lane_of(&state.direction, lane), lane_of(&state.increment, lane));
+            let (length, up, down) = (row.length.0[lane], row.lightness.0[lane], lightness.0[lane]);
+            let sheared = subtract(lane_of(&work.shear, lane), lane_of(&shear, lane));
+            let node = scale_add(up, sheared, lane_of(&work.pushed, lane));
+            let differs = work.drag.0[lane] - drag.0[lane];
+            let driven = subtract(node, lane_of(&node_before, lane));
+            let driven = scale_add(-differs, lane_of(&velocity, lane), driven);
+            let right = length.mul_add(dot(w, w), dot(scale_add(-work.drag.0[lane] * length, w, driven), d));
+            let lower = -down * dot(d, lane_of(&direction, lane));
+            let middle = (-lower).mul_add(above.0[lane], up + down);
+            // What is held, and what is no segment, is under no tension.
+            let over = if up > 0.0 { 1.0 / middle } else { 0.0 };
+            let along = dot(d, lane_of(&next_state.direction, lane));
+            above.0[lane] = -up * along * over;
+            // Of the joint after it, the square of the sine of the bend; what is held bends no joint.
+            bent.0[lane] = if up > 0.0 { (-along).mul_add(along, 1.0) } else { 0.0 };
+            tension.0[lane] = (-lower).mul_add(tension.0[lane], right) * over;
+            set_lane(&mut node_before, lane, node);
+            set_lane(&mut work.driven, lane, driven);
+            lightness.0[lane] = up;
+            drag.0[lane] = work.drag.0[lane];
+        }
+        (direction, velocity) = (state.direction, work.velocity);
+        (work.above, work.tension, work.bent) = (above, tension, bent);
+    }
+}
+
+/// Comes back from the tips with the tensions.
+#[inline(always)]
+pub(super) fn slacken(work: &mut [Work]) {
+    let mut beyond = NONE;
+    for work in work.iter_mut().rev() {
+        for lane in 0..LANES {
+            let tension = (-work.above.0[lane]).mul_add(beyond.0[lane], work.tension.0[lane]);
+            work.tension.0[lane] = tension;
+            beyond.0[lane] = tension;
         }
     }
 }
 
-/// Moves segment i of every strand of a block from frame n to n + 1, as if nothing were in its way. `from` and `to` are
-/// p_(i-1) and p_i at frame n + 1.
+/// Adds what the tensions do to what drives the increments.
 #[inline(always)]
-#[expect(clippy::too_many_arguments, reason = "rows that lie in different places, none of which goes with another")]
-pub(super) fn step_segment(
-    state: &mut FreeState,
-    row: &FreeRow,
-    strength: &StrengthRow,
-    forces: &impl Forces,
-    weight: &Weight,
-    next: &Next,
-    walk: &mut Walk,
-    from: &PointRow,
-    to: &mut PointRow,
-) {
+pub(super) fn drive(states: &[FreeState], rows: &[FreeRow], work: &mut [Work]) {
+    let mut node_before = ZERO;
+    for (i, (state, row)) in states.iter().zip(rows).enumerate() {
+        let tension = next(work, i, &BEYOND.2).tension;
+        let next_direction = &next(states, i, &BEYOND.0).direction;
+        let work = &mut work[i];
+        for lane in 0..LANES {
+            let (d, w) = (lane_of(&state.direction, lane), lane_of(&state.increment, lane));
+            let beyond = scale(tension.0[lane], lane_of(next_direction, lane));
+            let node = scale(row.lightness.0[lane], scale_add(-work.tension.0[lane], d, beyond));
+            let driven = add(lane_of(&work.driven, lane), subtract(node, lane_of(&node_before, lane)));
+            set_lane(&mut work.driven, lane, scale_add(row.length.0[lane] * dot(w, w), d, driven));
+            set_lane(&mut node_before, lane, node);
+        }
+    }
+}
+
+/// What earlier rows of the pentadiagonal system leave: coefficients of the two unknowns after each, and its right side.
+#[derive(Clone, Copy)]
+struct Left {
+    next: Row,
+    after: Row,
+    right: PointRow,
+}
+
+/// How turns of four segments in a row accelerate the node between the two in the middle.
+type NodeRow = [Row; 4];
+
+/// Goes to the tips with the pentadiagonal system of the increments, for a step of `h` frames.
+#[inline(always)]
+pub(super) fn solve(states: &[FreeState], rows: &[FreeRow], h: f32, work: &mut [Work]) {
+    let theta = THETA as f32;
+    let (implicit, explicit) = ((h * theta).powi(2), h * h * theta * (1.0 - theta));
+    let nothing = Left { next: NONE, after: NONE, right: ZERO };
+    let (mut left, mut node_before): ([Left; 2], NodeRow) = ([nothing; 2], [NONE; 4]);
+    let mut stiffness = answers(&rows[0], rows.get(1), &NONE, &work[0]);
+    for (i, (state, row)) in states.iter().zip(rows).enumerate() {
+        let (of_next, after_next) = match rows.get(i + 1) {
+            Some(next) => (answers(next, rows.get(i + 2), &work[i].bent, &work[i + 1]), i + 2 < rows.len()),
+            None => ([NONE; 3], false),
+        };
+        let ahead = [next(states, i, &BEYOND.0), if after_next { &states[i + 2] } else { &BEYOND.0 }];
+        let behind = [1, 2].map(|k| if i >= k { &states[i - k] } else { &BEYOND.0 });
+        let work = &mut work[i];
+        for lane in 0..LANES {
+            let (length, up) = (row.length.0[lane], row.lightness.0[lane]);
+            let node = [
+                up * stiffness[0].0[lane],
+                up * (stiffness[1].0[lane] - of_next[0].0[lane]),
+                up * (stiffness[2].0[lane] - of_next[1].0[lane]),
+                -up * of_next[2].0[lane],
+            ];
+            let a = -node_before[0].0[lane];
+            let b = node[0] - node_before[1].0[lane];
+            let c = node[1] - node_before[2].0[lane];
+            let d = node[2] - node_before[3].0[lane];
+            let e = node[3];
+            for k in 0..4 {
+                node_before[k].0[lane] = node[k];
+            }
+            let w = lane_of(&state.increment, lane);
+            let mut turned = scale(c, w);
+            turned = scale_add(a, lane_of(&behind[1].increment, lane), turned);
+            turned = scale_add(b, lane_of(&behind[0].increment, lane), turned);
+            turned = scale_add(d, lane_of(&ahead[0].increment, lane), turned);
+            turned = scale_add(e, lane_of(&ahead[1].increment, lane), turned);
+            let driven = subtract(lane_of(&work.driven, lane), lane_of(&row.residual, lane));
+            let right = scale_add(h, driven, scale_add(-explicit, turned, scale(length, w)));
+            let [one, two] = &left;
+            let a = implicit * a;
+            let b = (-a).mul_add(two.next.0[lane], implicit * b);
+            let c = implicit.mul_add(c, length * h.mul_add(work.drag.0[lane], 1.0));
+            let c = (-a).mul_add(two.after.0[lane], (-b).mul_add(one.next.0[lane], c));
+            let d = (-b).mul_add(one.after.0[lane], implicit * d);
+            let right = scale_add(-a, lane_of(&two.right, lane), scale_add(-b, lane_of(&one.right, lane), right));
+            // What is held stays, and so does what is no segment.
+            let over = if up > 0.0 { 1.0 / c } else { 0.0 };
+            left[1].next.0[lane] = left[0].next.0[lane];
+            left[1].after.0[lane] = left[0].after.0[lane];
+            let before = lane_of(&left[0].right, lane);
+            set_lane(&mut left[1].right, lane, before);
+            left[0].next.0[lane] = d * over;
+            left[0].after.0[lane] = implicit * e * over;
+            set_lane(&mut left[0].right, lane, scale(over, right));
+        }
+        (work.next, work.after, work.driven) = (left[0].next, left[0].after, left[0].right);
+        stiffness = of_next;
+    }
+}
+
+/// Q of a segment: by how much its force answers a turn of the one before it, of itself and of the next. `bent`: the square of the sine of
+/// the bend of the joint before it.
+#[inline(always)]
+fn answers(row: &FreeRow, next: Option<&FreeRow>, bent: &Row, work: &Work) -> [Row; 3] {
+    let next = next.map_or(&NONE, |next| &next.bending);
+    let more = BENT as f32;
+    let mut answers = [NONE; 3];
     for lane in 0..LANES {
-        let (d, w) = (lane_of(&state.direction, lane), lane_of(&state.increment, lane));
-        let (rest, length) = (lane_of(&row.rest, lane), row.length.0[lane]);
-        let hold = strength.hold.0[lane];
-        let end = beyond(&walk.before, lane, length, d);
-        set_lane(&mut walk.before, lane, end);
+        let (over, here, next) = (row.over_length.0[lane], row.bending.0[lane], next.0[lane]);
+        let joints = here.mul_add(more.mul_add(bent.0[lane], 1.0), row.hold.0[lane]);
+        let joints = next.mul_add(more.mul_add(work.bent.0[lane], 1.0), joints);
+        answers[0].0[lane] = -over * here;
+        answers[1].0[lane] = over.mul_add(joints, work.tension.0[lane].max(0.0));
+        answers[2].0[lane] = -over * next;
+    }
+    answers
+}
 
-        let (u, s) = (lane_of(&walk.frame.vector, lane), walk.frame.scalar.0[lane]);
-        let over_length = walk.frame.over_length.0[lane];
-        let f = add(forces.lane(lane), sum_of_shape(weight, (u, s, over_length), hold, rest, d));
+/// Comes back from the tips with the increments at the end of the step.
+#[inline(always)]
+pub(super) fn unwind(work: &mut [Work]) {
+    let (mut one, mut two) = (ZERO, ZERO);
+    for work in work.iter_mut().rev() {
+        for lane in 0..LANES {
+            let (next, after) = (lane_of(&one, lane), lane_of(&two, lane));
+            let left = scale_add(-work.next.0[lane], next, lane_of(&work.driven, lane));
+            let w = scale_add(-work.after.0[lane], after, left);
+            set_lane(&mut two, lane, next);
+            set_lane(&mut one, lane, w);
+        }
+        work.driven = one;
+    }
+}
 
-        // The turn from where the segment before it would carry it to where it is, which carries the next one.
-        let carried_rest = lane_of(&walk.carried_rest, lane);
-        let bend = cross(carried_rest, subtract(d, carried_rest));
-        let (v, t) = shortened(bend, (1.0 + dot(carried_rest, d)).max(1e-12));
-        let (u, s) = after(u, s, v, t);
-        // The length of a product is that of its factors; finite even where many kinks have left nothing of it.
-        let over_length = (over_length / t.mul_add(t, dot(v, v))).min(2e30);
-        set_lane(&mut walk.frame.vector, lane, u);
-        walk.frame.scalar.0[lane] = s;
-        walk.frame.over_length.0[lane] = over_length;
-        let next_rest = turned(u, s, over_length, lane_of(next.rest, lane));
-        let next_moment = moment_lane(next.stiffness.0[lane], next_rest, lane_of(next.direction, lane));
-        let moment = subtract(lane_of(&walk.moment, lane), next_moment);
-        set_lane(&mut walk.carried_rest, lane, next_rest);
-        set_lane(&mut walk.moment, lane, next_moment);
-
-        let (gain, decay) = (row.gain.0[lane], strength.decay.0[lane]);
-        let across = add(scale_add(-dot(f, d), d, f), cross(d, moment));
-        let w = scale(decay, scale_add(gain, across, w));
-        let speed_squared = dot(w, w);
-        let sum = add(d, w);
+/// Turns a segment of every strand through a step of `h` frames, as if nothing were in its way. `from` and `to`: p_(i-1) and p_i after it.
+#[inline(always)]
+pub(super) fn advance(state: &mut FreeState, row: &FreeRow, work: &Work, h: f32, from: &PointRow, to: &mut PointRow) {
+    let theta = THETA as f32;
+    for lane in 0..LANES {
+        let (d, before) = (lane_of(&state.direction, lane), lane_of(&state.increment, lane));
+        let w = lane_of(&work.driven, lane);
+        let w = scale_add(-dot(w, d), d, w);
+        let speed = dot(w, w) * (h * h);
+        let w = scale(if speed > 1.0 { 1.0 / speed.sqrt() } else { 1.0 }, w);
+        let way = scale_add(theta * h, w, scale((1.0 - theta) * h, before));
+        let sum = add(d, way);
         // What rests keeps its bits: a length of 1 but for its rounding is not brought back to 1.
-        let shorter = if speed_squared > 0.0 { 1.0 / dot(sum, sum).sqrt() } else { 1.0 };
-        let e = scale(shorter, sum);
-        set_lane(&mut state.direction, lane, e);
-        set_lane(&mut state.increment, lane, scale(shorter, scale_add(-speed_squared, d, w)));
-        set_lane(to, lane, beyond(from, lane, length, e));
+        let shorter = if dot(way, way) > 0.0 { 1.0 / dot(sum, sum).sqrt() } else { 1.0 };
+        let there = scale(shorter, sum);
+        let w = scale_add(-dot(w, there) / (1.0 + dot(d, there)), add(d, there), w);
+        set_lane(&mut state.direction, lane, there);
+        set_lane(&mut state.increment, lane, w);
+        set_lane(to, lane, beyond(from, lane, row.length.0[lane], there));
     }
 }
 
@@ -242,7 +486,7 @@ fn after(u: [f32; 3], s: f32, v: [f32; 3], t: f32) -> ([f32; 3], f32) {
     (scale_add(t, u, scale_add(s, v, cross(v, u))), t.mul_add(s, -dot(v, u)))
 }
 
-/// Where the ends of a segment of every strand are at frame n.
+/// Where the ends of a segment of every strand are.
 #[inline(always)]
 pub(super) fn ends(state: &FreeState, row: &FreeRow, from: &PointRow) -> PointRow {
     let mut to = PointRow::default();
@@ -252,12 +496,13 @@ pub(super) fn ends(state: &FreeState, row: &FreeRow, from: &PointRow) -> PointRo
     to
 }
 
-/// Turns a segment of every strand back by the part of the head's turn that it lags behind: `axis` of length 1, `angle`
-/// in rad.
+/// Leaves a segment of every strand behind by its part of the head's turn: `axis` of length 1, `angle` in rad.
 #[inline(always)]
-pub(super) fn lag_behind(state: &mut FreeState, axis: [f32; 3], angle: f32, lag: &Row) {
+pub(super) fn stay_behind(state: &mut FreeState, row: &FreeRow, axis: [f32; 3], angle: f32, drag: &Row) {
     for lane in 0..LANES {
-        let (sin, cos) = sin_cos(-0.5 * (angle * lag.0[lane]));
+        // What is held goes with the head.
+        let share = if row.lightness.0[lane] > 0.0 { drag.0[lane] } else { 0.0 };
+        let (sin, cos) = sin_cos(-0.5 * (angle * share));
         let u = scale(sin, axis);
         let over_length = 2.0 / cos.mul_add(cos, dot(u, u));
         let direction = turned(u, cos, over_length, lane_of(&state.direction, lane));

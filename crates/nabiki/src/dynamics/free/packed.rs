@@ -6,19 +6,19 @@ use glam::Vec3;
 
 use super::contact::PlacedBody;
 use super::grid::Crowd;
-use super::head_frame::{HeadFrame, weight};
-use super::kernel::{FreeRow, FreeState, StrengthRow, ends};
-use super::pulls::acceleration::Felt;
-use super::pulls::weight::Weight;
+use super::head_frame::{HeadFrame, HeadWay};
+use super::kernel::{AirRow, FreeRow, FreeState, ends};
+use super::pulls::weight;
 use super::segment::{FreeSegment, free_segments};
 use crate::body::{Body, BodyWay, Surface};
 use crate::dynamics::block::Block;
 use crate::dynamics::field_frame::FieldFrame;
 use crate::dynamics::paper::Surroundings;
-use crate::dynamics::row::{LANES, Row, lane as lane_of, set_lane};
+use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
 use crate::dynamics::stability::Stability;
 use crate::dynamics::state::Identity;
-use crate::dynamics::{Dynamics, FrameInput};
+use crate::dynamics::sweep::{Pages, sweep};
+use crate::dynamics::{Dynamics, FrameInput, VectorWidth};
 use crate::error::SettingError;
 use crate::field::Field;
 use crate::free_form::FreeMotion;
@@ -36,15 +36,15 @@ fn shapes(bodies: &[Body]) -> u64 {
 /// Everything about hair that no frame changes.
 #[derive(Clone, Debug)]
 pub(super) struct Packed {
-    dynamics: Dynamics,
+    pub dynamics: Dynamics,
     pub free: FreeMotion,
     stability: Stability,
     pub blocks: Vec<Block>,
     pub rows: Vec<FreeRow>,
     /// Of every row, or a single one where they are all alike.
-    strengths: Vec<StrengthRow>,
-    /// The part of the head's turn that segments lag behind.
-    pub lags: Vec<Row>,
+    airs: Vec<AirRow>,
+    /// Of every block, the points that the head carries its strands by: their roots, or the nodes that a tie holds last.
+    pub anchors: Vec<PointRow>,
     /// eps_i, where the scene has a pseudo-force.
     pub weakening: Option<(Surroundings, Vec<Row>)>,
     /// For each body, what the ends of the segments are kept out of.
@@ -52,17 +52,17 @@ pub(super) struct Packed {
     /// What tells the shapes of the bodies from others.
     shapes: u64,
     pub rest: Vec<FreeState>,
-    weight_at_rest: [f32; 3],
+    pub weight_at_rest: [f32; 3],
+    pub most_drag: f32,
     /// A ball that hair does not leave (head space, cm), and the length of the longest strand.
     center: Vec3,
     radius: f32,
-    longest: f32,
+    pub longest: f32,
 }
 
 impl Packed {
     /// Bytes of a row of sixteen segments, with what moves of it.
-    pub const BYTES_A_ROW: usize =
-        size_of::<FreeRow>() + size_of::<StrengthRow>() + size_of::<Row>() + 2 * size_of::<FreeState>();
+    pub const BYTES_A_ROW: usize = size_of::<FreeRow>() + size_of::<AirRow>() + 2 * size_of::<FreeState>();
 
     /// Packs hair at rest in the given shape, whose settings have been checked. `known`: the same hair, packed with other
     /// settings; what these do not change is taken from there.
@@ -84,12 +84,13 @@ impl Packed {
             stability,
             blocks: Vec::with_capacity(strands.len().div_ceil(LANES)),
             rows: Vec::new(),
-            strengths: Vec::new(),
-            lags: Vec::new(),
+            airs: Vec::new(),
+            anchors: Vec::new(),
             kept_from: Vec::new(),
             shapes: 0,
             rest: Vec::new(),
-            weight_at_rest: weight(&free.rest_pose, f64::from(free.form.weight())).as_vec3().to_array(),
+            weight_at_rest: weight::on_head(&free.rest_pose, f64::from(free.form.weight())).as_vec3().to_array(),
+            most_drag: free.form.drag.largest(),
             center: 0.5 * (low + high),
             radius: 0.5 * low.distance(high) + 2.0 * longest,
             longest,
@@ -97,9 +98,10 @@ impl Packed {
         for first in (0..strands.len()).step_by(LANES) {
             packed.pack(strands, first..strands.len().min(first + LANES))?;
         }
-        if packed.strengths.iter().all(|strength| *strength == packed.strengths[0]) {
-            packed.strengths.truncate(1);
+        if packed.airs.iter().all(|air| *air == packed.airs[0]) {
+            packed.airs.truncate(1);
         }
+        packed.take_rest();
         match known {
             Some(known) if known.free.bodies == free.bodies && known.free.rest_pose == free.rest_pose => {
                 (packed.kept_from, packed.shapes) = (known.kept_from.clone(), known.shapes);
@@ -115,31 +117,43 @@ impl Packed {
     fn pack(&mut self, strands: &Strands, range: Range<usize>) -> Result<(), SettingError> {
         let segments: Vec<Vec<FreeSegment>> = range
             .clone()
-            .map(|s| free_segments(&self.dynamics, &self.free.form, strands.strand(s), s))
+            .map(|s| free_segments(&self.dynamics, &self.free, strands.strand(s), s))
             .collect::<Result<_, _>>()?;
         let of_block = range.clone().zip(&segments).map(|(s, segments)| (strands.strand(s)[0], segments.len()));
         let block = Block::new(range.start, self.rows.len(), of_block);
         let rows = block.rows();
         self.rows.resize(rows.end, FreeRow::default());
-        self.strengths.resize(rows.end, StrengthRow::of(&self.free.form));
-        self.lags.resize(rows.end, Row::default());
+        self.airs.resize(rows.end, AirRow::of(&self.free.form, self.dynamics.motion.slow.into()));
         self.rest.resize(rows.end, FreeState::default());
         if let Some((_, eps)) = &mut self.weakening {
             eps.resize(rows.end, Row::default());
         }
-        for (lane, segments) in segments.iter().enumerate() {
+        let mut anchors = block.roots;
+        for (lane, (s, segments)) in range.zip(&segments).enumerate() {
+            let held = segments.iter().take_while(|segment| segment.lightness == 0.0).count();
+            set_lane(&mut anchors, lane, strands.strand(s)[held].to_array());
             for (row, segment) in rows.clone().zip(segments) {
                 self.rows[row].set(lane, segment);
-                self.strengths[row].set(lane, segment);
-                self.lags[row].0[lane] = segment.lag as f32;
+                self.airs[row].set(lane, segment);
                 self.rest[row].direction = self.rows[row].rest;
                 if let Some((_, eps)) = &mut self.weakening {
                     eps[row].0[lane] = segment.shape.eps() as f32;
                 }
             }
         }
+        self.anchors.push(anchors);
         self.blocks.push(block);
         Ok(())
+    }
+
+    /// Takes what the solve leaves of roundings at rest.
+    fn take_rest(&mut self) {
+        let mut states = self.rest.clone();
+        let mut none = vec![Vec3::ZERO; self.blocks.iter().map(Block::point_count).sum()];
+        sweep(&*self, &[Plan::Residual], VectorWidth::default(), &mut states, Pages::Last(&mut none));
+        for (row, state) in self.rows.iter_mut().zip(&states) {
+            row.residual = state.increment;
+        }
     }
 
     /// From the very points that the step puts together, so that what rests does not touch.
@@ -216,39 +230,56 @@ impl Packed {
     /// Puts to rest what is held: tied hair, whose tie may be another than that under which it came where it is.
     pub fn hold(&self, states: &mut [FreeState]) {
         for ((state, row), rest) in states.iter_mut().zip(&self.rows).zip(&self.rest) {
-            for lane in (0..LANES).filter(|&lane| row.gain.0[lane] == 0.0) {
+            for lane in (0..LANES).filter(|&lane| row.lightness.0[lane] == 0.0) {
                 set_lane(&mut state.direction, lane, lane_of(&rest.direction, lane));
                 set_lane(&mut state.increment, lane, lane_of(&rest.increment, lane));
+                (state.twist.0[lane], state.pressed.0[lane]) = (0.0, 0.0);
             }
         }
     }
 
-    /// The bodies in a frame.
+    /// The bodies at the end of each step of a frame.
     pub fn bodies(&self, input: &FrameInput, bodies: &mut Vec<PlacedBody>) {
+        let steps = self.free.form.steps();
         bodies.clear();
-        bodies.extend(self.free.bodies.iter().enumerate().map(|(b, body)| PlacedBody::new(b, body, input)));
+        for step in 1..=steps {
+            let place = |(b, body)| PlacedBody::new(b, body, input, [step, steps], (self.center, self.radius));
+            bodies.extend(self.free.bodies.iter().enumerate().map(place));
+        }
     }
 
     /// What a frame does to every block. `crowd`: what the carriers left in the frame before.
     pub fn plan<'a>(&self, input: &FrameInput<'a>, bodies: &'a [PlacedBody], crowd: Option<&'a Crowd>) -> Plan<'a> {
-        let head = HeadFrame::new(input, &self.free.form, self.dynamics.motion.frame_rate);
+        let head = HeadFrame::new(input, &self.free.form);
         let field = FieldFrame::new(input, self.dynamics.motion.force_space);
-        let turned_by = head.turn.map_or(0.0, |(_, angle)| angle.abs() as f32);
-        let of_bodies = bodies.iter().map(|o| o.farthest_moved(self.center, self.radius)).fold(0.0, f32::max);
-        let felt = head.felt.map(Felt::from);
         let uniform = field.uniform();
-        let everywhere = uniform.filter(|_| felt.is_none() && crowd.is_none() && self.weakening.is_none());
+        let everywhere = uniform.filter(|_| crowd.is_none() && self.weakening.is_none());
         Plan::Step(Step {
             field,
             uniform,
             everywhere,
             turn: head.turn.map(|(axis, angle)| (axis.as_vec3().to_array(), angle as f32)),
-            weight: Weight { now: head.weight.as_vec3().to_array(), at_rest: self.weight_at_rest },
-            felt,
+            weight: head.weight.as_vec3().to_array(),
+            way: head.way.map(RootWay::from),
+            steps: self.free.form.steps(),
             bodies,
-            closer: of_bodies + turned_by * self.longest,
             crowd,
         })
+    }
+}
+
+/// Velocity and acceleration of the points that the head carries: columns of a matrix, and what it is in the origin.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RootWay {
+    pub velocity: ([[f32; 3]; 3], [f32; 3]),
+    pub acceleration: ([[f32; 3]; 3], [f32; 3]),
+}
+
+impl From<HeadWay> for RootWay {
+    fn from(way: HeadWay) -> Self {
+        let [velocity, acceleration] = [way.velocity, way.acceleration]
+            .map(|of| (of.matrix3.as_mat3().to_cols_array_2d(), of.translation.as_vec3().to_array()));
+        Self { velocity, acceleration }
     }
 }
 
@@ -271,6 +302,8 @@ pub(super) enum Plan<'a> {
     Step(Step<'a>),
     /// It stays, and the points are what the increments alone move them by (cm a frame).
     Velocities,
+    /// At rest; increments become what drives them there, which is roundings.
+    Residual,
 }
 
 /// What a frame does to every block.
@@ -283,11 +316,14 @@ pub(super) struct Step<'a> {
     pub everywhere: Option<[f32; 3]>,
     /// The head's turn: axis and angle (rad).
     pub turn: Option<([f32; 3], f32)>,
-    pub weight: Weight,
-    pub felt: Option<Felt>,
+    /// The weight's force (head space).
+    pub weight: [f32; 3],
+    /// How the head carries the roots; none where it stands still.
+    pub way: Option<RootWay>,
+    /// How many steps the frame is divided into.
+    pub steps: u32,
+    /// All bodies at the end of the first step, then at the end of the next.
     pub bodies: &'a [PlacedBody],
-    /// How much closer nodes and bodies may have come but by the nodes' own motion (cm).
-    pub closer: f32,
     pub crowd: Option<&'a Crowd>,
 }
 
@@ -301,7 +337,7 @@ impl Packed {
     }
 
     #[inline(always)]
-    pub fn strength(&self, at: usize) -> &StrengthRow {
-        &self.strengths[if self.strengths.len() == 1 { 0 } else { at }]
+    pub fn air(&self, at: usize) -> &AirRow {
+        &self.airs[if self.airs.len() == 1 { 0 } else { at }]
     }
 }

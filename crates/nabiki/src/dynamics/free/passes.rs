@@ -1,177 +1,86 @@
-//! What the free form does to each segment of a block on the way from root to tip.
+//! What surrounds a block of strands in a step: forces on its nodes, and bodies that they are kept out of.
 
 use glam::Vec3;
 
-use super::contact::{Going, ROUNDS, Touch, gap};
-use super::kernel::{Forces, FreeRow, FreeState, Next, Walk, ends, step_segment};
+use super::contact::{ANSWER, Going, Moving, PlacedBody, ROUNDS, Touch, gap};
+use super::kernel::{FreeRow, FreeState, advance, ends};
 use super::packed::{Packed, Step};
-use super::pulls::neighbours;
-use super::pulls::weight::Weight;
-use super::rotate::turned_about;
+use super::work::Work;
 use crate::body::Shape;
-use crate::dynamics::block::{Block, Pass, RUN, RunPass};
+use crate::dynamics::block::{Block, Pass};
 use crate::dynamics::paper::Force;
-use crate::dynamics::row::{LANES, PointRow, Row, beyond, lane as lane_of, set_lane};
+use crate::dynamics::row::{LANES, PointRow, Row, beyond, lane as lane_of, rotate, set_lane};
 use crate::prefetch::prefetch_ahead;
-use crate::vector::{add, dot, scale, subtract};
+use crate::vector::{add, dot, scale, scale_add, subtract};
 
 /// How many segments ahead memory is asked for: its answer takes as long as their steps.
 const AHEAD: usize = 10;
 
-/// A step under the same force everywhere, with nothing in the way.
-pub(super) struct Free<'a> {
+/// A block in a frame.
+#[derive(Clone, Copy)]
+pub(super) struct Blown<'a, 's> {
     pub packed: &'a Packed,
-    pub force: [f32; 3],
-    pub weight: Weight,
-    pub walk: Walk,
-    /// Number of the row among those of all blocks.
-    pub at: usize,
+    pub step: &'a Step<'s>,
+    pub block: &'a Block,
+    /// Its number.
+    pub number: usize,
 }
 
-impl Pass<FreeState, FreeRow> for Free<'_> {
-    #[inline(always)]
-    fn segment(
-        &mut self,
-        state: &mut FreeState,
-        row: &FreeRow,
-        next: Option<(&FreeState, &FreeRow)>,
-        from: &PointRow,
-        to: &mut PointRow,
-    ) {
-        let Self { packed, force, weight, walk, at } = self;
-        prefetch_ahead(&*state, AHEAD);
-        prefetch_ahead(row, AHEAD);
-        step_segment(state, row, packed.strength(*at), force, weight, &Next::of(next), walk, from, to);
-        *at += 1;
+/// The same in one of the steps of the frame.
+#[derive(Clone, Copy)]
+pub(super) struct Stepped<'a, 's> {
+    pub of: Blown<'a, 's>,
+    /// The bodies at its end.
+    pub bodies: &'a [PlacedBody],
+    /// Its part of the frame.
+    pub h: f32,
+    /// How far the bodies come in it, at most (cm).
+    pub closer: f32,
+}
+
+impl<'a, 's> Blown<'a, 's> {
+    fn rows(&self) -> &'a [FreeRow] {
+        &self.packed.rows[self.block.rows()]
     }
-}
 
-/// A step among fields, bodies and other hair.
-///
-/// It goes through a run of segments more than once: first for all forces, which are asked for in many places, then for the
-/// step. What is written number by number can be read as vectors only a little later.
-pub(super) struct Among<'a, 's> {
-    packed: &'a Packed,
-    step: &'a Step<'s>,
-    walk: Walk,
-    /// Of p_(i-1), by the increments of frame n (cm a frame).
-    velocity: PointRow,
-    /// Number of the row among those of all blocks.
-    at: usize,
-}
-
-/// Forces on a run of segments.
-trait RunForces {
-    type Row: Forces;
-
-    fn row(&self, i: usize) -> &Self::Row;
-}
-
-impl RunForces for [f32; 3] {
-    type Row = Self;
-
+    /// Asks for what is felt once a frame: the field, and what neighbours do.
     #[inline(always)]
-    fn row(&self, _: usize) -> &Self {
-        self
-    }
-}
-
-impl RunForces for [PointRow; RUN] {
-    type Row = PointRow;
-
-    #[inline(always)]
-    fn row(&self, i: usize) -> &PointRow {
-        &self[i]
-    }
-}
-
-impl RunPass<FreeState, FreeRow> for Among<'_, '_> {
-    #[inline(always)]
-    fn run(
-        &mut self,
-        states: &mut [FreeState],
-        rows: &[FreeRow],
-        next: Option<(&FreeState, &FreeRow)>,
-        points: &mut [PointRow],
-    ) {
-        match self.step.everywhere {
-            Some(force) => self.move_all(&force, states, rows, next, points),
-            None => {
-                let mut forces = [PointRow::default(); RUN];
-                self.forces(states, rows, &mut forces);
-                self.move_all(&forces, states, rows, next, points);
-            }
+    pub fn blow(&self, states: &[FreeState], work: &mut [Work]) {
+        let (rows, first) = (self.rows(), self.block.rows().start);
+        for (i, work) in work.iter_mut().enumerate() {
+            work.drag = self.packed.air(first + i).air;
         }
-    }
-}
-
-impl<'a, 's> Among<'a, 's> {
-    #[inline(always)]
-    pub fn new(packed: &'a Packed, step: &'a Step<'s>, block: &Block, walk: Walk) -> Self {
-        Self { packed, step, walk, velocity: PointRow::default(), at: block.rows().start }
-    }
-
-    /// Moves a run of segments under forces that are known.
-    #[inline(always)]
-    fn move_all(
-        &mut self,
-        forces: &impl RunForces,
-        states: &mut [FreeState],
-        rows: &[FreeRow],
-        next: Option<(&FreeState, &FreeRow)>,
-        points: &mut [PointRow],
-    ) {
-        let (packed, weight) = (self.packed, &self.step.weight);
-        for i in 0..rows.len().min(RUN) {
-            let Some((state, after)) = states[i..].split_first_mut() else { break };
-            prefetch_ahead(&*state, AHEAD);
-            prefetch_ahead(&rows[i], AHEAD);
-            let next = Next::of(after.first().zip(rows.get(i + 1)).or(next));
-            let was = state.direction;
-            let (from, to) = points.split_at_mut(i + 1);
-            let (from, to) = (&from[i], &mut to[0]);
-            let (force, strength) = (forces.row(i), packed.strength(self.at));
-            step_segment(state, &rows[i], strength, force, weight, &next, &mut self.walk, from, to);
-            if !self.step.bodies.is_empty() {
-                for kept in &packed.kept_from {
-                    prefetch_ahead(&kept.clearances[self.at], AHEAD);
+        if let Some(force) = self.step.everywhere {
+            for (row, work) in rows.iter().zip(work) {
+                for lane in 0..LANES {
+                    set_lane(&mut work.blown, lane, scale(row.push.0[lane], force));
                 }
-                self.keep_out(state, &was, &rows[i], from, to);
             }
-            self.at += 1;
+            return;
         }
-    }
-
-    /// All forces on a run of segments, at p_i of frame n, but for those that come from their shape.
-    #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernels")]
-    #[inline(always)]
-    fn forces(&mut self, states: &[FreeState], rows: &[FreeRow], forces: &mut [PointRow; RUN]) {
-        let mut points = [PointRow::default(); RUN];
-        let mut before = self.walk.before;
-        for ((state, row), point) in states.iter().zip(rows).zip(&mut points) {
-            before = ends(state, row, &before);
-            *point = before;
+        let mut end = self.block.roots;
+        for ((state, row), work) in states.iter().zip(rows).zip(&mut *work) {
+            end = ends(state, row, &end);
+            work.end = end;
         }
-        for (i, (force, point)) in forces[..rows.len()].iter_mut().zip(&points).enumerate() {
-            *force = self.outer_forces(self.at + i, point);
-        }
-        let Some(crowd) = self.step.crowd else { return };
-        let mut pulls = [[[0.0; 4]; LANES]; RUN];
-        for (pulls, point) in pulls[..rows.len()].iter_mut().zip(&points) {
-            crowd.at_row(point, pulls);
-        }
-        let of_all = states.iter().zip(rows).zip(&pulls);
-        for (((state, row), pulls), force) in of_all.zip(forces) {
+        for (i, (row, work)) in rows.iter().zip(work).enumerate() {
+            let mut forces = self.outer_forces(first + i, &work.end);
+            if let Some(crowd) = self.step.crowd {
+                let mut pulls = [[0.0; 4]; LANES];
+                crowd.at_row(&work.end, &mut pulls);
+                for (lane, &[x, y, z, held]) in pulls.iter().enumerate() {
+                    let force = add(lane_of(&forces, lane), [x, y, z]);
+                    set_lane(&mut forces, lane, force);
+                    work.drag.0[lane] = row.push.0[lane].mul_add(held, work.drag.0[lane]);
+                }
+            }
             for lane in 0..LANES {
-                let velocity = beyond(&self.velocity, lane, row.length.0[lane], lane_of(&state.increment, lane));
-                set_lane(&mut self.velocity, lane, velocity);
-                let sum = add(lane_of(force, lane), neighbours::force_lane(pulls[lane], velocity));
-                set_lane(force, lane, sum);
+                set_lane(&mut work.blown, lane, scale(row.push.0[lane], lane_of(&forces, lane)));
             }
         }
     }
 
-    /// Forces of the field and of the head's acceleration on a segment of every strand.
+    /// Forces of the field on a segment of every strand.
     #[inline(always)]
     fn outer_forces(&self, at: usize, points: &PointRow) -> PointRow {
         let mut forces = match self.step.uniform {
@@ -186,26 +95,228 @@ impl<'a, 's> Among<'a, 's> {
                 set_lane(&mut forces, lane, scale(eps, force));
             }
         }
-        if let Some(felt) = &self.step.felt {
+        forces
+    }
+}
+
+impl<'a, 's> Stepped<'a, 's> {
+    /// All that accelerates the nodes but the chain itself.
+    #[inline(always)]
+    pub fn push(&self, states: &mut [FreeState], work: &mut [Work]) {
+        let Blown { packed, step, block, number } = self.of;
+        let (rows, first) = (self.of.rows(), block.rows().start);
+        let root = &packed.anchors[number];
+        for (i, ((state, row), work)) in states.iter_mut().zip(rows).zip(work).enumerate() {
+            prefetch_ahead(row, AHEAD);
+            let mut other = work.blown;
+            if let Some(way) = &step.way {
+                let of_air = packed.air(first + i);
+                for lane in 0..LANES {
+                    let (root, air) = (lane_of(root, lane), of_air.air.0[lane]);
+                    let velocity = add(rotate(&way.velocity.0, root), way.velocity.1);
+                    let acceleration = add(rotate(&way.acceleration.0, root), way.acceleration.1);
+                    let still_air = scale_add(air, velocity, acceleration);
+                    let all = scale_add(-of_air.drag.0[lane], still_air, lane_of(&other, lane));
+                    set_lane(&mut other, lane, all);
+                }
+            }
             for lane in 0..LANES {
-                let force = add(lane_of(&forces, lane), felt.force_lane(lane_of(points, lane)));
-                set_lane(&mut forces, lane, force);
+                let pushed = scale_add(row.push.0[lane], step.weight, lane_of(&other, lane));
+                set_lane(&mut work.pushed, lane, pushed);
+            }
+            if !self.bodies.is_empty() {
+                self.push_back(state, row, first + i, &other, work);
             }
         }
-        forces
+    }
+
+    /// Takes from what pushes some nodes what would carry them into the bodies.
+    #[inline(always)]
+    fn push_back(&self, state: &mut FreeState, row: &FreeRow, at: usize, other: &PointRow, work: &mut Work) {
+        work.clear = Row([f32::INFINITY; LANES]);
+        let (h, weight) = (self.h, self.of.step.weight);
+        let (mut net, mut reach) = (*other, Row::default());
+        for lane in 0..LANES {
+            let velocity = lane_of(&work.velocity, lane);
+            // What weight does besides the one that rest is in balance with.
+            let unbalanced = scale(row.push.0[lane], subtract(weight, lane_of(&work.weight, lane)));
+            let sum = add(lane_of(other, lane), unbalanced);
+            let sum = scale_add(-work.drag.0[lane], velocity, sum);
+            set_lane(&mut net, lane, sum);
+            reach.0[lane] = h * (h * dot(sum, sum).sqrt() + dot(velocity, velocity).sqrt()) + self.closer;
+        }
+        let (mut near, mut pressed) = (near(&state.gap, &reach, row), 0);
+        for lane in 0..LANES {
+            pressed |= u32::from(state.pressed.0[lane] > 0.0) << lane;
+        }
+        near |= pressed;
+        if near == 0 {
+            return;
+        }
+        let mut gaps = [f32::INFINITY; LANES];
+        for b in 0..self.bodies.len() {
+            self.read_gaps(b, at, near, &work.end, &mut gaps);
+        }
+        let mut read = near;
+        while read != 0 {
+            let lane = next_lane(&mut read);
+            // Below 0 the way to the tips looks again.
+            state.gap.0[lane] = gaps[lane];
+            if gaps[lane] >= reach.0[lane] && pressed >> lane & 1 == 0 {
+                near &= !(1 << lane);
+            }
+        }
+        while near != 0 {
+            let lane = next_lane(&mut near);
+            self.push_one_back(state, at, &net, work, lane);
+        }
+    }
+
+    /// The same of one node. What pressed it in the step before is of the nearest body.
+    #[inline(always)]
+    fn push_one_back(&self, state: &mut FreeState, at: usize, net: &PointRow, work: &mut Work, lane: usize) {
+        let of = |row: &PointRow| Vec3::from(lane_of(row, lane));
+        let moving = Moving {
+            at: of(&work.end),
+            shifted: if self.of.step.turn.is_some() { of(&work.shifted) } else { Vec3::ZERO },
+            velocity: of(&work.velocity),
+            acceleration: of(net),
+            pressed: 0.0,
+        };
+        let packed = self.of.packed;
+        let kept = |b: usize| {
+            let (surface, clearance) = packed.kept_out_of(b, at, lane);
+            (&self.bodies[b], &packed.free.bodies[b], surface, clearance)
+        };
+        let mut nearest = (0, f32::INFINITY);
+        for b in 1..self.bodies.len() {
+            for b in [0, b] {
+                let (placed, body, surface, clearance) = kept(b);
+                let gap = placed.clear(body, surface, clearance, &moving).unwrap_or(f32::MAX);
+                nearest = if gap < nearest.1 { (b, gap) } else { nearest };
+            }
+        }
+        let before = std::mem::take(&mut state.pressed.0[lane]);
+        for b in 0..self.bodies.len() {
+            let (placed, body, surface, clearance) = kept(b);
+            let pressed = if b == nearest.0 { before } else { 0.0 };
+            if let Some(push) = placed.against(body, surface, clearance, &Moving { pressed, ..moving }) {
+                let all = add(lane_of(&work.pushed, lane), push.force.to_array());
+                set_lane(&mut work.pushed, lane, all);
+                if b == nearest.0 {
+                    (state.pressed.0[lane], work.clear.0[lane]) = (push.outward, push.clear);
+                }
+            }
+        }
+    }
+
+    /// How far at least the ends of some segments are from touching body `b`, where that is less than `gaps`.
+    #[inline(always)]
+    fn read_gaps(&self, b: usize, at: usize, mut near: u32, to: &PointRow, gaps: &mut [f32; LANES]) {
+        let (packed, placed) = (self.of.packed, &self.bodies[b]);
+        let (body, kept) = (&packed.free.bodies[b], &packed.kept_from[b]);
+        // Nearly all that lies on a body with filled folds keeps out of those.
+        let (usual, unusual) = match (&body.filled, &body.shape) {
+            (Some(filled), _) => (Some(filled), !kept.filled[at]),
+            (None, Shape::Mesh(skin)) => (Some(skin), 0),
+            (None, Shape::Other(_)) => (None, 0),
+        };
+        let places = usual.and_then(|usual| Some((&**usual, placed.places(usual, to)?)));
+        while near != 0 {
+            let lane = next_lane(&mut near);
+            let clearance = kept.clearances[at].0[lane];
+            let distance = match &places {
+                Some((usual, places)) if unusual >> lane & 1 == 0 => usual.fine_distance(places, lane),
+                _ => None,
+            };
+            let found = match distance {
+                Some(distance) => gap(distance, clearance),
+                None => {
+                    let (surface, clearance) = packed.kept_out_of(b, at, lane);
+                    placed.gap(body, surface, Vec3::from(lane_of(to, lane)), clearance)
+                }
+            };
+            gaps[lane] = gaps[lane].min(found);
+        }
+    }
+}
+
+/// Which nodes may be nearer to a body than they reach: a bit for each strand.
+#[inline(always)]
+fn near(gap: &Row, reach: &Row, row: &FreeRow) -> u32 {
+    let mut near = 0;
+    for lane in 0..LANES {
+        // What is held, and what is no segment, is infinitely heavy.
+        near |= u32::from((gap.0[lane] < reach.0[lane]) & (row.lightness.0[lane] > 0.0)) << lane;
+    }
+    near
+}
+
+/// The way to the tips on which segments are turned, and out of bodies.
+pub(super) struct Go<'a, 's> {
+    stepped: Stepped<'a, 's>,
+    work: &'a [Work],
+    /// Number of the segment.
+    i: usize,
+    /// Of p_(i-1) at the end of the step (cm a frame), where there are bodies.
+    velocity: PointRow,
+}
+
+impl<'a, 's> Go<'a, 's> {
+    pub fn new(stepped: Stepped<'a, 's>, work: &'a [Work]) -> Self {
+        Self { stepped, work, i: 0, velocity: PointRow::default() }
+    }
+}
+
+impl Pass<FreeState, FreeRow> for Go<'_, '_> {
+    #[inline(always)]
+    fn segment(
+        &mut self,
+        state: &mut FreeState,
+        row: &FreeRow,
+        _: Option<(&FreeState, &FreeRow)>,
+        from: &PointRow,
+        to: &mut PointRow,
+    ) {
+        prefetch_ahead(&*state, AHEAD);
+        let work = &self.work[self.i];
+        if self.stepped.bodies.is_empty() {
+            advance(state, row, work, self.stepped.h, from, to);
+        } else {
+            let was = state.direction;
+            advance(state, row, work, self.stepped.h, from, to);
+            self.keep_out(state, &was, row, from, to);
+            for lane in 0..LANES {
+                let goes = beyond(&self.velocity, lane, row.length.0[lane], lane_of(&state.increment, lane));
+                set_lane(&mut self.velocity, lane, goes);
+            }
+        }
+        self.i += 1;
+    }
+}
+
+impl Go<'_, '_> {
+    /// Number of the row among those of all blocks.
+    fn at(&self) -> usize {
+        self.stepped.of.block.rows().start + self.i
     }
 
     /// Turns segments out of the bodies: of sixteen nodes a few may have come near, and fewer touch.
     #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernels")]
     #[inline(always)]
     fn keep_out(&self, state: &mut FreeState, was: &PointRow, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
-        let near = self.near(state, row, to);
+        let (end, closer) = (&self.work[self.i].end, self.stepped.closer);
+        for lane in 0..LANES {
+            let way = subtract(lane_of(to, lane), lane_of(end, lane));
+            state.gap.0[lane] -= dot(way, way).sqrt() + closer;
+        }
+        let near = near(&state.gap, &Row::default(), row);
         if near == 0 {
             return;
         }
         let mut gaps = [f32::INFINITY; LANES];
-        for b in 0..self.step.bodies.len() {
-            self.read_gaps(b, near, to, &mut gaps);
+        for b in 0..self.stepped.bodies.len() {
+            self.stepped.read_gaps(b, self.at(), near, to, &mut gaps);
         }
         // Number by number: vectors would wait for what has just been written so.
         let (mut read, mut touching) = (near, 0);
@@ -220,59 +331,6 @@ impl<'a, 's> Among<'a, 's> {
         }
     }
 
-    /// Takes from the gaps what nodes and bodies may have come closer, and says which may touch: a bit for each strand.
-    #[inline(always)]
-    fn near(&self, state: &mut FreeState, row: &FreeRow, to: &PointRow) -> u32 {
-        let (mut near, closer) = (0, self.step.closer);
-        for lane in 0..LANES {
-            let way = subtract(lane_of(to, lane), lane_of(&self.walk.before, lane));
-            let gap = state.gap.0[lane] - (dot(way, way).sqrt() + closer);
-            state.gap.0[lane] = gap;
-            // What is held, and what is no segment, has no gain.
-            near |= u32::from((gap < 0.0) & (row.gain.0[lane] > 0.0)) << lane;
-        }
-        near
-    }
-
-    /// How far at least the ends of some segments are from touching body `b`, where that is less than `gaps`.
-    #[inline(always)]
-    fn read_gaps(&self, b: usize, mut near: u32, to: &PointRow, gaps: &mut [f32; LANES]) {
-        let (packed, placed) = (self.packed, &self.step.bodies[b]);
-        let (body, kept) = (&packed.free.bodies[b], &packed.kept_from[b]);
-        // Nearly all that lies on a body with filled folds keeps out of those.
-        let (usual, unusual) = match (&body.filled, &body.shape) {
-            (Some(filled), _) => (Some(filled), !kept.filled[self.at]),
-            (None, Shape::Mesh(skin)) => (Some(skin), 0),
-            (None, Shape::Other(_)) => (None, 0),
-        };
-        let places = usual.and_then(|usual| Some((&**usual, placed.places(usual, to)?)));
-        while near != 0 {
-            let lane = next_lane(&mut near);
-            let clearance = kept.clearances[self.at].0[lane];
-            let distance = match &places {
-                Some((usual, places)) if unusual >> lane & 1 == 0 => usual.fine_distance(places, lane),
-                _ => None,
-            };
-            let found = match distance {
-                Some(distance) => gap(distance, clearance),
-                None => {
-                    let (surface, clearance) = packed.kept_out_of(b, self.at, lane);
-                    placed.gap(body, surface, Vec3::from(lane_of(to, lane)), clearance)
-                }
-            };
-            gaps[lane] = gaps[lane].min(found);
-        }
-    }
-
-    /// What the head's turn has moved a direction by that lags behind it.
-    #[inline(always)]
-    fn lagged(&self, was: Vec3, lane: usize) -> Vec3 {
-        match self.step.turn {
-            Some((axis, angle)) => was - turned_about(axis, angle * self.packed.lags[self.at].0[lane], was),
-            None => Vec3::ZERO,
-        }
-    }
-
     /// Turns a segment out of the bodies that its end touches.
     #[inline(always)]
     fn keep_one_out(
@@ -284,19 +342,23 @@ impl<'a, 's> Among<'a, 's> {
         to: &mut PointRow,
         lane: usize,
     ) {
+        let Stepped { of: Blown { packed, step, .. }, bodies, h, .. } = self.stepped;
         let at = |row: &PointRow| Vec3::from(lane_of(row, lane));
-        let mut going = Going { direction: at(&state.direction), increment: at(&state.increment) };
+        let mut going = Going { direction: at(&state.direction), increment: h * at(&state.increment) };
         let (from, length, was) = (at(from), row.length.0[lane], at(was));
-        let lagged = self.lagged(was, lane);
+        let left_behind = if step.turn.is_some() { at(&self.work[self.i].shifted) } else { Vec3::ZERO };
+        let carried = h * at(&self.velocity) + left_behind;
         let mut stopped = false;
+        let mut inward = 0.0_f32;
         let touched = |b: usize| {
-            let (surface, clearance) = self.packed.kept_out_of(b, self.at, lane);
-            (&self.packed.free.bodies[b], surface, Touch { from, length, clearance, was, lagged })
+            let (surface, clearance) = packed.kept_out_of(b, self.at(), lane);
+            (&packed.free.bodies[b], surface, Touch { from, length, clearance, was, carried })
         };
-        for (b, placed) in self.step.bodies.iter().enumerate() {
+        for (b, placed) in bodies.iter().enumerate() {
             let (body, surface, touch) = touched(b);
-            if let Some(there) = placed.stop(body, surface, going, &touch) {
+            if let Some((there, went)) = placed.stop(body, surface, going, &touch) {
                 (going, stopped) = (there, true);
+                inward = inward.max(went);
             }
         }
         // What touches nothing keeps its bits: when it is asked for depends on the hair that is stepped with it.
@@ -304,10 +366,10 @@ impl<'a, 's> Among<'a, 's> {
             return;
         }
         // What one body has turned may be in another: a corner is left by turns.
-        let mut rounds = if self.step.bodies.len() > 1 { ROUNDS } else { 0 };
+        let mut rounds = if bodies.len() > 1 { ROUNDS } else { 0 };
         while stopped && rounds > 0 {
             stopped = false;
-            for (b, placed) in self.step.bodies.iter().enumerate() {
+            for (b, placed) in bodies.iter().enumerate() {
                 let (body, surface, touch) = touched(b);
                 if let Some(there) = placed.part(body, surface, going, &touch) {
                     (going, stopped) = (there, true);
@@ -315,8 +377,10 @@ impl<'a, 's> Among<'a, 's> {
             }
             rounds -= 1;
         }
+        // Beyond the way that it had: what it was stopped in is not what presses it.
+        state.pressed.0[lane] += ANSWER * (inward - self.work[self.i].clear.0[lane]).max(0.0) / (h * h);
         set_lane(&mut state.direction, lane, going.direction.to_array());
-        set_lane(&mut state.increment, lane, going.increment.to_array());
+        set_lane(&mut state.increment, lane, (going.increment / h).to_array());
         set_lane(to, lane, (from + length * going.direction).to_array());
     }
 }

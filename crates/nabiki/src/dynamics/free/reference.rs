@@ -1,5 +1,6 @@
 //! The specification of the free form: one segment at a time, in f64, as docs/motion-forms.md writes it.
 
+mod chain;
 mod common;
 mod contact;
 mod strand;
@@ -16,6 +17,7 @@ use crate::field::Field;
 use crate::free_form::FreeMotion;
 use crate::strands::Strands;
 
+pub(super) use chain::{BENT, THETA};
 pub(in crate::dynamics) use common::Common;
 pub(in crate::dynamics) use strand::{Springs, Strand};
 
@@ -54,7 +56,7 @@ impl Reference {
             None => None,
             Some(neighbours) => {
                 let carriers = Hair::new(&neighbours.carriers, dynamics, free, field)?;
-                let crowd = Crowd::new(neighbours, carriers.strands.points())?;
+                let crowd = Crowd::new(neighbours, dynamics.motion.slow, carriers.strands.points())?;
                 Some((carriers, crowd))
             }
         };

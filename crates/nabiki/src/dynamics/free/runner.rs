@@ -49,7 +49,7 @@ impl Runner {
                 Some(Carriers::new(Packed::new(&neighbours.carriers, dynamics, free, known)?, neighbours)?)
             }
         };
-        let bodies = Vec::with_capacity(free.bodies.len());
+        let bodies = Vec::with_capacity(free.bodies.len() * free.form.steps() as usize);
         Ok(Self { states: packed.states(), packed, carriers, bodies })
     }
 
@@ -246,7 +246,7 @@ impl Carriers {
     fn new(packed: Packed, neighbours: &crate::free_form::Neighbours) -> Result<Self, SettingError> {
         let (mut states, mut points) = (packed.states(), neighbours.carriers.points().to_vec());
         sweep(&packed, &[Plan::Rest], VectorWidth::default(), &mut states, Pages::Last(&mut points));
-        let crowd = Crowd::new(neighbours, &points)?;
+        let crowd = Crowd::new(neighbours, packed.dynamics.motion.slow, &points)?;
         let velocities = vec![Vec3::ZERO; points.len()];
         let strands = neighbours.carriers.clone();
         let (packed, crowd_at_rest) = (Arc::new(packed), Arc::new(crowd.clone()));

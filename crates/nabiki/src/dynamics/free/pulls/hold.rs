@@ -1,39 +1,23 @@
-//! Hold: H (r - d), which turns a segment toward its groomed direction in head space.
+//! Hold: the moment C (d x r), which turns a segment toward its groomed direction on the head.
 
-use super::at::At;
-use crate::dynamics::gain::SegmentShape;
-use crate::dynamics::pull::{Name, Pull};
-use crate::profile::Profile;
+use glam::DVec3;
+
 use crate::scalar::{Scalar, Vector};
-use crate::vector::{scale, subtract};
+use crate::vector::{cross, scale, subtract};
 
-/// Of `free.hold`.
-pub struct Hold<'a>(pub &'a Profile);
-
-impl Pull for Hold<'_> {
-    fn name(&self) -> Name {
-        Name { setting: "free.hold", words: "the largest hold", term: "H" }
-    }
-
-    fn setting(&self) -> f32 {
-        self.0.largest()
-    }
-
-    fn has_others(&self) -> bool {
-        self.0.values().len() > 1
-    }
-
-    fn strongest(&self, segment: &SegmentShape, _: Option<&SegmentShape>) -> f64 {
-        self.0.at(segment.middle)
-    }
+/// C of a segment of this length whose middle has so much hair beyond it (cm): that of a force of this strength along r on all of that, so
+/// that a strand settles along F + H r.
+pub fn moment_per_radian(push: f64, hold: f64, beyond: f64, length: f64) -> f64 {
+    push * hold * beyond * length
 }
 
 #[inline(always)]
-pub fn force<S: Scalar>(at: &At<S>) -> Vector<S> {
-    (Vector::from(at.segment.rest) - at.direction).times(at.segment.hold)
+pub fn moment<S: Scalar>(hold: f64, rest: DVec3, d: Vector<S>) -> Vector<S> {
+    d.cross(rest.into()).times(hold)
 }
 
+/// The same for one lane. Of the difference, which is exactly 0 at rest.
 #[inline(always)]
-pub fn force_lane(hold: f32, rest: [f32; 3], d: [f32; 3]) -> [f32; 3] {
-    scale(hold, subtract(rest, d))
+pub fn moment_lane(hold: f32, rest: [f32; 3], d: [f32; 3]) -> [f32; 3] {
+    scale(hold, cross(subtract(d, rest), rest))
 }

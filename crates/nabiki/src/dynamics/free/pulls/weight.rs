@@ -1,46 +1,39 @@
-//! Weight: g - R g', that of now without the one under which hair lies in balance at rest.
+//! Weight, which pulls on every node, and the moments N of the joints that carry it at rest, so that groomed hair does not sag.
 
-use super::at::At;
-use crate::dynamics::free::rotate::turned;
+use glam::DVec3;
+
 use crate::dynamics::gain::SegmentShape;
 use crate::dynamics::pull::{Name, Pull};
-use crate::scalar::{Scalar, Vector};
-use crate::vector::subtract;
+use crate::pose::Pose;
 
 /// Of `free.gravity`.
 pub struct Gravity(pub f32);
 
 impl Pull for Gravity {
     fn name(&self) -> Name {
-        Name { setting: "free.gravity", words: "gravity", term: "2 gravity" }
+        Name { setting: "free.gravity", words: "gravity", term: "gravity" }
     }
 
     fn setting(&self) -> f32 {
         self.0
     }
 
-    /// Both of its weights may turn it the same way.
     fn strongest(&self, _: &SegmentShape, _: Option<&SegmentShape>) -> f64 {
-        2.0 * f64::from(self.0)
+        f64::from(self.0)
     }
 }
 
-#[inline(always)]
-pub fn force<S: Scalar>(at: &At<S>) -> Vector<S> {
-    Vector::from(at.head.weight) - at.frame.of_known(at.rest_weight)
+/// The force of the weight under a head of this pose (head space). `gravity`: its strength.
+pub fn on_head(pose: &Pose, gravity: f64) -> DVec3 {
+    pose.rotation.as_dquat().inverse() * DVec3::new(0.0, -gravity, 0.0)
 }
 
-/// The head's weight now and at rest, in the unit of the force.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Weight {
-    pub now: [f32; 3],
-    pub at_rest: [f32; 3],
+/// The strength of hold that a segment needs so that weight does not tip it over: that of its part along the segment, where that stands up.
+pub fn held_up(pose: &Pose, gravity: f64, rest: DVec3) -> f64 {
+    (-on_head(pose, gravity).dot(rest)).max(0.0)
 }
 
-impl Weight {
-    /// The force on one lane.
-    #[inline(always)]
-    pub fn force_lane(&self, (u, s, over_length): ([f32; 3], f32, f32)) -> [f32; 3] {
-        subtract(self.now, turned(u, s, over_length, self.at_rest))
-    }
+/// The moment against what hangs on the end of a segment that goes this `way`.
+pub fn moment(way: DVec3, hangs: DVec3) -> DVec3 {
+    hangs.cross(way)
 }

@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::contact::PlacedBody;
-use crate::dynamics::free::head_frame::{HeadFrame, weight};
+use crate::dynamics::free::head_frame::HeadFrame;
+use crate::dynamics::free::pulls::weight;
 use crate::dynamics::{Dynamics, FrameInput};
 use crate::free_form::FreeMotion;
 use crate::pseudo_force::Gamma;
@@ -14,18 +15,23 @@ pub(in crate::dynamics) struct Common<'a> {
     pub(super) head: HeadFrame,
     /// The weight under which hair lies in balance at rest.
     pub(super) rest_weight: DVec3,
-    pub(super) bodies: Vec<PlacedBody<'a>>,
+    /// The bodies at the end of each step of the frame.
+    pub(super) bodies: Vec<Vec<PlacedBody<'a>>>,
 }
 
 impl<'a> Common<'a> {
     /// That of the frame of `input`.
     pub fn new(dynamics: &Dynamics, free: &'a FreeMotion, input: &FrameInput) -> Self {
-        let gravity = f64::from(free.form.weight());
+        let steps = free.form.steps();
+        let bodies = |step| {
+            let place = |(b, body)| PlacedBody::new(b, body, input, [step, steps]);
+            free.bodies.iter().enumerate().map(place).collect()
+        };
         Self {
             gamma: dynamics.gamma(),
-            head: HeadFrame::new(input, &free.form, dynamics.motion.frame_rate),
-            rest_weight: weight(&free.rest_pose, gravity),
-            bodies: free.bodies.iter().enumerate().map(|(b, body)| PlacedBody::new(b, body, input)).collect(),
+            head: HeadFrame::new(input, &free.form),
+            rest_weight: weight::on_head(&free.rest_pose, f64::from(free.form.weight())),
+            bodies: (1..=steps).map(bodies).collect(),
         }
     }
 }

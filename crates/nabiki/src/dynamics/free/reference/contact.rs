@@ -19,14 +19,30 @@ pub fn kept_from(body: &Body, rest_pose: &Pose, positions: &[DVec3]) -> Vec<(Sur
     positions.iter().map(kept).collect()
 }
 
-/// A body where it is in one frame.
+/// A body where it is at the end of a step.
 pub struct PlacedBody<'a> {
     body: &'a Body,
     frame: u32,
     contact: Contact,
     body_from_head: DAffine3,
-    /// Takes points of the body from where they are to where they were in the frame before, in head space.
+    /// Takes points of the body from where they are at the end of the step to where they were at its beginning, in head space; and back.
     before_from_now: DAffine3,
+    now_from_before: DAffine3,
+    moves: bool,
+    /// Of the frame.
+    part: f64,
+}
+
+/// A node at the beginning of a step (head space, cm and frames).
+#[derive(Clone, Copy)]
+pub struct Moving<S> {
+    pub at: Vector<S>,
+    /// By how much the head's turn has left it behind in this step.
+    pub shifted: Vector<S>,
+    pub velocity: Vector<S>,
+    pub acceleration: Vector<S>,
+    /// By how much a body pushed it outward in the step before, and by what it still went in.
+    pub pressed: S,
 }
 
 /// The end of a segment that turns about its beginning (head space, cm).
@@ -36,35 +52,82 @@ pub struct Touch<S> {
     pub length: f64,
     /// How far p_i is kept from the skin.
     pub clearance: f64,
-    /// d at frame n, turned back by the head's turn as far as it lags behind that.
+    /// d at the beginning of the step, turned back as far as it is left behind by the head's turn.
     pub was: Vector<S>,
-    /// What that has moved d by.
-    pub lagged: Vector<S>,
+    /// What p_i is moved by in the step besides: by the segments before this one, and by what the head's turn leaves behind.
+    pub carried: Vector<S>,
     /// What p_i is kept out of.
     pub surface: Surface,
 }
 
 impl<'a> PlacedBody<'a> {
-    /// Body number `b`.
-    pub fn new(b: usize, body: &'a Body, input: &FrameInput) -> Self {
-        let [now, before] = input.head_from_body(b, body).map(exact);
+    /// Body number `b` at the end of a step of a frame: its number, from 1 on, and how many there are.
+    pub fn new(b: usize, body: &'a Body, input: &FrameInput, [step, steps]: [u32; 2]) -> Self {
+        let [now, before] = input.head_from_body(b, body, [step, steps]).map(exact);
         Self {
             body,
             frame: input.frame,
             contact: body.contact,
             body_from_head: now.inverse(),
             before_from_now: before * now.inverse(),
+            now_from_before: now * before.inverse(),
+            moves: now != before,
+            part: 1.0 / f64::from(steps),
         }
     }
 
-    /// Keeps a segment that would go along `direction`, with this `increment`, out of the body; `None` where it touches nothing.
+    /// How far a node is from touching the body at the end of the step if it goes along with it; infinity far away.
+    /// `(surface, clearance)`: what it is kept out of, and how far from it.
+    pub fn clear<S: Scalar>(&self, (surface, clearance): (Surface, f64), node: &Moving<S>) -> f64 {
+        let reading = self.reading(self.taken_along(node.at).value(), surface);
+        reading.map_or(f64::INFINITY, |reading| f64::from(reading.distance) - clearance)
+    }
+
+    /// How the body pushes a node, by how much outward (cm a frame^2), and how far the node is from it (cm): against all that carries it in within the step, against what pressed
+    /// it in the step before, and against what goes along by friction.
+    pub fn against<S: Scalar>(
+        &self,
+        (surface, clearance): (Surface, f64),
+        node: &Moving<S>,
+    ) -> Option<(Vector<S>, S, S)> {
+        let h = self.part;
+        let carried = self.taken_along(node.at);
+        let (distance, normal) = self.read(carried, surface)?;
+        let mut of_body = carried - node.at;
+        if let Some(bent) = self.bent(carried.value()) {
+            of_body += bent.into();
+        }
+        // What is too deep already is turned out, and not thrown.
+        let gap = at_least_0(distance - S::from(clearance));
+        let leaves = (node.velocity.times(h) - of_body).dot(normal) + gap;
+        let pressed = node.pressed.times(h * h) - at_least_0(leaves);
+        let moved = node.velocity.times(h) + node.acceleration.times(h * h) - of_body;
+        let carries_in = -(moved.dot(normal) + gap);
+        let inward = if carries_in.value() > pressed.value() { carries_in } else { pressed };
+        if inward.value() <= 0.0 {
+            return Some((Vector::zero(), S::from(0.0), gap));
+        }
+        let along = moved + node.shifted;
+        let over = 1.0 / (h * h);
+        // A speed is stopped once; what presses goes on to.
+        let presses = at_least_0(inward - at_least_0(-leaves));
+        Some((self.slowed(along, normal, along.dot(normal), inward).times(over), presses.times(over), gap))
+    }
+
+    /// Where the body takes a point in the step that goes along with it.
+    fn taken_along<S: Scalar>(&self, p: Vector<S>) -> Vector<S> {
+        if self.moves { p.taken_by(&self.now_from_before) } else { p }
+    }
+
+    /// Keeps a segment that would go along `direction`, with this `increment`, out of the body, and tells by how much its end went inward in the
+    /// step (cm); `None` where it touches nothing.
     #[inline(always)]
     pub fn stop<S: Scalar>(
         &self,
         direction: Vector<S>,
         increment: Vector<S>,
         touch: &Touch<S>,
-    ) -> Option<(Vector<S>, Vector<S>)> {
+    ) -> Option<(Vector<S>, Vector<S>, S)> {
         (self.depth(direction, touch)? > 0.0).then(|| self.stopped(direction, increment, touch))
     }
 
@@ -96,30 +159,31 @@ impl<'a> PlacedBody<'a> {
         mut direction: Vector<S>,
         mut increment: Vector<S>,
         touch: &Touch<S>,
-    ) -> (Vector<S>, Vector<S>) {
-        let &Touch { from, length, clearance, surface, lagged, .. } = touch;
+    ) -> (Vector<S>, Vector<S>, S) {
+        let &Touch { from, length, clearance, surface, carried, .. } = touch;
         let end = from + direction.times(length);
-        let Some((distance, normal)) = self.read(end, surface) else { return (direction, increment) };
+        let Some((distance, normal)) = self.read(end, surface) else { return (direction, increment, S::from(0.0)) };
         let mut of_body = end - end.taken_by(&self.before_from_now);
         if let Some(bent) = self.bent(end.value()) {
             of_body += bent.into();
         }
-        let moved = (increment + lagged).times(length) - of_body;
+        let moved = increment.times(length) + carried - of_body;
         let (depth, inward) = (S::from(clearance) - distance, -moved.dot(normal));
         if inward.value() > 0.0 {
-            let change = self.slowed(moved, normal, inward);
+            let change = self.slowed(moved, normal, -inward, inward);
             // Until it touched it went on as it was.
             let touching = if inward.value() > depth.value() { depth / inward } else { S::from(1.0) };
             direction = (direction.times(length) + change * touching).normalized_or(normal);
             increment += change / S::from(length);
         }
         direction = self.pushed_out(direction, touch);
-        (direction, increment - direction * increment.dot(direction))
+        (direction, increment - direction * increment.dot(direction), at_least_0(inward))
     }
 
-    /// What contact takes of a motion against the body: the part of it that goes inward, and of the rest what friction takes.
-    fn slowed<S: Scalar>(&self, moved: Vector<S>, normal: Vector<S>, inward: S) -> Vector<S> {
-        let along = moved + normal * inward;
+    /// What contact makes of a motion against the body: so much `inward` is turned back, and of what goes along it friction takes its part.
+    /// `outward`: all of the motion along the normal.
+    fn slowed<S: Scalar>(&self, moved: Vector<S>, normal: Vector<S>, outward: S, inward: S) -> Vector<S> {
+        let along = moved - normal * outward;
         let speed = along.length();
         let held = speed.value() <= f64::from(self.contact.static_friction) * inward.value();
         let lost = if held { S::from(1.0) } else { inward.times(f64::from(self.contact.friction)) / speed };
@@ -190,12 +254,12 @@ impl<'a> PlacedBody<'a> {
         self.body.surface(surface).read(self.body_from_head.transform_point3(p).as_vec3(), self.frame)
     }
 
-    /// What a body that bends has moved its point at `p` by, besides the way of its own space; its derivatives are not followed.
+    /// What a body that bends has moved its point at `p` by, besides the way of its own space, in a step; its derivatives are not followed.
     fn bent(&self, p: DVec3) -> Option<DVec3> {
         let obstacle = self.body.shape.obstacle();
         (obstacle.farthest_moved(self.frame) > 0.0).then(|| {
             let moved = obstacle.moved(self.body_from_head.transform_point3(p).as_vec3(), self.frame);
-            self.body_from_head.matrix3.transpose() * moved.as_dvec3()
+            self.body_from_head.matrix3.transpose() * moved.as_dvec3() * self.part
         })
     }
 }
@@ -220,6 +284,10 @@ fn turned_out<S: Scalar>(direction: Vector<S>, normal: Vector<S>, rise: S) -> Ve
     let any = normal.value().any_orthonormal_vector().into();
     let aside = (direction - normal * along).normalized_or(any);
     (aside * (S::from(1.0) - outward * outward).sqrt() + normal * outward).normalized_or(normal)
+}
+
+fn at_least_0<S: Scalar>(x: S) -> S {
+    if x.value() > 0.0 { x } else { S::from(0.0) }
 }
 
 fn exact(affine: glam::Affine3A) -> DAffine3 {

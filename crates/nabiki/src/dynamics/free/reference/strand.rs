@@ -2,15 +2,16 @@
 
 use glam::{DQuat, DVec3, Vec3};
 
+use super::chain::{Chain, THETA};
 use super::common::Common;
-use super::contact::{Touch, kept_from};
+use super::contact::{Moving, PlacedBody, Touch, kept_from};
 use crate::body::Surface;
 use crate::dynamics::Dynamics;
 use crate::dynamics::air::Air;
-use crate::dynamics::free::ROUNDS;
 use crate::dynamics::free::grid::Crowd;
-use crate::dynamics::free::pulls::{self, At, joints};
+use crate::dynamics::free::pulls::{neighbours, weight};
 use crate::dynamics::free::segment::{FreeSegment, free_segments};
+use crate::dynamics::free::{ANSWER, ROUNDS};
 use crate::error::SettingError;
 use crate::free_form::FreeMotion;
 use crate::scalar::{Scalar, Turn, Vector};
@@ -19,22 +20,37 @@ use crate::scalar::{Scalar, Turn, Vector};
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Strand<S> {
     segments: Vec<Segment<S>>,
+    chain: Chain<S>,
+    /// How field and neighbours accelerate each node in a frame (cm a frame^2).
+    blown: Vec<Vector<S>>,
+    /// Of each segment, what the solve leaves of roundings at rest.
+    residual: Vec<Vector<S>>,
     /// Root first (head space, cm).
     positions: Vec<Vector<S>>,
+    /// By how much the head's turn has left each point behind in a step.
+    shifted: Vec<Vector<S>>,
+    /// How far each node is from touching a body at the beginning of a step.
+    clear: Vec<S>,
     /// For each body, what every point is kept out of, and how far from it (cm).
     kept_from: Vec<Vec<(Surface, f64)>>,
+    /// The node that the head carries: the root, or the last that a tie holds.
+    anchor: usize,
 }
 
 /// One segment: its direction d at frame n and its increment w (rad a frame), normal to d; both in head space.
 #[derive(Clone, Debug)]
-struct Segment<S> {
-    moved_by: FreeSegment,
-    /// K of the joint at its beginning.
-    stiffness: S,
-    /// What is left of an increment after a frame.
-    decay: S,
-    direction: Vector<S>,
-    increment: Vector<S>,
+pub(super) struct Segment<S> {
+    pub moved_by: FreeSegment,
+    /// B of the joint at its beginning.
+    pub bending: S,
+    /// What the air takes of its end's speed.
+    air: S,
+    pub direction: Vector<S>,
+    pub increment: Vector<S>,
+    /// By how much the joint at its beginning is twisted (rad).
+    pub twist: S,
+    /// By how much a body pushes its end outward (cm a frame^2).
+    pressed: S,
 }
 
 /// Factors on the settings that may be unknown.
@@ -54,52 +70,42 @@ impl<S: Scalar> Default for Springs<S> {
 
 impl<S: Scalar> Segment<S> {
     fn new(moved_by: FreeSegment, springs: &Springs<S>) -> Self {
-        let FreeSegment { rest, stiffness, decay, .. } = moved_by;
-        // What settles a factor slower has left, in a frame, what was left before to the power of 1 / factor.
-        let as_it_was = springs.settle == S::from(1.0) || decay == 0.0 || decay == 1.0;
-        let decay = if as_it_was { S::from(decay) } else { (S::from(decay.ln()) / springs.settle).exp() };
-        let (stiffness, increment) = (springs.stiffness.times(stiffness), Vector::zero());
-        Self { moved_by, stiffness, decay, direction: rest.into(), increment }
+        let FreeSegment { rest, bending, air, .. } = moved_by;
+        let (bending, air) = (springs.stiffness.times(bending), S::from(air) / springs.settle);
+        Self {
+            moved_by,
+            bending,
+            air,
+            direction: rest.into(),
+            increment: Vector::zero(),
+            twist: S::from(0.0),
+            pressed: S::from(0.0),
+        }
     }
 
-    /// What is left of the head's turn is felt as lag.
-    fn lag_behind(&mut self, axis: DVec3, angle: f64) {
-        let lag = Turn::from(DQuat::from_axis_angle(axis, -self.moved_by.lag * angle));
-        self.direction = lag.of(self.direction);
-        self.increment = lag.of(self.increment);
+    /// Stays behind the head's turn, `share` of it.
+    fn stay_behind(&mut self, axis: DVec3, angle: f64, share: f64) {
+        let back = Turn::from(DQuat::from_axis_angle(axis, -self.moved_by.drag * share * angle));
+        self.direction = back.of(self.direction);
+        self.increment = back.of(self.increment);
     }
 
-    /// What that has moved its direction by.
-    fn lagged(&self, turn: Option<(DVec3, f64)>) -> Vector<S> {
-        let Some((axis, angle)) = turn else { return Vector::zero() };
-        let before = Turn::from(DQuat::from_axis_angle(axis, self.moved_by.lag * angle));
-        self.direction - before.of(self.direction)
-    }
-
-    /// The moment of the joint at its beginning: what turns d toward where the segment before it carries its rest
-    /// direction, and that one back. `carried`: that direction, R_(i-1) r_i.
+    /// Goes on for a step of `h` frames at whose end its increment is w: the direction then, and the increment carried there.
     #[inline(always)]
-    fn moment(&self, carried: Vector<S>) -> Vector<S> {
-        joints::moment(self.stiffness, carried, self.direction)
-    }
-
-    /// w(n+1), before it turns d. `f`: all forces; `moment`: of both of its joints.
-    #[inline(always)]
-    fn drive(&mut self, f: Vector<S>, moment: Vector<S>) {
+    fn moved(&self, w: Vector<S>, h: f64) -> (Vector<S>, Vector<S>) {
         let d = self.direction;
-        let across = (f - d * f.dot(d)) + d.cross(moment);
-        self.increment = (self.increment + across.times(self.moved_by.shape.gain)) * self.decay;
-    }
-
-    /// d + w, brought back to length 1, and w as it is carried along that way: its length stays. What rests keeps its bits.
-    #[inline(always)]
-    fn moved(&self) -> (Vector<S>, Vector<S>) {
-        let (d, w) = (self.direction, self.increment);
-        if w == Vector::zero() {
+        // What the lengths leave of it, and no more than an eighth of a turn or so.
+        let mut w = w - d * w.dot(d);
+        let speed = w.length_squared().times(h * h);
+        if speed.value() > 1.0 {
+            w = w * (S::from(1.0) / speed.sqrt());
+        }
+        let way = w.times(THETA * h) + self.increment.times((1.0 - THETA) * h);
+        if way == Vector::zero() {
             return (d, w);
         }
-        let length = (d + w).length();
-        ((d + w) / length, (w - d * w.length_squared()) / length)
+        let there = (d + way) / (d + way).length();
+        (there, w - (d + there) * (w.dot(there) / (S::from(1.0) + d.dot(there))))
     }
 }
 
@@ -115,29 +121,56 @@ impl<S: Scalar> Strand<S> {
         strand: &[Vec3],
         s: usize,
     ) -> Result<Self, SettingError> {
-        let segments = free_segments(dynamics, &free.form, strand, s)?;
-        let segments = segments.into_iter().map(|moved_by| Segment::new(moved_by, springs)).collect();
-        let positions = strand.iter().map(|p| p.as_dvec3().into()).collect();
-        let mut strand = Self { segments, positions, kept_from: Vec::new() };
+        let segments = free_segments(dynamics, free, strand, s)?;
+        let anchor = segments.iter().take_while(|segment| segment.lightness == 0.0).count();
+        let segments: Vec<_> = segments.into_iter().map(|moved_by| Segment::new(moved_by, springs)).collect();
+        let positions: Vec<Vector<S>> = strand.iter().map(|p| p.as_dvec3().into()).collect();
+        let (none, shifted) = (vec![Vector::zero(); segments.len()], vec![Vector::zero(); strand.len()]);
+        let chain = Chain::new(segments.len());
+        let (clear, meets) = (vec![S::from(f64::INFINITY); segments.len()], Vec::new());
+        let (blown, residual) = (none.clone(), none);
+        let mut strand = Self { segments, chain, blown, residual, positions, shifted, clear, kept_from: meets, anchor };
         strand.place();
         let at_rest: Vec<DVec3> = strand.positions.iter().map(|p| p.value()).collect();
         strand.kept_from = free.bodies.iter().map(|body| kept_from(body, &free.rest_pose, &at_rest)).collect();
+        strand.take_rest(free);
         Ok(strand)
+    }
+
+    /// Takes what the solve leaves of roundings at rest.
+    fn take_rest(&mut self, free: &FreeMotion) {
+        let Self { segments, chain, residual, .. } = self;
+        let weight = Vector::from(weight::on_head(&free.rest_pose, f64::from(free.form.weight())));
+        for (i, segment) in segments.iter().enumerate() {
+            chain.pushed[i] = weight.times(segment.moved_by.push);
+            chain.drag[i] = segment.air;
+        }
+        chain.bend(segments);
+        residual.copy_from_slice(chain.drive(segments));
     }
 
     /// A strand that stands where another does, of which all numbers are known: nothing changes them.
     pub fn of_known(known: &Strand<f64>) -> Self {
         let segment = |segment: &Segment<f64>| Segment {
             moved_by: segment.moved_by,
-            stiffness: S::from(segment.stiffness),
-            decay: S::from(segment.decay),
+            bending: S::from(segment.bending),
+            air: S::from(segment.air),
             direction: segment.direction.value().into(),
             increment: segment.increment.value().into(),
+            twist: S::from(segment.twist),
+            pressed: S::from(segment.pressed),
         };
+        let vectors = |of: &[Vector<f64>]| of.iter().map(|v| v.value().into()).collect::<Vec<Vector<S>>>();
         Self {
             segments: known.segments.iter().map(segment).collect(),
-            positions: known.positions.iter().map(|p| p.value().into()).collect(),
+            chain: Chain::new(known.segments.len()),
+            blown: vectors(&known.blown),
+            residual: vectors(&known.residual),
+            positions: vectors(&known.positions),
+            shifted: vec![Vector::zero(); known.positions.len()],
+            clear: vec![S::from(f64::INFINITY); known.segments.len()],
             kept_from: known.kept_from.clone(),
+            anchor: known.anchor,
         }
     }
 
@@ -155,78 +188,123 @@ impl<S: Scalar> Strand<S> {
         std::iter::once(DVec3::ZERO).chain(moved)
     }
 
-    /// Moves it by one frame, from its root to its tip. `crowd`: what its neighbours left in the frame before.
+    /// Moves it by one frame. `crowd`: what its neighbours left in the frame before.
     #[inline(always)]
     pub fn step(&mut self, common: &Common, air: &impl Air<S>, crowd: Option<&Crowd>) {
-        let Common { gamma, head, rest_weight, bodies } = common;
-        if let Some((axis, angle)) = head.turn {
-            self.segments.iter_mut().for_each(|segment| segment.lag_behind(axis, angle));
-            self.place();
-        }
-        let Self { segments, positions, kept_from } = self;
-        // R_(i-1), which has carried the segments before this one from their rest to where they are.
-        let mut frame = Turn::from(DQuat::IDENTITY);
-        let mut velocity = Vector::zero();
-        let mut carried = frame.of_known(segments[0].moved_by.rest);
-        let mut moment = segments[0].moment(carried);
-        for i in 0..segments.len() {
-            let (from, end) = (positions[i], positions[i + 1]);
-            let field = air.force(end);
-            let segment = &segments[i];
-            let shape = segment.moved_by.shape;
-            velocity += segment.increment.times(shape.length);
-            let weakened = gamma.contains(end.value(), field.value().as_vec3());
-            let eps = if weakened { shape.eps() } else { 1.0 };
-            let at = At {
-                segment: &segment.moved_by,
-                direction: segment.direction,
-                end,
-                velocity,
-                frame,
-                head,
-                rest_weight: *rest_weight,
-                crowd,
-            };
-            let f = pulls::sum(field.times(eps), &at);
-            frame = Turn::smallest(carried, segment.direction).after(frame);
-            let next = match segments.get(i + 1) {
-                Some(next) => {
-                    carried = frame.of_known(next.moved_by.rest);
-                    next.moment(carried)
-                }
-                None => Vector::zero(),
-            };
-            let segment = &mut segments[i];
-            segment.drive(f, moment - next);
-            moment = next;
-            let was = segment.direction;
-            let lagged = segment.lagged(head.turn);
-            let (mut direction, mut increment) = segment.moved();
-            // What is held goes with the head, whatever passes.
-            let bodies = if shape.gain == 0.0 { &[][..] } else { bodies };
-            let touched = |b: usize| {
-                let (surface, clearance) = kept_from[b][i + 1];
-                Touch { from, length: shape.length, clearance, was, lagged, surface }
-            };
-            let mut stopped = false;
-            for (b, body) in bodies.iter().enumerate() {
-                if let Some(there) = body.stop(direction, increment, &touched(b)) {
-                    ((direction, increment), stopped) = (there, true);
+        self.blow(common, air, crowd);
+        let share = 1.0 / common.bodies.len() as f64;
+        for bodies in &common.bodies {
+            if let Some((axis, angle)) = common.head.turn {
+                self.segments.iter_mut().for_each(|segment| segment.stay_behind(axis, angle, share));
+                self.shifted.copy_from_slice(&self.positions);
+                self.place();
+                for (shifted, p) in self.shifted.iter_mut().zip(&self.positions) {
+                    *shifted = *p - *shifted;
                 }
             }
-            // What one body has turned may be in another: a corner is left by turns.
-            let mut rounds = if bodies.len() > 1 { ROUNDS } else { 0 };
-            while stopped && rounds > 0 {
-                stopped = false;
-                for (b, body) in bodies.iter().enumerate() {
-                    if let Some(there) = body.part(direction, increment, &touched(b)) {
-                        ((direction, increment), stopped) = (there, true);
+            self.chain.bend(&mut self.segments);
+            self.push(common, bodies);
+            for (driven, residual) in self.chain.drive(&self.segments).iter_mut().zip(&self.residual) {
+                *driven = *driven - *residual;
+            }
+            self.chain.solve(&self.segments, share);
+            self.go(common, bodies, share);
+        }
+    }
+
+    /// Asks for what is felt once a frame: the field, and what neighbours do.
+    #[inline(always)]
+    fn blow(&mut self, common: &Common, air: &impl Air<S>, crowd: Option<&Crowd>) {
+        for (i, segment) in self.segments.iter().enumerate() {
+            let (end, FreeSegment { shape, push, .. }) = (self.positions[i + 1], segment.moved_by);
+            let field = air.force(end);
+            let weakened = common.gamma.contains(end.value(), field.value().as_vec3());
+            let mut force = field.times(if weakened { shape.eps() } else { 1.0 });
+            self.chain.drag[i] = segment.air;
+            if let Some(crowd) = crowd {
+                let (pressed, held) = neighbours::force(crowd, end);
+                force += pressed;
+                self.chain.drag[i] += held.times(push);
+            }
+            self.blown[i] = force.times(push);
+        }
+    }
+
+    /// All that accelerates the nodes but the chain itself.
+    #[inline(always)]
+    fn push(&mut self, common: &Common, bodies: &[PlacedBody]) {
+        let head = &common.head;
+        let root = self.positions[self.anchor];
+        let [velocity, acceleration] = match &head.way {
+            Some(way) => [root.taken_by(&way.velocity), root.taken_by(&way.acceleration)],
+            None => [Vector::zero(); 2],
+        };
+        for (i, segment) in self.segments.iter_mut().enumerate() {
+            let FreeSegment { push, drag, lightness, .. } = segment.moved_by;
+            let still_air = acceleration + velocity * segment.air;
+            let other = self.blown[i] - still_air.times(drag);
+            let weight = Vector::from(head.weight).times(push);
+            self.chain.pushed[i] = other + weight;
+            self.clear[i] = S::from(f64::INFINITY);
+            if bodies.is_empty() || lightness == 0.0 {
+                continue;
+            }
+            // A body carries what the weight that rest is in balance with presses on it.
+            let carried = self.chain.frames[i].of_known(common.rest_weight).times(push);
+            let speed = self.chain.velocities[i + 1];
+            let net = other + (weight - carried) - speed * self.chain.drag[i];
+            let (at, shifted) = (self.positions[i + 1], self.shifted[i + 1]);
+            let shifted = if head.turn.is_some() { shifted } else { Vector::zero() };
+            let none = S::from(0.0);
+            let moving = Moving { at, shifted, velocity: speed, acceleration: net, pressed: none };
+            let clear = |b: usize| bodies[b].clear(self.kept_from[b][i + 1], &moving);
+            // What pressed it in the step before is of the nearest body.
+            let nearest = (1..bodies.len()).fold(0, |nearest, b| if clear(b) < clear(nearest) { b } else { nearest });
+            let before = std::mem::replace(&mut segment.pressed, none);
+            for (b, body) in bodies.iter().enumerate() {
+                let pressed = if b == nearest { before } else { none };
+                let push = body.against(self.kept_from[b][i + 1], &Moving { pressed, ..moving });
+                if let Some((against, pushed, clear)) = push {
+                    self.chain.pushed[i] += against;
+                    if b == nearest {
+                        (segment.pressed, self.clear[i]) = (pushed, clear);
                     }
                 }
-                rounds -= 1;
             }
+        }
+    }
+
+    /// Turns the segments by what the solve found, and out of bodies, from root to tip.
+    #[inline(always)]
+    fn go(&mut self, common: &Common, bodies: &[PlacedBody], h: f64) {
+        let Self { segments, chain, positions, shifted, clear, kept_from, .. } = self;
+        // Of p_(i-1).
+        let mut velocity = Vector::zero();
+        for (i, segment) in segments.iter_mut().enumerate() {
+            let from = positions[i];
+            let length = segment.moved_by.shape.length;
+            let (mut direction, mut increment) = segment.moved(chain.solved(i), h);
+            // What is held goes with the head, whatever passes.
+            let bodies = if segment.moved_by.lightness == 0.0 { &[][..] } else { bodies };
+            if !bodies.is_empty() {
+                let left_behind = if common.head.turn.is_some() { shifted[i + 1] } else { Vector::zero() };
+                let (was, carried) = (segment.direction, velocity.times(h) + left_behind);
+                let touched = |b: usize| {
+                    let (surface, clearance) = kept_from[b][i + 1];
+                    Touch { from, length, clearance, was, carried, surface }
+                };
+                if let Some((there, turned, inward)) = kept_out(bodies, (direction, increment.times(h)), touched) {
+                    (direction, increment) = (there, turned.times(1.0 / h));
+                    // Beyond the way that it had: what it was stopped in is not what presses it.
+                    let beyond = inward - clear[i];
+                    if beyond.value() > 0.0 {
+                        segment.pressed += beyond.times(f64::from(ANSWER) / (h * h));
+                    }
+                }
+            }
+            velocity += increment.times(length);
             (segment.direction, segment.increment) = (direction, increment);
-            positions[i + 1] = from + direction.times(shape.length);
+            positions[i + 1] = from + direction.times(length);
         }
     }
 
@@ -240,12 +318,44 @@ impl<S: Scalar> Strand<S> {
     }
 }
 
+/// Keeps a segment that would go along this direction, by this turn, out of all bodies, and tells by how much its end went inward (cm); `None`
+/// where it touches none. What one body has turned may be in another: a corner is left by turns.
+#[inline(always)]
+fn kept_out<S: Scalar>(
+    bodies: &[PlacedBody],
+    (mut direction, mut turned): (Vector<S>, Vector<S>),
+    touched: impl Fn(usize) -> Touch<S>,
+) -> Option<(Vector<S>, Vector<S>, S)> {
+    let (mut stopped, mut inward) = (false, S::from(0.0));
+    for (b, body) in bodies.iter().enumerate() {
+        if let Some((out, left, went)) = body.stop(direction, turned, &touched(b)) {
+            ((direction, turned), stopped) = ((out, left), true);
+            inward = if went.value() > inward.value() { went } else { inward };
+        }
+    }
+    if !stopped {
+        return None;
+    }
+    let mut rounds = if bodies.len() > 1 { ROUNDS } else { 0 };
+    while stopped && rounds > 0 {
+        stopped = false;
+        for (b, body) in bodies.iter().enumerate() {
+            if let Some(there) = body.part(direction, turned, &touched(b)) {
+                ((direction, turned), stopped) = (there, true);
+            }
+        }
+        rounds -= 1;
+    }
+    Some((direction, turned, inward))
+}
+
 #[cfg(test)]
 impl Strand<f64> {
-    /// Stands as segments of these directions and increments do.
-    pub fn stand(&mut self, segments: impl IntoIterator<Item = [DVec3; 2]>) {
-        for (segment, [direction, increment]) in self.segments.iter_mut().zip(segments) {
+    /// Stands as segments of these directions, increments, twists and pushes do.
+    pub fn stand(&mut self, segments: impl IntoIterator<Item = (DVec3, DVec3, f64, f64)>) {
+        for (segment, (direction, increment, twist, pressed)) in self.segments.iter_mut().zip(segments) {
             (segment.direction, segment.increment) = (direction.into(), increment.into());
+            (segment.twist, segment.pressed) = (twist, pressed);
         }
         self.place();
     }

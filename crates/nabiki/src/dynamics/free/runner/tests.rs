@@ -95,7 +95,10 @@ fn the_twins_agree_in_each_frame_among_bodies_that_hair_slides_along() {
         for (s, strand) in exact.iter_mut().enumerate() {
             let block = &fast.packed.blocks()[s / LANES];
             let as_it_was = states[block.rows()].iter().map(|state| {
-                [&state.direction, &state.increment].map(|row| Vec3::from(lane_of(row, s % LANES)).as_dvec3())
+                let [direction, increment] =
+                    [&state.direction, &state.increment].map(|row| Vec3::from(lane_of(row, s % LANES)).as_dvec3());
+                let [twist, pressed] = [&state.twist, &state.pressed].map(|row| f64::from(row.0[s % LANES]));
+                (direction, increment, twist, pressed)
             });
             strand.stand(as_it_was);
             let mut unhindered = strand.clone();

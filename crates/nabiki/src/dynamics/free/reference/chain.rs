@@ -1,0 +1,281 @@
+//! The chain: tensions that keep the segments' lengths, and the implicit step. Equations in docs/motion-forms.md.
+
+use glam::DQuat;
+
+use super::strand::Segment;
+use crate::dynamics::free::pulls::{hold, joints};
+use crate::dynamics::free::segment::FreeSegment;
+use crate::scalar::{Scalar, Turn, Vector};
+
+/// How far the step looks ahead: 1/2 would keep all swings, and 1 would damp them.
+pub const THETA: f64 = 0.6;
+
+/// How many times the joints of a bent strand, times the square of the sine of the bend, resist a turn in the implicit step besides what they
+/// do in a straight one: Q knows nothing of the ways in which segments turn that do not point alike.
+pub const BENT: f64 = 4.0;
+
+/// What the segments of a strand are given, and room for what the solve makes of it.
+#[derive(Clone, Debug)]
+pub struct Chain<S> {
+    /// b_i: how all but the chain itself and the air accelerate a node (cm a frame^2).
+    pub pushed: Vec<Vector<S>>,
+    /// beta_i: what air and neighbours take of a node's speed (1 a frame).
+    pub drag: Vec<S>,
+    /// R_(i-1), which has carried the segments before this one from their rest to where they are.
+    pub frames: Vec<Turn<S>>,
+    /// Velocities of the nodes (cm a frame), the root's first.
+    pub velocities: Vec<Vector<S>>,
+    /// R_(i-1) r_i.
+    carried: Vec<Vector<S>>,
+    /// By how much a segment turns about itself in a step, and the part of that which the joint after it hands on.
+    turns: Vec<Turn<S>>,
+    handed: Vec<S>,
+    bending: Vec<S>,
+    moments: Vec<Vector<S>>,
+    /// T_i.
+    tensions: Vec<S>,
+    upper: Vec<S>,
+    /// s_i - T_i d_i, and what becomes of the increments.
+    forces: Vec<Vector<S>>,
+    driven: Vec<Vector<S>>,
+    bands: Vec<[S; 5]>,
+}
+
+impl<S: Scalar> Chain<S> {
+    pub fn new(segments: usize) -> Self {
+        let (zero, vector, none) = (S::from(0.0), Vector::zero(), Turn::from(DQuat::IDENTITY));
+        Self {
+            pushed: vec![vector; segments],
+            drag: vec![zero; segments],
+            frames: vec![none; segments],
+            velocities: vec![vector; segments + 1],
+            carried: vec![vector; segments],
+            turns: vec![none; segments],
+            handed: vec![zero; segments],
+            bending: vec![zero; segments + 1],
+            moments: vec![vector; segments + 1],
+            tensions: vec![zero; segments],
+            upper: vec![zero; segments],
+            forces: vec![vector; segments],
+            driven: vec![vector; segments],
+            bands: vec![[zero; 5]; segments],
+        }
+    }
+
+    /// Frames along the strand, its joints' moments, and how its nodes go. Joints are twisted on to where no segment turns about itself: that
+    /// comes to rest at once.
+    #[inline(always)]
+    pub fn bend(&mut self, segments: &mut [Segment<S>]) {
+        let mut frame = Turn::from(DQuat::IDENTITY);
+        for (i, segment) in segments.iter().enumerate() {
+            let (d, carried) = (segment.direction, frame.of_known(segment.moved_by.rest));
+            (self.frames[i], self.carried[i], self.bending[i]) = (frame, carried, segment.bending);
+            frame = Turn::about(d, segment.twist).after(Turn::smallest(carried, d)).after(frame);
+            // Half-way between the two segments, so that it gives no energy.
+            let carries = segment.moved_by.carries;
+            self.moments[i] = (self.frames[i].of_known(carries) + frame.of_known(carries)).times(0.5);
+            self.velocities[i + 1] = self.velocities[i] + segment.increment.times(segment.moved_by.shape.length);
+        }
+        self.untwist(segments);
+        for (i, segment) in segments.iter_mut().enumerate() {
+            let d = segment.direction;
+            let carried = if i > 0 { self.turns[i - 1].of(self.carried[i]) } else { self.carried[i] };
+            let along = (d + carried) / (S::from(1.0) + d.dot(carried));
+            let twisted = along * (segment.twist * segment.bending).times(joints::TORSION);
+            self.moments[i] += joints::moment(segment.bending, carried, d) - twisted;
+        }
+    }
+
+    /// Twists the joints by so much that every segment is in balance about itself: a tridiagonal system.
+    #[inline(always)]
+    fn untwist(&mut self, segments: &mut [Segment<S>]) {
+        let n = segments.len();
+        let (zero, one) = (S::from(0.0), S::from(1.0));
+        // Of the joint before segment i, the part of a turn of the segment before it that it hands on: kappa_i.
+        let handed = |i: usize, segments: &[Segment<S>], carried: &[Vector<S>]| {
+            let (d, c, before) = (segments[i].direction, carried[i], segments[i - 1].direction);
+            before.dot(d + c) / (one + d.dot(c))
+        };
+        let (mut above, mut turned) = (zero, zero);
+        let mut kappa = zero;
+        for i in 0..n {
+            let stiff = segments[i].bending.times(joints::TORSION);
+            let (mut middle, mut right) = (stiff, -(stiff * segments[i].twist));
+            let next = if i + 1 < n { handed(i + 1, segments, &self.carried) } else { zero };
+            let mut upper = zero;
+            if i + 1 < n {
+                let (d, c, bending) = (segments[i].direction, self.carried[i + 1], segments[i + 1].bending);
+                let stiff = bending.times(joints::TORSION);
+                middle += bending * d.cross(c).length_squared() + stiff * next * next;
+                right += stiff * next * segments[i + 1].twist - bending * segments[i + 1].direction.cross(c).dot(d);
+                upper = -(stiff * next);
+            }
+            let lower = if i > 0 { -(stiff * kappa) } else { zero };
+            let middle = middle - lower * above;
+            // What is held does not turn.
+            let over = if segments[i].moved_by.lightness > 0.0 && middle.value() > 0.0 { one / middle } else { zero };
+            above = upper * over;
+            turned = (right - lower * turned) * over;
+            (self.upper[i], self.tensions[i]) = (above, turned);
+            (self.handed[i], kappa) = (kappa, next);
+        }
+        for i in (0..n - 1).rev() {
+            self.tensions[i] = self.tensions[i] - self.upper[i] * self.tensions[i + 1];
+        }
+        let mut before = zero;
+        for (i, segment) in segments.iter_mut().enumerate() {
+            let turned = self.tensions[i];
+            segment.twist += turned - self.handed[i] * before;
+            self.turns[i] = Turn::about(segment.direction, turned);
+            before = turned;
+        }
+    }
+
+    /// What drives the increments, but for the drag on them and what rest leaves of rounding: `l w' = l w + h (driven - ...)`.
+    #[inline(always)]
+    pub fn drive(&mut self, segments: &[Segment<S>]) -> &mut [Vector<S>] {
+        let n = segments.len();
+        // s_i, the shear of the joints' moments.
+        for (i, segment) in segments.iter().enumerate() {
+            let FreeSegment { shape, hold, rest, .. } = segment.moved_by;
+            let moment = self.moments[i] - self.moments[i + 1] + hold::moment(hold, rest, segment.direction);
+            self.forces[i] = moment.cross(segment.direction).times(1.0 / shape.length);
+        }
+        // rho_i, without the drag on its own increment.
+        let mut before = Vector::zero();
+        for i in 0..n {
+            let node = self.pushed[i] + self.across(i, segments);
+            let differs = if i == 0 { self.drag[0] } else { self.drag[i] - self.drag[i - 1] };
+            self.driven[i] = node - before - self.velocities[i] * differs;
+            before = node;
+        }
+        self.pull_taut(segments);
+        for (i, segment) in segments.iter().enumerate() {
+            self.forces[i] = -(segment.direction * self.tensions[i]);
+        }
+        let mut before = Vector::zero();
+        for (i, segment) in segments.iter().enumerate() {
+            let node = self.across(i, segments);
+            let (d, w) = (segment.direction, segment.increment);
+            self.driven[i] =
+                self.driven[i] + (node - before) + d * w.length_squared().times(segment.moved_by.shape.length);
+            before = node;
+        }
+        &mut self.driven
+    }
+
+    /// How the forces on both sides of a node accelerate it.
+    #[inline(always)]
+    fn across(&self, i: usize, segments: &[Segment<S>]) -> Vector<S> {
+        let beyond = if i + 1 < segments.len() { self.forces[i + 1] } else { Vector::zero() };
+        (self.forces[i] - beyond).times(segments[i].moved_by.lightness)
+    }
+
+    /// The tensions with which no segment becomes longer or shorter: a tridiagonal system.
+    #[inline(always)]
+    fn pull_taut(&mut self, segments: &[Segment<S>]) {
+        let n = segments.len();
+        let (mut lightness, mut above, mut before) = (0.0, S::from(0.0), S::from(0.0));
+        for (i, segment) in segments.iter().enumerate() {
+            let (d, w) = (segment.direction, segment.increment);
+            let (length, up) = (segment.moved_by.shape.length, segment.moved_by.lightness);
+            if up == 0.0 {
+                continue;
+            }
+            let right = (self.driven[i] - w * self.drag[i].times(length)).dot(d) + w.length_squared().times(length);
+            let lower =
+                if lightness == 0.0 { S::from(0.0) } else { -d.dot(segments[i - 1].direction).times(lightness) };
+            let middle = S::from(1.0) / (S::from(up + lightness) - lower * above);
+            above = match segments.get(i + 1) {
+                Some(next) => -(d.dot(next.direction).times(up) * middle),
+                None => S::from(0.0),
+            };
+            before = (right - lower * before) * middle;
+            (self.upper[i], self.tensions[i]) = (above, before);
+            lightness = up;
+        }
+        for i in (0..n - 1).rev() {
+            self.tensions[i] = self.tensions[i] - self.upper[i] * self.tensions[i + 1];
+        }
+    }
+
+    /// Q, by which the forces answer a turn: of row i what stands before the diagonal, on it and after it.
+    #[inline(always)]
+    fn stiffness(&self, i: usize, segments: &[Segment<S>]) -> [S; 3] {
+        let FreeSegment { shape, hold, .. } = segments[i].moved_by;
+        let tension = if self.tensions[i].value() > 0.0 { self.tensions[i] } else { S::from(0.0) };
+        let [here, next] = [self.bending[i], self.bending[i + 1]];
+        let bent = self.bent(i, segments) + self.bent(i + 1, segments);
+        let over = 1.0 / shape.length;
+        [-here.times(over), tension + (here + next + bent.times(BENT) + S::from(hold)).times(over), -next.times(over)]
+    }
+
+    /// B of the joint before segment i, times the square of the sine of its bend; none of the first joint.
+    #[inline(always)]
+    fn bent(&self, i: usize, segments: &[Segment<S>]) -> S {
+        match (i.checked_sub(1).map(|before| &segments[before]), segments.get(i)) {
+            (Some(before), Some(segment)) if before.moved_by.lightness > 0.0 => {
+                let along = before.direction.dot(segment.direction);
+                self.bending[i] * (S::from(1.0) - along * along)
+            }
+            _ => S::from(0.0),
+        }
+    }
+
+    /// (l (1 + h beta) + h^2 theta^2 P Q) w' = l w + h driven - h^2 theta (1 - theta) P Q w: a pentadiagonal system. What is driven becomes w'.
+    #[inline(always)]
+    pub fn solve(&mut self, segments: &[Segment<S>], h: f64) {
+        let n = segments.len();
+        let zero = S::from(0.0);
+        let mut before = [zero; 5];
+        let mut here = self.stiffness(0, segments);
+        for (i, segment) in segments.iter().enumerate() {
+            let (length, lightness) = (segment.moved_by.shape.length, segment.moved_by.lightness);
+            let next = if i + 1 < n { self.stiffness(i + 1, segments) } else { [zero; 3] };
+            // How turns of the segments from i - 1 to i + 2 accelerate the node.
+            let node = [here[0], here[1] - next[0], here[2] - next[1], -next[2]].map(|x| x.times(lightness));
+            let row = [-before[0], node[0] - before[1], node[1] - before[2], node[2] - before[3], node[3]];
+            before = [node[0], node[1], node[2], node[3], zero];
+            here = next;
+            let mut turned = Vector::zero();
+            for (k, x) in row.iter().enumerate() {
+                if let Some(segment) = (i + k).checked_sub(2).and_then(|j| segments.get(j)) {
+                    turned += segment.increment * *x;
+                }
+            }
+            let mut band = row.map(|x| x.times((h * THETA).powi(2)));
+            band[2] += (S::from(1.0) + self.drag[i].times(h)).times(length);
+            self.bands[i] = band;
+            let explicit = h * h * THETA * (1.0 - THETA);
+            self.driven[i] = segment.increment.times(length) + self.driven[i].times(h) - turned.times(explicit);
+        }
+        // Elimination without pivots: inertia is on the diagonal.
+        for i in 0..n {
+            let [_, _, middle, next, after] = self.bands[i];
+            let inverse = S::from(1.0) / middle;
+            for k in 1..=2.min(n - 1 - i) {
+                let part = self.bands[i + k][2 - k] * inverse;
+                let row = &mut self.bands[i + k];
+                row[3 - k] = row[3 - k] - part * next;
+                row[4 - k] = row[4 - k] - part * after;
+                self.driven[i + k] = self.driven[i + k] - self.driven[i] * part;
+            }
+        }
+        for i in (0..n).rev() {
+            let [_, _, middle, next, after] = self.bands[i];
+            let mut left = self.driven[i];
+            if i + 1 < n {
+                left = left - self.driven[i + 1] * next;
+            }
+            if i + 2 < n {
+                left = left - self.driven[i + 2] * after;
+            }
+            self.driven[i] = left / middle;
+        }
+    }
+
+    /// w' of a segment, after [`solve`](Self::solve).
+    pub fn solved(&self, i: usize) -> Vector<S> {
+        self.driven[i]
+    }
+}
