@@ -1,5 +1,7 @@
 //! Wishes as residuals: what is looked at, and how far it is from where it should be.
 
+use std::ops::Range;
+
 use glam::{DVec3, Vec3};
 
 use super::linear::Normal;
@@ -35,6 +37,9 @@ enum To {
     Each(Vec<DVec3>),
     Mean(DVec3),
 }
+
+/// What counts as usual, in parts of the mean square that the strand in the middle has left: three times as far.
+const MOST: f64 = 9.0;
 
 impl Aims {
     /// Refuses no wishes, and those about nothing.
@@ -117,20 +122,68 @@ impl Aims {
         self.aims.iter().map(|aim| aim.mean_square(places).sqrt()).collect()
     }
 
+    /// Whether some wish is for places of so many strands that most of them can say something else than all.
+    pub fn tell_most(&self) -> bool {
+        self.aims.iter().any(|aim| {
+            let strands = aim.spots.chunk_by(|a, b| self.spots[*a].strand == self.spots[*b].strand).count();
+            matches!(aim.to, To::Each(_)) && strands > 2
+        })
+    }
+
+    /// For each wish for places, what most strands have left of it at the most: [`MOST`] times what the middle one has (mean square, cm^2).
+    pub fn usual(&self, places: &[DVec3]) -> Vec<f64> {
+        let of = |aim: &Aim| {
+            let mut squares: Vec<f64> = self.by_strand(aim, places).map(|(_, square)| square).collect();
+            squares.sort_by(f64::total_cmp);
+            (squares.get(squares.len() / 2).copied().unwrap_or_default() * MOST).max(f64::MIN_POSITIVE)
+        };
+        self.aims.iter().map(of).collect()
+    }
+
+    /// As [`mean_square`](Self::mean_square), but a strand that is much farther from its places than is [usual](Self::usual) counts hardly more
+    /// than if it were as far as that: its square s as s u / (s + u).
+    pub fn mean_square_of_most(&self, places: &[DVec3], usual: &[f64]) -> f64 {
+        let of = |(aim, &usual): (&Aim, &f64)| {
+            let each: f64 = (self.by_strand(aim, places))
+                .map(|(spots, square)| spots.len() as f64 * square * usual / (usual + square))
+                .sum();
+            let square = if let To::Each(_) = aim.to { each / aim.spots.len() as f64 } else { aim.mean_square(places) };
+            aim.share * square
+        };
+        self.aims.iter().zip(usual).map(of).sum()
+    }
+
+    /// The strands of a wish for places, each as a range of its nodes, with what is left of it (mean square, cm^2).
+    fn by_strand(&self, aim: &Aim, places: &[DVec3]) -> impl Iterator<Item = (Range<usize>, f64)> {
+        let goals = if let To::Each(goals) = &aim.to { &goals[..] } else { &[] };
+        let alike = |a: &usize, b: &usize| self.spots[*a].strand == self.spots[*b].strand;
+        let mut begin = 0;
+        aim.spots[..goals.len()].chunk_by(alike).map(move |spots| {
+            let range = begin..begin + spots.len();
+            begin = range.end;
+            let squares = spots.iter().zip(&goals[range.clone()]);
+            let sum: f64 = squares.map(|(&spot, goal)| places[spot].distance_squared(*goal)).sum();
+            (range, sum / spots.len() as f64)
+        })
+    }
+
     /// Adds what is left to the normal equations. `places`: of the spots, by which residuals are counted; `points` has their
-    /// tangents.
-    pub fn add_to(&self, normal: &mut Normal, places: &[DVec3], points: &Points) {
+    /// tangents. `usual`: what [most](Self::usual) strands have left, if those that have much more are to count little.
+    pub fn add_to(&self, normal: &mut Normal, places: &[DVec3], points: &Points, usual: Option<&[f64]>) {
         let n = normal.n;
         let row = |spot: usize, axis: usize| &points.tangents[(3 * spot + axis) * n..][..n];
         let mut mean = vec![0.0; n];
-        for aim in &self.aims {
+        for (i, aim) in self.aims.iter().enumerate() {
             let count = aim.spots.len() as f64;
             match &aim.to {
                 To::Each(goals) => {
-                    for (&spot, goal) in aim.spots.iter().zip(goals) {
-                        let left = places[spot] - goal;
-                        for axis in 0..3 {
-                            normal.add(aim.share / count, left[axis], row(spot, axis));
+                    for (nodes, square) in self.by_strand(aim, places) {
+                        let part = usual.map_or(1.0, |usual| (usual[i] / (usual[i] + square)).powi(2));
+                        for (&spot, goal) in aim.spots[nodes.clone()].iter().zip(&goals[nodes]) {
+                            let left = places[spot] - goal;
+                            for axis in 0..3 {
+                                normal.add(part * aim.share / count, left[axis], row(spot, axis));
+                            }
                         }
                     }
                 }

@@ -20,7 +20,7 @@ use crate::dynamics::{Dynamics, Form, Stability, Standing, Timeline};
 use crate::error::SettingError;
 use crate::field::{Field, FieldSum, Keyframe, KeyframedField};
 use crate::profile::Profile;
-use crate::strands::Strands;
+use crate::strands::{Strands, length};
 
 pub use preroll::Preroll;
 pub use search::Search;
@@ -46,6 +46,10 @@ pub struct Solver {
     standing: Option<Standing>,
     /// Where the spots are that are looked at until then.
     early: Vec<DVec3>,
+    /// How far each spot is from its root along the strand (cm).
+    reaches: Vec<f64>,
+    /// Whether steps are judged by [most of the strands](Aims::usual).
+    by_most: bool,
     /// What field all hair of the problem bears, as it answers now.
     steady: Stability,
     frames: Vec<u32>,
@@ -146,6 +150,8 @@ impl Solver {
         let Preroll { timeline: begin, early, strands, ids } =
             Preroll::onward(&problem, &aims, &steady, preroll, until)?;
         let start = layout.start(wind);
+        let reaches = aims.spots.iter().map(|spot| f64::from(length(&strands.strand(spot.strand)[..=spot.node])));
+        let reaches = reaches.collect();
         aims.set_now(&vec![DVec3::ZERO; aims.spots.len()], &problem.wishes);
         let large = layout.large();
         let at = Place { x: start.clone(), places: Vec::new(), cost: f64::INFINITY };
@@ -160,6 +166,8 @@ impl Solver {
             begin,
             standing: None,
             early,
+            reaches,
+            by_most: false,
             steady,
             frames,
             large,
@@ -269,7 +277,9 @@ impl Solver {
 
     /// `held`: whether what is not linear in the wind is held while it is differentiated.
     fn descend_with(&mut self, held: bool) -> bool {
-        let Ok(normal) = self.normal(held) else { return false };
+        let usual = self.by_most.then(|| self.aims.usual(&self.at.places));
+        let Ok(normal) = self.normal(held, usual.as_deref()) else { return false };
+        let here = self.judged(&self.at, usual.as_deref());
         // What hardly matters is damped as if it mattered a little, so that it stays where it is.
         let most = (0..normal.n).map(|i| normal.diagonal(i) * self.large[i].powi(2)).fold(0.0, f64::max);
         for _ in 0..TRIALS {
@@ -286,8 +296,9 @@ impl Solver {
                 step.iter_mut().for_each(|d| *d *= shorter);
                 let expected = normal.expected(&step);
                 if let Some(next) = self.tried(&step) {
-                    let gained = (self.at.cost - next.cost) / expected.max(f64::MIN_POSITIVE);
-                    if next.cost < self.at.cost {
+                    let there = self.judged(&next, usual.as_deref());
+                    let gained = (here - there) / expected.max(f64::MIN_POSITIVE);
+                    if there < here {
                         self.at = next;
                         // As far as it went tangents have said the truth: the next may go farther.
                         if shorter < 1.0 && gained > 0.5 {
@@ -304,6 +315,12 @@ impl Solver {
             self.damping.growth *= 2.0;
         }
         false
+    }
+
+    /// By what a step is judged: the cost, or that of [most strands](Aims::usual).
+    fn judged(&self, place: &Place, usual: Option<&[f64]>) -> f64 {
+        let Some(usual) = usual else { return place.cost };
+        place.cost - self.aims.mean_square(&place.places) + self.aims.mean_square_of_most(&place.places, usual)
     }
 
     /// Where a step leads; `None` where the hair cannot be stepped there.
