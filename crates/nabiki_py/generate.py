@@ -21,8 +21,8 @@ TARGET = HERE / "python" / "nabiki" / "settings"
 PAGE = schemas.ROOT / "docs" / "settings.md"
 BLENDER = schemas.ROOT / "integrations" / "blender" / "nabiki" / "declared.py"
 # Settings that Blender's panels have.
-SHOWN = """gust.intensity gust.time_scale gust.seed flow.thickness body_wind.drag wind.ease free.stiffness free.hold free.settle free.gravity free.lag
-motion.inertia_length_floor contact.margin contact.friction contact.static_friction neighbours.pressure neighbours.cohesion""".split()
+SHOWN = """gust.intensity gust.time_scale gust.seed flow.thickness body_wind.drag wind.ease free.stiffness free.hold free.settle free.gravity free.drag
+free.substeps motion.slow motion.inertia_length_floor contact.margin contact.friction contact.static_friction neighbours.pressure neighbours.cohesion""".split()
 
 # Tables of several kinds, by the classes that have the keys of all.
 CLASSES = {"head": "HeadSettings", "hair": "HairSettings"}
@@ -215,7 +215,7 @@ def blender(schema):
             "name": setting.schema["title"].title() + (f" ({unit})" if unit == "cm" else ""),
             # Blender ends it with a point.
             "description": setting.doc.split(". ")[0].removesuffix("."),
-            "default": setting.schema["default"],
+            "default": setting.schema.get("default"),
             "min": number.get("minimum", number.get("exclusiveMinimum")),
             "max": number.get("maximum"),
         }

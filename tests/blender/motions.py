@@ -107,8 +107,7 @@ def test_sintels_groom_moves_as_the_command_moves_it(command, shared):
     toml = command.folder / "scene.toml"
     text = f'[head]\nmesh = "{head_file}"\nunit = "m"\nfacing = "+z"\norigin = {list(used)}\n'
     text += f'\n[hair]\nfile = "{command.folder / "hair.hair"}"\njoin_within = 0\nunit = "m"\nfacing = "+z"\n'
-    stiffness = softened(preview, hair)
-    text += commands.SETTINGS.format(frames=23, rate=24, stiffness=stiffness, ease="smooth")
+    text += commands.SETTINGS.format(frames=23, rate=24, stiffness=list(hair.nabiki.stiffness), ease="smooth")
     # In the file y is up and she looks along z, in nabiki y is up and she looks along x.
     for last, (x, y, z) in [(15, (0, 60, 15)), (23, (0, 0, 0))]:
         text += f"\n[[force]]\nthrough = {last}\nvector = {[-y, z, -x]}\n"
@@ -130,19 +129,6 @@ def test_sintels_groom_moves_as_the_command_moves_it(command, shared):
     print(f"measured: Sintel with a rounding of the hair: {apart * 10:.2g} mm apart")
     baked_is(command, hair, "usdc")
     return None
-
-
-def softened(preview, hair):
-    """The stiffness that the extension came to, by its note."""
-    import importlib
-
-    playing = importlib.import_module("bl_ext.user_default.nabiki.playing")
-    film = next(reversed(playing.takes[hair.session_uid].films.values()))
-    for note in film.notes:
-        if note.startswith("stiffness lowered"):
-            words = note.replace(":", "").split()
-            return [float(words[3]), float(words[5])]
-    return list(hair.nabiki.stiffness)
 
 
 def baked_is(command, hair, ending):

@@ -31,7 +31,7 @@ frames = {frames}
 frame_rate = 24
 inertia_length_floor = 14.0
 [free]
-lag = 0
+drag = 0
 gravity = 0
 [[force]]
 through = {frames}

@@ -50,9 +50,10 @@ pub enum Command {
     Run(Run),
     /// The same at once, with a few strands that move exactly as they will in the whole
     ///
-    /// Before any step it prints how many frames a swing takes at the root, the middle and the tip of a strand under
-    /// each force of the field. That is how to choose a force by thinking: T = 2 pi / acos(1 - c |F| / 2) frames, about
-    /// 2 pi / sqrt(c |F|); four times the force halves the time.
+    /// Before any step it prints how many frames a swing takes under each force of the field, which is how to choose a force by
+    /// thinking. In the paper's form it does so for the root, the middle and the tip of a strand: T = 2 pi / acos(1 - c |F| / 2) frames,
+    /// about 2 pi / sqrt(c |F|); four times the force halves the time. In the free form it does so for the strand as a whole, which force,
+    /// weight, hold and stiffness bring back.
     ///
     /// Pictures are small: of the same shape, 480 pixels on the longer side at the most. 960 x 540 become 480 x 270.
     ///

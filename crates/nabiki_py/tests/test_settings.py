@@ -36,6 +36,7 @@ envelope = [{{ frame = 1, factor = 1.0 }}]
 position = [0, 0, 0]
 envelope = [{{ frame = 1, factor = 1.0 }}]
 [free]
+substeps = 3
 tie = {{ at = [0, 0, 0], within = 1.0 }}
 [motion]
 form = "free"

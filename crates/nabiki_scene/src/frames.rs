@@ -80,9 +80,8 @@ fn flown_off(built: &BuiltScene, frame: u32, point: usize) -> Error {
     };
     let way_out = match neighbours.map(|neighbours| &neighbours.forces) {
         Some(forces) => format!(
-            "the pressure of hair against hair has no bound by which it could be refused before: lower neighbours.pressure = {} or \
-             neighbours.cohesion = {}",
-            forces.pressure, forces.cohesion
+            "the pressure of hair against hair has no bound by which it could be refused before: lower neighbours.pressure = {}",
+            forces.pressure
         ),
         None => "lower the strengths of the fields".to_owned(),
     };

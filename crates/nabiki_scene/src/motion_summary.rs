@@ -203,13 +203,9 @@ impl fmt::Display for MotionSummary {
 fn blamed(built: &BuiltScene) -> Option<String> {
     let Form::Free(free) = &built.dynamics.form else { return None };
     let forces = &free.neighbours.as_ref()?.forces;
-    let step = built.dynamics.motion.time_step;
-    let line = |thing: &str, value: f32| format!("lower {thing} = {value}, or motion.time_step = {step}");
-    Some(if forces.pressure > 0.0 {
-        line("neighbours.pressure", forces.pressure)
-    } else {
-        line("neighbours.cohesion", forces.cohesion)
-    })
+    let (pressure, step) = (forces.pressure, built.dynamics.motion.time_step);
+    // Cohesion is stepped implicitly, and throws nothing.
+    (pressure > 0.0).then(|| format!("lower neighbours.pressure = {pressure}, or motion.time_step = {step}"))
 }
 
 #[cfg(test)]

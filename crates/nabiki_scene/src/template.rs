@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use glam::Vec3;
-use nabiki::setting::{Value as _, plain};
-use nabiki::{Ellipsoid, Head, Mesh, Profile, Strands};
+use nabiki::setting::plain;
+use nabiki::{Ellipsoid, Head, Mesh, Strands};
 use nabiki_groom::bust;
 use nabiki_io::{Axis, DeclaredSpace, Error, GroomFile, Placement, Result, Unit, declared_space, info, mesh};
 
@@ -82,15 +82,9 @@ fn lines(table: &str, keys: &[&str]) -> String {
     keys.iter().filter_map(line).collect()
 }
 
-/// The line of a new scene that gives `free.stiffness`, up to its comment.
-pub(crate) fn stiffness_line(stiffness: &Profile) -> String {
-    let given = format!("stiffness = {}", schema::in_toml(&stiffness.datum()));
-    format!("{given:<26} #")
-}
-
 /// Motion, wind and camera of a new scene.
 fn rest(Shot { frames, rate }: Shot) -> String {
-    let free = lines("free", &["stiffness", "hold", "settle", "gravity", "lag"]);
+    let free = lines("free", &["stiffness", "hold", "settle", "gravity", "drag"]);
     let contact = lines("contact", &["margin", "friction", "static_friction"]);
     let neighbours: String =
         lines("neighbours", &["pressure", "cohesion"]).lines().map(|line| format!("# {line}\n")).collect();
@@ -104,7 +98,7 @@ frame_rate = {rate}
 inertia_length_floor = 14.0   # shorter hair is held by the longer hair beside it (cm)
 
 # What holds hair in shape and calms it, in the unit of the forces below: where the stiffness is 36 times the wind, hair
-# bends within 6 times hair.segment_length. The first three are numbers, or lists from root to tip.
+# bends within 6 times hair.segment_length. All but the weight are numbers, or lists from root to tip.
 [free]
 {free}
 # Hair stays out of the head, and of every [[body]] with a mesh and a motion, or one that goes with_head.

@@ -4,7 +4,9 @@ use std::fmt;
 use std::path::PathBuf;
 
 use glam::Vec3;
-use nabiki::dynamics::{Form, gain, period};
+use nabiki::Profile;
+use nabiki::dynamics::{Dynamics, Form, gain, period, push};
+use nabiki::free_form::FreeForm;
 use nabiki_io::hair::ImportReport;
 use nabiki_io::screen::OneLine;
 
@@ -239,8 +241,8 @@ impl fmt::Display for SceneSummary {
     }
 }
 
-/// How long a swing takes at the root, the middle and the tip of a strand under each force: what c_i and F give before
-/// any step (section 4.3 of the paper).
+/// How long a swing takes under each force, before any step: in the paper's form at the root, the middle and the tip of a strand, by c_i
+/// and F (section 4.3 of the paper), in the free form of the strand as a whole.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SwingTable {
@@ -248,6 +250,8 @@ pub struct SwingTable {
     pub length: f32,
     /// Whether that is so of half of the hair or more.
     pub tied: bool,
+    /// How many steps a frame is divided into, in the free form.
+    pub steps: Option<u32>,
     /// A row for each interval of `[[force]]`.
     pub rows: Vec<SwingRow>,
     /// What the bound of all fields together would do, where there is more than `[[force]]`, stepped.
@@ -262,18 +266,71 @@ pub struct SwingRow {
     pub frames: [u32; 2],
     /// |F|.
     pub force: f64,
-    /// Frames of a swing at the root, in the middle, at the tip: of a segment by itself, in the free form under hold and
-    /// weight besides. Infinite where nothing pulls.
-    pub periods: [f64; 3],
+    /// Frames of a swing. Infinite where nothing pulls.
+    pub swing: Swing,
+}
+
+/// How many frames a swing takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Swing {
+    /// In the paper's form: at the root, in the middle, at the tip, of a segment by itself.
+    Segments([f64; 3]),
+    /// In the free form: the slowest of the whole strand about force, weight and hold, held at its root.
+    Strand(f64),
+}
+
+impl Swing {
+    /// At the tip.
+    pub fn of_tip(self) -> f64 {
+        match self {
+            Self::Segments([_, _, tip]) => tip,
+            Self::Strand(frames) => frames,
+        }
+    }
+
+    /// All of its numbers, root first.
+    pub fn frames(&self) -> &[f64] {
+        match self {
+            Self::Segments(frames) => frames,
+            Self::Strand(frames) => std::slice::from_ref(frames),
+        }
+    }
+}
+
+/// Frames of the slowest swing of a straight strand of the free form, which hangs from its root along what pulls on it by `pull`.
+///
+/// Without stiffness it is a hanging chain, whose omega^2 is 1.446 g / L (1.2024 is half the first zero of the Bessel function J_0), and
+/// hold makes it heavier by as much. Without weight it is a cantilever of 12.36 EI / (lambda L^4). Both at once swing at least as fast as
+/// their sum says, and at most 3 % faster. Stiffness counts by the square of the curvature, of which the most is at the root; hold by the
+/// square of the slope times all that hangs beyond.
+fn strand_swing(dynamics: &Dynamics, form: &FreeForm, length: f64, pull: f64) -> f64 {
+    let stiffness = mean(&form.stiffness, |s| (1.0 - s).powi(3));
+    let hold = mean(&form.hold, |s| s * (1.0 - s));
+    let push = push(dynamics, length);
+    // EI / lambda of docs/motion-forms.md.
+    let bending = 0.375 * push * length * stiffness * f64::from(dynamics.segment_length).powi(2);
+    let squared = 1.446 * push * (pull + hold) / length + 12.36 * bending / length.powi(4);
+    std::f64::consts::TAU / squared.sqrt()
+}
+
+/// The mean of a strength from root (0) to tip (1), by a weight.
+fn mean(profile: &Profile, weight: impl Fn(f64) -> f64) -> f64 {
+    const PARTS: u32 = 128;
+    let (sum, all) = (0..PARTS).fold((0.0, 0.0), |(sum, all), i| {
+        let s = (f64::from(i) + 0.5) / f64::from(PARTS);
+        (sum + weight(s) * profile.at(s), all + weight(s))
+    });
+    sum / all
 }
 
 impl SwingTable {
     /// Of a built scene whose field is not too strong for its hair.
     pub fn of(built: &BuiltScene) -> Self {
-        let tie = match &built.dynamics.form {
+        let form = match &built.dynamics.form {
             Form::Paper => None,
-            Form::Free(free) => free.form.tie,
+            Form::Free(free) => Some(&free.form),
         };
+        let tie = form.and_then(|form| form.tie);
         // What is held does not swing.
         let swinging = |strand: &[Vec3]| {
             let held = tie.map_or(0, |tie| tie.held(strand));
@@ -283,16 +340,18 @@ impl SwingTable {
         lengths.sort_by(f32::total_cmp);
         let length = lengths[lengths.len() / 2];
         let tied = 2 * tied.iter().filter(|&&tied| tied).count() >= lengths.len();
-        let count = f64::from(length) / f64::from(built.dynamics.segment_length);
-        let held = |position: f64| match &built.dynamics.form {
-            Form::Paper => 0.0,
-            Form::Free(free) => free.form.hold.at(position / count) + f64::from(free.form.weight()),
+        // `pull`: force and weight together.
+        let row = |frames: [u32; 2], force: f32, pull: f64| {
+            let (force, long) = (f64::from(force.max(0.0)), f64::from(length));
+            let count = long / f64::from(built.dynamics.segment_length);
+            let segment = |position: f64| period(gain(&built.dynamics, position, count) * force);
+            let swing = match form {
+                None => Swing::Segments([1.0, (count + 1.0) / 2.0, count].map(segment)),
+                Some(form) => Swing::Strand(strand_swing(&built.dynamics, form, long, pull)),
+            };
+            SwingRow { frames, force, swing }
         };
-        let row = |frames: [u32; 2], force: f32| {
-            let force = f64::from(force.max(0.0));
-            let swing = |position: f64| period(gain(&built.dynamics, position, count) * (force + held(position)));
-            SwingRow { frames, force, periods: [1.0, (count + 1.0) / 2.0, count].map(swing) }
-        };
+        let weight = form.map_or(0.0, FreeForm::weight);
         let mut first = 1;
         let (field, last) = (&built.scene.field, built.frames());
         let reached = field.force.iter().scan(0, |before, key| {
@@ -301,13 +360,15 @@ impl SwingTable {
             begins.then_some(key)
         });
         let rows = reached.map(|key| {
-            let row = row([first, key.through.min(last)], key.vector.length());
+            let pull = (key.vector - weight * Vec3::Y).length();
+            let row = row([first, key.through.min(last)], key.vector.length(), pull.into());
             first = key.through.saturating_add(1);
             row
         });
         let rows = rows.collect();
-        let at_most = (!field.is_the_papers()).then(|| row([1, last], built.forces.field.strongest()));
-        Self { length, tied, rows, at_most }
+        let strongest = built.forces.field.strongest();
+        let at_most = (!field.is_the_papers()).then(|| row([1, last], strongest, (strongest + weight).into()));
+        Self { length, tied, steps: form.map(FreeForm::steps), rows, at_most }
     }
 }
 
@@ -315,15 +376,80 @@ impl fmt::Display for SwingTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (root, tied) = if self.tied { ("tie", " behind its tie") } else { ("root", "") };
         let length = self.length;
-        write!(f, "  swing   frames of one swing of a strand of {length:.1} cm{tied}: at its {root}, middle, tip")?;
+        write!(f, "  swing   frames of one swing of a strand of {length:.1} cm{tied}")?;
+        match self.steps {
+            None => write!(f, ": at its {root}, middle, tip")?,
+            Some(1) => write!(f, "; a frame is one step")?,
+            Some(steps) => write!(f, "; a frame is {steps} steps")?,
+        }
         let told = self.rows.iter().map(|row| ('=', row)).chain(self.at_most.iter().map(|row| ('<', row)));
-        for (sign, SwingRow { frames: [first, last], force, periods: [root, middle, tip] }) in told {
+        for (sign, SwingRow { frames: [first, last], force, swing }) in told {
             let interval = format!("{first} to {last}");
-            write!(
-                f,
-                "\n          frames {interval:<11} |F| {sign} {force:<8.2} {root:>8.0} {middle:>8.0} {tip:>8.0}"
-            )?;
+            write!(f, "\n          frames {interval:<11} |F| {sign} {force:<8.2}")?;
+            swing.frames().iter().try_for_each(|frames| write!(f, " {frames:>8.0}"))?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use nabiki::dynamics::Timeline;
+    use nabiki::field::{Keyframe, KeyframedField};
+    use nabiki::free_form::FreeMotion;
+    use nabiki::{Ellipsoid, Strands};
+
+    use super::*;
+
+    /// The times of one swing of a straight strand are those between two passes of its tip in one direction. What is told is at most 3 %
+    /// more than a rod of even stiffness takes, the weights of a list take another 2 %, and so do 18 segments and the steps.
+    #[test]
+    fn a_strand_of_the_free_form_swings_in_as_many_frames_as_are_told() {
+        const LENGTH_CM: f32 = 18.0;
+        const FRAMES: u32 = 1200;
+        let taper = Profile::RootToTip(vec![12_000.0, 1000.0]);
+        let even = Profile::Even;
+        for (stiffness, hold, gravity) in [
+            (even(30.0), even(0.0), 100.0),
+            (even(2000.0), even(0.0), 100.0),
+            (even(4000.0), even(0.0), 0.0),
+            (taper.clone(), even(0.0), 0.0),
+            (even(300.0), even(80.0), 0.0),
+            (even(300.0), Profile::RootToTip(vec![120.0, 0.0]), 0.0),
+            (taper, even(30.0), 100.0),
+        ] {
+            let form = FreeForm { stiffness, hold, gravity: gravity.into(), settle: even(0.0), ..FreeForm::default() };
+            let mut dynamics = Dynamics::new(Ellipsoid { center: Vec3::Y * 100.0, half_axes: Vec3::ONE });
+            let told = strand_swing(&dynamics, &form, LENGTH_CM.into(), gravity.into());
+            dynamics.form = Form::Free(FreeMotion { form: form.clone(), ..FreeMotion::default() });
+            let mut strands = Strands::default();
+            strands.push((0..=18).map(|i| Vec3::NEG_Y * LENGTH_CM * i as f32 / 18.0));
+            let keys = [Keyframe { through: 8, vector: Vec3::X * 5.0 }, Keyframe { through: 9, vector: Vec3::ZERO }];
+            let field = Arc::new(KeyframedField::new(&keys).unwrap());
+            let mut timeline = Timeline::new(&strands, &dynamics, field, Vec::new(), FRAMES).unwrap();
+            let film = timeline.play();
+            let tip: Vec<f64> = (9..=FRAMES).map(|n| film.strand(n, 0)[18].x.into()).collect();
+            // After the first third higher modes have died, and the tip passes its rest twice in a swing.
+            let passes: Vec<f64> = (FRAMES as usize / 3..tip.len())
+                .filter(|&i| tip[i - 1] < 0.0 && tip[i] >= 0.0)
+                .map(|i| i as f64 - tip[i] / (tip[i] - tip[i - 1]))
+                .collect();
+            let swing = (passes[passes.len() - 1] - passes[0]) / (passes.len() - 1) as f64;
+            assert!((told / swing - 1.0).abs() < 0.05, "{told} frames for {swing}: {form:?}");
+        }
+    }
+
+    #[test]
+    fn what_nothing_pulls_on_takes_for_ever() {
+        let form = FreeForm { stiffness: Profile::Even(0.0), hold: Profile::Even(0.0), ..FreeForm::default() };
+        let dynamics = Dynamics::new(Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::ONE });
+        assert_eq!(strand_swing(&dynamics, &form, 18.0, 0.0), f64::INFINITY);
+        // Slow motion and a time step as much smaller are one.
+        let mut slow = dynamics.clone();
+        slow.motion.slow = 4.0;
+        let [all, slowly] = [&dynamics, &slow].map(|dynamics| strand_swing(dynamics, &form, 18.0, 100.0));
+        assert!((slowly / all - 4.0).abs() < 1e-9, "{slowly} frames, {all}");
     }
 }

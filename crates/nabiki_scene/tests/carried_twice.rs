@@ -155,7 +155,7 @@ fn what_is_bound_at_the_start_goes_with_its_node_however_that_is_turned_and_wher
         let turning = format!("double xformOp:rotateZ.timeSamples = {{ 0: {turned}, 9: {} }}", turned + 90.0);
         let layer = layer.replace(&format!("double xformOp:rotateZ = {turned}"), &turning);
         std::fs::write(folder.path().join("tail.usda"), layer).unwrap();
-        let bound = [("head.motion.bind_at_start", "true"), ("free.lag", "0"), ("body", "[]")];
+        let bound = [("head.motion.bind_at_start", "true"), ("free.drag", "0"), ("body", "[]")];
         let bound = bound.map(|(key, value)| (key.to_owned(), value.to_owned()));
         let stage = Scene::load(&scene, &bound).unwrap();
         let options =
@@ -205,7 +205,7 @@ fn what_is_bound_to_a_joint_goes_with_it_from_where_the_skeleton_binds_it() {
     let scene = "[head]\nmesh = \"man.usda\"\nfacing = \"+z\"\norigin = [0.1, 1.4, 0]\n\
          motion = { file = \"man.usda\", node = \"head\", bind_at_start = true }\n\
          ellipsoid = { center = [0, 0, 0], half_axes = [9, 9, 9] }\n\
-         [hair]\nfile = \"hair.usda\"\n[motion]\nform = \"free\"\nframes = 5\n[free]\nlag = 0.0\n";
+         [hair]\nfile = \"hair.usda\"\n[motion]\nform = \"free\"\nframes = 5\n[free]\ndrag = 0.0\n";
     let scene = Scene::parse(scene, &file("scene.toml"), &[]).unwrap();
     let (output, exports) = (file("out.usda"), ExportOptions::default());
     let options = SimulateOptions { output: output.clone(), exports, twin: Twin::Fast, shard: None };
@@ -276,7 +276,7 @@ fn a_head_and_hair_that_are_bound_go_with_their_joint_whatever_moves_the_skeleto
     let scene = format!(
         "[head]\nmesh = \"man.usda\"\nfacing = \"+z\"\norigin = [1, 3, -2]\nmotion = {motion}\n\
          ellipsoid = {{ center = [0, 0, 0], half_axes = [9, 9, 9] }}\n\
-         [hair]\nfile = \"man.usda\"\n[motion]\nform = \"free\"\nframes = 5\n[free]\nlag = 0.0\n"
+         [hair]\nfile = \"man.usda\"\n[motion]\nform = \"free\"\nframes = 5\n[free]\ndrag = 0.0\n"
     );
     let scene = Scene::parse(&scene, &file("scene.toml"), &[]).unwrap();
     let (output, exports) = (file("out.usda"), ExportOptions::default());

@@ -149,7 +149,7 @@ fn hair_goes_with_the_joint_that_its_head_is_bound_to() {
             "[head]\nmesh = \"man.glb\"\n{unit}\nfacing = \"{facing}\"\norigin = [0.5, 1.6, 0]\n\
              motion = {{ file = \"man.glb\", node = \"skull\", bind_at_start = true }}\n\
              ellipsoid = {{ center = [0, 0, 0], half_axes = [{half}, {half}, {half}] }}\n\
-             [hair]\nfile = \"hair.usda\"\nunit = {cm}\n[motion]\nform = \"free\"\nframes = 5\nframe_rate = 24\n[free]\nlag = 0.0\n\
+             [hair]\nfile = \"hair.usda\"\nunit = {cm}\n[motion]\nform = \"free\"\nframes = 5\nframe_rate = 24\n[free]\ndrag = 0.0\n\
              stiffness = 0.0\nhold = 0.0\ngravity = 0.0\n"
         );
         let scene = Scene::parse(&scene, &folder.path().join("scene.toml"), &[]).unwrap();

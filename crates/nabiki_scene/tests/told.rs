@@ -6,7 +6,7 @@ use glam::{Quat, Vec3};
 use nabiki::Strands;
 use nabiki::dynamics::{gain, period};
 use nabiki_scene::motion_summary::{FrameSummary, MotionSummary};
-use nabiki_scene::told::SwingTable;
+use nabiki_scene::told::{Swing, SwingTable};
 use nabiki_scene::{BuiltScene, Scene, Shown};
 
 /// The built-in head and, far to its side, a cube of 8 cm that moves along +x by 1 cm a frame and turns.
@@ -86,7 +86,7 @@ fn a_swing_is_slowest_at_the_root_and_fastest_at_the_tip() {
     let text = "[hair]\nstrands = 20\n[motion]\nframes = 100\n[[force]]\nthrough = 50\nvector = [-30, 0, 40]\n";
     let built = Scene::parse(text, Path::new("scene.toml"), &[]).unwrap().build(Shown::All).unwrap();
     let table = SwingTable::of(&built);
-    let [root, middle, tip] = table.rows[0].periods;
+    let Swing::Segments([root, middle, tip]) = table.rows[0].swing else { panic!("of the paper's form") };
     assert!(root > middle && middle > tip, "{root} {middle} {tip}");
     let k = f64::from(table.length) / f64::from(built.dynamics.segment_length);
     assert!((tip - period(50.0 * gain(&built.dynamics, k, k))).abs() < 1e-6 * tip, "{tip} frames");

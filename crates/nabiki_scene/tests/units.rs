@@ -43,7 +43,7 @@ fn what_is_refused_beside_a_head_in_another_unit_names_the_unit() {
     let swirls = "[turbulence]\nstrength = 5\nswirl_size = 4\nnear_head = 3";
     for (lines, why) in [
         (swirls, "turbulence.near_head = 3: must be at most 0.09"),
-        ("[motion]\nform = \"free\"\n[free]\nstiffness = 1e12", "free.stiffness"),
+        ("[motion]\nform = \"free\"\n[free]\ngravity = 1e9", "free.gravity"),
     ] {
         let line = refused(folder, "", lines);
         assert!(line.contains(why), "{line}");

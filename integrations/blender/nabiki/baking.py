@@ -68,7 +68,7 @@ def bake(context, thing, operator):
             made.names[str(part)] = f'"{path.name}"'
 
             def write(progress):
-                scene_files.build(made, plain)
+                scene_files.build(made)
                 made.scene.export(part, progress=progress, report=lambda line: None)
 
             yield from jobs.on_thread(write, "writing hair")

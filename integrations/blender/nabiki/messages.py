@@ -6,7 +6,6 @@ import re
 LABELS = {
     "motion.inertia_length_floor": "Settings > Short Hair",
     "motion.time_step": "Settings > Speed",
-    "free.stiffness": "Settings > Stiffness",
     "free.gravity": "Settings > Weight",
     "contact.margin": "Collisions > Margin",
     "contact.friction": "Collisions > Friction",
@@ -42,10 +41,9 @@ def sentence(text):
 def in_words(text, names):
     """A line of nabiki's with the names of Blender's things. `names`: what files and entries of the scene are called."""
     text = one_line(text)
-    unstable = re.match(r"(\S+) = .*?unstable.*?keep (\|F\||the largest stiffness) below ([\d.e+]+)", text)
+    unstable = re.match(r"(\S+) = .*?unstable.*?keep (?:\|F\||gravity) below ([\d.e+]+)", text)
     if unstable:
-        what = "it" if unstable[2] == "|F|" else "it at the root and the tip"
-        text = f"{unstable[1]}: is too strong for this hair: keep {what} below {float(unstable[3]):.4g}, lower motion.time_step, or raise "
+        text = f"{unstable[1]}: is too strong for this hair: keep it below {float(unstable[2]):.4g}, lower motion.time_step, or raise "
         text += "motion.inertia_length_floor"
     for name in sorted(names, key=len, reverse=True):
         # An entry of a list is meant, whichever of its settings is named.

@@ -64,7 +64,7 @@ def sampled(context, thing):
 
 def film(sample, plain, made, strands, progress):
     """The motion of some strands; on a thread. `strands`: how many, or None for all."""
-    scene_files.build(made, plain)
+    scene_files.build(made)
     count = None if strands is None or strands >= len(sample.hair) else strands
     frames = made.scene.simulate(count)
     chosen_strands = np.asarray(frames.ids).astype(np.int64)

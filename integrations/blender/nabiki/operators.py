@@ -138,7 +138,7 @@ class NABIKI_OT_write_scene(jobs.Working, Named, ExportHelper, bpy.types.Operato
         plain = scene_files.values(thing.nabiki, sample.frames.start)
         with motion.folder() as place:
             self.made = made = scene_files.write(sample, plain, place)
-            yield from jobs.on_thread(lambda progress: scene_files.build(made, plain), "checking the scene")
+            yield from jobs.on_thread(lambda progress: scene_files.build(made), "checking the scene")
             # Only what is right gets its place, and is named from there.
             shutil.copytree(place, folder, dirs_exist_ok=True)
             text = made.scene.to_toml().replace(f"{Path(place).as_posix()}/", f"{folder.name}/")

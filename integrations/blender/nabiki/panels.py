@@ -181,9 +181,8 @@ class NABIKI_PT_settings(Part, bpy.types.Panel):
         column = layout.column(align=True)
         column.prop(settings, "stiffness", index=0, text="Stiffness Root")
         column.prop(settings, "stiffness", index=1, text="Tip")
-        layout.prop(settings, "adapt_stiffness")
         column = layout.column()
-        for name in ["hold", "settle", "gravity", "lag", "speed", "short_hair_length"]:
+        for name in ["hold", "settle", "gravity", "drag", "speed", "slow", "substeps", "short_hair_length"]:
             column.prop(settings, name)
         layout.prop(settings, "use_frame_range")
         column = layout.column(align=True)

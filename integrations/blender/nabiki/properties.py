@@ -56,6 +56,9 @@ FACING = [
     ("+x", "X", "The face looks along X of the world in the first frame"),
 ]
 
+SUBSTEPS = SETTINGS["free.substeps"]["description"] + ". 0: as many as weight and stiffness need"
+
+
 class NabikiSettings(bpy.types.PropertyGroup):
     # What takes part.
     head: PointerProperty(
@@ -108,19 +111,16 @@ class NabikiSettings(bpy.types.PropertyGroup):
     body_wind_drag: FloatProperty(**declared("body_wind.drag", soft_max=2.0))
     # How hair answers.
     stiffness: FloatVectorProperty(**declared("free.stiffness", size=2, soft_max=40000.0, step=10000, precision=0))
-    adapt_stiffness: BoolProperty(
-        name="Adapt to Hair",
-        description="Lower the stiffness to what the shortest segments of this hair can be moved with",
-        default=True,
-        update=changed,
-    )
     hold: FloatProperty(**declared("free.hold", soft_max=300.0))
     settle: FloatProperty(**declared("free.settle", soft_max=120.0))
     gravity: FloatProperty(**declared("free.gravity", soft_max=500.0))
-    lag: FloatProperty(**declared("free.lag", soft_max=4.0))
+    drag: FloatProperty(**declared("free.drag", soft_max=2.0))
     speed: FloatProperty(
         name="Speed", description="How fast all of it goes: 1 is hair in slow motion", default=1.6, min=0.01, soft_max=4.0, update=changed
     )
+    slow: FloatProperty(**declared("motion.slow", soft_max=10.0))
+    # Of nabiki there are none below 1: 0 leaves the number open.
+    substeps: IntProperty(**declared("free.substeps", description=SUBSTEPS, default=0, min=0))
     short_hair_length: FloatProperty(**declared("motion.inertia_length_floor", name="Short Hair (cm)", default=14.0, soft_max=60.0))
     # Collisions.
     margin: FloatProperty(**declared("contact.margin"))

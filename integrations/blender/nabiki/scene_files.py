@@ -10,9 +10,6 @@ import numpy as np
 from . import axes, fields, meshes
 from .messages import Mistake, in_words
 
-# Halvings of the stiffness that are tried before hair is called too quick for its step.
-HALVINGS = 14
-
 
 @dataclass
 class Made:
@@ -35,7 +32,7 @@ def values(settings, start):
 
 
 PLAIN = ["facing", "strength_scale", "ease", "use_gust", "gust_intensity", "gust_time_scale", "gust_seed", "use_flow", "flow_thickness"]
-PLAIN += ["use_body_wind", "body_wind_drag", "hold", "settle", "gravity", "lag", "speed", "short_hair_length", "adapt_stiffness"]
+PLAIN += ["use_body_wind", "body_wind_drag", "hold", "settle", "gravity", "drag", "speed", "slow", "substeps", "short_hair_length"]
 PLAIN += ["margin", "friction", "static_friction", "use_neighbours", "pressure", "cohesion"]
 
 
@@ -80,8 +77,10 @@ def write(sample, plain, folder, apart=()):
     if bodies:
         settings["body"] = bodies
     settings["motion"] = {"form": "free", "frames": count, "frame_rate": sample.rate, "time_step": 0.1 * plain["speed"]}
-    settings["motion"]["inertia_length_floor"] = plain["short_hair_length"]
-    settings["free"] = {name: plain[name] for name in ["hold", "settle", "gravity", "lag"]}
+    settings["motion"] |= {"slow": plain["slow"], "inertia_length_floor": plain["short_hair_length"]}
+    settings["free"] = {name: plain[name] for name in ["hold", "settle", "gravity", "drag"]}
+    if plain["substeps"]:
+        settings["free"]["substeps"] = plain["substeps"]
     settings["free"]["stiffness"] = plain["stiffness"]
     settings["contact"] = {name: plain[name] for name in ["margin", "friction", "static_friction"]}
     if plain["use_neighbours"]:
@@ -134,26 +133,10 @@ def in_order(intervals):
     return intervals
 
 
-def adapt(made, plain):
-    """Makes hair softer, by halves, until it can be stepped at all, as `nabiki new` does, and says so."""
-    for n in range(HALVINGS):
-        softer = [0.5**n * value for value in plain["stiffness"]]
-        made.scene.free.stiffness = softer
-        try:
-            simulation = made.scene.simulate()
-        except nabiki.Error as refused:
-            if not plain["adapt_stiffness"] or "unstable" not in str(refused) or n + 1 == HALVINGS:
-                raise
-            continue
-        if n:
-            made.notes.append(f"stiffness lowered to {softer[0]:.4g} and {softer[1]:.4g}: the shortest segments of this hair are quick")
-        return simulation
-
-
-def build(made, plain):
+def build(made):
     """Reads and checks all that the scene names. A head without a skull gets an ellipsoid about it."""
     try:
-        return adapt(made, plain)
+        return made.scene.simulate()
     except nabiki.Error as refused:
         if "skull" not in str(refused) and "ellipsoid" not in str(refused):
             raise
@@ -162,7 +145,7 @@ def build(made, plain):
     # As `nabiki new` draws it; what is flat is then refused for what it is.
     made.scene["head.ellipsoid"] = {"center": (0.5 * (low + high)).tolist(), "half_axes": np.maximum(half, half.max() / 3).tolist()}
     made.notes.append("no skull was found in the head: the wind goes round its box")
-    return adapt(made, plain)
+    return made.scene.simulate()
 
 
 def line(error, made):

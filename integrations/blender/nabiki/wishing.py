@@ -64,7 +64,7 @@ def solve(context, thing, operator):
         operator.made = made = scene_files.write(sample, plain, folder, apart=winds)
 
         def find(progress):
-            scene_files.build(made, plain)
+            scene_files.build(made)
             if winds:
                 made.scene.fields = [_apart(winds, plain)]
             return made.scene.solve(problem, unknowns={"vectors": free}, progress=progress, report=lambda line: None)

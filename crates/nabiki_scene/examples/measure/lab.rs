@@ -80,7 +80,7 @@ fn dynamics(gamma: f64, rate: f64, settle: f64) -> Dynamics {
         hold: Profile::Even(0.0),
         settle: Profile::Even(settle as f32),
         gravity: gravity.into(),
-        lag: 0.0,
+        drag: nabiki::Profile::Even(1.0),
         ..FreeForm::default()
     };
     dynamics.form = Form::Free(FreeMotion { form, ..FreeMotion::default() });

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use nabiki::dynamics::{Dynamics, Form, earth_gravity};
+use nabiki::dynamics::{Dynamics, Form, earth_gravity, substeps};
 use nabiki::free_form::{FreeForm, FreeMotion, Gravity, Neighbours};
 use nabiki::{Pose, Strands};
 
@@ -48,14 +48,14 @@ pub(super) fn set_free<'a>(
     known: impl Iterator<Item = &'a Arc<BuiltBody>> + Clone,
     at: At<'_>,
 ) -> Result<Vec<Arc<BuiltBody>>> {
+    let all: f64 = first.lengths().take(FEW).map(f64::from).sum();
+    let segments: usize = first.iter().take(FEW).map(|strand| strand.len() - 1).sum();
+    let [mean, segment] = [first.len().min(FEW), segments].map(|count| all / count.max(1) as f64);
     let gravity = match scene.free.gravity {
         Gravity::Strength(strength) => strength,
-        Gravity::Earth => {
-            let few = first.lengths().take(FEW);
-            let mean = few.map(f64::from).sum::<f64>() / first.len().clamp(1, FEW) as f64;
-            earth_gravity(dynamics, mean)
-        }
+        Gravity::Earth => earth_gravity(dynamics, mean),
     };
+    let steps = scene.free.substeps.unwrap_or_else(|| substeps(dynamics, &scene.free, gravity, [mean, segment]));
     let (mut felt, mut bodies) = (vec![model.body(scene.contact)], Vec::new());
     for (i, settings) in scene.bodies.iter().enumerate() {
         // All hair is grown by now.
@@ -68,7 +68,7 @@ pub(super) fn set_free<'a>(
         let carriers = (forces.carriers as usize).min(first.len());
         Neighbours::new(forces.clone(), Arc::new(first.select(&(0..carriers).collect::<Vec<_>>())))
     });
-    let form = FreeForm { gravity: Gravity::Strength(gravity), ..scene.free.clone() };
+    let form = FreeForm { gravity: Gravity::Strength(gravity), substeps: Some(steps), ..scene.free.clone() };
     dynamics.form = Form::Free(FreeMotion { form, bodies: felt, neighbours, rest_pose });
     dynamics.check().map_err(|refused| at.refusal(refused))?;
     Ok(bodies)

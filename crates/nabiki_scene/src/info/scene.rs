@@ -42,6 +42,8 @@ pub struct SceneInfo {
     pub frames: u32,
     /// Delta t.
     pub time_step: f32,
+    /// How many times slower than that hair moves.
+    pub slow: f32,
     /// lambda.
     pub linear_density: f32,
     /// alpha; of the free form only where the pseudo-force weakens its field.
@@ -80,6 +82,10 @@ pub struct FreeInfo {
     pub settle: Vec<f32>,
     /// The strength of weight, or "earth".
     pub gravity: Gravity,
+    /// How far hair is left behind by a head that moves, from root to tip.
+    pub drag: Vec<f32>,
+    /// Steps that a frame is divided into; none where weight and stiffness decide.
+    pub steps: Option<u32>,
     /// How far from the head's skin nodes are kept (cm).
     pub margin: f32,
     /// Hair against hair, where it is on.
@@ -94,6 +100,8 @@ impl FreeInfo {
             hold: values(&scene.free.hold),
             settle: values(&scene.free.settle),
             gravity: scene.free.gravity,
+            drag: values(&scene.free.drag),
+            steps: scene.free.substeps,
             margin: scene.contact.margin,
             neighbours: scene.neighbours.clone(),
         })
@@ -124,6 +132,7 @@ impl SceneInfo {
             hair,
             frames: scene.motion.frames,
             time_step: scene.motion.time_step,
+            slow: scene.motion.slow,
             linear_density: scene.motion.linear_density,
             alpha: (free.is_none() || scene.free.pseudo_force).then_some(scene.pseudo_force.alpha),
             free,
@@ -166,6 +175,9 @@ impl fmt::Display for SceneInfo {
             .map(|(key, value)| labelled::<Motion>(key, value));
         let form = if self.free.is_some() { "free form, " } else { "" };
         write!(f, "motion: {form}{step}, {density}")?;
+        if self.slow != 1.0 {
+            write!(f, ", {}", labelled::<Motion>("slow", self.slow))?;
+        }
         if let Some(alpha) = self.alpha {
             write!(f, ", {}", labelled::<PseudoForce>("alpha", alpha))?;
         }
@@ -210,17 +222,23 @@ impl fmt::Display for SceneInfo {
 
 impl fmt::Display for FreeInfo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { stiffness, hold, settle, gravity, margin, neighbours } = self;
+        let Self { stiffness, hold, settle, gravity, drag, steps, margin, neighbours } = self;
         let profile = |key: &str, values: &Vec<f32>| labelled::<FreeForm>(key, values.clone());
-        let (stiffness, hold, settle) =
-            (profile("stiffness", stiffness), profile("hold", hold), profile("settle", settle));
+        let [stiffness, hold, settle, drag] =
+            [("stiffness", stiffness), ("hold", hold), ("settle", settle), ("drag", drag)]
+                .map(|(key, it)| profile(key, it));
         let weight = match gravity {
             Gravity::Strength(strength) => labelled::<FreeForm>("gravity", *strength),
             Gravity::Earth => "weight as on earth".to_owned(),
         };
+        let steps = match steps {
+            None => "steps a frame by weight and stiffness".to_owned(),
+            Some(1) => "1 step a frame".to_owned(),
+            Some(steps) => format!("{steps} steps a frame"),
+        };
         write!(
             f,
-            "free: {stiffness}, {hold}, {settle}, {weight}\ncontact: {}",
+            "free: {stiffness}, {hold}, {settle}, {weight}, {drag}, {steps}\ncontact: {}",
             labelled::<Contact>("margin", *margin)
         )?;
         if let Some(NeighbourForces { cohesion, pressure, .. }) = neighbours {

@@ -3,9 +3,9 @@
 use std::time::{Duration, Instant};
 
 use glam::Vec3;
+use nabiki::Strands;
 use nabiki::dynamics::Form;
 use nabiki::solve::{Answer, Stop};
-use nabiki::{Profile, Strands};
 
 use super::*;
 use crate::{BuiltScene, Scene, Shown};
@@ -207,13 +207,13 @@ fn what_stops_a_pull_is_named() {
     assert_eq!(stop(&[elsewhere], near), None, "a nail that is not in the way is not blamed");
 }
 
-/// Of hair so stiff that it can hardly be stepped in a stronger wind than the scene's, and hardly moves in that.
+/// Of hair so heavy that it can hardly be stepped in a stronger wind than the scene's, and hardly moves in that. However stiff, it could be.
 #[test]
 fn a_wind_that_hair_cannot_be_stepped_in_is_named() {
     let mut built = gust(1);
-    let mut allows = |stiffness: u32| {
+    let mut allows = |gravity: u32| {
         let Form::Free(free) = &mut built.dynamics.form else { unreachable!() };
-        free.form.stiffness = Profile::Even(stiffness as f32);
+        free.form.gravity = (gravity as f32).into();
         built.timeline().is_ok()
     };
     let (mut most, mut refused) = (1, 1 << 24);

@@ -5,9 +5,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
-use nabiki::dynamics::{Form, check_field};
-use nabiki::free_form::FreeForm;
-use nabiki::{Hair, Profile};
+use nabiki::Hair;
 use nabiki_file::PartFile;
 use nabiki_io::motion::{self, ClipMover};
 use nabiki_io::{exchange, mesh};
@@ -19,12 +17,9 @@ use crate::error::{Error, Result};
 use crate::place;
 use crate::scene::{HeadSource, ImportedHead, Scene};
 use crate::size::decimal;
-use crate::template::{stiffness_line, template};
+use crate::template::template;
 use crate::told::Told;
 use crate::watch::Watch;
-
-/// How often the stiffness is halved before hair is left without.
-const HALVINGS: i32 = 12;
 
 /// Strands that show that a new scene can be built.
 const TRIED: usize = 50;
@@ -65,20 +60,7 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     // Of hair that is grown a few strands tell enough; in a file any may be the shortest.
     let tried = if options.hair.is_some() { Shown::All } else { Shown::AtMost(TRIED) };
     let built = Scene::parse(&template.text, path, &[])?.build(tried)?;
-    let part = stable_part(&built);
-    if part < 1.0 {
-        let FreeForm { stiffness, .. } = FreeForm::default();
-        let softer = Profile::RootToTip(stiffness.values().iter().map(|stiffness| part * stiffness).collect());
-        template.text = template.text.replacen(&stiffness_line(&stiffness), &stiffness_line(&softer), 1);
-        template.guesses.push(format!(
-            "free.stiffness = {:?}, of {:?}, which the shortest segments of this hair are too quick for",
-            softer.values(),
-            stiffness.values()
-        ));
-        Scene::parse(&template.text, path, &[])?.build(tried)?.simulation()?;
-    } else {
-        built.simulation()?;
-    }
+    built.simulation()?;
     if let Some([root, tip]) = options.hair.as_ref().and_then(|_| thickness(&built.groom.hair)) {
         // As thick to the tip, or thinner all the way.
         let thins =
@@ -172,16 +154,4 @@ fn thickness(hair: &Hair) -> Option<[f32; 2]> {
     };
     let hair = HairLook { width: root, ..HairLook::default() };
     Picture { hair, ..Picture::default() }.check().is_ok().then(|| [root, (tip / root).clamp(0.0, 1.0)])
-}
-
-/// The part of the scene's stiffness, by halves, with which its hair can be stepped; 0 where it may have none.
-fn stable_part(built: &BuiltScene) -> f32 {
-    let Form::Free(free) = &built.dynamics.form else { return 1.0 };
-    let holds = |part: f32| {
-        let mut softer = free.clone();
-        softer.form.stiffness = Profile::RootToTip(free.form.stiffness.values().iter().map(|k| part * k).collect());
-        let dynamics = nabiki::dynamics::Dynamics { form: Form::Free(softer), ..built.dynamics.clone() };
-        check_field(built.strands(), &dynamics, &*built.forces.field).is_ok()
-    };
-    (0..HALVINGS).map(|n| 0.5_f32.powi(n)).find(|&part| holds(part)).unwrap_or(0.0)
 }

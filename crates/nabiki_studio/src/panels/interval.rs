@@ -5,6 +5,7 @@ mod many;
 
 use eframe::egui::{self, Stroke, Ui};
 use glam::Vec3;
+use nabiki_scene::told::Swing;
 
 use super::fields::{row_of, send, side_by_side};
 use super::hands::Hands;
@@ -102,12 +103,17 @@ fn one(ui: &mut Ui, session: &Session, j: usize, commands: &mut Commands) {
             phase,
         });
     });
-    if let Some([root, middle, tip]) = session.swings().and_then(|swings| swings.rows.get(j)).map(|row| row.periods) {
-        let help = "Frames that a swing takes at the root, in the middle and at the tip, as the paper advises to look at when a \
-                    force is chosen: four times the force halves it.";
+    if let Some(swing) = session.swings().and_then(|swings| swings.rows.get(j)).map(|row| row.swing) {
+        let help = match swing {
+            Swing::Segments(_) => {
+                "Frames that a swing takes at the root, in the middle and at the tip, as the paper advises to look at when a \
+                 force is chosen: four times the force halves it."
+            }
+            Swing::Strand(_) => "Frames that a swing takes about the wind and the weight together.",
+        };
         row_of(ui, NAMES, "Swing", help, false, |ui| {
-            let text = [root, middle, tip]
-                .map(|frames| if frames.is_finite() { format!("{frames:.0}") } else { "-".to_owned() });
+            let words = |&frames: &f64| if frames.is_finite() { format!("{frames:.0}") } else { "-".to_owned() };
+            let text: Vec<String> = swing.frames().iter().map(words).collect();
             ui.label(format!("{} frames", text.join("  "))).hint(help);
         });
     }

@@ -43,7 +43,7 @@ pub(super) fn by_hair(scene: &mut Scene, before: &Scene, key: &str) -> Vec<Strin
         let length = longest.map_or(length_before, |longest| length_before.min(longest));
         scene.hair.segment_length = length;
         if length != length_before {
-            // Which stiffness a step stands is known only where hair is built: it is left to the hand.
+            // How stiff hair shall be is left to the hand.
             let softer =
                 if scene.form == FormChoice::Free { "; free.stiffness counts in them, so hair is softer" } else { "" };
             taken.push(format!("hair.segment_length is {length} cm (shorter ones draw the curls{softer})"));

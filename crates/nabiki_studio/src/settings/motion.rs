@@ -7,14 +7,14 @@ pub(super) const GROUPS: &[Group] = &[
         "Time",
         "motion",
         "How long it goes, and by which equations.",
-        &["form", "frames", "frame_rate", "force_space"],
+        &["form", "frames", "frame_rate", "slow", "force_space"],
     )
     .open(),
     Group::new(
         "Shape and calm",
         "free",
         "What holds hair in shape and brings it to rest.",
-        &["stiffness", "hold", "settle", "gravity", "lag", "pseudo_force"],
+        &["stiffness", "hold", "settle", "gravity", "drag", "substeps", "pseudo_force"],
     )
     .open()
     .when(When::Free),

@@ -167,7 +167,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def motion(self) -> Motion:
-        """How long hair moves, how heavy it is, and how far a frame leads it. The default is Table 1 of the paper."""
+        """Length and pace of the motion, and the mass of hair. The defaults are Table 1 of the paper."""
         return Motion(self, 'motion')
 
     @motion.setter
@@ -176,7 +176,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def free(self) -> FreeForm:
-        """What holds hair in shape and calms it, in the free form. Strengths are in the unit of the force F."""
+        """How hair keeps its shape and settles, in the free form. Strengths are in the unit of the force F."""
         return FreeForm(self, 'free')
 
     @free.setter
@@ -194,11 +194,11 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def neighbours(self) -> NeighbourForces:
-        """Hair against hair: forces from a grid that a few strands, the carriers, fill as they move.
+        """Hair against hair, through a grid that a few strands, the carriers, fill as they move.
 
-        Carriers move first and write density and mean velocity; every strand, carriers too, reads what they left in
-        the frame before. So a strand depends on itself and on the carriers only, and any subset of the hair moves as
-        within the whole. Not there unless it is given.
+        Carriers write density and mean velocity; in the next frame every strand, carriers too, reads them. So a
+        strand depends on itself and the carriers only, and any subset of the hair moves as within the whole. Not
+        there unless it is given.
         """
         return NeighbourForces(self, 'neighbours')
 

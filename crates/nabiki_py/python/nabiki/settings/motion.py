@@ -11,7 +11,7 @@ __all__ = ["Contact", "Disturbance", "FreeForm", "Motion", "NeighbourForces", "P
 
 
 class Motion(Table):
-    """How long hair moves, how heavy it is, and how far a frame leads it. The default is Table 1 of the paper."""
+    """Length and pace of the motion, and the mass of hair. The defaults are Table 1 of the paper."""
 
     __slots__ = ()
 
@@ -37,9 +37,8 @@ class Motion(Table):
 
     @property
     def frame_rate(self) -> float:
-        """Frames in a second: how fast they are shown, and where a recorded head is in each. Hair moves by frames,
-        whatever this is, but in the free form it says how strongly accelerations of the head are felt. Number above 0
-        (a second); default: 24.
+        """Frames in a second: how fast they are shown, and where a recorded head is in each. Hair moves by frames: of
+        its settings only `gravity = "earth"` depends on this. Number above 0 (a second); default: 24.
         """
         value: float = self._get('frame_rate')
         return value
@@ -57,6 +56,18 @@ class Motion(Table):
     @time_step.setter
     def time_step(self, value: float | None) -> None:
         self._set('time_step', value)
+
+    @property
+    def slow(self) -> float:
+        """Slow motion of the hair: 4 is hair filmed at four times the frame rate. The head and the fields keep their
+        pace. Number, 0.1 to 100 (times); default: 1.
+        """
+        value: float = self._get('slow')
+        return value
+
+    @slow.setter
+    def slow(self, value: float | None) -> None:
+        self._set('slow', value)
 
     @property
     def linear_density(self) -> float:
@@ -109,17 +120,16 @@ class Motion(Table):
 
 
 class FreeForm(Table):
-    """What holds hair in shape and calms it, in the free form. Strengths are in the unit of the force F."""
+    """How hair keeps its shape and settles, in the free form. Strengths are in the unit of the force F."""
 
     __slots__ = ()
 
     @property
     def stiffness(self) -> float | tuple[float, ...]:
-        """How firmly hair keeps its shape. Where it is 36 times the wind, hair bends within 6 times
-        `hair.segment_length`. One number, or a list from root to tip. K of docs/motion-forms.md: the moment with
-        which a joint turns its two segments toward their rest shape, each as much as the other. Joints of finer cuts
-        are stiffer by the square of that, and bend alike. Number of at least 0, or list of numbers, each of at least
-        0; default: [12000, 1000].
+        """How firmly hair keeps its shape: at 36 times the wind, hair of 18 cm bends within about 6 cm. One number, or a
+        list from root to tip. K of docs/motion-forms.md: EI = 3/8 A L K d^2, with d `hair.segment_length`. Hair bends
+        alike however finely it is cut. Number, 0 to 1000000000, or list of numbers, each 0 to 1000000000; default:
+        [12000, 1000].
         """
         value: float | tuple[float, ...] = self._get('stiffness')
         return value
@@ -131,8 +141,8 @@ class FreeForm(Table):
     @property
     def hold(self) -> float | tuple[float, ...]:
         """How firmly hair keeps its place on the head, as with hair spray. One number, or a list from root to tip. H:
-        what turns a segment toward its rest direction in the head's frame. Number of at least 0, or list of numbers,
-        each of at least 0; default: 30.
+        turns segments toward their rest direction on the head. Against a force F, limp hair settles along F + H r.
+        Number, 0 to 1000000000, or list of numbers, each 0 to 1000000000; default: 30.
         """
         value: float | tuple[float, ...] = self._get('hold')
         return value
@@ -143,9 +153,9 @@ class FreeForm(Table):
 
     @property
     def settle(self) -> float | tuple[float, ...]:
-        """Frames in which a swing dies down, to 1/e: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 never
-        ends. One number, or a list from root to tip, in which hair beside a 0 hardly swings. Number of at least 0, or
-        list of numbers, each of at least 0 (frames); default: 20.
+        """Frames in which a swing falls to 1/e: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 has no air. One
+        number, or a list from root to tip, interpolated in frames: next to a 0 hair hardly swings. Number of at least
+        0, or list of numbers, each of at least 0 (frames); default: 20.
         """
         value: float | tuple[float, ...] = self._get('settle')
         return value
@@ -156,9 +166,8 @@ class FreeForm(Table):
 
     @property
     def gravity(self) -> float | str:
-        """How heavy hair is that has been moved, and how much a jolt of the head is felt. A strength, or "earth" for
-        that of the earth at `motion.frame_rate`. Hair at rest does not sag. It stands for 981 cm/s^2, which gives
-        accelerations of the head their scale. Number of at least 0 or "earth"; default: 100.
+        """How fast moved hair falls. A strength, or "earth" for 981 cm/s^2 at `motion.frame_rate`. Hair at rest does not
+        sag. Number, 0 to 1000000000, or "earth"; default: 100.
         """
         value: float | str = self._get('gravity')
         return value
@@ -168,30 +177,17 @@ class FreeForm(Table):
         self._set('gravity', value)
 
     @property
-    def jolt(self) -> float:
-        """How strongly a jolt of the head is felt, as a multiple of what `gravity` makes of it. Hair that falls in slow
-        motion feels jolts as weakly: on 18 cm of hair at 24 frames a second, a weight of 100 is a 28th of the
-        earth's, and 28 lets a nod throw it as far as it does in life, while it still sinks slowly. Number, 0 to 1000;
-        default: 1.
+    def drag(self) -> float | tuple[float, ...]:
+        """How far a head that moves leaves hair behind: 0 rides along, 1 is as in life, more exaggerates. One number, or
+        a list from root to tip. It weighs the head's turn, its acceleration and the pull of the still air. Number, 0
+        to 10, or list of numbers, each 0 to 10; default: 1.
         """
-        value: float = self._get('jolt')
+        value: float | tuple[float, ...] = self._get('drag')
         return value
 
-    @jolt.setter
-    def jolt(self, value: float | None) -> None:
-        self._set('jolt', value)
-
-    @property
-    def lag(self) -> float:
-        """How far tips fall behind a head that turns; 0: not at all. The share of the turn that hair follows at once is
-        (1 - m/L)^lag, at the distance m from the root of a strand of length L. Number, 0 to 8; default: 1.
-        """
-        value: float = self._get('lag')
-        return value
-
-    @lag.setter
-    def lag(self, value: float | None) -> None:
-        self._set('lag', value)
+    @drag.setter
+    def drag(self, value: float | Numbers | None) -> None:
+        self._set('drag', value)
 
     @property
     def pseudo_force(self) -> bool:
@@ -207,28 +203,40 @@ class FreeForm(Table):
 
     @property
     def tie(self) -> Tie:
-        """A band that ties hair: what passes it at rest does not move before it."""
+        """A band that ties hair: strands that pass it at rest are held from the root to the band."""
         return Tie(self._scene, self._key_of('tie'))
 
     @tie.setter
     def tie(self, value: Tie | Mapping[str, Any] | None) -> None:
         self._set('tie', value)
 
+    @property
+    def substeps(self) -> int | None:
+        """Steps that a frame is divided into. Left open, a scene takes as many as weight and stiffness need, and at
+        least 2. Whole number, 1 to 32; default: by weight and stiffness.
+        """
+        value: int | None = self._get('substeps')
+        return value
+
+    @substeps.setter
+    def substeps(self, value: int | None) -> None:
+        self._set('substeps', value)
+
 
 class Tie(Table):
-    """A band that ties hair: a strand that passes it at rest does not move before it, but goes with the head, and moves
-    behind it as one that is rooted there.
+    """A band that ties hair. A strand that passes it at rest goes with the head up to the band, and moves beyond it as
+    if it were rooted there.
 
-    Its segments up to the node nearest to the band have no gain, as points of no inverse mass have, and lengths,
-    gains and what varies along a strand count from there. A strand that passes between two nodes, neither of them
-    near enough, is tied at the nearer one, and never at its root.
+    Segments up to the node nearest to the band are held: their inverse mass is 0. Lengths and lists from root to tip
+    count from there. A strand that passes between two nodes, neither near enough, is tied at the nearer one, but
+    never at its root.
     """
 
     __slots__ = ()
 
     @property
     def at(self) -> tuple[float, float, float]:
-        """Its middle, in head space. 3 numbers (cm); must be given."""
+        """Middle of the band, in head space. 3 numbers (cm); must be given."""
         value: tuple[float, float, float] = self._get('at')
         return value
 
@@ -238,7 +246,7 @@ class Tie(Table):
 
     @property
     def within(self) -> float:
-        """How near a strand passes that is tied. Number above 0 (cm); must be given."""
+        """Strands that pass this near are tied. Number above 0 (cm); must be given."""
         value: float = self._get('within')
         return value
 
@@ -290,19 +298,18 @@ class Contact(Table):
 
 
 class NeighbourForces(Table):
-    """Hair against hair: forces from a grid that a few strands, the carriers, fill as they move.
+    """Hair against hair, through a grid that a few strands, the carriers, fill as they move.
 
-    Carriers move first and write density and mean velocity; every strand, carriers too, reads what they left in the
-    frame before. So a strand depends on itself and on the carriers only, and any subset of the hair moves as within
-    the whole.
+    Carriers write density and mean velocity; in the next frame every strand, carriers too, reads them. So a strand
+    depends on itself and the carriers only, and any subset of the hair moves as within the whole.
     """
 
     __slots__ = ()
 
     @property
     def carriers(self) -> int:
-        """How many strands are carriers: the first so many of the farthest-first order. Whole number, 1 to 4096
-        (strands); default: 256.
+        """Number of carriers: the first strands of the farthest-first order. Whole number, 1 to 4096 (strands); default:
+        256.
         """
         value: int = self._get('carriers')
         return value
@@ -313,7 +320,7 @@ class NeighbourForces(Table):
 
     @property
     def pressure(self) -> float:
-        """How firmly hair keeps its volume. It pushes hair out of places fuller than at rest, in the unit of F where the
+        """How firmly hair keeps its volume: pushes it out of places fuller than at rest. In the unit of F where the
         density falls by that of the hair at rest over one cell. Number of at least 0; default: 40.
         """
         value: float = self._get('pressure')
@@ -325,8 +332,8 @@ class NeighbourForces(Table):
 
     @property
     def cohesion(self) -> float:
-        """How firmly strands take along those beside them. It pulls a node toward the mean velocity about it, in the
-        unit of F for each cm a frame. Number of at least 0; default: 40.
+        """How firmly strands drag their neighbours along: pulls a node toward the mean velocity about it, in the unit of
+        F for each cm a frame. Number of at least 0; default: 40.
         """
         value: float = self._get('cohesion')
         return value
@@ -337,7 +344,7 @@ class NeighbourForces(Table):
 
     @property
     def cell(self) -> float:
-        """Edge of a cell of the grid in which hair feels hair. Number, 0.5 to 20 (cm); default: 2."""
+        """Edge of a cell of the grid. Number, 0.5 to 20 (cm); default: 2."""
         value: float = self._get('cell')
         return value
 

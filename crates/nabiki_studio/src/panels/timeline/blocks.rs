@@ -3,6 +3,7 @@
 use eframe::egui::{self, Align2, Color32, CursorIcon, Rect, Sense, Stroke, Ui, pos2, vec2};
 use glam::Vec3;
 use nabiki::field::Keyframe;
+use nabiki_scene::told::Swing;
 
 use super::Scale;
 use crate::command::Command;
@@ -207,18 +208,21 @@ pub fn arrow(painter: &egui::Painter, middle: egui::Pos2, vector: Vec3, length: 
 
 /// The swing at the tip, in a few words.
 fn swing(session: &Session, j: usize) -> String {
-    match session.swings().and_then(|swings| swings.rows.get(j)).map(|row| row.periods[2]) {
+    match session.swings().and_then(|swings| swings.rows.get(j)).map(|row| row.swing.of_tip()) {
         Some(tip) if tip.is_finite() => format!("swing {tip:.0}"),
         _ => String::new(),
     }
 }
 
-/// All three of them.
+/// All that is known of it.
 fn swings(session: &Session, j: usize) -> String {
     let Some(row) = session.swings().and_then(|swings| swings.rows.get(j)) else { return String::new() };
-    let [root, middle, tip] = row.periods.map(|frames| match frames.is_finite() {
-        true => format!("{frames:.0}"),
-        false => "-".to_owned(),
-    });
-    format!("A swing takes {root} frames at the root, {middle} in the middle, {tip} at the tip.")
+    let words = |frames: f64| if frames.is_finite() { format!("{frames:.0}") } else { "-".to_owned() };
+    match row.swing {
+        Swing::Segments(frames) => {
+            let [root, middle, tip] = frames.map(words);
+            format!("A swing takes {root} frames at the root, {middle} in the middle, {tip} at the tip.")
+        }
+        Swing::Strand(frames) => format!("A swing takes {} frames.", words(frames)),
+    }
 }
