@@ -209,8 +209,8 @@ impl PlacedBody {
         Some(reading?.distance - clearance)
     }
 
-    /// How the body pushes a node, by how much outward (cm a frame^2), and how far the node is from it (cm): against all that carries it in within the step, against what pressed
-    /// it in the step before, and against what goes along by friction.
+    /// How the body pushes a node in the step: against what carries it in, against what pressed it in the step before, and by friction. With what
+    /// of that presses outward (cm a frame^2), and how far the node is from the body (cm).
     pub fn against(&self, body: &Body, surface: Surface, clearance: f32, node: &Moving) -> Option<Push> {
         match skin(body, surface) {
             Skin::Mesh(skin) => self.against_at(skin, clearance, node),

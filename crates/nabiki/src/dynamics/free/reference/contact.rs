@@ -83,8 +83,8 @@ impl<'a> PlacedBody<'a> {
         reading.map_or(f64::INFINITY, |reading| f64::from(reading.distance) - clearance)
     }
 
-    /// How the body pushes a node, by how much outward (cm a frame^2), and how far the node is from it (cm): against all that carries it in within the step, against what pressed
-    /// it in the step before, and against what goes along by friction.
+    /// How the body pushes a node in the step: against what carries it in, against what pressed it in the step before, and by friction. With what
+    /// of that presses outward (cm a frame^2), and how far the node is from the body (cm).
     pub fn against<S: Scalar>(
         &self,
         (surface, clearance): (Surface, f64),
