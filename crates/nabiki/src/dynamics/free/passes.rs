@@ -105,17 +105,23 @@ impl<'a, 's> Stepped<'a, 's> {
     pub fn push(&self, states: &mut [FreeState], work: &mut [Work]) {
         let Blown { packed, step, block, number } = self.of;
         let (rows, first) = (self.of.rows(), block.rows().start);
-        let root = &packed.anchors[number];
+        // Of the points that the head carries the strands by.
+        let (mut velocity, mut acceleration) = (PointRow::default(), PointRow::default());
+        if let Some(way) = &step.way {
+            for lane in 0..LANES {
+                let root = lane_of(&packed.anchors[number], lane);
+                set_lane(&mut velocity, lane, add(rotate(&way.velocity.0, root), way.velocity.1));
+                set_lane(&mut acceleration, lane, add(rotate(&way.acceleration.0, root), way.acceleration.1));
+            }
+        }
         for (i, ((state, row), work)) in states.iter_mut().zip(rows).zip(work).enumerate() {
             prefetch_ahead(row, AHEAD);
             let mut other = work.blown;
-            if let Some(way) = &step.way {
+            if step.way.is_some() {
                 let of_air = packed.air(first + i);
                 for lane in 0..LANES {
-                    let (root, air) = (lane_of(root, lane), of_air.air.0[lane]);
-                    let velocity = add(rotate(&way.velocity.0, root), way.velocity.1);
-                    let acceleration = add(rotate(&way.acceleration.0, root), way.acceleration.1);
-                    let still_air = scale_add(air, velocity, acceleration);
+                    let (velocity, acceleration) = (lane_of(&velocity, lane), lane_of(&acceleration, lane));
+                    let still_air = scale_add(of_air.air.0[lane], velocity, acceleration);
                     let all = scale_add(-of_air.drag.0[lane], still_air, lane_of(&other, lane));
                     set_lane(&mut other, lane, all);
                 }
