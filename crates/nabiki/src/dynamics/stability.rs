@@ -1,7 +1,7 @@
 //! Whether the step is stable: the check stands above both forms, and knows what pulls on hair by name only.
 //!
-//! The scheme (7) holds while c_i times the sum of all that pulls on segment i stays below 4: the field, and for each
-//! [`Pull`] of a form the steepest slope of its force, by Gershgorin's circles.
+//! The scheme (7) holds while c_i times the sum of all that pulls on segment i stays below 4: the field, and each [`Pull`] of a form. In the
+//! free form, whose joints, hold and air are implicit, A / L stands for c_i.
 
 use glam::Vec3;
 
@@ -65,11 +65,9 @@ impl Stability {
             return Err(SettingError::new("hair", "0 strands", "there is nothing to move; give at least one strand"));
         }
         let (mut worst, mut least) = (Self { gain: 0.0, own: 0.0 }, f64::INFINITY);
-        let pulls = dynamics.form.pulls();
+        let own = dynamics.form.pulls().iter().map(|pull| pull.strongest()).sum::<f64>();
         for (s, strand) in strands.iter().enumerate() {
-            let shapes = dynamics.form.shapes(dynamics, strand, s)?;
-            for (i, shape) in shapes.iter().enumerate() {
-                let own = pulls.iter().map(|pull| pull.strongest(shape, shapes.get(i + 1))).sum::<f64>();
+            for shape in dynamics.form.shapes(dynamics, strand, s)? {
                 let force = 4.0 / shape.gain - own;
                 if force < least {
                     (worst, least) = (Self { gain: shape.gain, own }, force);
@@ -133,14 +131,11 @@ impl Worst {
         let last = pulls.len();
         let (mut reached, mut place) = (0.0, String::new());
         let (mut worst, mut rooms) = (vec![0.0; last + 1], vec![f64::INFINITY; last + 1]);
-        let mut parts = vec![force; last + 1];
+        let parts: Vec<f64> = pulls.iter().map(|pull| pull.strongest()).chain([force]).collect();
         for named in hair {
             for (s, strand) in named.strands.iter().enumerate() {
                 let shapes = dynamics.form.shapes(dynamics, strand, s).unwrap_or_default();
-                for (i, shape) in shapes.iter().enumerate().filter(|(_, shape)| shape.gain > 0.0) {
-                    for (part, pull) in parts.iter_mut().zip(pulls) {
-                        *part = pull.strongest(shape, shapes.get(i + 1));
-                    }
+                for shape in shapes.iter().filter(|shape| shape.gain > 0.0) {
                     for part in (0..=last).filter(|&part| parts[part] > 0.0) {
                         // Never from the sum of all, in which one that is too large swallows the others.
                         let others: f64 = (0..=last).filter(|&other| other != part).map(|other| parts[other]).sum();
@@ -189,8 +184,7 @@ pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Fiel
         Some(&part) => {
             let (pull, name) = (&pulls[part], pulls[part].name());
             let holds = rounded_down(rooms[part] * f64::from(pull.setting()));
-            let others = if pull.has_others() { ", the others in proportion" } else { "" };
-            refused(name.setting, pull.setting().to_string(), format!("keep {} below {holds}{others}", name.words))
+            refused(name.setting, pull.setting().to_string(), format!("keep {} below {holds}", name.words))
         }
         None => {
             let most = largest_first.iter().find_map(|&part| pulls.get(part));

@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use crate::dynamics::gain::SegmentShape;
 use crate::dynamics::pull::{Name, Pull};
 use crate::pose::Pose;
 
@@ -18,7 +17,7 @@ impl Pull for Gravity {
         self.0
     }
 
-    fn strongest(&self, _: &SegmentShape, _: Option<&SegmentShape>) -> f64 {
+    fn strongest(&self) -> f64 {
         f64::from(self.0)
     }
 }
