@@ -6,7 +6,9 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use crate::body::Body;
+use crate::chance::Chance;
 use crate::error::SettingError;
+use crate::locks::{Lock, Locks, Own, Variation};
 use crate::pose::{Pose, check_poses};
 use crate::profile::Profile;
 use crate::setting::{Datum, Kind, Place, Range, Value, Word};
@@ -35,6 +37,9 @@ settings! {
         pub drag: Profile = Profile::Even(1.0) => "Drag", least 0.0, most 10.0;
         /// Whether `[pseudo_force]` weakens the field before the head, as in the paper's form.
         pub pseudo_force: bool = false => "Pseudo-force";
+        /// How locks differ, so that they part in the wind.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub variation: Option<Variation> = None => "Variation", open "all alike";
         /// A band that ties hair: strands that pass it at rest are held from the root to the band.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub tie: Option<Tie> = None => "Tie", open "no band";
@@ -205,17 +210,34 @@ pub struct FreeMotion {
     pub bodies: Vec<Body>,
     /// Hair against hair, if any.
     pub neighbours: Option<Neighbours>,
+    /// Where locks are, for [`FreeForm::variation`]; its `size` is not asked here.
+    pub locks: Locks,
     /// The head's pose in frame 0, under which hair at rest carries its weight.
     pub rest_pose: Pose,
 }
 
 impl FreeMotion {
+    /// The lock of a strand at rest (head space, cm): tied hair is parted into locks where it leaves its band.
+    pub fn lock(&self, strand: &[Vec3]) -> Lock {
+        self.locks.of(strand[self.form.tie.map_or(0, |tie| tie.held(strand))])
+    }
+
+    /// How a strand at rest (head space, cm) differs from what the form says.
+    pub fn own(&self, strand: &[Vec3]) -> Own {
+        self.form.variation.map_or_else(Own::default, |variation| {
+            variation.of(&self.lock(strand), Chance::at_point(self.locks.seed, strand[0]))
+        })
+    }
+
     /// Refuses settings out of range, and bodies that lack a pose in any of the `frames` frames after frame 0.
     pub fn check(&self, frames: u32) -> Result<(), SettingError> {
         self.form.check()?;
         if self.form.gravity == Gravity::Earth {
             let remedy = "give its strength: that of the earth depends on all the hair, see earth_gravity";
             return Err(SettingError::new("free.gravity", "earth", remedy));
+        }
+        if !(self.locks.size > 0.0 && self.locks.size.is_finite()) {
+            return Err(SettingError::new("free.variation.size", self.locks.size, "must be above 0"));
         }
         self.bodies.iter().try_for_each(|body| body.check(frames))?;
         check_poses("head.motion", &[self.rest_pose])?;

@@ -50,6 +50,7 @@ extern crate self as nabiki;
 pub mod body;
 #[cfg(test)]
 mod bust;
+pub mod chance;
 pub mod distance;
 pub mod disturbance;
 pub mod dynamics;
@@ -60,6 +61,7 @@ pub mod free_form;
 pub mod hair;
 pub mod head;
 mod key;
+pub mod locks;
 pub mod mesh;
 pub mod obstacle;
 pub mod pose;

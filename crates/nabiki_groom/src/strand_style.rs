@@ -1,6 +1,7 @@
 //! What a style asks of one strand: from its root to the direction, length, stiffness and loads it starts with.
 
-use nabiki::glam::{DVec2, DVec3, IVec3, Vec3};
+use nabiki::glam::{DVec2, DVec3, Vec3};
+use nabiki::locks::{Lock, Locks};
 use nabiki::{Ellipsoid, Head};
 
 use crate::chance::{Chance, channel};
@@ -127,24 +128,6 @@ fn mean(values: [f32; 4], shares: [f32; 4]) -> f64 {
     values.iter().zip(shares).map(|(value, share)| f64::from(value * share)).sum()
 }
 
-/// Middle of the clump that a root belongs to, and the clump's own chance: the nearest of the points scattered one to a
-/// cell through a grid.
-fn clump_of(root: Vec3, size: f32, seed: u64) -> (Vec3, Chance) {
-    let home = (root / size).floor().as_ivec3();
-    let mut nearest = (f32::INFINITY, root, Chance::at_cell(seed, home));
-    for n in 0..27 {
-        let cell = home + IVec3::new(n % 3, n / 3 % 3, n / 9) - 1;
-        let chance = Chance::at_cell(seed, cell);
-        let inside = DVec3::new(chance.unit(100), chance.unit(101), chance.unit(102)).as_vec3();
-        let middle = (cell.as_vec3() + inside) * size;
-        let far = middle.distance_squared(root);
-        if far < nearest.0 {
-            nearest = (far, middle, chance);
-        }
-    }
-    (nearest.1, nearest.2)
-}
-
 /// So near the parting (cm) hair leaves it at a slant, toward the crown, and covers the line better than it would
 /// straight across.
 const SLANTED: f32 = 2.5;
@@ -175,7 +158,7 @@ pub(crate) fn strand_style(
 ) -> StrandStyle {
     let (root, normal) = (position.as_dvec3(), normal.as_dvec3());
     let strand = Chance::at_point(seed, position);
-    let (clump_middle, clump) = clump_of(position, style.clumps.size, seed);
+    let Lock { middle: clump_middle, chance: clump } = Locks { size: style.clumps.size, seed }.of(position);
     let shares = shares(&head.ellipsoid, style, position, strand);
     let region = region_of(shares);
 

@@ -38,6 +38,7 @@ envelope = [{{ frame = 1, factor = 1.0 }}]
 [free]
 substeps = 3
 tie = {{ at = [0, 0, 0], within = 1.0 }}
+variation = {{ size = 2.0 }}
 [motion]
 form = "free"
 [hair.style.ponytail]

@@ -7,6 +7,7 @@ mod frame;
 mod grid;
 mod head_frame;
 mod kernel;
+mod own;
 mod packed;
 mod passes;
 mod pulls;

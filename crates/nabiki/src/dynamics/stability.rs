@@ -1,7 +1,7 @@
 //! Whether the step is stable: the check stands above both forms, and knows what pulls on hair by name only.
 //!
 //! The scheme (7) holds while c_i times the sum of all that pulls on segment i stays below 4: the field, and each [`Pull`] of a form. In the
-//! free form, whose joints, hold and air are implicit, A / L stands for c_i.
+//! free form, whose joints, hold and air are implicit, A h^2 / L stands for c_i, with h the part of a frame that a step takes.
 
 use glam::Vec3;
 
@@ -25,7 +25,7 @@ impl Form {
     fn shapes(&self, dynamics: &Dynamics, strand: &[Vec3], s: usize) -> Result<Vec<SegmentShape>, SettingError> {
         match self {
             Self::Paper => segment_shapes(dynamics, strand, s, 0),
-            Self::Free(free) => free::shapes(dynamics, &free.form, strand, s),
+            Self::Free(free) => free::shapes(dynamics, free, strand, s),
         }
     }
 }
@@ -161,12 +161,19 @@ pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Fiel
     let Worst { reached, place, parts, rooms } = Worst::of(hair, dynamics, &pulls, strongest);
     let terms: Vec<&str> = pulls.iter().map(|pull| pull.name().term).collect();
     let sum = if terms.is_empty() { "|F|".to_owned() } else { format!("(|F| + {})", terms.join(" + ")) };
-    let ways = "make motion.time_step smaller, or set motion.inertia_length_floor so that short hair is held by its neighbours";
+    let (gain, finer) = match dynamics.form {
+        Form::Paper => ("c_i", ""),
+        Form::Free(_) => ("A h^2 / L", "give free.substeps more, "),
+    };
+    let ways = format!(
+        "{finer}make motion.time_step smaller, or set motion.inertia_length_floor so that short hair is held by its neighbours"
+    );
     let refused = |thing: &str, value: String, keep: String| {
         let reached = if reached < 1e6 { format!("{reached:.3}") } else { format!("{reached:.1e}") };
         let metres = in_metres(hair, dynamics);
-        let remedy =
-            format!("unstable: c_i {sum} reaches {reached} at {place}, and must stay below 4; {keep}, {ways}{metres}");
+        let remedy = format!(
+            "unstable: {gain} {sum} reaches {reached} at {place}, and must stay below 4; {keep}, {ways}{metres}"
+        );
         SettingError::new(thing, value, remedy)
     };
     let mut largest_first: Vec<usize> = (0..parts.len()).collect();

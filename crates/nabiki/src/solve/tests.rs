@@ -231,7 +231,7 @@ fn tangents_are_what_differences_of_the_specification_say() {
     let hair = hair();
     let free = |bodies: Vec<Body>, neighbours, poses: &[Pose]| {
         let rest_pose = poses.first().copied().unwrap_or_default();
-        Form::Free(FreeMotion { form: FreeForm::default(), bodies, neighbours, rest_pose })
+        Form::Free(FreeMotion { form: FreeForm::default(), bodies, neighbours, rest_pose, ..Default::default() })
     };
     let flow = |wind: Arc<dyn Field>| -> Arc<dyn Field> {
         Arc::new(FlowField::new(&Flow::default(), wind, head.ellipsoid, &[]).unwrap())

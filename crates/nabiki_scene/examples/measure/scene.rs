@@ -29,6 +29,7 @@ pub fn measure(scene: Scene, strands: usize) -> Result<(), Box<dyn std::error::E
     }
     let tips: Vec<Vec<DVec3>> = (0..rest.len()).map(|s| tip_of(&film, s)).collect();
     alike(rest, &tips);
+    alike_in_locks(&built, &tips);
     let velocities: Vec<Vec<DVec3>> = tips.iter().map(|tip| tip.windows(2).map(|w| w[1] - w[0]).collect()).collect();
     println!("three components of all tips' velocities  {:.3}", share_of_three(&velocities));
     let rate = built.dynamics.motion.frame_rate;
@@ -153,6 +154,21 @@ fn alike(rest: &Strands, tips: &[Vec<DVec3>]) {
     };
     let [one, three, six] = [1.0, 3.0, 6.0].map(of);
     println!("correlation of tips 1, 3, 6 cm apart       {one:.3} / {three:.3} / {six:.3}");
+}
+
+/// The same of strands of one lock whose lengths differ by less than a tenth.
+fn alike_in_locks(built: &BuiltScene, tips: &[Vec<DVec3>]) {
+    let Form::Free(free) = &built.dynamics.form else { return };
+    let rest = &built.groom.hair.strands;
+    let locks: Vec<Vec3> = (0..rest.len()).map(|s| free.lock(rest.strand(s)).middle).collect();
+    let lengths: Vec<f32> = rest.lengths().collect();
+    let pairs = (0..locks.len()).flat_map(|i| (0..i).map(move |j| (i, j))).filter(|&(i, j)| locks[i] == locks[j]);
+    let pairs = pairs.filter(|&(i, j)| (lengths[i] / lengths[j] - 1.0).abs() < 0.1);
+    let found: Vec<f64> = pairs.map(|(i, j)| correlation(&tips[i], &tips[j])).collect();
+    if !found.is_empty() {
+        let all = mean(found.iter().copied());
+        println!("correlation of tips within a lock          {all:.3}, of {} pairs", found.len());
+    }
 }
 
 /// Nodes in the head, sharp bends and lengths.

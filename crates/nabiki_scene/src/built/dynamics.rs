@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use nabiki::dynamics::{Dynamics, Form, earth_gravity, substeps};
 use nabiki::free_form::{FreeForm, FreeMotion, Gravity, Neighbours};
+use nabiki::locks::Locks;
 use nabiki::{Pose, Strands};
 
 use super::bodies::{BodyInputs, BuiltBody};
@@ -35,6 +36,14 @@ pub(super) fn dynamics(scene: &Scene, model: &Model, rest_pose: Pose, at: At<'_>
     };
     dynamics.check().map_err(|refused| at.refusal(refused))?;
     Ok(Dynamics { polar_axis: rest_pose.up_in_head(), ..dynamics })
+}
+
+/// Clumps of hair that is grown are locks, unless another width is asked for.
+fn locks(scene: &Scene) -> Locks {
+    let clumps =
+        scene.hair.grown().map_or_else(Locks::default, |hair| Locks { size: hair.style.clumps.size, seed: hair.seed });
+    let size = scene.free.variation.and_then(|variation| variation.size);
+    Locks { size: size.unwrap_or(clumps.size), ..clumps }
 }
 
 /// Gives `dynamics` the scene's free form. `first`: strands of the whole, as many as are wanted or as there are. Returns the
@@ -69,7 +78,7 @@ pub(super) fn set_free<'a>(
         Neighbours::new(forces.clone(), Arc::new(first.select(&(0..carriers).collect::<Vec<_>>())))
     });
     let form = FreeForm { gravity: Gravity::Strength(gravity), substeps: Some(steps), ..scene.free.clone() };
-    dynamics.form = Form::Free(FreeMotion { form, bodies: felt, neighbours, rest_pose });
+    dynamics.form = Form::Free(FreeMotion { form, bodies: felt, neighbours, locks: locks(scene), rest_pose });
     dynamics.check().map_err(|refused| at.refusal(refused))?;
     Ok(bodies)
 }

@@ -23,6 +23,14 @@ pub(super) const GROUPS: &[Group] = &[
     Group::new("Neighbours", "neighbours", "Hair against hair.", &["pressure", "cohesion", "cell", "carriers"])
         .shaped(Shape::Optional(""))
         .when(When::Free),
+    Group::new(
+        "Locks",
+        "free.variation",
+        "How locks differ, so that they part in the wind.",
+        &["air", "flutter", "flutter_frames", "stiffness", "strands", "flyaways", "size", "seed"],
+    )
+    .shaped(Shape::Optional(""))
+    .when(When::Free),
     Group::new("Tie", "free.tie", "A band: hair that passes it does not move before it.", &["at", "within"])
         .shaped(Shape::Optional("at = [-11.0, 2.0, 0.0]\nwithin = 1.5"))
         .when(When::Free),

@@ -8,6 +8,7 @@ use super::contact::PlacedBody;
 use super::grid::Crowd;
 use super::head_frame::{HeadFrame, HeadWay};
 use super::kernel::{AirRow, FreeRow, FreeState, ends};
+use super::own::OwnRow;
 use super::pulls::weight;
 use super::segment::{FreeSegment, free_segments};
 use crate::body::{Body, BodyWay, Surface};
@@ -45,6 +46,8 @@ pub(super) struct Packed {
     airs: Vec<AirRow>,
     /// Of every block, the points that the head carries its strands by: their roots, or the nodes that a tie holds last.
     pub anchors: Vec<PointRow>,
+    /// What strands make of the wind, block by block; empty where they are all alike.
+    own: Vec<OwnRow>,
     /// eps_i, where the scene has a pseudo-force.
     pub weakening: Option<(Surroundings, Vec<Row>)>,
     /// For each body, what the ends of the segments are kept out of.
@@ -86,6 +89,7 @@ impl Packed {
             rows: Vec::new(),
             airs: Vec::new(),
             anchors: Vec::new(),
+            own: Vec::new(),
             kept_from: Vec::new(),
             shapes: 0,
             rest: Vec::new(),
@@ -127,6 +131,10 @@ impl Packed {
         self.rest.resize(rows.end, FreeState::default());
         if let Some((_, eps)) = &mut self.weakening {
             eps.resize(rows.end, Row::default());
+        }
+        if self.free.form.variation.is_some() {
+            let own = range.clone().map(|s| self.free.own(strands.strand(s)));
+            self.own.push(OwnRow::of(own));
         }
         let mut anchors = block.roots;
         for (lane, (s, segments)) in range.zip(&segments).enumerate() {
@@ -255,6 +263,7 @@ impl Packed {
         let uniform = field.uniform();
         let everywhere = uniform.filter(|_| crowd.is_none() && self.weakening.is_none());
         Plan::Step(Step {
+            frame: input.frame,
             field,
             uniform,
             everywhere,
@@ -309,6 +318,8 @@ pub(super) enum Plan<'a> {
 /// What a frame does to every block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step<'a> {
+    /// Number of the frame to arrive at.
+    pub frame: u32,
     pub field: FieldFrame<'a>,
     /// The field's force, where that is the same everywhere (head space).
     pub uniform: Option<[f32; 3]>,
@@ -334,6 +345,12 @@ impl Packed {
         let kept = &self.kept_from[b];
         let surface = if kept.filled[at] >> lane & 1 == 1 { Surface::Filled } else { Surface::Skin };
         (surface, kept.clearances[at].0[lane])
+    }
+
+    /// What the strands of a block make of the wind; none where they are as all others.
+    #[inline(always)]
+    pub fn own(&self, block: usize) -> Option<&OwnRow> {
+        self.own.get(block)
     }
 
     #[inline(always)]

@@ -50,10 +50,15 @@ impl<'a, 's> Blown<'a, 's> {
         for (i, work) in work.iter_mut().enumerate() {
             work.drag = self.packed.air(first + i).air;
         }
+        let wind = self.packed.own(self.number).map(|own| own.wind(self.step.frame));
         if let Some(force) = self.step.everywhere {
+            let mut forces = force.map(|along| Row([along; LANES]));
+            if let Some(wind) = &wind {
+                wind.take(&mut forces);
+            }
             for (row, work) in rows.iter().zip(work) {
                 for lane in 0..LANES {
-                    set_lane(&mut work.blown, lane, scale(row.push.0[lane], force));
+                    set_lane(&mut work.blown, lane, scale(row.push.0[lane], lane_of(&forces, lane)));
                 }
             }
             return;
@@ -65,6 +70,9 @@ impl<'a, 's> Blown<'a, 's> {
         }
         for (i, (row, work)) in rows.iter().zip(work).enumerate() {
             let mut forces = self.outer_forces(first + i, &work.end);
+            if let Some(wind) = &wind {
+                wind.take(&mut forces);
+            }
             if let Some(crowd) = self.step.crowd {
                 let mut pulls = [[0.0; 4]; LANES];
                 crowd.at_row(&work.end, &mut pulls);

@@ -53,21 +53,23 @@ fn held(form: &FreeForm, strand: &[Vec3]) -> usize {
     form.tie.map_or(0, |tie| tie.held(strand))
 }
 
-/// Every segment of one strand, root first, as the check of forces asks: the gain of those that move is A / L, by which a force of 1
-/// accelerates the strand, in its own lengths a frame^2.
+/// Every segment of one strand, root first, as the check of forces asks: the gain of those that move is A h^2 / L, by which a force of 1
+/// moves the strand in a step of h frames, in its own lengths; more where it takes more of the air than others.
 ///
 /// # Errors
 /// As [`segment_shapes`].
 pub(in crate::dynamics) fn shapes(
     dynamics: &Dynamics,
-    form: &FreeForm,
+    free: &FreeMotion,
     strand: &[Vec3],
     s: usize,
 ) -> Result<Vec<SegmentShape>, SettingError> {
-    let held = held(form, strand);
+    let held = held(&free.form, strand);
     let mut shapes = segment_shapes(dynamics, strand, s, held)?;
     let length = shapes[held..].iter().map(|shape| shape.length).sum();
-    shapes[held..].iter_mut().for_each(|shape| shape.gain = push(dynamics, length) / length);
+    let step = 1.0 / f64::from(free.form.steps());
+    let gain = push(dynamics, length) * step.powi(2) / length * free.own(strand).most_wind().max(1.0);
+    shapes[held..].iter_mut().for_each(|shape| shape.gain = gain);
     Ok(shapes)
 }
 
@@ -87,6 +89,7 @@ pub(in crate::dynamics) fn free_segments(
     let points: Vec<DVec3> = strand.iter().map(|p| p.as_dvec3()).collect();
     let length: f64 = shapes[held..].iter().map(|shape| shape.length).sum();
     let push = push(dynamics, length);
+    let own = free.own(strand);
     let rest_weight = push * weight::on_head(&free.rest_pose, f64::from(form.weight()));
     let still = |i: usize| FreeSegment {
         shape: shapes[i],
@@ -114,11 +117,11 @@ pub(in crate::dynamics) fn free_segments(
         segments[i] = FreeSegment {
             push,
             lightness: 1.0 / mass,
-            bending: joints::bending(dynamics, push, length, form.stiffness.at(shape.begin))
+            bending: joints::bending(dynamics, push, length, own.stiffness * form.stiffness.at(shape.begin))
                 / (0.5 * (before + shape.length)),
             carries,
             hold: hold::moment_per_radian(push, held, length - middle, shape.length),
-            air: form.air(shape.middle) / f64::from(dynamics.motion.slow),
+            air: own.air * form.air(shape.middle) / f64::from(dynamics.motion.slow),
             drag: form.drag.at(shape.middle),
             ..segments[i]
         };

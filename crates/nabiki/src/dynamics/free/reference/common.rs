@@ -11,6 +11,8 @@ use crate::pseudo_force::Gamma;
 
 /// All that surrounds a strand in one frame, but for the air and its neighbours.
 pub(in crate::dynamics) struct Common<'a> {
+    /// Number of the frame to arrive at.
+    pub(super) frame: u32,
     pub(super) gamma: Gamma,
     pub(super) head: HeadFrame,
     /// The weight under which hair lies in balance at rest.
@@ -28,6 +30,7 @@ impl<'a> Common<'a> {
             free.bodies.iter().enumerate().map(place).collect()
         };
         Self {
+            frame: input.frame,
             gamma: dynamics.gamma(),
             head: HeadFrame::new(input, &free.form),
             rest_weight: weight::on_head(&free.rest_pose, f64::from(free.form.weight())),

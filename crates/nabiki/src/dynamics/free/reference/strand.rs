@@ -14,6 +14,7 @@ use crate::dynamics::free::segment::{FreeSegment, free_segments};
 use crate::dynamics::free::{ANSWER, ROUNDS};
 use crate::error::SettingError;
 use crate::free_form::FreeMotion;
+use crate::locks::Own;
 use crate::scalar::{Scalar, Turn, Vector};
 
 /// A strand at some frame.
@@ -35,6 +36,8 @@ pub(in crate::dynamics) struct Strand<S> {
     kept_from: Vec<Vec<(Surface, f64)>>,
     /// The node that the head carries: the root, or the last that a tie holds.
     anchor: usize,
+    /// How it differs from what the settings say.
+    own: Own,
 }
 
 /// One segment: its direction d at frame n and its increment w (rad a frame), normal to d; both in head space.
@@ -125,11 +128,13 @@ impl<S: Scalar> Strand<S> {
         let anchor = segments.iter().take_while(|segment| segment.lightness == 0.0).count();
         let segments: Vec<_> = segments.into_iter().map(|moved_by| Segment::new(moved_by, springs)).collect();
         let positions: Vec<Vector<S>> = strand.iter().map(|p| p.as_dvec3().into()).collect();
+        let own = free.own(strand);
         let (none, shifted) = (vec![Vector::zero(); segments.len()], vec![Vector::zero(); strand.len()]);
         let chain = Chain::new(segments.len());
         let (clear, meets) = (vec![S::from(f64::INFINITY); segments.len()], Vec::new());
         let (blown, residual) = (none.clone(), none);
-        let mut strand = Self { segments, chain, blown, residual, positions, shifted, clear, kept_from: meets, anchor };
+        let mut strand =
+            Self { segments, chain, blown, residual, positions, shifted, clear, kept_from: meets, anchor, own };
         strand.place();
         let at_rest: Vec<DVec3> = strand.positions.iter().map(|p| p.value()).collect();
         strand.kept_from = free.bodies.iter().map(|body| kept_from(body, &free.rest_pose, &at_rest)).collect();
@@ -171,6 +176,7 @@ impl<S: Scalar> Strand<S> {
             clear: vec![S::from(f64::INFINITY); known.segments.len()],
             kept_from: known.kept_from.clone(),
             anchor: known.anchor,
+            own: known.own,
         }
     }
 
@@ -215,10 +221,12 @@ impl<S: Scalar> Strand<S> {
     /// Asks for what is felt once a frame: the field, and what neighbours do.
     #[inline(always)]
     fn blow(&mut self, common: &Common, air: &impl Air<S>, crowd: Option<&Crowd>) {
+        let (times, turn) = self.own.wind(common.frame);
         for (i, segment) in self.segments.iter().enumerate() {
             let (end, FreeSegment { shape, push, .. }) = (self.positions[i + 1], segment.moved_by);
             let field = air.force(end);
             let weakened = common.gamma.contains(end.value(), field.value().as_vec3());
+            let field = (field + Vector::from(turn).cross(field)).times(times);
             let mut force = field.times(if weakened { shape.eps() } else { 1.0 });
             self.chain.drag[i] = segment.air;
             if let Some(crowd) = crowd {

@@ -1,0 +1,73 @@
+//! What the strands of a block make of the wind: see [`Own::wind`].
+
+use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
+use crate::dynamics::trigonometry::sin_cos;
+use crate::locks::{Own, Wave};
+use crate::vector::{add, cross, scale};
+
+/// [`Own`] of every strand of a block.
+#[derive(Clone, Debug)]
+pub(super) struct OwnRow {
+    air: Row,
+    flutter: Row,
+    rhythm: [[WaveRow; 2]; 4],
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct WaveRow {
+    frequency: Row,
+    phase: Row,
+}
+
+impl OwnRow {
+    /// Lanes without a strand do as all others would, were they alike.
+    pub fn of(strands: impl Iterator<Item = Own>) -> Self {
+        let mut of = Self { air: Row([1.0; LANES]), flutter: Row::default(), rhythm: Default::default() };
+        for (lane, own) in strands.enumerate() {
+            (of.air.0[lane], of.flutter.0[lane]) = (own.air as f32, own.flutter as f32);
+            for (row, wave) in of.rhythm.as_flattened_mut().iter_mut().zip(own.rhythm.as_flattened()) {
+                (row.frequency.0[lane], row.phase.0[lane]) = (wave.frequency, wave.phase);
+            }
+        }
+        of
+    }
+
+    /// s and b of a frame.
+    #[inline(always)]
+    pub fn wind(&self, frame: u32) -> WindRow {
+        let mut sums = [Row::default(); 4];
+        for (sum, waves) in sums.iter_mut().zip(&self.rhythm) {
+            for of in waves {
+                for lane in 0..LANES {
+                    let wave = Wave { frequency: of.frequency.0[lane], phase: of.phase.0[lane] };
+                    sum.0[lane] += sin_cos(wave.angle(frame) as f32).0;
+                }
+            }
+        }
+        let mut wind = WindRow { scale: self.air, turn: PointRow::default() };
+        for lane in 0..LANES {
+            let flutter = self.flutter.0[lane];
+            wind.scale.0[lane] *= flutter.mul_add(sums[0].0[lane], 1.0);
+            let turn = [sums[1].0[lane], sums[2].0[lane], sums[3].0[lane]];
+            set_lane(&mut wind.turn, lane, scale(flutter, turn));
+        }
+        wind
+    }
+}
+
+/// What becomes of a force of the field in one frame: s (F + b x F).
+pub(super) struct WindRow {
+    scale: Row,
+    turn: PointRow,
+}
+
+impl WindRow {
+    #[inline(always)]
+    pub fn take(&self, forces: &mut PointRow) {
+        for lane in 0..LANES {
+            let force = lane_of(forces, lane);
+            let turned = add(force, cross(lane_of(&self.turn, lane), force));
+            set_lane(forces, lane, scale(self.scale.0[lane], turned));
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! Locks: neighbouring strands that move together, and how locks differ.
+//!
+//! Which lock a strand belongs to depends on its root alone, so a preview has the locks of the whole.
+
+use glam::{DVec3, IVec3, Vec3};
+
+use crate::chance::Chance;
+use crate::settings;
+
+/// Where locks are: their middles are scattered over space, one in each cell of a grid, and a strand belongs to the middle nearest to its root.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Locks {
+    /// Edge of a cell (cm), which is about how wide a lock is at the scalp.
+    pub size: f32,
+    /// Seed of the middles, and of the chance of every lock and strand.
+    pub seed: u64,
+}
+
+impl Default for Locks {
+    fn default() -> Self {
+        Self { size: 1.2, seed: 0 }
+    }
+}
+
+/// A lock.
+#[derive(Clone, Copy, Debug)]
+pub struct Lock {
+    /// Its middle (head space, cm).
+    pub middle: Vec3,
+    /// What differs from lock to lock is drawn from this.
+    pub chance: Chance,
+}
+
+impl Locks {
+    /// The lock of a strand that grows from `root`, or leaves its band there (head space, cm).
+    pub fn of(&self, root: Vec3) -> Lock {
+        let home = (root / self.size).floor().as_ivec3();
+        let mut nearest = (f32::INFINITY, Lock { middle: root, chance: Chance::at_cell(self.seed, home) });
+        for n in 0..27 {
+            let cell = home.saturating_add(IVec3::new(n % 3, n / 3 % 3, n / 9) - 1);
+            let chance = Chance::at_cell(self.seed, cell);
+            let inside = DVec3::new(chance.unit(100), chance.unit(101), chance.unit(102)).as_vec3();
+            let middle = (cell.as_vec3() + inside) * self.size;
+            let far = middle.distance_squared(root);
+            if far < nearest.0 {
+                nearest = (far, Lock { middle, chance });
+            }
+        }
+        nearest.1
+    }
+}
+
+settings! {
+    /// How locks differ, so that they part in the wind instead of moving as one.
+    ///
+    /// A lock is the hair of a clump, as the groom has them, and keeps its ways in every take: they are drawn from its place on the head and
+    /// the seed. Hair that takes n times the air is pushed n times as hard by the wind, and settles n times as fast.
+    #[derive(Copy)]
+    pub struct Variation in "free.variation" {
+        /// How much the air that a lock takes differs from lock to lock: the standard deviation of its logarithm. 0.35 lets a sixth of the locks
+        /// take 1.4 times the air, or more, and a sixth 0.7 times, or less.
+        pub air: f32 = 0.35 => "Air", least 0.0, most 1.0;
+        /// How much the wind on a lock swells and turns by itself, in strength and in radians (both root mean square), in a rhythm of the
+        /// lock's own. This is what parts locks in an even wind.
+        pub flutter: f32 = 0.3 => "Flutter", least 0.0, most 0.5;
+        /// Frames in which it does so once, about.
+        pub flutter_frames: f32 = 24.0 => "Flutter period", unit "frames", least 2.0, most 10000.0;
+        /// How much stiffness differs from lock to lock: the standard deviation of its logarithm.
+        pub stiffness: f32 = 0.2 => "Stiffness", least 0.0, most 1.0;
+        /// How much the strands of a lock differ among themselves, as a part of how locks differ. What is much frays locks to frizz.
+        pub strands: f32 = 0.2 => "Strands", least 0.0, most 1.0;
+        /// Share of strands that take three times the air.
+        pub flyaways: f32 = 0.02 => "Flyaways", least 0.0, most 1.0;
+        /// Width of a lock at the scalp. Left open, that of the groom's clumps, so that clumps are locks; 1.2 cm for hair of a file.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub size: Option<f32> = None => "Lock size", unit "cm", least 0.1, most 100.0, open "the groom's clumps";
+        /// Another number, other locks that catch the wind.
+        pub seed: u64 = 0 => "Seed";
+    }
+}
+
+/// How one strand differs from what the settings say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Own {
+    /// Times the air: the field pushes it by as much more, and it settles by as much faster.
+    pub air: f64,
+    /// Times the stiffness.
+    pub stiffness: f64,
+    /// How much the wind on it swells and turns.
+    pub flutter: f64,
+    /// In which rhythm: that of its swelling, and of the three axes that it turns about.
+    pub(crate) rhythm: [[Wave; 2]; 4],
+}
+
+/// A sine over frames.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Wave {
+    /// Turns a frame.
+    pub frequency: f32,
+    /// Where it is in frame 0, in turns.
+    pub phase: f32,
+}
+
+impl Wave {
+    /// The angle that it is at, within half a turn of 0 (rad).
+    pub fn angle(self, frame: u32) -> f64 {
+        let turns = f64::from(self.frequency) * f64::from(frame) + f64::from(self.phase);
+        (turns - turns.round()) * std::f64::consts::TAU
+    }
+}
+
+impl Default for Own {
+    fn default() -> Self {
+        Self { air: 1.0, stiffness: 1.0, flutter: 0.0, rhythm: [[Wave::default(); 2]; 4] }
+    }
+}
+
+impl Own {
+    /// Times the air that a flyaway takes, and the most that any strand does.
+    const MOST_AIR: f64 = 3.0;
+
+    /// What it makes of a force F of the field in a frame: s (F + b x F), of these s and b.
+    pub(crate) fn wind(&self, frame: u32) -> (f64, DVec3) {
+        let [swells, turns @ ..] =
+            self.rhythm.map(|waves| waves.map(|wave| wave.angle(frame).sin()).iter().sum::<f64>());
+        (self.air * self.flutter.mul_add(swells, 1.0), self.flutter * DVec3::from(turns))
+    }
+
+    /// The most that this multiplies a force by.
+    pub(crate) fn most_wind(&self) -> f64 {
+        let most = 2.0 * self.flutter;
+        self.air * (1.0 + most) * (3.0 * most).mul_add(most, 1.0).sqrt()
+    }
+}
+
+impl Variation {
+    /// How a strand of this lock differs, of which chance is given.
+    pub fn of(&self, lock: &Lock, strand: Chance) -> Own {
+        let [lock, strand] = [lock.chance, strand].map(|chance| chance.again(self.seed));
+        let factor = |spread: f32, channel: u64| {
+            (f64::from(spread) * (lock.bell(channel) + f64::from(self.strands) * strand.bell(channel))).exp()
+        };
+        let flies = strand.unit(0) < f64::from(self.flyaways);
+        let air = factor(self.air, 1) * if flies { Own::MOST_AIR } else { 1.0 };
+        let wave = |i: u64| Wave {
+            frequency: ((0.5 + lock.unit(200 + 2 * i)) / f64::from(self.flutter_frames)) as f32,
+            phase: lock.unit(201 + 2 * i) as f32,
+        };
+        Own {
+            air: air.min(Own::MOST_AIR),
+            stiffness: factor(self.stiffness, 2),
+            flutter: self.flutter.into(),
+            rhythm: std::array::from_fn(|i| std::array::from_fn(|j| wave(2 * i as u64 + j as u64))),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Over many periods each sine has a mean of 0 and a mean square of 1/2, and they are apart in frequency.
+    #[test]
+    fn flutter_is_as_strong_as_asked_for_and_never_stronger_than_its_bound() {
+        let variation = Variation { flutter: 0.3, flutter_frames: 20.0, ..Variation::default() };
+        let own = variation.of(&Locks::default().of(Vec3::X), Chance::at_point(0, Vec3::X));
+        let frames = 100_000;
+        let (mut mean, mut square, mut most) = ([0.0; 4], [0.0; 4], 0.0_f64);
+        for frame in 0..frames {
+            let (scale, turn) = own.wind(frame);
+            let of = [scale / own.air - 1.0, turn.x, turn.y, turn.z];
+            for i in 0..4 {
+                mean[i] += of[i] / f64::from(frames);
+                square[i] += of[i] * of[i] / f64::from(frames);
+            }
+            most = most.max(scale * turn.length_squared().mul_add(1.0, 1.0).sqrt());
+        }
+        // The sum of a sine over any number of frames is at most that over half a period, 2 / 2 pi f; two frequencies drawn from 1/40 to 3/40
+        // beat within some thousand frames.
+        for i in 0..4 {
+            assert!(mean[i].abs() < 1e-3 && (square[i].sqrt() - 0.3).abs() < 0.01, "{i}: {} {}", mean[i], square[i]);
+        }
+        assert!(most <= own.most_wind(), "{most}");
+    }
+}
