@@ -88,6 +88,8 @@ pub(super) struct Push {
     pub force: Vec3,
     pub outward: f32,
     pub clear: f32,
+    /// How far it is from touching at least, see [`gap`].
+    pub gap: f32,
 }
 
 /// Direction of a segment, and what it turns by in a step (rad).
@@ -229,20 +231,26 @@ impl PlacedBody {
         }
         let normal = self.normal(&reading);
         // What is too deep already is turned out, and not thrown.
+        let sure = self::gap(reading.distance, clearance);
         let gap = (reading.distance - clearance).max(0.0);
         let leaves = (h * node.velocity - of_body).dot(normal) + gap;
         let pressed = node.pressed * (h * h) - leaves.max(0.0);
         let moved = h * node.velocity + h * h * node.acceleration - of_body;
         let inward = (-(moved.dot(normal) + gap)).max(pressed);
         if inward <= 0.0 {
-            return Some(Push { clear: gap, ..Push::default() });
+            return Some(Push { clear: gap, gap: sure, ..Push::default() });
         }
         let along = moved + node.shifted;
         let over = 1.0 / (h * h);
         let force = over * self.slowed(along, normal, along.dot(normal), inward);
         // A speed is stopped once; what presses goes on to.
         let presses = (inward - (-leaves).max(0.0)).max(0.0);
-        Some(Push { force, outward: over * presses, clear: gap })
+        Some(Push { force, outward: over * presses, clear: gap, gap: sure })
+    }
+
+    /// Whether it stays where it is in head space, as the head does.
+    pub fn rests(&self) -> bool {
+        !self.moves && self.bends == 0.0
     }
 
     /// Where the body takes a point in the step that goes along with it.

@@ -3,6 +3,9 @@
 //! As in the paper's kernel every lane does the same operations whatever the machine's vectors hold, and multiplies and
 //! adds are fused by name: the bits do not depend on the vector width, nor on the other lanes.
 //!
+//! Loops over lanes read and write local rows alone, which are copied from and to the arrays around them: of places in arrays
+//! the compiler does not know that they are apart, and asks that at every segment, or gives vectors up.
+//!
 //! A step goes along the strands to and fro: [`carry`], [`untwist`] and [`bend`] for the joints, [`pull_taut`], [`slacken`] and [`drive`] for the
 //! tensions, [`solve`] and [`unwind`] for the increments, and [`advance`], on which segments are turned.
 
@@ -161,14 +164,20 @@ pub(super) fn carry(
         let (next_state, next_row) = (next(states, i, &BEYOND.0), next(rows, i, &BEYOND.1));
         (work.carried, work.handed) = (carried, handed);
         if let Some(weight) = weight {
+            let mut of_rest = ZERO;
             for lane in 0..LANES {
                 let (u, s, over) = (lane_of(&frame.vector, lane), frame.scalar.0[lane], frame.over_length.0[lane]);
-                set_lane(&mut work.weight, lane, turned(u, s, over, weight));
+                set_lane(&mut of_rest, lane, turned(u, s, over, weight));
             }
+            work.weight = of_rest;
         }
+        let FreeState { direction, increment, twist, .. } = *state;
+        let FreeRow { length, lightness, bending: bends, carries, .. } = *row;
+        let FreeState { direction: next_direction, twist: next_twist, .. } = *next_state;
+        let FreeRow { rest: next_at_rest, bending: next_bends, carries: next_carries, .. } = *next_row;
         for lane in 0..LANES {
-            let (d, w) = (lane_of(&state.direction, lane), lane_of(&state.increment, lane));
-            let length = row.length.0[lane];
+            let (d, w) = (lane_of(&direction, lane), lane_of(&increment, lane));
+            let length = length.0[lane];
             let there = beyond(&end, lane, length, d);
             set_lane(&mut end, lane, there);
             let goes = beyond(&velocity, lane, length, w);
@@ -180,7 +189,7 @@ pub(super) fn carry(
             let bend = cross(carried_rest, subtract(d, carried_rest));
             let (v, t) = shortened(bend, (1.0 + dot(carried_rest, d)).max(1e-12));
             let (u, s) = after(u, s, v, t);
-            let half = 0.5 * state.twist.0[lane];
+            let half = 0.5 * twist.0[lane];
             let (u, s) = after(u, s, scale(half, d), 1.0);
             // The length of a product is that of its factors; finite even where many kinks have left nothing of it.
             let longer = t.mul_add(t, dot(v, v)) * half.mul_add(half, 1.0);
@@ -188,25 +197,25 @@ pub(super) fn carry(
             set_lane(&mut frame.vector, lane, u);
             frame.scalar.0[lane] = s;
             frame.over_length.0[lane] = over;
-            let next_rest = turned(u, s, over, lane_of(&next_row.rest, lane));
+            let next_rest = turned(u, s, over, lane_of(&next_at_rest, lane));
             // Half-way between the two segments, so that it gives no energy.
-            let here = turned(u, s, over, lane_of(&row.carries, lane));
+            let here = turned(u, s, over, lane_of(&carries, lane));
             set_lane(&mut load, lane, scale(0.5, add(lane_of(&loaded, lane), here)));
-            let next_load = turned(u, s, over, lane_of(&next_row.carries, lane));
+            let next_load = turned(u, s, over, lane_of(&next_carries, lane));
 
-            let (next_d, bending) = (lane_of(&next_state.direction, lane), next_row.bending.0[lane]);
-            let stiff = torsion * row.bending.0[lane];
+            let (next_d, bending) = (lane_of(&next_direction, lane), next_bends.0[lane]);
+            let stiff = torsion * bends.0[lane];
             let next_stiff = torsion * bending;
             let hands = dot(d, add(next_d, next_rest)) / (1.0 + dot(next_d, next_rest)).max(1e-12);
             let across = cross(d, next_rest);
             let middle = next_stiff.mul_add(hands * hands, bending.mul_add(dot(across, across), stiff));
             let moment = dot(joints::moment_lane(bending, next_rest, next_d), d);
-            let right = (next_stiff * hands).mul_add(next_state.twist.0[lane], -moment);
-            let right = (-stiff).mul_add(state.twist.0[lane], right);
+            let right = (next_stiff * hands).mul_add(next_twist.0[lane], -moment);
+            let right = (-stiff).mul_add(twist.0[lane], right);
             let lower = -stiff * handed.0[lane];
             let middle = (-lower).mul_add(above.0[lane], middle);
             // What is held does not turn.
-            let over = if (row.lightness.0[lane] > 0.0) & (middle > 0.0) { 1.0 / middle } else { 0.0 };
+            let over = if (lightness.0[lane] > 0.0) & (middle > 0.0) { 1.0 / middle } else { 0.0 };
             above.0[lane] = -next_stiff * hands * over;
             turned_by.0[lane] = (-lower).mul_add(turned_by.0[lane], right) * over;
             handed.0[lane] = hands;
@@ -232,30 +241,33 @@ pub(super) fn bend(states: &mut [FreeState], rows: &[FreeRow], work: &mut [Work]
     for (i, (state, row)) in states.iter_mut().zip(rows).enumerate() {
         let (done, work) = work.split_at_mut(i);
         let work = &mut work[0];
+        let FreeState { direction, mut twist, .. } = *state;
+        let FreeRow { over_length, rest, bending: bends, hold, .. } = *row;
+        let Work { handed, tension: turned_by, carried: at_rest, mut moment, .. } = *work;
         for lane in 0..LANES {
-            let (d, bending) = (lane_of(&state.direction, lane), row.bending.0[lane]);
+            let (d, bending) = (lane_of(&direction, lane), bends.0[lane]);
             let by = turned_before.0[lane];
-            let twist = state.twist.0[lane] + (-work.handed.0[lane]).mul_add(by, work.tension.0[lane]);
-            state.twist.0[lane] = twist;
+            twist.0[lane] += (-handed.0[lane]).mul_add(by, turned_by.0[lane]);
             let half = 0.5 * by;
             let (u, over) = (scale(half, lane_of(&before, lane)), 2.0 / half.mul_add(half, 1.0));
-            let carried = turned(u, 1.0, over, lane_of(&work.carried, lane));
-            let moment = add(lane_of(&work.moment, lane), joints::moment_lane(bending, carried, d));
-            let along = torsion * bending * twist / (1.0 + dot(d, carried)).max(1e-12);
-            set_lane(&mut work.moment, lane, scale_add(-along, add(d, carried), moment));
+            let carried = turned(u, 1.0, over, lane_of(&at_rest, lane));
+            let bent = add(lane_of(&moment, lane), joints::moment_lane(bending, carried, d));
+            let along = torsion * bending * twist.0[lane] / (1.0 + dot(d, carried)).max(1e-12);
+            set_lane(&mut moment, lane, scale_add(-along, add(d, carried), bent));
         }
-        turned_before = work.tension;
-        before = state.direction;
+        (turned_before, before) = (turned_by, direction);
+        (state.twist, work.moment) = (twist, moment);
         if let Some(done) = done.last_mut() {
-            shear(&work.moment, done);
+            shear(&moment, done);
         }
+        let (mut held, mut end_way) = (ZERO, ZERO);
         for lane in 0..LANES {
-            let d = lane_of(&state.direction, lane);
-            // Until the moment of the next joint is known.
-            let held = hold::moment_lane(row.hold.0[lane], lane_of(&row.rest, lane), d);
-            set_lane(&mut work.shear, lane, held);
-            set_lane(&mut work.end_way, lane, scale(row.over_length.0[lane], d));
+            let d = lane_of(&direction, lane);
+            set_lane(&mut held, lane, hold::moment_lane(hold.0[lane], lane_of(&rest, lane), d));
+            set_lane(&mut end_way, lane, scale(over_length.0[lane], d));
         }
+        // The shear is hold alone until the moment of the next joint is known.
+        (work.shear, work.end_way) = (held, end_way);
     }
     if let Some(last) = work.last_mut() {
         shear(&ZERO, last);
@@ -265,47 +277,52 @@ pub(super) fn bend(states: &mut [FreeState], rows: &[FreeRow], work: &mut [Work]
 /// From the moments at both of its ends and hold to the shear of a segment.
 #[inline(always)]
 fn shear(next: &PointRow, work: &mut Work) {
+    let Work { moment, mut shear, end_way, .. } = *work;
+    let next = *next;
     for lane in 0..LANES {
-        let moment = subtract(lane_of(&work.moment, lane), lane_of(next, lane));
-        let all = add(moment, lane_of(&work.shear, lane));
-        set_lane(&mut work.shear, lane, cross(all, lane_of(&work.end_way, lane)));
+        let moment = subtract(lane_of(&moment, lane), lane_of(&next, lane));
+        let all = add(moment, lane_of(&shear, lane));
+        set_lane(&mut shear, lane, cross(all, lane_of(&end_way, lane)));
     }
+    work.shear = shear;
 }
 
 /// Goes to the tips with the tridiagonal system of the tensions: what drives the increments without them, and half of the way to them.
 #[inline(always)]
 pub(super) fn pull_taut(states: &[FreeState], rows: &[FreeRow], work: &mut [Work]) {
     let (mut node_before, mut velocity, mut drag, mut lightness) = (ZERO, ZERO, NONE, NONE);
-    let (mut direction, mut above, mut tension, mut bent) = (ZERO, NONE, NONE, NONE);
+    let (mut before, mut above, mut tension, mut bent) = (ZERO, NONE, NONE, NONE);
     for (i, (state, row)) in states.iter().zip(rows).enumerate() {
-        let shear = next(work, i, &BEYOND.2).shear;
-        let next_state = next(states, i, &BEYOND.0);
+        let next_shear = next(work, i, &BEYOND.2).shear;
+        let next_direction = next(states, i, &BEYOND.0).direction;
+        let FreeState { direction, increment, .. } = *state;
+        let FreeRow { length, lightness: lighter, .. } = *row;
         let work = &mut work[i];
+        let Work { shear, pushed, drag: slowed, velocity: goes, .. } = *work;
+        let mut drives = ZERO;
         for lane in 0..LANES {
-            let (d, w) = (lane_of(&state.direction, lane), lane_of(&state.increment, lane));
-            let (length, up, down) = (row.length.0[lane], row.lightness.0[lane], lightness.0[lane]);
-            let sheared = subtract(lane_of(&work.shear, lane), lane_of(&shear, lane));
-            let node = scale_add(up, sheared, lane_of(&work.pushed, lane));
-            let differs = work.drag.0[lane] - drag.0[lane];
+            let (d, w) = (lane_of(&direction, lane), lane_of(&increment, lane));
+            let (length, up, down) = (length.0[lane], lighter.0[lane], lightness.0[lane]);
+            let sheared = subtract(lane_of(&shear, lane), lane_of(&next_shear, lane));
+            let node = scale_add(up, sheared, lane_of(&pushed, lane));
+            let differs = slowed.0[lane] - drag.0[lane];
             let driven = subtract(node, lane_of(&node_before, lane));
             let driven = scale_add(-differs, lane_of(&velocity, lane), driven);
-            let right = length.mul_add(dot(w, w), dot(scale_add(-work.drag.0[lane] * length, w, driven), d));
-            let lower = -down * dot(d, lane_of(&direction, lane));
+            let right = length.mul_add(dot(w, w), dot(scale_add(-slowed.0[lane] * length, w, driven), d));
+            let lower = -down * dot(d, lane_of(&before, lane));
             let middle = (-lower).mul_add(above.0[lane], up + down);
             // What is held, and what is no segment, is under no tension.
             let over = if up > 0.0 { 1.0 / middle } else { 0.0 };
-            let along = dot(d, lane_of(&next_state.direction, lane));
+            let along = dot(d, lane_of(&next_direction, lane));
             above.0[lane] = -up * along * over;
             // Of the joint after it, the square of the sine of the bend; what is held bends no joint.
             bent.0[lane] = if up > 0.0 { (-along).mul_add(along, 1.0) } else { 0.0 };
             tension.0[lane] = (-lower).mul_add(tension.0[lane], right) * over;
             set_lane(&mut node_before, lane, node);
-            set_lane(&mut work.driven, lane, driven);
-            lightness.0[lane] = up;
-            drag.0[lane] = work.drag.0[lane];
+            set_lane(&mut drives, lane, driven);
         }
-        (direction, velocity) = (state.direction, work.velocity);
-        (work.above, work.tension, work.bent) = (above, tension, bent);
+        (before, velocity, drag, lightness) = (direction, goes, slowed, lighter);
+        (work.driven, work.above, work.tension, work.bent) = (drives, above, tension, bent);
     }
 }
 
@@ -314,11 +331,11 @@ pub(super) fn pull_taut(states: &[FreeState], rows: &[FreeRow], work: &mut [Work
 pub(super) fn slacken(work: &mut [Work]) {
     let mut beyond = NONE;
     for work in work.iter_mut().rev() {
+        let Work { above, mut tension, .. } = *work;
         for lane in 0..LANES {
-            let tension = (-work.above.0[lane]).mul_add(beyond.0[lane], work.tension.0[lane]);
-            work.tension.0[lane] = tension;
-            beyond.0[lane] = tension;
+            tension.0[lane] = (-above.0[lane]).mul_add(beyond.0[lane], tension.0[lane]);
         }
+        (work.tension, beyond) = (tension, tension);
     }
 }
 
@@ -327,17 +344,21 @@ pub(super) fn slacken(work: &mut [Work]) {
 pub(super) fn drive(states: &[FreeState], rows: &[FreeRow], work: &mut [Work]) {
     let mut node_before = ZERO;
     for (i, (state, row)) in states.iter().zip(rows).enumerate() {
-        let tension = next(work, i, &BEYOND.2).tension;
-        let next_direction = &next(states, i, &BEYOND.0).direction;
+        let next_tension = next(work, i, &BEYOND.2).tension;
+        let next_direction = next(states, i, &BEYOND.0).direction;
+        let FreeState { direction, increment, .. } = *state;
+        let FreeRow { length, lightness, .. } = *row;
         let work = &mut work[i];
+        let Work { tension, mut driven, .. } = *work;
         for lane in 0..LANES {
-            let (d, w) = (lane_of(&state.direction, lane), lane_of(&state.increment, lane));
-            let beyond = scale(tension.0[lane], lane_of(next_direction, lane));
-            let node = scale(row.lightness.0[lane], scale_add(-work.tension.0[lane], d, beyond));
-            let driven = add(lane_of(&work.driven, lane), subtract(node, lane_of(&node_before, lane)));
-            set_lane(&mut work.driven, lane, scale_add(row.length.0[lane] * dot(w, w), d, driven));
+            let (d, w) = (lane_of(&direction, lane), lane_of(&increment, lane));
+            let beyond = scale(next_tension.0[lane], lane_of(&next_direction, lane));
+            let node = scale(lightness.0[lane], scale_add(-tension.0[lane], d, beyond));
+            let by = add(lane_of(&driven, lane), subtract(node, lane_of(&node_before, lane)));
+            set_lane(&mut driven, lane, scale_add(length.0[lane] * dot(w, w), d, by));
             set_lane(&mut node_before, lane, node);
         }
+        work.driven = driven;
     }
 }
 
@@ -367,9 +388,13 @@ pub(super) fn solve(states: &[FreeState], rows: &[FreeRow], h: f32, work: &mut [
         };
         let ahead = [next(states, i, &BEYOND.0), if after_next { &states[i + 2] } else { &BEYOND.0 }];
         let behind = [1, 2].map(|k| if i >= k { &states[i - k] } else { &BEYOND.0 });
+        let [ahead, behind] = [ahead, behind].map(|of| of.map(|state| state.increment));
+        let increment = state.increment;
+        let FreeRow { length, lightness, residual, .. } = *row;
         let work = &mut work[i];
+        let Work { drag, driven, .. } = *work;
         for lane in 0..LANES {
-            let (length, up) = (row.length.0[lane], row.lightness.0[lane]);
+            let (length, up) = (length.0[lane], lightness.0[lane]);
             let node = [
                 up * stiffness[0].0[lane],
                 up * (stiffness[1].0[lane] - of_next[0].0[lane]),
@@ -384,18 +409,18 @@ pub(super) fn solve(states: &[FreeState], rows: &[FreeRow], h: f32, work: &mut [
             for k in 0..4 {
                 node_before[k].0[lane] = node[k];
             }
-            let w = lane_of(&state.increment, lane);
+            let w = lane_of(&increment, lane);
             let mut turned = scale(c, w);
-            turned = scale_add(a, lane_of(&behind[1].increment, lane), turned);
-            turned = scale_add(b, lane_of(&behind[0].increment, lane), turned);
-            turned = scale_add(d, lane_of(&ahead[0].increment, lane), turned);
-            turned = scale_add(e, lane_of(&ahead[1].increment, lane), turned);
-            let driven = subtract(lane_of(&work.driven, lane), lane_of(&row.residual, lane));
+            turned = scale_add(a, lane_of(&behind[1], lane), turned);
+            turned = scale_add(b, lane_of(&behind[0], lane), turned);
+            turned = scale_add(d, lane_of(&ahead[0], lane), turned);
+            turned = scale_add(e, lane_of(&ahead[1], lane), turned);
+            let driven = subtract(lane_of(&driven, lane), lane_of(&residual, lane));
             let right = scale_add(h, driven, scale_add(-explicit, turned, scale(length, w)));
             let [one, two] = &left;
             let a = implicit * a;
             let b = (-a).mul_add(two.next.0[lane], implicit * b);
-            let c = implicit.mul_add(c, length * h.mul_add(work.drag.0[lane], 1.0));
+            let c = implicit.mul_add(c, length * h.mul_add(drag.0[lane], 1.0));
             let c = (-a).mul_add(two.after.0[lane], (-b).mul_add(one.next.0[lane], c));
             let d = (-b).mul_add(one.after.0[lane], implicit * d);
             let right = scale_add(-a, lane_of(&two.right, lane), scale_add(-b, lane_of(&one.right, lane), right));
@@ -418,15 +443,18 @@ pub(super) fn solve(states: &[FreeState], rows: &[FreeRow], h: f32, work: &mut [
 /// the bend of the joint before it.
 #[inline(always)]
 fn answers(row: &FreeRow, next: Option<&FreeRow>, bent: &Row, work: &Work) -> [Row; 3] {
-    let next = next.map_or(&NONE, |next| &next.bending);
+    let next = next.map_or(NONE, |next| next.bending);
+    let FreeRow { over_length, bending, hold, .. } = *row;
+    let Work { bent: bent_after, tension, .. } = *work;
+    let bent = *bent;
     let more = BENT as f32;
     let mut answers = [NONE; 3];
     for lane in 0..LANES {
-        let (over, here, next) = (row.over_length.0[lane], row.bending.0[lane], next.0[lane]);
-        let joints = here.mul_add(more.mul_add(bent.0[lane], 1.0), row.hold.0[lane]);
-        let joints = next.mul_add(more.mul_add(work.bent.0[lane], 1.0), joints);
+        let (over, here, next) = (over_length.0[lane], bending.0[lane], next.0[lane]);
+        let joints = here.mul_add(more.mul_add(bent.0[lane], 1.0), hold.0[lane]);
+        let joints = next.mul_add(more.mul_add(bent_after.0[lane], 1.0), joints);
         answers[0].0[lane] = -over * here;
-        answers[1].0[lane] = over.mul_add(joints, work.tension.0[lane].max(0.0));
+        answers[1].0[lane] = over.mul_add(joints, tension.0[lane].max(0.0));
         answers[2].0[lane] = -over * next;
     }
     answers
@@ -437,14 +465,12 @@ fn answers(row: &FreeRow, next: Option<&FreeRow>, bent: &Row, work: &Work) -> [R
 pub(super) fn unwind(work: &mut [Work]) {
     let (mut one, mut two) = (ZERO, ZERO);
     for work in work.iter_mut().rev() {
+        let Work { next, after, mut driven, .. } = *work;
         for lane in 0..LANES {
-            let (next, after) = (lane_of(&one, lane), lane_of(&two, lane));
-            let left = scale_add(-work.next.0[lane], next, lane_of(&work.driven, lane));
-            let w = scale_add(-work.after.0[lane], after, left);
-            set_lane(&mut two, lane, next);
-            set_lane(&mut one, lane, w);
+            let left = scale_add(-next.0[lane], lane_of(&one, lane), lane_of(&driven, lane));
+            set_lane(&mut driven, lane, scale_add(-after.0[lane], lane_of(&two, lane), left));
         }
-        work.driven = one;
+        (work.driven, one, two) = (driven, driven, one);
     }
 }
 
@@ -452,9 +478,12 @@ pub(super) fn unwind(work: &mut [Work]) {
 #[inline(always)]
 pub(super) fn advance(state: &mut FreeState, row: &FreeRow, work: &Work, h: f32, from: &PointRow, to: &mut PointRow) {
     let theta = THETA as f32;
+    let FreeState { mut direction, mut increment, .. } = *state;
+    let (length, driven, from) = (row.length, work.driven, *from);
+    let mut end = ZERO;
     for lane in 0..LANES {
-        let (d, before) = (lane_of(&state.direction, lane), lane_of(&state.increment, lane));
-        let w = lane_of(&work.driven, lane);
+        let (d, before) = (lane_of(&direction, lane), lane_of(&increment, lane));
+        let w = lane_of(&driven, lane);
         let w = scale_add(-dot(w, d), d, w);
         let speed = dot(w, w) * (h * h);
         let w = scale(if speed > 1.0 { 1.0 / speed.sqrt() } else { 1.0 }, w);
@@ -464,10 +493,11 @@ pub(super) fn advance(state: &mut FreeState, row: &FreeRow, work: &Work, h: f32,
         let shorter = if dot(way, way) > 0.0 { 1.0 / dot(sum, sum).sqrt() } else { 1.0 };
         let there = scale(shorter, sum);
         let w = scale_add(-dot(w, there) / (1.0 + dot(d, there)), add(d, there), w);
-        set_lane(&mut state.direction, lane, there);
-        set_lane(&mut state.increment, lane, w);
-        set_lane(to, lane, beyond(from, lane, row.length.0[lane], there));
+        set_lane(&mut direction, lane, there);
+        set_lane(&mut increment, lane, w);
+        set_lane(&mut end, lane, beyond(&from, lane, length.0[lane], there));
     }
+    (state.direction, state.increment, *to) = (direction, increment, end);
 }
 
 /// The turn (v, t) from one direction to another, of which t is 1 + their cosine, brought near to length 1, not to it:
@@ -489,9 +519,10 @@ fn after(u: [f32; 3], s: f32, v: [f32; 3], t: f32) -> ([f32; 3], f32) {
 /// Where the ends of a segment of every strand are.
 #[inline(always)]
 pub(super) fn ends(state: &FreeState, row: &FreeRow, from: &PointRow) -> PointRow {
-    let mut to = PointRow::default();
+    let (direction, length, from) = (state.direction, row.length, *from);
+    let mut to = ZERO;
     for lane in 0..LANES {
-        set_lane(&mut to, lane, beyond(from, lane, row.length.0[lane], lane_of(&state.direction, lane)));
+        set_lane(&mut to, lane, beyond(&from, lane, length.0[lane], lane_of(&direction, lane)));
     }
     to
 }
@@ -499,15 +530,18 @@ pub(super) fn ends(state: &FreeState, row: &FreeRow, from: &PointRow) -> PointRo
 /// Leaves a segment of every strand behind by its part of the head's turn: `axis` of length 1, `angle` in rad.
 #[inline(always)]
 pub(super) fn stay_behind(state: &mut FreeState, row: &FreeRow, axis: [f32; 3], angle: f32, drag: &Row) {
+    let FreeState { mut direction, mut increment, .. } = *state;
+    let (lightness, drag) = (row.lightness, *drag);
     for lane in 0..LANES {
         // What is held goes with the head.
-        let share = if row.lightness.0[lane] > 0.0 { drag.0[lane] } else { 0.0 };
+        let share = if lightness.0[lane] > 0.0 { drag.0[lane] } else { 0.0 };
         let (sin, cos) = sin_cos(-0.5 * (angle * share));
         let u = scale(sin, axis);
         let over_length = 2.0 / cos.mul_add(cos, dot(u, u));
-        let direction = turned(u, cos, over_length, lane_of(&state.direction, lane));
-        set_lane(&mut state.direction, lane, direction);
-        let increment = turned(u, cos, over_length, lane_of(&state.increment, lane));
-        set_lane(&mut state.increment, lane, increment);
+        let there = turned(u, cos, over_length, lane_of(&direction, lane));
+        set_lane(&mut direction, lane, there);
+        let goes = turned(u, cos, over_length, lane_of(&increment, lane));
+        set_lane(&mut increment, lane, goes);
     }
+    (state.direction, state.increment) = (direction, increment);
 }

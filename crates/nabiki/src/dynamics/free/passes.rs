@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::contact::{ANSWER, Going, Moving, PlacedBody, ROUNDS, Touch, gap};
-use super::kernel::{FreeRow, FreeState, advance, ends};
+use super::kernel::{AirRow, FreeRow, FreeState, advance, ends};
 use super::packed::{Packed, Step};
 use super::work::Work;
 use crate::body::Shape;
@@ -57,9 +57,7 @@ impl<'a, 's> Blown<'a, 's> {
                 wind.take(&mut forces);
             }
             for (row, work) in rows.iter().zip(work) {
-                for lane in 0..LANES {
-                    set_lane(&mut work.blown, lane, scale(row.push.0[lane], lane_of(&forces, lane)));
-                }
+                work.blown = pushed(&row.push, &forces);
             }
             return;
         }
@@ -82,9 +80,7 @@ impl<'a, 's> Blown<'a, 's> {
                     work.drag.0[lane] = row.push.0[lane].mul_add(held, work.drag.0[lane]);
                 }
             }
-            for lane in 0..LANES {
-                set_lane(&mut work.blown, lane, scale(row.push.0[lane], lane_of(&forces, lane)));
-            }
+            work.blown = pushed(&row.push, &forces);
         }
     }
 
@@ -107,6 +103,16 @@ impl<'a, 's> Blown<'a, 's> {
     }
 }
 
+/// How forces accelerate the nodes.
+#[inline(always)]
+fn pushed(push: &Row, forces: &PointRow) -> PointRow {
+    let (push, forces, mut pushed) = (*push, *forces, PointRow::default());
+    for lane in 0..LANES {
+        set_lane(&mut pushed, lane, scale(push.0[lane], lane_of(&forces, lane)));
+    }
+    pushed
+}
+
 impl<'a, 's> Stepped<'a, 's> {
     /// All that accelerates the nodes but the chain itself.
     #[inline(always)]
@@ -126,18 +132,20 @@ impl<'a, 's> Stepped<'a, 's> {
             prefetch_ahead(row, AHEAD);
             let mut other = work.blown;
             if step.way.is_some() {
-                let of_air = packed.air(first + i);
+                let AirRow { air, drag } = *packed.air(first + i);
                 for lane in 0..LANES {
                     let (velocity, acceleration) = (lane_of(&velocity, lane), lane_of(&acceleration, lane));
-                    let still_air = scale_add(of_air.air.0[lane], velocity, acceleration);
-                    let all = scale_add(-of_air.drag.0[lane], still_air, lane_of(&other, lane));
+                    let still_air = scale_add(air.0[lane], velocity, acceleration);
+                    let all = scale_add(-drag.0[lane], still_air, lane_of(&other, lane));
                     set_lane(&mut other, lane, all);
                 }
             }
+            let (push, mut all) = (row.push, other);
             for lane in 0..LANES {
-                let pushed = scale_add(row.push.0[lane], step.weight, lane_of(&other, lane));
-                set_lane(&mut work.pushed, lane, pushed);
+                let pushed = scale_add(push.0[lane], step.weight, lane_of(&other, lane));
+                set_lane(&mut all, lane, pushed);
             }
+            work.pushed = all;
             if !self.bodies.is_empty() {
                 self.push_back(state, row, first + i, &other, work);
             }
@@ -149,22 +157,32 @@ impl<'a, 's> Stepped<'a, 's> {
     fn push_back(&self, state: &mut FreeState, row: &FreeRow, at: usize, other: &PointRow, work: &mut Work) {
         work.clear = Row([f32::INFINITY; LANES]);
         let (h, weight) = (self.h, self.of.step.weight);
-        let (mut net, mut reach) = (*other, Row::default());
+        let (other, push) = (*other, row.push);
+        let Work { velocity, weight: at_rest, drag, .. } = *work;
+        let (mut net, mut reach) = (PointRow::default(), Row::default());
         for lane in 0..LANES {
-            let velocity = lane_of(&work.velocity, lane);
+            let velocity = lane_of(&velocity, lane);
             // What weight does besides the one that rest is in balance with.
-            let unbalanced = scale(row.push.0[lane], subtract(weight, lane_of(&work.weight, lane)));
-            let sum = add(lane_of(other, lane), unbalanced);
-            let sum = scale_add(-work.drag.0[lane], velocity, sum);
+            let unbalanced = scale(push.0[lane], subtract(weight, lane_of(&at_rest, lane)));
+            let sum = add(lane_of(&other, lane), unbalanced);
+            let sum = scale_add(-drag.0[lane], velocity, sum);
             set_lane(&mut net, lane, sum);
             reach.0[lane] = h * (h * dot(sum, sum).sqrt() + dot(velocity, velocity).sqrt()) + self.closer;
         }
-        let (mut near, mut pressed) = (near(&state.gap, &reach, row), 0);
-        for lane in 0..LANES {
-            pressed |= u32::from(state.pressed.0[lane] > 0.0) << lane;
-        }
-        near |= pressed;
+        let by = state.pressed;
+        let pressed = mask(|lane| by.0[lane] > 0.0);
+        let mut near = near(&state.gap, &reach, row) | pressed;
         if near == 0 {
+            return;
+        }
+        if let [body] = self.bodies
+            && body.rests()
+        {
+            // What it pushes by says how far it is, too.
+            while near != 0 {
+                let lane = next_lane(&mut near);
+                self.push_one_back(state, at, &net, work, lane);
+            }
             return;
         }
         let mut gaps = [f32::INFINITY; LANES];
@@ -220,6 +238,9 @@ impl<'a, 's> Stepped<'a, 's> {
                 if b == nearest.0 {
                     (state.pressed.0[lane], work.clear.0[lane]) = (push.outward, push.clear);
                 }
+                if placed.rests() && self.bodies.len() == 1 {
+                    state.gap.0[lane] = push.gap;
+                }
             }
         }
     }
@@ -258,12 +279,19 @@ impl<'a, 's> Stepped<'a, 's> {
 /// Which nodes may be nearer to a body than they reach: a bit for each strand.
 #[inline(always)]
 fn near(gap: &Row, reach: &Row, row: &FreeRow) -> u32 {
-    let mut near = 0;
-    for lane in 0..LANES {
-        // What is held, and what is no segment, is infinitely heavy.
-        near |= u32::from((gap.0[lane] < reach.0[lane]) & (row.lightness.0[lane] > 0.0)) << lane;
+    let (gap, reach, lightness) = (*gap, *reach, row.lightness);
+    // What is held, and what is no segment, is infinitely heavy.
+    mask(|lane| (gap.0[lane] < reach.0[lane]) & (lightness.0[lane] > 0.0))
+}
+
+/// A bit for each lane of which something is true.
+#[inline(always)]
+fn mask(is: impl Fn(usize) -> bool) -> u32 {
+    let mut bits = [0; LANES];
+    for (lane, bit) in bits.iter_mut().enumerate() {
+        *bit = u32::from(is(lane)) << lane;
     }
-    near
+    bits.iter().fold(0, |all, bit| all | bit)
 }
 
 /// The way to the tips on which segments are turned, and out of bodies.
@@ -319,11 +347,13 @@ impl Go<'_, '_> {
     #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernels")]
     #[inline(always)]
     fn keep_out(&self, state: &mut FreeState, was: &PointRow, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
-        let (end, closer) = (&self.work[self.i].end, self.stepped.closer);
+        let (end, there, closer) = (self.work[self.i].end, *to, self.stepped.closer);
+        let mut gap = state.gap;
         for lane in 0..LANES {
-            let way = subtract(lane_of(to, lane), lane_of(end, lane));
-            state.gap.0[lane] -= dot(way, way).sqrt() + closer;
+            let way = subtract(lane_of(&there, lane), lane_of(&end, lane));
+            gap.0[lane] -= dot(way, way).sqrt() + closer;
         }
+        state.gap = gap;
         let near = near(&state.gap, &Row::default(), row);
         if near == 0 {
             return;
