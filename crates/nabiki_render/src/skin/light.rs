@@ -246,7 +246,7 @@ mod tests {
     use super::*;
     use crate::settings::Projection;
 
-    /// A lash is thinner than a pixel: what a large pixel shows of the closed eye is the mean of the small ones in it, up to a row of
+    /// A lash is thinner than a pixel: what a large pixel shows of the eye is the mean of the small ones in it, up to a row of
     /// what it looks at; the colour in its middle alone is not.
     #[test]
     fn a_pixel_shows_the_mean_of_what_is_painted_in_it() {
