@@ -178,7 +178,7 @@ fn eyes_are_an_eye_apart_and_the_face_is_five_eyes_wide() {
     is_about(2.0 * side(face::PUPIL[0]), 5.0 * (outer - inner), 0.1, "the face's width");
     // A wing ends where it no longer falls off at 45 degrees.
     let fall = |z: f32| front(-4.7, z - 0.05) - front(-4.7, z + 0.05);
-    let nose = between(0.8, 2.6).filter(|&z| fall(z) > 0.1).last().unwrap();
+    let nose = between(0.8, 2.6).rfind(|&z| fall(z) > 0.1).unwrap();
     is_about(2.0 * nose, 2.0 * inner, 0.1, "the wings of the nose, from one eye to the other");
 }
 
