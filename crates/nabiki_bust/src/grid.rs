@@ -11,22 +11,22 @@ use crate::layout::{self, POSITION, Quantised};
 
 /// Stretches of an axis: from the first number on (cm), the second is the step (cm). The last ends the axis.
 type Axis = &'static [(f32, f32)];
-const ALONG_X: Axis = &[(-14.0, 0.4), (-4.6, 0.16), (0.0, 0.35), (4.5, 0.2), (6.9, 0.11), (10.5, 0.2), (12.0, 0.0)];
+const ALONG_X: Axis = &[(-14.0, 0.4), (-4.6, 0.12), (0.4, 0.3), (4.5, 0.2), (6.9, 0.11), (10.5, 0.2), (12.0, 0.0)];
 const ALONG_Y: Axis = &[
     (-33.0, 0.5),
     (-20.0, 0.4),
     (-12.4, 0.22),
     // The lips and the line between them.
-    (-8.8, 0.15),
-    (-7.9, 0.08),
-    (-7.1, 0.14),
-    (-6.4, 0.17),
+    (-8.8, 0.14),
+    (-7.4, 0.07),
+    (-6.7, 0.14),
     // The nostrils.
-    (-5.9, 0.1),
-    (-5.1, 0.14),
-    // The lids.
-    (-2.0, 0.07),
-    (0.3, 0.14),
+    (-5.7, 0.1),
+    (-4.9, 0.14),
+    // The eyes.
+    (-1.6, 0.06),
+    (0.0, 0.12),
+    (1.0, 0.14),
     (2.9, 0.4),
     (12.4, 0.0),
 ];

@@ -1,7 +1,7 @@
 //! The built-in bust as it is sculpted: blended shapes, meshed, measured and written in few bytes.
 //!
-//! Measures follow adult anthropometry: 22.7 cm from chin to crown, 15.4 cm broad, 19 cm deep, eyes at half the
-//! height, nose and ears between there and the chin. One shape a file; each takes the skin so far and gives it back
+//! Measures follow adult anthropometry (22.3 cm from chin to crown, 15.4 cm broad, 19 cm deep) and the canons of
+//! proportion, to which `tests/canons.rs` holds it. One shape a file; each takes the skin so far and gives it back
 //! with its own part blended in.
 
 #![forbid(unsafe_code)]

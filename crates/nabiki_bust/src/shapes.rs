@@ -23,7 +23,7 @@ pub(crate) fn capsule(p: Vec3, a: Vec3, b: Vec3, ra: f32, rb: f32) -> f32 {
 
 /// A bow through points with the radius there: Catmull and Rom's curve, as short capsules end to end.
 pub(crate) fn chain(p: Vec3, points: &[(Vec3, f32)]) -> f32 {
-    const PARTS: usize = 4;
+    const PARTS: usize = 8;
     let point = |i: usize| points[i].0.extend(points[i].1);
     let last = points.len() - 1;
     let on_bow = |link: usize, part: usize| {

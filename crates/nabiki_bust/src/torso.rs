@@ -17,7 +17,7 @@ pub(crate) fn add(p: Vec3, skin: f32) -> f32 {
     let clavicle = capsule(p, Vec3::new(0.0, -21.7, 1.8), Vec3::new(-3.2, -21.8, 13.5), 0.5, 0.6);
     let body = join(join(chest, shoulder, 4.0), trapezius, 4.0);
     let mut skin = join(skin, body, 3.5);
-    skin = join(skin, clavicle, 1.8);
+    skin = join(skin, clavicle, 1.4);
     // The pit of the neck.
     skin + 0.35 * swell(p, Vec3::new(1.0, -20.6, 0.0), Vec3::new(2.4, 2.2, 1.8))
 }

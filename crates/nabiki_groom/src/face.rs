@@ -2,43 +2,59 @@
 //!
 //! Both halves are alike: z stands for |z| throughout, t for how far along a feature (each line says of which). Head space, cm.
 
-use nabiki::glam::Vec3;
+use nabiki::glam::{Vec2, Vec3};
 
 /// Where the brow runs: `t` 0 beside the nose, 1 at its end.
 pub fn brow_line(t: f32) -> f32 {
-    1.35 + 1.9 * t - 2.0 * t * t * t
+    0.95 + 1.75 * t - 1.95 * t * t * t
 }
 
 /// How far along the brow.
 pub fn along_brow(z: f32) -> f32 {
-    (z - 1.3) / 3.9
+    (z - 1.35) / 3.85
 }
 
-/// Where the closed lids meet: `t` from -1, the inner corner, to 1, the outer; a bow that hangs.
-pub fn lid_line(t: f32) -> f32 {
-    let bow = 1.0 - t * t;
-    -0.85 + 0.12 * t - 0.55 * bow
+/// The middle of a pupil, seen from before the face.
+pub const PUPIL: [f32; 2] = [-0.72, 3.12];
+
+/// The edges of the upper and of the lower lid: `t` from -1, the inner corner, to 1, the outer. The upper one stands highest toward
+/// the nose, the lower one hangs lowest away from it, and the outer corner lies higher.
+pub fn lid_edges(t: f32) -> [f32; 2] {
+    let corners = -0.83 + 0.1 * t;
+    let bow = (1.0 - t * t).max(0.0);
+    let full = bow * (1.35 - 0.35 * bow);
+    [corners + full * (0.51 - 0.06 * t), corners - bow * (0.34 + 0.07 * t)]
 }
 
 /// How far along the lids.
 pub fn along_lids(z: f32) -> f32 {
-    (z - 3.2) / 1.55
+    (z - PUPIL[1]) / 1.53
+}
+
+/// Where the lips meet: a shallow wave, lowest in the middle, and a little up at the corners.
+pub fn lip_parting(z: f32, t: f32) -> f32 {
+    -7.12 - 0.06 * bump(z / 1.1) - 0.06 * t * t + 0.05 * t * t * t * t
 }
 
 /// The upper and the lower edge of the lips: `t` 0 in the middle, 1 at the corner.
 pub fn lip_edges(z: f32, t: f32) -> [f32; 2] {
-    let dip = 1.0 - (z / 0.5) * (z / 0.5);
-    let dip = if dip > 0.0 { dip * dip * dip } else { 0.0 };
-    [-6.62 - 0.1 * dip - 0.6 * t * t, -8.62 + 1.28 * t * t]
+    let fall = t.min(1.0);
+    [-6.3 - 0.14 * bump(z / 0.85) - 0.8 * fall * fall.sqrt(), -8.1 + fall * fall * (0.7 + 0.3 * fall)]
+}
+
+/// 1 in the middle, falling smoothly to 0 at 1 on either side.
+fn bump(off: f32) -> f32 {
+    let left = (1.0 - off * off).max(0.0);
+    left * left * left
 }
 
 /// How far along the lips.
 pub fn along_lips(z: f32) -> f32 {
-    z / 2.65
+    z / 2.9
 }
 
 /// The middle of the hollow of a nostril.
-pub const NOSTRIL: Vec3 = Vec3::new(9.75, -5.4, 0.58);
+pub const NOSTRIL: Vec3 = Vec3::new(9.85, -5.16, 0.52);
 
 /// What covers the skin at a place, each 0..1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -53,6 +69,18 @@ pub struct Paint {
     pub flush: f32,
     /// The dark within the nostrils.
     pub nostrils: f32,
+    /// The white of the eye, and all within it.
+    pub eye: f32,
+    /// Of that the iris.
+    pub iris: f32,
+    /// Of that its dark rim.
+    pub rim: f32,
+    /// Of the iris the pupil.
+    pub pupil: f32,
+    /// What shines in the eye.
+    pub glint: f32,
+    /// How much light the lids leave it.
+    pub shade: f32,
 }
 
 impl Paint {
@@ -78,13 +106,15 @@ impl Paint {
         if p.x < 4.0 || !(-10.0..4.0).contains(&p.y) {
             return Self { flush: ears, ..Self::default() };
         }
-        let nostrils = smooth(2.5 * near(NOSTRIL, 0.55));
+        // Darkest under the ceiling of the hollow.
+        let nostrils = smooth(1.6 * near(NOSTRIL + 0.12 * Vec3::Y, 0.32));
         Self {
             brow: brow(p.y, z),
             lashes: lashes(p.y, z),
             lips: lips(p.y, z),
             flush: (flush + ears).min(1.0),
             nostrils,
+            ..eye(p.y, z)
         }
     }
 
@@ -92,13 +122,18 @@ impl Paint {
     pub fn over(&self, skin: [f32; 3], hair: [f32; 3]) -> [f32; 3] {
         const LIPS: [f32; 3] = [0.92, 0.66, 0.70];
         const FLUSH: [f32; 3] = [1.0, 0.86, 0.86];
+        const WHITE: [f32; 3] = [0.36, 0.32, 0.30];
+        const IRIS: [f32; 3] = [0.10, 0.058, 0.032];
         std::array::from_fn(|c| {
             let toward = |from: f32, to: f32, share: f32| from + (to - from) * share;
             let colour = toward(skin[c], skin[c] * FLUSH[c], self.flush);
             let colour = toward(colour, skin[c] * LIPS[c], self.lips);
             // Brows and lashes are darker than hair, and always than skin.
-            let colour = toward(colour, (0.5 * hair[c]).min(0.4 * skin[c]), 0.8 * self.brow);
+            let colour = toward(colour, (0.5 * hair[c]).min(0.4 * skin[c]), 0.9 * self.brow);
             let colour = toward(colour, 0.15 * FLUSH[c] * skin[c], self.nostrils);
+            let iris = toward(toward(IRIS[c], 0.3 * IRIS[c], self.rim), 0.004, self.pupil);
+            let eye = toward(toward(WHITE[c], iris, self.iris) * self.shade, 0.45, self.glint);
+            let colour = toward(colour, eye, self.eye);
             toward(colour, (0.25 * hair[c]).min(0.12 * skin[c]), self.lashes)
         })
     }
@@ -119,24 +154,46 @@ fn brow(y: f32, z: f32) -> f32 {
     let (sin, cos) = (1.25 - 1.0 * t).sin_cos();
     let across = cos * off - sin * (z - 1.3);
     let hairs = 0.55 * grain(across / 0.035) + 0.45 * grain(across / 0.09 + 31.7);
-    (1.5 * within).min(1.0) * (5.0 * t).min(1.0) * (2.5 * (1.0 - t)).min(1.0) * (0.3 + 0.7 * hairs)
+    (1.5 * within).min(1.0) * (5.0 * t).min(1.0) * (2.5 * (1.0 - t)).min(1.0) * (0.45 + 0.55 * hairs)
 }
 
 fn lashes(y: f32, z: f32) -> f32 {
     let t = along_lids(z);
-    if !(-1.02..=1.06).contains(&t) {
+    if !(-1.02..=1.1).contains(&t) {
         return 0.0;
     }
-    let below = lid_line(t.clamp(-1.0, 1.0)) - y;
-    let ends = (8.0 * (1.06 - t)).min(1.0) * (5.0 * (t + 1.02)).min(1.0);
-    let line = 1.0 - ((below - 0.01) / (0.06 + 0.02 * t)).powi(2);
-    // They hang from the line, longer and more slanted toward the outer corner. A single one is thinner than a picture shows: they
-    // are a fringe, in tufts.
-    let long = 0.26 + 0.14 * t;
-    let slant = z - 0.6 * t * below;
-    let fall = if below > 0.0 { 1.0 - below / long } else { 0.0 };
-    let fringe = (0.3 + 0.7 * grain(slant / 0.1)) * smooth(fall);
-    ends * line.max(0.0).max(0.6 * fringe)
+    let [upper, lower] = lid_edges(t.clamp(-1.0, 1.0));
+    let ends = (8.0 * (1.1 - t)).min(1.0) * (5.0 * (t + 1.02)).min(1.0);
+    let off = (y - upper + 0.02 - 0.06 * (t - 0.9).max(0.0)) / (0.075 + 0.025 * t);
+    let line = (1.0 - off * off).max(0.0);
+    let low = (y - lower + 0.02) / 0.05;
+    let low = 0.35 * (1.0 - low * low).max(0.0) * (0.5 + 0.5 * t);
+    ends * (1.6 * line).min(1.0).max(low)
+}
+
+/// The open eye: its white, the iris about the pupil.
+fn eye(y: f32, z: f32) -> Paint {
+    let t = along_lids(z);
+    if t.abs() >= 1.0 {
+        return Paint::default();
+    }
+    let [upper, lower] = lid_edges(t);
+    let within = smooth((upper - y) / 0.05) * smooth((y - lower) / 0.05);
+    let pupil = Vec2::from_array(PUPIL);
+    let place = Vec2::new(y, z);
+    let far = place.distance(pupil);
+    // The upper lid and its lashes shade the eye; a lamp above is mirrored in it, in the middle, since both eyes are alike.
+    let shade = 1.0 - 0.5 * smooth((y - upper + 0.3) / 0.3) - 0.25 * smooth((t.abs() - 0.6) / 0.4);
+    let glint = smooth((0.09 - place.distance(pupil + Vec2::new(0.2, 0.0))) / 0.05);
+    Paint {
+        eye: within,
+        shade,
+        iris: smooth((0.63 - far) / 0.12),
+        rim: smooth((far - 0.4) / 0.2),
+        pupil: smooth((0.25 - far) / 0.06),
+        glint,
+        ..Paint::default()
+    }
 }
 
 fn lips(y: f32, z: f32) -> f32 {
@@ -145,7 +202,7 @@ fn lips(y: f32, z: f32) -> f32 {
         return 0.0;
     }
     let [upper, lower] = lip_edges(z, t);
-    smooth((upper - y) / 0.2) * smooth((y - lower) / 0.3) * (4.0 * (1.0 - t)).min(1.0)
+    smooth((upper - y) / 0.2) * smooth((y - lower) / 0.3) * (7.0 * (1.0 - t)).min(1.0)
 }
 
 fn smooth(t: f32) -> f32 {
@@ -176,8 +233,9 @@ mod tests {
         for &p in &head.mesh.positions {
             let paint = Paint::at(p);
             assert_eq!(paint, Paint::at(Vec3::new(p.x, p.y, -p.z)));
-            let each = [paint.brow, paint.lashes, paint.lips, paint.flush, paint.nostrils];
-            assert!(each.iter().all(|share| (0.0..=1.0).contains(share)), "{paint:?} at {p}");
+            let each = [paint.brow, paint.lashes, paint.lips, paint.flush, paint.nostrils, paint.eye, paint.shade];
+            let within_eye = [paint.iris, paint.rim, paint.pupil, paint.glint];
+            assert!(each.iter().chain(&within_eye).all(|share| (0.0..=1.0).contains(share)), "{paint:?} at {p}");
             if p.x < 4.0 {
                 assert_eq!(paint, Paint { flush: paint.flush, ..Paint::default() }, "{p}");
             }
@@ -187,12 +245,35 @@ mod tests {
                 lips: seen.lips.max(paint.lips),
                 flush: seen.flush.max(paint.flush),
                 nostrils: seen.nostrils.max(paint.nostrils),
+                eye: seen.eye.max(paint.eye),
+                iris: seen.iris.max(paint.iris.min(paint.eye)),
+                pupil: seen.pupil.max(paint.pupil.min(paint.eye)),
+                ..Paint::default()
             };
         }
         assert!(
             seen.brow > 0.5 && seen.lashes > 0.5 && seen.lips > 0.9 && seen.flush > 0.3 && seen.nostrils > 0.9,
             "{seen:?}"
         );
+        assert!(seen.eye > 0.9 && seen.iris > 0.9 && seen.pupil > 0.9, "{seen:?}");
+    }
+
+    #[test]
+    fn in_the_open_eye_the_iris_is_between_white_and_pupil_in_brightness_and_both_lids_touch_it() {
+        let (skin, hair) = ([0.27, 0.16, 0.11], [0.05; 3]);
+        let [y, z] = PUPIL;
+        let at = |y: f32, z: f32| Paint::at(Vec3::new(8.3, y, z)).over(skin, hair)[0];
+        let (pupil, iris, white) = (at(y, z), at(y, z + 0.4), at(y, z + 0.85));
+        assert!(pupil < 0.5 * iris && iris < 0.5 * white, "{pupil} {iris} {white}");
+        // What shows of an iris at rest: the lids cover its edge above and below.
+        let [upper, lower] = lid_edges(along_lids(z));
+        for (off, high) in [(upper - y, 0.5), (y - lower, 0.6)] {
+            assert!((0.2..high).contains(&off), "{off}");
+        }
+        for t in [-0.99, -0.5, 0.0, 0.5, 0.99] {
+            let [upper, lower] = lid_edges(t);
+            assert!(upper > lower, "the lids cross at {t}");
+        }
     }
 
     #[test]

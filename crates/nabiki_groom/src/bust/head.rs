@@ -13,7 +13,7 @@ const ELLIPSOID: Ellipsoid = Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::ne
 /// What `nabiki_bust` wrote.
 const BAKED: &[u8] = include_bytes!("bust.bin");
 
-/// The project's own bust: head, neck and shoulders of a calm adult, eyes closed, no hair. The same on every
+/// The project's own bust: head, neck and shoulders of a calm adult, eyes open, no hair. The same on every
 /// machine, and on both sides of z = 0, to the bit.
 pub fn bust() -> Head {
     let bust = read::numbers(BAKED);

@@ -17,7 +17,7 @@ settings! {
         /// Hair too short to be drawn: its length for each root, as thick as the hair. It tints the scalp as dense as the roots stand, so
         /// that partings do not gleam; 0 shows bare skin.
         pub stubble: f32 = 2.0 => "Stubble", unit "cm", least 0.0, most 100.0;
-        /// Whether the built-in head has brows, lashes and lips of their colours; other heads have what their mesh has, one colour.
+        /// Whether the built-in head has brows, eyes and lips of their colours; other heads have what their mesh has, one colour.
         pub face: bool = true => "Face";
     }
 }

@@ -246,7 +246,7 @@ mod tests {
     use super::*;
     use crate::settings::Projection;
 
-    /// A lash is thinner than a pixel: what a large pixel shows of the closed eye is the mean of the small ones in it, up to a row of
+    /// A lash is thinner than a pixel: what a large pixel shows of the eye is the mean of the small ones in it, up to a row of
     /// what it looks at; the colour in its middle alone is not.
     #[test]
     fn a_pixel_shows_the_mean_of_what_is_painted_in_it() {
@@ -267,7 +267,7 @@ mod tests {
         // Straight before the eye, and turned from it about the vertical.
         for normal in [Vec3::X, Vec3::new(0.8, 0.0, 0.6)] {
             for k in 0..40 {
-                let middle = Vec3::new(8.5, -1.7 + 0.03 * k as f32, 3.1);
+                let middle = Vec3::new(8.5, -1.0 + 0.03 * k as f32, 3.1);
                 let pixel = |right: f32, up: f32| SkinPixel {
                     position: middle + Vec3::new(right * normal.z / normal.x, up, -right),
                     normal,
