@@ -27,7 +27,7 @@ fn form(stiffness: f32, hold: f32, settle: f32, gravity: f32) -> FreeForm {
         stiffness: stiffness.into(),
         hold: hold.into(),
         settle: settle.into(),
-        gravity: gravity.into(),
+        gravity,
         ..Default::default()
     }
 }

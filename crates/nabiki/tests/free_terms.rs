@@ -76,7 +76,7 @@ fn hair_is_left_behind_by_its_part_of_the_head_s_turn() {
         let form = FreeForm {
             stiffness: 0.0.into(),
             hold: 0.0.into(),
-            gravity: 0.0.into(),
+            gravity: 0.0,
             drag: drag.clone(),
             ..Default::default()
         };
@@ -110,7 +110,7 @@ fn still_air_is_a_wind_against_a_head_that_goes_evenly() {
             hold: 400.0.into(),
             settle: 9.0.into(),
             drag: drag.into(),
-            gravity: 0.0.into(),
+            gravity: 0.0,
             ..Default::default()
         };
         let dynamics = free(form, Pose::STILL);
@@ -149,7 +149,7 @@ fn a_push_from_rest_moves_a_node_by_its_acceleration() {
         settle: settle.clone(),
         stiffness: 0.0.into(),
         hold: 0.0.into(),
-        gravity: 0.0.into(),
+        gravity: 0.0,
         ..Default::default()
     };
     let (dynamics, blows) = (free(form, Pose::STILL), field(&[(9, force.as_vec3().to_array())]));
@@ -183,7 +183,7 @@ fn the_pseudo_force_weakens_the_field_by_the_number_of_the_segment() {
         pseudo_force: true,
         stiffness: 0.0.into(),
         hold: 0.0.into(),
-        gravity: 0.0.into(),
+        gravity: 0.0,
         ..FreeForm::default()
     };
     let mut dynamics = free(form, Pose::STILL);
@@ -211,7 +211,7 @@ fn settled_hair_is_in_balance() {
         stiffness: stiffness.clone(),
         hold: hold.clone(),
         settle: 20.0.into(),
-        gravity: (gravity as f32).into(),
+        gravity: gravity as f32,
         ..Default::default()
     };
     let (dynamics, blows) = (free(form, Pose::STILL), field(&[(9, force.as_vec3().to_array())]));

@@ -118,7 +118,7 @@ fn a_new_scene_without_files_runs_in_the_free_form_with_its_defaults() {
     let stage = built(&new.text, path);
     assert_eq!((new.guesses.len(), advised(&stage)), (0, vec![]));
     let Scene { form, free, contact, neighbours, .. } = &stage.scene;
-    assert_eq!((form, free, contact), (&FormChoice::Free, &FreeForm::default(), &Contact::default()));
+    assert_eq!((form, free, contact), (&FormChoice::Free, &FreeSettings::default(), &Contact::default()));
     assert_eq!(neighbours, &None);
     // What it comments out is what it says.
     let more = ["[neighbours]", "pressure", "cohesion"];

@@ -30,7 +30,7 @@ impl<'a> Common<'a> {
         Self {
             gamma: dynamics.gamma(),
             head: HeadFrame::new(input, &free.form),
-            rest_weight: weight::on_head(&free.rest_pose, f64::from(free.form.weight())),
+            rest_weight: weight::on_head(&free.rest_pose, f64::from(free.form.gravity)),
             bodies: (1..=steps).map(bodies).collect(),
         }
     }
