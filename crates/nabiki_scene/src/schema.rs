@@ -1,7 +1,7 @@
 //! The schema of scenes: every table and setting that a scene file may hold, as the structs declare them, as data.
 //!
 //! [`TABLES`] are the tables with their settings, [`json`] is the same as a JSON Schema (draft 2020-12), by which editors complete and
-//! check scene files. Beyond its own words it has `x-unit`, the unit of a number, and `x-open`, what is taken where a setting is left out.
+//! check scene files. Beyond its own words it has `x-unit`, the unit of a number, `x-units`, those of a text that is a number with its unit, and `x-open`, what is taken where a setting is left out.
 
 use std::fmt::Write;
 
@@ -288,9 +288,9 @@ fn kind(kind: &Kind, range: &Range) -> Vec<(&'static str, Datum)> {
             entries
         }
         Kind::Quantity(units) => {
-            let units: Vec<String> = units.iter().map(|unit| unit.replace('/', "\\/")).collect();
             let pattern = format!(r"^\d*\.?\d+(e[+-]?\d+)? ?({})$", units.join("|"));
-            vec![("type", word("string")), ("pattern", Datum::Text(pattern))]
+            let units = units.iter().map(|unit| word(unit)).collect();
+            vec![("type", word("string")), ("pattern", Datum::Text(pattern)), ("x-units", Datum::List(units))]
         }
         Kind::Numbers(count) => several(Kind::Number, count),
         Kind::Wholes(count) => several(Kind::Whole { least: 0, most: i64::from(u32::MAX) }, count),

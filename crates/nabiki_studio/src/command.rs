@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use glam::Vec3;
-use nabiki::field::Keyframe;
+use nabiki_scene::scene::ForceSettings;
 use nabiki::solve::Answer;
 use nabiki_scene::Scene;
 use toml::Value;
@@ -34,13 +34,13 @@ pub enum Command {
         /// What is done to them.
         name: &'static str,
         /// What they are then.
-        keys: Vec<Keyframe>,
+        keys: Vec<ForceSettings>,
         /// Which are chosen then; as before if it is left out.
         chosen: Option<Vec<usize>>,
         /// How the change goes on.
         phase: Phase,
     },
-    /// Another vector of an interval.
+    /// Another vector of an interval, which is as strong as it is long.
     Vector {
         /// Which.
         interval: usize,

@@ -1,21 +1,21 @@
 use super::*;
 use nabiki::field::KeyframedField;
 
-fn key(through: u32, x: f32) -> Keyframe {
-    Keyframe { through, vector: Vec3::new(x, 0.0, 0.0) }
+fn key(through: u32, x: f32) -> ForceSettings {
+    ForceSettings { through, vector: Vec3::new(x, 0.0, 0.0), speed: None }
 }
 
-fn three() -> Vec<Keyframe> {
+fn three() -> Vec<ForceSettings> {
     vec![key(10, 1.0), key(30, 2.0), key(60, 3.0)]
 }
 
 /// The force of every frame, which is what an interval is for.
-fn felt(keys: &[Keyframe]) -> Vec<f32> {
+fn felt(keys: &[ForceSettings]) -> Vec<f32> {
     let field = KeyframedField::new(keys).unwrap();
     (1..=80).map(|n| field.vector(n).x).collect()
 }
 
-fn ends(keys: &[Keyframe]) -> Vec<u32> {
+fn ends(keys: &[ForceSettings]) -> Vec<u32> {
     keys.iter().map(|key| key.through).collect()
 }
 

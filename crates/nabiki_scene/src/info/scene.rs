@@ -232,10 +232,10 @@ impl fmt::Display for FreeInfo {
         let Self { given, resolved, margin, neighbours } = self;
         let number = |of: fn(&FreeForm) -> &Profile| resolved.as_ref().map(|form| of(form).values().to_vec());
         let told = [
-            amounts("stiffness", "K", &given.stiffness, number(|form| &form.stiffness)),
-            amounts("hold", "H", &given.hold, number(|form| &form.hold)),
-            amounts("settle", "", &given.settle, number(|form| &form.settle)),
-            amounts("gravity", "", &Profile::Even(given.gravity), resolved.as_ref().map(|form| vec![form.gravity])),
+            amounts("stiffness", &given.stiffness, number(|form| &form.stiffness)),
+            amounts("hold", &given.hold, number(|form| &form.hold)),
+            amounts("settle", &given.settle, number(|form| &form.settle)),
+            amounts("gravity", &Profile::Even(given.gravity), resolved.as_ref().map(|form| vec![form.gravity])),
             labelled::<FreeSettings>("drag", given.drag.clone()),
         ];
         let steps = match resolved.as_ref().map(FreeForm::steps).or(given.substeps) {
@@ -254,7 +254,7 @@ impl fmt::Display for FreeInfo {
 
 /// A setting of `[free]` as it is given, and what that comes to where it is given in a unit of the world:
 /// `stiffness 9 cm to 4.5 cm (K = 250,000 to 31,000)`.
-fn amounts<M: Measure>(key: &str, symbol: &str, given: &Profile<Amount<M>>, numbers: Option<Vec<f32>>) -> String {
+fn amounts<M: Measure>(key: &str, given: &Profile<Amount<M>>, numbers: Option<Vec<f32>>) -> String {
     let setting = FreeSettings::TABLE.setting(key);
     let one = |amount: &Amount<M>| match amount {
         Amount::Number(number) => Short(*number).to_string(),
@@ -263,17 +263,46 @@ fn amounts<M: Measure>(key: &str, symbol: &str, given: &Profile<Amount<M>>, numb
     let told = given.values().iter().map(one).collect::<Vec<_>>().join(" to ");
     let unit = if setting.range.unit.is_empty() { String::new() } else { format!(" {}", setting.range.unit) };
     let label = setting.label.to_lowercase();
-    if given.values().iter().all(|amount| amount.quantity().is_none()) {
+    if !is_of_world(given) {
         return format!("{label} {told}{unit}");
     }
-    let equals = if symbol.is_empty() { String::new() } else { format!("{symbol} = ") };
     match numbers {
         None => format!("{label} {told}"),
-        Some(numbers) => {
-            let numbers: Vec<String> = numbers.into_iter().map(grouped).collect();
-            format!("{label} {told} ({equals}{}{unit})", numbers.join(" to "))
-        }
+        Some(numbers) => format!("{label} {told} ({})", come_to(setting, &numbers)),
     }
+}
+
+/// Numbers of a setting of `[free]`, by its symbol and in its own unit: `K = 250,000 to 31,000`.
+fn come_to(setting: &Setting, numbers: &[f32]) -> String {
+    let symbol = match setting.key {
+        "stiffness" => "K = ",
+        "hold" => "H = ",
+        _ => "",
+    };
+    let unit = if setting.range.unit.is_empty() { String::new() } else { format!(" {}", setting.range.unit) };
+    let numbers: Vec<String> = numbers.iter().map(|&number| grouped(number)).collect();
+    format!("{symbol}{}{unit}", numbers.join(" to "))
+}
+
+impl BuiltScene {
+    /// What a setting, `free.stiffness`, that is given in a unit of the world comes to in its own: `K = 250,000 to 31,000`.
+    pub fn comes_to(&self, key: &str) -> Option<String> {
+        let (Form::Free(free), Some(key)) = (&self.dynamics.form, key.strip_prefix("free.")) else { return None };
+        let (given, form) = (&self.scene.free, &free.form);
+        let (of_world, numbers) = match key {
+            "stiffness" => (is_of_world(&given.stiffness), form.stiffness.values()),
+            "hold" => (is_of_world(&given.hold), form.hold.values()),
+            "settle" => (is_of_world(&given.settle), form.settle.values()),
+            "gravity" => (given.gravity.quantity().is_some(), std::slice::from_ref(&form.gravity)),
+            _ => return None,
+        };
+        of_world.then(|| come_to(FreeSettings::TABLE.setting(key), numbers))
+    }
+}
+
+/// Whether any of the numbers is given in a unit of the world.
+fn is_of_world<M: Measure>(given: &Profile<Amount<M>>) -> bool {
+    given.values().iter().any(|amount| amount.quantity().is_some())
 }
 
 /// A number with three digits that count, and commas between its thousands.

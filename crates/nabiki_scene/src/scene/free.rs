@@ -10,18 +10,19 @@ use super::quantity::{Amount, Length, Measure, Strength, Time, Weight};
 settings! {
     /// How hair keeps its shape and settles, in the free form. Strengths are in the unit of the force F, or in one of the world.
     pub struct FreeSettings in "free" where weight_bends_it {
-        /// How firmly hair keeps its shape: "4.5 cm" is hair that bends under its own `gravity` within that length, as real hair does.
-        /// As a number: at 36 times the wind, hair of 18 cm bends within about 6 cm. One, or a list from root to tip. K of
-        /// docs/motion-forms.md. Hair bends alike however finely it is cut.
+        /// How firmly hair keeps its shape: at 36 times the wind, hair of 18 cm bends within about 6 cm. "4.5 cm" is hair that bends under
+        /// its own `gravity` within that length, as real hair does. One, or a list from root to tip. K of docs/motion-forms.md: EI = 3/8 A
+        /// L K d^2, with d `hair.segment_length`. Hair bends alike however finely it is cut.
         pub stiffness: Profile<Amount<Length>> = in_own_unit(&FreeForm::default().stiffness) => of FreeForm;
-        /// How firmly hair keeps its place on the head, as with hair spray: "0.3 g" turns a segment back with a third of its weight on
-        /// the earth. One number, or a list from root to tip. H: against a force F, limp hair settles along F + H r.
+        /// How firmly hair keeps its place on the head, as with hair spray. "0.3 g" pulls with so much of its weight on the earth. One
+        /// number, or a list from root to tip. H: turns segments toward their rest direction on the head. Against a force F, limp hair
+        /// settles along F + H r.
         pub hold: Profile<Amount<Strength>> = in_own_unit(&FreeForm::default().hold) => of FreeForm;
-        /// How long until a swing has fallen to 1/e, "0.8 s", or frames: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 has no
-        /// air. One number, or a list from root to tip, interpolated in frames: next to a 0 hair hardly swings.
+        /// Frames in which a swing falls to 1/e: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 has no air. "0.8 s" are as many
+        /// as pass in it. One number, or a list from root to tip, interpolated in frames: next to a 0 hair hardly swings.
         pub settle: Profile<Amount<Time>> = in_own_unit(&FreeForm::default().settle) => of FreeForm;
-        /// How fast moved hair falls: "1 g" as on the earth, 981 cm/s^2 at `motion.frame_rate`, or a strength. "earth" is "1 g". Hair at
-        /// rest does not sag.
+        /// How fast moved hair falls. A strength, or "1 g" for that of the earth, 981 cm/s^2 at `motion.frame_rate`; "earth" is the same.
+        /// Hair at rest does not sag.
         pub gravity: Amount<Weight> = FreeForm::default().gravity.into() => of FreeForm;
         /// How far a head that moves leaves hair behind: 0 rides along, 1 is as in life, more exaggerates. One number, or a list from root to
         /// tip. It weighs the head's turn, its acceleration and the pull of the still air.
