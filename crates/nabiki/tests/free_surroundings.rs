@@ -28,8 +28,7 @@ fn free(motion: FreeMotion) -> Dynamics {
 
 /// Everything at once: a head in the way, other hair, weight, and strengths that differ from root to tip.
 fn everything(carriers: Strands, rest_pose: Pose) -> Dynamics {
-    let form =
-        FreeForm { stiffness: Profile::RootToTip(vec![900.0, 100.0]), gravity: 60.0, ..Default::default() };
+    let form = FreeForm { stiffness: Profile::RootToTip(vec![900.0, 100.0]), gravity: 60.0, ..Default::default() };
     free(FreeMotion {
         form,
         bodies: vec![Body::head(&bust(), Contact::default())],

@@ -106,13 +106,8 @@ fn still_air_is_a_wind_against_a_head_that_goes_evenly() {
         .collect();
     for drag in [1.0_f32, 0.4] {
         // So firm that no strand buckles that points into the wind: roundings would decide to which side.
-        let form = FreeForm {
-            hold: 400.0.into(),
-            settle: 9.0.into(),
-            drag: drag.into(),
-            gravity: 0.0,
-            ..Default::default()
-        };
+        let form =
+            FreeForm { hold: 400.0.into(), settle: 9.0.into(), drag: drag.into(), gravity: 0.0, ..Default::default() };
         let dynamics = free(form, Pose::STILL);
         // Before frame 0 the head went on as it does then.
         let wind = -2.0 / 9.0 * velocity * f64::from(drag) / push(&dynamics, 18.0);
@@ -179,13 +174,8 @@ fn the_pseudo_force_weakens_the_field_by_the_number_of_the_segment() {
     let mut strands = Strands::default();
     strands.push((0..=6).map(|i| Vec3::new(10.6, 0.0, -4.5 + 1.5 * i as f32)));
     let coefficients = vec![0.05, 0.2, 0.3, 0.5, 0.7, 1.0];
-    let form = FreeForm {
-        pseudo_force: true,
-        stiffness: 0.0.into(),
-        hold: 0.0.into(),
-        gravity: 0.0,
-        ..FreeForm::default()
-    };
+    let form =
+        FreeForm { pseudo_force: true, stiffness: 0.0.into(), hold: 0.0.into(), gravity: 0.0, ..FreeForm::default() };
     let mut dynamics = free(form, Pose::STILL);
     dynamics.pseudo_force = PseudoForce { alpha: 1.0, coefficients: coefficients.clone() };
     let blows = field(&[(9, [0.0, 0.02, 0.0])]);

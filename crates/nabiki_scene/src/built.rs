@@ -16,8 +16,8 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::Vec3;
-use nabiki::field::Keyframe;
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Reference, Simulation, Timeline};
+use nabiki::field::Keyframe;
 use nabiki::{Hair, Head, Mesh, Pose, SettingError, Strands};
 use nabiki_io::cache::{Origin, Shard};
 use nabiki_render::DrawnBody;

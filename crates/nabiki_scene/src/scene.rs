@@ -265,7 +265,9 @@ impl Scene {
         let Some((j, speed)) = speeds.next() else { return Ok(()) };
         let refused = |remedy: &str| Err(SettingError::new(format!("force[{j}].speed"), speed, remedy));
         if self.form == FormChoice::Paper {
-            return refused("hair of the paper's form is carried by no air: set motion.form = \"free\", or give vector the strength");
+            return refused(
+                "hair of the paper's form is carried by no air: set motion.form = \"free\", or give vector the strength",
+            );
         }
         if self.free.settle.values().iter().all(Amount::is_zero) {
             return refused("without air, free.settle = 0, no wind carries hair: give settle, or vector the strength");

@@ -15,8 +15,8 @@ use nabiki::setting::{Datum, Key, Kind, Range, Setting, Settings, Step, Table, p
 use nabiki_render::Picture;
 
 use crate::scene::{
-    AnyHair, AnyHead, BodySettings, BuiltinHead, ForceSettings, FormKey, FreeSettings, GrownHair, ImportedHair, ImportedHead,
-    Output,
+    AnyHair, AnyHead, BodySettings, BuiltinHead, ForceSettings, FormKey, FreeSettings, GrownHair, ImportedHair,
+    ImportedHead, Output,
 };
 
 /// A table at the top of a scene file.

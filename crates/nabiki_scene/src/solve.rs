@@ -32,7 +32,11 @@ impl BuiltScene {
             hair: self.strands().clone(),
             ids: self.groom.ids.clone(),
             dynamics: self.dynamics.clone(),
-            wind: KeyedWind { keyframes: self.forces.intervals().to_vec(), ease: field.wind.ease, gust: field.gust.clone() },
+            wind: KeyedWind {
+                keyframes: self.forces.intervals().to_vec(),
+                ease: field.wind.ease,
+                gust: field.gust.clone(),
+            },
             surroundings: Arc::new(SceneSurroundings { field: field.clone(), place }),
             poses,
             unknowns,

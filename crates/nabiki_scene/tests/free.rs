@@ -77,7 +77,11 @@ fn the_tables_of_the_free_form_are_changed_line_by_line() {
         "stiffness = [120, 60.5, 10]",
         "stiffness = [120, 80.0, 10]",
     );
-    one(&|scene| scene.free.stiffness = Profile::Even(Amount::Number(90.0)), "stiffness = [120, 60.5, 10]", "stiffness = 90.0");
+    one(
+        &|scene| scene.free.stiffness = Profile::Even(Amount::Number(90.0)),
+        "stiffness = [120, 60.5, 10]",
+        "stiffness = 90.0",
+    );
     one(&|scene| scene.free.gravity = Amount::Number(12.5), "gravity = \"earth\"", "gravity = 12.5");
     one(&|scene| scene.contact.margin = 0.3, "margin = 0.2     # cm", "margin = 0.3     # cm");
     one(

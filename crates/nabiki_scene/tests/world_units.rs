@@ -151,7 +151,10 @@ fn what_is_no_quantity_and_what_has_no_meaning_is_refused_where_it_stands() {
         free("stiffness = [\"9 cm\", \"4.5 mm\"]"),
         "a.toml:8: free.stiffness[1]: found \"4.5 mm\", must be a number, or a length, \"4.5 cm\""
     );
-    assert_eq!(free("settle = \"1 g\""), "a.toml:8: free.settle: found \"1 g\", must be a number, or a time, \"0.8 s\"");
+    assert_eq!(
+        free("settle = \"1 g\""),
+        "a.toml:8: free.settle: found \"1 g\", must be a number, or a time, \"0.8 s\""
+    );
     assert_eq!(free("stiffness = \"-9 cm\""), "a.toml:8: free.stiffness = -9 cm: must not be below 0");
     assert_eq!(
         free("stiffness = [900, \"4.5 cm\"]\ngravity = 0"),
@@ -165,7 +168,11 @@ fn what_is_no_quantity_and_what_has_no_meaning_is_refused_where_it_stands() {
 
 #[test]
 fn a_setting_keeps_what_was_written_and_another_takes_its_place() {
-    let given = text("", "gravity = \"earth\"   # true timing\nstiffness = [ \"9.0 cm\", 500 ]", "vector = [-1, 0, 0]\nspeed = \"5m/s\" # a breeze");
+    let given = text(
+        "",
+        "gravity = \"earth\"   # true timing\nstiffness = [ \"9.0 cm\", 500 ]",
+        "vector = [-1, 0, 0]\nspeed = \"5m/s\" # a breeze",
+    );
     let scene = parse(&given);
     assert_eq!(scene.to_toml().unwrap(), given);
     let changed = scene.with_setting("free.stiffness[0]", Some("8 cm".into())).unwrap();

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use glam::Vec3;
-use nabiki_scene::scene::ForceSettings;
 use nabiki::solve::Answer;
 use nabiki_scene::Scene;
+use nabiki_scene::scene::ForceSettings;
 use toml::Value;
 
 use crate::actions::Action;

@@ -17,7 +17,8 @@ use crate::advice::Advice;
 use crate::built::{BuiltScene, Shown};
 use crate::looks_wrong::unused;
 use crate::scene::{
-    Amount, BodySettings, FieldBound, FieldSettings, ForceSettings, FormChoice, FreeSettings, GrownHair, HairSource, ImportedHair, Measure, Scene,
+    Amount, BodySettings, FieldBound, FieldSettings, ForceSettings, FormChoice, FreeSettings, GrownHair, HairSource,
+    ImportedHair, Measure, Scene,
 };
 use crate::schema;
 use nabiki_io::info::Short;

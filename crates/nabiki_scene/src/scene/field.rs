@@ -170,11 +170,7 @@ impl FieldSettings {
     ///
     /// # Errors
     /// As [`build`](Self::build).
-    pub(crate) fn build_about(
-        &self,
-        place: &FieldPlace,
-        instead: Arc<dyn Field>,
-    ) -> Result<FieldParts, SettingError> {
+    pub(crate) fn build_about(&self, place: &FieldPlace, instead: Arc<dyn Field>) -> Result<FieldParts, SettingError> {
         self.build_of(place, &[], Some(instead))
     }
 

@@ -88,6 +88,12 @@ impl<M: Measure> Quantity<M> {
         M::named(text).map(Self::new).or_else(|| M::UNITS.iter().enumerate().find_map(of_unit))
     }
 
+    /// Another number in the same unit.
+    #[must_use]
+    pub fn with(self, number: f32) -> Self {
+        Self { number, ..self }
+    }
+
     /// How many of the measure's first unit it is.
     pub fn amount(&self) -> f64 {
         f64::from(self.number) * M::FACTORS[self.unit]

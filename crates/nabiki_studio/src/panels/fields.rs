@@ -16,8 +16,8 @@ use crate::command::Command;
 use crate::dialog::{Chooser, Dialog, Purpose, as_folder};
 use crate::document::Phase;
 use crate::settings::{Kind, Row, value_at};
-pub use values::number_of;
 use amounts::Taken;
+pub use values::number_of;
 use values::{finite, rgb_of, rgb_value, table};
 
 /// Width of the names beside the fields (points).

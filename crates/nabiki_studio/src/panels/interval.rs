@@ -5,7 +5,7 @@ mod many;
 
 use eframe::egui::{self, Stroke, Ui};
 use glam::Vec3;
-use nabiki_scene::scene::{ForceSettings, Quantity};
+use nabiki_scene::scene::ForceSettings;
 use nabiki_scene::told::Swing;
 
 use super::fields::{row_of, send, side_by_side};
@@ -101,7 +101,7 @@ fn one(ui: &mut Ui, session: &Session, j: usize, commands: &mut Commands) {
             let response = field.ui(ui, &mut number, commands).accessible_name(what);
             send(&response, commands, |phase| {
                 let mut keys = keys.clone();
-                keys[j].speed = Some(Quantity { number: number as f32, ..speed });
+                keys[j].speed = Some(speed.with(number as f32));
                 Command::Intervals { name: "Speed of an interval", keys, chosen: None, phase }
             });
         });

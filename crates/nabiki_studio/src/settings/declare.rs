@@ -51,9 +51,7 @@ fn kind(table: &str, key: &str, found: &declared::Setting) -> Kind {
 fn units(kind: &declared::Kind) -> &'static [&'static str] {
     match kind {
         declared::Kind::Quantity(units) => units,
-        declared::Kind::OneOf(kinds) => {
-            kinds.iter().map(units).find(|units| !units.is_empty()).unwrap_or_default()
-        }
+        declared::Kind::OneOf(kinds) => kinds.iter().map(units).find(|units| !units.is_empty()).unwrap_or_default(),
         _ => &[],
     }
 }

@@ -8,9 +8,9 @@ use toml::Value;
 use super::values::{finite, number_of};
 use super::{Field, name, side_by_side};
 use crate::document::Phase;
+use crate::panels::Commands;
 use crate::panels::hands::Hands;
 use crate::panels::number::Number;
-use crate::panels::Commands;
 
 /// The most that a field takes of a unit of the world.
 const MOST: f64 = 1e4;

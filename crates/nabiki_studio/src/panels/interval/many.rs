@@ -3,7 +3,7 @@
 use eframe::egui::{Response, Ui, Vec2};
 use glam::Vec3;
 use nabiki::field::Keyframe;
-use nabiki_scene::scene::{ForceSettings, Quantity};
+use nabiki_scene::scene::ForceSettings;
 
 use super::dial::Seen;
 use super::{AXES, MOST, NAMES, directed, rounded, turned, underline};
@@ -39,13 +39,7 @@ impl Shared {
 }
 
 /// Draws fields for the chosen intervals, which are so strong.
-pub fn ui(
-    ui: &mut Ui,
-    keys: &[ForceSettings],
-    strengths: &[Keyframe],
-    chosen: &[usize],
-    commands: &mut Commands,
-) {
+pub fn ui(ui: &mut Ui, keys: &[ForceSettings], strengths: &[Keyframe], chosen: &[usize], commands: &mut Commands) {
     let (first, last) = (chosen[0], chosen[chosen.len() - 1]);
     ui.label(format!("{} of {} intervals", chosen.len(), keys.len()));
     let lengths = chosen.iter().map(|&j| f64::from(length(keys, j)));
@@ -99,7 +93,7 @@ pub fn ui(
                 let vector = strengths[j].vector;
                 let times = (number / shared.number) as f32;
                 if let (Some(speed), true) = (key.speed, is_dragged && shared.number > 0.0) {
-                    key.speed = Some(Quantity { number: speed.number * times, ..speed });
+                    key.speed = Some(speed.with(speed.number * times));
                     return;
                 }
                 key.speed = None;
@@ -120,28 +114,23 @@ fn length(keys: &[ForceSettings], j: usize) -> u32 {
     frames.end() - frames.start() + 1
 }
 
-fn send_keys(response: &Response, commands: &mut Commands, name: &'static str, keys: impl FnOnce() -> Vec<ForceSettings>) {
+fn send_keys(
+    response: &Response,
+    commands: &mut Commands,
+    name: &'static str,
+    keys: impl FnOnce() -> Vec<ForceSettings>,
+) {
     send(response, commands, |phase| Command::Intervals { name, keys: keys(), chosen: None, phase });
 }
 
-fn changed(
-    keys: &[ForceSettings],
-    chosen: &[usize],
-    change: impl Fn(usize, &mut ForceSettings),
-) -> Vec<ForceSettings> {
+fn changed(keys: &[ForceSettings], chosen: &[usize], change: impl Fn(usize, &mut ForceSettings)) -> Vec<ForceSettings> {
     let mut keys = keys.to_vec();
     keys.iter_mut().enumerate().filter(|(j, _)| chosen.contains(j)).for_each(|(j, key)| change(j, key));
     keys
 }
 
 /// What a drag in a circle makes of the intervals chosen.
-pub fn pointed(
-    keys: &[ForceSettings],
-    strengths: &[Keyframe],
-    chosen: &[usize],
-    seen: Seen,
-    way: Vec2,
-) -> Command {
+pub fn pointed(keys: &[ForceSettings], strengths: &[Keyframe], chosen: &[usize], seen: Seen, way: Vec2) -> Command {
     let phase = Phase::Dragging;
     let vector = |j: usize, key: &ForceSettings| turned(key, seen.turned(strengths[j].vector, way, chosen));
     match chosen {
@@ -165,7 +154,8 @@ mod tests {
         let strengths: Vec<Keyframe> =
             (1..).zip(keys).map(|(n, vector)| Keyframe { through: 10 * n, vector }).collect();
         let keys: Vec<ForceSettings> = strengths.iter().copied().map(ForceSettings::from).collect();
-        let Command::Intervals { keys: turned, .. } = pointed(&keys, &strengths, &[0, 1], Seen::FromHerRight, vec2(9.0, 0.0))
+        let Command::Intervals { keys: turned, .. } =
+            pointed(&keys, &strengths, &[0, 1], Seen::FromHerRight, vec2(9.0, 0.0))
         else {
             panic!("not intervals")
         };
