@@ -27,8 +27,8 @@ pub fn ui(ui: &mut Ui, rect: Rect, scale: &Scale, session: &Session, commands: &
     }
     let strengths = session.strengths();
     let strongest = strengths.iter().map(|key| key.vector.length()).fold(1e-6, f32::max);
-    for j in 0..keys.len() {
-        block(ui, rect, scale, session, keys, j, strengths[j].vector.length() / strongest, commands);
+    for (j, strength) in strengths.iter().enumerate() {
+        block(ui, rect, scale, session, keys, j, strength.vector.length() / strongest, commands);
     }
     for j in 0..keys.len() {
         border(ui, rect, scale, keys, j, commands);
